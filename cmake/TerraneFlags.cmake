@@ -1,0 +1,23 @@
+# One set of compile flags for every target.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+add_library(terrane_flags INTERFACE)
+# Contraction of a*b+c into one rounding differs between machines: the generator must not depend on it.
+target_compile_options(terrane_flags INTERFACE
+  -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast
+  $<$<BOOL:${TERRANE_WERROR}>:-Werror>)
+target_include_directories(terrane_flags INTERFACE ${CMAKE_SOURCE_DIR})
+if(TERRANE_SANITIZE)
+  target_compile_options(terrane_flags INTERFACE
+    -fsanitize=${TERRANE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+  target_link_options(terrane_flags INTERFACE -fsanitize=${TERRANE_SANITIZE})
+endif()

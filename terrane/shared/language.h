@@ -1,0 +1,36 @@
+// Lets one header be read as C++20 and as GLSL 4.50. Every header in this folder includes it first.
+// In both languages: `uint` is 32 bits, typed constants are `const uint kName = 4u;`, functions start with SHARED_FN,
+// structs hold scalars, two- and four-vectors only (std430 aligns a three-vector to 16 bytes).
+#ifndef TERRANE_SHARED_LANGUAGE_H
+#define TERRANE_SHARED_LANGUAGE_H
+
+#ifdef __cplusplus
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+namespace terrane::shared {
+using uint = std::uint32_t;
+using glm::ivec2;
+using glm::ivec4;
+using glm::mat4;
+using glm::uvec2;
+using glm::uvec4;
+using glm::vec2;
+using glm::vec4;
+}  // namespace terrane::shared
+
+#define SHARED_FN constexpr
+#define SHARED_BEGIN namespace terrane::shared {
+#define SHARED_END }
+
+#else
+
+#define SHARED_FN
+#define SHARED_BEGIN
+#define SHARED_END
+
+#endif
+#endif

@@ -1,0 +1,56 @@
+// The 8-byte record of one textured rectangle (a quad), written by the mesher and read by the vertex shader.
+//
+//   word 0, bits  0–3   x of the quad's lowest block in its chunk
+//                 4–7   y
+//                 8–15  z
+//                 16–23 shape face: index into the table of mesh/shape_faces.h
+//                 24–27 extent along the face's u axis, minus one (1…16 blocks)
+//                 28–31 extent along the face's v axis, minus one
+//   word 1, bits  0–15  material: index into the material table (texture, animation, …)
+//                 16–31 zero
+#ifndef TERRANE_SHARED_QUAD_H
+#define TERRANE_SHARED_QUAD_H
+
+#include "terrane/shared/language.h"
+
+SHARED_BEGIN
+
+const uint kQuadBytes = 8u;
+const uint kMaxQuadExtent = 16u;
+
+struct Quad {
+    uint word0;
+    uint word1;
+};
+
+SHARED_FN uint quadX(Quad q) { return q.word0 & 15u; }
+SHARED_FN uint quadY(Quad q) { return (q.word0 >> 4) & 15u; }
+SHARED_FN uint quadZ(Quad q) { return (q.word0 >> 8) & 255u; }
+SHARED_FN uint quadShapeFace(Quad q) { return (q.word0 >> 16) & 255u; }
+SHARED_FN uint quadExtentU(Quad q) { return ((q.word0 >> 24) & 15u) + 1u; }
+SHARED_FN uint quadExtentV(Quad q) { return (q.word0 >> 28) + 1u; }
+SHARED_FN uint quadMaterial(Quad q) { return q.word1 & 65535u; }
+
+SHARED_END
+
+#ifdef __cplusplus
+namespace terrane::shared {
+
+static_assert(sizeof(Quad) == kQuadBytes);
+
+struct QuadFields {
+    uint x, y, z;             // lowest block of the quad, in the chunk
+    uint shapeFace;           // 0…255
+    uint extentU = 1, extentV = 1;  // 1…16 blocks
+    uint material = 0;        // 0…65535
+};
+
+constexpr Quad packQuad(const QuadFields& f) {
+    return {f.x | f.y << 4 | f.z << 8 | f.shapeFace << 16 | (f.extentU - 1) << 24 | (f.extentV - 1) << 28, f.material};
+}
+
+constexpr bool operator==(const Quad& a, const Quad& b) { return a.word0 == b.word0 && a.word1 == b.word1; }
+
+}  // namespace terrane::shared
+#endif
+#endif

@@ -1,0 +1,65 @@
+// What a block type is: look, light, collision. Types are content (assets/blocks.toml), read by block_registry.h.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "terrane/world/chunk.h"
+
+namespace terrane::world {
+
+enum class Shape : std::uint8_t {
+    None,    // nothing to draw (air)
+    Cube,    // six faces; merges with its neighbours
+    Liquid,  // like a cube; the surface under anything but the same liquid lies lower
+    Cross,   // X: two upright planes through the middle
+    Hash,    // #: four upright planes, a quarter inside the cell
+    Inset,   // #: four upright planes 1/16 inside the cell, and full top and bottom (cactus)
+};
+
+// What the alpha channel of a face's texture means.
+enum class AlphaMode : std::uint8_t {
+    Unused,    // opaque
+    Test,      // below one half: a hole
+    Blend,     // coverage
+    Glow,      // opaque; alpha is the share of light the texel gives by itself
+    TestGlow,  // below one quarter: a hole; above, (alpha − 0.5)·2 clamped is the glow
+};
+
+enum class Animation : std::uint8_t { None, TopWaves, WholeWaves, LiquidSurface };
+
+// One configuration of drawn faces ("face context") with one texture.
+struct Material {
+    std::uint16_t texture = 0;  // index into BlockRegistry::textures()
+    AlphaMode alpha = AlphaMode::Unused;
+    Animation animation = Animation::None;
+    bool twoSided = false;
+
+    bool operator==(const Material&) const = default;
+};
+
+struct Box {
+    glm::vec3 min{0}, max{1};  // in block units inside the cell
+};
+
+// Order of faces everywhere: -x, +x, -y, +y, -z, +z.
+enum Face : std::uint8_t { kFaceNegX, kFacePosX, kFaceNegY, kFacePosY, kFaceNegZ, kFacePosZ, kFaceCount };
+
+struct BlockType {
+    std::string name;
+    BlockId id = 0;
+    Shape shape = Shape::Cube;
+    std::array<std::uint16_t, kFaceCount> material{};  // index into BlockRegistry::materials()
+    bool opaqueCube = false;  // hides every face that touches it
+    bool innerFaces = false;  // faces between two blocks of this type are drawn (leaves)
+    std::uint8_t opacity = 15;                 // to light, 0…15
+    std::array<std::uint8_t, 3> emission{};    // red, green, blue, 0…15
+    std::vector<Box> collision;                // empty: nothing collides
+    Box selection;
+    bool generated = true;  // appears in generated terrain (else placed only)
+};
+
+}  // namespace terrane::world

@@ -1,0 +1,60 @@
+// A section: 16³ values of 16 bits (block ids or small data), stored as small as they allow.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "terrane/world/coords.h"
+
+namespace terrane::world {
+
+// Index in a section: x + 16 y + 256 z, 0…4095.
+//
+// Three forms, chosen by the content:
+//   uniform  one value                                    0 bytes beside the object
+//   palette  distinct values + 1, 2, 4 or 8 bits a block  512, 1,024, 2,048 or 4,096 bytes + palette
+//   dense    16 bits a block                              8,192 bytes
+// A set() that brings a new value widens the form; compact() finds the smallest again.
+// Not synchronised: one writer or many readers.
+class Section {
+ public:
+    using Value = std::uint16_t;
+
+    explicit Section(Value value = 0) : uniform_(value) {}
+
+    // The smallest form of 4,096 values.
+    static Section fromValues(std::span<const Value, kBlocksPerSection> values);
+
+    Value get(int index) const;
+    void set(int index, Value value);
+    void unpack(std::span<Value, kBlocksPerSection> values) const;
+    void compact();
+
+    bool isUniform() const { return bits_ == 0; }
+    Value uniformValue() const { return uniform_; }  // only where isUniform()
+    bool isDense() const { return bits_ == 16; }
+
+    // Bits a block: 0 (uniform), 1, 2, 4, 8 (palette) or 16 (dense).
+    int bits() const { return bits_; }
+    // Distinct values in order of index; may name values that no block has any more. Empty unless palette form.
+    std::span<const Value> palette() const { return palette_; }
+    // Palette form: indices, bits() each, lowest index in the lowest bits. Dense form: values, 16 bits each.
+    std::span<const std::uint64_t> words() const { return words_; }
+
+    std::size_t memoryBytes() const;  // heap and object
+
+    friend bool operator==(const Section& a, const Section& b);  // equal values, whatever the forms
+
+ private:
+    std::uint32_t packed(int index) const;
+    void setPacked(int index, std::uint32_t packed);
+    void repack(int bits);
+
+    std::vector<std::uint64_t> words_;
+    std::vector<Value> palette_;
+    Value uniform_ = 0;
+    std::uint8_t bits_ = 0;
+};
+
+}  // namespace terrane::world
