@@ -4,7 +4,7 @@
 # docs/architecture.md says the same and tools/check_includes.py compares the sources with it.
 function(terrane_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "DEPS;LIBS;PRIVATE_LIBS")
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/terrane/${name}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/terrane/${name}/*.cpp)
   list(TRANSFORM arg_DEPS PREPEND terrane_)
   if(sources)
     add_library(terrane_${name} STATIC ${sources})

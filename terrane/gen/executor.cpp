@@ -1,0 +1,106 @@
+#include "terrane/gen/executor.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+namespace terrane::gen {
+
+Executor::Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds) : noises_(noises), seeds_(seeds) {
+    context_.randomSeeds = seeds.randoms;
+    context_.perlin2D.resize(noises.size());
+    context_.perlin3D.resize(noises.size());
+    context_.voronoi2D.resize(noises.size());
+    for (const NoiseCall& call : noises) context_.noiseKinds.push_back(call.kind);
+}
+
+void Executor::run2D(const Program& program, const PassInputs& inputs, std::span<ColumnValues* const> results) {
+    assert(!program.is3D && results.size() == program.fields.size());
+    prepareTile(program, inputs);
+    runInstructions(program.column, context_);
+    for (std::size_t k = 0; k < results.size(); ++k) {
+        const Operand value = program.fields[k].value;
+        for (int r = 0; r < kTileSize; ++r) {
+            std::memcpy(results[k]->data() + r * kRowLanes, row(value) + value.rowStep * r * kRowLanes,
+                        kRowLanes * sizeof(Bits));
+        }
+    }
+}
+
+void Executor::run3D(const Program& program, const PassInputs& inputs, BlockArray& result) {
+    assert(program.is3D && program.block);
+    prepareTile(program, inputs);
+    runInstructions(program.column, context_);
+    for (int z = 0; z < world::kChunkHeight; ++z) {
+        context_.z = z;
+        std::fill_n(row(program.z), kRowLanes, bitsOf(z));
+        runInstructions(program.layer, context_);
+        writeLayer(*program.block, result.data() + z * kTileLanes);
+    }
+}
+
+void Executor::writeLayer(Operand block, std::uint16_t* layer) {
+    const Bits* values = row(block);
+    if (block.rowStep == 0) {
+        std::fill_n(layer, kTileLanes, static_cast<std::uint16_t>(*values));
+        return;
+    }
+    for (int lane = 0; lane < kTileLanes; ++lane) layer[lane] = static_cast<std::uint16_t>(values[lane]);
+}
+
+void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
+    if (arena_.size() < program.arenaRows) arena_.resize(program.arenaRows);
+    context_.program = &program;
+    context_.arena = arena_.front().lanes.data();
+    context_.blocks = inputs.blocks ? inputs.blocks->data() : nullptr;
+    const std::int32_t x0 = inputs.chunk.x * world::kChunkSize, y0 = inputs.chunk.y * world::kChunkSize;
+    fillConstants(program, x0, y0);
+    for (const std::uint32_t n : program.noises) {
+        const NoiseCall& call = noises_[n];
+        const std::uint32_t seed = seeds_.noises[n];
+        switch (call.kind) {
+            case NoiseKind::Perlin2D:
+                prepare(context_.perlin2D[n], call, seed, x0, y0);
+                break;
+            case NoiseKind::Perlin3D:
+                prepare(context_.perlin3D[n], call, seed, x0, y0);
+                break;
+            case NoiseKind::Voronoi2D:
+                prepare(context_.voronoi2D[n], call, seed, x0, y0);
+                break;
+        }
+    }
+    context_.fields.resize(inputs.fields.size());
+    context_.windows.resize(inputs.fields.size());
+    for (std::size_t f = 0; f < inputs.fields.size(); ++f) {
+        const ColumnValues* own = inputs.fields[f][4];
+        context_.fields[f] = own ? own->data() : nullptr;
+    }
+    for (const std::uint32_t f : program.readsAt) fillWindow(f, inputs);
+}
+
+void Executor::fillConstants(const Program& program, std::int32_t x0, std::int32_t y0) {
+    for (std::size_t k = 0; k < program.constants.size(); ++k) arena_[k].lanes.fill(program.constants[k]);
+    for (int r = 0; r < kTileSize; ++r) {
+        for (int lane = 0; lane < kRowLanes; ++lane) {
+            row(program.x)[r * kRowLanes + lane] = bitsOf(x0 + lane);
+            row(program.y)[r * kRowLanes + lane] = bitsOf(y0 + r);
+        }
+    }
+}
+
+void Executor::fillWindow(std::uint32_t field, const PassInputs& inputs) {
+    static_assert(kMaxReadOffset == kTileSize, "a window is 3×3 chunks");
+    std::vector<Bits>& window = context_.windows[field];
+    window.resize(static_cast<std::size_t>(kWindowSize) * kWindowSize);
+    for (int chunk = 0; chunk < 9; ++chunk) {
+        const ColumnValues* values = inputs.fields[field][static_cast<std::size_t>(chunk)];
+        assert(values && "fields read with an offset are there for all nine chunks");
+        Bits* corner = window.data() + (chunk / 3) * kTileSize * kWindowSize + (chunk % 3) * kTileSize;
+        for (int r = 0; r < kTileSize; ++r) {
+            std::memcpy(corner + r * kWindowSize, values->data() + r * kRowLanes, kRowLanes * sizeof(Bits));
+        }
+    }
+}
+
+}  // namespace terrane::gen

@@ -1,0 +1,57 @@
+// Runs one pass of a generator on one chunk. One Executor a thread; it keeps scratch memory between calls.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "terrane/gen/kernels.h"
+#include "terrane/world/coords.h"
+
+namespace terrane::gen {
+
+// Values of a field in a chunk's columns, and a chunk's blocks by world::BlockIndex.
+using ColumnValues = std::array<Bits, kTileLanes>;
+using BlockArray = std::array<std::uint16_t, world::kBlocksPerChunk>;
+
+struct Seeds {
+    std::vector<std::uint32_t> noises, randoms;  // by noise call, by random slot
+};
+
+// What a pass reads of its chunk and the eight around it.
+struct PassInputs {
+    world::ChunkPos chunk;
+    // Values of field f in the chunk at (dx, dy) around this one: fields[f][(dy + 1) * 3 + dx + 1]. Only the middle one
+    // is set where the pass reads the field without an offset.
+    std::vector<std::array<const ColumnValues*, 9>> fields;
+    const BlockArray* blocks = nullptr;  // of the newest earlier 3D pass
+};
+
+class Executor {
+ public:
+    Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds);
+
+    // Results of a 2D pass, in the order of program.fields.
+    void run2D(const Program& program, const PassInputs& inputs, std::span<ColumnValues* const> results);
+    void run3D(const Program& program, const PassInputs& inputs, BlockArray& result);
+
+ private:
+    void prepareTile(const Program& program, const PassInputs& inputs);
+    void fillConstants(const Program& program, std::int32_t x0, std::int32_t y0);
+    void fillWindow(std::uint32_t field, const PassInputs& inputs);
+    Bits* row(Operand o) { return context_.arena + static_cast<std::size_t>(o.row) * kRowLanes; }
+    void writeLayer(Operand block, std::uint16_t* layer);
+
+    struct AlignedRow {
+        alignas(64) std::array<Bits, kRowLanes> lanes;
+    };
+
+    const std::vector<NoiseCall>& noises_;
+    const Seeds& seeds_;
+    std::vector<AlignedRow> arena_;
+    TileContext context_;
+};
+
+}  // namespace terrane::gen

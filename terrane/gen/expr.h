@@ -1,0 +1,127 @@
+// Typed expressions of a generator pass with C++ operators. An expression is a handle on a node of the pass's graph, or
+// a literal that joins a graph once it meets an expression of one. Nothing is computed here: operators record.
+#pragma once
+
+#include <cassert>
+
+#include "terrane/gen/graph.h"
+#include "terrane/world/chunk.h"
+
+namespace terrane::gen {
+
+// What all expressions share.
+struct Value {
+    Graph* graph = nullptr;  // null for a literal
+    Bits bits = 0;           // node, or the literal's bits
+
+    NodeId nodeIn(Graph& g, Type type) const {
+        assert((graph == nullptr || graph == &g) && "an expression is used in the pass that made it");
+        return graph ? bits : g.constant(type, bits);
+    }
+};
+
+// The result of an operation on values; literals alone give a literal.
+Value applyOp(Op op, Type result, std::initializer_list<Value> args, std::uint32_t imm = 0);
+
+struct Bool : Value {
+    static constexpr Type kType = Type::Bool;
+    Bool(bool literal) : Value{nullptr, bitsOf(literal)} {}
+    explicit Bool(Value v) : Value(v) {}
+};
+
+struct Float;
+
+struct Int : Value {
+    static constexpr Type kType = Type::Int;
+    Int(std::int32_t literal) : Value{nullptr, bitsOf(literal)} {}
+    explicit Int(Value v) : Value(v) {}
+    explicit Int(Float v);  // toward zero; the value must fit 32 bits
+};
+
+struct Float : Value {
+    static constexpr Type kType = Type::Float;
+    Float(float literal) : Value{nullptr, bitsOf(literal)} {}
+    explicit Float(Value v) : Value(v) {}
+    explicit Float(Int v) : Value(applyOp(Op::IntToFloat, kType, {v})) {}
+};
+
+inline Int::Int(Float v) : Value(applyOp(Op::FloatToInt, kType, {v})) {}
+
+// A block id.
+struct Block : Value {
+    static constexpr Type kType = Type::Int;
+    explicit Block(world::BlockId literal) : Value{nullptr, literal} {}
+    explicit Block(Value v) : Value(v) {}
+};
+
+struct Vec2 {
+    Float x, y;
+};
+
+struct IVec2 {
+    Int x, y;
+};
+
+// clang-format off
+inline Float operator+(Float a, Float b) { return Float(applyOp(Op::AddF, Type::Float, {a, b})); }
+inline Float operator-(Float a, Float b) { return Float(applyOp(Op::SubF, Type::Float, {a, b})); }
+inline Float operator*(Float a, Float b) { return Float(applyOp(Op::MulF, Type::Float, {a, b})); }
+inline Float operator/(Float a, Float b) { return Float(applyOp(Op::DivF, Type::Float, {a, b})); }
+inline Float operator-(Float a) { return Float(0.0f) - a; }
+inline Bool operator<(Float a, Float b) { return Bool(applyOp(Op::LessF, Type::Bool, {a, b})); }
+inline Bool operator<=(Float a, Float b) { return Bool(applyOp(Op::LessEqualF, Type::Bool, {a, b})); }
+inline Bool operator>(Float a, Float b) { return b < a; }
+inline Bool operator>=(Float a, Float b) { return b <= a; }
+
+inline Int operator+(Int a, Int b) { return Int(applyOp(Op::AddI, Type::Int, {a, b})); }
+inline Int operator-(Int a, Int b) { return Int(applyOp(Op::SubI, Type::Int, {a, b})); }
+inline Int operator*(Int a, Int b) { return Int(applyOp(Op::MulI, Type::Int, {a, b})); }
+inline Int operator&(Int a, Int b) { return Int(applyOp(Op::AndI, Type::Int, {a, b})); }
+inline Int operator>>(Int a, Int b) { return Int(applyOp(Op::ShiftRightI, Type::Int, {a, b})); }
+inline Int operator-(Int a) { return Int(0) - a; }
+inline Bool operator<(Int a, Int b) { return Bool(applyOp(Op::LessI, Type::Bool, {a, b})); }
+inline Bool operator<=(Int a, Int b) { return Bool(applyOp(Op::LessEqualI, Type::Bool, {a, b})); }
+inline Bool operator>(Int a, Int b) { return b < a; }
+inline Bool operator>=(Int a, Int b) { return b <= a; }
+inline Bool operator==(Int a, Int b) { return Bool(applyOp(Op::EqualI, Type::Bool, {a, b})); }
+inline Bool operator==(Float a, Float b) { return Bool(applyOp(Op::EqualF, Type::Bool, {a, b})); }
+inline Bool operator==(Block a, Block b) { return Bool(applyOp(Op::EqualI, Type::Bool, {a, b})); }
+
+inline Bool operator!(Bool a) { return Bool(applyOp(Op::Not, Type::Bool, {a})); }
+// Both sides are recorded; neither has effects, so there is nothing to short-circuit.
+inline Bool operator&&(Bool a, Bool b) { return Bool(applyOp(Op::And, Type::Bool, {a, b})); }
+inline Bool operator||(Bool a, Bool b) { return Bool(applyOp(Op::Or, Type::Bool, {a, b})); }
+inline Bool operator!=(Int a, Int b) { return !(a == b); }
+inline Bool operator!=(Float a, Float b) { return !(a == b); }
+inline Bool operator!=(Block a, Block b) { return !(a == b); }
+
+inline Float min(Float a, Float b) { return Float(applyOp(Op::MinF, Type::Float, {a, b})); }
+inline Float max(Float a, Float b) { return Float(applyOp(Op::MaxF, Type::Float, {a, b})); }
+inline Int min(Int a, Int b) { return Int(applyOp(Op::MinI, Type::Int, {a, b})); }
+inline Int max(Int a, Int b) { return Int(applyOp(Op::MaxI, Type::Int, {a, b})); }
+inline Float clamp(Float v, Float low, Float high) { return min(max(v, low), high); }
+inline Int clamp(Int v, Int low, Int high) { return min(max(v, low), high); }
+inline Float abs(Float a) { return Float(applyOp(Op::AbsF, Type::Float, {a})); }
+inline Int abs(Int a) { return Int(applyOp(Op::AbsI, Type::Int, {a})); }
+inline Float floor(Float a) { return Float(applyOp(Op::FloorF, Type::Float, {a})); }
+inline Float ceil(Float a) { return -floor(-a); }
+inline Float round(Float a) { return floor(a + Float(0.5f)); }  // halves upward
+inline Float sqrt(Float a) { return Float(applyOp(Op::SqrtF, Type::Float, {a})); }
+inline Float length(Vec2 v) { return sqrt(v.x * v.x + v.y * v.y); }
+// clang-format on
+
+inline Float lerp(Float a, Float b, Float t) { return a + t * (b - a); }
+
+// 0 below `low`, 1 above `high`, a smooth cubic between.
+inline Float smoothstep(Float low, Float high, Float v) {
+    const Float t = clamp((v - low) / (high - low), 0.0f, 1.0f);
+    return t * t * (Float(3.0f) - Float(2.0f) * t);
+}
+
+// Both sides are computed; use Pass::if_ where a side is costly.
+template <class T>
+T select(Bool condition, T a, T b) {
+    return T(applyOp(Op::Select, T::kType, {condition, a, b}));
+}
+
+}  // namespace terrane::gen

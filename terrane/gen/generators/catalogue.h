@@ -1,0 +1,21 @@
+// The generators that come with Terrane, by name.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/base/result.h"
+#include "terrane/gen/builder.h"
+
+namespace terrane::gen {
+
+std::vector<std::string> generatorNames();
+
+// An unknown name is an error that lists the known ones.
+base::Result<GeneratorGraph> makeGenerator(std::string_view name, const world::BlockRegistry& blocks);
+
+void writeOverworld(GeneratorBuilder& g);  // overworld.cpp: seas, rivers, plains, deserts, mountains, caves, plants
+void writeFlat(GeneratorBuilder& g);       // flat.cpp: grass at sea level
+
+}  // namespace terrane::gen

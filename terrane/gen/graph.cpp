@@ -1,0 +1,102 @@
+#include "terrane/gen/graph.h"
+
+#include <algorithm>
+#include <cassert>
+#include <optional>
+
+#include "terrane/shared/hash.h"
+
+namespace terrane::gen {
+namespace {
+
+bool isCommutative(Op op) {
+    switch (op) {
+        case Op::AddF:
+        case Op::MulF:
+        case Op::AddI:
+        case Op::MulI:
+        case Op::And:
+        case Op::Or:
+        case Op::EqualF:
+        case Op::EqualI:
+        case Op::AndI:
+            return true;
+        default:
+            return false;
+    }
+}
+
+bool isChoice(Op op) { return op == Op::Select || op == Op::Phi; }
+
+// The argument that a node always equals, where that is exact for every value (float zeros have signs, so x + 0.0 is
+// not x).
+std::optional<NodeId> simplified(const Graph& graph, const Node& n) {
+    const auto constantIs = [&](int arg, Bits bits) {
+        const Node& a = graph.node(n.args[static_cast<std::size_t>(arg)]);
+        return a.op == Op::Constant && a.imm == bits;
+    };
+    if (isChoice(n.op)) {
+        if (n.args[1] == n.args[2]) return n.args[1];
+        if (graph.isConstant(n.args[0])) return asBool(graph.node(n.args[0]).imm) ? n.args[1] : n.args[2];
+    }
+    if (n.op == Op::MulF && constantIs(1, bitsOf(1.0f))) return n.args[0];
+    if (n.op == Op::AddI && constantIs(1, 0)) return n.args[0];
+    if (n.op == Op::MulI && constantIs(1, 1)) return n.args[0];
+    if (n.op == Op::And) {
+        if (constantIs(1, ~Bits{0}) || n.args[0] == n.args[1]) return n.args[0];
+        if (constantIs(1, 0)) return n.args[1];
+    }
+    if (n.op == Op::Or) {
+        if (constantIs(1, 0) || n.args[0] == n.args[1]) return n.args[0];
+        if (constantIs(1, ~Bits{0})) return n.args[1];
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::size_t Graph::KeyHash::operator()(const Node& n) const {
+    const auto head = static_cast<std::uint32_t>(n.op) << 8 | static_cast<std::uint32_t>(n.type);
+    return shared::hash3(n.args[0], n.args[1], n.args[2], shared::hash2(head, n.imm, 0));
+}
+
+bool Graph::KeyEqual::operator()(const Node& a, const Node& b) const {
+    return a.op == b.op && a.type == b.type && a.imm == b.imm && a.args == b.args;
+}
+
+NodeId Graph::constant(Type type, Bits bits) {
+    Node n;
+    n.type = type;
+    n.imm = bits;
+    return intern(n);
+}
+
+NodeId Graph::add(Op op, Type type, std::span<const NodeId> args, std::uint32_t imm, std::uint8_t dependence) {
+    const OpRecord& rec = record(op);
+    assert(args.size() == rec.argCount && "an operation takes as many arguments as its record says");
+    Node n{op, type, dependence, {}, imm};
+    std::array<Bits, 3> values{};
+    bool allConstant = rec.evaluate != nullptr;
+    for (std::size_t k = 0; k < args.size(); ++k) {
+        assert(args[k] < nodes_.size() && "arguments stand before their users");
+        n.args[k] = args[k];
+        n.dependence |= nodes_[args[k]].dependence;
+        allConstant = allConstant && isConstant(args[k]);
+        values[k] = nodes_[args[k]].imm;
+    }
+    if (allConstant) return constant(type, rec.evaluate(values));
+    // Constants second, else by number: equal sums meet whatever the order they were written in.
+    if (isCommutative(op) && (isConstant(n.args[0]) || (!isConstant(n.args[1]) && n.args[0] > n.args[1]))) {
+        std::swap(n.args[0], n.args[1]);
+    }
+    if (const auto same = simplified(*this, n)) return *same;
+    return intern(n);
+}
+
+NodeId Graph::intern(const Node& node) {
+    const auto [it, inserted] = ids_.try_emplace(node, static_cast<NodeId>(nodes_.size()));
+    if (inserted) nodes_.push_back(node);
+    return it->second;
+}
+
+}  // namespace terrane::gen

@@ -1,0 +1,44 @@
+// Runs instruction lists over a tile with the widest SIMD instructions of the machine (chosen at run time by Highway).
+// All targets give the same bits.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "terrane/gen/perlin_tile.h"
+#include "terrane/gen/program.h"
+#include "terrane/gen/voronoi_tile.h"
+
+namespace terrane::gen {
+
+// A tile with its surroundings, for fields that are read with an offset: 48×48 values, the tile's first column at
+// (16, 16).
+constexpr int kWindowSize = kTileSize + 2 * kMaxReadOffset;
+
+// What instructions read and write. Filled by executor.cpp; one a thread.
+struct TileContext {
+    const Program* program = nullptr;
+    Bits* arena = nullptr;  // 64-byte aligned; program->arenaRows rows
+    std::span<const std::uint32_t> randomSeeds;
+    // By index of the generator's noises; prepared for those the program calls.
+    std::vector<Perlin2DTile> perlin2D;
+    std::vector<Perlin3DTile> perlin3D;
+    std::vector<std::vector<VoronoiPoint>> voronoi2D;
+    std::vector<const Bits*> fields;           // by field: kTileLanes values
+    std::vector<std::vector<Bits>> windows;    // by field: kWindowSize² values where read with an offset
+    std::vector<NoiseKind> noiseKinds;
+    const std::uint16_t* blocks = nullptr;     // of the newest earlier 3D pass: 256 layers of 256
+    std::int32_t z = 0;                        // of the layer
+};
+
+// Runs a list for all rows of the tile.
+void runInstructions(const InstructionList& list, TileContext& context);
+
+// Names of the instruction sets this machine can run, best first, as Highway calls them.
+std::vector<std::string> simdTargets();
+// Restricts to one of simdTargets() until called again; empty: the best. For tests and `--simd`; not while running.
+bool chooseSimdTarget(const std::string& name);
+
+}  // namespace terrane::gen

@@ -1,0 +1,180 @@
+#include "terrane/gen/perlin_tile.h"
+
+#include <cassert>
+
+#include "terrane/shared/hash.h"
+
+namespace terrane::gen {
+namespace {
+
+using shared::uint;
+
+struct Gradient2 {
+    float x, y;
+};
+
+// √2·(cos, sin) of (k + ½)·22.5°.
+constexpr float kG0 = 1.38703990f, kG1 = 1.17587566f, kG2 = 0.785694957f, kG3 = 0.275899380f;
+constexpr Gradient2 kGradients2[16] = {
+    {kG0, kG3},   {kG1, kG2},   {kG2, kG1},   {kG3, kG0},   {-kG3, kG0},  {-kG2, kG1},
+    {-kG1, kG2},  {-kG0, kG3},  {-kG0, -kG3}, {-kG1, -kG2}, {-kG2, -kG1}, {-kG3, -kG0},
+    {kG3, -kG0},  {kG2, -kG1},  {kG1, -kG2},  {kG0, -kG3},
+};
+
+struct Gradient3 {
+    float x, y, z;
+};
+
+constexpr Gradient3 kGradients3[12] = {
+    {1, 1, 0},  {-1, 1, 0},  {1, -1, 0},  {-1, -1, 0}, {1, 0, 1},  {-1, 0, 1},
+    {1, 0, -1}, {-1, 0, -1}, {0, 1, 1},   {0, -1, 1},  {0, 1, -1}, {0, -1, -1},
+};
+
+Gradient2 gradient2(std::int32_t x, std::int32_t y, std::uint32_t seed) {
+    return kGradients2[shared::hash2(static_cast<uint>(x), static_cast<uint>(y), seed) >> 28];
+}
+
+Gradient3 gradient3(std::int32_t x, std::int32_t y, std::int32_t z, std::uint32_t seed) {
+    const uint h = shared::hash3(static_cast<uint>(x), static_cast<uint>(y), static_cast<uint>(z), seed);
+    return kGradients3[((h >> 16) * 12u) >> 16];
+}
+
+std::uint32_t octaveSeed(std::uint32_t seed, std::size_t octave) {
+    return seed + static_cast<std::uint32_t>(octave) * 0x9E3779B9u;
+}
+
+std::int32_t floorDivide(std::int32_t a, std::int32_t b) {
+    const std::int32_t q = a / b;
+    return q - (a % b < 0 ? 1 : 0);
+}
+
+float fade(float f) { return ((f * f) * f) * (f * (f * 6.0f - 15.0f) + 10.0f); }
+
+float lerp(float a, float b, float t) { return a + t * (b - a); }
+
+// Cells and fractions of 16 neighbouring coordinates.
+struct AxisCells {
+    std::array<std::int32_t, kTileSize> cell;
+    TileRow offset, fadeOf;
+};
+
+AxisCells axisCells(std::int32_t first, std::int32_t size, float inverseSize) {
+    AxisCells axis{};
+    for (int k = 0; k < kTileSize; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        const std::int32_t cell = floorDivide(first + k, size);
+        axis.cell[at] = cell;
+        axis.offset[at] = static_cast<float>(first + k - cell * size) * inverseSize;
+        axis.fadeOf[at] = fade(axis.offset[at]);
+    }
+    return axis;
+}
+
+int setRows(PerlinOctave& octave, const AxisCells& y) {
+    for (std::size_t r = 0; r < kTileSize; ++r) {
+        octave.rows.node[r] = static_cast<std::uint8_t>(y.cell[r] - y.cell[0]);
+    }
+    octave.rows.offset = y.offset;
+    octave.rows.fade = y.fadeOf;
+    octave.nodeRows = octave.rows.node[kTileSize - 1] + 2;
+    assert(octave.nodeRows <= kMaxNodeRows && "a tile spans at most 16 cells");
+    return octave.nodeRows;
+}
+
+// The gradients left and right of each x, looked up once a cell.
+template <class Lookup, class Use>
+void forEachX(const std::array<std::int32_t, kTileSize>& cells, Lookup lookup, Use useAt) {
+    auto left = lookup(cells[0]);
+    auto right = lookup(cells[0] + 1);
+    for (std::size_t k = 0; k < kTileSize; ++k) {
+        if (k > 0 && cells[k] != cells[k - 1]) {
+            left = right;
+            right = lookup(cells[k] + 1);
+        }
+        useAt(k, left, right);
+    }
+}
+
+void fillLevel(const Perlin3DTile::Octave& o, std::int32_t zCell, PerlinLevel& level) {
+    for (int j = 0; j < o.layer.nodeRows; ++j) {
+        const auto row = static_cast<std::size_t>(j);
+        const auto lookup = [&](std::int32_t cell) { return gradient3(cell, o.yCell + j, zCell, o.seed); };
+        forEachX(o.xCell, lookup, [&](std::size_t k, Gradient3 left, Gradient3 right) {
+            const float f = o.xOffset[k], t = o.xFade[k];
+            level.one[row][k] = lerp(left.x * f, right.x * (f - 1.0f), t);
+            level.y[row][k] = lerp(left.y, right.y, t);
+            level.z[row][k] = lerp(left.z, right.z, t);
+        });
+    }
+}
+
+}  // namespace
+
+void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0, std::int32_t y0) {
+    tile.octaves.resize(call.weights.size());
+    for (std::size_t o = 0; o < tile.octaves.size(); ++o) {
+        PerlinOctave& octave = tile.octaves[o];
+        const std::int32_t size = call.size << o;
+        const float inverseSize = 1.0f / static_cast<float>(size);
+        const AxisCells x = axisCells(x0, size, inverseSize), y = axisCells(y0, size, inverseSize);
+        octave.weight = call.weights[o];
+        const int nodeRows = setRows(octave, y);
+        for (int j = 0; j < nodeRows; ++j) {
+            const auto row = static_cast<std::size_t>(j);
+            const auto lookup = [&](std::int32_t cell) {
+                return gradient2(cell, y.cell[0] + j, octaveSeed(seed, o));
+            };
+            forEachX(x.cell, lookup, [&](std::size_t k, Gradient2 left, Gradient2 right) {
+                const float f = x.offset[k], t = x.fadeOf[k];
+                octave.a[row][k] = lerp(left.x * f, right.x * (f - 1.0f), t);
+                octave.b[row][k] = lerp(left.y, right.y, t);
+            });
+        }
+    }
+}
+
+void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0, std::int32_t y0) {
+    tile.octaves.resize(call.weights.size());
+    tile.layer = -1;
+    for (std::size_t n = 0; n < tile.octaves.size(); ++n) {
+        Perlin3DTile::Octave& o = tile.octaves[n];
+        o.size = call.size << n;
+        o.inverseSize = 1.0f / static_cast<float>(o.size);
+        o.seed = octaveSeed(seed, n);
+        const AxisCells x = axisCells(x0, o.size, o.inverseSize), y = axisCells(y0, o.size, o.inverseSize);
+        o.xCell = x.cell;
+        o.xOffset = x.offset;
+        o.xFade = x.fadeOf;
+        o.yCell = y.cell[0];
+        o.layer.weight = call.weights[n];
+        setRows(o.layer, y);
+    }
+}
+
+void moveToLayer(Perlin3DTile& tile, std::int32_t z) {
+    assert(z >= 0 && "layers count from the bottom of the world");
+    const bool first = tile.layer < 0;
+    for (Perlin3DTile::Octave& o : tile.octaves) {
+        const std::int32_t zCell = z / o.size;
+        if (first || (zCell != o.zCell && zCell != o.zCell + 1)) {
+            fillLevel(o, zCell, o.levels[0]);
+            fillLevel(o, zCell + 1, o.levels[1]);
+        } else if (zCell == o.zCell + 1) {
+            o.levels[0] = o.levels[1];
+            fillLevel(o, zCell + 1, o.levels[1]);
+        }
+        o.zCell = zCell;
+        const float f = static_cast<float>(z - zCell * o.size) * o.inverseSize, t = fade(f);
+        const PerlinLevel &low = o.levels[0], &high = o.levels[1];
+        for (std::size_t j = 0; j < static_cast<std::size_t>(o.layer.nodeRows); ++j) {
+            for (std::size_t k = 0; k < kTileSize; ++k) {
+                o.layer.a[j][k] =
+                    lerp(low.one[j][k] + low.z[j][k] * f, high.one[j][k] + high.z[j][k] * (f - 1.0f), t);
+                o.layer.b[j][k] = lerp(low.y[j][k], high.y[j][k], t);
+            }
+        }
+    }
+    tile.layer = z;
+}
+
+}  // namespace terrane::gen

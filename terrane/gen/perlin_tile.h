@@ -1,0 +1,68 @@
+// Perlin noise over a tile of 16×16 columns: everything that samples share is computed once.
+//
+// Between two lattice nodes along x the noise is a blend of two linear functions of the other offsets, so a node row
+// (all nodes of equal y, or equal y and z) is kept as the coefficients of the blended function for each of the 16 x of
+// the tile. A sample then costs one multiply-add at each of two node rows and one blend. noise.h states the order of
+// operations; perlin_tile.cpp and kernels.cpp follow it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "terrane/gen/noise.h"
+#include "terrane/gen/program.h"
+
+namespace terrane::gen {
+
+// Rows of lattice nodes around 16 blocks: 16 cells and one more with a lattice of one block.
+constexpr int kMaxNodeRows = kTileSize + 1;
+
+using TileRow = std::array<float, kTileSize>;
+
+// The blend along y: row r lies between node rows node[r] and node[r] + 1, at the fractions `offset`.
+struct RowBlend {
+    std::array<std::uint8_t, kTileSize> node{};
+    TileRow offset{};  // 0…1 from the lower node row
+    TileRow fade{};
+};
+
+// noise(x, r) = lerp(a[j] + b[j]·f, a[j+1] + b[j+1]·(f − 1), fade[r]) with j = node[r], f = offset[r]
+struct PerlinOctave {
+    alignas(64) std::array<TileRow, kMaxNodeRows> a, b;
+    RowBlend rows;
+    float weight = 0;
+    int nodeRows = 0;
+};
+
+struct Perlin2DTile {
+    std::vector<PerlinOctave> octaves;
+};
+
+// x0, y0: block coordinates of the tile's first column.
+void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0, std::int32_t y0);
+
+// One level of lattice nodes of equal z: coefficients of 1, of the y offset and of the z offset.
+struct PerlinLevel {
+    alignas(64) std::array<TileRow, kMaxNodeRows> one, y, z;
+};
+
+struct Perlin3DTile {
+    struct Octave {
+        PerlinOctave layer;     // blended along z for the current layer
+        TileRow xOffset, xFade;
+        std::array<std::int32_t, kTileSize> xCell;
+        std::int32_t size = 1, yCell = 0, zCell = 0;
+        float inverseSize = 1;
+        std::uint32_t seed = 0;
+        std::array<PerlinLevel, 2> levels;  // zCell, zCell + 1
+    };
+    std::vector<Octave> octaves;
+    std::int32_t layer = -1;
+};
+
+void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0, std::int32_t y0);
+// Cheapest when called for each z in order.
+void moveToLayer(Perlin3DTile& tile, std::int32_t z);
+
+}  // namespace terrane::gen

@@ -1,0 +1,259 @@
+#include "terrane/gen/program.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <map>
+#include <unordered_map>
+
+#include "terrane/gen/schedule.h"
+
+namespace terrane::gen {
+namespace {
+
+constexpr std::uint32_t kNeverFreed = std::numeric_limits<std::uint32_t>::max();
+
+// Rows of the arena that come free are used again, by size: one row or a whole tile.
+class RowAllocator {
+ public:
+    Operand allocate(bool varies, std::uint32_t results = 1) {
+        auto& free = varies ? freeTiles_ : freeRows_;
+        const std::uint32_t rows = varies ? kTileSize * results : 1;
+        std::uint32_t row = next_;
+        if (results == 1 && !free.empty()) {
+            row = free.back();
+            free.pop_back();
+        } else {
+            next_ += rows;
+            assert(next_ < 65536 && "a pass needs less than 4 MiB of registers");
+        }
+        return {static_cast<std::uint16_t>(row), static_cast<std::uint16_t>(varies ? 1 : 0)};
+    }
+    void release(Operand o) { (o.rowStep ? freeTiles_ : freeRows_).push_back(o.row); }
+    std::uint32_t rows() const { return next_; }
+    // What is allocated from here on never shares rows with what was before.
+    void seal() {
+        freeTiles_.clear();
+        freeRows_.clear();
+    }
+
+ private:
+    std::uint32_t next_ = 0;
+    std::vector<std::uint32_t> freeTiles_, freeRows_;
+};
+
+class Compiler {
+ public:
+    Compiler(const PassGraph& pass, const std::vector<NoiseCall>& noises)
+        : pass_(pass), graph_(pass.graph), noises_(noises), operands_(graph_.size()), known_(graph_.size()) {}
+
+    Program run() {
+        program_.is3D = pass_.is3D;
+        program_.readsAt = pass_.readsAt;
+        placeLeaves();
+        std::vector<NodeId> outputs;
+        for (const FieldOutput& f : pass_.fields) outputs.push_back(f.value);
+        if (pass_.block) outputs.push_back(*pass_.block);
+
+        if (pass_.is3D) {
+            program_.column = compileList(boundary(outputs));
+            rows_.seal();
+        }
+        auto& last = pass_.is3D ? program_.layer : program_.column;
+        last = compileList(outputs);
+        for (const FieldOutput& f : pass_.fields) program_.fields.push_back({f.field, operands_[f.value]});
+        if (pass_.block) program_.block = operands_[*pass_.block];
+        program_.arenaRows = rows_.rows();
+        return std::move(program_);
+    }
+
+ private:
+    void placeLeaves() {
+        for (NodeId id = 0; id < graph_.size(); ++id) {
+            if (graph_.node(id).op != Op::Constant) continue;
+            setOperand(id, rows_.allocate(false));
+            program_.constants.push_back(graph_.node(id).imm);
+        }
+        program_.x = rows_.allocate(true);
+        program_.y = rows_.allocate(true);
+        program_.z = rows_.allocate(false);
+        for (NodeId id = 0; id < graph_.size(); ++id) {
+            const Op op = graph_.node(id).op;
+            if (op == Op::PosX) setOperand(id, program_.x);
+            if (op == Op::PosY) setOperand(id, program_.y);
+            if (op == Op::PosZ) setOperand(id, program_.z);
+        }
+    }
+
+    void setOperand(NodeId id, Operand o) {
+        operands_[id] = o;
+        known_[id] = true;
+    }
+
+    bool isColumn(NodeId id) const { return !(graph_.node(id).dependence & kDependsZ); }
+
+    // The nodes free of z that the layers need: they are computed once a chunk.
+    std::vector<NodeId> boundary(const std::vector<NodeId>& outputs) const {
+        std::vector<NodeId> result, stack = outputs;
+        std::vector<bool> seen(graph_.size());
+        while (!stack.empty()) {
+            const NodeId id = stack.back();
+            stack.pop_back();
+            if (seen[id]) continue;
+            seen[id] = true;
+            if (isColumn(id)) {
+                result.push_back(id);
+                continue;
+            }
+            const auto args = graph_.node(id).arguments();
+            stack.insert(stack.end(), args.begin(), args.end());
+        }
+        std::sort(result.begin(), result.end());
+        return result;
+    }
+
+    InstructionList compileList(const std::vector<NodeId>& roots) {
+        const auto isInput = [&](NodeId id) { return static_cast<bool>(known_[id]); };
+        schedule_ = schedule(graph_, roots, isInput);
+        lastUse_.assign(graph_.size(), 0);
+        inputs_ = known_;
+        position_ = 0;
+        findLastUses(0);
+        for (const NodeId root : roots) lastUse_[root] = kNeverFreed;
+        position_ = 0;
+        return emitRegion(0);
+    }
+
+    const Schedule::If* ifStartingAt(NodeId id) const {
+        const Node& n = graph_.node(id);
+        if (n.op != Op::Phi) return nullptr;
+        const Schedule::If& branch = schedule_.ifs[n.imm];
+        return branch.phis.front() == id ? &branch : nullptr;
+    }
+
+    // Walks in the order of emission; a node's position is the count of nodes before it.
+    void findLastUses(int region) {
+        for (const NodeId id : schedule_.regions[static_cast<std::size_t>(region)].nodes) {
+            if (const Schedule::If* branch = ifStartingAt(id)) {
+                findLastUses(branch->thenRegion);
+                findLastUses(branch->elseRegion);
+                for (const NodeId phi : branch->phis) noteUses(phi);
+            } else if (graph_.node(id).op != Op::Phi) {
+                noteUses(id);
+            }
+        }
+    }
+
+    void noteUses(NodeId id) {
+        ++position_;
+        for (const NodeId arg : graph_.node(id).arguments()) noteUse(arg);
+    }
+
+    // A component has no register of its own: using it uses the noise.
+    void noteUse(NodeId id) {
+        lastUse_[id] = position_;
+        if (graph_.node(id).op == Op::Component) noteUse(graph_.node(id).args[0]);
+    }
+
+    InstructionList emitRegion(int region) {
+        InstructionList list;
+        for (const NodeId id : schedule_.regions[static_cast<std::size_t>(region)].nodes) {
+            if (const Schedule::If* branch = ifStartingAt(id)) {
+                emitIf(*branch, list);
+            } else if (graph_.node(id).op != Op::Phi) {
+                emitNode(id, list);
+            }
+        }
+        return list;
+    }
+
+    void emitNode(NodeId id, InstructionList& list) {
+        const Node& n = graph_.node(id);
+        ++position_;
+        if (n.op == Op::Component) return aliasResult(id);
+        Instruction instruction;
+        instruction.op = n.op;
+        instruction.imm = n.imm;
+        readArguments(id, instruction);
+        std::uint32_t results = 1;
+        if (n.op == Op::Noise) {
+            results = resultCount(noises_[n.imm].kind);
+            if (std::find(program_.noises.begin(), program_.noises.end(), n.imm) == program_.noises.end()) {
+                program_.noises.push_back(n.imm);
+            }
+        }
+        setOperand(id, rows_.allocate(varies(id), results));
+        instruction.dst = operands_[id];
+        list.push_back(instruction);
+    }
+
+    void aliasResult(NodeId id) {
+        const Node& n = graph_.node(id);
+        Operand o = operands_[n.args[0]];
+        o.row = static_cast<std::uint16_t>(o.row + n.imm * kTileSize);
+        setOperand(id, o);
+        // The rows belong to the noise; they are kept for good, since results may outlive each other.
+        lastUse_[id] = kNeverFreed;
+        lastUse_[n.args[0]] = kNeverFreed;
+    }
+
+    void readArguments(NodeId id, Instruction& instruction) {
+        const auto args = graph_.node(id).arguments();
+        for (std::size_t k = 0; k < args.size(); ++k) instruction.args[k] = operands_[args[k]];
+        releaseArguments(id);
+    }
+
+    void releaseArguments(NodeId id) {
+        for (const NodeId arg : graph_.node(id).arguments()) {
+            if (lastUse_[arg] != position_ || inputs_[arg]) continue;
+            rows_.release(operands_[arg]);
+            lastUse_[arg] = kNeverFreed;  // an argument may stand twice
+        }
+    }
+
+    void emitIf(const Schedule::If& branch, InstructionList& list) {
+        Branch result;
+        result.condition = operands_[graph_.node(branch.phis.front()).args[0]];
+        result.then = emitRegion(branch.thenRegion);
+        result.otherwise = emitRegion(branch.elseRegion);
+        const bool noBranch = result.then.empty() && result.otherwise.empty();
+        for (const NodeId phi : branch.phis) {
+            ++position_;
+            Instruction choice;
+            choice.op = Op::Select;
+            readArguments(phi, choice);
+            setOperand(phi, rows_.allocate(varies(phi)));
+            choice.dst = operands_[phi];
+            if (noBranch) list.push_back(choice);
+            result.phis.push_back({choice.dst, choice.args[1], choice.args[2]});
+        }
+        if (noBranch) return;
+        Instruction instruction;
+        instruction.op = Op::Phi;
+        instruction.imm = static_cast<std::uint32_t>(program_.branches.size());
+        program_.branches.push_back(std::move(result));
+        list.push_back(instruction);
+    }
+
+    bool varies(NodeId id) const { return (graph_.node(id).dependence & kDependsColumn) != 0; }
+
+    const PassGraph& pass_;
+    const Graph& graph_;
+    const std::vector<NoiseCall>& noises_;
+    std::vector<Operand> operands_;  // by node
+    std::vector<bool> known_;        // has an operand
+    std::vector<bool> inputs_;       // had one before this list
+    std::vector<std::uint32_t> lastUse_;
+    std::uint32_t position_ = 0;
+    Schedule schedule_;
+    RowAllocator rows_;
+    Program program_;
+};
+
+}  // namespace
+
+Program compile(const PassGraph& pass, const std::vector<NoiseCall>& noises) {
+    return Compiler(pass, noises).run();
+}
+
+}  // namespace terrane::gen

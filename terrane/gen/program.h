@@ -1,0 +1,67 @@
+// A pass's graph put in order for the CPU: instructions over tiles of 16×16 columns with registers allocated.
+//
+// What does not depend on z is computed once a chunk by `column`; `layer` then runs for each z. A branch is entered only
+// by the rows (16 columns of equal y) of which some lane takes it. Made once a generator; read by all threads.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "terrane/gen/builder.h"
+
+namespace terrane::gen {
+
+constexpr int kTileSize = 16;                     // columns along x and along y
+constexpr int kTileLanes = kTileSize * kTileSize;  // lane = x + 16 y
+constexpr int kRowLanes = kTileSize;              // lanes of a row: 64 bytes
+
+// Where a value lies in the arena: rows of 16 lanes of 32 bits. A value that is the same in every column has one row
+// (rowStep 0), others have 16.
+struct Operand {
+    std::uint16_t row = 0;
+    std::uint16_t rowStep = 0;
+    bool operator==(const Operand&) const = default;
+};
+
+struct Instruction {
+    Op op = Op::Constant;
+    Operand dst;
+    std::array<Operand, 3> args{};
+    // Of the operation. `branch` number for Op::Phi, which here stands for a whole if.
+    std::uint32_t imm = 0;
+};
+
+using InstructionList = std::vector<Instruction>;
+
+struct PhiMove {
+    Operand dst, then, otherwise;
+};
+
+struct Branch {
+    Operand condition;
+    InstructionList then, otherwise;
+    std::vector<PhiMove> phis;
+};
+
+struct Program {
+    bool is3D = false;
+    InstructionList column, layer;
+    std::vector<Branch> branches;
+    std::vector<Bits> constants;  // rows 0… of the arena, each value in all 16 lanes
+    Operand x, y, z;              // filled by the executor
+    std::uint32_t arenaRows = 0;
+
+    struct FieldResult {
+        std::uint32_t field;
+        Operand value;
+    };
+    std::vector<FieldResult> fields;
+    std::optional<Operand> block;
+    std::vector<std::uint32_t> noises;   // calls it makes
+    std::vector<std::uint32_t> readsAt;  // fields it reads with an offset
+};
+
+Program compile(const PassGraph& pass, const std::vector<NoiseCall>& noises);
+
+}  // namespace terrane::gen
