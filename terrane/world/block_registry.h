@@ -13,20 +13,20 @@
 namespace terrane::world {
 
 class BlockRegistry {
- public:
+  public:
     // Reads the content file's text. `name` stands in errors, which read "name:line: key: what is wrong".
     // Ids follow the order of the file; air is 0 and is not in the file. The last type added is "missing".
     static base::Result<BlockRegistry> parse(std::string_view toml, std::string_view name);
 
     std::span<const BlockType> types() const { return types_; }  // index is the id
     const BlockType& type(BlockId id) const { return types_[id < types_.size() ? id : missing_]; }
-    const BlockType* find(std::string_view name) const;          // null where there is none
-    BlockId missing() const { return missing_; }                 // stands for unknown blocks
+    const BlockType* find(std::string_view name) const;  // null where there is none
+    BlockId missing() const { return missing_; }         // stands for unknown blocks
 
     std::span<const Material> materials() const { return materials_; }
     std::span<const std::string> textures() const { return textures_; }  // names without folder and ending
 
- private:
+  private:
     std::vector<BlockType> types_;
     std::vector<Material> materials_;
     std::vector<std::string> textures_;

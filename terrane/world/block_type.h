@@ -1,4 +1,5 @@
-// What a block type is: look, light, collision. Types are content (assets/blocks.toml), read by block_registry.h.
+// What a block type is: look, light, collision. Types are content (assets/blocks.toml), read by
+// block_registry.h.
 #pragma once
 
 #include <array>
@@ -53,13 +54,14 @@ struct BlockType {
     BlockId id = 0;
     Shape shape = Shape::Cube;
     std::array<std::uint16_t, kFaceCount> material{};  // index into BlockRegistry::materials()
-    bool opaqueCube = false;  // hides every face that touches it
-    bool innerFaces = false;  // faces between two blocks of this type are drawn (leaves)
-    std::uint8_t opacity = 15;                 // to light, 0…15
-    std::array<std::uint8_t, 3> emission{};    // red, green, blue, 0…15
-    std::vector<Box> collision;                // empty: nothing collides
-    Box selection;
-    bool generated = true;  // appears in generated terrain (else placed only)
+    bool opaqueCube = false;                           // hides every face that touches it
+    bool innerFaces = false;                 // faces between two blocks of this type are drawn (leaves)
+    std::uint8_t opacity = 15;               // to light, 0…15
+    std::array<std::uint8_t, 3> emission{};  // red, green, blue, 0…15
+    std::vector<Box> collision;              // empty: nothing collides
+    Box selection;                           // what a ray from the camera hits
+    bool selectable = true;                  // false: rays pass (air, water)
+    bool generated = true;                   // appears in generated terrain (else placed only)
 };
 
 }  // namespace terrane::world

@@ -1,4 +1,5 @@
-// A chunk: 16×16×256 blocks with their small and large data. A plain value; copying it copies a few kilobytes.
+// A chunk: 16×16×256 blocks with their small and large data. A plain value; copying it copies a few
+// kilobytes.
 #pragma once
 
 #include <array>
@@ -19,15 +20,17 @@ constexpr BlockId kAir = 0;
 // Bytes that a block keeps beyond its 16 bits of small data, for example the text of a sign.
 using LargeData = std::vector<std::byte>;
 
-// Block access is O(1). Not synchronised; the world shares chunks between threads as `shared_ptr<const Chunk>`.
+// Block access is O(1). Not synchronised; the world shares chunks between threads as `shared_ptr<const
+// Chunk>`.
 class Chunk {
- public:
+  public:
     BlockId block(BlockIndex i) const { return blocks_[i >> 12].get(i & 4095); }
     // Sets the block and resets its small data to 0; large data it had is freed.
     void setBlock(BlockIndex i, BlockId id);
 
     std::uint16_t smallData(BlockIndex i) const { return smallData_[i >> 12].get(i & 4095); }
-    void setSmallData(BlockIndex i, std::uint16_t value) { smallData_[i >> 12].set(i & 4095, value); }
+    // Large data the block had is freed: its small data was the way to it.
+    void setSmallData(BlockIndex i, std::uint16_t value);
 
     // Large data of a block: its small data holds the index of a slot, which set and clear look after.
     const LargeData* largeData(BlockIndex i) const;  // null where the block has none
@@ -41,7 +44,7 @@ class Chunk {
 
     std::size_t memoryBytes() const;  // heap and object
 
- private:
+  private:
     std::array<Section, kSectionsPerChunk> blocks_;
     std::array<Section, kSectionsPerChunk> smallData_;
     // Slot k holds the large data of the block `owner`, whose small data is k.
@@ -50,6 +53,9 @@ class Chunk {
         BlockIndex owner = 0;
         bool used = false;
     };
+    void freeLargeData(BlockIndex i);  // leaves the small data that led to it
+    void dropUnusedSlots();            // those at the end
+
     std::vector<LargeSlot> large_;
 };
 

@@ -7,7 +7,6 @@
 #include <cstdint>
 
 #include "terrane/shared/constants.h"
-#include "terrane/shared/hash.h"
 
 namespace terrane::world {
 
@@ -35,20 +34,26 @@ struct BlockPos {
 // Index of a block in its chunk: x + 16 y + 256 z, so that a layer of equal z and a section are contiguous.
 using BlockIndex = std::uint16_t;
 
-constexpr ChunkPos chunkOf(BlockPos p) { return {p.x >> 4, p.y >> 4}; }  // floors, also below zero
+constexpr ChunkPos chunkOf(BlockPos p) {
+    return {p.x >> 4, p.y >> 4};
+}  // floors, also below zero
 
 constexpr BlockIndex blockIndex(int xInChunk, int yInChunk, int z) {
     return static_cast<BlockIndex>(xInChunk | yInChunk << 4 | z << 8);
 }
 
 // p.z must be in 0…255.
-constexpr BlockIndex blockIndex(BlockPos p) { return blockIndex(p.x & 15, p.y & 15, p.z); }
+constexpr BlockIndex blockIndex(BlockPos p) {
+    return blockIndex(p.x & 15, p.y & 15, p.z);
+}
 
 constexpr BlockPos blockPos(ChunkPos c, BlockIndex i) {
     return {c.x * kChunkSize + (i & 15), c.y * kChunkSize + ((i >> 4) & 15), i >> 8};
 }
 
-constexpr bool isInHeight(int z) { return z >= 0 && z < kChunkHeight; }
+constexpr bool isInHeight(int z) {
+    return z >= 0 && z < kChunkHeight;
+}
 
 // True where every block of the chunk has 32-bit coordinates.
 constexpr bool isInWorld(ChunkPos c) {
@@ -62,9 +67,15 @@ constexpr std::int64_t chunkDistance(ChunkPos a, ChunkPos b) {
     return ax > ay ? ax : ay;
 }
 
+// No two positions have the same hash: multiplying by an odd number and folding the upper half are
+// reversible.
 struct ChunkPosHash {
     std::size_t operator()(ChunkPos c) const {
-        return shared::hash2(static_cast<shared::uint>(c.x), static_cast<shared::uint>(c.y), 0);
+        const std::uint64_t key =
+            std::uint64_t{static_cast<std::uint32_t>(c.x)} << 32 | static_cast<std::uint32_t>(c.y);
+        const std::uint64_t spread =
+            key * 0x9E3779B97F4A7C15u;  // 2^64 / golden ratio, which spreads neighbours evenly
+        return spread ^ spread >> 32;
     }
 };
 

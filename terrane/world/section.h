@@ -1,6 +1,8 @@
 // A section: 16³ values of 16 bits (block ids or small data), stored as small as they allow.
 #pragma once
 
+#include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,7 +20,7 @@ namespace terrane::world {
 // A set() that brings a new value widens the form; compact() finds the smallest again.
 // Not synchronised: one writer or many readers.
 class Section {
- public:
+  public:
     using Value = std::uint16_t;
 
     explicit Section(Value value = 0) : uniform_(value) {}
@@ -26,7 +28,12 @@ class Section {
     // The smallest form of 4,096 values.
     static Section fromValues(std::span<const Value, kBlocksPerSection> values);
 
-    Value get(int index) const;
+    Value get(int index) const {
+        assert(index >= 0 && index < kBlocksPerSection && "index of a block in a section");
+        if (isUniform()) return uniform_;
+        const std::uint32_t at = packed(index);
+        return isDense() ? static_cast<Value>(at) : palette_[at];
+    }
     void set(int index, Value value);
     void unpack(std::span<Value, kBlocksPerSection> values) const;
     void compact();
@@ -37,7 +44,8 @@ class Section {
 
     // Bits a block: 0 (uniform), 1, 2, 4, 8 (palette) or 16 (dense).
     int bits() const { return bits_; }
-    // Distinct values in order of index; may name values that no block has any more. Empty unless palette form.
+    // Distinct values in order of index; may name values that no block has any more. Empty unless palette
+    // form.
     std::span<const Value> palette() const { return palette_; }
     // Palette form: indices, bits() each, lowest index in the lowest bits. Dense form: values, 16 bits each.
     std::span<const std::uint64_t> words() const { return words_; }
@@ -46,8 +54,12 @@ class Section {
 
     friend bool operator==(const Section& a, const Section& b);  // equal values, whatever the forms
 
- private:
-    std::uint32_t packed(int index) const;
+  private:
+    std::uint32_t packed(int index) const {
+        const auto bit =
+            static_cast<std::size_t>(index) * bits_;  // widths are powers of two: none crosses a word
+        return static_cast<std::uint32_t>(words_[bit / 64] >> bit % 64) & ((1u << bits_) - 1);
+    }
     void setPacked(int index, std::uint32_t packed);
     void repack(int bits);
 

@@ -1,5 +1,6 @@
-// The chunks in memory and access to their blocks. Used on one thread (the one that runs the game); chunks themselves
-// are shared with workers as immutable snapshots: an edit replaces the chunk by a changed copy when a worker holds it.
+// The chunks in memory and access to their blocks. Used on one thread (the one that runs the game); chunks
+// themselves are shared with workers as immutable snapshots: an edit replaces the chunk by a changed copy
+// when a worker holds it.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +11,11 @@
 namespace terrane::world {
 
 class World {
- public:
+  public:
     // The chunk, or null unless it is loaded.
     ChunkPtr maybeChunkAt(ChunkPos pos) const;
 
+    // Adds a chunk or replaces the one there. The chunk must not have been created as a constant object.
     void insert(ChunkPos pos, ChunkPtr chunk);
     void erase(ChunkPos pos) { chunks_.erase(pos); }
 
@@ -25,7 +27,7 @@ class World {
     const std::unordered_map<ChunkPos, ChunkPtr, ChunkPosHash>& chunks() const { return chunks_; }
     std::size_t memoryBytes() const;  // of all chunks
 
- private:
+  private:
     std::unordered_map<ChunkPos, ChunkPtr, ChunkPosHash> chunks_;
 };
 

@@ -1,0 +1,82 @@
+// terrane blocks: every block type.
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/content.h"
+
+namespace terrane::app {
+namespace {
+
+const char* shapeName(world::Shape shape) {
+    switch (shape) {
+        case world::Shape::None:
+            return "none";
+        case world::Shape::Cube:
+            return "cube";
+        case world::Shape::Liquid:
+            return "liquid";
+        case world::Shape::Cross:
+            return "cross";
+        case world::Shape::Hash:
+            return "hash";
+        case world::Shape::Inset:
+            return "inset";
+    }
+    return "";
+}
+
+nlohmann::json boxJson(const world::Box& box) {
+    return {{box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}};
+}
+
+nlohmann::json typeJson(const world::BlockRegistry& blocks, const world::BlockType& type) {
+    nlohmann::json faces = nlohmann::json::array(), collision = nlohmann::json::array();
+    if (type.shape != world::Shape::None) {
+        for (const std::uint16_t material : type.material) {
+            faces.push_back(blocks.textures()[blocks.materials()[material].texture]);
+        }
+    }
+    for (const world::Box& box : type.collision) collision.push_back(boxJson(box));
+    return {{"id", type.id},
+            {"name", type.name},
+            {"shape", shapeName(type.shape)},
+            {"textures", faces},
+            {"opacity", type.opacity},
+            {"emission", type.emission},
+            {"collision", collision},
+            {"selection", type.selectable ? boxJson(type.selection) : nlohmann::json()},
+            {"generated", type.generated}};
+}
+
+base::Result<void> listBlocks(bool json) {
+    auto blocks = loadBlocks();
+    if (!blocks) return tl::unexpected(blocks.error());
+    if (json) {
+        nlohmann::json list = nlohmann::json::array();
+        for (const world::BlockType& type : blocks->types()) list.push_back(typeJson(*blocks, type));
+        std::cout << list.dump() << '\n';
+        return {};
+    }
+    fmt::print("{:>4}  {:<18}{:<8}{:>8}  {:<12}{}\n", "id", "name", "shape", "opacity", "emission", "collides");
+    for (const world::BlockType& type : blocks->types()) {
+        const auto& e = type.emission;
+        fmt::print("{:>4}  {:<18}{:<8}{:>8}  {:<12}{}\n", type.id, type.name, shapeName(type.shape), type.opacity,
+                   fmt::format("{},{},{}", e[0], e[1], e[2]), type.collision.empty() ? "no" : "yes");
+    }
+    return {};
+}
+
+}  // namespace
+
+CommandEntry addBlocks(CLI::App& app) {
+    auto json = std::make_shared<bool>(false);
+    CLI::App* command = app.add_subcommand("blocks", "List every block type");
+    command->add_flag("--json", *json, "Print all properties as JSON");
+    return {command, [json] { return listBlocks(*json); }};
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,25 @@
+// The subcommands. Each adds itself to the command line; what it returns is run when it was chosen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "terrane/base/result.h"
+
+namespace terrane::app {
+
+using Command = std::function<base::Result<void>()>;
+
+struct CommandEntry {
+    CLI::App* parser;
+    Command run;
+};
+
+CommandEntry addPlay(CLI::App& app);
+CommandEntry addRender(CLI::App& app);
+CommandEntry addGenerate(CLI::App& app);
+CommandEntry addDump(CLI::App& app);
+CommandEntry addBlocks(CLI::App& app);
+CommandEntry addInfo(CLI::App& app);
+
+}  // namespace terrane::app

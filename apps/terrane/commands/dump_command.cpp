@@ -1,0 +1,190 @@
+// terrane dump: blocks, light or quads of an area as a NumPy file, so that anyone can check them from outside.
+#include <cstring>
+#include <map>
+#include <memory>
+
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/content.h"
+#include "apps/terrane/world_session.h"
+#include "terrane/base/files.h"
+#include "terrane/base/log.h"
+#include "terrane/base/npy.h"
+#include "terrane/light/light_solver.h"
+#include "terrane/mesh/chunk_mesher.h"
+
+namespace terrane::app {
+namespace {
+
+enum class What { Blocks, Light, Quads };
+
+struct DumpOptions {
+    WorldOptions world;
+    std::optional<Area> area;
+    What what = What::Blocks;
+    std::string output;
+};
+
+// The file is made in memory, light with three bytes a block beside it: 4,096 chunks take about 1.3 GiB.
+constexpr std::int64_t kMaxChunks = 4096;
+
+// The area and one chunk around it, which light and meshes need.
+class LoadedArea {
+ public:
+    LoadedArea(const Area& area) : area_(area), width_(area.x1 - area.x0 + 2), height_(area.y1 - area.y0 + 2) {}
+
+    base::Result<void> generate(const gen::Generator& generator, base::JobSystem& jobs) {
+        chunks_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+        return base::parallelFor(jobs, chunks_.size(), [&](std::size_t k) {
+            const world::ChunkPos pos{area_.x0 - 1 + static_cast<int>(k) % width_, area_.y0 - 1 + static_cast<int>(k) / width_};
+            if (world::isInWorld(pos)) chunks_[k] = generator.generate(pos);
+        });
+    }
+
+    // x and y count from the area's first chunk; -1 and the size are there too.
+    const world::Chunk& chunk(int x, int y) const {
+        return chunks_[static_cast<std::size_t>(x + 1 + (y + 1) * width_)];
+    }
+    int chunksX() const { return width_ - 2; }
+    int chunksY() const { return height_ - 2; }
+
+ private:
+    Area area_;
+    int width_, height_;
+    std::vector<world::Chunk> chunks_;
+};
+
+// uint16 [x, y, z].
+template <class ValueAt>
+base::NpyArray volume(const LoadedArea& area, ValueAt valueAt) {
+    const int sizeX = area.chunksX() * world::kChunkSize, sizeY = area.chunksY() * world::kChunkSize;
+    base::NpyArray array{"<u2", {static_cast<std::size_t>(sizeX), static_cast<std::size_t>(sizeY), world::kChunkHeight}, {}};
+    array.data.reserve(static_cast<std::size_t>(sizeX) * static_cast<std::size_t>(sizeY) * world::kChunkHeight * 2);
+    for (int x = 0; x < sizeX; ++x) {
+        for (int y = 0; y < sizeY; ++y) {
+            for (int z = 0; z < world::kChunkHeight; ++z) {
+                const std::uint16_t value = valueAt(x, y, z);
+                array.data.push_back(static_cast<char>(value & 255));
+                array.data.push_back(static_cast<char>(value >> 8));
+            }
+        }
+    }
+    return array;
+}
+
+base::NpyArray dumpBlocks(const LoadedArea& area) {
+    return volume(area, [&](int x, int y, int z) {
+        return area.chunk(x / world::kChunkSize, y / world::kChunkSize).block(world::blockIndex(x & 15, y & 15, z));
+    });
+}
+
+base::NpyArray dumpLight(const LoadedArea& area, const world::BlockRegistry& blocks) {
+    light::LightArea around{area.chunksX() + 2, area.chunksY() + 2, {}};
+    for (int y = -1; y <= area.chunksY(); ++y) {
+        for (int x = -1; x <= area.chunksX(); ++x) around.chunks.push_back(&area.chunk(x, y));
+    }
+    const std::vector<light::LightValue> light = light::solveLight(around, blocks);
+    const auto width = static_cast<std::size_t>(around.chunksX) * world::kChunkSize;
+    const auto height = static_cast<std::size_t>(around.chunksY) * world::kChunkSize;
+    return volume(area, [&](int x, int y, int z) {
+        const auto ax = static_cast<std::size_t>(x + world::kChunkSize), ay = static_cast<std::size_t>(y + world::kChunkSize);
+        return light[ax + width * (ay + height * static_cast<std::size_t>(z))];
+    });
+}
+
+// One record a quad, as docs/architecture.md describes them.
+constexpr const char* kQuadType =
+    "[('chunk_x','<i4'),('chunk_y','<i4'),('x','|u1'),('y','|u1'),('z','|u1'),('shape_face','|u1'),"
+    "('extent_u','|u1'),('extent_v','|u1'),('material','<u2'),('context','|u1'),('group','|u1')]";
+
+void appendQuad(std::string& data, world::ChunkPos pos, shared::Quad quad, std::array<int, 2> contextAndGroup) {
+    const auto number = [&](auto value) {
+        char bytes[sizeof(value)];
+        std::memcpy(bytes, &value, sizeof(value));
+        data.append(bytes, sizeof(value));
+    };
+    const auto byte = [&](shared::uint value) { data.push_back(static_cast<char>(value)); };
+    number(pos.x);
+    number(pos.y);
+    byte(shared::quadX(quad));
+    byte(shared::quadY(quad));
+    byte(shared::quadZ(quad));
+    byte(shared::quadShapeFace(quad));
+    byte(shared::quadExtentU(quad));
+    byte(shared::quadExtentV(quad));
+    number(static_cast<std::uint16_t>(shared::quadMaterial(quad)));
+    for (const int value : contextAndGroup) byte(static_cast<shared::uint>(value));
+}
+
+base::NpyArray dumpQuads(const LoadedArea& area, const Area& where, const world::BlockRegistry& blocks) {
+    base::NpyArray array{kQuadType, {0}, {}};
+    mesh::MeshScratch scratch;
+    for (int y = 0; y < area.chunksY(); ++y) {
+        for (int x = 0; x < area.chunksX(); ++x) {
+            mesh::MeshInput input;
+            input.centre = &area.chunk(x, y);
+            input.neighbours = {&area.chunk(x - 1, y), &area.chunk(x + 1, y), &area.chunk(x, y - 1), &area.chunk(x, y + 1)};
+            input.blocks = &blocks;
+            const mesh::ChunkMesh mesh = mesh::meshChunk(input, scratch);
+            for (const mesh::RegionMesh& region : mesh.regions) {
+                for (int context = 0; context < mesh::kContextCount; ++context) {
+                    for (int group = 0; group < mesh::kGroupCount; ++group) {
+                        const mesh::QuadRange range = region.groups[context][group];
+                        for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
+                            appendQuad(array.data, {where.x0 + x, where.y0 + y}, mesh.quads[k], {context, group});
+                        }
+                    }
+                }
+            }
+            array.shape[0] += mesh.quads.size();
+        }
+    }
+    return array;
+}
+
+base::Result<void> dump(const DumpOptions& options) {
+    const Area area = *options.area;
+    if (area.chunkCount() > kMaxChunks) {
+        return base::fail("--area: {} chunks, at most {} fit one file", area.chunkCount(), kMaxChunks);
+    }
+    auto blocks = loadBlocks();
+    if (!blocks) return tl::unexpected(blocks.error());
+    auto generator = makeGenerator(options.world, *blocks);
+    if (!generator) return tl::unexpected(generator.error());
+    base::JobSystem jobs(threadCount(options.world));
+    LoadedArea loaded(area);
+    if (auto done = loaded.generate(*generator, jobs); !done) return done;
+
+    base::NpyArray array;
+    switch (options.what) {
+        case What::Blocks:
+            array = dumpBlocks(loaded);
+            break;
+        case What::Light:
+            array = dumpLight(loaded, *blocks);
+            break;
+        case What::Quads:
+            array = dumpQuads(loaded, area, *blocks);
+            break;
+    }
+    if (auto written = base::writeFile(options.output, base::encodeNpy(array)); !written) return written;
+    base::logInfo("{}: {} chunks", options.output, area.chunkCount());
+    return {};
+}
+
+}  // namespace
+
+CommandEntry addDump(CLI::App& app) {
+    auto options = std::make_shared<DumpOptions>();
+    CLI::App* command = app.add_subcommand("dump", "Write blocks, light or quads of an area as a NumPy file");
+    addAreaOption(*command, options->area);
+    command->get_option("--area")->required();
+    const std::map<std::string, What> kinds = {{"blocks", What::Blocks}, {"light", What::Light}, {"quads", What::Quads}};
+    command->add_option("--what", options->what, "What to write")
+        ->transform(CLI::CheckedTransformer(kinds).description("blocks, light or quads"))
+        ->default_str("blocks");
+    command->add_option("-o,--output", options->output, "The .npy file")->required();
+    addWorldOptions(*command, options->world);
+    return {command, [options] { return dump(*options); }};
+}
+
+}  // namespace terrane::app

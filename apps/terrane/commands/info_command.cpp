@@ -1,0 +1,63 @@
+// terrane info: what the program runs on.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "apps/terrane/commands/commands.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/gen/kernels.h"
+#include "terrane/gpu/context.h"
+#include "terrane/gpu/device_info.h"
+
+namespace terrane::app {
+namespace {
+
+nlohmann::json graphicsJson() {
+    const auto context = gpu::HeadlessContext::create({});
+    if (!context) return {{"error", context.error().message}};
+    const gpu::DeviceInfo d = gpu::queryDevice();
+    return {{"vendor", d.vendor},
+            {"renderer", d.renderer},
+            {"version", d.version},
+            {"glsl", d.glsl},
+            {"software", d.software},
+            {"max_samples", d.maxSamples},
+            {"max_storage_block_bytes", d.maxStorageBlockBytes},
+            {"max_texture_size", d.maxTextureSize},
+            {"max_texture_3d_size", d.maxTexture3dSize},
+            {"max_anisotropy", d.maxAnisotropy}};
+}
+
+base::Result<void> printInfo(bool json) {
+    const nlohmann::json info = {{"version", TERRANE_VERSION},
+                                 {"processors", std::thread::hardware_concurrency()},
+                                 {"simd", gen::simdTargets()},
+                                 {"generators", gen::generatorNames()},
+                                 {"graphics", graphicsJson()}};
+    if (json) {
+        std::cout << info.dump() << '\n';
+        return {};
+    }
+    fmt::print("terrane {}\nprocessors   {}\nsimd         {}\ngenerators   {}\n", TERRANE_VERSION,
+               std::thread::hardware_concurrency(), fmt::join(gen::simdTargets(), " "),
+               fmt::join(gen::generatorNames(), " "));
+    for (const auto& [key, value] : info["graphics"].items()) {
+        fmt::print("{:<24}{}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+    return {};
+}
+
+}  // namespace
+
+CommandEntry addInfo(CLI::App& app) {
+    auto json = std::make_shared<bool>(false);
+    CLI::App* command = app.add_subcommand("info", "Show the renderer, its limits and the processor's features");
+    command->add_flag("--json", *json, "Print as JSON");
+    return {command, [json] { return printInfo(*json); }};
+}
+
+}  // namespace terrane::app

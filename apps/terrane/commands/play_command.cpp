@@ -1,0 +1,126 @@
+// terrane play: a window to fly through the world.
+#include <memory>
+
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/content.h"
+#include "apps/terrane/scenes.h"
+#include "apps/terrane/window/fly_camera.h"
+#include "apps/terrane/world_session.h"
+#include "terrane/base/log.h"
+#include "terrane/gpu/window.h"
+
+namespace terrane::app {
+namespace {
+
+struct PlayOptions {
+    WorldOptions world;
+    GraphicsOptions graphics;
+    bool fullScreen = false;
+};
+
+// Chunks handed to the GPU a frame: about 64 × 10 KiB.
+constexpr std::size_t kUploadsPerFrame = 64;
+
+class PlayLoop {
+ public:
+    PlayLoop(const PlayOptions& options, gpu::Window& window, WorldSession& session, render::Renderer& renderer)
+        : options_(options), window_(window), session_(session), renderer_(renderer), camera_(findScene("landscape")->camera) {}
+
+    base::Result<void> run() {
+        double last = window_.timeSeconds();
+        while (!window_.shouldClose()) {
+            window_.pollEvents();
+            handleEvents();
+            const double now = window_.timeSeconds();
+            // A long stall moves the camera no farther than a tenth of a second would.
+            fly(camera_, flyKeys(), static_cast<float>(std::min(now - last, 0.1)));
+            last = now;
+            const glm::ivec2 size = window_.framebufferSize();
+            if (size.x == 0 || size.y == 0) continue;  // minimised
+            if (auto drawn = drawFrame(size, static_cast<float>(now)); !drawn) return drawn;
+            ++frames_;
+        }
+        base::logInfo("closed after {} frames at {:.2f},{:.2f},{:.2f}", frames_, camera_.position.x,
+                      camera_.position.y, camera_.position.z);
+        return {};
+    }
+
+ private:
+    void handleEvents() {
+        using Type = gpu::InputEvent::Type;
+        for (const gpu::InputEvent& event : window_.events()) {
+            if (event.type == Type::KeyPress && event.key == gpu::Key::Escape) window_.requestClose();
+            const bool toggles = event.type == Type::ButtonPress && event.button == gpu::MouseButton::Middle;
+            const bool captures = event.type == Type::ButtonPress && !isCaptured_;
+            if (toggles || captures) {
+                isCaptured_ = !isCaptured_;
+                window_.setCursorCaptured(isCaptured_);
+            }
+            if (event.type == Type::CursorMove && isCaptured_) turn(camera_, event.x, event.y);
+        }
+    }
+
+    FlyKeys flyKeys() const {
+        using gpu::Key;
+        return {.forward = window_.keyDown(Key::W),
+                .back = window_.keyDown(Key::S),
+                .left = window_.keyDown(Key::A),
+                .right = window_.keyDown(Key::D),
+                .up = window_.keyDown(Key::E) || window_.keyDown(Key::Shift),
+                .down = window_.keyDown(Key::Q) || window_.keyDown(Key::Control)};
+    }
+
+    base::Result<void> drawFrame(glm::ivec2 size, float seconds) {
+        if (size != renderer_.size()) {
+            if (auto resized = renderer_.resize(size, options_.graphics.samples); !resized) return resized;
+        }
+        session_.pipeline->setView(render::cameraChunk(camera_), options_.graphics.viewDistance);
+        session_.pipeline->update();
+        uploadMeshes(*session_.pipeline, renderer_, kUploadsPerFrame);
+        renderer_.draw({camera_, world::environmentAt(0.38f), fogDistance(options_.graphics.viewDistance), seconds,
+                        options_.graphics.view});
+        renderer_.presentToWindow(size);
+        window_.swapBuffers();
+        return {};
+    }
+
+    const PlayOptions& options_;
+    gpu::Window& window_;
+    WorldSession& session_;
+    render::Renderer& renderer_;
+    render::Camera camera_;
+    bool isCaptured_ = false;
+    std::size_t frames_ = 0;
+};
+
+base::Result<void> play(const PlayOptions& options) {
+    auto session = WorldSession::create(options.world);
+    if (!session) return tl::unexpected(session.error());
+    auto window = gpu::Window::create({.title = "Terrane",
+                                       .width = options.graphics.size.x,
+                                       .height = options.graphics.size.y,
+                                       .fullScreen = options.fullScreen,
+                                       .debug = options.graphics.debugGl});
+    if (!window) return tl::unexpected(window.error());
+    const gpu::ShaderLoader shaders = makeShaderLoader(options.graphics.shaderRoot);
+    auto renderer = render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), gpu::queryDevice());
+    if (!renderer) return tl::unexpected(renderer.error());
+    if (auto played = PlayLoop(options, *window, **session, *renderer).run(); !played) return played;
+    if (window->debugLog() && window->debugLog()->errorCount() > 0) {
+        return base::fail("the graphics driver reported errors, see above");
+    }
+    return {};
+}
+
+}  // namespace
+
+CommandEntry addPlay(CLI::App& app) {
+    auto options = std::make_shared<PlayOptions>();
+    CLI::App* command = app.add_subcommand("play", "Open a window and fly through the world (the default)");
+    addWorldOptions(*command, options->world);
+    addGraphicsOptions(*command, options->graphics);
+    command->add_flag("--full-screen", options->fullScreen, "Take the whole screen");
+    return {command, [options] { return play(*options); }};
+}
+
+}  // namespace terrane::app

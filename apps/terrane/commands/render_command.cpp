@@ -1,0 +1,147 @@
+// terrane render: one picture of one place, without a window.
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/content.h"
+#include "apps/terrane/scenes.h"
+#include "apps/terrane/world_session.h"
+#include "terrane/base/image.h"
+#include "terrane/base/log.h"
+#include "terrane/gpu/context.h"
+
+namespace terrane::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+struct RenderOptions {
+    WorldOptions world;
+    GraphicsOptions graphics;
+    std::string scene;
+    std::optional<std::vector<double>> at, look;
+    std::optional<float> time;
+    std::string output;
+    bool json = false;
+};
+
+base::Result<Scene> chosenScene(const RenderOptions& options) {
+    Scene scene = scenes().front();
+    if (!options.scene.empty()) {
+        const Scene* found = findScene(options.scene);
+        if (!found) return base::fail("unknown scene \"{}\": ocean, desert, landscape or cave", options.scene);
+        scene = *found;
+    } else if (!options.at) {
+        return base::fail("render needs --scene or --at");
+    }
+    if (options.at) scene.camera = {{(*options.at)[0], (*options.at)[1], (*options.at)[2]}, 0, 0};
+    if (options.look) {
+        scene.camera.yaw = static_cast<float>((*options.look)[0]);
+        scene.camera.pitch = static_cast<float>(std::clamp((*options.look)[1], -90.0, 90.0));
+    }
+    if (options.time) scene.timeDay = *options.time;
+    if (!world::isInWorld(render::cameraChunk(scene.camera))) return base::fail("--at: outside the world");
+    return scene;
+}
+
+// Generates and meshes everything in view; returns when the renderer has it.
+void loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera, int viewDistance) {
+    session.pipeline->setView(render::cameraChunk(camera), viewDistance);
+    for (;;) {
+        session.pipeline->update();
+        uploadMeshes(*session.pipeline, renderer, std::numeric_limits<std::size_t>::max());
+        if (session.pipeline->progress().complete()) return;
+        session.pipeline->waitForWorkers(std::chrono::milliseconds(100));
+    }
+}
+
+base::Result<void> renderPicture(const RenderOptions& options) {
+    const auto start = Clock::now();
+    auto scene = chosenScene(options);
+    if (!scene) return tl::unexpected(scene.error());
+    auto session = WorldSession::create(options.world);
+    if (!session) return tl::unexpected(session.error());
+    auto context = gpu::HeadlessContext::create({.debug = options.graphics.debugGl});
+    if (!context) return tl::unexpected(context.error());
+    const gpu::ShaderLoader shaders = makeShaderLoader(options.graphics.shaderRoot);
+    auto renderer =
+        render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), gpu::queryDevice());
+    if (!renderer) return tl::unexpected(renderer.error());
+    if (auto resized = renderer->resize(options.graphics.size, options.graphics.samples); !resized) return resized;
+    const double setUp = millisecondsSince(start);
+
+    const auto loadStart = Clock::now();
+    loadAll(**session, *renderer, scene->camera, options.graphics.viewDistance);
+    const double load = millisecondsSince(loadStart);
+
+    const auto drawStart = Clock::now();
+    renderer->draw({scene->camera, world::environmentAt(scene->timeDay), fogDistance(options.graphics.viewDistance), 0,
+                    options.graphics.view});
+    const base::Image image = renderer->readImage();
+    const double draw = millisecondsSince(drawStart);
+    if (auto written = base::writePng(options.output, image); !written) return written;
+    if (context->debugErrorCount() > 0) return base::fail("the graphics driver reported errors, see above");
+
+    const render::FrameStatistics& statistics = renderer->statistics();
+    const std::size_t chunks = (*session)->world.chunks().size();
+    base::logInfo("{}: {} chunks in {:.1f} s, {} quads in {} regions", options.output, chunks, load / 1000,
+                  statistics.quads, statistics.regions);
+    if (options.json) {
+        const nlohmann::json result = {
+            {"file", options.output},
+            {"milliseconds", {{"set_up", setUp}, {"load", load}, {"draw", draw}, {"all", millisecondsSince(start)}}},
+            {"chunks", chunks},
+            {"quads", statistics.quads},
+            {"regions", statistics.regions},
+            {"draw_commands", statistics.drawCommands},
+            {"bytes", {{"blocks", (*session)->world.memoryBytes()}, {"quads", renderer->quadBytes()}}}};
+        std::cout << result.dump() << '\n';
+    }
+    return {};
+}
+
+std::string sceneNames() {
+    std::string names;
+    for (const Scene& scene : scenes()) names += (names.empty() ? "" : ", ") + std::string(scene.name);
+    return names;
+}
+
+}  // namespace
+
+CommandEntry addRender(CLI::App& app) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = app.add_subcommand("render", "Draw a picture into a PNG file, without a window");
+    auto* scene = command->add_option("--scene", options->scene, "A reference scene: " + sceneNames());
+    command
+        ->add_option_function<std::string>(
+            "--at",
+            [options](const std::string& text) {
+                options->at = parseNumbers(text, 3, "--at: expected X,Y,Z in blocks");
+            },
+            "Camera position")
+        ->type_name("X,Y,Z")
+        ->excludes(scene);
+    command
+        ->add_option_function<std::string>(
+            "--look",
+            [options](const std::string& text) {
+                options->look = parseNumbers(text, 2, "--look: expected YAW,PITCH in degrees");
+            },
+            "Camera direction; yaw 0 looks along x, 90 along y")
+        ->type_name("YAW,PITCH");
+    command->add_option("--time", options->time, "Time of day: 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk")
+        ->check(CLI::Range(0.0, 1.0));
+    command->add_option("-o,--output", options->output, "The PNG file")->required();
+    command->add_flag("--json", options->json, "Print timings and counts as JSON");
+    addWorldOptions(*command, options->world);
+    addGraphicsOptions(*command, options->graphics);
+    return {command, [options] { return renderPicture(*options); }};
+}
+
+}  // namespace terrane::app

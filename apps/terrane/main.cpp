@@ -1,0 +1,48 @@
+// terrane: reads the command line, runs one command, reports. Exit codes: 0 done, 2 bad input or a missing means.
+#include <vector>
+
+#include "apps/terrane/commands/commands.h"
+#include "terrane/base/log.h"
+#include "terrane/base/profile.h"
+
+namespace {
+
+constexpr int kBadInput = 2;
+
+// One line, where the parser would print its help as well.
+int reportBadArguments(const CLI::ParseError& error) {
+    terrane::base::logError("{} (see terrane --help)", error.what());
+    return kBadInput;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    using namespace terrane;
+    base::setThreadName("main");
+    CLI::App app("Terrane: large voxel worlds. Without a command it plays.", "terrane");
+    app.set_version_flag("--version", TERRANE_VERSION);
+    app.require_subcommand(0, 1);
+    const std::vector<app::CommandEntry> commands = {app::addPlay(app),  app::addRender(app), app::addGenerate(app),
+                                                     app::addDump(app), app::addBlocks(app), app::addInfo(app)};
+    std::vector<const char*> arguments(argv, argv + argc);
+    const bool hasCommand = argc > 1 && argv[1][0] != '-';
+    const bool asksForHelp = argc > 1 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h" ||
+                                          std::string_view(argv[1]) == "--version");
+    if (!hasCommand && !asksForHelp) arguments.insert(arguments.begin() + 1, "play");
+    try {
+        app.parse(static_cast<int>(arguments.size()), arguments.data());
+    } catch (const CLI::Success& help) {
+        return app.exit(help);
+    } catch (const CLI::ParseError& error) {
+        return reportBadArguments(error);
+    }
+    for (const app::CommandEntry& command : commands) {
+        if (!command.parser->parsed()) continue;
+        const base::Result<void> result = command.run();
+        if (result) return 0;
+        base::logError("{}", result.error().message);
+        return kBadInput;
+    }
+    return kBadInput;
+}

@@ -1,0 +1,46 @@
+// Options that several commands share, and how their values are written.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+
+#include "terrane/base/result.h"
+#include "terrane/render/renderer.h"
+#include "terrane/world/coords.h"
+
+namespace terrane::app {
+
+struct WorldOptions {
+    std::uint64_t seed = 1;
+    std::string generator = "overworld";
+    unsigned threads = 0;  // 0: as many as the machine has
+};
+
+struct GraphicsOptions {
+    glm::ivec2 size{1280, 720};  // pixels
+    int viewDistance = 16;       // chunks
+    int samples = 4;             // a pixel
+    render::View view = render::View::Color;
+    std::string shaderRoot;
+    bool debugGl = false;
+};
+
+// Chunks x0 … x1 − 1, y0 … y1 − 1.
+struct Area {
+    std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    std::int64_t chunkCount() const { return (std::int64_t{x1} - x0) * (std::int64_t{y1} - y0); }
+};
+
+void addWorldOptions(CLI::App& command, WorldOptions& options);
+void addGraphicsOptions(CLI::App& command, GraphicsOptions& options);
+// "X0,Y0,X1,Y1", the end excluded; not empty and inside the world.
+void addAreaOption(CLI::App& command, std::optional<Area>& area);
+unsigned threadCount(const WorldOptions& options);
+
+// "1,2.5,-3": exactly `count` numbers. Throws CLI::ValidationError.
+std::vector<double> parseNumbers(const std::string& text, std::size_t count, const std::string& form);
+
+}  // namespace terrane::app

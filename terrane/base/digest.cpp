@@ -1,0 +1,35 @@
+#include "terrane/base/digest.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <cassert>
+#include <new>
+
+namespace terrane::base {
+
+Digest::Digest() : state_(XXH3_createState()) {
+    if (!state_) throw std::bad_alloc();
+    XXH3_128bits_reset(state_.get());
+}
+
+void Digest::update(std::span<const std::byte> bytes) {
+    assert(state_ && "a moved-from digest takes no bytes");
+    XXH3_128bits_update(state_.get(), bytes.data(), bytes.size());
+}
+
+void Digest::update(std::string_view text) {
+    update(std::as_bytes(std::span(text)));
+}
+
+std::string Digest::hex() const {
+    assert(state_ && "a moved-from digest has no result");
+    const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+void Digest::FreeState::operator()(XXH3_state_s* state) const {
+    XXH3_freeState(state);
+}
+
+}  // namespace terrane::base

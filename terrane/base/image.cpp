@@ -1,0 +1,95 @@
+#include "terrane/base/image.h"
+
+#include <png.h>
+
+#include <cassert>
+#include <cstddef>
+
+#include "terrane/base/files.h"
+
+namespace terrane::base {
+
+namespace {
+
+// png_image with its memory freed on every way out.
+struct PngImage : png_image {
+    PngImage() : png_image{} { version = PNG_IMAGE_VERSION; }
+    ~PngImage() { png_image_free(this); }
+    PngImage(const PngImage&) = delete;
+    PngImage& operator=(const PngImage&) = delete;
+};
+
+std::uint32_t bigEndian32(std::string_view bytes) {
+    assert(bytes.size() >= 4 && "four bytes make the number");
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<std::uint8_t>(bytes[i]);
+    return value;
+}
+
+// libpng stops reading after the last row, so it takes a file that lost its end for a whole one. A PNG is 8
+// bytes of signature, then chunks of length (4), type (4), data and checksum (4); the last is IEND.
+bool isComplete(std::string_view bytes) {
+    constexpr std::size_t kSignatureBytes = 8;
+    constexpr std::size_t kChunkFrameBytes = 12;
+    std::size_t offset = kSignatureBytes;
+    while (offset <= bytes.size() && bytes.size() - offset >= kChunkFrameBytes) {
+        const std::size_t chunkBytes = kChunkFrameBytes + bigEndian32(bytes.substr(offset, 4));
+        if (chunkBytes > bytes.size() - offset) return false;
+        if (bytes.substr(offset + 4, 4) == "IEND") return true;
+        offset += chunkBytes;
+    }
+    return false;
+}
+
+}  // namespace
+
+Result<Image> decodePng(std::string_view bytes, std::string_view name) {
+    PngImage png;
+    if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) {
+        return fail("{}: cannot be read as PNG: {}", name, png.message);
+    }
+    if (!isComplete(bytes)) return fail("{}: cannot be read as PNG: the file ends early", name);
+    if (std::int64_t{png.width} * png.height > kMaxImagePixels) {
+        return fail("{}: {} × {} pixels are more than the {} allowed", name, png.width, png.height,
+                    kMaxImagePixels);
+    }
+    png.format = PNG_FORMAT_RGBA;
+    Image image;
+    image.width = static_cast<int>(png.width);
+    image.height = static_cast<int>(png.height);
+    image.rgba.resize(PNG_IMAGE_SIZE(png));
+    if (png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr) == 0) {
+        return fail("{}: cannot be read as PNG: {}", name, png.message);
+    }
+    return image;
+}
+
+Result<std::string> encodePng(const Image& image) {
+    assert(image.width > 0 && image.height > 0 && "an image without pixels cannot be a PNG");
+    PngImage png;
+    png.width = static_cast<png_uint_32>(image.width);
+    png.height = static_cast<png_uint_32>(image.height);
+    png.format = PNG_FORMAT_RGBA;
+    assert(image.rgba.size() == std::size_t{png.width} * png.height * 4 && "four bytes for each pixel");
+    png_alloc_size_t sizeBytes = PNG_IMAGE_PNG_SIZE_MAX(png);
+    std::string bytes(sizeBytes, '\0');
+    if (png_image_write_to_memory(&png, bytes.data(), &sizeBytes, 0, image.rgba.data(), 0, nullptr) == 0) {
+        return fail("{} × {} pixels cannot be written as PNG: {}", image.width, image.height, png.message);
+    }
+    bytes.resize(sizeBytes);
+    return bytes;
+}
+
+Result<Image> readPng(const std::filesystem::path& path) {
+    const Result<std::string> bytes = readFile(path);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return decodePng(*bytes, path.string());
+}
+
+Result<void> writePng(const std::filesystem::path& path, const Image& image) {
+    const Result<std::string> bytes = encodePng(image);
+    if (!bytes) return fail("{}: {}", path.string(), bytes.error().message);
+    return writeFile(path, *bytes);
+}
+
+}  // namespace terrane::base

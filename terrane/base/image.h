@@ -1,0 +1,35 @@
+// Images in memory and as PNG: textures, screenshots, golden images. Any thread may call.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/base/result.h"
+
+namespace terrane::base {
+
+// Four bytes for each pixel: red, green, blue (sRGB), alpha (not premultiplied). Row 0 is the top one.
+struct Image {
+    int width = 0;   // pixels
+    int height = 0;  // pixels
+    std::vector<std::uint8_t> rgba;
+};
+
+// Larger PNG files are refused, so that a few bad bytes cannot ask for all memory: 2^26 pixels × 4 bytes =
+// 256 MiB.
+constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 26;
+
+// Any kind of PNG, turned into RGBA8. `name` stands in errors for where the bytes come from.
+[[nodiscard]] Result<Image> decodePng(std::string_view bytes, std::string_view name);
+
+// The image must have at least one pixel and exactly the bytes its size asks for. The compressed bytes depend
+// on the version of zlib: compare decoded images.
+[[nodiscard]] Result<std::string> encodePng(const Image& image);
+
+[[nodiscard]] Result<Image> readPng(const std::filesystem::path& path);
+[[nodiscard]] Result<void> writePng(const std::filesystem::path& path, const Image& image);
+
+}  // namespace terrane::base

@@ -1,0 +1,69 @@
+#include "terrane/gpu/buffer.h"
+
+#include <cassert>
+
+namespace terrane::gpu {
+namespace {
+
+Handle<ObjectKind::Buffer> createBuffer(std::string_view label) {
+    GLuint id = 0;
+    glCreateBuffers(1, &id);
+    Handle<ObjectKind::Buffer> handle(id);
+    handle.label(label);
+    return handle;
+}
+
+}  // namespace
+
+Buffer::Buffer(std::size_t sizeBytes, GLbitfield flags, std::string_view label)
+    : handle_(createBuffer(label)), sizeBytes_(sizeBytes) {
+    assert(sizeBytes > 0 && "OpenGL has no buffers of size zero");
+    glNamedBufferStorage(id(), static_cast<GLsizeiptr>(sizeBytes), nullptr, flags);
+}
+
+Buffer::Buffer(std::span<const std::byte> data, GLbitfield flags, std::string_view label)
+    : handle_(createBuffer(label)), sizeBytes_(data.size()) {
+    assert(!data.empty() && "OpenGL has no buffers of size zero");
+    glNamedBufferStorage(id(), static_cast<GLsizeiptr>(data.size()), data.data(), flags);
+}
+
+void Buffer::upload(std::size_t offsetBytes, std::span<const std::byte> data) {
+    assert(id() != 0 && "an empty buffer takes no data");
+    assert(offsetBytes <= sizeBytes_ && data.size() <= sizeBytes_ - offsetBytes && "upload past the end");
+    if (data.empty()) return;
+    glNamedBufferSubData(id(), static_cast<GLintptr>(offsetBytes), static_cast<GLsizeiptr>(data.size()),
+                         data.data());
+}
+
+void Buffer::download(std::size_t offsetBytes, std::span<std::byte> out) const {
+    assert(id() != 0 && "an empty buffer holds no data");
+    assert(offsetBytes <= sizeBytes_ && out.size() <= sizeBytes_ - offsetBytes && "download past the end");
+    if (out.empty()) return;
+    glGetNamedBufferSubData(id(), static_cast<GLintptr>(offsetBytes), static_cast<GLsizeiptr>(out.size()),
+                            out.data());
+}
+
+void Buffer::bindStorage(GLuint index) const {
+    bindRange(GL_SHADER_STORAGE_BUFFER, index, 0, sizeBytes_);
+}
+
+void Buffer::bindStorage(GLuint index, std::size_t offsetBytes, std::size_t sizeBytes) const {
+    bindRange(GL_SHADER_STORAGE_BUFFER, index, offsetBytes, sizeBytes);
+}
+
+void Buffer::bindUniform(GLuint index) const {
+    bindRange(GL_UNIFORM_BUFFER, index, 0, sizeBytes_);
+}
+
+void Buffer::bindUniform(GLuint index, std::size_t offsetBytes, std::size_t sizeBytes) const {
+    bindRange(GL_UNIFORM_BUFFER, index, offsetBytes, sizeBytes);
+}
+
+void Buffer::bindRange(GLenum target, GLuint index, std::size_t offsetBytes, std::size_t sizeBytes) const {
+    assert(id() != 0 && "an empty buffer cannot be bound");
+    assert(offsetBytes <= sizeBytes_ && sizeBytes <= sizeBytes_ - offsetBytes && "range past the end");
+    glBindBufferRange(target, index, id(), static_cast<GLintptr>(offsetBytes),
+                      static_cast<GLsizeiptr>(sizeBytes));
+}
+
+}  // namespace terrane::gpu

@@ -1,0 +1,47 @@
+// A GL buffer of fixed size and its uploads. Used on the thread of its context.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "terrane/gpu/handle.h"
+
+namespace terrane::gpu {
+
+class Buffer {
+  public:
+    Buffer() = default;
+    // The content is undefined until written. Flags of glNamedBufferStorage: GL_DYNAMIC_STORAGE_BIT for
+    // upload().
+    Buffer(std::size_t sizeBytes, GLbitfield flags, std::string_view label);
+    // Holds a copy of data, which is not empty.
+    Buffer(std::span<const std::byte> data, GLbitfield flags, std::string_view label);
+
+    [[nodiscard]] GLuint id() const { return handle_.id(); }
+    [[nodiscard]] std::size_t sizeBytes() const { return sizeBytes_; }
+
+    // Needs GL_DYNAMIC_STORAGE_BIT.
+    void upload(std::size_t offsetBytes, std::span<const std::byte> data);
+    template <class T>
+    void uploadVector(std::size_t offsetBytes, const std::vector<T>& values) {
+        upload(offsetBytes, std::as_bytes(std::span(values)));
+    }
+
+    // Waits for the GPU: for tests and read-back outside the frame.
+    void download(std::size_t offsetBytes, std::span<std::byte> out) const;
+
+    void bindStorage(GLuint index) const;
+    void bindStorage(GLuint index, std::size_t offsetBytes, std::size_t sizeBytes) const;
+    void bindUniform(GLuint index) const;
+    void bindUniform(GLuint index, std::size_t offsetBytes, std::size_t sizeBytes) const;
+
+  private:
+    void bindRange(GLenum target, GLuint index, std::size_t offsetBytes, std::size_t sizeBytes) const;
+
+    Handle<ObjectKind::Buffer> handle_;
+    std::size_t sizeBytes_ = 0;
+};
+
+}  // namespace terrane::gpu

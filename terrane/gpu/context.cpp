@@ -1,0 +1,120 @@
+#include "terrane/gpu/context.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include <cassert>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "terrane/gpu/device_info.h"
+
+namespace terrane::gpu {
+namespace {
+
+bool clientExtension(std::string_view name) {
+    const char* all = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    return all != nullptr && std::string_view(all).find(name) != std::string_view::npos;
+}
+
+EGLDisplay surfacelessDisplay() {
+    if (!clientExtension("EGL_EXT_platform_base") || !clientExtension("EGL_MESA_platform_surfaceless"))
+        return EGL_NO_DISPLAY;
+    return eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
+}
+
+bool isSoftwareDevice(EGLDeviceEXT device) {
+    const char* all = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
+    return all != nullptr && std::string_view(all).find("EGL_MESA_device_software") != std::string_view::npos;
+}
+
+std::vector<EGLDeviceEXT> listDevices(bool withSoftware) {
+    if (!clientExtension("EGL_EXT_platform_device")) return {};
+    EGLint count = 0;
+    if (eglQueryDevicesEXT(0, nullptr, &count) == EGL_FALSE) return {};
+    std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
+    if (eglQueryDevicesEXT(count, devices.data(), &count) == EGL_FALSE) return {};
+    devices.resize(static_cast<std::size_t>(count));
+    if (!withSoftware) std::erase_if(devices, isSoftwareDevice);
+    return devices;
+}
+
+}  // namespace
+
+base::Result<HeadlessContext> HeadlessContext::createOn(void* display, const ContextOptions& options) {
+    // Displays are never terminated: EGL hands every caller the same one, so that would end other contexts
+    // too.
+    if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE)
+        return base::fail("EGL finds no display to draw without a window");
+    if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) return base::fail("EGL offers no desktop OpenGL");
+    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                 4,
+                                 EGL_CONTEXT_MINOR_VERSION,
+                                 5,
+                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                 EGL_CONTEXT_OPENGL_DEBUG,
+                                 options.debug ? EGL_TRUE : EGL_FALSE,
+                                 EGL_NONE};
+    HeadlessContext result;
+    result.display_ = display;
+    result.context_ = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+    if (result.context_ == EGL_NO_CONTEXT)
+        return base::fail("OpenGL 4.5 core is needed; EGL refuses it (error {:#x})", eglGetError());
+    if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, result.context_) == EGL_FALSE)
+        return base::fail("EGL cannot draw without a surface (error {:#x})", eglGetError());
+    if (base::Result<void> fit = checkRequirements(); !fit) return tl::unexpected(fit.error());
+    if (options.debug) result.debugLog_ = enableDebugOutput(options.debugFatal);
+    return result;
+}
+
+base::Result<HeadlessContext> HeadlessContext::create(const ContextOptions& options) {
+    if (!epoxy_has_egl()) return base::fail("drawing without a window needs libEGL, which is not installed");
+    base::Result<HeadlessContext> surfaceless = createOn(surfacelessDisplay(), options);
+    if (surfaceless && !queryDevice().software) return surfaceless;
+
+    // The surfaceless platform belongs to Mesa. Cards of other drivers are found as devices only.
+    for (EGLDeviceEXT device : listDevices(!surfaceless)) {
+        void* display = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
+        base::Result<HeadlessContext> onDevice = createOn(display, options);
+        if (onDevice) return onDevice;
+    }
+    if (surfaceless) surfaceless->makeCurrent();
+    return surfaceless;
+}
+
+HeadlessContext::HeadlessContext(HeadlessContext&& other) noexcept
+    : display_(std::exchange(other.display_, nullptr)),
+      context_(std::exchange(other.context_, nullptr)),
+      debugLog_(std::move(other.debugLog_)) {}
+
+HeadlessContext& HeadlessContext::operator=(HeadlessContext&& other) noexcept {
+    if (this == &other) return *this;
+    release();
+    display_ = std::exchange(other.display_, nullptr);
+    context_ = std::exchange(other.context_, nullptr);
+    debugLog_ = std::move(other.debugLog_);
+    return *this;
+}
+
+HeadlessContext::~HeadlessContext() {
+    release();
+}
+
+void HeadlessContext::makeCurrent() const {
+    assert(context_ != nullptr && "an empty context cannot be current");
+    [[maybe_unused]] const EGLBoolean done =
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+    assert(done == EGL_TRUE && "a context that was current before can be current again on its thread");
+}
+
+void HeadlessContext::release() {
+    if (context_ == nullptr) return;
+    if (eglGetCurrentContext() == context_)
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroyContext(display_, context_);
+    context_ = nullptr;
+}
+
+}  // namespace terrane::gpu

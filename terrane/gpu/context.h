@@ -1,0 +1,46 @@
+// An OpenGL 4.5 core context without a window or a display server, through EGL: for tests, `terrane render`
+// and servers. The context is current on the thread that made it and is used on that thread only.
+#pragma once
+
+#include <memory>
+
+#include "terrane/base/result.h"
+#include "terrane/gpu/debug.h"
+
+namespace terrane::gpu {
+
+struct ContextOptions {
+    bool debug = false;       // a debug context whose messages are logged and whose errors are counted
+    bool debugFatal = false;  // stop at the first error, inside the call at fault
+};
+
+class HeadlessContext {
+  public:
+    // Takes a graphics card where the system has one, else the software renderer.
+    [[nodiscard]] static base::Result<HeadlessContext> create(const ContextOptions& options);
+
+    HeadlessContext() = default;
+    HeadlessContext(HeadlessContext&& other) noexcept;
+    HeadlessContext& operator=(HeadlessContext&& other) noexcept;
+    HeadlessContext(const HeadlessContext&) = delete;
+    HeadlessContext& operator=(const HeadlessContext&) = delete;
+    ~HeadlessContext();
+
+    void makeCurrent() const;
+    [[nodiscard]] bool valid() const { return context_ != nullptr; }
+
+    // Null without the debug option.
+    [[nodiscard]] DebugLog* debugLog() const { return debugLog_.get(); }
+    // Errors counted since the start or the last DebugLog::clear(); 0 without the debug option.
+    [[nodiscard]] int debugErrorCount() const { return debugLog_ ? debugLog_->errorCount() : 0; }
+
+  private:
+    static base::Result<HeadlessContext> createOn(void* display, const ContextOptions& options);
+    void release();
+
+    void* display_ = nullptr;  // EGLDisplay
+    void* context_ = nullptr;  // EGLContext
+    std::unique_ptr<DebugLog> debugLog_;
+};
+
+}  // namespace terrane::gpu

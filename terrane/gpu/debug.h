@@ -1,0 +1,41 @@
+// The driver's debug messages: logged, and its errors counted. A context made with the debug option owns the
+// log; tests fail when it counted an error. The driver may write to the log from a thread of its own in
+// contexts without the debug option, so the count is atomic.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string_view>
+
+namespace terrane::gpu {
+
+class DebugLog {
+  public:
+    explicit DebugLog(bool fatal) : fatal_(fatal) {}
+
+    [[nodiscard]] int errorCount() const { return errors_.load(std::memory_order_relaxed); }
+    void clear() { errors_.store(0, std::memory_order_relaxed); }
+
+    // An error of the driver; aborts the program after logging when the log is fatal.
+    void addError(std::string_view message);
+
+  private:
+    std::atomic<int> errors_{0};
+    bool fatal_ = false;
+};
+
+// Sends the current context's messages to the log returned, which must outlive the context. Counted are
+// errors, undefined behaviour and messages of high severity; other messages are only logged, notifications
+// dropped. Messages of the shader compiler are left to Program, which returns them.
+[[nodiscard]] std::unique_ptr<DebugLog> enableDebugOutput(bool fatal);
+
+// Names the GL calls made during its life in debuggers and driver messages.
+class DebugGroup {
+  public:
+    explicit DebugGroup(std::string_view name);
+    ~DebugGroup();
+    DebugGroup(const DebugGroup&) = delete;
+    DebugGroup& operator=(const DebugGroup&) = delete;
+};
+
+}  // namespace terrane::gpu

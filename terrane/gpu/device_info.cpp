@@ -1,0 +1,72 @@
+#include "terrane/gpu/device_info.h"
+
+#include <epoxy/gl.h>
+
+#include <string_view>
+
+namespace terrane::gpu {
+namespace {
+
+std::string glText(GLenum name) {
+    const GLubyte* text = glGetString(name);
+    return text == nullptr ? std::string() : std::string(reinterpret_cast<const char*>(text));
+}
+
+int glInt(GLenum name) {
+    GLint value = 0;
+    glGetIntegerv(name, &value);
+    return value;
+}
+
+bool isSoftware(std::string_view renderer) {
+    for (std::string_view name : {"llvmpipe", "softpipe", "SwiftShader"})
+        if (renderer.find(name) != std::string_view::npos) return true;
+    return false;
+}
+
+float anisotropyLimit() {
+    if (epoxy_gl_version() < 46 && !epoxy_has_gl_extension("GL_ARB_texture_filter_anisotropic") &&
+        !epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
+        return 1.0F;
+    GLfloat value = 1.0F;
+    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY, &value);
+    return value;
+}
+
+}  // namespace
+
+DeviceInfo queryDevice() {
+    DeviceInfo info;
+    info.vendor = glText(GL_VENDOR);
+    info.renderer = glText(GL_RENDERER);
+    info.version = glText(GL_VERSION);
+    info.glsl = glText(GL_SHADING_LANGUAGE_VERSION);
+    info.software = isSoftware(info.renderer);
+    info.indirectCount = epoxy_gl_version() >= 46 || epoxy_has_gl_extension("GL_ARB_indirect_parameters");
+    info.maxSamples = glInt(GL_MAX_SAMPLES);
+    info.maxTextureSize = glInt(GL_MAX_TEXTURE_SIZE);
+    info.maxTexture3dSize = glInt(GL_MAX_3D_TEXTURE_SIZE);
+    info.maxArrayLayers = glInt(GL_MAX_ARRAY_TEXTURE_LAYERS);
+    info.maxComputeInvocations = glInt(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS);
+    info.uniformAlignmentBytes = glInt(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
+    info.storageAlignmentBytes = glInt(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
+    info.maxAnisotropy = anisotropyLimit();
+    GLint64 blockBytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &blockBytes);
+    info.maxStorageBlockBytes = blockBytes;
+    return info;
+}
+
+base::Result<void> checkRequirements() {
+    constexpr int kLeastVersion = 45;
+    const int version = epoxy_gl_version();
+    if (version < kLeastVersion)
+        return base::fail("OpenGL 4.5 is needed; {} offers {}.{}", glText(GL_RENDERER), version / 10,
+                          version % 10);
+    if (version < 46 && !epoxy_has_gl_extension("GL_ARB_shader_draw_parameters"))
+        return base::fail("GL_ARB_shader_draw_parameters is needed; {} (OpenGL {}) lacks it",
+                          glText(GL_RENDERER), glText(GL_VERSION));
+    return {};
+}
+
+}  // namespace terrane::gpu

@@ -1,0 +1,34 @@
+// What the driver of the current context is and can do. Asked once after a context is made, on its thread.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "terrane/base/result.h"
+
+namespace terrane::gpu {
+
+struct DeviceInfo {
+    std::string vendor;
+    std::string renderer;
+    std::string version;
+    std::string glsl;
+    bool software = false;       // drawn by the processor: the CPU back ends are faster then
+    bool indirectCount = false;  // glMultiDraw*IndirectCount: draw counts written by the GPU
+    int maxSamples = 0;
+    int maxTextureSize = 0;
+    int maxTexture3dSize = 0;
+    int maxArrayLayers = 0;
+    int maxComputeInvocations = 0;  // in one work group
+    int uniformAlignmentBytes = 0;
+    int storageAlignmentBytes = 0;
+    float maxAnisotropy = 1.0F;  // 1: not offered
+    std::int64_t maxStorageBlockBytes = 0;
+};
+
+[[nodiscard]] DeviceInfo queryDevice();
+
+// One line naming the first thing the current context lacks.
+[[nodiscard]] base::Result<void> checkRequirements();
+
+}  // namespace terrane::gpu

@@ -1,0 +1,75 @@
+// Textures that are drawn into together. The textures must outlive the framebuffer. Used on the thread of its
+// context.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <string_view>
+#include <vector>
+
+#include "terrane/base/image.h"
+#include "terrane/base/result.h"
+#include "terrane/gpu/handle.h"
+#include "terrane/gpu/texture.h"
+
+namespace terrane::gpu {
+
+// One level of one texture, for a short while: refers to the texture by its GL name.
+struct Attachment {
+    Attachment() = default;
+    Attachment(const Texture2D& texture, int atLevel = 0);
+    Attachment(const Texture2DArray& texture, int atLayer, int atLevel = 0);
+    Attachment(const Texture2DMultisample& texture);
+
+    GLuint texture = 0;
+    GLenum format = GL_NONE;
+    glm::ivec2 size = {0, 0};
+    int level = 0;
+    int layer = -1;  // -1: not of an array
+    int samples = 0;
+};
+
+struct FramebufferOptions {
+    std::vector<Attachment> colors;
+    Attachment depth;  // empty for none; may hold a stencil
+};
+
+class Framebuffer {
+  public:
+    // Fails when the driver cannot draw into this combination.
+    [[nodiscard]] static base::Result<Framebuffer> create(const FramebufferOptions& options,
+                                                          std::string_view label);
+    Framebuffer() = default;
+
+    // Draws go here, over the whole size.
+    void bind() const;
+    void clearColor(int index, glm::vec4 color) const;
+    void clearDepth(float depth) const;
+
+    [[nodiscard]] GLuint id() const { return handle_.id(); }
+    [[nodiscard]] glm::ivec2 size() const { return size_; }
+    [[nodiscard]] int colorCount() const { return colorCount_; }
+    [[nodiscard]] bool hasDepth() const { return hasDepth_; }
+    [[nodiscard]] int samples() const { return samples_; }
+
+  private:
+    Handle<ObjectKind::Framebuffer> handle_;
+    glm::ivec2 size_ = {0, 0};
+    int colorCount_ = 0;
+    bool hasDepth_ = false;
+    int samples_ = 0;  // 0: not multisampled
+};
+
+// Averages the samples of every colour, attachment by attachment, and takes one sample of the depth where
+// both have one. Without samples it copies. Both have the same size.
+void resolve(const Framebuffer& from, const Framebuffer& to);
+
+// Scales one colour attachment to all of the colours of `to`.
+void blitColor(const Framebuffer& from, int colorIndex, const Framebuffer& to, GLenum filter);
+// The same into the window.
+void blitToWindow(const Framebuffer& from, int colorIndex, glm::ivec2 windowSize, GLenum filter);
+
+// The colours as 8 bits a channel, the top row first. Waits for the GPU. Not from multisampled framebuffers.
+[[nodiscard]] base::Image readPixels(const Framebuffer& from, int colorIndex = 0);
+
+}  // namespace terrane::gpu

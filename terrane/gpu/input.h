@@ -1,0 +1,33 @@
+// Keys, mouse buttons and events as the window reports them, free of the window library's types. Read by the
+// program's frame loop.
+#pragma once
+
+#include <cstdint>
+
+namespace terrane::gpu {
+
+// clang-format off
+// Letters by their place on a US keyboard, so that WASD stays a square on every layout.
+enum class Key : std::uint8_t {
+    A, B, C, D, E, F, G, H, I, J, K, L, M, N, O, P, Q, R, S, T, U, V, W, X, Y, Z,
+    Digit0, Digit1, Digit2, Digit3, Digit4, Digit5, Digit6, Digit7, Digit8, Digit9,
+    F1, F2, F3, F4, F5, F6, F7, F8, F9, F10, F11, F12,
+    Escape, Space,
+    Shift, Control,  // either side
+    Left, Right, Up, Down,
+};
+// clang-format on
+
+enum class MouseButton : std::uint8_t { Left, Right, Middle };
+
+struct InputEvent {
+    enum class Type : std::uint8_t { KeyPress, KeyRelease, ButtonPress, ButtonRelease, Wheel, CursorMove };
+
+    Type type = Type::KeyPress;
+    Key key = Key::A;                        // of the key events
+    MouseButton button = MouseButton::Left;  // of the button events
+    double x = 0.0;  // Wheel: steps; CursorMove: screen units since the last event, right
+    double y = 0.0;  // the same, wheel away from the person, cursor down
+};
+
+}  // namespace terrane::gpu

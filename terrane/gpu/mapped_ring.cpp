@@ -1,0 +1,69 @@
+#include "terrane/gpu/mapped_ring.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace terrane::gpu {
+namespace {
+
+constexpr GLbitfield kMapFlags = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+
+// Both limits are powers of two, so their maximum satisfies both.
+std::size_t bindingAlignment() {
+    GLint uniform = 1;
+    GLint storage = 1;
+    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &uniform);
+    glGetIntegerv(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT, &storage);
+    return static_cast<std::size_t>(std::max(uniform, storage));
+}
+
+std::size_t roundUp(std::size_t value, std::size_t step) {
+    return (value + step - 1) / step * step;
+}
+
+}  // namespace
+
+MappedRing::MappedRing(std::size_t regionBytes, std::string_view label)
+    : alignmentBytes_(bindingAlignment()) {
+    assert(regionBytes > 0 && "a ring without room is of no use");
+    regionBytes_ = roundUp(regionBytes, alignmentBytes_);
+    const std::size_t allBytes = regionBytes_ * kRegions;
+    buffer_ = Buffer(allBytes, kMapFlags, label);
+    mapped_ = static_cast<std::byte*>(
+        glMapNamedBufferRange(buffer_.id(), 0, static_cast<GLsizeiptr>(allBytes), kMapFlags));
+    assert(mapped_ != nullptr && "a buffer with persistent storage can be mapped");
+}
+
+void MappedRing::beginFrame() {
+    assert(id() != 0 && "an empty ring has no frames");
+    assert(!inFrame_ && "endFrame ends every frame");
+    region_ = (region_ + 1) % kRegions;
+    fences_[region_].wait();
+    fences_[region_] = Fence();
+    usedBytes_ = 0;
+    inFrame_ = true;
+}
+
+void MappedRing::endFrame() {
+    assert(inFrame_ && "beginFrame starts every frame");
+    fences_[region_] = Fence::insert();
+    inFrame_ = false;
+}
+
+std::optional<MappedRing::Slice> MappedRing::allocate(std::size_t sizeBytes) {
+    assert(inFrame_ && "slices live between beginFrame and endFrame");
+    if (mapped_ == nullptr || sizeBytes > regionBytes_ - usedBytes_) return std::nullopt;
+    const std::size_t offset = region_ * regionBytes_ + usedBytes_;
+    usedBytes_ = std::min(roundUp(usedBytes_ + sizeBytes, alignmentBytes_), regionBytes_);
+    return Slice{{mapped_ + offset, sizeBytes}, offset};
+}
+
+void MappedRing::bindStorage(GLuint index, const Slice& slice) const {
+    buffer_.bindStorage(index, slice.offsetBytes, slice.data.size());
+}
+
+void MappedRing::bindUniform(GLuint index, const Slice& slice) const {
+    buffer_.bindUniform(index, slice.offsetBytes, slice.data.size());
+}
+
+}  // namespace terrane::gpu

@@ -1,0 +1,143 @@
+#include "terrane/gpu/texture.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+namespace terrane::gpu {
+namespace {
+
+Handle<ObjectKind::Texture> createTexture(GLenum target, std::string_view label) {
+    GLuint id = 0;
+    glCreateTextures(target, 1, &id);
+    Handle<ObjectKind::Texture> handle(id);
+    handle.label(label);
+    return handle;
+}
+
+[[maybe_unused]] std::size_t channels(GLenum format) {
+    switch (format) {
+        case GL_RED:
+        case GL_RED_INTEGER:
+        case GL_DEPTH_COMPONENT:
+            return 1;
+        case GL_RG:
+        case GL_RG_INTEGER:
+            return 2;
+        case GL_RGB:
+        case GL_RGB_INTEGER:
+            return 3;
+        case GL_RGBA:
+        case GL_RGBA_INTEGER:
+            return 4;
+        default:
+            return 0;
+    }
+}
+
+[[maybe_unused]] std::size_t channelBytes(GLenum type) {
+    switch (type) {
+        case GL_BYTE:
+        case GL_UNSIGNED_BYTE:
+            return 1;
+        case GL_SHORT:
+        case GL_UNSIGNED_SHORT:
+        case GL_HALF_FLOAT:
+            return 2;
+        case GL_INT:
+        case GL_UNSIGNED_INT:
+        case GL_FLOAT:
+            return 4;
+        default:
+            return 0;
+    }
+}
+
+// Zero for formats that the tables above do not know, such as packed ones.
+[[maybe_unused]] std::size_t imageBytes(glm::ivec2 size, GLenum format, GLenum type) {
+    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * channels(format) *
+           channelBytes(type);
+}
+
+// OpenGL would read past the end of shorter data.
+void checkData([[maybe_unused]] std::span<const std::byte> data, [[maybe_unused]] std::size_t expectedBytes) {
+    assert(expectedBytes != 0 && "uploads are in a format with one number per channel");
+    assert(data.size() == expectedBytes && "an upload covers the whole level");
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+}
+
+}  // namespace
+
+int fullLevels(glm::ivec2 size) {
+    assert(size.x > 0 && size.y > 0 && "a texture has a size");
+    return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(size.x, size.y))));
+}
+
+glm::ivec2 levelSize(glm::ivec2 size, int level) {
+    return {std::max(size.x >> level, 1), std::max(size.y >> level, 1)};
+}
+
+Texture2D::Texture2D(glm::ivec2 size, GLenum format, int levels, std::string_view label)
+    : handle_(createTexture(GL_TEXTURE_2D, label)), size_(size), format_(format), levels_(levels) {
+    assert(levels >= 1 && levels <= fullLevels(size) && "levels end at 1 x 1");
+    glTextureStorage2D(id(), levels, format, size.x, size.y);
+}
+
+void Texture2D::upload(int level, GLenum format, GLenum type, std::span<const std::byte> data) {
+    assert(level >= 0 && level < levels_ && "the level exists");
+    const glm::ivec2 size = levelSize(size_, level);
+    checkData(data, imageBytes(size, format, type));
+    glTextureSubImage2D(id(), level, 0, 0, size.x, size.y, format, type, data.data());
+}
+
+void Texture2D::generateMipmaps() {
+    glGenerateTextureMipmap(id());
+}
+
+void Texture2D::bind(GLuint unit) const {
+    assert(id() != 0 && "an empty texture cannot be bound");
+    glBindTextureUnit(unit, id());
+}
+
+Texture2DArray::Texture2DArray(const Shape& shape, GLenum format, std::string_view label)
+    : handle_(createTexture(GL_TEXTURE_2D_ARRAY, label)), shape_(shape), format_(format) {
+    assert(shape.layers >= 1 && "an array has layers");
+    assert(shape.levels >= 1 && shape.levels <= fullLevels(shape.size) && "levels end at 1 x 1");
+    glTextureStorage3D(id(), shape.levels, format, shape.size.x, shape.size.y, shape.layers);
+}
+
+void Texture2DArray::upload(int level, int layer, GLenum format, GLenum type,
+                            std::span<const std::byte> data) {
+    assert(level >= 0 && level < shape_.levels && "the level exists");
+    assert(layer >= 0 && layer < shape_.layers && "the layer exists");
+    const glm::ivec2 size = levelSize(shape_.size, level);
+    checkData(data, imageBytes(size, format, type));
+    glTextureSubImage3D(id(), level, 0, 0, layer, size.x, size.y, 1, format, type, data.data());
+}
+
+void Texture2DArray::generateMipmaps() {
+    glGenerateTextureMipmap(id());
+}
+
+void Texture2DArray::bind(GLuint unit) const {
+    assert(id() != 0 && "an empty texture cannot be bound");
+    glBindTextureUnit(unit, id());
+}
+
+Texture2DMultisample::Texture2DMultisample(glm::ivec2 size, GLenum format, int samples,
+                                           std::string_view label)
+    : handle_(createTexture(GL_TEXTURE_2D_MULTISAMPLE, label)),
+      size_(size),
+      format_(format),
+      samples_(samples) {
+    assert(size.x > 0 && size.y > 0 && "a texture has a size");
+    assert(samples >= 1 && "a texture has samples");
+    glTextureStorage2DMultisample(id(), samples, format, size.x, size.y, GL_TRUE);
+}
+
+void Texture2DMultisample::bind(GLuint unit) const {
+    assert(id() != 0 && "an empty texture cannot be bound");
+    glBindTextureUnit(unit, id());
+}
+
+}  // namespace terrane::gpu

@@ -1,0 +1,87 @@
+// Textures of fixed size and format. Used on the thread of their context. Formats and types are OpenGL's:
+// `format` of the constructors is a sized internal format (GL_RGBA8), `format` and `type` of uploads describe
+// the bytes given (GL_RGBA, GL_UNSIGNED_BYTE), rows without padding, the first row at v = 0.
+#pragma once
+
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <span>
+#include <string_view>
+
+#include "terrane/gpu/handle.h"
+
+namespace terrane::gpu {
+
+// Levels down to 1 × 1.
+[[nodiscard]] int fullLevels(glm::ivec2 size);
+[[nodiscard]] glm::ivec2 levelSize(glm::ivec2 size, int level);
+
+class Texture2D {
+  public:
+    Texture2D() = default;
+    Texture2D(glm::ivec2 size, GLenum format, int levels, std::string_view label);
+
+    // The whole of one level.
+    void upload(int level, GLenum format, GLenum type, std::span<const std::byte> data);
+    void generateMipmaps();
+    void bind(GLuint unit) const;
+
+    [[nodiscard]] GLuint id() const { return handle_.id(); }
+    [[nodiscard]] glm::ivec2 size() const { return size_; }
+    [[nodiscard]] GLenum format() const { return format_; }
+    [[nodiscard]] int levels() const { return levels_; }
+
+  private:
+    Handle<ObjectKind::Texture> handle_;
+    glm::ivec2 size_ = {0, 0};
+    GLenum format_ = GL_NONE;
+    int levels_ = 0;
+};
+
+class Texture2DArray {
+  public:
+    struct Shape {
+        glm::ivec2 size = {0, 0};
+        int layers = 1;
+        int levels = 1;
+    };
+
+    Texture2DArray() = default;
+    Texture2DArray(const Shape& shape, GLenum format, std::string_view label);
+
+    // The whole of one level of one layer.
+    void upload(int level, int layer, GLenum format, GLenum type, std::span<const std::byte> data);
+    void generateMipmaps();
+    void bind(GLuint unit) const;
+
+    [[nodiscard]] GLuint id() const { return handle_.id(); }
+    [[nodiscard]] const Shape& shape() const { return shape_; }
+    [[nodiscard]] GLenum format() const { return format_; }
+
+  private:
+    Handle<ObjectKind::Texture> handle_;
+    Shape shape_;
+    GLenum format_ = GL_NONE;
+};
+
+// A render target with several samples per pixel, at the same places in every pixel.
+class Texture2DMultisample {
+  public:
+    Texture2DMultisample() = default;
+    Texture2DMultisample(glm::ivec2 size, GLenum format, int samples, std::string_view label);
+
+    void bind(GLuint unit) const;
+
+    [[nodiscard]] GLuint id() const { return handle_.id(); }
+    [[nodiscard]] glm::ivec2 size() const { return size_; }
+    [[nodiscard]] GLenum format() const { return format_; }
+    [[nodiscard]] int samples() const { return samples_; }
+
+  private:
+    Handle<ObjectKind::Texture> handle_;
+    glm::ivec2 size_ = {0, 0};
+    GLenum format_ = GL_NONE;
+    int samples_ = 0;
+};
+
+}  // namespace terrane::gpu

@@ -1,0 +1,226 @@
+#include "terrane/gpu/window.h"
+
+#include <epoxy/gl.h>
+// epoxy declares OpenGL, so GLFW must not.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <cassert>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "terrane/gpu/device_info.h"
+
+namespace terrane::gpu {
+
+namespace {
+
+struct KeyCode {
+    Key key;
+    int code;
+};
+
+constexpr KeyCode kOtherKeys[] = {
+    {Key::Escape, GLFW_KEY_ESCAPE},
+    {Key::Space, GLFW_KEY_SPACE},
+    {Key::Shift, GLFW_KEY_LEFT_SHIFT},
+    {Key::Shift, GLFW_KEY_RIGHT_SHIFT},
+    {Key::Control, GLFW_KEY_LEFT_CONTROL},
+    {Key::Control, GLFW_KEY_RIGHT_CONTROL},
+    {Key::Left, GLFW_KEY_LEFT},
+    {Key::Right, GLFW_KEY_RIGHT},
+    {Key::Up, GLFW_KEY_UP},
+    {Key::Down, GLFW_KEY_DOWN},
+};
+
+struct KeyRun {
+    Key first;
+    Key last;
+    int firstCode;
+};
+
+constexpr KeyRun kKeyRuns[] = {
+    {Key::A, Key::Z, GLFW_KEY_A}, {Key::Digit0, Key::Digit9, GLFW_KEY_0}, {Key::F1, Key::F12, GLFW_KEY_F1}};
+
+std::optional<Key> keyOfCode(int code) {
+    for (const KeyRun& run : kKeyRuns) {
+        const int index = code - run.firstCode;
+        const int count = static_cast<int>(run.last) - static_cast<int>(run.first) + 1;
+        if (index >= 0 && index < count) return static_cast<Key>(static_cast<int>(run.first) + index);
+    }
+    for (const KeyCode& entry : kOtherKeys)
+        if (entry.code == code) return entry.key;
+    return std::nullopt;
+}
+
+std::string lastError() {
+    const char* description = nullptr;
+    if (glfwGetError(&description) == GLFW_NO_ERROR || description == nullptr) return "unknown reason";
+    return description;
+}
+
+GLFWwindow* openWindow(const WindowOptions& options) {
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);  // everything is drawn into framebuffers of our own
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    GLFWmonitor* monitor = options.fullScreen ? glfwGetPrimaryMonitor() : nullptr;
+    const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+    if (mode == nullptr)
+        return glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
+    glfwWindowHint(GLFW_REFRESH_RATE, mode->refreshRate);
+    return glfwCreateWindow(mode->width, mode->height, options.title.c_str(), monitor, nullptr);
+}
+
+}  // namespace
+
+struct Window::State {
+    GLFWwindow* window = nullptr;
+    std::vector<InputEvent> events;
+    glm::dvec2 cursor = {0.0, 0.0};
+    bool cursorKnown = false;  // false: the next position starts a new motion
+    std::unique_ptr<DebugLog> debugLog;
+
+    State() = default;
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State() {
+        if (window != nullptr) glfwDestroyWindow(window);
+        glfwTerminate();
+    }
+
+    void installCallbacks();
+
+    static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
+    static void onKey(GLFWwindow* window, int code, int scanCode, int action, int modifiers);
+    static void onButton(GLFWwindow* window, int button, int action, int modifiers);
+    static void onWheel(GLFWwindow* window, double x, double y);
+    static void onCursor(GLFWwindow* window, double x, double y);
+};
+
+void Window::State::installCallbacks() {
+    glfwSetWindowUserPointer(window, this);
+    glfwSetKeyCallback(window, onKey);
+    glfwSetMouseButtonCallback(window, onButton);
+    glfwSetScrollCallback(window, onWheel);
+    glfwSetCursorPosCallback(window, onCursor);
+}
+
+void Window::State::onKey(GLFWwindow* window, int code, int, int action, int) {
+    const std::optional<Key> key = keyOfCode(code);
+    if (!key || action == GLFW_REPEAT) return;
+    const auto type = action == GLFW_PRESS ? InputEvent::Type::KeyPress : InputEvent::Type::KeyRelease;
+    of(window).events.push_back({.type = type, .key = *key});
+}
+
+void Window::State::onButton(GLFWwindow* window, int button, int action, int) {
+    if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;  // left, right, middle are 0, 1, 2 as in MouseButton
+    const auto type = action == GLFW_PRESS ? InputEvent::Type::ButtonPress : InputEvent::Type::ButtonRelease;
+    of(window).events.push_back({.type = type, .button = static_cast<MouseButton>(button)});
+}
+
+void Window::State::onWheel(GLFWwindow* window, double x, double y) {
+    of(window).events.push_back({.type = InputEvent::Type::Wheel, .x = x, .y = y});
+}
+
+void Window::State::onCursor(GLFWwindow* window, double x, double y) {
+    State& state = of(window);
+    const glm::dvec2 position(x, y);
+    const glm::dvec2 delta = position - state.cursor;
+    state.cursor = position;
+    if (!std::exchange(state.cursorKnown, true)) return;
+    state.events.push_back({.type = InputEvent::Type::CursorMove, .x = delta.x, .y = delta.y});
+}
+
+Window::Window() = default;
+Window::Window(Window&&) noexcept = default;
+Window& Window::operator=(Window&&) noexcept = default;
+Window::~Window() = default;
+
+base::Result<Window> Window::create(const WindowOptions& options) {
+    assert(options.width > 0 && options.height > 0 && "a window has a size");
+    if (glfwInit() == GLFW_FALSE) return base::fail("no display: {}", lastError());
+    Window result;
+    result.state_ = std::make_unique<State>();
+    State& state = *result.state_;
+    state.window = openWindow(options);
+    if (state.window == nullptr)
+        return base::fail("no window with an OpenGL 4.5 core context: {}", lastError());
+    glfwMakeContextCurrent(state.window);
+    if (base::Result<void> fit = checkRequirements(); !fit) return tl::unexpected(fit.error());
+    if (options.debug) state.debugLog = enableDebugOutput(options.debugFatal);
+    glfwSwapInterval(options.vsync ? 1 : 0);
+    glfwSetTime(0.0);
+    state.installCallbacks();
+    return result;
+}
+
+void Window::pollEvents() {
+    state_->events.clear();
+    glfwPollEvents();
+}
+
+std::span<const InputEvent> Window::events() const {
+    return state_->events;
+}
+
+bool Window::keyDown(Key key) const {
+    for (const KeyRun& run : kKeyRuns)
+        if (key >= run.first && key <= run.last) {
+            const int code = run.firstCode + static_cast<int>(key) - static_cast<int>(run.first);
+            return glfwGetKey(state_->window, code) == GLFW_PRESS;
+        }
+    for (const KeyCode& entry : kOtherKeys)
+        if (entry.key == key && glfwGetKey(state_->window, entry.code) == GLFW_PRESS) return true;
+    return false;
+}
+
+void Window::swapBuffers() {
+    glfwSwapBuffers(state_->window);
+}
+
+bool Window::shouldClose() const {
+    return glfwWindowShouldClose(state_->window) == GLFW_TRUE;
+}
+
+void Window::requestClose() {
+    glfwSetWindowShouldClose(state_->window, GLFW_TRUE);
+}
+
+glm::ivec2 Window::framebufferSize() const {
+    glm::ivec2 size(0, 0);
+    glfwGetFramebufferSize(state_->window, &size.x, &size.y);
+    return size;
+}
+
+float Window::contentScale() const {
+    float scaleX = 1.0F;
+    float scaleY = 1.0F;
+    glfwGetWindowContentScale(state_->window, &scaleX, &scaleY);
+    return scaleX;
+}
+
+void Window::setCursorCaptured(bool captured) {
+    glfwSetInputMode(state_->window, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+    // The position jumps between the modes; that jump is no motion of the person's hand.
+    state_->cursorKnown = false;
+}
+
+double Window::timeSeconds() const {
+    return glfwGetTime();
+}
+
+DebugLog* Window::debugLog() const {
+    return state_->debugLog.get();
+}
+
+GLFWwindow* Window::handle() const {
+    return state_->window;
+}
+
+}  // namespace terrane::gpu

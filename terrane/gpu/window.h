@@ -1,0 +1,63 @@
+// A window with an OpenGL 4.5 core context and its input, through GLFW. The program's main thread makes one,
+// and uses it alone. One window at a time: destroying it ends GLFW.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "terrane/base/result.h"
+#include "terrane/gpu/debug.h"
+#include "terrane/gpu/input.h"
+
+struct GLFWwindow;
+
+namespace terrane::gpu {
+
+struct WindowOptions {
+    std::string title = "Terrane";
+    int width = 1280;  // screen units; the framebuffer is contentScale() times as large
+    int height = 720;
+    bool fullScreen = false;  // on the first monitor in its present mode; width and height are not used
+    bool debug = false;       // as ContextOptions
+    bool debugFatal = false;
+    bool vsync = true;
+};
+
+class Window {
+  public:
+    [[nodiscard]] static base::Result<Window> create(const WindowOptions& options);
+
+    Window();
+    Window(Window&&) noexcept;
+    Window& operator=(Window&&) noexcept;
+    ~Window();
+
+    // Reads what happened since the last call; events() and keyDown() change here only.
+    void pollEvents();
+    [[nodiscard]] std::span<const InputEvent> events() const;
+    [[nodiscard]] bool keyDown(Key key) const;
+
+    void swapBuffers();
+    [[nodiscard]] bool shouldClose() const;
+    void requestClose();
+
+    [[nodiscard]] glm::ivec2 framebufferSize() const;  // pixels; 0 while minimised
+    [[nodiscard]] float contentScale() const;
+    // A captured cursor is hidden and moves without end.
+    void setCursorCaptured(bool captured);
+    [[nodiscard]] double timeSeconds() const;  // since the window was made
+
+    [[nodiscard]] bool valid() const { return state_ != nullptr; }
+    // Null without the debug option.
+    [[nodiscard]] DebugLog* debugLog() const;
+    // For user interface libraries with a GLFW back end of their own.
+    [[nodiscard]] GLFWwindow* handle() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace terrane::gpu

@@ -1,0 +1,63 @@
+// Sets of blocks of a section as bits, so that one machine instruction decides about 64 blocks. Used by the
+// mesher's stages; pure functions, any thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "terrane/world/block_type.h"
+
+namespace terrane::mesh {
+
+// 16³ bits in 16 layers of 16 rows of 16: row r of layer l is bits 16·(r mod 4)…+15 of word 4·l + r/4. Layers
+// run along z. Rows along x: row is y, bit is x, as blocks lie in a section. Rows along y: row is x, bit is
+// y; what concerns the sides -x and +x is done in this order, because then the same code serves x and y.
+using BitCube = std::array<std::uint64_t, 64>;
+
+// A layer of 16×16 blocks, as 16 rows. Across x: row is z, bit is y. Across y: row is z, bit is x. Across z:
+// row is y, bit is x.
+using BitSlice = std::array<std::uint16_t, 16>;
+
+constexpr BitSlice filledSlice() {
+    BitSlice slice{};
+    for (std::uint16_t& row : slice) row = 0xFFFF;
+    return slice;
+}
+
+constexpr bool isAlongX(world::Face side) {
+    return side == world::kFaceNegX || side == world::kFacePosX;
+}
+constexpr bool isAlongZ(world::Face side) {
+    return side == world::kFaceNegZ || side == world::kFacePosZ;
+}
+
+inline std::uint16_t cubeRow(const BitCube& cube, std::size_t layer, std::size_t row) {
+    return static_cast<std::uint16_t>(cube[4 * layer + row / 4] >> (16 * (row % 4)));
+}
+
+inline bool isEmpty(const BitCube& cube) {
+    std::uint64_t any = 0;
+    for (const std::uint64_t word : cube) any |= word;
+    return any == 0;
+}
+
+inline BitCube both(const BitCube& a, const BitCube& b) {
+    BitCube out;
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = a[i] & b[i];
+    return out;
+}
+
+inline BitCube without(const BitCube& a, const BitCube& b) {
+    BitCube out;
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = a[i] & ~b[i];
+    return out;
+}
+
+// Exchanges bits and rows of each layer: from rows along x to rows along y and back.
+BitCube transposed(const BitCube& cube);
+
+// For each block the bit of its neighbour on a side. For the sides of x the cube has rows along y, else rows
+// along x. `border` is the layer of blocks beyond that side of the section.
+BitCube neighbourBits(const BitCube& cube, world::Face side, const BitSlice& border);
+
+}  // namespace terrane::mesh

@@ -1,0 +1,34 @@
+// What the mesher makes of a chunk: its quads, sorted for drawing. A plain value; handed to the renderer.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "terrane/mesh/face_context.h"
+#include "terrane/shared/quad.h"
+
+namespace terrane::mesh {
+
+struct QuadRange {
+    std::uint32_t first = 0, count = 0;  // in ChunkMesh::quads
+
+    bool operator==(const QuadRange&) const = default;
+};
+
+// The vertical unit of culling and drawing. Its quads are contiguous: by context, then group.
+struct RegionMesh {
+    QuadRange groups[kContextCount][kGroupCount];
+    int minZ = 0, maxZ = 0;  // the quads lie in blocks minZ … maxZ − 1; both 0 where there are none
+
+    bool operator==(const RegionMesh&) const = default;
+};
+
+struct ChunkMesh {
+    std::vector<shared::Quad> quads;
+    std::vector<RegionMesh> regions;  // lowest first, kChunkHeight / regionHeight of them
+
+    bool operator==(const ChunkMesh&) const = default;
+};
+
+}  // namespace terrane::mesh

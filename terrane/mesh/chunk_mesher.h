@@ -1,0 +1,33 @@
+// Makes the mesh of a chunk: hidden faces dropped, equal neighbouring faces merged, quads sorted for drawing.
+// Called by the streaming workers, each with a scratch of its own; the result depends on the input only.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "terrane/mesh/chunk_mesh.h"
+#include "terrane/mesh/quad_buckets.h"
+#include "terrane/world/block_registry.h"
+#include "terrane/world/chunk.h"
+
+namespace terrane::mesh {
+
+constexpr int kDefaultRegionHeight = 64;
+
+struct MeshInput {
+    const world::Chunk* centre = nullptr;
+    std::array<const world::Chunk*, 4> neighbours{};  // -x, +x, -y, +y; none is null
+    const world::BlockRegistry* blocks = nullptr;
+    int regionHeight = kDefaultRegionHeight;  // 16, 32, 64, 128 or 256
+};
+
+// Memory that is kept from chunk to chunk; holds nothing between calls.
+struct MeshScratch {
+    QuadBuckets buckets;
+    std::vector<shared::Quad> quads;
+};
+
+// Quads stay inside one section, so they are at most 16 blocks wide and high.
+ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch);
+
+}  // namespace terrane::mesh

@@ -1,0 +1,35 @@
+// The blocks of one section as sets of bits, one set for each distinct id. Read straight from the packed
+// form: the bits of all indices are sorted into planes once, then the blocks of an id are a few ANDs away.
+// Used by section_faces.cpp for one section at a time; any thread.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "terrane/mesh/bit_cube.h"
+#include "terrane/world/section.h"
+
+namespace terrane::mesh {
+
+class SectionBits {
+  public:
+    explicit SectionBits(const world::Section& section);
+
+    // Distinct ids; some may have no block.
+    std::span<const world::BlockId> ids() const { return ids_; }
+    // Where the blocks of ids()[number] are, in rows along x.
+    BitCube blocks(std::size_t number) const;
+
+  private:
+    static constexpr std::size_t kMaxBits = 16;  // of a block in the dense form
+
+    std::size_t bits_;
+    std::vector<world::BlockId> ids_;
+    // Bit p of the indices of 64 successive blocks is a word; the bits_ words of 64 blocks lie together.
+    std::array<std::uint64_t, 64 * kMaxBits> planes_;
+};
+
+}  // namespace terrane::mesh

@@ -1,0 +1,24 @@
+// Finds the visible faces of one section by the rules of each shape and hands them to a FaceWriter. Called by
+// chunk_mesher.cpp for each section of a chunk, on the meshing worker's thread.
+#pragma once
+
+#include <array>
+
+#include "terrane/mesh/quad_buckets.h"
+#include "terrane/world/block_registry.h"
+#include "terrane/world/section.h"
+
+namespace terrane::mesh {
+
+// A section and what surrounds it.
+struct SectionView {
+    const world::Section* centre = nullptr;
+    // By side; null above the world, where there is air, and below it, from where nothing is seen.
+    std::array<const world::Section*, world::kFaceCount> neighbours{};
+    const world::BlockRegistry* blocks = nullptr;
+    int baseZ = 0;  // height of the lowest layer, a multiple of 16
+};
+
+void addSectionFaces(const SectionView& view, QuadBuckets& out);
+
+}  // namespace terrane::mesh

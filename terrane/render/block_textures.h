@@ -1,0 +1,20 @@
+// The textures of all block faces as one GPU texture array. Used by the renderer on the context's thread.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "terrane/base/image.h"
+#include "terrane/base/result.h"
+#include "terrane/gpu/texture.h"
+#include "terrane/world/block_registry.h"
+
+namespace terrane::render {
+
+// Gives the image of a texture by its name in the content file.
+using TextureSource = std::function<base::Result<base::Image>(std::string_view)>;
+
+// Layer n is registry.textures()[n]. All images must be square, of one size, a power of two; errors name the texture.
+base::Result<gpu::Texture2DArray> loadBlockTextures(const world::BlockRegistry& registry, const TextureSource& source);
+
+}  // namespace terrane::render

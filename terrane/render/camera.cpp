@@ -1,0 +1,68 @@
+#include "terrane/render/camera.h"
+
+#include <cmath>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace terrane::render {
+namespace {
+
+constexpr float kNearPlane = 0.05f;  // blocks
+
+// Right-handed, depth from 1 at the near plane to 0 at infinity: floats are densest near 0, which is where
+// perspective crowds distant depths.
+glm::mat4 reversedInfinitePerspective(float fieldOfViewRadians, float aspect) {
+    const float f = 1.0f / std::tan(fieldOfViewRadians * 0.5f);
+    glm::mat4 m(0.0f);
+    m[0][0] = f / aspect;
+    m[1][1] = f;
+    m[2][3] = -1.0f;
+    m[3][2] = kNearPlane;
+    return m;
+}
+
+}  // namespace
+
+world::ChunkPos cameraChunk(const Camera& camera) {
+    return {static_cast<std::int32_t>(std::floor(camera.position.x / world::kChunkSize)),
+            static_cast<std::int32_t>(std::floor(camera.position.y / world::kChunkSize))};
+}
+
+glm::vec3 lookDirection(const Camera& camera) {
+    const float yaw = glm::radians(camera.yaw), pitch = glm::radians(camera.pitch);
+    return {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)};
+}
+
+glm::vec3 rightDirection(const Camera& camera) {
+    const float yaw = glm::radians(camera.yaw);
+    return {std::sin(yaw), -std::cos(yaw), 0.0f};
+}
+
+ViewMatrices viewMatrices(const Camera& camera, float aspect) {
+    const world::ChunkPos chunk = cameraChunk(camera);
+    const glm::dvec3 corner(static_cast<double>(chunk.x) * world::kChunkSize,
+                            static_cast<double>(chunk.y) * world::kChunkSize, 0.0);
+    ViewMatrices v;
+    v.cameraPosition = glm::vec3(camera.position - corner);
+    const glm::vec3 up = glm::cross(rightDirection(camera), lookDirection(camera));
+    const glm::mat4 view = glm::lookAt(v.cameraPosition, v.cameraPosition + lookDirection(camera), up);
+    v.viewProjection = reversedInfinitePerspective(glm::radians(camera.fieldOfView), aspect) * view;
+    return v;
+}
+
+// Rows of the matrix combined (G. Gribb, K. Hartmann, Fast Extraction of Viewing Frustum Planes, 2001).
+Frustum frustumOf(const glm::mat4& m) {
+    const auto row = [&](int r) { return glm::vec4(m[0][r], m[1][r], m[2][r], m[3][r]); };
+    return {row(3) + row(0), row(3) - row(0), row(3) + row(1), row(3) - row(1), row(3) - row(2)};
+}
+
+bool mayBeVisible(const Frustum& frustum, glm::vec3 min, glm::vec3 max) {
+    for (const glm::vec4& plane : frustum) {
+        const glm::vec3 farthest(plane.x > 0 ? max.x : min.x, plane.y > 0 ? max.y : min.y,
+                                 plane.z > 0 ? max.z : min.z);
+        if (glm::dot(glm::vec3(plane), farthest) + plane.w < 0) return false;
+    }
+    return true;
+}
+
+}  // namespace terrane::render

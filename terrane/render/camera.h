@@ -1,0 +1,38 @@
+// A camera in the world and its matrices. Pure functions, any thread.
+#pragma once
+
+#include <array>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "terrane/world/coords.h"
+
+namespace terrane::render {
+
+struct Camera {
+    glm::dvec3 position{0.0};  // blocks in the world; doubles are exact to 2^-21 block at ±2^31
+    float yaw = 0;             // degrees; 0 looks along +x, 90 along +y
+    float pitch = 0;           // degrees; 90 looks straight up
+    float fieldOfView = 70;    // degrees, vertical
+};
+
+world::ChunkPos cameraChunk(const Camera& camera);
+glm::vec3 lookDirection(const Camera& camera);
+glm::vec3 rightDirection(const Camera& camera);
+
+// In blocks from the corner of the camera's chunk at z = 0.
+struct ViewMatrices {
+    glm::vec3 cameraPosition;
+    glm::mat4 viewProjection;  // reversed depth without far plane: 1 at the near plane, 0 at infinity
+};
+
+ViewMatrices viewMatrices(const Camera& camera, float aspect);
+
+// Half spaces a·p + w ≥ 0 that hold what the camera sees: left, right, bottom, top, near.
+using Frustum = std::array<glm::vec4, 5>;
+Frustum frustumOf(const glm::mat4& viewProjection);
+// False only where no point of the box can be seen.
+bool mayBeVisible(const Frustum& frustum, glm::vec3 min, glm::vec3 max);
+
+}  // namespace terrane::render

@@ -1,0 +1,126 @@
+#include "terrane/render/renderer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <glm/matrix.hpp>
+#include <span>
+
+#include "terrane/base/profile.h"
+#include "terrane/gpu/debug.h"
+#include "terrane/shared/bindings.h"
+#include "terrane/shared/frame.h"
+
+namespace terrane::render {
+namespace {
+
+// Draw records and commands of a frame: 16 + 20 bytes a region and face context; 4,225 chunks × 4 regions × about 3.
+constexpr std::size_t kRingBytes = 4u << 20;
+constexpr float kAmbientFromBelow = 0.42f;  // share of the sky's light on faces that look down
+constexpr float kExposure = 1.0f;
+constexpr float kMaxAnisotropy = 8.0f;
+
+shared::Frame frameOf(const FrameInput& input, const ViewMatrices& view) {
+    const world::Environment& e = input.environment;
+    shared::Frame frame{};
+    frame.viewProjection = view.viewProjection;
+    frame.inverseViewProjection = glm::inverse(view.viewProjection);
+    frame.cameraPosition = glm::vec4(view.cameraPosition, input.fogDistance);
+    frame.lightDirection = glm::vec4(e.lightDirection, input.timeSeconds);
+    frame.lightColor = glm::vec4(e.lightColor, e.discRadius);
+    frame.ambientColor = glm::vec4(e.ambientColor, kAmbientFromBelow);
+    frame.zenithColor = glm::vec4(e.zenithColor, kExposure);
+    frame.horizonColor = glm::vec4(e.horizonColor, static_cast<float>(input.view));
+    frame.glowColor = glm::vec4(e.glowColor, 0.0f);
+    return frame;
+}
+
+static_assert(static_cast<shared::uint>(View::Normal) == shared::kViewNormal &&
+              static_cast<shared::uint>(View::Depth) == shared::kViewDepth);
+
+}  // namespace
+
+base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
+                                        const TextureSource& textures, const gpu::DeviceInfo& device) {
+    auto blockTextures = loadBlockTextures(blocks, textures);
+    if (!blockTextures) return tl::unexpected(blockTextures.error());
+    // A software renderer pays for each of the samples.
+    const float anisotropy = device.software ? 1.0f : std::min(kMaxAnisotropy, device.maxAnisotropy);
+    auto terrain = TerrainPass::create(shaders, blocks, std::move(*blockTextures), anisotropy);
+    if (!terrain) return tl::unexpected(terrain.error());
+    auto sky = FullscreenPass::create(shaders, "terrane/render/sky.frag.glsl", "sky");
+    if (!sky) return tl::unexpected(sky.error());
+    auto finalPass = FullscreenPass::create(shaders, "terrane/render/final.frag.glsl", "final");
+    if (!finalPass) return tl::unexpected(finalPass.error());
+
+    Renderer renderer;
+    renderer.terrain_ = std::move(*terrain);
+    renderer.sky_ = std::move(*sky);
+    renderer.final_ = std::move(*finalPass);
+    renderer.ring_ = gpu::MappedRing(kRingBytes, "frame data");
+    return renderer;
+}
+
+base::Result<void> Renderer::resize(glm::ivec2 size, int samples) {
+    auto targets = makeTargets(size, samples);
+    if (!targets) return tl::unexpected(targets.error());
+    targets_ = std::move(*targets);
+    return {};
+}
+
+base::Result<Renderer::Targets> Renderer::makeTargets(glm::ivec2 size, int samples) {
+    assert(size.x > 0 && size.y > 0 && "a picture has pixels");
+    Targets t;
+    t.size = size;
+    t.sampledColor = gpu::Texture2DMultisample(size, GL_RGBA16F, samples, "sampled colour");
+    t.sampledDepth = gpu::Texture2DMultisample(size, GL_DEPTH_COMPONENT32F, samples, "sampled depth");
+    t.color = gpu::Texture2D(size, GL_RGBA16F, 1, "scene colour");
+    t.pictureColor = gpu::Texture2D(size, GL_RGBA8, 1, "picture");
+    auto sampled = gpu::Framebuffer::create({{t.sampledColor}, t.sampledDepth}, "sampled scene");
+    if (!sampled) return tl::unexpected(sampled.error());
+    auto scene = gpu::Framebuffer::create({{t.color}, {}}, "scene");
+    if (!scene) return tl::unexpected(scene.error());
+    auto picture = gpu::Framebuffer::create({{t.pictureColor}, {}}, "picture");
+    if (!picture) return tl::unexpected(picture.error());
+    t.sampled = std::move(*sampled);
+    t.scene = std::move(*scene);
+    t.picture = std::move(*picture);
+    return t;
+}
+
+void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
+    const shared::Frame frame = frameOf(input, view);
+    const auto slice = ring_.write(std::span(&frame, 1));
+    assert(slice && "the ring is empty at the start of a frame");
+    ring_.buffer().bindUniform(shared::kFrameBinding, slice->offsetBytes, sizeof(frame));
+}
+
+void Renderer::draw(const FrameInput& input) {
+    TERRANE_ZONE("draw frame");
+    assert(targets_.size.x > 0 && "resize comes before the first frame");
+    const glm::vec2 size(targets_.size);
+    const ViewMatrices view = viewMatrices(input.camera, size.x / size.y);
+    buildDrawList(drawList_, quads_, input.camera, view);
+    statistics_ = {drawList_.regionCount, drawList_.quadCount, 0};
+    for (const auto& commands : drawList_.commands) statistics_.drawCommands += commands.size();
+
+    ring_.beginFrame();
+    bindFrame(input, view);
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    targets_.sampled.bind();
+    targets_.sampled.clearDepth(0.0f);
+    glDisable(GL_DEPTH_TEST);
+    sky_.draw();
+    terrain_.draw(drawList_, quads_, ring_);
+    glDisable(GL_DEPTH_TEST);
+    gpu::resolve(targets_.sampled, targets_.scene);
+    targets_.picture.bind();
+    targets_.color.bind(shared::kSceneColorUnit);
+    final_.draw();
+    ring_.endFrame();
+}
+
+void Renderer::presentToWindow(glm::ivec2 windowSize) const {
+    gpu::blitToWindow(targets_.picture, 0, windowSize, GL_NEAREST);
+}
+
+}  // namespace terrane::render

@@ -1,0 +1,73 @@
+// Draws the world as the camera sees it: sky, terrain, tone mapping. Owns the quads of the visible chunks and the render
+// targets. Used on the thread of the current OpenGL context.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "terrane/base/image.h"
+#include "terrane/base/result.h"
+#include "terrane/gpu/device_info.h"
+#include "terrane/gpu/framebuffer.h"
+#include "terrane/render/block_textures.h"
+#include "terrane/render/fullscreen_pass.h"
+#include "terrane/render/quad_store.h"
+#include "terrane/render/terrain_pass.h"
+#include "terrane/world/environment.h"
+
+namespace terrane::render {
+
+enum class View : std::uint8_t { Color, Normal, Depth };
+
+struct FrameInput {
+    Camera camera;
+    world::Environment environment;
+    float fogDistance = 256;  // blocks: from here on everything is sky
+    float timeSeconds = 0;    // for animations
+    View view = View::Color;
+};
+
+struct FrameStatistics {
+    std::size_t regions = 0, quads = 0, drawCommands = 0;
+};
+
+class Renderer {
+ public:
+    static base::Result<Renderer> create(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
+                                         const TextureSource& textures, const gpu::DeviceInfo& device);
+
+    // Size of the picture in pixels; samples a pixel 1, 2, 4 or 8. Fails where the driver has not that many.
+    base::Result<void> resize(glm::ivec2 size, int samples);
+
+    void setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh) { quads_.set(pos, mesh); }
+    void removeChunk(world::ChunkPos pos) { quads_.remove(pos); }
+
+    // Draws into the renderer's own picture.
+    void draw(const FrameInput& input);
+
+    base::Image readImage() const { return gpu::readPixels(targets_.picture); }  // waits for the GPU
+    void presentToWindow(glm::ivec2 windowSize) const;
+
+    const FrameStatistics& statistics() const { return statistics_; }
+    std::size_t quadBytes() const { return quads_.usedBytes(); }
+    glm::ivec2 size() const { return targets_.size; }
+
+ private:
+    struct Targets {
+        glm::ivec2 size{0};
+        gpu::Texture2DMultisample sampledColor, sampledDepth;
+        gpu::Texture2D color, pictureColor;
+        gpu::Framebuffer sampled, scene, picture;
+    };
+    static base::Result<Targets> makeTargets(glm::ivec2 size, int samples);
+    void bindFrame(const FrameInput& input, const ViewMatrices& view);
+
+    FullscreenPass sky_, final_;
+    TerrainPass terrain_;
+    QuadStore quads_;
+    gpu::MappedRing ring_;
+    DrawList drawList_;
+    Targets targets_;
+    FrameStatistics statistics_;
+};
+
+}  // namespace terrane::render

@@ -1,0 +1,40 @@
+// Pulls a quad's corner from the quad buffer. Four vertices a quad; the base vertex of a draw is four times its first
+// quad, its base instance the number of its draw record.
+#include "terrane/render/frame_uniforms.glsl"
+#include "terrane/shared/quad.h"
+#include "terrane/shared/shape_face.h"
+
+layout(std430, binding = kQuadsBinding) readonly buffer Quads {
+    Quad quads[];
+};
+layout(std430, binding = kShapeFacesBinding) readonly buffer ShapeFaces {
+    ShapeFace shapeFaces[];
+};
+layout(std430, binding = kMaterialsBinding) readonly buffer Materials {
+    MaterialRecord materials[];
+};
+layout(std430, binding = kDrawsBinding) readonly buffer Draws {
+    DrawRecord draws[];
+};
+
+layout(location = 0) out vec3 outPosition;  // in blocks, from the corner of the camera's chunk
+layout(location = 1) out vec2 outTexel;     // in textures; row 0 of the image is at integer v
+layout(location = 2) flat out vec3 outNormal;
+layout(location = 3) flat out uvec3 outMaterial;  // texture, alpha mode, animation
+layout(location = 4) flat out uint outIsOblique;
+
+void main() {
+    Quad quad = quads[gl_VertexID >> 2];
+    vec2 corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1);
+    vec2 extent = vec2(quadExtentU(quad), quadExtentV(quad));
+    vec4 cell = vec4(quadX(quad), quadY(quad), quadZ(quad), 0.0);
+    ShapeFace face = shapeFaces[quadShapeFace(quad)];
+    outPosition = (draws[gl_BaseInstanceARB].origin + shapeFaceCorner(face, cell, corner, extent)).xyz;
+    gl_Position = frame.viewProjection * vec4(outPosition, 1.0);
+
+    MaterialRecord material = materials[quadMaterial(quad)];
+    outTexel = vec2(corner.x, 1.0 - corner.y) * extent;
+    outNormal = face.normal.xyz;
+    outMaterial = uvec3(material.texture, material.alphaMode, material.animation);
+    outIsOblique = quadShapeFace(quad) >= kShapeFaceCross && quadShapeFace(quad) < kShapeFaceInset ? 1u : 0u;
+}

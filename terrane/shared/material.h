@@ -1,0 +1,21 @@
+// Values of a material's alpha mode and animation, as world::AlphaMode and world::Animation number them.
+#ifndef TERRANE_SHARED_MATERIAL_H
+#define TERRANE_SHARED_MATERIAL_H
+
+#include "terrane/shared/language.h"
+
+SHARED_BEGIN
+
+const uint kAlphaUnused = 0u;
+const uint kAlphaTest = 1u;
+const uint kAlphaBlend = 2u;
+const uint kAlphaGlow = 3u;
+const uint kAlphaTestGlow = 4u;
+
+const uint kAnimationNone = 0u;
+const uint kAnimationTopWaves = 1u;
+const uint kAnimationWholeWaves = 2u;
+const uint kAnimationLiquidSurface = 3u;
+
+SHARED_END
+#endif

@@ -1,0 +1,104 @@
+#include "terrane/world/block_registry.h"
+
+#include <algorithm>
+#include <cassert>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "terrane/world/block_parser.h"
+
+namespace terrane::world {
+namespace {
+
+// Materials and textures are numbered with 16 bits.
+constexpr std::size_t kMaxNumbered = 65536;
+
+BlockDescription describeMissing() {
+    BlockDescription block;
+    block.type.name = "missing";
+    block.type.collision = {shapeBox(Shape::Cube)};
+    block.type.generated = false;
+    block.faces.fill({.texture = "missing"});
+    return block;
+}
+
+BlockType describeAir() {
+    BlockType air;
+    air.name = "air";
+    air.shape = Shape::None;
+    air.opacity = 0;
+    air.selectable = false;
+    return air;
+}
+
+// Numbers materials and textures in order of first use.
+class Materials {
+  public:
+    // None where 16 bits do not suffice.
+    std::optional<std::uint16_t> number(const FaceLook& face, Animation animation) {
+        const auto texture = static_cast<std::uint32_t>(
+            textureNumbers_.try_emplace(face.texture, textureNumbers_.size()).first->second);
+        if (texture == textures_.size()) textures_.push_back(face.texture);
+
+        const auto key = std::tuple(texture, face.alpha, animation, face.twoSided);
+        const auto number = numbers_.try_emplace(key, numbers_.size()).first->second;
+        if (number >= kMaxNumbered) return std::nullopt;
+        if (number == materials_.size())
+            materials_.push_back({.texture = static_cast<std::uint16_t>(texture),
+                                  .alpha = face.alpha,
+                                  .animation = animation,
+                                  .twoSided = face.twoSided});
+        return static_cast<std::uint16_t>(number);
+    }
+
+    std::vector<Material> takeMaterials() { return std::move(materials_); }
+    std::vector<std::string> takeTextures() { return std::move(textures_); }
+
+  private:
+    std::map<std::string, std::size_t> textureNumbers_;
+    std::map<std::tuple<std::uint32_t, AlphaMode, Animation, bool>, std::size_t> numbers_;
+    std::vector<Material> materials_;
+    std::vector<std::string> textures_;
+};
+
+}  // namespace
+
+base::Result<BlockRegistry> BlockRegistry::parse(std::string_view toml, std::string_view name) {
+    auto blocks = parseBlocks(toml, name);
+    if (!blocks) return tl::unexpected(blocks.error());
+    blocks->push_back(describeMissing());
+
+    BlockRegistry registry;
+    Materials materials;
+    registry.types_.push_back(describeAir());
+    for (BlockDescription& block : *blocks) {
+        BlockType& type = block.type;
+        type.id = static_cast<BlockId>(registry.types_.size());
+        type.opaqueCube = isOpaqueCube(block);
+        for (std::size_t face = 0; face < kFaceCount; ++face) {
+            const auto number = materials.number(block.faces[face], block.animation);
+            if (!number)
+                return base::fail(
+                    "{}:{}: texture: expected at most {} combinations of texture, alpha, animation and "
+                    "two_sided in all blocks, got more",
+                    name, block.line, kMaxNumbered);
+            type.material[face] = *number;
+        }
+        registry.types_.push_back(std::move(type));
+    }
+    assert(registry.types_.size() <= kMaxNumbered && "the parser limits blocks to what ids can tell apart");
+    registry.missing_ = registry.types_.back().id;
+    registry.materials_ = materials.takeMaterials();
+    registry.textures_ = materials.takeTextures();
+    for (const BlockType& type : registry.types_) registry.byName_.emplace(type.name, type.id);
+    return registry;
+}
+
+const BlockType* BlockRegistry::find(std::string_view name) const {
+    const auto found = byName_.find(std::string(name));
+    return found == byName_.end() ? nullptr : &types_[found->second];
+}
+
+}  // namespace terrane::world

@@ -1,0 +1,22 @@
+// The light and the sky at a time of day: pure functions, any thread.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+namespace terrane::world {
+
+// Colours are linear; 1 is a white surface in full sunlight at noon, roughly.
+struct Environment {
+    glm::vec3 lightDirection;  // to the sun by day, to the moon at night; unit length
+    glm::vec3 lightColor;
+    glm::vec3 ambientColor;
+    glm::vec3 zenithColor;
+    glm::vec3 horizonColor;
+    glm::vec3 glowColor;  // added to the sky around the light near the horizon
+    float discRadius;     // of the sun or moon, radians
+};
+
+// timeDay: 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk; only its fraction counts.
+Environment environmentAt(float timeDay);
+
+}  // namespace terrane::world

@@ -1,0 +1,127 @@
+#include "terrane/base/files.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "temp_folder.h"
+
+namespace terrane::base {
+namespace {
+
+TEST(Files, RoundTripAnyBytes) {
+    const TempFolder folder;
+    std::string bytes;
+    for (int i = 0; i < 200000; ++i) bytes += static_cast<char>(i % 251);
+    for (const std::string& content : {std::string(), std::string("a\0\r\n", 4), bytes}) {
+        ASSERT_TRUE(writeFile(folder / "file", content));
+        const Result<std::string> result = readFile(folder / "file");
+        ASSERT_TRUE(result);
+        EXPECT_EQ(*result, content);
+    }
+    EXPECT_EQ(folder.fileCount(), 1) << "no temporary file stays";
+}
+
+TEST(Files, ReadingAMissingFileNamesPathAndReason) {
+    const Result<std::string> result = readFile("no/such/file.txt");
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().message, "no/such/file.txt: cannot be read: No such file or directory");
+}
+
+TEST(Files, ReadingAFolderIsAnError) {
+    const TempFolder folder;
+    const Result<std::string> result = readFile(folder.path());
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().message, folder.path().string() + ": cannot be read: Is a directory");
+}
+
+TEST(Files, WritingIntoAMissingFolderNamesPathAndReason) {
+    const TempFolder folder;
+    const std::filesystem::path path = folder / "missing" / "a.txt";
+    const Result<void> result = writeFile(path, "a");
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().message, path.string() + ": cannot be written: No such file or directory");
+    EXPECT_FALSE(std::filesystem::exists(folder / "missing")) << "no folder is made";
+}
+
+TEST(Files, WritingOverAFolderIsAnError) {
+    const TempFolder folder;
+    std::filesystem::create_directory(folder / "inner");
+    const Result<void> result = writeFile(folder / "inner", "a");
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().message, (folder / "inner").string() + ": cannot be written: Is a directory");
+    EXPECT_EQ(folder.fileCount(), 1);
+}
+
+TEST(Files, WritingOverADeviceIsRefused) {
+    const Result<void> result = writeFile("/dev/null", "a");
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().message, "/dev/null: cannot be written: it is not a regular file");
+}
+
+// No file may grow beyond the limit while this lives.
+class FileSizeLimit {
+  public:
+    explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit limit{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FileSizeLimit() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+    FileSizeLimit(const FileSizeLimit&) = delete;
+    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+  private:
+    rlimit before_{};
+    void (*handler_)(int);
+};
+
+TEST(Files, AFailedWriteLeavesTheOldFileAndNoTemporaryOne) {
+    const TempFolder folder;
+    ASSERT_TRUE(writeFile(folder / "file", "old"));
+    Result<void> result;
+    {
+        const FileSizeLimit limit(1000);
+        result = writeFile(folder / "file", std::string(100000, 'x'));
+    }
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().message, (folder / "file").string() + ": cannot be written: File too large");
+    EXPECT_EQ(readFile(folder / "file").value(), "old");
+    EXPECT_EQ(folder.fileCount(), 1);
+}
+
+TEST(Files, LeftoversOfACrashAreSteppedOver) {
+    const TempFolder folder;
+    ASSERT_TRUE(writeFile(folder / "file.tmp0", "half"));
+    ASSERT_TRUE(writeFile(folder / "file", "new"));
+    EXPECT_EQ(readFile(folder / "file").value(), "new");
+    EXPECT_EQ(readFile(folder / "file.tmp0").value(), "half");
+}
+
+TEST(Files, WritersOfOnePathNeverMix) {
+    const TempFolder folder;
+    const std::string first(100000, 'a');
+    const std::string second(100000, 'b');
+    std::vector<std::thread> threads;
+    for (const std::string& content : {first, second, first, second}) {
+        threads.emplace_back([&, content] {
+            for (int i = 0; i < 25; ++i) {
+                EXPECT_TRUE(writeFile(folder / "file", content));
+                const std::string seen = readFile(folder / "file").value();
+                EXPECT_TRUE(seen == first || seen == second);
+            }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(folder.fileCount(), 1);
+}
+
+}  // namespace
+}  // namespace terrane::base

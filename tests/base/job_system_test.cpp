@@ -1,0 +1,400 @@
+#include "terrane/base/job_system.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+namespace terrane::base {
+namespace {
+
+using testing::AnyOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// Opens once; waiting threads block until then.
+class Gate {
+  public:
+    void open() {
+        {
+            const std::lock_guard lock(mutex_);
+            isOpen_ = true;
+        }
+        opened_.notify_all();
+    }
+    void wait() {
+        std::unique_lock lock(mutex_);
+        opened_.wait(lock, [&] { return isOpen_; });
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable opened_;
+    bool isOpen_ = false;
+};
+
+// Occupies one worker from construction until release.
+class Blocker {
+  public:
+    explicit Blocker(JobSystem& jobs) {
+        handle_ = jobs.submit(0, [this](const CancelToken&) {
+            started_.open();
+            released_.wait();
+        });
+        started_.wait();
+    }
+    ~Blocker() { release(); }
+    void release() {
+        released_.open();
+        handle_.wait();
+    }
+
+  private:
+    Gate started_;
+    Gate released_;
+    JobHandle handle_;
+};
+
+TEST(JobSystem, RunsWhatIsSubmitted) {
+    JobSystem jobs(2);
+    int value = 0;
+    const JobHandle handle = jobs.submit(0, [&](const CancelToken&) { value = 7; });
+    handle.wait();
+    EXPECT_EQ(value, 7);
+    EXPECT_EQ(handle.state(), JobState::Done);
+    EXPECT_EQ(handle.error(), "");
+}
+
+TEST(JobSystem, RunsSmallestPriorityFirstAndTiesInOrder) {
+    JobSystem jobs(1);
+    std::vector<std::string> order;
+    {
+        Blocker blocker(jobs);
+        const auto add = [&](JobPriority priority, const char* name) {
+            jobs.submit(priority, [&order, name](const CancelToken&) { order.push_back(name); });
+        };
+        add(5, "five");
+        add(1, "one a");
+        add(-3, "minus three");
+        add(1, "one b");
+        add(1, "one c");
+        EXPECT_EQ(jobs.queuedCount(), 5u);
+    }
+    jobs.waitIdle();
+    EXPECT_THAT(order, ElementsAre("minus three", "one a", "one b", "one c", "five"));
+    EXPECT_EQ(jobs.queuedCount(), 0u);
+}
+
+TEST(JobSystem, CancelledQueuedJobNeverStartsAndReleasesItsCapturesAtOnce) {
+    JobSystem jobs(1);
+    Blocker blocker(jobs);
+    auto captured = std::make_shared<int>(1);
+    bool ran = false;
+    const JobHandle handle = jobs.submit(0, [captured, &ran](const CancelToken&) { ran = true; });
+    EXPECT_EQ(handle.state(), JobState::Queued);
+    EXPECT_EQ(captured.use_count(), 2);
+    handle.cancel();
+    EXPECT_EQ(handle.state(), JobState::Cancelled);
+    EXPECT_EQ(captured.use_count(), 1);
+    EXPECT_EQ(jobs.queuedCount(), 0u);
+    handle.wait();
+    blocker.release();
+    jobs.waitIdle();
+    EXPECT_FALSE(ran);
+}
+
+TEST(JobSystem, CapturesMayCancelAnotherJobWhileTheyAreReleased) {
+    struct CancelsOther {
+        JobHandle other;
+        ~CancelsOther() {
+            if (other) other.cancel();
+        }
+    };
+    JobSystem jobs(1);
+    Blocker blocker(jobs);
+    const JobHandle second = jobs.submit(1, [](const CancelToken&) {});
+    auto canceller = std::make_shared<CancelsOther>();
+    canceller->other = second;
+    const JobHandle first = jobs.submit(0, [held = std::move(canceller)](const CancelToken&) {});
+    first.cancel();
+    EXPECT_EQ(second.state(), JobState::Cancelled);
+}
+
+TEST(JobSystem, RunningJobSeesItsCancellation) {
+    JobSystem jobs(1);
+    Gate started;
+    Gate cancelled;
+    bool seenBefore = true;
+    bool seenAfter = false;
+    const JobHandle handle = jobs.submit(0, [&](const CancelToken& token) {
+        seenBefore = token.isCancelled();
+        started.open();
+        cancelled.wait();
+        seenAfter = token.isCancelled();
+    });
+    started.wait();
+    EXPECT_EQ(handle.state(), JobState::Running);
+    handle.cancel();
+    EXPECT_EQ(handle.state(), JobState::Running);
+    cancelled.open();
+    handle.wait();
+    EXPECT_FALSE(seenBefore);
+    EXPECT_TRUE(seenAfter);
+    EXPECT_EQ(handle.state(), JobState::Cancelled);
+}
+
+TEST(JobSystem, CancellingAFinishedJobChangesNothing) {
+    JobSystem jobs(1);
+    const JobHandle handle = jobs.submit(0, [](const CancelToken&) {});
+    handle.wait();
+    handle.cancel();
+    EXPECT_EQ(handle.state(), JobState::Done);
+}
+
+TEST(JobSystem, ReportsWhatAJobThrows) {
+    testing::internal::CaptureStderr();
+    {
+        JobSystem jobs(1);
+        const JobHandle known =
+            jobs.submit(0, [](const CancelToken&) { throw std::runtime_error("no such chunk"); });
+        const JobHandle unknown = jobs.submit(0, [](const CancelToken&) { throw 3; });
+        known.wait();
+        unknown.wait();
+        EXPECT_EQ(known.state(), JobState::Failed);
+        EXPECT_EQ(known.error(), "no such chunk");
+        EXPECT_EQ(unknown.state(), JobState::Failed);
+        EXPECT_THAT(unknown.error(), HasSubstr("not a std::exception"));
+        const JobHandle after = jobs.submit(0, [](const CancelToken&) {});
+        after.wait();
+        EXPECT_EQ(after.state(), JobState::Done) << "the worker survives";
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "failures that were asked for are not logged";
+}
+
+TEST(JobSystem, LogsAFailureNobodyAskedForOnce) {
+    testing::internal::CaptureStderr();
+    {
+        JobSystem jobs(2);
+        const JobHandle kept = jobs.submit(0, [](const CancelToken&) { throw std::runtime_error("kept"); });
+        const JobHandle copy = kept;
+        jobs.submit(0, [](const CancelToken&) { throw std::runtime_error("dropped"); });
+        jobs.waitIdle();
+    }
+    const std::string kept = "terrane: error: a job failed: kept\n";
+    const std::string dropped = "terrane: error: a job failed: dropped\n";
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), AnyOf(kept + dropped, dropped + kept));
+}
+
+TEST(JobSystem, ReleasesCapturesBeforeAJobCountsAsFinished) {
+    JobSystem jobs(1);
+    auto captured = std::make_shared<int>(1);
+    const JobHandle handle = jobs.submit(0, [captured](const CancelToken&) {});
+    handle.wait();
+    EXPECT_EQ(captured.use_count(), 1);
+}
+
+TEST(JobSystem, DestructionCancelsQueuedJobsAndFinishesRunningOnes) {
+    struct OpensGate {
+        Gate& gate;
+        explicit OpensGate(Gate& opened) : gate(opened) {}
+        ~OpensGate() { gate.open(); }
+    };
+    Gate started;
+    Gate queuedReleased;  // opened by the captures of the queued job
+    JobHandle running;
+    JobHandle queued;
+    JobHandle late;
+    bool queuedRan = false;
+    {
+        JobSystem jobs(1);
+        running = jobs.submit(0, [&](const CancelToken& token) {
+            started.open();
+            queuedReleased.wait();
+            late = jobs.submit(0, [](const CancelToken&) {});
+            EXPECT_FALSE(token.isCancelled());
+        });
+        queued = jobs.submit(1, [&, opens = std::make_shared<OpensGate>(queuedReleased)](const CancelToken&) {
+            queuedRan = true;
+        });
+        started.wait();
+    }
+    EXPECT_EQ(running.state(), JobState::Done);
+    EXPECT_EQ(queued.state(), JobState::Cancelled);
+    EXPECT_EQ(late.state(), JobState::Cancelled);
+    EXPECT_FALSE(queuedRan);
+    queued.wait();
+    late.wait();
+}
+
+TEST(JobSystem, HandlesOutliveTheSystem) {
+    JobHandle handle;
+    EXPECT_FALSE(handle);
+    {
+        JobSystem jobs(1);
+        handle = jobs.submit(0, [](const CancelToken&) {});
+        handle.wait();
+    }
+    EXPECT_TRUE(handle);
+    handle.wait();
+    EXPECT_EQ(handle.state(), JobState::Done);
+}
+
+TEST(JobSystem, WaitIdleReturnsAtOnceWithoutJobs) {
+    JobSystem jobs(3);
+    jobs.waitIdle();
+    EXPECT_EQ(jobs.threadCount(), 3u);
+}
+
+TEST(JobSystem, WaitIdleSeesTheLastQueuedJobCancelled) {
+    JobSystem jobs(1);
+    std::vector<JobHandle> handles;
+    {
+        Blocker blocker(jobs);
+        for (int i = 0; i < 10; ++i) handles.push_back(jobs.submit(i, [](const CancelToken&) {}));
+        for (const JobHandle& handle : handles) handle.cancel();
+    }
+    jobs.waitIdle();
+    for (const JobHandle& handle : handles) EXPECT_EQ(handle.state(), JobState::Cancelled);
+}
+
+TEST(JobSystem, JobsMaySubmitJobs) {
+    JobSystem jobs(2);
+    std::atomic<int> ranCount{0};
+    jobs.submit(0, [&](const CancelToken&) {
+        for (int i = 0; i < 5; ++i) jobs.submit(i, [&](const CancelToken&) { ++ranCount; });
+    });
+    jobs.waitIdle();
+    EXPECT_EQ(ranCount, 5);
+}
+
+TEST(JobSystem, ManyThreadsSubmitCancelAndWait) {
+    constexpr int kThreads = 4;
+    constexpr int kJobsPerThread = 2500;
+    JobSystem jobs(4);
+    std::atomic<int> ranCount{0};
+    std::atomic<int> cancelledCount{0};
+    const auto submitAll = [&](int seed) {
+        std::vector<JobHandle> handles;
+        for (int i = 0; i < kJobsPerThread; ++i) {
+            handles.push_back(jobs.submit((i * 7919 + seed) % 101, [&](const CancelToken&) { ++ranCount; }));
+            if (i % 3 == 0) handles[static_cast<std::size_t>(i / 2)].cancel();
+        }
+        for (const JobHandle& handle : handles) {
+            handle.wait();
+            EXPECT_TRUE(handle.state() == JobState::Done || handle.state() == JobState::Cancelled);
+            if (handle.state() == JobState::Cancelled) ++cancelledCount;
+        }
+    };
+    std::vector<std::thread> threads;
+    for (int t = 0; t < kThreads; ++t) threads.emplace_back(submitAll, t);
+    for (std::thread& thread : threads) thread.join();
+    jobs.waitIdle();
+    // A job that was cancelled while it ran has counted itself too.
+    EXPECT_GE(ranCount + cancelledCount, kThreads * kJobsPerThread);
+    EXPECT_LE(ranCount, kThreads * kJobsPerThread);
+}
+
+TEST(JobSystem, RunsTenThousandJobs) {
+    constexpr std::size_t kJobs = 10000;
+    JobSystem jobs(4);
+    std::vector<int> ran(kJobs, 0);
+    for (std::size_t i = 0; i < kJobs; ++i) jobs.submit(0, [&ran, i](const CancelToken&) { ++ran[i]; });
+    jobs.waitIdle();
+    EXPECT_THAT(ran, testing::Each(1));
+}
+
+TEST(JobSystemDeathTest, WaitingOnAWorkerEndsWithAReason) {
+    testing::GTEST_FLAG(death_test_style) = "threadsafe";
+    const auto waitInside = [] {
+        JobSystem jobs(1);
+        JobHandle never;
+        jobs.submit(0, [&](const CancelToken&) {
+            never = jobs.submit(0, [](const CancelToken&) {});
+            never.wait();
+        });
+        jobs.waitIdle();
+    };
+    EXPECT_DEATH(waitInside(), "wait was called on a worker");
+    const auto idleInside = [] {
+        JobSystem jobs(1);
+        jobs.submit(0, [&](const CancelToken&) { jobs.waitIdle(); });
+        jobs.waitIdle();
+    };
+    EXPECT_DEATH(idleInside(), "waitIdle was called on a worker");
+}
+
+TEST(JobSystem, AWorkerMayWaitForAnotherSystem) {
+    JobSystem outer(1);
+    JobSystem inner(1);
+    int value = 0;
+    outer.submit(0,
+                 [&](const CancelToken&) { inner.submit(0, [&](const CancelToken&) { value = 3; }).wait(); });
+    outer.waitIdle();
+    EXPECT_EQ(value, 3);
+}
+
+TEST(ParallelFor, CallsEachIndexOnce) {
+    JobSystem jobs(4);
+    for (const std::size_t count : {0u, 1u, 2u, 3u, 1000u}) {
+        std::vector<int> calls(count, 0);
+        EXPECT_TRUE(parallelFor(jobs, count, [&](std::size_t i) { ++calls[i]; }));
+        EXPECT_THAT(calls, testing::Each(1)) << count;
+    }
+    EXPECT_EQ(jobs.queuedCount(), 0u);
+}
+
+TEST(ParallelFor, TheCallerDoesAllWhenTheWorkersAreBusy) {
+    JobSystem jobs(1);
+    Blocker blocker(jobs);
+    const std::thread::id self = std::this_thread::get_id();
+    std::size_t ranHere = 0;
+    EXPECT_TRUE(parallelFor(jobs, 20, [&](std::size_t) { ranHere += std::this_thread::get_id() == self; }));
+    EXPECT_EQ(ranHere, 20u);
+    EXPECT_EQ(jobs.queuedCount(), 0u) << "helpers that never started are gone";
+}
+
+TEST(ParallelFor, WorkersHelp) {
+    JobSystem jobs(1);
+    Gate bothInside;
+    std::atomic<int> insideCount{0};
+    // Two indices that wait for each other finish only on two threads.
+    EXPECT_TRUE(parallelFor(jobs, 2, [&](std::size_t) {
+        if (++insideCount == 2) bothInside.open();
+        bothInside.wait();
+    }));
+}
+
+TEST(ParallelFor, ReportsTheLowestFailingIndexAfterRunningAll) {
+    JobSystem jobs(4);
+    for (int round = 0; round < 20; ++round) {
+        std::atomic<int> callCount{0};
+        const Result<void> result = parallelFor(jobs, 100, [&](std::size_t i) {
+            ++callCount;
+            if (i % 30 == 17) throw std::runtime_error("bad " + std::to_string(i));
+        });
+        ASSERT_FALSE(result);
+        EXPECT_EQ(result.error().message, "index 17 of 100: bad 17");
+        EXPECT_EQ(callCount, 100);
+    }
+}
+
+TEST(ParallelFor, WorksOnWorkersAndNested) {
+    JobSystem jobs(2);
+    std::atomic<int> callCount{0};
+    const JobHandle handle = jobs.submit(0, [&](const CancelToken&) {
+        const Result<void> outer = parallelFor(jobs, 8, [&](std::size_t) {
+            const Result<void> inner = parallelFor(jobs, 8, [&](std::size_t) { ++callCount; });
+            EXPECT_TRUE(inner);
+        });
+        EXPECT_TRUE(outer);
+    });
+    handle.wait();
+    EXPECT_EQ(callCount, 64);
+}
+
+}  // namespace
+}  // namespace terrane::base

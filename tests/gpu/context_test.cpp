@@ -1,0 +1,55 @@
+#include "terrane/gpu/context.h"
+
+#include <type_traits>
+
+#include "terrane/gpu/device_info.h"
+#include "tests/gpu/gl_fixture.h"
+
+namespace terrane::gpu {
+namespace {
+
+static_assert(!std::is_copy_constructible_v<HeadlessContext> &&
+              std::is_nothrow_move_assignable_v<HeadlessContext>);
+
+class ContextTest : public GlTest {};
+
+TEST_F(ContextTest, offersWhatIsNeeded) {
+    EXPECT_TRUE(checkRequirements()) << checkRequirements().error().message;
+    const DeviceInfo info = queryDevice();
+    EXPECT_FALSE(info.vendor.empty());
+    EXPECT_FALSE(info.renderer.empty());
+    EXPECT_FALSE(info.version.empty());
+    EXPECT_FALSE(info.glsl.empty());
+    EXPECT_GE(info.maxSamples, 4);  // the least that OpenGL 4.5 allows, and so on
+    EXPECT_GE(info.maxTextureSize, 16384);
+    EXPECT_GE(info.maxTexture3dSize, 2048);
+    EXPECT_GE(info.maxArrayLayers, 2048);
+    EXPECT_GE(info.maxComputeInvocations, 1024);
+    EXPECT_GE(info.maxStorageBlockBytes, 1 << 24);
+    EXPECT_GE(info.uniformAlignmentBytes, 1);
+    EXPECT_GE(info.storageAlignmentBytes, 1);
+    EXPECT_GE(info.maxAnisotropy, 1.0F);
+    EXPECT_EQ(info.software, info.renderer.find("llvmpipe") != std::string::npos) << info.renderer;
+}
+
+TEST_F(ContextTest, movesAndLeavesAnEmptyOne) {
+    HeadlessContext moved = std::move(context_);
+    EXPECT_FALSE(context_.valid());
+    EXPECT_TRUE(moved.valid());
+    EXPECT_FALSE(queryDevice().renderer.empty());
+    context_ = std::move(moved);
+    EXPECT_TRUE(context_.valid());
+}
+
+TEST_F(ContextTest, endingAnotherContextLeavesThisOne) {
+    {
+        const base::Result<HeadlessContext> other = HeadlessContext::create({});
+        ASSERT_TRUE(other) << other.error().message;
+        EXPECT_EQ(other->debugLog(), nullptr);
+    }
+    context_.makeCurrent();
+    EXPECT_FALSE(queryDevice().renderer.empty());
+}
+
+}  // namespace
+}  // namespace terrane::gpu

@@ -1,0 +1,202 @@
+#include "terrane/mesh/chunk_mesher.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "mesh_fixture.h"
+#include "random_blocks.h"
+#include "reference_faces.h"
+
+namespace terrane::mesh {
+namespace {
+
+constexpr unsigned kSeedsPerMix = 25;  // × 9 mixes = 225 chunks
+
+std::string describe(const CellFace& face) {
+    return "face " + std::to_string(face.shapeFace) + " of material " + std::to_string(face.material) +
+           " at " + std::to_string(face.x) + " " + std::to_string(face.y) + " " + std::to_string(face.z);
+}
+
+// Every visible face is covered once, no other face is.
+void expectExact(const MeshInput& input, const ChunkMesh& mesh) {
+    const std::vector<CellFace> expected = ReferenceFaces(input).find();
+    const std::vector<CellFace> covered = coveredFaces(mesh.quads);
+    if (expected == covered) return;
+    const auto [e, c] = std::mismatch(expected.begin(), expected.end(), covered.begin(), covered.end());
+    ADD_FAILURE() << "expected " << (e == expected.end() ? "no more" : describe(*e)) << ", covered "
+                  << (c == covered.end() ? "no more" : describe(*c));
+}
+
+bool mayMerge(const shared::Quad q, const world::Material& material) {
+    const unsigned shape = quadShapeFace(q);
+    if (material.animation == world::Animation::TopWaves) return false;
+    return shape < shared::kShapeFaceCross || shape >= shared::kShapeFaceLiquidTop;
+}
+
+void expectInSection(const shared::Quad q) {
+    const bool upright = shapeFaces()[quadShapeFace(q)].axisV.z != 0;
+    const unsigned topZ = quadZ(q) + (upright ? quadExtentV(q) : 1) - 1;
+    EXPECT_EQ(quadZ(q) / 16, topZ / 16);
+    const bool uAlongX = shapeFaces()[quadShapeFace(q)].axisU.x != 0;
+    EXPECT_LE((uAlongX ? quadX(q) : quadY(q)) + quadExtentU(q), 16u);
+    if (!upright) {
+        EXPECT_LE(quadY(q) + quadExtentV(q), 16u);
+    }
+}
+
+void expectWellFormed(const shared::Quad q) {
+    ASSERT_LT(quadShapeFace(q), shared::kShapeFaceCount);
+    ASSERT_LT(quadMaterial(q), testBlocks().materials().size());
+    EXPECT_EQ(q.word1 >> 16, 0u);
+    expectInSection(q);
+    if (!mayMerge(q, testBlocks().materials()[quadMaterial(q)])) {
+        EXPECT_EQ(quadExtentU(q), 1u);
+        EXPECT_EQ(quadExtentV(q), 1u);
+    }
+    if (quadShapeFace(q) >= shared::kShapeFaceLiquidSide) {
+        EXPECT_EQ(quadExtentV(q), 1u);
+    }
+}
+
+// The context and group of a range against the quads in it, by the words of chunk_mesh.h.
+void expectSorted(const shared::Quad q, int context, int group) {
+    const world::Material& material = testBlocks().materials()[quadMaterial(q)];
+    const auto alpha = material.alpha;
+    const bool opaque = alpha == world::AlphaMode::Unused || alpha == world::AlphaMode::Glow;
+    const bool blended = alpha == world::AlphaMode::Blend;
+    EXPECT_EQ(context, (opaque ? 0 : blended ? 4 : 2) + (material.twoSided ? 1 : 0));
+    const shared::vec4 normal = shapeFaces()[quadShapeFace(q)].normal;
+    if (group == kGroupAlways) {
+        const bool oblique = normal.x != 0 && normal.y != 0;
+        EXPECT_TRUE(material.twoSided || oblique);
+    } else {
+        EXPECT_FALSE(material.twoSided);
+        EXPECT_EQ(normal[group / 2], group % 2 == 0 ? -1.0f : 1.0f);
+    }
+}
+
+struct Height {
+    int min = world::kChunkHeight, max = 0;
+
+    void cover(const shared::Quad q) {
+        const int z = static_cast<int>(quadZ(q));
+        const bool upright = shapeFaces()[quadShapeFace(q)].axisV.z != 0;
+        min = std::min(min, z);
+        max = std::max(max, z + (upright ? static_cast<int>(quadExtentV(q)) : 1));
+    }
+};
+
+void expectRegions(const ChunkMesh& mesh, int regionHeight) {
+    ASSERT_EQ(static_cast<int>(mesh.regions.size()), world::kChunkHeight / regionHeight);
+    std::uint32_t next = 0;
+    for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+        const RegionMesh& region = mesh.regions[r];
+        const std::uint32_t first = next;
+        Height height;
+        for (int context = 0; context < kContextCount; ++context) {
+            for (int group = 0; group < kGroupCount; ++group) {
+                const QuadRange range = region.groups[context][group];
+                ASSERT_EQ(range.first, next);
+                next += range.count;
+                ASSERT_LE(next, mesh.quads.size());
+                for (std::uint32_t i = range.first; i < next; ++i) {
+                    expectSorted(mesh.quads[i], context, group);
+                    EXPECT_EQ(quadZ(mesh.quads[i]) / static_cast<unsigned>(regionHeight), r);
+                    height.cover(mesh.quads[i]);
+                }
+            }
+        }
+        EXPECT_EQ(region.minZ, next == first ? 0 : height.min);
+        EXPECT_EQ(region.maxZ, next == first ? 0 : height.max);
+    }
+    EXPECT_EQ(next, mesh.quads.size());
+}
+
+class ChunkMesherMix : public testing::TestWithParam<int> {};
+
+TEST_P(ChunkMesherMix, CoversEachVisibleFaceOnce) {
+    constexpr int kHeights[] = {16, 32, 64, 128, 256};
+    MeshScratch scratch;  // shared by all: nothing must be left from chunk to chunk
+    for (unsigned seed = 0; seed < kSeedsPerMix; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Area area(randomBlocks(static_cast<Mix>(GetParam()), seed));
+        const MeshInput input = area.input(kHeights[seed % 5]);
+        const ChunkMesh mesh = meshChunk(input, scratch);
+        expectExact(input, mesh);
+        expectRegions(mesh, input.regionHeight);
+        for (const shared::Quad q : mesh.quads) expectWellFormed(q);
+        EXPECT_EQ(mesh, meshOf(area, input.regionHeight)) << "a fresh scratch gives the same";
+        if (HasFailure()) return;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllMixes, ChunkMesherMix, testing::Range(0, static_cast<int>(Mix::Count)));
+
+// Edits leave ids in the palette that no block has, and forms that are wider than needed.
+TEST(ChunkMesher, FormOfSectionsDoesNotMatter) {
+    Area area(randomBlocks(Mix::Terrain, 3));
+    const ChunkMesh before = meshOf(area);
+    for (int z = 0; z < 64; ++z) {
+        const world::BlockIndex i = world::blockIndex(z % 16, 5, z);
+        const world::BlockId old = area.centre.block(i);
+        for (world::BlockId id = 0; id < 300; ++id) area.centre.setBlock(i, id);
+        area.centre.setBlock(i, old);
+    }
+    ASSERT_TRUE(area.centre.section(1).isDense());
+    const ChunkMesh after = meshOf(area);
+    EXPECT_EQ(coveredFaces(before.quads), coveredFaces(after.quads));
+    EXPECT_EQ(before.quads.size(), after.quads.size());
+}
+
+TEST(ChunkMesher, RegionHeightOnlyRegroups) {
+    const Area area(randomBlocks(Mix::Terrain, 7));
+    const std::vector<CellFace> faces = coveredFaces(meshOf(area, 16).quads);
+    for (const int height : {32, 64, 128, 256}) EXPECT_EQ(coveredFaces(meshOf(area, height).quads), faces);
+}
+
+TEST(ChunkMesher, EmptyChunkHasEmptyRegions) {
+    const ChunkMesh mesh = meshOf(placed({}));
+    EXPECT_TRUE(mesh.quads.empty());
+    ASSERT_EQ(mesh.regions.size(), 4u);
+    EXPECT_EQ(mesh.regions[0], RegionMesh{});
+}
+
+TEST(ChunkMesher, SolidWorldShowsOnlyItsTop) {
+    const Area area([](int, int, int) { return idOf("stone"); });
+    const ChunkMesh mesh = meshOf(area);
+    ASSERT_EQ(mesh.quads.size(), 1u);
+    const auto expected =
+        shared::packQuad({.x = 0,
+                          .y = 0,
+                          .z = 255,
+                          .shapeFace = world::kFacePosZ,
+                          .extentU = 16,
+                          .extentV = 16,
+                          .material = testBlocks().find("stone")->material[world::kFacePosZ]});
+    EXPECT_EQ(mesh.quads[0], expected);
+}
+
+TEST(ChunkMesher, SectionSizedCubeIsSixQuads) {
+    const Area area([](int x, int y, int z) {
+        const bool inside = x >= 0 && x < 16 && y >= 0 && y < 16 && z >= 32 && z < 48;
+        return inside ? idOf("stone") : world::kAir;
+    });
+    const ChunkMesh mesh = meshOf(area);
+    ASSERT_EQ(mesh.quads.size(), 6u);
+    for (const shared::Quad q : mesh.quads) {
+        EXPECT_EQ(quadExtentU(q), 16u);
+        EXPECT_EQ(quadExtentV(q), 16u);
+    }
+    EXPECT_EQ(mesh.regions[0].minZ, 32);
+    EXPECT_EQ(mesh.regions[0].maxZ, 48);
+}
+
+TEST(ChunkMesher, BottomOfTheWorldIsNotDrawn) {
+    const ChunkMesh mesh = meshOf(placed({{4, 4, 0, "stone"}, {8, 8, 0, "water"}, {12, 4, 0, "cactus"}}));
+    for (const shared::Quad q : mesh.quads) EXPECT_NE(quadShapeFace(q), unsigned{world::kFaceNegZ});
+    EXPECT_EQ(mesh.quads.size(), 15u);
+}
+
+}  // namespace
+}  // namespace terrane::mesh

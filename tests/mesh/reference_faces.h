@@ -1,0 +1,138 @@
+// The visible faces of a chunk, found one block at a time from the rules, without bits and without merging.
+#pragma once
+
+#include <algorithm>
+#include <compare>
+#include <cstdlib>
+#include <vector>
+
+#include "terrane/mesh/chunk_mesher.h"
+
+namespace terrane::mesh {
+
+// One face of one block.
+struct CellFace {
+    int x, y, z;
+    unsigned shapeFace, material;
+    auto operator<=>(const CellFace&) const = default;
+};
+
+class ReferenceFaces {
+  public:
+    explicit ReferenceFaces(const MeshInput& input) : input_(input) {}
+
+    // In ascending order.
+    std::vector<CellFace> find() {
+        faces_.clear();
+        for (int z = 0; z < world::kChunkHeight; ++z) {
+            for (int y = 0; y < 16; ++y) {
+                for (int x = 0; x < 16; ++x) addBlock(x, y, z);
+            }
+        }
+        std::sort(faces_.begin(), faces_.end());
+        return faces_;
+    }
+
+  private:
+    world::BlockId idAt(int x, int y, int z) const {
+        if (!world::isInHeight(z)) return world::kAir;
+        const world::Chunk* chunk = input_.centre;
+        if (x < 0) chunk = input_.neighbours[0];
+        if (x > 15) chunk = input_.neighbours[1];
+        if (y < 0) chunk = input_.neighbours[2];
+        if (y > 15) chunk = input_.neighbours[3];
+        return chunk->block(world::blockIndex(x & 15, y & 15, z));
+    }
+
+    const world::BlockType& typeOf(world::BlockId id) const { return input_.blocks->type(id); }
+
+    bool isTwoSided(const world::BlockType& type, int side) const {
+        return input_.blocks->materials()[type.material[static_cast<std::size_t>(side)]].twoSided;
+    }
+
+    // Whether the side of the cell toward its neighbour is drawn.
+    bool sideVisible(int x, int y, int z, int side) const {
+        const int step = side % 2 == 0 ? -1 : 1;
+        const int nx = x + (side / 2 == 0 ? step : 0), ny = y + (side / 2 == 1 ? step : 0);
+        const int nz = z + (side / 2 == 2 ? step : 0);
+        if (nz < 0) return false;
+        const world::BlockId id = idAt(x, y, z), next = idAt(nx, ny, nz);
+        if (typeOf(next).opaqueCube) return false;
+        if (next != id) return true;
+        const world::BlockType& type = typeOf(id);
+        if (type.shape == world::Shape::Liquid || !type.innerFaces) return false;
+        const bool pairIsOneFace = side % 2 == 0 && isTwoSided(type, side + 1);
+        return !pairIsOneFace;
+    }
+
+    void push(int x, int y, int z, unsigned shapeFace, int side) {
+        const world::BlockType& type = typeOf(idAt(x, y, z));
+        faces_.push_back({x, y, z, shapeFace, type.material[static_cast<std::size_t>(side)]});
+    }
+
+    void addSides(int x, int y, int z, int first, unsigned shapeFaceOfNegX) {
+        for (int side = first; side < 6; ++side) {
+            if (sideVisible(x, y, z, side))
+                push(x, y, z, shapeFaceOfNegX + static_cast<unsigned>(side), side);
+        }
+    }
+
+    void addPlanes(int x, int y, int z, unsigned first, int count) {
+        for (int k = 0; k < count; ++k) push(x, y, z, first + static_cast<unsigned>(k), k);
+    }
+
+    void addLiquid(int x, int y, int z) {
+        const world::BlockId above = idAt(x, y, z + 1);
+        const bool isSurface = above != idAt(x, y, z) && !typeOf(above).opaqueCube;
+        if (!isSurface) return addSides(x, y, z, 0, 0);
+        for (int side = 0; side < 4; ++side) {
+            if (sideVisible(x, y, z, side)) push(x, y, z, 17 + static_cast<unsigned>(side), side);
+        }
+        if (sideVisible(x, y, z, 4)) push(x, y, z, 4, 4);
+        push(x, y, z, 16, 5);
+    }
+
+    void addBlock(int x, int y, int z) {
+        switch (typeOf(idAt(x, y, z)).shape) {
+            case world::Shape::None:
+                return;
+            case world::Shape::Cube:
+                return addSides(x, y, z, 0, 0);
+            case world::Shape::Liquid:
+                return addLiquid(x, y, z);
+            case world::Shape::Cross:
+                return addPlanes(x, y, z, 6, 2);
+            case world::Shape::Hash:
+                return addPlanes(x, y, z, 8, 4);
+            case world::Shape::Inset:
+                addPlanes(x, y, z, 12, 4);
+                addSides(x, y, z, 4, 0);
+        }
+    }
+
+    const MeshInput& input_;
+    std::vector<CellFace> faces_;
+};
+
+// All faces the quads cover, in ascending order; a face covered twice stands twice.
+inline std::vector<CellFace> coveredFaces(const std::vector<shared::Quad>& quads) {
+    std::vector<CellFace> faces;
+    for (const shared::Quad q : quads) {
+        const shared::ShapeFace& shape = shapeFaces()[quadShapeFace(q)];
+        // The axes of merged faces lie along coordinates; steps go up whichever way the texture runs.
+        const auto step = [](float a) { return a != 0 ? 1 : 0; };
+        for (int v = 0; v < static_cast<int>(quadExtentV(q)); ++v) {
+            for (int u = 0; u < static_cast<int>(quadExtentU(q)); ++u) {
+                faces.push_back(
+                    {static_cast<int>(quadX(q)) + u * step(shape.axisU.x) + v * step(shape.axisV.x),
+                     static_cast<int>(quadY(q)) + u * step(shape.axisU.y) + v * step(shape.axisV.y),
+                     static_cast<int>(quadZ(q)) + u * step(shape.axisU.z) + v * step(shape.axisV.z),
+                     quadShapeFace(q), quadMaterial(q)});
+            }
+        }
+    }
+    std::sort(faces.begin(), faces.end());
+    return faces;
+}
+
+}  // namespace terrane::mesh

@@ -1,0 +1,243 @@
+#include "terrane/world/block_parser.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace terrane::world {
+namespace {
+
+using testing::StartsWith;
+
+// A block that lacks nothing, to which a case adds one line: the fifth of the file.
+std::string cubeWith(std::string_view line) {
+    return fmt::format("[[block]]\nname = \"rock\"\nshape = \"cube\"\ntexture = \"rock\"\n{}\n", line);
+}
+
+std::string errorOf(std::string_view toml) {
+    const auto blocks = parseBlocks(toml, "blocks.toml");
+    return blocks ? "no error" : blocks.error().message;
+}
+
+BlockDescription only(std::string_view toml) {
+    const auto blocks = parseBlocks(toml, "blocks.toml");
+    EXPECT_TRUE(blocks) << (blocks ? "" : blocks.error().message);
+    if (!blocks || blocks->size() != 1) return {};
+    return blocks->front();
+}
+
+struct BadLine {
+    std::string_view line, error;
+};
+
+constexpr std::string_view kAllKeys =
+    "name, shape, texture, textures, alpha, animation, two_sided, inner_faces, opacity, emission, collides, "
+    "selection, selectable, generated";
+
+TEST(BlockParser, BadLines) {
+    constexpr BadLine kCases[] = {
+        {"opacity = 40", "blocks.toml:5: opacity: expected 0 to 15, got 40"},
+        {"opacity = -1", "blocks.toml:5: opacity: expected 0 to 15, got -1"},
+        {"opacity = 3.0", "blocks.toml:5: opacity: expected 0 to 15, got 3.0"},
+        {"opacity = true", "blocks.toml:5: opacity: expected 0 to 15, got true"},
+        {"emission = 15", "blocks.toml:5: emission: expected [red, green, blue], got 15"},
+        {"emission = [1, 2]", "blocks.toml:5: emission: expected [red, green, blue], got an array of 2"},
+        {"emission = [1, 2, 16]", "blocks.toml:5: emission: expected 0 to 15, got 16"},
+        {"emission = [1,\n 2,\n \"3\"]", "blocks.toml:7: emission: expected 0 to 15, got \"3\""},
+        {"collides = 1", "blocks.toml:5: collides: expected true or false, got 1"},
+        {"generated = \"no\"", "blocks.toml:5: generated: expected true or false, got \"no\""},
+        {"selectable = []", "blocks.toml:5: selectable: expected true or false, got an array of 0"},
+        {"inner_faces = {}", "blocks.toml:5: inner_faces: expected true or false, got a table"},
+        {"two_sided = \"yes\"", "blocks.toml:5: two_sided: expected true or false, got \"yes\""},
+        {"two_sided = { top = 1 }", "blocks.toml:5: two_sided.top: expected true or false, got 1"},
+        {"alpha = \"holes\"",
+         "blocks.toml:5: alpha: expected one of unused, test, blend, glow, test_glow, got \"holes\""},
+        {"alpha = { side = 3 }",
+         "blocks.toml:5: alpha.side: expected one of unused, test, blend, glow, test_glow, got 3"},
+        {"alpha = { north = \"test\" }",
+         "blocks.toml:5: alpha.north: unknown key, expected one of top, bottom, side"},
+        {"animation = \"spins\"",
+         "blocks.toml:5: animation: expected one of none, top_waves, whole_waves, liquid_surface, got "
+         "'spins'"},
+        {"textures = { top = \"a\", bottom = \"a\", side = \"a\" }",
+         "blocks.toml:5: textures: expected only one of texture and textures, got a table"},
+        {"alpha = \"test\"", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
+        {"alpha = { top = \"blend\" }", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
+        {"[[block]]\nname = \"rock\"\nshape = \"cube\"\ntexture = \"rock\"",
+         "blocks.toml:6: name: expected a name not used before, got \"rock\""},
+        {"[[block]]\nname = \"air\"\nshape = \"cube\"\ntexture = \"rock\"",
+         "blocks.toml:6: name: expected a name not used before, got \"air\""},
+        {"[[block]]\nname = \"missing\"\nshape = \"cube\"\ntexture = \"rock\"",
+         "blocks.toml:6: name: expected a name not used before, got \"missing\""},
+    };
+    for (const BadLine& c : kCases) EXPECT_EQ(errorOf(cubeWith(c.line)), c.error) << c.line;
+}
+
+TEST(BlockParser, BadSelection) {
+    constexpr std::string_view kExpected =
+        "blocks.toml:5: selection: expected [[x, y, z], [x, y, z]] from 0 to 1, the lower corner first, got ";
+    constexpr BadLine kCases[] = {
+        {"selection = 1", "1"},
+        {"selection = [0, 1]", "an array of 2"},
+        {"selection = [[0, 0, 0]]", "an array of 1"},
+        {"selection = [[0, 0], [1, 1]]", "an array of 2"},
+        {"selection = [[0, 0, 0], [1, 1, 1.5]]", "an array of 2"},
+        {"selection = [[0, 0, -0.5], [1, 1, 1]]", "an array of 2"},
+        {"selection = [[0, 0, 0], [1, 1, nan]]", "an array of 2"},
+        {"selection = [[0, 0, 0], [1, 1, \"1\"]]", "an array of 2"},
+        {"selection = [[0, 0, 1], [1, 1, 0]]", "an array of 2"},
+        {"selection = [[0, 0, 0], [1, 0, 1]]", "an array of 2"},
+    };
+    for (const BadLine& c : kCases)
+        EXPECT_EQ(errorOf(cubeWith(c.line)), fmt::format("{}{}", kExpected, c.error)) << c.line;
+}
+
+TEST(BlockParser, UnknownKeys) {
+    EXPECT_EQ(errorOf(cubeWith("colour = 1")),
+              fmt::format("blocks.toml:5: colour: unknown key, expected one of {}", kAllKeys));
+    EXPECT_EQ(errorOf(cubeWith("zeta = 1\nalfa = 2")),
+              fmt::format("blocks.toml:5: zeta: unknown key, expected one of {}", kAllKeys))
+        << "the first of the file, not of the alphabet";
+    EXPECT_EQ(errorOf(cubeWith("\"a\\nb\" = 1")),
+              fmt::format("blocks.toml:5: a b: unknown key, expected one of {}", kAllKeys))
+        << "one line";
+    EXPECT_EQ(errorOf("title = \"x\"\n"), "blocks.toml:1: title: unknown key, expected one of block");
+}
+
+TEST(BlockParser, MissingKeys) {
+    constexpr BadLine kCases[] = {
+        {"\n[[block]]\nshape = \"cube\"\ntexture = \"a\"", "blocks.toml:2: name: missing (required)"},
+        {"[[block]]\nname = \"a\"\ntexture = \"a\"", "blocks.toml:1: shape: missing (required)"},
+        {"[[block]]\nname = \"a\"\nshape = \"cube\"", "blocks.toml:1: texture: missing (or textures)"},
+        {"[[block]]\nname = \"a\"\nshape = \"cube\"\ntextures = { top = \"a\", side = \"a\" }",
+         "blocks.toml:1: textures.bottom: missing (required)"},
+        {"[[block]]\nname = \"a\"\nshape = \"liquid\"\ntexture = \"a\"",
+         "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
+        {"[[block]]", "blocks.toml:1: name: missing (required)"},
+    };
+    for (const BadLine& c : kCases) EXPECT_EQ(errorOf(c.line), c.error) << c.line;
+}
+
+TEST(BlockParser, BadNamesAndShapes) {
+    constexpr BadLine kCases[] = {
+        {"name = \"Rock\"", "blocks.toml:2: name: expected a name of a-z, 0-9 and _, got \"Rock\""},
+        {"name = \"\"", "blocks.toml:2: name: expected a name of a-z, 0-9 and _, got \"\""},
+        {"name = 7", "blocks.toml:2: name: expected a name of a-z, 0-9 and _, got 7"},
+        {"name = \"a/../b\"", "blocks.toml:2: name: expected a name of a-z, 0-9 and _, got \"a/../b\""},
+        {"name = \"a\"\nshape = \"ball\"",
+         "blocks.toml:3: shape: expected one of cube, liquid, cross, hash, inset, got \"ball\""},
+        {"name = \"a\"\nshape = 1",
+         "blocks.toml:3: shape: expected one of cube, liquid, cross, hash, inset, got 1"},
+        {"name = \"a\"\nshape = \"cube\"\ntexture = \"../x\"",
+         "blocks.toml:4: texture: expected a name of a-z, 0-9 and _, got \"../x\""},
+        {"name = \"a\"\nshape = \"cube\"\ntexture = { top = \"x\" }",
+         "blocks.toml:4: texture: expected a name of a-z, 0-9 and _, got a table"},
+        {"name = \"a\"\nshape = \"cube\"\ntextures = \"x\"",
+         "blocks.toml:4: textures: expected a table of top, bottom and side, got \"x\""},
+        {"name = \"a\"\nshape = \"cube\"\ntextures = { top = 1, bottom = \"x\", side = \"x\" }",
+         "blocks.toml:4: textures.top: expected a name of a-z, 0-9 and _, got 1"},
+        {"name = \"a\"\nshape = \"cube\"\ntextures = { up = \"x\" }",
+         "blocks.toml:4: textures.up: unknown key, expected one of top, bottom, side"},
+    };
+    for (const BadLine& c : kCases)
+        EXPECT_EQ(errorOf(fmt::format("[[block]]\n{}\n", c.line)), c.error) << c.line;
+}
+
+TEST(BlockParser, BlocksMustBeTables) {
+    constexpr std::string_view kExpected =
+        "blocks.toml:1: block: expected tables that begin with [[block]], got ";
+    EXPECT_EQ(errorOf("block = 3"), fmt::format("{}3", kExpected));
+    EXPECT_EQ(errorOf("[block]\nname = \"a\""), fmt::format("{}a table", kExpected));
+    EXPECT_EQ(errorOf("block = [1, {}]"), fmt::format("{}an array of 2", kExpected));
+}
+
+// The text after the line number is the TOML library's.
+TEST(BlockParser, SyntaxErrors) {
+    EXPECT_THAT(errorOf("[[block]]\nname = \"a\"\nshape = \n"), StartsWith("blocks.toml:3: syntax: "));
+    EXPECT_THAT(errorOf("[[block]\n"), StartsWith("blocks.toml:1: syntax: "));
+    EXPECT_THAT(errorOf("[[block]]\nname = \"a\"\nname = \"b\"\n"), StartsWith("blocks.toml:3: syntax: "));
+    EXPECT_THAT(errorOf("a = \"\xff\""), StartsWith("blocks.toml:1: syntax: "));
+    EXPECT_EQ(errorOf("a = \"\n\"").find('\n'), std::string::npos);
+}
+
+// Every beginning of a valid file is read or refused, never worse.
+TEST(BlockParser, EveryTruncation) {
+    const std::string whole = cubeWith(
+        "alpha = { side = \"test\", top = \"unused\" }\nopacity = 3\nemission = [1, 2, 3]\n"
+        "selection = [[0, 0, 0], [1, 1, 0.5]]");
+    EXPECT_EQ(errorOf(whole), "no error");
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+        const std::string error = errorOf(std::string_view(whole).substr(0, size));
+        EXPECT_TRUE(error == "no error" || error.starts_with("blocks.toml:")) << error;
+        EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+    }
+}
+
+TEST(BlockParser, NumberOfBlocks) {
+    std::string file;
+    for (std::size_t i = 0; i < kMaxDescribedBlocks; ++i)
+        file += fmt::format("[[block]]\nname=\"b{}\"\nshape=\"cube\"\ntexture=\"a\"\n", i);
+    EXPECT_EQ(errorOf(file), "no error");
+    file += "[[block]]\nname=\"last\"\nshape=\"cube\"\ntexture=\"a\"\n";
+    EXPECT_EQ(errorOf(file), "blocks.toml:262137: block: expected at most 65534, got more");
+}
+
+TEST(BlockParser, Defaults) {
+    const BlockDescription block = only(cubeWith(""));
+    EXPECT_EQ(block.type.name, "rock");
+    EXPECT_EQ(block.type.shape, Shape::Cube);
+    EXPECT_EQ(block.type.opacity, 15);
+    EXPECT_EQ(block.type.emission, (std::array<std::uint8_t, 3>{0, 0, 0}));
+    EXPECT_EQ(block.type.collision.size(), 1u);
+    EXPECT_TRUE(block.type.selectable && block.type.generated);
+    EXPECT_FALSE(block.type.innerFaces);
+    EXPECT_EQ(block.animation, Animation::None);
+    EXPECT_TRUE(isOpaqueCube(block));
+    EXPECT_EQ(block.line, 1);
+    for (const FaceLook& face : block.faces) {
+        EXPECT_EQ(face.texture, "rock");
+        EXPECT_EQ(face.alpha, AlphaMode::Unused);
+        EXPECT_FALSE(face.twoSided);
+    }
+}
+
+TEST(BlockParser, FaceGroups) {
+    const BlockDescription block = only(
+        "[[block]]\nname = \"a\"\nshape = \"inset\"\ntextures = { top = \"t\", bottom = \"b\", side = \"s\" "
+        "}\n"
+        "alpha = { side = \"test\" }\ntwo_sided = { top = true }\nopacity = 0\n");
+    for (const Face face : {kFaceNegX, kFacePosX, kFaceNegY, kFacePosY}) {
+        EXPECT_EQ(block.faces[face].texture, "s");
+        EXPECT_EQ(block.faces[face].alpha, AlphaMode::Test);
+        EXPECT_FALSE(block.faces[face].twoSided);
+    }
+    EXPECT_EQ(block.faces[kFacePosZ].texture, "t");
+    EXPECT_EQ(block.faces[kFacePosZ].alpha, AlphaMode::Unused);
+    EXPECT_TRUE(block.faces[kFacePosZ].twoSided);
+    EXPECT_EQ(block.faces[kFaceNegZ].texture, "b");
+    EXPECT_FALSE(isOpaqueCube(block));
+}
+
+TEST(BlockParser, BoxesOfShapes) {
+    const BlockDescription inset =
+        only("[[block]]\nname = \"a\"\nshape = \"inset\"\ntexture = \"t\"\nopacity = 0\n");
+    ASSERT_EQ(inset.type.collision.size(), 1u);
+    for (const Box& box : {inset.type.collision[0], inset.type.selection}) {
+        EXPECT_EQ(box.min, glm::vec3(0.0625f, 0.0625f, 0));
+        EXPECT_EQ(box.max, glm::vec3(0.9375f, 0.9375f, 1));
+    }
+    const BlockDescription low = only(cubeWith("collides = false\nselection = [[0, 0.25, 0], [1, 1, 0.5]]"));
+    EXPECT_TRUE(low.type.collision.empty());
+    EXPECT_EQ(low.type.selection.min, glm::vec3(0, 0.25f, 0));
+    EXPECT_EQ(low.type.selection.max, glm::vec3(1, 1, 0.5f));
+}
+
+TEST(BlockParser, EmptyFileHasNoBlocks) {
+    const auto blocks = parseBlocks("# nothing\n", "blocks.toml");
+    ASSERT_TRUE(blocks);
+    EXPECT_TRUE(blocks->empty());
+}
+
+}  // namespace
+}  // namespace terrane::world

@@ -1,0 +1,242 @@
+#include "terrane/world/block_registry.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+
+namespace terrane::world {
+namespace {
+
+BlockRegistry parsed(std::string_view toml) {
+    auto registry = BlockRegistry::parse(toml, "blocks.toml");
+    EXPECT_TRUE(registry) << (registry ? "" : registry.error().message);
+    return registry ? *registry : BlockRegistry();
+}
+
+const BlockRegistry& content() {
+    static const BlockRegistry registry = [] {
+        std::ifstream file(TERRANE_SOURCE_DIR "/assets/blocks.toml");
+        return parsed(std::string(std::istreambuf_iterator<char>(file), {}));
+    }();
+    return registry;
+}
+
+constexpr std::string_view kTwo =
+    "[[block]]\nname = \"first\"\nshape = \"cube\"\ntexture = \"shared\"\n"
+    "[[block]]\nname = \"second\"\nshape = \"cube\"\n"
+    "textures = { top = \"shared\", bottom = \"other\", side = \"other\" }\n";
+
+TEST(BlockRegistry, IdsFollowTheFile) {
+    const BlockRegistry registry = parsed(kTwo);
+    ASSERT_EQ(registry.types().size(), 4u);
+    EXPECT_EQ(registry.type(0).name, "air");
+    EXPECT_EQ(registry.type(1).name, "first");
+    EXPECT_EQ(registry.type(2).name, "second");
+    EXPECT_EQ(registry.type(3).name, "missing");
+    EXPECT_EQ(registry.missing(), 3);
+    for (std::size_t id = 0; id < 4; ++id) EXPECT_EQ(registry.types()[id].id, id);
+}
+
+TEST(BlockRegistry, Find) {
+    const BlockRegistry registry = parsed(kTwo);
+    ASSERT_NE(registry.find("second"), nullptr);
+    EXPECT_EQ(registry.find("second")->id, 2);
+    EXPECT_EQ(registry.find("air")->id, kAir);
+    EXPECT_EQ(registry.find("missing")->id, registry.missing());
+    EXPECT_EQ(registry.find("third"), nullptr);
+    EXPECT_EQ(registry.find(""), nullptr);
+}
+
+TEST(BlockRegistry, UnknownIdsAreMissing) {
+    const BlockRegistry registry = parsed(kTwo);
+    EXPECT_EQ(registry.type(4).name, "missing");
+    EXPECT_EQ(registry.type(65535).name, "missing");
+}
+
+TEST(BlockRegistry, AirAndMissing) {
+    const BlockRegistry registry = parsed("");
+    ASSERT_EQ(registry.types().size(), 2u);
+    const BlockType& air = registry.type(kAir);
+    EXPECT_EQ(air.shape, Shape::None);
+    EXPECT_EQ(air.opacity, 0);
+    EXPECT_TRUE(air.collision.empty());
+    EXPECT_FALSE(air.selectable || air.opaqueCube);
+
+    const BlockType& missing = registry.type(registry.missing());
+    EXPECT_EQ(missing.shape, Shape::Cube);
+    EXPECT_EQ(missing.opacity, 15);
+    EXPECT_EQ(missing.collision.size(), 1u);
+    EXPECT_TRUE(missing.opaqueCube && missing.selectable);
+    EXPECT_FALSE(missing.generated);
+    ASSERT_EQ(registry.textures().size(), 1u);
+    EXPECT_EQ(registry.textures()[0], "missing");
+}
+
+TEST(BlockRegistry, MaterialsAreShared) {
+    const BlockRegistry registry = parsed(kTwo);
+    ASSERT_EQ(registry.materials().size(), 3u) << "shared, other, missing";
+    EXPECT_EQ(registry.textures()[0], "shared");
+    EXPECT_EQ(registry.textures()[1], "other");
+    EXPECT_EQ(registry.type(1).material[kFaceNegX], registry.type(2).material[kFacePosZ]);
+    EXPECT_NE(registry.type(2).material[kFaceNegX], registry.type(2).material[kFacePosZ]);
+    EXPECT_EQ(registry.materials()[registry.type(2).material[kFaceNegZ]].texture, 1);
+}
+
+TEST(BlockRegistry, MaterialsDifferByEveryProperty) {
+    std::string file;
+    for (const char* look : {"", "alpha = \"test\"\n", "two_sided = true\n", "animation = \"top_waves\"\n"})
+        file += fmt::format("[[block]]\nname = \"b{}\"\nshape = \"cross\"\ntexture = \"a\"\nopacity = 0\n{}",
+                            file.size(), look);
+    const BlockRegistry registry = parsed(file);
+    EXPECT_EQ(registry.materials().size(), 4u + 1);
+    EXPECT_EQ(registry.textures().size(), 2u);
+    EXPECT_EQ(registry.materials()[1].alpha, AlphaMode::Test);
+    EXPECT_TRUE(registry.materials()[2].twoSided);
+    EXPECT_EQ(registry.materials()[3].animation, Animation::TopWaves);
+}
+
+TEST(BlockRegistry, ErrorsArePassedOn) {
+    const auto registry = BlockRegistry::parse("[[block]]\nname = \"a\"\n", "my.toml");
+    ASSERT_FALSE(registry);
+    EXPECT_EQ(registry.error().message, "my.toml:1: shape: missing (required)");
+}
+
+// 16 bits number materials: 21,845 blocks of three materials fill them with one left for "missing".
+TEST(BlockRegistry, NumberOfMaterials) {
+    std::string file;
+    const auto add = [&](int i) {
+        file += fmt::format(
+            "[[block]]\nname=\"b{0}\"\nshape=\"cube\"\ntextures={{top=\"t{0}\",bottom=\"b{0}\",side=\"s{0}\"}"
+            "}\n",
+            i);
+    };
+    for (int i = 0; i < 21845; ++i) add(i);
+    EXPECT_EQ(parsed(file).materials().size(), 65536u);
+    add(21845);
+    const auto registry = BlockRegistry::parse(file, "blocks.toml");
+    ASSERT_FALSE(registry);
+    EXPECT_EQ(
+        registry.error().message,
+        "blocks.toml:87381: texture: expected at most 65536 combinations of texture, alpha, animation and "
+        "two_sided in all blocks, got more");
+}
+
+struct Row {
+    std::string_view name;
+    Shape shape;
+    int opacity;
+    std::array<std::uint8_t, 3> emission;
+    bool collides, generated;
+};
+
+constexpr std::array<std::uint8_t, 3> kDark{0, 0, 0};
+
+// The table of block types in the specification.
+constexpr Row kRows[] = {
+    {"stone", Shape::Cube, 15, kDark, true, true},
+    {"dirt", Shape::Cube, 15, kDark, true, true},
+    {"grass", Shape::Cube, 15, kDark, true, true},
+    {"sand", Shape::Cube, 15, kDark, true, true},
+    {"snow", Shape::Cube, 15, kDark, true, true},
+    {"glowing_ore", Shape::Cube, 15, {2, 1, 0}, true, true},
+    {"oak_log", Shape::Cube, 15, kDark, true, true},
+    {"oak_leaves", Shape::Cube, 3, kDark, true, true},
+    {"grass_tuft", Shape::Cross, 3, kDark, false, true},
+    {"blue_orchid", Shape::Cross, 3, kDark, false, true},
+    {"poppy", Shape::Cross, 3, kDark, false, true},
+    {"oxeye_daisy", Shape::Cross, 3, kDark, false, true},
+    {"wheat", Shape::Hash, 4, kDark, false, true},
+    {"red_mushroom", Shape::Cross, 2, kDark, false, true},
+    {"brown_mushroom", Shape::Cross, 2, kDark, false, true},
+    {"glowing_mushroom", Shape::Cross, 0, {5, 10, 8}, false, true},
+    {"cactus", Shape::Inset, 11, kDark, true, true},
+    {"lamp_white", Shape::Cube, 15, {15, 13, 13}, true, false},
+    {"lamp_red", Shape::Cube, 15, {15, 0, 0}, true, false},
+    {"lamp_green", Shape::Cube, 15, {0, 15, 0}, true, false},
+    {"lamp_blue", Shape::Cube, 15, {0, 0, 15}, true, false},
+    {"cyan_glass", Shape::Cube, 3, kDark, true, false},
+    {"water", Shape::Liquid, 1, kDark, false, true},
+};
+
+TEST(Content, MatchesTheSpecification) {
+    ASSERT_EQ(content().types().size(), std::size(kRows) + 2);
+    BlockId id = 1;
+    for (const Row& row : kRows) {
+        SCOPED_TRACE(row.name);
+        const BlockType& type = content().type(id++);
+        EXPECT_EQ(type.name, row.name);
+        EXPECT_EQ(type.shape, row.shape);
+        EXPECT_EQ(type.opacity, row.opacity);
+        EXPECT_EQ(type.emission, row.emission);
+        EXPECT_EQ(!type.collision.empty(), row.collides);
+        EXPECT_EQ(type.generated, row.generated);
+        EXPECT_EQ(type.opaqueCube, row.opacity == 15);
+        EXPECT_EQ(type.innerFaces, row.name == "oak_leaves");
+        EXPECT_EQ(type.selectable, row.name != "water");
+    }
+}
+
+TEST(Content, SelectionOfPlants) {
+    for (const BlockType& type : content().types()) {
+        if (type.shape != Shape::Cross && type.shape != Shape::Hash) continue;
+        EXPECT_EQ(type.selection.min, glm::vec3(0.3f, 0.3f, 0)) << type.name;
+        EXPECT_EQ(type.selection.max, glm::vec3(0.7f, 0.7f, 0.5f)) << type.name;
+    }
+    EXPECT_EQ(content().find("cactus")->collision[0].min, glm::vec3(0.0625f, 0.0625f, 0));
+}
+
+Material materialOf(std::string_view name, Face face) {
+    return content().materials()[content().find(name)->material[face]];
+}
+
+std::string textureOf(std::string_view name, Face face) {
+    return content().textures()[materialOf(name, face).texture];
+}
+
+TEST(Content, Textures) {
+    EXPECT_EQ(textureOf("grass", kFacePosZ), "grass_top");
+    EXPECT_EQ(textureOf("grass", kFaceNegZ), "dirt");
+    EXPECT_EQ(textureOf("grass", kFaceNegX), "grass_side");
+    EXPECT_EQ(textureOf("snow", kFacePosZ), "snow");
+    EXPECT_EQ(textureOf("snow", kFacePosY), "snow_side");
+    EXPECT_EQ(textureOf("snow", kFaceNegZ), "dirt");
+    EXPECT_EQ(textureOf("oak_log", kFaceNegZ), "oak_log_top");
+    EXPECT_EQ(textureOf("oak_log", kFaceNegY), "oak_log_side");
+    EXPECT_EQ(textureOf("cactus", kFaceNegZ), "cactus_bottom");
+    EXPECT_EQ(content().textures().back(), "missing");
+}
+
+TEST(Content, Looks) {
+    const auto expectLook = [](std::string_view name, Face face, Material look) {
+        look.texture = materialOf(name, face).texture;
+        EXPECT_EQ(materialOf(name, face), look) << name << ", face " << int{face};
+    };
+    for (const Face face : {kFaceNegX, kFacePosX, kFaceNegY, kFacePosY, kFaceNegZ, kFacePosZ}) {
+        expectLook("stone", face, {});
+        expectLook("oak_leaves", face, {0, AlphaMode::Test, Animation::WholeWaves, true});
+        expectLook("grass_tuft", face, {0, AlphaMode::Test, Animation::TopWaves, true});
+        expectLook("wheat", face, {0, AlphaMode::Test, Animation::TopWaves, true});
+        expectLook("red_mushroom", face, {0, AlphaMode::Test, Animation::None, true});
+        expectLook("glowing_mushroom", face, {0, AlphaMode::TestGlow, Animation::None, true});
+        expectLook("glowing_ore", face, {0, AlphaMode::Glow, Animation::None, false});
+        expectLook("lamp_blue", face, {0, AlphaMode::Glow, Animation::None, false});
+        expectLook("cyan_glass", face, {0, AlphaMode::Blend, Animation::None, true});
+        expectLook("water", face, {0, AlphaMode::Blend, Animation::LiquidSurface, true});
+        const bool side = face != kFaceNegZ && face != kFacePosZ;
+        expectLook("cactus", face, {0, side ? AlphaMode::Test : AlphaMode::Unused, Animation::None, side});
+    }
+}
+
+TEST(Content, MaterialsAreUnique) {
+    const auto materials = content().materials();
+    for (std::size_t a = 0; a < materials.size(); ++a)
+        for (std::size_t b = a + 1; b < materials.size(); ++b) EXPECT_FALSE(materials[a] == materials[b]);
+    const std::set<std::string> textures(content().textures().begin(), content().textures().end());
+    EXPECT_EQ(textures.size(), content().textures().size());
+}
+
+}  // namespace
+}  // namespace terrane::world

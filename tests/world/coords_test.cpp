@@ -1,0 +1,77 @@
+#include "terrane/world/coords.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+
+namespace terrane::world {
+namespace {
+
+constexpr std::int32_t kLowest = std::numeric_limits<std::int32_t>::min();
+constexpr std::int32_t kHighest = std::numeric_limits<std::int32_t>::max();
+
+TEST(Coords, ChunkOfFloors) {
+    EXPECT_EQ(chunkOf({0, 15, 0}), (ChunkPos{0, 0}));
+    EXPECT_EQ(chunkOf({16, 31, 0}), (ChunkPos{1, 1}));
+    EXPECT_EQ(chunkOf({-1, -16, 0}), (ChunkPos{-1, -1}));
+    EXPECT_EQ(chunkOf({-17, -32, 255}), (ChunkPos{-2, -2}));
+    EXPECT_EQ(chunkOf({kLowest, kHighest, 0}), (ChunkPos{kMinChunk, kMaxChunk}));
+}
+
+TEST(Coords, IndexLayout) {
+    EXPECT_EQ(blockIndex(1, 0, 0), 1);
+    EXPECT_EQ(blockIndex(0, 1, 0), 16);
+    EXPECT_EQ(blockIndex(0, 0, 1), 256);
+    EXPECT_EQ(blockIndex(15, 15, 255), 65535);
+    EXPECT_EQ(blockIndex(BlockPos{-1, -16, 2}), blockIndex(15, 0, 2));
+}
+
+TEST(Coords, RoundTripAtEdges) {
+    for (const std::int32_t x : {kLowest, kLowest + 1, -17, -16, -1, 0, 1, 15, 16, kHighest - 1, kHighest})
+        for (const std::int32_t y : {kLowest, -1, 0, kHighest})
+            for (const std::int32_t z : {0, 1, 128, 255}) {
+                const BlockPos p{x, y, z};
+                EXPECT_EQ(blockPos(chunkOf(p), blockIndex(p)), p) << x << ' ' << y << ' ' << z;
+                EXPECT_TRUE(isInWorld(chunkOf(p)));
+            }
+}
+
+TEST(Coords, RoundTripOfEveryIndex) {
+    for (int i = 0; i < kBlocksPerChunk; ++i) {
+        const auto index = static_cast<BlockIndex>(i);
+        EXPECT_EQ(blockIndex(blockPos({-3, 5}, index)), index);
+    }
+}
+
+TEST(Coords, Limits) {
+    EXPECT_FALSE(isInHeight(-1));
+    EXPECT_TRUE(isInHeight(0));
+    EXPECT_TRUE(isInHeight(255));
+    EXPECT_FALSE(isInHeight(256));
+    EXPECT_FALSE(isInWorld({kMinChunk - 1, 0}));
+    EXPECT_FALSE(isInWorld({0, kMaxChunk + 1}));
+    EXPECT_TRUE(isInWorld({kMinChunk, kMaxChunk}));
+}
+
+TEST(Coords, DistanceDoesNotOverflow) {
+    EXPECT_EQ(chunkDistance({0, 0}, {3, -4}), 4);
+    EXPECT_EQ(chunkDistance({-5, 0}, {3, -4}), 8);
+    EXPECT_EQ(chunkDistance({kLowest, 0}, {kHighest, 0}), (std::int64_t{1} << 32) - 1);
+    EXPECT_EQ(chunkDistance({0, kHighest}, {0, kLowest}), (std::int64_t{1} << 32) - 1);
+}
+
+// Tables take the lowest bits or a remainder: these must differ too.
+TEST(Coords, HashTellsNeighboursApart) {
+    std::set<std::size_t> hashes, low;
+    for (int y = -32; y < 32; ++y)
+        for (int x = -32; x < 32; ++x) {
+            hashes.insert(ChunkPosHash()({x, y}));
+            low.insert(ChunkPosHash()({x, y}) % 65536);
+        }
+    EXPECT_EQ(hashes.size(), 4096u);
+    EXPECT_GE(low.size(), 3800u);  // 3,970 by chance
+}
+
+}  // namespace
+}  // namespace terrane::world
