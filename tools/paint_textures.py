@@ -54,7 +54,7 @@ SAND = ramp("c0a477 ccb384 d4bf90 dac899 e2d1a4 ebddb4")
 SNOW = ramp("c9d6ea d9e3f1 e6edf6 eff3f9 f7f9fc ffffff")
 BARK = ramp("33241b 443022 553d29 654a30 765838 886845")
 WOOD = ramp("8a6238 a0763f b4894d c39a5a d0a968 dcb97a")
-LEAF = ramp("2c5230 386434 48773a 5a8a40 719e4a 90b55c")
+LEAF = ramp("33592f 437036 56863c 6b9a45 84ae52 a2c365")
 STEM = ramp("2f5a2a 3d7030 4f8537 669a41 84b152 a6c86c")
 CACTUS = ramp("2f5a22 3f7227 4f852a 609630 74a638 8bb747")
 BLADE = ramp("4c7a33 668f40 83a651 a1bd68 bdd085 d8e3a8")
@@ -225,9 +225,10 @@ def snow():
     return settled(Image(shade), (238, 242, 248), 1.0)
 
 
-def overlaid(seed: int, cover: Image, shadow: tuple, lobes: int) -> Image:
-    """Dirt whose top 3 to 5 rows hang over as a ragged fringe (that many lobes) over its own shadow."""
-    soil, depth = dirt(), [3 + int(3 * smooth(seed, x, 0, lobes, 1)) for x in range(SIZE)]
+def overlaid(seed: int, cover: Image, shadow: tuple, lobes: int, least: int) -> Image:
+    """Dirt over which the cover hangs, `least` rows deep and up to 4 more: a ragged fringe (that many lobes) and its
+    shadow. Deep fringes let a hillside keep the colour of its ground."""
+    soil, depth = dirt(), [least + int(4 * smooth(seed, x, 0, lobes, 1)) for x in range(SIZE)]
 
     def shade(x, y):
         if y >= depth[x]:
@@ -436,8 +437,8 @@ def water():
         waves = (math.sin(2 * u + v + 1.4 * math.sin(2 * v + 1)) + math.sin(2 * v - u + 1.4 * math.sin(2 * u))
                  + math.sin(3 * u - 2 * v + math.sin(u + v)))
         net = max(0.0, 1 - 0.8 * abs(waves))
-        return (*mix((52, 102, 132), (78, 130, 156), net), 167 + round(7 * net))
-    return settled(Image(shade), (60, 110, 140))
+        return (*mix((28, 92, 138), (52, 122, 164), net), 219 + round(7 * net))
+    return settled(Image(shade), (34, 98, 146))
 
 
 def missing():
@@ -451,10 +452,10 @@ TEXTURES = {
     "stone": (stone, "opaque", True),
     "dirt": (dirt, "opaque", True),
     "grass_top": (grass_top, "opaque", True),
-    "grass_side": (lambda: overlaid(61, grass_top(), GRASS[0], 16), "opaque", True),
+    "grass_side": (lambda: overlaid(61, grass_top(), GRASS[0], 16, 9), "opaque", True),
     "sand": (sand, "opaque", True),
     "snow": (snow, "opaque", True),
-    "snow_side": (lambda: overlaid(71, snow(), (170, 190, 220), 7), "opaque", True),
+    "snow_side": (lambda: overlaid(71, snow(), (170, 190, 220), 7, 6), "opaque", True),
     "glowing_ore": (glowing_ore, "glow", True),
     "oak_log_side": (oak_log_side, "opaque", True),
     "oak_log_top": (oak_log_top, "opaque", True),

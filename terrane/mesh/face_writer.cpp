@@ -1,6 +1,6 @@
 #include "terrane/mesh/face_writer.h"
 
-#include <bit>
+#include <algorithm>
 #include <cassert>
 
 namespace terrane::mesh {
@@ -17,14 +17,16 @@ constexpr unsigned kShiftX = 0, kShiftY = 4, kShiftZ = 8, kShiftU = 24, kShiftV 
 
 // One plane of faces: what is equal in its quads, and where a rectangle's bit and row belong in them.
 struct FaceWriter::Plane {
-    const FaceKind& kind;
     Quad first;  // a quad of one face at bit 0, row 0
     unsigned bitShift, rowShift;
+    Merge merge;
 };
 
 void FaceWriter::write(const BitCube& faces, const FaceKind& kind) {
     assert(kind.material < materials_.size() && "material of the registry the blocks are from");
     assert(kind.plane < world::kFaceCount && "planes lie along a side");
+    const world::Material& material = materials_[kind.material];
+    bucket_ = &out_.bucket(faceContext(material), faceGroup(kind.shapeFace, material));
     isAlongZ(kind.plane) ? writeLevel(faces, kind) : writeUpright(faces, kind);
 }
 
@@ -34,22 +36,19 @@ void FaceWriter::writeLevel(const BitCube& faces, const FaceKind& kind) {
         if ((words[0] | words[1] | words[2] | words[3]) == 0) continue;
         BitSlice rows;
         for (std::size_t row = 0; row < 16; ++row) rows[row] = cubeRow(faces, layer, row);
-        const auto z = static_cast<uint>(baseZ_) + static_cast<uint>(layer);
+        const uint z = static_cast<uint>(baseZ_) + static_cast<uint>(layer);
         const Quad first =
             packQuad({.x = 0, .y = 0, .z = z, .shapeFace = kind.shapeFace, .material = kind.material});
-        writePlane(rows, {kind, first, kShiftX, kShiftY});
+        writePlane(rows, {first, kShiftX, kShiftY, kind.merge});
         out_.coverHeight(static_cast<int>(z), static_cast<int>(z) + 1);
     }
 }
 
 void FaceWriter::writeUpright(const BitCube& faces, const FaceKind& kind) {
     std::array<std::uint64_t, 4> used{};  // all layers on top of each other: which planes have faces
-    std::uint32_t usedLayers = 0;
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-        used[i % 4] |= faces[i];
-        usedLayers |= faces[i] != 0 ? 1u << (i / 4) : 0;
+    for (std::size_t i = 0; i < faces.size(); i += 4) {
+        for (std::size_t k = 0; k < 4; ++k) used[k] |= faces[i + k];
     }
-    if (usedLayers == 0) return;
     const bool alongX = isAlongX(kind.plane);
     for (std::size_t plane = 0; plane < 16; ++plane) {
         if (static_cast<std::uint16_t>(used[plane / 4] >> (16 * (plane % 4))) == 0) continue;
@@ -61,20 +60,25 @@ void FaceWriter::writeUpright(const BitCube& faces, const FaceKind& kind) {
                                      .z = static_cast<uint>(baseZ_),
                                      .shapeFace = kind.shapeFace,
                                      .material = kind.material});
-        writePlane(rows, {kind, first, alongX ? kShiftY : kShiftX, kShiftZ});
+        const auto [firstRow, endRow] =
+            writePlane(rows, {first, alongX ? kShiftY : kShiftX, kShiftZ, kind.merge});
+        out_.coverHeight(baseZ_ + firstRow, baseZ_ + endRow);
     }
-    out_.coverHeight(baseZ_ + std::countr_zero(usedLayers), baseZ_ + std::bit_width(usedLayers));
 }
 
-void FaceWriter::writePlane(const BitSlice& rows, const Plane& plane) {
-    const world::Material& material = materials_[plane.kind.material];
-    std::vector<Quad>& bucket = out_.bucket(faceContext(material), faceGroup(plane.kind.shapeFace, material));
-    for (const Rectangle& r : mergeRows(rows, plane.kind.merge, rectangles_)) {
+// Returns which rows have faces: from the first, up to the second.
+std::pair<int, int> FaceWriter::writePlane(const BitSlice& rows, const Plane& plane) {
+    const std::span<const Rectangle> rectangles = mergeRows(rows, plane.merge, rectangles_);
+    assert(!rectangles.empty() && "planes without faces are passed over");
+    int endRow = 0;
+    for (const Rectangle& r : rectangles) {
         Quad quad = plane.first;
         quad.word0 += uint{r.bit} << plane.bitShift | uint{r.row} << plane.rowShift;
         quad.word0 += (r.bits - 1u) << kShiftU | (r.rows - 1u) << kShiftV;
-        bucket.push_back(quad);
+        bucket_->push_back(quad);
+        endRow = std::max(endRow, r.row + r.rows);
     }
+    return {rectangles.front().row, endRow};
 }
 
 }  // namespace terrane::mesh

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "terrane/mesh/bit_cube.h"
 #include "terrane/mesh/greedy_merge.h"
@@ -33,11 +35,12 @@ class FaceWriter {
     struct Plane;
     void writeUpright(const BitCube& faces, const FaceKind& kind);
     void writeLevel(const BitCube& faces, const FaceKind& kind);
-    void writePlane(const BitSlice& rows, const Plane& plane);
+    std::pair<int, int> writePlane(const BitSlice& rows, const Plane& plane);
 
     std::span<const world::Material> materials_;
     int baseZ_;
     QuadBuckets& out_;
+    std::vector<shared::Quad>* bucket_ = nullptr;  // of the faces being written
     RectangleBuffer rectangles_;
 };
 

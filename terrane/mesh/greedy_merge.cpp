@@ -4,26 +4,28 @@
 
 namespace terrane::mesh {
 
+
 std::span<const Rectangle> mergeRows(BitSlice rows, Merge merge, RectangleBuffer& buffer) {
     std::size_t count = 0;
-    for (unsigned row = 0; row < 16; ++row) {
+    for (std::size_t row = 0; row < rows.size(); ++row) {
         unsigned left = rows[row];
         while (left != 0) {
-            // Adding the lowest one carries through the run of ones above it: what the carry clears is the run.
+            // Adding the lowest one carries through the run of ones above it: what the carry clears is the
+            // run.
             const unsigned lowest = left & (0u - left);
-            const unsigned carried = left + lowest;
+            const unsigned carried = merge == Merge::None ? lowest << 1 : left + lowest;
             const unsigned run = merge == Merge::None ? lowest : left & ~carried;
             left ^= run;
-            unsigned end = row + 1;
+            std::size_t end = row + 1;
             if (merge == Merge::Full) {
-                for (; end < 16 && (rows[end] & run) == run; ++end) {
+                for (; end < rows.size() && (rows[end] & run) == run; ++end) {
                     rows[end] = static_cast<std::uint16_t>(rows[end] ^ run);
                 }
             }
             const int bit = std::countr_zero(lowest);
-            const int bits = merge == Merge::None ? 1 : std::countr_zero(carried) - bit;
             buffer[count++] = {static_cast<std::uint8_t>(bit), static_cast<std::uint8_t>(row),
-                               static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(end - row)};
+                               static_cast<std::uint8_t>(std::countr_zero(carried) - bit),
+                               static_cast<std::uint8_t>(end - row)};
         }
     }
     return {buffer.data(), count};

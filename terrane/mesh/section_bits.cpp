@@ -57,8 +57,8 @@ constexpr Word clearDigit(int digit) {
     return mask;
 }
 
-// words: 64 groups of 2^kLog2; afterwards word p of a group is plane p of its 64 blocks. Each step runs over all words:
-// such loops are done two words an instruction.
+// words: 64 groups of 2^kLog2; afterwards word p of a group is plane p of its 64 blocks. Each step runs over
+// all words: such loops are done two words an instruction.
 template <int kLog2>
 void sortIntoPlanes(Word* words) {
     constexpr std::size_t kWords = std::size_t{64} << kLog2;

@@ -15,8 +15,8 @@ namespace {
 
 // Draw records and commands of a frame: 16 + 20 bytes a region and face context; 4,225 chunks × 4 regions × about 3.
 constexpr std::size_t kRingBytes = 4u << 20;
-constexpr float kAmbientFromBelow = 0.42f;  // share of the sky's light on faces that look down
-constexpr float kExposure = 1.0f;
+constexpr float kAmbientFromBelow = 0.4f;  // share of the sky's light on faces that look down
+constexpr float kExposure = 0.92f;
 constexpr float kMaxAnisotropy = 8.0f;
 
 shared::Frame frameOf(const FrameInput& input, const ViewMatrices& view) {

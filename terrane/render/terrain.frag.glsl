@@ -33,10 +33,10 @@ vec3 shade(vec3 albedo, vec3 normal) {
 
 vec3 fade(vec3 color, vec3 toPoint) {
     float share = length(toPoint.xy) / frame.cameraPosition.w;
-    float haze = 1.0 - exp(-1.6 * share * share);
-    float amount = max(haze, smoothstep(0.82, 1.0, share));
+    float haze = 1.0 - exp(-0.9 * share * share * share);
+    float amount = max(haze, smoothstep(0.8, 1.0, share));
     vec3 direction = normalize(toPoint);
-    direction.z = abs(direction.z);
+    direction.z = max(direction.z, 0.0);
     return mix(color, skyColor(direction), amount);
 }
 

@@ -83,7 +83,6 @@ class Table {
     Table(const toml::table& table, std::string_view file, std::optional<std::string>& error)
         : table_(table), file_(file), error_(error) {}
 
-    bool has(std::string_view key) const { return table_.contains(key); }
     const toml::node* node(std::string_view key) const { return table_.get(key); }
     int line() const { return lineOf(table_); }
 

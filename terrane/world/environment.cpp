@@ -25,12 +25,12 @@ constexpr std::array kLight = {
     ColorKey{.85f, {0, 0, 0}},       ColorKey{.88f, {52, 66, 92}},
 };
 constexpr std::array kAmbient = {
-    ColorKey{.13f, {34, 40, 58}},    ColorKey{.2f, {120, 116, 132}}, ColorKey{.27f, {158, 174, 198}},
-    ColorKey{.73f, {158, 174, 198}}, ColorKey{.8f, {128, 112, 130}}, ColorKey{.87f, {34, 40, 58}},
+    ColorKey{.13f, {34, 40, 58}},    ColorKey{.2f, {120, 116, 132}}, ColorKey{.27f, {190, 200, 214}},
+    ColorKey{.73f, {190, 200, 214}}, ColorKey{.8f, {128, 112, 130}}, ColorKey{.87f, {34, 40, 58}},
 };
 constexpr std::array kZenith = {
-    ColorKey{.13f, {6, 9, 20}},     ColorKey{.2f, {58, 84, 132}}, ColorKey{.27f, {62, 128, 214}},
-    ColorKey{.73f, {62, 128, 214}}, ColorKey{.8f, {56, 66, 120}}, ColorKey{.87f, {6, 9, 20}},
+    ColorKey{.13f, {6, 9, 20}},     ColorKey{.2f, {58, 84, 132}}, ColorKey{.27f, {44, 112, 214}},
+    ColorKey{.73f, {44, 112, 214}}, ColorKey{.8f, {56, 66, 120}}, ColorKey{.87f, {6, 9, 20}},
 };
 constexpr std::array kHorizon = {
     ColorKey{.13f, {20, 26, 44}},    ColorKey{.2f, {214, 168, 140}}, ColorKey{.27f, {182, 212, 236}},
@@ -82,7 +82,7 @@ Environment environmentAt(float timeDay) {
     const bool isSun = time >= kMoonSets && time < kMoonRises;
     Environment e{};
     e.lightDirection = lightDirection(time);
-    e.lightColor = colorAt(kLight, time) * (isSun ? 1.15f : 1.0f);
+    e.lightColor = colorAt(kLight, time) * (isSun ? 0.9f : 1.0f);
     e.ambientColor = colorAt(kAmbient, time);
     e.zenithColor = colorAt(kZenith, time);
     e.horizonColor = colorAt(kHorizon, time);

@@ -59,7 +59,7 @@ TEST(BlockParser, BadLines) {
          "blocks.toml:5: alpha.north: unknown key, expected one of top, bottom, side"},
         {"animation = \"spins\"",
          "blocks.toml:5: animation: expected one of none, top_waves, whole_waves, liquid_surface, got "
-         "'spins'"},
+         "\"spins\""},
         {"textures = { top = \"a\", bottom = \"a\", side = \"a\" }",
          "blocks.toml:5: textures: expected only one of texture and textures, got a table"},
         {"alpha = \"test\"", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},

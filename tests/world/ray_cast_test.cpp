@@ -250,7 +250,7 @@ TEST(RayCast, EqualsLookingAtEveryBlock) {
                                   BlockPos{kHighest - kRegion + 1, kLowest + 100, 255 - kRegion + 1}})
         for (int round = 0; round < 12; ++round) {
             const World world = randomWorld(corner, 1 + round * 2, random);
-            for (int i = 0; i < 300; ++i) {
+            for (int i = 0; i < 150; ++i) {
                 const Ray ray = randomRay(corner, random);
                 if (ray.direction == glm::dvec3(0)) continue;
                 const auto hit = castRay(world, registry(), ray, 100);
@@ -293,13 +293,13 @@ std::optional<RayHit> stepping(const World& world, const Ray& ray, double maxDis
 
 // Stepping can miss a corner that is shorter than a step, never see anything earlier.
 TEST(RayCast, EqualsStepping) {
-    constexpr double kStep = 1 / 1024.0, kReach = 16;
+    constexpr double kStep = 1 / 512.0, kReach = 16;
     const BlockPos corner{-6, -6, 20};
     std::mt19937 random(2);
     int hits = 0, missed = 0;
     for (int round = 0; round < 10; ++round) {
         const World world = randomWorld(corner, 2 + round * 2, random);
-        for (int i = 0; i < 150; ++i) {
+        for (int i = 0; i < 80; ++i) {
             const Ray ray = randomRay(corner, random);
             if (ray.direction == glm::dvec3(0)) continue;
             const auto hit = castRay(world, registry(), ray, kReach);
