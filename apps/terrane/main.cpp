@@ -1,4 +1,5 @@
-// terrane: reads the command line, runs one command, reports. Exit codes: 0 done, 2 bad input or a missing means.
+// terrane: reads the command line, runs one command, reports. Exit codes: 0 done, 2 bad input or a missing
+// means.
 #include <vector>
 
 #include "apps/terrane/commands/commands.h"
@@ -23,12 +24,14 @@ int main(int argc, char** argv) {
     CLI::App app("Terrane: large voxel worlds. Without a command it plays.", "terrane");
     app.set_version_flag("--version", TERRANE_VERSION);
     app.require_subcommand(0, 1);
-    const std::vector<app::CommandEntry> commands = {app::addPlay(app),  app::addRender(app), app::addGenerate(app),
-                                                     app::addDump(app), app::addBlocks(app), app::addInfo(app)};
+    const std::vector<app::CommandEntry> commands = {app::addPlay(app),     app::addRender(app),
+                                                     app::addGenerate(app), app::addDump(app),
+                                                     app::addBlocks(app),   app::addInfo(app)};
     std::vector<const char*> arguments(argv, argv + argc);
     const bool hasCommand = argc > 1 && argv[1][0] != '-';
-    const bool asksForHelp = argc > 1 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h" ||
-                                          std::string_view(argv[1]) == "--version");
+    const bool asksForHelp =
+        argc > 1 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h" ||
+                     std::string_view(argv[1]) == "--version");
     if (!hasCommand && !asksForHelp) arguments.insert(arguments.begin() + 1, "play");
     try {
         app.parse(static_cast<int>(arguments.size()), arguments.data());

@@ -17,8 +17,9 @@ glm::ivec2 parseSize(const std::string& text) {
     const auto y = hasCross ? std::from_chars(x.ptr + 1, end, height) : x;
     const bool isGood = hasCross && y.ec == std::errc() && y.ptr == end;
     if (!isGood || width < 1 || height < 1 || width > kMaxPictureSide || height > kMaxPictureSide) {
-        throw CLI::ValidationError("--size", fmt::format("expected WIDTHxHEIGHT with sides of 1 to {}, got \"{}\"",
-                                                         kMaxPictureSide, text));
+        throw CLI::ValidationError(
+            "--size",
+            fmt::format("expected WIDTHxHEIGHT with sides of 1 to {}, got \"{}\"", kMaxPictureSide, text));
     }
     return {width, height};
 }
@@ -26,13 +27,14 @@ glm::ivec2 parseSize(const std::string& text) {
 Area parseArea(const std::string& text) {
     const auto n = parseNumbers(text, 4, "--area: expected X0,Y0,X1,Y1 in chunks");
     for (const double v : n) {
-        if (v != static_cast<double>(static_cast<std::int64_t>(v)) || v < world::kMinChunk || v > world::kMaxChunk + 1.0) {
-            throw CLI::ValidationError(
-                "--area", fmt::format("chunk coordinates are integers from {} to {}", world::kMinChunk, world::kMaxChunk));
+        if (v != static_cast<double>(static_cast<std::int64_t>(v)) || v < world::kMinChunk ||
+            v > world::kMaxChunk + 1.0) {
+            throw CLI::ValidationError("--area", fmt::format("chunk coordinates are integers from {} to {}",
+                                                             world::kMinChunk, world::kMaxChunk));
         }
     }
-    const Area area{static_cast<std::int32_t>(n[0]), static_cast<std::int32_t>(n[1]), static_cast<std::int32_t>(n[2]),
-                    static_cast<std::int32_t>(n[3])};
+    const Area area{static_cast<std::int32_t>(n[0]), static_cast<std::int32_t>(n[1]),
+                    static_cast<std::int32_t>(n[2]), static_cast<std::int32_t>(n[3])};
     if (area.x1 <= area.x0 || area.y1 <= area.y0) {
         throw CLI::ValidationError("--area", fmt::format("\"{}\" is empty: the end X1,Y1 is excluded", text));
     }
@@ -53,7 +55,8 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count, con
         if (at == end || *at != ',') break;
         ++at;
     }
-    if (at != end || numbers.size() != count) throw CLI::ValidationError(fmt::format("{}, got \"{}\"", form, text));
+    if (at != end || numbers.size() != count)
+        throw CLI::ValidationError(fmt::format("{}, got \"{}\"", form, text));
     return numbers;
 }
 
@@ -66,8 +69,10 @@ void addWorldOptions(CLI::App& command, WorldOptions& options) {
 }
 
 void addGraphicsOptions(CLI::App& command, GraphicsOptions& options) {
-    command.add_option_function<std::string>(
-               "--size", [&](const std::string& text) { options.size = parseSize(text); }, "Picture size in pixels")
+    command
+        .add_option_function<std::string>(
+            "--size", [&](const std::string& text) { options.size = parseSize(text); },
+            "Picture size in pixels")
         ->type_name("WxH")
         ->default_str("1280x720");
     command.add_option("--view-distance", options.viewDistance, "How far one sees, in chunks")
@@ -81,14 +86,16 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options) {
     command.add_option("--view", options.view, "What to show")
         ->transform(CLI::CheckedTransformer(views).description("color, normal or depth"))
         ->default_str("color");
-    command.add_option("--shader-root", options.shaderRoot, "Source tree to read shaders from, for development")
+    command
+        .add_option("--shader-root", options.shaderRoot, "Source tree to read shaders from, for development")
         ->check(CLI::ExistingDirectory);
     command.add_flag("--debug-gl", options.debugGl, "Report errors of the graphics driver");
 }
 
 void addAreaOption(CLI::App& command, std::optional<Area>& area) {
-    command.add_option_function<std::string>(
-               "--area", [&](const std::string& text) { area = parseArea(text); }, "Chunks, the end excluded")
+    command
+        .add_option_function<std::string>(
+            "--area", [&](const std::string& text) { area = parseArea(text); }, "Chunks, the end excluded")
         ->type_name("X0,Y0,X1,Y1");
 }
 

@@ -7,7 +7,7 @@
 namespace terrane::app {
 
 class ProgressBar {
- public:
+  public:
     ProgressBar(std::string what, std::size_t total);
     ~ProgressBar();  // ends the line
     ProgressBar(const ProgressBar&) = delete;
@@ -15,7 +15,7 @@ class ProgressBar {
 
     void set(std::size_t done);
 
- private:
+  private:
     std::string what_;
     std::size_t total_;
     int shownPercent_ = -1;

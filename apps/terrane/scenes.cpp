@@ -14,7 +14,9 @@ const std::array kScenes = {
 
 }  // namespace
 
-std::span<const Scene> scenes() { return kScenes; }
+std::span<const Scene> scenes() {
+    return kScenes;
+}
 
 const Scene* findScene(std::string_view name) {
     for (const Scene& scene : kScenes) {

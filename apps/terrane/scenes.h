@@ -1,4 +1,5 @@
-// The reference scenes: fixed places in the world of seed 1 with the character that measurements and pictures need.
+// The reference scenes: fixed places in the world of seed 1 with the character that measurements and pictures
+// need.
 #pragma once
 
 #include <span>

@@ -21,8 +21,8 @@ base::Result<std::unique_ptr<WorldSession>> WorldSession::create(const WorldOpti
     auto generator = makeGenerator(options, session->blocks);
     if (!generator) return tl::unexpected(generator.error());
     session->generator = std::make_unique<gen::Generator>(std::move(*generator));
-    session->pipeline =
-        std::make_unique<stream::ChunkPipeline>(session->jobs, *session->generator, session->blocks, session->world);
+    session->pipeline = std::make_unique<stream::ChunkPipeline>(session->jobs, *session->generator,
+                                                                session->blocks, session->world);
     return session;
 }
 

@@ -35,8 +35,12 @@ Value Pass::leaf(Op op, Type type, std::uint32_t imm, std::uint8_t dependence) {
     return {&graph_.graph, graph_.graph.add(op, type, {}, imm, dependence)};
 }
 
-Int Pass::x() { return Int(leaf(Op::PosX, Type::Int, 0, kDependsColumn)); }
-Int Pass::y() { return Int(leaf(Op::PosY, Type::Int, 0, kDependsColumn)); }
+Int Pass::x() {
+    return Int(leaf(Op::PosX, Type::Int, 0, kDependsColumn));
+}
+Int Pass::y() {
+    return Int(leaf(Op::PosY, Type::Int, 0, kDependsColumn));
+}
 Int Pass::z() {
     if (!require3D("z")) return 0;
     return Int(leaf(Op::PosZ, Type::Int, 0, kDependsZ));
@@ -64,7 +68,8 @@ void Pass::if_(Bool condition, const std::function<void()>& then, const std::fun
     const std::vector<Slot> before = slots_;
     then();
     const std::vector<Slot> afterThen = slots_;
-    // Variables made inside a branch end with it; outputs made there exist in the other branch with their first value.
+    // Variables made inside a branch end with it; outputs made there exist in the other branch with their
+    // first value.
     for (std::size_t k = 0; k < before.size(); ++k) slots_[k] = before[k];
     if (otherwise) otherwise();
 
@@ -95,7 +100,8 @@ Voronoi2D Pass::voronoi2D(std::string_view name, int size, int maxPoints) {
     const auto result = [&](VoronoiResult r, Type type) {
         return noise({NoiseKind::Voronoi2D, std::string(name), size, {}, maxPoints}, r, type);
     };
-    return {Float(result(kVoronoiDistance, Type::Float)), Float(result(kVoronoiRatio, Type::Float)),
+    return {Float(result(kVoronoiDistance, Type::Float)),
+            Float(result(kVoronoiRatio, Type::Float)),
             {Int(result(kVoronoiOffsetX, Type::Int)), Int(result(kVoronoiOffsetY, Type::Int))}};
 }
 
@@ -220,7 +226,8 @@ std::string noiseMistake(const NoiseCall& call) {
     if (isPerlin && (std::int64_t{call.size} << (call.weights.size() - 1)) > (1 << 20)) {
         return "the largest octave is beyond 2^20 blocks";
     }
-    if (!isPerlin && call.size > kMaxVoronoiSize) return fmt::format("cells are at most {} blocks", kMaxVoronoiSize);
+    if (!isPerlin && call.size > kMaxVoronoiSize)
+        return fmt::format("cells are at most {} blocks", kMaxVoronoiSize);
     if (!isPerlin && (call.maxPoints < 1 || call.maxPoints > 4)) {
         return fmt::format("{} points a cell, 1 to 4 are possible", call.maxPoints);
     }

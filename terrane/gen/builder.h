@@ -2,14 +2,14 @@
 //
 //   GeneratorBuilder g("hills", blocks);
 //   auto height = g.field<Float>("height");
-//   g.pass2D("terrain", [&](Pass& p) { p.set(height, 80.0f + 20.0f * p.perlin2D("hills", 64, {1.0f, 2.0f})); });
-//   g.pass3D("ground", [&](Pass& p) {
+//   g.pass2D("terrain", [&](Pass& p) { p.set(height, 80.0f + 20.0f * p.perlin2D("hills", 64, {1.0f, 2.0f}));
+//   }); g.pass3D("ground", [&](Pass& p) {
 //       p.setBlock(select(Float(p.z()) <= p.read(height), p.block("stone"), p.block("air")));
 //   });
 //   auto program = g.finish();
 //
-// Used on one thread. Mistakes (unknown block, offset too large, a name used twice) are collected and reported by
-// finish(), each with pass and name.
+// Used on one thread. Mistakes (unknown block, offset too large, a name used twice) are collected and
+// reported by finish(), each with pass and name.
 #pragma once
 
 #include <functional>
@@ -49,9 +49,9 @@ struct PassGraph {
     std::string name;
     bool is3D = false;
     Graph graph;
-    std::vector<FieldOutput> fields;      // 2D passes
-    std::optional<NodeId> block;          // 3D passes
-    std::vector<std::uint32_t> readsAt;   // fields read with an offset
+    std::vector<FieldOutput> fields;     // 2D passes
+    std::optional<NodeId> block;         // 3D passes
+    std::vector<std::uint32_t> readsAt;  // fields read with an offset
 };
 
 struct GeneratorGraph {
@@ -68,13 +68,13 @@ class Pass;
 // A value that changes while the pass is written: assignments inside if_ hold where its condition does.
 template <class T>
 class Var {
- public:
-    operator T() const;                 // the value now
+  public:
+    operator T() const;  // the value now
     Var& operator=(const T& value);
     Var& operator=(const Var& other) { return *this = static_cast<T>(other); }
     Var(const Var&) = delete;
 
- private:
+  private:
     friend class Pass;
     Var(Pass& pass, std::size_t slot) : pass_(pass), slot_(slot) {}
     Pass& pass_;
@@ -88,10 +88,10 @@ struct Voronoi2D {
 };
 
 class Pass {
- public:
+  public:
     Int x();
     Int y();
-    Int z();  // 3D passes
+    Int z();                             // 3D passes
     Block block(std::string_view name);  // "air" or a name of the registry
 
     template <class T>
@@ -123,12 +123,13 @@ class Pass {
         setField(field.index, T::kType, value);
     }
 
-    // The block that the newest earlier 3D pass put here (3D passes), or in this column at z, clamped into the world.
+    // The block that the newest earlier 3D pass put here (3D passes), or in this column at z, clamped into
+    // the world.
     Block blockHere();
     Block blockInColumn(Int z);
     void setBlock(Block block);  // 3D passes; without it the block stays
 
- private:
+  private:
     template <class T>
     friend class Var;
     friend class GeneratorBuilder;
@@ -161,19 +162,23 @@ class Pass {
 };
 
 class GeneratorBuilder {
- public:
+  public:
     GeneratorBuilder(std::string name, const world::BlockRegistry& blocks);
 
     template <class T>
     Field<T> field(std::string_view name) {
         return {newField(name, T::kType)};
     }
-    void pass2D(std::string name, const std::function<void(Pass&)>& body) { addPass(std::move(name), false, body); }
-    void pass3D(std::string name, const std::function<void(Pass&)>& body) { addPass(std::move(name), true, body); }
+    void pass2D(std::string name, const std::function<void(Pass&)>& body) {
+        addPass(std::move(name), false, body);
+    }
+    void pass3D(std::string name, const std::function<void(Pass&)>& body) {
+        addPass(std::move(name), true, body);
+    }
 
     base::Result<GeneratorGraph> finish();
 
- private:
+  private:
     friend class Pass;
     int newest3D() const;  // number of the newest finished 3D pass, or -1
     std::uint32_t newField(std::string_view name, Type type);

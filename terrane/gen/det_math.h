@@ -1,5 +1,6 @@
-// Division and square root from additions, multiplications and integer operations, so that every machine and every
-// instruction set gives the same bits. `kernels.cpp` repeats them in SIMD, step by step; tests compare the two.
+// Division and square root from additions, multiplications and integer operations, so that every machine and
+// every instruction set gives the same bits. `kernels.cpp` repeats them in SIMD, step by step; tests compare
+// the two.
 #pragma once
 
 #include <bit>
@@ -7,8 +8,8 @@
 
 namespace terrane::gen {
 
-// First guess for 1/x by integer subtraction from the exponent, error 12 %; three Newton steps square it to below
-// one unit in the last place. x positive and normal.
+// First guess for 1/x by integer subtraction from the exponent, error 12 %; three Newton steps square it to
+// below one unit in the last place. x positive and normal.
 constexpr std::uint32_t kReciprocalMagic = 0x7EF311C7u;
 
 constexpr float detReciprocal(float x) {

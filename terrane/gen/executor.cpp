@@ -6,7 +6,8 @@
 
 namespace terrane::gen {
 
-Executor::Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds) : noises_(noises), seeds_(seeds) {
+Executor::Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds)
+    : noises_(noises), seeds_(seeds) {
     context_.randomSeeds = seeds.randoms;
     context_.perlin2D.resize(noises.size());
     context_.perlin3D.resize(noises.size());
@@ -14,7 +15,8 @@ Executor::Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds) : n
     for (const NoiseCall& call : noises) context_.noiseKinds.push_back(call.kind);
 }
 
-void Executor::run2D(const Program& program, const PassInputs& inputs, std::span<ColumnValues* const> results) {
+void Executor::run2D(const Program& program, const PassInputs& inputs,
+                     std::span<ColumnValues* const> results) {
     assert(!program.is3D && results.size() == program.fields.size());
     prepareTile(program, inputs);
     runInstructions(program.column, context_);

@@ -23,21 +23,21 @@ struct Seeds {
 // What a pass reads of its chunk and the eight around it.
 struct PassInputs {
     world::ChunkPos chunk;
-    // Values of field f in the chunk at (dx, dy) around this one: fields[f][(dy + 1) * 3 + dx + 1]. Only the middle one
-    // is set where the pass reads the field without an offset.
+    // Values of field f in the chunk at (dx, dy) around this one: fields[f][(dy + 1) * 3 + dx + 1]. Only the
+    // middle one is set where the pass reads the field without an offset.
     std::vector<std::array<const ColumnValues*, 9>> fields;
     const BlockArray* blocks = nullptr;  // of the newest earlier 3D pass
 };
 
 class Executor {
- public:
+  public:
     Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds);
 
     // Results of a 2D pass, in the order of program.fields.
     void run2D(const Program& program, const PassInputs& inputs, std::span<ColumnValues* const> results);
     void run3D(const Program& program, const PassInputs& inputs, BlockArray& result);
 
- private:
+  private:
     void prepareTile(const Program& program, const PassInputs& inputs);
     void fillConstants(const Program& program, std::int32_t x0, std::int32_t y0);
     void fillWindow(std::uint32_t field, const PassInputs& inputs);

@@ -1,5 +1,6 @@
-// Typed expressions of a generator pass with C++ operators. An expression is a handle on a node of the pass's graph, or
-// a literal that joins a graph once it meets an expression of one. Nothing is computed here: operators record.
+// Typed expressions of a generator pass with C++ operators. An expression is a handle on a node of the pass's
+// graph, or a literal that joins a graph once it meets an expression of one. Nothing is computed here:
+// operators record.
 #pragma once
 
 #include <cassert>
@@ -110,7 +111,9 @@ inline Float sqrt(Float a) { return Float(applyOp(Op::SqrtF, Type::Float, {a}));
 inline Float length(Vec2 v) { return sqrt(v.x * v.x + v.y * v.y); }
 // clang-format on
 
-inline Float lerp(Float a, Float b, Float t) { return a + t * (b - a); }
+inline Float lerp(Float a, Float b, Float t) {
+    return a + t * (b - a);
+}
 
 // 0 below `low`, 1 above `high`, a smooth cubic between.
 inline Float smoothstep(Float low, Float high, Float v) {

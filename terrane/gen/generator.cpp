@@ -28,9 +28,11 @@ world::ChunkPos neighbour(world::ChunkPos pos, int number) {
 }  // namespace
 
 struct Generator::Impl {
-    Impl(GeneratorGraph g, std::uint64_t seed, std::size_t cachedChunks) : graph(std::move(g)), cache(cachedChunks, graph.fields.size(), graph.passes.size()) {
+    Impl(GeneratorGraph g, std::uint64_t seed, std::size_t cachedChunks)
+        : graph(std::move(g)), cache(cachedChunks, graph.fields.size(), graph.passes.size()) {
         for (const NoiseCall& call : graph.noises) seeds.noises.push_back(seedOf("noise " + call.name, seed));
-        for (const std::string& name : graph.randomNames) seeds.randoms.push_back(seedOf("random " + name, seed));
+        for (const std::string& name : graph.randomNames)
+            seeds.randoms.push_back(seedOf("random " + name, seed));
         for (const PassGraph& pass : graph.passes) programs.push_back(compile(pass, graph.noises));
     }
 
@@ -55,8 +57,8 @@ struct Generator::Impl {
 
     using Works = std::array<std::shared_ptr<ChunkWork>, 9>;
 
-    // Runs the first `passes` passes of a chunk, and of its neighbours what they need. Who runs a pass waits only for
-    // lower passes of other chunks, so that threads never wait in a circle.
+    // Runs the first `passes` passes of a chunk, and of its neighbours what they need. Who runs a pass waits
+    // only for lower passes of other chunks, so that threads never wait in a circle.
     void advance(world::ChunkPos pos, ChunkWork& work, int passes, Executor& executor);
     void runPass(world::ChunkPos pos, ChunkWork& work, int pass, Executor& executor);
     // The pass's inputs; `works` keeps the neighbours alive.
@@ -90,7 +92,8 @@ PassInputs Generator::Impl::inputsOf(world::ChunkPos pos, ChunkWork& work, int p
     inputs.chunk = pos;
     inputs.fields.resize(graph.fields.size());
     for (std::size_t f = 0; f < graph.fields.size(); ++f) {
-        if (graph.fields[f].writtenBy >= 0 && graph.fields[f].writtenBy < pass) inputs.fields[f][4] = &work.fields[f];
+        if (graph.fields[f].writtenBy >= 0 && graph.fields[f].writtenBy < pass)
+            inputs.fields[f][4] = &work.fields[f];
     }
     for (const std::uint32_t f : programs[static_cast<std::size_t>(pass)].readsAt) {
         for (std::size_t n = 0; n < 9; ++n) {
@@ -139,7 +142,9 @@ Generator::~Generator() = default;
 Generator::Generator(Generator&&) noexcept = default;
 Generator& Generator::operator=(Generator&&) noexcept = default;
 
-const std::string& Generator::name() const { return impl_->graph.name; }
+const std::string& Generator::name() const {
+    return impl_->graph.name;
+}
 
 // The last pass runs into a buffer of the call: nobody else needs its result.
 world::Chunk Generator::generate(world::ChunkPos pos) const {

@@ -26,10 +26,12 @@ bool isCommutative(Op op) {
     }
 }
 
-bool isChoice(Op op) { return op == Op::Select || op == Op::Phi; }
+bool isChoice(Op op) {
+    return op == Op::Select || op == Op::Phi;
+}
 
-// The argument that a node always equals, where that is exact for every value (float zeros have signs, so x + 0.0 is
-// not x).
+// The argument that a node always equals, where that is exact for every value (float zeros have signs, so x +
+// 0.0 is not x).
 std::optional<NodeId> simplified(const Graph& graph, const Node& n) {
     const auto constantIs = [&](int arg, Bits bits) {
         const Node& a = graph.node(n.args[static_cast<std::size_t>(arg)]);
@@ -71,7 +73,8 @@ NodeId Graph::constant(Type type, Bits bits) {
     return intern(n);
 }
 
-NodeId Graph::add(Op op, Type type, std::span<const NodeId> args, std::uint32_t imm, std::uint8_t dependence) {
+NodeId Graph::add(Op op, Type type, std::span<const NodeId> args, std::uint32_t imm,
+                  std::uint8_t dependence) {
     const OpRecord& rec = record(op);
     assert(args.size() == rec.argCount && "an operation takes as many arguments as its record says");
     Node n{op, type, dependence, {}, imm};

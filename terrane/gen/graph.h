@@ -27,9 +27,10 @@ struct Node {
 };
 
 class Graph {
- public:
+  public:
     NodeId constant(Type type, Bits bits);
-    // Adds a node or finds an equal one; constant arguments are folded. `dependence` is added to the arguments'.
+    // Adds a node or finds an equal one; constant arguments are folded. `dependence` is added to the
+    // arguments'.
     NodeId add(Op op, Type type, std::span<const NodeId> args, std::uint32_t imm = 0,
                std::uint8_t dependence = kDependsNone);
 
@@ -39,7 +40,7 @@ class Graph {
 
     std::uint32_t newIf() { return ifCount_++; }
 
- private:
+  private:
     struct KeyHash {
         std::size_t operator()(const Node& n) const;
     };

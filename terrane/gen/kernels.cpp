@@ -39,7 +39,8 @@ Bits* rowOf(Bits* arena, Operand o, int row) {
     return arena + static_cast<std::size_t>(o.row + o.rowStep * row) * kRowLanes;
 }
 
-// Calls f(row, lane) for each vector of the destination's rows: one row where the value is the same in every column.
+// Calls f(row, lane) for each vector of the destination's rows: one row where the value is the same in every
+// column.
 template <class Function>
 HWY_INLINE void forEachVector(const RowList& rows, Operand dst, Function f) {
     const int count = dst.rowStep ? rows.count : 1;
@@ -49,8 +50,12 @@ HWY_INLINE void forEachVector(const RowList& rows, Operand dst, Function f) {
     }
 }
 
-HWY_INLINE VF loadF(const Bits* p) { return hn::BitCast(df, hn::Load(du, p)); }
-HWY_INLINE VI loadI(const Bits* p) { return hn::BitCast(di, hn::Load(du, p)); }
+HWY_INLINE VF loadF(const Bits* p) {
+    return hn::BitCast(df, hn::Load(du, p));
+}
+HWY_INLINE VI loadI(const Bits* p) {
+    return hn::BitCast(di, hn::Load(du, p));
+}
 template <class V>
 HWY_INLINE void storeBits(V v, Bits* p) {
     hn::Store(hn::BitCast(du, v), du, p);
@@ -155,7 +160,8 @@ HWY_INLINE VF perlinSample(const PerlinOctave& o, int row, std::size_t lane) {
     const auto r = static_cast<std::size_t>(row);
     const std::size_t j = o.rows.node[r];
     const VF f = hn::Set(df, o.rows.offset[r]), f1 = hn::Set(df, o.rows.offset[r] - 1.0f);
-    const VF low = hn::Add(hn::Load(df, o.a[j].data() + lane), hn::Mul(hn::Load(df, o.b[j].data() + lane), f));
+    const VF low =
+        hn::Add(hn::Load(df, o.a[j].data() + lane), hn::Mul(hn::Load(df, o.b[j].data() + lane), f));
     const VF high =
         hn::Add(hn::Load(df, o.a[j + 1].data() + lane), hn::Mul(hn::Load(df, o.b[j + 1].data() + lane), f1));
     return hn::Add(low, hn::Mul(hn::Set(df, o.rows.fade[r]), hn::Sub(high, low)));

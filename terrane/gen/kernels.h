@@ -1,5 +1,5 @@
-// Runs instruction lists over a tile with the widest SIMD instructions of the machine (chosen at run time by Highway).
-// All targets give the same bits.
+// Runs instruction lists over a tile with the widest SIMD instructions of the machine (chosen at run time by
+// Highway). All targets give the same bits.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace terrane::gen {
 
-// A tile with its surroundings, for fields that are read with an offset: 48×48 values, the tile's first column at
-// (16, 16).
+// A tile with its surroundings, for fields that are read with an offset: 48×48 values, the tile's first
+// column at (16, 16).
 constexpr int kWindowSize = kTileSize + 2 * kMaxReadOffset;
 
 // What instructions read and write. Filled by executor.cpp; one a thread.
@@ -26,11 +26,11 @@ struct TileContext {
     std::vector<Perlin2DTile> perlin2D;
     std::vector<Perlin3DTile> perlin3D;
     std::vector<std::vector<VoronoiPoint>> voronoi2D;
-    std::vector<const Bits*> fields;           // by field: kTileLanes values
-    std::vector<std::vector<Bits>> windows;    // by field: kWindowSize² values where read with an offset
+    std::vector<const Bits*> fields;         // by field: kTileLanes values
+    std::vector<std::vector<Bits>> windows;  // by field: kWindowSize² values where read with an offset
     std::vector<NoiseKind> noiseKinds;
-    const std::uint16_t* blocks = nullptr;     // of the newest earlier 3D pass: 256 layers of 256
-    std::int32_t z = 0;                        // of the layer
+    const std::uint16_t* blocks = nullptr;  // of the newest earlier 3D pass: 256 layers of 256
+    std::int32_t z = 0;                     // of the layer
 };
 
 // Runs a list for all rows of the tile.
@@ -38,7 +38,8 @@ void runInstructions(const InstructionList& list, TileContext& context);
 
 // Names of the instruction sets this machine can run, best first, as Highway calls them.
 std::vector<std::string> simdTargets();
-// Restricts to one of simdTargets() until called again; empty: the best. For tests and `--simd`; not while running.
+// Restricts to one of simdTargets() until called again; empty: the best. For tests and `--simd`; not while
+// running.
 bool chooseSimdTarget(const std::string& name);
 
 }  // namespace terrane::gen

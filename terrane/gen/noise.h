@@ -1,15 +1,18 @@
 // Descriptions of noise calls, shared by the builder, the executor and the tests' references.
 //
-// Perlin (improved; K. Perlin, Improving Noise, 2002). Octave o has a lattice of `size << o` blocks and the weight
-// weights[o]; the result is the sum of noise · weight, each noise in about -1…1 and 0 at the lattice nodes.
+// Perlin (improved; K. Perlin, Improving Noise, 2002). Octave o has a lattice of `size << o` blocks and the
+// weight weights[o]; the result is the sum of noise · weight, each noise in about -1…1 and 0 at the lattice
+// nodes.
 //   2D: 16 gradients of length √2 at (k + ½)·22.5°, so that the range is -1…1
 //   3D: the 12 vectors to the edges of a cube
-// Order of operations, the same on every back end: blend along x, then z (3D), then y, with lerp(a, b, t) = a + t(b − a)
-// and t = f³(f(6f − 15) + 10); the linear function of the other offsets is blended as its coefficients.
+// Order of operations, the same on every back end: blend along x, then z (3D), then y, with lerp(a, b, t) = a
+// + t(b − a) and t = f³(f(6f − 15) + 10); the linear function of the other offsets is blended as its
+// coefficients.
 //
-// Voronoi (S. Worley, A Cellular Texture Basis Function, 1996). Cells of `size` blocks hold 1…maxPoints points at block
-// positions; distances are Euclidean, in blocks, from the integer squared distance. The search covers 5×5 cells, which
-// always holds the nearest and second nearest point: with a point in each cell these lie within 1.81 cells.
+// Voronoi (S. Worley, A Cellular Texture Basis Function, 1996). Cells of `size` blocks hold 1…maxPoints
+// points at block positions; distances are Euclidean, in blocks, from the integer squared distance. The
+// search covers 5×5 cells, which always holds the nearest and second nearest point: with a point in each cell
+// these lie within 1.81 cells.
 #pragma once
 
 #include <cstdint>

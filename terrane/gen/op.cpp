@@ -12,12 +12,20 @@ using Args = std::span<const Bits>;
 
 constexpr Type B = Type::Bool, I = Type::Int, F = Type::Float;
 
-std::uint32_t u(Bits b) { return b; }
-float f(Bits b) { return asFloat(b); }
-std::int32_t i(Bits b) { return asInt(b); }
+std::uint32_t u(Bits b) {
+    return b;
+}
+float f(Bits b) {
+    return asFloat(b);
+}
+std::int32_t i(Bits b) {
+    return asInt(b);
+}
 
 // Min and max as one comparison and a choice: the same for equal zeros and for NaN on every machine.
-Bits select(bool c, Bits a, Bits b) { return c ? a : b; }
+Bits select(bool c, Bits a, Bits b) {
+    return c ? a : b;
+}
 
 // What x86 gives for values outside the range, so that folding never differs from running.
 Bits truncated(float v) {

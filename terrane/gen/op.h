@@ -1,7 +1,7 @@
 // The operations of generator expressions: one record each, with all its meanings.
 //
-// Every operation has one possible result on every machine: integers wrap modulo 2^32; floats use only IEEE additions,
-// subtractions and multiplications in a stated order (det_math.h builds the rest from them).
+// Every operation has one possible result on every machine: integers wrap modulo 2^32; floats use only IEEE
+// additions, subtractions and multiplications in a stated order (det_math.h builds the rest from them).
 #pragma once
 
 #include <array>
@@ -18,41 +18,74 @@ enum class Type : std::uint8_t { Bool, Int, Float };
 // The bits of a value: floats as IEEE binary32, bools as 0 or ~0 (a lane mask).
 using Bits = std::uint32_t;
 
-constexpr Bits bitsOf(float v) { return std::bit_cast<Bits>(v); }
-constexpr Bits bitsOf(std::int32_t v) { return std::bit_cast<Bits>(v); }
-constexpr Bits bitsOf(bool v) { return v ? ~Bits{0} : Bits{0}; }
-constexpr float asFloat(Bits b) { return std::bit_cast<float>(b); }
-constexpr std::int32_t asInt(Bits b) { return std::bit_cast<std::int32_t>(b); }
-constexpr bool asBool(Bits b) { return b != 0; }
+constexpr Bits bitsOf(float v) {
+    return std::bit_cast<Bits>(v);
+}
+constexpr Bits bitsOf(std::int32_t v) {
+    return std::bit_cast<Bits>(v);
+}
+constexpr Bits bitsOf(bool v) {
+    return v ? ~Bits{0} : Bits{0};
+}
+constexpr float asFloat(Bits b) {
+    return std::bit_cast<float>(b);
+}
+constexpr std::int32_t asInt(Bits b) {
+    return std::bit_cast<std::int32_t>(b);
+}
+constexpr bool asBool(Bits b) {
+    return b != 0;
+}
 
 enum class Op : std::uint8_t {
     // Leaves
-    Constant,   // imm: bits
-    PosX,       // block coordinates of the column or voxel
+    Constant,  // imm: bits
+    PosX,      // block coordinates of the column or voxel
     PosY,
     PosZ,
     Field,      // imm: field; of this column
     Noise,      // imm: noise call; its results are taken with Component
     BlockHere,  // block of the newest 3D pass before this one, at this voxel
     // Reads with an offset of at most 16 blocks in x and y
-    FieldAt,    // (dx, dy), imm: field
+    FieldAt,  // (dx, dy), imm: field
     // Block of the newest 3D pass before this one in this column, (z): absolute, clamped into the world
     BlockInColumn,
     Component,  // (noise), imm: number of the result
     // Random numbers by position, imm: seed slot
-    Random2D,   // (x, y) → float in [0, 1)
-    Random3D,   // (x, y, z)
+    Random2D,  // (x, y) → float in [0, 1)
+    Random3D,  // (x, y, z)
     // Float
-    AddF, SubF, MulF, DivF, MinF, MaxF, AbsF, FloorF, SqrtF,
-    LessF, LessEqualF, EqualF,
+    AddF,
+    SubF,
+    MulF,
+    DivF,
+    MinF,
+    MaxF,
+    AbsF,
+    FloorF,
+    SqrtF,
+    LessF,
+    LessEqualF,
+    EqualF,
     // Int
-    AddI, SubI, MulI, MinI, MaxI, AbsI, AndI, ShiftRightI,
-    LessI, LessEqualI, EqualI,
+    AddI,
+    SubI,
+    MulI,
+    MinI,
+    MaxI,
+    AbsI,
+    AndI,
+    ShiftRightI,
+    LessI,
+    LessEqualI,
+    EqualI,
     // Conversions
     IntToFloat,  // exact below 2^24, else rounded to nearest even
     FloatToInt,  // toward zero; the value must fit
     // Bool
-    And, Or, Not,
+    And,
+    Or,
+    Not,
     // Choice
     Select,  // (condition, a, b): both sides are computed
     Phi,     // (condition, a, b), imm: number of the if: sides are computed only where a lane takes them

@@ -16,9 +16,9 @@ struct Gradient2 {
 // √2·(cos, sin) of (k + ½)·22.5°.
 constexpr float kG0 = 1.38703990f, kG1 = 1.17587566f, kG2 = 0.785694957f, kG3 = 0.275899380f;
 constexpr Gradient2 kGradients2[16] = {
-    {kG0, kG3},   {kG1, kG2},   {kG2, kG1},   {kG3, kG0},   {-kG3, kG0},  {-kG2, kG1},
-    {-kG1, kG2},  {-kG0, kG3},  {-kG0, -kG3}, {-kG1, -kG2}, {-kG2, -kG1}, {-kG3, -kG0},
-    {kG3, -kG0},  {kG2, -kG1},  {kG1, -kG2},  {kG0, -kG3},
+    {kG0, kG3},  {kG1, kG2},  {kG2, kG1},   {kG3, kG0},   {-kG3, kG0},  {-kG2, kG1},
+    {-kG1, kG2}, {-kG0, kG3}, {-kG0, -kG3}, {-kG1, -kG2}, {-kG2, -kG1}, {-kG3, -kG0},
+    {kG3, -kG0}, {kG2, -kG1}, {kG1, -kG2},  {kG0, -kG3},
 };
 
 struct Gradient3 {
@@ -26,8 +26,8 @@ struct Gradient3 {
 };
 
 constexpr Gradient3 kGradients3[12] = {
-    {1, 1, 0},  {-1, 1, 0},  {1, -1, 0},  {-1, -1, 0}, {1, 0, 1},  {-1, 0, 1},
-    {1, 0, -1}, {-1, 0, -1}, {0, 1, 1},   {0, -1, 1},  {0, 1, -1}, {0, -1, -1},
+    {1, 1, 0},  {-1, 1, 0},  {1, -1, 0}, {-1, -1, 0}, {1, 0, 1},  {-1, 0, 1},
+    {1, 0, -1}, {-1, 0, -1}, {0, 1, 1},  {0, -1, 1},  {0, 1, -1}, {0, -1, -1},
 };
 
 Gradient2 gradient2(std::int32_t x, std::int32_t y, std::uint32_t seed) {
@@ -48,9 +48,13 @@ std::int32_t floorDivide(std::int32_t a, std::int32_t b) {
     return q - (a % b < 0 ? 1 : 0);
 }
 
-float fade(float f) { return ((f * f) * f) * (f * (f * 6.0f - 15.0f) + 10.0f); }
+float fade(float f) {
+    return ((f * f) * f) * (f * (f * 6.0f - 15.0f) + 10.0f);
+}
 
-float lerp(float a, float b, float t) { return a + t * (b - a); }
+float lerp(float a, float b, float t) {
+    return a + t * (b - a);
+}
 
 // Cells and fractions of 16 neighbouring coordinates.
 struct AxisCells {
@@ -110,7 +114,8 @@ void fillLevel(const Perlin3DTile::Octave& o, std::int32_t zCell, PerlinLevel& l
 
 }  // namespace
 
-void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0, std::int32_t y0) {
+void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0,
+             std::int32_t y0) {
     tile.octaves.resize(call.weights.size());
     for (std::size_t o = 0; o < tile.octaves.size(); ++o) {
         PerlinOctave& octave = tile.octaves[o];
@@ -133,7 +138,8 @@ void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, std:
     }
 }
 
-void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0, std::int32_t y0) {
+void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0,
+             std::int32_t y0) {
     tile.octaves.resize(call.weights.size());
     tile.layer = -1;
     for (std::size_t n = 0; n < tile.octaves.size(); ++n) {

@@ -1,9 +1,9 @@
 // Perlin noise over a tile of 16×16 columns: everything that samples share is computed once.
 //
-// Between two lattice nodes along x the noise is a blend of two linear functions of the other offsets, so a node row
-// (all nodes of equal y, or equal y and z) is kept as the coefficients of the blended function for each of the 16 x of
-// the tile. A sample then costs one multiply-add at each of two node rows and one blend. noise.h states the order of
-// operations; perlin_tile.cpp and kernels.cpp follow it.
+// Between two lattice nodes along x the noise is a blend of two linear functions of the other offsets, so a
+// node row (all nodes of equal y, or equal y and z) is kept as the coefficients of the blended function for
+// each of the 16 x of the tile. A sample then costs one multiply-add at each of two node rows and one blend.
+// noise.h states the order of operations; perlin_tile.cpp and kernels.cpp follow it.
 #pragma once
 
 #include <array>
@@ -49,7 +49,7 @@ struct PerlinLevel {
 
 struct Perlin3DTile {
     struct Octave {
-        PerlinOctave layer;     // blended along z for the current layer
+        PerlinOctave layer;  // blended along z for the current layer
         TileRow xOffset, xFade;
         std::array<std::int32_t, kTileSize> xCell;
         std::int32_t size = 1, yCell = 0, zCell = 0;

@@ -15,7 +15,7 @@ constexpr std::uint32_t kNeverFreed = std::numeric_limits<std::uint32_t>::max();
 
 // Rows of the arena that come free are used again, by size: one row or a whole tile.
 class RowAllocator {
- public:
+  public:
     Operand allocate(bool varies, std::uint32_t results = 1) {
         auto& free = varies ? freeTiles_ : freeRows_;
         const std::uint32_t rows = varies ? kTileSize * results : 1;
@@ -37,13 +37,13 @@ class RowAllocator {
         freeRows_.clear();
     }
 
- private:
+  private:
     std::uint32_t next_ = 0;
     std::vector<std::uint32_t> freeTiles_, freeRows_;
 };
 
 class Compiler {
- public:
+  public:
     Compiler(const PassGraph& pass, const std::vector<NoiseCall>& noises)
         : pass_(pass), graph_(pass.graph), noises_(noises), operands_(graph_.size()), known_(graph_.size()) {}
 
@@ -67,7 +67,7 @@ class Compiler {
         return std::move(program_);
     }
 
- private:
+  private:
     void placeLeaves() {
         for (NodeId id = 0; id < graph_.size(); ++id) {
             if (graph_.node(id).op != Op::Constant) continue;

@@ -1,7 +1,8 @@
 // A pass's graph put in order for the CPU: instructions over tiles of 16×16 columns with registers allocated.
 //
-// What does not depend on z is computed once a chunk by `column`; `layer` then runs for each z. A branch is entered only
-// by the rows (16 columns of equal y) of which some lane takes it. Made once a generator; read by all threads.
+// What does not depend on z is computed once a chunk by `column`; `layer` then runs for each z. A branch is
+// entered only by the rows (16 columns of equal y) of which some lane takes it. Made once a generator; read
+// by all threads.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +13,12 @@
 
 namespace terrane::gen {
 
-constexpr int kTileSize = 16;                     // columns along x and along y
+constexpr int kTileSize = 16;                      // columns along x and along y
 constexpr int kTileLanes = kTileSize * kTileSize;  // lane = x + 16 y
-constexpr int kRowLanes = kTileSize;              // lanes of a row: 64 bytes
+constexpr int kRowLanes = kTileSize;               // lanes of a row: 64 bytes
 
-// Where a value lies in the arena: rows of 16 lanes of 32 bits. A value that is the same in every column has one row
-// (rowStep 0), others have 16.
+// Where a value lies in the arena: rows of 16 lanes of 32 bits. A value that is the same in every column has
+// one row (rowStep 0), others have 16.
 struct Operand {
     std::uint16_t row = 0;
     std::uint16_t rowStep = 0;

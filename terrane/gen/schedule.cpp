@@ -9,7 +9,7 @@ namespace {
 constexpr int kNowhere = -1;
 
 class Scheduler {
- public:
+  public:
     Scheduler(const Graph& graph, const std::function<bool(NodeId)>& isInput)
         : graph_(graph), isInput_(isInput), region_(graph.size(), kNowhere), live_(graph.size(), false) {
         result_.regions.push_back({});
@@ -21,7 +21,8 @@ class Scheduler {
             use(root, 0);
         }
         collectPhis();
-        // Users stand behind their arguments: backwards, every use of a node is known before the node is placed.
+        // Users stand behind their arguments: backwards, every use of a node is known before the node is
+        // placed.
         for (NodeId id = static_cast<NodeId>(graph_.size()); id-- > 0;) {
             if (live_[id]) placeArguments(id);
         }
@@ -31,7 +32,7 @@ class Scheduler {
         return std::move(result_);
     }
 
- private:
+  private:
     void markLive(NodeId root) {
         std::vector<NodeId> stack{root};
         while (!stack.empty()) {
@@ -65,8 +66,8 @@ class Scheduler {
         use(n.args[2], branch.elseRegion);
     }
 
-    // All phis of an if stand in one region: the innermost that holds the uses of all of them. Its phis were made one
-    // after the other, before any use of one, so at the last of them the uses of all are known.
+    // All phis of an if stand in one region: the innermost that holds the uses of all of them. Its phis were
+    // made one after the other, before any use of one, so at the last of them the uses of all are known.
     const Schedule::If& openIf(std::uint32_t number) {
         Schedule::If& branch = result_.ifs[number];
         if (branch.thenRegion != kNowhere) return branch;

@@ -1,5 +1,5 @@
-// Places the nodes of a graph in branches: each as deep as all its uses allow, so that what only one side of an if needs
-// is computed only there, and what nobody needs not at all. A step of compile() in program.h.
+// Places the nodes of a graph in branches: each as deep as all its uses allow, so that what only one side of
+// an if needs is computed only there, and what nobody needs not at all. A step of compile() in program.h.
 #pragma once
 
 #include <functional>

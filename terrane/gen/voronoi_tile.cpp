@@ -13,7 +13,9 @@ namespace {
 
 using shared::uint;
 
-std::int64_t floorDivide(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
+std::int64_t floorDivide(std::int64_t a, std::int64_t b) {
+    return a / b - (a % b < 0 ? 1 : 0);
+}
 
 // Points of a cell relative to (x0, y0). Cell coordinates wrap at 32 bits like everything hashed.
 void addCell(std::vector<VoronoiPoint>& points, const NoiseCall& call, std::uint32_t seed,
@@ -60,7 +62,8 @@ void prepare(std::vector<VoronoiPoint>& points, const NoiseCall& call, std::uint
             addCell(points, call, seed, {cellX, cellY, x0, y0});
         }
     }
-    // A point farther from every column than two other points are from any column is never among the two nearest.
+    // A point farther from every column than two other points are from any column is never among the two
+    // nearest.
     std::int64_t best = std::numeric_limits<std::int64_t>::max(), second = best;
     for (const VoronoiPoint p : points) {
         const std::int64_t d = tileDistance(p).farthest;

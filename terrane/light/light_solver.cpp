@@ -13,14 +13,15 @@ constexpr int kMaxLevel = 15;
 constexpr int kDaylight = 3;  // component
 
 class Solver {
- public:
+  public:
     Solver(const LightArea& area, const world::BlockRegistry& blocks)
         : width_(area.chunksX * world::kChunkSize),
           height_(area.chunksY * world::kChunkSize),
           layer_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)),
           opacity_(layer_ * world::kChunkHeight),
           light_(layer_ * world::kChunkHeight) {
-        assert(area.chunks.size() == static_cast<std::size_t>(area.chunksX) * static_cast<std::size_t>(area.chunksY));
+        assert(area.chunks.size() ==
+               static_cast<std::size_t>(area.chunksX) * static_cast<std::size_t>(area.chunksY));
         for (int cy = 0; cy < area.chunksY; ++cy) {
             for (int cx = 0; cx < area.chunksX; ++cx) {
                 readChunk(*area.chunks[static_cast<std::size_t>(cx + area.chunksX * cy)], blocks, cx, cy);
@@ -34,7 +35,7 @@ class Solver {
         return std::move(light_);
     }
 
- private:
+  private:
     void readChunk(const world::Chunk& chunk, const world::BlockRegistry& blocks, int cx, int cy) {
         for (int k = 0; k < world::kBlocksPerChunk; ++k) {
             const world::BlockType& type = blocks.type(chunk.block(static_cast<world::BlockIndex>(k)));
@@ -76,7 +77,8 @@ class Solver {
                 forEachNeighbour(at, [&](std::size_t next) {
                     const int reached = level - 1 - opacity_[next];
                     if (reached <= (light_[next] >> shift & 15)) return;
-                    light_[next] = static_cast<LightValue>((light_[next] & ~(15 << shift)) | reached << shift);
+                    light_[next] =
+                        static_cast<LightValue>((light_[next] & ~(15 << shift)) | reached << shift);
                     if (reached > 1) buckets[static_cast<std::size_t>(reached)].push_back(next);
                 });
             }

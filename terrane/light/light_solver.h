@@ -2,9 +2,8 @@
 //
 // Each voxel has four levels 0…15: red, green, blue, daylight. The result is the least fixed point of
 //   v = max(source, n₀ − d, …, n₅ − d) over the six neighbours, d = 1 + opacity of v, for each component,
-// where the source of a colour is the block's emission, and of daylight 15 less the opacities of the blocks from the
-// top of the world down to v (nothing is lost with distance straight down).
-// Any thread.
+// where the source of a colour is the block's emission, and of daylight 15 less the opacities of the blocks
+// from the top of the world down to v (nothing is lost with distance straight down). Any thread.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +23,8 @@ struct LightArea {
 // Red in bits 0–3, green 4–7, blue 8–11, daylight 12–15.
 using LightValue = std::uint16_t;
 
-// Levels of all blocks: index x + width·(y + height·z) with width = 16 chunksX, height = 16 chunksY in blocks.
-// Takes 3 bytes a block while it runs (192 KiB a chunk).
+// Levels of all blocks: index x + width·(y + height·z) with width = 16 chunksX, height = 16 chunksY in
+// blocks. Takes 3 bytes a block while it runs (192 KiB a chunk).
 std::vector<LightValue> solveLight(const LightArea& area, const world::BlockRegistry& blocks);
 
 }  // namespace terrane::light

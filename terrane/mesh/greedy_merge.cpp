@@ -4,10 +4,20 @@
 
 namespace terrane::mesh {
 
+namespace {
+
+std::uint32_t usedRows(const BitSlice& rows) {
+    std::uint32_t used = 0;
+    for (std::size_t row = 0; row < rows.size(); ++row) used |= std::uint32_t{rows[row] != 0} << row;
+    return used;
+}
+
+}  // namespace
 
 std::span<const Rectangle> mergeRows(BitSlice rows, Merge merge, RectangleBuffer& buffer) {
     std::size_t count = 0;
-    for (std::size_t row = 0; row < rows.size(); ++row) {
+    for (std::uint32_t used = usedRows(rows); used != 0; used &= used - 1) {
+        const auto row = static_cast<std::size_t>(std::countr_zero(used));
         unsigned left = rows[row];
         while (left != 0) {
             // Adding the lowest one carries through the run of ones above it: what the carry clears is the

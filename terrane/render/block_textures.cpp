@@ -26,16 +26,17 @@ base::Result<gpu::Texture2DArray> loadBlockTextures(const world::BlockRegistry& 
         if (!image) return tl::unexpected(image.error());
         const bool isPowerOfTwo = image->width > 0 && (image->width & (image->width - 1)) == 0;
         if (image->width != image->height || !isPowerOfTwo) {
-            return base::fail("texture \"{}\": {}×{} is not square with a power of two", names[layer], image->width,
-                              image->height);
+            return base::fail("texture \"{}\": {}×{} is not square with a power of two", names[layer],
+                              image->width, image->height);
         }
         if (layer == 0) {
             size = {image->width, image->height};
-            array = gpu::Texture2DArray({size, static_cast<int>(names.size()), gpu::fullLevels(size)}, GL_SRGB8_ALPHA8,
-                                        "block textures");
+            array = gpu::Texture2DArray({size, static_cast<int>(names.size()), gpu::fullLevels(size)},
+                                        GL_SRGB8_ALPHA8, "block textures");
         }
         if (image->width != size.x) {
-            return base::fail("texture \"{}\": is {} wide, the others are {}", names[layer], image->width, size.x);
+            return base::fail("texture \"{}\": is {} wide, the others are {}", names[layer], image->width,
+                              size.x);
         }
         const auto levels = mipmaps(*image, alphaOf(registry, layer));
         for (std::size_t level = 0; level < levels.size(); ++level) {

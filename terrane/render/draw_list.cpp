@@ -18,7 +18,8 @@ struct Box {
     glm::vec3 min, max;
 };
 
-std::vector<VisibleChunk> chunksNearestFirst(const QuadStore& quads, world::ChunkPos centre, glm::vec3 cameraPosition) {
+std::vector<VisibleChunk> chunksNearestFirst(const QuadStore& quads, world::ChunkPos centre,
+                                             glm::vec3 cameraPosition) {
     std::vector<VisibleChunk> chunks;
     chunks.reserve(quads.chunks().size());
     for (const auto& [pos, chunkQuads] : quads.chunks()) {
@@ -54,7 +55,8 @@ bool facesCamera(int group, const Box& box, glm::vec3 camera) {
     }
 }
 
-void addCommands(std::vector<DrawCommand>& commands, std::uint32_t first, std::uint32_t count, std::uint32_t record) {
+void addCommands(std::vector<DrawCommand>& commands, std::uint32_t first, std::uint32_t count,
+                 std::uint32_t record) {
     while (count > 0) {
         const std::uint32_t part = std::min(count, kMaxQuadsPerCommand);
         commands.push_back({6 * part, 1, 0, static_cast<std::int32_t>(4 * first), record});
@@ -72,7 +74,9 @@ void addRegion(DrawList& list, const VisibleChunk& chunk, const mesh::RegionMesh
     for (int context = 0; context < mesh::kContextCount; ++context) {
         auto& commands = list.commands[static_cast<std::size_t>(context)];
         mesh::QuadRange pending;
-        const auto flush = [&] { addCommands(commands, chunk.quads->first + pending.first, pending.count, record); };
+        const auto flush = [&] {
+            addCommands(commands, chunk.quads->first + pending.first, pending.count, record);
+        };
         for (int group = 0; group < mesh::kGroupCount; ++group) {
             const mesh::QuadRange range = region.groups[context][group];
             if (range.count == 0 || !facesCamera(group, box, camera)) continue;

@@ -4,9 +4,10 @@
 
 namespace terrane::render {
 
-base::Result<FullscreenPass> FullscreenPass::create(const gpu::ShaderLoader& shaders, std::string_view fragmentName,
-                                                    std::string_view label) {
-    auto program = gpu::Program::graphics(shaders, "terrane/render/fullscreen.vert.glsl", fragmentName, {}, label);
+base::Result<FullscreenPass> FullscreenPass::create(const gpu::ShaderLoader& shaders,
+                                                    std::string_view fragmentName, std::string_view label) {
+    auto program =
+        gpu::Program::graphics(shaders, "terrane/render/fullscreen.vert.glsl", fragmentName, {}, label);
     if (!program) return tl::unexpected(program.error());
     FullscreenPass pass;
     pass.label_ = label;

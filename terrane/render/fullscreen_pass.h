@@ -1,5 +1,5 @@
-// A pass that covers the screen with one triangle: the sky, the final picture. Used by the renderer on the context's
-// thread.
+// A pass that covers the screen with one triangle: the sky, the final picture. Used by the renderer on the
+// context's thread.
 #pragma once
 
 #include <string_view>
@@ -11,14 +11,14 @@
 namespace terrane::render {
 
 class FullscreenPass {
- public:
-    static base::Result<FullscreenPass> create(const gpu::ShaderLoader& shaders, std::string_view fragmentName,
-                                               std::string_view label);
+  public:
+    static base::Result<FullscreenPass> create(const gpu::ShaderLoader& shaders,
+                                               std::string_view fragmentName, std::string_view label);
 
     // Into the bound framebuffer, at depth 0 (farthest); the depth test is the caller's.
     void draw() const;
 
- private:
+  private:
     std::string label_;
     gpu::Program program_;
     gpu::VertexArray vertexArray_;

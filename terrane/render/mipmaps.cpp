@@ -16,14 +16,19 @@ struct LinearImage {
     std::vector<glm::vec4> texels;
 };
 
-float decodeSrgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
-float encodeSrgb(float v) { return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f; }
+float decodeSrgb(float v) {
+    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
+float encodeSrgb(float v) {
+    return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
+}
 
 LinearImage decode(const base::Image& image) {
     LinearImage result{image.width, {}};
     for (std::size_t k = 0; k < image.rgba.size(); k += 4) {
         const auto channel = [&](std::size_t c) { return static_cast<float>(image.rgba[k + c]) / 255.0f; };
-        result.texels.emplace_back(decodeSrgb(channel(0)), decodeSrgb(channel(1)), decodeSrgb(channel(2)), channel(3));
+        result.texels.emplace_back(decodeSrgb(channel(0)), decodeSrgb(channel(1)), decodeSrgb(channel(2)),
+                                   channel(3));
     }
     return result;
 }
@@ -48,7 +53,8 @@ LinearImage half(const LinearImage& from, bool alphaIsCoverage) {
             glm::vec4 sum(0.0f), plain(0.0f);
             float weight = 0.0f;
             for (const auto& [dx, dy] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
-                const glm::vec4 t = from.texels[static_cast<std::size_t>((2 * y + dy) * from.size + 2 * x + dx)];
+                const glm::vec4 t =
+                    from.texels[static_cast<std::size_t>((2 * y + dy) * from.size + 2 * x + dx)];
                 const float w = alphaIsCoverage ? t.a : 1.0f;
                 sum += t * w;
                 plain += t;
@@ -63,7 +69,9 @@ LinearImage half(const LinearImage& from, bool alphaIsCoverage) {
     return to;
 }
 
-float threshold(world::AlphaMode alpha) { return alpha == world::AlphaMode::TestGlow ? 0.25f : 0.5f; }
+float threshold(world::AlphaMode alpha) {
+    return alpha == world::AlphaMode::TestGlow ? 0.25f : 0.5f;
+}
 
 float coverage(const LinearImage& image, float limit) {
     const auto passes = [&](const glm::vec4& t) { return t.a >= limit; };
@@ -85,7 +93,8 @@ float coverageScale(const LinearImage& image, float wanted, float limit) {
 }  // namespace
 
 std::vector<base::Image> mipmaps(const base::Image& image, world::AlphaMode alpha) {
-    assert(image.width == image.height && (image.width & (image.width - 1)) == 0 && "block textures are 2^n square");
+    assert(image.width == image.height && (image.width & (image.width - 1)) == 0 &&
+           "block textures are 2^n square");
     const bool isTested = alpha == world::AlphaMode::Test || alpha == world::AlphaMode::TestGlow;
     std::vector<base::Image> levels{image};
     LinearImage level = decode(image);

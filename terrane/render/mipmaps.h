@@ -8,11 +8,12 @@
 
 namespace terrane::render {
 
-// Level 0 is the image, each next one half as large, down to 1×1. The image is square, its side a power of two.
+// Level 0 is the image, each next one half as large, down to 1×1. The image is square, its side a power of
+// two.
 //
-// Colours are averaged as light (sRGB is decoded), weighted by alpha where alpha is coverage. Where alpha decides holes,
-// each level is scaled so that the share of texels that pass the test stays that of level 0: else leaves and grass would
-// thin out with distance (I. Castaño, Computing Alpha Mipmaps, 2010).
+// Colours are averaged as light (sRGB is decoded), weighted by alpha where alpha is coverage. Where alpha
+// decides holes, each level is scaled so that the share of texels that pass the test stays that of level 0:
+// else leaves and grass would thin out with distance (I. Castaño, Computing Alpha Mipmaps, 2010).
 std::vector<base::Image> mipmaps(const base::Image& image, world::AlphaMode alpha);
 
 }  // namespace terrane::render

@@ -13,23 +13,25 @@
 namespace terrane::render {
 
 struct ChunkQuads {
-    std::uint32_t first = 0, count = 0;  // in the buffer
+    std::uint32_t first = 0, count = 0;     // in the buffer
     std::vector<mesh::RegionMesh> regions;  // ranges count from `first`
 };
 
 class QuadStore {
- public:
+  public:
     QuadStore();
 
     // Replaces what the chunk had. The buffer doubles when it is full: its contents are copied on the GPU.
     void set(world::ChunkPos pos, const mesh::ChunkMesh& mesh);
     void remove(world::ChunkPos pos);
 
-    const std::unordered_map<world::ChunkPos, ChunkQuads, world::ChunkPosHash>& chunks() const { return chunks_; }
+    const std::unordered_map<world::ChunkPos, ChunkQuads, world::ChunkPosHash>& chunks() const {
+        return chunks_;
+    }
     const gpu::Buffer& buffer() const { return buffer_; }
     std::size_t usedBytes() const;
 
- private:
+  private:
     std::uint32_t allocate(std::uint32_t count);
 
     gpu::Buffer buffer_;

@@ -13,7 +13,8 @@
 namespace terrane::render {
 namespace {
 
-// Draw records and commands of a frame: 16 + 20 bytes a region and face context; 4,225 chunks × 4 regions × about 3.
+// Draw records and commands of a frame: 16 + 20 bytes a region and face context; 4,225 chunks × 4 regions ×
+// about 3.
 constexpr std::size_t kRingBytes = 4u << 20;
 constexpr float kAmbientFromBelow = 0.4f;  // share of the sky's light on faces that look down
 constexpr float kExposure = 0.92f;

@@ -1,5 +1,5 @@
-// Draws the world as the camera sees it: sky, terrain, tone mapping. Owns the quads of the visible chunks and the render
-// targets. Used on the thread of the current OpenGL context.
+// Draws the world as the camera sees it: sky, terrain, tone mapping. Owns the quads of the visible chunks and
+// the render targets. Used on the thread of the current OpenGL context.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -31,7 +31,7 @@ struct FrameStatistics {
 };
 
 class Renderer {
- public:
+  public:
     static base::Result<Renderer> create(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
                                          const TextureSource& textures, const gpu::DeviceInfo& device);
 
@@ -51,7 +51,7 @@ class Renderer {
     std::size_t quadBytes() const { return quads_.usedBytes(); }
     glm::ivec2 size() const { return targets_.size; }
 
- private:
+  private:
     struct Targets {
         glm::ivec2 size{0};
         gpu::Texture2DMultisample sampledColor, sampledDepth;

@@ -28,7 +28,8 @@ gpu::Buffer quadIndices() {
 gpu::Buffer materialRecords(const world::BlockRegistry& blocks) {
     std::vector<shared::MaterialRecord> records;
     for (const world::Material& m : blocks.materials()) {
-        records.push_back({m.texture, static_cast<shared::uint>(m.alpha), static_cast<shared::uint>(m.animation), 0});
+        records.push_back(
+            {m.texture, static_cast<shared::uint>(m.alpha), static_cast<shared::uint>(m.animation), 0});
     }
     return gpu::Buffer(std::as_bytes(std::span(records)), 0, "materials");
 }
@@ -42,7 +43,8 @@ void setState(int context) {
 
 }  // namespace
 
-base::Result<TerrainPass> TerrainPass::create(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
+base::Result<TerrainPass> TerrainPass::create(const gpu::ShaderLoader& shaders,
+                                              const world::BlockRegistry& blocks,
                                               gpu::Texture2DArray textures, float anisotropy) {
     TerrainPass pass;
     for (std::size_t alphaClass = 0; alphaClass < pass.programs_.size(); ++alphaClass) {
@@ -97,7 +99,8 @@ void TerrainPass::drawContext(const DrawList& list, int context, gpu::MappedRing
     setState(context);
     programs_[static_cast<std::size_t>(mesh::contextAlphaClass(context))].use();
     const void* offset = reinterpret_cast<const void*>(slice->offsetBytes);
-    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset, static_cast<GLsizei>(commands.size()), 0);
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset,
+                                static_cast<GLsizei>(commands.size()), 0);
 }
 
 }  // namespace terrane::render

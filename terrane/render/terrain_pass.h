@@ -13,15 +13,16 @@
 namespace terrane::render {
 
 class TerrainPass {
- public:
+  public:
     // `anisotropy`: samples along the long side of a slanted texel footprint; 1 is none.
-    static base::Result<TerrainPass> create(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
-                                            gpu::Texture2DArray textures, float anisotropy);
+    static base::Result<TerrainPass> create(const gpu::ShaderLoader& shaders,
+                                            const world::BlockRegistry& blocks, gpu::Texture2DArray textures,
+                                            float anisotropy);
 
     // Into the bound framebuffer, with the frame's uniforms bound. Uploads the list into `ring`.
     void draw(const DrawList& list, const QuadStore& quads, gpu::MappedRing& ring);
 
- private:
+  private:
     void drawContext(const DrawList& list, int context, gpu::MappedRing& ring);
 
     std::array<gpu::Program, 3> programs_;  // by alpha class

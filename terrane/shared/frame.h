@@ -6,18 +6,18 @@
 
 SHARED_BEGIN
 
-// Positions on the GPU are in blocks from the corner of the camera's chunk at z = 0, so that they are small and exact
-// wherever in the world the camera is. Colours are linear.
+// Positions on the GPU are in blocks from the corner of the camera's chunk at z = 0, so that they are small
+// and exact wherever in the world the camera is. Colours are linear.
 struct Frame {
-    mat4 viewProjection;         // to clip space; depth 1 at the near plane, 0 at infinity
+    mat4 viewProjection;  // to clip space; depth 1 at the near plane, 0 at infinity
     mat4 inverseViewProjection;
-    vec4 cameraPosition;         // w: distance in blocks at which the fog is complete
-    vec4 lightDirection;         // to the sun or moon; w: seconds for animations
-    vec4 lightColor;             // of the sun or moon; w: radius of its disc, radians
-    vec4 ambientColor;           // from the sky, on faces that look up; w: share of it on faces that look down
-    vec4 zenithColor;            // w: exposure
-    vec4 horizonColor;           // w: 0 for the picture, else a kView… value
-    vec4 glowColor;              // around the light at the horizon
+    vec4 cameraPosition;  // w: distance in blocks at which the fog is complete
+    vec4 lightDirection;  // to the sun or moon; w: seconds for animations
+    vec4 lightColor;      // of the sun or moon; w: radius of its disc, radians
+    vec4 ambientColor;    // from the sky, on faces that look up; w: share of it on faces that look down
+    vec4 zenithColor;     // w: exposure
+    vec4 horizonColor;    // w: 0 for the picture, else a kView… value
+    vec4 glowColor;       // around the light at the horizon
 };
 
 const uint kViewColor = 0u;
@@ -31,7 +31,7 @@ struct DrawRecord {
 
 // Alpha modes and animations are the values of world::AlphaMode and world::Animation.
 struct MaterialRecord {
-    uint texture;    // layer of the array
+    uint texture;  // layer of the array
     uint alphaMode;
     uint animation;
     uint unused;

@@ -7,14 +7,14 @@
 
 SHARED_BEGIN
 
-// Odd multipliers that spread one coordinate over 32 bits each: 2^32 divided by the golden ratio's generalisations to
-// three dimensions (roots of g^4 = g + 1), rounded to odd.
+// Odd multipliers that spread one coordinate over 32 bits each: 2^32 divided by the golden ratio's
+// generalisations to three dimensions (roots of g^4 = g + 1), rounded to odd.
 const uint kHashX = 0xD1B54A33u;
 const uint kHashY = 0xABC98389u;
 const uint kHashZ = 0x8CB92BA7u;
 
-// Finaliser of 32 bits with two multiplications; constants from the "lowbias32" search (C. Wellons, Prospecting for
-// Hash Functions, 2018), avalanche bias 0.17.
+// Finaliser of 32 bits with two multiplications; constants from the "lowbias32" search (C. Wellons,
+// Prospecting for Hash Functions, 2018), avalanche bias 0.17.
 SHARED_FN uint mixBits(uint h) {
     h ^= h >> 16;
     h *= 0x7FEB352Du;
@@ -24,7 +24,9 @@ SHARED_FN uint mixBits(uint h) {
     return h;
 }
 
-SHARED_FN uint hash2(uint x, uint y, uint seed) { return mixBits((x * kHashX) ^ (y * kHashY) ^ seed); }
+SHARED_FN uint hash2(uint x, uint y, uint seed) {
+    return mixBits((x * kHashX) ^ (y * kHashY) ^ seed);
+}
 
 SHARED_FN uint hash3(uint x, uint y, uint z, uint seed) {
     return mixBits((x * kHashX) ^ (y * kHashY) ^ (z * kHashZ) ^ seed);

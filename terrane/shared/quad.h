@@ -23,13 +23,27 @@ struct Quad {
     uint word1;
 };
 
-SHARED_FN uint quadX(Quad q) { return q.word0 & 15u; }
-SHARED_FN uint quadY(Quad q) { return (q.word0 >> 4) & 15u; }
-SHARED_FN uint quadZ(Quad q) { return (q.word0 >> 8) & 255u; }
-SHARED_FN uint quadShapeFace(Quad q) { return (q.word0 >> 16) & 255u; }
-SHARED_FN uint quadExtentU(Quad q) { return ((q.word0 >> 24) & 15u) + 1u; }
-SHARED_FN uint quadExtentV(Quad q) { return (q.word0 >> 28) + 1u; }
-SHARED_FN uint quadMaterial(Quad q) { return q.word1 & 65535u; }
+SHARED_FN uint quadX(Quad q) {
+    return q.word0 & 15u;
+}
+SHARED_FN uint quadY(Quad q) {
+    return (q.word0 >> 4) & 15u;
+}
+SHARED_FN uint quadZ(Quad q) {
+    return (q.word0 >> 8) & 255u;
+}
+SHARED_FN uint quadShapeFace(Quad q) {
+    return (q.word0 >> 16) & 255u;
+}
+SHARED_FN uint quadExtentU(Quad q) {
+    return ((q.word0 >> 24) & 15u) + 1u;
+}
+SHARED_FN uint quadExtentV(Quad q) {
+    return (q.word0 >> 28) + 1u;
+}
+SHARED_FN uint quadMaterial(Quad q) {
+    return q.word1 & 65535u;
+}
 
 SHARED_END
 
@@ -39,17 +53,20 @@ namespace terrane::shared {
 static_assert(sizeof(Quad) == kQuadBytes);
 
 struct QuadFields {
-    uint x, y, z;             // lowest block of the quad, in the chunk
-    uint shapeFace;           // 0…255
+    uint x, y, z;                   // lowest block of the quad, in the chunk
+    uint shapeFace;                 // 0…255
     uint extentU = 1, extentV = 1;  // 1…16 blocks
-    uint material = 0;        // 0…65535
+    uint material = 0;              // 0…65535
 };
 
 constexpr Quad packQuad(const QuadFields& f) {
-    return {f.x | f.y << 4 | f.z << 8 | f.shapeFace << 16 | (f.extentU - 1) << 24 | (f.extentV - 1) << 28, f.material};
+    return {f.x | f.y << 4 | f.z << 8 | f.shapeFace << 16 | (f.extentU - 1) << 24 | (f.extentV - 1) << 28,
+            f.material};
 }
 
-constexpr bool operator==(const Quad& a, const Quad& b) { return a.word0 == b.word0 && a.word1 == b.word1; }
+constexpr bool operator==(const Quad& a, const Quad& b) {
+    return a.word0 == b.word0 && a.word1 == b.word1;
+}
 
 }  // namespace terrane::shared
 #endif

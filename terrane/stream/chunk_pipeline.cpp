@@ -14,7 +14,9 @@ using world::ChunkPtr;
 // Jobs in flight a worker: enough that none waits for a frame, few enough that the queue follows the camera.
 constexpr std::size_t kJobsPerWorker = 8;
 
-ChunkPos offsetBy(ChunkPos pos, int dx, int dy) { return {pos.x + dx, pos.y + dy}; }
+ChunkPos offsetBy(ChunkPos pos, int dx, int dy) {
+    return {pos.x + dx, pos.y + dy};
+}
 
 std::int64_t squaredDistance(ChunkPos a, ChunkPos b) {
     const std::int64_t dx = std::int64_t{a.x} - b.x, dy = std::int64_t{a.y} - b.y;
@@ -71,12 +73,13 @@ void ChunkPipeline::orderOffsets() {
     for (int y = -reach; y <= reach; ++y) {
         for (int x = -reach; x <= reach; ++x) offsets_.push_back({x, y});
     }
-    std::stable_sort(offsets_.begin(), offsets_.end(), [](ChunkPos a, ChunkPos b) {
-        return squaredDistance(a, {}) < squaredDistance(b, {});
-    });
+    std::stable_sort(offsets_.begin(), offsets_.end(),
+                     [](ChunkPos a, ChunkPos b) { return squaredDistance(a, {}) < squaredDistance(b, {}); });
 }
 
-base::JobPriority ChunkPipeline::priority(ChunkPos pos) const { return squaredDistance(pos, centre_); }
+base::JobPriority ChunkPipeline::priority(ChunkPos pos) const {
+    return squaredDistance(pos, centre_);
+}
 
 void ChunkPipeline::update() {
     TERRANE_ZONE("pipeline update");
@@ -99,7 +102,8 @@ void ChunkPipeline::update() {
 
 void ChunkPipeline::waitForWorkers(std::chrono::milliseconds atMost) {
     std::unique_lock lock(results_->mutex);
-    results_->changed.wait_for(lock, atMost, [&] { return !results_->chunks.empty() || !results_->meshes.empty(); });
+    results_->changed.wait_for(lock, atMost,
+                               [&] { return !results_->chunks.empty() || !results_->meshes.empty(); });
 }
 
 void ChunkPipeline::submitGeneration() {
@@ -108,12 +112,13 @@ void ChunkPipeline::submitGeneration() {
         const ChunkPos pos = offsetBy(centre_, offsets_[nextOffset_].x, offsets_[nextOffset_].y);
         ++nextOffset_;
         if (!world::isInWorld(pos) || world_.maybeChunkAt(pos) || generating_.contains(pos)) continue;
-        generating_[pos] = jobs_.submit(priority(pos), [this, pos, results = results_](const base::CancelToken&) {
-            auto chunk = std::make_shared<const world::Chunk>(generator_.generate(pos));
-            const std::lock_guard lock(results->mutex);
-            results->chunks.emplace_back(pos, std::move(chunk));
-            results->changed.notify_one();
-        });
+        generating_[pos] =
+            jobs_.submit(priority(pos), [this, pos, results = results_](const base::CancelToken&) {
+                auto chunk = std::make_shared<const world::Chunk>(generator_.generate(pos));
+                const std::lock_guard lock(results->mutex);
+                results->chunks.emplace_back(pos, std::move(chunk));
+                results->changed.notify_one();
+            });
     }
 }
 
@@ -154,18 +159,19 @@ void ChunkPipeline::submitMesh(ChunkPos pos) {
     const std::array<ChunkPtr, 5> chunks = {
         chunkOrOutside(pos), chunkOrOutside(offsetBy(pos, -1, 0)), chunkOrOutside(offsetBy(pos, 1, 0)),
         chunkOrOutside(offsetBy(pos, 0, -1)), chunkOrOutside(offsetBy(pos, 0, 1))};
-    jobs_.submit(priority(pos), [chunks, number, pos, blocks = &blocks_, results = results_](const base::CancelToken&) {
-        TERRANE_ZONE("mesh chunk");
-        mesh::MeshInput input;
-        input.centre = chunks[0].get();
-        input.neighbours = {chunks[1].get(), chunks[2].get(), chunks[3].get(), chunks[4].get()};
-        input.blocks = blocks;
-        thread_local mesh::MeshScratch scratch;
-        auto mesh = std::make_shared<const mesh::ChunkMesh>(mesh::meshChunk(input, scratch));
-        const std::lock_guard lock(results->mutex);
-        results->meshes.push_back({pos, number, std::move(mesh)});
-        results->changed.notify_one();
-    });
+    jobs_.submit(priority(pos),
+                 [chunks, number, pos, blocks = &blocks_, results = results_](const base::CancelToken&) {
+                     TERRANE_ZONE("mesh chunk");
+                     mesh::MeshInput input;
+                     input.centre = chunks[0].get();
+                     input.neighbours = {chunks[1].get(), chunks[2].get(), chunks[3].get(), chunks[4].get()};
+                     input.blocks = blocks;
+                     thread_local mesh::MeshScratch scratch;
+                     auto mesh = std::make_shared<const mesh::ChunkMesh>(mesh::meshChunk(input, scratch));
+                     const std::lock_guard lock(results->mutex);
+                     results->meshes.push_back({pos, number, std::move(mesh)});
+                     results->changed.notify_one();
+                 });
 }
 
 void ChunkPipeline::blocksChanged(world::BlockPos pos) {
@@ -182,7 +188,8 @@ void ChunkPipeline::blocksChanged(world::BlockPos pos) {
     if (y == 15) again(offsetBy(chunk, 0, 1));
 }
 
-// A chunk stays one ring longer than it is wanted, so that a camera that paces a border does not load it each time.
+// A chunk stays one ring longer than it is wanted, so that a camera that paces a border does not load it each
+// time.
 void ChunkPipeline::unloadDistant() {
     std::vector<ChunkPos> distant;
     for (const auto& [pos, chunk] : world_.chunks()) {

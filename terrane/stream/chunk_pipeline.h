@@ -1,8 +1,8 @@
 // Keeps the chunks around a camera generated and meshed, on worker threads, nearest first.
 //
-// A chunk's way: wanted → generating → active (in the world) → meshing → visible. It is meshed only once the eight
-// chunks around it are active. All functions are for one thread, the one that owns the world; workers see only immutable
-// chunks and hand results back through a queue.
+// A chunk's way: wanted → generating → active (in the world) → meshing → visible. It is meshed only once the
+// eight chunks around it are active. All functions are for one thread, the one that owns the world; workers
+// see only immutable chunks and hand results back through a queue.
 #pragma once
 
 #include <chrono>
@@ -33,7 +33,7 @@ struct Progress {
 };
 
 class ChunkPipeline {
- public:
+  public:
     // All arguments outlive the pipeline.
     ChunkPipeline(base::JobSystem& jobs, const gen::Generator& generator, const world::BlockRegistry& blocks,
                   world::World& world);
@@ -54,7 +54,7 @@ class ChunkPipeline {
 
     Progress progress() const;
 
- private:
+  private:
     struct Results;
 
     void orderOffsets();

@@ -4,6 +4,7 @@
 // that they are as exact far from the world's origin as near it.
 #include "terrane/world/ray_cast.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>

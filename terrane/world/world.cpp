@@ -18,7 +18,7 @@ Chunk& writable(ChunkPtr& chunk) {
     // use_count() orders nothing: what a worker read before it let go of the chunk could still overlap the
     // write that follows. Taking and dropping a reference is an acquire-release operation on the count, after
     // the worker's.
-    //
+    ChunkPtr(chunk).reset();
     return const_cast<Chunk&>(*chunk);
 }
 

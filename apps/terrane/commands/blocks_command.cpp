@@ -61,11 +61,13 @@ base::Result<void> listBlocks(bool json) {
         std::cout << list.dump() << '\n';
         return {};
     }
-    fmt::print("{:>4}  {:<18}{:<8}{:>8}  {:<12}{}\n", "id", "name", "shape", "opacity", "emission", "collides");
+    fmt::print("{:>4}  {:<18}{:<8}{:>8}  {:<12}{}\n", "id", "name", "shape", "opacity", "emission",
+               "collides");
     for (const world::BlockType& type : blocks->types()) {
         const auto& e = type.emission;
-        fmt::print("{:>4}  {:<18}{:<8}{:>8}  {:<12}{}\n", type.id, type.name, shapeName(type.shape), type.opacity,
-                   fmt::format("{},{},{}", e[0], e[1], e[2]), type.collision.empty() ? "no" : "yes");
+        fmt::print("{:>4}  {:<18}{:<8}{:>8}  {:<12}{}\n", type.id, type.name, shapeName(type.shape),
+                   type.opacity, fmt::format("{},{},{}", e[0], e[1], e[2]),
+                   type.collision.empty() ? "no" : "yes");
     }
     return {};
 }

@@ -1,4 +1,5 @@
-// terrane dump: blocks, light or quads of an area as a NumPy file, so that anyone can check them from outside.
+// terrane dump: blocks, light or quads of an area as a NumPy file, so that anyone can check them from
+// outside.
 #include <cstring>
 #include <map>
 #include <memory>
@@ -29,13 +30,15 @@ constexpr std::int64_t kMaxChunks = 4096;
 
 // The area and one chunk around it, which light and meshes need.
 class LoadedArea {
- public:
-    LoadedArea(const Area& area) : area_(area), width_(area.x1 - area.x0 + 2), height_(area.y1 - area.y0 + 2) {}
+  public:
+    LoadedArea(const Area& area)
+        : area_(area), width_(area.x1 - area.x0 + 2), height_(area.y1 - area.y0 + 2) {}
 
     base::Result<void> generate(const gen::Generator& generator, base::JobSystem& jobs) {
         chunks_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
         return base::parallelFor(jobs, chunks_.size(), [&](std::size_t k) {
-            const world::ChunkPos pos{area_.x0 - 1 + static_cast<int>(k) % width_, area_.y0 - 1 + static_cast<int>(k) / width_};
+            const world::ChunkPos pos{area_.x0 - 1 + static_cast<int>(k) % width_,
+                                      area_.y0 - 1 + static_cast<int>(k) / width_};
             if (world::isInWorld(pos)) chunks_[k] = generator.generate(pos);
         });
     }
@@ -47,7 +50,7 @@ class LoadedArea {
     int chunksX() const { return width_ - 2; }
     int chunksY() const { return height_ - 2; }
 
- private:
+  private:
     Area area_;
     int width_, height_;
     std::vector<world::Chunk> chunks_;
@@ -57,8 +60,10 @@ class LoadedArea {
 template <class ValueAt>
 base::NpyArray volume(const LoadedArea& area, ValueAt valueAt) {
     const int sizeX = area.chunksX() * world::kChunkSize, sizeY = area.chunksY() * world::kChunkSize;
-    base::NpyArray array{"<u2", {static_cast<std::size_t>(sizeX), static_cast<std::size_t>(sizeY), world::kChunkHeight}, {}};
-    array.data.reserve(static_cast<std::size_t>(sizeX) * static_cast<std::size_t>(sizeY) * world::kChunkHeight * 2);
+    base::NpyArray array{
+        "<u2", {static_cast<std::size_t>(sizeX), static_cast<std::size_t>(sizeY), world::kChunkHeight}, {}};
+    array.data.reserve(static_cast<std::size_t>(sizeX) * static_cast<std::size_t>(sizeY) *
+                       world::kChunkHeight * 2);
     for (int x = 0; x < sizeX; ++x) {
         for (int y = 0; y < sizeY; ++y) {
             for (int z = 0; z < world::kChunkHeight; ++z) {
@@ -73,7 +78,8 @@ base::NpyArray volume(const LoadedArea& area, ValueAt valueAt) {
 
 base::NpyArray dumpBlocks(const LoadedArea& area) {
     return volume(area, [&](int x, int y, int z) {
-        return area.chunk(x / world::kChunkSize, y / world::kChunkSize).block(world::blockIndex(x & 15, y & 15, z));
+        return area.chunk(x / world::kChunkSize, y / world::kChunkSize)
+            .block(world::blockIndex(x & 15, y & 15, z));
     });
 }
 
@@ -86,7 +92,8 @@ base::NpyArray dumpLight(const LoadedArea& area, const world::BlockRegistry& blo
     const auto width = static_cast<std::size_t>(around.chunksX) * world::kChunkSize;
     const auto height = static_cast<std::size_t>(around.chunksY) * world::kChunkSize;
     return volume(area, [&](int x, int y, int z) {
-        const auto ax = static_cast<std::size_t>(x + world::kChunkSize), ay = static_cast<std::size_t>(y + world::kChunkSize);
+        const auto ax = static_cast<std::size_t>(x + world::kChunkSize),
+                   ay = static_cast<std::size_t>(y + world::kChunkSize);
         return light[ax + width * (ay + height * static_cast<std::size_t>(z))];
     });
 }
@@ -96,7 +103,8 @@ constexpr const char* kQuadType =
     "[('chunk_x','<i4'),('chunk_y','<i4'),('x','|u1'),('y','|u1'),('z','|u1'),('shape_face','|u1'),"
     "('extent_u','|u1'),('extent_v','|u1'),('material','<u2'),('context','|u1'),('group','|u1')]";
 
-void appendQuad(std::string& data, world::ChunkPos pos, shared::Quad quad, std::array<int, 2> contextAndGroup) {
+void appendQuad(std::string& data, world::ChunkPos pos, shared::Quad quad,
+                std::array<int, 2> contextAndGroup) {
     const auto number = [&](auto value) {
         char bytes[sizeof(value)];
         std::memcpy(bytes, &value, sizeof(value));
@@ -122,7 +130,8 @@ base::NpyArray dumpQuads(const LoadedArea& area, const Area& where, const world:
         for (int x = 0; x < area.chunksX(); ++x) {
             mesh::MeshInput input;
             input.centre = &area.chunk(x, y);
-            input.neighbours = {&area.chunk(x - 1, y), &area.chunk(x + 1, y), &area.chunk(x, y - 1), &area.chunk(x, y + 1)};
+            input.neighbours = {&area.chunk(x - 1, y), &area.chunk(x + 1, y), &area.chunk(x, y - 1),
+                                &area.chunk(x, y + 1)};
             input.blocks = &blocks;
             const mesh::ChunkMesh mesh = mesh::meshChunk(input, scratch);
             for (const mesh::RegionMesh& region : mesh.regions) {
@@ -130,7 +139,8 @@ base::NpyArray dumpQuads(const LoadedArea& area, const Area& where, const world:
                     for (int group = 0; group < mesh::kGroupCount; ++group) {
                         const mesh::QuadRange range = region.groups[context][group];
                         for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
-                            appendQuad(array.data, {where.x0 + x, where.y0 + y}, mesh.quads[k], {context, group});
+                            appendQuad(array.data, {where.x0 + x, where.y0 + y}, mesh.quads[k],
+                                       {context, group});
                         }
                     }
                 }
@@ -178,7 +188,8 @@ CommandEntry addDump(CLI::App& app) {
     CLI::App* command = app.add_subcommand("dump", "Write blocks, light or quads of an area as a NumPy file");
     addAreaOption(*command, options->area);
     command->get_option("--area")->required();
-    const std::map<std::string, What> kinds = {{"blocks", What::Blocks}, {"light", What::Light}, {"quads", What::Quads}};
+    const std::map<std::string, What> kinds = {
+        {"blocks", What::Blocks}, {"light", What::Light}, {"quads", What::Quads}};
     command->add_option("--what", options->what, "What to write")
         ->transform(CLI::CheckedTransformer(kinds).description("blocks, light or quads"))
         ->default_str("blocks");

@@ -34,8 +34,8 @@ void addToDigest(base::Digest& digest, const world::Chunk& chunk) {
 }
 
 // Chunks by y, then x; blocks by z, y, x, as 16-bit little-endian ids.
-base::Result<std::string> generateArea(const gen::Generator& generator, const Area& area, base::JobSystem& jobs,
-                                       bool wantsDigest) {
+base::Result<std::string> generateArea(const gen::Generator& generator, const Area& area,
+                                       base::JobSystem& jobs, bool wantsDigest) {
     base::Digest digest;
     ProgressBar bar("generating", static_cast<std::size_t>(area.chunkCount()));
     const std::int64_t width = std::int64_t{area.x1} - area.x0;
@@ -72,10 +72,14 @@ base::Result<void> generate(const GenerateOptions& options) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const double speed = static_cast<double>(area.chunkCount()) / seconds;
 
-    base::logInfo("{} chunks in {:.2f} s, {:.0f} chunks/s on {} threads", area.chunkCount(), seconds, speed, threads);
+    base::logInfo("{} chunks in {:.2f} s, {:.0f} chunks/s on {} threads", area.chunkCount(), seconds, speed,
+                  threads);
     if (options.json) {
-        nlohmann::json result = {{"chunks", area.chunkCount()}, {"seconds", seconds}, {"chunks_per_second", speed},
-                                 {"threads", threads},          {"backend", "cpu"}};
+        nlohmann::json result = {{"chunks", area.chunkCount()},
+                                 {"seconds", seconds},
+                                 {"chunks_per_second", speed},
+                                 {"threads", threads},
+                                 {"backend", "cpu"}};
         if (options.digest) result["digest"] = *digest;
         std::cout << result.dump() << '\n';
     } else if (options.digest) {

@@ -55,7 +55,8 @@ base::Result<void> printInfo(bool json) {
 
 CommandEntry addInfo(CLI::App& app) {
     auto json = std::make_shared<bool>(false);
-    CLI::App* command = app.add_subcommand("info", "Show the renderer, its limits and the processor's features");
+    CLI::App* command =
+        app.add_subcommand("info", "Show the renderer, its limits and the processor's features");
     command->add_flag("--json", *json, "Print as JSON");
     return {command, [json] { return printInfo(*json); }};
 }

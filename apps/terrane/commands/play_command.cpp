@@ -22,9 +22,14 @@ struct PlayOptions {
 constexpr std::size_t kUploadsPerFrame = 64;
 
 class PlayLoop {
- public:
-    PlayLoop(const PlayOptions& options, gpu::Window& window, WorldSession& session, render::Renderer& renderer)
-        : options_(options), window_(window), session_(session), renderer_(renderer), camera_(findScene("landscape")->camera) {}
+  public:
+    PlayLoop(const PlayOptions& options, gpu::Window& window, WorldSession& session,
+             render::Renderer& renderer)
+        : options_(options),
+          window_(window),
+          session_(session),
+          renderer_(renderer),
+          camera_(findScene("landscape")->camera) {}
 
     base::Result<void> run() {
         double last = window_.timeSeconds();
@@ -45,7 +50,7 @@ class PlayLoop {
         return {};
     }
 
- private:
+  private:
     void handleEvents() {
         using Type = gpu::InputEvent::Type;
         for (const gpu::InputEvent& event : window_.events()) {
@@ -77,8 +82,8 @@ class PlayLoop {
         session_.pipeline->setView(render::cameraChunk(camera_), options_.graphics.viewDistance);
         session_.pipeline->update();
         uploadMeshes(*session_.pipeline, renderer_, kUploadsPerFrame);
-        renderer_.draw({camera_, world::environmentAt(0.38f), fogDistance(options_.graphics.viewDistance), seconds,
-                        options_.graphics.view});
+        renderer_.draw({camera_, world::environmentAt(0.38f), fogDistance(options_.graphics.viewDistance),
+                        seconds, options_.graphics.view});
         renderer_.presentToWindow(size);
         window_.swapBuffers();
         return {};
@@ -103,7 +108,8 @@ base::Result<void> play(const PlayOptions& options) {
                                        .debug = options.graphics.debugGl});
     if (!window) return tl::unexpected(window.error());
     const gpu::ShaderLoader shaders = makeShaderLoader(options.graphics.shaderRoot);
-    auto renderer = render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), gpu::queryDevice());
+    auto renderer =
+        render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), gpu::queryDevice());
     if (!renderer) return tl::unexpected(renderer.error());
     if (auto played = PlayLoop(options, *window, **session, *renderer).run(); !played) return played;
     if (window->debugLog() && window->debugLog()->errorCount() > 0) {

@@ -35,7 +35,8 @@ base::Result<Scene> chosenScene(const RenderOptions& options) {
     Scene scene = scenes().front();
     if (!options.scene.empty()) {
         const Scene* found = findScene(options.scene);
-        if (!found) return base::fail("unknown scene \"{}\": ocean, desert, landscape or cave", options.scene);
+        if (!found)
+            return base::fail("unknown scene \"{}\": ocean, desert, landscape or cave", options.scene);
         scene = *found;
     } else if (!options.at) {
         return base::fail("render needs --scene or --at");
@@ -51,7 +52,8 @@ base::Result<Scene> chosenScene(const RenderOptions& options) {
 }
 
 // Generates and meshes everything in view; returns when the renderer has it.
-void loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera, int viewDistance) {
+void loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera,
+             int viewDistance) {
     session.pipeline->setView(render::cameraChunk(camera), viewDistance);
     for (;;) {
         session.pipeline->update();
@@ -73,7 +75,8 @@ base::Result<void> renderPicture(const RenderOptions& options) {
     auto renderer =
         render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), gpu::queryDevice());
     if (!renderer) return tl::unexpected(renderer.error());
-    if (auto resized = renderer->resize(options.graphics.size, options.graphics.samples); !resized) return resized;
+    if (auto resized = renderer->resize(options.graphics.size, options.graphics.samples); !resized)
+        return resized;
     const double setUp = millisecondsSince(start);
 
     const auto loadStart = Clock::now();
@@ -81,8 +84,8 @@ base::Result<void> renderPicture(const RenderOptions& options) {
     const double load = millisecondsSince(loadStart);
 
     const auto drawStart = Clock::now();
-    renderer->draw({scene->camera, world::environmentAt(scene->timeDay), fogDistance(options.graphics.viewDistance), 0,
-                    options.graphics.view});
+    renderer->draw({scene->camera, world::environmentAt(scene->timeDay),
+                    fogDistance(options.graphics.viewDistance), 0, options.graphics.view});
     const base::Image image = renderer->readImage();
     const double draw = millisecondsSince(drawStart);
     if (auto written = base::writePng(options.output, image); !written) return written;
@@ -95,7 +98,8 @@ base::Result<void> renderPicture(const RenderOptions& options) {
     if (options.json) {
         const nlohmann::json result = {
             {"file", options.output},
-            {"milliseconds", {{"set_up", setUp}, {"load", load}, {"draw", draw}, {"all", millisecondsSince(start)}}},
+            {"milliseconds",
+             {{"set_up", setUp}, {"load", load}, {"draw", draw}, {"all", millisecondsSince(start)}}},
             {"chunks", chunks},
             {"quads", statistics.quads},
             {"regions", statistics.regions},

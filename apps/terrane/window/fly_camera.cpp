@@ -18,7 +18,9 @@ void turn(render::Camera& camera, double right, double down) {
 }
 
 void fly(render::Camera& camera, const FlyKeys& keys, float seconds) {
-    const auto axis = [](bool positive, bool negative) { return static_cast<float>(positive) - static_cast<float>(negative); };
+    const auto axis = [](bool positive, bool negative) {
+        return static_cast<float>(positive) - static_cast<float>(negative);
+    };
     const glm::vec3 motion = render::lookDirection(camera) * axis(keys.forward, keys.back) +
                              render::rightDirection(camera) * axis(keys.right, keys.left) +
                              glm::vec3(0, 0, axis(keys.up, keys.down));

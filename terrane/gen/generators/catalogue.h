@@ -15,7 +15,8 @@ std::vector<std::string> generatorNames();
 // An unknown name is an error that lists the known ones.
 base::Result<GeneratorGraph> makeGenerator(std::string_view name, const world::BlockRegistry& blocks);
 
-void writeOverworld(GeneratorBuilder& g);  // overworld.cpp: seas, rivers, plains, deserts, mountains, caves, plants
-void writeFlat(GeneratorBuilder& g);       // flat.cpp: grass at sea level
+void writeOverworld(
+    GeneratorBuilder& g);  // overworld.cpp: seas, rivers, plains, deserts, mountains, caves, plants
+void writeFlat(GeneratorBuilder& g);  // flat.cpp: grass at sea level
 
 }  // namespace terrane::gen

@@ -1,5 +1,6 @@
-// The overworld: seas with beaches, rivers at sea level, plains, hills, deserts with dunes, mountains with snow, caves,
-// ore, trees and plants. Five passes: climate and height (2D), surface (2D), ground (3D), plants (2D), vegetation (3D).
+// The overworld: seas with beaches, rivers at sea level, plains, hills, deserts with dunes, mountains with
+// snow, caves, ore, trees and plants. Five passes: climate and height (2D), surface (2D), ground (3D), plants
+// (2D), vegetation (3D).
 #include "terrane/gen/generators/catalogue.h"
 
 namespace terrane::gen {
@@ -7,7 +8,7 @@ namespace {
 
 constexpr int kSeaLevel = 80;  // z of the highest water
 constexpr float kSea = kSeaLevel;
-constexpr int kTreeSpacing = 10;   // blocks: one tree a cell of this size at most
+constexpr int kTreeSpacing = 10;    // blocks: one tree a cell of this size at most
 constexpr int kMaxPlantReach = 20;  // blocks above the ground that vegetation can reach
 
 // What the passes hand on, by column.
@@ -59,7 +60,8 @@ Biomes biomes(Pass& p) {
 
 // Blocks above the land's base.
 Float dunes(Pass& p, const Biomes& b) {
-    const Float first = p.voronoi2D("dunes", 56, 2).distance, second = p.voronoi2D("more dunes", 56, 2).distance;
+    const Float first = p.voronoi2D("dunes", 56, 2).distance,
+                second = p.voronoi2D("more dunes", 56, 2).distance;
     const Float crest = max(first, second) * (1.0f / 56.0f);
     return (crest * 13.0f + p.perlin2D("sand", 64, {2.0f, 5.0f})) * b.fullDesert;
 }
@@ -99,7 +101,8 @@ void climatePass(Pass& p, const Fields& f) {
     const Float riverBed = min(river, 0.0f) * 75.0f;
     const Float seaFloor = sqrt(max(b.ocean, 0.0f)) * -40.0f;
     const Float beach = 1.5f - smoothstep(-0.004f, 0.02f, b.ocean) * 1.5f;
-    p.set(f.height, kSea + beach + select(b.ocean > 0.0f, min(seaFloor, riverBed * inland), land + riverBed * inland));
+    p.set(f.height,
+          kSea + beach + select(b.ocean > 0.0f, min(seaFloor, riverBed * inland), land + riverBed * inland));
     p.set(f.ocean, b.ocean);
     p.set(f.river, river);
     p.set(f.temperature, b.temperature);
@@ -173,9 +176,11 @@ void groundPass(Pass& p, const Fields& f) {
     p.setBlock(block);
 }
 
-// Trees stand at the points of a Voronoi diagram, so that they keep their distance and a crown meets its neighbour's
-// at the border between them.
-Voronoi2D trees(Pass& p) { return p.voronoi2D("trees", kTreeSpacing, 1); }
+// Trees stand at the points of a Voronoi diagram, so that they keep their distance and a crown meets its
+// neighbour's at the border between them.
+Voronoi2D trees(Pass& p) {
+    return p.voronoi2D("trees", kTreeSpacing, 1);
+}
 
 Int treeHeightHere(Pass& p, const Fields& f, Bool isGround) {
     const IVec2 offset = trees(p).offset;
@@ -206,9 +211,8 @@ void plantsPass(Pass& p, const Fields& f) {
         });
         p.if_(p.perlin2D("wheat fields", 32, {.3f, 1.0f}) > 0.55f,
               [&] { plant = select(chance < 0.7f, p.block("wheat"), p.block("air")); });
-        p.if_(p.read(f.forest) > 0.25f && chance > 0.985f, [&] {
-            plant = select(kind < 0.5f, p.block("red_mushroom"), p.block("brown_mushroom"));
-        });
+        p.if_(p.read(f.forest) > 0.25f && chance > 0.985f,
+              [&] { plant = select(kind < 0.5f, p.block("red_mushroom"), p.block("brown_mushroom")); });
     });
     p.if_(isGround && top == p.block("sand") && p.read(f.desert) > 0.45f && chance < 0.0035f, [&] {
         plant = p.block("cactus");
