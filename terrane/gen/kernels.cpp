@@ -140,6 +140,10 @@ HWY_INLINE VU mixBits(VU h) {
     return hn::Xor(h, hn::ShiftRight<16>(h));
 }
 
+HWY_INLINE VU mixHalf(VU h) {
+    return hn::Mul(hn::Xor(h, hn::ShiftRight<15>(h)), hn::Set(du, 0x846CA68Bu));
+}
+
 // shared::hash2 or hash3 of the arguments, its upper 24 bits as a fraction.
 void random(const Instruction& i, TileContext& c, const RowList& rows) {
     constexpr std::uint32_t kFactors[] = {shared::kHashX, shared::kHashY, shared::kHashZ};
@@ -149,6 +153,7 @@ void random(const Instruction& i, TileContext& c, const RowList& rows) {
         VU h = seed;
         for (std::size_t k = 0; k < argCount; ++k) {
             const VU v = hn::Load(du, rowOf(c.arena, i.args[k], row) + lane);
+            if (k > 0) h = mixHalf(h);
             h = hn::Xor(h, hn::Mul(v, hn::Set(du, kFactors[k])));
         }
         const VI top = hn::BitCast(di, hn::ShiftRight<8>(mixBits(h)));

@@ -24,26 +24,6 @@ constexpr std::array<LayerIndices, world::kFaceCount> kLayers{{
     {15 * 256, 16, 1},  // +z
 }};
 
-// Tells whether the 16 blocks of a row, which follow each other, are equal. In terrain most rows are, so that
-// their bits need not be looked at one by one. Says no where a row is spread over several words.
-class UniformRow {
-  public:
-    explicit UniformRow(unsigned bits) : blockMask_((std::uint64_t{1} << bits) - 1) {
-        if (16 * bits > 64) return;
-        rowMask_ = ~std::uint64_t{0} >> (64 - 16 * bits);
-        ones_ = rowMask_ / blockMask_;
-    }
-    bool operator()(const std::uint64_t* words, unsigned at) const {
-        const std::uint64_t row = (words[at / 64] >> at % 64) & rowMask_;
-        return ones_ != 0 && row == (row & blockMask_) * ones_;
-    }
-
-  private:
-    std::uint64_t blockMask_;
-    std::uint64_t rowMask_ = 0;
-    std::uint64_t ones_ = 0;  // 1 in each block of a row
-};
-
 // The blocks of a layer for which match(packed index or id) is not 0, which is then 1.
 template <class Match>
 BitSlice matchLayer(const Section& section, world::Face side, Match match) {
@@ -51,18 +31,12 @@ BitSlice matchLayer(const Section& section, world::Face side, Match match) {
     const std::uint64_t* words = section.words().data();
     const auto bits = static_cast<unsigned>(section.bits());
     const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
-    const auto matches = [&](unsigned at) {
-        return static_cast<unsigned>(match((words[at / 64] >> at % 64) & mask));
-    };
-    const UniformRow isUniform(bits);
     BitSlice slice;
     for (unsigned row = 0; row < 16; ++row) {
         unsigned at = (layer.first + row * layer.rowStep) * bits;
         unsigned set = 0;
-        if (layer.bitStep == 1 && isUniform(words, at)) {
-            set = matches(at) * 0xFFFFu;
-        } else {
-            for (unsigned bit = 0; bit < 16; ++bit, at += layer.bitStep * bits) set |= matches(at) << bit;
+        for (unsigned bit = 0; bit < 16; ++bit, at += layer.bitStep * bits) {
+            set |= static_cast<unsigned>(match((words[at / 64] >> at % 64) & mask)) << bit;
         }
         slice[row] = static_cast<std::uint16_t>(set);
     }

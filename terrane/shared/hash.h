@@ -24,12 +24,19 @@ SHARED_FN uint mixBits(uint h) {
     return h;
 }
 
+// Half a finaliser between two coordinates: with nothing but XOR between the products, hash2(x, y) would
+// equal hash2(-x, -y) wherever x and y end in as many zero bits, a third of all positions.
+SHARED_FN uint mixHalf(uint h) {
+    h ^= h >> 15;
+    return h * 0x846CA68Bu;
+}
+
 SHARED_FN uint hash2(uint x, uint y, uint seed) {
-    return mixBits((x * kHashX) ^ (y * kHashY) ^ seed);
+    return mixBits(mixHalf((x * kHashX) ^ seed) ^ (y * kHashY));
 }
 
 SHARED_FN uint hash3(uint x, uint y, uint z, uint seed) {
-    return mixBits((x * kHashX) ^ (y * kHashY) ^ (z * kHashZ) ^ seed);
+    return mixBits(mixHalf(mixHalf((x * kHashX) ^ seed) ^ (y * kHashY)) ^ (z * kHashZ));
 }
 
 SHARED_END
