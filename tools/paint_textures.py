@@ -225,15 +225,14 @@ def snow():
     return settled(Image(shade), (238, 242, 248), 1.0)
 
 
-def overlaid(seed: int, cover: Image, shadow: tuple, lobes: int, least: int) -> Image:
-    """Dirt over which the cover hangs, `least` rows deep and up to 4 more: a ragged fringe (that many lobes) and its
-    shadow. Deep fringes let a hillside keep the colour of its ground."""
-    soil, depth = dirt(), [least + int(4 * smooth(seed, x, 0, lobes, 1)) for x in range(SIZE)]
+def grass_side() -> Image:
+    """Dirt over which the grass hangs as a ragged fringe. Deep, so that a hillside keeps the colour of its ground."""
+    soil, cover, depth = dirt(), grass_top(), [9 + int(4 * smooth(61, x, 0, 16, 1)) for x in range(SIZE)]
 
     def shade(x, y):
         if y >= depth[x]:
             return mix(soil[x, y][:3], (40, 24, 20), 0.35 if y == depth[x] else 0.0)
-        return mix(cover[x, y][:3], shadow, 0.45 if y == depth[x] - 1 else 0.0)
+        return mix(cover[x, y][:3], GRASS[0], 0.45 if y == depth[x] - 1 else 0.0)
     return Image(shade)
 
 
@@ -452,10 +451,9 @@ TEXTURES = {
     "stone": (stone, "opaque", True),
     "dirt": (dirt, "opaque", True),
     "grass_top": (grass_top, "opaque", True),
-    "grass_side": (lambda: overlaid(61, grass_top(), GRASS[0], 16, 9), "opaque", True),
+    "grass_side": (grass_side, "opaque", True),
     "sand": (sand, "opaque", True),
     "snow": (snow, "opaque", True),
-    "snow_side": (lambda: overlaid(71, snow(), (170, 190, 220), 7, 6), "opaque", True),
     "glowing_ore": (glowing_ore, "glow", True),
     "oak_log_side": (oak_log_side, "opaque", True),
     "oak_log_top": (oak_log_top, "opaque", True),

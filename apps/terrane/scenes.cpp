@@ -6,10 +6,10 @@ namespace terrane::app {
 namespace {
 
 const std::array kScenes = {
-    Scene{"ocean", {{-250, 260, 92}, 135, -6}, 0.40f},
-    Scene{"desert", {{240, 40, 104}, 20, -10}, 0.34f},
-    Scene{"landscape", {{-60, -120, 112}, 90, -14}, 0.38f},
-    Scene{"cave", {{0, 0, 70}, 0, -60}, 0.5f},
+    Scene{"ocean", {{-390, 200, 88}, 70, -4}, 0.40f},
+    Scene{"desert", {{2100, 1300, 142}, 220, -14}, 0.36f},
+    Scene{"landscape", {{1560, 700, 142}, 225, -6}, 0.70f},
+    Scene{"cave", {{-276, 325, 88}, 90, -55}, 0.45f},
 };
 
 }  // namespace

@@ -23,7 +23,10 @@ Pass::Pass(GeneratorBuilder& generator, int number, std::string name, bool is3D)
 }
 
 void Pass::error(std::string_view message) {
-    generator_.errors_.push_back(fmt::format("pass \"{}\": {}", graph_.name, message));
+    auto& errors = generator_.errors_;
+    std::string full = fmt::format("pass \"{}\": {}", graph_.name, message);
+    // A mistake in an expression that is written several times counts once.
+    if (std::find(errors.begin(), errors.end(), full) == errors.end()) errors.push_back(std::move(full));
 }
 
 bool Pass::require3D(std::string_view what) {
@@ -157,6 +160,9 @@ void Pass::setField(std::uint32_t field, [[maybe_unused]] Type type, Value value
     FieldInfo& info = generator_.generator_.fields[field];
     assert(info.type == type && "a field's type is part of its C++ type");
     if (graph_.is3D) return error(fmt::format("field \"{}\": only 2D passes write fields", info.name));
+    if (field >= fieldSlots_.size()) {
+        return error(fmt::format("field \"{}\" is declared inside the pass that writes it", info.name));
+    }
     if (info.writtenBy >= 0 && info.writtenBy != number_) {
         return error(fmt::format("field \"{}\" is written by an earlier pass", info.name));
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <limits>
 
 #include "terrane/gen/det_math.h"
 #include "terrane/shared/hash.h"
@@ -126,10 +127,17 @@ HWY_INLINE VF squareRoot(VF x) {
     const VU guess = hn::Sub(hn::Set(du, kInverseRootMagic), hn::ShiftRight<1>(hn::BitCast(du, x)));
     VF r = hn::BitCast(df, guess);
     for (int step = 0; step < 3; ++step) {
-        r = hn::Mul(r, hn::Sub(threeHalves, hn::Mul(half, hn::Mul(r, r))));
+        r = hn::Mul(r, hn::Sub(threeHalves, hn::Mul(hn::Mul(half, r), r)));
     }
     const VF s = hn::Mul(x, r);
     return hn::Add(s, hn::Mul(hn::Mul(hn::Set(df, 0.5f), r), hn::Sub(x, hn::Mul(s, s))));
+}
+
+// As op.cpp has it: -2^31 for what does not fit and for NaN, where ConvertTo saturates by the sign.
+HWY_INLINE VI truncate(VF v) {
+    const auto fits = hn::Lt(hn::Abs(v), hn::Set(df, 2147483648.0f));
+    return hn::IfThenElse(hn::RebindMask(di, fits), hn::ConvertTo(di, v),
+                          hn::Set(di, std::numeric_limits<std::int32_t>::min()));
 }
 
 HWY_INLINE VU mixBits(VU h) {
@@ -341,7 +349,7 @@ void runOne(const Instruction& i, TileContext& c, const RowList& rows) {
         TERRANE_BINARY_I(LessEqualI, maskBits(di, hn::Not(hn::Lt(q, p))));
         TERRANE_BINARY_I(EqualI, maskBits(di, hn::Eq(p, q)));
         TERRANE_UNARY_I(IntToFloat, hn::ConvertTo(df, p));
-        TERRANE_UNARY_F(FloatToInt, hn::ConvertTo(di, p));
+        TERRANE_UNARY_F(FloatToInt, truncate(p));
         TERRANE_BINARY_I(And, hn::And(p, q));
         TERRANE_BINARY_I(Or, hn::Or(p, q));
         TERRANE_UNARY_I(Not, hn::Not(p));
@@ -401,24 +409,29 @@ void runInstructions(const InstructionList& list, TileContext& context) {
     HWY_DYNAMIC_DISPATCH(runAll)(list, context);
 }
 
+namespace {
+
+// Made before the first restriction: Highway then names only the target it is restricted to.
+const std::vector<std::int64_t>& allTargets() {
+    static const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+    return targets;
+}
+
+}  // namespace
+
 std::vector<std::string> simdTargets() {
     std::vector<std::string> names;
-    for (const auto target : hwy::SupportedAndGeneratedTargets()) names.emplace_back(hwy::TargetName(target));
+    for (const std::int64_t target : allTargets()) names.emplace_back(hwy::TargetName(target));
     return names;
 }
 
 bool chooseSimdTarget(const std::string& name) {
-    hwy::SetSupportedTargetsForTest(0);
-    if (!name.empty()) {
-        bool found = false;
-        for (const auto target : hwy::SupportedAndGeneratedTargets()) {
-            if (hwy::TargetName(target) != name) continue;
-            hwy::SetSupportedTargetsForTest(target);
-            found = true;
-            break;
-        }
-        if (!found) return false;
+    std::int64_t chosen = 0;  // all
+    for (const std::int64_t target : allTargets()) {
+        if (hwy::TargetName(target) == name) chosen = target;
     }
+    if (chosen == 0 && !name.empty()) return false;
+    hwy::SetSupportedTargetsForTest(chosen);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     return true;
 }

@@ -30,22 +30,18 @@ constexpr Gradient3 kGradients3[12] = {
     {1, 0, -1}, {-1, 0, -1}, {0, 1, 1},  {0, -1, 1},  {0, 1, -1}, {0, -1, -1},
 };
 
-Gradient2 gradient2(std::int32_t x, std::int32_t y, std::uint32_t seed) {
-    return kGradients2[shared::hash2(static_cast<uint>(x), static_cast<uint>(y), seed) >> 28];
+// Nodes count modulo 2^32: the one behind the last block of the world is the one before the first.
+Gradient2 gradient2(uint x, uint y, std::uint32_t seed) {
+    return kGradients2[shared::hash2(x, y, seed) >> 28];
 }
 
-Gradient3 gradient3(std::int32_t x, std::int32_t y, std::int32_t z, std::uint32_t seed) {
-    const uint h = shared::hash3(static_cast<uint>(x), static_cast<uint>(y), static_cast<uint>(z), seed);
+Gradient3 gradient3(uint x, uint y, uint z, std::uint32_t seed) {
+    const uint h = shared::hash3(x, y, z, seed);
     return kGradients3[((h >> 16) * 12u) >> 16];
 }
 
 std::uint32_t octaveSeed(std::uint32_t seed, std::size_t octave) {
     return seed + static_cast<std::uint32_t>(octave) * 0x9E3779B9u;
-}
-
-std::int32_t floorDivide(std::int32_t a, std::int32_t b) {
-    const std::int32_t q = a / b;
-    return q - (a % b < 0 ? 1 : 0);
 }
 
 float fade(float f) {
@@ -58,7 +54,7 @@ float lerp(float a, float b, float t) {
 
 // Cells and fractions of 16 neighbouring coordinates.
 struct AxisCells {
-    std::array<std::int32_t, kTileSize> cell;
+    std::array<uint, kTileSize> cell;
     TileRow offset, fadeOf;
 };
 
@@ -66,9 +62,11 @@ AxisCells axisCells(std::int32_t first, std::int32_t size, float inverseSize) {
     AxisCells axis{};
     for (int k = 0; k < kTileSize; ++k) {
         const auto at = static_cast<std::size_t>(k);
-        const std::int32_t cell = floorDivide(first + k, size);
-        axis.cell[at] = cell;
-        axis.offset[at] = static_cast<float>(first + k - cell * size) * inverseSize;
+        // The start of a cell may lie before the first block of the world: no int32 holds it.
+        const std::int32_t quotient = (first + k) / size, rest = (first + k) % size;
+        const bool isBelow = rest < 0;
+        axis.cell[at] = static_cast<uint>(quotient) - (isBelow ? 1u : 0u);
+        axis.offset[at] = static_cast<float>(isBelow ? rest + size : rest) * inverseSize;
         axis.fadeOf[at] = fade(axis.offset[at]);
     }
     return axis;
@@ -87,7 +85,7 @@ int setRows(PerlinOctave& octave, const AxisCells& y) {
 
 // The gradients left and right of each x, looked up once a cell.
 template <class Lookup, class Use>
-void forEachX(const std::array<std::int32_t, kTileSize>& cells, Lookup lookup, Use useAt) {
+void forEachX(const std::array<uint, kTileSize>& cells, Lookup lookup, Use useAt) {
     auto left = lookup(cells[0]);
     auto right = lookup(cells[0] + 1);
     for (std::size_t k = 0; k < kTileSize; ++k) {
@@ -100,9 +98,10 @@ void forEachX(const std::array<std::int32_t, kTileSize>& cells, Lookup lookup, U
 }
 
 void fillLevel(const Perlin3DTile::Octave& o, std::int32_t zCell, PerlinLevel& level) {
-    for (int j = 0; j < o.layer.nodeRows; ++j) {
-        const auto row = static_cast<std::size_t>(j);
-        const auto lookup = [&](std::int32_t cell) { return gradient3(cell, o.yCell + j, zCell, o.seed); };
+    for (uint row = 0; row < static_cast<uint>(o.layer.nodeRows); ++row) {
+        const auto lookup = [&](uint cell) {
+            return gradient3(cell, o.yCell + row, static_cast<uint>(zCell), o.seed);
+        };
         forEachX(o.xCell, lookup, [&](std::size_t k, Gradient3 left, Gradient3 right) {
             const float f = o.xOffset[k], t = o.xFade[k];
             level.one[row][k] = lerp(left.x * f, right.x * (f - 1.0f), t);
@@ -123,11 +122,10 @@ void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, std:
         const float inverseSize = 1.0f / static_cast<float>(size);
         const AxisCells x = axisCells(x0, size, inverseSize), y = axisCells(y0, size, inverseSize);
         octave.weight = call.weights[o];
-        const int nodeRows = setRows(octave, y);
-        for (int j = 0; j < nodeRows; ++j) {
-            const auto row = static_cast<std::size_t>(j);
-            const auto lookup = [&](std::int32_t cell) {
-                return gradient2(cell, y.cell[0] + j, octaveSeed(seed, o));
+        const auto nodeRows = static_cast<uint>(setRows(octave, y));
+        for (uint row = 0; row < nodeRows; ++row) {
+            const auto lookup = [&](uint cell) {
+                return gradient2(cell, y.cell[0] + row, octaveSeed(seed, o));
             };
             forEachX(x.cell, lookup, [&](std::size_t k, Gradient2 left, Gradient2 right) {
                 const float f = x.offset[k], t = x.fadeOf[k];

@@ -51,8 +51,9 @@ struct Perlin3DTile {
     struct Octave {
         PerlinOctave layer;  // blended along z for the current layer
         TileRow xOffset, xFade;
-        std::array<std::int32_t, kTileSize> xCell;
-        std::int32_t size = 1, yCell = 0, zCell = 0;
+        std::array<std::uint32_t, kTileSize> xCell;  // modulo 2^32
+        std::uint32_t yCell = 0;
+        std::int32_t size = 1, zCell = 0;
         float inverseSize = 1;
         std::uint32_t seed = 0;
         std::array<PerlinLevel, 2> levels;  // zCell, zCell + 1

@@ -11,9 +11,8 @@
 namespace terrane::mesh {
 
 enum class Merge : std::uint8_t {
-    None,       // one rectangle a bit
-    AlongRows,  // runs of bits in a row
-    Full,       // runs of bits, then equal runs of the following rows
+    None,  // one rectangle a bit
+    Full,  // runs of bits, then equal runs of the following rows
 };
 
 struct Rectangle {

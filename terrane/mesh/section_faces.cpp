@@ -182,8 +182,8 @@ void SectionFaces::addCube(const TypeBlocks& blocks) {
 }
 
 // Blocks under anything but the same liquid or an opaque cube are surface: their top lies lower, and so do
-// their sides, one block high each. Of a full block beside a surface block the strip above that surface is
-// left out.
+// their sides. These merge along u only, since no surface block stands on another. Of a full block beside a
+// surface block the strip above that surface is left out.
 void SectionFaces::addLiquid(const TypeBlocks& blocks) {
     const BlockType& type = blocks.type;
     const BitCube surface = visible(blocks, world::kFacePosZ);
@@ -194,9 +194,8 @@ void SectionFaces::addLiquid(const TypeBlocks& blocks) {
         const BitCube& lowered = isAlongX(side) ? surfaceAlongY : surface;
         writer_.write(without(faces, lowered),
                       {shared::kShapeFaceCube + side, type.material[side], mergeOf(type, side), side});
-        const Merge along = mergeOf(type, side) == Merge::None ? Merge::None : Merge::AlongRows;
         writer_.write(both(faces, lowered),
-                      {shared::kShapeFaceLiquidSide + side, type.material[side], along, side});
+                      {shared::kShapeFaceLiquidSide + side, type.material[side], mergeOf(type, side), side});
     }
     addSide(blocks, world::kFaceNegZ);
     writer_.write(surface, {shared::kShapeFaceLiquidTop, type.material[world::kFacePosZ],

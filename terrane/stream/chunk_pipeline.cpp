@@ -95,7 +95,7 @@ void ChunkPipeline::update() {
         const auto asked = meshAsked_.find(result.pos);
         if (asked == meshAsked_.end() || asked->second != result.number) continue;
         visible_.insert(result.pos);
-        changes_.push_back({result.pos, std::move(result.mesh)});
+        addChange(result.pos, std::move(result.mesh));
     }
     submitGeneration();
 }
@@ -207,16 +207,21 @@ void ChunkPipeline::unloadDistant() {
             ++it;
             continue;
         }
-        if (visible_.erase(it->first) > 0) changes_.push_back({it->first, nullptr});
+        if (visible_.erase(it->first) > 0) addChange(it->first, nullptr);
         it = meshAsked_.erase(it);
     }
 }
 
+void ChunkPipeline::addChange(ChunkPos pos, std::shared_ptr<const mesh::ChunkMesh> mesh) {
+    if (changes_.insert_or_assign(pos, std::move(mesh)).second) changed_.push_back(pos);
+}
+
 std::vector<MeshChange> ChunkPipeline::takeMeshes(std::size_t limit) {
-    const auto count = static_cast<std::ptrdiff_t>(std::min(limit, changes_.size()));
-    std::vector<MeshChange> taken(std::make_move_iterator(changes_.begin()),
-                                  std::make_move_iterator(changes_.begin() + count));
-    changes_.erase(changes_.begin(), changes_.begin() + count);
+    std::vector<MeshChange> taken;
+    for (; taken.size() < limit && !changed_.empty(); changed_.pop_front()) {
+        auto change = changes_.extract(changed_.front());
+        taken.push_back({change.key(), std::move(change.mapped())});
+    }
     return taken;
 }
 

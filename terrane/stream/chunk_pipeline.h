@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <unordered_map>
@@ -63,6 +64,7 @@ class ChunkPipeline {
     void meshWhereReady(world::ChunkPos around);
     void onGenerated(world::ChunkPos pos, world::ChunkPtr chunk);
     void unloadDistant();
+    void addChange(world::ChunkPos pos, std::shared_ptr<const mesh::ChunkMesh> mesh);
     world::ChunkPtr chunkOrOutside(world::ChunkPos pos) const;
     bool isReadyToMesh(world::ChunkPos pos) const;
     base::JobPriority priority(world::ChunkPos pos) const;
@@ -84,7 +86,9 @@ class ChunkPipeline {
     std::unordered_map<world::ChunkPos, std::uint64_t, world::ChunkPosHash> meshAsked_;
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> visible_;
     std::uint64_t meshNumber_ = 0;
-    std::vector<MeshChange> changes_;
+    // What was not taken yet: the newest by chunk, and the chunks in the order in which they first changed.
+    std::unordered_map<world::ChunkPos, std::shared_ptr<const mesh::ChunkMesh>, world::ChunkPosHash> changes_;
+    std::deque<world::ChunkPos> changed_;
 };
 
 }  // namespace terrane::stream

@@ -4,19 +4,14 @@
 
 #include <string>
 
-#include "mesh_fixture.h"
-#include "random_blocks.h"
-#include "reference_faces.h"
+#include "tests/mesh/mesh_fixture.h"
+#include "tests/mesh/random_blocks.h"
+#include "tests/mesh/reference_faces.h"
 
 namespace terrane::mesh {
 namespace {
 
 constexpr unsigned kSeedsPerMix = 25;  // × 9 mixes = 225 chunks
-
-std::string describe(const CellFace& face) {
-    return "face " + std::to_string(face.shapeFace) + " of material " + std::to_string(face.material) +
-           " at " + std::to_string(face.x) + " " + std::to_string(face.y) + " " + std::to_string(face.z);
-}
 
 // Every visible face is covered once, no other face is.
 void expectExact(const MeshInput& input, const ChunkMesh& mesh) {
@@ -190,6 +185,18 @@ TEST(ChunkMesher, SectionSizedCubeIsSixQuads) {
     }
     EXPECT_EQ(mesh.regions[0].minZ, 32);
     EXPECT_EQ(mesh.regions[0].maxZ, 48);
+}
+
+// The column's top is in the next region, so that its sides alone reach up to the end of the first.
+TEST(ChunkMesher, BoundsOfRegionsAreTight) {
+    std::vector<Placed> blocks{{8, 4, 62, "stone"}, {4, 8, 62, "stone"}};
+    for (int z = 60; z < 66; ++z) blocks.push_back({4, 4, z, "stone"});
+    const ChunkMesh mesh = meshOf(placed(blocks));
+    EXPECT_EQ(mesh.regions[0].minZ, 60);
+    EXPECT_EQ(mesh.regions[0].maxZ, 64);
+    EXPECT_EQ(mesh.regions[1].minZ, 64);
+    EXPECT_EQ(mesh.regions[1].maxZ, 66);
+    EXPECT_EQ(mesh.regions[2].maxZ, 0);
 }
 
 TEST(ChunkMesher, BottomOfTheWorldIsNotDrawn) {

@@ -37,7 +37,7 @@ TEST(GreedyMerge, CoversEachBitOnce) {
     RectangleBuffer buffer;
     for (unsigned seed = 0; seed < 200; ++seed) {
         const BitSlice rows = randomSlice(seed, 1 + seed % 8);
-        for (const Merge merge : {Merge::None, Merge::AlongRows, Merge::Full}) {
+        for (const Merge merge : {Merge::None, Merge::Full}) {
             EXPECT_EQ(covered(mergeRows(rows, merge, buffer)), rows);
         }
     }
@@ -49,7 +49,6 @@ TEST(GreedyMerge, FullPlaneIsOneRectangle) {
     ASSERT_EQ(full.size(), 1u);
     EXPECT_EQ(full[0].bits, 16);
     EXPECT_EQ(full[0].rows, 16);
-    EXPECT_EQ(mergeRows(filledSlice(), Merge::AlongRows, buffer).size(), 16u);
     EXPECT_EQ(mergeRows(filledSlice(), Merge::None, buffer).size(), 256u);
 }
 

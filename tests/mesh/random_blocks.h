@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "mesh_fixture.h"
 #include "terrane/shared/hash.h"
+#include "tests/mesh/mesh_fixture.h"
 
 namespace terrane::mesh {
 

@@ -1,21 +1,29 @@
 // The visible faces of a chunk, found one block at a time from the rules, without bits and without merging.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <compare>
-#include <cstdlib>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "terrane/mesh/chunk_mesher.h"
 
 namespace terrane::mesh {
 
-// One face of one block.
-struct CellFace {
-    int x, y, z;
-    unsigned shapeFace, material;
-    auto operator<=>(const CellFace&) const = default;
-};
+// One face of one block in a number, which sorts faster than a struct: x 4 bits, y 4, z 8, shape face 8,
+// material 16, from the lowest.
+using CellFace = std::uint64_t;
+
+inline CellFace cellFace(unsigned x, unsigned y, unsigned z, unsigned shapeFace, unsigned material) {
+    return x | y << 4 | z << 8 | shapeFace << 16 | CellFace{material} << 24;
+}
+
+inline std::string describe(CellFace face) {
+    return fmt::format("shape face {}, material {} at {} {} {}", face >> 16 & 255, face >> 24, face & 15,
+                       face >> 4 & 15, face >> 8 & 255);
+}
 
 class ReferenceFaces {
   public:
@@ -67,7 +75,9 @@ class ReferenceFaces {
 
     void push(int x, int y, int z, unsigned shapeFace, int side) {
         const world::BlockType& type = typeOf(idAt(x, y, z));
-        faces_.push_back({x, y, z, shapeFace, type.material[static_cast<std::size_t>(side)]});
+        faces_.push_back(cellFace(static_cast<unsigned>(x), static_cast<unsigned>(y),
+                                  static_cast<unsigned>(z), shapeFace,
+                                  type.material[static_cast<std::size_t>(side)]));
     }
 
     void addSides(int x, int y, int z, int first, unsigned shapeFaceOfNegX) {
@@ -120,14 +130,13 @@ inline std::vector<CellFace> coveredFaces(const std::vector<shared::Quad>& quads
     for (const shared::Quad q : quads) {
         const shared::ShapeFace& shape = shapeFaces()[quadShapeFace(q)];
         // The axes of merged faces lie along coordinates; steps go up whichever way the texture runs.
-        const auto step = [](float a) { return a != 0 ? 1 : 0; };
-        for (int v = 0; v < static_cast<int>(quadExtentV(q)); ++v) {
-            for (int u = 0; u < static_cast<int>(quadExtentU(q)); ++u) {
-                faces.push_back(
-                    {static_cast<int>(quadX(q)) + u * step(shape.axisU.x) + v * step(shape.axisV.x),
-                     static_cast<int>(quadY(q)) + u * step(shape.axisU.y) + v * step(shape.axisV.y),
-                     static_cast<int>(quadZ(q)) + u * step(shape.axisU.z) + v * step(shape.axisV.z),
-                     quadShapeFace(q), quadMaterial(q)});
+        const auto step = [](float a) { return a != 0 ? 1u : 0u; };
+        const shared::vec4 u = shape.axisU, v = shape.axisV;
+        for (unsigned j = 0; j < quadExtentV(q); ++j) {
+            for (unsigned i = 0; i < quadExtentU(q); ++i) {
+                faces.push_back(cellFace(
+                    quadX(q) + i * step(u.x) + j * step(v.x), quadY(q) + i * step(u.y) + j * step(v.y),
+                    quadZ(q) + i * step(u.z) + j * step(v.z), quadShapeFace(q), quadMaterial(q)));
             }
         }
     }

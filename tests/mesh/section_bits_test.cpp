@@ -4,9 +4,9 @@
 
 #include <array>
 
-#include "mesh_fixture.h"
 #include "terrane/mesh/section_side.h"
 #include "terrane/shared/hash.h"
+#include "tests/mesh/test_blocks.h"
 
 namespace terrane::mesh {
 namespace {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "mesh_fixture.h"
+#include "tests/mesh/mesh_fixture.h"
 
 namespace terrane::mesh {
 namespace {
@@ -84,6 +84,13 @@ TEST(SectionFaces, WaterSurfaceMergesOnTopAndAlongItsSides) {
                                                      Seen{0, 0, 40, 4, 8, 4}, Seen{0, 0, 42, kNegX, 4},
                                                      Seen{7, 0, 42, kPosX, 4}, Seen{0, 0, 42, kNegY, 8},
                                                      Seen{0, 3, 42, kPosY, 8}, Seen{0, 0, 42, kTop, 8, 4}));
+}
+
+TEST(SectionFaces, LiquidsHaveNoInnerFaces) {
+    ASSERT_TRUE(testBlocks().find("lava")->innerFaces);
+    const Area area = placed({{5, 6, 40, "lava"}, {6, 6, 40, "lava"}});
+    EXPECT_THAT(quadsOf(area, kNegX, kPosX),
+                UnorderedElementsAre(Seen{5, 6, 40, kNegX}, Seen{6, 6, 40, kPosX}));
 }
 
 TEST(SectionFaces, WaterAtTheTopOfTheWorldIsSurface) {

@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "mesh_fixture.h"
-#include "random_blocks.h"
+#include "tests/mesh/mesh_fixture.h"
+#include "tests/mesh/random_blocks.h"
 
 namespace terrane::mesh {
 namespace {

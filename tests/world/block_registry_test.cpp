@@ -201,8 +201,8 @@ TEST(Content, Textures) {
     EXPECT_EQ(textureOf("grass", kFaceNegZ), "dirt");
     EXPECT_EQ(textureOf("grass", kFaceNegX), "grass_side");
     EXPECT_EQ(textureOf("snow", kFacePosZ), "snow");
-    EXPECT_EQ(textureOf("snow", kFacePosY), "snow_side");
-    EXPECT_EQ(textureOf("snow", kFaceNegZ), "dirt");
+    EXPECT_EQ(textureOf("snow", kFacePosY), "snow");
+    EXPECT_EQ(textureOf("snow", kFaceNegZ), "snow");
     EXPECT_EQ(textureOf("oak_log", kFaceNegZ), "oak_log_top");
     EXPECT_EQ(textureOf("oak_log", kFaceNegY), "oak_log_side");
     EXPECT_EQ(textureOf("cactus", kFaceNegZ), "cactus_bottom");

@@ -33,21 +33,27 @@ void addToDigest(base::Digest& digest, const world::Chunk& chunk) {
     }
 }
 
-// Chunks by y, then x; blocks by z, y, x, as 16-bit little-endian ids.
+// `helpers`: null for one thread. The digest takes chunks by y, then x; blocks by z, y, x, as 16-bit
+// little-endian ids.
 base::Result<std::string> generateArea(const gen::Generator& generator, const Area& area,
-                                       base::JobSystem& jobs, bool wantsDigest) {
+                                       base::JobSystem* helpers, bool wantsDigest) {
     base::Digest digest;
     ProgressBar bar("generating", static_cast<std::size_t>(area.chunkCount()));
     const std::int64_t width = std::int64_t{area.x1} - area.x0;
     std::vector<world::Chunk> chunks(kBatch);
     for (std::int64_t first = 0; first < area.chunkCount(); first += kBatch) {
         const auto count = static_cast<std::size_t>(std::min(kBatch, area.chunkCount() - first));
-        auto done = base::parallelFor(jobs, count, [&](std::size_t k) {
+        const auto generateOne = [&](std::size_t k) {
             const std::int64_t n = first + static_cast<std::int64_t>(k);
             chunks[k] = generator.generate({static_cast<std::int32_t>(area.x0 + n % width),
                                             static_cast<std::int32_t>(area.y0 + n / width)});
-        });
-        if (!done) return tl::unexpected(done.error());
+        };
+        if (helpers) {
+            auto done = base::parallelFor(*helpers, count, generateOne);
+            if (!done) return tl::unexpected(done.error());
+        } else {
+            for (std::size_t k = 0; k < count; ++k) generateOne(k);
+        }
         for (std::size_t k = 0; wantsDigest && k < count; ++k) addToDigest(digest, chunks[k]);
         bar.set(static_cast<std::size_t>(first) + count);
     }
@@ -63,16 +69,17 @@ base::Result<void> generate(const GenerateOptions& options) {
     auto generator = makeGenerator(options.world, *blocks);
     if (!generator) return tl::unexpected(generator.error());
 
-    // The calling thread helps, so one worker less.
+    // The calling thread works too, so one worker less.
     const unsigned threads = threadCount(options.world);
-    base::JobSystem jobs(std::max(1u, threads - 1));
+    std::optional<base::JobSystem> helpers;
+    if (threads > 1) helpers.emplace(threads - 1);
     const auto start = std::chrono::steady_clock::now();
-    auto digest = generateArea(*generator, area, jobs, options.digest);
+    auto digest = generateArea(*generator, area, helpers ? &*helpers : nullptr, options.digest);
     if (!digest) return tl::unexpected(digest.error());
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const double speed = static_cast<double>(area.chunkCount()) / seconds;
 
-    base::logInfo("{} chunks in {:.2f} s, {:.0f} chunks/s on {} threads", area.chunkCount(), seconds, speed,
+    base::logInfo("{} chunks in {:.2f} s, {:.0f} chunks/s, threads: {}", area.chunkCount(), seconds, speed,
                   threads);
     if (options.json) {
         nlohmann::json result = {{"chunks", area.chunkCount()},

@@ -71,7 +71,7 @@ Float mountains(Pass& p, const Biomes& b) {
     const Float ridges = p.voronoi2D("ridges", 512, 2).distance * (1.0f / 512.0f);
     const Float folds = p.voronoi2D("folds", 64, 1).distance * (1.0f / 64.0f);
     const Float roughness = p.perlin2D("roughness", 16, {.25f, .5f, 1.0f});
-    return (ridges * 190.0f + folds * 26.0f + roughness * 6.0f - 40.0f) * b.mountains;
+    return (ridges * 210.0f + folds * 38.0f + roughness * 9.0f - 46.0f) * b.mountains;
 }
 
 // 0 in a river, rising to 1 where its valley ends.
@@ -101,8 +101,10 @@ void climatePass(Pass& p, const Fields& f) {
     const Float riverBed = min(river, 0.0f) * 75.0f;
     const Float seaFloor = sqrt(max(b.ocean, 0.0f)) * -40.0f;
     const Float beach = 1.5f - smoothstep(-0.004f, 0.02f, b.ocean) * 1.5f;
+    // A river runs on into the sea until the floor is as deep as its bed.
     p.set(f.height,
-          kSea + beach + select(b.ocean > 0.0f, min(seaFloor, riverBed * inland), land + riverBed * inland));
+          kSea + beach +
+              select(b.ocean > 0.0f, min(seaFloor, riverBed * (1.0f - b.ocean * 8.0f)), land + riverBed));
     p.set(f.ocean, b.ocean);
     p.set(f.river, river);
     p.set(f.temperature, b.temperature);
@@ -119,13 +121,13 @@ Float slope(Pass& p, const Fields& f) {
 void surfacePass(Pass& p, const Fields& f) {
     const Float height = p.read(f.height), steepness = slope(p, f);
     const Float patches = p.perlin2D("ground patches", 8, {.4f, .3f, .6f});
-    const Float snowLine = 128.0f + kSea * 0.25f + p.read(f.temperature) * 40.0f + patches * 8.0f;
+    const Float snowLine = 164.0f + p.read(f.temperature) * 36.0f + patches * 8.0f;
     const Bool isLow = height < kSea + 2.2f + patches;
     const Bool isSand = p.read(f.desert) > patches * 0.15f + 0.3f;
 
     Var<Block> top = p.var(p.block("grass"));
     Var<Block> soil = p.var(p.block("dirt"));
-    p.if_(steepness > patches * 0.25f + 1.0f, [&] { top = p.block("dirt"); });
+    p.if_(steepness > patches * 0.2f + 0.85f, [&] { top = p.block("dirt"); });
     p.if_(isSand || (isLow && p.read(f.ocean) > -0.06f), [&] {
         top = p.block("sand");
         soil = p.block("sand");
@@ -133,7 +135,7 @@ void surfacePass(Pass& p, const Fields& f) {
     p.if_(height < kSea && p.read(f.ocean) <= -0.06f,
           [&] { top = select(patches > 0.1f, p.block("sand"), p.block("dirt")); });
     p.if_(height > snowLine, [&] { top = p.block("snow"); });
-    p.if_(steepness > patches * 0.3f + 1.35f && !isSand, [&] {
+    p.if_(steepness > patches * 0.25f + 1.05f && !isSand, [&] {
         top = p.block("stone");
         soil = p.block("stone");
     });

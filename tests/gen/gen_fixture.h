@@ -1,0 +1,150 @@
+// What the generator's tests share: block types, ways to run what a test writes, every instruction set.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "terrane/base/files.h"
+#include "terrane/gen/builder.h"
+#include "terrane/gen/generator.h"
+#include "terrane/gen/kernels.h"
+#include "terrane/world/block_registry.h"
+#include "terrane/world/chunk.h"
+#include "terrane/world/coords.h"
+
+namespace terrane::world {
+
+inline void PrintTo(ChunkPos pos, std::ostream* out) {
+    *out << "chunk (" << pos.x << ", " << pos.y << ")";
+}
+
+}  // namespace terrane::world
+
+namespace terrane::gen {
+
+using world::BlockId;
+using world::ChunkPos;
+
+using Write = std::function<void(GeneratorBuilder&)>;
+
+inline world::BlockRegistry parseBlocks(std::string_view toml, std::string_view name) {
+    auto registry = world::BlockRegistry::parse(toml, name);
+    EXPECT_TRUE(registry.has_value()) << (registry ? "" : registry.error().message);
+    return registry ? std::move(*registry) : world::BlockRegistry();
+}
+
+// stone is 1, dirt is 2, water is 3.
+inline const world::BlockRegistry& testBlocks() {
+    static const world::BlockRegistry registry = parseBlocks(R"(
+[[block]]
+name = "stone"
+shape = "cube"
+texture = "stone"
+[[block]]
+name = "dirt"
+shape = "cube"
+texture = "dirt"
+[[block]]
+name = "water"
+shape = "liquid"
+texture = "water"
+alpha = "blend"
+opacity = 1
+)",
+                                                             "test blocks");
+    return registry;
+}
+
+// The block types that come with the program.
+inline const world::BlockRegistry& contentBlocks() {
+    static const world::BlockRegistry registry = [] {
+        const auto text = base::readFile(TERRANE_SOURCE_DIR "/assets/blocks.toml");
+        EXPECT_TRUE(text.has_value()) << (text ? "" : text.error().message);
+        return parseBlocks(text.value_or(""), "blocks.toml");
+    }();
+    return registry;
+}
+
+inline base::Result<GeneratorGraph> tryToBuild(const Write& write) {
+    GeneratorBuilder builder("test", testBlocks());
+    write(builder);
+    return builder.finish();
+}
+
+inline GeneratorGraph build(const Write& write) {
+    auto graph = tryToBuild(write);
+    EXPECT_TRUE(graph.has_value()) << (graph ? "" : graph.error().message);
+    return graph ? std::move(*graph) : GeneratorGraph();
+}
+
+// Around the origin, and the corners of the world: ±2^31 blocks.
+constexpr std::array<ChunkPos, 6> kPlaces = {{{0, 0},
+                                              {-1, -1},
+                                              {7, -12},
+                                              {world::kMinChunk, world::kMinChunk},
+                                              {world::kMaxChunk, world::kMaxChunk},
+                                              {world::kMinChunk, world::kMaxChunk}}};
+
+inline std::vector<BlockId> blocksOf(const world::Chunk& chunk) {
+    std::vector<BlockId> ids(world::kBlocksPerChunk);
+    for (int s = 0; s < world::kSectionsPerChunk; ++s) {
+        const std::span all(ids);
+        chunk.section(s).unpack(all.subspan(static_cast<std::size_t>(s) * world::kBlocksPerSection)
+                                    .first<world::kBlocksPerSection>());
+    }
+    return ids;
+}
+
+// The block at (x, y, z); its lower 16 bits count.
+using ExpectedBlock = std::function<std::int32_t(std::int32_t x, std::int32_t y, std::int32_t z)>;
+
+inline void expectChunk(const Generator& generator, ChunkPos pos, const ExpectedBlock& expected) {
+    const std::vector<BlockId> ids = blocksOf(generator.generate(pos));
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        const world::BlockPos at = world::blockPos(pos, static_cast<world::BlockIndex>(i));
+        const auto want = static_cast<BlockId>(expected(at.x, at.y, at.z));
+        ASSERT_EQ(ids[i], want) << "at (" << at.x << ", " << at.y << ", " << at.z << ")";
+    }
+}
+
+constexpr std::uint64_t kTestSeed = 42;
+
+inline void expectBlocks(const Write& write, const ExpectedBlock& expected) {
+    const Generator generator(build(write), kTestSeed);
+    for (const ChunkPos pos : kPlaces) {
+        SCOPED_TRACE(testing::PrintToString(pos));
+        expectChunk(generator, pos, expected);
+        if (testing::Test::HasFatalFailure()) return;
+    }
+}
+
+// The same for a generator of one 3D pass whose block is the lower half of a number.
+inline void expectNumbers(const std::function<Int(Pass&)>& write, const ExpectedBlock& expected) {
+    const auto pass = [&](Pass& p) { p.setBlock(Block(write(p))); };
+    expectBlocks([&](GeneratorBuilder& g) { g.pass3D("numbers", pass); }, expected);
+}
+
+// Calls f for each instruction set the machine has, then goes back to the best one.
+template <class Function>
+void onEachTarget(Function f) {
+    for (const std::string& target : simdTargets()) {
+        SCOPED_TRACE(target);
+        EXPECT_TRUE(chooseSimdTarget(target));
+        f();
+        if (testing::Test::HasFatalFailure()) break;
+    }
+    EXPECT_TRUE(chooseSimdTarget(""));
+}
+
+// Arithmetic modulo 2^32, which is no undefined behaviour like that of `int`.
+constexpr std::int32_t wrapped(std::int64_t v) {
+    return static_cast<std::int32_t>(static_cast<std::uint64_t>(v));
+}
+
+}  // namespace terrane::gen

@@ -1,0 +1,86 @@
+// Runs single passes of a generator on one chunk with fields, blocks and seeds that the test sets.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "terrane/gen/executor.h"
+#include "tests/gen/gen_fixture.h"
+
+namespace terrane::gen {
+
+// NaN carries a payload that depends on the order of operands, and no block does on it.
+inline bool sameFloat(Bits a, Bits b) {
+    const bool aIsNaN = (a & 0x7FFFFFFFu) > 0x7F800000u, bIsNaN = (b & 0x7FFFFFFFu) > 0x7F800000u;
+    return a == b || (aIsNaN && bIsNaN);
+}
+
+class PassRunner {
+  public:
+    explicit PassRunner(GeneratorGraph g) : graph(std::move(g)) {
+        seeds.noises.assign(graph.noises.size(), 0);
+        seeds.randoms.assign(graph.randomNames.size(), 0);
+        for (std::size_t k = 0; k < seeds.noises.size(); ++k) seeds.noises[k] = noiseSeed(k);
+        for (std::size_t k = 0; k < seeds.randoms.size(); ++k) seeds.randoms[k] = randomSeed(k);
+        fields.resize(graph.fields.size());
+    }
+
+    // Writes a generator whose last pass, which must be 3D, is added here.
+    explicit PassRunner(const Write& write)
+        : PassRunner(build([&](GeneratorBuilder& g) {
+              write(g);
+              g.pass3D("last", [](Pass&) {});
+          })) {}
+
+    static std::uint32_t noiseSeed(std::size_t k) { return 0x1234567u + 77u * static_cast<std::uint32_t>(k); }
+    static std::uint32_t randomSeed(std::size_t k) { return 0xABCDEFu + 99u * static_cast<std::uint32_t>(k); }
+
+    std::vector<ColumnValues> run2D(std::size_t pass) {
+        const Program program = compile(graph.passes[pass], graph.noises);
+        std::vector<ColumnValues> results(program.fields.size());
+        std::vector<ColumnValues*> pointers;
+        for (ColumnValues& values : results) pointers.push_back(&values);
+        executor().run2D(program, inputs(), pointers);
+        return results;
+    }
+
+    std::unique_ptr<BlockArray> run3D(std::size_t pass) {
+        const Program program = compile(graph.passes[pass], graph.noises);
+        auto result = std::make_unique<BlockArray>();
+        executor().run3D(program, inputs(), *result);
+        return result;
+    }
+
+    GeneratorGraph graph;
+    Seeds seeds;
+    ChunkPos chunk;
+    std::vector<ColumnValues> fields;                 // of the chunk, by field
+    std::vector<std::array<ColumnValues, 9>> around;  // by field, where the test sets it: all nine chunks
+    std::unique_ptr<BlockArray> blocks;               // of the earlier 3D pass
+
+  private:
+    Executor& executor() {
+        if (!executor_) executor_ = std::make_unique<Executor>(graph.noises, seeds);
+        return *executor_;
+    }
+
+    PassInputs inputs() const {
+        PassInputs result;
+        result.chunk = chunk;
+        result.fields.resize(graph.fields.size());
+        for (std::size_t f = 0; f < graph.fields.size(); ++f) {
+            if (f < fields.size()) result.fields[f][4] = &fields[f];
+            if (f >= around.size()) continue;
+            for (std::size_t n = 0; n < 9; ++n) result.fields[f][n] = &around[f][n];
+        }
+        result.blocks = blocks.get();
+        return result;
+    }
+
+    std::unique_ptr<Executor> executor_;
+};
+
+}  // namespace terrane::gen

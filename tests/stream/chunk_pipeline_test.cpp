@@ -1,0 +1,238 @@
+#include "terrane/stream/chunk_pipeline.h"
+
+#include <future>
+#include <set>
+
+#include "terrane/shared/hash.h"
+#include "tests/stream/pipeline_fixture.h"
+
+namespace terrane::stream {
+namespace {
+
+class ChunkPipelineTest : public PipelineTest {};
+
+// Small numbers that look random and are the same in every run.
+class Numbers {
+  public:
+    explicit Numbers(unsigned seed) : seed_(seed) {}
+    int between(int low, int high) {
+        return low +
+               static_cast<int>(shared::hash2(++count_, 0, seed_) % static_cast<unsigned>(high - low + 1));
+    }
+
+  private:
+    unsigned seed_, count_ = 0;
+};
+
+TEST_F(ChunkPipelineTest, EveryChunkInViewEndsVisible) {
+    for (const int distance : {0, 1, 3}) {
+        setView({5, -7}, distance);
+        settle();
+        expectShowsTheView();
+    }
+}
+
+TEST_F(ChunkPipelineTest, NothingIsWantedWithoutAView) {
+    update();
+    jobs_.waitIdle();
+    EXPECT_EQ(pipeline_.progress().wanted, 0u);
+    EXPECT_TRUE(world_.chunks().empty());
+    EXPECT_EQ(take(kAll), 0u);
+}
+
+TEST_F(ChunkPipelineTest, WaitingEndsWithoutWork) {
+    setView({0, 0}, 1);
+    settle();
+    pipeline_.waitForWorkers(std::chrono::milliseconds(1));
+}
+
+TEST_F(ChunkPipelineTest, ASmallerViewRemovesMeshes) {
+    setView({0, 0}, 3);
+    settle();
+    setView({0, 0}, 1);
+    settle();
+    expectShowsTheView();
+    EXPECT_EQ(removals_.size(), 49u - 9u);
+}
+
+TEST_F(ChunkPipelineTest, ChunksOutOfViewAreRemovedOnce) {
+    setView({0, 0}, 2);
+    settle();
+    const auto before = shown_;
+    setView({4, 1}, 2);
+    settle();
+    for (const auto& [pos, mesh] : before) {
+        const bool isGone = !isWithin(pos, {4, 1}, 2);
+        EXPECT_EQ(removals_.contains(pos) ? removals_[pos] : 0, isGone ? 1 : 0) << pos.x << ' ' << pos.y;
+    }
+    EXPECT_EQ(removals_.size(), 25u - 4u);
+    expectShowsTheView();
+}
+
+TEST_F(ChunkPipelineTest, TheSameViewChangesNothing) {
+    setView({0, 0}, 2);
+    settle();
+    setView({0, 0}, 2);
+    settle();
+    EXPECT_TRUE(removals_.empty());
+    EXPECT_EQ(take(kAll), 0u);
+}
+
+TEST_F(ChunkPipelineTest, AWalkKeepsMemoryBoundedAndTheViewRight) {
+    for (unsigned seed = 0; seed < 4; ++seed) {
+        Numbers numbers(seed);
+        ChunkPos centre;
+        for (int step = 0; step < 60; ++step) {
+            centre.x += numbers.between(-2, 2);
+            centre.y += numbers.between(-2, 2);
+            if (numbers.between(0, 19) == 0) centre.x += 1000;  // a jump
+            setView(centre, numbers.between(0, 3));
+            update();
+            if (numbers.between(0, 2) == 0) pipeline_.waitForWorkers(std::chrono::milliseconds(5));
+            take(static_cast<std::size_t>(numbers.between(0, 8)));
+            if (HasFatalFailure()) return;
+        }
+        settle();
+        expectShowsTheView();
+    }
+}
+
+TEST_F(ChunkPipelineTest, TakesAtMostTheLimitAndLosesNothing) {
+    setView({0, 0}, 2);
+    for (update(); !pipeline_.progress().complete(); update()) {
+        pipeline_.waitForWorkers(std::chrono::milliseconds(100));
+    }
+    EXPECT_EQ(take(0), 0u);
+    EXPECT_EQ(take(10), 10u);
+    EXPECT_EQ(take(10), 10u);
+    EXPECT_EQ(take(10), 5u);
+    expectShowsTheView();
+}
+
+TEST_F(ChunkPipelineTest, EditsMeshAgainTheChunksThatSeeThem) {
+    setView({0, 0}, 2);
+    settle();
+    const auto changedBy = [&](world::BlockPos pos) {
+        const auto before = shown_;
+        placeBlock(pos, "sand");
+        settle();
+        expectShowsTheView();
+        std::set<ChunkPos> changed;
+        for (const auto& [at, mesh] : shown_) {
+            if (mesh != before.at(at)) changed.insert(at);
+        }
+        return changed;
+    };
+    using Chunks = std::set<ChunkPos>;
+    EXPECT_EQ(changedBy({5, 9, 70}), (Chunks{{0, 0}}));
+    EXPECT_EQ(changedBy({16, 9, 60}), (Chunks{{1, 0}, {0, 0}}));
+    EXPECT_EQ(changedBy({-17, 9, 60}), (Chunks{{-2, 0}, {-1, 0}}));
+    EXPECT_EQ(changedBy({5, 31, 60}), (Chunks{{0, 1}, {0, 2}}));
+    EXPECT_EQ(changedBy({15, 0, 60}), (Chunks{{0, 0}, {1, 0}, {0, -1}}));
+    EXPECT_EQ(changedBy({47, 5, 60}), (Chunks{{2, 0}})) << "the neighbour is not in view";
+}
+
+// Edits come faster than workers mesh: the meshes in between may be lost, the last may not.
+TEST_F(ChunkPipelineTest, TheNewestMeshWins) {
+    setView({0, 0}, 1);
+    settle();
+    for (int round = 0; round < 40; ++round) {
+        for (int k = 0; k < 6; ++k) placeBlock({15, 15, 80 + (round * 6 + k) % 100}, k % 2 ? "air" : "stone");
+        if (round % 3 == 0) update();
+        if (round % 5 == 0) take(1);
+    }
+    settle();
+    expectShowsTheView();
+}
+
+TEST_F(ChunkPipelineTest, OfAChunkOnlyTheNewestMeshIsTaken) {
+    setView({0, 0}, 1);
+    settle();
+    for (int round = 0; round < 3; ++round) {
+        placeBlock({8, 8, 90 + round}, "stone");
+        jobs_.waitIdle();
+        update();
+    }
+    EXPECT_EQ(take(kAll), 1u);
+    expectShowsTheView();
+}
+
+TEST_F(ChunkPipelineTest, EditsOutOfViewAreHarmless) {
+    pipeline_.blocksChanged({1000, 1000, 10});
+    setView({0, 0}, 1);
+    pipeline_.blocksChanged({0, 0, 10});
+    pipeline_.blocksChanged({1000, 1000, 10});
+    settle();
+    expectShowsTheView();
+}
+
+TEST_F(ChunkPipelineTest, EditsSurviveWhileTheirChunkStaysInView) {
+    setView({0, 0}, 1);
+    settle();
+    placeBlock({3, 3, 90}, "lamp_red");
+    for (const ChunkPos centre : {ChunkPos{1, 0}, {2, 1}, {3, -1}, {0, 0}}) {
+        setView(centre, 1);
+        settle();
+    }
+    EXPECT_EQ(world_.block({3, 3, 90}), contentBlock("lamp_red"));
+    expectShowsTheView();
+}
+
+TEST_F(ChunkPipelineTest, ViewsAtTheCornersOfTheWorldComplete) {
+    using world::kMaxChunk, world::kMinChunk;
+    for (const ChunkPos corner : {ChunkPos{kMinChunk, kMinChunk},
+                                  {kMaxChunk, kMinChunk},
+                                  {kMinChunk, kMaxChunk},
+                                  {kMaxChunk, kMaxChunk}}) {
+        setView(corner, 2);
+        settle();
+        expectShowsTheView();
+        EXPECT_EQ(pipeline_.progress().wanted, 9u);
+    }
+    // The last block of the world: its neighbours are outside.
+    placeBlock({std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max(), 60},
+               "sand");
+    settle();
+    expectShowsTheView();
+}
+
+TEST_F(ChunkPipelineTest, ViewsNextToTheEdgeComplete) {
+    setView({world::kMaxChunk - 1, 0}, 2);
+    settle();
+    expectShowsTheView();
+    EXPECT_EQ(pipeline_.progress().wanted, 4u * 5u);
+}
+
+// A chunk whose job is cancelled while it waits must come when the view returns.
+TEST_F(ChunkPipelineTest, ComesBackAfterItsJobWasCancelled) {
+    std::promise<void> gate;
+    std::shared_future<void> open = gate.get_future().share();
+    for (int k = 0; k < 2; ++k) jobs_.submit(-1, [open](const base::CancelToken&) { open.wait(); });
+    setView({0, 0}, 1);
+    update();
+    setView({100, 0}, 1);
+    update();
+    setView({0, 0}, 1);
+    update();
+    gate.set_value();
+    settle();
+    expectShowsTheView();
+}
+
+TEST(ChunkPipeline, MayBeDestroyedWhileJobsRun) {
+    const gen::Generator generator = bumpyGenerator();
+    base::JobSystem jobs(2);
+    for (int round = 0; round < 30; ++round) {
+        world::World world;
+        ChunkPipeline pipeline(jobs, generator, contentBlocks(), world);
+        pipeline.setView({round, 0}, 2);
+        for (int step = 0; step < round % 5; ++step) {
+            pipeline.update();
+            pipeline.waitForWorkers(std::chrono::milliseconds(2));
+        }
+    }
+    EXPECT_EQ(jobs.queuedCount(), 0u);
+}
+
+}  // namespace
+}  // namespace terrane::stream
