@@ -20,8 +20,9 @@ constexpr float detReciprocal(float x) {
     return r;
 }
 
-// a / b within 2 units in the last place (measured: 1.4). |b| in [2^-126, 2^125]; other divisors, 0 too, give
-// infinities, NaN or garbage, the same on every machine.
+// a / b within 2 units in the last place (measured: 1.4); whole quotients may be one unit off too, so that
+// floor(a / b) is no integer division. |b| in [2^-126, 2^125]; other divisors, 0 too, give infinities, NaN or
+// garbage, the same on every machine.
 constexpr float detDivide(float a, float b) {
     const std::uint32_t sign = std::bit_cast<std::uint32_t>(b) & 0x80000000u;
     const float magnitude = std::bit_cast<float>(std::bit_cast<std::uint32_t>(b) ^ sign);

@@ -3,7 +3,6 @@
 #include <bit>
 
 namespace terrane::mesh {
-
 namespace {
 
 std::uint32_t usedRows(const BitSlice& rows) {
@@ -20,8 +19,7 @@ std::span<const Rectangle> mergeRows(BitSlice rows, Merge merge, RectangleBuffer
         const auto row = static_cast<std::size_t>(std::countr_zero(used));
         unsigned left = rows[row];
         while (left != 0) {
-            // Adding the lowest one carries through the run of ones above it: what the carry clears is the
-            // run.
+            // Adding the lowest one carries through the ones above it: what the carry clears is the run.
             const unsigned lowest = left & (0u - left);
             const unsigned carried = merge == Merge::None ? lowest << 1 : left + lowest;
             const unsigned run = merge == Merge::None ? lowest : left & ~carried;

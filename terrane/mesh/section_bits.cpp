@@ -26,11 +26,10 @@ constexpr Exchange exchange(int low, int high) {
     return {(1 << high) - (1 << low), mask};
 }
 
-// Where `count` = 2^log2 words hold 64 blocks, a bit's number in its word means, from its lowest binary
-// digit: log2 digits of the plane, then the low digits of the block; the number of the word means the high
-// digits of the block. First the log2 digits of word and plane change places (Exchange across words), which
-// makes each word one plane. The digits of the block, 6 of them, are then rotated; these exchanges in a word
-// put them in order.
+// 2^log2 words hold 64 blocks. Read in binary, a bit's number in its word is, from the lowest digit, log2
+// digits of the plane and then the low digits of the block; the word's number is the high digits of the
+// block. First the digits of word and plane change places, after which each word is one plane. That leaves
+// the 6 digits of the block rotated in the bit's number; the steps of a Rotation put them in order.
 struct Rotation {
     std::array<Exchange, 5> steps{};
     std::size_t count = 0;

