@@ -332,7 +332,8 @@ void runOne(const Instruction& i, TileContext& c, const RowList& rows) {
         TERRANE_BINARY_F(MinF, hn::IfThenElse(hn::Lt(q, p), q, p));
         TERRANE_BINARY_F(MaxF, hn::IfThenElse(hn::Lt(p, q), q, p));
         TERRANE_UNARY_F(AbsF, hn::Abs(p));
-        TERRANE_UNARY_F(FloorF, hn::Floor(p));
+        // Without SSE4.1 Highway's floor of -0.0 is 0.0.
+        TERRANE_UNARY_F(FloorF, hn::CopySign(hn::Floor(p), p));
         TERRANE_UNARY_F(SqrtF, squareRoot(p));
         TERRANE_BINARY_F(LessF, maskBits(df, hn::Lt(p, q)));
         TERRANE_BINARY_F(LessEqualF, maskBits(df, hn::Le(p, q)));

@@ -45,6 +45,11 @@ enum VoronoiResult : std::uint32_t {
 // Squared distances of candidates, at most (1.81 cells + two tile diagonals)², fit 31 bits.
 constexpr std::int32_t kMaxVoronoiSize = 16384;
 
+// What octave number `octave` adds to a call's seed: 2^32 / golden ratio, odd.
+constexpr std::uint32_t octaveSeedStep(std::size_t octave) {
+    return static_cast<std::uint32_t>(octave) * 0x9E3779B9u;
+}
+
 constexpr std::uint32_t resultCount(NoiseKind kind) {
     return kind == NoiseKind::Voronoi2D ? std::uint32_t{kVoronoiResultCount} : 1u;
 }

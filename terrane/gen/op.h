@@ -100,6 +100,9 @@ struct OpRecord {
     Type result;
     // The value for constant arguments; null where it is not a function of its arguments alone.
     Bits (*evaluate)(std::span<const Bits> args);
+    // The same in GLSL, {0} {1} {2} standing for the arguments; empty for what glsl_emitter.cpp writes
+    // itself.
+    std::string_view glsl;
 };
 
 const OpRecord& record(Op op);

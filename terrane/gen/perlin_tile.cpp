@@ -14,7 +14,7 @@ struct Gradient2 {
 };
 
 // √2·(cos, sin) of (k + ½)·22.5°.
-constexpr float kG0 = 1.38703990f, kG1 = 1.17587566f, kG2 = 0.785694957f, kG3 = 0.275899380f;
+constexpr float kG0 = 1.38703990f, kG1 = 1.17587554f, kG2 = 0.785694957f, kG3 = 0.275899380f;
 constexpr Gradient2 kGradients2[16] = {
     {kG0, kG3},  {kG1, kG2},  {kG2, kG1},   {kG3, kG0},   {-kG3, kG0},  {-kG2, kG1},
     {-kG1, kG2}, {-kG0, kG3}, {-kG0, -kG3}, {-kG1, -kG2}, {-kG2, -kG1}, {-kG3, -kG0},
@@ -38,10 +38,6 @@ Gradient2 gradient2(uint x, uint y, std::uint32_t seed) {
 Gradient3 gradient3(uint x, uint y, uint z, std::uint32_t seed) {
     const uint h = shared::hash3(x, y, z, seed);
     return kGradients3[((h >> 16) * 12u) >> 16];
-}
-
-std::uint32_t octaveSeed(std::uint32_t seed, std::size_t octave) {
-    return seed + static_cast<std::uint32_t>(octave) * 0x9E3779B9u;
 }
 
 float fade(float f) {
@@ -125,7 +121,7 @@ void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, std:
         const auto nodeRows = static_cast<uint>(setRows(octave, y));
         for (uint row = 0; row < nodeRows; ++row) {
             const auto lookup = [&](uint cell) {
-                return gradient2(cell, y.cell[0] + row, octaveSeed(seed, o));
+                return gradient2(cell, y.cell[0] + row, seed + octaveSeedStep(o));
             };
             forEachX(x.cell, lookup, [&](std::size_t k, Gradient2 left, Gradient2 right) {
                 const float f = x.offset[k], t = x.fadeOf[k];
@@ -144,7 +140,7 @@ void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, std:
         Perlin3DTile::Octave& o = tile.octaves[n];
         o.size = call.size << n;
         o.inverseSize = 1.0f / static_cast<float>(o.size);
-        o.seed = octaveSeed(seed, n);
+        o.seed = seed + octaveSeedStep(n);
         const AxisCells x = axisCells(x0, o.size, o.inverseSize), y = axisCells(y0, o.size, o.inverseSize);
         o.xCell = x.cell;
         o.xOffset = x.offset;

@@ -56,7 +56,7 @@ class Compiler {
         if (pass_.block) outputs.push_back(*pass_.block);
 
         if (pass_.is3D) {
-            program_.column = compileList(boundary(outputs));
+            program_.column = compileList(columnBoundary(graph_, outputs));
             rows_.seal();
         }
         auto& last = pass_.is3D ? program_.layer : program_.column;
@@ -88,28 +88,6 @@ class Compiler {
     void setOperand(NodeId id, Operand o) {
         operands_[id] = o;
         known_[id] = true;
-    }
-
-    bool isColumn(NodeId id) const { return !(graph_.node(id).dependence & kDependsZ); }
-
-    // The nodes free of z that the layers need: they are computed once a chunk.
-    std::vector<NodeId> boundary(const std::vector<NodeId>& outputs) const {
-        std::vector<NodeId> result, stack = outputs;
-        std::vector<bool> seen(graph_.size());
-        while (!stack.empty()) {
-            const NodeId id = stack.back();
-            stack.pop_back();
-            if (seen[id]) continue;
-            seen[id] = true;
-            if (isColumn(id)) {
-                result.push_back(id);
-                continue;
-            }
-            const auto args = graph_.node(id).arguments();
-            stack.insert(stack.end(), args.begin(), args.end());
-        }
-        std::sort(result.begin(), result.end());
-        return result;
     }
 
     InstructionList compileList(const std::vector<NodeId>& roots) {

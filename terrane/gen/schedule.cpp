@@ -118,4 +118,23 @@ Schedule schedule(const Graph& graph, const std::vector<NodeId>& roots,
     return Scheduler(graph, isInput).run(roots);
 }
 
+std::vector<NodeId> columnBoundary(const Graph& graph, const std::vector<NodeId>& outputs) {
+    std::vector<NodeId> result, stack = outputs;
+    std::vector<bool> seen(graph.size());
+    while (!stack.empty()) {
+        const NodeId id = stack.back();
+        stack.pop_back();
+        if (seen[id]) continue;
+        seen[id] = true;
+        if (!(graph.node(id).dependence & kDependsZ)) {
+            result.push_back(id);
+            continue;
+        }
+        const auto args = graph.node(id).arguments();
+        stack.insert(stack.end(), args.begin(), args.end());
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
 }  // namespace terrane::gen

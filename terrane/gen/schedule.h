@@ -29,4 +29,7 @@ struct Schedule {
 Schedule schedule(const Graph& graph, const std::vector<NodeId>& roots,
                   const std::function<bool(NodeId)>& isInput);
 
+// Of what `outputs` need, the outermost nodes that do not depend on z: a 3D pass computes them once a column.
+std::vector<NodeId> columnBoundary(const Graph& graph, const std::vector<NodeId>& outputs);
+
 }  // namespace terrane::gen

@@ -114,7 +114,7 @@ void ChunkPipeline::submitGeneration() {
         if (!world::isInWorld(pos) || world_.maybeChunkAt(pos) || generating_.contains(pos)) continue;
         generating_[pos] =
             jobs_.submit(priority(pos), [this, pos, results = results_](const base::CancelToken&) {
-                auto chunk = std::make_shared<const world::Chunk>(generator_.generate(pos));
+                auto chunk = std::make_shared<world::Chunk>(generator_.generate(pos));
                 const std::lock_guard lock(results->mutex);
                 results->chunks.emplace_back(pos, std::move(chunk));
                 results->changed.notify_one();
