@@ -69,7 +69,7 @@ void Pass::assign(std::size_t slot, Value value) {
 void Pass::if_(Bool condition, const std::function<void()>& then, const std::function<void()>& otherwise) {
     const NodeId conditionNode = condition.nodeIn(graph_.graph, Type::Bool);
     const std::vector<Slot> before = slots_;
-    then();
+    if (then) then();
     const std::vector<Slot> afterThen = slots_;
     // Variables made inside a branch end with it; outputs made there exist in the other branch with their
     // first value.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "terrane/gen/kernels.h"
+#include "terrane/gen/seeds.h"
 #include "terrane/world/coords.h"
 
 namespace terrane::gen {
@@ -15,10 +16,6 @@ namespace terrane::gen {
 // Values of a field in a chunk's columns, and a chunk's blocks by world::BlockIndex.
 using ColumnValues = std::array<Bits, kTileLanes>;
 using BlockArray = std::array<std::uint16_t, world::kBlocksPerChunk>;
-
-struct Seeds {
-    std::vector<std::uint32_t> noises, randoms;  // by noise call, by random slot
-};
 
 // What a pass reads of its chunk and the eight around it.
 struct PassInputs {

@@ -1,7 +1,5 @@
 #include "terrane/gen/generator.h"
 
-#include <xxhash.h>
-
 #include <algorithm>
 #include <cassert>
 
@@ -12,10 +10,6 @@
 
 namespace terrane::gen {
 namespace {
-
-std::uint32_t seedOf(const std::string& name, std::uint64_t worldSeed) {
-    return static_cast<std::uint32_t>(XXH3_64bits_withSeed(name.data(), name.size(), worldSeed));
-}
 
 world::ChunkPos neighbour(world::ChunkPos pos, int number) {
     // Chunk coordinates of blocks that wrap at 2^31.
@@ -29,10 +23,9 @@ world::ChunkPos neighbour(world::ChunkPos pos, int number) {
 
 struct Generator::Impl {
     Impl(GeneratorGraph g, std::uint64_t seed, std::size_t cachedChunks)
-        : graph(std::move(g)), cache(cachedChunks, graph.fields.size(), graph.passes.size()) {
-        for (const NoiseCall& call : graph.noises) seeds.noises.push_back(seedOf("noise " + call.name, seed));
-        for (const std::string& name : graph.randomNames)
-            seeds.randoms.push_back(seedOf("random " + name, seed));
+        : graph(std::move(g)),
+          seeds(makeSeeds(graph, seed)),
+          cache(cachedChunks, graph.fields.size(), graph.passes.size()) {
         for (const PassGraph& pass : graph.passes) programs.push_back(compile(pass, graph.noises));
     }
 

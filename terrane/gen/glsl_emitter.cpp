@@ -163,8 +163,10 @@ class Emitter {
         const bool is3D = call.kind == NoiseKind::Perlin3D;
         const char* function = is3D ? "perlin3D(columnX, columnY, z" : "perlin2D(columnX, columnY";
         for (std::size_t o = 0; o < call.weights.size(); ++o) {
+            const int size = call.size << o;
             const std::string sample =
-                fmt::format("{}, {}, noiseSeeds[{}] + {:#x}u) * {}", function, call.size << o, number,
+                fmt::format("{}, {}, {}, noiseSeeds[{}] + {:#x}u) * {}", function, size,
+                            literal(Type::Float, bitsOf(1.0f / static_cast<float>(size))), number,
                             octaveSeedStep(o), literal(Type::Float, bitsOf(call.weights[o])));
             line(o == 0 ? fmt::format("precise float {} = {};", result, sample)
                         : fmt::format("{} = {} + {};", result, result, sample));

@@ -6,6 +6,7 @@
 
 #ifdef __cplusplus
 
+#include <bit>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -20,15 +21,25 @@ using glm::uvec2;
 using glm::uvec4;
 using glm::vec2;
 using glm::vec4;
+
+constexpr uint floatBitsToUint(float v) {
+    return std::bit_cast<uint>(v);
+}
+constexpr float uintBitsToFloat(uint v) {
+    return std::bit_cast<float>(v);
+}
 }  // namespace terrane::shared
 
 #define SHARED_FN constexpr
+// On float variables whose bits must be the same everywhere: no contraction, no reordering.
+#define SHARED_PRECISE
 #define SHARED_BEGIN namespace terrane::shared {
 #define SHARED_END }
 
 #else
 
 #define SHARED_FN
+#define SHARED_PRECISE precise
 #define SHARED_BEGIN
 #define SHARED_END
 

@@ -1,0 +1,19 @@
+// Seeds of a generator's noise calls and random slots for one world seed. Both back ends take them from here.
+// Any thread.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "terrane/gen/builder.h"
+
+namespace terrane::gen {
+
+struct Seeds {
+    std::vector<std::uint32_t> noises, randoms;  // by noise call, by random slot
+};
+
+// A seed depends on the world's seed and on the name of its call, not on its place in the generator.
+Seeds makeSeeds(const GeneratorGraph& generator, std::uint64_t worldSeed);
+
+}  // namespace terrane::gen

@@ -1,0 +1,236 @@
+#include "terrane/gen_gpu/gpu_generator.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstring>
+#include <deque>
+#include <string>
+
+#include "terrane/base/profile.h"
+#include "terrane/gen/glsl_emitter.h"
+#include "terrane/gen/seeds.h"
+#include "terrane/gen_gpu/pass_plan.h"
+#include "terrane/gen_gpu/slot_cache.h"
+#include "terrane/gpu/buffer.h"
+#include "terrane/gpu/debug.h"
+#include "terrane/gpu/fence.h"
+#include "terrane/gpu/program.h"
+#include "terrane/gpu/readback_buffer.h"
+#include "terrane/shared/generation.h"
+
+namespace terrane::gen_gpu {
+namespace {
+
+using world::ChunkPos;
+
+constexpr std::size_t kBatchesInFlight = 3;
+constexpr int kLayersPerGroup =
+    64;  // four work groups a chunk: the part that is free of z is computed four times
+constexpr std::size_t kChunkBytes = std::size_t{world::kBlocksPerChunk} * sizeof(std::uint16_t);
+constexpr std::size_t kWordsPerColumn = world::kChunkHeight / 2;
+
+gpu::Buffer seedBuffer(const std::vector<std::uint32_t>& seeds, std::string_view label) {
+    // Buffers are not empty, generators without noise or random numbers are possible.
+    const std::vector<std::uint32_t> values = seeds.empty() ? std::vector<std::uint32_t>{0} : seeds;
+    return gpu::Buffer(std::as_bytes(std::span(values)), 0, label);
+}
+
+std::string shaderName(std::size_t pass) {
+    return fmt::format("generated/pass{}.comp.glsl", pass);
+}
+
+std::string shaderText(const gen::GeneratorGraph& generator, std::size_t pass) {
+    return "#include \"terrane/gen_gpu/tile.glsl\"\n#include \"terrane/gen_gpu/noise.glsl\"\n\n" +
+           gen::emitGlsl(generator, pass);
+}
+
+// The GPU keeps a column's layers together, the chunk keeps layers together.
+world::Chunk chunkOf(const std::byte* words) {
+    thread_local std::array<world::Section::Value, world::kBlocksPerChunk> blocks;
+    constexpr std::size_t kColumns = shared::kBlocksPerLayer;
+    for (std::size_t column = 0; column < kColumns; ++column) {
+        std::array<std::uint16_t, world::kChunkHeight> layers;
+        std::memcpy(layers.data(), words + column * sizeof(layers), sizeof(layers));
+        for (std::size_t z = 0; z < layers.size(); ++z) blocks[z * kColumns + column] = layers[z];
+    }
+    world::Chunk chunk;
+    for (int s = 0; s < world::kSectionsPerChunk; ++s) {
+        const auto first = static_cast<std::size_t>(s) * world::kBlocksPerSection;
+        chunk.setSection(s, world::Section::fromValues(
+                                std::span(blocks).subspan(first).first<world::kBlocksPerSection>()));
+    }
+    return chunk;
+}
+
+}  // namespace
+
+struct GpuGenerator::Impl {
+    struct InFlight {
+        std::vector<ChunkPos> chunks;
+        std::size_t readback;
+        gpu::Fence fence;
+    };
+
+    Impl(const gen::GeneratorGraph& g, const gpu::ShaderLoader& loader)
+        : generator(g), shaders(loader), slots(kSlots) {}
+
+    base::Result<void> build(std::uint64_t seed);
+    base::Result<gpu::Program> buildPass(std::size_t pass) const;
+    int blockNumber(std::size_t pass) const;  // of the 3D passes before it
+    void runPass(std::size_t pass, const std::vector<ChunkPos>& chunks);
+    void runPasses(const PassCounts& needed, const std::vector<ChunkPos>& wanted);
+    gpu::Buffer tileJobs(const std::vector<ChunkPos>& chunks) const;
+
+    gen::GeneratorGraph generator;
+    std::vector<std::string> names, texts;  // of the passes' shaders; the loader refers to them
+    std::vector<base::EmbeddedFile> files;
+    gpu::ShaderLoader shaders;
+    std::vector<gpu::Program> programs;
+    gpu::Buffer fields, blocks, result, noiseSeeds, randomSeeds;
+    std::array<gpu::ReadbackBuffer, kBatchesInFlight> readbacks;
+    std::deque<InFlight> inFlight;
+    std::size_t nextReadback = 0;
+    SlotCache slots;
+};
+
+int GpuGenerator::Impl::blockNumber(std::size_t pass) const {
+    return static_cast<int>(std::count_if(generator.passes.begin(),
+                                          generator.passes.begin() + static_cast<long>(pass),
+                                          [](const gen::PassGraph& p) { return p.is3D; }));
+}
+
+base::Result<void> GpuGenerator::Impl::build(std::uint64_t seed) {
+    for (std::size_t pass = 0; pass < generator.passes.size(); ++pass)
+        texts.push_back(shaderText(generator, pass));
+    for (std::size_t pass = 0; pass < texts.size(); ++pass) names.push_back(shaderName(pass));
+    for (std::size_t pass = 0; pass < texts.size(); ++pass) files.push_back({names[pass], texts[pass]});
+    shaders.addFiles(files);
+    for (std::size_t pass = 0; pass < texts.size(); ++pass) {
+        auto program = buildPass(pass);
+        if (!program) return tl::unexpected(program.error());
+        programs.push_back(std::move(*program));
+    }
+    const gen::Seeds seeds = gen::makeSeeds(generator, seed);
+    noiseSeeds = seedBuffer(seeds.noises, "noise seeds");
+    randomSeeds = seedBuffer(seeds.randoms, "random seeds");
+    const std::size_t fieldCount = std::max<std::size_t>(1, generator.fields.size());
+    const auto keptBlocks = static_cast<std::size_t>(std::max(1, blockNumber(generator.passes.size() - 1)));
+    fields =
+        gpu::Buffer(kSlots * fieldCount * shared::kBlocksPerLayer * sizeof(gen::Bits), 0, "generator fields");
+    blocks = gpu::Buffer(kSlots * keptBlocks * kChunkBytes, 0, "generator blocks");
+    result = gpu::Buffer(kMaxBatch * kChunkBytes, 0, "generator result");
+    for (gpu::ReadbackBuffer& r : readbacks)
+        r = gpu::ReadbackBuffer(kMaxBatch * kChunkBytes, "generator read-back");
+    return {};
+}
+
+base::Result<gpu::Program> GpuGenerator::Impl::buildPass(std::size_t pass) const {
+    const int before = blockNumber(pass);
+    const bool isLast = pass + 1 == generator.passes.size();
+    const gpu::ShaderDefines defines = {
+        {"FIELD_COUNT", fmt::format("{}u", std::max<std::size_t>(1, generator.fields.size()))},
+        {"BLOCK_PASS_COUNT", fmt::format("{}u", std::max(1, blockNumber(generator.passes.size() - 1)))},
+        {"SOURCE_BLOCKS", fmt::format("{}u", std::max(0, before - 1))},
+        {"TARGET_BLOCKS", isLast ? "-1" : std::to_string(before)},
+        {"LAYERS_PER_GROUP", std::to_string(kLayersPerGroup)}};
+    return gpu::Program::compute(shaders, names[pass], defines, "generator " + generator.passes[pass].name);
+}
+
+gpu::Buffer GpuGenerator::Impl::tileJobs(const std::vector<ChunkPos>& chunks) const {
+    std::vector<shared::TileJob> jobs;
+    for (const ChunkPos pos : chunks) {
+        shared::TileJob job{};
+        job.origin = {pos.x * world::kChunkSize, pos.y * world::kChunkSize, static_cast<int>(slots.slot(pos)),
+                      0};
+        const auto around = chunksAround(pos);
+        for (int n = 0; n < 9; ++n) {
+            const auto slot = slots.find(around[static_cast<std::size_t>(n)]);
+            job.neighbours[n / 4][n % 4] = slot.value_or(0);  // read only where the plan asked for it
+        }
+        jobs.push_back(job);
+    }
+    return gpu::Buffer(std::as_bytes(std::span(jobs)), 0, "tile jobs");
+}
+
+void GpuGenerator::Impl::runPass(std::size_t pass, const std::vector<ChunkPos>& chunks) {
+    if (chunks.empty()) return;
+    const gpu::DebugGroup group("generator " + generator.passes[pass].name);
+    const gpu::Buffer jobs = tileJobs(chunks);
+    jobs.bindStorage(shared::kTileJobsBinding);
+    fields.bindStorage(shared::kFieldsBinding);
+    blocks.bindStorage(shared::kBlocksBinding);
+    result.bindStorage(shared::kResultBinding);
+    noiseSeeds.bindStorage(shared::kNoiseSeedsBinding);
+    randomSeeds.bindStorage(shared::kRandomSeedsBinding);
+    programs[pass].use();
+    const GLuint layerGroups = generator.passes[pass].is3D ? world::kChunkHeight / kLayersPerGroup : 1;
+    glDispatchCompute(static_cast<GLuint>(chunks.size()), layerGroups, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+void GpuGenerator::Impl::runPasses(const PassCounts& needed, const std::vector<ChunkPos>& wanted) {
+    std::vector<ChunkPos> all;
+    for (const auto& [pos, count] : needed) all.push_back(pos);
+    slots.reserve(all);
+    const int last = static_cast<int>(generator.passes.size()) - 1;
+    for (int pass = 0; pass < last; ++pass) {
+        std::vector<ChunkPos> running;
+        for (const ChunkPos pos : all) {
+            if (needed.at(pos) > pass && slots.passesDone(pos) <= pass) running.push_back(pos);
+        }
+        runPass(static_cast<std::size_t>(pass), running);
+        for (const ChunkPos pos : running) slots.setPassesDone(pos, pass + 1);
+    }
+    runPass(static_cast<std::size_t>(last), wanted);
+}
+
+GpuGenerator::GpuGenerator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+GpuGenerator::GpuGenerator(GpuGenerator&&) noexcept = default;
+GpuGenerator& GpuGenerator::operator=(GpuGenerator&&) noexcept = default;
+GpuGenerator::~GpuGenerator() = default;
+
+base::Result<GpuGenerator> GpuGenerator::create(const gpu::ShaderLoader& shaders,
+                                                const gen::GeneratorGraph& generator, std::uint64_t seed) {
+    auto impl = std::make_unique<Impl>(generator, shaders);
+    if (auto built = impl->build(seed); !built) return tl::unexpected(built.error());
+    return GpuGenerator(std::move(impl));
+}
+
+std::size_t GpuGenerator::submit(std::span<const ChunkPos> chunks) {
+    TERRANE_ZONE("submit generation");
+    assert(!chunks.empty() && "a batch has chunks");
+    Impl& impl = *impl_;
+    if (impl.inFlight.size() == kBatchesInFlight) return 0;
+    std::vector<ChunkPos> wanted(chunks.begin(),
+                                 chunks.begin() + std::min<long>(kMaxBatch, std::ssize(chunks)));
+    PassCounts needed = neededPasses(impl.generator, wanted);
+    while (needed.size() > kSlots) {
+        assert(wanted.size() > 1 && "the slots hold what one chunk needs");
+        wanted.resize(wanted.size() / 2);
+        needed = neededPasses(impl.generator, wanted);
+    }
+    impl.runPasses(needed, wanted);
+    const std::size_t readback = impl.nextReadback;
+    impl.nextReadback = (readback + 1) % kBatchesInFlight;
+    impl.readbacks[readback].copyFrom(impl.result, wanted.size() * kChunkBytes);
+    impl.inFlight.push_back({wanted, readback, gpu::Fence::insert()});
+    return wanted.size();
+}
+
+std::optional<GpuGenerator::Batch> GpuGenerator::take(bool wait) {
+    Impl& impl = *impl_;
+    if (impl.inFlight.empty()) return std::nullopt;
+    const Impl::InFlight& oldest = impl.inFlight.front();
+    if (wait) oldest.fence.wait();
+    if (!oldest.fence.passed()) return std::nullopt;
+    const std::byte* words = impl.readbacks[oldest.readback].data().data();
+    Batch batch;
+    for (std::size_t k = 0; k < oldest.chunks.size(); ++k) {
+        batch.emplace_back(oldest.chunks[k], chunkOf(words + k * kChunkBytes));
+    }
+    impl.inFlight.pop_front();
+    return batch;
+}
+
+}  // namespace terrane::gen_gpu

@@ -1,0 +1,42 @@
+// Which chunk's intermediate results lie in which slot on the GPU, and how far they are. Pure bookkeeping.
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "terrane/world/coords.h"
+
+namespace terrane::gen_gpu {
+
+class SlotCache {
+  public:
+    explicit SlotCache(std::size_t slots);
+
+    // Slots for all of `chunks`, at most as many as there are: kept ones stay, others replace the least
+    // recently used.
+    void reserve(const std::vector<world::ChunkPos>& chunks);
+
+    // Of a chunk reserved last.
+    std::uint32_t slot(world::ChunkPos pos) const { return entries_.at(pos).slot; }
+    std::optional<std::uint32_t> find(world::ChunkPos pos) const;
+    int passesDone(world::ChunkPos pos) const { return entries_.at(pos).passesDone; }
+    void setPassesDone(world::ChunkPos pos, int passes) { entries_.at(pos).passesDone = passes; }
+
+  private:
+    using Order = std::list<world::ChunkPos>;
+    struct Entry {
+        std::uint32_t slot;
+        int passesDone;
+        Order::iterator order;
+    };
+
+    std::size_t slots_;
+    std::vector<std::uint32_t> free_;
+    Order order_;  // most recently used first
+    std::unordered_map<world::ChunkPos, Entry, world::ChunkPosHash> entries_;
+};
+
+}  // namespace terrane::gen_gpu

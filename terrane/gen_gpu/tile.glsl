@@ -1,0 +1,92 @@
+// What an emitted pass reads and writes: its column, fields, blocks, seeds. One work group is a chunk's 16×16 columns; the
+// second dimension of the dispatch splits the layers of a 3D pass.
+//
+// Defined by the host: FIELD_COUNT, BLOCK_PASS_COUNT (3D passes whose blocks are kept), SOURCE_BLOCKS (which of them this
+// pass reads), TARGET_BLOCKS (which it writes; -1: the result of the generator), LAYERS_PER_GROUP.
+#include "terrane/shared/constants.h"
+#include "terrane/shared/generation.h"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+
+layout(std430, binding = kTileJobsBinding) readonly buffer TileJobs {
+    TileJob jobs[];
+};
+layout(std430, binding = kFieldsBinding) buffer Fields {
+    uint fields[];  // by slot, field, column
+};
+layout(std430, binding = kBlocksBinding) buffer Blocks {
+    uint blocks[];  // by slot, pass, column, two layers a word
+};
+layout(std430, binding = kResultBinding) writeonly buffer Result {
+    uint resultBlocks[];  // by job, column, two layers a word
+};
+layout(std430, binding = kNoiseSeedsBinding) readonly buffer NoiseSeeds {
+    uint noiseSeeds[];
+};
+layout(std430, binding = kRandomSeedsBinding) readonly buffer RandomSeeds {
+    uint randomSeeds[];
+};
+
+const uint kWordsPerColumn = kChunkHeight / 2u;
+
+int columnX, columnY;
+uint column;  // in the tile: x + 16 y
+uint slot;
+uint evenLayerBlock;  // waits for its odd neighbour
+
+void beginTile() {
+    TileJob job = jobs[gl_WorkGroupID.x];
+    column = gl_LocalInvocationID.x + 16u * gl_LocalInvocationID.y;
+    columnX = job.origin.x + int(gl_LocalInvocationID.x);
+    columnY = job.origin.y + int(gl_LocalInvocationID.y);
+    slot = uint(job.origin.z);
+}
+
+int firstLayer() {
+    return int(gl_WorkGroupID.y) * LAYERS_PER_GROUP;
+}
+
+int lastLayer() {
+    return firstLayer() + LAYERS_PER_GROUP;
+}
+
+uint readField(uint field) {
+    return fields[(slot * FIELD_COUNT + field) * kBlocksPerLayer + column];
+}
+
+void writeField(uint field, uint bits) {
+    fields[(slot * FIELD_COUNT + field) * kBlocksPerLayer + column] = bits;
+}
+
+// Offsets beyond 16 blocks are clamped, as on the CPU.
+uint readFieldAt(uint field, int dx, int dy) {
+    int x = int(gl_LocalInvocationID.x) + clamp(dx, -16, 16) + 16;
+    int y = int(gl_LocalInvocationID.y) + clamp(dy, -16, 16) + 16;
+    uint neighbour = uint((y >> 4) * 3 + (x >> 4));
+    uint from = jobs[gl_WorkGroupID.x].neighbours[neighbour >> 2][neighbour & 3u];
+    return fields[(from * FIELD_COUNT + field) * kBlocksPerLayer + uint((x & 15) + 16 * (y & 15))];
+}
+
+int blockInColumn(int z) {
+    uint layer = uint(clamp(z, 0, 255));
+    uint word = blocks[((slot * BLOCK_PASS_COUNT + SOURCE_BLOCKS) * kBlocksPerLayer + column) * kWordsPerColumn + layer / 2u];
+    return int((layer & 1u) == 0u ? word & 0xFFFFu : word >> 16);
+}
+
+int blockHere(int z) {
+    return blockInColumn(z);
+}
+
+void writeBlock(int z, uint block) {
+    if ((z & 1) == 0) {
+        evenLayerBlock = block;
+        return;
+    }
+    uint word = evenLayerBlock | block << 16;
+    uint place = column * kWordsPerColumn + uint(z) / 2u;
+#if TARGET_BLOCKS < 0
+    resultBlocks[gl_WorkGroupID.x * kBlocksPerLayer * kWordsPerColumn + place] = word;
+#else
+    blocks[(slot * BLOCK_PASS_COUNT + TARGET_BLOCKS) * kBlocksPerLayer * kWordsPerColumn + place] = word;
+#endif
+}

@@ -1,0 +1,30 @@
+// What the host and the generation shaders agree on.
+#ifndef TERRANE_SHARED_GENERATION_H
+#define TERRANE_SHARED_GENERATION_H
+
+#include "terrane/shared/language.h"
+
+SHARED_BEGIN
+
+// Storage buffers of a generator pass
+const uint kTileJobsBinding = 0u;
+const uint kFieldsBinding = 1u;
+const uint kBlocksBinding = 2u;
+const uint kResultBinding = 3u;
+const uint kNoiseSeedsBinding = 4u;
+const uint kRandomSeedsBinding = 5u;
+
+// One chunk of a dispatch. A slot holds a chunk's fields and blocks on the GPU.
+struct TileJob {
+    ivec4 origin;         // x, y: block coordinates of the first column; z: the chunk's slot
+    uvec4 neighbours[3];  // slots of the 3×3 chunks around, by y then x; the last three are unused
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+namespace terrane::shared {
+static_assert(sizeof(TileJob) == 64);
+}
+#endif
+#endif
