@@ -24,9 +24,9 @@ int main(int argc, char** argv) {
     CLI::App app("Terrane: large voxel worlds. Without a command it plays.", "terrane");
     app.set_version_flag("--version", TERRANE_VERSION);
     app.require_subcommand(0, 1);
-    const std::vector<app::CommandEntry> commands = {app::addPlay(app),     app::addRender(app),
-                                                     app::addGenerate(app), app::addDump(app),
-                                                     app::addBlocks(app),   app::addInfo(app)};
+    const std::vector<app::CommandEntry> commands = {
+        app::addPlay(app), app::addRender(app), app::addGenerate(app), app::addMap(app),
+        app::addDump(app), app::addBlocks(app), app::addInfo(app)};
     std::vector<const char*> arguments(argv, argv + argc);
     const bool hasCommand = argc > 1 && argv[1][0] != '-';
     const bool asksForHelp =

@@ -18,6 +18,7 @@ struct CommandEntry {
 CommandEntry addPlay(CLI::App& app);
 CommandEntry addRender(CLI::App& app);
 CommandEntry addGenerate(CLI::App& app);
+CommandEntry addMap(CLI::App& app);
 CommandEntry addDump(CLI::App& app);
 CommandEntry addBlocks(CLI::App& app);
 CommandEntry addInfo(CLI::App& app);

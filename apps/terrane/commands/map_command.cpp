@@ -1,0 +1,63 @@
+// terrane map: an area from above, from the generator alone.
+#include <memory>
+
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/content.h"
+#include "apps/terrane/map_image.h"
+#include "apps/terrane/progress_bar.h"
+#include "apps/terrane/world_session.h"
+#include "terrane/base/log.h"
+
+namespace terrane::app {
+namespace {
+
+struct MapOptions {
+    WorldOptions world;
+    std::optional<int> radius;
+    std::optional<Area> area;
+    std::string output;
+};
+
+// 16,384² pixels: a picture of 1 GiB in memory.
+constexpr std::int64_t kMaxChunks = 1024 * 1024;
+
+base::Result<void> writeMap(const MapOptions& options) {
+    if (!options.area && !options.radius) return base::fail("map needs --radius or --area");
+    const int r = options.radius.value_or(0);
+    const Area area = options.area.value_or(Area{-r, -r, r + 1, r + 1});
+    if (area.chunkCount() > kMaxChunks) {
+        return base::fail("--area: {} chunks, a map shows at most {}", area.chunkCount(), kMaxChunks);
+    }
+    auto blocks = loadBlocks();
+    if (!blocks) return tl::unexpected(blocks.error());
+    auto generator = makeGenerator(options.world, *blocks);
+    if (!generator) return tl::unexpected(generator.error());
+    base::JobSystem jobs(threadCount(options.world));
+    base::Result<base::Image> image;
+    {
+        ProgressBar bar("mapping", static_cast<std::size_t>(area.y1 - area.y0));
+        image = drawMap(*generator, *blocks, builtInTextures(), area, jobs,
+                        [&](std::size_t rows) { bar.set(rows); });
+    }
+    if (!image) return tl::unexpected(image.error());
+    if (auto written = base::writePng(options.output, *image); !written) return written;
+    base::logInfo("{}: {} chunks, {}x{} blocks", options.output, area.chunkCount(), image->width,
+                  image->height);
+    return {};
+}
+
+}  // namespace
+
+CommandEntry addMap(CLI::App& app) {
+    auto options = std::make_shared<MapOptions>();
+    CLI::App* command = app.add_subcommand("map", "Draw a map of an area from above into a PNG file");
+    auto* radius = command->add_option("--radius", options->radius, "Chunks around 0,0: (2R+1)² of them")
+                       ->check(CLI::Range(0, 511));
+    addAreaOption(*command, options->area);
+    command->get_option("--area")->excludes(radius);
+    command->add_option("-o,--output", options->output, "The PNG file")->required();
+    addWorldOptions(*command, options->world);
+    return {command, [options] { return writeMap(*options); }};
+}
+
+}  // namespace terrane::app

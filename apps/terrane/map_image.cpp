@@ -1,0 +1,127 @@
+#include "apps/terrane/map_image.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include "terrane/world/coords.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr float kReliefPerBlock = 0.07f;  // brightness a block of difference to the column in the north-west
+constexpr float kWaterFade = 14.0f;       // blocks of water after which the ground is hardly seen
+
+using Palette = std::vector<glm::vec3>;  // by block id: mean colour of the top face, 0…255
+
+// What a map shows of a column.
+struct Column {
+    world::BlockId ground = world::kAir;
+    std::uint8_t height = 0;      // of the ground
+    std::uint8_t waterDepth = 0;  // blocks of liquid above it
+    world::BlockId liquid = world::kAir;
+};
+
+glm::vec3 meanColor(const base::Image& image) {
+    glm::vec3 sum(0.0f);
+    float weight = 0.0f;
+    for (std::size_t k = 0; k + 3 < image.rgba.size(); k += 4) {
+        if (image.rgba[k + 3] == 0) continue;
+        sum += glm::vec3(image.rgba[k], image.rgba[k + 1], image.rgba[k + 2]);
+        weight += 1.0f;
+    }
+    return weight > 0.0f ? sum / weight : sum;
+}
+
+// Glow maps use alpha for light: there a hole in the coverage is none.
+base::Result<Palette> makePalette(const world::BlockRegistry& blocks, const render::TextureSource& textures) {
+    Palette palette;
+    for (const world::BlockType& type : blocks.types()) {
+        if (type.shape == world::Shape::None) {
+            palette.emplace_back(0.0f);
+            continue;
+        }
+        const world::Material& material = blocks.materials()[type.material[world::kFacePosZ]];
+        auto image = textures(blocks.textures()[material.texture]);
+        if (!image) return tl::unexpected(image.error());
+        if (material.alpha == world::AlphaMode::Glow) {
+            for (std::size_t k = 3; k < image->rgba.size(); k += 4) image->rgba[k] = 255;
+        }
+        palette.push_back(meanColor(*image));
+    }
+    return palette;
+}
+
+// Plants are too small for a map: the ground under them is shown.
+Column lookDown(const world::Chunk& chunk, const world::BlockRegistry& blocks, int x, int y) {
+    Column column;
+    for (int z = world::kChunkHeight; z-- > 0;) {
+        const world::BlockId id = chunk.block(world::blockIndex(x, y, z));
+        const world::Shape shape = blocks.type(id).shape;
+        if (shape == world::Shape::None || shape == world::Shape::Cross || shape == world::Shape::Hash)
+            continue;
+        if (shape == world::Shape::Liquid) {
+            column.liquid = id;
+            ++column.waterDepth;
+            continue;
+        }
+        column.ground = id;
+        column.height = static_cast<std::uint8_t>(z);
+        break;
+    }
+    return column;
+}
+
+glm::vec3 shade(const Column& column, const Column& northWest, const Palette& palette) {
+    const float rise = static_cast<float>(column.height) - static_cast<float>(northWest.height);
+    const float light = std::clamp(0.95f - std::clamp(-rise, -3.0f, 3.0f) * kReliefPerBlock, 0.6f, 1.25f);
+    const glm::vec3 ground = palette[column.ground] * light;
+    if (column.waterDepth == 0) return ground;
+    const float depth = static_cast<float>(column.waterDepth);
+    const glm::vec3 water = palette[column.liquid] * (0.6f + 0.4f * std::exp(-depth / kWaterFade));
+    return glm::mix(water, ground, 0.5f * std::exp(-depth / (0.4f * kWaterFade)));
+}
+
+}  // namespace
+
+base::Result<base::Image> drawMap(const gen::Generator& generator, const world::BlockRegistry& blocks,
+                                  const render::TextureSource& textures, const Area& area,
+                                  base::JobSystem& jobs, const std::function<void(std::size_t)>& onRow) {
+    auto palette = makePalette(blocks, textures);
+    if (!palette) return tl::unexpected(palette.error());
+    const auto chunksX = static_cast<std::size_t>(area.x1 - area.x0);
+    const auto chunksY = static_cast<std::size_t>(area.y1 - area.y0);
+    const std::size_t width = chunksX * world::kChunkSize, height = chunksY * world::kChunkSize;
+    std::vector<Column> columns(width * height);
+    for (std::size_t cy = 0; cy < chunksY; ++cy) {
+        auto done = base::parallelFor(jobs, chunksX, [&](std::size_t cx) {
+            const world::Chunk chunk = generator.generate(
+                {area.x0 + static_cast<std::int32_t>(cx), area.y0 + static_cast<std::int32_t>(cy)});
+            for (int k = 0; k < world::kChunkSize * world::kChunkSize; ++k) {
+                const std::size_t x = cx * world::kChunkSize + static_cast<std::size_t>(k & 15);
+                const std::size_t y = cy * world::kChunkSize + static_cast<std::size_t>(k >> 4);
+                columns[y * width + x] = lookDown(chunk, blocks, k & 15, k >> 4);
+            }
+        });
+        if (!done) return tl::unexpected(done.error());
+        onRow(cy + 1);
+    }
+    base::Image image{static_cast<int>(width), static_cast<int>(height), {}};
+    image.rgba.reserve(columns.size() * 4);
+    for (std::size_t row = 0; row < height; ++row) {
+        const std::size_t y = height - 1 - row;
+        for (std::size_t x = 0; x < width; ++x) {
+            const Column& northWest = columns[std::min(y + 1, height - 1) * width + (x > 0 ? x - 1 : 0)];
+            const glm::vec3 color = shade(columns[y * width + x], northWest, *palette);
+            for (int c = 0; c < 3; ++c) {
+                image.rgba.push_back(static_cast<std::uint8_t>(std::clamp(color[c], 0.0f, 255.0f)));
+            }
+            image.rgba.push_back(255);
+        }
+    }
+    return image;
+}
+
+}  // namespace terrane::app
