@@ -4,12 +4,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/terrane/batch_generator.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
 #include "apps/terrane/progress_bar.h"
 #include "apps/terrane/world_session.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/log.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/gen/glsl_emitter.h"
 
 namespace terrane::app {
 namespace {
@@ -20,10 +23,12 @@ struct GenerateOptions {
     std::optional<Area> area;
     bool digest = false;
     bool json = false;
+    bool explain = false;
+    Backend backend = Backend::Auto;
 };
 
-// Chunks generated at once: enough for all workers, 64 × about 10 KiB.
-constexpr std::int64_t kBatch = 64;
+// Chunks generated at once: enough for all workers or three batches of the GPU, 192 × about 10 KiB.
+constexpr std::int64_t kBatch = 192;
 
 void addToDigest(base::Digest& digest, const world::Chunk& chunk) {
     std::array<world::Section::Value, world::kBlocksPerSection> values;
@@ -33,60 +38,71 @@ void addToDigest(base::Digest& digest, const world::Chunk& chunk) {
     }
 }
 
-// `helpers`: null for one thread. The digest takes chunks by y, then x; blocks by z, y, x, as 16-bit
-// little-endian ids.
-base::Result<std::string> generateArea(const gen::Generator& generator, const Area& area,
-                                       base::JobSystem* helpers, bool wantsDigest) {
+// The digest takes chunks by y, then x; blocks by z, y, x, as 16-bit little-endian ids.
+base::Result<std::string> generateArea(BatchGenerator& generator, const Area& area, bool wantsDigest) {
     base::Digest digest;
     ProgressBar bar("generating", static_cast<std::size_t>(area.chunkCount()));
     const std::int64_t width = std::int64_t{area.x1} - area.x0;
     std::vector<world::Chunk> chunks(kBatch);
+    std::vector<world::ChunkPos> positions;
     for (std::int64_t first = 0; first < area.chunkCount(); first += kBatch) {
-        const auto count = static_cast<std::size_t>(std::min(kBatch, area.chunkCount() - first));
-        const auto generateOne = [&](std::size_t k) {
-            const std::int64_t n = first + static_cast<std::int64_t>(k);
-            chunks[k] = generator.generate({static_cast<std::int32_t>(area.x0 + n % width),
-                                            static_cast<std::int32_t>(area.y0 + n / width)});
-        };
-        if (helpers) {
-            auto done = base::parallelFor(*helpers, count, generateOne);
-            if (!done) return tl::unexpected(done.error());
-        } else {
-            for (std::size_t k = 0; k < count; ++k) generateOne(k);
+        positions.clear();
+        for (std::int64_t n = first; n < std::min(first + kBatch, area.chunkCount()); ++n) {
+            positions.push_back({static_cast<std::int32_t>(area.x0 + n % width),
+                                 static_cast<std::int32_t>(area.y0 + n / width)});
         }
-        for (std::size_t k = 0; wantsDigest && k < count; ++k) addToDigest(digest, chunks[k]);
-        bar.set(static_cast<std::size_t>(first) + count);
+        auto done = generator.generate(positions, chunks);
+        if (!done) return tl::unexpected(done.error());
+        for (std::size_t k = 0; wantsDigest && k < positions.size(); ++k) addToDigest(digest, chunks[k]);
+        bar.set(static_cast<std::size_t>(first) + positions.size());
     }
     return digest.hex();
 }
 
+// The passes, what they read and write, and their GLSL.
+base::Result<void> explain(const WorldOptions& options, const world::BlockRegistry& blocks) {
+    auto graph = gen::makeGenerator(options.generator, blocks);
+    if (!graph) return tl::unexpected(graph.error());
+    for (std::size_t k = 0; k < graph->passes.size(); ++k) {
+        const gen::PassGraph& pass = graph->passes[k];
+        fmt::print("// pass {}: {}, {}, {} nodes\n", k, pass.name, pass.is3D ? "3D" : "2D",
+                   pass.graph.size());
+        for (const gen::FieldOutput& f : pass.fields)
+            fmt::print("// writes field {}\n", graph->fields[f.field].name);
+        for (const std::uint32_t f : pass.readsAt)
+            fmt::print("// reads around field {}\n", graph->fields[f].name);
+        fmt::print("{}\n", gen::emitGlsl(*graph, k));
+    }
+    return {};
+}
+
 base::Result<void> generate(const GenerateOptions& options) {
-    if (!options.area && !options.radius) return base::fail("generate needs --radius or --area");
+    if (!options.area && !options.radius && !options.explain) {
+        return base::fail("generate needs --radius, --area or --explain");
+    }
     const int r = options.radius.value_or(0);
     const Area area = options.area.value_or(Area{-r, -r, r + 1, r + 1});
     auto blocks = loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
-    auto generator = makeGenerator(options.world, *blocks);
+    if (options.explain) return explain(options.world, *blocks);
+    auto generator = makeBatchGenerator(options.world, options.backend, *blocks);
     if (!generator) return tl::unexpected(generator.error());
 
-    // The calling thread works too, so one worker less.
-    const unsigned threads = threadCount(options.world);
-    std::optional<base::JobSystem> helpers;
-    if (threads > 1) helpers.emplace(threads - 1);
     const auto start = std::chrono::steady_clock::now();
-    auto digest = generateArea(*generator, area, helpers ? &*helpers : nullptr, options.digest);
+    auto digest = generateArea(**generator, area, options.digest);
     if (!digest) return tl::unexpected(digest.error());
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const double speed = static_cast<double>(area.chunkCount()) / seconds;
 
-    base::logInfo("{} chunks in {:.2f} s, {:.0f} chunks/s, threads: {}", area.chunkCount(), seconds, speed,
-                  threads);
+    const unsigned threads = threadCount(options.world);
+    base::logInfo("{} chunks in {:.2f} s, {:.0f} chunks/s, back end {}, threads {}", area.chunkCount(),
+                  seconds, speed, (*generator)->backend(), threads);
     if (options.json) {
         nlohmann::json result = {{"chunks", area.chunkCount()},
                                  {"seconds", seconds},
                                  {"chunks_per_second", speed},
                                  {"threads", threads},
-                                 {"backend", "cpu"}};
+                                 {"backend", (*generator)->backend()}};
         if (options.digest) result["digest"] = *digest;
         std::cout << result.dump() << '\n';
     } else if (options.digest) {
@@ -106,6 +122,8 @@ CommandEntry addGenerate(CLI::App& app) {
     command->get_option("--area")->excludes(radius);
     command->add_flag("--digest", options->digest, "Print one hash over all blocks");
     command->add_flag("--json", options->json, "Print the result as JSON");
+    command->add_flag("--explain", options->explain, "Print the generator's passes and their GLSL instead");
+    addBackendOption(*command, options->backend);
     addWorldOptions(*command, options->world);
     return {command, [options] { return generate(*options); }};
 }
