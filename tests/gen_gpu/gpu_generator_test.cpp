@@ -3,27 +3,15 @@
 #include <algorithm>
 #include <string>
 
-#include "terrane/base/embedded.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "tests/gpu/gl_fixture.h"
-
-namespace terrane::embedded {
-std::span<const base::EmbeddedFile> content();
-std::span<const base::EmbeddedFile> shaders();
-}  // namespace terrane::embedded
+#include "tests/render/content.h"
 
 namespace terrane::gen_gpu {
 namespace {
 
 using world::ChunkPos;
-
-world::BlockRegistry loadBlocks() {
-    for (const base::EmbeddedFile& file : embedded::content()) {
-        if (file.path == "blocks.toml") return *world::BlockRegistry::parse(file.data, file.path);
-    }
-    return {};
-}
 
 // The first block in which two chunks differ, or nothing.
 std::string difference(const world::Chunk& a, const world::Chunk& b) {
@@ -42,12 +30,10 @@ class GpuGeneratorTest : public gpu::GlTest {
     // Generates all chunks on both back ends, the GPU in batches of `batch`, and compares them block by
     // block.
     void compare(const std::string& name, const std::vector<ChunkPos>& chunks, std::size_t batch) {
-        const world::BlockRegistry blocks = loadBlocks();
-        const auto graph = gen::makeGenerator(name, blocks);
+        const auto graph = gen::makeGenerator(name, contentBlocks());
         ASSERT_TRUE(graph) << graph.error().message;
         const gen::Generator cpu(*graph, kSeed);
-        const gpu::ShaderLoader shaders(embedded::shaders());
-        auto onGpu = GpuGenerator::create(shaders, *graph, kSeed);
+        auto onGpu = GpuGenerator::create(render::contentShaders(), *graph, kSeed);
         ASSERT_TRUE(onGpu) << onGpu.error().message;
         std::size_t compared = 0;
         while (compared < chunks.size()) {

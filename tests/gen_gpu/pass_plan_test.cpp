@@ -1,0 +1,59 @@
+#include "terrane/gen_gpu/pass_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "terrane/gen/generators/catalogue.h"
+
+namespace terrane::gen_gpu {
+namespace {
+
+using gen::Float;
+using gen::Pass;
+using world::ChunkPos;
+
+// Two fields, each made from the one before and its neighbours, then blocks from the last field's neighbours.
+gen::GeneratorGraph chainOfReads() {
+    static const world::BlockRegistry blocks;
+    gen::GeneratorBuilder g("chain", blocks);
+    const auto first = g.field<Float>("first"), second = g.field<Float>("second");
+    g.pass2D("first", [&](Pass& p) { p.set(first, Float(p.x())); });
+    g.pass2D("second", [&](Pass& p) { p.set(second, p.readAt(first, {1, 0})); });
+    g.pass3D("blocks", [&](Pass& p) {
+        p.setBlock(select(p.readAt(second, {0, 1}) < Float(p.z()), p.block("air"), gen::Block(1)));
+    });
+    return *g.finish();
+}
+
+TEST(PassPlan, ReadsWidenTheAreaRingByRing) {
+    const PassCounts counts = neededPasses(chainOfReads(), {{0, 0}});
+    EXPECT_EQ(counts.size(), 25u);
+    EXPECT_EQ(counts.at({0, 0}), 3);
+    EXPECT_EQ(counts.at({1, -1}), 2) << "the blocks read the second field around";
+    EXPECT_EQ(counts.at({2, 2}), 1) << "which reads the first one around";
+}
+
+TEST(PassPlan, NeighboursShareTheirRings) {
+    EXPECT_EQ(neededPasses(chainOfReads(), {{0, 0}, {1, 0}}).size(), 30u);
+}
+
+TEST(PassPlan, WithoutReadsNothingButTheChunkIsNeeded) {
+    static const world::BlockRegistry blocks;
+    gen::GeneratorBuilder g("plain", blocks);
+    g.pass3D("blocks", [&](Pass& p) { p.setBlock(gen::Block(1)); });
+    const PassCounts counts = neededPasses(*g.finish(), {{5, 5}});
+    EXPECT_EQ(counts.size(), 1u);
+    EXPECT_EQ(counts.at({5, 5}), 1);
+}
+
+TEST(PassPlan, AroundTheEdgeCoordinatesWrap) {
+    const auto around = chunksAround({world::kMaxChunk, world::kMinChunk});
+    EXPECT_EQ(around[4], (ChunkPos{world::kMaxChunk, world::kMinChunk}));
+    EXPECT_EQ(around[5], (ChunkPos{world::kMinChunk, world::kMinChunk}));
+    EXPECT_EQ(around[1], (ChunkPos{world::kMaxChunk, world::kMaxChunk}));
+    EXPECT_EQ(std::set(around.begin(), around.end()).size(), 9u);
+}
+
+}  // namespace
+}  // namespace terrane::gen_gpu
