@@ -115,6 +115,13 @@ inline void expectChunk(const Generator& generator, ChunkPos pos, const Expected
 
 constexpr std::uint64_t kTestSeed = 42;
 
+// Builds with assertions run without optimisation, mostly under sanitizers, and take fifty times as long.
+#ifdef NDEBUG
+constexpr std::uint32_t kRandomCases = 200;
+#else
+constexpr std::uint32_t kRandomCases = 30;
+#endif
+
 inline void expectBlocks(const Write& write, const ExpectedBlock& expected) {
     const Generator generator(build(write), kTestSeed);
     for (const ChunkPos pos : kPlaces) {

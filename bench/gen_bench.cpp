@@ -1,0 +1,245 @@
+// Generation on one thread. The label is a digest of what was made: it changes where the result does.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/base/digest.h"
+#include "terrane/base/embedded.h"
+#include "terrane/gen/executor.h"
+#include "terrane/gen/generator.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/gen/program.h"
+
+namespace terrane::embedded {
+std::span<const base::EmbeddedFile> content();
+}  // namespace terrane::embedded
+
+namespace {
+
+using namespace terrane;
+using gen::BlockArray;
+using gen::ColumnValues;
+using world::ChunkPos;
+
+constexpr std::uint64_t kSeed = 1;
+
+template <class T>
+T orExit(base::Result<T> result) {
+    if (result) return std::move(*result);
+    std::fprintf(stderr, "%s\n", result.error().message.c_str());
+    std::exit(1);
+}
+
+const world::BlockRegistry& blocks() {
+    static const world::BlockRegistry registry = [] {
+        std::string_view text;
+        for (const base::EmbeddedFile& file : embedded::content()) {
+            if (file.path == "blocks.toml") text = file.data;
+        }
+        return orExit(world::BlockRegistry::parse(text, "blocks.toml"));
+    }();
+    return registry;
+}
+
+gen::GeneratorGraph graphOf(std::string_view name) {
+    return orExit(gen::makeGenerator(name, blocks()));
+}
+
+std::string digestOf(const std::vector<world::Chunk>& chunks) {
+    base::Digest digest;
+    std::vector<world::Section::Value> values(world::kBlocksPerSection);
+    for (const world::Chunk& chunk : chunks) {
+        for (int s = 0; s < world::kSectionsPerChunk; ++s) {
+            chunk.section(s).unpack(std::span(values).first<world::kBlocksPerSection>());
+            digest.update(std::as_bytes(std::span(values)));
+        }
+    }
+    return digest.hex();
+}
+
+// One iteration makes 32×32 chunks in the order of rows, with what a new generator does not know yet.
+void generateArea(benchmark::State& state, std::string_view name) {
+    constexpr int kSide = 32;
+    std::vector<world::Chunk> chunks;
+    for (auto _ : state) {
+        state.PauseTiming();
+        const gen::Generator generator(graphOf(name), kSeed);
+        chunks.clear();
+        state.ResumeTiming();
+        for (int k = 0; k < kSide * kSide; ++k) chunks.push_back(generator.generate({k % kSide, k / kSide}));
+    }
+    state.counters["chunks_per_second"] =
+        benchmark::Counter(kSide * kSide, benchmark::Counter::kIsIterationInvariantRate);
+    state.SetLabel(digestOf(chunks));
+}
+
+BENCHMARK_CAPTURE(generateArea, overworld, "overworld")->Unit(benchmark::kMillisecond)->MinTime(3);
+BENCHMARK_CAPTURE(generateArea, flat, "flat")->Unit(benchmark::kMillisecond);
+
+// All passes of a generator over a square of chunks, pass after pass, with everything kept. At the edge of
+// the square the chunk itself stands for neighbours that are missing.
+class PassArea {
+  public:
+    static constexpr int kSide = 10;
+    static constexpr int kChunks = kSide * kSide;
+
+    explicit PassArea(gen::GeneratorGraph g) : graph(std::move(g)), columns_(kChunks), solid_(kChunks) {
+        seeds_.noises.resize(graph.noises.size());
+        seeds_.randoms.resize(graph.randomNames.size());
+        for (std::size_t k = 0; k < seeds_.noises.size(); ++k) seeds_.noises[k] = seedOf(k);
+        for (std::size_t k = 0; k < seeds_.randoms.size(); ++k) seeds_.randoms[k] = seedOf(k + 1000);
+        executor_ = std::make_unique<gen::Executor>(graph.noises, seeds_);
+        for (const gen::PassGraph& pass : graph.passes) programs_.push_back(compile(pass, graph.noises));
+        for (int n = 0; n < kChunks; ++n) {
+            at(columns_, n).resize(graph.fields.size());
+            at(solid_, n).resize(graph.passes.size());
+        }
+        for (std::size_t pass = 0; pass < graph.passes.size(); ++pass) {
+            for (int n = 0; n < kChunks; ++n) run(pass, n);
+        }
+    }
+
+    // Makes the results of a pass for chunk n (again).
+    void run(std::size_t pass, int n) {
+        const gen::Program& program = programs_[pass];
+        const gen::PassInputs inputs = inputsOf(pass, n);
+        if (program.is3D) {
+            auto& result = at(solid_, n)[pass];
+            if (!result) result = std::make_unique<BlockArray>();
+            return executor_->run3D(program, inputs, *result);
+        }
+        std::vector<ColumnValues*> results;
+        for (const auto& f : program.fields) results.push_back(&at(columns_, n)[f.field]);
+        executor_->run2D(program, inputs, results);
+    }
+
+    std::string digest(std::size_t pass) {
+        base::Digest digest;
+        for (int n = 0; n < kChunks; ++n) {
+            if (programs_[pass].is3D) digest.update(std::as_bytes(std::span(*at(solid_, n)[pass])));
+            for (const auto& f : programs_[pass].fields) {
+                digest.update(std::as_bytes(std::span(at(columns_, n)[f.field])));
+            }
+        }
+        return digest.hex();
+    }
+
+    gen::GeneratorGraph graph;
+
+  private:
+    static std::uint32_t seedOf(std::size_t k) { return static_cast<std::uint32_t>(k) * 0x9E3779B9u + 7; }
+
+    template <class T>
+    static T& at(std::vector<T>& values, int n) {
+        return values[static_cast<std::size_t>(n)];
+    }
+
+    gen::PassInputs inputsOf(std::size_t pass, int n) {
+        gen::PassInputs inputs;
+        const int x = n % kSide, y = n / kSide;
+        inputs.chunk = {x, y};
+        inputs.fields.resize(graph.fields.size());
+        for (int k = 0; k < 9; ++k) {
+            const int nx = std::clamp(x + k % 3 - 1, 0, kSide - 1),
+                      ny = std::clamp(y + k / 3 - 1, 0, kSide - 1);
+            auto& values = at(columns_, ny * kSide + nx);
+            for (std::size_t f = 0; f < values.size(); ++f) {
+                inputs.fields[f][static_cast<std::size_t>(k)] = &values[f];
+            }
+        }
+        for (std::size_t earlier = 0; earlier < pass; ++earlier) {
+            if (programs_[earlier].is3D) inputs.blocks = at(solid_, n)[earlier].get();
+        }
+        return inputs;
+    }
+
+    gen::Seeds seeds_;
+    std::vector<gen::Program> programs_;
+    std::unique_ptr<gen::Executor> executor_;
+    std::vector<std::vector<ColumnValues>> columns_;               // by chunk, by field
+    std::vector<std::vector<std::unique_ptr<BlockArray>>> solid_;  // by chunk, by pass
+};
+
+// One iteration is one chunk's pass.
+void runPass(benchmark::State& state, PassArea& area, std::size_t pass, int samples) {
+    int n = 0;
+    for (auto _ : state) {
+        area.run(pass, n);
+        n = (n + 1) % PassArea::kChunks;
+    }
+    if (samples > 0) {
+        state.counters["time/sample"] = benchmark::Counter(
+            samples, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    }
+    state.SetLabel(area.digest(pass));
+}
+
+void registerPass(const std::string& name, std::shared_ptr<PassArea> area, std::size_t pass, int samples) {
+    benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+        runPass(state, *area, pass, samples);
+    })->Unit(benchmark::kMicrosecond);
+}
+
+void registerOverworldPasses() {
+    const auto area = std::make_shared<PassArea>(graphOf("overworld"));
+    for (std::size_t pass = 0; pass < area->graph.passes.size(); ++pass) {
+        registerPass("overworldPass/" + area->graph.passes[pass].name, area, pass, 0);
+    }
+}
+
+using NoiseOf = std::function<gen::Float(gen::Pass&)>;
+
+// A 2D pass that keeps the noise: its time is that of a tile of 256 samples and what they share.
+void registerNoise2D(const std::string& name, const NoiseOf& noise) {
+    gen::GeneratorBuilder g("noise", blocks());
+    const auto field = g.field<gen::Float>("noise");
+    g.pass2D("noise", [&](gen::Pass& p) { p.set(field, noise(p)); });
+    g.pass3D("last", [](gen::Pass&) {});
+    registerPass(name, std::make_shared<PassArea>(orExit(g.finish())), 0, gen::kTileLanes);
+}
+
+// A 3D pass that compares the noise: the comparison and the block's store are in the time.
+void registerNoise3D(const std::string& name, const NoiseOf& noise) {
+    gen::GeneratorBuilder g("noise", blocks());
+    g.pass3D("noise",
+             [&](gen::Pass& p) { p.setBlock(select(noise(p) > 0.2f, p.block("stone"), p.block("air"))); });
+    registerPass(name, std::make_shared<PassArea>(orExit(g.finish())), 0, world::kBlocksPerChunk);
+}
+
+void registerNoises() {
+    const std::vector<float> one = {1.0f}, four = {0.1f, 0.2f, 0.4f, 0.8f};
+    for (const int size : {8, 32}) {
+        for (const auto& weights : {one, four}) {
+            const std::string suffix =
+                "/size:" + std::to_string(size) + "/octaves:" + std::to_string(weights.size());
+            registerNoise2D("perlin2D" + suffix,
+                            [&](gen::Pass& p) { return p.perlin2D("noise", size, weights); });
+            registerNoise3D("perlin3D" + suffix,
+                            [&](gen::Pass& p) { return p.perlin3D("noise", size, weights); });
+        }
+    }
+    for (const int size : {10, 64, 512}) {
+        registerNoise2D("voronoi2D/size:" + std::to_string(size),
+                        [&](gen::Pass& p) { return p.voronoi2D("noise", size, 2).distance; });
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+    registerOverworldPasses();
+    registerNoises();
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

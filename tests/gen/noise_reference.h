@@ -1,0 +1,154 @@
+// Noise as terrane/gen/noise.h describes it, one sample at a time and with nothing shared between samples.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+
+#include "terrane/gen/det_math.h"
+#include "terrane/gen/noise.h"
+#include "terrane/shared/hash.h"
+
+namespace terrane::gen::reference {
+
+constexpr std::int64_t floorDivide(std::int64_t a, std::int64_t b) {
+    return (a - ((a % b) + b) % b) / b;
+}
+
+// Node and cell coordinates are hashed modulo 2^32.
+constexpr std::uint32_t hashed(std::int64_t v) {
+    return static_cast<std::uint32_t>(v);
+}
+
+inline std::array<float, 2> gradient2(std::int64_t x, std::int64_t y, std::uint32_t seed) {
+    const double k = shared::hash2(hashed(x), hashed(y), seed) >> 28;
+    const double angle = (k + 0.5) * std::numbers::pi / 8;
+    return {static_cast<float>(std::numbers::sqrt2 * std::cos(angle)),
+            static_cast<float>(std::numbers::sqrt2 * std::sin(angle))};
+}
+
+inline std::array<float, 3> gradient3(std::array<std::int64_t, 3> node, std::uint32_t seed) {
+    const std::uint32_t h = shared::hash3(hashed(node[0]), hashed(node[1]), hashed(node[2]), seed);
+    const std::uint32_t k = ((h >> 16) * 12) >> 16;
+    // Four sign pairs, the first sign changing fastest, in the planes xy, xz and yz.
+    const float first = k % 2 == 0 ? 1.0f : -1.0f, second = k / 2 % 2 == 0 ? 1.0f : -1.0f;
+    if (k < 4) return {first, second, 0};
+    if (k < 8) return {first, 0, second};
+    return {0, first, second};
+}
+
+constexpr float fade(float f) {
+    return ((f * f) * f) * (f * (6.0f * f - 15.0f) + 10.0f);
+}
+
+constexpr float lerp(float a, float b, float t) {
+    return a + t * (b - a);
+}
+
+// Position on one axis of a lattice.
+struct Axis {
+    Axis(std::int64_t v, std::int64_t size)
+        : node(floorDivide(v, size)),
+          f(static_cast<float>(v - node * size) * (1.0f / static_cast<float>(size))),
+          t(fade(f)) {}
+    std::int64_t node;
+    float f, t;
+};
+
+constexpr std::uint32_t octaveSeed(std::uint32_t seed, std::size_t octave) {
+    return seed + 0x9E3779B9u * static_cast<std::uint32_t>(octave);
+}
+
+inline float octave2D(std::int64_t size, std::uint32_t seed, std::int64_t xBlock, std::int64_t yBlock) {
+    const Axis x(xBlock, size), y(yBlock, size);
+    // The value at a node row, whose y offset is f.
+    const auto rowValue = [&](std::int64_t node, float f) {
+        const auto left = gradient2(x.node, node, seed), right = gradient2(x.node + 1, node, seed);
+        const float one = lerp(left[0] * x.f, right[0] * (x.f - 1.0f), x.t);
+        return one + lerp(left[1], right[1], x.t) * f;
+    };
+    return lerp(rowValue(y.node, y.f), rowValue(y.node + 1, y.f - 1.0f), y.t);
+}
+
+inline float octave3D(std::int64_t size, std::uint32_t seed, std::array<std::int64_t, 3> block) {
+    const Axis x(block[0], size), y(block[1], size), z(block[2], size);
+    const auto rowValue = [&](std::int64_t yNode, float f) {
+        struct Level {
+            float one, y, z;
+        };
+        const auto level = [&](std::int64_t zNode) -> Level {
+            const auto left = gradient3({x.node, yNode, zNode}, seed);
+            const auto right = gradient3({x.node + 1, yNode, zNode}, seed);
+            return {lerp(left[0] * x.f, right[0] * (x.f - 1.0f), x.t), lerp(left[1], right[1], x.t),
+                    lerp(left[2], right[2], x.t)};
+        };
+        const Level low = level(z.node), high = level(z.node + 1);
+        const float one = lerp(low.one + low.z * z.f, high.one + high.z * (z.f - 1.0f), z.t);
+        return one + lerp(low.y, high.y, z.t) * f;
+    };
+    return lerp(rowValue(y.node, y.f), rowValue(y.node + 1, y.f - 1.0f), y.t);
+}
+
+template <class Octave>
+float sumOfOctaves(const NoiseCall& call, std::uint32_t seed, Octave octave) {
+    float sum = 0;
+    for (std::size_t o = 0; o < call.weights.size(); ++o) {
+        const float term = octave(std::int64_t{call.size} << o, octaveSeed(seed, o)) * call.weights[o];
+        sum = o == 0 ? term : sum + term;
+    }
+    return sum;
+}
+
+inline float perlin2D(const NoiseCall& call, std::uint32_t seed, std::int64_t x, std::int64_t y) {
+    return sumOfOctaves(call, seed,
+                        [&](std::int64_t size, std::uint32_t s) { return octave2D(size, s, x, y); });
+}
+
+inline float perlin3D(const NoiseCall& call, std::uint32_t seed, std::array<std::int64_t, 3> block) {
+    return sumOfOctaves(call, seed,
+                        [&](std::int64_t size, std::uint32_t s) { return octave3D(size, s, block); });
+}
+
+struct VoronoiSample {
+    float distance = 0, ratio = 0;
+    std::int32_t offsetX = 0, offsetY = 0;
+};
+
+// Searches `reach` cells in each direction.
+inline VoronoiSample voronoi2D(const NoiseCall& call, std::uint32_t seed, std::int64_t x, std::int64_t y,
+                               int reach) {
+    std::int64_t best = std::numeric_limits<std::int64_t>::max(), second = best;
+    VoronoiSample sample;
+    const std::int64_t ownX = floorDivide(x, call.size), ownY = floorDivide(y, call.size);
+    for (std::int64_t cellY = ownY - reach; cellY <= ownY + reach; ++cellY) {
+        for (std::int64_t cellX = ownX - reach; cellX <= ownX + reach; ++cellX) {
+            const std::uint32_t h = shared::hash2(hashed(cellX), hashed(cellY), seed);
+            const std::uint32_t count = 1 + (((h >> 16) * static_cast<std::uint32_t>(call.maxPoints)) >> 16);
+            for (std::uint32_t k = 0; k < count; ++k) {
+                const auto inCell = [&](std::uint32_t hash) {
+                    return std::int64_t{hash >> 16} * call.size >> 16;
+                };
+                const std::int64_t px =
+                    cellX * call.size + inCell(shared::mixBits(h + (2 * k + 1) * shared::kHashX));
+                const std::int64_t py =
+                    cellY * call.size + inCell(shared::mixBits(h + (2 * k + 2) * shared::kHashY));
+                const std::int64_t d = (px - x) * (px - x) + (py - y) * (py - y);
+                if (d < best) {
+                    second = best;
+                    best = d;
+                    sample.offsetX = static_cast<std::int32_t>(px - x);
+                    sample.offsetY = static_cast<std::int32_t>(py - y);
+                } else if (d < second) {
+                    second = d;
+                }
+            }
+        }
+    }
+    sample.distance = detSqrt(static_cast<float>(best));
+    sample.ratio = detDivide(sample.distance, detSqrt(static_cast<float>(second > 1 ? second : 1)));
+    return sample;
+}
+
+}  // namespace terrane::gen::reference

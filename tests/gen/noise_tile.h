@@ -1,0 +1,51 @@
+// One noise call over one tile, by the kernels of the chosen instruction set: every bit of every result.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "terrane/gen/kernels.h"
+#include "tests/gen/gen_fixture.h"
+
+namespace terrane::gen {
+
+class NoiseTile {
+  public:
+    NoiseTile(const NoiseCall& call, std::uint32_t seed) : call_(call), seed_(seed) {
+        context_.perlin2D.resize(1);
+        context_.perlin3D.resize(1);
+        context_.voronoi2D.resize(1);
+        context_.noiseKinds = {call.kind};
+        context_.arena = arena_.data();
+        list_.push_back({Op::Noise, {0, 1}, {}, 0});
+    }
+
+    void moveTo(ChunkPos chunk) {
+        const std::int32_t x0 = chunk.x * world::kChunkSize, y0 = chunk.y * world::kChunkSize;
+        if (call_.kind == NoiseKind::Perlin2D) prepare(context_.perlin2D[0], call_, seed_, x0, y0);
+        if (call_.kind == NoiseKind::Perlin3D) prepare(context_.perlin3D[0], call_, seed_, x0, y0);
+        if (call_.kind == NoiseKind::Voronoi2D) prepare(context_.voronoi2D[0], call_, seed_, x0, y0);
+    }
+
+    // Samples the columns (2D) or the layer z (3D).
+    void run(std::int32_t z = 0) {
+        context_.z = z;
+        runInstructions(list_, context_);
+    }
+
+    Bits at(int x, int y, std::uint32_t component = 0) const {
+        return arena_[component * kTileLanes + static_cast<std::size_t>(x + kTileSize * y)];
+    }
+    float floatAt(int x, int y, std::uint32_t component = 0) const { return asFloat(at(x, y, component)); }
+
+    std::size_t pointCount() const { return context_.voronoi2D[0].size(); }
+
+  private:
+    NoiseCall call_;
+    std::uint32_t seed_;
+    alignas(64) std::array<Bits, kVoronoiResultCount * kTileLanes> arena_{};
+    TileContext context_;
+    InstructionList list_;
+};
+
+}  // namespace terrane::gen

@@ -1,0 +1,91 @@
+#include "terrane/gen/pass_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "tests/gen/gen_fixture.h"
+
+namespace terrane::gen {
+namespace {
+
+TEST(PassCache, AWorkHasRoomForEveryFieldAndPass) {
+    PassCache cache(4, 3, 5);
+    const auto work = cache.get({7, -7});
+    EXPECT_EQ(work->fields.size(), 3u);
+    EXPECT_EQ(work->blocks.size(), 5u);
+    for (const auto& blocks : work->blocks) EXPECT_EQ(blocks, nullptr);
+    EXPECT_EQ(work->claimed, 0);
+    EXPECT_EQ(work->passesDone, 0);
+}
+
+TEST(PassCache, TheSameChunkIsTheSameWork) {
+    PassCache cache(4, 1, 1);
+    const auto a = cache.get({1, 2}), b = cache.get({2, 1});
+    EXPECT_NE(a, b);
+    EXPECT_EQ(cache.get({1, 2}), a);
+    EXPECT_EQ(cache.get({2, 1}), b);
+}
+
+TEST(PassCache, TheChunkUsedLongestAgoGoesFirst) {
+    PassCache cache(2, 1, 1);
+    const std::weak_ptr<ChunkWork> a = cache.get({0, 0}), b = cache.get({1, 0});
+    cache.get({0, 0});  // used again: now b is the older one
+    cache.get({2, 0});
+    EXPECT_FALSE(a.expired());
+    EXPECT_TRUE(b.expired());
+}
+
+TEST(PassCache, AWorkThatSomebodyHoldsStaysAlive) {
+    PassCache cache(1, 1, 1);
+    const auto held = cache.get({0, 0});
+    held->passesDone = 1;
+    cache.get({1, 0});
+    EXPECT_EQ(held->passesDone, 1);
+    const auto again = cache.get({0, 0});
+    EXPECT_NE(again, held) << "the cache had let go of it";
+    EXPECT_EQ(again->passesDone, 0);
+}
+
+TEST(PassCache, ACapacityOfNoneStillWorks) {
+    PassCache cache(0, 1, 1);
+    const auto a = cache.get({0, 0});
+    ASSERT_NE(a, nullptr);
+    EXPECT_NE(cache.get({0, 0}), a);
+}
+
+TEST(PassCache, KeepsAsManyAsItsCapacity) {
+    PassCache cache(50, 1, 1);
+    std::vector<std::weak_ptr<ChunkWork>> works;
+    for (std::int32_t k = 0; k < 200; ++k) works.push_back(cache.get({k, -k}));
+    for (std::size_t k = 0; k < works.size(); ++k) EXPECT_EQ(works[k].expired(), k < 150) << k;
+}
+
+// One work a chunk, however many ask at once; nothing is lost while others push it out.
+TEST(PassCache, ManyThreadsAsk) {
+    PassCache large(100, 1, 1), small(3, 1, 1);
+    std::array<std::atomic<ChunkWork*>, 64> first{};
+    std::atomic<int> differing = 0;
+    const auto ask = [&](int thread) {
+        for (int k = 0; k < 2000; ++k) {
+            const int number = (k * 7 + thread * 13) % 64;
+            const ChunkPos pos = {number % 8, number / 8};
+            const auto work = large.get(pos);
+            ChunkWork* expected = nullptr;
+            auto& slot = first[static_cast<std::size_t>(number)];
+            if (!slot.compare_exchange_strong(expected, work.get()) && expected != work.get()) ++differing;
+            small.get(pos)->claimed++;
+        }
+    };
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 6; ++t) threads.emplace_back(ask, t);
+    for (std::thread& t : threads) t.join();
+    EXPECT_EQ(differing, 0);
+}
+
+}  // namespace
+}  // namespace terrane::gen

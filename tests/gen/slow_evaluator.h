@@ -1,0 +1,106 @@
+// The value of a node at a place by plain recursion: a choice looks at its condition and takes one side.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <vector>
+
+#include "tests/gen/noise_reference.h"
+#include "tests/gen/pass_runner.h"
+
+namespace terrane::gen {
+
+class SlowEvaluator {
+  public:
+    SlowEvaluator(const PassRunner& runner, const Graph& graph)
+        : runner_(runner), graph_(graph), values_(graph.size()), known_(graph.size()) {}
+
+    // Values of nodes are for this place from here on. It lies in the runner's chunk.
+    void moveTo(world::BlockPos at) {
+        at_ = at;
+        known_.assign(known_.size(), false);
+    }
+
+    Bits value(NodeId id) {
+        if (!known_[id]) values_[id] = compute(graph_.node(id));
+        known_[id] = true;
+        return values_[id];
+    }
+
+  private:
+    Bits compute(const Node& n) {
+        if (n.op == Op::Phi) return value(asBool(value(n.args[0])) ? n.args[1] : n.args[2]);
+        if (n.op == Op::Component) return noise(graph_.node(n.args[0]).imm, n.imm);
+        std::vector<Bits> args;
+        for (const NodeId arg : n.arguments()) args.push_back(value(arg));
+        const auto evaluate = record(n.op).evaluate;
+        return evaluate ? evaluate(args) : atPlace(n, args);
+    }
+
+    Bits atPlace(const Node& n, const std::vector<Bits>& args) const {
+        switch (n.op) {
+            case Op::Constant:
+                return n.imm;
+            case Op::PosX:
+                return bitsOf(at_.x);
+            case Op::PosY:
+                return bitsOf(at_.y);
+            case Op::PosZ:
+                return bitsOf(at_.z);
+            case Op::Field:
+                return runner_.fields[n.imm][lane()];
+            case Op::FieldAt:
+                return fieldAt(n.imm, asInt(args[0]), asInt(args[1]));
+            case Op::BlockHere:
+                return block(at_.z);
+            case Op::BlockInColumn:
+                return block(asInt(args[0]));
+            case Op::Random2D:
+                return fraction(shared::hash2(args[0], args[1], PassRunner::randomSeed(n.imm)));
+            case Op::Random3D:
+                return fraction(shared::hash3(args[0], args[1], args[2], PassRunner::randomSeed(n.imm)));
+            default:
+                break;
+        }
+        assert(false && "a noise is read through its components");
+        return 0;
+    }
+
+    std::size_t lane() const { return static_cast<std::size_t>((at_.x & 15) + 16 * (at_.y & 15)); }
+
+    static Bits fraction(std::uint32_t hash) { return bitsOf(static_cast<float>(hash >> 8) * 0x1p-24f); }
+
+    Bits block(std::int32_t z) const {
+        const auto layer = static_cast<std::size_t>(std::clamp(z, 0, world::kChunkHeight - 1));
+        return (*runner_.blocks)[layer * kTileLanes + lane()];
+    }
+
+    Bits fieldAt(std::uint32_t field, std::int32_t dx, std::int32_t dy) const {
+        const int x = (at_.x & 15) + 16 + std::clamp(dx, -16, 16);  // from the corner of the nine chunks
+        const int y = (at_.y & 15) + 16 + std::clamp(dy, -16, 16);
+        const auto chunk = static_cast<std::size_t>(y / 16 * 3 + x / 16);
+        return runner_.around[field][chunk][static_cast<std::size_t>(x % 16 + y % 16 * 16)];
+    }
+
+    Bits noise(std::uint32_t number, std::uint32_t component) const {
+        const NoiseCall& call = runner_.graph.noises[number];
+        const std::uint32_t seed = PassRunner::noiseSeed(number);
+        if (call.kind == NoiseKind::Perlin2D) return bitsOf(reference::perlin2D(call, seed, at_.x, at_.y));
+        if (call.kind == NoiseKind::Perlin3D) {
+            return bitsOf(reference::perlin3D(call, seed, {at_.x, at_.y, at_.z}));
+        }
+        const reference::VoronoiSample sample = reference::voronoi2D(call, seed, at_.x, at_.y, 2);
+        const std::array<Bits, 4> results = {bitsOf(sample.distance), bitsOf(sample.ratio),
+                                             bitsOf(sample.offsetX), bitsOf(sample.offsetY)};
+        return results[component];
+    }
+
+    const PassRunner& runner_;
+    const Graph& graph_;
+    world::BlockPos at_;
+    std::vector<Bits> values_;  // by node
+    std::vector<bool> known_;
+};
+
+}  // namespace terrane::gen

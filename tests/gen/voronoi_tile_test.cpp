@@ -1,0 +1,150 @@
+#include "terrane/gen/voronoi_tile.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/gen/noise_reference.h"
+#include "tests/gen/noise_tile.h"
+
+namespace terrane::gen {
+namespace {
+
+constexpr std::uint32_t kSeed = 0xBEEFu;
+
+NoiseCall cells(int size, int maxPoints) {
+    return {NoiseKind::Voronoi2D, "v", size, {}, maxPoints};
+}
+
+std::string describe(const NoiseCall& call) {
+    return "size " + std::to_string(call.size) + ", " + std::to_string(call.maxPoints) + " points";
+}
+
+// 9×9 cells, where the tile looks at 5×5.
+constexpr int kReach = 4;
+
+void expectColumn(const NoiseTile& tile, const NoiseCall& call, ChunkPos chunk, int x, int y) {
+    const std::int64_t blockX = std::int64_t{chunk.x} * 16 + x, blockY = std::int64_t{chunk.y} * 16 + y;
+    const reference::VoronoiSample want = reference::voronoi2D(call, kSeed, blockX, blockY, kReach);
+    SCOPED_TRACE(describe(call) + " at (" + std::to_string(blockX) + ", " + std::to_string(blockY) + ")");
+    ASSERT_EQ(tile.at(x, y, kVoronoiDistance), bitsOf(want.distance));
+    ASSERT_EQ(tile.at(x, y, kVoronoiRatio), bitsOf(want.ratio));
+    ASSERT_EQ(asInt(tile.at(x, y, kVoronoiOffsetX)), want.offsetX);
+    ASSERT_EQ(asInt(tile.at(x, y, kVoronoiOffsetY)), want.offsetY);
+}
+
+TEST(Voronoi2D, EverySampleIsThatOfASearchOfMoreCells) {
+    onEachTarget([] {
+        for (const int size : {1, 2, 3, 10, 56, 512, kMaxVoronoiSize}) {
+            for (int maxPoints = 1; maxPoints <= 4; ++maxPoints) {
+                NoiseTile tile(cells(size, maxPoints), kSeed);
+                for (const ChunkPos chunk : kPlaces) {
+                    tile.moveTo(chunk);
+                    tile.run();
+                    // Steps without a factor in common with 16 meet every row and every column.
+                    for (int lane = 0; lane < kTileLanes; lane += 7) {
+                        ASSERT_NO_FATAL_FAILURE(
+                            expectColumn(tile, cells(size, maxPoints), chunk, lane % 16, lane / 16));
+                    }
+                }
+            }
+        }
+    });
+}
+
+TEST(Voronoi2D, ManyTilesAgreeWithASearchOfMoreCells) {
+    for (const int size : {3, 10, 64}) {
+        for (const int maxPoints : {1, 2, 4}) {
+            const NoiseCall call = cells(size, maxPoints);
+            NoiseTile tile(call, kSeed);
+            for (std::int32_t k = -40; k < 40; ++k) {
+                const ChunkPos chunk = {k, 13 * k};
+                tile.moveTo(chunk);
+                tile.run();
+                for (int lane = 0; lane < kTileLanes; lane += 37) {
+                    ASSERT_NO_FATAL_FAILURE(expectColumn(tile, call, chunk, lane % 16, lane / 16));
+                }
+            }
+        }
+    }
+}
+
+TEST(Voronoi2D, ResultsAreInRange) {
+    for (const int size : {1, 10, 100}) {
+        NoiseTile tile(cells(size, 3), kSeed);
+        for (std::int32_t k = 0; k < 60; ++k) {
+            tile.moveTo({k, -k});
+            tile.run();
+            for (int lane = 0; lane < kTileLanes; ++lane) {
+                const float distance = tile.floatAt(lane % 16, lane / 16, kVoronoiDistance);
+                const float ratio = tile.floatAt(lane % 16, lane / 16, kVoronoiRatio);
+                ASSERT_GE(distance, 0.0f);
+                ASSERT_LE(distance, 1.5f * static_cast<float>(size)) << "the own cell has a point";
+                ASSERT_GE(ratio, 0.0f);
+                ASSERT_LE(ratio, 1.0f);
+            }
+        }
+    }
+}
+
+TEST(Voronoi2D, AtAPointTheDistanceIsZero) {
+    NoiseTile tile(cells(10, 1), kSeed);
+    int points = 0;
+    for (std::int32_t k = 0; k < 40; ++k) {
+        tile.moveTo({k, k});
+        tile.run();
+        for (int lane = 0; lane < kTileLanes; ++lane) {
+            const int x = lane % 16, y = lane / 16;
+            if (tile.at(x, y, kVoronoiOffsetX) != 0 || tile.at(x, y, kVoronoiOffsetY) != 0) continue;
+            ++points;
+            ASSERT_EQ(tile.at(x, y, kVoronoiDistance), bitsOf(0.0f));
+            ASSERT_EQ(tile.at(x, y, kVoronoiRatio), bitsOf(0.0f));
+        }
+    }
+    EXPECT_NEAR(points, 40 * 256 / 100, 15) << "one a cell of 100 columns";
+}
+
+// In small cells many columns have two points at equal distance: the search order decides.
+TEST(Voronoi2D, OfEquallyNearPointsTheFirstCounts) {
+    NoiseTile tile(cells(2, 4), kSeed);
+    tile.moveTo({0, 0});
+    tile.run();
+    for (int lane = 0; lane < kTileLanes; ++lane) {
+        ASSERT_NO_FATAL_FAILURE(expectColumn(tile, cells(2, 4), {0, 0}, lane % 16, lane / 16));
+    }
+}
+
+TEST(Voronoi2D, APointIsTheSameForAllWhoSeeIt) {
+    std::set<std::pair<int, int>> seen;
+    NoiseTile tile(cells(40, 1), kSeed);
+    for (std::int32_t cy = 0; cy < 10; ++cy) {
+        for (std::int32_t cx = 0; cx < 10; ++cx) {
+            tile.moveTo({cx, cy});
+            tile.run();
+            for (int lane = 0; lane < kTileLanes; ++lane) {
+                const int x = lane % 16, y = lane / 16;
+                seen.emplace(16 * cx + x + asInt(tile.at(x, y, kVoronoiOffsetX)),
+                             16 * cy + y + asInt(tile.at(x, y, kVoronoiOffsetY)));
+            }
+        }
+    }
+    // 160 × 160 blocks are 4 × 4 cells; of the ring around them some points are near too.
+    EXPECT_GE(seen.size(), 14u);
+    EXPECT_LE(seen.size(), 36u);
+}
+
+// The point of the tile: far points are not looked at for every column.
+TEST(Voronoi2D, OnlyPointsThatMayBeNearAreKept) {
+    NoiseTile large(cells(512, 2), kSeed), small(cells(10, 1), kSeed);
+    large.moveTo({5, 5});
+    small.moveTo({5, 5});
+    EXPECT_LE(large.pointCount(), 8u);
+    EXPECT_LE(small.pointCount(), 49u) << "25 cells and what the tile spans";
+}
+
+}  // namespace
+}  // namespace terrane::gen
