@@ -2,37 +2,57 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <tuple>
 
 #include "terrane/base/profile.h"
 
 namespace terrane::render {
 namespace {
 
-struct VisibleChunk {
-    const ChunkQuads* quads;
-    glm::vec3 origin;  // from the corner of the camera's chunk
-    float distance;
-};
-
 struct Box {
     glm::vec3 min, max;
 };
 
-std::vector<VisibleChunk> chunksNearestFirst(const QuadStore& quads, world::ChunkPos centre,
-                                             glm::vec3 cameraPosition) {
-    std::vector<VisibleChunk> chunks;
-    chunks.reserve(quads.chunks().size());
-    for (const auto& [pos, chunkQuads] : quads.chunks()) {
-        const glm::vec3 origin(static_cast<float>((pos.x - centre.x) * world::kChunkSize),
-                               static_cast<float>((pos.y - centre.y) * world::kChunkSize), 0.0f);
-        const glm::vec2 toMiddle = glm::vec2(origin) + 8.0f - glm::vec2(cameraPosition);
-        chunks.push_back({&chunkQuads, origin, glm::dot(toMiddle, toMiddle)});
+struct VisibleRegion {
+    const ChunkQuads* chunk;
+    const mesh::RegionMesh* quads;
+    glm::vec3 origin;  // of the chunk, from the corner of the camera's chunk
+    Box box;
+    float distance;  // squared
+};
+
+float blocksBetween(std::int32_t fromChunk, std::int32_t toChunk) {
+    return static_cast<float>((std::int64_t{toChunk} - fromChunk) * world::kChunkSize);
+}
+
+// Regions are cells of equal size: in the order of their middles' distances none comes before one that hides
+// it. With the boxes of their quads, which differ in height, that would not hold.
+std::vector<VisibleRegion> visibleRegions(const QuadStore& quads, world::ChunkPos centre,
+                                          const ViewMatrices& view) {
+    const Frustum frustum = frustumOf(view.viewProjection);
+    std::vector<VisibleRegion> visible;
+    for (const auto& [pos, chunk] : quads.chunks()) {
+        const glm::vec3 origin(blocksBetween(centre.x, pos.x), blocksBetween(centre.y, pos.y), 0.0f);
+        const float height =
+            static_cast<float>(world::kChunkHeight) / static_cast<float>(chunk.regions.size());
+        glm::vec3 middle = origin + glm::vec3(8, 8, -0.5f * height);
+        for (const mesh::RegionMesh& region : chunk.regions) {
+            middle.z += height;
+            const Box box{origin + glm::vec3(0, 0, region.minZ), origin + glm::vec3(16, 16, region.maxZ)};
+            if (region.minZ == region.maxZ || !mayBeVisible(frustum, box.min, box.max)) continue;
+            const glm::vec3 toMiddle = middle - view.cameraPosition;
+            visible.push_back({&chunk, &region, origin, box, glm::dot(toMiddle, toMiddle)});
+        }
     }
-    std::sort(chunks.begin(), chunks.end(), [](const VisibleChunk& a, const VisibleChunk& b) {
-        if (a.distance != b.distance) return a.distance < b.distance;
-        return std::pair(a.origin.x, a.origin.y) < std::pair(b.origin.x, b.origin.y);
-    });
-    return chunks;
+    return visible;
+}
+
+void sortNearestFirst(std::vector<VisibleRegion>& regions) {
+    const auto key = [](const VisibleRegion& r) {
+        return std::tuple(r.distance, r.origin.x, r.origin.y, r.quads->minZ);
+    };
+    std::sort(regions.begin(), regions.end(),
+              [&](const VisibleRegion& a, const VisibleRegion& b) { return key(a) < key(b); });
 }
 
 // False where every face of the group in the box is seen from behind.
@@ -66,20 +86,19 @@ void addCommands(std::vector<DrawCommand>& commands, std::uint32_t first, std::u
 }
 
 // Groups lie one after the other: neighbouring ones that face the camera are drawn by one command.
-void addRegion(DrawList& list, const VisibleChunk& chunk, const mesh::RegionMesh& region, glm::vec3 camera) {
-    const Box box{chunk.origin + glm::vec3(0, 0, region.minZ), chunk.origin + glm::vec3(16, 16, region.maxZ)};
+void addRegion(DrawList& list, const VisibleRegion& region, glm::vec3 camera) {
     const auto record = static_cast<std::uint32_t>(list.records.size());
-    list.records.push_back({glm::vec4(chunk.origin, 0.0f)});
+    list.records.push_back({glm::vec4(region.origin, 0.0f)});
     ++list.regionCount;
     for (int context = 0; context < mesh::kContextCount; ++context) {
         auto& commands = list.commands[static_cast<std::size_t>(context)];
         mesh::QuadRange pending;
         const auto flush = [&] {
-            addCommands(commands, chunk.quads->first + pending.first, pending.count, record);
+            addCommands(commands, region.chunk->first + pending.first, pending.count, record);
         };
         for (int group = 0; group < mesh::kGroupCount; ++group) {
-            const mesh::QuadRange range = region.groups[context][group];
-            if (range.count == 0 || !facesCamera(group, box, camera)) continue;
+            const mesh::QuadRange range = region.quads->groups[context][group];
+            if (range.count == 0 || !facesCamera(group, region.box, camera)) continue;
             list.quadCount += range.count;
             if (pending.count > 0 && pending.first + pending.count == range.first) {
                 pending.count += range.count;
@@ -99,15 +118,9 @@ void buildDrawList(DrawList& list, const QuadStore& quads, const Camera& camera,
     for (auto& commands : list.commands) commands.clear();
     list.records.clear();
     list.quadCount = list.regionCount = 0;
-    const Frustum frustum = frustumOf(view.viewProjection);
-    for (const VisibleChunk& chunk : chunksNearestFirst(quads, cameraChunk(camera), view.cameraPosition)) {
-        for (const mesh::RegionMesh& region : chunk.quads->regions) {
-            if (region.minZ == region.maxZ) continue;
-            const glm::vec3 min = chunk.origin + glm::vec3(0, 0, region.minZ);
-            const glm::vec3 max = chunk.origin + glm::vec3(16, 16, region.maxZ);
-            if (mayBeVisible(frustum, min, max)) addRegion(list, chunk, region, view.cameraPosition);
-        }
-    }
+    std::vector<VisibleRegion> regions = visibleRegions(quads, cameraChunk(camera), view);
+    sortNearestFirst(regions);
+    for (const VisibleRegion& region : regions) addRegion(list, region, view.cameraPosition);
     for (int context = 0; context < mesh::kContextCount; ++context) {
         if (mesh::contextAlphaClass(context) != mesh::AlphaClass::Blended) continue;
         auto& commands = list.commands[static_cast<std::size_t>(context)];

@@ -23,6 +23,10 @@ float encodeSrgb(float v) {
     return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
 }
 
+std::uint8_t byte(float v) {
+    return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
+}
+
 LinearImage decode(const base::Image& image) {
     LinearImage result{image.width, {}};
     for (std::size_t k = 0; k < image.rgba.size(); k += 4) {
@@ -36,9 +40,6 @@ LinearImage decode(const base::Image& image) {
 base::Image encode(const LinearImage& linear, float alphaScale) {
     base::Image image;
     image.width = image.height = linear.size;
-    const auto byte = [](float v) {
-        return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
-    };
     for (const glm::vec4& t : linear.texels) {
         for (int c = 0; c < 3; ++c) image.rgba.push_back(byte(encodeSrgb(t[c])));
         image.rgba.push_back(byte(t.a * alphaScale));
@@ -73,21 +74,45 @@ float threshold(world::AlphaMode alpha) {
     return alpha == world::AlphaMode::TestGlow ? 0.25f : 0.5f;
 }
 
-float coverage(const LinearImage& image, float limit) {
-    const auto passes = [&](const glm::vec4& t) { return t.a >= limit; };
-    const auto count = std::count_if(image.texels.begin(), image.texels.end(), passes);
-    return static_cast<float>(count) / static_cast<float>(image.texels.size());
+// Alpha as stored, between texels, which repeat; x and y in texels from the middle of the first.
+float filteredAlpha(const LinearImage& image, float x, float y, float scale) {
+    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+    const auto alpha = [&](int tx, int ty) {
+        const int last = image.size - 1;  // sizes are powers of two
+        const auto at = static_cast<std::size_t>((ty & last) * image.size + (tx & last));
+        return static_cast<float>(byte(image.texels[at].a * scale)) / 255.0f;
+    };
+    const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
+    return glm::mix(glm::mix(alpha(x0, y0), alpha(x0 + 1, y0), fx),
+                    glm::mix(alpha(x0, y0 + 1), alpha(x0 + 1, y0 + 1), fx), fy);
 }
 
-// The factor on alpha that lets the wanted share of texels pass: from the alpha of the texel at that rank.
-float coverageScale(const LinearImage& image, float wanted, float limit) {
-    std::vector<float> alphas;
-    for (const glm::vec4& t : image.texels) alphas.push_back(t.a);
-    std::sort(alphas.begin(), alphas.end(), std::greater<>());
-    const auto count = static_cast<std::size_t>(std::lround(wanted * static_cast<float>(alphas.size())));
-    if (count == 0) return 1.0f;
-    const float last = alphas[count - 1];
-    return last > 0.0f ? (limit + 0.01f) / last : 1.0f;
+// The share of the surface that passes the test with alpha scaled and filtered, as it is drawn.
+float coverage(const LinearImage& image, float limit, float scale) {
+    constexpr int kSamplesPerTexel = 4;  // along each side
+    const int side = kSamplesPerTexel * image.size;
+    const auto place = [](int sample) {
+        return (static_cast<float>(sample) + 0.5f) / kSamplesPerTexel - 0.5f;
+    };
+    int passed = 0;
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) passed += filteredAlpha(image, place(x), place(y), scale) >= limit;
+    }
+    return static_cast<float>(passed) / static_cast<float>(side * side);
+}
+
+// The factor on alpha that comes nearest to the wanted coverage; 1 where none is better.
+float coverageScale(const LinearImage& image, float limit, float wanted) {
+    const float unscaled = coverage(image, limit, 1.0f);
+    float low = unscaled < wanted ? 1.0f : 0.0f, high = unscaled < wanted ? 16.0f : 1.0f;
+    for (int step = 0; step < 16; ++step) {
+        const float middle = (low + high) / 2;
+        (coverage(image, limit, middle) < wanted ? low : high) = middle;
+    }
+    const float below = coverage(image, limit, low), above = coverage(image, limit, high);
+    const bool takesAbove = above - wanted < wanted - below;
+    if ((takesAbove ? above : below) == unscaled) return 1.0f;
+    return takesAbove ? high : low;
 }
 
 }  // namespace
@@ -98,10 +123,10 @@ std::vector<base::Image> mipmaps(const base::Image& image, world::AlphaMode alph
     const bool isTested = alpha == world::AlphaMode::Test || alpha == world::AlphaMode::TestGlow;
     std::vector<base::Image> levels{image};
     LinearImage level = decode(image);
-    const float limit = threshold(alpha), wanted = coverage(level, limit);
+    const float limit = threshold(alpha), wanted = coverage(level, limit, 1.0f);
     while (level.size > 1) {
         level = half(level, isTested || alpha == world::AlphaMode::Blend);
-        levels.push_back(encode(level, isTested ? coverageScale(level, wanted, limit) : 1.0f));
+        levels.push_back(encode(level, isTested ? coverageScale(level, limit, wanted) : 1.0f));
     }
     return levels;
 }

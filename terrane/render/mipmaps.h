@@ -12,8 +12,8 @@ namespace terrane::render {
 // two.
 //
 // Colours are averaged as light (sRGB is decoded), weighted by alpha where alpha is coverage. Where alpha
-// decides holes, each level is scaled so that the share of texels that pass the test stays that of level 0:
-// else leaves and grass would thin out with distance (I. Castaño, Computing Alpha Mipmaps, 2010).
+// decides holes, each level is scaled so that the share of the surface that passes the test stays that of
+// level 0: else leaves and grass would thin out with distance (I. Castaño, Computing Alpha Mipmaps, 2010).
 std::vector<base::Image> mipmaps(const base::Image& image, world::AlphaMode alpha);
 
 }  // namespace terrane::render

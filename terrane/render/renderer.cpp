@@ -58,10 +58,19 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     renderer.sky_ = std::move(*sky);
     renderer.final_ = std::move(*finalPass);
     renderer.ring_ = gpu::MappedRing(kRingBytes, "frame data");
+    renderer.maxSamples_ = device.maxSamples;
+    renderer.maxSize_ = device.maxTextureSize;
     return renderer;
 }
 
 base::Result<void> Renderer::resize(glm::ivec2 size, int samples) {
+    if (samples > maxSamples_) {
+        return base::fail("{} samples a pixel: the graphics driver has at most {}", samples, maxSamples_);
+    }
+    if (size.x > maxSize_ || size.y > maxSize_) {
+        return base::fail("{} × {} pixels: the graphics driver has at most {} a side", size.x, size.y,
+                          maxSize_);
+    }
     auto targets = makeTargets(size, samples);
     if (!targets) return tl::unexpected(targets.error());
     targets_ = std::move(*targets);
@@ -72,20 +81,33 @@ base::Result<Renderer::Targets> Renderer::makeTargets(glm::ivec2 size, int sampl
     assert(size.x > 0 && size.y > 0 && "a picture has pixels");
     Targets t;
     t.size = size;
-    t.sampledColor = gpu::Texture2DMultisample(size, GL_RGBA16F, samples, "sampled colour");
-    t.sampledDepth = gpu::Texture2DMultisample(size, GL_DEPTH_COMPONENT32F, samples, "sampled depth");
     t.color = gpu::Texture2D(size, GL_RGBA16F, 1, "scene colour");
     t.pictureColor = gpu::Texture2D(size, GL_RGBA8, 1, "picture");
-    auto sampled = gpu::Framebuffer::create({{t.sampledColor}, t.sampledDepth}, "sampled scene");
-    if (!sampled) return tl::unexpected(sampled.error());
-    auto scene = gpu::Framebuffer::create({{t.color}, {}}, "scene");
+    gpu::FramebufferOptions sceneOptions{{t.color}, {}};
+    // Not a multisampled texture of one sample: drivers may take the next number they have, Mesa's software
+    // renderer four.
+    if (samples == 1) {
+        t.depth = gpu::Texture2D(size, GL_DEPTH_COMPONENT32F, 1, "depth");
+        sceneOptions.depth = t.depth;
+    } else if (auto added = addSamples(t, samples); !added) {
+        return tl::unexpected(added.error());
+    }
+    auto scene = gpu::Framebuffer::create(sceneOptions, "scene");
     if (!scene) return tl::unexpected(scene.error());
     auto picture = gpu::Framebuffer::create({{t.pictureColor}, {}}, "picture");
     if (!picture) return tl::unexpected(picture.error());
-    t.sampled = std::move(*sampled);
     t.scene = std::move(*scene);
     t.picture = std::move(*picture);
     return t;
+}
+
+base::Result<void> Renderer::addSamples(Targets& t, int samples) {
+    t.sampledColor = gpu::Texture2DMultisample(t.size, GL_RGBA16F, samples, "sampled colour");
+    t.sampledDepth = gpu::Texture2DMultisample(t.size, GL_DEPTH_COMPONENT32F, samples, "sampled depth");
+    auto sampled = gpu::Framebuffer::create({{t.sampledColor}, t.sampledDepth}, "sampled scene");
+    if (!sampled) return tl::unexpected(sampled.error());
+    t.sampled = std::move(*sampled);
+    return {};
 }
 
 void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
@@ -107,13 +129,13 @@ void Renderer::draw(const FrameInput& input) {
     ring_.beginFrame();
     bindFrame(input, view);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    targets_.sampled.bind();
-    targets_.sampled.clearDepth(0.0f);
+    targets_.world().bind();
+    targets_.world().clearDepth(0.0f);
     glDisable(GL_DEPTH_TEST);
     sky_.draw();
     terrain_.draw(drawList_, quads_, ring_);
     glDisable(GL_DEPTH_TEST);
-    gpu::resolve(targets_.sampled, targets_.scene);
+    if (&targets_.world() != &targets_.scene) gpu::resolve(targets_.sampled, targets_.scene);
     targets_.picture.bind();
     targets_.color.bind(shared::kSceneColorUnit);
     final_.draw();

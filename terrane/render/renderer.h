@@ -54,11 +54,14 @@ class Renderer {
   private:
     struct Targets {
         glm::ivec2 size{0};
-        gpu::Texture2DMultisample sampledColor, sampledDepth;
-        gpu::Texture2D color, pictureColor;
+        gpu::Texture2DMultisample sampledColor, sampledDepth;  // where a pixel has several samples
+        gpu::Texture2D color, depth, pictureColor;             // depth: where it has one
         gpu::Framebuffer sampled, scene, picture;
+        // What the world is drawn into.
+        const gpu::Framebuffer& world() const { return sampled.id() != 0 ? sampled : scene; }
     };
     static base::Result<Targets> makeTargets(glm::ivec2 size, int samples);
+    static base::Result<void> addSamples(Targets& targets, int samples);
     void bindFrame(const FrameInput& input, const ViewMatrices& view);
 
     FullscreenPass sky_, final_;
@@ -68,6 +71,7 @@ class Renderer {
     DrawList drawList_;
     Targets targets_;
     FrameStatistics statistics_;
+    int maxSamples_ = 1, maxSize_ = 1;
 };
 
 }  // namespace terrane::render

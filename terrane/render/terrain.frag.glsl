@@ -10,17 +10,22 @@ layout(location = 1) in vec2 inTexel;
 layout(location = 2) flat in vec3 inNormal;
 layout(location = 3) flat in uvec3 inMaterial;
 layout(location = 4) flat in uint inIsOblique;
+layout(location = 5) flat in vec2 inExtent;
 layout(location = 0) out vec4 outColor;
 
 // Magnified textures are constant inside a texel and blend linearly over one pixel at its edges: neither blocks that
-// shimmer nor blur.
+// shimmer nor blur. They repeat inside a quad, but filters must not reach around its edge to the opposite one, where
+// a plant has its stem and a grass block its soil: half a texel of the mipmap stays between.
 vec4 sampleTexture() {
     vec2 size = vec2(textureSize(blockTextures, 0).xy);
     vec2 texel = inTexel * size;
     vec2 width = max(fwidth(texel), 1e-6);
     vec2 edge = floor(texel + 0.5);
     vec2 sharp = edge + clamp((texel - edge) / width, -0.5, 0.5);
-    vec2 at = max(width.x, width.y) < 1.0 ? sharp : texel;
+    float largest = max(width.x, width.y);
+    vec2 at = largest < 1.0 ? sharp : texel;
+    vec2 margin = min(vec2(0.5 * max(largest, 1.0)), 0.5 * size);
+    at = clamp(at, margin, inExtent * size - margin);
     return textureGrad(blockTextures, vec3(at / size, inMaterial.x), dFdx(inTexel), dFdy(inTexel));
 }
 

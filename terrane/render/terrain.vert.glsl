@@ -22,6 +22,7 @@ layout(location = 1) out vec2 outTexel;     // in textures; row 0 of the image i
 layout(location = 2) flat out vec3 outNormal;
 layout(location = 3) flat out uvec3 outMaterial;  // texture, alpha mode, animation
 layout(location = 4) flat out uint outIsOblique;
+layout(location = 5) flat out vec2 outExtent;  // of outTexel
 
 void main() {
     Quad quad = quads[gl_VertexID >> 2];
@@ -34,6 +35,7 @@ void main() {
 
     MaterialRecord material = materials[quadMaterial(quad)];
     outTexel = vec2(corner.x, 1.0 - corner.y) * extent;
+    outExtent = extent;
     outNormal = face.normal.xyz;
     outMaterial = uvec3(material.texture, material.alphaMode, material.animation);
     outIsOblique = quadShapeFace(quad) >= kShapeFaceCross && quadShapeFace(quad) < kShapeFaceInset ? 1u : 0u;

@@ -9,8 +9,8 @@
 namespace terrane::world {
 namespace {
 
-// Night ends and starts half an hour of the day's 24 before dawn and after dusk; the moon gives its place to
-// the sun a little earlier, when both are dark.
+// The moon waits at the horizon from kMoonSets on while its light fades; at kSunRises, in the dark, the sun
+// takes its place. From kSunSets to kMoonRises the other way round.
 constexpr float kMoonSets = 0.12f, kSunRises = 0.15f, kSunSets = 0.85f, kMoonRises = 0.88f;
 
 struct ColorKey {
@@ -79,7 +79,7 @@ glm::vec3 lightDirection(float time) {
 
 Environment environmentAt(float timeDay) {
     const float time = fraction(timeDay);
-    const bool isSun = time >= kMoonSets && time < kMoonRises;
+    const bool isSun = time >= kSunRises && time < kSunSets;
     Environment e{};
     e.lightDirection = lightDirection(time);
     e.lightColor = colorAt(kLight, time) * (isSun ? 0.9f : 1.0f);

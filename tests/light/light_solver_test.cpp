@@ -64,61 +64,75 @@ class TestArea {
     std::vector<world::Chunk> chunks_;
 };
 
-// The formula of light_solver.h, applied to every voxel until nothing changes.
+// Blocks lie below the first height, so that both the ground and the sky are there; no colour reaches the
+// second.
+constexpr int kFilledHeight = 40;
+constexpr int kReferenceHeight = kFilledHeight + 16;
+
+// The formula of light_solver.h, applied to every voxel until nothing changes. A border of darkness that lets
+// nothing through stands around the area.
 class Reference {
   public:
-    explicit Reference(const TestArea& area) : area_(area) {}
+    explicit Reference(const TestArea& area) : area_(area), row_(area.width() + 2) {
+        for (int z = -1; z <= kReferenceHeight; ++z) {
+            for (int y = -1; y <= area.height(); ++y) {
+                for (int x = -1; x <= area.width(); ++x) addVoxel(x, y, z);
+            }
+        }
+    }
 
+    // Index x + width (y + height z), up to kReferenceHeight.
     std::vector<int> solve(int component) {
-        level_.clear();
-        forEachVoxel([&](int x, int y, int z) {
-            level_.push_back(source(component, x, y, z));
-            return false;
-        });
-        while (forEachVoxel([&](int x, int y, int z) { return raise(x, y, z); })) continue;
-        return level_;
+        setSources(component);
+        while (raiseAll()) continue;
+        std::vector<int> result;
+        for (const int at : inside_) result.push_back(level_[static_cast<std::size_t>(at)]);
+        return result;
     }
 
   private:
-    // True where the function was for some voxel.
-    template <class Function>
-    bool forEachVoxel(Function f) const {
-        bool any = false;
-        for (int z = 0; z < kChunkHeight; ++z) {
-            for (int y = 0; y < area_.height(); ++y) {
-                for (int x = 0; x < area_.width(); ++x) any |= f(x, y, z);
-            }
-        }
-        return any;
+    void addVoxel(int x, int y, int z) {
+        const bool isInside =
+            x >= 0 && y >= 0 && z >= 0 && x < area_.width() && y < area_.height() && z < kReferenceHeight;
+        if (isInside) inside_.push_back(static_cast<int>(types_.size()));
+        types_.push_back(isInside ? &area_.type(x, y, z) : nullptr);
     }
 
-    int source(int component, int x, int y, int z) const {
-        if (component < 3) return area_.type(x, y, z).emission[static_cast<std::size_t>(component)];
+    int layer() const { return row_ * (area_.height() + 2); }
+
+    int source(int component, int at) const {
+        const auto typeAt = [&](int index) { return types_[static_cast<std::size_t>(index)]; };
+        if (component < 3) return typeAt(at)->emission[static_cast<std::size_t>(component)];
         int level = 15;
-        for (int above = kChunkHeight - 1; above >= z && level > 0; --above) {
-            level -= area_.type(x, y, above).opacity;
-        }
+        for (int above = at; typeAt(above); above += layer()) level -= typeAt(above)->opacity;
         return std::max(0, level);
     }
 
-    int neighbour(int x, int y, int z) const {
-        const bool inside =
-            x >= 0 && y >= 0 && z >= 0 && x < area_.width() && y < area_.height() && z < kChunkHeight;
-        return inside ? level_[area_.index(x, y, z)] : 0;
+    void setSources(int component) {
+        level_.assign(types_.size(), 0);
+        for (const int at : inside_) level_[static_cast<std::size_t>(at)] = source(component, at);
     }
 
-    bool raise(int x, int y, int z) {
-        const int brightest =
-            std::max({neighbour(x - 1, y, z), neighbour(x + 1, y, z), neighbour(x, y - 1, z),
-                      neighbour(x, y + 1, z), neighbour(x, y, z - 1), neighbour(x, y, z + 1)});
-        int& level = level_[area_.index(x, y, z)];
-        const int reached = brightest - 1 - area_.type(x, y, z).opacity;
-        if (reached <= level) return false;
-        level = reached;
-        return true;
+    bool raiseAll() {
+        bool changed = false;
+        int* const level = level_.data();
+        for (const int at : inside_) {
+            const int loss = 1 + types_[static_cast<std::size_t>(at)]->opacity;
+            for (const int step : {1, row_, layer()}) {
+                const int brighter =
+                    level[at - step] > level[at + step] ? level[at - step] : level[at + step];
+                if (brighter - loss <= level[at]) continue;
+                level[at] = brighter - loss;
+                changed = true;
+            }
+        }
+        return changed;
     }
 
     const TestArea& area_;
+    int row_;
+    std::vector<const world::BlockType*> types_;  // with the border, where they are null
+    std::vector<int> inside_;                     // indices of the others
     std::vector<int> level_;
 };
 
@@ -129,16 +143,17 @@ int component(LightValue value, int number) {
 void expectReference(const TestArea& area) {
     const std::vector<LightValue> light = area.solve();
     ASSERT_EQ(light.size(), area.index(0, 0, kChunkHeight));
+    Reference reference(area);
     for (int c = 0; c < kComponents; ++c) {
-        const std::vector<int> expected = Reference(area).solve(c);
-        for (std::size_t at = 0; at < light.size(); ++at) {
+        const std::vector<int> expected = reference.solve(c);
+        for (std::size_t at = 0; at < expected.size(); ++at) {
             ASSERT_EQ(component(light[at], c), expected[at]) << "component " << c << " at index " << at;
         }
     }
+    for (std::size_t at = area.index(0, 0, kReferenceHeight); at < light.size(); ++at) {
+        ASSERT_EQ(light[at], 15 << 12);
+    }
 }
-
-// Blocks up to this height, so that both the ground and the sky are there.
-constexpr int kFilledHeight = 40;
 
 BlockId anyBlock(std::uint32_t hash) {
     return static_cast<BlockId>(hash % contentBlocks().types().size());

@@ -1,0 +1,55 @@
+// Renders the golden pictures: the same scenes for the comparison and for the proof that it notices mistakes.
+#pragma once
+
+#include "terrane/render/renderer.h"
+#include "tests/golden/golden.h"
+#include "tests/golden/scenes.h"
+#include "tests/gpu/gl_fixture.h"
+#include "tests/render/content.h"
+
+namespace terrane::golden {
+
+constexpr glm::ivec2 kPictureSize{320, 180};
+constexpr int kSamples = 4;
+
+// From above the gallery shows the sides -x, -y and +z, from below the others.
+inline const render::Camera kAbove{{0.4, -5.9, 89.2}, 63.5, -38.5, 39};
+inline const render::Camera kBelow{{12.3, 12.0, 73.6}, 230, 38, 39};
+
+class GoldenTest : public gpu::GlTest {
+  protected:
+    render::Renderer makeRenderer(const render::TextureSource& textures = render::contentTexture,
+                                  const world::BlockRegistry& blocks = contentBlocks()) {
+        gpu::DeviceInfo device = gpu::queryDevice();
+        device.software = true;  // no anisotropic filter: drivers may filter as they like
+        auto made = render::Renderer::create(render::contentShaders(), blocks, textures, device);
+        if (!made) throw std::runtime_error(made.error().message);
+        const auto resized = made->resize(kPictureSize, std::min(kSamples, device.maxSamples));
+        if (!resized) throw std::runtime_error(resized.error().message);
+        return *std::move(made);
+    }
+
+    static base::Image draw(render::Renderer& renderer, const render::FrameInput& input) {
+        renderer.draw(input);
+        return renderer.readImage();
+    }
+
+    static base::Image drawGallery(render::Renderer& renderer, const Meshes& meshes,
+                                   const render::Camera& camera) {
+        for (const auto& [pos, mesh] : meshes) renderer.setChunk(pos, mesh);
+        return draw(renderer, {camera, world::environmentAt(0.34f), 400, 0, render::View::Color});
+    }
+
+    static Meshes galleryOnGround() {
+        world::World world = flatWorld(4);
+        placeGallery(world);
+        return meshWorld(world);
+    }
+    static Meshes galleryInTheAir() {
+        world::World world = emptyWorld(1);
+        placeGallery(world);
+        return meshWorld(world);
+    }
+};
+
+}  // namespace terrane::golden

@@ -1,0 +1,232 @@
+// Proof that the golden pictures notice mistakes: each is made on purpose, and the comparison must fail.
+#include "tests/golden/axes_cube.h"
+#include "tests/golden/golden_fixture.h"
+
+namespace terrane::golden {
+namespace {
+
+class GoldenProof : public GoldenTest {
+  protected:
+    struct Gallery {
+        base::Image above, below;
+    };
+
+    Gallery drawBoth(const render::TextureSource& textures) {
+        render::Renderer renderer = makeRenderer(textures);
+        Gallery gallery;
+        gallery.above = drawGallery(renderer, galleryOnGround(), kAbove);
+        render::Renderer inTheAir = makeRenderer(textures);
+        gallery.below = drawGallery(inTheAir, galleryInTheAir(), kBelow);
+        return gallery;
+    }
+
+    static bool isSameGallery(const Gallery& a, const Gallery& b) {
+        return isSame(a.above, b.above) && isSame(a.below, b.below);
+    }
+
+    base::Image drawCube(const render::TextureSource& textures, const render::Camera& camera) {
+        render::Renderer renderer = makeRenderer(textures, cubeBlocks());
+        renderer.setChunk({0, 0}, cubeMesh());
+        return draw(renderer, cubeFrame(camera));
+    }
+};
+
+// Content with one texture taken for another.
+render::TextureSource replaced(std::string_view name, std::string_view by) {
+    return [=](std::string_view wanted) { return render::contentTexture(wanted == name ? by : wanted); };
+}
+
+render::TextureSource swapped(std::string_view a, std::string_view b) {
+    return [=](std::string_view wanted) {
+        return render::contentTexture(wanted == a ? b : wanted == b ? a : wanted);
+    };
+}
+
+TEST_F(GoldenProof, TheSameIsTheSame) {
+    const Gallery a = drawBoth(render::contentTexture), b = drawBoth(render::contentTexture);
+    EXPECT_TRUE(isSameGallery(a, b));
+    EXPECT_EQ(difference(a.above, b.above).max, 0);
+}
+
+TEST_F(GoldenProof, AnyWrongTextureIsNoticed) {
+    const Gallery right = drawBoth(render::contentTexture);
+    const auto names = contentBlocks().textures();
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        if (names[k] == "missing") continue;  // of unknown blocks, which the gallery has not
+        const std::string& other = names[(k + 1) % names.size()];
+        EXPECT_FALSE(isSameGallery(right, drawBoth(replaced(names[k], other))))
+            << other << " for " << names[k];
+    }
+}
+
+TEST_F(GoldenProof, SwappedSidesAreNoticed) {
+    const Gallery right = drawBoth(render::contentTexture);
+    for (const auto& [a, b] : {std::pair("oak_log_top", "oak_log_side"),
+                               {"grass_top", "grass_side"},
+                               {"cactus_top", "cactus_side"},
+                               {"cactus_top", "cactus_bottom"}}) {
+        EXPECT_FALSE(isSameGallery(right, drawBoth(swapped(a, b)))) << a << " and " << b;
+    }
+}
+
+void dropGroup(mesh::ChunkMesh& mesh, int context, int group) {
+    for (mesh::RegionMesh& region : mesh.regions) region.groups[context][group].count = 0;
+}
+
+bool hasGroup(const Meshes& meshes, int context, int group) {
+    return std::ranges::any_of(meshes, [&](const auto& entry) {
+        return std::ranges::any_of(entry.second.regions, [&](const mesh::RegionMesh& region) {
+            return region.groups[context][group].count > 0;
+        });
+    });
+}
+
+// Groups that look away may be dropped: the draw list drops them too.
+TEST_F(GoldenProof, AMissingGroupIsNoticedWhereItIsSeen) {
+    const Meshes right = galleryOnGround();
+    render::Renderer renderer = makeRenderer();
+    const base::Image expected = drawGallery(renderer, right, kAbove);
+    int noticed = 0;
+    for (int context = 0; context < mesh::kContextCount; ++context) {
+        for (int group = 0; group < mesh::kGroupCount; ++group) {
+            if (!hasGroup(right, context, group)) continue;
+            Meshes wrong = right;
+            for (auto& [pos, mesh] : wrong) dropGroup(mesh, context, group);
+            const bool looksAway =
+                group == world::kFacePosX || group == world::kFacePosY || group == world::kFaceNegZ;
+            EXPECT_EQ(isSame(expected, drawGallery(renderer, wrong, kAbove)), looksAway)
+                << "context " << context << ", group " << group;
+            noticed += !looksAway;
+        }
+    }
+    EXPECT_GE(noticed, 5) << "opaque -x, -y, +z, tested and blended on both sides";
+}
+
+struct QuadPlace {
+    std::size_t region;
+    int context, group;
+    std::uint32_t number;
+};
+
+std::vector<QuadPlace> quadsSeenFromBelow(const mesh::ChunkMesh& mesh) {
+    std::vector<QuadPlace> places;
+    for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+        for (int context = 0; context < mesh::kContextCount; ++context) {
+            for (const int group : {int{world::kFacePosX}, int{world::kFacePosY}, int{world::kFaceNegZ}}) {
+                const mesh::QuadRange range = mesh.regions[r].groups[context][group];
+                for (std::uint32_t k = 0; k < range.count; ++k)
+                    places.push_back({r, context, group, range.first + k});
+            }
+        }
+    }
+    return places;
+}
+
+void dropQuad(mesh::ChunkMesh& mesh, const QuadPlace& place) {
+    mesh::QuadRange& range = mesh.regions[place.region].groups[place.context][place.group];
+    mesh.quads[place.number] = mesh.quads[range.first + range.count - 1];
+    --range.count;
+}
+
+TEST_F(GoldenProof, AnyMissingFaceIsNoticed) {
+    const Meshes right = galleryInTheAir();
+    render::Renderer renderer = makeRenderer();
+    const base::Image expected = drawGallery(renderer, right, kBelow);
+    const std::vector<QuadPlace> places = quadsSeenFromBelow(right.at({0, 0}));
+    EXPECT_GE(places.size(), 3u * 11u);
+    for (const QuadPlace& place : places) {
+        Meshes wrong = right;
+        dropQuad(wrong.at({0, 0}), place);
+        EXPECT_FALSE(isSame(expected, drawGallery(renderer, wrong, kBelow)))
+            << "quad " << place.number << " of group " << place.group;
+    }
+}
+
+// Columns, rows or both in reverse order.
+base::Image turned(const base::Image& image, bool flipX, bool flipY) {
+    base::Image result = image;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const int fromX = flipX ? image.width - 1 - x : x, fromY = flipY ? image.height - 1 - y : y;
+            std::copy_n(image.rgba.begin() + 4 * (fromX + fromY * image.width), 4,
+                        result.rgba.begin() + 4 * (x + y * image.width));
+        }
+    }
+    return result;
+}
+
+base::Image transposed(const base::Image& image) {
+    base::Image result = image;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            std::copy_n(image.rgba.begin() + 4 * (y + x * image.width), 4,
+                        result.rgba.begin() + 4 * (x + y * image.width));
+        }
+    }
+    return result;
+}
+
+TEST_F(GoldenProof, AMirroredPictureIsNoticed) {
+    for (const render::Camera& camera : {kCubeNegative, kCubePositive}) {
+        const base::Image right = drawCube(cubeTexture, camera);
+        EXPECT_FALSE(isSame(right, turned(right, true, false)));
+        EXPECT_FALSE(isSame(right, turned(right, false, true)));
+        EXPECT_FALSE(isSame(right, turned(right, true, true)));
+    }
+}
+
+TEST_F(GoldenProof, TurnedTexturesAreNoticedOnEverySide) {
+    using Change = std::function<base::Image(const base::Image&)>;
+    const Change changes[] = {[](const base::Image& i) { return turned(i, true, false); },
+                              [](const base::Image& i) { return turned(i, false, true); },
+                              [](const base::Image& i) { return turned(i, true, true); }, transposed};
+    const base::Image negative = drawCube(cubeTexture, kCubeNegative),
+                      positive = drawCube(cubeTexture, kCubePositive);
+    for (const std::string_view side : kSideNames) {
+        for (const Change& change : changes) {
+            const auto wrong = [&](std::string_view name) -> base::Result<base::Image> {
+                const auto image = cubeTexture(name);
+                return name == side ? change(*image) : *image;
+            };
+            EXPECT_FALSE(isSame(negative, drawCube(wrong, kCubeNegative)) &&
+                         isSame(positive, drawCube(wrong, kCubePositive)))
+                << side;
+        }
+    }
+}
+
+TEST_F(GoldenProof, SwappedAxesAreNoticed) {
+    const base::Image negative = drawCube(cubeTexture, kCubeNegative),
+                      positive = drawCube(cubeTexture, kCubePositive);
+    for (std::size_t a = 0; a < kSideNames.size(); ++a) {
+        for (std::size_t b = a + 1; b < kSideNames.size(); ++b) {
+            const auto wrong = [=](std::string_view name) {
+                return cubeTexture(name == kSideNames[a]   ? kSideNames[b]
+                                   : name == kSideNames[b] ? kSideNames[a]
+                                                           : name);
+            };
+            EXPECT_FALSE(isSame(negative, drawCube(wrong, kCubeNegative)) &&
+                         isSame(positive, drawCube(wrong, kCubePositive)))
+                << kSideNames[a] << " and " << kSideNames[b];
+        }
+    }
+}
+
+// A little closer, an hour later, a little brighter.
+TEST_F(GoldenProof, OtherFramesAreNoticed) {
+    render::Renderer renderer = makeRenderer();
+    const Meshes meshes = galleryOnGround();
+    const base::Image right = drawGallery(renderer, meshes, kAbove);
+    render::Camera closer = kAbove;
+    closer.position += glm::dvec3(render::lookDirection(closer)) * 0.25;
+    EXPECT_FALSE(isSame(right, drawGallery(renderer, meshes, closer)));
+    render::FrameInput input{kAbove, world::environmentAt(0.34f + 1.0f / 24), 400, 0, render::View::Color};
+    EXPECT_FALSE(isSame(right, draw(renderer, input)));
+    input.environment = world::environmentAt(0.34f);
+    EXPECT_TRUE(isSame(right, draw(renderer, input)));
+    input.environment.lightColor *= 1.05f;
+    EXPECT_FALSE(isSame(right, draw(renderer, input)));
+}
+
+}  // namespace
+}  // namespace terrane::golden

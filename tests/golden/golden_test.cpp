@@ -1,0 +1,64 @@
+// The golden pictures; README.md says what each shows and how to make them anew.
+#include <thread>
+
+#include "apps/terrane/scenes.h"
+#include "terrane/stream/chunk_pipeline.h"
+#include "tests/golden/axes_cube.h"
+#include "tests/golden/golden_fixture.h"
+
+namespace terrane::golden {
+namespace {
+
+class Golden : public GoldenTest {};
+
+TEST_F(Golden, GalleryFromAbove) {
+    render::Renderer renderer = makeRenderer();
+    EXPECT_TRUE(matchesGolden("gallery_above", drawGallery(renderer, galleryOnGround(), kAbove)));
+}
+
+TEST_F(Golden, GalleryFromBelow) {
+    render::Renderer renderer = makeRenderer();
+    EXPECT_TRUE(matchesGolden("gallery_below", drawGallery(renderer, galleryInTheAir(), kBelow)));
+}
+
+TEST_F(Golden, AxesOfACube) {
+    render::Renderer renderer = makeRenderer(cubeTexture, cubeBlocks());
+    renderer.setChunk({0, 0}, cubeMesh());
+    EXPECT_TRUE(matchesGolden("cube_negative_sides", draw(renderer, cubeFrame(kCubeNegative))));
+    EXPECT_TRUE(matchesGolden("cube_positive_sides", draw(renderer, cubeFrame(kCubePositive))));
+}
+
+// A small part of the overworld around a camera, generated and meshed as the program does it.
+void loadOverworld(render::Renderer& renderer, const render::Camera& camera, int viewDistance) {
+    auto graph = gen::makeGenerator("overworld", contentBlocks());
+    if (!graph) throw std::runtime_error(graph.error().message);
+    const gen::Generator generator(*std::move(graph), 1);
+    world::World world;
+    base::JobSystem jobs(std::max(1u, std::thread::hardware_concurrency()));
+    stream::ChunkPipeline pipeline(jobs, generator, contentBlocks(), world);
+    pipeline.setView(render::cameraChunk(camera), viewDistance);
+    for (pipeline.update(); !pipeline.progress().complete(); pipeline.update()) {
+        pipeline.waitForWorkers(std::chrono::milliseconds(100));
+    }
+    for (const stream::MeshChange& change : pipeline.takeMeshes(std::numeric_limits<std::size_t>::max())) {
+        if (change.mesh) renderer.setChunk(change.pos, *change.mesh);
+    }
+}
+
+TEST_F(Golden, Landscape) {
+    constexpr int kViewDistance = 10;
+    const app::Scene* scene = app::findScene("landscape");
+    ASSERT_TRUE(scene);
+    render::Renderer renderer = makeRenderer();
+    loadOverworld(renderer, scene->camera, kViewDistance);
+    render::FrameInput input{scene->camera, world::environmentAt(scene->timeDay), 16.0f * kViewDistance, 0,
+                             render::View::Color};
+    EXPECT_TRUE(matchesGolden("landscape_color", draw(renderer, input)));
+    input.view = render::View::Normal;
+    EXPECT_TRUE(matchesGolden("landscape_normal", draw(renderer, input)));
+    input.view = render::View::Depth;
+    EXPECT_TRUE(matchesGolden("landscape_depth", draw(renderer, input)));
+}
+
+}  // namespace
+}  // namespace terrane::golden

@@ -1,0 +1,69 @@
+// The worlds of the golden pictures.
+#pragma once
+
+#include <map>
+#include <string_view>
+
+#include "terrane/gen/generator.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/mesh/chunk_mesher.h"
+#include "terrane/world/world.h"
+#include "tests/light/content_blocks.h"
+
+namespace terrane::golden {
+
+using Meshes = std::map<world::ChunkPos, mesh::ChunkMesh>;
+
+// Meshes of the chunks whose eight neighbours are in the world, as the stream makes them.
+inline Meshes meshWorld(const world::World& world) {
+    Meshes meshes;
+    mesh::MeshScratch scratch;
+    for (const auto& [pos, chunk] : world.chunks()) {
+        const std::array<world::ChunkPtr, 4> beside = {
+            world.maybeChunkAt({pos.x - 1, pos.y}), world.maybeChunkAt({pos.x + 1, pos.y}),
+            world.maybeChunkAt({pos.x, pos.y - 1}), world.maybeChunkAt({pos.x, pos.y + 1})};
+        if (std::ranges::any_of(beside, [](const world::ChunkPtr& c) { return !c; })) continue;
+        mesh::MeshInput input;
+        input.centre = chunk.get();
+        for (std::size_t k = 0; k < beside.size(); ++k) input.neighbours[k] = beside[k].get();
+        input.blocks = &contentBlocks();
+        meshes[pos] = mesh::meshChunk(input, scratch);
+    }
+    return meshes;
+}
+
+inline world::World emptyWorld(int radius) {
+    world::World world;
+    for (int y = -radius; y <= radius; ++y) {
+        for (int x = -radius; x <= radius; ++x) world.insert({x, y}, std::make_shared<world::Chunk>());
+    }
+    return world;
+}
+
+inline world::World flatWorld(int radius) {
+    auto graph = gen::makeGenerator("flat", contentBlocks());
+    if (!graph) throw std::runtime_error(graph.error().message);
+    const gen::Generator generator(*std::move(graph), 1);
+    world::World world;
+    for (int y = -radius; y <= radius; ++y) {
+        for (int x = -radius; x <= radius; ++x) {
+            world.insert({x, y}, std::make_shared<world::Chunk>(generator.generate({x, y})));
+        }
+    }
+    return world;
+}
+
+constexpr int kGalleryZ = 81;  // on the flat world's grass
+
+// Every block type once, in rows of six with gaps.
+inline void placeGallery(world::World& world) {
+    int number = 0;
+    for (const world::BlockType& type : contentBlocks().types()) {
+        if (type.id == world::kAir || type.id == contentBlocks().missing()) continue;
+        const world::BlockPos pos{2 * (number % 6), 2 * (number / 6), kGalleryZ};
+        if (!world.setBlock(pos, type.id)) throw std::runtime_error("the gallery is not in the world");
+        ++number;
+    }
+}
+
+}  // namespace terrane::golden

@@ -1,0 +1,244 @@
+#include "terrane/render/renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "terrane/mesh/chunk_mesher.h"
+#include "tests/gpu/gl_fixture.h"
+#include "tests/render/content.h"
+
+namespace terrane::render {
+namespace {
+
+constexpr glm::ivec2 kSize{96, 64};
+
+class RendererTest : public gpu::GlTest {
+  protected:
+    void SetUp() override {
+        GlTest::SetUp();
+        if (IsSkipped()) return;
+        auto made = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice());
+        ASSERT_TRUE(made) << made.error().message;
+        renderer_ = std::move(*made);
+        resize(kSize, 1);
+    }
+    void TearDown() override {
+        renderer_.reset();
+        GlTest::TearDown();
+    }
+
+    void resize(glm::ivec2 size, int samples) {
+        const auto resized = renderer_->resize(size, samples);
+        ASSERT_TRUE(resized) << resized.error().message;
+        EXPECT_EQ(renderer_->size(), size);
+    }
+
+    base::Image draw(const FrameInput& input) {
+        renderer_->draw(input);
+        base::Image image = renderer_->readImage();
+        EXPECT_EQ(glm::ivec2(image.width, image.height), renderer_->size());
+        EXPECT_EQ(image.rgba.size(), static_cast<std::size_t>(4 * image.width * image.height));
+        return image;
+    }
+
+    static FrameInput noon(const Camera& camera, View view = View::Color) {
+        return {camera, world::environmentAt(0.5f), 256, 0, view};
+    }
+
+    std::optional<Renderer> renderer_;
+};
+
+using Color = std::array<int, 3>;
+
+Color pixel(const base::Image& image, int x, int y) {
+    const std::size_t at = 4 * static_cast<std::size_t>(x + y * image.width);
+    return {image.rgba[at], image.rgba[at + 1], image.rgba[at + 2]};
+}
+
+// One block, alone in the world's chunk 0, 0.
+mesh::ChunkMesh blockMesh(std::string_view name, int x, int y, int z) {
+    world::Chunk chunk;
+    const world::Chunk air;
+    chunk.setBlock(world::blockIndex(x, y, z), contentBlock(name));
+    mesh::MeshInput input;
+    input.centre = &chunk;
+    input.neighbours = {&air, &air, &air, &air};
+    input.blocks = &contentBlocks();
+    mesh::MeshScratch scratch;
+    return mesh::meshChunk(input, scratch);
+}
+
+const Camera kLevel{.position = {-4, 8, 100}, .yaw = 0};
+
+TEST_F(RendererTest, AnEmptyWorldIsSky) {
+    const base::Image image = draw(noon(kLevel));
+    EXPECT_EQ(renderer_->statistics().quads, 0u);
+    EXPECT_EQ(renderer_->quadBytes(), 0u);
+    for (int x = 0; x < kSize.x; ++x) {
+        const Color top = pixel(image, x, 0), horizon = pixel(image, x, kSize.y / 2 - 1);
+        EXPECT_GT(top[2], top[0] + 40) << "the zenith is blue";
+        EXPECT_GT(horizon[0], top[0] + 20) << "the horizon is paler";
+    }
+    for (int y = 1; y < kSize.y; ++y) {
+        const int step = std::abs(pixel(image, 5, y)[0] - pixel(image, 5, y - 1)[0]);
+        EXPECT_LE(step, 8) << "row " << y << " has an edge";
+    }
+}
+
+TEST_F(RendererTest, TheSunStandsWhereItShould) {
+    const world::Environment e = world::environmentAt(0.4f);
+    const float yaw = std::atan2(e.lightDirection.y, e.lightDirection.x) * 57.29578f;
+    const float pitch = std::asin(e.lightDirection.z) * 57.29578f;
+    const Camera atSun{.position = {8, 8, 100}, .yaw = yaw, .pitch = pitch, .fieldOfView = 40};
+    const base::Image image = draw({atSun, e, 256, 0, View::Color});
+    const Color sun = pixel(image, kSize.x / 2, kSize.y / 2), sky = pixel(image, 2, 2);
+    EXPECT_GT(sun[0], 245);
+    EXPECT_LT(sky[0], 180);
+}
+
+TEST_F(RendererTest, DebugViewsOfTheSkyAreBlack) {
+    for (const View view : {View::Normal, View::Depth}) {
+        const base::Image image = draw(noon(kLevel, view));
+        for (int x = 0; x < kSize.x; ++x) EXPECT_EQ(pixel(image, x, 30), (Color{0, 0, 0}));
+    }
+}
+
+TEST_F(RendererTest, ABlockIsSeenFromTheSideItTurnsToTheCamera) {
+    renderer_->setChunk({0, 0}, blockMesh("stone", 0, 8, 100));
+    struct Case {
+        Camera camera;
+        Color normal;
+    };
+    const Case cases[] = {
+        {{{-2, 8.5, 100.5}, 0, 0}, {0, 128, 128}}, {{{3, 8.5, 100.5}, 180, 0}, {255, 128, 128}},
+        {{{0.5, 6, 100.5}, 90, 0}, {128, 0, 128}}, {{{0.5, 11, 100.5}, -90, 0}, {128, 255, 128}},
+        {{{0.5, 8.5, 98}, 0, 90}, {128, 128, 0}},  {{{0.5, 8.5, 103}, 0, -90}, {128, 128, 255}},
+    };
+    for (const Case& c : cases) {
+        const Color normal = pixel(draw(noon(c.camera, View::Normal)), kSize.x / 2, kSize.y / 2);
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(normal[k], c.normal[k], 1);
+    }
+    EXPECT_EQ(pixel(draw(noon({{-2, 8.5, 100.5}, 180, 0}, View::Normal)), 48, 32), (Color{0, 0, 0}))
+        << "the camera looks away";
+}
+
+TEST_F(RendererTest, DepthIsTheDistanceToTheFog) {
+    renderer_->setChunk({0, 0}, blockMesh("stone", 0, 8, 100));
+    FrameInput input = noon({{-8, 8.5, 100.5}, 0, 0, 20}, View::Depth);
+    input.fogDistance = 16;
+    EXPECT_NEAR(pixel(draw(input), 48, 32)[0], 128, 1) << "half of the way";
+    input.fogDistance = 32;
+    EXPECT_NEAR(pixel(draw(input), 48, 32)[0], 191, 1);
+}
+
+TEST_F(RendererTest, WhatIsNearerHidesWhatIsBehind) {
+    renderer_->setChunk({0, 0}, blockMesh("lamp_red", 0, 8, 100));
+    renderer_->setChunk({1, 0}, blockMesh("lamp_blue", 0, 8, 100));
+    const auto middle = [&](const Camera& camera) { return pixel(draw(noon(camera)), 48, 32); };
+    const Color red = middle({{-4, 8.5, 100.5}, 0, 0, 20}), blue = middle({{21, 8.5, 100.5}, 180, 0, 20});
+    EXPECT_GT(red[0], red[2] + 60);
+    EXPECT_GT(blue[2], blue[0] + 60);
+}
+
+TEST_F(RendererTest, FogTurnsEverythingToSky) {
+    FrameInput input = noon({{-12, 8.5, 100.5}, 0, 0, 20});
+    input.fogDistance = 8;
+    const base::Image sky = draw(input);
+    renderer_->setChunk({0, 0}, blockMesh("oak_log", 0, 8, 100));
+    const base::Image fogged = draw(input);
+    EXPECT_GT(renderer_->statistics().quads, 0u);
+    for (std::size_t k = 0; k < sky.rgba.size(); ++k) ASSERT_NEAR(sky.rgba[k], fogged.rgba[k], 2);
+}
+
+TEST_F(RendererTest, RemovedChunksAreGone) {
+    const base::Image before = draw(noon(kLevel));
+    renderer_->setChunk({0, 0}, blockMesh("grass", 4, 8, 100));
+    const base::Image with = draw(noon(kLevel));
+    EXPECT_EQ(renderer_->statistics().regions, 1u);
+    EXPECT_GT(renderer_->statistics().quads, 0u);
+    EXPECT_EQ(renderer_->statistics().drawCommands, 2u) << "the group of +x between the others looks away";
+    EXPECT_EQ(renderer_->quadBytes(), 6 * shared::kQuadBytes);
+    EXPECT_NE(with.rgba, before.rgba);
+    renderer_->removeChunk({0, 0});
+    EXPECT_EQ(draw(noon(kLevel)).rgba, before.rgba);
+}
+
+// States of one frame must not reach into the next, also over more frames than the ring has regions.
+TEST_F(RendererTest, EveryFrameIsTheSame) {
+    for (const char* name : {"stone", "oak_leaves", "water"}) {
+        renderer_->setChunk({0, 0}, blockMesh(name, 4, 8, 100));
+        const base::Image first = draw(noon(kLevel));
+        for (int frame = 0; frame < 5; ++frame) EXPECT_EQ(draw(noon(kLevel)).rgba, first.rgba) << name;
+    }
+}
+
+TEST_F(RendererTest, ResizingChangesTheSizeOnly) {
+    renderer_->setChunk({0, 0}, blockMesh("stone", 4, 8, 100));
+    const base::Image before = draw(noon(kLevel));
+    for (const glm::ivec2 size : {glm::ivec2{1, 1}, {33, 17}, {640, 2}, {7, 300}}) {
+        resize(size, 1);
+        draw(noon(kLevel));
+    }
+    resize(kSize, 1);
+    EXPECT_EQ(draw(noon(kLevel)).rgba, before.rgba);
+}
+
+// Samples smooth the edges and change nothing else.
+TEST_F(RendererTest, SamplesSmoothEdges) {
+    renderer_->setChunk({0, 0}, blockMesh("snow", 0, 8, 100));
+    const FrameInput input = noon({{-2, 7.2, 101.3}, 12, -20}, View::Normal);
+    const auto shades = [](const base::Image& image) {
+        std::set<Color> all;
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = 0; x < image.width; ++x) all.insert(pixel(image, x, y));
+        }
+        return all.size();
+    };
+    const std::size_t plain = shades(draw(input));
+    EXPECT_LE(plain, 4u) << "the sky and at most three sides";
+    const int most = std::min(8, gpu::queryDevice().maxSamples);
+    for (int samples = 2; samples <= most; samples *= 2) {
+        resize(kSize, samples);
+        EXPECT_GT(shades(draw(input)), plain) << samples << " samples";
+    }
+}
+
+TEST_F(RendererTest, MoreSamplesThanTheDriverHasAreAnError) {
+    const int tooMany = 2 * gpu::queryDevice().maxSamples;
+    const auto resized = renderer_->resize(kSize, tooMany);
+    ASSERT_FALSE(resized);
+    EXPECT_NE(resized.error().message.find(std::to_string(tooMany)), std::string::npos)
+        << resized.error().message;
+    EXPECT_EQ(renderer_->size(), kSize) << "the old targets stay";
+    draw(noon(kLevel));
+}
+
+TEST_F(RendererTest, ATextureThatIsMissingIsAnError) {
+    const auto none = [](std::string_view name) -> base::Result<base::Image> {
+        if (name == "dirt") return base::fail("dirt is lost");
+        return contentTexture(name);
+    };
+    const auto made = Renderer::create(contentShaders(), contentBlocks(), none, gpu::queryDevice());
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().message, "dirt is lost");
+}
+
+TEST_F(RendererTest, TexturesOfOtherSizesAreAnError) {
+    const auto sized = [](int width, int height) {
+        return [=](std::string_view name) -> base::Result<base::Image> {
+            if (name != "dirt") return contentTexture(name);
+            return base::Image{width, height,
+                               std::vector<std::uint8_t>(static_cast<std::size_t>(4 * width * height))};
+        };
+    };
+    for (const auto& [width, height] : {std::pair(16, 8), {12, 12}, {32, 32}, {8, 8}}) {
+        const auto made = loadBlockTextures(contentBlocks(), sized(width, height));
+        ASSERT_FALSE(made);
+        EXPECT_NE(made.error().message.find("\"dirt\""), std::string::npos) << made.error().message;
+    }
+}
+
+}  // namespace
+}  // namespace terrane::render
