@@ -13,9 +13,10 @@
 namespace terrane::render {
 namespace {
 
-// Draw records and commands of a frame: 16 + 20 bytes a region and face context; 4,225 chunks × 4 regions ×
-// about 3.
-constexpr std::size_t kRingBytes = 4u << 20;
+// A landscape at view distance 32: 1,500 regions with a record of 16 bytes and about three commands of 20.
+constexpr std::size_t kRingBytes = 256u << 10;
+// What slices may lose to alignment: the frame, the records and one list of commands a face context.
+constexpr std::size_t kAlignmentSlack = 256 * (mesh::kContextCount + 2);
 constexpr float kAmbientFromBelow = 0.4f;  // share of the sky's light on faces that look down
 constexpr float kExposure = 0.92f;
 constexpr float kMaxAnisotropy = 8.0f;
@@ -117,6 +118,15 @@ void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
     ring_.buffer().bindUniform(shared::kFrameBinding, slice->offsetBytes, sizeof(frame));
 }
 
+// A frame with more draws than the ring was made for gets a larger one; the GPU keeps the old one while it
+// reads it.
+void Renderer::reserveRing() {
+    std::size_t bytes =
+        sizeof(shared::Frame) + drawList_.records.size() * sizeof(shared::DrawRecord) + kAlignmentSlack;
+    for (const auto& commands : drawList_.commands) bytes += commands.size() * sizeof(DrawCommand);
+    if (bytes > ring_.regionBytes()) ring_ = gpu::MappedRing(2 * bytes, "frame data");
+}
+
 void Renderer::draw(const FrameInput& input) {
     TERRANE_ZONE("draw frame");
     assert(targets_.size.x > 0 && "resize comes before the first frame");
@@ -126,6 +136,7 @@ void Renderer::draw(const FrameInput& input) {
     statistics_ = {drawList_.regionCount, drawList_.quadCount, 0};
     for (const auto& commands : drawList_.commands) statistics_.drawCommands += commands.size();
 
+    reserveRing();
     ring_.beginFrame();
     bindFrame(input, view);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);

@@ -62,6 +62,7 @@ class Renderer {
     };
     static base::Result<Targets> makeTargets(glm::ivec2 size, int samples);
     static base::Result<void> addSamples(Targets& targets, int samples);
+    void reserveRing();
     void bindFrame(const FrameInput& input, const ViewMatrices& view);
 
     FullscreenPass sky_, final_;
