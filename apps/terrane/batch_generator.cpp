@@ -1,6 +1,5 @@
 #include "apps/terrane/batch_generator.h"
 
-#include <map>
 #include <unordered_map>
 
 #include "apps/terrane/content.h"
@@ -75,11 +74,9 @@ base::Result<std::unique_ptr<BatchGenerator>> makeGpuBatches(const WorldOptions&
 }  // namespace
 
 void addBackendOption(CLI::App& command, Backend& backend) {
-    const std::map<std::string, Backend> backends = {
-        {"auto", Backend::Auto}, {"cpu", Backend::Cpu}, {"gpu", Backend::Gpu}};
-    command.add_option("--backend", backend, "Where to generate")
-        ->transform(CLI::CheckedTransformer(backends).description("auto, cpu or gpu"))
-        ->default_str("auto");
+    addChoice<Backend>(command, "--backend", backend,
+                       {{"auto", Backend::Auto}, {"cpu", Backend::Cpu}, {"gpu", Backend::Gpu}},
+                       "Where to generate");
 }
 
 base::Result<std::unique_ptr<BatchGenerator>> makeBatchGenerator(const WorldOptions& options, Backend backend,

@@ -1,5 +1,7 @@
 // terrane: reads the command line, runs one command, reports. Exit codes: 0 done, 2 bad input or a missing
 // means.
+#include <exception>
+#include <string>
 #include <vector>
 
 #include "apps/terrane/commands/commands.h"
@@ -10,10 +12,27 @@ namespace {
 
 constexpr int kBadInput = 2;
 
+// The parser words some mistakes for programmers.
+std::string describe(const CLI::ParseError& error) {
+    const std::string text = error.what();
+    if (error.get_name() != "ArgumentMismatch") return text;
+    const std::string option = text.substr(0, text.find(':'));
+    return option + (text.ends_with("missing") ? ": its value is missing" : ": given more than once");
+}
+
 // One line, where the parser would print its help as well.
 int reportBadArguments(const CLI::ParseError& error) {
-    terrane::base::logError("{} (see terrane --help)", error.what());
+    terrane::base::logError("{} (see terrane --help)", describe(error));
     return kBadInput;
+}
+
+// What is thrown, as by a system without memory or threads left, is reported like any other failure.
+terrane::base::Result<void> run(const terrane::app::CommandEntry& command) {
+    try {
+        return command.run();
+    } catch (const std::exception& error) {
+        return terrane::base::fail("{}: {}", command.parser->get_name(), error.what());
+    }
 }
 
 }  // namespace
@@ -42,7 +61,7 @@ int main(int argc, char** argv) {
     }
     for (const app::CommandEntry& command : commands) {
         if (!command.parser->parsed()) continue;
-        const base::Result<void> result = command.run();
+        const base::Result<void> result = run(command);
         if (result) return 0;
         base::logError("{}", result.error().message);
         return kBadInput;

@@ -1,7 +1,7 @@
 #include "apps/terrane/options.h"
 
 #include <charconv>
-#include <map>
+#include <filesystem>
 #include <thread>
 
 namespace terrane::app {
@@ -22,6 +22,16 @@ glm::ivec2 parseSize(const std::string& text) {
             fmt::format("expected WIDTHxHEIGHT with sides of 1 to {}, got \"{}\"", kMaxPictureSide, text));
     }
     return {width, height};
+}
+
+// The parser's own reading takes -1 and what is too large for the largest seed.
+std::uint64_t parseSeed(const std::string& text) {
+    std::uint64_t seed = 0;
+    const char* end = text.data() + text.size();
+    const auto [next, error] = std::from_chars(text.data(), end, seed);
+    if (error == std::errc() && next == end) return seed;
+    throw CLI::ValidationError(
+        "--seed", fmt::format("expected a whole number from 0 to {}, got \"{}\"", UINT64_MAX, text));
 }
 
 Area parseArea(const std::string& text) {
@@ -46,26 +56,40 @@ Area parseArea(const std::string& text) {
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const std::string& form) {
     std::vector<double> numbers;
     const char *at = text.data(), *end = text.data() + text.size();
-    while (at <= end) {
+    for (bool hasMore = true; hasMore;) {
         double value = 0;
         const auto [next, error] = std::from_chars(at, end, value);
-        if (error != std::errc() || !(value > -1e15 && value < 1e15)) break;
+        hasMore = next != end && *next == ',';
+        const bool isGood = error == std::errc() && value > -1e15 && value < 1e15 && (hasMore || next == end);
+        if (!isGood) throw CLI::ValidationError(fmt::format("{}, got \"{}\"", form, text));
         numbers.push_back(value);
-        at = next;
-        if (at == end || *at != ',') break;
-        ++at;
+        at = next + 1;
     }
-    if (at != end || numbers.size() != count)
-        throw CLI::ValidationError(fmt::format("{}, got \"{}\"", form, text));
+    if (numbers.size() != count) throw CLI::ValidationError(fmt::format("{}, got \"{}\"", form, text));
     return numbers;
 }
 
+CLI::Validator numberFrom(double low, double high) {
+    const auto check = [=](const std::string& text) -> std::string {
+        double value = 0;
+        const char* end = text.data() + text.size();
+        const auto [next, error] = std::from_chars(text.data(), end, value);
+        if (error == std::errc() && next == end && value >= low && value <= high) return {};
+        return fmt::format("expected a number from {} to {}, got \"{}\"", low, high, text);
+    };
+    return CLI::Validator(check, fmt::format("{} to {}", low, high));
+}
+
 void addWorldOptions(CLI::App& command, WorldOptions& options) {
-    command.add_option("--seed", options.seed, "Seed of the world")->capture_default_str();
+    command
+        .add_option_function<std::string>(
+            "--seed", [&](const std::string& text) { options.seed = parseSeed(text); }, "Seed of the world")
+        ->type_name("NUMBER")
+        ->default_str("1");
     command.add_option("--generator", options.generator, "Generator of the world: overworld or flat")
         ->capture_default_str();
     command.add_option("--threads", options.threads, "Worker threads (default: one for each processor)")
-        ->check(CLI::Range(1, 256));
+        ->check(numberFrom(1, 256));
 }
 
 void addGraphicsOptions(CLI::App& command, GraphicsOptions& options) {
@@ -76,20 +100,37 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options) {
         ->type_name("WxH")
         ->default_str("1280x720");
     command.add_option("--view-distance", options.viewDistance, "How far one sees, in chunks")
-        ->check(CLI::Range(1, 64))
+        ->check(numberFrom(1, 64))
         ->capture_default_str();
     command.add_option("--samples", options.samples, "Anti-aliasing: samples a pixel")
         ->check(CLI::IsMember({1, 2, 4, 8}))
         ->capture_default_str();
-    const std::map<std::string, render::View> views = {
-        {"color", render::View::Color}, {"normal", render::View::Normal}, {"depth", render::View::Depth}};
-    command.add_option("--view", options.view, "What to show")
-        ->transform(CLI::CheckedTransformer(views).description("color, normal or depth"))
-        ->default_str("color");
+    addChoice<render::View>(
+        command, "--view", options.view,
+        {{"color", render::View::Color}, {"normal", render::View::Normal}, {"depth", render::View::Depth}},
+        "What to show");
     command
         .add_option("--shader-root", options.shaderRoot, "Source tree to read shaders from, for development")
         ->check(CLI::ExistingDirectory);
     command.add_flag("--debug-gl", options.debugGl, "Report errors of the graphics driver");
+}
+
+void addOutputOption(CLI::App& command, std::string& output, const std::string& description) {
+    const auto check = [](const std::string& text) -> std::string {
+        const std::filesystem::path path(text), folder = path.parent_path();
+        std::error_code ignored;
+        if (!path.has_filename() || std::filesystem::is_directory(path, ignored)) {
+            return fmt::format("\"{}\" does not name a file", text);
+        }
+        if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
+            return fmt::format("\"{}\": there is no folder {}", text, folder.string());
+        }
+        return {};
+    };
+    command.add_option("-o,--output", output, description)
+        ->check(CLI::Validator(check, ""))
+        ->type_name("FILE")
+        ->required();
 }
 
 void addAreaOption(CLI::App& command, std::optional<Area>& area) {

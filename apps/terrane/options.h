@@ -6,6 +6,8 @@
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "terrane/base/result.h"
 #include "terrane/render/renderer.h"
@@ -39,6 +41,34 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options);
 // "X0,Y0,X1,Y1", the end excluded; not empty and inside the world.
 void addAreaOption(CLI::App& command, std::optional<Area>& area);
 unsigned threadCount(const WorldOptions& options);
+
+// -o: the file to write. Refused before the work starts where it cannot be written later.
+void addOutputOption(CLI::App& command, std::string& output, const std::string& description);
+
+// For CLI::Option::check.
+CLI::Validator numberFrom(double low, double high);
+
+// An option that takes one of a few words.
+template <class T>
+void addChoice(CLI::App& command, const std::string& name, T& value,
+               const std::vector<std::pair<std::string, T>>& choices, const std::string& description) {
+    std::string words, defaultWord;
+    for (const auto& [word, choice] : choices) {
+        words += (words.empty() ? "" : ", ") + word;
+        if (choice == value) defaultWord = word;
+    }
+    const auto take = [name, &value, choices, words](const std::string& text) {
+        for (const auto& [word, choice] : choices) {
+            if (word != text) continue;
+            value = choice;
+            return;
+        }
+        throw CLI::ValidationError(name, fmt::format("expected one of {}, got \"{}\"", words, text));
+    };
+    command.add_option_function<std::string>(name, take, description + ": " + words)
+        ->type_name("WORD")
+        ->default_str(defaultWord);
+}
 
 // "1,2.5,-3": exactly `count` numbers. Throws CLI::ValidationError.
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const std::string& form);

@@ -1,7 +1,6 @@
 // terrane dump: blocks, light or quads of an area as a NumPy file, so that anyone can check them from
 // outside.
 #include <cstring>
-#include <map>
 #include <memory>
 
 #include "apps/terrane/commands/commands.h"
@@ -188,12 +187,10 @@ CommandEntry addDump(CLI::App& app) {
     CLI::App* command = app.add_subcommand("dump", "Write blocks, light or quads of an area as a NumPy file");
     addAreaOption(*command, options->area);
     command->get_option("--area")->required();
-    const std::map<std::string, What> kinds = {
-        {"blocks", What::Blocks}, {"light", What::Light}, {"quads", What::Quads}};
-    command->add_option("--what", options->what, "What to write")
-        ->transform(CLI::CheckedTransformer(kinds).description("blocks, light or quads"))
-        ->default_str("blocks");
-    command->add_option("-o,--output", options->output, "The .npy file")->required();
+    addChoice<What>(*command, "--what", options->what,
+                    {{"blocks", What::Blocks}, {"light", What::Light}, {"quads", What::Quads}},
+                    "What to write");
+    addOutputOption(*command, options->output, "The .npy file");
     addWorldOptions(*command, options->world);
     return {command, [options] { return dump(*options); }};
 }

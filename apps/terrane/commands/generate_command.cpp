@@ -117,7 +117,7 @@ CommandEntry addGenerate(CLI::App& app) {
     auto options = std::make_shared<GenerateOptions>();
     CLI::App* command = app.add_subcommand("generate", "Generate an area of the world");
     auto* radius = command->add_option("--radius", options->radius, "Chunks around 0,0: (2R+1)² of them")
-                       ->check(CLI::Range(0, 4096));
+                       ->check(numberFrom(0, 4096));
     addAreaOption(*command, options->area);
     command->get_option("--area")->excludes(radius);
     command->add_flag("--digest", options->digest, "Print one hash over all blocks");

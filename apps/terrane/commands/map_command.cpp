@@ -52,10 +52,10 @@ CommandEntry addMap(CLI::App& app) {
     auto options = std::make_shared<MapOptions>();
     CLI::App* command = app.add_subcommand("map", "Draw a map of an area from above into a PNG file");
     auto* radius = command->add_option("--radius", options->radius, "Chunks around 0,0: (2R+1)² of them")
-                       ->check(CLI::Range(0, 511));
+                       ->check(numberFrom(0, 511));
     addAreaOption(*command, options->area);
     command->get_option("--area")->excludes(radius);
-    command->add_option("-o,--output", options->output, "The PNG file")->required();
+    addOutputOption(*command, options->output, "The PNG file");
     addWorldOptions(*command, options->world);
     return {command, [options] { return writeMap(*options); }};
 }

@@ -140,8 +140,8 @@ CommandEntry addRender(CLI::App& app) {
             "Camera direction; yaw 0 looks along x, 90 along y")
         ->type_name("YAW,PITCH");
     command->add_option("--time", options->time, "Time of day: 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk")
-        ->check(CLI::Range(0.0, 1.0));
-    command->add_option("-o,--output", options->output, "The PNG file")->required();
+        ->check(numberFrom(0, 1));
+    addOutputOption(*command, options->output, "The PNG file");
     command->add_flag("--json", options->json, "Print timings and counts as JSON");
     addWorldOptions(*command, options->world);
     addGraphicsOptions(*command, options->graphics);

@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""Whatever is wrong on the command line: one line that says what, exit code 2, and nothing written.
+
+Usage: bad_input_test.py PROGRAM"""
+import support
+from support import ProgramTest, run
+
+RENDER = ("render", "--scene", "ocean", "-o", "{out}")
+GENERATE = ("generate", "--radius", "0")
+DUMP = ("dump", "--area", "0,0,1,1", "-o", "{out}")
+MAP = ("map", "--radius", "0", "-o", "{out}")
+
+# Arguments, and what the line must say. {out} is a file that could be written, {folder} the folder it is in.
+CASES = [
+    # Commands
+    (("frobnicate",), "frobnicate"),
+    (("--frobnicate",), "--frobnicate"),
+    (("blocks", "extra"), "extra"),
+    (("info", "--frobnicate"), "--frobnicate"),
+    (("generate", "--radius", "0", "render"), "render"),
+    # Scenes and places
+    (("render", "-o", "{out}"), "--scene or --at"),
+    (("render", "--scene", "nowhere", "-o", "{out}"), '"nowhere"'),
+    (("render", "--scene", "", "-o", "{out}"), "--scene"),
+    (("render", "--at", "1,2", "-o", "{out}"), '"1,2"'),
+    (("render", "--at", "1,2,3,4", "-o", "{out}"), '"1,2,3,4"'),
+    (("render", "--at", "1,2,x", "-o", "{out}"), '"1,2,x"'),
+    (("render", "--at", "1,,3", "-o", "{out}"), '"1,,3"'),
+    (("render", "--at", "1,2,3,", "-o", "{out}"), '"1,2,3,"'),
+    (("render", "--at", "", "-o", "{out}"), '""'),
+    (("render", "--at", "nan,0,0", "-o", "{out}"), '"nan,0,0"'),
+    (("render", "--at", "inf,0,0", "-o", "{out}"), '"inf,0,0"'),
+    (("render", "--at", "3e9,0,80", "-o", "{out}"), "outside the world"),
+    (("render", "--at", "0,-1e14,80", "-o", "{out}"), "outside the world"),
+    ((*RENDER, "--at", "1,2,3"), "--at"),
+    ((*RENDER, "--look", "1"), '"1"'),
+    ((*RENDER, "--look", "a,b"), '"a,b"'),
+    ((*RENDER, "--time", "2"), '"2"'),
+    ((*RENDER, "--time", "noon"), '"noon"'),
+    # Worlds
+    ((*RENDER, "--generator", "nope"), '"nope"'),
+    ((*GENERATE, "--generator", "nope"), '"nope"'),
+    ((*DUMP, "--generator", "nope"), '"nope"'),
+    ((*MAP, "--generator", "nope"), '"nope"'),
+    ((*GENERATE, "--seed", "abc"), "abc"),
+    ((*GENERATE, "--seed", "-1"), '"-1"'),
+    ((*GENERATE, "--seed", "99999999999999999999999"), "99999999999999999999999"),
+    ((*GENERATE, "--threads", "0"), '"0"'),
+    ((*GENERATE, "--threads", "-1"), '"-1"'),
+    ((*GENERATE, "--threads", "9999"), '"9999"'),
+    # Pictures
+    ((*RENDER, "--size", "0x0"), '"0x0"'),
+    ((*RENDER, "--size", "abc"), '"abc"'),
+    ((*RENDER, "--size", "99999x1"), '"99999x1"'),
+    ((*RENDER, "--size", "64"), '"64"'),
+    ((*RENDER, "--size", "64x"), '"64x"'),
+    ((*RENDER, "--size", "64x36x2"), '"64x36x2"'),
+    ((*RENDER, "--size", "-64x36"), '"-64x36"'),
+    ((*RENDER, "--size", "64 x 36"), '"64 x 36"'),
+    (("play", "--size", "0x0"), '"0x0"'),
+    ((*RENDER, "--view", "nothing"), '"nothing"'),
+    ((*RENDER, "--view", "0"), '"0"'),
+    ((*RENDER, "--view-distance", "0"), '"0"'),
+    ((*RENDER, "--view-distance", "65"), '"65"'),
+    ((*RENDER, "--view-distance", "far"), '"far"'),
+    ((*RENDER, "--view-distance", "1.5"), "1.5"),
+    ((*RENDER, "--samples", "3"), "3"),
+    ((*RENDER, "--shader-root", "{folder}/missing"), "missing"),
+    # Areas
+    (("generate",), "--radius"),
+    ((*GENERATE, "--backend", "abacus"), '"abacus"'),
+    (("generate", "--radius", "-1"), '"-1"'),
+    (("generate", "--radius", "5000"), '"5000"'),
+    (("generate", "--radius", "x"), '"x"'),
+    (("generate", "--radius"), "--radius"),
+    (("generate", "--radius", "1", "--radius", "2"), "--radius"),
+    (("generate", "--radius", "1", "--area", "0,0,1,1"), "--area"),
+    (("generate", "--area", "0,0,0,0"), '"0,0,0,0"'),
+    (("generate", "--area", "5,5,4,6"), '"5,5,4,6"'),
+    (("generate", "--area", "0,0,1"), '"0,0,1"'),
+    (("generate", "--area", "0,0,1.5,1"), "integers"),
+    (("generate", "--area", "a,b,c,d"), '"a,b,c,d"'),
+    (("generate", "--area", "134217728,0,134217729,1"), "134217727"),
+    (("generate", "--area", "0,-134217729,1,1"), "-134217728"),
+    (("generate", "--area", "0,0,1e14,1"), "134217727"),
+    (("dump", "-o", "{out}"), "--area"),
+    (("dump", "--area", "0,0,100,100", "-o", "{out}"), "10000"),
+    ((*DUMP, "--what", "nothing"), '"nothing"'),
+    (("map", "-o", "{out}"), "--radius"),
+    (("map", "--radius", "512", "-o", "{out}"), '"512"'),
+    # Files
+    (("render", "--scene", "ocean"), "--output"),
+    (("dump", "--area", "0,0,1,1"), "--output"),
+    (("map", "--radius", "0"), "--output"),
+    (("render", "--scene", "ocean", "-o"), "--output"),
+    (("render", "--scene", "ocean", "-o", ""), '""'),
+    (("render", "--scene", "ocean", "-o", "{folder}"), "{folder}"),
+    (("render", "--scene", "ocean", "-o", "{folder}/"), "{folder}"),
+    (("render", "--scene", "ocean", "-o", "{folder}/missing/a.png"), "{folder}/missing"),
+    (("dump", "--area", "0,0,1,1", "-o", "{folder}"), "{folder}"),
+    (("dump", "--area", "0,0,1,1", "-o", "{folder}/missing/a.npy"), "{folder}/missing"),
+    (("map", "--radius", "0", "-o", "{folder}/missing/a.png"), "{folder}/missing"),
+    (("map", "--radius", "0", "-o", "/dev/null"), "/dev/null"),
+]
+
+
+class BadInput(ProgramTest):
+    def test_every_case(self):
+        for arguments, hint in CASES:
+            names = {"out": self.folder / "out", "folder": self.folder}
+            filled = [argument.format(**names) for argument in arguments]
+            with self.subTest(" ".join(arguments)):
+                done = run(*filled)
+                written = [path.unlink() for path in self.folder.iterdir()]
+                self.assertRefused(done, filled)
+                self.assertIn(hint.format(**names), done.stderr)
+                self.assertEqual(written, [], "something was written")
+
+    # A window needs a display; there is nothing else that could be shown.
+    def test_play_without_a_display(self):
+        for arguments in ((), ("play",), ("--view-distance", "2")):
+            done = run(*arguments)
+            self.assertRefused(done, arguments)
+            self.assertIn("display", done.stderr)
+
+    def test_play_with_a_display_that_is_not_there(self):
+        self.assertRefused(run("play", display=":987654"), "a display that is not there")
+
+
+if __name__ == "__main__":
+    support.main()

@@ -1,0 +1,253 @@
+#!/usr/bin/env python3
+"""Every command of the program, end to end. Usage: cli_test.py PROGRAM"""
+import json
+import struct
+
+import support
+from support import Npy, Picture, ProgramTest
+
+COMMANDS = ("play", "render", "generate", "map", "dump", "blocks", "info")
+FLAT = ("--generator", "flat")
+
+# Name: opacity to light, emission. Of all blocks that the game starts with.
+BLOCKS = {
+    "air": (0, [0, 0, 0]), "stone": (15, [0, 0, 0]), "dirt": (15, [0, 0, 0]), "grass": (15, [0, 0, 0]),
+    "sand": (15, [0, 0, 0]), "snow": (15, [0, 0, 0]), "glowing_ore": (15, [2, 1, 0]), "oak_log": (15, [0, 0, 0]),
+    "oak_leaves": (3, [0, 0, 0]), "grass_tuft": (3, [0, 0, 0]), "blue_orchid": (3, [0, 0, 0]),
+    "poppy": (3, [0, 0, 0]), "oxeye_daisy": (3, [0, 0, 0]), "wheat": (4, [0, 0, 0]),
+    "red_mushroom": (2, [0, 0, 0]), "brown_mushroom": (2, [0, 0, 0]), "glowing_mushroom": (0, [5, 10, 8]),
+    "cactus": (11, [0, 0, 0]), "lamp_white": (15, [15, 13, 13]), "lamp_red": (15, [15, 0, 0]),
+    "lamp_green": (15, [0, 15, 0]), "lamp_blue": (15, [0, 0, 15]), "cyan_glass": (3, [0, 0, 0]),
+    "water": (1, [0, 0, 0]),
+}
+NO_COLLISION = {"air", "grass_tuft", "blue_orchid", "poppy", "oxeye_daisy", "wheat", "red_mushroom",
+                "brown_mushroom", "glowing_mushroom", "water"}
+PLACED_ONLY = {"lamp_white", "lamp_red", "lamp_green", "lamp_blue", "cyan_glass"}
+
+
+class Help(ProgramTest):
+    def test_lists_every_command(self):
+        text = self.succeed("--help")
+        for command in COMMANDS:
+            self.assertIn(f"\n  {command} ", text)
+
+    def test_every_command_explains_itself(self):
+        for command in COMMANDS:
+            self.assertIn("Usage: terrane " + command, self.succeed(command, "--help"))
+
+    def test_version(self):
+        self.assertRegex(self.succeed("--version"), r"\A\d+\.\d+\.\d+\n\Z")
+
+
+class Render(ProgramTest):
+    SMALL = ("--size", "64x36", "--view-distance", "2", "--samples", "1")
+
+    def render(self, name, *arguments):
+        path = self.folder / name
+        text = self.succeed("render", *arguments, *self.SMALL, "-o", path)
+        picture = Picture(path)
+        self.assertEqual((picture.width, picture.height), (64, 36))
+        return picture, text
+
+    def test_scenes_are_drawn(self):
+        for scene in ("ocean", "desert", "landscape", "cave"):
+            picture, text = self.render("scene.png", "--scene", scene, "--debug-gl")
+            self.assertGreater(len(picture.colors()), 20, scene)
+            self.assertEqual(text, "")
+
+    def test_json_tells_counts_and_times(self):
+        _, text = self.render("a.png", "--scene", "landscape", "--json")
+        self.assertEqual(text.count("\n"), 1)
+        result = json.loads(text)
+        self.assertEqual(result["file"], str(self.folder / "a.png"))
+        self.assertGreaterEqual(result["chunks"], 49)
+        for key in ("quads", "regions", "draw_commands"):
+            self.assertGreater(result[key], 0, key)
+        for key in ("set_up", "load", "draw", "all"):
+            self.assertGreater(result["milliseconds"][key], 0, key)
+        for key in ("blocks", "quads"):
+            self.assertGreater(result["bytes"][key], 0, key)
+
+    def test_the_picture_does_not_depend_on_threads(self):
+        one, _ = self.render("one.png", "--scene", "desert", "--threads", "1")
+        two, _ = self.render("two.png", "--scene", "desert", "--threads", "2")
+        self.assertEqual(one.rows, two.rows)
+
+    def test_views_show_something_else(self):
+        pictures = [self.render("v.png", "--scene", "landscape", "--view", view)[0].rows
+                    for view in ("color", "normal", "depth")]
+        self.assertNotEqual(pictures[0], pictures[1])
+        self.assertNotEqual(pictures[1], pictures[2])
+        self.assertTrue(all(r == g == b for row in pictures[2] for r, g, b in row), "depth is grey")
+
+    def test_place_direction_and_time_count(self):
+        at = ("--at", "8.5,8.5,84", *FLAT)
+        ahead, _ = self.render("a.png", *at)
+        down, _ = self.render("b.png", *at, "--look", "0,-90")
+        night, _ = self.render("c.png", *at, "--look", "0,-90", "--time", "0")
+        self.assertNotEqual(ahead.rows, down.rows)
+        red, green, blue = down.rows[18][32]
+        self.assertTrue(green > red and green > blue, "grass below")
+        self.assertLess(night.rows[18][32][1], green, "darker at night")
+
+    def test_more_samples(self):
+        path = self.folder / "a.png"
+        self.succeed("render", "--scene", "cave", "--size", "40x30", "--view-distance", "1", "--samples", "4", "-o", path)
+        self.assertEqual(Picture(path).width, 40)
+
+
+class Generate(ProgramTest):
+    def digest(self, *arguments):
+        text = self.succeed("generate", "--digest", "--backend", "cpu", *arguments)
+        self.assertRegex(text, r"\A[0-9a-f]{32}\n\Z")
+        return text
+
+    def test_threads_and_repetition_change_nothing(self):
+        first = self.digest("--radius", "4", "--threads", "1")
+        self.assertEqual(self.digest("--radius", "4", "--threads", "2"), first)
+        self.assertEqual(self.digest("--radius", "4", "--threads", "2"), first)
+
+    def test_the_digest_is_of_the_area(self):
+        small = self.digest("--radius", "1")
+        self.assertEqual(self.digest("--area", "-1,-1,2,2"), small)
+        self.assertNotEqual(self.digest("--area", "-1,-1,2,3"), small)
+        self.assertNotEqual(self.digest("--radius", "1", "--seed", "2"), small)
+        self.assertNotEqual(self.digest("--radius", "1", *FLAT), small)
+
+    def test_the_corners_of_the_world(self):
+        low, high = -2**27, 2**27
+        self.digest("--area", f"{low},{low},{low + 1},{low + 1}")
+        self.digest("--area", f"{high - 1},{high - 1},{high},{high}")
+
+    def test_json(self):
+        text = self.succeed("generate", "--radius", "1", "--digest", "--json", "--threads", "2")
+        self.assertEqual(text.count("\n"), 1)
+        result = json.loads(text)
+        self.assertEqual(set(result), {"chunks", "seconds", "chunks_per_second", "threads", "backend", "digest"})
+        self.assertEqual((result["chunks"], result["threads"]), (9, 2))
+        self.assertIn(result["backend"], ("cpu", "gpu"))
+        self.assertAlmostEqual(result["chunks_per_second"] * result["seconds"], 9, delta=0.01)
+        self.assertEqual(result["digest"] + "\n", self.digest("--radius", "1"))
+        self.assertNotIn("digest", json.loads(self.succeed("generate", "--radius", "0", "--json")))
+
+    def test_explain(self):
+        self.assertIn("pass 0", self.succeed("generate", "--explain", *FLAT))
+
+
+class Map(ProgramTest):
+    def test_one_pixel_a_block(self):
+        path = self.folder / "map.png"
+        self.succeed("map", "--radius", "1", "-o", path)
+        picture = Picture(path)
+        self.assertEqual((picture.width, picture.height), (48, 48))
+        self.assertGreater(len(picture.colors()), 1)
+
+
+class Dump(ProgramTest):
+    def dump(self, what, area, *arguments):
+        path = self.folder / f"{what}.npy"
+        self.assertEqual(self.succeed("dump", "--what", what, "--area", area, "-o", path, *arguments), "")
+        return Npy(path)
+
+    def ids(self):
+        return {block["name"]: block["id"] for block in json.loads(self.succeed("blocks", "--json"))}
+
+    def test_blocks_of_the_flat_world(self):
+        ids = self.ids()
+        blocks = self.dump("blocks", "-1,0,1,3", *FLAT)
+        self.assertEqual((blocks.descr, blocks.shape), ("<u2", (32, 48, 256)))
+        expected = [ids["stone"]] * 77 + [ids["dirt"]] * 3 + [ids["grass"]] + [ids["air"]] * (256 - 81)
+        for x, y in ((0, 0), (31, 47), (5, 20)):
+            self.assertEqual(blocks.column(x, y), expected)
+        self.assertEqual(sum(blocks.volume()), 32 * 48 * sum(expected))
+
+    def test_blocks_of_the_overworld_are_known(self):
+        blocks = self.dump("blocks", "3,-2,5,0")
+        self.assertEqual(blocks.shape, (32, 32, 256))
+        found = set(blocks.volume())
+        self.assertLessEqual(found, set(self.ids().values()))
+        self.assertGreater(len(found), 3)
+
+    def test_an_area_is_made_of_its_chunks(self):
+        both = self.dump("blocks", "3,7,5,8")
+        second = self.dump("blocks", "4,7,5,8")
+        for x, y in ((0, 0), (15, 15), (9, 4)):
+            self.assertEqual(both.column(16 + x, y), second.column(x, y))
+
+    def test_light_of_the_flat_world(self):
+        light = self.dump("light", "0,0,2,1", *FLAT)
+        self.assertEqual((light.descr, light.shape), ("<u2", (32, 16, 256)))
+        for x, y in ((0, 0), (31, 15)):
+            column = light.column(x, y)
+            self.assertEqual([value >> 12 for value in column], [0] * 81 + [15] * 175)
+            self.assertEqual({value & 0xFFF for value in column}, {0}, "nothing shines")
+
+    def test_light_of_the_overworld_is_dark_in_stone(self):
+        stone = self.ids()["stone"]
+        blocks, light = self.dump("blocks", "0,0,1,1"), self.dump("light", "0,0,1,1")
+        for block, level in zip(blocks.volume(), light.volume()):
+            if block == stone:
+                self.assertEqual(level >> 12, 0)
+        self.assertEqual({light.column(x, 3)[255] >> 12 for x in range(16)}, {15})
+
+    def test_quads_of_the_flat_world(self):
+        quads = self.dump("quads", "-3,5,-1,6", *FLAT)
+        names = [name for name, _ in quads.descr]
+        self.assertEqual(names, ["chunk_x", "chunk_y", "x", "y", "z", "shape_face", "extent_u", "extent_v", "material",
+                                 "context", "group"])
+        record = struct.Struct("<ii6BH2B")
+        self.assertEqual("".join(kind for _, kind in quads.descr), "<i4" * 2 + "|u1" * 6 + "<u2" + "|u1" * 2)
+        self.assertEqual(len(quads.data), quads.shape[0] * record.size)
+        values = [record.unpack_from(quads.data, k * record.size) for k in range(quads.shape[0])]
+        material = values[0][8]
+        top = (0, 0, 80, 5, 16, 16, material, 0, 5)  # the grass: a square of 16 × 16 that looks up
+        self.assertEqual(values, [(-3, 5, *top), (-2, 5, *top)])
+
+    def test_quads_of_the_overworld(self):
+        quads = self.dump("quads", "0,0,2,2")
+        self.assertGreater(quads.shape[0], 1000)
+        for k in range(quads.shape[0]):
+            chunk_x, chunk_y, x, y, z, face, u, v, _, context, group = struct.unpack_from("<ii6BH2B", quads.data, k * 18)
+            self.assertTrue(0 <= chunk_x < 2 and 0 <= chunk_y < 2 and x < 16 and y < 16 and z < 256)
+            self.assertTrue(face < 21 and 1 <= u <= 16 and 1 <= v <= 16 and context < 6 and group < 7)
+
+
+class Blocks(ProgramTest):
+    def test_json_lists_every_block(self):
+        blocks = {block["name"]: block for block in json.loads(self.succeed("blocks", "--json"))}
+        self.assertEqual(set(blocks), set(BLOCKS) | {"missing"})
+        for name, (opacity, emission) in BLOCKS.items():
+            block = blocks[name]
+            self.assertEqual((block["opacity"], block["emission"]), (opacity, emission), name)
+            self.assertEqual(block["collision"] == [], name in NO_COLLISION, name)
+            self.assertEqual(not block["generated"], name in PLACED_ONLY, name)
+            self.assertEqual(len(block["textures"]), 0 if name == "air" else 6, name)
+
+    def test_ids_are_the_places_in_the_list(self):
+        blocks = json.loads(self.succeed("blocks", "--json"))
+        self.assertEqual([block["id"] for block in blocks], list(range(len(blocks))))
+        self.assertEqual(blocks[0]["name"], "air")
+
+    def test_text_names_every_block(self):
+        text = self.succeed("blocks")
+        for name in BLOCKS:
+            self.assertIn(f" {name} ", text)
+
+
+class Info(ProgramTest):
+    def test_json(self):
+        text = self.succeed("info", "--json")
+        self.assertEqual(text.count("\n"), 1)
+        info = json.loads(text)
+        self.assertLessEqual({"version", "processors", "simd", "generators", "graphics"}, set(info))
+        self.assertLessEqual({"overworld", "flat"}, set(info["generators"]))
+        self.assertGreaterEqual(info["processors"], 1)
+        self.assertTrue(info["graphics"]["version"].startswith("4."))
+        self.assertGreaterEqual(info["graphics"]["max_samples"], 4)
+
+    def test_text(self):
+        self.assertIn("generators", self.succeed("info"))
+
+
+if __name__ == "__main__":
+    support.main()

@@ -1,0 +1,144 @@
+"""What the tests of the program share: running it, and reading the files it writes with the standard library."""
+import ast
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+HANG_SECONDS = 120  # a guard against hangs; the tests wait for results, never for time
+
+_program = None
+
+
+def main():
+    """Runs the tests of the calling script; its first argument is the program under test."""
+    global _program
+    if len(sys.argv) < 2:
+        sys.exit(f"usage: {sys.argv[0]} PROGRAM [unittest arguments]")
+    _program = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main(module="__main__", verbosity=2)
+
+
+def program():
+    return _program
+
+
+def environment(display=None):
+    """That of this process with no other display server than the one named."""
+    variables = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    if display:
+        variables["DISPLAY"] = display
+    return variables
+
+
+def run(*arguments, display=None):
+    """Runs the program to its end. Without `display` it finds no display server."""
+    return subprocess.run([_program, *map(str, arguments)], capture_output=True, text=True, timeout=HANG_SECONDS,
+                          env=environment(display), check=False)
+
+
+class ProgramTest(unittest.TestCase):
+    """A test with a folder of its own."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="terrane_test_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def succeed(self, *arguments):
+        """Standard output of a run that must succeed."""
+        done = run(*arguments)
+        self.assertEqual(done.returncode, 0, f"{arguments}: {done.stderr}")
+        self.assertNotIn("error", done.stderr, arguments)
+        return done.stdout
+
+    def assertRefused(self, done, case):
+        self.assertEqual(done.returncode, 2, f"{case}: {done.stderr}")
+        self.assertEqual(done.stdout, "", case)
+        self.assertEqual(done.stderr.count("\n"), 1, f"{case}: not one line: {done.stderr}")
+        self.assertRegex(done.stderr, r"\Aterrane: error: [^\x00-\x1f]+\n\Z", case)
+
+
+def _unfilter(kind, row, above, step):
+    """Undoes the filter of one row of a PNG (W3C PNG specification, section 9)."""
+    for i in range(len(row)):
+        left = row[i - step] if i >= step else 0
+        up = above[i]
+        corner = above[i - step] if i >= step else 0
+        if kind == 1:
+            row[i] = (row[i] + left) & 255
+        elif kind == 2:
+            row[i] = (row[i] + up) & 255
+        elif kind == 3:
+            row[i] = (row[i] + (left + up) // 2) & 255
+        elif kind == 4:
+            guess = left + up - corner
+            nearest = min((abs(guess - left), 0, left), (abs(guess - up), 1, up), (abs(guess - corner), 2, corner))
+            row[i] = (row[i] + nearest[2]) & 255
+    return row
+
+
+class Picture:
+    """A PNG of 8 bits a channel; rows of (red, green, blue)."""
+
+    def __init__(self, path):
+        data = pathlib.Path(path).read_bytes()
+        if data[:8] != b"\x89PNG\r\n\x1a\n":
+            raise ValueError(f"{path}: no PNG")
+        packed, at = b"", 8
+        while at < len(data):
+            length, kind = struct.unpack(">I4s", data[at:at + 8])
+            body = data[at + 8:at + 8 + length]
+            if kind == b"IHDR":
+                self.width, self.height, depth, color, _, _, interlaced = struct.unpack(">IIBBBBB", body)
+            elif kind == b"IDAT":
+                packed += body
+            at += 12 + length
+        if depth != 8 or color not in (2, 6) or interlaced:
+            raise ValueError(f"{path}: neither RGB nor RGBA of 8 bits")
+        self._read(zlib.decompress(packed), 3 if color == 2 else 4)
+
+    def _read(self, raw, step):
+        stride = self.width * step
+        above = bytearray(stride)
+        self.rows = []
+        for y in range(self.height):
+            start = y * (stride + 1)
+            above = _unfilter(raw[start], bytearray(raw[start + 1:start + 1 + stride]), above, step)
+            self.rows.append([tuple(above[x:x + 3]) for x in range(0, stride, step)])
+
+    def colors(self):
+        return {pixel for row in self.rows for pixel in row}
+
+
+class Npy:
+    """A NumPy file: descr, shape, and its bytes."""
+
+    def __init__(self, path):
+        data = pathlib.Path(path).read_bytes()
+        if data[:8] != b"\x93NUMPY\x01\x00":
+            raise ValueError(f"{path}: not version 1.0 of .npy")
+        length = struct.unpack("<H", data[8:10])[0]
+        if (10 + length) % 64 != 0 or data[10 + length - 1:10 + length] != b"\n":
+            raise ValueError(f"{path}: the header is not padded to 64 bytes")
+        header = ast.literal_eval(data[10:10 + length].decode("latin1"))
+        if set(header) != {"descr", "fortran_order", "shape"} or header["fortran_order"]:
+            raise ValueError(f"{path}: unexpected header {header}")
+        self.descr, self.shape = header["descr"], header["shape"]
+        self.data = data[10 + length:]
+
+    def volume(self):
+        """The values of a uint16 volume [x, y, z] as one flat sequence."""
+        count = self.shape[0] * self.shape[1] * self.shape[2]
+        if self.descr != "<u2" or len(self.data) != 2 * count:
+            raise ValueError(f"{self.descr} {self.shape}: not a whole uint16 volume")
+        return memoryview(self.data).cast("H")
+
+    def column(self, x, y):
+        height = self.shape[2]
+        start = (x * self.shape[1] + y) * height
+        return list(self.volume()[start:start + height])

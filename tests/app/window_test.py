@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+"""Opens the program's window on a virtual display, flies, resizes and closes it. Usage: window_test.py PROGRAM
+
+Needs Xvfb (without it the test is skipped, exit code 77), xdotool and xwd; Debian's packages are xvfb, xdotool and
+x11-apps."""
+import os
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+
+import support
+from support import HANG_SECONDS, ProgramTest
+
+SKIPPED = 77
+SCREEN = (640, 400)
+SIZE, LARGER = (320, 180), (480, 270)
+
+
+class Display:
+    """A virtual X server on a number that it chooses itself."""
+
+    def __enter__(self):
+        read_end, write_end = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", f"{SCREEN[0]}x{SCREEN[1]}x24", "-nolisten", "tcp",
+             "-noreset"],  # else it starts anew whenever its last window closes
+            pass_fds=(write_end,), stderr=subprocess.DEVNULL)
+        os.close(write_end)
+        with os.fdopen(read_end) as pipe:
+            number = pipe.readline().strip()
+        if not number:
+            raise RuntimeError("Xvfb does not start")
+        self.name = ":" + number
+        return self
+
+    def __exit__(self, *_):
+        self.server.terminate()
+        self.server.wait(HANG_SECONDS)
+
+    def xdotool(self, *arguments):
+        done = subprocess.run(["xdotool", *map(str, arguments)], env=support.environment(self.name),
+                              capture_output=True, text=True, timeout=HANG_SECONDS, check=False)
+        return done.stdout.strip()
+
+    def screenshot(self, window):
+        data = subprocess.run(["xwd", "-id", window, "-silent", "-display", self.name], capture_output=True,
+                              timeout=HANG_SECONDS, check=True).stdout
+        return Screenshot(data)
+
+
+class Screenshot:
+    """An X window dump of version 7 (X11/XWDFile.h)."""
+
+    def __init__(self, data):
+        header = struct.unpack(">25I", data[:100])
+        header_bytes, version, _, depth, self.width, self.height = header[:6]
+        self.stride = header[12]
+        self.step = self.stride // self.width  # bytes a pixel; for some visuals the header counts the bits used
+        if version != 7 or depth < 24:
+            raise ValueError(f"unexpected window dump: version {version}, depth {depth}")
+        self.pixels = data[header_bytes + 12 * header[19]:]  # behind the colour map
+
+    def colors(self, x0=0, y0=0):
+        """All colours to the right of x0 and below y0."""
+        found = set()
+        for y in range(y0, self.height):
+            row = self.pixels[y * self.stride + x0 * self.step:y * self.stride + self.width * self.step]
+            found.update(row[k:k + self.step] for k in range(0, len(row), self.step))
+        return found
+
+
+class Game:
+    """The running program and its window."""
+
+    def __init__(self, display):
+        self.display = display
+        self.log = tempfile.TemporaryFile(mode="w+")
+        self.process = subprocess.Popen(
+            [support.program(), "play", "--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "2", "--samples", "1",
+             "--debug-gl"], env=support.environment(display.name), stdout=self.log, stderr=self.log)
+        self.window = None
+
+    def open(self):
+        self.window = self.wait_for(
+            lambda: self.display.xdotool("search", "--onlyvisible", "--name", "^Terrane$"))
+        # Without a window manager nobody else gives the window its place and the keys.
+        self.display.xdotool("windowmove", self.window, 0, 0)
+        self.display.xdotool("windowfocus", self.window)
+
+    def wait_for(self, condition):
+        """What the condition gives once it is true."""
+        deadline = time.monotonic() + HANG_SECONDS
+        while time.monotonic() < deadline:
+            result = condition()
+            if result:
+                return result
+            if self.process.poll() is not None:
+                raise RuntimeError(f"the program ended: {self.output()}")
+            time.sleep(0.05)
+        raise RuntimeError("nothing happens")
+
+    def wait_for_picture(self, size, x0=0, y0=0):
+        """Waits for a window of this size with a picture: a world has many colours, an undrawn window one."""
+        def is_drawn():
+            picture = self.display.screenshot(self.window)
+            return (picture.width, picture.height) == size and len(picture.colors(x0, y0)) > 30
+        self.wait_for(is_drawn)
+
+    def press(self, key):
+        self.display.xdotool("key", key)
+
+    def close(self):
+        """The exit code, and where the camera was at the end."""
+        self.press("Escape")
+        code = self.process.wait(HANG_SECONDS)
+        found = re.search(r"closed after (\d+) frames at (\S+),(\S+),(\S+)$", self.output(), re.MULTILINE)
+        if not found:
+            raise RuntimeError(f"no word of the camera: {self.output()}")
+        return code, int(found[1]), tuple(float(found[k]) for k in (2, 3, 4))
+
+    def output(self):
+        self.log.seek(0)
+        return self.log.read()
+
+
+class Window(ProgramTest):
+    def play(self, display):
+        game = Game(display)
+        self.addCleanup(game.log.close)
+        self.addCleanup(game.process.kill)  # nothing where it has ended
+        game.open()
+        game.wait_for_picture(SIZE)
+        return game
+
+    def close(self, game):
+        """Where the camera was at the end."""
+        code, frames, place = game.close()
+        self.assertEqual(code, 0, game.output())
+        self.assertGreater(frames, 0)
+        self.assertNotIn("error", game.output())
+        self.assertNotIn("warning", game.output())
+        return place
+
+    def test_draws_flies_resizes_and_closes(self):
+        with Display() as display:
+            start = self.close(self.play(display))
+
+            game = self.play(display)
+            display.xdotool("keydown", "w")
+            time.sleep(1)
+            display.xdotool("keyup", "w")
+            game.wait_for_picture(SIZE)
+            display.xdotool("windowsize", game.window, *LARGER)
+            game.wait_for_picture(LARGER, x0=SIZE[0])
+            game.wait_for_picture(LARGER, y0=SIZE[1])
+            end = self.close(game)
+            distance = sum((a - b) ** 2 for a, b in zip(start, end)) ** 0.5
+            self.assertGreater(distance, 1, f"the camera stayed at {end}")
+
+
+if __name__ == "__main__":
+    if not shutil.which("Xvfb"):
+        print("1 test skipped: Xvfb is not installed (Debian: xvfb)")
+        sys.exit(SKIPPED)
+    support.main()
