@@ -35,9 +35,9 @@ class GpuGenerator {
     GpuGenerator& operator=(GpuGenerator&&) noexcept;
     ~GpuGenerator();
 
-    // Queues a batch from the front of `chunks`, which are different, and returns how many it took: as many as
-    // kMaxBatch and the slots hold, which is most where they lie close together. 0 when as many batches are
-    // in flight as there is room for: take one first.
+    // Queues a batch from the front of `chunks`, which are different, and returns how many it took: as many
+    // as kMaxBatch and the slots hold, which is most where they lie close together. 0 when as many batches
+    // are in flight as there is room for: take one first.
     [[nodiscard]] std::size_t submit(std::span<const world::ChunkPos> chunks);
     // The oldest batch, if the GPU has finished it (or, with `wait`, once it has).
     std::optional<Batch> take(bool wait);
