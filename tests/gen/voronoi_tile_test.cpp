@@ -73,6 +73,23 @@ TEST(Voronoi2D, ManyTilesAgreeWithASearchOfMoreCells) {
     }
 }
 
+// With one point a cell the second nearest lies two cells away for one column in 10,000.
+TEST(Voronoi2D, PointsTwoCellsAwayAreFound) {
+    const NoiseCall call = cells(16, 1);
+    NoiseTile tile(call, kSeed);
+    for (std::int32_t k = 0; k < 1500; ++k) {
+        const ChunkPos chunk = {k, -7 * k};
+        tile.moveTo(chunk);
+        tile.run();
+        for (int lane = 0; lane < kTileLanes; ++lane) {
+            const int x = lane % 16, y = lane / 16;
+            const auto want = reference::voronoi2D(call, kSeed, chunk.x * 16 + x, chunk.y * 16 + y, 2);
+            ASSERT_EQ(tile.at(x, y, kVoronoiRatio), bitsOf(want.ratio))
+                << "chunk (" << chunk.x << ", " << chunk.y << "), column " << lane;
+        }
+    }
+}
+
 TEST(Voronoi2D, ResultsAreInRange) {
     for (const int size : {1, 10, 100}) {
         NoiseTile tile(cells(size, 3), kSeed);

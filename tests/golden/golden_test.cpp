@@ -21,6 +21,14 @@ TEST_F(Golden, GalleryFromBelow) {
     EXPECT_TRUE(matchesGolden("gallery_below", drawGallery(renderer, galleryInTheAir(), kBelow)));
 }
 
+TEST_F(Golden, PoolAtAFlatAngle) {
+    world::World world = flatWorld(4);
+    placePool(world);
+    render::Renderer renderer = makeRenderer();
+    EXPECT_TRUE(
+        matchesGolden("pool", drawGallery(renderer, meshWorld(world), {{-1.5, -4, 82.8}, 50, -9, 55})));
+}
+
 TEST_F(Golden, AxesOfACube) {
     render::Renderer renderer = makeRenderer(cubeTexture, cubeBlocks());
     renderer.setChunk({0, 0}, cubeMesh());

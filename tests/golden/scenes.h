@@ -66,4 +66,18 @@ inline void placeGallery(world::World& world) {
     }
 }
 
+// A pool three blocks deep in the flat world, with glass that stands in it and beyond it.
+inline void placePool(world::World& world) {
+    const world::BlockId water = contentBlock("water"), glass = contentBlock("cyan_glass");
+    for (int y = 0; y < 14; ++y) {
+        for (int x = 0; x < 14; ++x) {
+            for (int z = kGalleryZ - 3; z < kGalleryZ; ++z) world.setBlock({x, y, z}, water);
+        }
+    }
+    for (const world::BlockPos pos :
+         {world::BlockPos{5, 9, 80}, {5, 9, 81}, {10, 12, 81}, {11, 15, 81}, {3, 4, 79}}) {
+        world.setBlock(pos, glass);
+    }
+}
+
 }  // namespace terrane::golden

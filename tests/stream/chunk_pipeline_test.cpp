@@ -2,6 +2,8 @@
 
 #include <future>
 #include <set>
+#include <thread>
+#include <utility>
 
 #include "terrane/shared/hash.h"
 #include "tests/stream/pipeline_fixture.h"
@@ -132,6 +134,27 @@ TEST_F(ChunkPipelineTest, EditsMeshAgainTheChunksThatSeeThem) {
     EXPECT_EQ(changedBy({47, 5, 60}), (Chunks{{2, 0}})) << "the neighbour is not in view";
 }
 
+// A worker that is busy until open() is called.
+class BusyWorker {
+  public:
+    explicit BusyWorker(base::JobSystem& jobs) {
+        std::promise<void> started;
+        jobs.submit(-1, [this, &started](const base::CancelToken&) {
+            started.set_value();
+            gate_.get_future().wait();
+        });
+        started.get_future().wait();
+    }
+    ~BusyWorker() { open(); }
+    void open() {
+        if (!std::exchange(isOpen_, true)) gate_.set_value();
+    }
+
+  private:
+    std::promise<void> gate_;
+    bool isOpen_ = false;
+};
+
 // Edits come faster than workers mesh: the meshes in between may be lost, the last may not.
 TEST_F(ChunkPipelineTest, TheNewestMeshWins) {
     setView({0, 0}, 1);
@@ -143,6 +166,30 @@ TEST_F(ChunkPipelineTest, TheNewestMeshWins) {
     }
     settle();
     expectShowsTheView();
+}
+
+// Jobs near the camera go first, so an older mesh may be made after a newer one.
+TEST_F(ChunkPipelineTest, AnOlderMeshThatComesLaterIsDropped) {
+    setView({0, 0}, 2);
+    settle();
+    BusyWorker first(jobs_), second(jobs_);
+    placeBlock({2 * 16 + 8, 8, 90}, "sand");
+    setView({2, 0}, 2);
+    placeBlock({2 * 16 + 8, 8, 91}, "sand");
+    first.open();
+    while (jobs_.queuedCount() > 0) std::this_thread::yield();
+    second.open();
+    settle();
+    expectShowsTheView();
+}
+
+TEST_F(ChunkPipelineTest, ChunksThatWereNeverVisibleAreNotRemoved) {
+    setView({0, 0}, 0);
+    update();
+    jobs_.waitIdle();
+    update();  // all nine chunks are there, the mesh is asked for
+    setView({100, 0}, 0);
+    EXPECT_EQ(take(kAll), 0u);
 }
 
 TEST_F(ChunkPipelineTest, OfAChunkOnlyTheNewestMeshIsTaken) {
@@ -205,16 +252,15 @@ TEST_F(ChunkPipelineTest, ViewsNextToTheEdgeComplete) {
 
 // A chunk whose job is cancelled while it waits must come when the view returns.
 TEST_F(ChunkPipelineTest, ComesBackAfterItsJobWasCancelled) {
-    std::promise<void> gate;
-    std::shared_future<void> open = gate.get_future().share();
-    for (int k = 0; k < 2; ++k) jobs_.submit(-1, [open](const base::CancelToken&) { open.wait(); });
+    BusyWorker first(jobs_), second(jobs_);
     setView({0, 0}, 1);
     update();
     setView({100, 0}, 1);
     update();
     setView({0, 0}, 1);
     update();
-    gate.set_value();
+    first.open();
+    second.open();
     settle();
     expectShowsTheView();
 }
