@@ -14,6 +14,7 @@
 
 #include "terrane/base/digest.h"
 #include "terrane/base/embedded.h"
+#include "terrane/gen/builder.h"
 #include "terrane/gen/executor.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"

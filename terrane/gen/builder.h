@@ -20,46 +20,14 @@
 
 #include "terrane/base/result.h"
 #include "terrane/gen/expr.h"
-#include "terrane/gen/noise.h"
+#include "terrane/gen/generator_graph.h"
 #include "terrane/world/block_registry.h"
 
 namespace terrane::gen {
 
-constexpr int kMaxReadOffset = 16;  // blocks: a pass sees at most the eight chunks around its own
-
-// A value of each column that one pass writes and later ones read.
-struct FieldInfo {
-    std::string name;
-    Type type = Type::Float;
-    int writtenBy = -1;  // pass number
-};
-
 template <class T>
 struct Field {
     std::uint32_t index;
-};
-
-struct FieldOutput {
-    std::uint32_t field;
-    NodeId value;
-};
-
-// A finished pass: its graph and what it writes.
-struct PassGraph {
-    std::string name;
-    bool is3D = false;
-    Graph graph;
-    std::vector<FieldOutput> fields;     // 2D passes
-    std::optional<NodeId> block;         // 3D passes
-    std::vector<std::uint32_t> readsAt;  // fields read with an offset
-};
-
-struct GeneratorGraph {
-    std::string name;
-    std::vector<FieldInfo> fields;
-    std::vector<NoiseCall> noises;
-    std::vector<std::string> randomNames;  // of seed slots
-    std::vector<PassGraph> passes;         // the last one is 3D
 };
 
 class GeneratorBuilder;

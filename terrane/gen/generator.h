@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "terrane/gen/builder.h"
+#include "terrane/gen/generator_graph.h"
 #include "terrane/world/chunk.h"
 #include "terrane/world/coords.h"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "terrane/gen/builder.h"
+#include "terrane/gen/generator_graph.h"
 
 namespace terrane::gen {
 

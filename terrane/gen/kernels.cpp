@@ -5,68 +5,19 @@
 #include <cstring>
 #include <limits>
 
-#include "terrane/gen/det_math.h"
-#include "terrane/shared/hash.h"
+#include "terrane/world/coords.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "terrane/gen/kernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "terrane/gen/noise_kernels-inl.h"
+#include "terrane/gen/tile_rows-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace terrane::gen {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using DI = hn::CappedTag<std::int32_t, kRowLanes>;
-using DU = hn::CappedTag<std::uint32_t, kRowLanes>;
-using DF = hn::CappedTag<float, kRowLanes>;
-using VI = hn::Vec<DI>;
-using VU = hn::Vec<DU>;
-using VF = hn::Vec<DF>;
-
-constexpr DI di;
-constexpr DU du;
-constexpr DF df;
-
-// The rows for which instructions run.
-struct RowList {
-    std::uint8_t rows[kTileSize];
-    int count;
-};
-
-Bits* rowOf(Bits* arena, Operand o, int row) {
-    return arena + static_cast<std::size_t>(o.row + o.rowStep * row) * kRowLanes;
-}
-
-// Calls f(row, lane) for each vector of the destination's rows: one row where the value is the same in every
-// column.
-template <class Function>
-HWY_INLINE void forEachVector(const RowList& rows, Operand dst, Function f) {
-    const int count = dst.rowStep ? rows.count : 1;
-    for (int k = 0; k < count; ++k) {
-        const int row = dst.rowStep ? rows.rows[k] : 0;
-        for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(di)) f(row, lane);
-    }
-}
-
-HWY_INLINE VF loadF(const Bits* p) {
-    return hn::BitCast(df, hn::Load(du, p));
-}
-HWY_INLINE VI loadI(const Bits* p) {
-    return hn::BitCast(di, hn::Load(du, p));
-}
-template <class V>
-HWY_INLINE void storeBits(V v, Bits* p) {
-    hn::Store(hn::BitCast(du, v), du, p);
-}
-
-// A comparison's mask as lanes of 0 or ~0.
-template <class D, class M>
-HWY_INLINE auto maskBits(D d, M mask) {
-    return hn::VecFromMask(d, mask);
-}
 
 template <class Function>
 void unaryF(const Instruction& i, Bits* arena, const RowList& rows, Function f) {
@@ -107,140 +58,11 @@ void blend(Operand condition, const PhiMove& move, Bits* arena, const RowList& r
     });
 }
 
-// The same steps as detDivide in det_math.h.
-HWY_INLINE VF divide(VF a, VF b) {
-    const VF two = hn::Set(df, 2.0f);
-    const VU sign = hn::And(hn::BitCast(du, b), hn::Set(du, 0x80000000u));
-    const VF magnitude = hn::BitCast(df, hn::Xor(hn::BitCast(du, b), sign));
-    const VU guess = hn::Sub(hn::Set(du, kReciprocalMagic), hn::BitCast(du, magnitude));
-    VF r = hn::BitCast(df, guess);
-    for (int step = 0; step < 3; ++step) r = hn::Mul(r, hn::Sub(two, hn::Mul(magnitude, r)));
-    const VF signedA = hn::BitCast(df, hn::Xor(hn::BitCast(du, a), sign));
-    const VF q = hn::Mul(signedA, r);
-    return hn::Add(q, hn::Mul(r, hn::Sub(signedA, hn::Mul(magnitude, q))));
-}
-
-// The same steps as detSqrt in det_math.h.
-HWY_INLINE VF squareRoot(VF x) {
-    const VF half = hn::Mul(hn::Set(df, 0.5f), x);
-    const VF threeHalves = hn::Set(df, 1.5f);
-    const VU guess = hn::Sub(hn::Set(du, kInverseRootMagic), hn::ShiftRight<1>(hn::BitCast(du, x)));
-    VF r = hn::BitCast(df, guess);
-    for (int step = 0; step < 3; ++step) {
-        r = hn::Mul(r, hn::Sub(threeHalves, hn::Mul(hn::Mul(half, r), r)));
-    }
-    const VF s = hn::Mul(x, r);
-    return hn::Add(s, hn::Mul(hn::Mul(hn::Set(df, 0.5f), r), hn::Sub(x, hn::Mul(s, s))));
-}
-
 // As op.cpp has it: -2^31 for what does not fit and for NaN, where ConvertTo saturates by the sign.
 HWY_INLINE VI truncate(VF v) {
     const auto fits = hn::Lt(hn::Abs(v), hn::Set(df, 2147483648.0f));
     return hn::IfThenElse(hn::RebindMask(di, fits), hn::ConvertTo(di, v),
                           hn::Set(di, std::numeric_limits<std::int32_t>::min()));
-}
-
-HWY_INLINE VU mixBits(VU h) {
-    h = hn::Xor(h, hn::ShiftRight<16>(h));
-    h = hn::Mul(h, hn::Set(du, 0x7FEB352Du));
-    h = hn::Xor(h, hn::ShiftRight<15>(h));
-    h = hn::Mul(h, hn::Set(du, 0x846CA68Bu));
-    return hn::Xor(h, hn::ShiftRight<16>(h));
-}
-
-HWY_INLINE VU mixHalf(VU h) {
-    return hn::Mul(hn::Xor(h, hn::ShiftRight<15>(h)), hn::Set(du, 0x846CA68Bu));
-}
-
-// shared::hash2 or hash3 of the arguments, its upper 24 bits as a fraction.
-void random(const Instruction& i, TileContext& c, const RowList& rows) {
-    constexpr std::uint32_t kFactors[] = {shared::kHashX, shared::kHashY, shared::kHashZ};
-    const std::size_t argCount = i.op == Op::Random2D ? 2 : 3;
-    const VU seed = hn::Set(du, c.randomSeeds[i.imm]);
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) {
-        VU h = seed;
-        for (std::size_t k = 0; k < argCount; ++k) {
-            const VU v = hn::Load(du, rowOf(c.arena, i.args[k], row) + lane);
-            if (k > 0) h = mixHalf(h);
-            h = hn::Xor(h, hn::Mul(v, hn::Set(du, kFactors[k])));
-        }
-        const VI top = hn::BitCast(di, hn::ShiftRight<8>(mixBits(h)));
-        storeBits(hn::Mul(hn::ConvertTo(df, top), hn::Set(df, 0x1p-24f)), rowOf(c.arena, i.dst, row) + lane);
-    });
-}
-
-HWY_INLINE VF perlinSample(const PerlinOctave& o, int row, std::size_t lane) {
-    const auto r = static_cast<std::size_t>(row);
-    const std::size_t j = o.rows.node[r];
-    const VF f = hn::Set(df, o.rows.offset[r]), f1 = hn::Set(df, o.rows.offset[r] - 1.0f);
-    const VF low =
-        hn::Add(hn::Load(df, o.a[j].data() + lane), hn::Mul(hn::Load(df, o.b[j].data() + lane), f));
-    const VF high =
-        hn::Add(hn::Load(df, o.a[j + 1].data() + lane), hn::Mul(hn::Load(df, o.b[j + 1].data() + lane), f1));
-    return hn::Add(low, hn::Mul(hn::Set(df, o.rows.fade[r]), hn::Sub(high, low)));
-}
-
-void perlin2D(const Instruction& i, TileContext& c, const RowList& rows) {
-    const auto& octaves = c.perlin2D[i.imm].octaves;
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) {
-        VF sum = hn::Mul(perlinSample(octaves[0], row, lane), hn::Set(df, octaves[0].weight));
-        for (std::size_t o = 1; o < octaves.size(); ++o) {
-            sum = hn::Add(sum, hn::Mul(perlinSample(octaves[o], row, lane), hn::Set(df, octaves[o].weight)));
-        }
-        storeBits(sum, rowOf(c.arena, i.dst, row) + lane);
-    });
-}
-
-void perlin3D(const Instruction& i, TileContext& c, const RowList& rows) {
-    Perlin3DTile& tile = c.perlin3D[i.imm];
-    if (tile.layer != c.z) moveToLayer(tile, c.z);
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) {
-        const PerlinOctave& first = tile.octaves[0].layer;
-        VF sum = hn::Mul(perlinSample(first, row, lane), hn::Set(df, first.weight));
-        for (std::size_t n = 1; n < tile.octaves.size(); ++n) {
-            const PerlinOctave& o = tile.octaves[n].layer;
-            sum = hn::Add(sum, hn::Mul(perlinSample(o, row, lane), hn::Set(df, o.weight)));
-        }
-        storeBits(sum, rowOf(c.arena, i.dst, row) + lane);
-    });
-}
-
-void voronoi2D(const Instruction& i, TileContext& c, const RowList& rows) {
-    const auto& points = c.voronoi2D[i.imm];
-    const auto result = [&](std::uint32_t number, int row, std::size_t lane) {
-        const Operand o{static_cast<std::uint16_t>(i.dst.row + number * kTileSize), 1};
-        return rowOf(c.arena, o, row) + lane;
-    };
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) {
-        const VI x = hn::Iota(di, static_cast<std::int32_t>(lane)), y = hn::Set(di, row);
-        VI best = hn::Set(di, 0x7FFFFFFF), second = best, offsetX = hn::Zero(di), offsetY = offsetX;
-        for (const VoronoiPoint p : points) {
-            const VI dx = hn::Sub(hn::Set(di, p.x), x), dy = hn::Sub(hn::Set(di, p.y), y);
-            const VI d = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
-            const auto nearer = hn::Lt(d, best);
-            second = hn::IfThenElse(nearer, best, hn::Min(second, d));
-            best = hn::IfThenElse(nearer, d, best);
-            offsetX = hn::IfThenElse(nearer, dx, offsetX);
-            offsetY = hn::IfThenElse(nearer, dy, offsetY);
-        }
-        const VF distance = squareRoot(hn::ConvertTo(df, best));
-        const VF secondDistance = squareRoot(hn::ConvertTo(df, hn::Max(second, hn::Set(di, 1))));
-        storeBits(distance, result(kVoronoiDistance, row, lane));
-        storeBits(divide(distance, secondDistance), result(kVoronoiRatio, row, lane));
-        storeBits(offsetX, result(kVoronoiOffsetX, row, lane));
-        storeBits(offsetY, result(kVoronoiOffsetY, row, lane));
-    });
-}
-
-void noise(const Instruction& i, TileContext& c, const RowList& rows) {
-    switch (c.noiseKinds[i.imm]) {
-        case NoiseKind::Perlin2D:
-            return perlin2D(i, c, rows);
-        case NoiseKind::Perlin3D:
-            return perlin3D(i, c, rows);
-        case NoiseKind::Voronoi2D:
-            return voronoi2D(i, c, rows);
-    }
 }
 
 void field(const Instruction& i, TileContext& c, const RowList& rows) {

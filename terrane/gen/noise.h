@@ -5,9 +5,10 @@
 // nodes.
 //   2D: 16 gradients of length √2 at (k + ½)·22.5°, so that the range is -1…1
 //   3D: the 12 vectors to the edges of a cube
-// Order of operations, the same on every back end: blend along x, then z (3D), then y, with lerp(a, b, t) = a
-// + t(b − a) and t = f³(f(6f − 15) + 10); the linear function of the other offsets is blended as its
-// coefficients.
+// Order of operations, the same on every back end: f = blocks from the lower node · (1 / size), f − 1 from
+// the upper one; blend along x, then z (3D), then y, with lerp(a, b, t) = a + t(b − a) and t = f³(f(6f − 15)
+// + 10); the linear function of the other offsets is blended as its coefficients; then the octaves are added
+// in order.
 //
 // Voronoi (S. Worley, A Cellular Texture Basis Function, 1996). Cells of `size` blocks hold 1…maxPoints
 // points at block positions; distances are Euclidean, in blocks, from the integer squared distance. The

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "terrane/gen/builder.h"
+#include "terrane/gen/generator_graph.h"
 
 namespace terrane::gen {
 

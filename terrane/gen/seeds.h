@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "terrane/gen/builder.h"
+#include "terrane/gen/generator_graph.h"
 
 namespace terrane::gen {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "terrane/base/result.h"
-#include "terrane/gen/builder.h"
+#include "terrane/gen/generator_graph.h"
 #include "terrane/gpu/shader_loader.h"
 #include "terrane/world/chunk.h"
 

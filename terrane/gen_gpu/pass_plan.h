@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "terrane/gen/builder.h"
+#include "terrane/gen/generator_graph.h"
 #include "terrane/world/coords.h"
 
 namespace terrane::gen_gpu {

@@ -77,7 +77,7 @@ void expectLayers(const PassRunner& runner, const BlockArray& blocks, const std:
 }
 
 TEST(ExecutorRandom, Passes3D) {
-    for (std::uint32_t seed = 1000; seed < 1000 + kRandomCases / 5; ++seed) {
+    for (std::uint32_t seed = 1000; seed < 1000 + kRandomCases / 10; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         PassRunner runner(RandomGraph(seed, true).take());
         RandomGraph::fillInputs(runner, seed);

@@ -47,10 +47,10 @@ void writeFlatStone(GeneratorBuilder& g) {
     g.pass3D("only", [](Pass& p) { p.setBlock(select(p.z() < 60, p.block("stone"), p.block("air"))); });
 }
 
-// A square of 6×6 chunks with its south-west corner at `corner`.
+// A square of 4×4 chunks with its south-west corner at `corner`.
 std::vector<ChunkPos> square(ChunkPos corner) {
     std::vector<ChunkPos> result;
-    for (int k = 0; k < 36; ++k) result.push_back({corner.x + k % 6, corner.y + k / 6});
+    for (int k = 0; k < 16; ++k) result.push_back({corner.x + k % 4, corner.y + k / 4});
     return result;
 }
 
@@ -97,7 +97,7 @@ class GeneratorTest : public testing::Test {
         return expected_;
     }
 
-    const std::vector<ChunkPos> positions_ = square({-3, -3});
+    const std::vector<ChunkPos> positions_ = square({-2, -3});
 
   private:
     Chunks expected_;
@@ -200,10 +200,10 @@ TEST_F(GeneratorTest, ManyThreadsOnNeighboursDoNotLockUp) {
             const Generator generator(build(writeDeep), kTestSeed, capacity);
             std::vector<std::thread> threads;
             std::atomic<int> wrong = 0;
-            for (std::uint32_t t = 0; t < 8; ++t) {
+            for (std::uint32_t t = 0; t < 6; ++t) {
                 threads.emplace_back([&, t] {
                     std::vector<std::size_t> order = inOrder(9);
-                    std::shuffle(order.begin(), order.end(), std::mt19937(8 * round + t));
+                    std::shuffle(order.begin(), order.end(), std::mt19937(6 * round + t));
                     for (const std::size_t k : order) {
                         wrong += blocksOf(generator.generate(positions_[k])) != want[k];
                     }

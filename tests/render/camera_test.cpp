@@ -92,7 +92,7 @@ TEST(Frustum, HoldsWhatIsAheadOnly) {
     EXPECT_FALSE(unitBoxAt({18, 8, 120})) << "above";
     EXPECT_FALSE(unitBoxAt({18, 8, 80})) << "below";
     EXPECT_TRUE(mayBeVisible(frustum, {-500, -500, 0}, {500, 500, 256})) << "around everything";
-    EXPECT_FALSE(mayBeVisible(frustum, {-60, -500, 0}, {7, 500, 256})) << "a wall behind";
+    EXPECT_FALSE(mayBeVisible(frustum, {-60, -500, 0}, {8.03f, 500, 256})) << "a wall up to the near plane";
 }
 
 Camera randomCamera(std::mt19937& random) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 
+#include "terrane/gen/builder.h"
 #include "terrane/stream/chunk_pipeline.h"
 #include "tests/light/content_blocks.h"
 

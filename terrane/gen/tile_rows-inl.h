@@ -1,0 +1,99 @@
+// Rows of a tile as vectors: what all kernels are written with. Included once for each instruction set by
+// kernels.cpp.
+#if defined(TERRANE_GEN_TILE_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TERRANE_GEN_TILE_ROWS_INL_H
+#undef TERRANE_GEN_TILE_ROWS_INL_H
+#else
+#define TERRANE_GEN_TILE_ROWS_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "terrane/gen/det_math.h"
+#include "terrane/gen/kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace terrane::gen {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using DI = hn::CappedTag<std::int32_t, kRowLanes>;
+using DU = hn::CappedTag<std::uint32_t, kRowLanes>;
+using DF = hn::CappedTag<float, kRowLanes>;
+using VI = hn::Vec<DI>;
+using VU = hn::Vec<DU>;
+using VF = hn::Vec<DF>;
+
+constexpr DI di;
+constexpr DU du;
+constexpr DF df;
+
+// The rows for which instructions run.
+struct RowList {
+    std::uint8_t rows[kTileSize];
+    int count;
+};
+
+Bits* rowOf(Bits* arena, Operand o, int row) {
+    return arena + static_cast<std::size_t>(o.row + o.rowStep * row) * kRowLanes;
+}
+
+// Calls f(row, lane) for each vector of the destination's rows: one row where the value is the same in every
+// column.
+template <class Function>
+HWY_INLINE void forEachVector(const RowList& rows, Operand dst, Function f) {
+    const int count = dst.rowStep ? rows.count : 1;
+    for (int k = 0; k < count; ++k) {
+        const int row = dst.rowStep ? rows.rows[k] : 0;
+        for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(di)) f(row, lane);
+    }
+}
+
+HWY_INLINE VF loadF(const Bits* p) {
+    return hn::BitCast(df, hn::Load(du, p));
+}
+HWY_INLINE VI loadI(const Bits* p) {
+    return hn::BitCast(di, hn::Load(du, p));
+}
+template <class V>
+HWY_INLINE void storeBits(V v, Bits* p) {
+    hn::Store(hn::BitCast(du, v), du, p);
+}
+
+// A comparison's mask as lanes of 0 or ~0.
+template <class D, class M>
+HWY_INLINE auto maskBits(D d, M mask) {
+    return hn::VecFromMask(d, mask);
+}
+
+// The same steps as detDivide in det_math.h.
+HWY_INLINE VF divide(VF a, VF b) {
+    const VF two = hn::Set(df, 2.0f);
+    const VU sign = hn::And(hn::BitCast(du, b), hn::Set(du, 0x80000000u));
+    const VF magnitude = hn::BitCast(df, hn::Xor(hn::BitCast(du, b), sign));
+    const VU guess = hn::Sub(hn::Set(du, kReciprocalMagic), hn::BitCast(du, magnitude));
+    VF r = hn::BitCast(df, guess);
+    for (int step = 0; step < 3; ++step) r = hn::Mul(r, hn::Sub(two, hn::Mul(magnitude, r)));
+    const VF signedA = hn::BitCast(df, hn::Xor(hn::BitCast(du, a), sign));
+    const VF q = hn::Mul(signedA, r);
+    return hn::Add(q, hn::Mul(r, hn::Sub(signedA, hn::Mul(magnitude, q))));
+}
+
+// The same steps as detSqrt in det_math.h.
+HWY_INLINE VF squareRoot(VF x) {
+    const VF half = hn::Mul(hn::Set(df, 0.5f), x);
+    const VF threeHalves = hn::Set(df, 1.5f);
+    const VU guess = hn::Sub(hn::Set(du, kInverseRootMagic), hn::ShiftRight<1>(hn::BitCast(du, x)));
+    VF r = hn::BitCast(df, guess);
+    for (int step = 0; step < 3; ++step) {
+        r = hn::Mul(r, hn::Sub(threeHalves, hn::Mul(hn::Mul(half, r), r)));
+    }
+    const VF s = hn::Mul(x, r);
+    return hn::Add(s, hn::Mul(hn::Mul(hn::Set(df, 0.5f), r), hn::Sub(x, hn::Mul(s, s))));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace terrane::gen
+HWY_AFTER_NAMESPACE();
+#endif
