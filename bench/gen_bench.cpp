@@ -95,9 +95,9 @@ class PassArea {
 
     explicit PassArea(gen::GeneratorGraph g) : graph(std::move(g)), columns_(kChunks), solid_(kChunks) {
         seeds_.noises.resize(graph.noises.size());
-        seeds_.randoms.resize(graph.randomNames.size());
+        seeds_.hashes.resize(graph.hashNames.size());
         for (std::size_t k = 0; k < seeds_.noises.size(); ++k) seeds_.noises[k] = seedOf(k);
-        for (std::size_t k = 0; k < seeds_.randoms.size(); ++k) seeds_.randoms[k] = seedOf(k + 1000);
+        for (std::size_t k = 0; k < seeds_.hashes.size(); ++k) seeds_.hashes[k] = seedOf(k + 1000);
         executor_ = std::make_unique<gen::Executor>(graph.noises, seeds_);
         for (const gen::PassGraph& pass : graph.passes) programs_.push_back(compile(pass, graph.noises));
         for (int n = 0; n < kChunks; ++n) {
@@ -158,7 +158,7 @@ class PassArea {
             }
         }
         for (std::size_t earlier = 0; earlier < pass; ++earlier) {
-            if (programs_[earlier].is3D) inputs.blocks = at(solid_, n)[earlier].get();
+            if (programs_[earlier].is3D) inputs.blocks[4] = at(solid_, n)[earlier].get();
         }
         return inputs;
     }

@@ -8,10 +8,11 @@ namespace terrane::gen {
 
 Executor::Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds)
     : noises_(noises), seeds_(seeds) {
-    context_.randomSeeds = seeds.randoms;
+    context_.hashSeeds = seeds.hashes;
     context_.perlin2D.resize(noises.size());
     context_.perlin3D.resize(noises.size());
     context_.voronoi2D.resize(noises.size());
+    context_.voronoi3D.resize(noises.size());
     for (const NoiseCall& call : noises) context_.noiseKinds.push_back(call.kind);
 }
 
@@ -29,15 +30,28 @@ void Executor::run2D(const Program& program, const PassInputs& inputs,
     }
 }
 
-void Executor::run3D(const Program& program, const PassInputs& inputs, BlockArray& result) {
-    assert(program.is3D && program.block);
+void Executor::run3D(const Program& program, const PassInputs& inputs, BlockArray& result,
+                     std::span<ColumnValues* const> fieldResults) {
+    assert(program.is3D && program.block && fieldResults.size() == program.fields.size());
     prepareTile(program, inputs);
+    for (ColumnValues* field : fieldResults) field->fill(0);
     runInstructions(program.column, context_);
     for (int z = 0; z < world::kChunkHeight; ++z) {
         context_.z = z;
         std::fill_n(row(program.z), kRowLanes, bitsOf(z));
         runInstructions(program.layer, context_);
         writeLayer(*program.block, result.data() + z * kTileLanes);
+        for (std::size_t k = 0; k < fieldResults.size(); ++k) {
+            addToField(program.fields[k].value, *fieldResults[k]);
+        }
+    }
+}
+
+// A column's value is 0 in all layers but one.
+void Executor::addToField(Operand value, ColumnValues& field) {
+    for (int lane = 0; lane < kTileLanes; ++lane) {
+        const int at = value.rowStep ? lane : lane % kRowLanes;
+        field[static_cast<std::size_t>(lane)] |= row(value)[at];
     }
 }
 
@@ -54,7 +68,10 @@ void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
     if (arena_.size() < program.arenaRows) arena_.resize(program.arenaRows);
     context_.program = &program;
     context_.arena = arena_.front().lanes.data();
-    context_.blocks = inputs.blocks ? inputs.blocks->data() : nullptr;
+    for (std::size_t n = 0; n < inputs.blocks.size(); ++n) {
+        context_.blocksAround[n] = inputs.blocks[n] ? inputs.blocks[n]->data() : nullptr;
+    }
+    context_.blocks = context_.blocksAround[4];
     const std::int32_t x0 = inputs.chunk.x * world::kChunkSize, y0 = inputs.chunk.y * world::kChunkSize;
     fillConstants(program, x0, y0);
     for (const std::uint32_t n : program.noises) {
@@ -69,6 +86,9 @@ void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
                 break;
             case NoiseKind::Voronoi2D:
                 prepare(context_.voronoi2D[n], call, seed, x0, y0);
+                break;
+            case NoiseKind::Voronoi3D:
+                prepare(context_.voronoi3D[n], call, seed, x0, y0);
                 break;
         }
     }

@@ -23,7 +23,9 @@ struct PassInputs {
     // Values of field f in the chunk at (dx, dy) around this one: fields[f][(dy + 1) * 3 + dx + 1]. Only the
     // middle one is set where the pass reads the field without an offset.
     std::vector<std::array<const ColumnValues*, 9>> fields;
-    const BlockArray* blocks = nullptr;  // of the newest earlier 3D pass
+    // Of the newest earlier 3D pass, in the same order; the middle one alone where the pass reads blocks
+    // without an offset.
+    std::array<const BlockArray*, 9> blocks{};
 };
 
 class Executor {
@@ -32,7 +34,9 @@ class Executor {
 
     // Results of a 2D pass, in the order of program.fields.
     void run2D(const Program& program, const PassInputs& inputs, std::span<ColumnValues* const> results);
-    void run3D(const Program& program, const PassInputs& inputs, BlockArray& result);
+    // `fieldResults`: of the fields that the pass writes, in the order of program.fields.
+    void run3D(const Program& program, const PassInputs& inputs, BlockArray& result,
+               std::span<ColumnValues* const> fieldResults = {});
 
   private:
     void prepareTile(const Program& program, const PassInputs& inputs);
@@ -40,6 +44,7 @@ class Executor {
     void fillWindow(std::uint32_t field, const PassInputs& inputs);
     Bits* row(Operand o) { return context_.arena + static_cast<std::size_t>(o.row) * kRowLanes; }
     void writeLayer(Operand block, std::uint16_t* layer);
+    void addToField(Operand value, ColumnValues& field);
 
     struct AlignedRow {
         alignas(64) std::array<Bits, kRowLanes> lanes;

@@ -59,8 +59,16 @@ struct Vec2 {
     Float x, y;
 };
 
+struct Vec3 {
+    Float x, y, z;
+};
+
 struct IVec2 {
     Int x, y;
+};
+
+struct IVec3 {
+    Int x, y, z;
 };
 
 // clang-format off
@@ -78,6 +86,9 @@ inline Int operator+(Int a, Int b) { return Int(applyOp(Op::AddI, Type::Int, {a,
 inline Int operator-(Int a, Int b) { return Int(applyOp(Op::SubI, Type::Int, {a, b})); }
 inline Int operator*(Int a, Int b) { return Int(applyOp(Op::MulI, Type::Int, {a, b})); }
 inline Int operator&(Int a, Int b) { return Int(applyOp(Op::AndI, Type::Int, {a, b})); }
+inline Int operator|(Int a, Int b) { return Int(applyOp(Op::OrI, Type::Int, {a, b})); }
+inline Int operator^(Int a, Int b) { return Int(applyOp(Op::XorI, Type::Int, {a, b})); }
+inline Int operator<<(Int a, Int b) { return Int(applyOp(Op::ShiftLeftI, Type::Int, {a, b})); }
 inline Int operator>>(Int a, Int b) { return Int(applyOp(Op::ShiftRightI, Type::Int, {a, b})); }
 inline Int operator-(Int a) { return Int(0) - a; }
 inline Bool operator<(Int a, Int b) { return Bool(applyOp(Op::LessI, Type::Bool, {a, b})); }
@@ -108,7 +119,28 @@ inline Float floor(Float a) { return Float(applyOp(Op::FloorF, Type::Float, {a})
 inline Float ceil(Float a) { return -floor(-a); }
 inline Float round(Float a) { return floor(a + Float(0.5f)); }  // halves upward
 inline Float sqrt(Float a) { return Float(applyOp(Op::SqrtF, Type::Float, {a})); }
-inline Float length(Vec2 v) { return sqrt(v.x * v.x + v.y * v.y); }
+// Toward minus infinity; b is 1 or more.
+inline Int floorDivide(Int a, Int b) { return Int(applyOp(Op::FloorDivideI, Type::Int, {a, b})); }
+inline Int floorModulo(Int a, Int b) { return a - floorDivide(a, b) * b; }
+// A float's bits as a number and back; every NaN has the same ones.
+inline Int floatBits(Float a) { return Int(applyOp(Op::FloatBits, Type::Int, {a})); }
+inline Float bitsFloat(Int a) { return Float(applyOp(Op::BitsFloat, Type::Float, {a})); }
+
+inline Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
+inline Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
+inline Vec2 operator*(Vec2 a, Float s) { return {a.x * s, a.y * s}; }
+inline Vec2 operator*(Float s, Vec2 a) { return a * s; }
+inline Float dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
+inline Float length(Vec2 v) { return sqrt(dot(v, v)); }
+inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3 operator*(Vec3 a, Float s) { return {a.x * s, a.y * s, a.z * s}; }
+inline Vec3 operator*(Float s, Vec3 a) { return a * s; }
+inline Float dot(Vec3 a, Vec3 b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
+inline Float length(Vec3 v) { return sqrt(dot(v, v)); }
+inline IVec2 operator+(IVec2 a, IVec2 b) { return {a.x + b.x, a.y + b.y}; }
+inline IVec2 operator-(IVec2 a, IVec2 b) { return {a.x - b.x, a.y - b.y}; }
+inline Bool operator==(IVec2 a, IVec2 b) { return a.x == b.x && a.y == b.y; }
 // clang-format on
 
 inline Float lerp(Float a, Float b, Float t) {
@@ -125,6 +157,23 @@ inline Float smoothstep(Float low, Float high, Float v) {
 template <class T>
 T select(Bool condition, T a, T b) {
     return T(applyOp(Op::Select, T::kType, {condition, a, b}));
+}
+
+template <class T>
+struct Case {
+    Bool condition;
+    T value;
+};
+
+// The value of the first case whose condition holds. All values are computed.
+template <class T>
+T multiSelect(std::initializer_list<Case<T>> cases, T otherwise) {
+    T result = otherwise;
+    for (const Case<T>* c = cases.end(); c != cases.begin();) {
+        --c;
+        result = select(c->condition, c->value, result);
+    }
+    return result;
 }
 
 }  // namespace terrane::gen

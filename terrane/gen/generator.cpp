@@ -4,23 +4,12 @@
 #include <cassert>
 
 #include "terrane/base/profile.h"
+#include "terrane/gen/chunks_around.h"
 #include "terrane/gen/executor.h"
 #include "terrane/gen/pass_cache.h"
 #include "terrane/gen/program.h"
 
 namespace terrane::gen {
-namespace {
-
-world::ChunkPos neighbour(world::ChunkPos pos, int number) {
-    // Chunk coordinates of blocks that wrap at 2^31.
-    const auto wrap = [](std::int32_t v) {
-        return static_cast<std::int32_t>(static_cast<std::uint32_t>(v) << 4) >> 4;
-    };
-    return {wrap(pos.x + number % 3 - 1), wrap(pos.y + number / 3 - 1)};
-}
-
-}  // namespace
-
 struct Generator::Impl {
     Impl(GeneratorGraph g, std::uint64_t seed, std::size_t cachedChunks)
         : graph(std::move(g)),
@@ -42,13 +31,8 @@ struct Generator::Impl {
         idleExecutors.push_back(std::move(executor));
     }
 
-    int newest3DBefore(int pass) const {
-        while (--pass >= 0 && !programs[static_cast<std::size_t>(pass)].is3D) {
-        }
-        return pass;
-    }
-
     using Works = std::array<std::shared_ptr<ChunkWork>, 9>;
+    static constexpr std::size_t kOwn = 4;  // the chunk itself among the nine
 
     // Runs the first `passes` passes of a chunk, and of its neighbours what they need. Who runs a pass waits
     // only for lower passes of other chunks, so that threads never wait in a circle.
@@ -67,34 +51,35 @@ struct Generator::Impl {
 };
 
 void Generator::Impl::advanceNeighbours(world::ChunkPos pos, int pass, Works& works, Executor& executor) {
-    int needed = 0;
-    for (const std::uint32_t f : programs[static_cast<std::size_t>(pass)].readsAt) {
-        needed = std::max(needed, graph.fields[f].writtenBy + 1);
-    }
+    const int needed = passesNeededAround(graph, pass);
     if (needed == 0) return;
-    for (int n = 0; n < 9; ++n) {
-        if (n == 4) continue;
-        auto& work = works[static_cast<std::size_t>(n)];
-        work = cache.get(neighbour(pos, n));
-        advance(neighbour(pos, n), *work, needed, executor);
+    const auto around = chunksAround(pos);
+    for (std::size_t n = 0; n < around.size(); ++n) {
+        if (n == kOwn) continue;
+        works[n] = cache.get(around[n]);
+        advance(around[n], *works[n], needed, executor);
     }
 }
 
 PassInputs Generator::Impl::inputsOf(world::ChunkPos pos, ChunkWork& work, int pass, Works& works) {
+    const Program& program = programs[static_cast<std::size_t>(pass)];
     PassInputs inputs;
     inputs.chunk = pos;
     inputs.fields.resize(graph.fields.size());
     for (std::size_t f = 0; f < graph.fields.size(); ++f) {
-        if (graph.fields[f].writtenBy >= 0 && graph.fields[f].writtenBy < pass)
-            inputs.fields[f][4] = &work.fields[f];
+        const int writer = graph.fields[f].writtenBy;
+        if (writer >= 0 && writer < pass) inputs.fields[f][kOwn] = &work.fields[f];
     }
-    for (const std::uint32_t f : programs[static_cast<std::size_t>(pass)].readsAt) {
-        for (std::size_t n = 0; n < 9; ++n) {
-            if (n != 4) inputs.fields[f][n] = &works[n]->fields[f];
-        }
+    const int source = newest3DBefore(graph, pass);
+    const auto blocksOf = [&](const ChunkWork& w) {
+        return w.blocks[static_cast<std::size_t>(source)].get();
+    };
+    if (source >= 0) inputs.blocks[kOwn] = blocksOf(work);
+    for (std::size_t n = 0; n < works.size(); ++n) {
+        if (n == kOwn) continue;
+        for (const std::uint32_t f : program.readsAt) inputs.fields[f][n] = &works[n]->fields[f];
+        if (program.readsBlocksAt) inputs.blocks[n] = blocksOf(*works[n]);
     }
-    const int source = newest3DBefore(pass);
-    if (source >= 0) inputs.blocks = work.blocks[static_cast<std::size_t>(source)].get();
     return inputs;
 }
 
@@ -104,14 +89,12 @@ void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Ex
     advanceNeighbours(pos, pass, works, executor);
     const PassInputs inputs = inputsOf(pos, work, pass, works);
     const Program& program = programs[static_cast<std::size_t>(pass)];
-    if (program.is3D) {
-        auto& result = work.blocks[static_cast<std::size_t>(pass)];
-        result = std::make_unique_for_overwrite<BlockArray>();
-        return executor.run3D(program, inputs, *result);
-    }
     std::vector<ColumnValues*> results;
     for (const Program::FieldResult& f : program.fields) results.push_back(&work.fields[f.field]);
-    executor.run2D(program, inputs, results);
+    if (!program.is3D) return executor.run2D(program, inputs, results);
+    auto& blocks = work.blocks[static_cast<std::size_t>(pass)];
+    blocks = std::make_unique_for_overwrite<BlockArray>();
+    executor.run3D(program, inputs, *blocks, results);
 }
 
 void Generator::Impl::advance(world::ChunkPos pos, ChunkWork& work, int passes, Executor& executor) {

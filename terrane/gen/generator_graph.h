@@ -24,6 +24,8 @@ struct FieldInfo {
 struct FieldOutput {
     std::uint32_t field;
     NodeId value;
+    // In a 3D pass: holds in one voxel of each column, which writes; elsewhere the value is 0.
+    std::optional<NodeId> isWritten = {};
 };
 
 // A finished pass: its graph and what it writes.
@@ -31,17 +33,27 @@ struct PassGraph {
     std::string name;
     bool is3D = false;
     Graph graph;
-    std::vector<FieldOutput> fields;     // 2D passes
+    std::vector<FieldOutput> fields;
     std::optional<NodeId> block;         // 3D passes
     std::vector<std::uint32_t> readsAt;  // fields read with an offset
+    bool readsBlocksAt = false;          // blocks of the 3D pass before, read with an offset
 };
+
+// What a pass writes: values of fields with their conditions, then the block.
+std::vector<NodeId> outputsOf(const PassGraph& pass);
 
 struct GeneratorGraph {
     std::string name;
     std::vector<FieldInfo> fields;
     std::vector<NoiseCall> noises;
-    std::vector<std::string> randomNames;  // of seed slots
-    std::vector<PassGraph> passes;         // the last one is 3D
+    std::vector<std::string> hashNames;  // of seed slots
+    std::vector<PassGraph> passes;       // the last one is 3D
 };
+
+// The newest 3D pass before `pass`, whose blocks it reads; -1 where there is none.
+int newest3DBefore(const GeneratorGraph& generator, int pass);
+// How many passes the chunks around one must have done before it runs `pass`; 0 where it reads nothing of
+// theirs.
+int passesNeededAround(const GeneratorGraph& generator, int pass);
 
 }  // namespace terrane::gen

@@ -41,6 +41,14 @@ std::string toBits(Type type, const std::string& value) {
     return type == Type::Float ? "floatBitsToUint(" + value + ")" : "uint(" + value + ")";
 }
 
+std::string_view componentName(NoiseKind kind, std::uint32_t number) {
+    static constexpr std::string_view kVoronoi2D[] = {".distance", ".ratio", ".offset.x", ".offset.y"};
+    static constexpr std::string_view kVoronoi3D[] = {".nearest", ".second", ".offset.x", ".offset.y",
+                                                      ".offset.z"};
+    if (kind == NoiseKind::Voronoi2D) return kVoronoi2D[number];
+    return kind == NoiseKind::Voronoi3D ? kVoronoi3D[number] : "";
+}
+
 class Emitter {
   public:
     Emitter(const GeneratorGraph& generator, std::size_t pass)
@@ -52,9 +60,7 @@ class Emitter {
 
     std::string run() {
         nameLeaves();
-        std::vector<NodeId> outputs;
-        for (const FieldOutput& f : pass_.fields) outputs.push_back(f.value);
-        if (pass_.block) outputs.push_back(*pass_.block);
+        const std::vector<NodeId> outputs = outputsOf(pass_);
         line("void main() {");
         ++depth_;
         line("beginTile();");
@@ -66,7 +72,8 @@ class Emitter {
         emitList(outputs);
         for (const FieldOutput& f : pass_.fields) {
             const Type type = graph_.node(f.value).type;
-            line(fmt::format("writeField({}u, {});", f.field, toBits(type, names_[f.value])));
+            const std::string condition = f.isWritten ? fmt::format("if ({}) ", names_[*f.isWritten]) : "";
+            line(fmt::format("{}writeField({}u, {});", condition, f.field, toBits(type, names_[f.value])));
         }
         if (pass_.is3D) {
             line(fmt::format("writeBlock(z, uint({}));", names_[*pass_.block]));
@@ -109,11 +116,13 @@ class Emitter {
     void emitRegion(int region) {
         const std::vector<NodeId>& nodes = schedule_.regions[static_cast<std::size_t>(region)].nodes;
         for (const NodeId id : nodes) {
-            const Node& n = graph_.node(id);
-            if (n.op != Op::Phi) {
+            const Op op = graph_.node(id).op;
+            if (const Schedule::If* branch = schedule_.ifAt(graph_, id)) {
+                emitIf(*branch);
+            } else if (const Schedule::Loop* loop = schedule_.loopAt(graph_, id)) {
+                emitLoop(*loop);
+            } else if (op != Op::Phi && op != Op::LoopIn && op != Op::LoopOut) {
                 emitNode(id);
-            } else if (schedule_.ifs[n.imm].phis.front() == id) {
-                emitIf(schedule_.ifs[n.imm]);
             }
         }
     }
@@ -121,9 +130,8 @@ class Emitter {
     void emitNode(NodeId id) {
         const Node& n = graph_.node(id);
         if (n.op == Op::Component) {
-            static constexpr const char* kVoronoi[] = {".distance", ".ratio", ".offset.x", ".offset.y"};
             const NoiseKind kind = generator_.noises[graph_.node(n.args[0]).imm].kind;
-            return name(id, names_[n.args[0]] + (kind == NoiseKind::Voronoi2D ? kVoronoi[n.imm] : ""));
+            return name(id, names_[n.args[0]] + std::string(componentName(kind, n.imm)));
         }
         name(id, fmt::format("v{}", id));
         if (n.op == Op::Noise) return emitNoise(names_[id], n.imm);
@@ -136,11 +144,12 @@ class Emitter {
                 return fromBits(n.type, fmt::format("readField({}u)", n.imm));
             case Op::FieldAt:
                 return fromBits(n.type, fmt::format("readFieldAt({}u, {}, {})", n.imm, arg(n, 0), arg(n, 1)));
-            case Op::Random2D:
-                return fmt::format("random2D({}, {}, randomSeeds[{}])", arg(n, 0), arg(n, 1), n.imm);
-            case Op::Random3D:
-                return fmt::format("random3D({}, {}, {}, randomSeeds[{}])", arg(n, 0), arg(n, 1), arg(n, 2),
-                                   n.imm);
+            case Op::Hash2:
+                return fmt::format("int(hash2(uint({}), uint({}), {}))", arg(n, 0), arg(n, 1),
+                                   hashSeed(n.imm));
+            case Op::Hash3:
+                return fmt::format("int(hash3(uint({}), uint({}), uint({}), {}))", arg(n, 0), arg(n, 1),
+                                   arg(n, 2), hashSeed(n.imm));
             default:
                 break;
         }
@@ -151,25 +160,35 @@ class Emitter {
         return fmt::vformat(form, args);
     }
 
+    static std::string hashSeed(std::uint32_t packed) {
+        return fmt::format("hashSeeds[{}] + {:#x}u", hashSlot(packed), octaveSeedStep(hashOctave(packed)));
+    }
+
     const std::string& arg(const Node& n, std::size_t number) const { return names_[n.args[number]]; }
 
     void emitNoise(const std::string& result, std::uint32_t number) {
         const NoiseCall& call = generator_.noises[number];
         if (call.kind == NoiseKind::Voronoi2D) {
-            line(fmt::format("Voronoi {} = voronoi2D(columnX, columnY, {}, {}u, noiseSeeds[{}]);", result,
-                             call.size, call.maxPoints, number));
-            return;
+            return line(fmt::format("Voronoi {} = voronoi2D(columnX, columnY, {}, {}u, noiseSeeds[{}]);",
+                                    result, call.size, call.maxPoints, number));
+        }
+        if (call.kind == NoiseKind::Voronoi3D) {
+            const Bits inverseSize = bitsOf(1.0f / static_cast<float>(call.size));
+            return line(fmt::format(
+                "Voronoi3 {} = voronoi3D(ivec3(columnX, columnY, z), {}, {}, {}u, {}, noiseSeeds[{}]);",
+                result, call.size, literal(Type::Float, inverseSize), call.maxPoints, call.exponent, number));
         }
         const bool is3D = call.kind == NoiseKind::Perlin3D;
         const char* function = is3D ? "perlin3D(columnX, columnY, z" : "perlin2D(columnX, columnY";
-        for (std::size_t o = 0; o < call.weights.size(); ++o) {
-            const int size = call.size << o;
+        bool isFirst = true;
+        for (const Octave& o : octavesOf(call)) {
             const std::string sample =
-                fmt::format("{}, {}, {}, noiseSeeds[{}] + {:#x}u) * {}", function, size,
-                            literal(Type::Float, bitsOf(1.0f / static_cast<float>(size))), number,
-                            octaveSeedStep(o), literal(Type::Float, bitsOf(call.weights[o])));
-            line(o == 0 ? fmt::format("precise float {} = {};", result, sample)
-                        : fmt::format("{} = {} + {};", result, result, sample));
+                fmt::format("{}, {}, {}, noiseSeeds[{}] + {:#x}u) * {}", function, o.size,
+                            literal(Type::Float, bitsOf(1.0f / static_cast<float>(o.size))), number,
+                            o.seedStep, literal(Type::Float, bitsOf(o.weight)));
+            line(isFirst ? fmt::format("precise float {} = {};", result, sample)
+                         : fmt::format("{} = {} + {};", result, result, sample));
+            isFirst = false;
         }
     }
 
@@ -191,6 +210,34 @@ class Emitter {
         for (const NodeId phi : phis)
             line(fmt::format("v{} = {};", phi, names_[graph_.node(phi).args[side]]));
         --depth_;
+    }
+
+    void emitLoop(const Schedule::Loop& loop) {
+        for (const std::uint32_t v : loop.variables) {
+            const LoopVariable& variable = graph_.loopVariable(v);
+            name(variable.in, fmt::format("v{}", variable.in));
+            name(variable.out, names_[variable.in]);
+            line(fmt::format("{} {} = {};", typeName(graph_.node(variable.in).type), names_[variable.in],
+                             names_[variable.initial]));
+        }
+        const std::int32_t number = graph_.loopVariable(loop.variables.front()).loop;
+        const NodeId condition = graph_.loops()[static_cast<std::size_t>(number)].condition;
+        line(fmt::format("for (int round{0} = 0; round{0} < kMaxLoopRounds; ++round{0}) {{", number));
+        ++depth_;
+        emitRegion(loop.head);
+        line(fmt::format("if (!({})) break;", names_[condition]));
+        emitRegion(loop.body);
+        // All change at once: a next value may be another variable's.
+        for (const std::uint32_t v : loop.variables) {
+            const LoopVariable& variable = graph_.loopVariable(v);
+            line(fmt::format("{} next{} = {};", typeName(graph_.node(variable.in).type), v,
+                             names_[variable.next]));
+        }
+        for (const std::uint32_t v : loop.variables) {
+            line(fmt::format("{} = next{};", names_[graph_.loopVariable(v).in], v));
+        }
+        --depth_;
+        line("}");
     }
 
     const GeneratorGraph& generator_;

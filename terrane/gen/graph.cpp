@@ -20,6 +20,8 @@ bool isCommutative(Op op) {
         case Op::EqualF:
         case Op::EqualI:
         case Op::AndI:
+        case Op::OrI:
+        case Op::XorI:
             return true;
         default:
             return false;
@@ -77,13 +79,20 @@ NodeId Graph::add(Op op, Type type, std::span<const NodeId> args, std::uint32_t 
                   std::uint8_t dependence) {
     const OpRecord& rec = record(op);
     assert(args.size() == rec.argCount && "an operation takes as many arguments as its record says");
-    Node n{op, type, dependence, {}, imm};
+    Node n;
+    n.op = op;
+    n.type = type;
+    n.dependence = dependence;
+    n.imm = imm;
     std::array<Bits, 3> values{};
     bool allConstant = rec.evaluate != nullptr;
     for (std::size_t k = 0; k < args.size(); ++k) {
         assert(args[k] < nodes_.size() && "arguments stand before their users");
         n.args[k] = args[k];
         n.dependence |= nodes_[args[k]].dependence;
+        const std::int32_t loop = nodes_[args[k]].loop;
+        if (!isOpen(loop)) leaksOutOfLoop_ = true;
+        if (depth(loop) > depth(n.loop)) n.loop = loop;
         allConstant = allConstant && isConstant(args[k]);
         values[k] = nodes_[args[k]].imm;
     }
@@ -94,6 +103,51 @@ NodeId Graph::add(Op op, Type type, std::span<const NodeId> args, std::uint32_t 
     }
     if (const auto same = simplified(*this, n)) return *same;
     return intern(n);
+}
+
+int Graph::depth(std::int32_t loop) const {
+    return loop == kNoLoop ? 0 : loops_[static_cast<std::size_t>(loop)].depth;
+}
+
+bool Graph::isOpen(std::int32_t loop) const {
+    std::int32_t open = openLoop_;
+    while (open != loop && open != kNoLoop) open = loops_[static_cast<std::size_t>(open)].parent;
+    return open == loop;
+}
+
+std::int32_t Graph::beginLoop() {
+    Loop loop;
+    loop.parent = openLoop_;
+    loop.depth = depth(openLoop_) + 1;
+    openLoop_ = static_cast<std::int32_t>(loops_.size());
+    loops_.push_back(loop);
+    return openLoop_;
+}
+
+std::uint32_t Graph::addLoopVariable(Type type, NodeId initial, std::uint8_t dependence) {
+    assert(openLoop_ != kNoLoop && "variables belong to the loop that is open");
+    const auto number = static_cast<std::uint32_t>(loopVariables_.size());
+    const NodeId args[] = {initial};
+    const NodeId in = add(Op::LoopIn, type, args, number, dependence);
+    nodes_[in].loop = openLoop_;
+    loopVariables_.push_back({openLoop_, initial, in, in, in});
+    loops_[static_cast<std::size_t>(openLoop_)].variables.push_back(number);
+    return number;
+}
+
+void Graph::endLoop(NodeId condition, std::span<const NodeId> next) {
+    Loop& loop = loops_[static_cast<std::size_t>(openLoop_)];
+    assert(next.size() == loop.variables.size() && "each variable has a next value");
+    loop.condition = condition;
+    for (std::size_t k = 0; k < next.size(); ++k) {
+        LoopVariable& v = loopVariables_[loop.variables[k]];
+        v.next = next[k];
+        leaksOutOfLoop_ = leaksOutOfLoop_ || !isOpen(nodes_[next[k]].loop);
+        const NodeId args[] = {v.in};
+        v.out = add(Op::LoopOut, nodes_[v.in].type, args, loop.variables[k]);
+        nodes_[v.out].loop = loop.parent;
+    }
+    openLoop_ = loop.parent;
 }
 
 NodeId Graph::intern(const Node& node) {

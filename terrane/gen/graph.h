@@ -16,14 +16,31 @@ using NodeId = std::uint32_t;
 // What a node's value depends on, as a set of bits. A value that depends on neither is the same everywhere.
 enum Dependence : std::uint8_t { kDependsNone = 0, kDependsColumn = 1, kDependsZ = 2, kDependsVoxel = 3 };
 
+constexpr std::int32_t kNoLoop = -1;
+
 struct Node {
     Op op = Op::Constant;
     Type type = Type::Int;
     std::uint8_t dependence = kDependsNone;
+    std::int32_t loop = kNoLoop;  // innermost one whose variables its value depends on
     std::array<NodeId, 3> args{};
     std::uint32_t imm = 0;
 
     std::span<const NodeId> arguments() const { return {args.data(), record(op).argCount}; }
+};
+
+// A value that changes from round to round of a loop. While the condition holds, all variables take their
+// next values at once. A loop ends after shared::kMaxLoopRounds rounds in any case.
+struct LoopVariable {
+    std::int32_t loop = kNoLoop;
+    NodeId initial = 0, in = 0, next = 0, out = 0;
+};
+
+struct Loop {
+    std::int32_t parent = kNoLoop;  // the loop around it
+    int depth = 0;
+    NodeId condition = 0;
+    std::vector<std::uint32_t> variables;
 };
 
 class Graph {
@@ -39,6 +56,19 @@ class Graph {
     bool isConstant(NodeId id) const { return nodes_[id].op == Op::Constant; }
 
     std::uint32_t newIf() { return ifCount_++; }
+    std::uint32_t ifCount() const { return ifCount_; }
+
+    // Nodes added between beginLoop and endLoop are the loop's as far as they depend on its variables.
+    std::int32_t beginLoop();
+    // The number of a new variable of the innermost open loop. Its `in` is its value in the round.
+    // `dependence`: of the values that it will have.
+    std::uint32_t addLoopVariable(Type type, NodeId initial, std::uint8_t dependence);
+    // Sets `next` of each variable, in order. From here on the variables' `out` are their last values.
+    void endLoop(NodeId condition, std::span<const NodeId> next);
+    const std::vector<Loop>& loops() const { return loops_; }
+    const LoopVariable& loopVariable(std::uint32_t number) const { return loopVariables_[number]; }
+    // Whether some node outside of a loop depends on a node inside otherwise than through a variable's `out`.
+    bool leaksOutOfLoop() const { return leaksOutOfLoop_; }
 
   private:
     struct KeyHash {
@@ -49,10 +79,16 @@ class Graph {
     };
 
     NodeId intern(const Node& node);
+    int depth(std::int32_t loop) const;
+    bool isOpen(std::int32_t loop) const;
 
     std::vector<Node> nodes_;
     std::unordered_map<Node, NodeId, KeyHash, KeyEqual> ids_;
     std::uint32_t ifCount_ = 0;
+    std::vector<Loop> loops_;
+    std::vector<LoopVariable> loopVariables_;
+    std::int32_t openLoop_ = kNoLoop;
+    bool leaksOutOfLoop_ = false;
 };
 
 }  // namespace terrane::gen

@@ -13,7 +13,9 @@
 #include <hwy/highway.h>
 
 #include "terrane/gen/noise_kernels-inl.h"
+#include "terrane/gen/read_kernels-inl.h"
 #include "terrane/gen/tile_rows-inl.h"
+#include "terrane/shared/generation.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace terrane::gen {
@@ -65,51 +67,64 @@ HWY_INLINE VI truncate(VF v) {
                           hn::Set(di, std::numeric_limits<std::int32_t>::min()));
 }
 
-void field(const Instruction& i, TileContext& c, const RowList& rows) {
-    const Bits* values = c.fields[i.imm];
-    for (int k = 0; k < rows.count; ++k) {
-        const int row = rows.rows[k];
-        std::memcpy(rowOf(c.arena, i.dst, row), values + row * kRowLanes, kRowLanes * sizeof(Bits));
-    }
+HWY_INLINE VI floatBits(VF v) {
+    const VI bits = hn::BitCast(di, v);
+    const auto isNaN = hn::Gt(hn::And(bits, hn::Set(di, 0x7FFFFFFF)), hn::Set(di, 0x7F800000));
+    return hn::IfThenElse(isNaN, hn::Set(di, 0x7FC00000), bits);
 }
 
-void fieldAt(const Instruction& i, TileContext& c, const RowList& rows) {
-    const Bits* window = c.windows[i.imm].data();
-    for (int k = 0; k < rows.count; ++k) {
-        const int row = rows.rows[k];
-        const Bits* dx = rowOf(c.arena, i.args[0], row);
-        const Bits* dy = rowOf(c.arena, i.args[1], row);
-        Bits* out = rowOf(c.arena, i.dst, row);
+// No instruction set divides integers in lanes.
+void floorDivide(const Instruction& i, Bits* arena, const RowList& rows) {
+    const auto evaluate = record(Op::FloorDivideI).evaluate;
+    const int count = i.dst.rowStep ? rows.count : 1;
+    for (int k = 0; k < count; ++k) {
+        const int row = i.dst.rowStep ? rows.rows[k] : 0;
+        const Bits* a = rowOf(arena, i.args[0], row);
+        const Bits* b = rowOf(arena, i.args[1], row);
+        Bits* out = rowOf(arena, i.dst, row);
         for (int lane = 0; lane < kRowLanes; ++lane) {
-            const int ox = std::clamp(asInt(dx[lane]), -kMaxReadOffset, kMaxReadOffset);
-            const int oy = std::clamp(asInt(dy[lane]), -kMaxReadOffset, kMaxReadOffset);
-            out[lane] = window[(row + oy + kMaxReadOffset) * kWindowSize + lane + ox + kMaxReadOffset];
-        }
-    }
-}
-
-void blockHere(const Instruction& i, TileContext& c, const RowList& rows) {
-    const hn::Rebind<std::uint16_t, DI> d16;
-    const std::uint16_t* layer = c.blocks + static_cast<std::size_t>(c.z) * kTileLanes;
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) {
-        const auto ids = hn::LoadU(d16, layer + row * kRowLanes + lane);
-        storeBits(hn::PromoteTo(di, ids), rowOf(c.arena, i.dst, row) + lane);
-    });
-}
-
-void blockInColumn(const Instruction& i, TileContext& c, const RowList& rows) {
-    for (int k = 0; k < rows.count; ++k) {
-        const int row = rows.rows[k];
-        const Bits* z = rowOf(c.arena, i.args[0], row);
-        Bits* out = rowOf(c.arena, i.dst, row);
-        for (int lane = 0; lane < kRowLanes; ++lane) {
-            const int layer = std::clamp(asInt(z[lane]), 0, world::kChunkHeight - 1);
-            out[lane] = c.blocks[layer * kTileLanes + row * kRowLanes + lane];
+            const std::array<Bits, 2> args = {a[lane], b[lane]};
+            out[lane] = evaluate(args);
         }
     }
 }
 
 void run(const InstructionList& list, TileContext& c, const RowList& rows);
+
+// Of `rows` those with a lane for which the condition holds.
+RowList rowsWithSome(Operand condition, Bits* arena, const RowList& rows) {
+    RowList result{{}, 0};
+    for (int k = 0; k < rows.count; ++k) {
+        bool none = true;
+        for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(di)) {
+            const VI bits = loadI(rowOf(arena, condition, rows.rows[k]) + lane);
+            none = none && hn::AllFalse(di, hn::MaskFromVec(bits));
+        }
+        if (!none) result.rows[result.count++] = rows.rows[k];
+    }
+    return result;
+}
+
+void copyRows(Operand to, Operand from, Bits* arena, const RowList& rows) {
+    forEachVector(rows, to, [&](int row, std::size_t lane) {
+        storeBits(loadI(rowOf(arena, from, row) + lane), rowOf(arena, to, row) + lane);
+    });
+}
+
+// A lane whose condition does not hold keeps its variables, so its condition does not hold again either.
+void loop(const Instruction& i, TileContext& c, const RowList& rows) {
+    const ProgramLoop& l = c.program->loops[i.imm];
+    for (const LoopMove& v : l.variables) copyRows(v.in, v.initial, c.arena, rows);
+    RowList active = rows;
+    for (int round = 0; round < shared::kMaxLoopRounds; ++round) {
+        run(l.head, c, active);
+        active = rowsWithSome(l.condition, c.arena, active);
+        if (active.count == 0) return;
+        run(l.body, c, active);
+        for (const LoopMove& v : l.variables) blend(l.condition, {v.changed, v.next, v.in}, c.arena, active);
+        for (const LoopMove& v : l.variables) copyRows(v.in, v.changed, c.arena, active);
+    }
+}
 
 // Splits the rows by whether some lane takes the branch, and whether some lane does not.
 void branch(const Instruction& i, TileContext& c, const RowList& rows) {
@@ -167,12 +182,17 @@ void runOne(const Instruction& i, TileContext& c, const RowList& rows) {
         TERRANE_BINARY_I(MaxI, hn::Max(p, q));
         TERRANE_UNARY_I(AbsI, hn::Abs(p));
         TERRANE_BINARY_I(AndI, hn::And(p, q));
+        TERRANE_BINARY_I(OrI, hn::Or(p, q));
+        TERRANE_BINARY_I(XorI, hn::Xor(p, q));
+        TERRANE_BINARY_I(ShiftLeftI, hn::Shl(p, hn::And(q, hn::Set(di, 31))));
         TERRANE_BINARY_I(ShiftRightI, hn::Shr(p, hn::And(q, hn::Set(di, 31))));
         TERRANE_BINARY_I(LessI, maskBits(di, hn::Lt(p, q)));
         TERRANE_BINARY_I(LessEqualI, maskBits(di, hn::Not(hn::Lt(q, p))));
         TERRANE_BINARY_I(EqualI, maskBits(di, hn::Eq(p, q)));
         TERRANE_UNARY_I(IntToFloat, hn::ConvertTo(df, p));
         TERRANE_UNARY_F(FloatToInt, truncate(p));
+        TERRANE_UNARY_F(FloatBits, floatBits(p));
+        TERRANE_UNARY_I(BitsFloat, p);
         TERRANE_BINARY_I(And, hn::And(p, q));
         TERRANE_BINARY_I(Or, hn::Or(p, q));
         TERRANE_UNARY_I(Not, hn::Not(p));
@@ -180,9 +200,13 @@ void runOne(const Instruction& i, TileContext& c, const RowList& rows) {
             return blend(i.args[0], {i.dst, i.args[1], i.args[2]}, a, rows);
         case Op::Phi:
             return branch(i, c, rows);
-        case Op::Random2D:
-        case Op::Random3D:
-            return random(i, c, rows);
+        case Op::LoopOut:
+            return loop(i, c, rows);
+        case Op::FloorDivideI:
+            return floorDivide(i, a, rows);
+        case Op::Hash2:
+        case Op::Hash3:
+            return hash(i, c, rows);
         case Op::Noise:
             return noise(i, c, rows);
         case Op::Field:
@@ -193,11 +217,14 @@ void runOne(const Instruction& i, TileContext& c, const RowList& rows) {
             return blockHere(i, c, rows);
         case Op::BlockInColumn:
             return blockInColumn(i, c, rows);
+        case Op::BlockAt:
+            return blockAt(i, c, rows);
         case Op::Constant:
         case Op::PosX:
         case Op::PosY:
         case Op::PosZ:
         case Op::Component:
+        case Op::LoopIn:
         case Op::Count:
             break;
     }

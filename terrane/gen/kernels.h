@@ -2,6 +2,7 @@
 // Highway). All targets give the same bits.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -21,16 +22,20 @@ constexpr int kWindowSize = kTileSize + 2 * kMaxReadOffset;
 struct TileContext {
     const Program* program = nullptr;
     Bits* arena = nullptr;  // 64-byte aligned; program->arenaRows rows
-    std::span<const std::uint32_t> randomSeeds;
+    std::span<const std::uint32_t> hashSeeds;
     // By index of the generator's noises; prepared for those the program calls.
     std::vector<Perlin2DTile> perlin2D;
     std::vector<Perlin3DTile> perlin3D;
     std::vector<std::vector<VoronoiPoint>> voronoi2D;
+    std::vector<Voronoi3DTile> voronoi3D;
     std::vector<const Bits*> fields;         // by field: kTileLanes values
     std::vector<std::vector<Bits>> windows;  // by field: kWindowSize² values where read with an offset
     std::vector<NoiseKind> noiseKinds;
-    const std::uint16_t* blocks = nullptr;  // of the newest earlier 3D pass: 256 layers of 256
-    std::int32_t z = 0;                     // of the layer
+    // Of the newest earlier 3D pass, 256 layers of 256 blocks: in this chunk, and in all nine around it by y,
+    // then x, where the program reads them with an offset.
+    const std::uint16_t* blocks = nullptr;
+    std::array<const std::uint16_t*, 9> blocksAround{};
+    std::int32_t z = 0;  // of the layer
 };
 
 // Runs a list for all rows of the tile.

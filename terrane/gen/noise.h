@@ -14,15 +14,19 @@
 // points at block positions; distances are Euclidean, in blocks, from the integer squared distance. The
 // search covers 5×5 cells, which always holds the nearest and second nearest point: with a point in each cell
 // these lie within 1.81 cells.
+//   3D: the same in cubes; distances are (|x|^p + |y|^p + |z|^p)^(1/p), p the exponent: with larger ones
+//   cells become boxes. The call gives the sums of powers, in cells (d = |blocks| · (1 / size), d·d·…·d from
+//   the left, x and y added before z).
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace terrane::gen {
 
-enum class NoiseKind : std::uint8_t { Perlin2D, Perlin3D, Voronoi2D };
+enum class NoiseKind : std::uint8_t { Perlin2D, Perlin3D, Voronoi2D, Voronoi3D };
 
 struct NoiseCall {
     NoiseKind kind = NoiseKind::Perlin2D;
@@ -30,6 +34,7 @@ struct NoiseCall {
     std::int32_t size = 1;       // blocks: smallest lattice (Perlin), cell (Voronoi); 1…65,536
     std::vector<float> weights;  // Perlin: of octaves size, 2 size, 4 size, …
     int maxPoints = 1;           // Voronoi: 1…4
+    int exponent = 2;            // Voronoi 3D: of the metric, 2…8
 
     bool operator==(const NoiseCall&) const = default;
 };
@@ -43,8 +48,26 @@ enum VoronoiResult : std::uint32_t {
     kVoronoiResultCount
 };
 
+// Results of a call in 3D.
+enum Voronoi3DResult : std::uint32_t {
+    kVoronoi3DNearest,  // Float: sum of powers of the offset to the nearest point, in cells
+    kVoronoi3DSecond,   // Float: to the second nearest
+    kVoronoi3DOffsetX,  // Int, blocks, from here to the nearest point
+    kVoronoi3DOffsetY,
+    kVoronoi3DOffsetZ,
+    kVoronoi3DResultCount
+};
+
 // Squared distances of candidates, at most (1.81 cells + two tile diagonals)², fit 31 bits.
 constexpr std::int32_t kMaxVoronoiSize = 16384;
+
+// What seeds are made from, with the world's: calls of different kinds and equal names differ.
+inline std::string noiseSeedName(std::string_view name) {
+    return "noise " + std::string(name);
+}
+inline std::string randomSeedName(std::string_view name) {
+    return "random " + std::string(name);
+}
 
 // What octave number `octave` adds to a call's seed: 2^32 / golden ratio, odd.
 constexpr std::uint32_t octaveSeedStep(std::size_t octave) {
@@ -52,7 +75,20 @@ constexpr std::uint32_t octaveSeedStep(std::size_t octave) {
 }
 
 constexpr std::uint32_t resultCount(NoiseKind kind) {
-    return kind == NoiseKind::Voronoi2D ? std::uint32_t{kVoronoiResultCount} : 1u;
+    if (kind == NoiseKind::Voronoi2D) return kVoronoiResultCount;
+    return kind == NoiseKind::Voronoi3D ? std::uint32_t{kVoronoi3DResultCount} : 1u;
 }
+
+constexpr bool is3D(NoiseKind kind) {
+    return kind == NoiseKind::Perlin3D || kind == NoiseKind::Voronoi3D;
+}
+
+// One octave of a Perlin call. Octaves of weight 0 are not there: nothing is computed for them.
+struct Octave {
+    std::int32_t size;
+    std::uint32_t seedStep;
+    float weight;
+};
+std::vector<Octave> octavesOf(const NoiseCall& call);
 
 }  // namespace terrane::gen

@@ -6,6 +6,8 @@
 #define TERRANE_GEN_NOISE_KERNELS_INL_H
 #endif
 
+#include <limits>
+
 #include "terrane/gen/tile_rows-inl.h"
 #include "terrane/shared/hash.h"
 
@@ -25,11 +27,11 @@ HWY_INLINE VU mixHalf(VU h) {
     return hn::Mul(hn::Xor(h, hn::ShiftRight<15>(h)), hn::Set(du, 0x846CA68Bu));
 }
 
-// shared::hash2 or hash3 of the arguments, its upper 24 bits as a fraction.
-void random(const Instruction& i, TileContext& c, const RowList& rows) {
+// shared::hash2 or hash3 of the arguments.
+void hash(const Instruction& i, TileContext& c, const RowList& rows) {
     constexpr std::uint32_t kFactors[] = {shared::kHashX, shared::kHashY, shared::kHashZ};
-    const std::size_t argCount = i.op == Op::Random2D ? 2 : 3;
-    const VU seed = hn::Set(du, c.randomSeeds[i.imm]);
+    const std::size_t argCount = i.op == Op::Hash2 ? 2 : 3;
+    const VU seed = hn::Set(du, c.hashSeeds[hashSlot(i.imm)] + octaveSeedStep(hashOctave(i.imm)));
     forEachVector(rows, i.dst, [&](int row, std::size_t lane) {
         VU h = seed;
         for (std::size_t k = 0; k < argCount; ++k) {
@@ -37,8 +39,7 @@ void random(const Instruction& i, TileContext& c, const RowList& rows) {
             if (k > 0) h = mixHalf(h);
             h = hn::Xor(h, hn::Mul(v, hn::Set(du, kFactors[k])));
         }
-        const VI top = hn::BitCast(di, hn::ShiftRight<8>(mixBits(h)));
-        storeBits(hn::Mul(hn::ConvertTo(df, top), hn::Set(df, 0x1p-24f)), rowOf(c.arena, i.dst, row) + lane);
+        storeBits(mixBits(h), rowOf(c.arena, i.dst, row) + lane);
     });
 }
 
@@ -105,6 +106,44 @@ void voronoi2D(const Instruction& i, TileContext& c, const RowList& rows) {
     });
 }
 
+void voronoi3D(const Instruction& i, TileContext& c, const RowList& rows) {
+    Voronoi3DTile& tile = c.voronoi3D[i.imm];
+    if (tile.layer != c.z) moveToLayer(tile, c.z);
+    const VF inverseSize = hn::Set(df, 1.0f / static_cast<float>(tile.call.size));
+    const auto power = [&](VI blocks) HWY_ATTR {
+        const VF d = hn::Mul(hn::ConvertTo(df, hn::Abs(blocks)), inverseSize);
+        VF result = d;
+        for (int k = 1; k < tile.call.exponent; ++k) result = hn::Mul(result, d);
+        return result;
+    };
+    const auto result = [&](std::uint32_t number, int row, std::size_t lane) {
+        const Operand o{static_cast<std::uint16_t>(i.dst.row + number * kTileSize), 1};
+        return rowOf(c.arena, o, row) + lane;
+    };
+    forEachVector(rows, i.dst, [&](int row, std::size_t lane) HWY_ATTR {
+        const VI x = hn::Iota(di, static_cast<std::int32_t>(lane)), y = hn::Set(di, row);
+        VF best = hn::Set(df, std::numeric_limits<float>::max()), second = best;
+        VI offsetX = hn::Zero(di), offsetY = offsetX, offsetZ = offsetX;
+        for (const Voronoi3DPoint p : tile.points) {
+            const VI dx = hn::Sub(hn::Set(di, p.x), x), dy = hn::Sub(hn::Set(di, p.y), y);
+            const VI dz = hn::Set(di, p.z - c.z);
+            const VF d = hn::Add(hn::Add(power(dx), power(dy)), power(dz));
+            const auto nearer = hn::Lt(d, best);
+            const auto nearerI = hn::RebindMask(di, nearer);
+            second = hn::IfThenElse(nearer, best, hn::IfThenElse(hn::Lt(d, second), d, second));
+            best = hn::IfThenElse(nearer, d, best);
+            offsetX = hn::IfThenElse(nearerI, dx, offsetX);
+            offsetY = hn::IfThenElse(nearerI, dy, offsetY);
+            offsetZ = hn::IfThenElse(nearerI, dz, offsetZ);
+        }
+        storeBits(best, result(kVoronoi3DNearest, row, lane));
+        storeBits(second, result(kVoronoi3DSecond, row, lane));
+        storeBits(offsetX, result(kVoronoi3DOffsetX, row, lane));
+        storeBits(offsetY, result(kVoronoi3DOffsetY, row, lane));
+        storeBits(offsetZ, result(kVoronoi3DOffsetZ, row, lane));
+    });
+}
+
 void noise(const Instruction& i, TileContext& c, const RowList& rows) {
     switch (c.noiseKinds[i.imm]) {
         case NoiseKind::Perlin2D:
@@ -113,6 +152,8 @@ void noise(const Instruction& i, TileContext& c, const RowList& rows) {
             return perlin3D(i, c, rows);
         case NoiseKind::Voronoi2D:
             return voronoi2D(i, c, rows);
+        case NoiseKind::Voronoi3D:
+            return voronoi3D(i, c, rows);
     }
 }
 

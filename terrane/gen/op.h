@@ -37,6 +37,18 @@ constexpr bool asBool(Bits b) {
     return b != 0;
 }
 
+// The seed of a hash as an operation's number: slot of GeneratorGraph::hashNames, and an octave that counts
+// as in octaveSeedStep of noise.h.
+constexpr std::uint32_t packHashSeed(std::uint32_t slot, std::uint32_t octave) {
+    return octave << 24 | slot;
+}
+constexpr std::uint32_t hashSlot(std::uint32_t packed) {
+    return packed & 0xFFFFFFu;
+}
+constexpr std::uint32_t hashOctave(std::uint32_t packed) {
+    return packed >> 24;
+}
+
 enum class Op : std::uint8_t {
     // Leaves
     Constant,  // imm: bits
@@ -48,12 +60,13 @@ enum class Op : std::uint8_t {
     BlockHere,  // block of the newest 3D pass before this one, at this voxel
     // Reads with an offset of at most 16 blocks in x and y
     FieldAt,  // (dx, dy), imm: field
-    // Block of the newest 3D pass before this one in this column, (z): absolute, clamped into the world
-    BlockInColumn,
-    Component,  // (noise), imm: number of the result
-    // Random numbers by position, imm: seed slot
-    Random2D,  // (x, y) → float in [0, 1)
-    Random3D,  // (x, y, z)
+    // Blocks of the newest 3D pass before this one; z is absolute and clamped into the world
+    BlockInColumn,  // (z), in this column
+    BlockAt,        // (dx, dy, z)
+    Component,      // (noise), imm: number of the result
+    // 32 bits that depend on position and seed, imm: packHashSeed
+    Hash2,  // (x, y)
+    Hash3,  // (x, y, z)
     // Float
     AddF,
     SubF,
@@ -74,14 +87,20 @@ enum class Op : std::uint8_t {
     MinI,
     MaxI,
     AbsI,
+    FloorDivideI,  // toward minus infinity; 0 for divisors below 1
     AndI,
-    ShiftRightI,
+    OrI,
+    XorI,
+    ShiftLeftI,
+    ShiftRightI,  // arithmetic
     LessI,
     LessEqualI,
     EqualI,
     // Conversions
     IntToFloat,  // exact below 2^24, else rounded to nearest even
     FloatToInt,  // toward zero; the value must fit
+    FloatBits,   // the bits of a float as an Int; every NaN gives 0x7FC00000
+    BitsFloat,   // and back
     // Bool
     And,
     Or,
@@ -89,6 +108,9 @@ enum class Op : std::uint8_t {
     // Choice
     Select,  // (condition, a, b): both sides are computed
     Phi,     // (condition, a, b), imm: number of the if: sides are computed only where a lane takes them
+    // Loops, imm: number of the loop variable (graph.h)
+    LoopIn,   // (initial value): the variable at the head of each round
+    LoopOut,  // (its LoopIn): the variable after the last round
     Count
 };
 

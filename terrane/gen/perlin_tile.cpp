@@ -111,17 +111,18 @@ void fillLevel(const Perlin3DTile::Octave& o, std::int32_t zCell, PerlinLevel& l
 
 void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0,
              std::int32_t y0) {
-    tile.octaves.resize(call.weights.size());
-    for (std::size_t o = 0; o < tile.octaves.size(); ++o) {
+    const std::vector<Octave> octaves = octavesOf(call);
+    tile.octaves.resize(octaves.size());
+    for (std::size_t o = 0; o < octaves.size(); ++o) {
         PerlinOctave& octave = tile.octaves[o];
-        const std::int32_t size = call.size << o;
+        const std::int32_t size = octaves[o].size;
         const float inverseSize = 1.0f / static_cast<float>(size);
         const AxisCells x = axisCells(x0, size, inverseSize), y = axisCells(y0, size, inverseSize);
-        octave.weight = call.weights[o];
+        octave.weight = octaves[o].weight;
         const auto nodeRows = static_cast<uint>(setRows(octave, y));
         for (uint row = 0; row < nodeRows; ++row) {
             const auto lookup = [&](uint cell) {
-                return gradient2(cell, y.cell[0] + row, seed + octaveSeedStep(o));
+                return gradient2(cell, y.cell[0] + row, seed + octaves[o].seedStep);
             };
             forEachX(x.cell, lookup, [&](std::size_t k, Gradient2 left, Gradient2 right) {
                 const float f = x.offset[k], t = x.fadeOf[k];
@@ -134,19 +135,20 @@ void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, std:
 
 void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0,
              std::int32_t y0) {
-    tile.octaves.resize(call.weights.size());
+    const std::vector<Octave> octaves = octavesOf(call);
+    tile.octaves.resize(octaves.size());
     tile.layer = -1;
-    for (std::size_t n = 0; n < tile.octaves.size(); ++n) {
+    for (std::size_t n = 0; n < octaves.size(); ++n) {
         Perlin3DTile::Octave& o = tile.octaves[n];
-        o.size = call.size << n;
+        o.size = octaves[n].size;
         o.inverseSize = 1.0f / static_cast<float>(o.size);
-        o.seed = seed + octaveSeedStep(n);
+        o.seed = seed + octaves[n].seedStep;
         const AxisCells x = axisCells(x0, o.size, o.inverseSize), y = axisCells(y0, o.size, o.inverseSize);
         o.xCell = x.cell;
         o.xOffset = x.offset;
         o.xFade = x.fadeOf;
         o.yCell = y.cell[0];
-        o.layer.weight = call.weights[n];
+        o.layer.weight = octaves[n].weight;
         setRows(o.layer, y);
     }
 }

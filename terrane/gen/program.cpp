@@ -50,11 +50,9 @@ class Compiler {
     Program run() {
         program_.is3D = pass_.is3D;
         program_.readsAt = pass_.readsAt;
+        program_.readsBlocksAt = pass_.readsBlocksAt;
         placeLeaves();
-        std::vector<NodeId> outputs;
-        for (const FieldOutput& f : pass_.fields) outputs.push_back(f.value);
-        if (pass_.block) outputs.push_back(*pass_.block);
-
+        const std::vector<NodeId> outputs = outputsOf(pass_);
         if (pass_.is3D) {
             program_.column = compileList(columnBoundary(graph_, outputs));
             rows_.seal();
@@ -102,47 +100,96 @@ class Compiler {
         return emitRegion(0);
     }
 
-    const Schedule::If* ifStartingAt(NodeId id) const {
-        const Node& n = graph_.node(id);
-        if (n.op != Op::Phi) return nullptr;
-        const Schedule::If& branch = schedule_.ifs[n.imm];
-        return branch.phis.front() == id ? &branch : nullptr;
-    }
-
     // Walks in the order of emission; a node's position is the count of nodes before it.
     void findLastUses(int region) {
-        for (const NodeId id : schedule_.regions[static_cast<std::size_t>(region)].nodes) {
-            if (const Schedule::If* branch = ifStartingAt(id)) {
+        const std::vector<NodeId>& nodes = schedule_.regions[static_cast<std::size_t>(region)].nodes;
+        for (const NodeId id : nodes) {
+            const Op op = graph_.node(id).op;
+            if (const Schedule::If* branch = schedule_.ifAt(graph_, id)) {
                 findLastUses(branch->thenRegion);
                 findLastUses(branch->elseRegion);
                 for (const NodeId phi : branch->phis) noteUses(phi);
-            } else if (graph_.node(id).op != Op::Phi) {
+            } else if (const Schedule::Loop* loop = schedule_.loopAt(graph_, id)) {
+                findLastUses(loop->head);
+                findLastUses(loop->body);
+                keepLoop(*loop);
+            } else if (op != Op::Phi && op != Op::LoopIn && op != Op::LoopOut) {
                 noteUses(id);
             }
         }
     }
 
+    // A round finds what it is given as the round before it did.
+    void keepLoop(const Schedule::Loop& loop) {
+        for (const std::uint32_t v : loop.variables) {
+            const LoopVariable& variable = graph_.loopVariable(v);
+            for (const NodeId id : {variable.initial, variable.in, variable.next}) keep(id);
+            keep(graph_.loops()[static_cast<std::size_t>(variable.loop)].condition);
+        }
+        for (const NodeId out : loop.outs) keep(out);
+    }
+
+    void keep(NodeId id) {
+        lastUse_[id] = kNeverFreed;
+        if (graph_.node(id).op == Op::Component) keep(graph_.node(id).args[0]);
+    }
+
     void noteUses(NodeId id) {
         ++position_;
-        for (const NodeId arg : graph_.node(id).arguments()) noteUse(arg);
+        for (const NodeId arg : graph_.node(id).arguments()) noteUse(arg, loopAround(id));
     }
 
     // A component has no register of its own: using it uses the noise.
-    void noteUse(NodeId id) {
-        lastUse_[id] = position_;
-        if (graph_.node(id).op == Op::Component) noteUse(graph_.node(id).args[0]);
+    void noteUse(NodeId id, std::int32_t userLoop) {
+        const bool isGivenToALoop = userLoop != kNoLoop && loopAround(id) != userLoop;
+        if (isGivenToALoop) return keep(id);
+        if (lastUse_[id] != kNeverFreed) lastUse_[id] = position_;
+        if (graph_.node(id).op == Op::Component) noteUse(graph_.node(id).args[0], userLoop);
+    }
+
+    std::int32_t loopAround(NodeId id) const {
+        const int region = schedule_.regionOf[id];
+        return region < 0 ? kNoLoop : schedule_.regions[static_cast<std::size_t>(region)].loop;
     }
 
     InstructionList emitRegion(int region) {
         InstructionList list;
-        for (const NodeId id : schedule_.regions[static_cast<std::size_t>(region)].nodes) {
-            if (const Schedule::If* branch = ifStartingAt(id)) {
+        const std::vector<NodeId>& nodes = schedule_.regions[static_cast<std::size_t>(region)].nodes;
+        for (const NodeId id : nodes) {
+            const Op op = graph_.node(id).op;
+            if (const Schedule::If* branch = schedule_.ifAt(graph_, id)) {
                 emitIf(*branch, list);
-            } else if (graph_.node(id).op != Op::Phi) {
+            } else if (const Schedule::Loop* loop = schedule_.loopAt(graph_, id)) {
+                emitLoop(*loop, list);
+            } else if (op != Op::Phi && op != Op::LoopIn && op != Op::LoopOut) {
                 emitNode(id, list);
             }
         }
         return list;
+    }
+
+    void emitLoop(const Schedule::Loop& loop, InstructionList& list) {
+        ProgramLoop result;
+        for (const std::uint32_t v : loop.variables) {
+            const LoopVariable& variable = graph_.loopVariable(v);
+            setOperand(variable.in, rows_.allocate(true));
+            setOperand(variable.out, operands_[variable.in]);
+            result.variables.push_back({operands_[variable.in], operands_[variable.initial], {}, {}});
+        }
+        result.head = emitRegion(loop.head);
+        const std::int32_t number = graph_.loopVariable(loop.variables.front()).loop;
+        result.condition = operands_[graph_.loops()[static_cast<std::size_t>(number)].condition];
+        result.body = emitRegion(loop.body);
+        for (std::size_t k = 0; k < loop.variables.size(); ++k) {
+            result.variables[k].next = operands_[graph_.loopVariable(loop.variables[k]).next];
+            result.variables[k].changed = rows_.allocate(true);
+        }
+        for (const LoopMove& move : result.variables) rows_.release(move.changed);
+        Instruction instruction;
+        instruction.op = Op::LoopOut;
+        instruction.imm = static_cast<std::uint32_t>(program_.loops.size());
+        program_.loops.push_back(std::move(result));
+        list.push_back(instruction);
     }
 
     void emitNode(NodeId id, InstructionList& list) {

@@ -29,7 +29,8 @@ struct Instruction {
     Op op = Op::Constant;
     Operand dst;
     std::array<Operand, 3> args{};
-    // Of the operation. `branch` number for Op::Phi, which here stands for a whole if.
+    // Of the operation. For Op::Phi and Op::LoopOut, which here stand for a whole if or loop, the number of
+    // the branch or loop.
     std::uint32_t imm = 0;
 };
 
@@ -45,22 +46,35 @@ struct Branch {
     std::vector<PhiMove> phis;
 };
 
+struct LoopMove {
+    Operand in, initial, next;
+    Operand changed;  // holds the next value until all variables have theirs
+};
+
+struct ProgramLoop {
+    InstructionList head, body;
+    Operand condition;
+    std::vector<LoopMove> variables;
+};
+
 struct Program {
     bool is3D = false;
     InstructionList column, layer;
     std::vector<Branch> branches;
+    std::vector<ProgramLoop> loops;
     std::vector<Bits> constants;  // rows 0… of the arena, each value in all 16 lanes
     Operand x, y, z;              // filled by the executor
     std::uint32_t arenaRows = 0;
 
     struct FieldResult {
         std::uint32_t field;
-        Operand value;
+        Operand value;  // in a 3D pass 0 but for one layer of each column
     };
     std::vector<FieldResult> fields;
     std::optional<Operand> block;
     std::vector<std::uint32_t> noises;   // calls it makes
     std::vector<std::uint32_t> readsAt;  // fields it reads with an offset
+    bool readsBlocksAt = false;          // reads blocks with an offset
 };
 
 Program compile(const PassGraph& pass, const std::vector<NoiseCall>& noises);

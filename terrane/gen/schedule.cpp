@@ -11,8 +11,12 @@ constexpr int kNowhere = -1;
 class Scheduler {
   public:
     Scheduler(const Graph& graph, const std::function<bool(NodeId)>& isInput)
-        : graph_(graph), isInput_(isInput), region_(graph.size(), kNowhere), live_(graph.size(), false) {
+        : graph_(graph), isInput_(isInput), live_(graph.size(), false) {
         result_.regions.push_back({});
+        result_.regionOf.assign(graph.size(), kNowhere);
+        result_.ifOf.assign(graph.size(), 0);
+        result_.ifs.resize(graph.ifCount());
+        result_.loops.resize(graph.loops().size());
     }
 
     Schedule run(const std::vector<NodeId>& roots) {
@@ -20,19 +24,22 @@ class Scheduler {
             markLive(root);
             use(root, 0);
         }
-        collectPhis();
+        collectBranches();
         // Users stand behind their arguments: backwards, every use of a node is known before the node is
         // placed.
         for (NodeId id = static_cast<NodeId>(graph_.size()); id-- > 0;) {
             if (live_[id]) placeArguments(id);
         }
         for (NodeId id = 0; id < graph_.size(); ++id) {
-            if (live_[id]) result_.regions[static_cast<std::size_t>(region_[id])].nodes.push_back(id);
+            if (live_[id]) region(result_.regionOf[id]).nodes.push_back(id);
         }
         return std::move(result_);
     }
 
   private:
+    Region& region(int number) { return result_.regions[static_cast<std::size_t>(number)]; }
+    const Loop& loop(std::int32_t number) const { return graph_.loops()[static_cast<std::size_t>(number)]; }
+
     void markLive(NodeId root) {
         std::vector<NodeId> stack{root};
         while (!stack.empty()) {
@@ -40,30 +47,62 @@ class Scheduler {
             stack.pop_back();
             if (live_[id] || isInput_(id)) continue;
             live_[id] = true;
-            const auto args = graph_.node(id).arguments();
-            stack.insert(stack.end(), args.begin(), args.end());
+            const Node& n = graph_.node(id);
+            stack.insert(stack.end(), n.arguments().begin(), n.arguments().end());
+            if (n.op == Op::LoopIn) {
+                stack.push_back(graph_.loopVariable(n.imm).next);
+                stack.push_back(loop(n.loop).condition);
+            }
         }
     }
 
-    void collectPhis() {
+    void collectBranches() {
         for (NodeId id = 0; id < graph_.size(); ++id) {
+            if (!live_[id]) continue;
             const Node& n = graph_.node(id);
-            if (!live_[id] || n.op != Op::Phi) continue;
-            if (result_.ifs.size() <= n.imm) result_.ifs.resize(n.imm + 1);
-            result_.ifs[n.imm].phis.push_back(id);
+            if (n.op == Op::Phi) addPhi(id);
+            if (n.op == Op::LoopIn)
+                result_.loops[static_cast<std::size_t>(n.loop)].variables.push_back(n.imm);
+            if (n.op == Op::LoopOut) loopOf(n).outs.push_back(id);
         }
+    }
+
+    Schedule::Loop& loopOf(const Node& out) {
+        return result_.loops[static_cast<std::size_t>(graph_.loopVariable(out.imm).loop)];
+    }
+
+    void addPhi(NodeId id) {
+        const auto sameLoop = [&](const Schedule::If& branch) {
+            return branch.phis.empty() || graph_.node(branch.phis.front()).loop == graph_.node(id).loop;
+        };
+        std::uint32_t number = graph_.node(id).imm;
+        if (!sameLoop(result_.ifs[number])) {
+            // The phis of an if are made one after the other: its second half is the newest one or none yet.
+            const bool isFirst = result_.ifs.size() == graph_.ifCount() ||
+                                 graph_.node(result_.ifs.back().phis.front()).imm != number ||
+                                 !sameLoop(result_.ifs.back());
+            if (isFirst) result_.ifs.emplace_back();
+            number = static_cast<std::uint32_t>(result_.ifs.size()) - 1;
+        }
+        result_.ifs[number].phis.push_back(id);
+        result_.ifOf[id] = number;
     }
 
     void placeArguments(NodeId id) {
         const Node& n = graph_.node(id);
-        if (n.op != Op::Phi) {
-            for (const NodeId arg : n.arguments()) use(arg, region_[id]);
-            return;
+        const int here = result_.regionOf[id];
+        if (n.op == Op::Phi) {
+            const Schedule::If& branch = openIf(result_.ifOf[id]);
+            use(n.args[0], result_.regionOf[id]);
+            use(n.args[1], branch.thenRegion);
+            use(n.args[2], branch.elseRegion);
+        } else if (n.op == Op::LoopOut) {
+            openLoop(graph_.loopVariable(n.imm).loop);
+        } else if (n.op == Op::LoopIn) {
+            use(n.args[0], region(here).parent);
+        } else {
+            for (const NodeId arg : n.arguments()) use(arg, here);
         }
-        const Schedule::If& branch = openIf(n.imm);
-        use(n.args[0], region_[id]);
-        use(n.args[1], branch.thenRegion);
-        use(n.args[2], branch.elseRegion);
     }
 
     // All phis of an if stand in one region: the innermost that holds the uses of all of them. Its phis were
@@ -71,34 +110,58 @@ class Scheduler {
     const Schedule::If& openIf(std::uint32_t number) {
         Schedule::If& branch = result_.ifs[number];
         if (branch.thenRegion != kNowhere) return branch;
-        int region = kNowhere;
-        for (const NodeId phi : branch.phis) region = commonRegion(region, region_[phi]);
-        for (const NodeId phi : branch.phis) region_[phi] = region;
-        branch.thenRegion = newRegion(region);
-        branch.elseRegion = newRegion(region);
+        const int around = gather(branch.phis);
+        branch.thenRegion = newRegion(around, region(around).loop);
+        branch.elseRegion = newRegion(around, region(around).loop);
         return branch;
     }
 
-    int newRegion(int parent) {
-        const int depth = result_.regions[static_cast<std::size_t>(parent)].depth + 1;
-        result_.regions.push_back({parent, depth, {}});
+    // The same for a loop and the last values of its variables.
+    void openLoop(std::int32_t number) {
+        Schedule::Loop& result = result_.loops[static_cast<std::size_t>(number)];
+        if (result.head != kNowhere) return;
+        result.head = newRegion(gather(result.outs), number);
+        result.body = newRegion(result.head, number);
+        for (const std::uint32_t v : result.variables) {
+            const LoopVariable& variable = graph_.loopVariable(v);
+            result_.regionOf[variable.in] = result.head;
+            use(variable.next, result.body);
+        }
+        use(loop(number).condition, result.head);
+    }
+
+    // Puts nodes into the innermost region that holds the uses of all of them.
+    int gather(const std::vector<NodeId>& nodes) {
+        int common = kNowhere;
+        for (const NodeId id : nodes) common = commonRegion(common, result_.regionOf[id]);
+        for (const NodeId id : nodes) result_.regionOf[id] = common;
+        return common;
+    }
+
+    int newRegion(int parent, std::int32_t loop) {
+        result_.regions.push_back({parent, region(parent).depth + 1, loop, {}});
         return static_cast<int>(result_.regions.size()) - 1;
     }
 
-    void use(NodeId id, int region) {
-        assert(region != kNowhere && "a user is placed before its arguments");
-        if (live_[id]) region_[id] = commonRegion(region_[id], region);
+    void use(NodeId id, int user) {
+        assert(user != kNowhere && "a user is placed before its arguments");
+        if (!live_[id]) return;
+        // What does not change in a loop stands before it.
+        while (region(user).loop != graph_.node(id).loop) {
+            assert(region(user).loop != kNoLoop && "values leave a loop through its variables");
+            user = region(result_.loops[static_cast<std::size_t>(region(user).loop)].head).parent;
+        }
+        result_.regionOf[id] = commonRegion(result_.regionOf[id], user);
     }
 
-    int commonRegion(int a, int b) const {
+    int commonRegion(int a, int b) {
         if (a == kNowhere) return b;
         if (b == kNowhere) return a;
-        const auto at = [&](int r) -> const Region& { return result_.regions[static_cast<std::size_t>(r)]; };
         while (a != b) {
-            if (at(a).depth >= at(b).depth) {
-                a = at(a).parent;
+            if (region(a).depth >= region(b).depth) {
+                a = region(a).parent;
             } else {
-                b = at(b).parent;
+                b = region(b).parent;
             }
         }
         return a;
@@ -106,12 +169,24 @@ class Scheduler {
 
     const Graph& graph_;
     const std::function<bool(NodeId)>& isInput_;
-    std::vector<int> region_;  // by node
     std::vector<bool> live_;
     Schedule result_;
 };
 
 }  // namespace
+
+const Schedule::If* Schedule::ifAt(const Graph& graph, NodeId id) const {
+    if (graph.node(id).op != Op::Phi) return nullptr;
+    const If& branch = ifs[ifOf[id]];
+    return branch.phis.front() == id ? &branch : nullptr;
+}
+
+const Schedule::Loop* Schedule::loopAt(const Graph& graph, NodeId id) const {
+    const Node& n = graph.node(id);
+    if (n.op != Op::LoopOut) return nullptr;
+    const Loop& loop = loops[static_cast<std::size_t>(graph.loopVariable(n.imm).loop)];
+    return loop.outs.front() == id ? &loop : nullptr;
+}
 
 Schedule schedule(const Graph& graph, const std::vector<NodeId>& roots,
                   const std::function<bool(NodeId)>& isInput) {
@@ -130,8 +205,11 @@ std::vector<NodeId> columnBoundary(const Graph& graph, const std::vector<NodeId>
             result.push_back(id);
             continue;
         }
-        const auto args = graph.node(id).arguments();
-        stack.insert(stack.end(), args.begin(), args.end());
+        const Node& n = graph.node(id);
+        stack.insert(stack.end(), n.arguments().begin(), n.arguments().end());
+        if (n.op != Op::LoopIn) continue;
+        stack.push_back(graph.loopVariable(n.imm).next);
+        stack.push_back(graph.loops()[static_cast<std::size_t>(n.loop)].condition);
     }
     std::sort(result.begin(), result.end());
     return result;

@@ -1,5 +1,6 @@
-// Places the nodes of a graph in branches: each as deep as all its uses allow, so that what only one side of
-// an if needs is computed only there, and what nobody needs not at all. A step of compile() in program.h.
+// Places the nodes of a graph in branches and loops: each as deep in branches as all its uses allow, so that
+// what only one side of an if needs is computed only there, and what nobody needs not at all; and outside of
+// loops whose variables it does not depend on. A step of compile() in program.h.
 #pragma once
 
 #include <functional>
@@ -9,11 +10,13 @@
 
 namespace terrane::gen {
 
-// A sequence of nodes. A phi stands for its whole if at the place of the if's first phi.
+// A sequence of nodes. A phi stands for its whole if at the place of the if's first phi, a LoopOut for its
+// loop in the same way.
 struct Region {
     int parent = -1;
     int depth = 0;
-    std::vector<NodeId> nodes;  // in order
+    std::int32_t loop = kNoLoop;  // innermost one around it
+    std::vector<NodeId> nodes;    // in order
 };
 
 struct Schedule {
@@ -21,8 +24,24 @@ struct Schedule {
         int thenRegion = -1, elseRegion = -1;
         std::vector<NodeId> phis;  // in order
     };
+    // Each round runs the head, which gives the condition, and where that holds the body.
+    struct Loop {
+        int head = -1, body = -1;
+        std::vector<std::uint32_t> variables;  // those that are needed
+        std::vector<NodeId> outs;              // in order
+    };
     std::vector<Region> regions;  // 0 is the root
-    std::vector<If> ifs;          // by number of the if; without phis where it is not needed
+    std::vector<int> regionOf;    // by node; -1 where it is not needed
+    // By number of the if, without phis where it is not needed. An if of which some phis belong to a loop and
+    // others do not is two ifs; the second one stands behind all numbers.
+    std::vector<If> ifs;
+    std::vector<Loop> loops;  // by number; without outs where it is not needed
+
+    // The if or loop that stands at the place of this node, or null.
+    const If* ifAt(const Graph& graph, NodeId id) const;
+    const Loop* loopAt(const Graph& graph, NodeId id) const;
+
+    std::vector<std::uint32_t> ifOf;  // by node: of phis
 };
 
 // Schedules what `roots` need. Nodes for which `isInput` holds are there already and end the search.

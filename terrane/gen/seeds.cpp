@@ -16,10 +16,8 @@ std::uint32_t seedOf(const std::string& name, std::uint64_t worldSeed) {
 Seeds makeSeeds(const GeneratorGraph& generator, std::uint64_t worldSeed) {
     Seeds seeds;
     for (const NoiseCall& call : generator.noises)
-        seeds.noises.push_back(seedOf("noise " + call.name, worldSeed));
-    for (const std::string& name : generator.randomNames) {
-        seeds.randoms.push_back(seedOf("random " + name, worldSeed));
-    }
+        seeds.noises.push_back(seedOf(noiseSeedName(call.name), worldSeed));
+    for (const std::string& name : generator.hashNames) seeds.hashes.push_back(seedOf(name, worldSeed));
     return seeds;
 }
 

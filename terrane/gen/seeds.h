@@ -1,4 +1,4 @@
-// Seeds of a generator's noise calls and random slots for one world seed. Both back ends take them from here.
+// Seeds of a generator's noise calls and hashes for one world seed. Both back ends take them from here.
 // Any thread.
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace terrane::gen {
 
 struct Seeds {
-    std::vector<std::uint32_t> noises, randoms;  // by noise call, by random slot
+    std::vector<std::uint32_t> noises, hashes;  // by noise call, by slot of hashNames
 };
 
 // A seed depends on the world's seed and on the name of its call, not on its place in the generator.

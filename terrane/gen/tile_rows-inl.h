@@ -9,8 +9,8 @@
 
 #include <hwy/highway.h>
 
-#include "terrane/gen/det_math.h"
 #include "terrane/gen/kernels.h"
+#include "terrane/shared/det_math.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace terrane::gen {
@@ -72,7 +72,7 @@ HWY_INLINE VF divide(VF a, VF b) {
     const VF two = hn::Set(df, 2.0f);
     const VU sign = hn::And(hn::BitCast(du, b), hn::Set(du, 0x80000000u));
     const VF magnitude = hn::BitCast(df, hn::Xor(hn::BitCast(du, b), sign));
-    const VU guess = hn::Sub(hn::Set(du, kReciprocalMagic), hn::BitCast(du, magnitude));
+    const VU guess = hn::Sub(hn::Set(du, shared::kReciprocalMagic), hn::BitCast(du, magnitude));
     VF r = hn::BitCast(df, guess);
     for (int step = 0; step < 3; ++step) r = hn::Mul(r, hn::Sub(two, hn::Mul(magnitude, r)));
     const VF signedA = hn::BitCast(df, hn::Xor(hn::BitCast(du, a), sign));
@@ -84,7 +84,7 @@ HWY_INLINE VF divide(VF a, VF b) {
 HWY_INLINE VF squareRoot(VF x) {
     const VF half = hn::Mul(hn::Set(df, 0.5f), x);
     const VF threeHalves = hn::Set(df, 1.5f);
-    const VU guess = hn::Sub(hn::Set(du, kInverseRootMagic), hn::ShiftRight<1>(hn::BitCast(du, x)));
+    const VU guess = hn::Sub(hn::Set(du, shared::kInverseRootMagic), hn::ShiftRight<1>(hn::BitCast(du, x)));
     VF r = hn::BitCast(df, guess);
     for (int step = 0; step < 3; ++step) {
         r = hn::Mul(r, hn::Sub(threeHalves, hn::Mul(hn::Mul(half, r), r)));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstdlib>
 #include <limits>
 
 #include "terrane/gen/program.h"
@@ -38,14 +39,66 @@ struct DistanceRange {
     std::int64_t nearest, farthest;
 };
 
-DistanceRange tileDistance(VoronoiPoint p) {
+// The same along one axis of the tile.
+DistanceRange axisDistance(std::int64_t p) {
     constexpr std::int64_t kLast = kTileSize - 1;
-    const std::int64_t x = p.x, y = p.y;
-    const std::int64_t outsideX = std::max({-x, x - kLast, std::int64_t{0}});
-    const std::int64_t outsideY = std::max({-y, y - kLast, std::int64_t{0}});
-    const std::int64_t farX = std::max(x < 0 ? -x : x, x < kLast ? kLast - x : x - kLast);
-    const std::int64_t farY = std::max(y < 0 ? -y : y, y < kLast ? kLast - y : y - kLast);
-    return {outsideX * outsideX + outsideY * outsideY, farX * farX + farY * farY};
+    return {std::max({-p, p - kLast, std::int64_t{0}}), std::max(std::abs(p), std::abs(kLast - p))};
+}
+
+DistanceRange tileDistance(VoronoiPoint p) {
+    const DistanceRange x = axisDistance(p.x), y = axisDistance(p.y);
+    return {x.nearest * x.nearest + y.nearest * y.nearest, x.farthest * x.farthest + y.farthest * y.farthest};
+}
+
+void addCell3D(Voronoi3DTile& tile, std::vector<Voronoi3DPoint>& points, std::int64_t cellX,
+               std::int64_t cellY, std::int32_t cellZ) {
+    const uint h = shared::hash3(static_cast<uint>(cellX), static_cast<uint>(cellY), static_cast<uint>(cellZ),
+                                 tile.seed);
+    const uint count = 1 + (((h >> 16) * static_cast<uint>(tile.call.maxPoints)) >> 16);
+    const auto size = static_cast<uint>(tile.call.size);
+    const auto inCell = [&](uint hash) { return static_cast<std::int64_t>((hash >> 16) * size >> 16); };
+    for (uint k = 0; k < count; ++k) {
+        const std::int64_t x =
+            cellX * tile.call.size + inCell(shared::mixBits(h + (3 * k + 1) * shared::kHashX));
+        const std::int64_t y =
+            cellY * tile.call.size + inCell(shared::mixBits(h + (3 * k + 2) * shared::kHashY));
+        const std::int64_t z = inCell(shared::mixBits(h + (3 * k + 3) * shared::kHashZ));
+        points.push_back({static_cast<std::int32_t>(x - tile.x0), static_cast<std::int32_t>(y - tile.y0),
+                          cellZ * tile.call.size + static_cast<std::int32_t>(z)});
+    }
+}
+
+void fillCells(Voronoi3DTile& tile, std::vector<Voronoi3DPoint>& points, std::int32_t cellZ) {
+    points.clear();
+    const std::int64_t size = tile.call.size;
+    const std::int64_t firstX = floorDivide(tile.x0, size) - 2, firstY = floorDivide(tile.y0, size) - 2;
+    const std::int64_t lastX = floorDivide(std::int64_t{tile.x0} + kTileSize - 1, size) + 2;
+    const std::int64_t lastY = floorDivide(std::int64_t{tile.y0} + kTileSize - 1, size) + 2;
+    for (std::int64_t y = firstY; y <= lastY; ++y) {
+        for (std::int64_t x = firstX; x <= lastX; ++x) addCell3D(tile, points, x, y, cellZ);
+    }
+}
+
+// Sums of powers as noise.h defines them: no step of it gives less for a larger distance.
+float powerSum(const NoiseCall& call, std::array<std::int64_t, 3> distance) {
+    std::array<float, 3> powers;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float d = static_cast<float>(distance[axis]) * (1.0f / static_cast<float>(call.size));
+        powers[axis] = d;
+        for (int k = 1; k < call.exponent; ++k) powers[axis] = powers[axis] * d;
+    }
+    return (powers[0] + powers[1]) + powers[2];
+}
+
+struct SumRange {
+    float nearest, farthest;
+};
+
+SumRange layerDistance(const Voronoi3DTile& tile, Voronoi3DPoint p, std::int32_t z) {
+    const DistanceRange x = axisDistance(p.x), y = axisDistance(p.y);
+    const std::int64_t height = std::abs(p.z - z);
+    return {powerSum(tile.call, {x.nearest, y.nearest, height}),
+            powerSum(tile.call, {x.farthest, y.farthest, height})};
 }
 
 }  // namespace
@@ -71,6 +124,44 @@ void prepare(std::vector<VoronoiPoint>& points, const NoiseCall& call, std::uint
         best = std::min(best, d);
     }
     std::erase_if(points, [&](VoronoiPoint p) { return tileDistance(p).nearest > second; });
+}
+
+void prepare(Voronoi3DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0,
+             std::int32_t y0) {
+    tile.call = call;
+    tile.seed = seed;
+    tile.x0 = x0;
+    tile.y0 = y0;
+    tile.layer = -1;
+}
+
+void moveToLayer(Voronoi3DTile& tile, std::int32_t z) {
+    const std::int32_t zCell = z / tile.call.size;
+    if (tile.layer < 0 || zCell != tile.zCell) {
+        const bool isNext = tile.layer >= 0 && zCell == tile.zCell + 1;
+        if (isNext) std::rotate(tile.cells.begin(), tile.cells.begin() + 1, tile.cells.end());
+        for (int k = isNext ? 4 : 0; k < 5; ++k) {
+            fillCells(tile, tile.cells[static_cast<std::size_t>(k)], zCell - 2 + k);
+        }
+        tile.zCell = zCell;
+    }
+    tile.layer = z;
+    // As for columns: who is farther from everywhere than two others is from anywhere does not count.
+    constexpr float kFar = std::numeric_limits<float>::max();
+    float best = kFar, second = kFar;
+    for (const auto& cell : tile.cells) {
+        for (const Voronoi3DPoint p : cell) {
+            const float d = layerDistance(tile, p, z).farthest;
+            second = std::min(second, std::max(best, d));
+            best = std::min(best, d);
+        }
+    }
+    tile.points.clear();
+    for (const auto& cell : tile.cells) {
+        for (const Voronoi3DPoint p : cell) {
+            if (layerDistance(tile, p, z).nearest <= second) tile.points.push_back(p);
+        }
+    }
 }
 
 }  // namespace terrane::gen

@@ -1,6 +1,7 @@
-// Voronoi points that can be the nearest or second nearest of some column of a tile.
+// Voronoi points that can be the nearest or second nearest of some column or voxel of a tile.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,5 +17,26 @@ struct VoronoiPoint {
 // the first one counts. x0, y0: block coordinates of the tile's first column.
 void prepare(std::vector<VoronoiPoint>& points, const NoiseCall& call, std::uint32_t seed, std::int32_t x0,
              std::int32_t y0);
+
+struct Voronoi3DPoint {
+    std::int32_t x, y;  // blocks from the tile's first column
+    std::int32_t z;     // block
+};
+
+struct Voronoi3DTile {
+    NoiseCall call;
+    std::uint32_t seed = 0;
+    std::int32_t x0 = 0, y0 = 0;
+    std::int32_t zCell = 0;
+    // Points of the cells that the search covers: around zCell, from below, each in the order of y, then x.
+    std::array<std::vector<Voronoi3DPoint>, 5> cells;
+    std::vector<Voronoi3DPoint> points;  // of these the ones that count in the current layer
+    std::int32_t layer = -1;
+};
+
+void prepare(Voronoi3DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0,
+             std::int32_t y0);
+// Cheapest when called for each z in order.
+void moveToLayer(Voronoi3DTile& tile, std::int32_t z);
 
 }  // namespace terrane::gen

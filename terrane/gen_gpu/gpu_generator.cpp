@@ -8,6 +8,7 @@
 #include <string>
 
 #include "terrane/base/profile.h"
+#include "terrane/gen/chunks_around.h"
 #include "terrane/gen/glsl_emitter.h"
 #include "terrane/gen/seeds.h"
 #include "terrane/gen_gpu/pass_plan.h"
@@ -87,7 +88,7 @@ struct GpuGenerator::Impl {
     std::vector<base::EmbeddedFile> files;
     gpu::ShaderLoader shaders;
     std::vector<gpu::Program> programs;
-    gpu::Buffer fields, blocks, result, noiseSeeds, randomSeeds;
+    gpu::Buffer fields, blocks, result, noiseSeeds, hashSeeds;
     std::array<gpu::ReadbackBuffer, kBatchesInFlight> readbacks;
     std::deque<InFlight> inFlight;
     std::size_t nextReadback = 0;
@@ -113,7 +114,7 @@ base::Result<void> GpuGenerator::Impl::build(std::uint64_t seed) {
     }
     const gen::Seeds seeds = gen::makeSeeds(generator, seed);
     noiseSeeds = seedBuffer(seeds.noises, "noise seeds");
-    randomSeeds = seedBuffer(seeds.randoms, "random seeds");
+    hashSeeds = seedBuffer(seeds.hashes, "hash seeds");
     const std::size_t fieldCount = std::max<std::size_t>(1, generator.fields.size());
     const auto keptBlocks = static_cast<std::size_t>(std::max(1, blockNumber(generator.passes.size() - 1)));
     fields =
@@ -143,7 +144,7 @@ gpu::Buffer GpuGenerator::Impl::tileJobs(const std::vector<ChunkPos>& chunks) co
         shared::TileJob job{};
         job.origin = {pos.x * world::kChunkSize, pos.y * world::kChunkSize, static_cast<int>(slots.slot(pos)),
                       0};
-        const auto around = chunksAround(pos);
+        const auto around = gen::chunksAround(pos);
         for (int n = 0; n < 9; ++n) {
             const auto slot = slots.find(around[static_cast<std::size_t>(n)]);
             job.neighbours[n / 4][n % 4] = slot.value_or(0);  // read only where the plan asked for it
@@ -162,7 +163,7 @@ void GpuGenerator::Impl::runPass(std::size_t pass, const std::vector<ChunkPos>& 
     blocks.bindStorage(shared::kBlocksBinding);
     result.bindStorage(shared::kResultBinding);
     noiseSeeds.bindStorage(shared::kNoiseSeedsBinding);
-    randomSeeds.bindStorage(shared::kRandomSeedsBinding);
+    hashSeeds.bindStorage(shared::kHashSeedsBinding);
     programs[pass].use();
     const GLuint layerGroups = generator.passes[pass].is3D ? world::kChunkHeight / kLayersPerGroup : 1;
     glDispatchCompute(static_cast<GLuint>(chunks.size()), layerGroups, 1);

@@ -7,6 +7,16 @@ int floorDivide(int a, int b) {
     return a >= 0 ? a / b : ~(~a / b);
 }
 
+int floorDivideOr0(int a, int b) {
+    return b < 1 ? 0 : floorDivide(a, b);
+}
+
+// Every NaN has the same bits.
+int floatBits(float v) {
+    int bits = floatBitsToInt(v);
+    return (bits & 0x7FFFFFFF) > 0x7F800000 ? 0x7FC00000 : bits;
+}
+
 // -2^31 for what does not fit and for NaN.
 int truncateToInt(float v) {
     return abs(v) < 2147483648.0 ? int(v) : int(0x80000000u);
@@ -131,15 +141,36 @@ Voronoi voronoi2D(int px, int py, int size, uint maxPoints, uint seed) {
     return v;
 }
 
-float fraction24(uint h) {
-    precise float v = float(h >> 8) * 5.9604644775390625e-8;
+struct Voronoi3 {
+    float nearest, second;  // sums of powers
+    ivec3 offset;
+};
+
+float powerOf(int blocks, float inverseSize, int exponent) {
+    precise float d = float(abs(blocks)) * inverseSize;
+    precise float result = d;
+    for (int k = 1; k < exponent; ++k) result = result * d;
+    return result;
+}
+
+Voronoi3 voronoi3D(ivec3 p, int size, float inverseSize, uint maxPoints, int exponent, uint seed) {
+    ivec3 own = ivec3(floorDivide(p.x, size), floorDivide(p.y, size), floorDivide(p.z, size));
+    Voronoi3 v = Voronoi3(3.402823466e38, 3.402823466e38, ivec3(0));
+    for (int cell = 0; cell < 125; ++cell) {
+        ivec3 c = own + ivec3(cell % 5, cell / 5 % 5, cell / 25) - 2;
+        uint h = hash3(uint(c.x), uint(c.y), uint(c.z), seed);
+        uint count = 1u + (((h >> 16) * maxPoints) >> 16);
+        for (uint k = 0u; k < count; ++k) {
+            uvec3 hashes = uvec3(mixBits(h + (3u * k + 1u) * kHashX), mixBits(h + (3u * k + 2u) * kHashY),
+                                 mixBits(h + (3u * k + 3u) * kHashZ));
+            ivec3 d = c * size - p + ivec3((hashes >> 16) * uint(size) >> 16);
+            precise float sum = (powerOf(d.x, inverseSize, exponent) + powerOf(d.y, inverseSize, exponent)) +
+                                powerOf(d.z, inverseSize, exponent);
+            bool nearer = sum < v.nearest;
+            v.second = nearer ? v.nearest : (sum < v.second ? sum : v.second);
+            v.offset = nearer ? d : v.offset;
+            v.nearest = nearer ? sum : v.nearest;
+        }
+    }
     return v;
-}
-
-float random2D(int x, int y, uint seed) {
-    return fraction24(hash2(uint(x), uint(y), seed));
-}
-
-float random3D(int x, int y, int z, uint seed) {
-    return fraction24(hash3(uint(x), uint(y), uint(z), seed));
 }

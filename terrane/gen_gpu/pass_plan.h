@@ -1,7 +1,6 @@
 // Which passes of which chunks a batch needs: pure bookkeeping without OpenGL. Used by gpu_generator.cpp.
 #pragma once
 
-#include <array>
 #include <unordered_map>
 #include <vector>
 
@@ -11,9 +10,6 @@
 namespace terrane::gen_gpu {
 
 using PassCounts = std::unordered_map<world::ChunkPos, int, world::ChunkPosHash>;
-
-// The 3×3 chunks around `pos` by y, then x; coordinates wrap at the world's edge as blocks do.
-std::array<world::ChunkPos, 9> chunksAround(world::ChunkPos pos);
 
 // How many passes each chunk must have done so that all of `wanted` can be finished.
 PassCounts neededPasses(const gen::GeneratorGraph& generator, const std::vector<world::ChunkPos>& wanted);

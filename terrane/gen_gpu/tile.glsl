@@ -23,8 +23,8 @@ layout(std430, binding = kResultBinding) writeonly buffer Result {
 layout(std430, binding = kNoiseSeedsBinding) readonly buffer NoiseSeeds {
     uint noiseSeeds[];
 };
-layout(std430, binding = kRandomSeedsBinding) readonly buffer RandomSeeds {
-    uint randomSeeds[];
+layout(std430, binding = kHashSeedsBinding) readonly buffer HashSeeds {
+    uint hashSeeds[];
 };
 
 const uint kWordsPerColumn = kChunkHeight / 2u;
@@ -58,19 +58,36 @@ void writeField(uint field, uint bits) {
     fields[(slot * FIELD_COUNT + field) * kBlocksPerLayer + column] = bits;
 }
 
-// Offsets beyond 16 blocks are clamped, as on the CPU.
-uint readFieldAt(uint field, int dx, int dy) {
+// A column of one of the nine chunks. Offsets beyond 16 blocks are clamped, as on the CPU.
+struct Place {
+    uint slot, column;
+};
+
+Place placeAt(int dx, int dy) {
     int x = int(gl_LocalInvocationID.x) + clamp(dx, -16, 16) + 16;
     int y = int(gl_LocalInvocationID.y) + clamp(dy, -16, 16) + 16;
     uint neighbour = uint((y >> 4) * 3 + (x >> 4));
-    uint from = jobs[gl_WorkGroupID.x].neighbours[neighbour >> 2][neighbour & 3u];
-    return fields[(from * FIELD_COUNT + field) * kBlocksPerLayer + uint((x & 15) + 16 * (y & 15))];
+    return Place(jobs[gl_WorkGroupID.x].neighbours[neighbour >> 2][neighbour & 3u], uint((x & 15) + 16 * (y & 15)));
+}
+
+uint readFieldAt(uint field, int dx, int dy) {
+    Place place = placeAt(dx, dy);
+    return fields[(place.slot * FIELD_COUNT + field) * kBlocksPerLayer + place.column];
+}
+
+int readBlock(Place place, int z) {
+    uint layer = uint(clamp(z, 0, 255));
+    uint columns = (place.slot * BLOCK_PASS_COUNT + SOURCE_BLOCKS) * kBlocksPerLayer + place.column;
+    uint word = blocks[columns * kWordsPerColumn + layer / 2u];
+    return int((layer & 1u) == 0u ? word & 0xFFFFu : word >> 16);
 }
 
 int blockInColumn(int z) {
-    uint layer = uint(clamp(z, 0, 255));
-    uint word = blocks[((slot * BLOCK_PASS_COUNT + SOURCE_BLOCKS) * kBlocksPerLayer + column) * kWordsPerColumn + layer / 2u];
-    return int((layer & 1u) == 0u ? word & 0xFFFFu : word >> 16);
+    return readBlock(Place(slot, column), z);
+}
+
+int blockAt(int dx, int dy, int z) {
+    return readBlock(placeAt(dx, dy), z);
 }
 
 int blockHere(int z) {

@@ -6,13 +6,16 @@
 
 SHARED_BEGIN
 
+// Loops in generators end after so many rounds: no mistake in a generator hangs a GPU.
+const int kMaxLoopRounds = 1024;
+
 // Storage buffers of a generator pass
 const uint kTileJobsBinding = 0u;
 const uint kFieldsBinding = 1u;
 const uint kBlocksBinding = 2u;
 const uint kResultBinding = 3u;
 const uint kNoiseSeedsBinding = 4u;
-const uint kRandomSeedsBinding = 5u;
+const uint kHashSeedsBinding = 5u;
 
 // One chunk of a dispatch. A slot holds a chunk's fields and blocks on the GPU.
 struct TileJob {

@@ -98,7 +98,58 @@ TEST(BuilderErrors, AFieldWrittenByA3DPass) {
         const auto f = g.field<Float>("f");
         g.pass3D("solid", [&](Pass& p) { p.set(f, Float(1.0f)); });
     });
-    EXPECT_THAT(error, HasSubstr("pass \"solid\": field \"f\": only 2D passes write fields"));
+    EXPECT_THAT(error, HasSubstr("pass \"solid\": field \"f\": 3D passes write fields with setAt"));
+}
+
+TEST(BuilderErrors, SetAtInABranchTwiceOrInTheLastPass) {
+    const std::string error = errorOf([](GeneratorBuilder& g) {
+        const auto f = g.field<Int>("f"), twice = g.field<Int>("twice"), last = g.field<Int>("last");
+        g.pass3D("first", [&](Pass& p) {
+            p.if_(p.z() < 9, [&] { p.setAt(f, 3, p.z()); });
+            p.setAt(twice, 3, p.z());
+            p.setAt(twice, 4, p.z());
+        });
+        g.pass3D("final", [&](Pass& p) { p.setAt(last, 3, p.z()); });
+    });
+    EXPECT_THAT(error, HasSubstr("pass \"first\": field \"f\": setAt stands inside if_ or while_"));
+    EXPECT_THAT(error, HasSubstr("pass \"first\": field \"twice\" is set twice"));
+    EXPECT_THAT(error, HasSubstr("pass \"final\": field \"last\": no pass comes after that could read it"));
+}
+
+TEST(BuilderErrors, AValueThatLeavesALoop) {
+    const std::string error = errorOf([](GeneratorBuilder& g) {
+        g.pass3D("solid", [&](Pass& p) {
+            Var<Int> n = p.var(Int(0));
+            Int leaked = 0;
+            p.while_([&] { return n < p.x(); }, [&] { n = leaked = n + 1; });
+            p.setBlock(Block(leaked));
+        });
+    });
+    EXPECT_THAT(error, HasSubstr("pass \"solid\": a value made inside while_ is used after it"));
+}
+
+TEST(BuilderErrors, AMetricThatIsNone) {
+    const std::string error = errorOf([](GeneratorBuilder& g) {
+        g.pass3D("solid", [&](Pass& p) { p.setBlock(Block(p.voronoi3D("cells", 8, 1, 1).offset.x)); });
+    });
+    EXPECT_THAT(error, HasSubstr("noise \"cells\": metric exponent 1, 2 to 8 are possible"));
+}
+
+TEST(BuilderErrors, WeightsThatAreAllZero) {
+    const std::string error = errorOf([](GeneratorBuilder& g) {
+        g.pass3D("solid", [&](Pass& p) { p.setBlock(Block(Int(p.perlin2D("none", 8, {0.0f, 0.0f})))); });
+    });
+    EXPECT_THAT(error, HasSubstr("noise \"none\": all octave weights are 0"));
+}
+
+TEST(BuilderErrors, OneNameForTwoKindsOfNoise) {
+    const std::string error = errorOf([](GeneratorBuilder& g) {
+        g.pass3D("solid", [&](Pass& p) {
+            const Float sum = p.simplex2D("hills", 8, {1.0f}) + p.perlin2D("hills", 8, {1.0f});
+            p.setBlock(Block(Int(sum)));
+        });
+    });
+    EXPECT_THAT(error, HasSubstr("noise \"hills\" is used twice with different parameters"));
 }
 
 TEST(BuilderErrors, AFieldDeclaredTwice) {

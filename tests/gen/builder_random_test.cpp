@@ -30,8 +30,10 @@ struct Term {
 struct Statement {
     std::uint32_t variable = 0;  // of an assignment
     Term value;                  // assigned, or the condition
-    bool isIf = false;
-    std::vector<Statement> then, otherwise;
+    enum Kind : std::uint8_t { Assignment, If, While };
+    Kind kind = Assignment;
+    std::vector<Statement> then, otherwise;  // a loop's body is `then`
+    std::int32_t rounds = 0;                 // a loop ends after so many
 };
 using StatementList = std::vector<Statement>;
 
@@ -54,8 +56,13 @@ class RandomProgram {
 
     Statement statement(int depth) {
         Statement s;
-        s.isIf = depth < 4 && below(3) == 0;
-        if (s.isIf) {
+        if (depth < 2 && below(8) == 0) {
+            s.kind = Statement::While;
+            s.value = term(Type::Bool, 3);
+            s.then = statements(depth + 2, 1 + below(3));
+            s.rounds = static_cast<std::int32_t>(below(6));
+        } else if (depth < 4 && below(3) == 0) {
+            s.kind = Statement::If;
             s.value = term(Type::Bool, 3);
             s.then = statements(depth + 1, below(4));
             s.otherwise = statements(depth + 1, below(3));
@@ -113,12 +120,10 @@ class Interpreter {
 
     void run(const StatementList& block) {
         for (const Statement& s : block) {
-            const Bits value = evaluate(s.value);
-            if (s.isIf) {
-                run(asBool(value) ? s.then : s.otherwise);
-            } else {
-                variables[s.variable] = value;
-            }
+            if (s.kind == Statement::Assignment) variables[s.variable] = evaluate(s.value);
+            if (s.kind == Statement::If) run(asBool(evaluate(s.value)) ? s.then : s.otherwise);
+            if (s.kind != Statement::While) continue;
+            for (int round = 0; round < s.rounds && asBool(evaluate(s.value)); ++round) run(s.then);
         }
     }
 
@@ -162,9 +167,16 @@ class Writer {
 
     void write(const StatementList& block) {
         for (const Statement& s : block) {
-            if (s.isIf) {
+            if (s.kind == Statement::If) {
                 pass_.if_(
                     Bool(term(s.value)), [&] { write(s.then); }, [&] { write(s.otherwise); });
+            } else if (s.kind == Statement::While) {
+                Var<Int> round = pass_.var(Int(0));
+                pass_.while_([&] { return round < s.rounds && Bool(term(s.value)); },
+                             [&] {
+                                 write(s.then);
+                                 round = round + 1;
+                             });
             } else {
                 assign(s.variable, term(s.value));
             }

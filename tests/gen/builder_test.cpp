@@ -10,11 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "terrane/gen/det_math.h"
+#include "terrane/shared/det_math.h"
 #include "tests/gen/gen_fixture.h"
 
 namespace terrane::gen {
 namespace {
+
+using shared::detDivide;
+using shared::detSqrt;
 
 using std::int32_t;
 using std::int64_t;

@@ -1,4 +1,4 @@
-#include "terrane/gen/det_math.h"
+#include "terrane/shared/det_math.h"
 
 #include <gtest/gtest.h>
 
@@ -15,6 +15,10 @@
 
 namespace terrane::gen {
 namespace {
+
+using shared::detDivide;
+using shared::detReciprocal;
+using shared::detSqrt;
 
 constexpr int kSamples = 1'000'000;
 

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <limits>
 
-#include "terrane/gen/det_math.h"
+#include "terrane/shared/det_math.h"
 
 namespace terrane::gen {
 namespace {
+
+using shared::detDivide;
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 

@@ -24,8 +24,8 @@ class ScopeCheck {
   public:
     void line(const std::string& text) {
         if (text.find('}') != std::string::npos) close();
-        static const std::regex kName("\\bv([0-9]+)\\b"),
-            kDeclaration("(bool|int|float|Voronoi) (v[0-9]+)\\b");
+        static const std::regex kName("\\b(v|next)[0-9]+\\b"),
+            kDeclaration("(bool|int|float|Voronoi3?) ((v|next)[0-9]+)\\b");
         std::smatch declared;
         const bool declares = std::regex_search(text, declared, kDeclaration);
         const std::string own = declares ? declared[2].str() : "";

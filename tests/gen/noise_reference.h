@@ -7,11 +7,14 @@
 #include <limits>
 #include <numbers>
 
-#include "terrane/gen/det_math.h"
 #include "terrane/gen/noise.h"
+#include "terrane/shared/det_math.h"
 #include "terrane/shared/hash.h"
 
 namespace terrane::gen::reference {
+
+using shared::detDivide;
+using shared::detSqrt;
 
 constexpr std::int64_t floorDivide(std::int64_t a, std::int64_t b) {
     return (a - ((a % b) + b) % b) / b;
@@ -94,9 +97,12 @@ inline float octave3D(std::int64_t size, std::uint32_t seed, std::array<std::int
 template <class Octave>
 float sumOfOctaves(const NoiseCall& call, std::uint32_t seed, Octave octave) {
     float sum = 0;
+    bool isFirst = true;
     for (std::size_t o = 0; o < call.weights.size(); ++o) {
+        if (call.weights[o] == 0.0f) continue;
         const float term = octave(std::int64_t{call.size} << o, octaveSeed(seed, o)) * call.weights[o];
-        sum = o == 0 ? term : sum + term;
+        sum = isFirst ? term : sum + term;
+        isFirst = false;
     }
     return sum;
 }
@@ -148,6 +154,56 @@ inline VoronoiSample voronoi2D(const NoiseCall& call, std::uint32_t seed, std::i
     }
     sample.distance = detSqrt(static_cast<float>(best));
     sample.ratio = detDivide(sample.distance, detSqrt(static_cast<float>(second > 1 ? second : 1)));
+    return sample;
+}
+
+struct Voronoi3DSample {
+    float nearest = std::numeric_limits<float>::max(), second = nearest;
+    std::array<std::int32_t, 3> offset{};
+};
+
+inline float powerSum(const NoiseCall& call, std::array<std::int64_t, 3> offset) {
+    std::array<float, 3> powers;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const float d = static_cast<float>(offset[k] < 0 ? -offset[k] : offset[k]) *
+                        (1.0f / static_cast<float>(call.size));
+        powers[k] = d;
+        for (int n = 1; n < call.exponent; ++n) powers[k] *= d;
+    }
+    return (powers[0] + powers[1]) + powers[2];
+}
+
+inline Voronoi3DSample voronoi3D(const NoiseCall& call, std::uint32_t seed, std::array<std::int64_t, 3> block,
+                                 int reach = 2) {
+    Voronoi3DSample sample;
+    const int width = 2 * reach + 1;
+    for (int n = 0; n < width * width * width; ++n) {
+        const std::array<std::int64_t, 3> cell = {
+            floorDivide(block[0], call.size) + n % width - reach,
+            floorDivide(block[1], call.size) + n / width % width - reach,
+            floorDivide(block[2], call.size) + n / width / width - reach};
+        const std::uint32_t h = shared::hash3(hashed(cell[0]), hashed(cell[1]), hashed(cell[2]), seed);
+        const std::uint32_t count = 1 + (((h >> 16) * static_cast<std::uint32_t>(call.maxPoints)) >> 16);
+        for (std::uint32_t k = 0; k < count; ++k) {
+            constexpr std::array<std::uint32_t, 3> kFactors = {shared::kHashX, shared::kHashY,
+                                                               shared::kHashZ};
+            std::array<std::int64_t, 3> offset;
+            for (std::uint32_t axis = 0; axis < 3; ++axis) {
+                const std::uint32_t hash = shared::mixBits(h + (3 * k + 1 + axis) * kFactors[axis]);
+                offset[axis] =
+                    cell[axis] * call.size + (std::int64_t{hash >> 16} * call.size >> 16) - block[axis];
+            }
+            const float sum = powerSum(call, offset);
+            if (sum < sample.nearest) {
+                sample.second = sample.nearest;
+                sample.nearest = sum;
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    sample.offset[axis] = static_cast<std::int32_t>(offset[axis]);
+            } else if (sum < sample.second) {
+                sample.second = sum;
+            }
+        }
+    }
     return sample;
 }
 

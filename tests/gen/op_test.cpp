@@ -10,10 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "terrane/gen/det_math.h"
+#include "terrane/shared/det_math.h"
 
 namespace terrane::gen {
 namespace {
+
+using shared::detDivide;
+using shared::detSqrt;
 
 constexpr std::int32_t kMin = std::numeric_limits<std::int32_t>::min();
 constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
@@ -56,9 +59,9 @@ TEST(OpRecord, EveryOperationHasItsOwnRecord) {
 
 // What depends on the position or the world's seed must never be folded.
 TEST(OpRecord, OnlyFunctionsOfTheArgumentsAloneCanBeEvaluated) {
-    const std::set<Op> notPure = {Op::Constant,      Op::PosX,      Op::PosY,     Op::PosZ,
-                                  Op::Field,         Op::Noise,     Op::FieldAt,  Op::BlockHere,
-                                  Op::BlockInColumn, Op::Component, Op::Random2D, Op::Random3D};
+    const std::set<Op> notPure = {Op::Constant, Op::PosX,    Op::PosY,      Op::PosZ,          Op::Field,
+                                  Op::Noise,    Op::FieldAt, Op::BlockHere, Op::BlockInColumn, Op::Component,
+                                  Op::BlockAt,  Op::Hash2,   Op::Hash3,     Op::LoopIn,        Op::LoopOut};
     for (std::size_t n = 0; n < static_cast<std::size_t>(Op::Count); ++n) {
         const OpRecord& r = record(static_cast<Op>(n));
         EXPECT_EQ(r.evaluate == nullptr, notPure.contains(r.op)) << r.name;

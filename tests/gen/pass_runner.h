@@ -22,9 +22,9 @@ class PassRunner {
   public:
     explicit PassRunner(GeneratorGraph g) : graph(std::move(g)) {
         seeds.noises.assign(graph.noises.size(), 0);
-        seeds.randoms.assign(graph.randomNames.size(), 0);
+        seeds.hashes.assign(graph.hashNames.size(), 0);
         for (std::size_t k = 0; k < seeds.noises.size(); ++k) seeds.noises[k] = noiseSeed(k);
-        for (std::size_t k = 0; k < seeds.randoms.size(); ++k) seeds.randoms[k] = randomSeed(k);
+        for (std::size_t k = 0; k < seeds.hashes.size(); ++k) seeds.hashes[k] = hashSeed(k);
         fields.resize(graph.fields.size());
     }
 
@@ -36,7 +36,7 @@ class PassRunner {
           })) {}
 
     static std::uint32_t noiseSeed(std::size_t k) { return 0x1234567u + 77u * static_cast<std::uint32_t>(k); }
-    static std::uint32_t randomSeed(std::size_t k) { return 0xABCDEFu + 99u * static_cast<std::uint32_t>(k); }
+    static std::uint32_t hashSeed(std::size_t k) { return 0xABCDEFu + 99u * static_cast<std::uint32_t>(k); }
 
     std::vector<ColumnValues> run2D(std::size_t pass) {
         const Program program = compile(graph.passes[pass], graph.noises);
@@ -50,7 +50,10 @@ class PassRunner {
     std::unique_ptr<BlockArray> run3D(std::size_t pass) {
         const Program program = compile(graph.passes[pass], graph.noises);
         auto result = std::make_unique<BlockArray>();
-        executor().run3D(program, inputs(), *result);
+        writtenFields.resize(program.fields.size());
+        std::vector<ColumnValues*> pointers;
+        for (ColumnValues& values : writtenFields) pointers.push_back(&values);
+        executor().run3D(program, inputs(), *result, pointers);
         return result;
     }
 
@@ -58,8 +61,10 @@ class PassRunner {
     Seeds seeds;
     ChunkPos chunk;
     std::vector<ColumnValues> fields;                 // of the chunk, by field
+    std::vector<ColumnValues> writtenFields;          // by the 3D pass run last
     std::vector<std::array<ColumnValues, 9>> around;  // by field, where the test sets it: all nine chunks
     std::unique_ptr<BlockArray> blocks;               // of the earlier 3D pass
+    std::array<std::unique_ptr<BlockArray>, 9> blocksAround;  // of its neighbours, where the test sets them
 
   private:
     Executor& executor() {
@@ -76,7 +81,10 @@ class PassRunner {
             if (f >= around.size()) continue;
             for (std::size_t n = 0; n < 9; ++n) result.fields[f][n] = &around[f][n];
         }
-        result.blocks = blocks.get();
+        result.blocks[4] = blocks.get();
+        for (std::size_t n = 0; n < blocksAround.size(); ++n) {
+            if (n != 4) result.blocks[n] = blocksAround[n].get();
+        }
         return result;
     }
 

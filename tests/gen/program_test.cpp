@@ -32,6 +32,7 @@ std::size_t countAll(const Program& program, Op op) {
     };
     auto count = in(program.column) + in(program.layer);
     for (const Branch& b : program.branches) count += in(b.then) + in(b.otherwise);
+    for (const ProgramLoop& l : program.loops) count += in(l.head) + in(l.body);
     return static_cast<std::size_t>(count);
 }
 
@@ -128,6 +129,10 @@ class Rows {
                 addBranch(program_.branches[i.imm]);
                 continue;
             }
+            if (i.op == Op::LoopOut) {
+                addLoop(program_.loops[i.imm]);
+                continue;
+            }
             for (std::size_t k = 0; k < record(i.op).argCount; ++k) addRead(i.args[k]);
             addWritten(i.dst, i.op == Op::Noise ? resultCount(noises_[i.imm].kind) : 1);
         }
@@ -145,6 +150,20 @@ class Rows {
             addRead(move.then);
             addRead(move.otherwise);
             addWritten(move.dst, 1);
+        }
+    }
+
+    void addLoop(const ProgramLoop& loop) {
+        for (const LoopMove& v : loop.variables) {
+            addRead(v.initial);
+            addWritten(v.in, 1);
+        }
+        add(loop.head);
+        addRead(loop.condition);
+        add(loop.body);
+        for (const LoopMove& v : loop.variables) {
+            addRead(v.next);
+            addWritten(v.changed, 1);
         }
     }
 
@@ -204,6 +223,24 @@ TEST(ProgramRandom, LayersDoNotWriteOverWhatTheyAreGiven) {
         rows.add(program.layer);
         for (const std::uint32_t row : rows.given) ASSERT_FALSE(rows.written.contains(row)) << row;
     }
+}
+
+// Rounds find what they are given as the first one did; only the loop's variables change.
+TEST(ProgramRandom, RoundsDoNotWriteOverWhatTheyAreGiven) {
+    std::size_t loops = 0;
+    for (std::uint32_t seed = 0; seed < 400; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const GeneratorGraph g = RandomGraph(seed, seed % 2 == 0).take();
+        const Program program = compileLast(g);
+        loops += program.loops.size();
+        for (const ProgramLoop& loop : program.loops) {
+            Rows rows(program, g.noises);
+            rows.add(loop.head);
+            rows.add(loop.body);
+            for (const std::uint32_t row : rows.given) ASSERT_FALSE(rows.written.contains(row)) << row;
+        }
+    }
+    EXPECT_GT(loops, 100u) << "random passes have loops in them";
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ inline ColumnValues randomColumns(Type type, std::mt19937& random) {
 
 class RandomGraph {
   public:
-    RandomGraph(std::uint32_t seed, bool is3D) : random_(seed) {
+    RandomGraph(std::uint32_t seed, bool is3D, bool hasLoops = true) : random_(seed), hasLoops_(hasLoops) {
         pass_.name = "random";
         pass_.is3D = is3D;
         addLeaves();
@@ -60,10 +60,11 @@ class RandomGraph {
         GeneratorGraph g;
         for (const Type type : kFields) g.fields.push_back({"read", type, 0});
         for (const Type type : kFields) g.fields.push_back({"written", type, 1});
-        g.noises = {{NoiseKind::Perlin2D, "a", 5, {1.0f, -0.5f}, 1},
+        g.noises = {{NoiseKind::Perlin2D, "a", 5, {1.0f, 0.0f, -0.5f}, 1},
                     {NoiseKind::Perlin3D, "b", 3, {0.75f, 0.25f}, 1},
-                    {NoiseKind::Voronoi2D, "c", 7, {}, 3}};
-        g.randomNames = {"p", "q"};
+                    {NoiseKind::Voronoi2D, "c", 7, {}, 3},
+                    {NoiseKind::Voronoi3D, "d", 9, {}, 2, 3}};
+        g.hashNames = {"p", "q"};
         if (pass_.is3D) {
             pass_.block = mixed();
         } else {
@@ -87,6 +88,12 @@ class RandomGraph {
         }
         runner.blocks = std::make_unique<BlockArray>();
         for (std::uint16_t& block : *runner.blocks) block = static_cast<std::uint16_t>(random());
+        for (auto& blocks : runner.blocksAround) blocks = std::make_unique<BlockArray>(*runner.blocks);
+        for (std::size_t n = 0; n < runner.blocksAround.size(); ++n) {
+            std::rotate(runner.blocksAround[n]->begin(),
+                        runner.blocksAround[n]->begin() + 1 + static_cast<long>(n),
+                        runner.blocksAround[n]->end());
+        }
     }
 
   private:
@@ -125,28 +132,37 @@ class RandomGraph {
         const std::uint32_t choice = below(10);
         if (choice == 0) return addRead();
         if (choice <= 2 && depth < 4) return addIf(depth);
+        if (hasLoops_ && choice == 3 && depth < 2 && below(3) == 0) return addLoop(depth);
         addOperation();
     }
 
     void addRead() {
-        const std::uint32_t choice = below(pass_.is3D ? 8 : 6);
+        const std::uint32_t choice = below(pass_.is3D ? 10 : 6);
         if (choice == 0) return addNoise(0, kDependsColumn, 0, Type::Float);
         if (choice == 1) {
             const std::uint32_t component = below(4);
             return addNoise(2, kDependsColumn, component, component < 2 ? Type::Float : Type::Int);
         }
         if (choice == 2) {
-            add(Op::Random2D, Type::Float, {pick(Type::Int), pick(Type::Int)}, below(2));
+            const std::uint32_t seed = packHashSeed(below(2), below(3));
+            add(Op::Hash2, Type::Int, {pick(Type::Int), pick(Type::Int)}, seed);
         } else if (choice == 3) {
-            add(Op::Random3D, Type::Float, {pick(Type::Int), pick(Type::Int), pick(Type::Int)}, below(2));
+            add(Op::Hash3, Type::Int, {pick(Type::Int), pick(Type::Int), pick(Type::Int)}, below(2));
         } else if (choice == 4) {
             addFieldAt();
         } else if (choice == 5) {
             add(Op::BlockInColumn, Type::Int, {pick(Type::Int)}, 0, kDependsColumn);
         } else if (choice == 6) {
             add(Op::BlockHere, Type::Int, {}, 0, kDependsVoxel);
-        } else {
+        } else if (choice == 7) {
             addNoise(1, kDependsVoxel, 0, Type::Float);
+        } else if (choice == 8) {
+            const std::uint32_t component = below(5);
+            addNoise(3, kDependsVoxel, component, component < 2 ? Type::Float : Type::Int);
+        } else {
+            pass_.readsBlocksAt = true;
+            add(Op::BlockAt, Type::Int, {pick(Type::Int), pick(Type::Int), pick(Type::Int)}, 0,
+                kDependsColumn);
         }
     }
 
@@ -187,6 +203,37 @@ class RandomGraph {
         }
     }
 
+    // Two or three variables that change for up to nine rounds. What is made in the loop stays in it, and so
+    // does what random operations make of it.
+    void addLoop(int depth) {
+        Graph& g = pass_.graph;
+        const auto outside = nodes_;
+        const std::uint8_t dependence = pass_.is3D ? kDependsVoxel : kDependsColumn;
+        const NodeId zero = g.constant(Type::Int, 0), rounds = g.constant(Type::Int, below(10));
+        const std::array<NodeId, 3> initial = {zero, pick(Type::Float), pick(Type::Int)};
+        g.beginLoop();
+        std::vector<std::uint32_t> variables;
+        for (const NodeId id : initial) {
+            variables.push_back(g.addLoopVariable(g.node(id).type, id, dependence));
+            push(g.node(id).type, g.loopVariable(variables.back()).in);
+        }
+        for (std::uint32_t k = 2 + below(8); k > 0; --k) grow(depth + 2);
+        const NodeId count = g.loopVariable(variables[0]).in;
+        const auto node = [&](Op op, Type type, std::initializer_list<NodeId> args) {
+            return g.add(op, type, {args.begin(), args.size()});
+        };
+        const NodeId isEarly = node(Op::LessI, Type::Bool, {count, rounds});
+        const NodeId condition = node(Op::And, Type::Bool, {isEarly, pick(Type::Bool)});
+        const std::array<NodeId, 3> next = {node(Op::AddI, Type::Int, {count, g.constant(Type::Int, 1)}),
+                                            pick(Type::Float), below(4) == 0 ? count : pick(Type::Int)};
+        g.endLoop(condition, next);
+        nodes_ = outside;
+        for (const std::uint32_t v : variables) {
+            const NodeId out = g.loopVariable(v).out;
+            push(g.node(out).type, out);
+        }
+    }
+
     // One number that hangs from many nodes.
     NodeId mixed() {
         NodeId sum = pick(Type::Int);
@@ -202,6 +249,7 @@ class RandomGraph {
     }
 
     std::mt19937 random_;
+    bool hasLoops_;
     PassGraph pass_;
     std::array<std::vector<NodeId>, 3> nodes_;  // by type
 };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <string>
 #include <vector>
@@ -157,13 +158,15 @@ class Walk {
             ASSERT_FALSE(seen_[id]) << "node " << id << " stands twice";
             seen_[id] = true;
             const Node& n = graph_.node(id);
-            if (n.op != Op::Phi) {
+            if (const Schedule::If* branch = schedule_.ifAt(graph_, id)) {
+                ASSERT_NO_FATAL_FAILURE(branches(*branch, available));
+            } else if (const Schedule::Loop* loop = schedule_.loopAt(graph_, id)) {
+                ASSERT_NO_FATAL_FAILURE(rounds(*loop, available));
+            } else if (n.op == Op::Phi || n.op == Op::LoopIn || n.op == Op::LoopOut) {
+                ASSERT_TRUE(available[id]) << "it stands before its if or loop";
+            } else {
                 for (const NodeId arg : n.arguments()) ASSERT_TRUE(available[arg]) << id << " reads " << arg;
                 available[id] = true;
-            } else if (schedule_.ifs[n.imm].phis.front() == id) {
-                ASSERT_NO_FATAL_FAILURE(branches(schedule_.ifs[n.imm], available));
-            } else {
-                ASSERT_TRUE(available[id]) << "a phi stands before its if";
             }
         }
     }
@@ -184,6 +187,20 @@ class Walk {
         for (const NodeId phi : branch.phis) available[phi] = true;
     }
 
+    void rounds(const Schedule::Loop& loop, std::vector<bool>& available) {
+        std::vector<bool> inside = available;
+        for (const std::uint32_t v : loop.variables) {
+            ASSERT_TRUE(available[graph_.loopVariable(v).initial]);
+            inside[graph_.loopVariable(v).in] = true;
+        }
+        ASSERT_NO_FATAL_FAILURE(region(loop.head, inside));
+        const std::int32_t number = graph_.loopVariable(loop.variables.front()).loop;
+        ASSERT_TRUE(inside[graph_.loops()[static_cast<std::size_t>(number)].condition]);
+        ASSERT_NO_FATAL_FAILURE(region(loop.body, inside));
+        for (const std::uint32_t v : loop.variables) ASSERT_TRUE(inside[graph_.loopVariable(v).next]);
+        for (const NodeId out : loop.outs) available[out] = true;
+    }
+
     const Graph& graph_;
     const Schedule& schedule_;
     std::vector<bool> seen_;
@@ -196,8 +213,11 @@ std::vector<bool> neededBy(const Graph& graph, std::vector<NodeId> stack) {
         stack.pop_back();
         if (needed[id]) continue;
         needed[id] = true;
-        const auto args = graph.node(id).arguments();
-        stack.insert(stack.end(), args.begin(), args.end());
+        const Node& n = graph.node(id);
+        stack.insert(stack.end(), n.arguments().begin(), n.arguments().end());
+        if (n.op != Op::LoopIn) continue;
+        stack.push_back(graph.loopVariable(n.imm).next);
+        stack.push_back(graph.loops()[static_cast<std::size_t>(n.loop)].condition);
     }
     return needed;
 }
@@ -255,7 +275,7 @@ std::vector<int> deepestRegions(const Graph& graph, const Schedule& s, const std
 TEST(ScheduleRandom, EveryNodeStandsAsDeepAsItsUsesAllow) {
     for (std::uint32_t seed = 0; seed < 300; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        RandomGraph random(seed, false);
+        RandomGraph random(seed, false, false);
         const std::vector<NodeId> roots = random.someNodes();
         const Graph& graph = random.graph();
         const Schedule s = schedule(graph, roots, [](NodeId) { return false; });
@@ -267,6 +287,76 @@ TEST(ScheduleRandom, EveryNodeStandsAsDeepAsItsUsesAllow) {
             }
         }
     }
+}
+
+// A loop that counts `c` from zero while it is below x.
+class LoopScheduleTest : public ScheduleTest {
+  protected:
+    // The count after the loop; `step` makes what is added from the count in the round.
+    template <class Step>
+    NodeId count(Step step) {
+        loop_ = graph_.beginLoop();
+        const std::uint32_t v =
+            graph_.addLoopVariable(Type::Int, graph_.constant(Type::Int, 0), kDependsColumn);
+        in_ = graph_.loopVariable(v).in;
+        condition_ = add(Op::LessI, Type::Bool, {in_, x()});
+        const std::array<NodeId, 1> next = {plus(in_, step(in_))};
+        graph_.endLoop(condition_, next);
+        return graph_.loopVariable(v).out;
+    }
+    const Schedule::Loop& loop() const { return schedule_.loops[static_cast<std::size_t>(loop_)]; }
+
+    std::int32_t loop_ = kNoLoop;
+    NodeId in_ = 0, condition_ = 0;
+};
+
+TEST_F(LoopScheduleTest, WhatDoesNotChangeStandsBeforeTheLoop) {
+    const NodeId fixed = times(x(), y());
+    NodeId changing = 0;
+    const NodeId out = count([&](NodeId in) { return plus(fixed, changing = times(in, in)); });
+    run({out});
+    EXPECT_EQ(regionOf(out), 0);
+    EXPECT_EQ(regionOf(fixed), 0);
+    EXPECT_EQ(regionOf(condition_), loop().head);
+    EXPECT_EQ(regionOf(in_), loop().head);
+    EXPECT_EQ(regionOf(changing), loop().body);
+}
+
+TEST_F(LoopScheduleTest, ALoopThatOneSideNeedsStandsInIt) {
+    const NodeId out = count([&](NodeId) { return y(); });
+    run({phi(graph_.newIf(), condition(0), out, x())});
+    EXPECT_EQ(regionOf(out), thenOf(0));
+    EXPECT_EQ(schedule_.regions[static_cast<std::size_t>(loop().head)].parent, thenOf(0));
+}
+
+TEST_F(LoopScheduleTest, AnUnusedLoopIsLeftOut) {
+    const NodeId out = count([&](NodeId) { return y(); });
+    run({x()});
+    EXPECT_EQ(regionOf(out), -1);
+    EXPECT_TRUE(loop().outs.empty());
+}
+
+// One phi changes from round to round and stays in the loop, the other one does not.
+TEST_F(LoopScheduleTest, AnIfOfWhichOnePartChangesIsTwoIfs) {
+    NodeId steady = 0, changing = 0;
+    const NodeId out = count([&](NodeId in) {
+        const std::uint32_t number = graph_.newIf();
+        steady = phi(number, condition(0), times(x(), y()), y());
+        changing = phi(number, condition(0), times(in, in), x());
+        return plus(steady, changing);
+    });
+    run({out});
+    EXPECT_EQ(regionOf(steady), 0);
+    EXPECT_EQ(regionOf(changing), loop().body);
+    EXPECT_EQ(schedule_.ifs.size(), 2u);
+}
+
+TEST_F(LoopScheduleTest, AValueThatLeavesOtherwiseThanThroughAVariableIsNoticed) {
+    NodeId inside = 0;
+    count([&](NodeId in) { return inside = times(in, in); });
+    EXPECT_FALSE(graph_.leaksOutOfLoop());
+    plus(inside, x());
+    EXPECT_TRUE(graph_.leaksOutOfLoop());
 }
 
 }  // namespace

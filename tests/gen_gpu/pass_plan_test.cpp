@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "terrane/gen/chunks_around.h"
 #include "terrane/gen/generators/catalogue.h"
 
 namespace terrane::gen_gpu {
@@ -48,7 +49,7 @@ TEST(PassPlan, WithoutReadsNothingButTheChunkIsNeeded) {
 }
 
 TEST(PassPlan, AroundTheEdgeCoordinatesWrap) {
-    const auto around = chunksAround({world::kMaxChunk, world::kMinChunk});
+    const auto around = gen::chunksAround({world::kMaxChunk, world::kMinChunk});
     EXPECT_EQ(around[4], (ChunkPos{world::kMaxChunk, world::kMinChunk}));
     EXPECT_EQ(around[5], (ChunkPos{world::kMinChunk, world::kMinChunk}));
     EXPECT_EQ(around[1], (ChunkPos{world::kMaxChunk, world::kMaxChunk}));

@@ -1,0 +1,224 @@
+#include "terrane/gen/pass.h"
+
+#include <algorithm>
+
+#include "terrane/gen/builder.h"
+
+namespace terrane::gen {
+
+Pass::Pass(GeneratorBuilder& generator, int number, std::string name, bool is3D)
+    : generator_(generator), number_(number) {
+    graph_.name = std::move(name);
+    graph_.is3D = is3D;
+    if (is3D) {
+        const bool first = generator.newest3D() < 0;
+        blockSlot_ = newSlot(Type::Int, first ? Value(Block(world::kAir)) : Value(blockHere()));
+        return;
+    }
+    fieldSlots_.resize(generator.generator_.fields.size());
+    for (std::size_t k = 0; k < fieldSlots_.size(); ++k) {
+        const FieldInfo& info = generator.generator_.fields[k];
+        if (info.writtenBy < 0) fieldSlots_[k] = newSlot(info.type, Value{nullptr, 0});
+    }
+}
+
+void Pass::error(std::string_view message) {
+    auto& errors = generator_.errors_;
+    std::string full = fmt::format("pass \"{}\": {}", graph_.name, message);
+    // A mistake in an expression that is written several times counts once.
+    if (std::find(errors.begin(), errors.end(), full) == errors.end()) errors.push_back(std::move(full));
+}
+
+bool Pass::require3D(std::string_view what) {
+    if (!graph_.is3D) error(fmt::format("{}: only in 3D passes", what));
+    return graph_.is3D;
+}
+
+Value Pass::leaf(Op op, Type type, std::uint32_t imm, std::uint8_t dependence) {
+    return {&graph_.graph, graph_.graph.add(op, type, {}, imm, dependence)};
+}
+
+Int Pass::x() {
+    return Int(leaf(Op::PosX, Type::Int, 0, kDependsColumn));
+}
+Int Pass::y() {
+    return Int(leaf(Op::PosY, Type::Int, 0, kDependsColumn));
+}
+Int Pass::z() {
+    if (!require3D("z")) return 0;
+    return Int(leaf(Op::PosZ, Type::Int, 0, kDependsZ));
+}
+
+Block Pass::block(std::string_view name) {
+    if (name == "air") return Block(world::kAir);
+    const world::BlockType* type = generator_.blocks_.find(name);
+    if (!type) error(fmt::format("unknown block \"{}\"", name));
+    return Block(type ? type->id : generator_.blocks_.missing());
+}
+
+std::size_t Pass::newSlot(Type type, Value value) {
+    slots_.push_back({type, value.nodeIn(graph_.graph, type)});
+    return slots_.size() - 1;
+}
+
+void Pass::assign(std::size_t slot, Value value) {
+    slots_[slot].value = value.nodeIn(graph_.graph, slots_[slot].type);
+}
+
+// Runs both branches on the slots' values and joins the slots that came out different.
+void Pass::if_(Bool condition, const std::function<void()>& then, const std::function<void()>& otherwise) {
+    const NodeId conditionNode = condition.nodeIn(graph_.graph, Type::Bool);
+    const std::vector<Slot> before = slots_;
+    ++branchDepth_;
+    if (then) then();
+    const std::vector<Slot> afterThen = slots_;
+    // Variables made inside a branch end with it; outputs made there exist in the other branch with their
+    // first value.
+    for (std::size_t k = 0; k < before.size(); ++k) slots_[k] = before[k];
+    if (otherwise) otherwise();
+    --branchDepth_;
+
+    const std::uint32_t number = graph_.graph.newIf();
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        const NodeId args[] = {conditionNode, afterThen[k].value, slots_[k].value};
+        slots_[k].value = graph_.graph.add(Op::Phi, slots_[k].type, args, number);
+    }
+}
+
+// Every variable may change in the loop; after it those that did have their last values.
+void Pass::while_(const std::function<Bool()>& condition, const std::function<void()>& body) {
+    Graph& g = graph_.graph;
+    const std::vector<Slot> before = slots_;
+    const std::uint8_t dependence = graph_.is3D ? kDependsVoxel : kDependsColumn;
+    std::vector<std::uint32_t> variables;
+    g.beginLoop();
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        variables.push_back(g.addLoopVariable(before[k].type, before[k].value, dependence));
+        slots_[k].value = g.loopVariable(variables[k]).in;
+    }
+    ++branchDepth_;
+    const NodeId conditionNode = condition().nodeIn(g, Type::Bool);
+    body();
+    --branchDepth_;
+    std::vector<NodeId> next;
+    for (std::size_t k = 0; k < before.size(); ++k) next.push_back(slots_[k].value);
+    g.endLoop(conditionNode, next);
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        const LoopVariable& v = g.loopVariable(variables[k]);
+        slots_[k].value = v.next == v.in ? v.initial : v.out;
+    }
+}
+
+bool Pass::requireWritten(std::uint32_t field) {
+    const FieldInfo& info = generator_.generator_.fields[field];
+    const bool earlier = info.writtenBy >= 0 && info.writtenBy < number_;
+    if (!earlier) error(fmt::format("field \"{}\" is read, but no earlier pass writes it", info.name));
+    return earlier;
+}
+
+bool Pass::requireBlocks() {
+    const bool earlier = generator_.newest3D() >= 0;
+    if (!earlier) error("blocks are read, but no earlier 3D pass sets them");
+    return earlier;
+}
+
+Value Pass::readField(std::uint32_t field, Type type) {
+    requireWritten(field);
+    return leaf(Op::Field, type, field, kDependsColumn);
+}
+
+void Pass::checkOffset(std::string_view what, IVec2 offset) {
+    for (const Int& o : {offset.x, offset.y}) {
+        const bool isLiteral = o.graph == nullptr;
+        if (isLiteral && (asInt(o.bits) < -kMaxReadOffset || asInt(o.bits) > kMaxReadOffset)) {
+            error(fmt::format("{}: offset {} is beyond {} blocks", what, asInt(o.bits), kMaxReadOffset));
+        }
+    }
+}
+
+Value Pass::readFieldAt(std::uint32_t field, Type type, IVec2 offset) {
+    requireWritten(field);
+    checkOffset(fmt::format("field \"{}\"", generator_.generator_.fields[field].name), offset);
+    auto& readsAt = graph_.readsAt;
+    if (std::find(readsAt.begin(), readsAt.end(), field) == readsAt.end()) readsAt.push_back(field);
+    Graph& g = graph_.graph;
+    const NodeId args[] = {offset.x.nodeIn(g, Type::Int), offset.y.nodeIn(g, Type::Int)};
+    return {&g, g.add(Op::FieldAt, type, args, field, kDependsColumn)};
+}
+
+// False, with a message, where another pass writes the field.
+bool Pass::claimField(std::uint32_t field) {
+    FieldInfo& info = generator_.generator_.fields[field];
+    if (info.writtenBy >= 0 && info.writtenBy != number_) {
+        error(fmt::format("field \"{}\" is written by an earlier pass", info.name));
+        return false;
+    }
+    info.writtenBy = number_;
+    return true;
+}
+
+void Pass::setField(std::uint32_t field, [[maybe_unused]] Type type, Value value) {
+    const FieldInfo& info = generator_.generator_.fields[field];
+    assert(info.type == type && "a field's type is part of its C++ type");
+    if (graph_.is3D) return error(fmt::format("field \"{}\": 3D passes write fields with setAt", info.name));
+    if (field >= fieldSlots_.size()) {
+        return error(fmt::format("field \"{}\" is declared inside the pass that writes it", info.name));
+    }
+    if (claimField(field)) assign(*fieldSlots_[field], value);
+}
+
+void Pass::setFieldAt(std::uint32_t field, Type type, Int atZ, Value value) {
+    const std::string name = generator_.generator_.fields[field].name;
+    if (!require3D("setAt")) return;
+    if (branchDepth_ > 0) return error(fmt::format("field \"{}\": setAt stands inside if_ or while_", name));
+    if (generator_.generator_.fields[field].writtenBy == number_) {
+        return error(fmt::format("field \"{}\" is set twice", name));
+    }
+    if (!claimField(field)) return;
+    Graph& g = graph_.graph;
+    const NodeId isThere = (z() == clamp(atZ, 0, world::kChunkHeight - 1)).nodeIn(g, Type::Bool);
+    const NodeId args[] = {isThere, value.nodeIn(g, type), g.constant(type, 0)};
+    graph_.fields.push_back({field, g.add(Op::Phi, type, args, g.newIf()), isThere});
+}
+
+Block Pass::blockHere() {
+    if (!require3D("blockHere")) return Block(world::kAir);
+    requireBlocks();
+    return Block(leaf(Op::BlockHere, Type::Int, 0, kDependsVoxel));
+}
+
+Block Pass::blockInColumn(Int pz) {
+    if (!requireBlocks()) return Block(world::kAir);
+    Graph& g = graph_.graph;
+    const NodeId args[] = {pz.nodeIn(g, Type::Int)};
+    return Block(Value{&g, g.add(Op::BlockInColumn, Type::Int, args, 0, kDependsColumn)});
+}
+
+Block Pass::blockAt(IVec2 offset, Int pz) {
+    if (!requireBlocks()) return Block(world::kAir);
+    checkOffset("blockAt", offset);
+    graph_.readsBlocksAt = true;
+    Graph& g = graph_.graph;
+    const NodeId args[] = {offset.x.nodeIn(g, Type::Int), offset.y.nodeIn(g, Type::Int),
+                           pz.nodeIn(g, Type::Int)};
+    return Block(Value{&g, g.add(Op::BlockAt, Type::Int, args, 0, kDependsColumn)});
+}
+
+void Pass::setBlock(Block value) {
+    if (!require3D("setBlock")) return;
+    assign(*blockSlot_, value);
+}
+
+PassGraph Pass::finish() {
+    for (std::size_t k = 0; k < fieldSlots_.size(); ++k) {
+        const bool written = generator_.generator_.fields[k].writtenBy == number_;
+        if (written) graph_.fields.push_back({static_cast<std::uint32_t>(k), slots_[*fieldSlots_[k]].value});
+    }
+    if (graph_.is3D) graph_.block = slots_[*blockSlot_].value;
+    bool leaks = graph_.graph.leaksOutOfLoop();
+    for (const NodeId output : outputsOf(graph_)) leaks = leaks || graph_.graph.node(output).loop != kNoLoop;
+    if (leaks) error("a value made inside while_ is used after it: carry it out in a Var");
+    return std::move(graph_);
+}
+
+}  // namespace terrane::gen

@@ -1,0 +1,170 @@
+// One pass of a generator while it is written: positions, noise, reads, variables, branches, outputs.
+//
+// Functions here record expressions (expr.h); nothing is computed. Made by GeneratorBuilder (builder.h);
+// mistakes are collected there.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/gen/expr.h"
+#include "terrane/gen/generator_graph.h"
+
+namespace terrane::gen {
+
+template <class T>
+struct Field {
+    std::uint32_t index;
+};
+
+class GeneratorBuilder;
+class Pass;
+
+// A value that changes while the pass is written: assignments inside if_ hold where its condition does.
+template <class T>
+class Var {
+  public:
+    operator T() const;  // the value now
+    Var& operator=(const T& value);
+    Var& operator=(const Var& other) { return *this = static_cast<T>(other); }
+    Var(const Var&) = delete;
+
+  private:
+    friend class Pass;
+    Var(Pass& pass, std::size_t slot) : pass_(pass), slot_(slot) {}
+    Pass& pass_;
+    std::size_t slot_;
+};
+
+struct Voronoi2D {
+    Float distance;  // blocks
+    Float ratio;     // nearest / second nearest, 0…1
+    IVec2 offset;    // blocks, to the nearest point
+};
+
+struct Voronoi3D {
+    Float distance;  // blocks, by the metric asked for
+    Float ratio;     // nearest / second nearest, 0…1
+    IVec3 offset;    // blocks, to the nearest point
+};
+
+class Pass {
+  public:
+    Int x();
+    Int y();
+    Int z();                             // 3D passes
+    Block block(std::string_view name);  // "air" or a name of the registry
+
+    template <class T>
+    Var<T> var(T initial) {
+        return Var<T>(*this, newSlot(T::kType, initial));
+    }
+    void if_(Bool condition, const std::function<void()>& then, const std::function<void()>& otherwise = {});
+    // Repeats `body` while `condition` holds, shared::kMaxLoopRounds times at most. What changes from round
+    // to round are Vars made before; both functions are called once, while the pass is written.
+    void while_(const std::function<Bool()>& condition, const std::function<void()>& body);
+
+    // Noise at this column or voxel (3D: in 3D passes). `name` makes the seed. Sizes in blocks; see noise.h
+    // and noise_expressions.cpp.
+    Float perlin2D(std::string_view name, int size, std::vector<float> weights);
+    Float perlin3D(std::string_view name, int size, std::vector<float> weights);
+    // How the noise of the same name and parameters changes, a block.
+    Vec2 perlin2DGradient(std::string_view name, int size, std::vector<float> weights);
+    Vec3 perlin3DGradient(std::string_view name, int size, std::vector<float> weights);
+    // Without the directions along the axes that Perlin noise shows.
+    Float simplex2D(std::string_view name, int size, std::vector<float> weights);
+    Float simplex3D(std::string_view name, int size, std::vector<float> weights);
+    Voronoi2D voronoi2D(std::string_view name, int size, int maxPoints);
+    // The metric's exponent: 2…8.
+    Voronoi3D voronoi3D(std::string_view name, int size, int maxPoints, int exponent = 2);
+
+    // In [0, 1), by position.
+    Float random2D(std::string_view name, Int x, Int y);
+    Float random3D(std::string_view name, Int x, Int y, Int z);
+    Bool randomBool2D(std::string_view name, Float probability, Int x, Int y);
+    Bool randomBool3D(std::string_view name, Float probability, Int x, Int y, Int z);
+
+    // A field of an earlier pass, here or at an offset within ±kMaxReadOffset (larger ones are clamped).
+    template <class T>
+    T read(Field<T> field) {
+        return T(readField(field.index, T::kType));
+    }
+    template <class T>
+    T readAt(Field<T> field, IVec2 offset) {
+        return T(readFieldAt(field.index, T::kType, offset));
+    }
+    template <class T>
+    void set(Field<T> field, T value) {  // 2D passes
+        setField(field.index, T::kType, value);
+    }
+    // From a 3D pass: the field takes what `value` is at height z of the column, clamped into the world. Not
+    // inside if_ or while_.
+    template <class T>
+    void setAt(Field<T> field, Int z, T value) {
+        setFieldAt(field.index, T::kType, z, value);
+    }
+
+    // The block that the newest earlier 3D pass put here (3D passes), or in this column at z, clamped into
+    // the world, or in another one within ±kMaxReadOffset.
+    Block blockHere();
+    Block blockInColumn(Int z);
+    Block blockAt(IVec2 offset, Int z);
+    void setBlock(Block block);  // 3D passes; without it the block stays
+
+  private:
+    template <class T>
+    friend class Var;
+    friend class GeneratorBuilder;
+    Pass(GeneratorBuilder& generator, int number, std::string name, bool is3D);
+
+    struct Slot {
+        Type type;
+        NodeId value;
+    };
+    std::size_t newSlot(Type type, Value value);
+    Value slotValue(std::size_t slot) { return {&graph_.graph, slots_[slot].value}; }
+    void assign(std::size_t slot, Value value);
+    Value leaf(Op op, Type type, std::uint32_t imm, std::uint8_t dependence);
+    Value noise(const NoiseCall& call, std::uint32_t result, Type type);
+    NoiseCall checkedNoise(std::string_view kind, NoiseCall call);
+    // A hash of two or three coordinates; `seedName`: see randomSeedName and noiseSeedName.
+    Int hash(const std::string& seedName, std::uint32_t octave, std::span<const Int> position);
+    std::function<Int(std::span<const Int>)> latticeHash(const NoiseCall& call, std::size_t octave);
+    std::array<Float, 3> gradient(const NoiseCall& call, std::span<const Int> position);
+    Value readField(std::uint32_t field, Type type);
+    Value readFieldAt(std::uint32_t field, Type type, IVec2 offset);
+    void setField(std::uint32_t field, Type type, Value value);
+    void setFieldAt(std::uint32_t field, Type type, Int z, Value value);
+    bool claimField(std::uint32_t field);
+    void checkOffset(std::string_view what, IVec2 offset);
+    bool require3D(std::string_view what);
+    bool requireWritten(std::uint32_t field);
+    bool requireBlocks();
+    void error(std::string_view message);
+    PassGraph finish();
+
+    GeneratorBuilder& generator_;
+    int number_;
+    PassGraph graph_;
+    std::vector<Slot> slots_;
+    std::vector<std::optional<std::size_t>> fieldSlots_;  // by field; fields of earlier passes have none
+    std::optional<std::size_t> blockSlot_;
+    int branchDepth_ = 0;  // of if_ and while_
+};
+
+template <class T>
+Var<T>::operator T() const {
+    return T(pass_.slotValue(slot_));
+}
+
+template <class T>
+Var<T>& Var<T>::operator=(const T& value) {
+    pass_.assign(slot_, value);
+    return *this;
+}
+
+}  // namespace terrane::gen
