@@ -1,8 +1,11 @@
 // if_ and variables against the same written with C++'s own `if`.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include <cstdint>
 
+#include "terrane/shared/generation.h"
 #include "tests/gen/gen_fixture.h"
 
 namespace terrane::gen {
@@ -244,6 +247,104 @@ TEST(BuilderBranch, ValuesThatVaryAndValuesThatDoNot) {
             const int32_t column = (z & 1) == 0 ? (x & 255) * 3 + 1 : z + 2;
             return layer + column + (z < 30 && z > 20 ? 5000 : 0);
         });
+}
+
+// Loops
+
+TEST(BuilderLoops, EachLaneStopsByItself) {
+    // Steps of the Collatz sequence down to 1.
+    expectNumbers(
+        [](Pass& p) {
+            Var<Int> n = p.var((p.x() & 31) + p.z() + 1), steps = p.var(Int(0));
+            p.while_([&] { return n != Int(1); },
+                     [&] {
+                         n = select((n & Int(1)) == 0, n >> 1, Int(n) * 3 + 1);
+                         steps = steps + 1;
+                     });
+            return Int(steps);
+        },
+        [](int32_t x, int32_t, int32_t z) {
+            int steps = 0;
+            for (int n = (x & 31) + z + 1; n != 1; ++steps) n = n % 2 == 0 ? n / 2 : n * 3 + 1;
+            return steps;
+        });
+}
+
+TEST(BuilderLoops, VariablesChangeAtOnce) {
+    // Fibonacci numbers by exchange: each next value is another variable's.
+    expectNumbers(
+        [](Pass& p) {
+            Var<Int> a = p.var(Int(0)), b = p.var(Int(1)), left = p.var(p.z() & 15);
+            p.while_([&] { return left > 0; },
+                     [&] {
+                         const Int sum = a + b;
+                         a = static_cast<Int>(b);
+                         b = sum;
+                         left = left - 1;
+                     });
+            return Int(a);
+        },
+        [](int32_t, int32_t, int32_t z) {
+            int a = 0, b = 1;
+            for (int k = z & 15; k > 0; --k) b = std::exchange(a, b) + b;
+            return a;
+        });
+}
+
+TEST(BuilderLoops, ALoopWithoutAnEndEnds) {
+    expectNumbers(
+        [](Pass& p) {
+            Var<Int> n = p.var(Int(0));
+            p.while_([] { return Bool(true); }, [&] { n = n + 1; });
+            return Int(n);
+        },
+        [](int32_t, int32_t, int32_t) { return shared::kMaxLoopRounds; });
+}
+
+TEST(BuilderLoops, LoopsInLoopsInBranches) {
+    expectNumbers(
+        [](Pass& p) {
+            Var<Int> sum = p.var(Int(0));
+            p.if_((p.x() & 1) == 0, [&] {
+                Var<Int> i = p.var(Int(0));
+                p.while_([&] { return i < (p.z() & 7); },
+                         [&] {
+                             Var<Int> j = p.var(Int(0));
+                             p.while_([&] { return j < i; },
+                                      [&] {
+                                          p.if_(((i + j) & 1) == 0, [&] { sum = sum + i * j + 1; });
+                                          j = j + 1;
+                                      });
+                             i = i + 1;
+                         });
+            });
+            return Int(sum);
+        },
+        [](int32_t x, int32_t, int32_t z) {
+            int sum = 0;
+            for (int i = 0; i < (z & 7) && x % 2 == 0; ++i) {
+                for (int j = 0; j < i; ++j) sum += (i + j) % 2 == 0 ? i * j + 1 : 0;
+            }
+            return sum;
+        });
+}
+
+// The highest stone of the column, found from above; in a 2D pass.
+TEST(BuilderLoops, ASearchDownAColumn) {
+    expectBlocks(
+        [](GeneratorBuilder& g) {
+            const auto top = g.field<Int>("top");
+            g.pass3D("ground", [](Pass& p) {
+                p.setBlock(select(p.z() <= (p.x() & 63) + 20, p.block("stone"), p.block("air")));
+            });
+            g.pass2D("search", [&](Pass& p) {
+                Var<Int> z = p.var(Int(255));
+                p.while_([&] { return z > 0 && p.blockInColumn(z) == p.block("air"); }, [&] { z = z - 1; });
+                p.set(top, static_cast<Int>(z));
+            });
+            g.pass3D("result", [&](Pass& p) { p.setBlock(Block(p.read(top))); });
+        },
+        [](int32_t x, int32_t, int32_t) { return (x & 63) + 20; });
 }
 
 }  // namespace

@@ -168,6 +168,49 @@ TEST(BuilderReads, BlocksInTheColumn) {
         });
 }
 
+// Offsets are clamped to 16 blocks, heights into the world.
+TEST(BuilderReads, BlocksOfOtherColumns) {
+    expectBlocks(
+        [](GeneratorBuilder& g) {
+            g.pass3D("first", [](Pass& p) { p.setBlock(Block(mix(p.x(), p.y()) + p.z())); });
+            g.pass3D("second", [](Pass& p) {
+                const Int dx = (mix(p.x(), p.y()) & 63) - 32, dy = p.z() - 128;
+                const Int computed(p.blockAt({dx, dy}, p.z() * 2)), fixed(p.blockAt({-16, 3}, 7));
+                p.setBlock(Block(computed * 3 + fixed));
+            });
+        },
+        [](int64_t x, int64_t y, int32_t z) {
+            const int32_t dx = std::clamp((mix(x, y) & 63) - 32, -16, 16), dy = std::clamp(z - 128, -16, 16);
+            const auto first = [](int64_t px, int64_t py, int32_t pz) {
+                return static_cast<std::uint16_t>(mix(px, py) + std::clamp(pz, 0, 255));
+            };
+            return first(x + dx, y + dy, z * 2) * 3 + first(x - 16, y + 3, 7);
+        });
+}
+
+// What a 3D pass found at one height of each column, also of neighbouring chunks, is there for later passes.
+TEST(BuilderReads, FieldsWrittenBy3DPasses) {
+    expectBlocks(
+        [](GeneratorBuilder& g) {
+            const auto found = g.field<Int>("found"), low = g.field<Int>("low");
+            g.pass3D("first", [&](Pass& p) {
+                p.setBlock(Block(p.z() * 5 + p.x()));
+                p.setAt(found, p.y() & 255, p.z() * 3 + p.x());
+                p.setAt(low, -9, p.z() + 70);
+            });
+            g.pass2D("between", [&](Pass&) {});
+            g.pass3D("second", [&](Pass& p) {
+                p.setBlock(Block(p.readAt(found, {5, -16}) + p.read(found) * 7 + p.read(low) * p.z()));
+            });
+        },
+        [](int64_t x, int64_t y, int32_t z) {
+            const auto found = [](int64_t px, int64_t py) {
+                return static_cast<int32_t>(py & 255) * 3 + wrapped(px);
+            };
+            return wrapped(std::int64_t{found(x + 5, y - 16)} + std::int64_t{found(x, y)} * 7 + 70 * z);
+        });
+}
+
 // Worlds depend on how names become seeds: the lower half of XXH3 of kind and name, seeded with the world's.
 std::uint32_t randomSeed(const std::string& name, std::uint64_t worldSeed) {
     const std::string text = "random " + name;

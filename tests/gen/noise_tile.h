@@ -15,6 +15,7 @@ class NoiseTile {
         context_.perlin2D.resize(1);
         context_.perlin3D.resize(1);
         context_.voronoi2D.resize(1);
+        context_.voronoi3D.resize(1);
         context_.noiseKinds = {call.kind};
         context_.arena = arena_.data();
         list_.push_back({Op::Noise, {0, 1}, {}, 0});
@@ -25,6 +26,7 @@ class NoiseTile {
         if (call_.kind == NoiseKind::Perlin2D) prepare(context_.perlin2D[0], call_, seed_, x0, y0);
         if (call_.kind == NoiseKind::Perlin3D) prepare(context_.perlin3D[0], call_, seed_, x0, y0);
         if (call_.kind == NoiseKind::Voronoi2D) prepare(context_.voronoi2D[0], call_, seed_, x0, y0);
+        if (call_.kind == NoiseKind::Voronoi3D) prepare(context_.voronoi3D[0], call_, seed_, x0, y0);
     }
 
     // Samples the columns (2D) or the layer z (3D).
@@ -43,7 +45,7 @@ class NoiseTile {
   private:
     NoiseCall call_;
     std::uint32_t seed_;
-    alignas(64) std::array<Bits, kVoronoiResultCount * kTileLanes> arena_{};
+    alignas(64) std::array<Bits, kVoronoi3DResultCount * kTileLanes> arena_{};
     TileContext context_;
     InstructionList list_;
 };

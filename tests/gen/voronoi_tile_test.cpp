@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -161,6 +162,47 @@ TEST(Voronoi2D, OnlyPointsThatMayBeNearAreKept) {
     small.moveTo({5, 5});
     EXPECT_LE(large.pointCount(), 8u);
     EXPECT_LE(small.pointCount(), 49u) << "25 cells and what the tile spans";
+}
+
+NoiseCall solidCells(int size, int maxPoints, int exponent) {
+    return {NoiseKind::Voronoi3D, "v", size, {}, maxPoints, exponent};
+}
+
+void expectVoxel(const NoiseTile& tile, const NoiseCall& call, std::array<std::int64_t, 3> block, int reach) {
+    const reference::Voronoi3DSample want = reference::voronoi3D(call, kSeed, block, reach);
+    const int x = static_cast<int>(block[0] & 15), y = static_cast<int>(block[1] & 15);
+    SCOPED_TRACE(describe(call) + ", exponent " + std::to_string(call.exponent) + " at (" +
+                 std::to_string(block[0]) + ", " + std::to_string(block[1]) + ", " +
+                 std::to_string(block[2]) + ")");
+    ASSERT_EQ(tile.at(x, y, kVoronoi3DNearest), bitsOf(want.nearest));
+    ASSERT_EQ(tile.at(x, y, kVoronoi3DSecond), bitsOf(want.second));
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+        ASSERT_EQ(asInt(tile.at(x, y, kVoronoi3DOffsetX + axis)), want.offset[axis]);
+    }
+}
+
+// 7³ cells, where the tile looks at 5³. Layers in an order that goes back and jumps.
+TEST(Voronoi3D, EverySampleIsThatOfASearchOfMoreCells) {
+    onEachTarget([] {
+        for (const int size : {1, 5, 32, 200}) {
+            for (const auto& [maxPoints, exponent] : {std::pair(1, 2), {3, 4}, {2, 8}, {4, 3}}) {
+                const NoiseCall call = solidCells(size, maxPoints, exponent);
+                NoiseTile tile(call, kSeed);
+                for (const ChunkPos chunk : kPlaces) {
+                    tile.moveTo(chunk);
+                    for (const std::int32_t z : {0, 1, 40, 39, 255, 100}) {
+                        tile.run(z);
+                        for (int lane = z % 29; lane < kTileLanes; lane += 83) {
+                            const std::array<std::int64_t, 3> block = {std::int64_t{chunk.x} * 16 + lane % 16,
+                                                                       std::int64_t{chunk.y} * 16 + lane / 16,
+                                                                       z};
+                            ASSERT_NO_FATAL_FAILURE(expectVoxel(tile, call, block, 3));
+                        }
+                    }
+                }
+            }
+        }
+    });
 }
 
 }  // namespace
