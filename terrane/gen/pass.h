@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "terrane/gen/expr.h"
+#include "terrane/gen/expr_math.h"
 #include "terrane/gen/generator_graph.h"
 
 namespace terrane::gen {

@@ -1,6 +1,5 @@
 // The noise calls and random numbers of a pass.
 #include "terrane/gen/builder.h"
-#include "terrane/gen/expr_math.h"
 #include "terrane/gen/noise_expressions.h"
 #include "terrane/gen/pass.h"
 

@@ -99,7 +99,7 @@ void writeBlock(int z, uint block) {
         evenLayerBlock = block;
         return;
     }
-    uint word = evenLayerBlock | block << 16;
+    uint word = (evenLayerBlock & 0xFFFFu) | block << 16;
     uint place = column * kWordsPerColumn + uint(z) / 2u;
 #if TARGET_BLOCKS < 0
     resultBlocks[gl_WorkGroupID.x * kBlocksPerLayer * kWordsPerColumn + place] = word;

@@ -40,6 +40,7 @@ CASES = [
     # Worlds
     ((*RENDER, "--generator", "nope"), '"nope"'),
     ((*GENERATE, "--generator", "nope"), '"nope"'),
+    ((*GENERATE, "--simd", "MMX"), "MMX"),
     ((*DUMP, "--generator", "nope"), '"nope"'),
     ((*MAP, "--generator", "nope"), '"nope"'),
     ((*GENERATE, "--seed", "abc"), "abc"),

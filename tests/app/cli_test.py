@@ -107,6 +107,13 @@ class Generate(ProgramTest):
         self.assertEqual(self.digest("--radius", "4", "--threads", "2"), first)
         self.assertEqual(self.digest("--radius", "4", "--threads", "2"), first)
 
+    def test_instruction_sets_change_nothing(self):
+        first = self.digest("--radius", "2")
+        targets = json.loads(self.succeed("info", "--json"))["simd"]
+        self.assertGreater(len(targets), 0)
+        for target in targets:
+            self.assertEqual(self.digest("--radius", "2", "--simd", target), first, target)
+
     def test_the_digest_is_of_the_area(self):
         small = self.digest("--radius", "1")
         self.assertEqual(self.digest("--area", "-1,-1,2,2"), small)

@@ -32,8 +32,12 @@ class GpuGeneratorTest : public gpu::GlTest {
     void compare(const std::string& name, const std::vector<ChunkPos>& chunks, std::size_t batch) {
         const auto graph = gen::makeGenerator(name, contentBlocks());
         ASSERT_TRUE(graph) << graph.error().message;
-        const gen::Generator cpu(*graph, kSeed);
-        auto onGpu = GpuGenerator::create(render::contentShaders(), *graph, kSeed);
+        compare(*graph, chunks, batch);
+    }
+
+    void compare(const gen::GeneratorGraph& graph, const std::vector<ChunkPos>& chunks, std::size_t batch) {
+        const gen::Generator cpu(graph, kSeed);
+        auto onGpu = GpuGenerator::create(render::contentShaders(), graph, kSeed);
         ASSERT_TRUE(onGpu) << onGpu.error().message;
         std::size_t compared = 0;
         while (compared < chunks.size()) {
@@ -43,7 +47,7 @@ class GpuGeneratorTest : public gpu::GlTest {
             ASSERT_TRUE(done);
             for (const auto& [pos, chunk] : *done) {
                 ASSERT_EQ(difference(cpu.generate(pos), chunk), "")
-                    << name << " chunk " << pos.x << "," << pos.y;
+                    << graph.name << " chunk " << pos.x << "," << pos.y;
                 ++compared;
             }
         }
@@ -63,6 +67,60 @@ std::vector<ChunkPos> square(ChunkPos first, int size) {
 
 TEST_F(GpuGeneratorTest, FlatEqualsCpu) {
     compare("flat", square({-1, -1}, 3), 9);
+}
+
+TEST_F(GpuGeneratorTest, OtherGeneratorsEqualCpu) {
+    for (const char* name : {"hills3d", "voronoi"}) {
+        compare(name, square({-2, -1}, 3), 9);
+        compare(name, square({world::kMinChunk, world::kMaxChunk - 1}, 2), 4);
+    }
+}
+
+// Numbers from every part of the language, so different that a wrong bit somewhere shows.
+void writeEverything(gen::GeneratorBuilder& g) {
+    using namespace gen;
+    const auto slope = g.field<Float>("slope"), wave = g.field<Float>("wave");
+    const auto steps = g.field<Int>("steps"), found = g.field<Int>("found");
+    const auto bits = [](Float f) { return (floatBits(f) >> 3) ^ floatBits(f); };
+    g.pass2D("flat", [&](Pass& p) {
+        const Vec2 gradient = p.perlin2DGradient("hills", 13, {1.0f, 0.0f, 2.0f});
+        const Float hills = p.perlin2D("hills", 13, {1.0f, 0.0f, 2.0f}),
+                    turn = p.simplex2D("turn", 11, {1.0f, 3.0f});
+        p.set(slope, length(gradient) + hills);
+        p.set(wave, sin(turn * 40.0f) + cos(Float(p.x() & 1023)) * pow(abs(hills), 0.85f) + log2(abs(turn)));
+        Var<Int> n = p.var((p.x() & 255) + 1), count = p.var(Int(0));
+        p.while_([&] { return n != Int(1); },
+                 [&] {
+                     n = select((n & Int(1)) == 0, n >> 1, Int(n) * 3 + 1);
+                     count = count + 1;
+                 });
+        p.set(steps, floorDivide(p.y(), 7) * 3 + Int(count));
+    });
+    g.pass3D("solid", [&](Pass& p) {
+        const Voronoi3D cells = p.voronoi3D("cells", 19, 3, 3);
+        const Vec3 gradient = p.perlin3DGradient("rock", 9, {1.0f, .5f});
+        const Float rock = p.perlin3D("rock", 9, {1.0f, .5f}) + p.simplex3D("grain", 10, {1.0f});
+        Var<Int> sum = p.var(bits(cells.distance) + bits(cells.ratio) + cells.offset.x * 3 - cells.offset.z);
+        p.if_(rock > 0.0f, [&] { sum = sum + bits(dot(gradient, gradient)) + bits(exp2(rock * 9.0f)); });
+        p.setBlock(Block((sum ^ bits(rock) ^ (sum << 5)) | (p.z() & 1)));
+        p.setAt(found, p.read(steps) & 255, sum + p.z());
+    });
+    g.pass3D("reads", [&](Pass& p) {
+        const Int dx = p.read(steps) & 15, there(p.blockAt({dx, Int(3) - dx}, p.z() + 5));
+        const Int around = p.readAt(found, {-9, dx}) + bits(p.readAt(slope, {dx, 0}));
+        p.setBlock(Block(Int(p.blockHere()) * 3 + there + around + bits(p.read(wave))));
+    });
+}
+
+TEST_F(GpuGeneratorTest, EveryPartOfTheLanguageEqualsCpu) {
+    const world::BlockRegistry& blocks = contentBlocks();
+    gen::GeneratorBuilder builder("everything", blocks);
+    writeEverything(builder);
+    const auto graph = builder.finish();
+    ASSERT_TRUE(graph) << graph.error().message;
+    compare(*graph, square({-1, -2}, 1), 1);
+    compare(*graph, square({12345, -6789}, 1), 1);
+    compare(*graph, square({world::kMinChunk, world::kMaxChunk}, 1), 1);
 }
 
 TEST_F(GpuGeneratorTest, OverworldEqualsCpuAroundTheOrigin) {

@@ -1,4 +1,6 @@
 // terrane generate: generates an area, for its digest or its speed.
+#include <fmt/ranges.h>
+
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -13,6 +15,7 @@
 #include "terrane/base/log.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/glsl_emitter.h"
+#include "terrane/gen/kernels.h"
 
 namespace terrane::app {
 namespace {
@@ -25,6 +28,7 @@ struct GenerateOptions {
     bool json = false;
     bool explain = false;
     Backend backend = Backend::Auto;
+    std::string simd;
 };
 
 // Chunks generated at once: enough for all workers or three batches of the GPU, 192 × about 10 KiB.
@@ -85,6 +89,10 @@ base::Result<void> generate(const GenerateOptions& options) {
     auto blocks = loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
     if (options.explain) return explain(options.world, *blocks);
+    if (!gen::chooseSimdTarget(options.simd)) {
+        return base::fail("--simd: this machine has no {}, but {}", options.simd,
+                          fmt::join(gen::simdTargets(), ", "));
+    }
     auto generator = makeBatchGenerator(options.world, options.backend, *blocks);
     if (!generator) return tl::unexpected(generator.error());
 
@@ -124,6 +132,7 @@ CommandEntry addGenerate(CLI::App& app) {
     command->add_flag("--json", options->json, "Print the result as JSON");
     command->add_flag("--explain", options->explain, "Print the generator's passes and their GLSL instead");
     addBackendOption(*command, options->backend);
+    command->add_option("--simd", options->simd, "Instruction set, as info lists them (default: the best)");
     addWorldOptions(*command, options->world);
     return {command, [options] { return generate(*options); }};
 }

@@ -12,7 +12,10 @@ struct Entry {
     void (*write)(GeneratorBuilder&);
 };
 
-constexpr std::array<Entry, 2> kGenerators = {{{"overworld", writeOverworld}, {"flat", writeFlat}}};
+constexpr std::array<Entry, 4> kGenerators = {{{"overworld", writeOverworld},
+                                               {"flat", writeFlat},
+                                               {"hills3d", writeHills3D},
+                                               {"voronoi", writeVoronoi}}};
 
 }  // namespace
 

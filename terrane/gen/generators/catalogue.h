@@ -17,6 +17,8 @@ base::Result<GeneratorGraph> makeGenerator(std::string_view name, const world::B
 
 void writeOverworld(
     GeneratorBuilder& g);  // overworld.cpp: seas, rivers, plains, deserts, mountains, caves, plants
-void writeFlat(GeneratorBuilder& g);  // flat.cpp: grass at sea level
+void writeFlat(GeneratorBuilder& g);     // flat.cpp: grass at sea level
+void writeHills3D(GeneratorBuilder& g);  // hills3d.cpp: overhangs and arches from noise in space
+void writeVoronoi(GeneratorBuilder& g);  // voronoi.cpp: bowls and ridges, boxy chambers
 
 }  // namespace terrane::gen
