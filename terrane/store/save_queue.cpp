@@ -29,7 +29,8 @@ SaveQueue::~SaveQueue() {
     }
     wake_.notify_all();
     thread_.join();
-    if (!waiting_.chunks.empty()) base::logError("{} chunks are lost: {}", waiting_.chunks.size(), problem_);
+    if (!waiting_.chunks.empty() && !isProblemTold_)
+        base::logError("{} chunks are lost: {}", waiting_.chunks.size(), problem_);
 }
 
 template <class Add>
@@ -39,6 +40,7 @@ SaveNumber SaveQueue::addNumbered(Add add) {
     {
         const std::lock_guard lock(mutex_);
         add();
+        isProblemTold_ = false;
         number = ++queued_;
         const bool isFirst = due_ == Clock::time_point::max();
         if (isFirst) due_ = Clock::now() + limits_.delay;
@@ -79,6 +81,7 @@ base::Result<void> SaveQueue::flush() {
     wake_.notify_all();
     written_.wait(lock, [&] { return durable_ >= goal || finished_ >= attempt; });
     if (durable_ >= goal) return {};
+    isProblemTold_ = true;
     return tl::unexpected(base::Error{problem_});
 }
 
@@ -126,7 +129,8 @@ void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock) {
         durable_ = goal;
         writing_ = {};
     } else {
-        if (problem_.empty())
+        // Who waits for flush() is told there.
+        if (problem_.empty() && wantedAttempts_ < attempts_)
             base::logError("{}; {} chunks wait, tried again every {} s", done.error().message,
                            writing_.chunks.size(), static_cast<double>(limits_.delay.count()) / 1000);
         problem_ = done.error().message;

@@ -50,7 +50,7 @@ class SaveQueue {
     using WriteBatch = std::function<base::Result<void>(const SaveBatch&)>;
 
     SaveQueue(WriteBatch write, SaveLimits limits);
-    ~SaveQueue();  // writes what waits; what fails now is lost and reported
+    ~SaveQueue();  // writes what waits; what fails now is lost, which is logged unless flush() told it
     SaveQueue(const SaveQueue&) = delete;
     SaveQueue& operator=(const SaveQueue&) = delete;
 
@@ -82,6 +82,7 @@ class SaveQueue {
     std::uint64_t attempts_ = 0, wantedAttempts_ = 0;   // begun and asked for by flush
     std::uint64_t finished_ = 0;                        // attempts
     std::string problem_;
+    bool isProblemTold_ = false;  // by flush(), and nothing was added since
     bool isEnding_ = false;
     std::thread thread_;
 };
