@@ -1,5 +1,5 @@
-// terrane: reads the command line, runs one command, reports. Exit codes: 0 done, 2 bad input or a missing
-// means.
+// terrane: reads the command line, runs one command, reports. Exit codes: 0 done, 1 a save is damaged
+// (check), 2 bad input or a missing means.
 #include <exception>
 #include <string>
 #include <vector>
@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(0, 1);
     const std::vector<app::CommandEntry> commands = {
         app::addPlay(app), app::addRender(app), app::addGenerate(app), app::addMap(app),
-        app::addDump(app), app::addBlocks(app), app::addInfo(app)};
+        app::addDump(app), app::addCheck(app),  app::addBlocks(app),   app::addInfo(app)};
     std::vector<const char*> arguments(argv, argv + argc);
     const bool hasCommand = argc > 1 && argv[1][0] != '-';
     const bool asksForHelp =
@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
     for (const app::CommandEntry& command : commands) {
         if (!command.parser->parsed()) continue;
         const base::Result<void> result = run(command);
-        if (result) return 0;
+        if (result) return command.exitCode();
         base::logError("{}", result.error().message);
         return kBadInput;
     }

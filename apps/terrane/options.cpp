@@ -51,6 +51,22 @@ Area parseArea(const std::string& text) {
     return area;
 }
 
+// What could be the name of a file in a folder that is there.
+CLI::Validator fileInAFolder() {
+    const auto check = [](const std::string& text) -> std::string {
+        const std::filesystem::path path(text), folder = path.parent_path();
+        std::error_code ignored;
+        if (!path.has_filename() || std::filesystem::is_directory(path, ignored)) {
+            return fmt::format("\"{}\" does not name a file", text);
+        }
+        if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
+            return fmt::format("\"{}\": there is no folder {}", text, folder.string());
+        }
+        return {};
+    };
+    return CLI::Validator(check, "");
+}
+
 }  // namespace
 
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const std::string& form) {
@@ -116,21 +132,14 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options) {
 }
 
 void addOutputOption(CLI::App& command, std::string& output, const std::string& description) {
-    const auto check = [](const std::string& text) -> std::string {
-        const std::filesystem::path path(text), folder = path.parent_path();
-        std::error_code ignored;
-        if (!path.has_filename() || std::filesystem::is_directory(path, ignored)) {
-            return fmt::format("\"{}\" does not name a file", text);
-        }
-        if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
-            return fmt::format("\"{}\": there is no folder {}", text, folder.string());
-        }
-        return {};
-    };
     command.add_option("-o,--output", output, description)
-        ->check(CLI::Validator(check, ""))
+        ->check(fileInAFolder())
         ->type_name("FILE")
         ->required();
+}
+
+void addSaveOption(CLI::App& command, std::string& save, const std::string& description) {
+    command.add_option("--world", save, description)->check(fileInAFolder())->type_name("FILE");
 }
 
 void addAreaOption(CLI::App& command, std::optional<Area>& area) {

@@ -42,6 +42,9 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options);
 void addAreaOption(CLI::App& command, std::optional<Area>& area);
 unsigned threadCount(const WorldOptions& options);
 
+// --world: a save. Its folder must be there.
+void addSaveOption(CLI::App& command, std::string& save, const std::string& description);
+
 // -o: the file to write. Refused before the work starts where it cannot be written later.
 void addOutputOption(CLI::App& command, std::string& output, const std::string& description);
 

@@ -29,8 +29,14 @@ void Chunk::setLargeData(BlockIndex i, LargeData data) {
         large_[smallData(i)].data = std::move(data);
         return;
     }
-    auto slot = std::find_if(large_.begin(), large_.end(), [](const LargeSlot& s) { return !s.used; });
-    if (slot == large_.end()) slot = large_.insert(slot, LargeSlot{});
+    // Without holes nothing is searched: a chunk read from a save may have data in each of its blocks.
+    auto slot = large_.end();
+    if (usedSlots_ < large_.size()) {
+        slot = std::find_if(large_.begin(), large_.end(), [](const LargeSlot& s) { return !s.used; });
+    } else {
+        slot = large_.insert(slot, LargeSlot{});
+    }
+    ++usedSlots_;
     *slot = {.data = std::move(data), .owner = i, .used = true};
 
     const auto number = static_cast<std::size_t>(slot - large_.begin());
@@ -42,13 +48,41 @@ void Chunk::clearLargeData(BlockIndex i) {
     if (largeData(i)) setSmallData(i, 0);
 }
 
+std::vector<BlockIndex> Chunk::blocksWithLargeData() const {
+    std::vector<BlockIndex> blocks;
+    blocks.reserve(usedSlots_);
+    for (const LargeSlot& slot : large_)
+        if (slot.used) blocks.push_back(slot.owner);
+    std::sort(blocks.begin(), blocks.end());
+    return blocks;
+}
+
 void Chunk::setSection(int number, Section section) {
     assert(number >= 0 && number < kSectionsPerChunk && "number of a section in a chunk");
-    for (LargeSlot& slot : large_)
-        if (slot.used && slot.owner >> 12 == number) slot = {};
-    dropUnusedSlots();
+    freeLargeDataOfSection(number);
     blocks_[static_cast<std::size_t>(number)] = std::move(section);
     smallData_[static_cast<std::size_t>(number)] = Section();
+}
+
+void Chunk::setSmallDataSection(int number, Section section) {
+    assert(number >= 0 && number < kSectionsPerChunk && "number of a section in a chunk");
+    freeLargeDataOfSection(number);
+    smallData_[static_cast<std::size_t>(number)] = std::move(section);
+}
+
+bool operator==(const Chunk& a, const Chunk& b) {
+    const std::vector<BlockIndex> large = a.blocksWithLargeData();
+    if (a.blocks_ != b.blocks_ || large != b.blocksWithLargeData()) return false;
+    if (large.empty()) return a.smallData_ == b.smallData_;
+    for (const BlockIndex i : large)
+        if (*a.largeData(i) != *b.largeData(i)) return false;
+    // Small data that leads to large data is a number of a slot.
+    auto smallA = a.smallData_, smallB = b.smallData_;
+    for (const BlockIndex i : large) {
+        smallA[i >> 12].set(i & 4095, 0);
+        smallB[i >> 12].set(i & 4095, 0);
+    }
+    return smallA == smallB;
 }
 
 std::size_t Chunk::memoryBytes() const {
@@ -63,6 +97,16 @@ std::size_t Chunk::memoryBytes() const {
 void Chunk::freeLargeData(BlockIndex i) {
     if (!largeData(i)) return;
     large_[smallData(i)] = {};
+    --usedSlots_;
+    dropUnusedSlots();
+}
+
+void Chunk::freeLargeDataOfSection(int number) {
+    for (LargeSlot& slot : large_) {
+        if (!slot.used || slot.owner >> 12 != number) continue;
+        slot = {};
+        --usedSlots_;
+    }
     dropUnusedSlots();
 }
 

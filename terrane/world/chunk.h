@@ -36,13 +36,19 @@ class Chunk {
     const LargeData* largeData(BlockIndex i) const;  // null where the block has none
     void setLargeData(BlockIndex i, LargeData data);
     void clearLargeData(BlockIndex i);
+    std::vector<BlockIndex> blocksWithLargeData() const;  // in ascending order
 
     const Section& section(int number) const { return blocks_[static_cast<std::size_t>(number)]; }
     const Section& smallDataSection(int number) const { return smallData_[static_cast<std::size_t>(number)]; }
     // Replaces a whole section's blocks; its small data becomes 0.
     void setSection(int number, Section section);
+    // Replaces a whole section's small data; large data of its blocks is freed.
+    void setSmallDataSection(int number, Section section);
 
     std::size_t memoryBytes() const;  // heap and object
+
+    // Equal blocks with equal data. In which slots large data lies makes no difference.
+    friend bool operator==(const Chunk& a, const Chunk& b);
 
   private:
     std::array<Section, kSectionsPerChunk> blocks_;
@@ -54,9 +60,11 @@ class Chunk {
         bool used = false;
     };
     void freeLargeData(BlockIndex i);  // leaves the small data that led to it
-    void dropUnusedSlots();            // those at the end
+    void freeLargeDataOfSection(int number);
+    void dropUnusedSlots();  // those at the end
 
     std::vector<LargeSlot> large_;
+    std::size_t usedSlots_ = 0;
 };
 
 using ChunkPtr = std::shared_ptr<const Chunk>;

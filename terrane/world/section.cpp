@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 namespace terrane::world {
 namespace {
@@ -154,6 +155,26 @@ Section Section::fromValues(std::span<const Value, kBlocksPerSection> values) {
         section.palette_.assign(palette.begin(), palette.begin() + distinct);
         section.words_ = packedWords(indices, bits);
     }
+    return section;
+}
+
+std::optional<Section> Section::fromPacked(int bits, std::vector<Value> palette,
+                                           std::vector<std::uint64_t> words) {
+    assert((bits == 1 || bits == 2 || bits == 4 || bits == 8 || bits == kDenseBits) &&
+           "bits of a packed form");
+    assert(words.size() == wordCount(bits) && "words of a packed form");
+    if (bits == kDenseBits) {
+        if (!palette.empty()) return std::nullopt;
+    } else {
+        if (palette.size() > std::size_t{1} << bits) return std::nullopt;
+        Indices indices;
+        withPaletteBits(bits, [&](auto b) { unpackIndices<b>(words.data(), indices); });
+        if (*std::max_element(indices.begin(), indices.end()) >= palette.size()) return std::nullopt;
+    }
+    Section section;
+    section.bits_ = static_cast<std::uint8_t>(bits);
+    section.palette_ = std::move(palette);
+    section.words_ = std::move(words);
     return section;
 }
 

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,12 @@ class Section {
 
     // The smallest form of 4,096 values.
     static Section fromValues(std::span<const Value, kBlocksPerSection> values);
+
+    // The form that bits(), palette() and words() show of a section that is not uniform, as it is. `bits` is
+    // 1, 2, 4, 8 or 16 and `words` holds 64 · bits of them. Nothing where a block's index has no value in the
+    // palette, or the palette is longer than `bits` can tell apart.
+    static std::optional<Section> fromPacked(int bits, std::vector<Value> palette,
+                                             std::vector<std::uint64_t> words);
 
     Value get(int index) const {
         assert(index >= 0 && index < kBlocksPerSection && "index of a block in a section");

@@ -35,18 +35,55 @@ void World::insert(ChunkPos pos, ChunkPtr chunk) {
     chunks_.insert_or_assign(pos, std::move(chunk));
 }
 
-BlockId World::block(BlockPos pos) const {
-    if (!isInHeight(pos.z)) return kAir;
+const Chunk* World::findChunk(BlockPos pos) const {
+    if (!isInHeight(pos.z)) return nullptr;
     const auto found = chunks_.find(chunkOf(pos));
-    return found == chunks_.end() ? kAir : found->second->block(blockIndex(pos));
+    return found == chunks_.end() ? nullptr : found->second.get();
+}
+
+Chunk* World::findWritable(BlockPos pos) {
+    if (!isInHeight(pos.z)) return nullptr;
+    const auto found = chunks_.find(chunkOf(pos));
+    return found == chunks_.end() ? nullptr : &writable(found->second);
+}
+
+BlockId World::block(BlockPos pos) const {
+    const Chunk* chunk = findChunk(pos);
+    return chunk ? chunk->block(blockIndex(pos)) : kAir;
 }
 
 bool World::setBlock(BlockPos pos, BlockId id) {
-    if (!isInHeight(pos.z)) return false;
-    const auto found = chunks_.find(chunkOf(pos));
-    if (found == chunks_.end()) return false;
-    writable(found->second).setBlock(blockIndex(pos), id);
-    return true;
+    Chunk* chunk = findWritable(pos);
+    if (chunk) chunk->setBlock(blockIndex(pos), id);
+    return chunk != nullptr;
+}
+
+std::uint16_t World::smallData(BlockPos pos) const {
+    const Chunk* chunk = findChunk(pos);
+    return chunk ? chunk->smallData(blockIndex(pos)) : std::uint16_t{0};
+}
+
+bool World::setSmallData(BlockPos pos, std::uint16_t value) {
+    Chunk* chunk = findWritable(pos);
+    if (chunk) chunk->setSmallData(blockIndex(pos), value);
+    return chunk != nullptr;
+}
+
+const LargeData* World::largeData(BlockPos pos) const {
+    const Chunk* chunk = findChunk(pos);
+    return chunk ? chunk->largeData(blockIndex(pos)) : nullptr;
+}
+
+bool World::setLargeData(BlockPos pos, LargeData data) {
+    Chunk* chunk = findWritable(pos);
+    if (chunk) chunk->setLargeData(blockIndex(pos), std::move(data));
+    return chunk != nullptr;
+}
+
+bool World::clearLargeData(BlockPos pos) {
+    Chunk* chunk = findWritable(pos);
+    if (chunk) chunk->clearLargeData(blockIndex(pos));
+    return chunk != nullptr;
 }
 
 std::size_t World::memoryBytes() const {

@@ -24,10 +24,22 @@ class World {
     // False where no chunk is loaded or pos.z is outside the world; then nothing changes.
     bool setBlock(BlockPos pos, BlockId id);
 
+    // A block's 16 bits of small data, and the bytes it keeps beyond them. Where no chunk is loaded there are
+    // none, and setting returns false. What belongs to a block goes when setBlock replaces it. A pointer
+    // holds until the chunk changes or goes.
+    std::uint16_t smallData(BlockPos pos) const;
+    bool setSmallData(BlockPos pos, std::uint16_t value);  // large data the block had goes
+    const LargeData* largeData(BlockPos pos) const;        // null where the block has none
+    bool setLargeData(BlockPos pos, LargeData data);
+    bool clearLargeData(BlockPos pos);
+
     const std::unordered_map<ChunkPos, ChunkPtr, ChunkPosHash>& chunks() const { return chunks_; }
     std::size_t memoryBytes() const;  // of all chunks
 
   private:
+    const Chunk* findChunk(BlockPos pos) const;  // null above, below and where none is loaded
+    Chunk* findWritable(BlockPos pos);           // the same
+
     std::unordered_map<ChunkPos, ChunkPtr, ChunkPosHash> chunks_;
 };
 

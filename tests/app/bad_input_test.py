@@ -89,6 +89,18 @@ CASES = [
     ((*DUMP, "--what", "nothing"), '"nothing"'),
     (("map", "-o", "{out}"), "--radius"),
     (("map", "--radius", "512", "-o", "{out}"), '"512"'),
+    # Saves
+    (("check",), "file"),
+    (("check", "{out}"), "no such file"),
+    (("check", "{folder}"), "not a file"),
+    (("check", "/dev/null"), "not a file"),
+    (("check", "{program}"), "not a SQLite file"),
+    ((*GENERATE, "--world", "{folder}"), "{folder}"),
+    ((*GENERATE, "--world", "{folder}/missing/a.sqlite"), "{folder}/missing"),
+    ((*GENERATE, "--world", "{out}", "--generator", "nope"), '"nope"'),
+    ((*GENERATE, "--world", "{program}"), "not a SQLite file"),
+    ((*GENERATE, "--recreate"), "--world"),
+    ((*DUMP, "--world", "{folder}/nothing.sqlite"), "no such file"),
     # Files
     (("render", "--scene", "ocean"), "--output"),
     (("dump", "--area", "0,0,1,1"), "--output"),
@@ -108,7 +120,7 @@ CASES = [
 class BadInput(ProgramTest):
     def test_every_case(self):
         for arguments, hint in CASES:
-            names = {"out": self.folder / "out", "folder": self.folder}
+            names = {"out": self.folder / "out", "folder": self.folder, "program": support.program()}
             filled = [argument.format(**names) for argument in arguments]
             with self.subTest(" ".join(arguments)):
                 done = run(*filled)

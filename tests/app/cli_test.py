@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Every command of the program, end to end. Usage: cli_test.py PROGRAM"""
 import json
+import sqlite3
 import struct
 
 import support
-from support import Npy, Picture, ProgramTest
+from support import Npy, Picture, ProgramTest, run
 
-COMMANDS = ("play", "render", "generate", "map", "dump", "blocks", "info")
+COMMANDS = ("play", "render", "generate", "map", "dump", "check", "blocks", "info")
 FLAT = ("--generator", "flat")
 
 # Name: opacity to light, emission. Of all blocks that the game starts with.
@@ -217,6 +218,96 @@ class Dump(ProgramTest):
             chunk_x, chunk_y, x, y, z, face, u, v, _, context, group = struct.unpack_from("<ii6BH2B", quads.data, k * 18)
             self.assertTrue(0 <= chunk_x < 2 and 0 <= chunk_y < 2 and x < 16 and y < 16 and z < 256)
             self.assertTrue(face < 21 and 1 <= u <= 16 and 1 <= v <= 16 and context < 6 and group < 7)
+
+
+class Saves(ProgramTest):
+    """generate, dump and check with a save."""
+
+    def setUp(self):
+        super().setUp()
+        self.save = self.folder / "a.sqlite"
+
+    def generate(self, *arguments):
+        text = self.succeed("generate", "--backend", "cpu", "--json", "--digest", *arguments)
+        return json.loads(text)
+
+    def sql(self, text):
+        with sqlite3.connect(self.save) as database:
+            rows = database.execute(text).fetchall()
+        database.close()
+        return rows
+
+    def test_only_what_is_missing_is_generated(self):
+        first = self.generate("--world", self.save, "--seed", "5", "--radius", "1")
+        self.assertEqual((first["chunks"], first["skipped"]), (9, 0))
+        again = self.generate("--world", self.save, "--radius", "1")
+        self.assertEqual((again["chunks"], again["skipped"], again["digest"]), (0, 9, first["digest"]))
+        more = self.generate("--world", self.save, "--radius", "2")
+        self.assertEqual((more["chunks"], more["skipped"]), (16, 9))
+        self.assertEqual(more["digest"], self.generate("--seed", "5", "--radius", "2")["digest"])
+
+    def test_another_world_is_refused(self):
+        self.generate("--world", self.save, "--seed", "5", "--radius", "0")
+        before = self.save.read_bytes()
+        for arguments, hint in ((("--seed", "6"), "seed 5, not 6"), (FLAT, "generator overworld, not flat")):
+            done = run("generate", "--world", self.save, "--radius", "0", *arguments)
+            self.assertRefused(done, arguments)
+            self.assertIn(hint, done.stderr)
+        self.assertEqual(self.save.read_bytes(), before)
+
+    def test_another_version_of_the_generator_is_refused_and_recreate_makes_it_anew(self):
+        self.generate("--world", self.save, "--radius", "1", "--seed", "5")
+        self.sql("UPDATE settings SET value = '99' WHERE name = 'generator_version'")
+        done = run("generate", "--world", self.save, "--radius", "1")
+        self.assertRefused(done, "version")
+        self.assertIn("version 99", done.stderr)
+        anew = self.generate("--world", self.save, "--radius", "1", "--recreate")
+        self.assertEqual((anew["chunks"], anew["skipped"]), (9, 0))
+        self.assertEqual(self.sql("SELECT value FROM settings WHERE name = 'seed'"), [("5",)])
+        self.assertTrue((self.folder / "a.backup-1.sqlite").exists())
+
+    def test_dump_takes_what_the_save_has(self):
+        self.succeed("generate", "--world", self.save, "--radius", "1", *FLAT)
+        plain, saved = self.folder / "plain.npy", self.folder / "saved.npy"
+        self.succeed("dump", "--area", "0,0,3,1", "-o", plain, *FLAT)
+        self.succeed("dump", "--area", "0,0,3,1", "-o", saved, "--world", self.save)
+        self.assertEqual(Npy(plain).data, Npy(saved).data, "two chunks are in the save, one is generated")
+        # Another name for the same id shows that the blocks come from the save.
+        self.sql("UPDATE blocks SET name = 'sand_' WHERE name = 'sand'")
+        self.sql("UPDATE blocks SET name = 'sand' WHERE name = 'stone'")
+        self.succeed("dump", "--area", "0,0,1,1", "-o", saved, "--world", self.save)
+        ids = {block["name"]: block["id"] for block in json.loads(self.succeed("blocks", "--json"))}
+        self.assertEqual(Npy(saved).column(3, 3)[0], ids["sand"])
+
+    def test_check_good(self):
+        self.generate("--world", self.save, "--radius", "1", "--seed", "5")
+        self.assertTrue(self.succeed("check", self.save).endswith("\ngood\n"))
+        report = json.loads(self.succeed("check", self.save, "--json"))
+        self.assertEqual((report["damaged"], report["chunks"], report["seed"]), (False, 9, 5))
+        self.assertEqual((report["format"], report["generator"]), (1, "overworld"))
+
+    def test_check_damaged(self):
+        self.succeed("generate", "--world", self.save, "--radius", "1", *FLAT)
+        self.sql("UPDATE chunks SET data = zeroblob(50) WHERE key = (SELECT min(key) FROM chunks)")
+        done = run("check", self.save)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("damage: chunk -1,-1: the checksum is wrong\ndamaged\n", done.stdout)
+        done = run("check", self.save, "--json")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["damaged_chunks"],
+                         [{"x": -1, "y": -1, "problem": "the checksum is wrong"}])
+        # Generating repairs it and keeps what was there.
+        self.succeed("generate", "--world", self.save, "--radius", "1", *FLAT)
+        report = json.loads(self.succeed("check", self.save, "--json"))
+        self.assertEqual((report["damaged"], report["chunks"], report["quarantined"]), (False, 9, 1))
+        self.assertEqual(self.sql("SELECT length(data) FROM quarantine"), [(50,)])
+
+    def test_check_cut_off(self):
+        self.succeed("generate", "--world", self.save, "--radius", "1", *FLAT)
+        self.save.write_bytes(self.save.read_bytes()[:-1])
+        done = run("check", self.save)
+        self.assertEqual((done.returncode, done.stderr), (1, ""))
+        self.assertIn("cut off", done.stdout)
 
 
 class Blocks(ProgramTest):

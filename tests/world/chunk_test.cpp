@@ -158,6 +158,68 @@ TEST(Chunk, FullOfLargeData) {
         EXPECT_EQ(*chunk.largeData(static_cast<BlockIndex>(i * 21)), LargeData(1, std::byte(i)));
 }
 
+TEST(Chunk, SetSmallDataSectionFreesLargeDataThere) {
+    Chunk chunk;
+    const BlockIndex inOne = blockIndex(3, 3, 16), inTwo = blockIndex(3, 3, 32);
+    chunk.setBlock(inOne, 8);
+    chunk.setLargeData(inTwo, bytes("two"));
+    chunk.setLargeData(inOne, bytes("one"));
+    chunk.setSmallDataSection(1, Section(6));
+    EXPECT_EQ(chunk.block(inOne), 8);
+    EXPECT_EQ(chunk.smallData(inOne), 6);
+    EXPECT_EQ(chunk.largeData(inOne), nullptr);
+    EXPECT_EQ(*chunk.largeData(inTwo), bytes("two"));
+}
+
+TEST(Chunk, BlocksWithLargeDataAscend) {
+    Chunk chunk;
+    EXPECT_TRUE(chunk.blocksWithLargeData().empty());
+    chunk.setLargeData(kB, bytes("1"));
+    chunk.setLargeData(kC, bytes("2"));
+    chunk.setLargeData(kA, bytes("3"));
+    EXPECT_EQ(chunk.blocksWithLargeData(), (std::vector<BlockIndex>{kC, kA, kB}));
+    chunk.setBlock(kC, 1);
+    EXPECT_EQ(chunk.blocksWithLargeData(), (std::vector<BlockIndex>{kA, kB}));
+    chunk.setSection(15, Section(1));
+    EXPECT_EQ(chunk.blocksWithLargeData(), (std::vector<BlockIndex>{kA}));
+}
+
+TEST(Chunk, EveryBlockMayHaveLargeData) {
+    Chunk chunk;
+    for (int i = 0; i < kBlocksPerChunk; ++i)
+        chunk.setLargeData(static_cast<BlockIndex>(i), LargeData(1, std::byte(i)));
+    EXPECT_EQ(chunk.blocksWithLargeData().size(), 65536u);
+    EXPECT_EQ(*chunk.largeData(65535), LargeData(1, std::byte{255}));
+}
+
+TEST(Chunk, EqualWhateverTheSlots) {
+    Chunk a, b;
+    EXPECT_EQ(a, b);
+    a.setLargeData(kA, bytes("one"));
+    a.setLargeData(kB, bytes("two"));
+    b.setLargeData(kB, bytes("two"));
+    EXPECT_NE(a, b);
+    b.setLargeData(kA, bytes("one"));
+    EXPECT_NE(a.smallData(kA), b.smallData(kA));
+    EXPECT_EQ(a, b);
+    b.setSmallData(kC, 1);
+    EXPECT_NE(a, b);
+    a.setSmallData(kC, 1);
+    EXPECT_EQ(a, b);
+    a.setLargeData(kA, bytes("other"));
+    EXPECT_NE(a, b);
+    a.clearLargeData(kA);
+    EXPECT_NE(a, b);
+}
+
+TEST(Chunk, EqualNeedsEqualBlocks) {
+    Chunk a, b;
+    a.setBlock(kB, 3);
+    EXPECT_NE(a, b);
+    b.setBlock(kB, 3);
+    EXPECT_EQ(a, b);
+}
+
 // What a chunk must hold, told plainly.
 struct PlainBlock {
     BlockId id = 0;

@@ -204,5 +204,30 @@ TEST(Section, CopiesAreIndependent) {
     }
 }
 
+TEST(Section, FromPackedTakesWhatAnotherShows) {
+    std::array<Section::Value, kBlocksPerSection> values;
+    for (const int distinct : {2, 3, 16, 17, 256, 257}) {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = static_cast<Section::Value>(i * 7 % static_cast<std::size_t>(distinct) * 5);
+        const Section section = Section::fromValues(values);
+        const auto copy =
+            Section::fromPacked(section.bits(), {section.palette().begin(), section.palette().end()},
+                                {section.words().begin(), section.words().end()});
+        ASSERT_TRUE(copy) << distinct;
+        EXPECT_EQ(*copy, section);
+        EXPECT_EQ(copy->bits(), section.bits());
+    }
+}
+
+TEST(Section, FromPackedRefusesIndicesWithoutAValue) {
+    std::vector<std::uint64_t> words(128);
+    words[127] = std::uint64_t{3} << 62;  // the last block has index 3
+    EXPECT_TRUE(Section::fromPacked(2, {1, 2, 3, 4}, words));
+    EXPECT_FALSE(Section::fromPacked(2, {1, 2, 3}, words));
+    EXPECT_FALSE(Section::fromPacked(2, {}, words));
+    EXPECT_FALSE(Section::fromPacked(2, {1, 2, 3, 4, 5}, words)) << "two bits tell four values apart";
+    EXPECT_FALSE(Section::fromPacked(16, {1}, std::vector<std::uint64_t>(1024))) << "dense has no palette";
+}
+
 }  // namespace
 }  // namespace terrane::world

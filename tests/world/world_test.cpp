@@ -115,5 +115,33 @@ TEST(World, EditsOfAChunkThatAWorkerHasRead) {
     }
 }
 
+TEST(World, DataOfBlocks) {
+    World world;
+    const BlockPos pos{-5, 17, 100}, above{-5, 17, 256};
+    const LargeData text{std::byte{'a'}, std::byte{'b'}};
+    EXPECT_FALSE(world.setSmallData(pos, 1));
+    EXPECT_FALSE(world.setLargeData(pos, text));
+    EXPECT_FALSE(world.clearLargeData(pos));
+    EXPECT_EQ(world.smallData(pos), 0);
+    EXPECT_EQ(world.largeData(pos), nullptr);
+
+    world.insert(chunkOf(pos), std::make_shared<Chunk>());
+    EXPECT_FALSE(world.setSmallData(above, 1));
+    EXPECT_EQ(world.smallData(above), 0);
+    EXPECT_TRUE(world.setSmallData(pos, 7));
+    EXPECT_EQ(world.smallData(pos), 7);
+    const ChunkPtr before = world.maybeChunkAt(chunkOf(pos));
+    EXPECT_TRUE(world.setLargeData(pos, text));
+    ASSERT_NE(world.largeData(pos), nullptr);
+    EXPECT_EQ(*world.largeData(pos), text);
+    EXPECT_EQ(before->largeData(blockIndex(pos)), nullptr) << "a snapshot stays as it is";
+    EXPECT_TRUE(world.setBlock(pos, 3));
+    EXPECT_EQ(world.largeData(pos), nullptr) << "gone with the block";
+    EXPECT_TRUE(world.setLargeData(pos, text));
+    EXPECT_TRUE(world.clearLargeData(pos));
+    EXPECT_EQ(world.largeData(pos), nullptr);
+    EXPECT_EQ(world.smallData(pos), 0);
+}
+
 }  // namespace
 }  // namespace terrane::world

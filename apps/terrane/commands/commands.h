@@ -13,6 +13,8 @@ using Command = std::function<base::Result<void>()>;
 struct CommandEntry {
     CLI::App* parser;
     Command run;
+    // What the program ends with after a run that did not fail.
+    std::function<int()> exitCode = [] { return 0; };
 };
 
 CommandEntry addPlay(CLI::App& app);
@@ -20,6 +22,7 @@ CommandEntry addRender(CLI::App& app);
 CommandEntry addGenerate(CLI::App& app);
 CommandEntry addMap(CLI::App& app);
 CommandEntry addDump(CLI::App& app);
+CommandEntry addCheck(CLI::App& app);
 CommandEntry addBlocks(CLI::App& app);
 CommandEntry addInfo(CLI::App& app);
 

@@ -5,12 +5,14 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
+#include "apps/terrane/save_identity.h"
 #include "apps/terrane/world_session.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/npy.h"
 #include "terrane/light/light_solver.h"
 #include "terrane/mesh/chunk_mesher.h"
+#include "terrane/store/memory_store.h"
 
 namespace terrane::app {
 namespace {
@@ -22,6 +24,7 @@ struct DumpOptions {
     std::optional<Area> area;
     What what = What::Blocks;
     std::string output;
+    std::string save;  // empty: none
 };
 
 // The file is made in memory, light with three bytes a block beside it: 4,096 chunks take about 1.3 GiB.
@@ -33,12 +36,15 @@ class LoadedArea {
     LoadedArea(const Area& area)
         : area_(area), width_(area.x1 - area.x0 + 2), height_(area.y1 - area.y0 + 2) {}
 
-    base::Result<void> generate(const gen::Generator& generator, base::JobSystem& jobs) {
+    // From the save, which may be null, else generated.
+    base::Result<void> load(store::ChunkStore* save, const gen::Generator& generator, base::JobSystem& jobs) {
         chunks_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
         return base::parallelFor(jobs, chunks_.size(), [&](std::size_t k) {
             const world::ChunkPos pos{area_.x0 - 1 + static_cast<int>(k) % width_,
                                       area_.y0 - 1 + static_cast<int>(k) / width_};
-            if (world::isInWorld(pos)) chunks_[k] = generator.generate(pos);
+            if (!world::isInWorld(pos)) return;
+            const store::LoadedChunk stored = save ? save->load(pos) : store::LoadedChunk{};
+            chunks_[k] = stored.chunk ? *stored.chunk : generator.generate(pos);
         });
     }
 
@@ -150,18 +156,31 @@ base::NpyArray dumpQuads(const LoadedArea& area, const Area& where, const world:
     return array;
 }
 
-base::Result<void> dump(const DumpOptions& options) {
+// To be read, and left as it is. Null where none was asked for.
+base::Result<std::unique_ptr<store::ChunkStore>> openSave(DumpOptions& options, const CLI::App& command,
+                                                          const world::BlockRegistry& blocks) {
+    if (options.save.empty()) return nullptr;
+    auto file = store::openToRead(options.save, blocks);
+    if (!file) return tl::unexpected(file.error());
+    auto same = adoptIdentity(options.world, command, file->identity, options.save);
+    if (!same) return tl::unexpected(same.error());
+    return std::make_unique<store::MemoryStore>(std::move(*file));
+}
+
+base::Result<void> dump(DumpOptions& options, const CLI::App& command) {
     const Area area = *options.area;
     if (area.chunkCount() > kMaxChunks) {
         return base::fail("--area: {} chunks, at most {} fit one file", area.chunkCount(), kMaxChunks);
     }
     auto blocks = loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
+    auto save = openSave(options, command, *blocks);
+    if (!save) return tl::unexpected(save.error());
     auto generator = makeGenerator(options.world, *blocks);
     if (!generator) return tl::unexpected(generator.error());
     base::JobSystem jobs(threadCount(options.world));
     LoadedArea loaded(area);
-    if (auto done = loaded.generate(*generator, jobs); !done) return done;
+    if (auto done = loaded.load(save->get(), *generator, jobs); !done) return done;
 
     base::NpyArray array;
     switch (options.what) {
@@ -192,7 +211,8 @@ CommandEntry addDump(CLI::App& app) {
                     "What to write");
     addOutputOption(*command, options->output, "The .npy file");
     addWorldOptions(*command, options->world);
-    return {command, [options] { return dump(*options); }};
+    addSaveOption(*command, options->save, "Save to take the chunks from; what it lacks is generated");
+    return {command, [options, command] { return dump(*options, *command); }};
 }
 
 }  // namespace terrane::app

@@ -1,4 +1,4 @@
-// terrane generate: generates an area, for its digest or its speed.
+// terrane generate: generates an area, into a save, for its digest or its speed.
 #include <fmt/ranges.h>
 
 #include <chrono>
@@ -10,12 +10,14 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
 #include "apps/terrane/progress_bar.h"
+#include "apps/terrane/save_identity.h"
 #include "apps/terrane/world_session.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/log.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/glsl_emitter.h"
 #include "terrane/gen/kernels.h"
+#include "terrane/store/sqlite_store.h"
 
 namespace terrane::app {
 namespace {
@@ -27,6 +29,8 @@ struct GenerateOptions {
     bool digest = false;
     bool json = false;
     bool explain = false;
+    std::string save;  // empty: none
+    bool recreate = false;
     Backend backend = Backend::Auto;
     std::string simd;
 };
@@ -42,25 +46,97 @@ void addToDigest(base::Digest& digest, const world::Chunk& chunk) {
     }
 }
 
-// The digest takes chunks by y, then x; blocks by z, y, x, as 16-bit little-endian ids.
-base::Result<std::string> generateArea(BatchGenerator& generator, const Area& area, bool wantsDigest) {
-    base::Digest digest;
-    ProgressBar bar("generating", static_cast<std::size_t>(area.chunkCount()));
-    const std::int64_t width = std::int64_t{area.x1} - area.x0;
-    std::vector<world::Chunk> chunks(kBatch);
-    std::vector<world::ChunkPos> positions;
-    for (std::int64_t first = 0; first < area.chunkCount(); first += kBatch) {
-        positions.clear();
-        for (std::int64_t n = first; n < std::min(first + kBatch, area.chunkCount()); ++n) {
-            positions.push_back({static_cast<std::int32_t>(area.x0 + n % width),
-                                 static_cast<std::int32_t>(area.y0 + n / width)});
+struct Generated {
+    std::size_t chunks = 0;   // made now
+    std::size_t skipped = 0;  // were in the save already
+    std::string digest;       // of all
+};
+
+// Generates the area's chunks that the save lacks, batch by batch; each is durable before the next begins, so
+// that a run that was cut short goes on where it was.
+class AreaGenerator {
+  public:
+    // `save` may be null.
+    AreaGenerator(BatchGenerator& generator, store::ChunkStore* save, bool wantsDigest)
+        : generator_(generator), save_(save), wantsDigest_(wantsDigest) {}
+
+    // The digest takes chunks by y, then x; blocks by z, y, x, as 16-bit little-endian ids.
+    base::Result<Generated> run(const Area& area) {
+        ProgressBar bar("generating", static_cast<std::size_t>(area.chunkCount()));
+        const std::int64_t width = std::int64_t{area.x1} - area.x0;
+        std::vector<world::ChunkPos> positions;
+        for (std::int64_t first = 0; first < area.chunkCount(); first += kBatch) {
+            positions.clear();
+            for (std::int64_t n = first; n < std::min(first + kBatch, area.chunkCount()); ++n) {
+                positions.push_back({static_cast<std::int32_t>(area.x0 + n % width),
+                                     static_cast<std::int32_t>(area.y0 + n / width)});
+            }
+            if (auto done = batch(positions); !done) return tl::unexpected(done.error());
+            bar.set(static_cast<std::size_t>(first) + positions.size());
         }
-        auto done = generator.generate(positions, chunks);
-        if (!done) return tl::unexpected(done.error());
-        for (std::size_t k = 0; wantsDigest && k < positions.size(); ++k) addToDigest(digest, chunks[k]);
-        bar.set(static_cast<std::size_t>(first) + positions.size());
+        result_.digest = digest_.hex();
+        return result_;
     }
-    return digest.hex();
+
+  private:
+    base::Result<void> batch(const std::vector<world::ChunkPos>& positions) {
+        std::vector<world::ChunkPos> wanted;
+        for (const world::ChunkPos pos : positions)
+            if (!isStored(pos)) wanted.push_back(pos);
+        chunks_.resize(wanted.size());
+        if (auto done = generator_.generate(wanted, chunks_); !done) return done;
+        result_.chunks += wanted.size();
+        result_.skipped += positions.size() - wanted.size();
+        if (wantsDigest_) addBatchToDigest(positions, wanted);
+        return save_ ? saveBatch(wanted) : base::Result<void>();
+    }
+
+    // A damaged chunk is not stored; loading reports it and puts it aside.
+    bool isStored(world::ChunkPos pos) {
+        return save_ && save_->contains(pos) && save_->load(pos).state == store::LoadedChunk::State::Present;
+    }
+
+    void addBatchToDigest(const std::vector<world::ChunkPos>& positions,
+                          const std::vector<world::ChunkPos>& wanted) {
+        std::size_t k = 0;
+        for (const world::ChunkPos pos : positions) {
+            const bool isNew = k < wanted.size() && wanted[k] == pos;
+            addToDigest(digest_, isNew ? chunks_[k] : *save_->load(pos).chunk);
+            if (isNew) ++k;
+        }
+    }
+
+    base::Result<void> saveBatch(const std::vector<world::ChunkPos>& wanted) {
+        for (std::size_t k = 0; k < wanted.size(); ++k) {
+            save_->save(wanted[k], std::make_shared<world::Chunk>(std::move(chunks_[k])),
+                        store::Origin::Generated);
+        }
+        return save_->flush();
+    }
+
+    BatchGenerator& generator_;
+    store::ChunkStore* save_;
+    bool wantsDigest_;
+    std::vector<world::Chunk> chunks_;
+    base::Digest digest_;
+    Generated result_;
+};
+
+// Null where none was asked for.
+base::Result<std::unique_ptr<store::ChunkStore>> openSave(GenerateOptions& options, const CLI::App& command,
+                                                          const world::BlockRegistry& blocks) {
+    if (options.save.empty()) return nullptr;
+    store::SaveAccess access{.create = identityOf(options.world), .recreateVersion = {}};
+    if (access.create->generatorVersion == 0) {  // the error that lists those there are
+        auto unknown = makeGenerator(options.world, blocks);
+        return tl::unexpected(unknown.error());
+    }
+    if (options.recreate) access.recreateVersion = access.create->generatorVersion;
+    auto save = store::SqliteStore::open(options.save, blocks, access);
+    if (!save) return tl::unexpected(save.error());
+    auto same = adoptIdentity(options.world, command, (*save)->identity(), options.save);
+    if (!same) return tl::unexpected(same.error());
+    return std::move(*save);
 }
 
 // The passes, what they read and write, and their GLSL.
@@ -80,7 +156,28 @@ base::Result<void> explain(const WorldOptions& options, const world::BlockRegist
     return {};
 }
 
-base::Result<void> generate(const GenerateOptions& options) {
+void report(const GenerateOptions& options, const Generated& result, double seconds,
+            const std::string& backend) {
+    const double speed = static_cast<double>(result.chunks) / seconds;
+    const unsigned threads = threadCount(options.world);
+    if (result.skipped > 0) base::logInfo("{}: {} chunks were there already", options.save, result.skipped);
+    base::logInfo("{} chunks in {:.2f} s, {:.0f} chunks/s, back end {}, threads {}", result.chunks, seconds,
+                  speed, backend, threads);
+    if (options.json) {
+        nlohmann::json json = {{"chunks", result.chunks},
+                               {"seconds", seconds},
+                               {"chunks_per_second", speed},
+                               {"threads", threads},
+                               {"backend", backend}};
+        if (options.digest) json["digest"] = result.digest;
+        if (!options.save.empty()) json["skipped"] = result.skipped;
+        std::cout << json.dump() << '\n';
+    } else if (options.digest) {
+        std::cout << result.digest << '\n';
+    }
+}
+
+base::Result<void> generate(GenerateOptions& options, const CLI::App& command) {
     if (!options.area && !options.radius && !options.explain) {
         return base::fail("generate needs --radius, --area or --explain");
     }
@@ -93,29 +190,16 @@ base::Result<void> generate(const GenerateOptions& options) {
         return base::fail("--simd: this machine has no {}, but {}", options.simd,
                           fmt::join(gen::simdTargets(), ", "));
     }
+    auto save = openSave(options, command, *blocks);
+    if (!save) return tl::unexpected(save.error());
     auto generator = makeBatchGenerator(options.world, options.backend, *blocks);
     if (!generator) return tl::unexpected(generator.error());
 
     const auto start = std::chrono::steady_clock::now();
-    auto digest = generateArea(**generator, area, options.digest);
-    if (!digest) return tl::unexpected(digest.error());
+    auto result = AreaGenerator(**generator, save->get(), options.digest).run(area);
+    if (!result) return tl::unexpected(result.error());
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const double speed = static_cast<double>(area.chunkCount()) / seconds;
-
-    const unsigned threads = threadCount(options.world);
-    base::logInfo("{} chunks in {:.2f} s, {:.0f} chunks/s, back end {}, threads {}", area.chunkCount(),
-                  seconds, speed, (*generator)->backend(), threads);
-    if (options.json) {
-        nlohmann::json result = {{"chunks", area.chunkCount()},
-                                 {"seconds", seconds},
-                                 {"chunks_per_second", speed},
-                                 {"threads", threads},
-                                 {"backend", (*generator)->backend()}};
-        if (options.digest) result["digest"] = *digest;
-        std::cout << result.dump() << '\n';
-    } else if (options.digest) {
-        std::cout << *digest << '\n';
-    }
+    report(options, *result, seconds, (*generator)->backend());
     return {};
 }
 
@@ -134,7 +218,11 @@ CommandEntry addGenerate(CLI::App& app) {
     addBackendOption(*command, options->backend);
     command->add_option("--simd", options->simd, "Instruction set, as info lists them (default: the best)");
     addWorldOptions(*command, options->world);
-    return {command, [options] { return generate(*options); }};
+    addSaveOption(*command, options->save,
+                  "Save to generate into; made where it is not there. What it has is not generated again");
+    command->add_flag("--recreate", options->recreate, "Copy the save and make it anew; edits are gone")
+        ->needs("--world");
+    return {command, [options, command] { return generate(*options, *command); }};
 }
 
 }  // namespace terrane::app

@@ -9,13 +9,14 @@ namespace {
 
 struct Entry {
     std::string_view name;
+    int version;  // one more with every change that changes a block
     void (*write)(GeneratorBuilder&);
 };
 
-constexpr std::array<Entry, 4> kGenerators = {{{"overworld", writeOverworld},
-                                               {"flat", writeFlat},
-                                               {"hills3d", writeHills3D},
-                                               {"voronoi", writeVoronoi}}};
+constexpr std::array<Entry, 4> kGenerators = {{{"overworld", 1, writeOverworld},
+                                               {"flat", 1, writeFlat},
+                                               {"hills3d", 1, writeHills3D},
+                                               {"voronoi", 1, writeVoronoi}}};
 
 }  // namespace
 
@@ -23,6 +24,12 @@ std::vector<std::string> generatorNames() {
     std::vector<std::string> names;
     for (const Entry& entry : kGenerators) names.emplace_back(entry.name);
     return names;
+}
+
+int generatorVersion(std::string_view name) {
+    for (const Entry& entry : kGenerators)
+        if (entry.name == name) return entry.version;
+    return 0;
 }
 
 base::Result<GeneratorGraph> makeGenerator(std::string_view name, const world::BlockRegistry& blocks) {

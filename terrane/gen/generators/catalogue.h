@@ -12,6 +12,9 @@ namespace terrane::gen {
 
 std::vector<std::string> generatorNames();
 
+// The same name and version make the same blocks: saves hold both. 0 for an unknown name.
+int generatorVersion(std::string_view name);
+
 // An unknown name is an error that lists the known ones.
 base::Result<GeneratorGraph> makeGenerator(std::string_view name, const world::BlockRegistry& blocks);
 

@@ -1,0 +1,82 @@
+// terrane check: looks through a save for damage.
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/content.h"
+#include "terrane/store/save_check.h"
+
+namespace terrane::app {
+namespace {
+
+struct CheckOptions {
+    std::string file;
+    bool json = false;
+    bool foundDamage = false;  // of the run
+};
+
+nlohmann::json toJson(const store::CheckReport& report) {
+    nlohmann::json damaged = nlohmann::json::array();
+    for (const store::DamagedChunk& chunk : report.damaged)
+        damaged.push_back({{"x", chunk.pos.x}, {"y", chunk.pos.y}, {"problem", chunk.problem}});
+    return {{"damaged", report.isDamaged()},
+            {"format", report.format},
+            {"seed", report.identity.seed},
+            {"generator", report.identity.generator},
+            {"generator_version", report.identity.generatorVersion},
+            {"chunks", report.chunks},
+            {"edited_chunks", report.editedChunks},
+            {"chunk_bytes", report.chunkBytes},
+            {"file_bytes", report.fileBytes},
+            {"quarantined", report.quarantined},
+            {"unknown_blocks", report.unknownBlocks},
+            {"file_problems", report.fileProblems},
+            {"damaged_chunks", std::move(damaged)}};
+}
+
+void printText(const std::string& file, const store::CheckReport& report) {
+    if (report.format > 0) {
+        fmt::print("{}: format {}, generator {} version {}, seed {}\n", file, report.format,
+                   report.identity.generator, report.identity.generatorVersion, report.identity.seed);
+        fmt::print("{} chunks, {} of them edited, {} bytes; the file has {} bytes\n", report.chunks,
+                   report.editedChunks, report.chunkBytes, report.fileBytes);
+    }
+    if (report.quarantined > 0) fmt::print("{} damaged chunks were put aside before\n", report.quarantined);
+    for (const std::string& name : report.unknownBlocks) fmt::print("unknown block: {}\n", name);
+    for (const std::string& problem : report.fileProblems) fmt::print("damage: {}\n", problem);
+    for (const store::DamagedChunk& chunk : report.damaged)
+        fmt::print("damage: chunk {},{}: {}\n", chunk.pos.x, chunk.pos.y, chunk.problem);
+    fmt::print("{}\n", report.isDamaged() ? "damaged" : "good");
+}
+
+base::Result<void> check(CheckOptions& options) {
+    const auto blocks = loadBlocks();
+    if (!blocks) return tl::unexpected(blocks.error());
+    const auto report = store::checkSave(options.file, *blocks);
+    if (!report) return tl::unexpected(report.error());
+    options.foundDamage = report->isDamaged();
+    if (options.json) {
+        // What SQLite says of broken pages need not be text.
+        std::cout << toJson(*report).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    } else {
+        printText(options.file, *report);
+    }
+    return {};
+}
+
+}  // namespace
+
+CommandEntry addCheck(CLI::App& app) {
+    auto options = std::make_shared<CheckOptions>();
+    CLI::App* command =
+        app.add_subcommand("check", "Look through a save for damage; exit code 1 where there is some");
+    command->add_option("file", options->file, "The save")->type_name("FILE")->required();
+    command->add_flag("--json", options->json, "Print the report as JSON");
+    return {command, [options] { return check(*options); },
+            [options] { return options->foundDamage ? 1 : 0; }};
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,51 @@
+// Which numbers stand for which block types in a save, and which in this session. Saves name their types: a
+// build with other blocks, or the same in another order, reads an old world correctly.
+//
+// Immutable once made; shared by all threads.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/base/result.h"
+#include "terrane/world/block_registry.h"
+
+namespace terrane::store {
+
+struct SavedName {
+    world::BlockId id = 0;  // in the save
+    std::string name;
+};
+
+class BlockIdMap {
+  public:
+    static constexpr std::uint32_t kNone = 0xFFFF'FFFF;
+
+    // `saved` is what the save has so far, none of its ids or names twice. Types of the registry that it
+    // lacks get ids that it does not use. Names the registry lacks become the session ids behind the
+    // registry's last, for which BlockRegistry::type gives "missing": they are drawn, and go back under their
+    // own id. An error where more than 65,536 types are needed.
+    static base::Result<BlockIdMap> make(const world::BlockRegistry& registry,
+                                         const std::vector<SavedName>& saved);
+
+    std::uint32_t toSession(world::BlockId saved) const { return at(toSession_, saved); }  // kNone: no name
+    std::uint32_t toSaved(world::BlockId session) const {
+        return at(toSaved_, session);
+    }  // kNone: no such type
+
+    const std::vector<SavedName>& added() const { return added_; }        // to be written into the save
+    const std::vector<std::string>& unknown() const { return unknown_; }  // names the registry lacks
+
+  private:
+    static std::uint32_t at(const std::vector<std::uint32_t>& table, world::BlockId id) {
+        return id < table.size() ? table[id] : kNone;
+    }
+
+    std::vector<std::uint32_t> toSession_, toSaved_;
+    std::vector<SavedName> added_;
+    std::vector<std::string> unknown_;
+};
+
+}  // namespace terrane::store

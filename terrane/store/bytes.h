@@ -1,0 +1,67 @@
+// Little-endian numbers in byte strings, as the saved forms have them. Reading is bounds-checked: past the
+// end it gives zeros and remembers, so that a reader asks once, at the end of a part.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace terrane::store {
+
+static_assert(std::endian::native == std::endian::little, "numbers are copied in memory order");
+
+using Bytes = std::vector<std::byte>;
+using ByteView = std::span<const std::byte>;
+
+inline void append(Bytes& bytes, ByteView more) {
+    bytes.insert(bytes.end(), more.begin(), more.end());
+}
+
+template <class T>
+void appendNumber(Bytes& bytes, T value) {
+    static_assert(std::is_integral_v<T>);
+    append(bytes, std::as_bytes(std::span(&value, 1)));
+}
+
+class ByteReader {
+  public:
+    explicit ByteReader(ByteView bytes) : rest_(bytes) {}
+
+    template <class T>
+    T number() {
+        static_assert(std::is_integral_v<T>);
+        T value = 0;
+        copyTo(std::as_writable_bytes(std::span(&value, 1)));
+        return value;
+    }
+
+    // Fills `target`, or leaves it as it is where fewer bytes are left.
+    void copyTo(std::span<std::byte> target) {
+        const ByteView part = take(target.size());
+        if (!part.empty()) std::memcpy(target.data(), part.data(), part.size());
+    }
+
+    // The next `count` bytes, or none where fewer are left.
+    ByteView take(std::size_t count) {
+        if (count > rest_.size()) {
+            isPastEnd_ = true;
+            rest_ = {};
+            return {};
+        }
+        const ByteView part = rest_.first(count);
+        rest_ = rest_.subspan(count);
+        return part;
+    }
+
+    ByteView rest() const { return rest_; }
+    bool isPastEnd() const { return isPastEnd_; }  // some read wanted more than there was
+
+  private:
+    ByteView rest_;
+    bool isPastEnd_ = false;
+};
+
+}  // namespace terrane::store

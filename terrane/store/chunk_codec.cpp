@@ -1,0 +1,270 @@
+#include "terrane/store/chunk_codec.h"
+
+#include <xxhash.h>
+
+#include <array>
+#include <cassert>
+#include <optional>
+#include <utility>
+
+#include "terrane/store/compression.h"
+
+namespace terrane::store {
+namespace {
+
+using world::Section;
+using Value = Section::Value;
+
+// A checksum of all that follows it, the version, the length before compression; then a zstd frame.
+constexpr std::size_t kHeaderBytes = sizeof(std::uint64_t) + sizeof(std::uint8_t) + sizeof(std::uint32_t);
+
+// Beyond this a thread's memory for uncompressed chunks is given back. Sections take 9 KB on average.
+constexpr std::size_t kKeptBytes = 1u << 20;
+
+std::uint64_t checksum(ByteView bytes) {
+    return XXH64(bytes.data(), bytes.size(), 0);
+}
+
+constexpr std::size_t wordCount(int bits) {
+    return static_cast<std::size_t>(world::kBlocksPerSection * bits / 64);
+}
+
+// One thread's memory for a chunk before compression, empty.
+Bytes& scratch() {
+    thread_local Bytes bytes;
+    bytes.clear();
+    if (bytes.capacity() > kKeptBytes) bytes.shrink_to_fit();
+    return bytes;
+}
+
+// Writes values through a function from a value to what stands for it, or to BlockIdMap::kNone.
+template <class Map>
+class SectionWriter {
+  public:
+    SectionWriter(Bytes& out, Map map) : out_(out), map_(map) {}
+
+    // `section` is compact, so that equal sections have equal heads and words.
+    void head(const Section& section) {
+        appendNumber(out_, static_cast<std::uint8_t>(section.bits()));
+        if (section.isUniform()) return value(section.uniformValue());
+        if (section.isDense()) return;
+        appendNumber(out_, static_cast<std::uint16_t>(section.palette().size()));
+        for (const Value v : section.palette()) value(v);
+    }
+
+    void words(const Section& section) {
+        if (!section.isDense()) return append(out_, std::as_bytes(section.words()));
+        std::array<Value, world::kBlocksPerSection> values;
+        section.unpack(values);
+        for (const Value v : values) value(v);
+    }
+
+    std::optional<Value> unmapped() const { return unmapped_; }  // a value that nothing stands for
+
+  private:
+    void value(Value v) {
+        const std::uint32_t mapped = map_(v);
+        if (mapped == BlockIdMap::kNone) unmapped_ = v;
+        appendNumber(out_, static_cast<Value>(mapped));
+    }
+
+    Bytes& out_;
+    Map map_;
+    std::optional<Value> unmapped_;
+};
+
+constexpr auto kSameValue = [](Value v) { return std::uint32_t{v}; };
+
+// Small data without the numbers of slots, which large data brings back.
+Section smallDataAlone(const world::Chunk& chunk, int number, std::span<const world::BlockIndex> large) {
+    Section section = chunk.smallDataSection(number);
+    for (const world::BlockIndex i : large)
+        if (i >> 12 == number) section.set(i & 4095, 0);
+    section.compact();
+    return section;
+}
+
+base::Result<void> appendLargeData(Bytes& out, const world::Chunk& chunk,
+                                   std::span<const world::BlockIndex> large) {
+    std::size_t totalBytes = 0;
+    for (const world::BlockIndex i : large) totalBytes += chunk.largeData(i)->size();
+    constexpr std::size_t kMaxBytes = kMaxChunkBytes - (2u << 20);  // sections and lengths take the rest
+    if (totalBytes > kMaxBytes)
+        return base::fail("the chunk has {} bytes of large data, a save keeps at most {}", totalBytes,
+                          kMaxBytes);
+    appendNumber(out, static_cast<std::uint32_t>(large.size()));
+    for (const world::BlockIndex i : large) {
+        appendNumber(out, i);
+        appendNumber(out, static_cast<std::uint32_t>(chunk.largeData(i)->size()));
+    }
+    for (const world::BlockIndex i : large) append(out, *chunk.largeData(i));
+    return {};
+}
+
+base::Result<void> appendPlain(Bytes& out, const world::Chunk& chunk, const BlockIdMap& ids) {
+    const std::vector<world::BlockIndex> large = chunk.blocksWithLargeData();
+    std::array<Section, world::kSectionsPerChunk> blocks, smallData;
+    for (int n = 0; n < world::kSectionsPerChunk; ++n) {
+        const auto k = static_cast<std::size_t>(n);
+        blocks[k] = chunk.section(n);
+        blocks[k].compact();
+        smallData[k] = smallDataAlone(chunk, n, large);
+    }
+    SectionWriter blockWriter(out, [&](Value id) { return ids.toSaved(id); });
+    SectionWriter dataWriter(out, kSameValue);
+    // Heads first, then the words: 2 % smaller than section by section.
+    for (const Section& section : blocks) blockWriter.head(section);
+    for (const Section& section : smallData) dataWriter.head(section);
+    for (const Section& section : blocks) blockWriter.words(section);
+    for (const Section& section : smallData) dataWriter.words(section);
+    if (blockWriter.unmapped())
+        return base::fail("block id {} stands for no block type", *blockWriter.unmapped());
+    return appendLargeData(out, chunk, large);
+}
+
+struct SectionHead {
+    int bits = 0;
+    Value uniformValue = 0;
+    std::vector<Value> palette;
+};
+
+base::Result<SectionHead> readHead(ByteReader& reader) {
+    SectionHead head;
+    head.bits = reader.number<std::uint8_t>();
+    switch (head.bits) {
+        case 0:
+            head.uniformValue = reader.number<Value>();
+            return head;
+        case 1:
+        case 2:
+        case 4:
+        case 8: {
+            const auto count = reader.number<std::uint16_t>();
+            if (count > 256) return base::fail("a section has a palette of {} values", count);
+            head.palette.resize(count);
+            reader.copyTo(std::as_writable_bytes(std::span(head.palette)));
+            return head;
+        }
+        case 16:
+            return head;
+        default:
+            return base::fail("a section has {} bits a block", head.bits);
+    }
+}
+
+base::Result<Section> readSection(ByteReader& reader, SectionHead head) {
+    if (head.bits == 0) return Section(head.uniformValue);
+    std::vector<std::uint64_t> words(wordCount(head.bits));
+    reader.copyTo(std::as_writable_bytes(std::span(words)));
+    auto section = Section::fromPacked(head.bits, std::move(head.palette), std::move(words));
+    if (!section) return base::fail("a section's palette of {} bits does not fit its blocks", head.bits);
+    return std::move(*section);
+}
+
+// From saved ids to those of the session.
+base::Result<Section> readBlocks(ByteReader& reader, SectionHead head, const BlockIdMap& ids) {
+    std::optional<Value> unnamed;
+    const auto map = [&](Value& id) {
+        const std::uint32_t session = ids.toSession(id);
+        if (session == BlockIdMap::kNone) unnamed = id;
+        id = static_cast<Value>(session);
+    };
+    if (head.bits == 0) map(head.uniformValue);
+    for (Value& id : head.palette) map(id);
+    const bool isDense = head.bits == 16;
+    auto section = readSection(reader, std::move(head));
+    if (section && isDense) {
+        std::array<Value, world::kBlocksPerSection> values;
+        section->unpack(values);
+        for (Value& id : values) map(id);
+        section = Section::fromValues(values);
+    }
+    if (section && unnamed) return base::fail("block id {} has no name in this save", *unnamed);
+    return section;
+}
+
+base::Result<void> readLargeData(ByteReader& reader, world::Chunk& chunk) {
+    const auto count = reader.number<std::uint32_t>();
+    if (count > world::kBlocksPerChunk) return base::fail("{} blocks have large data", count);
+    constexpr std::size_t kEntryBytes = sizeof(world::BlockIndex) + sizeof(std::uint32_t);
+    ByteReader entries(reader.take(count * kEntryBytes));
+    int last = -1;
+    for (std::uint32_t n = 0; n < count && !reader.isPastEnd(); ++n) {
+        const auto index = entries.number<world::BlockIndex>();
+        if (index <= last) return base::fail("large data of blocks is out of order");
+        last = index;
+        const ByteView data = reader.take(entries.number<std::uint32_t>());
+        chunk.setLargeData(index, world::LargeData(data.begin(), data.end()));
+    }
+    return {};
+}
+
+base::Result<world::Chunk> readPlain(ByteView bytes, const BlockIdMap& ids) {
+    ByteReader reader(bytes);
+    std::array<SectionHead, 2 * world::kSectionsPerChunk> heads;
+    for (SectionHead& head : heads) {
+        auto read = readHead(reader);
+        if (!read) return tl::unexpected(read.error());
+        head = std::move(*read);
+    }
+    world::Chunk chunk;
+    for (int n = 0; n < 2 * world::kSectionsPerChunk && !reader.isPastEnd(); ++n) {
+        SectionHead& head = heads[static_cast<std::size_t>(n)];
+        const bool isBlocks = n < world::kSectionsPerChunk;
+        auto section =
+            isBlocks ? readBlocks(reader, std::move(head), ids) : readSection(reader, std::move(head));
+        if (!section) return tl::unexpected(section.error());
+        if (isBlocks) {
+            chunk.setSection(n, std::move(*section));
+        } else {
+            chunk.setSmallDataSection(n - world::kSectionsPerChunk, std::move(*section));
+        }
+    }
+    if (auto read = readLargeData(reader, chunk); !read) return tl::unexpected(read.error());
+    if (reader.isPastEnd()) return base::fail("the chunk ends too early");
+    if (!reader.rest().empty()) return base::fail("{} bytes too many", reader.rest().size());
+    return chunk;
+}
+
+}  // namespace
+
+base::Result<Bytes> encodeChunk(const world::Chunk& chunk, const BlockIdMap& ids) {
+    Bytes& plain = scratch();
+    if (auto done = appendPlain(plain, chunk, ids); !done) return tl::unexpected(done.error());
+    assert(plain.size() <= kMaxChunkBytes && "large data is limited");
+
+    Bytes out;
+    out.reserve(plain.size() + kHeaderBytes);
+    appendNumber(out, std::uint64_t{0});
+    appendNumber(out, kChunkVersion);
+    appendNumber(out, static_cast<std::uint32_t>(plain.size()));
+    appendCompressed(out, plain);
+    const std::uint64_t sum = checksum(ByteView(out).subspan(sizeof(std::uint64_t)));
+    std::memcpy(out.data(), &sum, sizeof sum);
+    out.shrink_to_fit();
+    return out;
+}
+
+base::Result<void> verifyChunk(ByteView bytes) {
+    if (bytes.size() < kHeaderBytes) return base::fail("{} bytes are too few for a chunk", bytes.size());
+    ByteReader reader(bytes);
+    const auto sum = reader.number<std::uint64_t>();
+    if (sum != checksum(reader.rest())) return base::fail("the checksum is wrong");
+    const auto version = reader.number<std::uint8_t>();
+    if (version != kChunkVersion) return base::fail("chunk version {}, expected {}", version, kChunkVersion);
+    return {};
+}
+
+base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids) {
+    if (auto good = verifyChunk(bytes); !good) return tl::unexpected(good.error());
+    ByteReader reader(bytes.subspan(sizeof(std::uint64_t) + sizeof(std::uint8_t)));
+    const auto plainBytes = reader.number<std::uint32_t>();
+    if (plainBytes > kMaxChunkBytes)
+        return base::fail("the chunk says it has {} bytes, expected at most {}", plainBytes, kMaxChunkBytes);
+    Bytes& plain = scratch();
+    plain.resize(plainBytes);
+    if (auto done = decompress(reader.rest(), plain); !done) return tl::unexpected(done.error());
+    return readPlain(plain, ids);
+}
+
+}  // namespace terrane::store

@@ -1,0 +1,89 @@
+#include "terrane/store/file_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <optional>
+#include <string>
+#include <system_error>
+
+namespace terrane::store {
+namespace {
+
+std::string reason(int errorNumber) {
+    return std::generic_category().message(errorNumber);
+}
+
+// The process that took the lock last.
+std::string ownerOf(int descriptor) {
+    std::array<char, 16> text{};
+    const ssize_t size = ::pread(descriptor, text.data(), text.size(), 0);
+    return size > 0 ? " (process " + std::string(text.data(), static_cast<std::size_t>(size)) + ")" : "";
+}
+
+void writeOwner(int descriptor) {
+    const std::string number = std::to_string(::getpid());
+    // For messages only: without it they tell less.
+    if (::ftruncate(descriptor, 0) == 0) (void)!::pwrite(descriptor, number.data(), number.size(), 0);
+}
+
+// False where the file was removed by the lock's last owner after it was opened here.
+bool isStillThere(int descriptor, const std::filesystem::path& file) {
+    struct stat opened {
+    }, there{};
+    return ::fstat(descriptor, &opened) == 0 && ::stat(file.c_str(), &there) == 0 &&
+           opened.st_ino == there.st_ino && opened.st_dev == there.st_dev;
+}
+
+}  // namespace
+
+base::Result<FileLock> FileLock::acquire(const std::filesystem::path& path, Kind kind) {
+    std::filesystem::path file = path;
+    file += "-lock";
+    while (true) {
+        const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+        if (descriptor < 0) return base::fail("{}: cannot be written: {}", file.string(), reason(errno));
+        FileLock lock(descriptor, file);
+        if (::flock(descriptor, (kind == Kind::Exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
+            const int error = errno;
+            lock.file_.clear();  // it is another's to remove
+            if (error != EWOULDBLOCK)
+                return base::fail("{}: cannot be locked: {}", path.string(), reason(error));
+            return base::fail("{}: open in another program{}", path.string(), ownerOf(descriptor));
+        }
+        if (!isStillThere(descriptor, file)) {
+            lock.file_.clear();
+            continue;
+        }
+        writeOwner(descriptor);
+        return lock;
+    }
+}
+
+FileLock::~FileLock() {
+    release();
+}
+
+FileLock::FileLock(FileLock&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)), file_(std::move(other.file_)) {}
+
+FileLock& FileLock::operator=(FileLock&& other) noexcept {
+    release();
+    descriptor_ = std::exchange(other.descriptor_, -1);
+    file_ = std::move(other.file_);
+    return *this;
+}
+
+void FileLock::release() {
+    if (descriptor_ < 0) return;
+    // Removed only by who has it alone: others may share it.
+    if (!file_.empty() && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) ::unlink(file_.c_str());
+    ::close(descriptor_);
+    descriptor_ = -1;
+}
+
+}  // namespace terrane::store

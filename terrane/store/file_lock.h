@@ -1,0 +1,31 @@
+// Keeps other programs from a save. The lock is a file beside it, removed at the end; a program that is
+// killed leaves the file but not the lock. Not a lock on the save itself: closing any handle of a file would
+// end the locks that SQLite has on it.
+#pragma once
+
+#include <filesystem>
+#include <utility>
+
+#include "terrane/base/result.h"
+
+namespace terrane::store {
+
+class FileLock {
+  public:
+    enum class Kind { Exclusive, Shared };
+
+    // Does not wait. The error names `path`, what is locked, and the program that has it.
+    static base::Result<FileLock> acquire(const std::filesystem::path& path, Kind kind);
+    ~FileLock();
+    FileLock(FileLock&& other) noexcept;
+    FileLock& operator=(FileLock&& other) noexcept;
+
+  private:
+    FileLock(int descriptor, std::filesystem::path file) : descriptor_(descriptor), file_(std::move(file)) {}
+    void release();
+
+    int descriptor_ = -1;
+    std::filesystem::path file_;
+};
+
+}  // namespace terrane::store

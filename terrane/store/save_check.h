@@ -1,0 +1,37 @@
+// Looks through a whole save for damage, changing nothing.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "terrane/store/chunk_store.h"
+#include "terrane/world/block_registry.h"
+
+namespace terrane::store {
+
+struct DamagedChunk {
+    world::ChunkPos pos;
+    std::string problem;
+};
+
+struct CheckReport {
+    std::int64_t format = 0;
+    WorldIdentity identity;
+    std::size_t chunks = 0, editedChunks = 0;  // that are stored, damaged ones included
+    std::uint64_t chunkBytes = 0;              // of their data
+    std::uint64_t fileBytes = 0;               // of the file with its log
+    std::size_t quarantined = 0;               // rows that were found damaged before and put aside
+
+    std::vector<std::string> fileProblems;  // of SQLite's pages and of the tables
+    std::vector<DamagedChunk> damaged;
+    std::vector<std::string> unknownBlocks;  // names the registry lacks; no damage
+
+    bool isDamaged() const { return !fileProblems.empty() || !damaged.empty(); }
+};
+
+// An error where there is no save to look through, or another program has it open.
+[[nodiscard]] base::Result<CheckReport> checkSave(const std::filesystem::path& path,
+                                                  const world::BlockRegistry& registry);
+
+}  // namespace terrane::store

@@ -1,0 +1,240 @@
+#include "terrane/store/save_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "terrane/base/log.h"
+
+namespace terrane::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isPresent(const fs::path& path) {
+    std::error_code ignored;  // what cannot be looked at counts as not there
+    return fs::exists(path, ignored);
+}
+
+bool isBeside(const fs::path& path, const char* ending) {
+    fs::path beside = path;
+    beside += ending;
+    std::error_code ignored;
+    const auto size = fs::file_size(beside, ignored);
+    return !ignored && size > 0;
+}
+
+// Committed transactions that have not reached the file itself: a program was killed, or is writing.
+bool hasLog(const fs::path& path) {
+    return isBeside(path, "-wal");
+}
+
+// What a transaction that was cut short has to be undone with. Only making a save leaves one.
+bool hasJournal(const fs::path& path) {
+    return isBeside(path, "-journal");
+}
+
+std::uint32_t bigEndian(const unsigned char* bytes, int count) {
+    std::uint32_t value = 0;
+    for (int i = 0; i < count; ++i) value = value << 8 | bytes[i];
+    return value;
+}
+
+// SQLite notices a file that lost its end only when it reads there. (File format, section 1.3: the page size
+// is at 16, the number of pages at 28.)
+base::Result<void> checkLength(const fs::path& path, std::uintmax_t sizeBytes) {
+    unsigned char header[100] = {};
+    std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(header), sizeof header);
+    const std::uint32_t pageBytes = bigEndian(header + 16, 2) == 1 ? 65536 : bigEndian(header + 16, 2);
+    const std::uintmax_t expected = std::uintmax_t{pageBytes} * bigEndian(header + 28, 4);
+    if (sizeBytes >= expected || hasLog(path) || hasJournal(path)) return {};
+    return base::fail("{}: damaged: cut off after {} of {} bytes", path.string(), sizeBytes, expected);
+}
+
+// True where there is a file with something in it that may be a save.
+base::Result<bool> checkFile(const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status)) return false;
+    if (!fs::is_regular_file(status)) return base::fail("{}: not a file", path.string());
+    const std::uintmax_t size = fs::file_size(path, error);
+    if (error) return base::fail("{}: cannot be read: {}", path.string(), error.message());
+    if (size == 0) return false;
+    std::ifstream file(path, std::ios::binary);
+    if (!file)
+        return base::fail("{}: cannot be read: {}", path.string(), std::generic_category().message(errno));
+    char magic[16] = {};
+    file.read(magic, sizeof magic);
+    if (std::string_view(magic, sizeof magic) != std::string_view("SQLite format 3", 16))
+        return base::fail("{}: not a save: not a SQLite file", path.string());
+    if (auto whole = checkLength(path, size); !whole) return tl::unexpected(whole.error());
+    return true;
+}
+
+// "a.sqlite" gives "a.backup-1.sqlite", or the first number that is free.
+fs::path backupPath(const fs::path& path, const std::string& word) {
+    for (int number = 1;; ++number) {
+        fs::path backup = path.parent_path() / fmt::format("{}.{}-{}{}", path.stem().string(), word, number,
+                                                           path.extension().string());
+        if (!isPresent(backup)) return backup;
+    }
+}
+
+base::Result<void> makeCurrent(SaveFile& file, const fs::path& path, const SaveAccess& access) {
+    auto kind = classify(file.database);
+    if (!kind) return tl::unexpected(kind.error());
+    if (*kind == SaveKind::Empty) {
+        if (!access.create) return base::fail("{}: empty, not a save", path.string());
+        file.isNew = true;
+        return createTables(file.database, *access.create);
+    }
+    if (*kind == SaveKind::Old) {
+        const fs::path backup = backupPath(path, "before-migration");
+        auto migrated = migrate(file.database, migrations(), kFormatVersion, backup);
+        if (!migrated) return migrated;
+        base::logInfo("{}: brought to format {}; the old file is {}", path.string(), kFormatVersion,
+                      backup.string());
+    }
+    return {};
+}
+
+// The copy is made before anything is deleted.
+base::Result<void> recreate(SaveFile& file, const fs::path& path, int generatorVersion) {
+    const fs::path backup = backupPath(path, "backup");
+    if (auto copied = file.database.backUpTo(backup); !copied) {
+        std::error_code ignored;
+        fs::remove(backup, ignored);
+        return copied;
+    }
+    auto transaction = Transaction::begin(file.database);
+    if (!transaction) return tl::unexpected(transaction.error());
+    const std::string sql = fmt::format(
+        "DELETE FROM chunks; DELETE FROM quarantine; "
+        "UPDATE settings SET value = '{}' WHERE name = 'generator_version'",
+        generatorVersion);
+    if (auto done = file.database.execute(sql); !done) return done;
+    if (auto done = transaction->commit(); !done) return done;
+    base::logInfo("{}: made anew; the world as it was is {}", path.string(), backup.string());
+    return {};
+}
+
+base::Result<void> readContents(SaveFile& file, const world::BlockRegistry& registry) {
+    auto settings = readSettings(file.database);
+    if (!settings) return tl::unexpected(settings.error());
+    file.settings = std::move(*settings);
+    auto identity = identityFrom(file.settings, file.database.path());
+    if (!identity) return tl::unexpected(identity.error());
+    file.identity = std::move(*identity);
+    auto names = readBlockNames(file.database);
+    if (!names) return tl::unexpected(names.error());
+    auto ids = BlockIdMap::make(registry, *names);
+    if (!ids) return base::fail("{}: {}", file.database.path(), ids.error().message);
+    file.ids = std::move(*ids);
+    return {};
+}
+
+base::Result<void> writeNewNames(SaveFile& file) {
+    if (file.ids.added().empty()) return {};
+    auto transaction = Transaction::begin(file.database);
+    if (!transaction) return tl::unexpected(transaction.error());
+    auto insert = file.database.prepare("INSERT INTO blocks (id, name) VALUES (?1, ?2)");
+    if (!insert) return tl::unexpected(insert.error());
+    for (const SavedName& added : file.ids.added()) {
+        insert->bind(1, std::int64_t{added.id});
+        insert->bind(2, std::string_view(added.name));
+        if (auto done = insert->run(); !done) return done;
+    }
+    return transaction->commit();
+}
+
+base::Result<void> makeFolder(const fs::path& path) {
+    std::error_code error;
+    if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
+    if (error) return base::fail("{}: cannot be made: {}", path.parent_path().string(), error.message());
+    return {};
+}
+
+void reportUnknown(const SaveFile& file) {
+    const std::vector<std::string>& names = file.ids.unknown();
+    if (names.empty()) return;
+    base::logWarning("{}: {} block types are unknown here and shown as missing, the first is {}",
+                     file.database.path(), names.size(), names.front());
+}
+
+}  // namespace
+
+bool isWritable(const fs::path& path) {
+    const auto can = [](const fs::path& p) {
+        return ::faccessat(AT_FDCWD, p.c_str(), W_OK, AT_EACCESS) == 0;
+    };
+    if (isPresent(path) && !can(path)) return false;
+    // Of the folders that are to be made the first that is there counts.
+    fs::path folder = fs::absolute(path).parent_path();
+    while (!isPresent(folder) && folder.has_relative_path()) folder = folder.parent_path();
+    return can(folder);
+}
+
+base::Result<SaveFile> openToWrite(const fs::path& path, const world::BlockRegistry& registry,
+                                   const SaveAccess& access) {
+    auto isThere = checkFile(path);
+    if (!isThere) return tl::unexpected(isThere.error());
+    if (!*isThere && !access.create) {
+        return base::fail("{}: {}", path.string(),
+                          isPresent(path) ? "empty, not a save" : "there is no such file");
+    }
+    if (auto made = makeFolder(path); !made) return tl::unexpected(made.error());
+    auto lock = FileLock::acquire(path, FileLock::Kind::Exclusive);
+    if (!lock) return tl::unexpected(lock.error());
+    auto database = Database::open(path, access.create ? OpenMode::Create : OpenMode::ReadWrite);
+    if (!database) return tl::unexpected(database.error());
+
+    SaveFile file{std::move(*lock), std::move(*database), OpenMode::ReadOnly, false, {}, {}, {}};
+    if (auto done = makeCurrent(file, path, access); !done) return tl::unexpected(done.error());
+    // After the tables: a new file is never seen without them. Each commit waits for the disk.
+    const auto set = file.database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
+    if (!set) return tl::unexpected(set.error());
+    if (access.recreateVersion && !file.isNew) {
+        if (auto done = recreate(file, path, *access.recreateVersion); !done)
+            return tl::unexpected(done.error());
+    }
+    if (auto done = readContents(file, registry); !done) return tl::unexpected(done.error());
+    if (auto done = writeNewNames(file); !done) return tl::unexpected(done.error());
+    reportUnknown(file);
+    return file;
+}
+
+base::Result<SaveFile> openToRead(const fs::path& path, const world::BlockRegistry& registry) {
+    auto isThere = checkFile(path);
+    if (!isThere) return tl::unexpected(isThere.error());
+    if (!*isThere) {
+        return base::fail("{}: {}", path.string(),
+                          isPresent(path) ? "empty, not a save" : "there is no such file");
+    }
+    std::optional<FileLock> lock;
+    if (isWritable(path)) {
+        auto acquired = FileLock::acquire(path, FileLock::Kind::Shared);
+        if (!acquired) return tl::unexpected(acquired.error());
+        lock = std::move(*acquired);
+    }
+    // Without a log nothing needs to be made beside the file, which may be impossible.
+    OpenMode mode = hasLog(path) ? OpenMode::ReadOnly : OpenMode::Immutable;
+    if (hasJournal(path)) mode = OpenMode::ReadWrite;
+    auto database = Database::open(path, mode);
+    if (!database) return tl::unexpected(database.error());
+    SaveFile file{std::move(lock), std::move(*database), mode, false, {}, {}, {}};
+    auto kind = classify(file.database);
+    if (!kind) return tl::unexpected(kind.error());
+    if (*kind == SaveKind::Empty) return base::fail("{}: empty, not a save", path.string());
+    if (*kind == SaveKind::Old)
+        return base::fail("{}: in an older format; playing in it once brings it to format {}", path.string(),
+                          kFormatVersion);
+    if (auto done = readContents(file, registry); !done) return tl::unexpected(done.error());
+    reportUnknown(file);
+    return file;
+}
+
+}  // namespace terrane::store

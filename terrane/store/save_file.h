@@ -1,0 +1,50 @@
+// Opens the file of a save: finds out what is wrong with it before anything is done, takes the lock, makes or
+// migrates the tables.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "terrane/store/block_id_map.h"
+#include "terrane/store/file_lock.h"
+#include "terrane/store/schema.h"
+#include "terrane/store/sqlite.h"
+
+namespace terrane::store {
+
+// Stands after the path in errors about a file that is a save and damaged, rather than the wrong one.
+constexpr std::string_view kDamaged = ": damaged: ";
+
+struct SaveFile {
+    std::optional<FileLock> lock;  // none where the folder cannot be written. Goes last.
+    Database database;
+    OpenMode readers = OpenMode::ReadOnly;  // how further connections are to be opened
+    bool isNew = false;
+
+    // What the save had when it was opened.
+    std::map<std::string, std::string> settings;
+    WorldIdentity identity;
+    BlockIdMap ids;
+};
+
+struct SaveAccess {
+    // Made, with its folders, where it is not there. Nothing: it must be there.
+    std::optional<WorldIdentity> create;
+    // All chunks are thrown away after a copy beside the save, and made anew by this version of the
+    // generator.
+    std::optional<int> recreateVersion;
+};
+
+// To read and write. New names of block types are written already.
+base::Result<SaveFile> openToWrite(const std::filesystem::path& path, const world::BlockRegistry& registry,
+                                   const SaveAccess& access);
+
+// Changes nothing; no other program may write meanwhile.
+base::Result<SaveFile> openToRead(const std::filesystem::path& path, const world::BlockRegistry& registry);
+
+// Whether the save, or a new one, could be written there: the file, its folder, their file system.
+bool isWritable(const std::filesystem::path& path);
+
+}  // namespace terrane::store

@@ -1,0 +1,152 @@
+#include "terrane/store/save_queue.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/base/profile.h"
+
+namespace terrane::store {
+namespace {
+
+using Chunks = decltype(SaveBatch::chunks);
+
+// The newer one counts, but for a generated chunk after an edited one.
+void put(Chunks& chunks, world::ChunkPos pos, WaitingChunk newer) {
+    const auto [entry, isNew] = chunks.try_emplace(pos, newer);
+    if (!isNew && newer.origin >= entry->second.origin) entry->second = std::move(newer);
+}
+
+}  // namespace
+
+SaveQueue::SaveQueue(WriteBatch write, SaveLimits limits)
+    : write_(std::move(write)), limits_(limits), thread_([this] { run(); }) {}
+
+SaveQueue::~SaveQueue() {
+    {
+        const std::lock_guard lock(mutex_);
+        isEnding_ = true;
+    }
+    wake_.notify_all();
+    thread_.join();
+    if (!waiting_.chunks.empty() && !isProblemTold_)
+        base::logError("{} chunks are lost: {}", waiting_.chunks.size(), problem_);
+}
+
+template <class Add>
+SaveNumber SaveQueue::addNumbered(Add add) {
+    SaveNumber number = 0;
+    bool wakes = false;
+    {
+        const std::lock_guard lock(mutex_);
+        add();
+        isProblemTold_ = false;
+        number = ++queued_;
+        const bool isFirst = due_ == Clock::time_point::max();
+        if (isFirst) due_ = Clock::now() + limits_.delay;
+        wakes = isFirst || waiting_.chunks.size() >= limits_.chunks;
+    }
+    if (wakes) wake_.notify_one();
+    return number;
+}
+
+SaveNumber SaveQueue::add(world::ChunkPos pos, WaitingChunk chunk) {
+    return addNumbered([&] { put(waiting_.chunks, pos, std::move(chunk)); });
+}
+
+SaveNumber SaveQueue::add(const std::string& setting, std::string value) {
+    return addNumbered([&] { waiting_.settings[setting] = std::move(value); });
+}
+
+void SaveQueue::add(DamagedRow row) {
+    (void)addNumbered([&] { waiting_.damaged.push_back(std::move(row)); });
+}
+
+std::optional<WaitingChunk> SaveQueue::find(world::ChunkPos pos) {
+    const std::lock_guard lock(mutex_);
+    for (const SaveBatch* batch : {&waiting_, &writing_}) {
+        const auto found = batch->chunks.find(pos);
+        if (found != batch->chunks.end()) return found->second;
+    }
+    return std::nullopt;
+}
+
+base::Result<void> SaveQueue::flush() {
+    std::unique_lock lock(mutex_);
+    const SaveNumber goal = queued_;
+    if (durable_ >= goal) return {};
+    // An attempt that runs already may have begun without the last saves.
+    const std::uint64_t attempt = attempts_ + 1;
+    wantedAttempts_ = std::max(wantedAttempts_, attempt);
+    wake_.notify_all();
+    written_.wait(lock, [&] { return durable_ >= goal || finished_ >= attempt; });
+    if (durable_ >= goal) return {};
+    isProblemTold_ = true;
+    return tl::unexpected(base::Error{problem_});
+}
+
+SaveStatus SaveQueue::status() {
+    const std::lock_guard lock(mutex_);
+    return {queued_, durable_, waiting_.chunks.size() + writing_.chunks.size(), problem_};
+}
+
+// After a failure the number of chunks no longer counts, or a full disk would be tried again at each save.
+bool SaveQueue::isDue() const {
+    if (isEnding_ || wantedAttempts_ > attempts_) return true;
+    return (waiting_.chunks.size() >= limits_.chunks && problem_.empty()) || Clock::now() >= due_;
+}
+
+void SaveQueue::run() {
+    base::setThreadName("save");
+    std::unique_lock lock(mutex_);
+    while (true) {
+        while (!isDue()) {
+            if (due_ == Clock::time_point::max()) {
+                wake_.wait(lock);
+            } else {
+                wake_.wait_until(lock, due_);
+            }
+        }
+        const bool isLast = isEnding_;
+        writeOnce(lock);
+        if (isLast) return;
+    }
+}
+
+void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock) {
+    ++attempts_;
+    writing_ = std::exchange(waiting_, {});
+    due_ = Clock::time_point::max();
+    const SaveNumber goal = queued_;
+    lock.unlock();
+    base::Result<void> done;
+    if (!writing_.isEmpty()) done = write_(writing_);
+    lock.lock();
+
+    if (done) {
+        if (!problem_.empty()) base::logInfo("saving works again");
+        problem_.clear();
+        durable_ = goal;
+        writing_ = {};
+    } else {
+        // Who waits for flush() is told there.
+        if (problem_.empty() && wantedAttempts_ < attempts_)
+            base::logError("{}; {} chunks wait, tried again every {} s", done.error().message,
+                           writing_.chunks.size(), static_cast<double>(limits_.delay.count()) / 1000);
+        problem_ = done.error().message;
+        takeBack(std::exchange(writing_, {}));
+    }
+    ++finished_;
+    written_.notify_all();
+}
+
+// What came meanwhile is newer.
+void SaveQueue::takeBack(SaveBatch failed) {
+    SaveBatch newer = std::exchange(waiting_, std::move(failed));
+    for (auto& [pos, chunk] : newer.chunks) put(waiting_.chunks, pos, std::move(chunk));
+    for (auto& [name, value] : newer.settings) waiting_.settings[name] = std::move(value);
+    std::move(newer.damaged.begin(), newer.damaged.end(), std::back_inserter(waiting_.damaged));
+    due_ = Clock::now() + limits_.delay;
+}
+
+}  // namespace terrane::store

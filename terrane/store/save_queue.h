@@ -1,0 +1,90 @@
+// Collects what is to be saved and writes it in batches on a thread of its own. What failed to be written,
+// because the disk is full for example, stays and is tried again. Any thread may call everything.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <unordered_map>
+#include <vector>
+
+#include "terrane/store/bytes.h"
+#include "terrane/store/chunk_store.h"
+
+namespace terrane::store {
+
+struct WaitingChunk {
+    world::ChunkPtr chunk;
+    Origin origin = Origin::Generated;
+};
+
+// A row that is no chunk: to be moved aside if it still has these bytes.
+struct DamagedRow {
+    world::ChunkPos pos;
+    Bytes data;
+    std::string reason;
+};
+
+struct SaveBatch {
+    std::unordered_map<world::ChunkPos, WaitingChunk, world::ChunkPosHash> chunks;
+    std::map<std::string, std::string> settings;
+    std::vector<DamagedRow> damaged;
+
+    bool isEmpty() const { return chunks.empty() && settings.empty() && damaged.empty(); }
+};
+
+struct SaveLimits {
+    // What is waiting is written after this time, or as soon as there are this many chunks of about 10 KB.
+    std::chrono::milliseconds delay{2000};
+    std::size_t chunks = 1024;
+};
+
+class SaveQueue {
+  public:
+    // Makes all of a batch durable, or nothing of it. Called on the queue's thread, never twice at a time.
+    using WriteBatch = std::function<base::Result<void>(const SaveBatch&)>;
+
+    SaveQueue(WriteBatch write, SaveLimits limits);
+    ~SaveQueue();  // writes what waits; what fails now is lost, which is logged unless flush() told it
+    SaveQueue(const SaveQueue&) = delete;
+    SaveQueue& operator=(const SaveQueue&) = delete;
+
+    SaveNumber add(world::ChunkPos pos, WaitingChunk chunk);
+    SaveNumber add(const std::string& setting, std::string value);
+    void add(DamagedRow row);
+
+    std::optional<WaitingChunk> find(world::ChunkPos pos);  // waiting or being written
+    base::Result<void> flush();                             // as ChunkStore::flush()
+    SaveStatus status();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    void run();
+    bool isDue() const;
+    void writeOnce(std::unique_lock<std::mutex>& lock);
+    void takeBack(SaveBatch failed);
+    template <class Add>
+    SaveNumber addNumbered(Add add);
+
+    WriteBatch write_;
+    SaveLimits limits_;
+    mutable std::mutex mutex_;
+    std::condition_variable wake_, written_;
+    SaveBatch waiting_, writing_;
+    SaveNumber queued_ = 0, durable_ = 0;
+    Clock::time_point due_ = Clock::time_point::max();  // when what waits must be written
+    std::uint64_t attempts_ = 0, wantedAttempts_ = 0;   // begun and asked for by flush
+    std::uint64_t finished_ = 0;                        // attempts
+    std::string problem_;
+    bool isProblemTold_ = false;  // by flush(), and nothing was added since
+    bool isEnding_ = false;
+    std::thread thread_;
+};
+
+}  // namespace terrane::store

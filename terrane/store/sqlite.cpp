@@ -1,0 +1,190 @@
+#include "terrane/store/sqlite.h"
+
+#include <sqlite3.h>
+
+#include <cassert>
+
+namespace terrane::store {
+namespace {
+
+// How long a statement waits for another connection of this program. Other programs are kept out by the lock.
+constexpr int kBusyMilliseconds = 10000;
+
+// What a person can do something about, in plain words; SQLite's own words for the rest.
+std::string describe(int code, const char* message) {
+    switch (code & 0xFF) {
+        case SQLITE_FULL:
+            return "the disk is full";
+        case SQLITE_NOTADB:
+            return "not a SQLite file";
+        case SQLITE_CORRUPT:
+            return fmt::format("damaged: {}", message);
+        case SQLITE_BUSY:
+        case SQLITE_LOCKED:
+            return "in use by another program";
+        case SQLITE_READONLY:
+            return "cannot be written";
+        case SQLITE_CANTOPEN:
+            return "cannot be opened";
+        case SQLITE_IOERR:
+            return fmt::format("reading or writing failed (SQLite code {})", code);
+        default:
+            return message;
+    }
+}
+
+tl::unexpected<base::Error> failure(const std::string& path, sqlite3* database) {
+    return base::fail("{}: {}", path, describe(sqlite3_extended_errcode(database), sqlite3_errmsg(database)));
+}
+
+// "file:" and the path with what means something in a URI escaped.
+std::string uriOf(const std::filesystem::path& path, bool isImmutable) {
+    std::string uri = "file:";
+    for (const char c : path.string()) {
+        if (c == '?' || c == '#' || c == '%') {
+            uri += fmt::format("%{:02x}", static_cast<unsigned char>(c));
+        } else {
+            uri += c;
+        }
+    }
+    return isImmutable ? uri + "?immutable=1" : uri;
+}
+
+int openFlags(OpenMode mode) {
+    constexpr int kCommon = SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX;
+    switch (mode) {
+        case OpenMode::Create:
+            return kCommon | SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+        case OpenMode::ReadWrite:
+            return kCommon | SQLITE_OPEN_READWRITE;
+        case OpenMode::ReadOnly:
+        case OpenMode::Immutable:
+            break;
+    }
+    return kCommon | SQLITE_OPEN_READONLY;
+}
+
+}  // namespace
+
+void Statement::Finalize::operator()(sqlite3_stmt* statement) const {
+    sqlite3_finalize(statement);
+}
+
+void Statement::bind(int parameter, std::int64_t value) {
+    [[maybe_unused]] const int code = sqlite3_bind_int64(statement_.get(), parameter, value);
+    assert(code == SQLITE_OK && "the statement has this parameter and was reset");
+}
+
+void Statement::bind(int parameter, std::string_view text) {
+    [[maybe_unused]] const int code = sqlite3_bind_text64(statement_.get(), parameter, text.data(),
+                                                          text.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
+    assert(code == SQLITE_OK && "the statement has this parameter and was reset");
+}
+
+void Statement::bind(int parameter, ByteView blob) {
+    [[maybe_unused]] const int code =
+        sqlite3_bind_blob64(statement_.get(), parameter, blob.data(), blob.size(), SQLITE_TRANSIENT);
+    assert(code == SQLITE_OK && "the statement has this parameter and was reset");
+}
+
+base::Result<bool> Statement::step() {
+    const int code = sqlite3_step(statement_.get());
+    if (code == SQLITE_ROW) return true;
+    if (code == SQLITE_DONE) return false;
+    return failure(*path_, sqlite3_db_handle(statement_.get()));
+}
+
+base::Result<void> Statement::run() {
+    base::Result<bool> more = true;
+    while (more && *more) more = step();
+    reset();
+    if (!more) return tl::unexpected(more.error());
+    return {};
+}
+
+void Statement::reset() {
+    sqlite3_reset(statement_.get());
+}
+
+std::int64_t Statement::number(int column) const {
+    return sqlite3_column_int64(statement_.get(), column);
+}
+
+std::string_view Statement::text(int column) const {
+    const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
+    return {text ? text : "", static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+}
+
+ByteView Statement::blob(int column) const {
+    const auto* data = static_cast<const std::byte*>(sqlite3_column_blob(statement_.get(), column));
+    return {data, data ? static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column)) : 0};
+}
+
+void Database::Close::operator()(sqlite3* database) const {
+    [[maybe_unused]] const int code = sqlite3_close(database);
+    assert(code == SQLITE_OK && "statements go before their database");
+}
+
+base::Result<Database> Database::open(const std::filesystem::path& path, OpenMode mode) {
+    Database result(path.string());
+    sqlite3* handle = nullptr;
+    const std::string uri = uriOf(path, mode == OpenMode::Immutable);
+    const int code = sqlite3_open_v2(uri.c_str(), &handle, openFlags(mode), nullptr);
+    result.database_.reset(handle);
+    if (code != SQLITE_OK) return failure(result.path(), handle);
+    sqlite3_extended_result_codes(handle, 1);
+    sqlite3_busy_timeout(handle, kBusyMilliseconds);
+    return result;
+}
+
+base::Result<void> Database::execute(const std::string& sql) {
+    if (sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK) return {};
+    return failure(path(), database_.get());
+}
+
+base::Result<Statement> Database::prepare(std::string_view sql) {
+    sqlite3_stmt* statement = nullptr;
+    const int code = sqlite3_prepare_v3(database_.get(), sql.data(), static_cast<int>(sql.size()),
+                                        SQLITE_PREPARE_PERSISTENT, &statement, nullptr);
+    if (code != SQLITE_OK) return failure(path(), database_.get());
+    return Statement(statement, path_.get());
+}
+
+base::Result<std::optional<std::int64_t>> Database::queryNumber(std::string_view sql) {
+    auto statement = prepare(sql);
+    if (!statement) return tl::unexpected(statement.error());
+    const auto row = statement->step();
+    if (!row) return tl::unexpected(row.error());
+    return *row ? std::optional(statement->number(0)) : std::nullopt;
+}
+
+base::Result<void> Database::backUpTo(const std::filesystem::path& target) {
+    auto copy = open(target, OpenMode::Create);
+    if (!copy) return tl::unexpected(copy.error());
+    sqlite3* to = copy->database_.get();
+    sqlite3_backup* backup = sqlite3_backup_init(to, "main", database_.get(), "main");
+    if (!backup) return failure(copy->path(), to);
+    sqlite3_backup_step(backup, -1);
+    // The result of finish() is that of the step; the reason is kept by the target.
+    if (sqlite3_backup_finish(backup) != SQLITE_OK) return failure(copy->path(), to);
+    return {};
+}
+
+base::Result<Transaction> Transaction::begin(Database& database) {
+    if (auto begun = database.execute("BEGIN IMMEDIATE"); !begun) return tl::unexpected(begun.error());
+    return Transaction(database);
+}
+
+Transaction::~Transaction() {
+    // Some errors, as of a full disk, have rolled back by themselves: then there is nothing left to do.
+    if (database_) (void)database_->execute("ROLLBACK");
+}
+
+base::Result<void> Transaction::commit() {
+    assert(database_ && "committed once");
+    auto done = database_->execute("COMMIT");
+    if (done) database_ = nullptr;
+    return done;
+}
+
+}  // namespace terrane::store

@@ -1,0 +1,96 @@
+// SQLite's connections and statements as owners of what they hold. Errors read "path: what is wrong".
+// A connection and its statements are used by one thread at a time.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "terrane/base/result.h"
+#include "terrane/store/bytes.h"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace terrane::store {
+
+class Statement {
+  public:
+    // Parameters count from 1. Blobs and texts are copied.
+    void bind(int parameter, std::int64_t value);
+    void bind(int parameter, std::string_view text);
+    void bind(int parameter, ByteView blob);
+
+    // True where a row is there to read, false at the end.
+    [[nodiscard]] base::Result<bool> step();
+    // Runs to the end, then reset.
+    [[nodiscard]] base::Result<void> run();
+    void reset();  // ready to be bound and stepped again; ends what it reads from the file
+
+    // Of the row; columns count from 0. Views hold until the next step or reset.
+    std::int64_t number(int column) const;
+    std::string_view text(int column) const;
+    ByteView blob(int column) const;
+
+  private:
+    friend class Database;
+    struct Finalize {
+        void operator()(sqlite3_stmt* statement) const;
+    };
+    Statement(sqlite3_stmt* statement, const std::string* path) : statement_(statement), path_(path) {}
+
+    std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+    const std::string* path_;  // the database's
+};
+
+enum class OpenMode {
+    Create,     // made where it is not there
+    ReadWrite,  // must be there
+    ReadOnly,   // as others see it while they write
+    Immutable,  // nobody writes; no files are made beside it
+};
+
+class Database {
+  public:
+    static base::Result<Database> open(const std::filesystem::path& path, OpenMode mode);
+
+    // Statements that give no rows; several are separated by semicolons.
+    [[nodiscard]] base::Result<void> execute(const std::string& sql);
+    // Must not outlive the database.
+    [[nodiscard]] base::Result<Statement> prepare(std::string_view sql);
+    // The first column of the first row; nothing where there is no row.
+    [[nodiscard]] base::Result<std::optional<std::int64_t>> queryNumber(std::string_view sql);
+    // Copies everything into a new file, also while others read and write.
+    [[nodiscard]] base::Result<void> backUpTo(const std::filesystem::path& target);
+
+    const std::string& path() const { return *path_; }
+
+  private:
+    struct Close {
+        void operator()(sqlite3* database) const;
+    };
+    explicit Database(std::string path) : path_(std::make_unique<std::string>(std::move(path))) {}
+
+    std::unique_ptr<std::string> path_;  // statements point to it
+    std::unique_ptr<sqlite3, Close> database_;
+};
+
+// Rolls back unless committed. One at a time on a connection.
+class Transaction {
+  public:
+    static base::Result<Transaction> begin(Database& database);
+    ~Transaction();
+    Transaction(Transaction&& other) noexcept : database_(std::exchange(other.database_, nullptr)) {}
+    Transaction& operator=(Transaction&&) = delete;
+
+    [[nodiscard]] base::Result<void> commit();
+
+  private:
+    explicit Transaction(Database& database) : database_(&database) {}
+    Database* database_;  // null: nothing to roll back
+};
+
+}  // namespace terrane::store

@@ -1,0 +1,266 @@
+#include "terrane/store/chunk_codec.h"
+
+#include <gmock/gmock.h>
+#include <xxhash.h>
+
+#include "terrane/store/compression.h"
+#include "tests/store/store_fixture.h"
+
+namespace terrane::store {
+namespace {
+
+using testing::HasSubstr;
+using world::Chunk;
+using world::Section;
+
+Bytes encode(const Chunk& chunk, const BlockIdMap& ids = allIds()) {
+    auto bytes = encodeChunk(chunk, ids);
+    EXPECT_TRUE(bytes) << bytes.error().message;
+    return std::move(*bytes);
+}
+
+// The reader's answer to bytes that a program wrote which knows the checksum.
+std::string errorOf(Bytes bytes) {
+    const auto chunk = decodeChunk(bytes, allIds());
+    return chunk ? "" : chunk.error().message;
+}
+
+Bytes withChecksum(Bytes bytes) {
+    const std::uint64_t sum = XXH64(bytes.data() + 8, bytes.size() - 8, 0);
+    std::memcpy(bytes.data(), &sum, sizeof sum);
+    return bytes;
+}
+
+// The frame that docs/file-format.md describes, around any content.
+Bytes frame(ByteView plain, std::uint8_t version = kChunkVersion) {
+    Bytes bytes(8);
+    appendNumber(bytes, version);
+    appendNumber(bytes, static_cast<std::uint32_t>(plain.size()));
+    appendCompressed(bytes, plain);
+    return withChecksum(bytes);
+}
+
+// Uniform sections of id 0 and small data 0, then what follows.
+Bytes plainAir(ByteView rest) {
+    Bytes plain(32 * 3);
+    append(plain, rest);
+    return plain;
+}
+
+TEST(ChunkCodec, RandomChunksComeBack) {
+    std::mt19937 random(1);
+    for (int round = 0; round < 300; ++round) {
+        const Chunk chunk = randomChunk(random);
+        const auto back = decodeChunk(encode(chunk), allIds());
+        ASSERT_TRUE(back) << back.error().message;
+        ASSERT_EQ(*back, chunk);
+    }
+}
+
+// However a chunk came to be: section forms wider than needed, palettes in another order, other slots.
+TEST(ChunkCodec, EqualChunksGiveEqualBytes) {
+    std::mt19937 random(2);
+    for (int round = 0; round < 60; ++round) {
+        const Chunk chunk = randomChunk(random);
+        Chunk detour = chunk;
+        for (int step = 0; step < 400; ++step) {
+            const auto i = static_cast<world::BlockIndex>(random());
+            if (chunk.largeData(i)) continue;
+            detour.setBlock(i, static_cast<world::BlockId>(random()));
+            if (step % 8 == 0) detour.setLargeData(i, randomBytes(random, 3));
+        }
+        for (int i = 0; i < world::kBlocksPerChunk; ++i) {
+            const auto index = static_cast<world::BlockIndex>(i);
+            if (chunk.largeData(index)) continue;
+            if (detour.block(index) != chunk.block(index)) detour.setBlock(index, chunk.block(index));
+            detour.setSmallData(index, chunk.smallData(index));
+        }
+        ASSERT_EQ(detour, chunk);
+        ASSERT_EQ(encode(detour), encode(chunk));
+        ASSERT_EQ(encode(*decodeChunk(encode(chunk), allIds())), encode(chunk));
+    }
+}
+
+TEST(ChunkCodec, EmptyChunkIsSmall) {
+    EXPECT_LT(encode(Chunk()).size(), 40u);
+}
+
+TEST(ChunkCodec, EveryBlockWithLargeData) {
+    Chunk chunk;
+    for (int i = 0; i < world::kBlocksPerChunk; ++i)
+        chunk.setLargeData(static_cast<world::BlockIndex>(i), world::LargeData(2, std::byte(i)));
+    const auto back = decodeChunk(encode(chunk), allIds());
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(*back, chunk);
+}
+
+TEST(ChunkCodec, TooMuchLargeDataIsRefused) {
+    Chunk chunk;
+    chunk.setLargeData(5, world::LargeData(30u << 20));
+    EXPECT_TRUE(encodeChunk(chunk, allIds()));
+    chunk.setLargeData(6, world::LargeData(33u << 20));
+    const auto bytes = encodeChunk(chunk, allIds());
+    ASSERT_FALSE(bytes);
+    EXPECT_THAT(bytes.error().message, HasSubstr("large data"));
+}
+
+// A save of a build whose blocks have other ids, and some that this one lacks.
+TEST(ChunkCodec, IdsFollowTheNames) {
+    const auto writer = BlockIdMap::make(registryOf({"stone", "lamp", "dirt"}), {});
+    ASSERT_TRUE(writer);
+    Chunk chunk;
+    chunk.setSection(0, Section(1));
+    chunk.setBlock(3, 2);
+    chunk.setBlock(4, 3);
+    const Bytes bytes = encode(chunk, *writer);
+
+    const auto registry = registryOf({"dirt", "sand", "stone"});
+    const auto reader = BlockIdMap::make(registry, writer->added());
+    ASSERT_TRUE(reader);
+    const auto seen = decodeChunk(bytes, *reader);
+    ASSERT_TRUE(seen) << seen.error().message;
+    EXPECT_EQ(seen->block(0), registry.find("stone")->id);
+    EXPECT_EQ(seen->block(4), registry.find("dirt")->id);
+    EXPECT_GE(seen->block(3), registry.types().size());
+    EXPECT_EQ(registry.type(seen->block(3)).name, "missing");
+    EXPECT_EQ(encode(*seen, *reader), bytes) << "the unknown block goes back under its own id";
+}
+
+TEST(ChunkCodec, DenseSectionsAreMappedToo) {
+    std::mt19937 random(3);
+    std::vector<SavedName> saved = {{9, "air"}, {8, "missing"}};
+    for (int id = 100; id < 700; ++id)
+        saved.push_back({static_cast<world::BlockId>(id), "b" + std::to_string(id)});
+    const auto ids = BlockIdMap::make(registryOf({"stone"}), saved);
+    ASSERT_TRUE(ids);
+    std::array<Section::Value, world::kBlocksPerSection> values;
+    for (auto& value : values) value = static_cast<Section::Value>(random() % 600);
+    Chunk chunk;
+    chunk.setSection(7, Section::fromValues(values));
+    ASSERT_TRUE(chunk.section(7).isDense());
+    const auto back = decodeChunk(encode(chunk, *ids), *ids);
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(*back, chunk);
+}
+
+TEST(ChunkCodec, IdsWithoutNamesAreErrors) {
+    const auto few = BlockIdMap::make(registryOf({"stone"}), {});
+    Chunk chunk;
+    chunk.setBlock(1, 77);
+    const auto bytes = encodeChunk(chunk, *few);
+    ASSERT_FALSE(bytes);
+    EXPECT_THAT(bytes.error().message, HasSubstr("77"));
+    const auto back = decodeChunk(encode(chunk), *few);
+    ASSERT_FALSE(back);
+    EXPECT_THAT(back.error().message, HasSubstr("block id 77 has no name"));
+}
+
+// Written by the first release of the format: must be read for ever.
+TEST(ChunkCodec, ReadsVersion1) {
+    constexpr std::string_view kHex =
+        "0ed4fe921733ae79019812000028b52ffd0018cd0300d2061522902bad01a7faffffffff4ff52f7177d18757cb"
+        "abaaaab065031bd8103776237bcb1419ccd534fd6a224a0f0da38584d041c1671bc8023a57f5dee6ea5e5a5652"
+        "4e46423e3a36322e2a4aa3d027bb9e6827f906161000962a9ea5c7820f372cf870c3820f372cf870c3820f372c"
+        "f8708ba5563c34a1";
+    Bytes bytes;
+    for (std::size_t i = 0; i < kHex.size(); i += 2)
+        bytes.push_back(static_cast<std::byte>(std::stoi(std::string(kHex.substr(i, 2)), nullptr, 16)));
+    Chunk expected;
+    expected.setSection(0, Section(1));
+    expected.setSection(1, Section(300));
+    for (int i = 0; i < 20; ++i)
+        expected.setBlock(static_cast<world::BlockIndex>(9000 + 7 * i), static_cast<world::BlockId>(i * 3));
+    expected.setSmallData(9007, 500);
+    expected.setLargeData(65535, {std::byte{'a'}, std::byte{'b'}});
+    const auto chunk = decodeChunk(bytes, allIds());
+    ASSERT_TRUE(chunk) << chunk.error().message;
+    EXPECT_EQ(*chunk, expected);
+}
+
+TEST(ChunkCodec, SaysWhatIsWrong) {
+    const Bytes noLarge(4);
+    EXPECT_EQ(errorOf(frame(plainAir(noLarge))), "");
+    EXPECT_THAT(errorOf({}), HasSubstr("too few"));
+    EXPECT_THAT(errorOf(Bytes(12)), HasSubstr("too few"));
+    EXPECT_THAT(errorOf(Bytes(40)), HasSubstr("checksum"));
+    EXPECT_THAT(errorOf(frame(plainAir(noLarge), 2)), HasSubstr("chunk version 2"));
+    EXPECT_THAT(errorOf(frame(plainAir({}))), HasSubstr("ends too early"));
+    EXPECT_THAT(errorOf(frame(plainAir(Bytes(5)))), HasSubstr("1 bytes too many"));
+    EXPECT_THAT(errorOf(frame(Bytes(10, std::byte{3}))), HasSubstr("3 bits"));
+    EXPECT_THAT(errorOf(frame(Bytes(10, std::byte{1}))), HasSubstr("palette of 257"));
+    Bytes large;
+    appendNumber(large, std::uint32_t{70000});
+    EXPECT_THAT(errorOf(frame(plainAir(large))), HasSubstr("70000 blocks"));
+}
+
+TEST(ChunkCodec, LargeDataOutOfOrderIsRefused) {
+    Bytes large;
+    appendNumber(large, std::uint32_t{2});
+    for (const int index : {5, 5}) {
+        appendNumber(large, static_cast<std::uint16_t>(index));
+        appendNumber(large, std::uint32_t{0});
+    }
+    EXPECT_THAT(errorOf(frame(plainAir(large))), HasSubstr("out of order"));
+}
+
+TEST(ChunkCodec, PaletteThatDoesNotFitIsRefused) {
+    Bytes plain;
+    appendNumber(plain, std::uint8_t{2});
+    appendNumber(plain, std::uint16_t{3});
+    for (const int id : {1, 2, 3}) appendNumber(plain, static_cast<std::uint16_t>(id));
+    plain.resize(plain.size() + 31 * 3);
+    plain.resize(plain.size() + 1024, std::byte{0xFF});  // index 3 everywhere
+    appendNumber(plain, std::uint32_t{0});
+    EXPECT_THAT(errorOf(frame(plain)), HasSubstr("palette of 2 bits"));
+}
+
+// A length that is a lie is found out, and memory for it is not asked for without end.
+TEST(ChunkCodec, LyingLengths) {
+    Bytes bytes = frame(plainAir(Bytes(4)));
+    for (const std::uint32_t length : {0u, 1u, 99u, 101u, 1u << 26, (1u << 26) + 1, 0xFFFFFFFFu}) {
+        std::memcpy(bytes.data() + 9, &length, sizeof length);
+        EXPECT_NE(errorOf(withChecksum(bytes)), "") << length;
+    }
+}
+
+// Nothing that can happen to bytes makes the reader do anything but answer. (The sanitizers watch.) Half of
+// the changes are made to what the checksum and the compression protect.
+TEST(ChunkCodec, DamagedBytes) {
+    std::mt19937 random(4);
+    for (int round = 0; round < 40; ++round) {
+        const Bytes good = encode(randomChunk(random));
+        for (int step = 0; step < 40; ++step) {
+            Bytes bad = good;
+            bad[random() % bad.size()] ^= static_cast<std::byte>(1u << random() % 8);
+            EXPECT_THAT(errorOf(bad), HasSubstr("checksum"));
+            (void)errorOf(withChecksum(bad));
+            bad.resize(random() % good.size());
+            EXPECT_NE(errorOf(bad), "");
+            bad.resize(std::max<std::size_t>(bad.size(), 8));
+            EXPECT_NE(errorOf(withChecksum(bad)), "");
+        }
+    }
+}
+
+TEST(ChunkCodec, DamagedContent) {
+    std::mt19937 random(5);
+    for (int round = 0; round < 30; ++round) {
+        const Bytes good = encode(randomChunk(random));
+        std::uint32_t length = 0;
+        std::memcpy(&length, good.data() + 9, sizeof length);
+        Bytes plain(length);
+        ASSERT_TRUE(decompress(ByteView(good).subspan(13), plain));
+        for (int step = 0; step < 30; ++step) {
+            Bytes bad = plain;
+            // Heads and large data's lengths are where it matters: at both ends.
+            const std::size_t near = random() % std::min<std::size_t>(bad.size(), 300);
+            bad[random() % 2 ? near : bad.size() - 1 - near] = static_cast<std::byte>(random());
+            (void)errorOf(frame(bad));
+            bad.resize(random() % plain.size());
+            EXPECT_NE(errorOf(frame(bad)), "") << "cut off";
+        }
+    }
+}
+
+}  // namespace
+}  // namespace terrane::store

@@ -1,0 +1,289 @@
+// What can be wrong with a file: each gives one line that names it, and leaves it as it is.
+#include "terrane/store/save_file.h"
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include "terrane/store/open_store.h"
+#include "terrane/store/sqlite_store.h"
+#include "tests/store/store_fixture.h"
+
+namespace terrane::store {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const SaveAccess kCreate{.create = kIdentity, .recreateVersion = {}};
+const SaveAccess kMustBeThere{};
+
+class SaveFileTest : public testing::Test {
+  protected:
+    void makeSave() {
+        const auto store = SqliteStore::open(path_, registry_, kCreate);
+        ASSERT_TRUE(store) << store.error().message;
+        for (int x = 0; x < 20; ++x) (*store)->save({x, 0}, numberedChunk(x), Origin::Edited);
+    }
+
+    std::string errorOfWriting(const SaveAccess& access = kCreate) {
+        const auto file = openToWrite(path_, registry_, access);
+        return file ? "" : file.error().message;
+    }
+    std::string errorOfReading() {
+        const auto file = openToRead(path_, registry_);
+        return file ? "" : file.error().message;
+    }
+    // Both ways, with the file the same afterwards.
+    void expectRefused(const std::string& reason) {
+        const std::string before = readAll(path_);
+        for (const std::string& message :
+             {errorOfWriting(), errorOfWriting(kMustBeThere), errorOfReading()}) {
+            EXPECT_THAT(message, HasSubstr(path_.string() + ": "));
+            EXPECT_THAT(message, HasSubstr(reason));
+            EXPECT_EQ(message.find('\n'), std::string::npos);
+        }
+        EXPECT_TRUE(readAll(path_) == before);
+    }
+
+    base::TempFolder folder_;
+    fs::path path_ = folder_ / "a.sqlite";
+    world::BlockRegistry registry_ = testRegistry();
+};
+
+TEST_F(SaveFileTest, NotThere) {
+    EXPECT_THAT(errorOfReading(), HasSubstr("there is no such file"));
+    EXPECT_THAT(errorOfWriting(kMustBeThere), HasSubstr("there is no such file"));
+    EXPECT_EQ(folder_.fileCount(), 0) << "asking makes nothing";
+    EXPECT_EQ(errorOfWriting(), "");
+    EXPECT_EQ(errorOfReading(), "");
+}
+
+TEST_F(SaveFileTest, FoldersAreMade) {
+    path_ = folder_ / "x/y/a.sqlite";
+    EXPECT_EQ(errorOfWriting(), "");
+    EXPECT_TRUE(fs::exists(path_));
+}
+
+TEST_F(SaveFileTest, OddNames) {
+    for (const char* name : {"a?b=c.sqlite", "100%25.sqlite", "a#b.sqlite", "ž š.sqlite"}) {
+        path_ = folder_ / name;
+        EXPECT_EQ(errorOfWriting(), "");
+        EXPECT_TRUE(fs::exists(path_)) << name;
+        EXPECT_EQ(errorOfReading(), "");
+    }
+}
+
+TEST_F(SaveFileTest, AFolder) {
+    fs::create_directory(path_);
+    EXPECT_THAT(errorOfReading(), HasSubstr("not a file"));
+    EXPECT_THAT(errorOfWriting(), HasSubstr("not a file"));
+}
+
+// What a program leaves that is killed while it makes the file.
+TEST_F(SaveFileTest, EmptyFilesAreNewOnes) {
+    writeAll(path_, "");
+    EXPECT_THAT(errorOfReading(), HasSubstr("empty"));
+    EXPECT_THAT(errorOfWriting(kMustBeThere), HasSubstr("empty"));
+    EXPECT_EQ(errorOfWriting(), "");
+    EXPECT_EQ(errorOfReading(), "");
+    fs::remove(path_);
+    runSql(path_, "PRAGMA user_version = 0; VACUUM");
+    EXPECT_THAT(errorOfReading(), HasSubstr("empty"));
+    EXPECT_EQ(errorOfWriting(), "");
+}
+
+TEST_F(SaveFileTest, NoSqliteFile) {
+    writeAll(path_, "a text, and long enough to be more than the sixteen bytes that are looked at first");
+    expectRefused("not a SQLite file");
+    writeAll(path_, "short");
+    expectRefused("not a SQLite file");
+}
+
+TEST_F(SaveFileTest, SqliteFileOfAnotherProgram) {
+    runSql(path_, "CREATE TABLE other (a); INSERT INTO other VALUES (1)");
+    expectRefused("SQLite file of another program");
+}
+
+TEST_F(SaveFileTest, NewerFormat) {
+    makeSave();
+    runSql(path_, "PRAGMA user_version = 99");
+    expectRefused("in format 99, this program reads up to format 1");
+}
+
+TEST_F(SaveFileTest, CutOff) {
+    makeSave();
+    const std::string whole = readAll(path_);
+    for (const std::size_t size : {whole.size() - 1, whole.size() / 2, std::size_t{5000}}) {
+        writeAll(path_, std::string_view(whole).substr(0, size));
+        expectRefused("damaged: cut off");
+    }
+    writeAll(path_, std::string_view(whole).substr(0, 60));
+    EXPECT_NE(errorOfReading(), "");
+    EXPECT_NE(errorOfWriting(), "");
+}
+
+TEST_F(SaveFileTest, BrokenTables) {
+    makeSave();
+    const std::string whole = readAll(path_);
+    const auto with = [&](const std::string& sql) {
+        writeAll(path_, whole);
+        runSql(path_, sql);
+    };
+    with("DELETE FROM settings WHERE name = 'seed'");
+    expectRefused("the setting seed is missing");
+    with("UPDATE settings SET value = 'x' WHERE name = 'seed'");
+    expectRefused("the setting seed is \"x\"");
+    with("DELETE FROM settings WHERE name = 'generator'");
+    expectRefused("the setting generator is missing");
+    with("INSERT INTO blocks VALUES (70000, 'far')");
+    expectRefused("the block far has the id 70000");
+    with("DROP TABLE blocks");
+    expectRefused("blocks");
+}
+
+// Garbage in the pages: an answer, whatever it is, and never a crash.
+TEST_F(SaveFileTest, BrokenPages) {
+    makeSave();
+    const std::string whole = readAll(path_);
+    std::mt19937 random(1);
+    for (int round = 0; round < 60; ++round) {
+        std::string broken = whole;
+        for (int i = 0; i < 30; ++i)
+            broken[100 + random() % (broken.size() - 100)] = static_cast<char>(random());
+        writeAll(path_, broken);
+        (void)errorOfReading();
+        auto store = SqliteStore::open(path_, registry_, kMustBeThere);
+        for (int x = 0; store && x < 20; ++x) (void)(*store)->load({x, 0});
+    }
+}
+
+TEST_F(SaveFileTest, OneProgramAtATime) {
+    makeSave();
+    const auto first = openToWrite(path_, registry_, kCreate);
+    ASSERT_TRUE(first);
+    EXPECT_THAT(errorOfWriting(), HasSubstr(fmt::format("open in another program (process {})", ::getpid())));
+    EXPECT_THAT(errorOfReading(), HasSubstr("open in another program"));
+}
+
+TEST_F(SaveFileTest, ReadersShare) {
+    makeSave();
+    const auto first = openToRead(path_, registry_);
+    ASSERT_TRUE(first);
+    EXPECT_EQ(errorOfReading(), "");
+    EXPECT_THAT(errorOfWriting(), HasSubstr("open in another program"));
+}
+
+// The lock ends with the process; what it wrote stays.
+TEST_F(SaveFileTest, TheNextProgramAfterAKilledOne) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        auto store = SqliteStore::open(path_, registry_, kCreate);
+        (*store)->save({4, 4}, numberedChunk(77), Origin::Edited);
+        const bool good = store && (*store)->flush();
+        ::_exit(good ? 0 : 1);  // as when killed: nothing is closed
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_EQ(status, 0);
+    EXPECT_TRUE(fs::exists(path_.string() + "-lock"));
+    EXPECT_EQ(errorOfReading(), "") << "with the log that the other left";
+    auto store = SqliteStore::open(path_, registry_, kMustBeThere);
+    ASSERT_TRUE(store) << store.error().message;
+    EXPECT_EQ(*(*store)->load({4, 4}).chunk, *numberedChunk(77));
+}
+
+TEST_F(SaveFileTest, RecreateKeepsACopy) {
+    makeSave();
+    {
+        auto store = SqliteStore::open(path_, registry_, {.create = kIdentity, .recreateVersion = 9});
+        ASSERT_TRUE(store) << store.error().message;
+        EXPECT_EQ((*store)->load({3, 0}).state, LoadedChunk::State::Absent);
+        EXPECT_EQ((*store)->identity().seed, kIdentity.seed);
+        EXPECT_EQ((*store)->identity().generatorVersion, 9);
+        (*store)->save({3, 0}, numberedChunk(1000), Origin::Edited);
+    }
+    path_ = folder_ / "a.backup-1.sqlite";
+    auto copy = SqliteStore::open(path_, registry_, kMustBeThere);
+    ASSERT_TRUE(copy) << copy.error().message;
+    EXPECT_EQ(*(*copy)->load({3, 0}).chunk, *numberedChunk(3));
+    EXPECT_EQ((*copy)->identity(), kIdentity);
+    ASSERT_TRUE(SqliteStore::open(folder_ / "a.sqlite", registry_, {.create = {}, .recreateVersion = 9}));
+    EXPECT_TRUE(fs::exists(folder_ / "a.backup-2.sqlite")) << "a copy never replaces another";
+}
+
+class ReadOnlyTest : public SaveFileTest {
+  protected:
+    void TearDown() override { fs::permissions(folder_.path(), fs::perms::owner_all); }
+    void makeReadOnly() { fs::permissions(folder_.path(), fs::perms(0555)); }
+};
+
+// A folder in which nothing can be made: played in memory, and the file stays as it was.
+TEST_F(ReadOnlyTest, SaveInAReadOnlyFolder) {
+    makeSave();
+    fs::permissions(path_, fs::perms(0444));
+    makeReadOnly();
+    const std::string before = readAll(path_);
+    const Unprivileged user;
+    EXPECT_FALSE(isWritable(path_));
+    EXPECT_THAT(errorOfWriting(), HasSubstr("cannot be written"));
+    auto store = openStore(path_, registry_, kCreate);
+    ASSERT_TRUE(store) << store.error().message;
+    EXPECT_FALSE((*store)->isPersistent());
+    EXPECT_EQ((*store)->identity(), kIdentity);
+    EXPECT_EQ(*(*store)->load({3, 0}).chunk, *numberedChunk(3));
+    EXPECT_TRUE((*store)->contains({3, 0}));
+    EXPECT_FALSE((*store)->contains({3, 1}));
+    (*store)->save({3, 0}, numberedChunk(500), Origin::Edited);
+    EXPECT_EQ(*(*store)->load({3, 0}).chunk, *numberedChunk(500));
+    ASSERT_TRUE((*store)->flush());
+    EXPECT_TRUE(readAll(path_) == before);
+    EXPECT_EQ(folder_.fileCount(), 1);
+}
+
+TEST_F(ReadOnlyTest, NewWorldInAReadOnlyFolder) {
+    makeReadOnly();
+    const Unprivileged user;
+    auto store = openStore(folder_ / "new.sqlite", registry_, kCreate);
+    ASSERT_TRUE(store) << store.error().message;
+    EXPECT_FALSE((*store)->isPersistent());
+    EXPECT_FALSE(openStore(folder_ / "new.sqlite", registry_, kMustBeThere)) << "there is none to read";
+}
+
+TEST_F(ReadOnlyTest, RecreateInAReadOnlyFolder) {
+    makeSave();
+    makeReadOnly();
+    const Unprivileged user;
+    auto store = openStore(path_, registry_, {.create = kIdentity, .recreateVersion = 4});
+    ASSERT_TRUE(store) << store.error().message;
+    EXPECT_EQ((*store)->load({3, 0}).state, LoadedChunk::State::Absent);
+    EXPECT_EQ((*store)->identity().seed, kIdentity.seed);
+    EXPECT_EQ((*store)->identity().generatorVersion, 4);
+}
+
+TEST_F(ReadOnlyTest, OneReadOnlyFile) {
+    makeSave();
+    fs::permissions(path_, fs::perms(0444));
+    fs::permissions(folder_.path(), fs::perms::all);
+    const Unprivileged user;
+    auto store = openStore(path_, registry_, kCreate);
+    ASSERT_TRUE(store) << store.error().message;
+    EXPECT_FALSE((*store)->isPersistent());
+    EXPECT_EQ(*(*store)->load({3, 0}).chunk, *numberedChunk(3));
+}
+
+TEST(RequireSame, SaysHowTheyDiffer) {
+    EXPECT_TRUE(requireSame(kIdentity, kIdentity, "a.sqlite"));
+    WorldIdentity other = kIdentity;
+    other.seed = 8;
+    EXPECT_EQ(requireSame(kIdentity, other, "a.sqlite").error().message, "a.sqlite: made with seed 7, not 8");
+    other = kIdentity;
+    other.generator = "overworld";
+    EXPECT_EQ(requireSame(kIdentity, other, "a.sqlite").error().message,
+              "a.sqlite: made by the generator flat, not overworld");
+    other = kIdentity;
+    other.generatorVersion = 4;
+    EXPECT_THAT(requireSame(kIdentity, other, "a.sqlite").error().message, HasSubstr("version 3"));
+}
+
+}  // namespace
+}  // namespace terrane::store

@@ -1,0 +1,154 @@
+#include "terrane/store/save_queue.h"
+
+#include <atomic>
+
+#include "tests/store/store_fixture.h"
+
+namespace terrane::store {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Never by itself: only flush and the end write.
+const SaveLimits kNever{.delay = 1h, .chunks = 1000000};
+
+struct Recorder {
+    std::mutex mutex;
+    std::vector<SaveBatch> batches;
+    std::string problem;  // what writing fails with
+
+    SaveQueue::WriteBatch write() {
+        return [this](const SaveBatch& batch) -> base::Result<void> {
+            const std::lock_guard lock(mutex);
+            if (!problem.empty()) return base::fail("{}", problem);
+            batches.push_back(batch);
+            return {};
+        };
+    }
+    void fail(std::string with) {
+        const std::lock_guard lock(mutex);
+        problem = std::move(with);
+    }
+};
+
+TEST(SaveQueue, FlushWritesOneBatchWithTheNewest) {
+    Recorder recorder;
+    SaveQueue queue(recorder.write(), kNever);
+    const auto older = numberedChunk(1), newer = numberedChunk(2);
+    EXPECT_EQ(queue.add({1, 2}, {older, Origin::Edited}), 1u);
+    EXPECT_EQ(queue.add({1, 2}, {newer, Origin::Edited}), 2u);
+    EXPECT_EQ(queue.add({3, 4}, {older, Origin::Generated}), 3u);
+    EXPECT_EQ(queue.add("time", "0.5"), 4u);
+    EXPECT_EQ(queue.status().durable, 0u);
+    EXPECT_EQ(queue.status().waiting, 2u);
+    EXPECT_EQ(queue.find({1, 2})->chunk, newer);
+    EXPECT_FALSE(queue.find({9, 9}));
+
+    ASSERT_TRUE(queue.flush());
+    EXPECT_EQ(queue.status().durable, 4u);
+    EXPECT_EQ(queue.status().waiting, 0u);
+    EXPECT_FALSE(queue.find({1, 2})) << "in the file now";
+    ASSERT_EQ(recorder.batches.size(), 1u);
+    EXPECT_EQ(recorder.batches[0].chunks.at({1, 2}).chunk, newer);
+    EXPECT_EQ(recorder.batches[0].chunks.size(), 2u);
+    EXPECT_EQ(recorder.batches[0].settings.at("time"), "0.5");
+    ASSERT_TRUE(queue.flush());
+    EXPECT_EQ(recorder.batches.size(), 1u) << "nothing to write";
+}
+
+TEST(SaveQueue, GeneratedNeverReplacesEdited) {
+    Recorder recorder;
+    SaveQueue queue(recorder.write(), kNever);
+    const auto edited = numberedChunk(1);
+    queue.add({0, 0}, {edited, Origin::Edited});
+    queue.add({0, 0}, {numberedChunk(2), Origin::Generated});
+    EXPECT_EQ(queue.find({0, 0})->chunk, edited);
+}
+
+TEST(SaveQueue, WritesAfterTheDelayAndWhenThereIsMuch) {
+    Recorder recorder;
+    {
+        SaveQueue queue(recorder.write(), {.delay = 20ms, .chunks = 1000});
+        queue.add({0, 0}, {numberedChunk(1), Origin::Edited});
+        while (queue.status().durable < 1) std::this_thread::sleep_for(1ms);
+    }
+    EXPECT_EQ(recorder.batches.size(), 1u);
+    SaveQueue queue(recorder.write(), {.delay = 1h, .chunks = 3});
+    for (int x = 0; x < 3; ++x) queue.add({x, 0}, {numberedChunk(x), Origin::Edited});
+    while (queue.status().durable < 3) std::this_thread::sleep_for(1ms);
+    EXPECT_EQ(recorder.batches.size(), 2u);
+}
+
+TEST(SaveQueue, TheEndWritesWhatWaits) {
+    Recorder recorder;
+    {
+        SaveQueue queue(recorder.write(), kNever);
+        queue.add({0, 0}, {numberedChunk(1), Origin::Edited});
+    }
+    EXPECT_EQ(recorder.batches.size(), 1u);
+}
+
+// As on a full disk: nothing is lost, nothing counts as durable, and it works again when there is room.
+TEST(SaveQueue, WhatFailedStaysAndIsTriedAgain) {
+    Recorder recorder;
+    SaveQueue queue(recorder.write(), kNever);
+    recorder.fail("a.sqlite: the disk is full");
+    queue.add({0, 0}, {numberedChunk(1), Origin::Edited});
+    queue.add({1, 0}, {numberedChunk(2), Origin::Edited});
+    const auto failed = queue.flush();
+    ASSERT_FALSE(failed);
+    EXPECT_EQ(failed.error().message, "a.sqlite: the disk is full");
+    EXPECT_EQ(queue.status().problem, "a.sqlite: the disk is full");
+    EXPECT_EQ(queue.status().durable, 0u);
+    EXPECT_EQ(queue.status().waiting, 2u);
+
+    const auto newer = numberedChunk(3);
+    queue.add({1, 0}, {newer, Origin::Edited});
+    EXPECT_FALSE(queue.flush());
+    EXPECT_EQ(queue.find({1, 0})->chunk, newer);
+    recorder.fail("");
+    ASSERT_TRUE(queue.flush());
+    EXPECT_EQ(queue.status().problem, "");
+    EXPECT_EQ(queue.status().durable, 3u);
+    ASSERT_EQ(recorder.batches.size(), 1u);
+    EXPECT_EQ(recorder.batches[0].chunks.at({1, 0}).chunk, newer);
+    EXPECT_EQ(recorder.batches[0].chunks.size(), 2u);
+}
+
+TEST(SaveQueue, TriedAgainByItself) {
+    Recorder recorder;
+    SaveQueue queue(recorder.write(), {.delay = 10ms, .chunks = 1});
+    recorder.fail("no");
+    queue.add({0, 0}, {numberedChunk(1), Origin::Edited});
+    while (queue.status().problem.empty()) std::this_thread::sleep_for(1ms);
+    recorder.fail("");
+    while (queue.status().durable < 1) std::this_thread::sleep_for(1ms);
+    EXPECT_EQ(recorder.batches.size(), 1u);
+}
+
+TEST(SaveQueue, ManyThreads) {
+    std::atomic<int> written = 0;
+    {
+        SaveQueue queue(
+            [&](const SaveBatch& batch) -> base::Result<void> {
+                written += static_cast<int>(batch.chunks.size());
+                return {};
+            },
+            {.delay = 1ms, .chunks = 16});
+        std::vector<std::thread> threads;
+        for (int t = 0; t < 4; ++t) {
+            threads.emplace_back([&queue, t] {
+                for (int i = 0; i < 200; ++i) {
+                    queue.add({i, t}, {numberedChunk(i), Origin::Edited});
+                    (void)queue.find({i, t});
+                    if (i % 50 == 0 && !queue.flush()) ADD_FAILURE() << "nothing fails here";
+                }
+            });
+        }
+        for (std::thread& thread : threads) thread.join();
+    }
+    EXPECT_EQ(written, 800) << "each position was saved once";
+}
+
+}  // namespace
+}  // namespace terrane::store

@@ -1,0 +1,80 @@
+#include "terrane/store/schema.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/store/store_fixture.h"
+
+namespace terrane::store {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Schema, KeysAreReversibleAndOrdered) {
+    for (const std::int32_t x : {world::kMinChunk, -1, 0, 5, world::kMaxChunk})
+        for (const std::int32_t y : {world::kMinChunk, -7, 0, world::kMaxChunk})
+            EXPECT_EQ(posOf(keyOf({x, y})), (world::ChunkPos{x, y}));
+    EXPECT_EQ(keyOf({world::kMinChunk, world::kMinChunk}), 0);
+    EXPECT_EQ(keyOf({0, 0}), (std::int64_t{1} << 55) + (1 << 27)) << "as docs/file-format.md says";
+    EXPECT_LT(keyOf({0, world::kMaxChunk}), keyOf({1, world::kMinChunk}));
+    for (const std::int64_t key : {std::int64_t{-1}, std::int64_t{1} << 56, INT64_MAX, INT64_MIN})
+        EXPECT_FALSE(world::isInWorld(posOf(key)));
+}
+
+// Formats that never were: the ways between them are made up.
+class MigrationTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        auto database = Database::open(path_, OpenMode::Create);
+        ASSERT_TRUE(database);
+        ASSERT_TRUE(createTables(*database, kIdentity));
+        ASSERT_TRUE(database->execute("INSERT INTO chunks VALUES (5, 0, x'00')"));
+    }
+    base::Result<void> migrateTo(std::int64_t target) {
+        constexpr Migration kSteps[] = {
+            {1, "ALTER TABLE chunks ADD COLUMN level INTEGER NOT NULL DEFAULT 0"},
+            {2, "UPDATE chunks SET level = 7; CREATE TABLE more (a)"},
+            {3, "UPDATE chunks SET level = 9; CREATE TABLE more (a)"},  // fails: there is one
+        };
+        auto database = Database::open(path_, OpenMode::ReadWrite);
+        if (!database) return tl::unexpected(database.error());
+        return migrate(*database, kSteps, target, backup_);
+    }
+
+    base::TempFolder folder_;
+    std::filesystem::path path_ = folder_ / "a.sqlite", backup_ = folder_ / "old.sqlite";
+};
+
+TEST_F(MigrationTest, StepByStepWithACopyOfTheOld) {
+    const auto done = migrateTo(3);
+    ASSERT_TRUE(done) << done.error().message;
+    EXPECT_EQ(queryFile(path_, "SELECT level FROM chunks WHERE key = 5"), 7);
+    EXPECT_EQ(queryFile(path_, "PRAGMA user_version"), 3);
+    EXPECT_EQ(queryFile(backup_, "PRAGMA user_version"), 1);
+    EXPECT_EQ(queryFile(backup_, "SELECT count(*) FROM pragma_table_info('chunks')"), 3);
+}
+
+TEST_F(MigrationTest, AllOrNothing) {
+    const auto failed = migrateTo(4);
+    ASSERT_FALSE(failed);
+    EXPECT_THAT(failed.error().message, HasSubstr("a.sqlite: "));
+    EXPECT_EQ(queryFile(path_, "PRAGMA user_version"), 1);
+    EXPECT_EQ(queryFile(path_, "SELECT count(*) FROM pragma_table_info('chunks')"), 3);
+}
+
+TEST_F(MigrationTest, FormatsWithoutAWayOn) {
+    EXPECT_THAT(migrateTo(6).error().message, HasSubstr("table more already exists"));
+    runSql(path_, "PRAGMA user_version = 0");
+    std::filesystem::remove(backup_);
+    EXPECT_THAT(migrateTo(2).error().message, HasSubstr("in format 0, which is unknown"));
+}
+
+TEST_F(MigrationTest, Kinds) {
+    auto database = Database::open(path_, OpenMode::ReadWrite);
+    ASSERT_TRUE(database);
+    EXPECT_EQ(*classify(*database), SaveKind::Current);
+    EXPECT_EQ(*classify(*database, 2), SaveKind::Old);
+    EXPECT_FALSE(classify(*database, 0)) << "newer than the program";
+}
+
+}  // namespace
+}  // namespace terrane::store

@@ -1,0 +1,130 @@
+// Blocks, chunks and files for the tests of the module.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "terrane/store/block_id_map.h"
+#include "terrane/store/chunk_store.h"
+#include "terrane/store/sqlite.h"
+#include "terrane/world/block_registry.h"
+#include "tests/base/temp_folder.h"
+
+namespace terrane::store {
+
+// "air", the names, "missing": ids in this order.
+inline world::BlockRegistry registryOf(const std::vector<std::string>& names) {
+    std::string toml;
+    for (const std::string& name : names)
+        toml += "[[block]]\nname = \"" + name + "\"\nshape = \"cube\"\ntexture = \"stone\"\n";
+    auto registry = world::BlockRegistry::parse(toml, "test");
+    if (!registry) throw std::runtime_error(registry.error().message);
+    return std::move(*registry);
+}
+
+inline world::BlockRegistry testRegistry() {
+    return registryOf({"stone", "dirt", "grass", "sand", "water"});
+}
+
+// Each of the 65,536 ids stands for itself: "b0", "b1", …
+inline const BlockIdMap& allIds() {
+    static const BlockIdMap map = [] {
+        std::vector<SavedName> saved;
+        const world::BlockRegistry registry = registryOf({"b1"});
+        saved.push_back({0, "air"});
+        saved.push_back({1, "b1"});
+        saved.push_back({2, "missing"});
+        for (int id = 3; id < 65536; ++id)
+            saved.push_back({static_cast<world::BlockId>(id), "b" + std::to_string(id)});
+        return *BlockIdMap::make(registry, saved);
+    }();
+    return map;
+}
+
+inline const WorldIdentity kIdentity{.seed = 7, .generator = "flat", .generatorVersion = 3};
+
+inline world::Section randomSection(std::mt19937& random, int distinct) {
+    std::array<world::Section::Value, world::kBlocksPerSection> values;
+    std::vector<world::Section::Value> palette;
+    for (int i = 0; i < distinct; ++i) palette.push_back(static_cast<world::Section::Value>(random()));
+    for (auto& value : values) value = palette[random() % palette.size()];
+    return world::Section::fromValues(values);
+}
+
+inline world::LargeData randomBytes(std::mt19937& random, std::size_t size) {
+    world::LargeData data(size);
+    for (std::byte& byte : data) byte = static_cast<std::byte>(random());
+    return data;
+}
+
+// Sections of all forms, small and large data.
+inline world::Chunk randomChunk(std::mt19937& random) {
+    constexpr int kDistinct[] = {1, 1, 1, 2, 3, 4, 9, 16, 17, 200, 256, 257, 3000};
+    world::Chunk chunk;
+    for (int n = 0; n < world::kSectionsPerChunk; ++n) {
+        chunk.setSection(n, randomSection(random, kDistinct[random() % std::size(kDistinct)]));
+        if (random() % 4 == 0)
+            chunk.setSmallDataSection(n, randomSection(random, kDistinct[random() % std::size(kDistinct)]));
+    }
+    for (std::size_t count = random() % 2 * (random() % 50); count > 0; --count)
+        chunk.setLargeData(static_cast<world::BlockIndex>(random()), randomBytes(random, random() % 300));
+    return chunk;
+}
+
+// A chunk of a few of the registry's blocks that differs with the number.
+inline world::ChunkPtr numberedChunk(int number) {
+    auto chunk = std::make_shared<world::Chunk>();
+    chunk->setSection(0, world::Section(1));
+    for (int bit = 0; bit < 24; ++bit)
+        chunk->setBlock(world::blockIndex(bit % 16, bit / 16, 20), number >> bit & 1 ? 2 : 3);
+    chunk->setSmallData(world::blockIndex(1, 1, 20), static_cast<std::uint16_t>(number));
+    return chunk;
+}
+
+inline std::string readAll(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline void writeAll(const std::filesystem::path& path, std::string_view bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
+
+// Runs SQL on a file as another program would.
+inline void runSql(const std::filesystem::path& path, const std::string& sql) {
+    auto database = Database::open(path, OpenMode::Create);
+    ASSERT_TRUE(database) << database.error().message;
+    const auto done = database->execute(sql);
+    ASSERT_TRUE(done) << done.error().message;
+}
+
+inline std::int64_t queryFile(const std::filesystem::path& path, const std::string& sql) {
+    auto database = Database::open(path, OpenMode::ReadWrite);
+    if (!database) throw std::runtime_error(database.error().message);
+    const auto number = database->queryNumber(sql);
+    if (!number) throw std::runtime_error(number.error().message);
+    return number->value_or(-1);
+}
+
+// As a person without rights sees files: the tests may run as root, for whom nothing is read-only.
+class Unprivileged {
+  public:
+    Unprivileged() : wasRoot_(::geteuid() == 0) {
+        if (wasRoot_ && ::seteuid(65534) != 0) throw std::runtime_error("the user cannot be changed");
+    }
+    ~Unprivileged() {
+        if (wasRoot_ && ::seteuid(0) != 0) std::abort();
+    }
+    Unprivileged(const Unprivileged&) = delete;
+    Unprivileged& operator=(const Unprivileged&) = delete;
+
+  private:
+    bool wasRoot_;
+};
+
+}  // namespace terrane::store
