@@ -180,9 +180,13 @@ void Section::unpack(std::span<Value, kBlocksPerSection> values) const {
     } else if (isDense()) {
         std::memcpy(values.data(), words_.data(), values.size_bytes());
     } else {
-        withPaletteBits(bits_,
-                        [&](auto bits) { unpackValues<bits>(words_.data(), palette_, values.data()); });
+        unpackMapped(palette_, values);
     }
+}
+
+void Section::unpackMapped(std::span<const Value> mapped, std::span<Value, kBlocksPerSection> values) const {
+    assert(mapped.size() == palette_.size() && "one value for each palette entry");
+    withPaletteBits(bits_, [&](auto bits) { unpackValues<bits>(words_.data(), mapped, values.data()); });
 }
 
 void Section::compact() {

@@ -1,0 +1,155 @@
+#include "terrane/light/light_chunk.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "terrane/base/profile.h"
+#include "terrane/light/kernels.h"
+
+namespace terrane::light {
+namespace {
+
+constexpr int kBricks = world::kSectionsPerChunk;
+constexpr LightValue kOpaque = allComponents(kMaxLevel);
+
+void addChunk(LightField& field, int chunk, const ChunkBricks& bricks) {
+    for (int number = 0; number < kBricks; ++number) {
+        FieldBrick& brick = field.brick(chunk, number);
+        brick.light = bricks.light[static_cast<std::size_t>(number)];
+        brick.opacity = bricks.opacity[static_cast<std::size_t>(number)].values;
+        brick.isInside = true;
+    }
+}
+
+// Rows that may not be settled in a chunk of which only the sources are known. Inside a brick of one value no
+// light flows.
+void markUnsettled(LightField& field, const ChunkBricks& bricks) {
+    for (int number = 0; number < kBricks; ++number) {
+        const auto k = static_cast<std::size_t>(number);
+        const BrickView opacity = bricks.opacity[k];
+        if (opacity.isUniform && opacity.uniformValue() == kOpaque) continue;
+        const int index = LightField::indexOf(kCentreChunk, number);
+        if (!bricks.light[k].isUniform) {
+            field.markAll(index);
+            continue;
+        }
+        const auto differs = [&](std::size_t other) {
+            return !bricks.light[other].isUniform ||
+                   bricks.light[other].uniformValue() != bricks.light[k].uniformValue();
+        };
+        if (number > 0 && differs(k - 1)) field.markLayer(index, 0);
+        if (number + 1 < kBricks && differs(k + 1)) field.markLayer(index, world::kSectionSize - 1);
+    }
+}
+
+// How far each column of a chunk of the field is from the chunk in the middle: light of that level or less
+// cannot get there.
+using Reach = std::array<LightValue, world::kChunkSize * world::kChunkSize>;
+
+std::array<Reach, kFieldChunks> makeReaches() {
+    const auto distance = [](int chunk, int i) { return chunk == 0 ? 16 - i : chunk == 1 ? 0 : i + 1; };
+    std::array<Reach, kFieldChunks> reaches;
+    for (int chunk = 0; chunk < kFieldChunks; ++chunk) {
+        for (int column = 0; column < 256; ++column) {
+            const int away =
+                distance(chunk % kFieldSide, column & 15) + distance(chunk / kFieldSide, column >> 4);
+            reaches[static_cast<std::size_t>(chunk)][static_cast<std::size_t>(column)] =
+                allComponents(std::min(away, kMaxLevel));
+        }
+    }
+    return reaches;
+}
+
+const LightValue* reachOf(int chunk) {
+    static const std::array<Reach, kFieldChunks> reaches = makeReaches();
+    return reaches[static_cast<std::size_t>(chunk)].data();
+}
+
+// Marks the rows on both sides of a border where light differs: only there can it flow.
+void markBorderX(LightField& field, int lower) {
+    const int upper = lower + LightField::kStepX;
+    const BrickView a = field.brick(lower).light, b = field.brick(upper).light;
+    if (a.isUniform && b.isUniform && a.uniformValue() == b.uniformValue()) return;
+    for (int row = 0; row < kRowsPerBrick; ++row) {
+        if (a.values[16 * row + 15] == b.values[16 * row]) continue;
+        field.markRow(lower, row);
+        field.markRow(upper, row);
+    }
+}
+
+void markBorderY(LightField& field, int lower) {
+    const int upper = lower + LightField::kStepY;
+    const BrickView a = field.brick(lower).light, b = field.brick(upper).light;
+    if (a.isUniform && b.isUniform && a.uniformValue() == b.uniformValue()) return;
+    for (int z = 0; z < world::kSectionSize; ++z) {
+        const LightValue* rowA = a.values + 256 * z + 240;
+        const LightValue* rowB = b.values + 256 * z;
+        if (std::equal(rowA, rowA + 16, rowB)) continue;
+        field.markRow(lower, 16 * z + 15);
+        field.markRow(upper, 16 * z);
+    }
+}
+
+void markBorders(LightField& field, const LocalNeighbourhood& chunks) {
+    for (int chunk = 0; chunk < kFieldChunks; ++chunk) {
+        const auto isThere = [&](int other) { return chunks[static_cast<std::size_t>(other)] != nullptr; };
+        if (!isThere(chunk)) continue;
+        const bool hasEast = chunk % kFieldSide < 2 && isThere(chunk + 1);
+        const bool hasNext = chunk / kFieldSide < 2 && isThere(chunk + kFieldSide);
+        for (int number = 0; number < kBricks; ++number) {
+            const int index = LightField::indexOf(chunk, number);
+            if (hasEast) markBorderX(field, index);
+            if (hasNext) markBorderY(field, index);
+        }
+    }
+}
+
+LightBrick packBrick(BrickView view) {
+    if (view.isUniform) return LightBrick(view.uniformValue());
+    return LightBrick::fromValues(std::span<const LightValue, world::kBlocksPerSection>(
+        view.values, static_cast<std::size_t>(world::kBlocksPerSection)));
+}
+
+}  // namespace
+
+LocalLight solveLocal(const world::Chunk& chunk, const LightTable& table, LightScratch& scratch) {
+    TERRANE_ZONE("light local");
+    LightField& field = scratch.field;
+    field.reset();
+    LocalLight result;
+    result.bricks = findSources(chunk, table, field.pool());
+    addChunk(field, kCentreChunk, result.bricks);
+    markUnsettled(field, result.bricks);
+    raiseLight(field);
+    for (int number = 0; number < kBricks; ++number) {
+        BrickView& light = result.bricks.light[static_cast<std::size_t>(number)];
+        light = field.brick(kCentreChunk, number).light;
+        light.writable = nullptr;
+        result.bricks.opacity[static_cast<std::size_t>(number)].writable = nullptr;
+    }
+    result.owned = field.pool().release();
+    return result;
+}
+
+ChunkLight lightChunk(const LocalNeighbourhood& chunks, LightScratch& scratch) {
+    TERRANE_ZONE("light chunk");
+    assert(chunks[kCentreChunk] && "the chunk to light is the one in the middle");
+    LightField& field = scratch.field;
+    field.reset();
+    for (int chunk = 0; chunk < kFieldChunks; ++chunk) {
+        if (const LocalLight* local = chunks[static_cast<std::size_t>(chunk)]) {
+            addChunk(field, chunk, local->bricks);
+            for (int number = 0; number < kBricks; ++number)
+                field.brick(chunk, number).reach = reachOf(chunk);
+        }
+    }
+    markBorders(field, chunks);
+    raiseLight(field);
+    ChunkLight result;
+    for (int number = 0; number < kBricks; ++number) {
+        result.setBrick(number, packBrick(field.brick(kCentreChunk, number).light));
+    }
+    return result;
+}
+
+}  // namespace terrane::light
