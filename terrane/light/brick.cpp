@@ -24,6 +24,12 @@ const Brick* sharedUniformBrick(LightValue value) {
     return value == allComponents(level) ? &bricks[static_cast<std::size_t>(level)] : nullptr;
 }
 
+LightBrick packBrick(BrickView view) {
+    if (view.isUniform) return LightBrick(view.uniformValue());
+    return LightBrick::fromValues(std::span<const LightValue, world::kBlocksPerSection>(
+        view.values, static_cast<std::size_t>(world::kBlocksPerSection)));
+}
+
 Brick* BrickPool::acquire() {
     if (spare_.empty()) {
         used_.push_back(std::make_unique_for_overwrite<Brick>());
@@ -39,6 +45,13 @@ BrickView BrickPool::uniform(LightValue value) {
     Brick* brick = acquire();
     brick->values.fill(value);
     return {brick->values.data(), nullptr, true};
+}
+
+BrickView BrickPool::unpack(const LightBrick& brick) {
+    if (brick.isUniform()) return uniform(brick.uniformValue());
+    Brick* unpacked = acquire();
+    brick.unpack(unpacked->values);
+    return {unpacked->values.data(), nullptr, false};
 }
 
 void BrickPool::reset() {

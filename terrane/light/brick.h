@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "terrane/light/light_value.h"
+#include "terrane/light/chunk_light.h"
 
 namespace terrane::light {
 
@@ -29,12 +29,16 @@ struct BrickView {
 // Null for other values.
 const Brick* sharedUniformBrick(LightValue value);
 
+// The smallest form of the values.
+LightBrick packBrick(BrickView view);
+
 // Keeps bricks for a computation and hands them out again for the next. One thread at a time.
 class BrickPool {
   public:
     // 8 KiB with any content, valid until reset() or release().
     Brick* acquire();
     BrickView uniform(LightValue value);
+    BrickView unpack(const LightBrick& brick);
     // Everything acquired may be handed out again.
     void reset();
     // Everything acquired so far, for the caller to keep.

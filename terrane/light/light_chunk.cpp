@@ -104,12 +104,6 @@ void markBorders(LightField& field, const LocalNeighbourhood& chunks) {
     }
 }
 
-LightBrick packBrick(BrickView view) {
-    if (view.isUniform) return LightBrick(view.uniformValue());
-    return LightBrick::fromValues(std::span<const LightValue, world::kBlocksPerSection>(
-        view.values, static_cast<std::size_t>(world::kBlocksPerSection)));
-}
-
 }  // namespace
 
 LocalLight solveLocal(const world::Chunk& chunk, const LightTable& table, LightScratch& scratch) {

@@ -29,6 +29,7 @@ struct LocalLight {
 // Memory that a worker keeps from chunk to chunk; holds nothing between calls.
 struct LightScratch {
     LightField field;
+    LightField suspects;  // for relight.h
 };
 
 LocalLight solveLocal(const world::Chunk& chunk, const LightTable& table, LightScratch& scratch);
