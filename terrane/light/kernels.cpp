@@ -65,6 +65,11 @@ HWY_INLINE Levels lossOf(const LightValue* opacity) {
     return each([](Bytes a, Bytes b) HWY_ATTR { return hn::SaturatedAdd(a, b); }, loadRow(opacity), one);
 }
 
+// Nothing gets into a row of opaque voxels.
+HWY_INLINE bool isOpaque(const Levels& loss) {
+    return hn::AllTrue(kBytes, hn::Eq(hn::And(loss.oddA, loss.oddB), hn::Set(kBytes, 0xFF)));
+}
+
 // The brighter of the voxels at x − 1 and x + 1. `west` ends with the voxel before the row, `east` begins
 // with the one after it.
 HWY_INLINE Levels brighterBeside(Bytes west, Bytes a, Bytes b, Bytes east) {
@@ -119,10 +124,11 @@ struct RowChange {
 // Applies the rule to a row until nothing changes inside it, and writes it.
 template <class Rule>
 HWY_INLINE RowChange updateRow(LightField& field, FieldBrick& brick, int row, Rule rule) {
+    const Levels loss = lossOf(brick.opacity + 16 * row);
+    if (isOpaque(loss)) return {};
     const RowPlace at = placeOf(&brick, row);
     const Bytes a = loadBytes(at.self), b = loadBytes(at.self + 8);
     const Bytes west = loadBytes(at.west), east = loadBytes(at.east);
-    const Levels loss = lossOf(brick.opacity + 16 * row);
     Levels around =
         maxOf(maxOf(loadRow(at.below), loadRow(at.above)), maxOf(loadRow(at.south), loadRow(at.north)));
     around = maxOf(around, brighterBeside(west, a, b, east));

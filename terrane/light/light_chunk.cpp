@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 
 #include "terrane/base/profile.h"
 #include "terrane/light/kernels.h"
@@ -65,18 +66,31 @@ const LightValue* reachOf(int chunk) {
     return reaches[static_cast<std::size_t>(chunk)].data();
 }
 
-// Marks the rows on both sides of a border where light differs: only there can it flow.
-void markBorderX(LightField& field, int lower) {
+// Whether light passes from one voxel to its neighbour so that it matters there. Four levels at once: two to
+// a number, in bytes whose highest bit tells that the difference is not negative.
+bool flows(LightValue from, LightValue to, LightValue opacity, LightValue reach) {
+    const auto reaches = [&](int shift) {
+        const auto part = [&](LightValue v) { return static_cast<unsigned>(v >> shift) & 0x0F0Fu; };
+        const unsigned offered = (part(from) | 0x8080u) - part(opacity) - 0x0202u;
+        return (offered - part(to)) & (offered - part(reach)) & 0x8080u;
+    };
+    return (reaches(0) | reaches(4)) != 0;
+}
+
+// Marks the rows into which light flows across a border along y; `lower` is the brick at its lower x.
+void markBorderX(LightField& field, int lower, const LightValue* east, const LightValue* west) {
+    if (std::memcmp(east, west, sizeof(LocalLight::Side)) == 0) return;
     const int upper = lower + LightField::kStepX;
-    const BrickView a = field.brick(lower).light, b = field.brick(upper).light;
-    if (a.isUniform && b.isUniform && a.uniformValue() == b.uniformValue()) return;
+    const FieldBrick &a = field.brick(lower), &b = field.brick(upper);
     for (int row = 0; row < kRowsPerBrick; ++row) {
-        if (a.values[16 * row + 15] == b.values[16 * row]) continue;
-        field.markRow(lower, row);
-        field.markRow(upper, row);
+        if (east[row] == west[row]) continue;
+        const int first = 16 * row, last = first + 15, y = row & 15;
+        if (flows(west[row], east[row], a.opacity[last], a.reach[16 * y + 15])) field.markRow(lower, row);
+        if (flows(east[row], west[row], b.opacity[first], b.reach[16 * y])) field.markRow(upper, row);
     }
 }
 
+// The same along x. Rows lie side by side there, and are marked where they differ.
 void markBorderY(LightField& field, int lower) {
     const int upper = lower + LightField::kStepY;
     const BrickView a = field.brick(lower).light, b = field.brick(upper).light;
@@ -90,6 +104,26 @@ void markBorderY(LightField& field, int lower) {
     }
 }
 
+void addSides(LocalLight& local) {
+    const auto isUniform = [](const BrickView& brick) { return brick.isUniform; };
+    const auto& light = local.bricks.light;
+    const auto uniform = std::count_if(light.begin(), light.end(), isUniform);
+    local.ownedSides = std::make_unique_for_overwrite<LocalLight::Side[]>(
+        2 * (light.size() - static_cast<std::size_t>(uniform)));
+    LocalLight::Side* next = local.ownedSides.get();
+    for (std::size_t k = 0; k < light.size(); ++k) {
+        local.west[k] = local.east[k] = light[k].values;  // any 256 values of a uniform brick
+        if (light[k].isUniform) continue;
+        LocalLight::Side &west = *next++, &east = *next++;
+        for (std::size_t row = 0; row < west.size(); ++row) {
+            west[row] = light[k].values[16 * row];
+            east[row] = light[k].values[16 * row + 15];
+        }
+        local.west[k] = west.data();
+        local.east[k] = east.data();
+    }
+}
+
 void markBorders(LightField& field, const LocalNeighbourhood& chunks) {
     for (int chunk = 0; chunk < kFieldChunks; ++chunk) {
         const auto isThere = [&](int other) { return chunks[static_cast<std::size_t>(other)] != nullptr; };
@@ -98,7 +132,11 @@ void markBorders(LightField& field, const LocalNeighbourhood& chunks) {
         const bool hasNext = chunk / kFieldSide < 2 && isThere(chunk + kFieldSide);
         for (int number = 0; number < kBricks; ++number) {
             const int index = LightField::indexOf(chunk, number);
-            if (hasEast) markBorderX(field, index);
+            if (hasEast) {
+                const auto at = static_cast<std::size_t>(number);
+                markBorderX(field, index, chunks[static_cast<std::size_t>(chunk)]->east[at],
+                            chunks[static_cast<std::size_t>(chunk + 1)]->west[at]);
+            }
             if (hasNext) markBorderY(field, index);
         }
     }
@@ -122,6 +160,7 @@ LocalLight solveLocal(const world::Chunk& chunk, const LightTable& table, LightS
         result.bricks.opacity[static_cast<std::size_t>(number)].writable = nullptr;
     }
     result.owned = field.pool().release();
+    addSides(result);
     return result;
 }
 

@@ -20,8 +20,13 @@ namespace terrane::light {
 // Result of stage 1; immutable, shared between threads. Unpacked, 16 KiB a brick that is not uniform: about
 // 100 KiB in the overworld. No longer needed once the chunk and its eight neighbours are lit.
 struct LocalLight {
+    // Light at x = 0 or x = 15, index y + 16 z.
+    using Side = std::array<LightValue, world::kSectionSize * world::kSectionSize>;
+
     ChunkBricks bricks;
+    std::array<const LightValue*, world::kSectionsPerChunk> west{}, east{};  // Sides
     std::vector<std::unique_ptr<Brick>> owned;
+    std::unique_ptr<Side[]> ownedSides;
 
     std::size_t memoryBytes() const { return sizeof(LocalLight) + owned.size() * sizeof(Brick); }
 };
