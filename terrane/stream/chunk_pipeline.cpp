@@ -2,237 +2,289 @@
 
 #include <algorithm>
 #include <cassert>
+#include <exception>
 
+#include "terrane/base/log.h"
 #include "terrane/base/profile.h"
 
 namespace terrane::stream {
-namespace {
 
 using world::ChunkPos;
 using world::ChunkPtr;
 
+namespace {
+
 // Jobs in flight a worker: enough that none waits for a frame, few enough that the queue follows the camera.
 constexpr std::size_t kJobsPerWorker = 8;
-
-ChunkPos offsetBy(ChunkPos pos, int dx, int dy) {
-    return {pos.x + dx, pos.y + dy};
-}
-
-std::int64_t squaredDistance(ChunkPos a, ChunkPos b) {
-    const std::int64_t dx = std::int64_t{a.x} - b.x, dy = std::int64_t{a.y} - b.y;
-    return dx * dx + dy * dy;
-}
+constexpr std::chrono::milliseconds kUnloadEvery{250};
 
 }  // namespace
 
 // What workers leave for the pipeline's thread. Jobs hold it too, so that one that ends late finds it alive.
 struct ChunkPipeline::Results {
-    struct Mesh {
+    struct Load {
         ChunkPos pos;
-        std::uint64_t number;
-        std::shared_ptr<const mesh::ChunkMesh> mesh;
+        ChunkPtr chunk;  // null: to be made by a batch generator, or it failed
+        LocalLightPtr local;
+        bool failed = false;
+    };
+    struct Finish {
+        ChunkPos pos;
+        MeshPtr mesh;
+        light::ChunkLightPtr light;
     };
     std::mutex mutex;
     std::condition_variable changed;
-    std::vector<std::pair<ChunkPos, ChunkPtr>> chunks;
-    std::vector<Mesh> meshes;
+    std::vector<Load> loads;
+    std::vector<Finish> finishes;
+
+    void add(Load load) {
+        const std::lock_guard lock(mutex);
+        loads.push_back(std::move(load));
+        changed.notify_one();
+    }
+    void add(Finish finish) {
+        const std::lock_guard lock(mutex);
+        finishes.push_back(std::move(finish));
+        changed.notify_one();
+    }
 };
 
-ChunkPipeline::ChunkPipeline(base::JobSystem& jobs, const gen::Generator& generator,
-                             const world::BlockRegistry& blocks, world::World& world)
-    : jobs_(jobs),
-      generator_(generator),
-      blocks_(blocks),
-      world_(world),
-      results_(std::make_shared<Results>()),
-      outside_(std::make_shared<world::Chunk>()) {}
+ChunkPipeline::ChunkPipeline(const PipelineParts& parts)
+    : parts_(parts), results_(std::make_shared<Results>()) {
+    if (parts_.batches) parts_.source.generator = nullptr;
+}
 
 ChunkPipeline::~ChunkPipeline() {
-    for (const auto& [pos, job] : generating_) job.cancel();
-    jobs_.waitIdle();
+    for (const auto& [pos, extra] : extras_) {
+        if (extra.load) extra.load.cancel();
+    }
+    parts_.jobs.waitIdle();
+    saveAll();
 }
 
-void ChunkPipeline::setView(ChunkPos centre, int viewDistance) {
-    assert(viewDistance >= 0 && "a view shows at least the camera's chunk");
-    if (centre == centre_ && viewDistance == viewDistance_) return;
-    const bool newDistance = viewDistance != viewDistance_;
-    centre_ = centre;
-    viewDistance_ = viewDistance;
-    if (newDistance) orderOffsets();
-    nextOffset_ = 0;
-    unloadDistant();
-    for (const ChunkPos offset : offsets_) {
-        const ChunkPos pos = offsetBy(centre_, offset.x, offset.y);
-        if (isReadyToMesh(pos)) submitMesh(pos);
+void ChunkPipeline::setView(ChunkPos centre, int viewDistance, glm::vec2 direction) {
+    table_.setView(centre, viewDistance, direction);
+    for (const ChunkPos pos : table_.takeHidden()) {
+        setLight(pos, nullptr);
+        ChunkChange& hidden = change(pos);
+        hidden.mesh = nullptr;
+        hidden.light = nullptr;
+        hidden.isHidden = true;
+    }
+    cancelDistantLoads();
+}
+
+// One ring outside of what is wanted a load goes on, so that a camera that paces a border does not cancel and
+// ask again.
+void ChunkPipeline::cancelDistantLoads() {
+    for (auto it = extras_.begin(); it != extras_.end();) {
+        const ChunkPos pos = it->first;
+        base::JobHandle& load = it->second.load;
+        ++it;
+        if (!load || table_.isWanted(pos)) continue;
+        load.cancel();
+        if (load.state() != base::JobState::Cancelled) continue;
+        extras_.erase(pos);
+        table_.loadEnded(pos);
     }
 }
 
-void ChunkPipeline::orderOffsets() {
-    offsets_.clear();
-    const int reach = viewDistance_ + 1;
-    for (int y = -reach; y <= reach; ++y) {
-        for (int x = -reach; x <= reach; ++x) offsets_.push_back({x, y});
-    }
-    std::stable_sort(offsets_.begin(), offsets_.end(),
-                     [](ChunkPos a, ChunkPos b) { return squaredDistance(a, {}) < squaredDistance(b, {}); });
-}
-
-base::JobPriority ChunkPipeline::priority(ChunkPos pos) const {
-    return squaredDistance(pos, centre_);
-}
-
-void ChunkPipeline::update() {
+void ChunkPipeline::update(Time now) {
     TERRANE_ZONE("pipeline update");
-    std::vector<std::pair<ChunkPos, ChunkPtr>> chunks;
-    std::vector<Results::Mesh> meshes;
+    takeResults(now);
+    if (parts_.batches) takeBatches(now);
+    applyEdits();
+    remesh();
+    saveEdited(now);
+    if (now >= nextUnload_) unload(now);
+    submitLoads();
+    submitFinishes();
+}
+
+void ChunkPipeline::takeResults(Time now) {
+    std::vector<Results::Load> loads;
+    std::vector<Results::Finish> finishes;
     {
         const std::lock_guard lock(results_->mutex);
-        chunks.swap(results_->chunks);
-        meshes.swap(results_->meshes);
+        loads.swap(results_->loads);
+        finishes.swap(results_->finishes);
     }
-    for (auto& [pos, chunk] : chunks) onGenerated(pos, std::move(chunk));
-    for (Results::Mesh& result : meshes) {
-        const auto asked = meshAsked_.find(result.pos);
-        if (asked == meshAsked_.end() || asked->second != result.number) continue;
-        visible_.insert(result.pos);
-        addChange(result.pos, std::move(result.mesh));
+    for (Results::Load& load : loads) {
+        if (load.chunk) {
+            onLoaded(load.pos, std::move(load.chunk), std::move(load.local), now);
+        } else if (load.failed) {
+            extras_.erase(load.pos);
+            table_.loadEnded(load.pos);
+        } else {
+            extras_[load.pos].load = {};
+            absent_.push_back(load.pos);
+        }
     }
-    submitGeneration();
+    for (Results::Finish& done : finishes) {
+        if (!table_.finished(done.pos)) continue;
+        setLight(done.pos, done.light);
+        change(done.pos).mesh = std::move(done.mesh);
+        dropLocalsAround(done.pos);
+    }
+}
+
+void ChunkPipeline::onLoaded(ChunkPos pos, ChunkPtr chunk, LocalLightPtr local, Time now) {
+    Extra& extra = extras_[pos];
+    extra.load = {};
+    extra.local = std::move(local);
+    parts_.world.insert(pos, std::move(chunk));
+    table_.loaded(pos, now);
 }
 
 void ChunkPipeline::waitForWorkers(std::chrono::milliseconds atMost) {
     std::unique_lock lock(results_->mutex);
     results_->changed.wait_for(lock, atMost,
-                               [&] { return !results_->chunks.empty() || !results_->meshes.empty(); });
+                               [&] { return !results_->loads.empty() || !results_->finishes.empty(); });
 }
 
-void ChunkPipeline::submitGeneration() {
-    const std::size_t limit = kJobsPerWorker * jobs_.threadCount();
-    while (nextOffset_ < offsets_.size() && generating_.size() < limit) {
-        const ChunkPos pos = offsetBy(centre_, offsets_[nextOffset_].x, offsets_[nextOffset_].y);
-        ++nextOffset_;
-        if (!world::isInWorld(pos) || world_.maybeChunkAt(pos) || generating_.contains(pos)) continue;
-        generating_[pos] =
-            jobs_.submit(priority(pos), [this, pos, results = results_](const base::CancelToken&) {
-                auto chunk = std::make_shared<world::Chunk>(generator_.generate(pos));
-                const std::lock_guard lock(results->mutex);
-                results->chunks.emplace_back(pos, std::move(chunk));
-                results->changed.notify_one();
+void ChunkPipeline::submitLoads() {
+    const std::size_t limit = kJobsPerWorker * parts_.jobs.threadCount();
+    const std::size_t room = limit - std::min(limit, table_.loadingCount() - absent_.size());
+    for (const ChunkPos pos : table_.takeLoads(room)) {
+        const auto work = [pos, source = parts_.source, lights = &parts_.lights,
+                           results = results_](const base::CancelToken&) {
+            try {
+                ChunkPtr chunk = loadChunk(source, pos);
+                LocalLightPtr local = chunk ? localLight(*chunk, *lights) : nullptr;
+                results->add(Results::Load{pos, std::move(chunk), std::move(local)});
+            } catch (const std::exception& e) {
+                base::logError("chunk {},{}: {}", pos.x, pos.y, e.what());
+                results->add(Results::Load{pos, nullptr, nullptr, true});
+            }
+        };
+        extras_[pos].load = parts_.jobs.submit(table_.urgency(pos), work);
+    }
+}
+
+void ChunkPipeline::takeBatches(Time) {
+    while (!absent_.empty()) {
+        const std::vector<ChunkPos> wanted(absent_.begin(), absent_.end());
+        const std::size_t taken = parts_.batches->submit(wanted);
+        if (taken == 0) break;
+        absent_.erase(absent_.begin(), absent_.begin() + static_cast<long>(taken));
+    }
+    for (auto& [pos, chunk] : parts_.batches->take()) {
+        submitPrepare(pos, std::make_shared<world::Chunk>(std::move(chunk)));
+    }
+}
+
+// A generated chunk's own light.
+void ChunkPipeline::submitPrepare(ChunkPos pos, ChunkPtr chunk) {
+    parts_.jobs.submit(table_.urgency(pos), [pos, chunk = std::move(chunk), lights = &parts_.lights,
+                                             results = results_](const base::CancelToken&) {
+        results->add(Results::Load{pos, chunk, localLight(*chunk, *lights)});
+    });
+}
+
+Surroundings ChunkPipeline::surroundings(ChunkPos pos) const {
+    Surroundings around;
+    for (int n = 0; n < 9; ++n) {
+        const ChunkPos at{pos.x + n % 3 - 1, pos.y + n / 3 - 1};
+        const auto k = static_cast<std::size_t>(n);
+        around.chunks[k] = parts_.world.maybeChunkAt(at);
+        const auto extra = extras_.find(at);
+        if (extra != extras_.end()) around.locals[k] = extra->second.local;
+    }
+    return around;
+}
+
+void ChunkPipeline::submitFinishes() {
+    const std::size_t limit = kJobsPerWorker * parts_.jobs.threadCount();
+    const std::size_t room = limit - std::min(limit, table_.finishingCount());
+    for (const ChunkPos pos : table_.takeFinishes(room)) {
+        // Before loads of equal urgency: what is on screen frees memory.
+        parts_.jobs.submit(
+            table_.urgency(pos) - 1, [pos, around = surroundings(pos), lights = &parts_.lights,
+                                      blocks = &parts_.blocks, results = results_](const base::CancelToken&) {
+                light::ChunkLightPtr light = lightOf(around, *lights);
+                results->add(Results::Finish{pos, meshOf(around.chunks, *blocks), std::move(light)});
             });
     }
 }
 
-void ChunkPipeline::onGenerated(ChunkPos pos, ChunkPtr chunk) {
-    generating_.erase(pos);
-    if (world::chunkDistance(pos, centre_) > viewDistance_ + 2) return;
-    world_.insert(pos, std::move(chunk));
-    meshWhereReady(pos);
-}
-
-void ChunkPipeline::meshWhereReady(ChunkPos around) {
-    for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-            const ChunkPos pos = offsetBy(around, dx, dy);
-            if (isReadyToMesh(pos)) submitMesh(pos);
-        }
-    }
-}
-
-ChunkPtr ChunkPipeline::chunkOrOutside(ChunkPos pos) const {
-    return world::isInWorld(pos) ? world_.maybeChunkAt(pos) : outside_;
-}
-
-bool ChunkPipeline::isReadyToMesh(ChunkPos pos) const {
-    if (!world::isInWorld(pos) || world::chunkDistance(pos, centre_) > viewDistance_) return false;
-    if (meshAsked_.contains(pos)) return false;
-    for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-            if (!chunkOrOutside(offsetBy(pos, dx, dy))) return false;
-        }
-    }
-    return true;
-}
-
-void ChunkPipeline::submitMesh(ChunkPos pos) {
-    const std::uint64_t number = ++meshNumber_;
-    meshAsked_[pos] = number;
-    const std::array<ChunkPtr, 5> chunks = {
-        chunkOrOutside(pos), chunkOrOutside(offsetBy(pos, -1, 0)), chunkOrOutside(offsetBy(pos, 1, 0)),
-        chunkOrOutside(offsetBy(pos, 0, -1)), chunkOrOutside(offsetBy(pos, 0, 1))};
-    jobs_.submit(priority(pos),
-                 [chunks, number, pos, blocks = &blocks_, results = results_](const base::CancelToken&) {
-                     TERRANE_ZONE("mesh chunk");
-                     mesh::MeshInput input;
-                     input.centre = chunks[0].get();
-                     input.neighbours = {chunks[1].get(), chunks[2].get(), chunks[3].get(), chunks[4].get()};
-                     input.blocks = blocks;
-                     thread_local mesh::MeshScratch scratch;
-                     auto mesh = std::make_shared<const mesh::ChunkMesh>(mesh::meshChunk(input, scratch));
-                     const std::lock_guard lock(results->mutex);
-                     results->meshes.push_back({pos, number, std::move(mesh)});
-                     results->changed.notify_one();
-                 });
-}
-
-void ChunkPipeline::blocksChanged(world::BlockPos pos) {
-    const auto again = [&](ChunkPos chunk) {
-        if (!meshAsked_.contains(chunk)) return;  // not meshed yet: it will be, with the new blocks
-        submitMesh(chunk);
+// A chunk's own light is needed until it and its neighbours are lit.
+void ChunkPipeline::dropLocalsAround(ChunkPos pos) {
+    const auto isLit = [&](ChunkPos at) {
+        return table_.is(at, ChunkStage::Visible) || !world::isInWorld(at);
     };
-    const ChunkPos chunk = world::chunkOf(pos);
-    again(chunk);
-    const int x = pos.x & 15, y = pos.y & 15;
-    if (x == 0) again(offsetBy(chunk, -1, 0));
-    if (x == 15) again(offsetBy(chunk, 1, 0));
-    if (y == 0) again(offsetBy(chunk, 0, -1));
-    if (y == 15) again(offsetBy(chunk, 0, 1));
-}
-
-// A chunk stays one ring longer than it is wanted, so that a camera that paces a border does not load it each
-// time.
-void ChunkPipeline::unloadDistant() {
-    std::vector<ChunkPos> distant;
-    for (const auto& [pos, chunk] : world_.chunks()) {
-        if (world::chunkDistance(pos, centre_) > viewDistance_ + 2) distant.push_back(pos);
-    }
-    for (const ChunkPos pos : distant) world_.erase(pos);
-    for (auto it = generating_.begin(); it != generating_.end();) {
-        const bool isDistant = world::chunkDistance(it->first, centre_) > viewDistance_ + 2;
-        if (isDistant) it->second.cancel();
-        const base::JobState state = it->second.state();
-        it = isDistant && state == base::JobState::Cancelled ? generating_.erase(it) : std::next(it);
-    }
-    for (auto it = meshAsked_.begin(); it != meshAsked_.end();) {
-        if (world::chunkDistance(it->first, centre_) <= viewDistance_) {
-            ++it;
-            continue;
-        }
-        if (visible_.erase(it->first) > 0) addChange(it->first, nullptr);
-        it = meshAsked_.erase(it);
+    for (int n = 0; n < 9; ++n) {
+        const ChunkPos at{pos.x + n % 3 - 1, pos.y + n / 3 - 1};
+        const auto extra = extras_.find(at);
+        if (extra == extras_.end() || !extra->second.local) continue;
+        bool isNeeded = false;
+        for (int m = 0; m < 9 && !isNeeded; ++m) isNeeded = !isLit({at.x + m % 3 - 1, at.y + m / 3 - 1});
+        if (!isNeeded) extra->second.local = nullptr;
     }
 }
 
-void ChunkPipeline::addChange(ChunkPos pos, std::shared_ptr<const mesh::ChunkMesh> mesh) {
-    if (changes_.insert_or_assign(pos, std::move(mesh)).second) changed_.push_back(pos);
+void ChunkPipeline::unload(Time now) {
+    nextUnload_ = now + kUnloadEvery;
+    for (const ChunkPos pos : table_.takeUnloads(now)) {
+        save(pos, extras_[pos]);
+        extras_.erase(pos);
+        parts_.world.erase(pos);
+    }
 }
 
-std::vector<MeshChange> ChunkPipeline::takeMeshes(std::size_t limit) {
-    std::vector<MeshChange> taken;
+void ChunkPipeline::saveEdited(Time now) {
+    for (auto& [pos, extra] : extras_) {
+        if (!extra.editedAt) continue;
+        // The time of the first edit since the last save is known here only.
+        if (*extra.editedAt == Time{}) extra.editedAt = now;
+        if (now - *extra.editedAt >= kSaveAfter) save(pos, extra);
+    }
+}
+
+void ChunkPipeline::save(ChunkPos pos, Extra& extra) {
+    if (!extra.editedAt) return;
+    extra.editedAt.reset();
+    if (!parts_.source.store) return;
+    parts_.source.store->save(pos, parts_.world.maybeChunkAt(pos), store::Origin::Edited);
+}
+
+void ChunkPipeline::saveAll() {
+    for (auto& [pos, extra] : extras_) save(pos, extra);
+}
+
+ChunkPtr ChunkPipeline::maybeLoadChunkAt(ChunkPos pos) {
+    table_.request(pos, std::chrono::steady_clock::now());
+    return parts_.world.maybeChunkAt(pos);
+}
+
+ChunkPtr ChunkPipeline::chunkAt(ChunkPos pos) {
+    for (;;) {
+        if (ChunkPtr chunk = maybeLoadChunkAt(pos)) return chunk;
+        update();
+        waitForWorkers(std::chrono::milliseconds(10));
+    }
+}
+
+ChunkChange& ChunkPipeline::change(ChunkPos pos) {
+    const auto [it, isNew] = changes_.try_emplace(pos);
+    it->second.pos = pos;
+    it->second.isHidden = false;
+    if (isNew) changed_.push_back(pos);
+    return it->second;
+}
+
+std::vector<ChunkChange> ChunkPipeline::takeChanges(std::size_t limit) {
+    std::vector<ChunkChange> taken;
     for (; taken.size() < limit && !changed_.empty(); changed_.pop_front()) {
-        auto change = changes_.extract(changed_.front());
-        taken.push_back({change.key(), std::move(change.mapped())});
+        taken.push_back(std::move(changes_.extract(changed_.front()).mapped()));
     }
     return taken;
 }
 
-Progress ChunkPipeline::progress() const {
-    Progress progress;
-    for (const ChunkPos offset : offsets_) {
-        const ChunkPos pos = offsetBy(centre_, offset.x, offset.y);
-        if (world::isInWorld(pos) && world::chunkDistance(pos, centre_) <= viewDistance_) ++progress.wanted;
-    }
-    progress.visible = visible_.size();
-    return progress;
+std::size_t ChunkPipeline::lightBytes() const {
+    std::size_t bytes = 0;
+    for (const auto& [pos, extra] : extras_) bytes += extra.light ? extra.light->memoryBytes() : 0;
+    return bytes;
 }
 
 }  // namespace terrane::stream

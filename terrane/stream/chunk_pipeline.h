@@ -1,93 +1,138 @@
-// Keeps the chunks around a camera generated and meshed, on worker threads, nearest first.
+// Keeps the chunks around a camera loaded, lit and meshed, on worker threads, and edits on screen and on
+// disk.
 //
-// A chunk's way: wanted → generating → active (in the world) → meshing → visible. It is meshed only once the
-// eight chunks around it are active. All functions are for one thread, the one that owns the world; workers
-// see only immutable chunks and hand results back through a queue.
+// Which chunk is to be what is for ChunkTable to say; this runs the work. All functions are for one thread,
+// the one that owns the world; workers see only immutable snapshots and hand results back through a queue.
 #pragma once
 
 #include <chrono>
 #include <condition_variable>
 #include <deque>
-#include <memory>
+#include <functional>
 #include <mutex>
+#include <optional>
+#include <set>
+#include <span>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "terrane/base/job_system.h"
-#include "terrane/gen/generator.h"
-#include "terrane/mesh/chunk_mesher.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/light/relight.h"
+#include "terrane/stream/chunk_jobs.h"
+#include "terrane/stream/chunk_table.h"
 #include "terrane/world/world.h"
 
 namespace terrane::stream {
 
-struct MeshChange {
+// What became of a chunk on screen. Null: as before.
+struct ChunkChange {
     world::ChunkPos pos;
-    std::shared_ptr<const mesh::ChunkMesh> mesh;  // null: the chunk is no longer visible
+    MeshPtr mesh;
+    light::ChunkLightPtr light;
+    bool isHidden = false;  // it is no longer on screen
 };
 
 struct Progress {
     std::size_t wanted = 0;   // chunks within the view distance
-    std::size_t visible = 0;  // of these, meshed
+    std::size_t visible = 0;  // of these, lit and meshed
     bool complete() const { return visible == wanted; }
+};
+
+// Makes chunks many at a time on the pipeline's thread without waiting: a GPU.
+struct BatchGenerator {
+    // Takes chunks from the front and says how many; 0 while it is busy.
+    std::function<std::size_t(std::span<const world::ChunkPos>)> submit;
+    // Chunks that are done, if there are any.
+    std::function<std::vector<std::pair<world::ChunkPos, world::Chunk>>()> take;
+};
+
+// What the pipeline works with; everything outlives it.
+struct PipelineParts {
+    base::JobSystem& jobs;
+    const world::BlockRegistry& blocks;
+    const light::LightTable& lights;
+    world::World& world;
+    ChunkSource source;
+    const BatchGenerator* batches = nullptr;  // in place of source.generator
 };
 
 class ChunkPipeline {
   public:
-    // All arguments outlive the pipeline.
-    ChunkPipeline(base::JobSystem& jobs, const gen::Generator& generator, const world::BlockRegistry& blocks,
-                  world::World& world);
-    ~ChunkPipeline();  // waits for its running jobs
+    using Time = ChunkTable::Time;
 
-    // Chunks up to `viewDistance` (Chebyshev) around `centre` are to be visible.
-    void setView(world::ChunkPos centre, int viewDistance);
-    // Takes in what workers finished and gives them new work. Call each frame.
-    void update();
+    explicit ChunkPipeline(const PipelineParts& parts);
+    ~ChunkPipeline();  // waits for its running jobs; saves what changed
+
+    // Chunks up to `viewDistance` (Chebyshev) around `centre` are to be visible. `direction`: see ChunkTable.
+    void setView(world::ChunkPos centre, int viewDistance, glm::vec2 direction = {});
+    // Takes in what workers finished, puts edits on screen, gives out new work. Call each frame.
+    void update(Time now = std::chrono::steady_clock::now());
     // Blocks until a worker has finished something or the time is over.
     void waitForWorkers(std::chrono::milliseconds atMost);
 
-    // The chunk's blocks changed: it is meshed again, and the neighbours that see its border.
-    void blocksChanged(world::BlockPos pos);
+    // The chunk, or null unless it is loaded; then it is loaded soon, and is kept for 5 s from each call.
+    world::ChunkPtr maybeLoadChunkAt(world::ChunkPos pos);
+    // Blocks until the chunk is loaded. `pos` is in the world.
+    world::ChunkPtr chunkAt(world::ChunkPos pos);
 
-    // What changed on screen since the last call, at most `limit` chunks. Of a chunk only the newest mesh.
-    std::vector<MeshChange> takeMeshes(std::size_t limit);
+    // The block was `before` until World::setBlock changed it. Light and mesh follow in the next update; the
+    // chunk is saved within kSaveAfter.
+    void blockChanged(world::BlockPos pos, world::BlockId before);
+    // Small or large data of the block changed.
+    void dataChanged(world::BlockPos pos);
+    static constexpr std::chrono::seconds kSaveAfter{2};
+    // Hands all changed chunks to the store.
+    void saveAll();
 
-    Progress progress() const;
+    // What changed on screen since the last call, at most `limit` chunks, in the order in which they changed
+    // first.
+    std::vector<ChunkChange> takeChanges(std::size_t limit);
+
+    Progress progress() const { return {table_.wantedVisible(), table_.visibleInView()}; }
+    // Of visible chunks' light.
+    std::size_t lightBytes() const;
 
   private:
     struct Results;
+    // What is kept of a chunk beside its blocks.
+    struct Extra {
+        base::JobHandle load;
+        LocalLightPtr local;         // null once nobody needs it
+        light::ChunkLightPtr light;  // of visible chunks
+        std::optional<Time> editedAt;
+    };
 
-    void orderOffsets();
-    void submitGeneration();
-    void submitMesh(world::ChunkPos pos);
-    void meshWhereReady(world::ChunkPos around);
-    void onGenerated(world::ChunkPos pos, world::ChunkPtr chunk);
-    void unloadDistant();
-    void addChange(world::ChunkPos pos, std::shared_ptr<const mesh::ChunkMesh> mesh);
-    world::ChunkPtr chunkOrOutside(world::ChunkPos pos) const;
-    bool isReadyToMesh(world::ChunkPos pos) const;
-    base::JobPriority priority(world::ChunkPos pos) const;
+    void takeResults(Time now);
+    void takeBatches(Time now);
+    void onLoaded(world::ChunkPos pos, world::ChunkPtr chunk, LocalLightPtr local, Time now);
+    void submitLoads();
+    void submitPrepare(world::ChunkPos pos, world::ChunkPtr chunk);
+    void submitFinishes();
+    void unload(Time now);
+    void saveEdited(Time now);
+    void save(world::ChunkPos pos, Extra& extra);
+    void dropLocalsAround(world::ChunkPos pos);
+    void cancelDistantLoads();
 
-    base::JobSystem& jobs_;
-    const gen::Generator& generator_;
-    const world::BlockRegistry& blocks_;
-    world::World& world_;
+    Surroundings surroundings(world::ChunkPos pos) const;
+    void applyEdits();
+    bool relightIncrementally(const std::set<world::ChunkPos>& edited);
+    void relightFromScratch(const std::set<world::ChunkPos>& edited);
+    void setLight(world::ChunkPos pos, light::ChunkLightPtr light);
+    void remesh();
+    ChunkChange& change(world::ChunkPos pos);
+
+    PipelineParts parts_;
+    ChunkTable table_;
     std::shared_ptr<Results> results_;
-    world::ChunkPtr outside_;  // stands for chunks beyond the world's edge: air
+    std::unordered_map<world::ChunkPos, Extra, world::ChunkPosHash> extras_;
+    std::deque<world::ChunkPos> absent_;   // to be made by `batches`
+    std::vector<light::BlockEdit> edits_;  // since the last update
+    std::set<world::ChunkPos> toMesh_;
+    Time nextUnload_{};
 
-    world::ChunkPos centre_;
-    int viewDistance_ = -1;
-    std::vector<world::ChunkPos> offsets_;  // of wanted chunks and the ring around them, nearest first
-    std::size_t nextOffset_ = 0;            // those before are active or being generated
-
-    std::unordered_map<world::ChunkPos, base::JobHandle, world::ChunkPosHash> generating_;
-    // Number of the newest mesh asked for; results of older ones are dropped.
-    std::unordered_map<world::ChunkPos, std::uint64_t, world::ChunkPosHash> meshAsked_;
-    std::unordered_set<world::ChunkPos, world::ChunkPosHash> visible_;
-    std::uint64_t meshNumber_ = 0;
-    // What was not taken yet: the newest by chunk, and the chunks in the order in which they first changed.
-    std::unordered_map<world::ChunkPos, std::shared_ptr<const mesh::ChunkMesh>, world::ChunkPosHash> changes_;
+    // What was not taken yet, and the chunks in the order in which they first changed.
+    std::unordered_map<world::ChunkPos, ChunkChange, world::ChunkPosHash> changes_;
     std::deque<world::ChunkPos> changed_;
 };
 

@@ -121,17 +121,28 @@ int findPalette(ConstValues values, std::array<Section::Value, kMaxPalette>& pal
     // that nothing needs clearing between calls (Briggs, Torczon: An Efficient Representation for Sparse
     // Sets, 1993). 64 KiB, of which a call touches one byte a distinct value.
     thread_local std::array<std::uint8_t, 65536> position;
-    int count = 0;
-    for (int i = 0; i < kBlocksPerSection; ++i) {
-        const Section::Value value = values[static_cast<std::size_t>(i)];
-        int at = position[value];
-        if (at >= count || palette[static_cast<std::size_t>(at)] != value) {
-            if (count == kMaxPalette) return kMaxPalette + 1;
-            at = count++;
-            position[value] = static_cast<std::uint8_t>(at);
-            palette[static_cast<std::size_t>(at)] = value;
+    constexpr int kRun = 4;  // values compared at once: most blocks are like the one before
+    int count = 0, at = 0;
+    std::uint64_t run = ~std::uint64_t{0};  // the last value, kRun times
+    for (int i = 0; i < kBlocksPerSection; i += kRun) {
+        std::uint64_t next;
+        std::memcpy(&next, &values[static_cast<std::size_t>(i)], sizeof next);
+        if (next == run && count > 0) {
+            std::memset(&indices[static_cast<std::size_t>(i)], at, kRun);
+            continue;
         }
-        indices[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(at);
+        for (int k = i; k < i + kRun; ++k) {
+            const Section::Value value = values[static_cast<std::size_t>(k)];
+            at = position[value];
+            if (at >= count || palette[static_cast<std::size_t>(at)] != value) {
+                if (count == kMaxPalette) return kMaxPalette + 1;
+                at = count++;
+                position[value] = static_cast<std::uint8_t>(at);
+                palette[static_cast<std::size_t>(at)] = value;
+            }
+            indices[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(at);
+        }
+        run = palette[static_cast<std::size_t>(at)] * 0x0001000100010001u;
     }
     return count;
 }
@@ -201,9 +212,13 @@ void Section::unpack(std::span<Value, kBlocksPerSection> values) const {
     } else if (isDense()) {
         std::memcpy(values.data(), words_.data(), values.size_bytes());
     } else {
-        withPaletteBits(bits_,
-                        [&](auto bits) { unpackValues<bits>(words_.data(), palette_, values.data()); });
+        unpackMapped(palette_, values);
     }
+}
+
+void Section::unpackMapped(std::span<const Value> mapped, std::span<Value, kBlocksPerSection> values) const {
+    assert(mapped.size() == palette_.size() && "one value for each palette entry");
+    withPaletteBits(bits_, [&](auto bits) { unpackValues<bits>(words_.data(), mapped, values.data()); });
 }
 
 void Section::compact() {

@@ -43,6 +43,9 @@ class Section {
     }
     void set(int index, Value value);
     void unpack(std::span<Value, kBlocksPerSection> values) const;
+    // As unpack, with mapped[k] in place of palette()[k]: looks something up once a palette entry instead of
+    // once a block. Palette form only; mapped has the size of palette().
+    void unpackMapped(std::span<const Value> mapped, std::span<Value, kBlocksPerSection> values) const;
     void compact();
 
     bool isUniform() const { return bits_ == 0; }

@@ -1,0 +1,262 @@
+// Light on one thread, over the landscape scene with a view distance of 16. Labels are digests of the light:
+// they change where the result does.
+#include <benchmark/benchmark.h>
+
+#include <bit>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/terrane/scenes.h"
+#include "terrane/base/digest.h"
+#include "terrane/base/embedded.h"
+#include "terrane/base/job_system.h"
+#include "terrane/gen/generator.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/light/light_area.h"
+#include "terrane/light/relight.h"
+#include "terrane/shared/hash.h"
+
+namespace terrane::embedded {
+std::span<const base::EmbeddedFile> content();
+}  // namespace terrane::embedded
+
+namespace {
+
+using namespace terrane;
+using light::ChunkLight;
+using light::LocalLight;
+
+constexpr int kViewDistance = 16;
+constexpr int kSide = 2 * kViewDistance + 3;  // chunks along x and y, one around those that are lit
+
+template <class T>
+T orExit(base::Result<T> result) {
+    if (result) return std::move(*result);
+    std::fprintf(stderr, "%s\n", result.error().message.c_str());
+    std::exit(1);
+}
+
+const world::BlockRegistry& blocks() {
+    static const world::BlockRegistry registry = [] {
+        std::string_view text;
+        for (const base::EmbeddedFile& file : embedded::content()) {
+            if (file.path == "blocks.toml") text = file.data;
+        }
+        return orExit(world::BlockRegistry::parse(text, "blocks.toml"));
+    }();
+    return registry;
+}
+
+const light::LightTable& table() {
+    static const light::LightTable result(blocks());
+    return result;
+}
+
+// Chunks of the scene with one around them, x fastest.
+std::vector<world::Chunk> makeScene(std::string_view name) {
+    const glm::dvec3 at = app::findScene(name)->camera.position;
+    const world::ChunkPos centre =
+        world::chunkOf({static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y), 0});
+    const gen::Generator generator(orExit(gen::makeGenerator("overworld", blocks())), 1);
+    std::vector<world::Chunk> chunks(kSide * kSide);
+    base::JobSystem jobs(2);
+    const auto done = base::parallelFor(jobs, chunks.size(), [&](std::size_t k) {
+        chunks[k] = generator.generate({centre.x - kViewDistance - 1 + static_cast<int>(k) % kSide,
+                                        centre.y - kViewDistance - 1 + static_cast<int>(k) / kSide});
+    });
+    if (!done) std::exit(1);
+    return chunks;
+}
+
+const std::vector<world::Chunk>& landscape() {
+    static const std::vector<world::Chunk> chunks = makeScene("landscape");
+    return chunks;
+}
+
+std::vector<LocalLight> solveAll(const std::vector<world::Chunk>& chunks, light::LightScratch& scratch) {
+    std::vector<LocalLight> locals;
+    for (const world::Chunk& chunk : chunks) locals.push_back(solveLocal(chunk, table(), scratch));
+    return locals;
+}
+
+std::vector<ChunkLight> lightAll(const std::vector<LocalLight>& locals, light::LightScratch& scratch) {
+    std::vector<ChunkLight> lights;
+    for (int y = 1; y < kSide - 1; ++y) {
+        for (int x = 1; x < kSide - 1; ++x) {
+            light::LocalNeighbourhood around;
+            for (int k = 0; k < 9; ++k) {
+                around[static_cast<std::size_t>(k)] =
+                    &locals[static_cast<std::size_t>(x + k % 3 - 1 + kSide * (y + k / 3 - 1))];
+            }
+            lights.push_back(lightChunk(around, scratch));
+        }
+    }
+    return lights;
+}
+
+std::string digestOf(const std::vector<ChunkLight>& lights) {
+    base::Digest digest;
+    std::vector<light::LightValue> values(world::kBlocksPerSection);
+    for (const ChunkLight& chunk : lights) {
+        for (int s = 0; s < world::kSectionsPerChunk; ++s) {
+            chunk.brick(s).unpack(std::span(values).first<world::kBlocksPerSection>());
+            digest.update(std::as_bytes(std::span(values)));
+        }
+    }
+    return digest.hex();
+}
+
+// Time a chunk that is lit, the ring around the area (12 %) included.
+benchmark::Counter perChunk(std::size_t chunks) {
+    return {static_cast<double>(chunks),
+            benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert};
+}
+
+constexpr std::size_t kLit = (kSide - 2) * (kSide - 2);
+
+void local(benchmark::State& state) {
+    light::LightScratch scratch;
+    std::size_t bytes = 0;
+    for (const LocalLight& one : solveAll(landscape(), scratch)) bytes += one.memoryBytes();
+    for (auto _ : state) {
+        for (const world::Chunk& chunk : landscape())
+            benchmark::DoNotOptimize(solveLocal(chunk, table(), scratch));
+    }
+    state.counters["time/chunk"] = perChunk(landscape().size());
+    state.counters["bytes"] = static_cast<double>(bytes) / static_cast<double>(landscape().size());
+}
+
+void neighbours(benchmark::State& state) {
+    light::LightScratch scratch;
+    const std::vector<LocalLight> locals = solveAll(landscape(), scratch);
+    std::vector<ChunkLight> lights;
+    for (auto _ : state) lights = lightAll(locals, scratch);
+    std::size_t bytes = 0;
+    for (const ChunkLight& chunk : lights) bytes += chunk.memoryBytes();
+    state.counters["time/chunk"] = perChunk(kLit);
+    state.counters["bytes"] = static_cast<double>(bytes) / kLit;
+    state.SetLabel(digestOf(lights));
+}
+
+// Worst edits, in 3×3 chunks: each iteration makes an edit and takes it back, and both are relit.
+
+world::BlockId blockId(std::string_view name) {
+    return blocks().find(name)->id;
+}
+
+struct Scene {
+    std::vector<world::Chunk> chunks = std::vector<world::Chunk>(9);
+
+    // Blocks of the box, x and y from the corner of the area, ends excluded.
+    void fill(world::BlockPos from, world::BlockPos to, world::BlockId id) {
+        for (int z = from.z; z < to.z; ++z) {
+            for (int y = from.y; y < to.y; ++y) {
+                for (int x = from.x; x < to.x; ++x)
+                    chunks[static_cast<std::size_t>(x / 16 + 3 * (y / 16))].setBlock(
+                        world::blockIndex(x & 15, y & 15, z), id);
+            }
+        }
+    }
+};
+
+// Open ground at z = 100.
+Scene openGround() {
+    Scene scene;
+    scene.fill({0, 0, 0}, {48, 48, 100}, blockId("stone"));
+    return scene;
+}
+
+// A hall of 46×46×118 blocks under a roof of two.
+Scene hall() {
+    Scene scene;
+    scene.fill({0, 0, 0}, {48, 48, 240}, blockId("stone"));
+    scene.fill({1, 1, 120}, {47, 47, 238}, world::kAir);
+    return scene;
+}
+
+// A tree-covered ground: leaves in two layers of three blocks with gaps.
+Scene underLeaves() {
+    Scene scene = openGround();
+    scene.fill({0, 0, 104}, {48, 48, 107}, blockId("oak_leaves"));
+    for (int k = 0; k < 48; k += 3) scene.fill({k, 0, 104}, {k + 1, 48, 107}, world::kAir);
+    return scene;
+}
+
+std::vector<ChunkLight> lightScene(const Scene& scene) {
+    light::LightArea area{3, 3, {}};
+    for (const world::Chunk& chunk : scene.chunks) area.chunks.push_back(&chunk);
+    return lightArea(area, table());
+}
+
+// Changes the block at `index` of the middle chunk between two ids.
+void edit(benchmark::State& state, Scene scene, world::BlockIndex index, world::BlockId first,
+          world::BlockId second) {
+    light::LightScratch scratch;
+    scene.chunks[4].setBlock(index, first);
+    light::LightWindow window;
+    const std::vector<ChunkLight> lights = lightScene(scene);
+    for (std::size_t k = 0; k < 9; ++k) {
+        window.chunks[k] = &scene.chunks[k];
+        window.lights[k] = std::make_shared<ChunkLight>(lights[k]);
+    }
+    int changed = 0;
+    const auto change = [&](world::BlockId from, world::BlockId to) {
+        scene.chunks[4].setBlock(index, to);
+        const light::BlockChange one{index, from};
+        const auto bricks = relight(window, {&one, 1}, table(), scratch);
+        changed = 0;
+        for (const std::uint16_t bits : bricks) changed += std::popcount(bits);
+    };
+    for (auto _ : state) {
+        change(first, second);
+        state.PauseTiming();  // the way back is another benchmark
+        change(second, first);
+        state.ResumeTiming();
+    }
+    state.counters["bricks"] = changed;
+}
+
+void lampRemoved(benchmark::State& state) {
+    edit(state, openGround(), world::blockIndex(8, 8, 104), blockId("lamp_white"), world::kAir);
+}
+void lampPlaced(benchmark::State& state) {
+    edit(state, openGround(), world::blockIndex(8, 8, 104), world::kAir, blockId("lamp_white"));
+}
+void lampRemovedInHall(benchmark::State& state) {
+    edit(state, hall(), world::blockIndex(8, 8, 184), blockId("lamp_white"), world::kAir);
+}
+void roofOpened(benchmark::State& state) {
+    Scene scene = hall();
+    scene.fill({24, 24, 238}, {25, 25, 239}, world::kAir);
+    edit(state, scene, world::blockIndex(8, 8, 239), blockId("stone"), world::kAir);
+}
+void roofClosed(benchmark::State& state) {
+    Scene scene = hall();
+    scene.fill({24, 24, 238}, {25, 25, 239}, world::kAir);
+    edit(state, scene, world::blockIndex(8, 8, 239), world::kAir, blockId("stone"));
+}
+void leafRemoved(benchmark::State& state) {
+    edit(state, underLeaves(), world::blockIndex(8, 8, 106), blockId("oak_leaves"), world::kAir);
+}
+void stonePlaced(benchmark::State& state) {
+    edit(state, openGround(), world::blockIndex(8, 8, 100), world::kAir, blockId("stone"));
+}
+
+BENCHMARK(local)->Unit(benchmark::kMillisecond);
+BENCHMARK(neighbours)->Unit(benchmark::kMillisecond);
+BENCHMARK(lampRemoved)->Unit(benchmark::kMicrosecond);
+BENCHMARK(lampPlaced)->Unit(benchmark::kMicrosecond);
+BENCHMARK(lampRemovedInHall)->Unit(benchmark::kMicrosecond);
+BENCHMARK(roofOpened)->Unit(benchmark::kMicrosecond);
+BENCHMARK(roofClosed)->Unit(benchmark::kMicrosecond);
+BENCHMARK(leafRemoved)->Unit(benchmark::kMicrosecond);
+BENCHMARK(stonePlaced)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,49 @@
+// The light of a chunk: 16×16×256 levels in sixteen bricks of 16³. A plain value; copying it copies some
+// kilobytes. Shared between threads as `shared_ptr<const ChunkLight>`, like the chunk itself.
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <memory>
+
+#include "terrane/light/light_value.h"
+#include "terrane/world/section.h"
+
+namespace terrane::light {
+
+// A brick of one value takes nothing beside the object; others have a palette with 1, 2, 4 or 8 bits a block,
+// or are dense (8 KiB). Index in a brick: x + 16 y + 256 z, as in a section of blocks.
+using LightBrick = world::Section;
+
+class ChunkLight {
+  public:
+    LightValue at(world::BlockIndex i) const { return bricks_[i >> 12].get(i & 4095); }
+    // x and y in the chunk, 0…15; z 0…255.
+    LightValue get(int x, int y, int z) const { return at(world::blockIndex(x, y, z)); }
+
+    // Number 0…15 from below.
+    const LightBrick& brick(int number) const {
+        assert(number >= 0 && number < world::kSectionsPerChunk && "number of a brick in a chunk");
+        return bricks_[static_cast<std::size_t>(number)];
+    }
+    void setBrick(int number, LightBrick brick) {
+        assert(number >= 0 && number < world::kSectionsPerChunk && "number of a brick in a chunk");
+        bricks_[static_cast<std::size_t>(number)] = std::move(brick);
+    }
+
+    std::size_t memoryBytes() const {  // heap and object
+        std::size_t bytes = 0;
+        for (const LightBrick& brick : bricks_) bytes += brick.memoryBytes();
+        return bytes;
+    }
+
+    friend bool operator==(const ChunkLight&, const ChunkLight&) = default;
+
+  private:
+    std::array<LightBrick, world::kSectionsPerChunk> bricks_;  // dark
+};
+
+using ChunkLightPtr = std::shared_ptr<const ChunkLight>;
+
+}  // namespace terrane::light

@@ -1,0 +1,272 @@
+#include "terrane/light/kernels.h"
+
+#include <bit>
+
+// The vectors of 16 bytes need SSSE3 at least, which every x86 with OpenGL 4.5 beside it has: Highway's
+// fallback without vectors is left out.
+#if defined(__x86_64__)
+#define HWY_BASELINE_TARGETS HWY_SSSE3
+#endif
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "terrane/light/kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace terrane::light {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+const hn::FixedTag<std::uint8_t, 16> kBytes;
+const hn::FixedTag<std::uint16_t, 8> kValues;
+using Bytes = hn::Vec<decltype(kBytes)>;
+
+HWY_INLINE Bytes loadBytes(const LightValue* values) {
+    return hn::BitCast(kBytes, hn::LoadU(kValues, values));
+}
+
+// 64 levels, a byte each, so that maximum and saturated difference of bytes are those of levels: red and blue
+// in the low four bits (even), green and daylight in the high four (odd); a holds x = 0…7, b 8…15.
+struct Levels {
+    Bytes evenA, evenB, oddA, oddB;
+};
+
+HWY_INLINE Levels split(Bytes a, Bytes b) {
+    const Bytes even = hn::Set(kBytes, 0x0F), odd = hn::Set(kBytes, 0xF0);
+    return {hn::And(a, even), hn::And(b, even), hn::And(a, odd), hn::And(b, odd)};
+}
+
+HWY_INLINE Levels loadRow(const LightValue* row) {
+    return split(loadBytes(row), loadBytes(row + 8));
+}
+
+template <class Function>
+HWY_INLINE Levels each(Function f, const Levels& p, const Levels& q) {
+    return {f(p.evenA, q.evenA), f(p.evenB, q.evenB), f(p.oddA, q.oddA), f(p.oddB, q.oddB)};
+}
+
+HWY_INLINE Levels maxOf(const Levels& p, const Levels& q) {
+    return each([](Bytes a, Bytes b) HWY_ATTR { return hn::Max(a, b); }, p, q);
+}
+
+HWY_INLINE Levels minus(const Levels& p, const Levels& q) {
+    return each([](Bytes a, Bytes b) HWY_ATTR { return hn::SaturatedSub(a, b); }, p, q);
+}
+
+// Levels of p where they exceed those of q, else 0.
+HWY_INLINE Levels whereAbove(const Levels& p, const Levels& q) {
+    return each([](Bytes a, Bytes b) HWY_ATTR { return hn::IfThenElseZero(hn::Gt(a, b), a); }, p, q);
+}
+
+// 1 + opacity. An odd one of 15 saturates at 255, which darkens 240 as 256 would.
+HWY_INLINE Levels lossOf(const LightValue* opacity) {
+    const Levels one = {hn::Set(kBytes, 1), hn::Set(kBytes, 1), hn::Set(kBytes, 16), hn::Set(kBytes, 16)};
+    return each([](Bytes a, Bytes b) HWY_ATTR { return hn::SaturatedAdd(a, b); }, loadRow(opacity), one);
+}
+
+// Nothing gets into a row of opaque voxels.
+HWY_INLINE bool isOpaque(const Levels& loss) {
+    return hn::AllTrue(kBytes, hn::Eq(hn::And(loss.oddA, loss.oddB), hn::Set(kBytes, 0xFF)));
+}
+
+// The brighter of the voxels at x − 1 and x + 1. `west` ends with the voxel before the row, `east` begins
+// with the one after it.
+HWY_INLINE Levels brighterBeside(Bytes west, Bytes a, Bytes b, Bytes east) {
+    return maxOf(
+        split(hn::CombineShiftRightBytes<14>(kBytes, a, west), hn::CombineShiftRightBytes<14>(kBytes, b, a)),
+        split(hn::CombineShiftRightBytes<2>(kBytes, b, a), hn::CombineShiftRightBytes<2>(kBytes, east, b)));
+}
+
+// A row and where its neighbours are.
+struct RowPlace {
+    const LightValue *self, *west, *east, *south, *north, *below, *above;
+};
+
+HWY_INLINE RowPlace placeOf(const FieldBrick* brick, int row) {
+    const int y = row & 15, z = row >> 4, at = 16 * row;
+    const auto light = [&](int step) { return brick[step].light.values; };
+    return {light(0) + at,
+            light(-LightField::kStepX) + at + 8,
+            light(LightField::kStepX) + at,
+            y > 0 ? light(0) + at - 16 : light(-LightField::kStepY) + at + 240,
+            y < 15 ? light(0) + at + 16 : light(LightField::kStepY) + at - 240,
+            z > 0 ? light(0) + at - 256 : light(-LightField::kStepZ) + at + 3840,
+            z < 15 ? light(0) + at + 256 : light(LightField::kStepZ) + at - 3840};
+}
+
+// Voxels become as bright as their neighbours make them.
+struct Raise {
+    HWY_INLINE Levels operator()(const Levels& offered, const Levels& old, const FieldBrick& brick,
+                                 int row) const {
+        return maxOf(old, whereAbove(offered, loadRow(brick.reach + 16 * (row & 15))));
+    }
+};
+
+// Levels that a suspect gave, and that have no source of their own, become suspects.
+struct Suspect {
+    HWY_INLINE Levels operator()(const Levels& offered, const Levels& old, const FieldBrick& brick,
+                                 int row) const {
+        const Levels before = loadRow(brick.before + 16 * row);
+        const Levels lit = whereAbove(before, loadRow(brick.source + 16 * row));
+        const auto given = [](Bytes level, Bytes offer) HWY_ATTR {
+            return hn::IfThenElseZero(hn::Eq(hn::Max(level, offer), offer), level);
+        };
+        return maxOf(old, each(given, lit, offered));
+    }
+};
+
+// What changed of a row: any voxel, its first, its last.
+struct RowChange {
+    bool any = false, first = false, last = false;
+};
+
+// Applies the rule to a row until nothing changes inside it, and writes it.
+template <class Rule>
+HWY_INLINE RowChange updateRow(LightField& field, FieldBrick& brick, int row, Rule rule) {
+    const Levels loss = lossOf(brick.opacity + 16 * row);
+    if (isOpaque(loss)) return {};
+    const RowPlace at = placeOf(&brick, row);
+    const Bytes a = loadBytes(at.self), b = loadBytes(at.self + 8);
+    const Bytes west = loadBytes(at.west), east = loadBytes(at.east);
+    Levels around =
+        maxOf(maxOf(loadRow(at.below), loadRow(at.above)), maxOf(loadRow(at.south), loadRow(at.north)));
+    around = maxOf(around, brighterBeside(west, a, b, east));
+
+    Levels now = rule(minus(around, loss), split(a, b), brick, row);
+    Bytes newA = hn::Or(now.evenA, now.oddA), newB = hn::Or(now.evenB, now.oddB);
+    const auto isSame = [](Bytes p, Bytes q, Bytes r, Bytes s) HWY_ATTR {
+        return hn::AllTrue(kBytes, hn::Eq(hn::Or(hn::Xor(p, q), hn::Xor(r, s)), hn::Zero(kBytes)));
+    };
+    if (isSame(a, newA, b, newB)) return {};
+    for (;;) {
+        const Bytes oldA = newA, oldB = newB;
+        now = rule(minus(brighterBeside(west, newA, newB, east), loss), now, brick, row);
+        newA = hn::Or(now.evenA, now.oddA), newB = hn::Or(now.evenB, now.oddB);
+        if (isSame(oldA, newA, oldB, newB)) break;
+    }
+    LightValue* out = field.writable(brick) + 16 * row;
+    const LightValue oldFirst = out[0], oldLast = out[15];
+    hn::StoreU(hn::BitCast(kValues, newA), kValues, out);
+    hn::StoreU(hn::BitCast(kValues, newB), kValues, out + 8);
+    return {true, out[0] != oldFirst, out[15] != oldLast};
+}
+
+void markBeside(LightField& field, int index, int row, const RowChange& change) {
+    using F = LightField;
+    const int y = row & 15, z = row >> 4;
+    y > 0 ? field.markRow(index, row - 1) : field.markRow(index - F::kStepY, row + 15);
+    y < 15 ? field.markRow(index, row + 1) : field.markRow(index + F::kStepY, row - 15);
+    z > 0 ? field.markRow(index, row - 16) : field.markRow(index - F::kStepZ, row + 240);
+    z < 15 ? field.markRow(index, row + 16) : field.markRow(index + F::kStepZ, row - 240);
+    if (change.first) field.markRow(index - F::kStepX, row);
+    if (change.last) field.markRow(index + F::kStepX, row);
+}
+
+// Rows are taken upward and downward in turn, so that light that rises and light that falls both go far in
+// one pass.
+template <class Rule>
+void settleBrick(LightField& field, int index, Rule rule) {
+    FieldBrick& brick = field.brick(index);
+    auto& dirty = brick.dirty;
+    const auto update = [&](std::size_t word, int bit) {
+        dirty[word] &= ~(std::uint64_t{1} << bit);
+        const int row = static_cast<int>(64 * word) + bit;
+        const RowChange change = updateRow(field, brick, row, rule);
+        if (change.any) markBeside(field, index, row, change);
+    };
+    while ((dirty[0] | dirty[1] | dirty[2] | dirty[3]) != 0) {
+        for (std::size_t word = 4; word-- > 0;) {
+            // Rows marked above the last one wait for the way up.
+            std::uint64_t below = ~std::uint64_t{0};
+            while ((dirty[word] & below) != 0) {
+                const int bit = 63 - std::countl_zero(dirty[word] & below);
+                below = (std::uint64_t{1} << bit) - 1;
+                update(word, bit);
+            }
+        }
+        for (std::size_t word = 0; word < 4; ++word) {
+            std::uint64_t above = ~std::uint64_t{0};
+            while ((dirty[word] & above) != 0) {
+                const int bit = std::countr_zero(dirty[word] & above);
+                above = ~std::uint64_t{1} << bit;
+                update(word, bit);
+            }
+        }
+    }
+}
+
+template <class Rule>
+void settle(LightField& field, Rule rule) {
+    for (int index = field.takeDirty(); index >= 0; index = field.takeDirty())
+        settleBrick(field, index, rule);
+}
+
+void raise(LightField& field) {
+    settle(field, Raise());
+}
+
+void suspect(LightField& field) {
+    settle(field, Suspect());
+}
+
+void shine(const LightValue* opacity, const LightValue* emission, DaylightColumns& columns,
+           LightValue* light) {
+    const hn::CappedTag<LightValue, 16> d;
+    const auto daylight = hn::Set(d, kFullDaylight);
+    for (int z = world::kSectionSize - 1; z >= 0; --z) {
+        for (std::size_t column = 0; column < columns.size(); column += hn::Lanes(d)) {
+            const std::size_t at = columns.size() * static_cast<std::size_t>(z) + column;
+            const auto taken = hn::And(hn::LoadU(d, opacity + at), daylight);
+            const auto level = hn::SaturatedSub(hn::LoadU(d, columns.data() + column), taken);
+            hn::StoreU(level, d, columns.data() + column);
+            hn::StoreU(hn::Or(level, hn::LoadU(d, emission + at)), d, light + at);
+        }
+    }
+}
+
+void replace(const LightValue* suspects, const LightValue* source, const LightValue* before,
+             LightValue* light) {
+    const auto choose = [](Bytes suspected, Bytes a, Bytes b)
+                            HWY_ATTR { return hn::IfThenElse(hn::Eq(suspected, hn::Zero(kBytes)), b, a); };
+    for (int at = 0; at < world::kBlocksPerSection; at += 16) {
+        const Levels s = loadRow(suspects + at), a = loadRow(source + at), b = loadRow(before + at);
+        const Bytes first = hn::Or(choose(s.evenA, a.evenA, b.evenA), choose(s.oddA, a.oddA, b.oddA));
+        const Bytes second = hn::Or(choose(s.evenB, a.evenB, b.evenB), choose(s.oddB, a.oddB, b.oddB));
+        hn::StoreU(hn::BitCast(kValues, first), kValues, light + at);
+        hn::StoreU(hn::BitCast(kValues, second), kValues, light + at + 8);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace terrane::light
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace terrane::light {
+
+HWY_EXPORT(shine);
+HWY_EXPORT(raise);
+HWY_EXPORT(suspect);
+HWY_EXPORT(replace);
+
+void shineDown(const LightValue* opacity, const LightValue* emission, DaylightColumns& columns,
+               LightValue* light) {
+    HWY_DYNAMIC_DISPATCH(shine)(opacity, emission, columns, light);
+}
+
+void raiseLight(LightField& field) {
+    HWY_DYNAMIC_DISPATCH(raise)(field);
+}
+
+void spreadSuspects(LightField& field) {
+    HWY_DYNAMIC_DISPATCH(suspect)(field);
+}
+
+void replaceSuspects(const LightValue* suspects, const LightValue* source, const LightValue* before,
+                     LightValue* light) {
+    HWY_DYNAMIC_DISPATCH(replace)(suspects, source, before, light);
+}
+
+}  // namespace terrane::light
+#endif

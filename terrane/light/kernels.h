@@ -1,0 +1,32 @@
+// The inner loops of the solver in SIMD, for the best instruction set of the machine. Inside the module.
+//
+// A row of 16 voxels is handled at once, all four components of each: 64 levels.
+#pragma once
+
+#include <array>
+
+#include "terrane/light/light_field.h"
+
+namespace terrane::light {
+
+// Daylight that reaches each column (x + 16 y) from above, in bits 12–15.
+using DaylightColumns = std::array<LightValue, world::kChunkSize * world::kChunkSize>;
+
+// Takes daylight down through a brick: writes columns | emission to `light` for each voxel, where `emission`
+// is a brick too (it may be `light` itself). `columns` leave as they enter the brick below.
+void shineDown(const LightValue* opacity, const LightValue* emission, DaylightColumns& columns,
+               LightValue* light);
+
+// Raises the marked rows, and what follows from them, until every voxel is at least each neighbour less
+// 1 + its opacity.
+void raiseLight(LightField& field);
+
+// Finds what may have come from suspects, the non-zero levels of `light`: a level of `before` that exceeds
+// its source and equals what a suspect neighbour gives becomes one too. Starts from the marked rows.
+void spreadSuspects(LightField& field);
+
+// light = source where suspects are not 0, else before: whole bricks.
+void replaceSuspects(const LightValue* suspects, const LightValue* source, const LightValue* before,
+                     LightValue* light);
+
+}  // namespace terrane::light

@@ -1,0 +1,57 @@
+#include "terrane/light/light_area.h"
+
+#include <cassert>
+#include <optional>
+
+namespace terrane::light {
+namespace {
+
+// Results of stage 1 of the rows y − 1, y and y + 1 of chunks.
+class LocalRows {
+  public:
+    LocalRows(const LightArea& area, const LightTable& table, LightScratch& scratch)
+        : area_(area), table_(table), scratch_(scratch) {}
+
+    void solve(int y) {
+        auto& row = rows_[static_cast<std::size_t>(y % 3)];
+        row.clear();
+        if (y >= area_.chunksY) return;
+        for (int x = 0; x < area_.chunksX; ++x)
+            row.push_back(solveLocal(area_.chunk(x, y), table_, scratch_));
+    }
+    LocalNeighbourhood around(int x, int y) const {
+        LocalNeighbourhood result{};
+        for (int k = 0; k < kFieldChunks; ++k) {
+            const int cx = x + k % kFieldSide - 1, cy = y + k / kFieldSide - 1;
+            if (cx < 0 || cy < 0 || cx >= area_.chunksX || cy >= area_.chunksY) continue;
+            result[static_cast<std::size_t>(k)] =
+                &rows_[static_cast<std::size_t>(cy % 3)][static_cast<std::size_t>(cx)];
+        }
+        return result;
+    }
+
+  private:
+    const LightArea& area_;
+    const LightTable& table_;
+    LightScratch& scratch_;
+    std::array<std::vector<LocalLight>, 3> rows_;
+};
+
+}  // namespace
+
+std::vector<ChunkLight> lightArea(const LightArea& area, const LightTable& table) {
+    assert(area.chunks.size() ==
+           static_cast<std::size_t>(area.chunksX) * static_cast<std::size_t>(area.chunksY));
+    std::vector<ChunkLight> lights;
+    lights.reserve(area.chunks.size());
+    LightScratch scratch;
+    LocalRows rows(area, table, scratch);
+    rows.solve(0);
+    for (int y = 0; y < area.chunksY; ++y) {
+        rows.solve(y + 1);
+        for (int x = 0; x < area.chunksX; ++x) lights.push_back(lightChunk(rows.around(x, y), scratch));
+    }
+    return lights;
+}
+
+}  // namespace terrane::light

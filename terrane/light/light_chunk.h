@@ -1,0 +1,48 @@
+// Light of chunks from scratch, in two stages that may each run on any thread:
+//
+//   1. solveLocal: what a chunk's own blocks give, as if nothing but darkness lay around it.
+//   2. lightChunk: the light of a chunk, from what stage 1 found for it and its eight neighbours.
+//
+// Light travels at most 15 blocks, so that nothing farther away matters: the result is that of the whole
+// world. docs/light.md has the model and the proofs.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "terrane/light/chunk_light.h"
+#include "terrane/light/light_field.h"
+#include "terrane/light/light_sources.h"
+
+namespace terrane::light {
+
+// Result of stage 1; immutable, shared between threads. Unpacked, 16 KiB a brick that is not uniform: about
+// 100 KiB in the overworld. No longer needed once the chunk and its eight neighbours are lit.
+struct LocalLight {
+    // Light at x = 0 or x = 15, index y + 16 z.
+    using Side = std::array<LightValue, world::kSectionSize * world::kSectionSize>;
+
+    ChunkBricks bricks;
+    std::array<const LightValue*, world::kSectionsPerChunk> west{}, east{};  // Sides
+    std::vector<std::unique_ptr<Brick>> owned;
+    std::unique_ptr<Side[]> ownedSides;
+
+    std::size_t memoryBytes() const { return sizeof(LocalLight) + owned.size() * sizeof(Brick); }
+};
+
+// Memory that a worker keeps from chunk to chunk; holds nothing between calls.
+struct LightScratch {
+    LightField field;
+    LightField suspects;  // for relight.h
+};
+
+LocalLight solveLocal(const world::Chunk& chunk, const LightTable& table, LightScratch& scratch);
+
+// Index x + 3 y, the chunk itself in the middle (4). Null: nothing is known there, and it counts as dark and
+// opaque; the result is then that of a world that ends there.
+using LocalNeighbourhood = std::array<const LocalLight*, kFieldChunks>;
+
+ChunkLight lightChunk(const LocalNeighbourhood& chunks, LightScratch& scratch);
+
+}  // namespace terrane::light

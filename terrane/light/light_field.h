@@ -1,0 +1,82 @@
+// The working area of the solver: 3×3 chunks of bricks with darkness around them, and the rows that are to be
+// looked at. Inside the module; one thread at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "terrane/light/brick.h"
+
+namespace terrane::light {
+
+constexpr int kFieldSide = 3;    // chunks along x and y
+constexpr int kCentreChunk = 4;  // index of a chunk: x + 3 y
+constexpr int kFieldChunks = kFieldSide * kFieldSide;
+constexpr int kRowsPerBrick = 256;  // index of a row: y + 16 z
+
+// A brick of the field. Bricks outside are dark and opaque, so that nothing needs to ask where it is.
+struct FieldBrick {
+    BrickView light;
+    const LightValue* opacity = nullptr;
+    // Levels that do not exceed this (16 × 16, the same for all z) are of no interest and may be dropped.
+    const LightValue* reach = nullptr;
+    // While suspects are looked for (relight.cpp), `light` holds them; these are the light they come from,
+    // and the sources of the changed world.
+    const LightValue* before = nullptr;
+    const LightValue* source = nullptr;
+    std::array<std::uint64_t, kRowsPerBrick / 64> dirty{};  // rows to look at, a bit each
+    bool isInside = false;
+    bool isQueued = false;
+};
+
+class LightField {
+  public:
+    // Steps between neighbours in the array of bricks.
+    static constexpr int kStepX = 1, kStepY = kFieldSide + 2, kStepZ = kStepY * kStepY;
+
+    LightField() { reset(); }
+    void reset();  // all outside, nothing to look at
+
+    // Chunk 0…8, brick 0…15 from below.
+    static int indexOf(int chunk, int brick) {
+        return (chunk % kFieldSide + 1) * kStepX + (chunk / kFieldSide + 1) * kStepY + (brick + 1) * kStepZ;
+    }
+    FieldBrick& brick(int index) { return bricks_[static_cast<std::size_t>(index)]; }
+    FieldBrick& brick(int chunk, int number) { return brick(indexOf(chunk, number)); }
+
+    void markRow(int index, int row) {
+        FieldBrick& b = brick(index);
+        if (!b.isInside) return;
+        b.dirty[static_cast<std::size_t>(row >> 6)] |= std::uint64_t{1} << (row & 63);
+        enqueue(index);
+    }
+    void markAll(int index);
+    // The rows of the lowest (z = 0) or highest (z = 15) layer.
+    void markLayer(int index, int z);
+    // The rows of a voxel and its six neighbours.
+    void markAround(int index, int voxel);
+
+    // The brick's values to write to: a copy where somebody else keeps them.
+    LightValue* writable(FieldBrick& brick);
+
+    // The next brick with rows to look at, or -1. Its rows stay marked.
+    int takeDirty();
+
+    BrickPool& pool() { return pool_; }
+
+  private:
+    void enqueue(int index) {
+        FieldBrick& b = brick(index);
+        if (b.isQueued) return;
+        b.isQueued = true;
+        queue_.push_back(index);
+    }
+
+    std::array<FieldBrick, kStepZ*(world::kSectionsPerChunk + 2)> bricks_;
+    std::vector<int> queue_;
+    std::size_t queueHead_ = 0;
+    BrickPool pool_;
+};
+
+}  // namespace terrane::light

@@ -1,0 +1,201 @@
+#include "terrane/light/relight.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <map>
+
+#include "terrane/base/profile.h"
+#include "terrane/light/kernels.h"
+#include "terrane/light/source_change.h"
+
+namespace terrane::light {
+namespace {
+
+// The bricks that the changes can reach: of all chunks from firstX, firstY to lastX, lastY (0…2) the bricks
+// from lowest to highest.
+struct Range {
+    int firstX = 1, lastX = 1, firstY = 1, lastY = 1, lowest = world::kSectionsPerChunk, highest = -1;
+};
+
+Range rangeOf(std::span<const SourceChange> changes) {
+    Range range;
+    for (const SourceChange& change : changes) {
+        const int x = change.index & 15, y = change.index >> 4 & 15, z = change.index >> 8;
+        if (x < kMaxLevel) range.firstX = 0;
+        if (x + kMaxLevel >= world::kChunkSize) range.lastX = 2;
+        if (y < kMaxLevel) range.firstY = 0;
+        if (y + kMaxLevel >= world::kChunkSize) range.lastY = 2;
+        range.lowest = std::min(range.lowest, std::max(0, z - kMaxLevel) >> 4);
+        range.highest = std::max(range.highest, std::min(world::kChunkHeight - 1, z + kMaxLevel) >> 4);
+    }
+    return range;
+}
+
+// Calls f(chunk, brick) for what is in range and known.
+template <class Function>
+void forEachBrick(const LightWindow& window, const Range& range, Function f) {
+    for (int cy = range.firstY; cy <= range.lastY; ++cy) {
+        for (int cx = range.firstX; cx <= range.lastX; ++cx) {
+            const int chunk = cx + kFieldSide * cy;
+            if (!window.chunks[static_cast<std::size_t>(chunk)]) continue;
+            if (!window.lights[static_cast<std::size_t>(chunk)]) continue;
+            for (int brick = range.lowest; brick <= range.highest; ++brick) f(chunk, brick);
+        }
+    }
+}
+
+// `suspects` gets the old light, the new sources and no suspect yet.
+void load(const LightWindow& window, const Range& range, const LightTable& table, LightField& suspects) {
+    std::array<ChunkBricks, kFieldChunks> sources;
+    forEachBrick(window, range, [&](int chunk, int number) {
+        const auto c = static_cast<std::size_t>(chunk), n = static_cast<std::size_t>(number);
+        if (number == range.lowest)
+            sources[c] = findSources(*window.chunks[c], table, suspects.pool(), range.lowest);
+        FieldBrick& brick = suspects.brick(chunk, number);
+        brick.opacity = sources[c].opacity[n].values;
+        brick.source = sources[c].light[n].values;
+        brick.before = suspects.pool().unpack(window.lights[c]->brick(number)).values;
+        brick.isInside = true;
+    });
+}
+
+// What lost its source, or stands where less light passes now.
+LightValue suspectsOf(const SourceChange& change, LightValue before) {
+    LightValue suspects = 0;
+    for (int c = 0; c < kComponentCount; ++c) {
+        const int level = levelOf(before, c), source = levelOf(change.sourceAfter, c);
+        const bool lostSource = source < levelOf(change.sourceBefore, c);
+        if (level > source && (lostSource || change.moreOpaque)) suspects = withLevel(suspects, c, level);
+    }
+    return suspects;
+}
+
+int fieldIndexOf(const SourceChange& change) {
+    return LightField::indexOf(kCentreChunk, change.index >> 12);
+}
+
+void findSuspects(std::span<const SourceChange> changes, LightField& suspects) {
+    for (const SourceChange& change : changes) {
+        const int index = fieldIndexOf(change), voxel = change.index & 4095;
+        FieldBrick& brick = suspects.brick(index);
+        const LightValue found = suspectsOf(change, brick.before[voxel]);
+        if (found == 0) continue;
+        suspects.writable(brick)[voxel] = found;
+        suspects.markAround(index, voxel);
+    }
+    spreadSuspects(suspects);
+}
+
+void markRows(const LightValue* suspects, int index, LightField& field) {
+    for (int row = 0; row < kRowsPerBrick; ++row) {
+        const LightValue* values = suspects + 16 * row;
+        if (std::any_of(values, values + 16, [](LightValue v) { return v != 0; })) field.markRow(index, row);
+    }
+}
+
+// The light that is certain: the old one without suspects, with the new sources.
+void keepCertain(const LightWindow& window, const Range& range, LightField& suspects, LightField& field) {
+    forEachBrick(window, range, [&](int chunk, int number) {
+        const int index = LightField::indexOf(chunk, number);
+        const FieldBrick& from = suspects.brick(index);
+        FieldBrick& to = field.brick(index);
+        to.opacity = from.opacity;
+        to.isInside = true;
+        to.light = {from.before, nullptr, false};
+        if (!from.light.writable) return;
+        LightValue* light = field.pool().acquire()->values.data();
+        replaceSuspects(from.light.values, from.source, from.before, light);
+        to.light = {light, light, false};
+        markRows(from.light.values, index, field);
+    });
+}
+
+void raiseSources(std::span<const SourceChange> changes, LightField& field) {
+    for (const SourceChange& change : changes) {
+        const int index = fieldIndexOf(change), voxel = change.index & 4095;
+        FieldBrick& brick = field.brick(index);
+        LightValue light = brick.light.values[voxel];
+        for (int c = 0; c < kComponentCount; ++c)
+            light = withLevel(light, c, std::max(levelOf(light, c), levelOf(change.sourceAfter, c)));
+        if (light != brick.light.values[voxel]) {
+            field.writable(brick)[voxel] = light;
+            field.markAround(index, voxel);
+        } else if (change.isBlock) {
+            field.markRow(index, voxel >> 4);  // more may come in than before
+        }
+    }
+    raiseLight(field);
+}
+
+ChangedBricks store(LightWindow& window, const Range& range, LightField& suspects, LightField& field) {
+    ChangedBricks changed{};
+    std::array<std::shared_ptr<ChunkLight>, kFieldChunks> copies;
+    forEachBrick(window, range, [&](int chunk, int number) {
+        const int index = LightField::indexOf(chunk, number);
+        const LightValue* light = field.brick(index).light.values;
+        const LightValue* before = suspects.brick(index).before;
+        if (light == before || std::memcmp(light, before, sizeof(Brick)) == 0) return;
+        const auto c = static_cast<std::size_t>(chunk);
+        if (!copies[c]) copies[c] = std::make_shared<ChunkLight>(*window.lights[c]);
+        copies[c]->setBrick(number, packBrick({light, nullptr, false}));
+        changed[c] = static_cast<std::uint16_t>(changed[c] | 1 << number);
+    });
+    for (std::size_t c = 0; c < copies.size(); ++c) {
+        if (copies[c]) window.lights[c] = std::move(copies[c]);
+    }
+    return changed;
+}
+
+}  // namespace
+
+ChangedBricks relight(LightWindow& window, std::span<const BlockChange> changes, const LightTable& table,
+                      LightScratch& scratch) {
+    TERRANE_ZONE("relight");
+    assert(window.chunks[kCentreChunk] && window.lights[kCentreChunk] && "what changes is known");
+    const std::vector<SourceChange> sources = findSourceChanges(*window.chunks[kCentreChunk], changes, table);
+    const Range range = rangeOf(sources);
+    scratch.field.reset();
+    scratch.suspects.reset();
+    load(window, range, table, scratch.suspects);
+    findSuspects(sources, scratch.suspects);
+    keepCertain(window, range, scratch.suspects, scratch.field);
+    raiseSources(sources, scratch.field);
+    return store(window, range, scratch.suspects, scratch.field);
+}
+
+std::vector<LightChange> relight(LitChunks& chunks, std::span<const BlockEdit> edits, const LightTable& table,
+                                 LightScratch& scratch) {
+    std::map<world::ChunkPos, std::vector<BlockChange>> byChunk;
+    for (const BlockEdit& edit : edits)
+        byChunk[world::chunkOf(edit.pos)].push_back({world::blockIndex(edit.pos), edit.before});
+
+    std::map<world::ChunkPos, std::uint16_t> changed;
+    for (const auto& [pos, changes] : byChunk) {
+        LightWindow window;
+        std::array<LitChunk*, kFieldChunks> around{};
+        const auto offset = [&, centre = pos](std::size_t k) {
+            return world::ChunkPos{centre.x + static_cast<int>(k) % kFieldSide - 1,
+                                   centre.y + static_cast<int>(k) / kFieldSide - 1};
+        };
+        for (std::size_t k = 0; k < around.size(); ++k) {
+            const auto found = chunks.find(offset(k));
+            if (found == chunks.end()) continue;
+            around[k] = &found->second;
+            window.chunks[k] = found->second.chunk.get();
+            window.lights[k] = found->second.light;
+        }
+        if (!window.chunks[kCentreChunk] || !window.lights[kCentreChunk]) continue;
+        const ChangedBricks bricks = relight(window, changes, table, scratch);
+        for (std::size_t k = 0; k < around.size(); ++k) {
+            if (bricks[k] == 0) continue;
+            around[k]->light = std::move(window.lights[k]);
+            changed[offset(k)] = static_cast<std::uint16_t>(changed[offset(k)] | bricks[k]);
+        }
+    }
+    std::vector<LightChange> result;
+    for (const auto& [pos, bricks] : changed) result.push_back({pos, bricks});
+    return result;
+}
+
+}  // namespace terrane::light

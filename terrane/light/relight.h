@@ -1,0 +1,60 @@
+// Light after blocks have changed: only what changes is computed again. The result is, to the bit, that of a
+// world lit from scratch. Any thread: reads immutable snapshots and makes new ones.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "terrane/light/light_chunk.h"
+#include "terrane/light/light_table.h"
+
+namespace terrane::light {
+
+// A block of the chunk in the middle that was another one before. The chunk holds the new one.
+struct BlockChange {
+    world::BlockIndex index = 0;
+    world::BlockId before = world::kAir;
+};
+
+// 3×3 chunks, index x + 3 y. Where either is null nothing is known: that chunk counts as dark and opaque, and
+// light from or through it is lost.
+struct LightWindow {
+    std::array<const world::Chunk*, kFieldChunks> chunks{};  // with the changes
+    std::array<ChunkLightPtr, kFieldChunks> lights{};        // without them
+};
+
+// Bit k of entry c: brick k of chunk c changed.
+using ChangedBricks = std::array<std::uint16_t, kFieldChunks>;
+
+// Replaces the lights that change by new ones, which share nothing with the old. A block that changed several
+// times stands in `changes` once, with the id it had at first.
+ChangedBricks relight(LightWindow& window, std::span<const BlockChange> changes, const LightTable& table,
+                      LightScratch& scratch);
+
+// The same for changes anywhere, in one go.
+
+struct LitChunk {
+    world::ChunkPtr chunk;
+    ChunkLightPtr light;
+};
+using LitChunks = std::unordered_map<world::ChunkPos, LitChunk, world::ChunkPosHash>;
+
+struct BlockEdit {
+    world::BlockPos pos;
+    world::BlockId before = world::kAir;
+};
+
+struct LightChange {
+    world::ChunkPos pos;
+    std::uint16_t bricks = 0;  // a bit each
+};
+
+// `chunks` hold the new blocks of all edits; their lights are brought up to date. Edits in chunks that are
+// not there, or have no light, are left out. Returns each changed chunk once, sorted by position.
+std::vector<LightChange> relight(LitChunks& chunks, std::span<const BlockEdit> edits, const LightTable& table,
+                                 LightScratch& scratch);
+
+}  // namespace terrane::light

@@ -1,0 +1,56 @@
+#include "terrane/stream/chunk_jobs.h"
+
+#include "terrane/base/profile.h"
+
+namespace terrane::stream {
+namespace {
+
+// Light and mesh keep memory from chunk to chunk, a worker each.
+light::LightScratch& lightScratch() {
+    thread_local light::LightScratch scratch;
+    return scratch;
+}
+
+}  // namespace
+
+world::ChunkPtr loadChunk(const ChunkSource& source, world::ChunkPos pos) {
+    if (source.store) {
+        TERRANE_ZONE("load chunk");
+        store::LoadedChunk stored = source.store->load(pos);
+        if (stored.state == store::LoadedChunk::State::Present) return stored.chunk;
+    }
+    if (!source.generator) return nullptr;
+    const auto chunk = std::make_shared<world::Chunk>(source.generator->generate(pos));
+    if (source.store && source.storesGenerated) source.store->save(pos, chunk, store::Origin::Generated);
+    return chunk;
+}
+
+LocalLightPtr localLight(const world::Chunk& chunk, const light::LightTable& table) {
+    TERRANE_ZONE("local light");
+    return std::make_shared<const light::LocalLight>(light::solveLocal(chunk, table, lightScratch()));
+}
+
+light::ChunkLightPtr lightOf(const Surroundings& around, const light::LightTable& table) {
+    std::array<LocalLightPtr, 9> locals = around.locals;
+    for (std::size_t n = 0; n < locals.size(); ++n) {
+        if (!locals[n] && around.chunks[n]) locals[n] = localLight(*around.chunks[n], table);
+    }
+    TERRANE_ZONE("light chunk");
+    light::LocalNeighbourhood neighbourhood{};
+    for (std::size_t n = 0; n < locals.size(); ++n) neighbourhood[n] = locals[n].get();
+    return std::make_shared<const light::ChunkLight>(light::lightChunk(neighbourhood, lightScratch()));
+}
+
+MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockRegistry& blocks) {
+    TERRANE_ZONE("mesh chunk");
+    thread_local mesh::MeshScratch scratch;
+    mesh::MeshInput input;
+    static const world::Chunk kAirChunk;
+    const auto chunk = [&](std::size_t n) { return chunks[n] ? chunks[n].get() : &kAirChunk; };
+    input.centre = chunk(4);
+    input.neighbours = {chunk(3), chunk(5), chunk(1), chunk(7)};
+    input.blocks = &blocks;
+    return std::make_shared<const mesh::ChunkMesh>(mesh::meshChunk(input, scratch));
+}
+
+}  // namespace terrane::stream

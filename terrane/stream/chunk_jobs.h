@@ -1,0 +1,41 @@
+// The work that a chunk needs, as functions that workers run: nothing here knows of the pipeline.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "terrane/gen/generator.h"
+#include "terrane/light/light_chunk.h"
+#include "terrane/mesh/chunk_mesher.h"
+#include "terrane/store/chunk_store.h"
+#include "terrane/world/block_registry.h"
+
+namespace terrane::stream {
+
+using LocalLightPtr = std::shared_ptr<const light::LocalLight>;
+using MeshPtr = std::shared_ptr<const mesh::ChunkMesh>;
+
+// Where chunks come from. All outlive the jobs.
+struct ChunkSource {
+    const gen::Generator* generator = nullptr;  // null: chunks that are not stored are made elsewhere
+    store::ChunkStore* store = nullptr;         // null: nothing is stored
+    bool storesGenerated = false;               // else only edited chunks are stored
+};
+
+// From the store, else from the generator. Null where it is to be made elsewhere.
+world::ChunkPtr loadChunk(const ChunkSource& source, world::ChunkPos pos);
+
+// The light that a chunk's own blocks give.
+LocalLightPtr localLight(const world::Chunk& chunk, const light::LightTable& table);
+
+// What a chunk needs to become visible: 3×3 chunks, x + 3 y. Null beyond the world's edge, which counts as
+// air for meshes and as dark for light. Of the local lights those that are null are found first.
+struct Surroundings {
+    std::array<world::ChunkPtr, 9> chunks;
+    std::array<LocalLightPtr, 9> locals;
+};
+
+light::ChunkLightPtr lightOf(const Surroundings& around, const light::LightTable& table);
+MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockRegistry& blocks);
+
+}  // namespace terrane::stream

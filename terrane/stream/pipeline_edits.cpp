@@ -1,0 +1,99 @@
+// What edits do: light and mesh follow at once, on the thread that owns the world.
+#include <algorithm>
+
+#include "terrane/base/profile.h"
+#include "terrane/stream/chunk_pipeline.h"
+
+namespace terrane::stream {
+
+using world::ChunkPos;
+
+namespace {
+
+// Edits are seen in the next frame, up to so many chunks a frame; a chunk takes about 0.05 ms.
+constexpr std::size_t kRemeshesPerUpdate = 64;
+
+}  // namespace
+
+void ChunkPipeline::blockChanged(world::BlockPos pos, world::BlockId before) {
+    const ChunkPos chunk = world::chunkOf(pos);
+    table_.blocksChanged(chunk);
+    Extra& extra = extras_[chunk];
+    extra.local = nullptr;
+    if (!extra.editedAt) extra.editedAt = Time{};
+    // A block that changes several times stands once, as it was at first.
+    const auto same = [&](const light::BlockEdit& e) { return e.pos == pos; };
+    if (std::none_of(edits_.begin(), edits_.end(), same)) edits_.push_back({pos, before});
+}
+
+void ChunkPipeline::dataChanged(world::BlockPos pos) {
+    const ChunkPos chunk = world::chunkOf(pos);
+    Extra& extra = extras_[chunk];
+    if (!extra.editedAt) extra.editedAt = Time{};
+    table_.blocksChanged(chunk);
+    toMesh_.insert(chunk);
+}
+
+void ChunkPipeline::applyEdits() {
+    if (edits_.empty()) return;
+    TERRANE_ZONE("edits");
+    std::set<ChunkPos> edited;
+    for (const light::BlockEdit& e : edits_) {
+        // The chunks that see the block: its own, and those whose border it touches.
+        for (const auto& [dx, dy] : {std::pair(0, 0), {-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+            const std::int64_t x = std::int64_t{e.pos.x} + dx, y = std::int64_t{e.pos.y} + dy;
+            toMesh_.insert({static_cast<std::int32_t>(x >> 4), static_cast<std::int32_t>(y >> 4)});
+        }
+        edited.insert(world::chunkOf(e.pos));
+    }
+    if (!relightIncrementally(edited)) relightFromScratch(edited);
+    edits_.clear();
+}
+
+// False where something around an edit is not lit.
+bool ChunkPipeline::relightIncrementally(const std::set<ChunkPos>& edited) {
+    light::LitChunks around;
+    for (const ChunkPos centre : edited) {
+        for (int n = 0; n < 9; ++n) {
+            const ChunkPos pos{centre.x + n % 3 - 1, centre.y + n / 3 - 1};
+            if (!world::isInWorld(pos)) continue;
+            const auto extra = extras_.find(pos);
+            if (extra == extras_.end() || !extra->second.light) return false;
+            around[pos] = {parts_.world.maybeChunkAt(pos), extra->second.light};
+        }
+    }
+    thread_local light::LightScratch scratch;
+    for (const light::LightChange& c : light::relight(around, edits_, parts_.lights, scratch)) {
+        setLight(c.pos, around.at(c.pos).light);
+    }
+    return true;
+}
+
+// At the edge of what is lit, where light that comes from beyond is not known.
+void ChunkPipeline::relightFromScratch(const std::set<ChunkPos>& edited) {
+    std::set<ChunkPos> lit;
+    for (const ChunkPos centre : edited) {
+        for (int n = 0; n < 9; ++n) {
+            const ChunkPos pos{centre.x + n % 3 - 1, centre.y + n / 3 - 1};
+            if (table_.is(pos, ChunkStage::Visible)) lit.insert(pos);
+        }
+    }
+    for (const ChunkPos pos : lit) setLight(pos, lightOf(surroundings(pos), parts_.lights));
+}
+
+void ChunkPipeline::setLight(ChunkPos pos, light::ChunkLightPtr light) {
+    extras_[pos].light = light;
+    if (light) change(pos).light = std::move(light);
+}
+
+void ChunkPipeline::remesh() {
+    std::size_t count = 0;
+    for (auto it = toMesh_.begin(); it != toMesh_.end() && count < kRemeshesPerUpdate;
+         it = toMesh_.erase(it)) {
+        if (!table_.is(*it, ChunkStage::Visible)) continue;  // it will be meshed with the new blocks
+        change(*it).mesh = meshOf(surroundings(*it).chunks, parts_.blocks);
+        ++count;
+    }
+}
+
+}  // namespace terrane::stream
