@@ -7,6 +7,7 @@ namespace terrane::gen::overworld {
 
 constexpr int kSeaLevel = 80;  // z of the highest water
 constexpr float kSea = kSeaLevel;
+constexpr int kSoilDepth = 3;  // blocks of soil under the highest block
 
 // What the passes hand on, by column.
 struct Fields {

@@ -4,8 +4,6 @@
 namespace terrane::gen::overworld {
 namespace {
 
-constexpr int kSoilDepth = 3;  // blocks of soil under the highest block
-
 // What surrounds a column.
 struct Shape {
     Float steepness;  // blocks up a block aside
@@ -52,7 +50,7 @@ Ground groundBlocks(Pass& p, const Fields& f, const Shape& s, Float snowLine, Fl
 
 // Roofs keep caves closed but for the mouths: small spots where the roof is thinner than nothing.
 Int caveTop(Pass& p, const Fields& f, const Shape& s) {
-    const Float mouths = smoothstep(0.55f, 0.8f, p.perlin2D("cave mouths", 24, {.2f, 1.0f}));
+    const Float mouths = smoothstep(0.48f, 0.75f, p.perlin2D("cave mouths", 24, {.2f, 1.0f}));
     const Bool isDry = p.read(f.height) > kSea + 4.0f && s.lowest > kSea + 3.0f;
     const Float roof = select(isDry, Float(6.0f) - mouths * 13.0f, Float(9.0f));
     return Int(floor(s.lowest - roof));

@@ -87,14 +87,14 @@ Land land(Pass& p, const Fields& f) {
     const Float desert = p.read(f.desert);
     // Ranges run along the lines where a noise is zero.
     const Float range = abs(p.perlin2D("ranges", 256, {.15f, .35f, 1.0f}));
-    const Float mountainness = p.perlin2D("mountainness", 256, {.2f, .4f, 1.0f}) + 0.3f - range;
+    const Float mountainness = p.perlin2D("mountainness", 256, {.2f, .4f, 1.0f}) + 0.45f - range * 1.3f;
     const Float mountains = smoothstep(-0.15f, 0.35f, mountainness) * (1.0f - desert * 0.6f);
     const Float hilliness = clamp(abs(p.perlin2D("hilliness", 128, {.3f, .5f, .7f})) * 1.6f, 0.0f, 1.0f);
     const Float base = clamp(p.perlin2D("base", 1024, {.33f, .66f}) + 0.25f, 0.0f, 1.0f) * 30.0f;
     const Float plains = max(p.perlin2D("plains", 32, {.6f, 1.2f, 2.5f}) + 3.0f, 0.0f);
-    const Float hills = (p.perlin2D("hills", 32, {2.0f, 5.0f, 12.0f}) + 10.0f) * hilliness;
+    const Float hills = (p.perlin2D("hills", 32, {2.0f, 6.0f, 18.0f}) + 14.0f) * hilliness;
     const Vec2 offset = bend(p);
-    const Float roughness = p.perlin2D("roughness", 8, {.5f, 1.5f, 3.0f, 6.0f});
+    const Float roughness = p.perlin2D("roughness", 8, {.6f, 2.0f, 5.0f, 11.0f});
     const Float peaks = (readBetween(p, f.crags, offset) + roughness) * mountains;
     const Float dunes =
         (readBetween(p, f.dunes, offset) * 18.0f + p.perlin2D("sand", 64, {2.0f, 6.0f})) * desert;

@@ -6,7 +6,9 @@ namespace terrane::gen::overworld {
 namespace {
 
 constexpr int kTreeSpacing = 7;     // blocks: one tree a cell of this size at most
-constexpr int kMaxPlantReach = 20;  // blocks above the ground that vegetation can reach
+constexpr int kMaxTreeHeight = 10;  // blocks of trunk
+constexpr int kMinTreeHeight = 4;
+constexpr int kMaxCrownRise = 4;  // blocks of crown above the trunk: 4.7 / √1.7, see isLeaf
 
 // Trees stand at the points of a Voronoi diagram, so that they keep their distance and a crown meets its
 // neighbour's at the border between them.
@@ -26,7 +28,9 @@ Int treeHeightHere(Pass& p, const Fields& f, Bool isGrass) {
     const IVec2 offset = trees(p).offset;
     const Bool isPoint = offset.x == 0 && offset.y == 0;
     const Bool grows = p.random2D("tree grows", p.x(), p.y()) < p.read(f.forest);
-    const Int height = Int(p.random2D("tree height", p.x(), p.y()) * 7.0f) + 4;
+    const Int height =
+        Int(p.random2D("tree height", p.x(), p.y()) * float(kMaxTreeHeight - kMinTreeHeight + 1)) +
+        kMinTreeHeight;
     return select(isPoint && grows && isGrass, height, Int(0));
 }
 
@@ -59,6 +63,39 @@ Bool isLeaf(Pass& p, IVec2 offset, Int aboveTop, Int treeHeight) {
     return distance < radius && p.random3D("leaves", p.x(), p.y(), p.z()) < chance;
 }
 
+struct Tree {
+    IVec2 offset;      // from here to the trunk
+    Int base, height;  // of the trunk; height 0: no tree
+};
+
+// A voxel from the soil up to the highest leaf.
+Block vegetation(Pass& p, const Fields& f, const Tree& tree) {
+    const Int z = p.z(), surface = p.read(f.surface);
+    const Block air = p.block("air");
+    Var<Block> block = p.var(p.blockHere());
+    p.if_(z <= surface, [&] {
+        const Bool hangs = p.blockInColumn(z - 1) == air && p.blockHere() == p.block("sand");
+        block = select(hangs, p.block("stone"), static_cast<Block>(block));
+    });
+    p.if_(z > surface && p.blockHere() == air, [&] {
+        block = select(z <= surface + p.read(f.plantHeight), p.read(f.plant), air);
+        const Int aboveBase = z - tree.base;
+        p.if_(tree.height > 0 && aboveBase > (tree.height >> 1), [&] {
+            const Bool leaf = isLeaf(p, tree.offset, aboveBase - tree.height, tree.height);
+            block = select(leaf, p.block("oak_leaves"), static_cast<Block>(block));
+        });
+        const Bool isTrunk = tree.offset.x == 0 && tree.offset.y == 0 && tree.height > 0;
+        block = select(isTrunk && aboveBase <= tree.height, p.block("oak_log"), static_cast<Block>(block));
+    });
+    return block;
+}
+
+Block caveFloor(Pass& p) {
+    const Bool isFloor = p.blockInColumn(p.z() - 1) == p.block("stone");
+    const Bool grows = p.random3D("cave mushrooms", p.x(), p.y(), p.z()) < 0.025f;
+    return select(isFloor && grows, p.block("glowing_mushroom"), p.block("air"));
+}
+
 }  // namespace
 
 void plantsPass(Pass& p, const Fields& f) {
@@ -82,30 +119,15 @@ void plantsPass(Pass& p, const Fields& f) {
 
 void vegetationPass(Pass& p, const Fields& f) {
     const IVec2 offset = trees(p).offset;
+    const Tree tree = {offset, p.readAt(f.surface, offset), p.readAt(f.treeHeight, offset)};
     const Int z = p.z(), surface = p.read(f.surface);
-    const Int treeHeight = p.readAt(f.treeHeight, offset);
-    const Int treeBase = p.readAt(f.surface, offset);
+    const Int highest = max(surface + p.read(f.plantHeight),
+                            select(tree.height > 0, tree.base + tree.height + kMaxCrownRise, Int(0)));
     Var<Block> block = p.var(p.blockHere());
-    p.if_(z > surface && z <= max(surface + 4, treeBase + kMaxPlantReach), [&] {
-        const Bool isOpen = p.blockHere() == p.block("air");
-        p.if_(z - surface <= p.read(f.plantHeight),
-              [&] { block = select(isOpen, p.read(f.plant), static_cast<Block>(block)); });
-        p.if_(treeHeight > 0, [&] {
-            const Int aboveBase = z - treeBase;
-            const Bool isTrunk = offset.x == 0 && offset.y == 0 && aboveBase <= treeHeight;
-            const Bool leaf = aboveBase > 1 && isLeaf(p, offset, aboveBase - treeHeight, treeHeight);
-            block = select(leaf && isOpen, p.block("oak_leaves"), static_cast<Block>(block));
-            block = select(isTrunk, p.block("oak_log"), static_cast<Block>(block));
-        });
-    });
-    p.if_(z <= surface && z > 1 && p.blockInColumn(z - 1) == p.block("air"), [&] {
-        block = select(p.blockHere() == p.block("sand"), p.block("stone"), static_cast<Block>(block));
-    });
-    p.if_(z < surface - 4 && z > 1, [&] {
-        const Bool isFloor = p.blockHere() == p.block("air") && p.blockInColumn(z - 1) == p.block("stone");
-        const Bool grows = p.random3D("cave mushrooms", p.x(), p.y(), z) < 0.025f;
-        block = select(isFloor && grows, p.block("glowing_mushroom"), static_cast<Block>(block));
-    });
+    // The fewer conditions most voxels meet, the faster.
+    p.if_(
+        z >= surface - kSoilDepth, [&] { p.if_(z <= highest, [&] { block = vegetation(p, f, tree); }); },
+        [&] { p.if_(p.blockHere() == p.block("air"), [&] { block = caveFloor(p); }); });
     p.setBlock(block);
 }
 
