@@ -10,7 +10,7 @@ struct Waters {
 
 // Islands are pieces of land put into the open sea. Rivers flow around them.
 Waters waters(Pass& p) {
-    const Float seas = p.perlin2D("ocean", 64, {.015f, .035f, .08f, .18f, .5f, 1.0f}) - 0.22f;
+    const Float seas = p.perlin2D("ocean", 64, {.015f, .035f, .08f, .18f, .5f, 1.0f}) - 0.18f;
     const Float islands =
         smoothstep(0.3f, 0.85f, p.perlin2D("islands", 64, {.08f, .3f, 1.0f})) * smoothstep(0.05f, 0.3f, seas);
     return {seas - islands * 0.65f, p.perlin2D("rivers", 64, {.02f, .05f, .12f, .35f, 1.0f}) + islands};
@@ -87,7 +87,7 @@ Land land(Pass& p, const Fields& f) {
     const Float desert = p.read(f.desert);
     // Ranges run along the lines where a noise is zero.
     const Float range = abs(p.perlin2D("ranges", 256, {.15f, .35f, 1.0f}));
-    const Float mountainness = p.perlin2D("mountainness", 256, {.2f, .4f, 1.0f}) + 0.45f - range * 1.3f;
+    const Float mountainness = p.perlin2D("mountainness", 256, {.2f, .4f, 1.0f}) + 0.5f - range * 1.3f;
     const Float mountains = smoothstep(-0.15f, 0.35f, mountainness) * (1.0f - desert * 0.6f);
     const Float hilliness = clamp(abs(p.perlin2D("hilliness", 128, {.3f, .5f, .7f})) * 1.6f, 0.0f, 1.0f);
     const Float base = clamp(p.perlin2D("base", 1024, {.33f, .66f}) + 0.25f, 0.0f, 1.0f) * 30.0f;
