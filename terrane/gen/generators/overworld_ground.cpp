@@ -24,7 +24,7 @@ struct Ground {
 Ground groundBlocks(Pass& p, const Fields& f, const Shape& s, Float snowLine, Float patches) {
     const Float height = p.read(f.height), ocean = p.read(f.ocean);
     const Float alpine = smoothstep(-45.0f, 0.0f, height - snowLine);
-    const Float stoneFrom = patches * 0.25f + 0.95f - alpine * 0.3f;
+    const Float stoneFrom = patches * 0.35f + 1.02f - alpine * 0.3f;
     const Bool isSand = p.read(f.desert) > patches * 0.2f + 0.4f;
     const Float beachWidth = p.perlin2D("beach width", 64, {.4f, 1.0f}) * 0.03f + 0.03f;
     const Bool isBeach = height < kSea + 2.2f + patches && ocean > patches * 0.02f - beachWidth;
@@ -44,7 +44,7 @@ Ground groundBlocks(Pass& p, const Fields& f, const Shape& s, Float snowLine, Fl
         top = p.block("stone");
         soil = p.block("stone");
     });
-    p.if_(height > snowLine && s.steepness < patches * 0.4f + 0.95f, [&] { top = p.block("snow"); });
+    p.if_(height > snowLine && s.steepness < patches * 0.6f + 1.05f, [&] { top = p.block("snow"); });
     return {top, soil};
 }
 
