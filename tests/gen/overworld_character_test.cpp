@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdio>
-#include <string>
 #include <vector>
 
 #include "tests/gen/overworld_area.h"
@@ -64,8 +62,6 @@ void expectNaturalShares(const Shares& s) {
 #else
     EXPECT_LT(s.sea, 1.0);
 #endif
-    testing::Test::RecordProperty("sea", std::to_string(s.sea));
-    std::printf("sea %.3f desert %.3f mountains %.3f forest %.3f\n", s.sea, s.desert, s.mountains, s.forest);
 }
 
 TEST(OverworldShares, AreNatural) {
@@ -112,7 +108,6 @@ TEST(OverworldCaves, HaveFewMouths) {
             columns += a.blocks() * a.blocks();
         }
     }
-    std::printf("mouths %d of %d\n", mouths, columns);
     EXPECT_LT(mouths, columns / 500);
 #ifdef NDEBUG
     EXPECT_GT(mouths, columns / 50000);
