@@ -121,7 +121,7 @@ void reliefPass(Pass& p, const Fields& f) {
     const Land l = land(p, f);
     const Float inland = smoothstep(0.0f, 0.35f, -ocean);
     const Float valley = smoothstep(0.0f, l.mountains * 0.36f + 0.14f, river.beyond);
-    // Half a block above the sea at the waterside, rising to the beach or bank.
+    // Beaches and banks: level with the sea at the waterside, then a little above it.
     const Float shore = min(smoothstep(0.02f, -0.02f, ocean), clamp(river.across - 1.0f, 0.0f, 1.0f)) * 1.4f;
     const Float seaFloor = sqrt(max(ocean, 0.0f)) * -40.0f +
                            p.perlin2D("sea floor", 32, {1.0f, 2.0f, 4.0f}) * smoothstep(0.05f, 0.3f, ocean);
