@@ -6,10 +6,10 @@ namespace terrane::app {
 namespace {
 
 const std::array kScenes = {
-    Scene{"ocean", {{-390, 200, 88}, 70, -4}, 0.40f},
-    Scene{"desert", {{2100, 1300, 142}, 220, -14}, 0.36f},
-    Scene{"landscape", {{1560, 700, 142}, 225, -6}, 0.70f},
-    Scene{"cave", {{-276, 325, 88}, 90, -55}, 0.45f},
+    Scene{"ocean", {{992, 1092, 89}, 163, -3}, 0.36f},
+    Scene{"desert", {{545, 35, 100}, 130, -4}, 0.36f},
+    Scene{"landscape", {{-1048, -108, 122}, 136, -6}, 0.62f},
+    Scene{"cave", {{-120, 206, 108}, 88, -8}, 0.50f},
 };
 
 }  // namespace

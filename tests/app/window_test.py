@@ -79,8 +79,9 @@ class Game:
     def __init__(self, display):
         self.display = display
         self.log = tempfile.TemporaryFile(mode="w+")
+        # Far enough that fog never hides all of the ground.
         self.process = subprocess.Popen(
-            [support.program(), "play", "--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "2", "--samples", "1",
+            [support.program(), "play", "--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "6", "--samples", "1",
              "--debug-gl"], env=support.environment(display.name), stdout=self.log, stderr=self.log)
         self.window = None
 

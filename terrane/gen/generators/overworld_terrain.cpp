@@ -1,0 +1,133 @@
+// The overworld's climate and the height of its ground.
+#include "terrane/gen/generators/overworld.h"
+
+namespace terrane::gen::overworld {
+namespace {
+
+struct Waters {
+    Float ocean, river;
+};
+
+// Islands are pieces of land put into the open sea. Rivers flow around them.
+Waters waters(Pass& p) {
+    const Float seas = p.perlin2D("ocean", 64, {.015f, .035f, .08f, .18f, .5f, 1.0f}) - 0.18f;
+    const Float islands =
+        smoothstep(0.3f, 0.85f, p.perlin2D("islands", 64, {.08f, .3f, 1.0f})) * smoothstep(0.05f, 0.3f, seas);
+    return {seas - islands * 0.65f, p.perlin2D("rivers", 64, {.02f, .05f, .12f, .35f, 1.0f}) + islands};
+}
+
+// Blocks above the valleys. Ridges run where two points of a Voronoi diagram are equally near; folds run down
+// their sides and fade in the valleys.
+Float crags(Pass& p) {
+    const Float ridge = p.voronoi2D("ridges", 512, 2).distance * (1.0f / 512.0f);
+    const Float folds = p.voronoi2D("folds", 64, 1).distance * (1.0f / 64.0f);
+    const Float spurs = p.voronoi2D("spurs", 176, 1).distance * (1.0f / 176.0f);
+    return ridge * (ridge * 200.0f + spurs * 150.0f + folds * 75.0f) - 25.0f;
+}
+
+// The higher of two Voronoi diagrams, because one alone shows its cells.
+Float dunes(Pass& p) {
+    const Float first = p.voronoi2D("dunes", 72, 1).distance,
+                second = p.voronoi2D("more dunes", 72, 1).distance;
+    const Float crest = max(first, second) * (1.0f / 72.0f);
+    return crest * crest;
+}
+
+// How far straight features are bent, in blocks; reads reach one block farther.
+constexpr float kBend = 14.0f;
+static_assert(kBend + 1 < kMaxReadOffset);
+
+Vec2 bend(Pass& p) {
+    const auto along = [&](const char* name) {
+        return clamp(p.perlin2D(name, 24, {.12f, .3f, .9f}) * kBend, -kBend, kBend);
+    };
+    return {along("bend x"), along("bend y")};
+}
+
+// A field at an offset of any fraction of a block.
+Float readBetween(Pass& p, Field<Float> field, Vec2 offset) {
+    const Int x(floor(offset.x)), y(floor(offset.y));
+    const Float fx = offset.x - floor(offset.x), fy = offset.y - floor(offset.y);
+    const Float low = lerp(p.readAt(field, {x, y}), p.readAt(field, {x + 1, y}), fx);
+    const Float high = lerp(p.readAt(field, {x, y + 1}), p.readAt(field, {x + 1, y + 1}), fx);
+    return lerp(low, high, fy);
+}
+
+struct River {
+    Float beyond;  // how far the noise is beyond what makes the bank, from 0
+    Float across;  // distance to the middle / half width, below 1 in the water
+    Float depth;   // blocks, in the middle
+};
+
+// The distance to the middle of a river is its noise divided by the noise's gradient, so that the width does
+// not follow the gradient. The gradient's lower bound makes lakes where it vanishes.
+River rivers(Pass& p, const Fields& f) {
+    const Float here = abs(p.read(f.river));
+    const Float dx = p.readAt(f.river, {2, 0}) - p.readAt(f.river, {-2, 0});
+    const Float dy = p.readAt(f.river, {0, 2}) - p.readAt(f.river, {0, -2});
+    const Float gradient = max(length({dx, dy}) * 0.25f, 0.0007f);
+    const Float mouth = smoothstep(-0.12f, 0.03f, p.read(f.ocean));
+    const Float halfWidth =
+        (p.perlin2D("river width", 128, {.4f, 1.0f}) * 4.0f + 7.0f) * (mouth * 0.8f + 1.0f);
+    return {max(here - halfWidth * gradient, 0.0f), here / (gradient * halfWidth), halfWidth * 0.25f + 2.0f};
+}
+
+// Above z = 210 the land approaches 250 without reaching it.
+Float compressPeaks(Float height) {
+    const Float excess = max(height - 130.0f, 0.0f);
+    return min(height, 130.0f) + excess * 40.0f / (excess + 40.0f);
+}
+
+struct Land {
+    Float height;     // blocks above the sea, far from rivers and coasts
+    Float mountains;  // 0…1
+};
+
+Land land(Pass& p, const Fields& f) {
+    const Float desert = p.read(f.desert);
+    // Ranges run along the lines where a noise is zero.
+    const Float range = abs(p.perlin2D("ranges", 256, {.15f, .35f, 1.0f}));
+    const Float mountainness = p.perlin2D("mountainness", 256, {.2f, .4f, 1.0f}) + 0.5f - range * 1.3f;
+    const Float mountains = smoothstep(-0.15f, 0.35f, mountainness) * (1.0f - desert * 0.6f);
+    const Float hilliness = clamp(abs(p.perlin2D("hilliness", 128, {.3f, .5f, .7f})) * 1.6f, 0.0f, 1.0f);
+    const Float base = clamp(p.perlin2D("base", 1024, {.33f, .66f}) + 0.25f, 0.0f, 1.0f) * 30.0f;
+    const Float plains = max(p.perlin2D("plains", 32, {.6f, 1.2f, 2.5f}) + 3.0f, 0.0f);
+    const Float hills = (p.perlin2D("hills", 32, {2.0f, 6.0f, 18.0f}) + 14.0f) * hilliness;
+    const Vec2 offset = bend(p);
+    const Float roughness = p.perlin2D("roughness", 8, {.6f, 2.0f, 5.0f, 11.0f});
+    const Float peaks = (readBetween(p, f.crags, offset) + roughness) * mountains;
+    const Float dunes =
+        (readBetween(p, f.dunes, offset) * 18.0f + p.perlin2D("sand", 64, {2.0f, 6.0f})) * desert;
+    return {base + max(max(dunes, hills), max(peaks, plains)), mountains};
+}
+
+}  // namespace
+
+void climatePass(Pass& p, const Fields& f) {
+    const Float temperature =
+        clamp(p.perlin2D("temperature", 16, {.02f, .02f, .05f, .05f, .2f, .4f, 2.0f}) * 0.9f, -1.0f, 1.0f);
+    const Waters w = waters(p);
+    p.set(f.ocean, w.ocean);
+    p.set(f.river, w.river);
+    p.set(f.temperature, temperature);
+    p.set(f.desert, smoothstep(0.55f, 0.8f, temperature));
+    p.set(f.crags, crags(p));
+    p.set(f.dunes, dunes(p));
+}
+
+void reliefPass(Pass& p, const Fields& f) {
+    const Float ocean = p.read(f.ocean);
+    const River river = rivers(p, f);
+    const Land l = land(p, f);
+    const Float inland = smoothstep(0.0f, 0.35f, -ocean);
+    const Float valley = smoothstep(0.0f, l.mountains * 0.36f + 0.14f, river.beyond);
+    // Beaches and banks: level with the sea at the waterside, then a little above it.
+    const Float shore = min(smoothstep(0.02f, -0.02f, ocean), clamp(river.across - 1.0f, 0.0f, 1.0f)) * 1.4f;
+    const Float seaFloor = sqrt(max(ocean, 0.0f)) * -40.0f +
+                           p.perlin2D("sea floor", 32, {1.0f, 2.0f, 4.0f}) * smoothstep(0.05f, 0.3f, ocean);
+    const Float ground = select(ocean > 0.0f, seaFloor, compressPeaks(l.height) * inland * valley);
+    const Float bed = (min(river.across * river.across, 1.0f) - 1.0f) * river.depth;
+    p.set(f.height, kSea + select(river.across < 1.0f, min(bed, ground + shore), ground + shore));
+}
+
+}  // namespace terrane::gen::overworld
