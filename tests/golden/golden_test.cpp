@@ -43,12 +43,14 @@ void loadOverworld(render::Renderer& renderer, const render::Camera& camera, int
     const gen::Generator generator(*std::move(graph), 1);
     world::World world;
     base::JobSystem jobs(std::max(1u, std::thread::hardware_concurrency()));
-    stream::ChunkPipeline pipeline(jobs, generator, contentBlocks(), world);
+    const light::LightTable lights(contentBlocks());
+    stream::ChunkPipeline pipeline(
+        {jobs, contentBlocks(), lights, world, {&generator, nullptr, false}, nullptr});
     pipeline.setView(render::cameraChunk(camera), viewDistance);
     for (pipeline.update(); !pipeline.progress().complete(); pipeline.update()) {
         pipeline.waitForWorkers(std::chrono::milliseconds(100));
     }
-    for (const stream::MeshChange& change : pipeline.takeMeshes(std::numeric_limits<std::size_t>::max())) {
+    for (const stream::ChunkChange& change : pipeline.takeChanges(std::numeric_limits<std::size_t>::max())) {
         if (change.mesh) renderer.setChunk(change.pos, *change.mesh);
     }
 }

@@ -32,19 +32,24 @@ inline bool isWithin(ChunkPos pos, ChunkPos centre, int distance) {
     return world::isInWorld(pos) && world::chunkDistance(pos, centre) <= distance;
 }
 
-// The mesh that the chunk must have, made here and now.
+inline std::array<world::ChunkPtr, 9> chunksAround(const world::World& world, ChunkPos pos) {
+    std::array<world::ChunkPtr, 9> chunks;
+    for (int n = 0; n < 9; ++n) {
+        chunks[static_cast<std::size_t>(n)] = world.maybeChunkAt({pos.x + n % 3 - 1, pos.y + n / 3 - 1});
+    }
+    return chunks;
+}
+
+// What the chunk must look like, made here and now.
 inline mesh::ChunkMesh directMesh(const world::World& world, ChunkPos pos) {
-    static const world::Chunk kOutside;
-    const auto chunk = [&](int dx, int dy) {
-        const world::ChunkPtr loaded = world.maybeChunkAt({pos.x + dx, pos.y + dy});
-        return loaded ? loaded.get() : &kOutside;  // the world keeps it alive
-    };
-    mesh::MeshInput input;
-    input.centre = chunk(0, 0);
-    input.neighbours = {chunk(-1, 0), chunk(1, 0), chunk(0, -1), chunk(0, 1)};
-    input.blocks = &contentBlocks();
-    mesh::MeshScratch scratch;
-    return mesh::meshChunk(input, scratch);
+    return *meshOf(chunksAround(world, pos), contentBlocks());
+}
+inline const light::LightTable& lightTable() {
+    static const light::LightTable table(contentBlocks());
+    return table;
+}
+inline light::ChunkLight directLight(const world::World& world, ChunkPos pos) {
+    return *lightOf({chunksAround(world, pos), {}}, lightTable());
 }
 
 class PipelineTest : public testing::Test {
@@ -54,33 +59,24 @@ class PipelineTest : public testing::Test {
     void setView(ChunkPos centre, int distance) {
         centre_ = centre;
         distance_ = distance;
-        pipeline_.setView(centre, distance);
-        expectBounded();
+        pipeline_->setView(centre, distance);
     }
 
-    void update() {
-        pipeline_.update();
-        expectBounded();
-    }
-
-    // Chunks stay in memory one ring beyond those that meshes need.
-    void expectBounded() const {
-        const std::size_t side = 2 * (static_cast<std::size_t>(distance_) + 2) + 1;
-        ASSERT_LE(world_.chunks().size(), side * side);
-        for (const auto& [pos, chunk] : world_.chunks()) ASSERT_TRUE(isWithin(pos, centre_, distance_ + 2));
-    }
+    void update() { pipeline_->update(now_); }
 
     // Shows what changed, and says how much that was.
     std::size_t take(std::size_t limit) {
-        const std::vector<MeshChange> changes = pipeline_.takeMeshes(limit);
+        const std::vector<ChunkChange> changes = pipeline_->takeChanges(limit);
         EXPECT_LE(changes.size(), limit);
-        for (const MeshChange& change : changes) {
-            if (change.mesh) {
-                shown_[change.pos] = change.mesh;
-            } else {
+        for (const ChunkChange& change : changes) {
+            if (change.isHidden) {
                 shown_.erase(change.pos);
                 ++removals_[change.pos];
+                continue;
             }
+            Shown& shown = shown_[change.pos];
+            if (change.mesh) shown.mesh = change.mesh;
+            if (change.light) shown.light = change.light;
         }
         return changes.size();
     }
@@ -88,13 +84,24 @@ class PipelineTest : public testing::Test {
     // Until the view is complete and no job is left.
     void settle() {
         const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-        for (update(); !pipeline_.progress().complete(); update()) {
+        for (update(); !pipeline_->progress().complete(); update()) {
             ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "the view is never complete";
-            pipeline_.waitForWorkers(std::chrono::milliseconds(100));
+            pipeline_->waitForWorkers(std::chrono::milliseconds(100));
         }
         jobs_.waitIdle();
         update();
         take(kAll);
+    }
+
+    // Six seconds in which nothing happens: only what the view needs stays in memory.
+    void rest() {
+        settle();
+        update();
+        now_ += std::chrono::seconds(6);
+        update();
+        const std::size_t side = 2 * (static_cast<std::size_t>(distance_) + 1) + 1;
+        ASSERT_LE(world_.chunks().size(), side * side);
+        for (const auto& [pos, chunk] : world_.chunks()) ASSERT_TRUE(isWithin(pos, centre_, distance_ + 1));
     }
 
     void expectShowsTheView() const {
@@ -106,26 +113,41 @@ class PipelineTest : public testing::Test {
                 ++wanted;
                 const auto found = shown_.find(pos);
                 ASSERT_NE(found, shown_.end()) << "chunk " << pos.x << ' ' << pos.y << " is not shown";
-                ASSERT_EQ(*found->second, directMesh(world_, pos)) << "chunk " << pos.x << ' ' << pos.y;
+                ASSERT_EQ(*found->second.mesh, directMesh(world_, pos)) << "chunk " << pos.x << ' ' << pos.y;
+                ASSERT_EQ(*found->second.light, directLight(world_, pos))
+                    << "chunk " << pos.x << ' ' << pos.y;
             }
         }
-        EXPECT_EQ(shown_.size(), wanted) << "chunks out of view are shown";
-        EXPECT_EQ(pipeline_.progress().wanted, wanted);
-        EXPECT_EQ(pipeline_.progress().visible, wanted);
+        for (const auto& [pos, shown] : shown_) EXPECT_TRUE(isWithin(pos, centre_, distance_ + 1));
+        EXPECT_EQ(pipeline_->progress().wanted, wanted);
+        EXPECT_EQ(pipeline_->progress().visible, wanted);
     }
 
     void placeBlock(world::BlockPos pos, std::string_view name) {
+        const world::BlockId before = world_.block(pos);
         ASSERT_TRUE(world_.setBlock(pos, contentBlock(name)));
-        pipeline_.blocksChanged(pos);
+        pipeline_->blockChanged(pos, before);
     }
+
+    std::unique_ptr<ChunkPipeline> makePipeline(ChunkSource source) {
+        return std::make_unique<ChunkPipeline>(
+            PipelineParts{jobs_, contentBlocks(), lightTable(), world_, source, nullptr});
+    }
+
+    struct Shown {
+        MeshPtr mesh;
+        light::ChunkLightPtr light;
+        bool operator==(const Shown&) const = default;
+    };
 
     gen::Generator generator_ = bumpyGenerator();
     world::World world_;
     base::JobSystem jobs_{2};
-    ChunkPipeline pipeline_{jobs_, generator_, contentBlocks(), world_};
+    ChunkPipeline::Time now_{};
+    std::unique_ptr<ChunkPipeline> pipeline_ = makePipeline({&generator_, nullptr, false});
     ChunkPos centre_;
     int distance_ = 0;
-    std::map<ChunkPos, std::shared_ptr<const mesh::ChunkMesh>> shown_;
+    std::map<ChunkPos, Shown> shown_;
     std::map<ChunkPos, int> removals_;
 };
 

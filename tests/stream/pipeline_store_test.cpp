@@ -1,0 +1,79 @@
+// Edits and the store: what changed is saved, comes back, and is not mixed up with what is generated.
+#include "terrane/store/memory_store.h"
+#include "tests/stream/pipeline_fixture.h"
+
+namespace terrane::stream {
+namespace {
+
+class PipelineStoreTest : public PipelineTest {
+  protected:
+    PipelineStoreTest() { restart(); }
+
+    // As the program does that is closed and started again.
+    void restart(bool storesGenerated = false) {
+        pipeline_ = nullptr;
+        for (const auto& [pos, chunk] : std::unordered_map(world_.chunks())) world_.erase(pos);
+        shown_.clear();
+        pipeline_ = makePipeline({&generator_, &store_, storesGenerated});
+    }
+
+    store::MemoryStore store_{{.seed = 1, .generator = "bumpy", .generatorVersion = 1}};
+};
+
+TEST_F(PipelineStoreTest, EditsComeBackAfterARestart) {
+    setView({0, 0}, 1);
+    settle();
+    placeBlock({3, 3, 90}, "lamp_red");
+    placeBlock({15, 15, 20}, "sand");
+    restart();
+    setView({0, 0}, 1);
+    settle();
+    EXPECT_EQ(world_.block({3, 3, 90}), contentBlock("lamp_red"));
+    EXPECT_EQ(world_.block({15, 15, 20}), contentBlock("sand"));
+    expectShowsTheView();
+}
+
+TEST_F(PipelineStoreTest, EditsComeBackAfterTheViewReturns) {
+    setView({0, 0}, 1);
+    settle();
+    placeBlock({3, 3, 90}, "lamp_red");
+    setView({50, 0}, 1);
+    rest();
+    ASSERT_FALSE(world_.maybeChunkAt({0, 0})) << "it was unloaded";
+    setView({0, 0}, 1);
+    settle();
+    EXPECT_EQ(world_.block({3, 3, 90}), contentBlock("lamp_red"));
+}
+
+TEST_F(PipelineStoreTest, OnlyEditedChunksAreStored) {
+    setView({0, 0}, 1);
+    settle();
+    placeBlock({3, 3, 90}, "sand");
+    update();
+    EXPECT_FALSE(store_.contains({0, 0})) << "not yet";
+    now_ += ChunkPipeline::kSaveAfter;
+    update();
+    EXPECT_TRUE(store_.contains({0, 0}));
+    EXPECT_FALSE(store_.contains({1, 0}));
+}
+
+TEST_F(PipelineStoreTest, GeneratedChunksAreStoredWhereThatIsAskedFor) {
+    restart(true);
+    setView({0, 0}, 0);
+    settle();
+    for (int n = 0; n < 9; ++n) EXPECT_TRUE(store_.contains({n % 3 - 1, n / 3 - 1}));
+}
+
+TEST_F(PipelineStoreTest, DataOfBlocksIsSaved) {
+    setView({0, 0}, 0);
+    settle();
+    ASSERT_TRUE(world_.setSmallData({3, 3, 20}, 77));
+    pipeline_->dataChanged({3, 3, 20});
+    restart();
+    setView({0, 0}, 0);
+    settle();
+    EXPECT_EQ(world_.smallData({3, 3, 20}), 77);
+}
+
+}  // namespace
+}  // namespace terrane::stream
