@@ -59,7 +59,7 @@ class ChunkStore {
   public:
     virtual ~ChunkStore() = default;  // writes what waits
 
-    // Blocks for about 20 µs: read and decoded on the calling thread. Sees what was saved before, durable or
+    // Blocks for about 50 µs: read and decoded on the calling thread. Sees what was saved before, durable or
     // not.
     virtual LoadedChunk load(world::ChunkPos pos) = 0;
     virtual bool contains(world::ChunkPos pos) = 0;  // as load() tells, without reading the chunk

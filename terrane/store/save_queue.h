@@ -10,7 +10,6 @@
 #include <optional>
 #include <string>
 #include <thread>
-#include <unordered_map>
 #include <vector>
 
 #include "terrane/store/bytes.h"
@@ -31,7 +30,8 @@ struct DamagedRow {
 };
 
 struct SaveBatch {
-    std::unordered_map<world::ChunkPos, WaitingChunk, world::ChunkPosHash> chunks;
+    // In the order of the file's keys: pages are filled one after the other.
+    std::map<world::ChunkPos, WaitingChunk> chunks;
     std::map<std::string, std::string> settings;
     std::vector<DamagedRow> damaged;
 

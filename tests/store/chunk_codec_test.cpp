@@ -49,7 +49,7 @@ Bytes plainAir(ByteView rest) {
 
 TEST(ChunkCodec, RandomChunksComeBack) {
     std::mt19937 random(1);
-    for (int round = 0; round < 300; ++round) {
+    for (int round = 0; round < 100; ++round) {
         const Chunk chunk = randomChunk(random);
         const auto back = decodeChunk(encode(chunk), allIds());
         ASSERT_TRUE(back) << back.error().message;
@@ -60,7 +60,7 @@ TEST(ChunkCodec, RandomChunksComeBack) {
 // However a chunk came to be: section forms wider than needed, palettes in another order, other slots.
 TEST(ChunkCodec, EqualChunksGiveEqualBytes) {
     std::mt19937 random(2);
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < 20; ++round) {
         const Chunk chunk = randomChunk(random);
         Chunk detour = chunk;
         for (int step = 0; step < 400; ++step) {
