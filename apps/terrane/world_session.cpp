@@ -1,9 +1,31 @@
 #include "apps/terrane/world_session.h"
 
 #include "apps/terrane/content.h"
+#include "apps/terrane/save_identity.h"
 #include "terrane/gen/generators/catalogue.h"
+#include "terrane/store/open_store.h"
+#include "terrane/store/save_path.h"
+#include "terrane/world/block_update.h"
 
 namespace terrane::app {
+namespace {
+
+base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options, const SaveOptions& save,
+                                                          const CLI::App& command,
+                                                          const world::BlockRegistry& blocks) {
+    if (save.name.empty()) return nullptr;
+    auto path = store::savePath(save.name, store::savePlaces());
+    if (!path) return tl::unexpected(path.error());
+    store::SaveAccess access{.create = identityOf(options), .recreateVersion = {}};
+    if (save.recreate) access.recreateVersion = access.create->generatorVersion;
+    auto opened = store::openStore(*path, blocks, access);
+    if (!opened) return tl::unexpected(opened.error());
+    auto same = adoptIdentity(options, command, (*opened)->identity(), path->string());
+    if (!same) return tl::unexpected(same.error());
+    return std::move(*opened);
+}
+
+}  // namespace
 
 base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const world::BlockRegistry& blocks) {
     auto graph = gen::makeGenerator(options.generator, blocks);
@@ -11,28 +33,55 @@ base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const wo
     return gen::Generator(std::move(*graph), options.seed);
 }
 
-WorldSession::WorldSession(world::BlockRegistry registry, const WorldOptions& options)
-    : blocks(std::move(registry)), jobs(threadCount(options)) {}
+void addSaveGameOptions(CLI::App& command, SaveOptions& options) {
+    command.add_option("--save-game", options.name, "Save of the world, by name; made where it is not there");
+    command.add_flag("--recreate", options.recreate, "Copy the save and make the world anew; edits are gone")
+        ->needs("--save-game");
+}
 
-base::Result<std::unique_ptr<WorldSession>> WorldSession::create(const WorldOptions& options) {
+WorldSession::WorldSession(world::BlockRegistry registry, unsigned threads)
+    : blocks(std::move(registry)), lights(blocks), jobs(threads) {}
+
+base::Result<std::unique_ptr<WorldSession>> WorldSession::create(WorldOptions options,
+                                                                 const SaveOptions& save,
+                                                                 const CLI::App& command) {
     auto blocks = loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
-    auto session = std::make_unique<WorldSession>(std::move(*blocks), options);
+    // Before a save is made: a generator that does not exist has none.
+    auto known = makeGenerator(options, *blocks);
+    if (!known) return tl::unexpected(known.error());
+    auto session = std::make_unique<WorldSession>(std::move(*blocks), threadCount(options));
+    auto opened = openSave(options, save, command, session->blocks);
+    if (!opened) return tl::unexpected(opened.error());
+    session->store = std::move(*opened);
     auto generator = makeGenerator(options, session->blocks);
     if (!generator) return tl::unexpected(generator.error());
     session->generator = std::make_unique<gen::Generator>(std::move(*generator));
-    session->pipeline = std::make_unique<stream::ChunkPipeline>(session->jobs, *session->generator,
-                                                                session->blocks, session->world);
+    // Loading is about ten times as fast as generating (docs/performance.md): generated chunks are stored
+    // too.
+    session->pipeline = std::make_unique<stream::ChunkPipeline>(
+        stream::PipelineParts{session->jobs,
+                              session->blocks,
+                              session->lights,
+                              session->world,
+                              {session->generator.get(), session->store.get(), true},
+                              nullptr});
     return session;
 }
 
-void uploadMeshes(stream::ChunkPipeline& pipeline, render::Renderer& renderer, std::size_t limit) {
-    for (const stream::MeshChange& change : pipeline.takeMeshes(limit)) {
-        if (change.mesh) {
-            renderer.setChunk(change.pos, *change.mesh);
-        } else {
+bool WorldSession::setBlock(world::BlockPos pos, world::BlockId id) {
+    const std::vector<world::BlockUpdate> updates = world::updateBlock(world, blocks, pos, id);
+    for (const world::BlockUpdate& u : updates) pipeline->blockChanged(u.pos, u.before);
+    return !updates.empty();
+}
+
+void uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, std::size_t limit) {
+    for (const stream::ChunkChange& change : pipeline.takeChanges(limit)) {
+        if (change.isHidden) {
             renderer.removeChunk(change.pos);
+            continue;
         }
+        if (change.mesh) renderer.setChunk(change.pos, *change.mesh);
     }
 }
 

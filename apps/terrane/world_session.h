@@ -1,4 +1,4 @@
-// A world being generated around a camera: what play and render have in common.
+// A world around a camera, from its save or its generator: what play and render have in common.
 #pragma once
 
 #include <memory>
@@ -6,6 +6,8 @@
 #include "apps/terrane/options.h"
 #include "terrane/base/job_system.h"
 #include "terrane/gen/generator.h"
+#include "terrane/light/light_table.h"
+#include "terrane/store/chunk_store.h"
 #include "terrane/stream/chunk_pipeline.h"
 #include "terrane/world/block_registry.h"
 #include "terrane/world/world.h"
@@ -14,12 +16,27 @@ namespace terrane::app {
 
 base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const world::BlockRegistry& blocks);
 
+// Which save a world is kept in.
+struct SaveOptions {
+    std::string name;  // empty: none, edits last until the program ends
+    bool recreate = false;
+};
+// --save-game and --recreate.
+void addSaveGameOptions(CLI::App& command, SaveOptions& options);
+
 // The parts refer to each other by address: made in place, destroyed in reverse order.
 struct WorldSession {
-    static base::Result<std::unique_ptr<WorldSession>> create(const WorldOptions& options);
-    WorldSession(world::BlockRegistry registry, const WorldOptions& options);
+    // `command`: whose options say which of seed and generator were given; a save has its own.
+    static base::Result<std::unique_ptr<WorldSession>> create(WorldOptions options, const SaveOptions& save,
+                                                              const CLI::App& command);
+    WorldSession(world::BlockRegistry registry, unsigned threads);
+
+    // Changes a block, what depends on it, and what is seen of it. False where no chunk is loaded.
+    bool setBlock(world::BlockPos pos, world::BlockId id);
 
     world::BlockRegistry blocks;
+    light::LightTable lights;
+    std::unique_ptr<store::ChunkStore> store;  // null without a save
     std::unique_ptr<gen::Generator> generator;
     world::World world;
     base::JobSystem jobs;
@@ -27,7 +44,7 @@ struct WorldSession {
 };
 
 // Hands at most `limit` changed chunks to the renderer.
-void uploadMeshes(stream::ChunkPipeline& pipeline, render::Renderer& renderer, std::size_t limit);
+void uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, std::size_t limit);
 
 // Where everything has become sky.
 inline float fogDistance(int viewDistance) {

@@ -16,7 +16,7 @@ namespace {
 
 // Jobs in flight a worker: enough that none waits for a frame, few enough that the queue follows the camera.
 constexpr std::size_t kJobsPerWorker = 8;
-constexpr std::chrono::milliseconds kUnloadEvery{250};
+constexpr std::chrono::milliseconds kTidyEvery{250};
 
 }  // namespace
 
@@ -92,17 +92,17 @@ void ChunkPipeline::cancelDistantLoads() {
 
 void ChunkPipeline::update(Time now) {
     TERRANE_ZONE("pipeline update");
-    takeResults(now);
-    if (parts_.batches) takeBatches(now);
+    now_ = now;
+    takeResults();
+    if (parts_.batches) takeBatches();
     applyEdits();
     remesh();
-    saveEdited(now);
-    if (now >= nextUnload_) unload(now);
+    if (now >= nextTidy_) tidy();
     submitLoads();
     submitFinishes();
 }
 
-void ChunkPipeline::takeResults(Time now) {
+void ChunkPipeline::takeResults() {
     std::vector<Results::Load> loads;
     std::vector<Results::Finish> finishes;
     {
@@ -111,13 +111,15 @@ void ChunkPipeline::takeResults(Time now) {
         finishes.swap(results_->finishes);
     }
     for (Results::Load& load : loads) {
+        // A job that ran on although it was cancelled.
+        if (!table_.is(load.pos, ChunkStage::Loading)) continue;
         if (load.chunk) {
-            onLoaded(load.pos, std::move(load.chunk), std::move(load.local), now);
+            onLoaded(load.pos, std::move(load.chunk), std::move(load.local));
         } else if (load.failed) {
             extras_.erase(load.pos);
             table_.loadEnded(load.pos);
         } else {
-            extras_[load.pos].load = {};
+            extras_[load.pos].load = {};  // from here on it cannot be cancelled
             absent_.push_back(load.pos);
         }
     }
@@ -129,12 +131,12 @@ void ChunkPipeline::takeResults(Time now) {
     }
 }
 
-void ChunkPipeline::onLoaded(ChunkPos pos, ChunkPtr chunk, LocalLightPtr local, Time now) {
+void ChunkPipeline::onLoaded(ChunkPos pos, ChunkPtr chunk, LocalLightPtr local) {
     Extra& extra = extras_[pos];
     extra.load = {};
     extra.local = std::move(local);
     parts_.world.insert(pos, std::move(chunk));
-    table_.loaded(pos, now);
+    table_.loaded(pos, now_);
 }
 
 void ChunkPipeline::waitForWorkers(std::chrono::milliseconds atMost) {
@@ -162,7 +164,7 @@ void ChunkPipeline::submitLoads() {
     }
 }
 
-void ChunkPipeline::takeBatches(Time) {
+void ChunkPipeline::takeBatches() {
     while (!absent_.empty()) {
         const std::vector<ChunkPos> wanted(absent_.begin(), absent_.end());
         const std::size_t taken = parts_.batches->submit(wanted);
@@ -223,21 +225,16 @@ void ChunkPipeline::dropLocalsAround(ChunkPos pos) {
     }
 }
 
-void ChunkPipeline::unload(Time now) {
-    nextUnload_ = now + kUnloadEvery;
-    for (const ChunkPos pos : table_.takeUnloads(now)) {
+// What need not be done every frame: saving what was edited some time ago, unloading what nobody asks for.
+void ChunkPipeline::tidy() {
+    nextTidy_ = now_ + kTidyEvery;
+    for (auto& [pos, extra] : extras_) {
+        if (extra.editedAt && now_ - *extra.editedAt >= kSaveAfter) save(pos, extra);
+    }
+    for (const ChunkPos pos : table_.takeUnloads(now_)) {
         save(pos, extras_[pos]);
         extras_.erase(pos);
         parts_.world.erase(pos);
-    }
-}
-
-void ChunkPipeline::saveEdited(Time now) {
-    for (auto& [pos, extra] : extras_) {
-        if (!extra.editedAt) continue;
-        // The time of the first edit since the last save is known here only.
-        if (*extra.editedAt == Time{}) extra.editedAt = now;
-        if (now - *extra.editedAt >= kSaveAfter) save(pos, extra);
     }
 }
 
@@ -253,14 +250,14 @@ void ChunkPipeline::saveAll() {
 }
 
 ChunkPtr ChunkPipeline::maybeLoadChunkAt(ChunkPos pos) {
-    table_.request(pos, std::chrono::steady_clock::now());
+    table_.request(pos, now_);
     return parts_.world.maybeChunkAt(pos);
 }
 
 ChunkPtr ChunkPipeline::chunkAt(ChunkPos pos) {
     for (;;) {
         if (ChunkPtr chunk = maybeLoadChunkAt(pos)) return chunk;
-        update();
+        update(now_);
         waitForWorkers(std::chrono::milliseconds(10));
     }
 }

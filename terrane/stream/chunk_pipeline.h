@@ -102,14 +102,13 @@ class ChunkPipeline {
         std::optional<Time> editedAt;
     };
 
-    void takeResults(Time now);
-    void takeBatches(Time now);
-    void onLoaded(world::ChunkPos pos, world::ChunkPtr chunk, LocalLightPtr local, Time now);
+    void takeResults();
+    void takeBatches();
+    void onLoaded(world::ChunkPos pos, world::ChunkPtr chunk, LocalLightPtr local);
     void submitLoads();
     void submitPrepare(world::ChunkPos pos, world::ChunkPtr chunk);
     void submitFinishes();
-    void unload(Time now);
-    void saveEdited(Time now);
+    void tidy();
     void save(world::ChunkPos pos, Extra& extra);
     void dropLocalsAround(world::ChunkPos pos);
     void cancelDistantLoads();
@@ -129,7 +128,7 @@ class ChunkPipeline {
     std::deque<world::ChunkPos> absent_;   // to be made by `batches`
     std::vector<light::BlockEdit> edits_;  // since the last update
     std::set<world::ChunkPos> toMesh_;
-    Time nextUnload_{};
+    Time now_{}, nextTidy_{};  // now: of the last update
 
     // What was not taken yet, and the chunks in the order in which they first changed.
     std::unordered_map<world::ChunkPos, ChunkChange, world::ChunkPosHash> changes_;

@@ -20,7 +20,7 @@ void ChunkPipeline::blockChanged(world::BlockPos pos, world::BlockId before) {
     table_.blocksChanged(chunk);
     Extra& extra = extras_[chunk];
     extra.local = nullptr;
-    if (!extra.editedAt) extra.editedAt = Time{};
+    if (!extra.editedAt) extra.editedAt = now_;
     // A block that changes several times stands once, as it was at first.
     const auto same = [&](const light::BlockEdit& e) { return e.pos == pos; };
     if (std::none_of(edits_.begin(), edits_.end(), same)) edits_.push_back({pos, before});
@@ -29,7 +29,7 @@ void ChunkPipeline::blockChanged(world::BlockPos pos, world::BlockId before) {
 void ChunkPipeline::dataChanged(world::BlockPos pos) {
     const ChunkPos chunk = world::chunkOf(pos);
     Extra& extra = extras_[chunk];
-    if (!extra.editedAt) extra.editedAt = Time{};
+    if (!extra.editedAt) extra.editedAt = now_;
     table_.blocksChanged(chunk);
     toMesh_.insert(chunk);
 }

@@ -45,9 +45,9 @@ constexpr std::array<Word<Animation>, 4> kAnimations{{{"none", Animation::None},
                                                       {"whole_waves", Animation::WholeWaves},
                                                       {"liquid_surface", Animation::LiquidSurface}}};
 
-constexpr std::array<std::string_view, 14> kBlockKeys{
-    "name",        "shape",   "texture",  "textures", "alpha",     "animation",  "two_sided",
-    "inner_faces", "opacity", "emission", "collides", "selection", "selectable", "generated"};
+constexpr std::array<std::string_view, 15> kBlockKeys{
+    "name",    "shape",    "texture",  "textures",  "alpha",      "animation",    "two_sided", "inner_faces",
+    "opacity", "emission", "collides", "selection", "selectable", "needs_ground", "generated"};
 
 bool isName(std::string_view text) {
     constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789_";
@@ -200,6 +200,9 @@ void readFaces(Table& table, BlockDescription& block) {
     if (const toml::node* value = table.node("animation"))
         block.animation = table.wordOf(*value, "animation", kAnimations);
     block.type.innerFaces = table.boolean("inner_faces", false);
+    const Shape shape = block.type.shape;
+    const bool isPlant = shape == Shape::Cross || shape == Shape::Hash || shape == Shape::Inset;
+    block.type.needsGround = table.boolean("needs_ground", isPlant);
 }
 
 void readLight(Table& table, BlockDescription& block) {

@@ -61,6 +61,7 @@ struct BlockType {
     std::vector<Box> collision;              // empty: nothing collides
     Box selection;                           // what a ray from the camera hits
     bool selectable = true;                  // false: rays pass (air, water)
+    bool needsGround = false;                // falls when the block below goes (plants)
     bool generated = true;                   // appears in generated terrain (else placed only)
 };
 

@@ -67,7 +67,7 @@ TEST_F(ChunkPipelineTest, ChunksOutOfViewAreRemovedOnce) {
         const bool isGone = !isWithin(pos, {4, 1}, 3);
         EXPECT_EQ(removals_.contains(pos) ? removals_[pos] : 0, isGone ? 1 : 0) << pos.x << ' ' << pos.y;
     }
-    EXPECT_EQ(removals_.size(), 25u - 8u);
+    EXPECT_EQ(removals_.size(), 25u - 10u);
     expectShowsTheView();
 }
 

@@ -1,5 +1,9 @@
 // terrane play: a window to fly through the world.
+#include <array>
+#include <cmath>
 #include <memory>
+#include <numbers>
+#include <sstream>
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
@@ -8,18 +12,29 @@
 #include "apps/terrane/world_session.h"
 #include "terrane/base/log.h"
 #include "terrane/gpu/window.h"
+#include "terrane/world/ray_cast.h"
 
 namespace terrane::app {
 namespace {
 
 struct PlayOptions {
     WorldOptions world;
+    SaveOptions save;
     GraphicsOptions graphics;
     bool fullScreen = false;
 };
 
 // Chunks handed to the GPU a frame: about 64 × 10 KiB.
 constexpr std::size_t kUploadsPerFrame = 64;
+
+// Where the camera looks over the ground, in sixteenths of a circle: chunks are put in order again only when
+// it turns.
+glm::vec2 lookSector(const render::Camera& camera) {
+    const glm::vec3 look = render::lookDirection(camera);
+    const double sector = std::numbers::pi / 8;
+    const double angle = std::round(std::atan2(double{look.y}, double{look.x}) / sector) * sector;
+    return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+}
 
 class PlayLoop {
   public:
@@ -29,7 +44,9 @@ class PlayLoop {
           window_(window),
           session_(session),
           renderer_(renderer),
-          camera_(findScene("landscape")->camera) {}
+          camera_(findScene("landscape")->camera) {
+        if (session_.store) restoreCamera();
+    }
 
     base::Result<void> run() {
         double last = window_.timeSeconds();
@@ -47,7 +64,7 @@ class PlayLoop {
         }
         base::logInfo("closed after {} frames at {:.2f},{:.2f},{:.2f}", frames_, camera_.position.x,
                       camera_.position.y, camera_.position.z);
-        return {};
+        return leave();
     }
 
   private:
@@ -57,12 +74,48 @@ class PlayLoop {
             if (event.type == Type::KeyPress && event.key == gpu::Key::Escape) window_.requestClose();
             const bool toggles = event.type == Type::ButtonPress && event.button == gpu::MouseButton::Middle;
             const bool captures = event.type == Type::ButtonPress && !isCaptured_;
+            if (event.type == Type::ButtonPress && isCaptured_) build(event.button);
             if (toggles || captures) {
                 isCaptured_ = !isCaptured_;
                 window_.setCursorCaptured(isCaptured_);
             }
             if (event.type == Type::CursorMove && isCaptured_) turn(camera_, event.x, event.y);
         }
+    }
+
+    // The left button breaks the block that is looked at, the right one builds on it.
+    void build(gpu::MouseButton button) {
+        constexpr double kReach = 8;  // blocks
+        const auto hit =
+            world::castRay(session_.world, session_.blocks,
+                           {camera_.position, glm::dvec3(render::lookDirection(camera_))}, kReach);
+        if (!hit) return;
+        if (button == gpu::MouseButton::Left) session_.setBlock(hit->block, world::kAir);
+        if (button != gpu::MouseButton::Right) return;
+        constexpr std::array<glm::ivec3, 6> kOut = {
+            {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
+        const glm::ivec3 out = kOut[hit->face];
+        session_.setBlock({hit->block.x + out.x, hit->block.y + out.y, hit->block.z + out.z},
+                          session_.blocks.find("stone")->id);
+    }
+
+    // "X Y Z YAW PITCH", as the save keeps it.
+    static constexpr std::string_view kCameraSetting = "camera";
+
+    void restoreCamera() {
+        std::istringstream text(session_.store->setting(kCameraSetting).value_or(""));
+        render::Camera saved;
+        text >> saved.position.x >> saved.position.y >> saved.position.z >> saved.yaw >> saved.pitch;
+        if (text && world::isInWorld(render::cameraChunk(saved))) camera_ = saved;
+    }
+
+    base::Result<void> leave() {
+        session_.pipeline->saveAll();
+        if (!session_.store) return {};
+        const glm::dvec3& p = camera_.position;
+        session_.store->setSetting(kCameraSetting,
+                                   fmt::format("{} {} {} {} {}", p.x, p.y, p.z, camera_.yaw, camera_.pitch));
+        return session_.store->flush();
     }
 
     FlyKeys flyKeys() const {
@@ -79,9 +132,10 @@ class PlayLoop {
         if (size != renderer_.size()) {
             if (auto resized = renderer_.resize(size, options_.graphics.samples); !resized) return resized;
         }
-        session_.pipeline->setView(render::cameraChunk(camera_), options_.graphics.viewDistance);
+        session_.pipeline->setView(render::cameraChunk(camera_), options_.graphics.viewDistance,
+                                   lookSector(camera_));
         session_.pipeline->update();
-        uploadMeshes(*session_.pipeline, renderer_, kUploadsPerFrame);
+        uploadChanges(*session_.pipeline, renderer_, kUploadsPerFrame);
         renderer_.draw({camera_, world::environmentAt(0.38f), fogDistance(options_.graphics.viewDistance),
                         seconds, options_.graphics.view});
         renderer_.presentToWindow(size);
@@ -98,8 +152,8 @@ class PlayLoop {
     std::size_t frames_ = 0;
 };
 
-base::Result<void> play(const PlayOptions& options) {
-    auto session = WorldSession::create(options.world);
+base::Result<void> play(const PlayOptions& options, const CLI::App& command) {
+    auto session = WorldSession::create(options.world, options.save, command);
     if (!session) return tl::unexpected(session.error());
     auto window = gpu::Window::create({.title = "Terrane",
                                        .width = options.graphics.size.x,
@@ -126,7 +180,8 @@ CommandEntry addPlay(CLI::App& app) {
     addWorldOptions(*command, options->world);
     addGraphicsOptions(*command, options->graphics);
     command->add_flag("--full-screen", options->fullScreen, "Take the whole screen");
-    return {command, [options] { return play(*options); }};
+    addSaveGameOptions(*command, options->save);
+    return {command, [options, command] { return play(*options, *command); }};
 }
 
 }  // namespace terrane::app

@@ -23,6 +23,7 @@ double millisecondsSince(Clock::time_point start) {
 
 struct RenderOptions {
     WorldOptions world;
+    SaveOptions save;
     GraphicsOptions graphics;
     std::string scene;
     std::optional<std::vector<double>> at, look;
@@ -57,17 +58,17 @@ void loadAll(WorldSession& session, render::Renderer& renderer, const render::Ca
     session.pipeline->setView(render::cameraChunk(camera), viewDistance);
     for (;;) {
         session.pipeline->update();
-        uploadMeshes(*session.pipeline, renderer, std::numeric_limits<std::size_t>::max());
+        uploadChanges(*session.pipeline, renderer, std::numeric_limits<std::size_t>::max());
         if (session.pipeline->progress().complete()) return;
         session.pipeline->waitForWorkers(std::chrono::milliseconds(100));
     }
 }
 
-base::Result<void> renderPicture(const RenderOptions& options) {
+base::Result<void> renderPicture(const RenderOptions& options, const CLI::App& command) {
     const auto start = Clock::now();
     auto scene = chosenScene(options);
     if (!scene) return tl::unexpected(scene.error());
-    auto session = WorldSession::create(options.world);
+    auto session = WorldSession::create(options.world, options.save, command);
     if (!session) return tl::unexpected(session.error());
     auto context = gpu::HeadlessContext::create({.debug = options.graphics.debugGl});
     if (!context) return tl::unexpected(context.error());
@@ -104,7 +105,10 @@ base::Result<void> renderPicture(const RenderOptions& options) {
             {"quads", statistics.quads},
             {"regions", statistics.regions},
             {"draw_commands", statistics.drawCommands},
-            {"bytes", {{"blocks", (*session)->world.memoryBytes()}, {"quads", renderer->quadBytes()}}}};
+            {"bytes",
+             {{"blocks", (*session)->world.memoryBytes()},
+              {"light", (*session)->pipeline->lightBytes()},
+              {"quads", renderer->quadBytes()}}}};
         std::cout << result.dump() << '\n';
     }
     return {};
@@ -145,7 +149,8 @@ CommandEntry addRender(CLI::App& app) {
     command->add_flag("--json", options->json, "Print timings and counts as JSON");
     addWorldOptions(*command, options->world);
     addGraphicsOptions(*command, options->graphics);
-    return {command, [options] { return renderPicture(*options); }};
+    addSaveGameOptions(*command, options->save);
+    return {command, [options, command] { return renderPicture(*options, *command); }};
 }
 
 }  // namespace terrane::app
