@@ -18,32 +18,69 @@ namespace terrane::light {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-const hn::FixedTag<std::uint8_t, 16> kBytes;
-const hn::FixedTag<std::uint16_t, 8> kValues;
+// 64 levels, a byte each, so that maximum and saturated difference of bytes are those of levels. Vector a
+// holds x = 0…7, b holds 8…15: a block of 16 bytes with red and blue in the low four bits (even), and one
+// with green and daylight in the high four (odd). Both blocks fit one vector of 32 bytes, or are two of 16.
+const hn::CappedTag<std::uint8_t, 32> kBytes;
+const hn::FixedTag<std::uint8_t, 16> kBlock;
 using Bytes = hn::Vec<decltype(kBytes)>;
+using Block = hn::Vec<decltype(kBlock)>;
+constexpr int kParts = 32 / HWY_MIN(32, hn::MaxLanes(kBytes));
+constexpr int kEven = 0, kOdd = kParts - 1;
 
-HWY_INLINE Bytes loadBytes(const LightValue* values) {
-    return hn::BitCast(kBytes, hn::LoadU(kValues, values));
-}
-
-// 64 levels, a byte each, so that maximum and saturated difference of bytes are those of levels: red and blue
-// in the low four bits (even), green and daylight in the high four (odd); a holds x = 0…7, b 8…15.
 struct Levels {
-    Bytes evenA, evenB, oddA, oddB;
+    Bytes a[kParts], b[kParts];
 };
 
-HWY_INLINE Levels split(Bytes a, Bytes b) {
-    const Bytes even = hn::Set(kBytes, 0x0F), odd = hn::Set(kBytes, 0xF0);
-    return {hn::And(a, even), hn::And(b, even), hn::And(a, odd), hn::And(b, odd)};
+HWY_INLINE const std::uint8_t* bytesOf(const LightValue* values) {
+    return reinterpret_cast<const std::uint8_t*>(values);
+}
+
+// The even bits of part kEven and the odd ones of part kOdd, in both where these are one.
+HWY_INLINE Bytes maskOf(int part) {
+    alignas(32) static constexpr std::uint8_t kMask[32] = {
+        0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F,
+        0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0};
+    return hn::Load(kBytes, kMask + 16 * part);
+}
+
+// Eight values in each block of the vector.
+HWY_INLINE Bytes loadHalf(const LightValue* values) {
+    return hn::LoadDup128(kBytes, bytesOf(values));
 }
 
 HWY_INLINE Levels loadRow(const LightValue* row) {
-    return split(loadBytes(row), loadBytes(row + 8));
+    const Bytes a = loadHalf(row), b = loadHalf(row + 8);
+    Levels levels;
+    for (int p = 0; p < kParts; ++p) {
+        levels.a[p] = hn::And(a, maskOf(p));
+        levels.b[p] = hn::And(b, maskOf(p));
+    }
+    return levels;
+}
+
+HWY_INLINE void storeHalf(const Bytes (&parts)[kParts], LightValue* values) {
+    auto* out = reinterpret_cast<std::uint8_t*>(values);
+#if HWY_MAX_BYTES >= 32
+    hn::StoreU(hn::Or(hn::LowerHalf(kBlock, parts[0]), hn::UpperHalf(kBlock, parts[0])), kBlock, out);
+#else
+    hn::StoreU(hn::Or(parts[kEven], parts[kOdd]), kBlock, out);
+#endif
+}
+
+HWY_INLINE void storeRow(const Levels& levels, LightValue* row) {
+    storeHalf(levels.a, row);
+    storeHalf(levels.b, row + 8);
 }
 
 template <class Function>
 HWY_INLINE Levels each(Function f, const Levels& p, const Levels& q) {
-    return {f(p.evenA, q.evenA), f(p.evenB, q.evenB), f(p.oddA, q.oddA), f(p.oddB, q.oddB)};
+    Levels result;
+    for (int k = 0; k < kParts; ++k) {
+        result.a[k] = f(p.a[k], q.a[k]);
+        result.b[k] = f(p.b[k], q.b[k]);
+    }
+    return result;
 }
 
 HWY_INLINE Levels maxOf(const Levels& p, const Levels& q) {
@@ -59,23 +96,37 @@ HWY_INLINE Levels whereAbove(const Levels& p, const Levels& q) {
     return each([](Bytes a, Bytes b) HWY_ATTR { return hn::IfThenElseZero(hn::Gt(a, b), a); }, p, q);
 }
 
-// 1 + opacity. An odd one of 15 saturates at 255, which darkens 240 as 256 would.
-HWY_INLINE Levels lossOf(const LightValue* opacity) {
-    const Levels one = {hn::Set(kBytes, 1), hn::Set(kBytes, 1), hn::Set(kBytes, 16), hn::Set(kBytes, 16)};
-    return each([](Bytes a, Bytes b) HWY_ATTR { return hn::SaturatedAdd(a, b); }, loadRow(opacity), one);
+HWY_INLINE bool isSame(const Levels& p, const Levels& q) {
+    const Levels differences = each([](Bytes a, Bytes b) HWY_ATTR { return hn::Xor(a, b); }, p, q);
+    Bytes any = hn::Or(differences.a[0], differences.b[0]);
+    if (kParts == 2) any = hn::Or(any, hn::Or(differences.a[kOdd], differences.b[kOdd]));
+    return hn::AllTrue(kBytes, hn::Eq(any, hn::Zero(kBytes)));
 }
 
-// Nothing gets into a row of opaque voxels.
-HWY_INLINE bool isOpaque(const Levels& loss) {
-    return hn::AllTrue(kBytes, hn::Eq(hn::And(loss.oddA, loss.oddB), hn::Set(kBytes, 0xFF)));
+// 1 + opacity. An odd one of 15 saturates at 255, which darkens 240 as 256 would.
+HWY_INLINE Levels lossOf(const LightValue* opacity) {
+    Levels loss = loadRow(opacity);
+    for (int p = 0; p < kParts; ++p) {
+        const Bytes one = hn::And(maskOf(p), hn::Set(kBytes, 0x11));
+        loss.a[p] = hn::SaturatedAdd(loss.a[p], one);
+        loss.b[p] = hn::SaturatedAdd(loss.b[p], one);
+    }
+    return loss;
 }
 
 // The brighter of the voxels at x − 1 and x + 1. `west` ends with the voxel before the row, `east` begins
 // with the one after it.
-HWY_INLINE Levels brighterBeside(Bytes west, Bytes a, Bytes b, Bytes east) {
-    return maxOf(
-        split(hn::CombineShiftRightBytes<14>(kBytes, a, west), hn::CombineShiftRightBytes<14>(kBytes, b, a)),
-        split(hn::CombineShiftRightBytes<2>(kBytes, b, a), hn::CombineShiftRightBytes<2>(kBytes, east, b)));
+HWY_INLINE Levels brighterBeside(Bytes west, const Levels& row, Bytes east) {
+    Levels result;
+    for (int p = 0; p < kParts; ++p) {
+        const Bytes a = row.a[p], b = row.b[p];
+        const Bytes before = hn::And(west, maskOf(p)), after = hn::And(east, maskOf(p));
+        result.a[p] = hn::Max(hn::CombineShiftRightBytes<14>(kBytes, a, before),
+                              hn::CombineShiftRightBytes<2>(kBytes, b, a));
+        result.b[p] = hn::Max(hn::CombineShiftRightBytes<14>(kBytes, b, a),
+                              hn::CombineShiftRightBytes<2>(kBytes, after, b));
+    }
+    return result;
 }
 
 // A row and where its neighbours are.
@@ -124,31 +175,23 @@ struct RowChange {
 // Applies the rule to a row until nothing changes inside it, and writes it.
 template <class Rule>
 HWY_INLINE RowChange updateRow(LightField& field, FieldBrick& brick, int row, Rule rule) {
-    const Levels loss = lossOf(brick.opacity + 16 * row);
-    if (isOpaque(loss)) return {};
     const RowPlace at = placeOf(&brick, row);
-    const Bytes a = loadBytes(at.self), b = loadBytes(at.self + 8);
-    const Bytes west = loadBytes(at.west), east = loadBytes(at.east);
-    Levels around =
-        maxOf(maxOf(loadRow(at.below), loadRow(at.above)), maxOf(loadRow(at.south), loadRow(at.north)));
-    around = maxOf(around, brighterBeside(west, a, b, east));
+    const Levels old = loadRow(at.self), loss = lossOf(brick.opacity + 16 * row);
+    const Bytes west = loadHalf(at.west), east = loadHalf(at.east);
+    const Levels aroundZ = maxOf(loadRow(at.below), loadRow(at.above));
+    const Levels aroundYZ = maxOf(aroundZ, maxOf(loadRow(at.south), loadRow(at.north)));
+    const Levels around = maxOf(aroundYZ, brighterBeside(west, old, east));
 
-    Levels now = rule(minus(around, loss), split(a, b), brick, row);
-    Bytes newA = hn::Or(now.evenA, now.oddA), newB = hn::Or(now.evenB, now.oddB);
-    const auto isSame = [](Bytes p, Bytes q, Bytes r, Bytes s) HWY_ATTR {
-        return hn::AllTrue(kBytes, hn::Eq(hn::Or(hn::Xor(p, q), hn::Xor(r, s)), hn::Zero(kBytes)));
-    };
-    if (isSame(a, newA, b, newB)) return {};
+    Levels now = rule(minus(around, loss), old, brick, row);
+    if (isSame(old, now)) return {};
     for (;;) {
-        const Bytes oldA = newA, oldB = newB;
-        now = rule(minus(brighterBeside(west, newA, newB, east), loss), now, brick, row);
-        newA = hn::Or(now.evenA, now.oddA), newB = hn::Or(now.evenB, now.oddB);
-        if (isSame(oldA, newA, oldB, newB)) break;
+        const Levels before = now;
+        now = rule(minus(brighterBeside(west, now, east), loss), now, brick, row);
+        if (isSame(before, now)) break;
     }
     LightValue* out = field.writable(brick) + 16 * row;
     const LightValue oldFirst = out[0], oldLast = out[15];
-    hn::StoreU(hn::BitCast(kValues, newA), kValues, out);
-    hn::StoreU(hn::BitCast(kValues, newB), kValues, out + 8);
+    storeRow(now, out);
     return {true, out[0] != oldFirst, out[15] != oldLast};
 }
 
@@ -227,14 +270,16 @@ void shine(const LightValue* opacity, const LightValue* emission, DaylightColumn
 
 void replace(const LightValue* suspects, const LightValue* source, const LightValue* before,
              LightValue* light) {
-    const auto choose = [](Bytes suspected, Bytes a, Bytes b)
-                            HWY_ATTR { return hn::IfThenElse(hn::Eq(suspected, hn::Zero(kBytes)), b, a); };
+    const auto where = [](Bytes suspected, Bytes value) HWY_ATTR {
+        return hn::IfThenZeroElse(hn::Eq(suspected, hn::Zero(kBytes)), value);
+    };
+    const auto whereNot = [](Bytes suspected, Bytes value) HWY_ATTR {
+        return hn::IfThenElseZero(hn::Eq(suspected, hn::Zero(kBytes)), value);
+    };
     for (int at = 0; at < world::kBlocksPerSection; at += 16) {
-        const Levels s = loadRow(suspects + at), a = loadRow(source + at), b = loadRow(before + at);
-        const Bytes first = hn::Or(choose(s.evenA, a.evenA, b.evenA), choose(s.oddA, a.oddA, b.oddA));
-        const Bytes second = hn::Or(choose(s.evenB, a.evenB, b.evenB), choose(s.oddB, a.oddB, b.oddB));
-        hn::StoreU(hn::BitCast(kValues, first), kValues, light + at);
-        hn::StoreU(hn::BitCast(kValues, second), kValues, light + at + 8);
+        const Levels s = loadRow(suspects + at);
+        storeRow(maxOf(each(where, s, loadRow(source + at)), each(whereNot, s, loadRow(before + at))),
+                 light + at);
     }
 }
 
