@@ -1,0 +1,114 @@
+#include "terrane/light/light_chunk.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/light/reference_light.h"
+
+namespace terrane::light {
+namespace {
+
+// Both stages by hand for the chunk in the middle of 3×3.
+ChunkLight lightMiddle(const TestArea& area, LightScratch& scratch) {
+    std::vector<LocalLight> locals;
+    for (const world::Chunk& chunk : area.chunks)
+        locals.push_back(solveLocal(chunk, contentTable(), scratch));
+    LocalNeighbourhood around;
+    for (std::size_t k = 0; k < around.size(); ++k) around[k] = &locals[k];
+    return lightChunk(around, scratch);
+}
+
+// What lies beyond the 3×3 chunks cannot matter: the reference sees 5×5.
+void expectExact(const TestArea::Source& source, LightScratch& scratch) {
+    const TestArea small(3, 3, [&](int x, int y, int z) { return source(x + 16, y + 16, z); });
+    const TestArea large(5, 5, source);
+    const ChunkLight light = lightMiddle(small, scratch);
+    constexpr int kHeight = kFilledHeight + 16;
+    Reference reference(large, kHeight);
+    for (int c = 0; c < kComponentCount; ++c) {
+        const std::vector<int> expected = reference.solve(c);
+        for (int i = 0; i < 256 * kHeight; ++i) {
+            const int x = i & 15, y = i >> 4 & 15, z = i >> 8;
+            ASSERT_EQ(levelOf(light.get(x, y, z), c), expected[large.index(x + 32, y + 32, z)])
+                << "component " << c << " at " << x << ' ' << y << ' ' << z;
+        }
+    }
+}
+
+TEST(LightChunk, EqualsTheReferenceOfALargerWorld) {
+    LightScratch scratch;
+    for (std::uint32_t seed = 20; seed < 23; ++seed) {
+        expectExact(caves(seed), scratch);
+        expectExact(scattered(seed, 40), scratch);
+        expectExact(scattered(seed, 3), scratch);
+        expectExact(layers(seed), scratch);
+        if (HasFailure()) return;
+    }
+}
+
+// A tunnel one block wide from a lamp in the chunk at the corner, through the chunk beside it: stage 1 of
+// neither knows of the other.
+TEST(LightChunk, LightComesRoundTheCorner) {
+    const auto stone = contentBlock("stone"), lamp = contentBlock("lamp_red");
+    const TestArea area(3, 3, [&](int x, int y, int z) {
+        if (z != 50) return stone;
+        if (x == 13 && y == 13) return lamp;
+        const bool along = y == 13 && x > 13 && x <= 18, up = x == 18 && y >= 13 && y < 30;
+        return along || up ? world::kAir : stone;
+    });
+    LightScratch scratch;
+    const ChunkLight light = lightMiddle(area, scratch);
+    // 5 blocks along x to x = 18, then 3 along y into the chunk: 15 − 8.
+    EXPECT_EQ(levelOf(light.get(2, 0, 50), kRed), 7);
+    EXPECT_EQ(levelOf(light.get(2, 6, 50), kRed), 1);
+    EXPECT_EQ(levelOf(light.get(2, 7, 50), kRed), 0);
+}
+
+// From the chunk out into its neighbour and back.
+TEST(LightChunk, LightComesBackFromTheNeighbour) {
+    const auto stone = contentBlock("stone"), lamp = contentBlock("lamp_blue");
+    const TestArea area(3, 3, [&](int x, int y, int z) {
+        if (z != 50) return stone;
+        if (x == 17 && y == 20) return lamp;
+        const bool out = y == 20 && x >= 14 && x < 17, side = x == 14 && y >= 20 && y <= 23,
+                   back = y == 23 && x >= 14 && x <= 20;
+        return out || side || back ? world::kAir : stone;
+    });
+    LightScratch scratch;
+    const ChunkLight light = lightMiddle(area, scratch);
+    EXPECT_EQ(levelOf(light.get(0, 4, 50), kBlue), 14);  // x = 16, on the way out
+    EXPECT_EQ(levelOf(light.get(0, 7, 50), kBlue), 7);   // 3 out, 3 aside, 2 back: 15 − 8
+    EXPECT_EQ(levelOf(light.get(4, 7, 50), kBlue), 3);
+}
+
+TEST(LightChunk, UnknownNeighboursAreDarkAndOpaque) {
+    const auto stone = contentBlock("stone");
+    const world::Chunk roofed =
+        TestArea::makeChunk(0, 0, [&](int, int, int z) { return z == 99 ? stone : world::kAir; });
+    LightScratch scratch;
+    const LocalLight local = solveLocal(roofed, contentTable(), scratch),
+                     open = solveLocal({}, contentTable(), scratch);
+    LocalNeighbourhood around{};
+    around[kCentreChunk] = &local;
+    EXPECT_EQ(lightChunk(around, scratch).get(0, 0, 50), kDark);
+    around[3] = &open;  // −x
+    EXPECT_EQ(lightChunk(around, scratch).get(0, 0, 50), 14 << 12);
+    EXPECT_EQ(lightChunk(around, scratch).get(13, 0, 50), 1 << 12);
+}
+
+// Stage 1 is shared between neighbours: stage 2 must leave it as it is.
+TEST(LightChunk, LeavesTheFirstStageAlone) {
+    const TestArea area(3, 3, caves(30));
+    LightScratch scratch;
+    std::vector<LocalLight> locals;
+    for (const world::Chunk& chunk : area.chunks)
+        locals.push_back(solveLocal(chunk, contentTable(), scratch));
+    LocalNeighbourhood around;
+    for (std::size_t k = 0; k < around.size(); ++k) around[k] = &locals[k];
+    const ChunkLight first = lightChunk(around, scratch);
+    solveLocal(area.chunks[0], contentTable(), scratch);
+    EXPECT_TRUE(first == lightChunk(around, scratch));
+    EXPECT_TRUE(first == lightMiddle(area, scratch));
+}
+
+}  // namespace
+}  // namespace terrane::light
