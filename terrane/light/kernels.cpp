@@ -13,122 +13,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "terrane/light/levels-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace terrane::light {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-// 64 levels, a byte each, so that maximum and saturated difference of bytes are those of levels. Vector a
-// holds x = 0…7, b holds 8…15: a block of 16 bytes with red and blue in the low four bits (even), and one
-// with green and daylight in the high four (odd). Both blocks fit one vector of 32 bytes, or are two of 16.
-const hn::CappedTag<std::uint8_t, 32> kBytes;
-const hn::FixedTag<std::uint8_t, 16> kBlock;
-using Bytes = hn::Vec<decltype(kBytes)>;
-using Block = hn::Vec<decltype(kBlock)>;
-constexpr int kParts = 32 / HWY_MIN(32, hn::MaxLanes(kBytes));
-constexpr int kEven = 0, kOdd = kParts - 1;
-
-struct Levels {
-    Bytes a[kParts], b[kParts];
-};
-
-HWY_INLINE const std::uint8_t* bytesOf(const LightValue* values) {
-    return reinterpret_cast<const std::uint8_t*>(values);
-}
-
-// The even bits of part kEven and the odd ones of part kOdd, in both where these are one.
-HWY_INLINE Bytes maskOf(int part) {
-    alignas(32) static constexpr std::uint8_t kMask[32] = {
-        0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F, 0x0F,
-        0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0, 0xF0};
-    return hn::Load(kBytes, kMask + 16 * part);
-}
-
-// Eight values in each block of the vector.
-HWY_INLINE Bytes loadHalf(const LightValue* values) {
-    return hn::LoadDup128(kBytes, bytesOf(values));
-}
-
-HWY_INLINE Levels loadRow(const LightValue* row) {
-    const Bytes a = loadHalf(row), b = loadHalf(row + 8);
-    Levels levels;
-    for (int p = 0; p < kParts; ++p) {
-        levels.a[p] = hn::And(a, maskOf(p));
-        levels.b[p] = hn::And(b, maskOf(p));
-    }
-    return levels;
-}
-
-HWY_INLINE void storeHalf(const Bytes (&parts)[kParts], LightValue* values) {
-    auto* out = reinterpret_cast<std::uint8_t*>(values);
-#if HWY_MAX_BYTES >= 32
-    hn::StoreU(hn::Or(hn::LowerHalf(kBlock, parts[0]), hn::UpperHalf(kBlock, parts[0])), kBlock, out);
-#else
-    hn::StoreU(hn::Or(parts[kEven], parts[kOdd]), kBlock, out);
-#endif
-}
-
-HWY_INLINE void storeRow(const Levels& levels, LightValue* row) {
-    storeHalf(levels.a, row);
-    storeHalf(levels.b, row + 8);
-}
-
-template <class Function>
-HWY_INLINE Levels each(Function f, const Levels& p, const Levels& q) {
-    Levels result;
-    for (int k = 0; k < kParts; ++k) {
-        result.a[k] = f(p.a[k], q.a[k]);
-        result.b[k] = f(p.b[k], q.b[k]);
-    }
-    return result;
-}
-
-HWY_INLINE Levels maxOf(const Levels& p, const Levels& q) {
-    return each([](Bytes a, Bytes b) HWY_ATTR { return hn::Max(a, b); }, p, q);
-}
-
-HWY_INLINE Levels minus(const Levels& p, const Levels& q) {
-    return each([](Bytes a, Bytes b) HWY_ATTR { return hn::SaturatedSub(a, b); }, p, q);
-}
-
-// Levels of p where they exceed those of q, else 0.
-HWY_INLINE Levels whereAbove(const Levels& p, const Levels& q) {
-    return each([](Bytes a, Bytes b) HWY_ATTR { return hn::IfThenElseZero(hn::Gt(a, b), a); }, p, q);
-}
-
-HWY_INLINE bool isSame(const Levels& p, const Levels& q) {
-    const Levels differences = each([](Bytes a, Bytes b) HWY_ATTR { return hn::Xor(a, b); }, p, q);
-    Bytes any = hn::Or(differences.a[0], differences.b[0]);
-    if (kParts == 2) any = hn::Or(any, hn::Or(differences.a[kOdd], differences.b[kOdd]));
-    return hn::AllTrue(kBytes, hn::Eq(any, hn::Zero(kBytes)));
-}
-
-// 1 + opacity. An odd one of 15 saturates at 255, which darkens 240 as 256 would.
-HWY_INLINE Levels lossOf(const LightValue* opacity) {
-    Levels loss = loadRow(opacity);
-    for (int p = 0; p < kParts; ++p) {
-        const Bytes one = hn::And(maskOf(p), hn::Set(kBytes, 0x11));
-        loss.a[p] = hn::SaturatedAdd(loss.a[p], one);
-        loss.b[p] = hn::SaturatedAdd(loss.b[p], one);
-    }
-    return loss;
-}
-
-// The brighter of the voxels at x − 1 and x + 1. `west` ends with the voxel before the row, `east` begins
-// with the one after it.
-HWY_INLINE Levels brighterBeside(Bytes west, const Levels& row, Bytes east) {
-    Levels result;
-    for (int p = 0; p < kParts; ++p) {
-        const Bytes a = row.a[p], b = row.b[p];
-        const Bytes before = hn::And(west, maskOf(p)), after = hn::And(east, maskOf(p));
-        result.a[p] = hn::Max(hn::CombineShiftRightBytes<14>(kBytes, a, before),
-                              hn::CombineShiftRightBytes<2>(kBytes, b, a));
-        result.b[p] = hn::Max(hn::CombineShiftRightBytes<14>(kBytes, b, a),
-                              hn::CombineShiftRightBytes<2>(kBytes, after, b));
-    }
-    return result;
-}
-
 // A row and where its neighbours are.
 struct RowPlace {
     const LightValue *self, *west, *east, *south, *north, *below, *above;
@@ -177,7 +66,7 @@ template <class Rule>
 HWY_INLINE RowChange updateRow(LightField& field, FieldBrick& brick, int row, Rule rule) {
     const RowPlace at = placeOf(&brick, row);
     const Levels old = loadRow(at.self), loss = lossOf(brick.opacity + 16 * row);
-    const Bytes west = loadHalf(at.west), east = loadHalf(at.east);
+    const Half west = loadHalf(at.west), east = loadHalf(at.east);
     const Levels aroundZ = maxOf(loadRow(at.below), loadRow(at.above));
     const Levels aroundYZ = maxOf(aroundZ, maxOf(loadRow(at.south), loadRow(at.north)));
     const Levels around = maxOf(aroundYZ, brighterBeside(west, old, east));
