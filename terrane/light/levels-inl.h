@@ -47,12 +47,15 @@ HWY_INLINE std::uint8_t* bytesOf(LightValue* values) {
 
 #if HWY_MAX_BYTES >= 32
 
-HWY_INLINE Bytes evenAndOdd(std::uint8_t even, std::uint8_t odd) {
-    return hn::ConcatLowerLower(kBytes, hn::Set(kBytes, odd), hn::Set(kBytes, even));
+// `even` in the lower 16 bytes, `odd` in the upper.
+HWY_INLINE Bytes evenAndOdd(std::uint64_t even, std::uint64_t odd) {
+    alignas(32) const std::uint64_t words[4] = {even, even, odd, odd};
+    return hn::BitCast(kBytes, hn::Load(hn::FixedTag<std::uint64_t, 4>(), words));
 }
 
 HWY_INLINE Half loadHalf(const LightValue* values) {
-    return {hn::And(hn::LoadDup128(kBytes, bytesOf(values)), evenAndOdd(0x0F, 0xF0))};
+    return {
+        hn::And(hn::LoadDup128(kBytes, bytesOf(values)), evenAndOdd(0x0F0F0F0F0F0F0F0F, 0xF0F0F0F0F0F0F0F0))};
 }
 
 HWY_INLINE void storeHalf(Half half, LightValue* values) {
@@ -63,7 +66,7 @@ HWY_INLINE void storeHalf(Half half, LightValue* values) {
 
 // A level of 1.
 HWY_INLINE Half halfOfOnes() {
-    return {evenAndOdd(0x01, 0x10)};
+    return {evenAndOdd(0x0101010101010101, 0x1010101010101010)};
 }
 
 template <class Function>

@@ -80,6 +80,23 @@ TEST(LightChunk, LightComesBackFromTheNeighbour) {
     EXPECT_EQ(levelOf(light.get(4, 7, 50), kBlue), 3);
 }
 
+// The brick between them is one value of light at first, and the lamps' rows do not change.
+TEST(LightChunk, LampsInCeilingAndFloorShineIntoAnEmptyBrick) {
+    const auto stone = contentBlock("stone"), red = contentBlock("lamp_red"),
+               blue = contentBlock("lamp_blue");
+    const TestArea area(3, 3, [&](int x, int y, int z) {
+        if (x == 24 && y == 24 && z == 64) return red;
+        if (x == 24 && y == 24 && z == 47) return blue;
+        return z >= 48 && z < 64 ? world::kAir : stone;
+    });
+    LightScratch scratch;
+    const ChunkLight light = lightMiddle(area, scratch);
+    EXPECT_EQ(light.get(8, 8, 63), 14);
+    EXPECT_EQ(light.get(8, 8, 48), 14 << 8);
+    EXPECT_EQ(light.get(8, 8, 60), 11 | 2 << 8);
+    EXPECT_EQ(light.get(6, 8, 50), 10 << 8);
+}
+
 TEST(LightChunk, UnknownNeighboursAreDarkAndOpaque) {
     const auto stone = contentBlock("stone");
     const world::Chunk roofed =
