@@ -52,6 +52,31 @@ TEST(LightSources, UnderGroundBricksOfOneValueStayUniform) {
     }
 }
 
+TEST(LightSources, NoDaylightPassesSolidBricks) {
+    const auto stone = contentBlock("stone");
+    const world::Chunk chunk =
+        TestArea::makeChunk(0, 0, [&](int, int, int z) { return z >= 32 && z < 48 ? stone : world::kAir; });
+    BrickPool pool;
+    const ChunkBricks bricks = findSources(chunk, contentTable(), pool);
+    EXPECT_EQ(at(bricks.light, 5, 5, 48), kFullDaylight);
+    EXPECT_EQ(at(bricks.light, 5, 5, 47), kDark);
+    EXPECT_EQ(at(bricks.light, 5, 5, 31), kDark);
+    EXPECT_EQ(at(bricks.light, 5, 5, 0), kDark);
+}
+
+// Deep water: each block takes one level.
+TEST(LightSources, DaylightFadesInUniformWater) {
+    const auto water = contentBlock("water");
+    const world::Chunk chunk =
+        TestArea::makeChunk(0, 0, [&](int, int, int z) { return z < 80 ? water : world::kAir; });
+    BrickPool pool;
+    const ChunkBricks bricks = findSources(chunk, contentTable(), pool);
+    EXPECT_EQ(at(bricks.light, 0, 0, 79), 14 << 12);
+    EXPECT_EQ(at(bricks.light, 15, 15, 66), 1 << 12);
+    EXPECT_EQ(at(bricks.light, 15, 15, 65), kDark);
+    EXPECT_TRUE(bricks.light[3].isUniform);
+}
+
 // More than 256 kinds of blocks: no palette.
 TEST(LightSources, ReadsDenseSections) {
     const world::Chunk chunk = TestArea::makeChunk(0, 0, [](int x, int y, int z) {
