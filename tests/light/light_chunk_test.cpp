@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "terrane/base/job_system.h"
 #include "tests/light/reference_light.h"
 
 namespace terrane::light {
@@ -110,6 +111,31 @@ TEST(LightChunk, UnknownNeighboursAreDarkAndOpaque) {
     around[3] = &open;  // −x
     EXPECT_EQ(lightChunk(around, scratch).get(0, 0, 50), 14 << 12);
     EXPECT_EQ(lightChunk(around, scratch).get(13, 0, 50), 1 << 12);
+}
+
+// As the streaming pipeline does it: each stage on any worker, results of stage 1 shared.
+TEST(LightChunk, IsTheSameFromManyThreads) {
+    const TestArea area(4, 4, caves(31));
+    base::JobSystem jobs(4);
+    std::vector<LocalLight> locals(area.chunks.size());
+    const auto solved = base::parallelFor(jobs, locals.size(), [&](std::size_t k) {
+        thread_local LightScratch scratch;
+        locals[k] = solveLocal(area.chunks[k], contentTable(), scratch);
+    });
+    ASSERT_TRUE(solved);
+    std::vector<ChunkLight> lights(area.chunks.size());
+    const auto lit = base::parallelFor(jobs, lights.size(), [&](std::size_t k) {
+        thread_local LightScratch scratch;
+        LocalNeighbourhood around{};
+        for (int n = 0; n < kFieldChunks; ++n) {
+            const int x = static_cast<int>(k) % 4 + n % 3 - 1, y = static_cast<int>(k) / 4 + n / 3 - 1;
+            if (x < 0 || y < 0 || x >= 4 || y >= 4) continue;
+            around[static_cast<std::size_t>(n)] = &locals[static_cast<std::size_t>(x + 4 * y)];
+        }
+        lights[k] = lightChunk(around, scratch);
+    });
+    ASSERT_TRUE(lit);
+    EXPECT_TRUE(lights == area.lights());
 }
 
 // Stage 1 is shared between neighbours: stage 2 must leave it as it is.

@@ -103,6 +103,26 @@ TEST(Relight, LampIsPlacedAndRemovedAtACorner) {
     for (int x = 0; x < 48; ++x) EXPECT_EQ(lit.at(x, 16, 50), kDark) << x;
 }
 
+// A lamp's last levels lie in the brick above or below.
+TEST(Relight, LampInAShaftReachesFourteenBlocksUpAndDown) {
+    const BlockId stone = contentBlock("stone");
+    LitArea lit(
+        TestArea(1, 1, [&](int x, int y, int z) { return x == 8 && y == 8 && z < 90 ? world::kAir : stone; }),
+        {0, 0});
+    for (const int z : {28, 19, 7, 16}) {
+        lit.set(8, 8, z, contentBlock("lamp_red"));
+        lit.relightEdits();
+        EXPECT_EQ(levelOf(lit.at(8, 8, z + 14), kRed), 1);
+        EXPECT_EQ(levelOf(lit.at(8, 8, z + 15), kRed), 0);
+        if (z >= 14) {
+            EXPECT_EQ(levelOf(lit.at(8, 8, z - 14), kRed), 1);
+        }
+        lit.set(8, 8, z, world::kAir);
+        lit.relightEdits();
+        for (int k = 0; k < 90; ++k) EXPECT_EQ(lit.at(8, 8, k), kDark) << k;
+    }
+}
+
 // Of two lamps the other's light fills what one leaves.
 TEST(Relight, OtherLampsShineOn) {
     LitArea lit(TestArea(3, 3, darkHall()), {5, 5});
