@@ -2,6 +2,7 @@
 // they change where the result does.
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <bit>
 #include <cstdio>
 #include <cstdlib>
@@ -50,6 +51,10 @@ const world::BlockRegistry& blocks() {
         return orExit(world::BlockRegistry::parse(text, "blocks.toml"));
     }();
     return registry;
+}
+
+world::BlockId blockId(std::string_view name) {
+    return blocks().find(name)->id;
 }
 
 const light::LightTable& table() {
@@ -143,13 +148,52 @@ void neighbours(benchmark::State& state) {
     state.SetLabel(digestOf(lights));
 }
 
-// Worst edits, in 3×3 chunks: each iteration makes an edit and takes it back, and both are relit.
-
-world::BlockId blockId(std::string_view name) {
-    return blocks().find(name)->id;
+std::vector<ChunkLight> lightEverything(const std::vector<world::Chunk>& chunks, int side) {
+    light::LightArea area{side, side, {}};
+    for (const world::Chunk& chunk : chunks) area.chunks.push_back(&chunk);
+    return lightArea(area, table());
 }
 
-struct Scene {
+// Both stages, one thread.
+void lightScene(benchmark::State& state, const std::vector<world::Chunk>& chunks) {
+    std::vector<ChunkLight> lights;
+    for (auto _ : state) lights = lightEverything(chunks, kSide);
+    std::size_t bytes = 0;
+    for (const ChunkLight& chunk : lights) bytes += chunk.memoryBytes();
+    state.counters["time/chunk"] = perChunk(chunks.size());
+    state.counters["bytes"] = static_cast<double>(bytes) / static_cast<double>(chunks.size());
+    state.SetLabel(digestOf(lights));
+}
+
+void landscapeScene(benchmark::State& state) {
+    lightScene(state, landscape());
+}
+void oceanScene(benchmark::State& state) {
+    lightScene(state, makeScene("ocean"));
+}
+void caveScene(benchmark::State& state) {
+    lightScene(state, makeScene("cave"));
+}
+
+// Lamps of four colours on the ground or on what grows there, at random places.
+void tenThousandLamps(benchmark::State& state) {
+    std::vector<world::Chunk> chunks = landscape();
+    const std::array lamps = {blockId("lamp_white"), blockId("lamp_red"), blockId("lamp_green"),
+                              blockId("lamp_blue")};
+    for (unsigned k = 0; k < 10'000; ++k) {
+        const unsigned hash = shared::hash3(k, 0u, 0u, 1u);
+        world::Chunk& chunk = chunks[hash % chunks.size()];
+        const int x = static_cast<int>(hash >> 16 & 15), y = static_cast<int>(hash >> 20 & 15);
+        int z = world::kChunkHeight - 1;
+        while (z > 0 && chunk.block(world::blockIndex(x, y, z - 1)) == world::kAir) --z;
+        chunk.setBlock(world::blockIndex(x, y, z), lamps[k % lamps.size()]);
+    }
+    lightScene(state, chunks);
+}
+
+// Worst edits, in 3×3 chunks: each iteration makes an edit and takes it back, and both are relit.
+
+struct TestScene {
     std::vector<world::Chunk> chunks = std::vector<world::Chunk>(9);
 
     // Blocks of the box, x and y from the corner of the area, ends excluded.
@@ -165,41 +209,35 @@ struct Scene {
 };
 
 // Open ground at z = 100.
-Scene openGround() {
-    Scene scene;
+TestScene openGround() {
+    TestScene scene;
     scene.fill({0, 0, 0}, {48, 48, 100}, blockId("stone"));
     return scene;
 }
 
-// A hall of 46×46×118 blocks under a roof of two.
-Scene hall() {
-    Scene scene;
-    scene.fill({0, 0, 0}, {48, 48, 240}, blockId("stone"));
-    scene.fill({1, 1, 120}, {47, 47, 238}, world::kAir);
+// A cave of 46×46 blocks from z = 100 to `top` under a roof of two.
+TestScene cave(int top) {
+    TestScene scene;
+    scene.fill({0, 0, 0}, {48, 48, top + 2}, blockId("stone"));
+    scene.fill({1, 1, 100}, {47, 47, top}, world::kAir);
     return scene;
 }
 
 // A tree-covered ground: leaves in two layers of three blocks with gaps.
-Scene underLeaves() {
-    Scene scene = openGround();
+TestScene underLeaves() {
+    TestScene scene = openGround();
     scene.fill({0, 0, 104}, {48, 48, 107}, blockId("oak_leaves"));
     for (int k = 0; k < 48; k += 3) scene.fill({k, 0, 104}, {k + 1, 48, 107}, world::kAir);
     return scene;
 }
 
-std::vector<ChunkLight> lightScene(const Scene& scene) {
-    light::LightArea area{3, 3, {}};
-    for (const world::Chunk& chunk : scene.chunks) area.chunks.push_back(&chunk);
-    return lightArea(area, table());
-}
-
 // Changes the block at `index` of the middle chunk between two ids.
-void edit(benchmark::State& state, Scene scene, world::BlockIndex index, world::BlockId first,
+void edit(benchmark::State& state, TestScene scene, world::BlockIndex index, world::BlockId first,
           world::BlockId second) {
     light::LightScratch scratch;
     scene.chunks[4].setBlock(index, first);
     light::LightWindow window;
-    const std::vector<ChunkLight> lights = lightScene(scene);
+    const std::vector<ChunkLight> lights = lightEverything(scene.chunks, 3);
     for (std::size_t k = 0; k < 9; ++k) {
         window.chunks[k] = &scene.chunks[k];
         window.lights[k] = std::make_shared<ChunkLight>(lights[k]);
@@ -227,18 +265,22 @@ void lampRemoved(benchmark::State& state) {
 void lampPlaced(benchmark::State& state) {
     edit(state, openGround(), world::blockIndex(8, 8, 104), world::kAir, blockId("lamp_white"));
 }
-void lampRemovedInHall(benchmark::State& state) {
-    edit(state, hall(), world::blockIndex(8, 8, 184), blockId("lamp_white"), world::kAir);
+void lampRemovedInCorner(benchmark::State& state) {
+    edit(state, openGround(), world::blockIndex(15, 15, 111), blockId("lamp_white"), world::kAir);
+}
+
+// The roof's lower block is open already, so that the edit lets daylight in or takes it away.
+void editRoof(benchmark::State& state, int top, std::string_view before, std::string_view after) {
+    const auto idOf = [](std::string_view name) { return name.empty() ? world::kAir : blockId(name); };
+    TestScene scene = cave(top);
+    scene.fill({24, 24, top}, {25, 25, top + 1}, world::kAir);
+    edit(state, scene, world::blockIndex(8, 8, top + 1), idOf(before), idOf(after));
 }
 void roofOpened(benchmark::State& state) {
-    Scene scene = hall();
-    scene.fill({24, 24, 238}, {25, 25, 239}, world::kAir);
-    edit(state, scene, world::blockIndex(8, 8, 239), blockId("stone"), world::kAir);
+    editRoof(state, static_cast<int>(state.range(0)), "stone", "");
 }
 void roofClosed(benchmark::State& state) {
-    Scene scene = hall();
-    scene.fill({24, 24, 238}, {25, 25, 239}, world::kAir);
-    edit(state, scene, world::blockIndex(8, 8, 239), world::kAir, blockId("stone"));
+    editRoof(state, static_cast<int>(state.range(0)), "", "stone");
 }
 void leafRemoved(benchmark::State& state) {
     edit(state, underLeaves(), world::blockIndex(8, 8, 106), blockId("oak_leaves"), world::kAir);
@@ -247,13 +289,17 @@ void stonePlaced(benchmark::State& state) {
     edit(state, openGround(), world::blockIndex(8, 8, 100), world::kAir, blockId("stone"));
 }
 
+BENCHMARK(landscapeScene)->Unit(benchmark::kMillisecond);
+BENCHMARK(oceanScene)->Unit(benchmark::kMillisecond);
+BENCHMARK(caveScene)->Unit(benchmark::kMillisecond);
+BENCHMARK(tenThousandLamps)->Unit(benchmark::kMillisecond);
 BENCHMARK(local)->Unit(benchmark::kMillisecond);
 BENCHMARK(neighbours)->Unit(benchmark::kMillisecond);
 BENCHMARK(lampRemoved)->Unit(benchmark::kMicrosecond);
 BENCHMARK(lampPlaced)->Unit(benchmark::kMicrosecond);
-BENCHMARK(lampRemovedInHall)->Unit(benchmark::kMicrosecond);
-BENCHMARK(roofOpened)->Unit(benchmark::kMicrosecond);
-BENCHMARK(roofClosed)->Unit(benchmark::kMicrosecond);
+BENCHMARK(lampRemovedInCorner)->Unit(benchmark::kMicrosecond);
+BENCHMARK(roofOpened)->Arg(130)->Arg(160)->Arg(250)->Unit(benchmark::kMicrosecond);
+BENCHMARK(roofClosed)->Arg(130)->Arg(160)->Arg(250)->Unit(benchmark::kMicrosecond);
 BENCHMARK(leafRemoved)->Unit(benchmark::kMicrosecond);
 BENCHMARK(stonePlaced)->Unit(benchmark::kMicrosecond);
 

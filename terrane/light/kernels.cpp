@@ -13,71 +13,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "terrane/light/levels-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace terrane::light {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-const hn::FixedTag<std::uint8_t, 16> kBytes;
-const hn::FixedTag<std::uint16_t, 8> kValues;
-using Bytes = hn::Vec<decltype(kBytes)>;
-
-HWY_INLINE Bytes loadBytes(const LightValue* values) {
-    return hn::BitCast(kBytes, hn::LoadU(kValues, values));
-}
-
-// 64 levels, a byte each, so that maximum and saturated difference of bytes are those of levels: red and blue
-// in the low four bits (even), green and daylight in the high four (odd); a holds x = 0…7, b 8…15.
-struct Levels {
-    Bytes evenA, evenB, oddA, oddB;
-};
-
-HWY_INLINE Levels split(Bytes a, Bytes b) {
-    const Bytes even = hn::Set(kBytes, 0x0F), odd = hn::Set(kBytes, 0xF0);
-    return {hn::And(a, even), hn::And(b, even), hn::And(a, odd), hn::And(b, odd)};
-}
-
-HWY_INLINE Levels loadRow(const LightValue* row) {
-    return split(loadBytes(row), loadBytes(row + 8));
-}
-
-template <class Function>
-HWY_INLINE Levels each(Function f, const Levels& p, const Levels& q) {
-    return {f(p.evenA, q.evenA), f(p.evenB, q.evenB), f(p.oddA, q.oddA), f(p.oddB, q.oddB)};
-}
-
-HWY_INLINE Levels maxOf(const Levels& p, const Levels& q) {
-    return each([](Bytes a, Bytes b) HWY_ATTR { return hn::Max(a, b); }, p, q);
-}
-
-HWY_INLINE Levels minus(const Levels& p, const Levels& q) {
-    return each([](Bytes a, Bytes b) HWY_ATTR { return hn::SaturatedSub(a, b); }, p, q);
-}
-
-// Levels of p where they exceed those of q, else 0.
-HWY_INLINE Levels whereAbove(const Levels& p, const Levels& q) {
-    return each([](Bytes a, Bytes b) HWY_ATTR { return hn::IfThenElseZero(hn::Gt(a, b), a); }, p, q);
-}
-
-// 1 + opacity. An odd one of 15 saturates at 255, which darkens 240 as 256 would.
-HWY_INLINE Levels lossOf(const LightValue* opacity) {
-    const Levels one = {hn::Set(kBytes, 1), hn::Set(kBytes, 1), hn::Set(kBytes, 16), hn::Set(kBytes, 16)};
-    return each([](Bytes a, Bytes b) HWY_ATTR { return hn::SaturatedAdd(a, b); }, loadRow(opacity), one);
-}
-
-// Nothing gets into a row of opaque voxels.
-HWY_INLINE bool isOpaque(const Levels& loss) {
-    return hn::AllTrue(kBytes, hn::Eq(hn::And(loss.oddA, loss.oddB), hn::Set(kBytes, 0xFF)));
-}
-
-// The brighter of the voxels at x − 1 and x + 1. `west` ends with the voxel before the row, `east` begins
-// with the one after it.
-HWY_INLINE Levels brighterBeside(Bytes west, Bytes a, Bytes b, Bytes east) {
-    return maxOf(
-        split(hn::CombineShiftRightBytes<14>(kBytes, a, west), hn::CombineShiftRightBytes<14>(kBytes, b, a)),
-        split(hn::CombineShiftRightBytes<2>(kBytes, b, a), hn::CombineShiftRightBytes<2>(kBytes, east, b)));
-}
-
 // A row and where its neighbours are.
 struct RowPlace {
     const LightValue *self, *west, *east, *south, *north, *below, *above;
@@ -124,31 +64,23 @@ struct RowChange {
 // Applies the rule to a row until nothing changes inside it, and writes it.
 template <class Rule>
 HWY_INLINE RowChange updateRow(LightField& field, FieldBrick& brick, int row, Rule rule) {
-    const Levels loss = lossOf(brick.opacity + 16 * row);
-    if (isOpaque(loss)) return {};
     const RowPlace at = placeOf(&brick, row);
-    const Bytes a = loadBytes(at.self), b = loadBytes(at.self + 8);
-    const Bytes west = loadBytes(at.west), east = loadBytes(at.east);
-    Levels around =
-        maxOf(maxOf(loadRow(at.below), loadRow(at.above)), maxOf(loadRow(at.south), loadRow(at.north)));
-    around = maxOf(around, brighterBeside(west, a, b, east));
+    const Levels old = loadRow(at.self), loss = lossOf(brick.opacity + 16 * row);
+    const Half west = loadHalf(at.west), east = loadHalf(at.east);
+    const Levels aroundZ = maxOf(loadRow(at.below), loadRow(at.above));
+    const Levels aroundYZ = maxOf(aroundZ, maxOf(loadRow(at.south), loadRow(at.north)));
+    const Levels around = maxOf(aroundYZ, brighterBeside(west, old, east));
 
-    Levels now = rule(minus(around, loss), split(a, b), brick, row);
-    Bytes newA = hn::Or(now.evenA, now.oddA), newB = hn::Or(now.evenB, now.oddB);
-    const auto isSame = [](Bytes p, Bytes q, Bytes r, Bytes s) HWY_ATTR {
-        return hn::AllTrue(kBytes, hn::Eq(hn::Or(hn::Xor(p, q), hn::Xor(r, s)), hn::Zero(kBytes)));
-    };
-    if (isSame(a, newA, b, newB)) return {};
+    Levels now = rule(minus(around, loss), old, brick, row);
+    if (isSame(old, now)) return {};
     for (;;) {
-        const Bytes oldA = newA, oldB = newB;
-        now = rule(minus(brighterBeside(west, newA, newB, east), loss), now, brick, row);
-        newA = hn::Or(now.evenA, now.oddA), newB = hn::Or(now.evenB, now.oddB);
-        if (isSame(oldA, newA, oldB, newB)) break;
+        const Levels before = now;
+        now = rule(minus(brighterBeside(west, now, east), loss), now, brick, row);
+        if (isSame(before, now)) break;
     }
     LightValue* out = field.writable(brick) + 16 * row;
     const LightValue oldFirst = out[0], oldLast = out[15];
-    hn::StoreU(hn::BitCast(kValues, newA), kValues, out);
-    hn::StoreU(hn::BitCast(kValues, newB), kValues, out + 8);
+    storeRow(now, out);
     return {true, out[0] != oldFirst, out[15] != oldLast};
 }
 
@@ -227,14 +159,16 @@ void shine(const LightValue* opacity, const LightValue* emission, DaylightColumn
 
 void replace(const LightValue* suspects, const LightValue* source, const LightValue* before,
              LightValue* light) {
-    const auto choose = [](Bytes suspected, Bytes a, Bytes b)
-                            HWY_ATTR { return hn::IfThenElse(hn::Eq(suspected, hn::Zero(kBytes)), b, a); };
+    const auto where = [](Bytes suspected, Bytes value) HWY_ATTR {
+        return hn::IfThenZeroElse(hn::Eq(suspected, hn::Zero(kBytes)), value);
+    };
+    const auto whereNot = [](Bytes suspected, Bytes value) HWY_ATTR {
+        return hn::IfThenElseZero(hn::Eq(suspected, hn::Zero(kBytes)), value);
+    };
     for (int at = 0; at < world::kBlocksPerSection; at += 16) {
-        const Levels s = loadRow(suspects + at), a = loadRow(source + at), b = loadRow(before + at);
-        const Bytes first = hn::Or(choose(s.evenA, a.evenA, b.evenA), choose(s.oddA, a.oddA, b.oddA));
-        const Bytes second = hn::Or(choose(s.evenB, a.evenB, b.evenB), choose(s.oddB, a.oddB, b.oddB));
-        hn::StoreU(hn::BitCast(kValues, first), kValues, light + at);
-        hn::StoreU(hn::BitCast(kValues, second), kValues, light + at + 8);
+        const Levels s = loadRow(suspects + at);
+        storeRow(maxOf(each(where, s, loadRow(source + at)), each(whereNot, s, loadRow(before + at))),
+                 light + at);
     }
 }
 

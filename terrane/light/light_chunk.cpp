@@ -108,9 +108,8 @@ void addSides(LocalLight& local) {
     const auto isUniform = [](const BrickView& brick) { return brick.isUniform; };
     const auto& light = local.bricks.light;
     const auto uniform = std::count_if(light.begin(), light.end(), isUniform);
-    local.ownedSides = std::make_unique_for_overwrite<LocalLight::Side[]>(
-        2 * (light.size() - static_cast<std::size_t>(uniform)));
-    LocalLight::Side* next = local.ownedSides.get();
+    local.ownedSides.resize(2 * (light.size() - static_cast<std::size_t>(uniform)));
+    LocalLight::Side* next = local.ownedSides.data();
     for (std::size_t k = 0; k < light.size(); ++k) {
         local.west[k] = local.east[k] = light[k].values;  // any 256 values of a uniform brick
         if (light[k].isUniform) continue;

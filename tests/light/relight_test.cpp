@@ -77,6 +77,154 @@ class LitArea {
     LightScratch scratch_;
 };
 
+TestArea::Source airAbove(int height) {
+    const BlockId stone = contentBlock("stone");
+    return [=](int, int, int z) { return z < height ? stone : world::kAir; };
+}
+
+// Stone with an empty layer at z = 50.
+TestArea::Source darkHall() {
+    const BlockId stone = contentBlock("stone");
+    return [=](int, int, int z) { return z == 50 ? world::kAir : stone; };
+}
+
+TEST(Relight, LampIsPlacedAndRemovedAtACorner) {
+    LitArea lit(TestArea(3, 3, darkHall()), {-1, -1});
+    lit.set(16, 16, 50, contentBlock("lamp_green"));
+    lit.relightEdits();
+    EXPECT_EQ(levelOf(lit.at(16, 16, 50), kGreen), 15);
+    EXPECT_EQ(levelOf(lit.at(15, 16, 50), kGreen), 14);
+    EXPECT_EQ(levelOf(lit.at(15, 15, 50), kGreen), 13);
+    EXPECT_EQ(levelOf(lit.at(9, 9, 50), kGreen), 1);
+    EXPECT_EQ(levelOf(lit.at(9, 8, 50), kGreen), 0);
+    EXPECT_EQ(levelOf(lit.at(30, 16, 50), kGreen), 1);
+    lit.set(16, 16, 50, world::kAir);
+    lit.relightEdits();
+    for (int x = 0; x < 48; ++x) EXPECT_EQ(lit.at(x, 16, 50), kDark) << x;
+}
+
+// A lamp's last levels lie in the brick above or below.
+TEST(Relight, LampInAShaftReachesFourteenBlocksUpAndDown) {
+    const BlockId stone = contentBlock("stone");
+    LitArea lit(
+        TestArea(1, 1, [&](int x, int y, int z) { return x == 8 && y == 8 && z < 90 ? world::kAir : stone; }),
+        {0, 0});
+    for (const int z : {28, 19, 7, 16}) {
+        lit.set(8, 8, z, contentBlock("lamp_red"));
+        lit.relightEdits();
+        EXPECT_EQ(levelOf(lit.at(8, 8, z + 14), kRed), 1);
+        EXPECT_EQ(levelOf(lit.at(8, 8, z + 15), kRed), 0);
+        if (z >= 14) {
+            EXPECT_EQ(levelOf(lit.at(8, 8, z - 14), kRed), 1);
+        }
+        lit.set(8, 8, z, world::kAir);
+        lit.relightEdits();
+        for (int k = 0; k < 90; ++k) EXPECT_EQ(lit.at(8, 8, k), kDark) << k;
+    }
+}
+
+// Of two lamps the other's light fills what one leaves.
+TEST(Relight, OtherLampsShineOn) {
+    LitArea lit(TestArea(3, 3, darkHall()), {5, 5});
+    lit.set(20, 24, 50, contentBlock("lamp_red"));
+    lit.set(28, 24, 50, contentBlock("lamp_red"));
+    lit.relightEdits();
+    EXPECT_EQ(levelOf(lit.at(21, 24, 50), kRed), 14);
+    EXPECT_EQ(levelOf(lit.at(24, 24, 50), kRed), 11);
+    lit.set(20, 24, 50, world::kAir);
+    lit.relightEdits();
+    EXPECT_EQ(levelOf(lit.at(27, 24, 50), kRed), 14);
+    EXPECT_EQ(levelOf(lit.at(21, 24, 50), kRed), 8);
+    EXPECT_EQ(levelOf(lit.at(20, 24, 50), kRed), 7);
+}
+
+// A roof over a hall 90 blocks high: the opened column is daylit to the floor.
+TEST(Relight, RoofIsOpenedAndClosed) {
+    const BlockId stone = contentBlock("stone");
+    LitArea lit(TestArea(3, 3, [&](int, int, int z) { return z < 10 || z == 100 ? stone : world::kAir; }),
+                {0, 0});
+    EXPECT_EQ(lit.at(20, 20, 10), kDark);
+    lit.set(20, 20, 100, world::kAir);
+    const auto changes = lit.relightEdits();
+    EXPECT_EQ(levelOf(lit.at(20, 20, 100), kDaylight), 15);
+    EXPECT_EQ(levelOf(lit.at(20, 20, 10), kDaylight), 15);
+    EXPECT_EQ(levelOf(lit.at(20, 20, 9), kDaylight), 0);
+    EXPECT_EQ(levelOf(lit.at(15, 20, 10), kDaylight), 10);
+    EXPECT_EQ(levelOf(lit.at(22, 23, 60), kDaylight), 10);
+    EXPECT_EQ(levelOf(lit.at(20, 6, 40), kDaylight), 1);
+    // 14 blocks aside, of which 5 lead out at −x and −y, 12 at +x and +y: of the chunks at the corners only
+    // the one at −x −y.
+    EXPECT_EQ(changes.size(), 6u);
+    for (const LightChange& change : changes) EXPECT_EQ(change.bricks, 0b1111111) << change.pos.x;
+    lit.set(20, 20, 100, contentBlock("oak_leaves"));
+    lit.relightEdits();
+    EXPECT_EQ(levelOf(lit.at(20, 20, 10), kDaylight), 12);
+    EXPECT_EQ(levelOf(lit.at(20, 23, 60), kDaylight), 9);
+    lit.set(20, 20, 100, stone);
+    lit.relightEdits();
+    EXPECT_EQ(lit.at(20, 20, 10), kDark);
+    EXPECT_EQ(lit.at(22, 23, 60), kDark);
+}
+
+TEST(Relight, WallShadesFromALamp) {
+    LitArea lit(TestArea(3, 3, darkHall()), {0, 0});
+    lit.set(24, 24, 50, contentBlock("lamp_blue"));
+    lit.relightEdits();
+    EXPECT_EQ(levelOf(lit.at(26, 24, 50), kBlue), 13);
+    lit.set(25, 24, 50, contentBlock("stone"));
+    lit.relightEdits();
+    EXPECT_EQ(levelOf(lit.at(25, 24, 50), kBlue), 0);
+    EXPECT_EQ(levelOf(lit.at(26, 24, 50), kBlue), 11);  // round the wall: four blocks
+    lit.set(25, 24, 50, contentBlock("water"));
+    lit.relightEdits();
+    EXPECT_EQ(levelOf(lit.at(25, 24, 50), kBlue), 13);
+    EXPECT_EQ(levelOf(lit.at(26, 24, 50), kBlue), 12);
+}
+
+TEST(Relight, ReportsNothingWhereNoLightChanges) {
+    LitArea lit(TestArea(1, 1, airAbove(100)), {0, 0});
+    lit.set(5, 5, 50, contentBlock("dirt"));  // stone before: both opaque
+    EXPECT_TRUE(lit.relightEdits().empty());
+    EXPECT_TRUE(lit.relightEdits().empty());
+}
+
+TEST(Relight, TakesASeveralTimesChangedBlockFromItsFirst) {
+    LitArea lit(TestArea(1, 1, darkHall()), {0, 0});
+    lit.set(5, 5, 50, contentBlock("lamp_red"));
+    lit.set(5, 5, 50, contentBlock("lamp_blue"));
+    lit.relightEdits();
+    EXPECT_EQ(lit.at(6, 5, 50), 14 << 8);
+}
+
+TEST(Relight, LeavesChunksWithoutLightAlone) {
+    LitChunks chunks;
+    chunks[{0, 0}] = {std::make_shared<world::Chunk>(), nullptr};
+    const BlockEdit edits[] = {{{3, 3, 3}, contentBlock("stone")}, {{99, 99, 3}, contentBlock("stone")}};
+    LightScratch scratch;
+    EXPECT_TRUE(relight(chunks, edits, contentTable(), scratch).empty());
+    EXPECT_EQ((chunks[{0, 0}].light), nullptr);
+}
+
+// What others hold of the old light stays as it was; unchanged chunks keep their snapshot.
+TEST(Relight, MakesNewSnapshots) {
+    LightScratch scratch;
+    world::Chunk chunk = TestArea::makeChunk(0, 0, darkHall());
+    const TestArea area(1, 1, darkHall());
+    LightWindow window;
+    const ChunkLightPtr before = std::make_shared<ChunkLight>(area.lights()[0]);
+    chunk.setBlock(world::blockIndex(8, 8, 50), contentBlock("lamp_red"));
+    window.chunks[kCentreChunk] = &chunk;
+    window.lights[kCentreChunk] = before;
+    const BlockChange changes[] = {{world::blockIndex(8, 8, 50), world::kAir}};
+    const ChangedBricks bricks = relight(window, changes, contentTable(), scratch);
+    EXPECT_EQ(bricks[kCentreChunk], 1 << 3);
+    EXPECT_EQ(before->get(8, 8, 50), kDark);
+    EXPECT_EQ(window.lights[kCentreChunk]->get(8, 8, 50), 15);
+    const ChunkLightPtr lit = window.lights[kCentreChunk];
+    EXPECT_EQ(relight(window, {}, contentTable(), scratch), ChangedBricks{});
+    EXPECT_EQ(window.lights[kCentreChunk], lit);
+}
+
 // Successive random numbers.
 class Random {
   public:

@@ -170,6 +170,35 @@ TEST(Section, MemoryBytesOfEachForm) {
     EXPECT_LE(sizeof(Section), 56u);
 }
 
+TEST(Section, UnpackMappedLooksUpThePalette) {
+    std::mt19937 random(6);
+    for (const int distinct : {2, 3, 16, 17, 256}) {
+        const Values values = valuesWith(distinct, random);
+        const Section section = Section::fromValues(values);
+        std::vector<Section::Value> mapped;
+        for (const Section::Value value : section.palette())
+            mapped.push_back(static_cast<Section::Value>(value / 3));
+        Values result;
+        section.unpackMapped(mapped, result);
+        for (std::size_t i = 0; i < values.size(); ++i) ASSERT_EQ(result[i], values[i] / 3) << i;
+    }
+}
+
+// Runs of all lengths and places, which fromValues compares four at a time.
+TEST(Section, FromValuesWithRuns) {
+    std::mt19937 random(7);
+    for (int round = 0; round < 200; ++round) {
+        Values values;
+        for (std::size_t i = 0; i < values.size();) {
+            const auto value = static_cast<Section::Value>(random() % 6 * 0x0101);
+            for (std::size_t end = std::min(values.size(), i + 1 + random() % 40); i < end; ++i)
+                values[i] = value;
+        }
+        expectSmallest(Section::fromValues(values), values);
+        if (HasFatalFailure()) return;
+    }
+}
+
 TEST(Section, EqualityIgnoresForm) {
     std::mt19937 random(4);
     const Values values = valuesWith(4, random);
