@@ -1,0 +1,137 @@
+#include "terrane/render/light_store.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+
+#include "terrane/base/profile.h"
+#include "terrane/shared/bindings.h"
+
+namespace terrane::render {
+namespace {
+
+constexpr int kTile = static_cast<int>(shared::kLightTileSize);
+constexpr int kPoolTiles = static_cast<int>(shared::kLightPoolTiles);
+constexpr int kTilesPerSlab = kPoolTiles * kPoolTiles;
+constexpr int kFirstSlabs = 4;  // 16,384 tiles, 16 MiB
+constexpr std::size_t kTileBlocks = shared::kLightTileSize * shared::kLightTileSize * shared::kLightTileSize;
+
+using TileValues = std::array<std::uint16_t, kTileBlocks>;
+
+gpu::Texture3D makePool(int slabs) {
+    return gpu::Texture3D({kPoolTiles * kTile, kPoolTiles * kTile, slabs * kTile}, GL_RGBA4, "light pool");
+}
+
+// Tile (x, y, z), 0 or 1 each, of an unpacked brick of 16³.
+TileValues tileOf(const std::array<std::uint16_t, world::kBlocksPerSection>& brick, int x, int y, int z) {
+    TileValues tile;
+    auto* to = tile.data();
+    for (int row = 0; row < kTile * kTile; ++row) {
+        const int by = y * kTile + row % kTile, bz = z * kTile + row / kTile;
+        to = std::copy_n(brick.data() + x * kTile + 16 * by + 256 * bz, kTile, to);
+    }
+    return tile;
+}
+
+std::size_t entryIndex(int x, int y, int z) {
+    return static_cast<std::size_t>(x + 2 * y + 4 * z);
+}
+
+}  // namespace
+
+LightStore::LightStore(int viewDistance) {
+    gridChunks_ = static_cast<int>(std::bit_ceil(static_cast<unsigned>(2 * (viewDistance + 2) + 1)));
+    const int side = 2 * gridChunks_, high = static_cast<int>(shared::kLightTilesHigh);
+    grid_ = gpu::Texture3D({side, side, high}, GL_R32UI, "light grid");
+    const shared::uint unknown = shared::kLightUnknown;
+    glClearTexImage(grid_.id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &unknown);
+    pool_ = makePool(kFirstSlabs);
+}
+
+std::size_t LightStore::gridBytes() const {
+    const glm::ivec3 size = grid_.size();
+    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+           static_cast<std::size_t>(size.z) * sizeof(std::uint32_t);
+}
+
+std::uint32_t LightStore::allocateTile() {
+    if (!free_.empty()) {
+        const std::uint32_t tile = free_.back();
+        free_.pop_back();
+        return tile;
+    }
+    const auto slabs = static_cast<std::size_t>(pool_.size().z / kTile);
+    if (tileCount_ == slabs * kTilesPerSlab) growPool();
+    return static_cast<std::uint32_t>(tileCount_++);
+}
+
+// The GPU copies; draws on the way keep the old texture alive.
+void LightStore::growPool() {
+    const glm::ivec3 size = pool_.size();
+    gpu::Texture3D larger = makePool(2 * size.z / kTile);
+    glCopyImageSubData(pool_.id(), GL_TEXTURE_3D, 0, 0, 0, 0, larger.id(), GL_TEXTURE_3D, 0, 0, 0, 0, size.x,
+                       size.y, size.z);
+    pool_ = std::move(larger);
+}
+
+void LightStore::uploadTile(std::uint32_t tile, const std::uint16_t* values) {
+    const auto n = static_cast<int>(tile);
+    const glm::ivec3 at{n % kPoolTiles, n / kPoolTiles % kPoolTiles, n / kTilesPerSlab};
+    // Red in the lowest bits, as light::LightValue has it.
+    pool_.uploadPart(at * kTile, glm::ivec3(kTile), GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4_REV,
+                     std::as_bytes(std::span(values, kTileBlocks)));
+}
+
+void LightStore::uploadEntries(world::ChunkPos pos, const std::vector<std::uint32_t>& entries) {
+    const int mask = gridChunks_ - 1;
+    grid_.uploadPart({2 * (pos.x & mask), 2 * (pos.y & mask), 0}, {2, 2, shared::kLightTilesHigh},
+                     GL_RED_INTEGER, GL_UNSIGNED_INT, std::as_bytes(std::span(entries)));
+}
+
+void LightStore::set(world::ChunkPos pos, const light::ChunkLight& light) {
+    TERRANE_ZONE("upload light");
+    Tiles& tiles = chunks_[pos];
+    free_.insert(free_.end(), tiles.begin(), tiles.end());
+    tiles.clear();
+    std::vector<std::uint32_t> entries(shared::kLightTilesPerChunk);
+    std::array<std::uint16_t, world::kBlocksPerSection> brick;
+    for (int n = 0; n < world::kSectionsPerChunk; ++n) {
+        const light::LightBrick& packed = light.brick(n);
+        const bool isUniform = packed.isUniform();
+        if (!isUniform) packed.unpack(brick);
+        for (int k = 0; k < 8; ++k) {
+            const int x = k & 1, y = k >> 1 & 1, z = k >> 2;
+            std::uint32_t& entry = entries[entryIndex(x, y, 2 * n + z)];
+            if (isUniform) {
+                entry = shared::kLightUniformBit | packed.get(0);
+                continue;
+            }
+            const TileValues values = tileOf(brick, x, y, z);
+            const auto differs = [&](std::uint16_t v) { return v != values[0]; };
+            if (std::none_of(values.begin(), values.end(), differs)) {
+                entry = shared::kLightUniformBit | values[0];
+                continue;
+            }
+            entry = allocateTile();
+            tiles.push_back(entry);
+            uploadTile(entry, values.data());
+        }
+    }
+    uploadEntries(pos, entries);
+}
+
+void LightStore::remove(world::ChunkPos pos) {
+    const auto found = chunks_.find(pos);
+    if (found == chunks_.end()) return;
+    free_.insert(free_.end(), found->second.begin(), found->second.end());
+    chunks_.erase(found);
+    uploadEntries(pos, std::vector<std::uint32_t>(shared::kLightTilesPerChunk, shared::kLightUnknown));
+}
+
+void LightStore::bind() const {
+    grid_.bind(shared::kLightGridUnit);
+    pool_.bind(shared::kLightPoolUnit);
+}
+
+}  // namespace terrane::render

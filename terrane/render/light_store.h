@@ -1,0 +1,50 @@
+// The light of the visible chunks on the GPU, for shaders to sample (light_sample.glsl). Used on the thread of the
+// current OpenGL context.
+//
+// Light is kept in tiles of 8³ blocks; tiles of one value take an entry of the grid and nothing else. Grid: a 3D
+// texture of 32-bit entries, two by two tiles a chunk, wrapping around the camera. Pool: a 3D texture with four bits
+// a component that grows by doubling.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "terrane/gpu/texture.h"
+#include "terrane/light/chunk_light.h"
+#include "terrane/shared/light_grid.h"
+#include "terrane/world/coords.h"
+
+namespace terrane::render {
+
+class LightStore {
+  public:
+    LightStore() = default;
+    // Room for chunks up to `viewDistance` + 1 around the camera. Keeps nothing of what it had.
+    explicit LightStore(int viewDistance);
+
+    void set(world::ChunkPos pos, const light::ChunkLight& light);
+    void remove(world::ChunkPos pos);
+    void bind() const;
+
+    // Chunks along a side of the grid: a power of two.
+    int gridChunks() const { return gridChunks_; }
+    std::size_t usedBytes() const { return (tileCount_ - free_.size()) * kTileBytes + gridBytes(); }
+
+  private:
+    static constexpr std::size_t kTileBytes = 1024;  // 8³ blocks of 16 bits
+    using Tiles = std::vector<std::uint32_t>;        // numbers in the pool
+
+    std::uint32_t allocateTile();
+    void growPool();
+    void uploadTile(std::uint32_t tile, const std::uint16_t* values);
+    void uploadEntries(world::ChunkPos pos, const std::vector<std::uint32_t>& entries);
+    std::size_t gridBytes() const;
+
+    int gridChunks_ = 0;
+    gpu::Texture3D grid_, pool_;
+    std::size_t tileCount_ = 0;  // handed out so far, free ones included
+    std::vector<std::uint32_t> free_;
+    std::unordered_map<world::ChunkPos, Tiles, world::ChunkPosHash> chunks_;
+};
+
+}  // namespace terrane::render
