@@ -283,7 +283,7 @@ void expectFromScratch(const LitArea& lit) {
 #if defined(NDEBUG)
 constexpr int kEditsAWorld = 1500;
 #else
-constexpr int kEditsAWorld = 100;
+constexpr int kEditsAWorld = 60;
 #endif
 
 // Edits one at a time and in batches of up to twelve; compared after each batch with `step` edits between.
