@@ -37,7 +37,8 @@ shared::Frame frameOf(const FrameInput& input, const ViewMatrices& view) {
 }
 
 static_assert(static_cast<shared::uint>(View::Normal) == shared::kViewNormal &&
-              static_cast<shared::uint>(View::Depth) == shared::kViewDepth);
+              static_cast<shared::uint>(View::Depth) == shared::kViewDepth &&
+              static_cast<shared::uint>(View::Aggregation) == shared::kViewAggregation);
 
 }  // namespace
 

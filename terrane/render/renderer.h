@@ -16,7 +16,7 @@
 
 namespace terrane::render {
 
-enum class View : std::uint8_t { Color, Normal, Depth };
+enum class View : std::uint8_t { Color, Normal, Depth, Aggregation };
 
 struct FrameInput {
     Camera camera;

@@ -8,7 +8,7 @@ layout(binding = kBlockTexturesUnit) uniform sampler2DArray blockTextures;
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec2 inTexel;
 layout(location = 2) flat in vec3 inNormal;
-layout(location = 3) flat in uvec3 inMaterial;
+layout(location = 3) flat in uvec4 inMaterial;
 layout(location = 4) flat in uint inIsOblique;
 layout(location = 5) flat in vec2 inExtent;
 layout(location = 0) out vec4 outColor;
@@ -59,6 +59,13 @@ vec4 debugView(uint view, vec3 normal, vec3 toPoint) {
     return vec4(vec3(1.0 - clamp(length(toPoint) / frame.cameraPosition.w, 0.0, 1.0)), 1.0);
 }
 
+// The texture stays visible, and the light, so that one sees where one is.
+vec3 aggregationView(vec3 albedo, vec3 normal) {
+    vec3 color = 0.15 + 0.85 * vec3(inMaterial.w & 255u, inMaterial.w >> 8 & 255u, inMaterial.w >> 16 & 255u) / 255.0;
+    float brightness = dot(albedo, vec3(0.3, 0.6, 0.1));
+    return shade(color * (0.4 + brightness), normal);
+}
+
 void main() {
     vec4 texel = sampleTexture();
 #if ALPHA_CLASS == 1
@@ -67,6 +74,10 @@ void main() {
     vec3 normal = gl_FrontFacing ? inNormal : -inNormal;
     vec3 toPoint = inPosition - frame.cameraPosition.xyz;
     uint view = uint(frame.horizonColor.w);
+    if (view == kViewAggregation) {
+        outColor = vec4(aggregationView(texel.rgb, normal), 1.0);
+        return;
+    }
     if (view != kViewColor) {
         outColor = debugView(view, normal, toPoint);
         return;

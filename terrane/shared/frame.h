@@ -23,10 +23,11 @@ struct Frame {
 const uint kViewColor = 0u;
 const uint kViewNormal = 1u;
 const uint kViewDepth = 2u;
+const uint kViewAggregation = 3u;  // each quad in a colour of its own
 
 // Of one indirect draw command, found by its base instance.
 struct DrawRecord {
-    vec4 origin;  // of the chunk, in the space above; w unused
+    vec4 origin;  // of the chunk, in the space above; w: 0…65535 from its place in the world
 };
 
 // Alpha modes and animations are the values of world::AlphaMode and world::Animation.

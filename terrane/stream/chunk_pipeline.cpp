@@ -67,6 +67,12 @@ void ChunkPipeline::setView(ChunkPos centre, int viewDistance) {
     }
 }
 
+void ChunkPipeline::setMeshOptions(const mesh::MeshOptions& options) {
+    if (options == meshOptions_) return;
+    meshOptions_ = options;
+    for (const auto& asked : meshAsked_) submitMesh(asked.first);  // adds no entry
+}
+
 void ChunkPipeline::orderOffsets() {
     offsets_.clear();
     const int reach = viewDistance_ + 1;
@@ -159,19 +165,20 @@ void ChunkPipeline::submitMesh(ChunkPos pos) {
     const std::array<ChunkPtr, 5> chunks = {
         chunkOrOutside(pos), chunkOrOutside(offsetBy(pos, -1, 0)), chunkOrOutside(offsetBy(pos, 1, 0)),
         chunkOrOutside(offsetBy(pos, 0, -1)), chunkOrOutside(offsetBy(pos, 0, 1))};
-    jobs_.submit(priority(pos),
-                 [chunks, number, pos, blocks = &blocks_, results = results_](const base::CancelToken&) {
-                     TERRANE_ZONE("mesh chunk");
-                     mesh::MeshInput input;
-                     input.centre = chunks[0].get();
-                     input.neighbours = {chunks[1].get(), chunks[2].get(), chunks[3].get(), chunks[4].get()};
-                     input.blocks = blocks;
-                     thread_local mesh::MeshScratch scratch;
-                     auto mesh = std::make_shared<const mesh::ChunkMesh>(mesh::meshChunk(input, scratch));
-                     const std::lock_guard lock(results->mutex);
-                     results->meshes.push_back({pos, number, std::move(mesh)});
-                     results->changed.notify_one();
-                 });
+    jobs_.submit(priority(pos), [chunks, number, pos, blocks = &blocks_, options = meshOptions_,
+                                 results = results_](const base::CancelToken&) {
+        TERRANE_ZONE("mesh chunk");
+        mesh::MeshInput input;
+        input.centre = chunks[0].get();
+        input.neighbours = {chunks[1].get(), chunks[2].get(), chunks[3].get(), chunks[4].get()};
+        input.blocks = blocks;
+        input.options = options;
+        thread_local mesh::MeshScratch scratch;
+        auto mesh = std::make_shared<const mesh::ChunkMesh>(mesh::meshChunk(input, scratch));
+        const std::lock_guard lock(results->mutex);
+        results->meshes.push_back({pos, number, std::move(mesh)});
+        results->changed.notify_one();
+    });
 }
 
 void ChunkPipeline::blocksChanged(world::BlockPos pos) {

@@ -42,6 +42,9 @@ class ChunkPipeline {
 
     // Chunks up to `viewDistance` (Chebyshev) around `centre` are to be visible.
     void setView(world::ChunkPos centre, int viewDistance);
+    // How chunks are meshed from now on; those that were meshed otherwise are meshed again, and shown as they
+    // were until then.
+    void setMeshOptions(const mesh::MeshOptions& options);
     // Takes in what workers finished and gives them new work. Call each frame.
     void update();
     // Blocks until a worker has finished something or the time is over.
@@ -78,6 +81,7 @@ class ChunkPipeline {
 
     world::ChunkPos centre_;
     int viewDistance_ = -1;
+    mesh::MeshOptions meshOptions_;
     std::vector<world::ChunkPos> offsets_;  // of wanted chunks and the ring around them, nearest first
     std::size_t nextOffset_ = 0;            // those before are active or being generated
 

@@ -33,7 +33,8 @@ inline bool isWithin(ChunkPos pos, ChunkPos centre, int distance) {
 }
 
 // The mesh that the chunk must have, made here and now.
-inline mesh::ChunkMesh directMesh(const world::World& world, ChunkPos pos) {
+inline mesh::ChunkMesh directMesh(const world::World& world, ChunkPos pos,
+                                  const mesh::MeshOptions& options = {}) {
     static const world::Chunk kOutside;
     const auto chunk = [&](int dx, int dy) {
         const world::ChunkPtr loaded = world.maybeChunkAt({pos.x + dx, pos.y + dy});
@@ -43,6 +44,7 @@ inline mesh::ChunkMesh directMesh(const world::World& world, ChunkPos pos) {
     input.centre = chunk(0, 0);
     input.neighbours = {chunk(-1, 0), chunk(1, 0), chunk(0, -1), chunk(0, 1)};
     input.blocks = &contentBlocks();
+    input.options = options;
     mesh::MeshScratch scratch;
     return mesh::meshChunk(input, scratch);
 }

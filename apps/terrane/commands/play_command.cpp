@@ -111,6 +111,7 @@ base::Result<void> play(const PlayOptions& options) {
     auto renderer =
         render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), gpu::queryDevice());
     if (!renderer) return tl::unexpected(renderer.error());
+    (*session)->pipeline->setMeshOptions(options.graphics.mesh);
     if (auto played = PlayLoop(options, *window, **session, *renderer).run(); !played) return played;
     if (window->debugLog() && window->debugLog()->errorCount() > 0) {
         return base::fail("the graphics driver reported errors, see above");

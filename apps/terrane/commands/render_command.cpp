@@ -80,6 +80,7 @@ base::Result<void> renderPicture(const RenderOptions& options) {
     const double setUp = millisecondsSince(start);
 
     const auto loadStart = Clock::now();
+    (*session)->pipeline->setMeshOptions(options.graphics.mesh);
     loadAll(**session, *renderer, scene->camera, options.graphics.viewDistance);
     const double load = millisecondsSince(loadStart);
 
