@@ -5,8 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <utility>
-#include <vector>
 
 #include "terrane/mesh/bit_cube.h"
 #include "terrane/mesh/merge.h"
@@ -41,22 +39,20 @@ class FaceWriter {
     void write(const BitCube& faces, const FaceKind& kind, LayerRange layers);
 
   private:
-    struct Plane;
     MergeFunction mergeOf(const FaceKind& kind) const {
         return kind.merges ? merge_ : mergeFunction(Method::None);
     }
-    void writeUpright(const FaceKind& kind, std::uint32_t planes, LayerRange layers);
+    void writeUpright(const FaceKind& kind, LayerRange layers);
     void writeLevel(const FaceKind& kind, LayerRange layers);
-    std::pair<int, int> writePlane(const Plane& plane);
 
     std::span<const world::Material> materials_;
     FaceTarget target_;
     MergeFunction merge_;
     QuadBuckets& out_;
     // Of the faces being written:
-    std::vector<shared::Quad>* bucket_ = nullptr;
+    QuadBucket* bucket_ = nullptr;
     std::array<std::uint16_t, 256> rows_;  // row r of layer l is 16·l + r
-    RectangleBuffer rectangles_;
+    BitSlice used_;                        // rows of each layer that have bits
 };
 
 }  // namespace terrane::mesh

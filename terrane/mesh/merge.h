@@ -1,36 +1,34 @@
-// Merges set bits of a 16×16 plane into rectangles, by one of the methods. Called by the face writer for each
+// Merges set bits of a 16×16 plane into quads, by one of the methods. Called by the face writer for each
 // plane of faces; any thread.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "terrane/mesh/mesh_options.h"
+#include "terrane/shared/quad.h"
 
 namespace terrane::mesh {
 
-struct Rectangle {
-    std::uint8_t bit, row;    // lowest
-    std::uint8_t bits, rows;  // size, 1…16
-
-    bool operator==(const Rectangle&) const = default;
-};
-
-using RectangleBuffer = std::array<Rectangle, 256>;  // one a bit: there can be no more
-
-// A 16×16 plane that lies in a larger array: row r is rows[r·step]. Rows outside first … end − 1 are not
-// read.
+// A 16×16 plane that lies in 16 layers of 16 rows: row r is rows[r·step].
 struct PlaneRows {
     std::uint16_t* rows;
-    std::size_t step = 1;
-    unsigned first = 0, end = 16;
+    std::size_t step;    // 1: a layer, 16: across the layers
+    std::uint32_t used;  // bit r: row r has bits; other rows are not read
 };
 
-// Covers each set bit once. Rectangles are ordered by row, then bit; they lie in `buffer`. What the plane
-// holds afterwards is not defined.
-using MergeFunction = std::span<const Rectangle> (*)(const PlaneRows& plane, RectangleBuffer& buffer);
+// How rectangles of a plane become quads: `first` is the quad of bit 0 of row 0. The shifts say where bit and
+// row belong in its first word.
+struct QuadPattern {
+    shared::Quad first;
+    unsigned bitShift, rowShift;
+};
+
+constexpr std::size_t kMaxQuadsPerPlane = 256;  // one a bit: there can be no more
+
+// Covers each set bit once: bits are the quads' u, rows their v. Writes at most kMaxQuadsPerPlane quads,
+// ordered by row, then bit, and returns how many. What the plane holds afterwards is not defined.
+using MergeFunction = std::size_t (*)(const PlaneRows& plane, const QuadPattern& pattern, shared::Quad* out);
 
 MergeFunction mergeFunction(Method method);
 

@@ -1,10 +1,9 @@
 #include "terrane/mesh/section_bits.h"
 
-#include <algorithm>
 #include <bitset>
 #include <cassert>
 
-#include "terrane/mesh/packed_bits.h"
+#include "terrane/mesh/bit_kernels.h"
 
 namespace terrane::mesh {
 namespace {
@@ -33,15 +32,14 @@ SectionBits::SectionBits(const world::Section& section)
     : bits_(static_cast<std::size_t>(section.bits())), ids_(distinctIds(section)) {
     const std::span<const Word> words = section.words();
     assert(words.size() == 64 * bits_ && "4,096 blocks of bits() each");
-    std::copy(words.begin(), words.end(), planes_.begin());
-    sortIntoPlanes(planes_.data(), bits_, 64);
+    sortIntoPlanes(words.data(), bits_, kGroups, planes_.data());
 }
 
 BitCube SectionBits::blocks(std::size_t number) const {
     assert(number < ids_.size() && "number of an id");
     const std::size_t index = bits_ == kMaxBits ? ids_[number] : number;
     BitCube out;
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = matching(&planes_[i * bits_], bits_, index);
+    blocksOfIndex({planes_.data(), bits_, kGroups}, index, out.data());
     return out;
 }
 

@@ -4,8 +4,9 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
+#include <type_traits>
 
-#include "terrane/mesh/packed_bits.h"
+#include "terrane/mesh/bit_kernels.h"
 
 namespace terrane::mesh {
 namespace {
@@ -38,28 +39,31 @@ void copyRows(const std::byte* section, const LayerIndices& layer, std::byte* ou
     }
 }
 
-// Rows of blocks that lie 16 apart.
-template <std::size_t kBits>
-void collectRows(const std::byte* section, const LayerIndices& layer, std::uint64_t* out) {
+// Rows of blocks that lie 16 apart: the first or the last of each 16.
+template <std::size_t kBits, bool kLast>
+void collectRows(const std::byte* section, std::uint64_t* out) {
+    using Unit = std::conditional_t<kBits == 16, std::uint16_t, std::uint8_t>;  // has the block's bits
+    constexpr unsigned kShift = kLast && kBits < 8 ? 8 - kBits : 0;
     constexpr std::uint64_t kMask = (std::uint64_t{1} << kBits) - 1;
     constexpr std::size_t kPerWord = 64 / kBits;
-    const std::size_t shift = layer.first * kBits % 8;
-    for (std::size_t first = 0; first < 256; first += kPerWord) {
+    const std::byte* at = section + (kLast ? 2 * kBits - sizeof(Unit) : 0);
+    for (std::size_t w = 0; w < 256 / kPerWord; ++w) {
         std::uint64_t word = 0;
-        for (std::size_t k = 0; k < kPerWord; ++k) {
-            const std::size_t block = layer.first + (first + k) * 16;
-            std::uint16_t pair = 0;  // the block's bits and perhaps others
-            std::memcpy(&pair, section + block * kBits / 8, kBits == 16 ? 2 : 1);
-            word |= (std::uint64_t{pair} >> shift & kMask) << (k * kBits);
+#pragma GCC unroll 64
+        for (std::size_t k = 0; k < kPerWord; ++k, at += 2 * kBits) {
+            Unit unit;
+            std::memcpy(&unit, at, sizeof(unit));
+            word |= (std::uint64_t{unit} >> kShift & kMask) << (k * kBits);
         }
-        *out++ = word;
+        out[w] = word;
     }
 }
 
 template <std::size_t kBits>
 void copyLayer(const Section& section, world::Face side, std::uint64_t* out) {
     const auto* bytes = reinterpret_cast<const std::byte*>(section.words().data());
-    if (isAlongX(side)) return collectRows<kBits>(bytes, kLayers[side], out);
+    if (side == world::kFaceNegX) return collectRows<kBits, false>(bytes, out);
+    if (side == world::kFacePosX) return collectRows<kBits, true>(bytes, out);
     copyRows<kBits>(bytes, kLayers[side], reinterpret_cast<std::byte*>(out));
 }
 
@@ -71,34 +75,34 @@ constexpr BitSlice filledIf(bool filled) {
 
 SectionSide::SectionSide(const Section& section, world::Face side) : section_(section), side_(side) {
     assert(side < world::kFaceCount && "one of six sides");
+    std::array<std::uint64_t, kGroups * 16> packed;
     switch (section.bits()) {
         case 0:
             return;
         case 1:
-            copyLayer<1>(section, side, planes_.data());
+            copyLayer<1>(section, side, packed.data());
             break;
         case 2:
-            copyLayer<2>(section, side, planes_.data());
+            copyLayer<2>(section, side, packed.data());
             break;
         case 4:
-            copyLayer<4>(section, side, planes_.data());
+            copyLayer<4>(section, side, packed.data());
             break;
         case 8:
-            copyLayer<8>(section, side, planes_.data());
+            copyLayer<8>(section, side, packed.data());
             break;
         default:
-            copyLayer<16>(section, side, planes_.data());
+            copyLayer<16>(section, side, packed.data());
     }
-    sortIntoPlanes(planes_.data(), static_cast<std::size_t>(section.bits()), kGroups);
+    sortIntoPlanes(packed.data(), static_cast<std::size_t>(section.bits()), kGroups, planes_.data());
 }
 
 BitSlice SectionSide::blocksOfIndex(std::size_t index) const {
-    const auto bits = static_cast<std::size_t>(section_.bits());
+    std::array<std::uint64_t, kGroups> words;
+    mesh::blocksOfIndex({planes_.data(), static_cast<std::size_t>(section_.bits()), kGroups}, index,
+                        words.data());
     BitSlice slice;
-    for (std::size_t g = 0; g < kGroups; ++g) {
-        const std::uint64_t match = matching(&planes_[g * bits], bits, index);
-        std::memcpy(&slice[4 * g], &match, sizeof(match));
-    }
+    std::memcpy(slice.data(), words.data(), sizeof(slice));
     return slice;
 }
 

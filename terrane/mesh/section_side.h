@@ -26,7 +26,7 @@ class SectionSide {
 
     const world::Section& section_;
     world::Face side_;
-    std::array<std::uint64_t, kGroups * 16> planes_;  // as in packed_bits.h; 16 bits at most
+    std::array<std::uint64_t, kGroups * 16> planes_;  // as in bit_kernels.h; 16 bits at most
 };
 
 // True where no block of the section lets one see through; may be false for some such sections.
