@@ -128,6 +128,8 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options) {
                              {"aggregation", render::View::Aggregation}},
                             "What to show");
     addMeshOptions(command, options.mesh);
+    addChoice<bool>(command, "--t-junctions", options.coverCracks, {{"covered", true}, {"open", false}},
+                    "Cracks where rectangles of different sizes meet");
     command
         .add_option("--shader-root", options.shaderRoot, "Source tree to read shaders from, for development")
         ->check(CLI::ExistingDirectory);

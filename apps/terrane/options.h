@@ -28,6 +28,7 @@ struct GraphicsOptions {
     int samples = 4;             // a pixel
     render::View view = render::View::Color;
     mesh::MeshOptions mesh;
+    bool coverCracks = true;
     std::string shaderRoot;
     bool debugGl = false;
 };

@@ -21,7 +21,17 @@ constexpr float kAmbientFromBelow = 0.4f;  // share of the sky's light on faces 
 constexpr float kExposure = 0.92f;
 constexpr float kMaxAnisotropy = 8.0f;
 
-shared::Frame frameOf(const FrameInput& input, const ViewMatrices& view) {
+// Corner and edge are each off by up to half a step of the rasteriser's grid, along both axes: two steps are
+// enough, four are safe.
+constexpr float kCrackSteps = 4;
+
+float crackGrowth() {
+    GLint subpixelBits = 4;  // the least that OpenGL allows
+    glGetIntegerv(GL_SUBPIXEL_BITS, &subpixelBits);
+    return kCrackSteps / static_cast<float>(1 << subpixelBits);
+}
+
+shared::Frame frameOf(const FrameInput& input, const ViewMatrices& view, glm::vec2 size, float growth) {
     const world::Environment& e = input.environment;
     shared::Frame frame{};
     frame.viewProjection = view.viewProjection;
@@ -33,6 +43,7 @@ shared::Frame frameOf(const FrameInput& input, const ViewMatrices& view) {
     frame.zenithColor = glm::vec4(e.zenithColor, kExposure);
     frame.horizonColor = glm::vec4(e.horizonColor, static_cast<float>(input.view));
     frame.glowColor = glm::vec4(e.glowColor, 0.0f);
+    frame.viewport = glm::vec4(size, input.coverCracks ? growth : 0.0f, 0.0f);
     return frame;
 }
 
@@ -62,6 +73,7 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     renderer.ring_ = gpu::MappedRing(kRingBytes, "frame data");
     renderer.maxSamples_ = device.maxSamples;
     renderer.maxSize_ = device.maxTextureSize;
+    renderer.crackGrowth_ = crackGrowth();
     return renderer;
 }
 
@@ -113,7 +125,7 @@ base::Result<void> Renderer::addSamples(Targets& t, int samples) {
 }
 
 void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
-    const shared::Frame frame = frameOf(input, view);
+    const shared::Frame frame = frameOf(input, view, glm::vec2(targets_.size), crackGrowth_);
     const auto slice = ring_.write(std::span(&frame, 1));
     assert(slice && "the ring is empty at the start of a frame");
     ring_.buffer().bindUniform(shared::kFrameBinding, slice->offsetBytes, sizeof(frame));

@@ -24,6 +24,7 @@ struct FrameInput {
     float fogDistance = 256;  // blocks: from here on everything is sky
     float timeSeconds = 0;    // for animations
     View view = View::Color;
+    bool coverCracks = true;  // between quads of different sizes
 };
 
 struct FrameStatistics {
@@ -73,6 +74,7 @@ class Renderer {
     Targets targets_;
     FrameStatistics statistics_;
     int maxSamples_ = 1, maxSize_ = 1;
+    float crackGrowth_ = 0;  // pixels
 };
 
 }  // namespace terrane::render

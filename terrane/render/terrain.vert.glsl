@@ -1,5 +1,7 @@
+// ALPHA_CLASS: 0 opaque, 1 tested, 2 blended.
 // Pulls a quad's corner from the quad buffer. Four vertices a quad; the base vertex of a draw is four times its first
 // quad, its base instance the number of its draw record.
+#include "terrane/render/crack_cover.glsl"
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/shared/hash.h"
 #include "terrane/shared/quad.h"
@@ -34,6 +36,13 @@ void main() {
     vec4 origin = draws[gl_BaseInstanceARB].origin;
     outPosition = (origin + shapeFaceCorner(face, cell, corner, extent)).xyz;
     gl_Position = frame.viewProjection * vec4(outPosition, 1.0);
+#if ALPHA_CLASS < 2
+    // Blended quads would show their overlap.
+    vec2 inward = (1.0 - 2.0 * corner) * extent;
+    vec4 alongU = frame.viewProjection * vec4(face.axisU.xyz * inward.x, 0.0);
+    vec4 alongV = frame.viewProjection * vec4(face.axisV.xyz * inward.y, 0.0);
+    gl_Position = coverCracks(gl_Position, gl_Position + alongU, gl_Position + alongV, frame.viewport.xy, frame.viewport.z);
+#endif
 
     MaterialRecord material = materials[quadMaterial(quad)];
     outTexel = vec2(corner.x, 1.0 - corner.y) * extent;

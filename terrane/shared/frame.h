@@ -18,6 +18,7 @@ struct Frame {
     vec4 zenithColor;     // w: exposure
     vec4 horizonColor;    // w: 0 for the picture, else a kView… value
     vec4 glowColor;       // around the light at the horizon
+    vec4 viewport;        // width and height in pixels; z: by how many pixels quads grow, see crack_cover.glsl
 };
 
 const uint kViewColor = 0u;
@@ -42,7 +43,7 @@ SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(Frame) == 2 * 64 + 7 * 16, "std140 and std430 agree on mat4 and vec4");
+static_assert(sizeof(Frame) == 2 * 64 + 8 * 16, "std140 and std430 agree on mat4 and vec4");
 static_assert(sizeof(DrawRecord) == 16 && sizeof(MaterialRecord) == 16);
 }  // namespace terrane::shared
 #endif

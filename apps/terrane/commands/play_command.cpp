@@ -83,7 +83,7 @@ class PlayLoop {
         session_.pipeline->update();
         uploadMeshes(*session_.pipeline, renderer_, kUploadsPerFrame);
         renderer_.draw({camera_, world::environmentAt(0.38f), fogDistance(options_.graphics.viewDistance),
-                        seconds, options_.graphics.view});
+                        seconds, options_.graphics.view, options_.graphics.coverCracks});
         renderer_.presentToWindow(size);
         window_.swapBuffers();
         return {};

@@ -86,7 +86,8 @@ base::Result<void> renderPicture(const RenderOptions& options) {
 
     const auto drawStart = Clock::now();
     renderer->draw({scene->camera, world::environmentAt(scene->timeDay),
-                    fogDistance(options.graphics.viewDistance), 0, options.graphics.view});
+                    fogDistance(options.graphics.viewDistance), 0, options.graphics.view,
+                    options.graphics.coverCracks});
     const base::Image image = renderer->readImage();
     const double draw = millisecondsSince(drawStart);
     if (auto written = base::writePng(options.output, image); !written) return written;
