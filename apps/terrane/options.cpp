@@ -67,6 +67,22 @@ CLI::Validator fileInAFolder() {
     return CLI::Validator(check, "");
 }
 
+void addMeshOptions(CLI::App& command, mesh::MeshOptions& options) {
+    using mesh::Method;
+    addChoice<Method>(command, "--aggregation", options.method,
+                      {{"none", Method::None},
+                       {"lines", Method::Lines},
+                       {"squares", Method::Squares},
+                       {"squares-ext", Method::SquaresExt},
+                       {"greedy", Method::Greedy}},
+                      "How equal faces are merged into rectangles");
+    command
+        .add_option("--region-height", options.regionHeight,
+                    "Height in blocks of the parts of chunks that are culled")
+        ->check(CLI::IsMember({8, 16, 32, 64, 128}))
+        ->capture_default_str();
+}
+
 }  // namespace
 
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const std::string& form) {
@@ -121,10 +137,15 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options) {
     command.add_option("--samples", options.samples, "Anti-aliasing: samples a pixel")
         ->check(CLI::IsMember({1, 2, 4, 8}))
         ->capture_default_str();
-    addChoice<render::View>(
-        command, "--view", options.view,
-        {{"color", render::View::Color}, {"normal", render::View::Normal}, {"depth", render::View::Depth}},
-        "What to show");
+    addChoice<render::View>(command, "--view", options.view,
+                            {{"color", render::View::Color},
+                             {"normal", render::View::Normal},
+                             {"depth", render::View::Depth},
+                             {"aggregation", render::View::Aggregation}},
+                            "What to show");
+    addMeshOptions(command, options.mesh);
+    addChoice<bool>(command, "--t-junctions", options.coverCracks, {{"covered", true}, {"open", false}},
+                    "Cracks where rectangles of different sizes meet");
     command
         .add_option("--shader-root", options.shaderRoot, "Source tree to read shaders from, for development")
         ->check(CLI::ExistingDirectory);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "terrane/base/result.h"
+#include "terrane/mesh/mesh_options.h"
 #include "terrane/render/renderer.h"
 #include "terrane/world/coords.h"
 
@@ -26,6 +27,8 @@ struct GraphicsOptions {
     int viewDistance = 16;       // chunks
     int samples = 4;             // a pixel
     render::View view = render::View::Color;
+    mesh::MeshOptions mesh;
+    bool coverCracks = true;
     std::string shaderRoot;
     bool debugGl = false;
 };

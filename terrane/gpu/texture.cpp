@@ -124,6 +124,30 @@ void Texture2DArray::bind(GLuint unit) const {
     glBindTextureUnit(unit, id());
 }
 
+Texture3D::Texture3D(glm::ivec3 size, GLenum format, std::string_view label)
+    : handle_(createTexture(GL_TEXTURE_3D, label)), size_(size) {
+    assert(size.x > 0 && size.y > 0 && size.z > 0 && "a texture has a size");
+    glTextureStorage3D(id(), 1, format, size.x, size.y, size.z);
+    // Integer formats know no filter.
+    const GLint filter = format == GL_R32UI ? GL_NEAREST : GL_LINEAR;
+    glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER, filter);
+    glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER, filter);
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
+        glTextureParameteri(id(), axis, GL_CLAMP_TO_EDGE);
+    }
+}
+
+void Texture3D::uploadPart(glm::ivec3 corner, glm::ivec3 size, GLenum format, GLenum type,
+                           std::span<const std::byte> data) {
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage3D(id(), 0, corner.x, corner.y, corner.z, size.x, size.y, size.z, format, type,
+                        data.data());
+}
+
+void Texture3D::bind(GLuint unit) const {
+    glBindTextureUnit(unit, id());
+}
+
 Texture2DMultisample::Texture2DMultisample(glm::ivec2 size, GLenum format, int samples,
                                            std::string_view label)
     : handle_(createTexture(GL_TEXTURE_2D_MULTISAMPLE, label)),

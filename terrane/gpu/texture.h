@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <span>
 #include <string_view>
 
@@ -62,6 +63,25 @@ class Texture2DArray {
     Handle<ObjectKind::Texture> handle_;
     Shape shape_;
     GLenum format_ = GL_NONE;
+};
+
+class Texture3D {
+  public:
+    Texture3D() = default;
+    // Undefined until written; one level, linear filtering, clamped.
+    Texture3D(glm::ivec3 size, GLenum format, std::string_view label);
+
+    // A box of texels. Types may be packed ones: as many bytes as the caller's types have.
+    void uploadPart(glm::ivec3 corner, glm::ivec3 size, GLenum format, GLenum type,
+                    std::span<const std::byte> data);
+    void bind(GLuint unit) const;
+
+    [[nodiscard]] GLuint id() const { return handle_.id(); }
+    [[nodiscard]] glm::ivec3 size() const { return size_; }
+
+  private:
+    Handle<ObjectKind::Texture> handle_;
+    glm::ivec3 size_ = {0, 0, 0};
 };
 
 // A render target with several samples per pixel, at the same places in every pixel.

@@ -40,21 +40,22 @@ Word fourRows(const BitSlice& slice, std::size_t first) {
            Word{slice[first + 3]} << 48;
 }
 
-BitCube neighbourLayers(const BitCube& cube, bool positive, const BitSlice& border) {
+BitCube neighbourLayers(const BitCube& cube, bool positive, const BitSlice& border, LayerRange range) {
     BitCube out;
-    const std::size_t edge = positive ? 60 : 0;
-    if (positive) {
-        std::copy(cube.begin() + 4, cube.end(), out.begin());
-    } else {
-        std::copy(cube.begin(), cube.end() - 4, out.begin() + 4);
+    for (std::size_t layer = range.first; layer < range.end; ++layer) {
+        Word* o = &out[4 * layer];
+        if (layer == (positive ? 15 : 0)) {
+            for (std::size_t i = 0; i < 4; ++i) o[i] = fourRows(border, 4 * i);
+        } else {
+            std::copy_n(&cube[4 * (positive ? layer + 1 : layer - 1)], 4, o);
+        }
     }
-    for (std::size_t i = 0; i < 4; ++i) out[edge + i] = fourRows(border, 4 * i);
     return out;
 }
 
-BitCube neighbourRows(const BitCube& cube, bool positive, const BitSlice& border) {
+BitCube neighbourRows(const BitCube& cube, bool positive, const BitSlice& border, LayerRange range) {
     BitCube out;
-    for (std::size_t layer = 0; layer < 16; ++layer) {
+    for (std::size_t layer = range.first; layer < range.end; ++layer) {
         const Word* w = &cube[4 * layer];
         Word* o = &out[4 * layer];
         if (positive) {
@@ -68,18 +69,33 @@ BitCube neighbourRows(const BitCube& cube, bool positive, const BitSlice& border
     return out;
 }
 
+bool hasCommon(const BitCube& a, const BitCube& b, std::size_t layer) {
+    Word any = 0;
+    for (std::size_t i = 4 * layer; i < 4 * layer + 4; ++i) any |= a[i] & b[i];
+    return any != 0;
+}
+
 }  // namespace
 
-BitCube transposed(const BitCube& cube) {
+LayerRange commonLayers(const BitCube& a, const BitCube& b, LayerRange range) {
+    while (!range.isEmpty() && !hasCommon(a, b, range.first)) ++range.first;
+    while (!range.isEmpty() && !hasCommon(a, b, range.end - 1)) --range.end;
+    return range;
+}
+
+BitCube transposed(const BitCube& cube, LayerRange range) {
     BitCube out;
-    for (std::size_t word = 0; word < cube.size(); word += 4) transposeLayer(&cube[word], &out[word]);
+    for (std::size_t layer = range.first; layer < range.end; ++layer) {
+        transposeLayer(&cube[4 * layer], &out[4 * layer]);
+    }
     return out;
 }
 
-BitCube neighbourBits(const BitCube& cube, world::Face side, const BitSlice& border) {
+BitCube neighbourBits(const BitCube& cube, world::Face side, const BitSlice& border, LayerRange range) {
     assert(side < world::kFaceCount && "one of six sides");
     const bool positive = side % 2 == 1;
-    return isAlongZ(side) ? neighbourLayers(cube, positive, border) : neighbourRows(cube, positive, border);
+    return isAlongZ(side) ? neighbourLayers(cube, positive, border, range)
+                          : neighbourRows(cube, positive, border, range);
 }
 
 }  // namespace terrane::mesh

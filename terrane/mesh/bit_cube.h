@@ -18,6 +18,13 @@ using BitCube = std::array<std::uint64_t, 64>;
 // row is y, bit is x.
 using BitSlice = std::array<std::uint16_t, 16>;
 
+// Layers of a section, the end excluded. Functions that take one read and write only these layers of a cube.
+struct LayerRange {
+    std::size_t first = 0, end = 16;
+
+    constexpr bool isEmpty() const { return first >= end; }
+};
+
 constexpr BitSlice filledSlice() {
     BitSlice slice{};
     for (std::uint16_t& row : slice) row = 0xFFFF;
@@ -35,29 +42,27 @@ inline std::uint16_t cubeRow(const BitCube& cube, std::size_t layer, std::size_t
     return static_cast<std::uint16_t>(cube[4 * layer + row / 4] >> (16 * (row % 4)));
 }
 
-inline bool isEmpty(const BitCube& cube) {
-    std::uint64_t any = 0;
-    for (const std::uint64_t word : cube) any |= word;
-    return any == 0;
-}
+// The layers inside `range` from the first to the last that has bits in both.
+LayerRange commonLayers(const BitCube& a, const BitCube& b, LayerRange range);
 
-inline BitCube both(const BitCube& a, const BitCube& b) {
+inline BitCube both(const BitCube& a, const BitCube& b, LayerRange range) {
     BitCube out;
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = a[i] & b[i];
+    for (std::size_t i = 4 * range.first; i < 4 * range.end; ++i) out[i] = a[i] & b[i];
     return out;
 }
 
-inline BitCube without(const BitCube& a, const BitCube& b) {
+inline BitCube without(const BitCube& a, const BitCube& b, LayerRange range) {
     BitCube out;
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = a[i] & ~b[i];
+    for (std::size_t i = 4 * range.first; i < 4 * range.end; ++i) out[i] = a[i] & ~b[i];
     return out;
 }
 
 // Exchanges bits and rows of each layer: from rows along x to rows along y and back.
-BitCube transposed(const BitCube& cube);
+BitCube transposed(const BitCube& cube, LayerRange range = {});
 
 // For each block the bit of its neighbour on a side. For the sides of x the cube has rows along y, else rows
-// along x. `border` is the layer of blocks beyond that side of the section.
-BitCube neighbourBits(const BitCube& cube, world::Face side, const BitSlice& border);
+// along x. `border` is the layer of blocks beyond that side of the section. Across z also the layers next to
+// the range are read.
+BitCube neighbourBits(const BitCube& cube, world::Face side, const BitSlice& border, LayerRange range = {});
 
 }  // namespace terrane::mesh

@@ -8,10 +8,6 @@
 namespace terrane::mesh {
 namespace {
 
-constexpr bool isRegionHeight(int height) {
-    return height >= world::kSectionSize && height <= world::kChunkHeight && (height & (height - 1)) == 0;
-}
-
 SectionView viewSection(const MeshInput& input, int number) {
     SectionView view;
     view.centre = &input.centre->section(number);
@@ -23,7 +19,8 @@ SectionView viewSection(const MeshInput& input, int number) {
         view.neighbours[world::kFacePosZ] = &input.centre->section(number + 1);
     }
     view.blocks = input.blocks;
-    view.baseZ = number * world::kSectionSize;
+    view.target.baseZ = number * world::kSectionSize;
+    view.target.method = input.options.method;
     return view;
 }
 
@@ -33,14 +30,18 @@ ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch) {
     assert(input.centre && input.blocks && "a chunk and what its ids mean");
     assert(std::find(input.neighbours.begin(), input.neighbours.end(), nullptr) == input.neighbours.end() &&
            "a chunk is meshed when its neighbours are known");
-    assert(isRegionHeight(input.regionHeight) && "whole sections, a power of two");
+    assert(isRegionHeight(input.options.regionHeight) && "a power of two, 8 to 128");
 
+    const int regionHeight = input.options.regionHeight;
     ChunkMesh mesh;
     scratch.quads.clear();
-    const int sectionsPerRegion = input.regionHeight / world::kSectionSize;
-    for (int number = 0; number < world::kSectionsPerChunk; ++number) {
-        addSectionFaces(viewSection(input, number), scratch.buckets);
-        if ((number + 1) % sectionsPerRegion == 0) {
+    const int step = std::min(regionHeight, world::kSectionSize);  // a section, or half of one
+    for (int z = 0; z < world::kChunkHeight; z += step) {
+        SectionView view = viewSection(input, z / world::kSectionSize);
+        const auto layer = static_cast<std::size_t>(z % world::kSectionSize);
+        view.target.layers = {layer, layer + static_cast<std::size_t>(step)};
+        addSectionFaces(view, scratch.buckets);
+        if ((z + step) % regionHeight == 0) {
             mesh.regions.push_back(scratch.buckets.finishRegion(scratch.quads));
         }
     }

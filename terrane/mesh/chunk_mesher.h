@@ -6,19 +6,18 @@
 #include <vector>
 
 #include "terrane/mesh/chunk_mesh.h"
+#include "terrane/mesh/mesh_options.h"
 #include "terrane/mesh/quad_buckets.h"
 #include "terrane/world/block_registry.h"
 #include "terrane/world/chunk.h"
 
 namespace terrane::mesh {
 
-constexpr int kDefaultRegionHeight = 64;
-
 struct MeshInput {
     const world::Chunk* centre = nullptr;
     std::array<const world::Chunk*, 4> neighbours{};  // -x, +x, -y, +y; none is null
     const world::BlockRegistry* blocks = nullptr;
-    int regionHeight = kDefaultRegionHeight;  // 16, 32, 64, 128 or 256
+    MeshOptions options;
 };
 
 // Memory that is kept from chunk to chunk; holds nothing between calls.
@@ -27,7 +26,7 @@ struct MeshScratch {
     std::vector<shared::Quad> quads;
 };
 
-// Quads stay inside one section, so they are at most 16 blocks wide and high.
+// Quads stay inside one section and region, so they are at most 16 blocks wide and high.
 ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch);
 
 }  // namespace terrane::mesh

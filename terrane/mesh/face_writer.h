@@ -2,12 +2,12 @@
 // section_faces.cpp on the meshing worker's thread.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
-#include <utility>
-#include <vector>
 
 #include "terrane/mesh/bit_cube.h"
-#include "terrane/mesh/greedy_merge.h"
+#include "terrane/mesh/merge.h"
 #include "terrane/mesh/quad_buckets.h"
 #include "terrane/world/block_type.h"
 
@@ -17,31 +17,42 @@ namespace terrane::mesh {
 struct FaceKind {
     shared::uint shapeFace;  // index into shapeFaces()
     std::uint16_t material;  // index into the materials
-    Merge merge;
+    bool merges;             // false: one quad a face, whatever the method
     // The side whose planes are merged. A plane's bits then run along u and its rows along v.
     world::Face plane;
 };
 
+// Which faces of a section are written, and how.
+struct FaceTarget {
+    int baseZ = 0;      // height of the section's lowest layer
+    LayerRange layers;  // of the section; faces in other layers are passed over
+    Method method = Method::Greedy;
+};
+
 class FaceWriter {
   public:
-    // `baseZ` is the height of the section's lowest layer.
-    FaceWriter(std::span<const world::Material> materials, int baseZ, QuadBuckets& out)
-        : materials_(materials), baseZ_(baseZ), out_(out) {}
+    FaceWriter(std::span<const world::Material> materials, const FaceTarget& target, QuadBuckets& out)
+        : materials_(materials), target_(target), merge_(mergeFunction(target.method)), out_(out) {}
 
-    // `faces` has rows along y where kind.plane is -x or +x, else rows along x.
-    void write(const BitCube& faces, const FaceKind& kind);
+    // The faces in `layers`, which lie in the target's. `faces` has rows along y where kind.plane is -x or
+    // +x, else rows along x.
+    void write(const BitCube& faces, const FaceKind& kind, LayerRange layers);
 
   private:
-    struct Plane;
-    void writeUpright(const BitCube& faces, const FaceKind& kind);
-    void writeLevel(const BitCube& faces, const FaceKind& kind);
-    std::pair<int, int> writePlane(const BitSlice& rows, const Plane& plane);
+    MergeFunction mergeOf(const FaceKind& kind) const {
+        return kind.merges ? merge_ : mergeFunction(Method::None);
+    }
+    void writeUpright(const FaceKind& kind, LayerRange layers);
+    void writeLevel(const FaceKind& kind, LayerRange layers);
 
     std::span<const world::Material> materials_;
-    int baseZ_;
+    FaceTarget target_;
+    MergeFunction merge_;
     QuadBuckets& out_;
-    std::vector<shared::Quad>* bucket_ = nullptr;  // of the faces being written
-    RectangleBuffer rectangles_;
+    // Of the faces being written:
+    QuadBucket* bucket_ = nullptr;
+    std::array<std::uint16_t, 256> rows_;  // row r of layer l is 16·l + r
+    BitSlice used_;                        // rows of each layer that have bits
 };
 
 }  // namespace terrane::mesh

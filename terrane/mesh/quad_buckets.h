@@ -3,23 +3,45 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "terrane/mesh/chunk_mesh.h"
 
 namespace terrane::mesh {
 
+// A growing array of quads that is written from outside: appending to a vector would clear the room first.
+class QuadBucket {
+  public:
+    // Room for `count` quads behind the present ones.
+    shared::Quad* reserve(std::size_t count) {
+        if (capacity_ - size_ < count) grow(size_ + count);
+        return quads_.get() + size_;
+    }
+    // The first `count` of the room reserved last are written.
+    void add(std::size_t count) { size_ += count; }
+    void clear() { size_ = 0; }
+    std::span<const shared::Quad> quads() const { return {quads_.get(), size_}; }
+
+  private:
+    void grow(std::size_t needed);
+
+    std::unique_ptr<shared::Quad[]> quads_;
+    std::size_t size_ = 0, capacity_ = 0;
+};
+
 class QuadBuckets {
   public:
     // Quads for one context and group. Valid until finishRegion().
-    std::vector<shared::Quad>& bucket(int context, int group);
+    QuadBucket& bucket(int context, int group);
     // Widens the region's bounds by blocks minZ … maxZ − 1.
     void coverHeight(int minZ, int maxZ);
     // Appends all buckets to `quads`, says where each went, and empties them.
     RegionMesh finishRegion(std::vector<shared::Quad>& quads);
 
   private:
-    std::array<std::vector<shared::Quad>, kContextCount * kGroupCount> buckets_;
+    std::array<QuadBucket, kContextCount * kGroupCount> buckets_;
     int minZ_ = world::kChunkHeight, maxZ_ = 0;
 };
 

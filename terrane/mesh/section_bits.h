@@ -25,11 +25,11 @@ class SectionBits {
 
   private:
     static constexpr std::size_t kMaxBits = 16;  // of a block in the dense form
+    static constexpr std::size_t kGroups = 64;   // of 64 blocks
 
     std::size_t bits_;
     std::vector<world::BlockId> ids_;
-    // Bit p of the indices of 64 successive blocks is a word; the bits_ words of 64 blocks lie together.
-    std::array<std::uint64_t, 64 * kMaxBits> planes_;
+    std::array<std::uint64_t, kGroups * kMaxBits> planes_;  // as in bit_kernels.h
 };
 
 }  // namespace terrane::mesh

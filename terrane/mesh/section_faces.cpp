@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
 #include "terrane/mesh/bit_cube.h"
 #include "terrane/mesh/face_writer.h"
@@ -29,49 +30,56 @@ bool isHidden(const SectionView& view) {
 
 using Borders = std::array<BitSlice, world::kFaceCount>;
 
-// Opaque cubes beyond each side. What lies below the world counts as opaque: its bottom is never seen.
-Borders opaqueBorders(const SectionView& view) {
-    Borders borders;
+// What lies around a section.
+struct Surroundings {
+    explicit Surroundings(const SectionView& view);
+    bool isEnclosed() const {
+        return std::all_of(opaque.begin(), opaque.end(),
+                           [](const BitSlice& b) { return b == filledSlice(); });
+    }
+
+    std::array<std::optional<SectionSide>, world::kFaceCount> sides;  // none beyond the world
+    // Opaque cubes beyond each side. What lies below the world counts as opaque: its bottom is never seen.
+    Borders opaque{};
+};
+
+Surroundings::Surroundings(const SectionView& view) {
     for (const Face side : kSides) {
         const world::Section* next = view.neighbours[side];
-        if (next) {
-            borders[side] = opaqueOnSide(*next, oppositeSide(side), *view.blocks);
-        } else {
-            borders[side] = side == world::kFaceNegZ ? filledSlice() : BitSlice{};
-        }
+        if (next) opaque[side] = sides[side].emplace(*next, oppositeSide(side)).opaqueCubes(*view.blocks);
     }
-    return borders;
-}
-
-bool isEnclosed(const Borders& borders) {
-    return std::all_of(borders.begin(), borders.end(), [](const BitSlice& b) { return b == filledSlice(); });
+    if (!sides[world::kFaceNegZ]) opaque[world::kFaceNegZ] = filledSlice();
 }
 
 // The blocks of one type in the section.
 struct TypeBlocks {
     const BlockType& type;
     world::BlockId id;
-    BitCube alongX;  // rows along x
-    BitCube alongY;  // the same with rows along y
+    LayerRange layers;  // where faces may be seen; the cube along y holds only these
+    BitCube alongX;     // rows along x
+    BitCube alongY;     // the same with rows along y
 
     const BitCube& facing(Face side) const { return isAlongX(side) ? alongY : alongX; }
 };
 
 class SectionFaces {
   public:
-    SectionFaces(const SectionView& view, const Borders& borders, QuadBuckets& out)
-        : view_(view), bits_(*view.centre), writer_(view.blocks->materials(), view.baseZ, out) {
-        findUncovered(borders);
+    SectionFaces(const SectionView& view, const Surroundings& around, QuadBuckets& out)
+        : view_(view),
+          around_(around),
+          bits_(*view.centre),
+          writer_(view.blocks->materials(), view.target, out) {
+        findUncovered();
     }
 
     void addAll();
 
   private:
-    void findUncovered(const Borders& borders);
-    bool isCovered(const BitCube& blocks) const;
+    void findUncovered();
+    LayerRange visibleLayers(const BlockType& type, const BitCube& blocks) const;
     bool hidesOwnKind(const BlockType& type, Face side) const;
     BitCube visible(const TypeBlocks& blocks, Face side) const;
-    Merge mergeOf(const BlockType& type, Face side) const;
+    bool merges(const BlockType& type, Face side) const;
 
     void add(const TypeBlocks& blocks);
     void addSide(const TypeBlocks& blocks, Face side);
@@ -80,13 +88,14 @@ class SectionFaces {
     void addPlanes(const TypeBlocks& blocks, uint firstFace, uint count);
 
     const SectionView& view_;
+    const Surroundings& around_;
     SectionBits bits_;
     FaceWriter writer_;
     std::array<BitCube, world::kFaceCount> uncovered_;  // blocks whose neighbour on a side is no opaque cube
     BitCube uncoveredAnywhere_;                         // on some side; rows along x
 };
 
-void SectionFaces::findUncovered(const Borders& borders) {
+void SectionFaces::findUncovered() {
     BitCube opaque{};
     for (std::size_t n = 0; n < bits_.ids().size(); ++n) {
         if (!view_.blocks->type(bits_.ids()[n]).opaqueCube) continue;
@@ -94,11 +103,10 @@ void SectionFaces::findUncovered(const Borders& borders) {
         for (std::size_t i = 0; i < opaque.size(); ++i) opaque[i] |= blocks[i];
     }
     const BitCube opaqueAlongY = transposed(opaque);
-    BitCube all;
-    all.fill(~std::uint64_t{0});
     for (const Face side : kSides) {
         const BitCube& cube = isAlongX(side) ? opaqueAlongY : opaque;
-        uncovered_[side] = without(all, neighbourBits(cube, side, borders[side]));
+        uncovered_[side] = neighbourBits(cube, side, around_.opaque[side]);
+        for (std::uint64_t& word : uncovered_[side]) word = ~word;
     }
     BitCube uncoveredX;
     for (std::size_t i = 0; i < uncoveredX.size(); ++i) {
@@ -111,8 +119,11 @@ void SectionFaces::findUncovered(const Borders& borders) {
     }
 }
 
-bool SectionFaces::isCovered(const BitCube& blocks) const {
-    return isEmpty(both(blocks, uncoveredAnywhere_));
+// Planes inside the cell are drawn also where all neighbours are opaque; of other shapes nothing is seen
+// then.
+LayerRange SectionFaces::visibleLayers(const BlockType& type, const BitCube& blocks) const {
+    const bool hasPlanes = type.shape != Shape::Cube && type.shape != Shape::Liquid;
+    return commonLayers(blocks, hasPlanes ? blocks : uncoveredAnywhere_, view_.target.layers);
 }
 
 void SectionFaces::addAll() {
@@ -121,11 +132,8 @@ void SectionFaces::addAll() {
         const BlockType& type = view_.blocks->type(id);
         if (type.shape == Shape::None) continue;
         const BitCube blocks = bits_.blocks(n);
-        // Planes inside the cell are drawn also where all neighbours are opaque; of other shapes nothing is
-        // seen then.
-        const bool hasPlanes = type.shape != Shape::Cube && type.shape != Shape::Liquid;
-        if (hasPlanes ? isEmpty(blocks) : isCovered(blocks)) continue;
-        add({type, id, blocks, transposed(blocks)});
+        const LayerRange layers = visibleLayers(type, blocks);
+        if (!layers.isEmpty()) add({type, id, layers, blocks, transposed(blocks, layers)});
     }
 }
 
@@ -158,23 +166,25 @@ bool SectionFaces::hidesOwnKind(const BlockType& type, Face side) const {
 }
 
 BitCube SectionFaces::visible(const TypeBlocks& blocks, Face side) const {
-    const BitCube faces = both(blocks.facing(side), uncovered_[side]);
+    const LayerRange layers = blocks.layers;
+    const BitCube faces = both(blocks.facing(side), uncovered_[side], layers);
     if (blocks.type.opaqueCube || !hidesOwnKind(blocks.type, side)) return faces;
-    const world::Section* next = view_.neighbours[side];
-    const BitSlice border = next ? blocksOnSide(*next, oppositeSide(side), blocks.id) : BitSlice{};
-    return without(faces, neighbourBits(blocks.facing(side), side, border));
+    const auto& next = around_.sides[side];
+    const BitSlice border = next ? next->blocks(blocks.id) : BitSlice{};
+    return without(faces, neighbourBits(blocks.facing(side), side, border, layers), layers);
 }
 
 // Where only the top of a texture waves, a face taller than one block would wave only at its top.
-Merge SectionFaces::mergeOf(const BlockType& type, Face side) const {
+bool SectionFaces::merges(const BlockType& type, Face side) const {
     const world::Material& material = view_.blocks->materials()[type.material[side]];
-    return material.animation == world::Animation::TopWaves ? Merge::None : Merge::Full;
+    return material.animation != world::Animation::TopWaves;
 }
 
 void SectionFaces::addSide(const TypeBlocks& blocks, Face side) {
     const BlockType& type = blocks.type;
     writer_.write(visible(blocks, side),
-                  {shared::kShapeFaceCube + side, type.material[side], mergeOf(type, side), side});
+                  {shared::kShapeFaceCube + side, type.material[side], merges(type, side), side},
+                  blocks.layers);
 }
 
 void SectionFaces::addCube(const TypeBlocks& blocks) {
@@ -187,25 +197,30 @@ void SectionFaces::addCube(const TypeBlocks& blocks) {
 void SectionFaces::addLiquid(const TypeBlocks& blocks) {
     const BlockType& type = blocks.type;
     const BitCube surface = visible(blocks, world::kFacePosZ);
-    const BitCube surfaceAlongY = transposed(surface);
+    const BitCube surfaceAlongY = transposed(surface, blocks.layers);
     for (std::size_t s = 0; s < kUprightSides; ++s) {
         const Face side = kSides[s];
         const BitCube faces = visible(blocks, side);
         const BitCube& lowered = isAlongX(side) ? surfaceAlongY : surface;
-        writer_.write(without(faces, lowered),
-                      {shared::kShapeFaceCube + side, type.material[side], mergeOf(type, side), side});
-        writer_.write(both(faces, lowered),
-                      {shared::kShapeFaceLiquidSide + side, type.material[side], mergeOf(type, side), side});
+        writer_.write(without(faces, lowered, blocks.layers),
+                      {shared::kShapeFaceCube + side, type.material[side], merges(type, side), side},
+                      blocks.layers);
+        writer_.write(both(faces, lowered, blocks.layers),
+                      {shared::kShapeFaceLiquidSide + side, type.material[side], merges(type, side), side},
+                      blocks.layers);
     }
     addSide(blocks, world::kFaceNegZ);
-    writer_.write(surface, {shared::kShapeFaceLiquidTop, type.material[world::kFacePosZ],
-                            mergeOf(type, world::kFacePosZ), world::kFacePosZ});
+    writer_.write(surface,
+                  {shared::kShapeFaceLiquidTop, type.material[world::kFacePosZ],
+                   merges(type, world::kFacePosZ), world::kFacePosZ},
+                  blocks.layers);
 }
 
 // Plane k has the material of side k.
 void SectionFaces::addPlanes(const TypeBlocks& blocks, uint firstFace, uint count) {
     for (uint k = 0; k < count; ++k) {
-        writer_.write(blocks.alongX, {firstFace + k, blocks.type.material[k], Merge::None, world::kFacePosZ});
+        writer_.write(blocks.alongX, {firstFace + k, blocks.type.material[k], false, world::kFacePosZ},
+                      blocks.layers);
     }
 }
 
@@ -213,11 +228,12 @@ void SectionFaces::addPlanes(const TypeBlocks& blocks, uint firstFace, uint coun
 
 void addSectionFaces(const SectionView& view, QuadBuckets& out) {
     assert(view.centre && view.blocks && "a section and what its ids mean");
-    assert(view.baseZ % world::kSectionSize == 0 && world::isInHeight(view.baseZ) && "height of a section");
+    assert(view.target.baseZ % world::kSectionSize == 0 && world::isInHeight(view.target.baseZ) &&
+           "height of a section");
     if (isHidden(view)) return;
-    const Borders borders = opaqueBorders(view);
-    if (isEnclosed(borders) && isAllOpaque(*view.centre, *view.blocks)) return;
-    SectionFaces(view, borders, out).addAll();
+    const Surroundings around(view);
+    if (around.isEnclosed() && isAllOpaque(*view.centre, *view.blocks)) return;
+    SectionFaces(view, around, out).addAll();
 }
 
 }  // namespace terrane::mesh

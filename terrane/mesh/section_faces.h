@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "terrane/mesh/face_writer.h"
 #include "terrane/mesh/quad_buckets.h"
 #include "terrane/world/block_registry.h"
 #include "terrane/world/section.h"
@@ -16,7 +17,7 @@ struct SectionView {
     // By side; null above the world, where there is air, and below it, from where nothing is seen.
     std::array<const world::Section*, world::kFaceCount> neighbours{};
     const world::BlockRegistry* blocks = nullptr;
-    int baseZ = 0;  // height of the lowest layer, a multiple of 16
+    FaceTarget target;
 };
 
 void addSectionFaces(const SectionView& view, QuadBuckets& out);

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "terrane/base/profile.h"
+#include "terrane/shared/hash.h"
 
 namespace terrane::render {
 namespace {
@@ -14,6 +15,7 @@ struct Box {
 };
 
 struct VisibleRegion {
+    world::ChunkPos pos;
     const ChunkQuads* chunk;
     const mesh::RegionMesh* quads;
     glm::vec3 origin;  // of the chunk, from the corner of the camera's chunk
@@ -23,6 +25,12 @@ struct VisibleRegion {
 
 float blocksBetween(std::int32_t fromChunk, std::int32_t toChunk) {
     return static_cast<float>((std::int64_t{toChunk} - fromChunk) * world::kChunkSize);
+}
+
+// Keeps the colours of the aggregation view where they are while the camera moves.
+float chunkNumber(world::ChunkPos pos) {
+    const auto x = static_cast<std::uint32_t>(pos.x), y = static_cast<std::uint32_t>(pos.y);
+    return static_cast<float>(shared::hash2(x, y, 0) >> 16);
 }
 
 // Regions are cells of equal size: in the order of their middles' distances none comes before one that hides
@@ -41,7 +49,7 @@ std::vector<VisibleRegion> visibleRegions(const QuadStore& quads, world::ChunkPo
             const Box box{origin + glm::vec3(0, 0, region.minZ), origin + glm::vec3(16, 16, region.maxZ)};
             if (region.minZ == region.maxZ || !mayBeVisible(frustum, box.min, box.max)) continue;
             const glm::vec3 toMiddle = middle - view.cameraPosition;
-            visible.push_back({&chunk, &region, origin, box, glm::dot(toMiddle, toMiddle)});
+            visible.push_back({pos, &chunk, &region, origin, box, glm::dot(toMiddle, toMiddle)});
         }
     }
     return visible;
@@ -88,7 +96,7 @@ void addCommands(std::vector<DrawCommand>& commands, std::uint32_t first, std::u
 // Groups lie one after the other: neighbouring ones that face the camera are drawn by one command.
 void addRegion(DrawList& list, const VisibleRegion& region, glm::vec3 camera) {
     const auto record = static_cast<std::uint32_t>(list.records.size());
-    list.records.push_back({glm::vec4(region.origin, 0.0f)});
+    list.records.push_back({glm::vec4(region.origin, chunkNumber(region.pos))});
     ++list.regionCount;
     for (int context = 0; context < mesh::kContextCount; ++context) {
         auto& commands = list.commands[static_cast<std::size_t>(context)];

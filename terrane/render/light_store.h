@@ -1,9 +1,9 @@
-// The light of the visible chunks on the GPU, for shaders to sample (light_sample.glsl). Used on the thread of the
-// current OpenGL context.
+// The light of the visible chunks on the GPU, for shaders to sample (light_sample.glsl). Used on the thread
+// of the current OpenGL context.
 //
-// Light is kept in tiles of 8³ blocks; tiles of one value take an entry of the grid and nothing else. Grid: a 3D
-// texture of 32-bit entries, two by two tiles a chunk, wrapping around the camera. Pool: a 3D texture with four bits
-// a component that grows by doubling.
+// Light is kept in tiles of 8³ blocks; tiles of one value take an entry of the grid and nothing else. Grid: a
+// 3D texture of 32-bit entries, two by two tiles a chunk, wrapping around the camera. Pool: a 3D texture with
+// four bits a component that grows by doubling.
 #pragma once
 
 #include <unordered_map>

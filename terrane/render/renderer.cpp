@@ -19,9 +19,20 @@ constexpr std::size_t kRingBytes = 256u << 10;
 constexpr std::size_t kAlignmentSlack = 256 * (mesh::kContextCount + 2);
 constexpr float kAmbientFromBelow = 0.4f;  // share of the sky's light on faces that look down
 constexpr float kExposure = 0.92f;
+constexpr int kLightViewDistance = 16;  // chunks, until setViewDistance
 constexpr float kMaxAnisotropy = 8.0f;
 
-shared::Frame frameOf(const FrameInput& input, const ViewMatrices& view) {
+// Corner and edge are each off by up to half a step of the rasteriser's grid, along both axes: two steps are
+// enough, four are safe.
+constexpr float kCrackSteps = 4;
+
+float crackGrowth() {
+    GLint subpixelBits = 4;  // the least that OpenGL allows
+    glGetIntegerv(GL_SUBPIXEL_BITS, &subpixelBits);
+    return kCrackSteps / static_cast<float>(1 << subpixelBits);
+}
+
+shared::Frame frameOf(const FrameInput& input, const ViewMatrices& view, glm::vec2 size, float growth) {
     const world::Environment& e = input.environment;
     shared::Frame frame{};
     frame.viewProjection = view.viewProjection;
@@ -32,12 +43,14 @@ shared::Frame frameOf(const FrameInput& input, const ViewMatrices& view) {
     frame.ambientColor = glm::vec4(e.ambientColor, kAmbientFromBelow);
     frame.zenithColor = glm::vec4(e.zenithColor, kExposure);
     frame.horizonColor = glm::vec4(e.horizonColor, static_cast<float>(input.view));
-    frame.glowColor = glm::vec4(e.glowColor, 0.0f);
+    frame.glowColor = glm::vec4(e.glowColor, e.lampShare);
+    frame.viewport = glm::vec4(size, input.coverCracks ? growth : 0.0f, 0.0f);
     return frame;
 }
 
 static_assert(static_cast<shared::uint>(View::Normal) == shared::kViewNormal &&
-              static_cast<shared::uint>(View::Depth) == shared::kViewDepth);
+              static_cast<shared::uint>(View::Depth) == shared::kViewDepth &&
+              static_cast<shared::uint>(View::Aggregation) == shared::kViewAggregation);
 
 }  // namespace
 
@@ -59,8 +72,10 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     renderer.sky_ = std::move(*sky);
     renderer.final_ = std::move(*finalPass);
     renderer.ring_ = gpu::MappedRing(kRingBytes, "frame data");
+    renderer.light_ = LightStore(kLightViewDistance);
     renderer.maxSamples_ = device.maxSamples;
     renderer.maxSize_ = device.maxTextureSize;
+    renderer.crackGrowth_ = crackGrowth();
     return renderer;
 }
 
@@ -112,7 +127,10 @@ base::Result<void> Renderer::addSamples(Targets& t, int samples) {
 }
 
 void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
-    const shared::Frame frame = frameOf(input, view);
+    shared::Frame frame = frameOf(input, view, glm::vec2(targets_.size), crackGrowth_);
+    const world::ChunkPos chunk = cameraChunk(input.camera);
+    const int mask = light_.gridChunks() - 1;
+    frame.lightGrid = {2 * (chunk.x & mask), 2 * (chunk.y & mask), 2 * light_.gridChunks(), 0};
     const auto slice = ring_.write(std::span(&frame, 1));
     assert(slice && "the ring is empty at the start of a frame");
     ring_.buffer().bindUniform(shared::kFrameBinding, slice->offsetBytes, sizeof(frame));
@@ -144,6 +162,7 @@ void Renderer::draw(const FrameInput& input) {
     targets_.world().clearDepth(0.0f);
     glDisable(GL_DEPTH_TEST);
     sky_.draw();
+    light_.bind();
     terrain_.draw(drawList_, quads_, ring_);
     glDisable(GL_DEPTH_TEST);
     if (&targets_.world() != &targets_.scene) gpu::resolve(targets_.sampled, targets_.scene);

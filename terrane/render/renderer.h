@@ -10,13 +10,14 @@
 #include "terrane/gpu/framebuffer.h"
 #include "terrane/render/block_textures.h"
 #include "terrane/render/fullscreen_pass.h"
+#include "terrane/render/light_store.h"
 #include "terrane/render/quad_store.h"
 #include "terrane/render/terrain_pass.h"
 #include "terrane/world/environment.h"
 
 namespace terrane::render {
 
-enum class View : std::uint8_t { Color, Normal, Depth };
+enum class View : std::uint8_t { Color, Normal, Depth, Aggregation };
 
 struct FrameInput {
     Camera camera;
@@ -24,6 +25,7 @@ struct FrameInput {
     float fogDistance = 256;  // blocks: from here on everything is sky
     float timeSeconds = 0;    // for animations
     View view = View::Color;
+    bool coverCracks = true;  // between quads of different sizes
 };
 
 struct FrameStatistics {
@@ -39,7 +41,15 @@ class Renderer {
     base::Result<void> resize(glm::ivec2 size, int samples);
 
     void setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh) { quads_.set(pos, mesh); }
-    void removeChunk(world::ChunkPos pos) { quads_.remove(pos); }
+    // Chunks without light are drawn as under the open sky. `viewDistance` of setViewDistance is the farthest
+    // that light is kept for.
+    void setLight(world::ChunkPos pos, const light::ChunkLight& light) { light_.set(pos, light); }
+    void removeChunk(world::ChunkPos pos) {
+        quads_.remove(pos);
+        light_.remove(pos);
+    }
+    // Makes room for light; what was set is forgotten.
+    void setViewDistance(int chunks) { light_ = LightStore(chunks); }
 
     // Draws into the renderer's own picture.
     void draw(const FrameInput& input);
@@ -49,6 +59,7 @@ class Renderer {
 
     const FrameStatistics& statistics() const { return statistics_; }
     std::size_t quadBytes() const { return quads_.usedBytes(); }
+    std::size_t lightBytes() const { return light_.usedBytes(); }
     glm::ivec2 size() const { return targets_.size; }
 
   private:
@@ -68,11 +79,13 @@ class Renderer {
     FullscreenPass sky_, final_;
     TerrainPass terrain_;
     QuadStore quads_;
+    LightStore light_;
     gpu::MappedRing ring_;
     DrawList drawList_;
     Targets targets_;
     FrameStatistics statistics_;
     int maxSamples_ = 1, maxSize_ = 1;
+    float crackGrowth_ = 0;  // pixels
 };
 
 }  // namespace terrane::render

@@ -1,5 +1,6 @@
 // ALPHA_CLASS: 0 opaque, 1 tested, 2 blended.
 #include "terrane/render/frame_uniforms.glsl"
+#include "terrane/render/light_sample.glsl"
 #include "terrane/render/sky_color.glsl"
 #include "terrane/shared/material.h"
 
@@ -8,7 +9,7 @@ layout(binding = kBlockTexturesUnit) uniform sampler2DArray blockTextures;
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec2 inTexel;
 layout(location = 2) flat in vec3 inNormal;
-layout(location = 3) flat in uvec3 inMaterial;
+layout(location = 3) flat in uvec4 inMaterial;
 layout(location = 4) flat in uint inIsOblique;
 layout(location = 5) flat in vec2 inExtent;
 layout(location = 0) out vec4 outColor;
@@ -29,11 +30,16 @@ vec4 sampleTexture() {
     return textureGrad(blockTextures, vec3(at / size, inMaterial.x), dFdx(inTexel), dFdy(inTexel));
 }
 
-vec3 shade(vec3 albedo, vec3 normal) {
+const vec3 kLeastLight = vec3(0.02);  // of the darkest cave: shapes can just be seen
+
+// Lamps, hidden by day where daylight reaches; the sky from above; the sun or moon where the sky is seen.
+vec3 shade(vec3 albedo, vec3 normal, vec4 levels, float glow) {
+    vec4 light = pow(levels, vec4(0.85));
     float up = 0.5 + 0.5 * normal.z;
-    vec3 ambient = frame.ambientColor.rgb * mix(frame.ambientColor.w, 1.0, up);
+    vec3 sky = frame.ambientColor.rgb * mix(frame.ambientColor.w, 1.0, up);
     float facing = max(dot(normal, frame.lightDirection.xyz), 0.0);
-    return albedo * (ambient + frame.lightColor.rgb * facing);
+    vec3 lamps = (light.rgb + glow) * (1.0 - frame.glowColor.w * light.a);
+    return albedo * (lamps + kLeastLight + light.a * (sky + frame.lightColor.rgb * facing));
 }
 
 vec3 fade(vec3 color, vec3 toPoint) {
@@ -59,6 +65,13 @@ vec4 debugView(uint view, vec3 normal, vec3 toPoint) {
     return vec4(vec3(1.0 - clamp(length(toPoint) / frame.cameraPosition.w, 0.0, 1.0)), 1.0);
 }
 
+// The texture stays visible, and the light, so that one sees where one is.
+vec3 aggregationView(vec3 albedo, vec3 normal) {
+    vec3 color = 0.15 + 0.85 * vec3(inMaterial.w & 255u, inMaterial.w >> 8 & 255u, inMaterial.w >> 16 & 255u) / 255.0;
+    float brightness = dot(albedo, vec3(0.3, 0.6, 0.1));
+    return shade(color * (0.4 + brightness), normal);
+}
+
 void main() {
     vec4 texel = sampleTexture();
 #if ALPHA_CLASS == 1
@@ -67,17 +80,23 @@ void main() {
     vec3 normal = gl_FrontFacing ? inNormal : -inNormal;
     vec3 toPoint = inPosition - frame.cameraPosition.xyz;
     uint view = uint(frame.horizonColor.w);
+    if (view == kViewAggregation) {
+        outColor = vec4(aggregationView(texel.rgb, normal), 1.0);
+        return;
+    }
     if (view != kViewColor) {
         outColor = debugView(view, normal, toPoint);
         return;
     }
     // Crossed planes are lit like the ground they stand on: their own normals would split each plant in two.
     vec3 shadingNormal = inIsOblique == 1u ? vec3(0.0, 0.0, 1.0) : normal;
-    vec3 color = shade(texel.rgb, shadingNormal);
     float glow = 0.0;
     if (inMaterial.y == kAlphaGlow) glow = texel.a;
     if (inMaterial.y == kAlphaTestGlow) glow = clamp(2.0 * texel.a - 1.0, 0.0, 1.0);
-    color += texel.rgb * glow * 0.9;
+    // Plants stand inside their block and take its light.
+    vec3 lightNormal = inIsOblique == 1u ? vec3(0.0) : normal;
+    vec3 color = shade(texel.rgb, shadingNormal, sampleLight(inPosition, lightNormal), glow);
+    color += texel.rgb * glow * frame.glowColor.w;
 #if ALPHA_CLASS == 2
     vec4 blended = vec4(color, texel.a);
     if (inMaterial.z == kAnimationLiquidSurface) blended = waterColor(texel, color, normal, normalize(toPoint));

@@ -1,6 +1,9 @@
+// ALPHA_CLASS: 0 opaque, 1 tested, 2 blended.
 // Pulls a quad's corner from the quad buffer. Four vertices a quad; the base vertex of a draw is four times its first
 // quad, its base instance the number of its draw record.
+#include "terrane/render/crack_cover.glsl"
 #include "terrane/render/frame_uniforms.glsl"
+#include "terrane/shared/hash.h"
 #include "terrane/shared/quad.h"
 #include "terrane/shared/shape_face.h"
 
@@ -20,7 +23,7 @@ layout(std430, binding = kDrawsBinding) readonly buffer Draws {
 layout(location = 0) out vec3 outPosition;  // in blocks, from the corner of the camera's chunk
 layout(location = 1) out vec2 outTexel;     // in textures; row 0 of the image is at integer v
 layout(location = 2) flat out vec3 outNormal;
-layout(location = 3) flat out uvec3 outMaterial;  // texture, alpha mode, animation
+layout(location = 3) flat out uvec4 outMaterial;  // texture, alpha mode, animation; number of the quad
 layout(location = 4) flat out uint outIsOblique;
 layout(location = 5) flat out vec2 outExtent;  // of outTexel
 
@@ -30,13 +33,22 @@ void main() {
     vec2 extent = vec2(quadExtentU(quad), quadExtentV(quad));
     vec4 cell = vec4(quadX(quad), quadY(quad), quadZ(quad), 0.0);
     ShapeFace face = shapeFaces[quadShapeFace(quad)];
-    outPosition = (draws[gl_BaseInstanceARB].origin + shapeFaceCorner(face, cell, corner, extent)).xyz;
+    vec4 origin = draws[gl_BaseInstanceARB].origin;
+    outPosition = (origin + shapeFaceCorner(face, cell, corner, extent)).xyz;
     gl_Position = frame.viewProjection * vec4(outPosition, 1.0);
+#if ALPHA_CLASS < 2
+    // Blended quads would show their overlap.
+    vec2 inward = (1.0 - 2.0 * corner) * extent;
+    vec4 alongU = frame.viewProjection * vec4(face.axisU.xyz * inward.x, 0.0);
+    vec4 alongV = frame.viewProjection * vec4(face.axisV.xyz * inward.y, 0.0);
+    gl_Position = coverCracks(gl_Position, gl_Position + alongU, gl_Position + alongV, frame.viewport.xy, frame.viewport.z);
+#endif
 
     MaterialRecord material = materials[quadMaterial(quad)];
     outTexel = vec2(corner.x, 1.0 - corner.y) * extent;
     outExtent = extent;
     outNormal = face.normal.xyz;
-    outMaterial = uvec3(material.texture, material.alphaMode, material.animation);
+    uint number = hash3(quad.word0, quad.word1, uint(origin.w), 0u);
+    outMaterial = uvec4(material.texture, material.alphaMode, material.animation, number);
     outIsOblique = quadShapeFace(quad) >= kShapeFaceCross && quadShapeFace(quad) < kShapeFaceInset ? 1u : 0u;
 }

@@ -18,6 +18,8 @@ const uint kDrawsBinding = 3u;
 // Texture units
 const uint kBlockTexturesUnit = 0u;
 const uint kSceneColorUnit = 1u;
+const uint kLightGridUnit = 2u;
+const uint kLightPoolUnit = 3u;
 
 SHARED_END
 #endif

@@ -17,16 +17,19 @@ struct Frame {
     vec4 ambientColor;    // from the sky, on faces that look up; w: share of it on faces that look down
     vec4 zenithColor;     // w: exposure
     vec4 horizonColor;    // w: 0 for the picture, else a kView… value
-    vec4 glowColor;       // around the light at the horizon
+    vec4 glowColor;       // around the light at the horizon; w: share of lamp light that full daylight hides
+    vec4 lightGrid;       // x, y: the camera chunk's first light tile; z: tiles along a side of the grid
+    vec4 viewport;  // width and height in pixels; z: by how many pixels quads grow, see crack_cover.glsl
 };
 
 const uint kViewColor = 0u;
 const uint kViewNormal = 1u;
 const uint kViewDepth = 2u;
+const uint kViewAggregation = 3u;  // each quad in a colour of its own
 
 // Of one indirect draw command, found by its base instance.
 struct DrawRecord {
-    vec4 origin;  // of the chunk, in the space above; w unused
+    vec4 origin;  // of the chunk, in the space above; w: 0…65535 from its place in the world
 };
 
 // Alpha modes and animations are the values of world::AlphaMode and world::Animation.
@@ -41,7 +44,7 @@ SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(Frame) == 2 * 64 + 7 * 16, "std140 and std430 agree on mat4 and vec4");
+static_assert(sizeof(Frame) == 2 * 64 + 9 * 16, "std140 and std430 agree on mat4 and vec4");
 static_assert(sizeof(DrawRecord) == 16 && sizeof(MaterialRecord) == 16);
 }  // namespace terrane::shared
 #endif

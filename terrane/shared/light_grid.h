@@ -1,5 +1,5 @@
-// Where the light of a block lies on the GPU: 8³ cells ("tiles") of light in a pool, found through a grid that
-// wraps around the camera.
+// Where the light of a block lies on the GPU: 8³ cells ("tiles") of light in a pool, found through a grid
+// that wraps around the camera.
 #ifndef TERRANE_SHARED_LIGHT_GRID_H
 #define TERRANE_SHARED_LIGHT_GRID_H
 
@@ -7,10 +7,10 @@
 
 SHARED_BEGIN
 
-const uint kLightTileSize = 8u;          // blocks a side
-const uint kLightTilesPerChunk = 128u;   // 2 × 2 × 32
-const uint kLightTilesHigh = 32u;        // a chunk's 256 blocks
-const uint kLightPoolTiles = 64u;        // tiles of the pool texture along x and along y
+const uint kLightTileSize = 8u;         // blocks a side
+const uint kLightTilesPerChunk = 128u;  // 2 × 2 × 32
+const uint kLightTilesHigh = 32u;       // a chunk's 256 blocks
+const uint kLightPoolTiles = 64u;       // tiles of the pool texture along x and along y
 
 // An entry of the grid: a tile's number in the pool, or the one value of a tile that needs none.
 const uint kLightUniformBit = 0x80000000u;

@@ -41,7 +41,8 @@ light::ChunkLightPtr lightOf(const Surroundings& around, const light::LightTable
     return std::make_shared<const light::ChunkLight>(light::lightChunk(neighbourhood, lightScratch()));
 }
 
-MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockRegistry& blocks) {
+MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockRegistry& blocks,
+               const mesh::MeshOptions& options) {
     TERRANE_ZONE("mesh chunk");
     thread_local mesh::MeshScratch scratch;
     mesh::MeshInput input;
@@ -50,6 +51,7 @@ MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockR
     input.centre = chunk(4);
     input.neighbours = {chunk(3), chunk(5), chunk(1), chunk(7)};
     input.blocks = &blocks;
+    input.options = options;
     return std::make_shared<const mesh::ChunkMesh>(mesh::meshChunk(input, scratch));
 }
 

@@ -36,6 +36,7 @@ struct Surroundings {
 };
 
 light::ChunkLightPtr lightOf(const Surroundings& around, const light::LightTable& table);
-MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockRegistry& blocks);
+MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockRegistry& blocks,
+               const mesh::MeshOptions& options);
 
 }  // namespace terrane::stream

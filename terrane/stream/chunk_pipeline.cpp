@@ -90,6 +90,15 @@ void ChunkPipeline::cancelDistantLoads() {
     }
 }
 
+void ChunkPipeline::setMeshOptions(const mesh::MeshOptions& options) {
+    if (options == meshOptions_) return;
+    meshOptions_ = options;
+    for (const auto& [pos, extra] : extras_) {
+        if (table_.is(pos, ChunkStage::Visible)) toMesh_.insert(pos);
+        table_.blocksChanged(pos);  // meshes on the way are old
+    }
+}
+
 void ChunkPipeline::update(Time now) {
     TERRANE_ZONE("pipeline update");
     now_ = now;
@@ -201,12 +210,12 @@ void ChunkPipeline::submitFinishes() {
     const std::size_t room = limit - std::min(limit, table_.finishingCount());
     for (const ChunkPos pos : table_.takeFinishes(room)) {
         // Before loads of equal urgency: what is on screen frees memory.
-        parts_.jobs.submit(
-            table_.urgency(pos) - 1, [pos, around = surroundings(pos), lights = &parts_.lights,
-                                      blocks = &parts_.blocks, results = results_](const base::CancelToken&) {
-                light::ChunkLightPtr light = lightOf(around, *lights);
-                results->add(Results::Finish{pos, meshOf(around.chunks, *blocks), std::move(light)});
-            });
+        parts_.jobs.submit(table_.urgency(pos) - 1, [pos, around = surroundings(pos), lights = &parts_.lights,
+                                                     blocks = &parts_.blocks, options = meshOptions_,
+                                                     results = results_](const base::CancelToken&) {
+            light::ChunkLightPtr light = lightOf(around, *lights);
+            results->add(Results::Finish{pos, meshOf(around.chunks, *blocks, options), std::move(light)});
+        });
     }
 }
 

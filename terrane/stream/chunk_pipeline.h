@@ -65,6 +65,8 @@ class ChunkPipeline {
 
     // Chunks up to `viewDistance` (Chebyshev) around `centre` are to be visible. `direction`: see ChunkTable.
     void setView(world::ChunkPos centre, int viewDistance, glm::vec2 direction = {});
+    // Visible chunks are meshed again in the next updates; they are shown as before until then.
+    void setMeshOptions(const mesh::MeshOptions& options);
     // Takes in what workers finished, puts edits on screen, gives out new work. Call each frame.
     void update(Time now = std::chrono::steady_clock::now());
     // Blocks until a worker has finished something or the time is over.
@@ -122,6 +124,7 @@ class ChunkPipeline {
     ChunkChange& change(world::ChunkPos pos);
 
     PipelineParts parts_;
+    mesh::MeshOptions meshOptions_;
     ChunkTable table_;
     std::shared_ptr<Results> results_;
     std::unordered_map<world::ChunkPos, Extra, world::ChunkPosHash> extras_;

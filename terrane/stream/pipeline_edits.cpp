@@ -91,7 +91,7 @@ void ChunkPipeline::remesh() {
     for (auto it = toMesh_.begin(); it != toMesh_.end() && count < kRemeshesPerUpdate;
          it = toMesh_.erase(it)) {
         if (!table_.is(*it, ChunkStage::Visible)) continue;  // it will be meshed with the new blocks
-        change(*it).mesh = meshOf(surroundings(*it).chunks, parts_.blocks);
+        change(*it).mesh = meshOf(surroundings(*it).chunks, parts_.blocks, meshOptions_);
         ++count;
     }
 }

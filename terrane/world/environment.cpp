@@ -88,6 +88,8 @@ Environment environmentAt(float timeDay) {
     e.horizonColor = colorAt(kHorizon, time);
     e.glowColor = colorAt(kGlow, time);
     e.discRadius = isSun ? 0.045f : 0.03f;
+    const glm::vec3 noon = linearFromSrgb(kAmbient[2].color);
+    e.lampShare = 0.8f * glm::clamp(e.ambientColor.y / noon.y, 0.0f, 1.0f);
     return e;
 }
 

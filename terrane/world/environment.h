@@ -14,6 +14,7 @@ struct Environment {
     glm::vec3 horizonColor;
     glm::vec3 glowColor;  // added to the sky around the light near the horizon
     float discRadius;     // of the sun or moon, radians
+    float lampShare;      // of lamp light that full daylight hides, 0 at night … 0.8
 };
 
 // timeDay: 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk; only its fraction counts.

@@ -52,6 +52,7 @@ void loadOverworld(render::Renderer& renderer, const render::Camera& camera, int
     }
     for (const stream::ChunkChange& change : pipeline.takeChanges(std::numeric_limits<std::size_t>::max())) {
         if (change.mesh) renderer.setChunk(change.pos, *change.mesh);
+        if (change.light) renderer.setLight(change.pos, *change.light);
     }
 }
 

@@ -57,9 +57,47 @@ TEST(BitCube, NeighbourBitsLookOneBlockToTheSide) {
 
 TEST(BitCube, SetOperations) {
     const BitCube a = randomCube(3), b = randomCube(4);
-    EXPECT_TRUE(isEmpty(without(both(a, b), b)));
-    EXPECT_FALSE(isEmpty(a));
-    EXPECT_TRUE(isEmpty(BitCube{}));
+    const BitCube common = both(a, b, {}), onlyA = without(a, b, {});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(common[i] | onlyA[i], a[i]);
+        EXPECT_EQ(common[i] & onlyA[i], 0u);
+        EXPECT_EQ(onlyA[i] & b[i], 0u);
+    }
+}
+
+// In the layers of the range the result is that of the whole cube.
+TEST(BitCube, RangesAreParts) {
+    const BitCube cube = randomCube(5);
+    const BitSlice border = filledSlice();
+    for (const LayerRange range : {LayerRange{0, 16}, {0, 1}, {15, 16}, {3, 9}, {8, 16}}) {
+        for (int s = 0; s < world::kFaceCount; ++s) {
+            const auto side = static_cast<world::Face>(s);
+            const BitCube whole = neighbourBits(cube, side, border);
+            const BitCube part = neighbourBits(cube, side, border, range);
+            const BitCube turned = transposed(cube, range);
+            for (std::size_t i = 4 * range.first; i < 4 * range.end; ++i) {
+                EXPECT_EQ(part[i], whole[i]);
+                EXPECT_EQ(turned[i], transposed(cube)[i]);
+            }
+        }
+    }
+}
+
+TEST(BitCube, CommonLayersAreTight) {
+    BitCube a{}, b{};
+    b.fill(~std::uint64_t{0});
+    EXPECT_TRUE(commonLayers(a, b, {}).isEmpty());
+    a[4 * 5] = 1;
+    a[4 * 9 + 3] = 1;
+    const auto expectRange = [&](LayerRange found, std::size_t first, std::size_t end) {
+        EXPECT_EQ(found.first, first);
+        EXPECT_EQ(found.end, end);
+    };
+    expectRange(commonLayers(a, b, {}), 5, 10);
+    expectRange(commonLayers(a, b, {6, 16}), 9, 10);
+    expectRange(commonLayers(a, b, {0, 9}), 5, 6);
+    b[4 * 5] = 2;
+    expectRange(commonLayers(a, b, {}), 9, 10);
 }
 
 }  // namespace

@@ -11,7 +11,8 @@
 namespace terrane::mesh {
 namespace {
 
-constexpr unsigned kSeedsPerMix = 25;  // × 9 mixes = 225 chunks
+constexpr unsigned kSeeds = 6;  // × 9 mixes × 5 methods = 270 chunks
+constexpr int kRegionHeights[] = {8, 16, 32, 64, 128};
 
 // Every visible face is covered once, no other face is.
 void expectExact(const MeshInput& input, const ChunkMesh& mesh) {
@@ -29,23 +30,27 @@ bool mayMerge(const shared::Quad q, const world::Material& material) {
     return shape < shared::kShapeFaceCross || shape >= shared::kShapeFaceLiquidTop;
 }
 
-void expectInSection(const shared::Quad q) {
+// The parts of a chunk that no quad reaches out of: cells of the method, sections, regions.
+void expectInside(const shared::Quad q, const MeshOptions& options) {
+    const auto cell = options.method == Method::Greedy ? 16u : 8u;
+    const auto cellZ = std::min(cell, static_cast<unsigned>(options.regionHeight));
     const bool upright = shapeFaces()[quadShapeFace(q)].axisV.z != 0;
     const unsigned topZ = quadZ(q) + (upright ? quadExtentV(q) : 1) - 1;
-    EXPECT_EQ(quadZ(q) / 16, topZ / 16);
+    EXPECT_EQ(quadZ(q) / cellZ, topZ / cellZ);
     const bool uAlongX = shapeFaces()[quadShapeFace(q)].axisU.x != 0;
-    EXPECT_LE((uAlongX ? quadX(q) : quadY(q)) + quadExtentU(q), 16u);
+    const unsigned u = uAlongX ? quadX(q) : quadY(q);
+    EXPECT_EQ(u / cell, (u + quadExtentU(q) - 1) / cell);
     if (!upright) {
-        EXPECT_LE(quadY(q) + quadExtentV(q), 16u);
+        EXPECT_EQ(quadY(q) / cell, (quadY(q) + quadExtentV(q) - 1) / cell);
     }
 }
 
-void expectWellFormed(const shared::Quad q) {
+void expectWellFormed(const shared::Quad q, const MeshOptions& options) {
     ASSERT_LT(quadShapeFace(q), shared::kShapeFaceCount);
     ASSERT_LT(quadMaterial(q), testBlocks().materials().size());
     EXPECT_EQ(q.word1 >> 16, 0u);
-    expectInSection(q);
-    if (!mayMerge(q, testBlocks().materials()[quadMaterial(q)])) {
+    expectInside(q, options);
+    if (options.method == Method::None || !mayMerge(q, testBlocks().materials()[quadMaterial(q)])) {
         EXPECT_EQ(quadExtentU(q), 1u);
         EXPECT_EQ(quadExtentV(q), 1u);
     }
@@ -108,25 +113,44 @@ void expectRegions(const ChunkMesh& mesh, int regionHeight) {
     EXPECT_EQ(next, mesh.quads.size());
 }
 
-class ChunkMesherMix : public testing::TestWithParam<int> {};
+struct MixAndMethod : testing::TestWithParam<std::tuple<int, int>> {
+    static Mix mix() { return static_cast<Mix>(std::get<0>(GetParam())); }
+    static Method method() { return static_cast<Method>(std::get<1>(GetParam())); }
+};
 
-TEST_P(ChunkMesherMix, CoversEachVisibleFaceOnce) {
-    constexpr int kHeights[] = {16, 32, 64, 128, 256};
+TEST_P(MixAndMethod, CoverEachVisibleFaceOnce) {
     MeshScratch scratch;  // shared by all: nothing must be left from chunk to chunk
-    for (unsigned seed = 0; seed < kSeedsPerMix; ++seed) {
+    for (unsigned seed = 0; seed < kSeeds; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        const Area area(randomBlocks(static_cast<Mix>(GetParam()), seed));
-        const MeshInput input = area.input(kHeights[seed % 5]);
+        const Area area(randomBlocks(mix(), seed + 100 * static_cast<unsigned>(method())));
+        const MeshOptions options{method(), kRegionHeights[seed % std::size(kRegionHeights)]};
+        const MeshInput input = area.input(options);
         const ChunkMesh mesh = meshChunk(input, scratch);
         expectExact(input, mesh);
-        expectRegions(mesh, input.regionHeight);
-        for (const shared::Quad q : mesh.quads) expectWellFormed(q);
-        EXPECT_EQ(mesh, meshOf(area, input.regionHeight)) << "a fresh scratch gives the same";
+        expectRegions(mesh, options.regionHeight);
+        for (const shared::Quad q : mesh.quads) expectWellFormed(q, options);
+        EXPECT_EQ(mesh, meshOf(area, options)) << "a fresh scratch gives the same";
         if (HasFailure()) return;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllMixes, ChunkMesherMix, testing::Range(0, static_cast<int>(Mix::Count)));
+INSTANTIATE_TEST_SUITE_P(All, MixAndMethod,
+                         testing::Combine(testing::Range(0, static_cast<int>(Mix::Count)),
+                                          testing::Range(0, static_cast<int>(Method::Count))));
+
+// Of the methods without runs of any length the later merges more.
+TEST(ChunkMesher, MethodsMergeMoreAndMore) {
+    for (unsigned seed = 0; seed < 5; ++seed) {
+        const Area area(randomBlocks(Mix::Terrain, seed));
+        const auto count = [&](Method method) { return meshOf(area, {.method = method}).quads.size(); };
+        const std::size_t none = count(Method::None), lines = count(Method::Lines);
+        const std::size_t squares = count(Method::Squares), ext = count(Method::SquaresExt);
+        EXPECT_LT(lines, none);
+        EXPECT_LT(squares, none);
+        EXPECT_LT(ext, squares);
+        EXPECT_LT(count(Method::Greedy), std::min(lines, ext));
+    }
+}
 
 // Edits leave ids in the palette that no block has, and forms that are wider than needed.
 TEST(ChunkMesher, FormOfSectionsDoesNotMatter) {
@@ -146,8 +170,10 @@ TEST(ChunkMesher, FormOfSectionsDoesNotMatter) {
 
 TEST(ChunkMesher, RegionHeightOnlyRegroups) {
     const Area area(randomBlocks(Mix::Terrain, 7));
-    const std::vector<CellFace> faces = coveredFaces(meshOf(area, 16).quads);
-    for (const int height : {32, 64, 128, 256}) EXPECT_EQ(coveredFaces(meshOf(area, height).quads), faces);
+    const std::vector<CellFace> faces = coveredFaces(meshOf(area).quads);
+    for (const int height : kRegionHeights) {
+        EXPECT_EQ(coveredFaces(meshOf(area, {.regionHeight = height}).quads), faces);
+    }
 }
 
 TEST(ChunkMesher, EmptyChunkHasEmptyRegions) {

@@ -34,17 +34,17 @@ struct Area {
           beside{makeChunk(-16, 0, source), makeChunk(16, 0, source), makeChunk(0, -16, source),
                  makeChunk(0, 16, source)} {}
 
-    MeshInput input(int regionHeight = kDefaultRegionHeight) const {
-        return {&centre, {&beside[0], &beside[1], &beside[2], &beside[3]}, &testBlocks(), regionHeight};
+    MeshInput input(const MeshOptions& options = {}) const {
+        return {&centre, {&beside[0], &beside[1], &beside[2], &beside[3]}, &testBlocks(), options};
     }
 
     world::Chunk centre;
     std::array<world::Chunk, 4> beside;
 };
 
-inline ChunkMesh meshOf(const Area& area, int regionHeight = kDefaultRegionHeight) {
+inline ChunkMesh meshOf(const Area& area, const MeshOptions& options = {}) {
     MeshScratch scratch;
-    return meshChunk(area.input(regionHeight), scratch);
+    return meshChunk(area.input(options), scratch);
 }
 
 // Blocks placed by hand in air; coordinates as in BlockSource.

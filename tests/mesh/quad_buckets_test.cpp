@@ -5,12 +5,28 @@
 namespace terrane::mesh {
 namespace {
 
+void push(QuadBucket& bucket, shared::Quad quad) {
+    bucket.reserve(5)[0] = quad;
+    bucket.add(1);
+}
+
+TEST(QuadBucket, KeepsWhatWasAddedWhileItGrows) {
+    QuadBucket bucket;
+    for (unsigned k = 0; k < 1000; ++k) push(bucket, {k, 2 * k});
+    ASSERT_EQ(bucket.quads().size(), 1000u);
+    for (unsigned k = 0; k < 1000; ++k) EXPECT_EQ(bucket.quads()[k], (shared::Quad{k, 2 * k}));
+    bucket.clear();
+    EXPECT_TRUE(bucket.quads().empty());
+    push(bucket, {7, 7});
+    EXPECT_EQ(bucket.quads()[0], (shared::Quad{7, 7}));
+}
+
 TEST(QuadBuckets, AppendsByContextThenGroupAndStartsAnew) {
     QuadBuckets buckets;
     std::vector<shared::Quad> quads{{99, 0}};
-    buckets.bucket(2, 1).push_back({3, 0});
-    buckets.bucket(0, kGroupAlways).push_back({2, 0});
-    buckets.bucket(0, 0).push_back({1, 0});
+    push(buckets.bucket(2, 1), {3, 0});
+    push(buckets.bucket(0, kGroupAlways), {2, 0});
+    push(buckets.bucket(0, 0), {1, 0});
     buckets.coverHeight(40, 41);
     buckets.coverHeight(32, 36);
     const RegionMesh region = buckets.finishRegion(quads);

@@ -62,8 +62,9 @@ TEST(SectionSide, LayersInEveryForm) {
         const Section section = randomSection(distinct, distinct + 1);
         for (int s = 0; s < world::kFaceCount; ++s) {
             const auto side = static_cast<world::Face>(s);
-            const BitSlice opaque = opaqueOnSide(section, side, testBlocks());
-            const BitSlice ones = blocksOnSide(section, side, 1);
+            const SectionSide layer(section, side);
+            const BitSlice opaque = layer.opaqueCubes(testBlocks());
+            const BitSlice ones = layer.blocks(1);
             for (int row = 0; row < 16; ++row) {
                 for (int bit = 0; bit < 16; ++bit) {
                     const world::BlockId id = section.get(indexOnSide(side, row, bit));

@@ -101,7 +101,7 @@ TEST_F(DrawListTest, RegionsBehindTheCameraAreCulled) {
     EXPECT_EQ(list.regionCount, 1u);
     EXPECT_EQ(list.quadCount, 5u);
     EXPECT_EQ(drawn(kOpaque), stored({3, 0}, 1, kOpaque, mesh::kGroupAlways));
-    EXPECT_EQ(list.records.at(0).origin, glm::vec4(48, 0, 0, 0));
+    EXPECT_EQ(glm::vec3(list.records.at(0).origin), glm::vec3(48, 0, 0));
     build({.position = {8, 8, 100}, .yaw = 180});
     EXPECT_EQ(drawn(kOpaque), stored({-3, 0}, 1, kOpaque, mesh::kGroupAlways));
 }
@@ -116,8 +116,12 @@ TEST_F(DrawListTest, RecordsAreRelativeToTheCamerasChunk) {
     const world::ChunkPos far{world::kMaxChunk, world::kMinChunk};
     quads_->set(far, meshOfParts({{1, kOpaque, mesh::kGroupAlways, 1}}));
     const glm::dvec3 corner(16.0 * far.x, 16.0 * far.y, 0);
-    EXPECT_EQ(build({.position = corner + glm::dvec3(-20, 8, 100)}).records.at(0).origin,
-              glm::vec4(32, 0, 0, 0));
+    const auto origin = [&](double x) {
+        return build({.position = corner + glm::dvec3(x, 8, 100)}).records.at(0).origin;
+    };
+    EXPECT_EQ(glm::vec3(origin(-20)), glm::vec3(32, 0, 0));
+    EXPECT_EQ(glm::vec3(origin(-40)), glm::vec3(48, 0, 0));
+    EXPECT_EQ(origin(-20).w, origin(-40).w) << "the chunk's own number";
 }
 
 // Camera and chunk may lie at opposite ends of the world for a frame, after a jump.

@@ -307,6 +307,22 @@ TEST_F(ChunkPipelineTest, ComesBackAfterItsJobWasCancelled) {
     expectShowsTheView();
 }
 
+// Everything is shown as before until the new meshes are there.
+TEST_F(ChunkPipelineTest, OtherMeshOptionsMeshAgain) {
+    setView({0, 0}, 1);
+    settle();
+    const auto before = shown_;
+    const mesh::MeshOptions none{mesh::Method::None, 16};
+    pipeline_->setMeshOptions(none);
+    EXPECT_EQ(shown_, before);
+    EXPECT_TRUE(pipeline_->progress().complete());
+    settle();
+    for (const auto& [pos, shown] : shown_) EXPECT_EQ(*shown.mesh, directMesh(world_, pos, none));
+    EXPECT_GT(shown_.at({0, 0}).mesh->quads.size(), before.at({0, 0}).mesh->quads.size());
+    pipeline_->setMeshOptions(none);
+    EXPECT_EQ(take(kAll), 0u) << "the same options change nothing";
+}
+
 TEST(ChunkPipeline, MayBeDestroyedWhileJobsRun) {
     const gen::Generator generator = bumpyGenerator();
     base::JobSystem jobs(2);

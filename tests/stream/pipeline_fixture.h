@@ -41,8 +41,9 @@ inline std::array<world::ChunkPtr, 9> chunksAround(const world::World& world, Ch
 }
 
 // What the chunk must look like, made here and now.
-inline mesh::ChunkMesh directMesh(const world::World& world, ChunkPos pos) {
-    return *meshOf(chunksAround(world, pos), contentBlocks());
+inline mesh::ChunkMesh directMesh(const world::World& world, ChunkPos pos,
+                                  const mesh::MeshOptions& options = {}) {
+    return *meshOf(chunksAround(world, pos), contentBlocks(), options);
 }
 inline const light::LightTable& lightTable() {
     static const light::LightTable table(contentBlocks());

@@ -137,7 +137,7 @@ class PlayLoop {
         session_.pipeline->update();
         uploadChanges(*session_.pipeline, renderer_, kUploadsPerFrame);
         renderer_.draw({camera_, world::environmentAt(0.38f), fogDistance(options_.graphics.viewDistance),
-                        seconds, options_.graphics.view});
+                        seconds, options_.graphics.view, options_.graphics.coverCracks});
         renderer_.presentToWindow(size);
         window_.swapBuffers();
         return {};
@@ -165,6 +165,8 @@ base::Result<void> play(const PlayOptions& options, const CLI::App& command) {
     auto renderer =
         render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), gpu::queryDevice());
     if (!renderer) return tl::unexpected(renderer.error());
+    (*session)->pipeline->setMeshOptions(options.graphics.mesh);
+    renderer->setViewDistance(options.graphics.viewDistance);
     if (auto played = PlayLoop(options, *window, **session, *renderer).run(); !played) return played;
     if (window->debugLog() && window->debugLog()->errorCount() > 0) {
         return base::fail("the graphics driver reported errors, see above");

@@ -81,12 +81,15 @@ base::Result<void> renderPicture(const RenderOptions& options, const CLI::App& c
     const double setUp = millisecondsSince(start);
 
     const auto loadStart = Clock::now();
+    (*session)->pipeline->setMeshOptions(options.graphics.mesh);
+    renderer->setViewDistance(options.graphics.viewDistance);
     loadAll(**session, *renderer, scene->camera, options.graphics.viewDistance);
     const double load = millisecondsSince(loadStart);
 
     const auto drawStart = Clock::now();
     renderer->draw({scene->camera, world::environmentAt(scene->timeDay),
-                    fogDistance(options.graphics.viewDistance), 0, options.graphics.view});
+                    fogDistance(options.graphics.viewDistance), 0, options.graphics.view,
+                    options.graphics.coverCracks});
     const base::Image image = renderer->readImage();
     const double draw = millisecondsSince(drawStart);
     if (auto written = base::writePng(options.output, image); !written) return written;

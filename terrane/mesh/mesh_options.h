@@ -1,0 +1,36 @@
+// What a user chooses about meshing. Plain values; the same options give the same mesh.
+#pragma once
+
+#include <cstdint>
+
+#include "terrane/world/coords.h"
+
+namespace terrane::mesh {
+
+// How equal faces that touch in one plane become one quad. All but Greedy are the methods of D. Čejchan's
+// thesis (2019), whose work groups limit quads to cells of 8×8 blocks.
+enum class Method : std::uint8_t {
+    None,        // one quad a face
+    Lines,       // along rows as far as possible, then equal lengths of successive rows
+    Squares,     // halves of the cells of a grid that doubles each time, alternately in both directions
+    SquaresExt,  // Squares, then as Lines what does not lie on the grid
+    Greedy,      // runs of a row, then as many rows as have them all; up to 16×16
+    Count,
+};
+
+// A chunk is culled and drawn in regions: its columns, this many blocks high.
+constexpr int kMinRegionHeight = 8, kMaxRegionHeight = 128;
+constexpr int kDefaultRegionHeight = 64;
+
+constexpr bool isRegionHeight(int height) {
+    return height >= kMinRegionHeight && height <= kMaxRegionHeight && (height & (height - 1)) == 0;
+}
+
+struct MeshOptions {
+    Method method = Method::Greedy;
+    int regionHeight = kDefaultRegionHeight;  // blocks: 8, 16, 32, 64 or 128
+
+    bool operator==(const MeshOptions&) const = default;
+};
+
+}  // namespace terrane::mesh
