@@ -131,7 +131,7 @@ void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
     const world::ChunkPos chunk = cameraChunk(input.camera);
     const int mask = light_.gridChunks() - 1;
     frame.lightGrid = {2 * (chunk.x & mask), 2 * (chunk.y & mask), 2 * light_.gridChunks(), 0};
-    const auto slice = ring_.write(std::span(&frame, 1));
+    const auto slice = ring_.write(std::span<const shared::Frame>(&frame, 1));
     assert(slice && "the ring is empty at the start of a frame");
     ring_.buffer().bindUniform(shared::kFrameBinding, slice->offsetBytes, sizeof(frame));
 }

@@ -69,7 +69,7 @@ vec4 debugView(uint view, vec3 normal, vec3 toPoint) {
 vec3 aggregationView(vec3 albedo, vec3 normal) {
     vec3 color = 0.15 + 0.85 * vec3(inMaterial.w & 255u, inMaterial.w >> 8 & 255u, inMaterial.w >> 16 & 255u) / 255.0;
     float brightness = dot(albedo, vec3(0.3, 0.6, 0.1));
-    return shade(color * (0.4 + brightness), normal);
+    return shade(color * (0.4 + brightness), normal, vec4(0.0, 0.0, 0.0, 1.0), 0.0);
 }
 
 void main() {
