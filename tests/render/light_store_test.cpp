@@ -1,0 +1,157 @@
+// Light on the GPU as pictures show it: a plane with one lamp, at night, seen from above.
+#include "terrane/render/light_store.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <random>
+
+#include "terrane/light/light_area.h"
+#include "terrane/mesh/chunk_mesher.h"
+#include "terrane/render/renderer.h"
+#include "tests/gpu/gl_fixture.h"
+#include "tests/render/content.h"
+
+namespace terrane::render {
+namespace {
+
+class LightPictureTest : public gpu::GlTest {
+  protected:
+    // A stone plane of 5×5 chunks with a lamp in the middle chunk, which is at `middle`.
+    struct Scene {
+        world::ChunkPos middle;
+        int x = 8, y = 8, z = 100;  // of the lamp; the plane's top is at z
+        bool isLit = true;
+    };
+
+    Renderer makeRenderer() {
+        auto made = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice());
+        EXPECT_TRUE(made);
+        EXPECT_TRUE(made->resize({96, 96}, 1));
+        return std::move(*made);
+    }
+
+    void load(Renderer& renderer, const Scene& scene) {
+        constexpr int kSide = 5;
+        std::vector<world::Chunk> chunks(kSide * kSide);
+        for (world::Chunk& chunk : chunks) {
+            for (int k = 0; k < 256; ++k) {
+                chunk.setBlock(world::blockIndex(k % 16, k / 16, scene.z - 1), contentBlock("stone"));
+            }
+        }
+        if (scene.isLit) {
+            chunks[12].setBlock(world::blockIndex(scene.x, scene.y, scene.z), contentBlock("lamp_red"));
+        }
+        light::LightArea area{kSide, kSide, {}};
+        for (const world::Chunk& chunk : chunks) area.chunks.push_back(&chunk);
+        const auto lights = light::lightArea(area, light::LightTable(contentBlocks()));
+        for (int cy = 1; cy < 4; ++cy) {
+            for (int cx = 1; cx < 4; ++cx) {
+                const auto at = [&](int dx, int dy) {
+                    return static_cast<std::size_t>(cx + dx + kSide * (cy + dy));
+                };
+                const world::ChunkPos pos{scene.middle.x + cx - 2, scene.middle.y + cy - 2};
+                mesh::MeshInput input;
+                input.centre = &chunks[at(0, 0)];
+                input.neighbours = {&chunks[at(-1, 0)], &chunks[at(1, 0)], &chunks[at(0, -1)],
+                                    &chunks[at(0, 1)]};
+                input.blocks = &contentBlocks();
+                mesh::MeshScratch scratch;
+                renderer.setChunk(pos, mesh::meshChunk(input, scratch));
+                renderer.setLight(pos, lights[at(0, 0)]);
+            }
+        }
+    }
+
+    // From 14 blocks above the lamp, so that borders of chunks and tiles lie in the picture wherever it
+    // stands.
+    static base::Image draw(Renderer& renderer, const Scene& scene) {
+        const Camera camera{.position = {scene.middle.x * 16.0 + scene.x + 0.5,
+                                         scene.middle.y * 16.0 + scene.y + 0.5, scene.z + 14.0},
+                            .yaw = 90,
+                            .pitch = -90};
+        renderer.draw({camera, world::environmentAt(0.0f), 4096, 0, View::Color});
+        return renderer.readImage();
+    }
+
+    base::Image picture(const Scene& scene) {
+        Renderer renderer = makeRenderer();
+        load(renderer, scene);
+        return draw(renderer, scene);
+    }
+
+    static int largestDifference(const base::Image& a, const base::Image& b) {
+        int largest = 0;
+        for (std::size_t k = 0; k < a.rgba.size(); ++k) {
+            largest = std::max(largest, std::abs(int{a.rgba[k]} - int{b.rgba[k]}));
+        }
+        return largest;
+    }
+
+    static int redAt(const base::Image& image, int x, int y) {
+        return image.rgba[4 * static_cast<std::size_t>(x + y * image.width)];
+    }
+};
+
+TEST_F(LightPictureTest, ALampShines) {
+    const base::Image with = picture({}), without = picture({.middle = {}, .isLit = false});
+    EXPECT_GT(redAt(with, 48, 60), redAt(without, 48, 60) + 60);
+    EXPECT_GT(redAt(with, 48, 60), redAt(with, 48, 94) + 20) << "it falls with distance";
+}
+
+// Borders of tiles (8 blocks) and chunks (16) lie elsewhere in each of these; the picture is the same but for the
+// steps of filtered fetches and dither. Without the nodes beyond a border it would differ by 20 and more.
+TEST_F(LightPictureTest, BordersCannotBeSeen) {
+    const base::Image reference = picture({{0, 0}, 4, 4, 100});
+    for (const Scene& scene :
+         {Scene{{0, 0}, 8, 8, 100}, Scene{{0, 0}, 15, 15, 100}, Scene{{0, 0}, 0, 12, 100},
+          Scene{{0, 0}, 4, 4, 104}, Scene{{0, 0}, 4, 4, 96}, Scene{{0, 0}, 7, 8, 112}}) {
+        EXPECT_LE(largestDifference(picture(scene), reference), 5)
+            << scene.x << ' ' << scene.y << ' ' << scene.z;
+    }
+}
+
+TEST_F(LightPictureTest, FarAwayItIsTheSame) {
+    const base::Image reference = picture({{0, 0}, 4, 4, 100});
+    EXPECT_LE(largestDifference(picture({{1000, -777}, 4, 4, 100}), reference), 2);
+    EXPECT_LE(largestDifference(picture({{-1, -1}, 4, 4, 100}), reference), 2);
+}
+
+TEST_F(LightPictureTest, LightThatChangesReplacesTheOld) {
+    Renderer renderer = makeRenderer();
+    load(renderer, {});
+    load(renderer, {.middle = {}, .isLit = false});
+    EXPECT_EQ(largestDifference(draw(renderer, {}), picture({.middle = {}, .isLit = false})), 0);
+    load(renderer, {});
+    EXPECT_EQ(largestDifference(draw(renderer, {}), picture({})), 0);
+}
+
+// Chunks of noise fill the pool until it grows; what it had stays, and what is removed is used again.
+TEST_F(LightPictureTest, ThePoolGrowsAndKeepsWhatItHas) {
+    Renderer renderer = makeRenderer();
+    load(renderer, {});
+    const base::Image before = draw(renderer, {});
+    const std::size_t bytesBefore = renderer.lightBytes();
+    std::mt19937 random(5);
+    light::ChunkLight noise;
+    for (int n = 0; n < world::kSectionsPerChunk; ++n) {
+        std::array<world::Section::Value, world::kBlocksPerSection> values;
+        for (auto& v : values) v = static_cast<world::Section::Value>(random());
+        noise.setBrick(n, world::Section::fromValues(values));
+    }
+    const auto forFarChunks = [](const std::function<void(world::ChunkPos)>& use) {
+        for (int k = 0; k < 150; ++k) use({4 + k % 13, 3 + k / 13});
+    };
+    forFarChunks([&](world::ChunkPos pos) { renderer.setLight(pos, noise); });
+    EXPECT_GT(renderer.lightBytes(), bytesBefore + 150 * 120 * 1024);
+    EXPECT_EQ(largestDifference(draw(renderer, {}), before), 0);
+    const std::size_t full = renderer.lightBytes();
+    forFarChunks([&](world::ChunkPos pos) { renderer.removeChunk(pos); });
+    EXPECT_EQ(renderer.lightBytes(), bytesBefore);
+    forFarChunks([&](world::ChunkPos pos) { renderer.setLight(pos, noise); });
+    EXPECT_EQ(renderer.lightBytes(), full);
+    EXPECT_EQ(largestDifference(draw(renderer, {}), before), 0);
+}
+
+}  // namespace
+}  // namespace terrane::render
