@@ -18,7 +18,7 @@ class Generator {
   public:
     // `cachedChunks`: how many chunks' intermediate results are kept; each takes 1 KiB a field and 128 KiB
     // for each 3D pass but the last (overworld: about 150 KiB).
-    Generator(GeneratorGraph graph, std::uint64_t seed, std::size_t cachedChunks = 512);
+    Generator(GeneratorGraph graph, std::uint64_t seed, std::size_t cachedChunks = 1280);
     ~Generator();
     Generator(Generator&&) noexcept;
     Generator& operator=(Generator&&) noexcept;

@@ -292,11 +292,15 @@ TEST(BuilderLoops, VariablesChangeAtOnce) {
 }
 
 TEST(BuilderLoops, ALoopWithoutAnEndEnds) {
-    expectNumbers(
-        [](Pass& p) {
-            Var<Int> n = p.var(Int(0));
-            p.while_([] { return Bool(true); }, [&] { n = n + 1; });
-            return Int(n);
+    expectBlocks(
+        [](GeneratorBuilder& g) {
+            const auto rounds = g.field<Int>("rounds");
+            g.pass2D("loop", [&](Pass& p) {
+                Var<Int> n = p.var(Int(0));
+                p.while_([] { return Bool(true); }, [&] { n = n + 1; });
+                p.set(rounds, static_cast<Int>(n));
+            });
+            g.pass3D("result", [&](Pass& p) { p.setBlock(Block(p.read(rounds))); });
         },
         [](int32_t, int32_t, int32_t) { return shared::kMaxLoopRounds; });
 }

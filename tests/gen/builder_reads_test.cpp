@@ -204,9 +204,7 @@ TEST(BuilderReads, FieldsWrittenBy3DPasses) {
             });
         },
         [](int64_t x, int64_t y, int32_t z) {
-            const auto found = [](int64_t px, int64_t py) {
-                return static_cast<int32_t>(py & 255) * 3 + wrapped(px);
-            };
+            const auto found = [](int64_t px, int64_t py) { return wrapped((py & 255) * 3 + px); };
             return wrapped(std::int64_t{found(x + 5, y - 16)} + std::int64_t{found(x, y)} * 7 + 70 * z);
         });
 }
