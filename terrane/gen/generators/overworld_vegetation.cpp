@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kTreeSpacing = 7;     // blocks: one tree a cell of this size at most
 constexpr int kMaxTreeHeight = 10;  // blocks of trunk
-constexpr int kMinTreeHeight = 4;
+constexpr int kMinTreeHeight = 3;
 constexpr int kMaxCrownRise = 4;  // blocks of crown above the trunk: 4.7 / √1.7, see isLeaf
 
 // Trees stand at the points of a Voronoi diagram, so that they keep their distance and a crown meets its
