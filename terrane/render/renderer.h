@@ -39,7 +39,8 @@ class Renderer {
     // Size of the picture in pixels; samples a pixel 1, 2, 4 or 8. Fails where the driver has not that many.
     base::Result<void> resize(glm::ivec2 size, int samples);
 
-    void setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh) { quads_.set(pos, mesh); }
+    // The next frame shows the chunk so. False where the GPU has no room: it is not shown then.
+    bool setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh) { return quads_.set(pos, mesh); }
     void removeChunk(world::ChunkPos pos) { quads_.remove(pos); }
 
     // Draws into the renderer's own picture.
