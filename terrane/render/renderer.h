@@ -29,6 +29,7 @@ struct FrameInput {
 
 struct FrameStatistics {
     std::size_t regions = 0, quads = 0, drawCommands = 0;
+    std::size_t opaqueTriangles = 0, transparentTriangles = 0;  // of these, alpha-tested ones are opaque
 };
 
 class Renderer {
@@ -50,6 +51,8 @@ class Renderer {
     void presentToWindow(glm::ivec2 windowSize) const;
 
     const FrameStatistics& statistics() const { return statistics_; }
+    // What a shadow map for this frame would draw.
+    std::size_t shadowTriangles(const FrameInput& input) const;
     std::size_t quadBytes() const { return quads_.usedBytes(); }
     glm::ivec2 size() const { return targets_.size; }
 
