@@ -24,26 +24,36 @@ SectionView viewSection(const MeshInput& input, int number) {
     return view;
 }
 
-}  // namespace
-
-ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch) {
+void checkInput([[maybe_unused]] const MeshInput& input) {
     assert(input.centre && input.blocks && "a chunk and what its ids mean");
     assert(std::find(input.neighbours.begin(), input.neighbours.end(), nullptr) == input.neighbours.end() &&
            "a chunk is meshed when its neighbours are known");
     assert(isRegionHeight(input.options.regionHeight) && "a power of two, 8 to 128");
+}
 
-    const int regionHeight = input.options.regionHeight;
-    ChunkMesh mesh;
-    scratch.quads.clear();
-    const int step = std::min(regionHeight, world::kSectionSize);  // a section, or half of one
-    for (int z = 0; z < world::kChunkHeight; z += step) {
+}  // namespace
+
+RegionMesh meshRegion(const MeshInput& input, int region, MeshScratch& scratch,
+                      std::vector<shared::Quad>& quads) {
+    checkInput(input);
+    const int height = input.options.regionHeight;
+    assert(region >= 0 && region < world::kChunkHeight / height && "number of a region");
+    const int step = std::min(height, world::kSectionSize);  // a section, or half of one
+    for (int z = region * height; z < (region + 1) * height; z += step) {
         SectionView view = viewSection(input, z / world::kSectionSize);
         const auto layer = static_cast<std::size_t>(z % world::kSectionSize);
         view.target.layers = {layer, layer + static_cast<std::size_t>(step)};
         addSectionFaces(view, scratch.buckets);
-        if ((z + step) % regionHeight == 0) {
-            mesh.regions.push_back(scratch.buckets.finishRegion(scratch.quads));
-        }
+    }
+    return scratch.buckets.finishRegion(quads);
+}
+
+ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch) {
+    checkInput(input);
+    ChunkMesh mesh;
+    scratch.quads.clear();
+    for (int region = 0; region < world::kChunkHeight / input.options.regionHeight; ++region) {
+        mesh.regions.push_back(meshRegion(input, region, scratch, scratch.quads));
     }
     mesh.quads.assign(scratch.quads.begin(), scratch.quads.end());  // no larger than needed
     return mesh;

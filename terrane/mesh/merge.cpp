@@ -37,10 +37,13 @@ std::size_t mergeGreedily(const PlaneRows& plane, const QuadPattern& pattern, Qu
             const uint carried = left + lowest;
             const uint run = left & ~carried;
             left ^= run;
+            // A row whose run sticks out on both sides would be cut in three: better it begins a new rectangle.
+            const uint before = lowest >> 1, after = run + lowest;
             uint end = row + 1;
             for (std::uint16_t* next = rows + kStep; end < limit; ++end, next += kStep) {
                 const uint bits = *next;
-                if ((bits & run) != run) break;
+                const bool sticksOut = (bits & before) != 0 && (bits & after) != 0;
+                if ((bits & run) != run || sticksOut) break;
                 *next = static_cast<std::uint16_t>(bits ^ run);
                 used &= ~(uint{bits == run} << end);
             }

@@ -11,17 +11,31 @@ gpu::Buffer quadBuffer(std::uint32_t quads) {
     return gpu::Buffer(std::size_t{quads} * shared::kQuadBytes, GL_DYNAMIC_STORAGE_BIT, "quads");
 }
 
+// 128 MiB of quads in Mesa's software renderer (a landscape at view distance 55), gigabytes elsewhere. No
+// buffer is larger than 1 GiB.
+std::uint32_t reachableQuads() {
+    GLint64 blockBytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &blockBytes);
+    constexpr std::int64_t kMostBytes = std::int64_t{1} << 30;
+    return static_cast<std::uint32_t>(std::min<std::int64_t>(blockBytes, kMostBytes) / shared::kQuadBytes);
+}
+
 }  // namespace
 
-QuadStore::QuadStore() : buffer_(quadBuffer(kFirstCapacity)), ranges_(kFirstCapacity) {}
+QuadStore::QuadStore(std::uint32_t maxQuads)
+    : maxQuads_(maxQuads > 0 ? maxQuads : reachableQuads()),
+      buffer_(quadBuffer(std::min(kFirstCapacity, maxQuads_))),
+      ranges_(std::min(kFirstCapacity, maxQuads_)) {}
 
-void QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh) {
+bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh) {
     remove(pos);
-    if (mesh.quads.empty()) return;
+    if (mesh.quads.empty()) return true;
     const auto count = static_cast<std::uint32_t>(mesh.quads.size());
-    const std::uint32_t first = allocate(count);
-    buffer_.uploadVector(std::size_t{first} * shared::kQuadBytes, mesh.quads);
-    chunks_.emplace(pos, ChunkQuads{first, count, mesh.regions});
+    const std::optional<std::uint32_t> first = allocate(count);
+    if (!first) return false;
+    buffer_.uploadVector(std::size_t{*first} * shared::kQuadBytes, mesh.quads);
+    chunks_.emplace(pos, ChunkQuads{*first, count, mesh.regions});
+    return true;
 }
 
 void QuadStore::remove(world::ChunkPos pos) {
@@ -31,16 +45,24 @@ void QuadStore::remove(world::ChunkPos pos) {
     chunks_.erase(it);
 }
 
-std::uint32_t QuadStore::allocate(std::uint32_t count) {
-    if (const auto first = ranges_.allocate(count)) return *first;
-    const std::uint32_t oldCapacity = ranges_.capacity();
-    const std::uint32_t capacity = oldCapacity + std::max(oldCapacity, count);
+std::optional<std::uint32_t> QuadStore::allocate(std::uint32_t count) {
+    if (const auto first = ranges_.allocate(count)) return first;
+    return grow(count) ? ranges_.allocate(count) : std::nullopt;
+}
+
+// Doubling copies each quad once or twice in all. The GPU frees the old buffer when it has drawn with it.
+bool QuadStore::grow(std::uint32_t count) {
+    const std::uint64_t old = ranges_.capacity();
+    const std::uint64_t wanted =
+        std::min<std::uint64_t>(old + std::max<std::uint64_t>(old, count), maxQuads_);
+    if (wanted < old + count) return false;
+    const auto capacity = static_cast<std::uint32_t>(wanted);
     gpu::Buffer larger = quadBuffer(capacity);
     glCopyNamedBufferSubData(buffer_.id(), larger.id(), 0, 0,
-                             static_cast<GLsizeiptr>(std::size_t{oldCapacity} * shared::kQuadBytes));
+                             static_cast<GLsizeiptr>(old * shared::kQuadBytes));
     buffer_ = std::move(larger);
     ranges_.grow(capacity);
-    return *ranges_.allocate(count);
+    return true;
 }
 
 std::size_t QuadStore::usedBytes() const {

@@ -30,6 +30,7 @@ struct FrameInput {
 
 struct FrameStatistics {
     std::size_t regions = 0, quads = 0, drawCommands = 0;
+    std::size_t opaqueTriangles = 0, transparentTriangles = 0;  // of these, alpha-tested ones are opaque
 };
 
 class Renderer {
@@ -40,7 +41,8 @@ class Renderer {
     // Size of the picture in pixels; samples a pixel 1, 2, 4 or 8. Fails where the driver has not that many.
     base::Result<void> resize(glm::ivec2 size, int samples);
 
-    void setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh) { quads_.set(pos, mesh); }
+    // The next frame shows the chunk so. False where the GPU has no room: it is not shown then.
+    bool setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh) { return quads_.set(pos, mesh); }
     // Chunks without light are drawn as under the open sky. `viewDistance` of setViewDistance is the farthest
     // that light is kept for.
     void setLight(world::ChunkPos pos, const light::ChunkLight& light) { light_.set(pos, light); }
@@ -58,6 +60,8 @@ class Renderer {
     void presentToWindow(glm::ivec2 windowSize) const;
 
     const FrameStatistics& statistics() const { return statistics_; }
+    // What a shadow map for this frame would draw.
+    std::size_t shadowTriangles(const FrameInput& input) const;
     std::size_t quadBytes() const { return quads_.usedBytes(); }
     std::size_t lightBytes() const { return light_.usedBytes(); }
     glm::ivec2 size() const { return targets_.size; }

@@ -65,11 +65,12 @@ vec4 debugView(uint view, vec3 normal, vec3 toPoint) {
     return vec4(vec3(1.0 - clamp(length(toPoint) / frame.cameraPosition.w, 0.0, 1.0)), 1.0);
 }
 
-// The texture stays visible, and the light, so that one sees where one is.
+// The texture stays visible and sides differ, so that one sees where one is.
 vec3 aggregationView(vec3 albedo, vec3 normal) {
-    vec3 color = 0.15 + 0.85 * vec3(inMaterial.w & 255u, inMaterial.w >> 8 & 255u, inMaterial.w >> 16 & 255u) / 255.0;
-    float brightness = dot(albedo, vec3(0.3, 0.6, 0.1));
-    return shade(color * (0.4 + brightness), normal, vec4(0.0, 0.0, 0.0, 1.0), 0.0);
+    vec3 color = 0.25 + 0.75 * vec3(inMaterial.w & 255u, inMaterial.w >> 8 & 255u, inMaterial.w >> 16 & 255u) / 255.0;
+    float texture = sqrt(dot(albedo, vec3(0.3, 0.6, 0.1)));
+    float side = 0.75 + dot(normal, vec3(0.05, 0.1, 0.25));
+    return color * side * (0.5 + 0.6 * texture);
 }
 
 void main() {

@@ -64,6 +64,9 @@ class Render(ProgramTest):
         self.assertGreaterEqual(result["chunks"], 49)
         for key in ("quads", "regions", "draw_commands"):
             self.assertGreater(result[key], 0, key)
+        for key in ("opaque", "shadow"):
+            self.assertGreater(result["triangles"][key], 0, key)
+        self.assertEqual(result["triangles"]["opaque"] + result["triangles"]["transparent"], 2 * result["quads"])
         for key in ("set_up", "load", "draw", "all"):
             self.assertGreater(result["milliseconds"][key], 0, key)
         for key in ("blocks", "quads"):
@@ -73,6 +76,19 @@ class Render(ProgramTest):
         one, _ = self.render("one.png", "--scene", "desert", "--threads", "1")
         two, _ = self.render("two.png", "--scene", "desert", "--threads", "2")
         self.assertEqual(one.rows, two.rows)
+
+    def test_aggregation_changes_the_count_of_triangles_only(self):
+        scene = ("--scene", "landscape", "--json")
+        quads = {}
+        for method in ("none", "lines", "squares", "squares-ext", "greedy"):
+            _, text = self.render("m.png", *scene, "--aggregation", method)
+            quads[method] = json.loads(text)["quads"]
+        self.assertLess(quads["greedy"], 0.9 * quads["squares-ext"])
+        self.assertLess(quads["squares-ext"], quads["squares"])
+        self.assertLess(max(quads["squares"], quads["lines"]), quads["none"])
+        regions = [json.loads(self.render("r.png", *scene, "--region-height", height)[1])["regions"]
+                   for height in ("8", "128")]
+        self.assertGreater(regions[0], regions[1])
 
     def test_views_show_something_else(self):
         pictures = [self.render("v.png", "--scene", "landscape", "--view", view)[0].rows

@@ -118,7 +118,7 @@ class CrackCover : public gpu::GlTest {
         for (int view = 0; view < kViews; ++view) {
             renderer_->draw({cameraOf(view), world::environmentAt(0.5f), 4000, 0, View::Depth, coverCracks});
             const base::Image image = renderer_->readImage();
-            for (std::size_t k = 0; k < image.rgba.size(); k += 4) count += image.rgba[k] < 225;
+            for (std::size_t k = 0; k < image.rgba.size(); k += 4) count += image.rgba[k] < 195;
         }
         return count;
     }

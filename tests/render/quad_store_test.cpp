@@ -1,5 +1,6 @@
 #include "terrane/render/quad_store.h"
 
+#include <map>
 #include <span>
 
 #include "tests/gpu/gl_fixture.h"
@@ -83,6 +84,35 @@ TEST_F(QuadStoreTest, GrowthKeepsTheContents) {
     }
     EXPECT_EQ(store.buffer().sizeBytes(), 2 * before);
     for (std::size_t k = 0; k < meshes.size(); ++k) expectStored(store, {static_cast<int>(k), 0}, meshes[k]);
+}
+
+TEST_F(QuadStoreTest, StaysBelowItsLimit) {
+    QuadStore store(1000);
+    const mesh::ChunkMesh a = numberedMesh(1, 600), b = numberedMesh(2, 300), c = numberedMesh(3, 200);
+    EXPECT_TRUE(store.set({0, 0}, a));
+    EXPECT_TRUE(store.set({1, 0}, b));
+    EXPECT_FALSE(store.set({2, 0}, c));
+    EXPECT_FALSE(store.chunks().contains({2, 0}));
+    EXPECT_FALSE(store.set({1, 0}, numberedMesh(4, 500)));
+    EXPECT_FALSE(store.chunks().contains({1, 0})) << "what it was is wrong now";
+    EXPECT_TRUE(store.set({2, 0}, c));
+    expectStored(store, {0, 0}, a);
+    expectStored(store, {2, 0}, c);
+    EXPECT_LE(store.buffer().sizeBytes(), 1000u * shared::kQuadBytes);
+}
+
+// Copies and uploads follow each other in the stream of commands: none gets ahead of the other.
+TEST_F(QuadStoreTest, EditsAroundGrowthAreKept) {
+    QuadStore store;
+    const auto capacity = static_cast<std::uint32_t>(store.buffer().sizeBytes() / shared::kQuadBytes);
+    std::map<ChunkPos, mesh::ChunkMesh> expected;
+    for (std::uint32_t k = 0; k < 40; ++k) {
+        const ChunkPos pos{static_cast<int>(k % 11), 0};
+        expected[pos] = numberedMesh(k, capacity / 13 + 1000 * k);
+        ASSERT_TRUE(store.set(pos, expected[pos]));
+    }
+    EXPECT_GT(store.buffer().sizeBytes(), std::size_t{capacity} * shared::kQuadBytes);
+    for (const auto& [pos, mesh] : expected) expectStored(store, pos, mesh);
 }
 
 // One mesh that is larger than twice the buffer still finds room.

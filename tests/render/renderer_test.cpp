@@ -179,6 +179,27 @@ TEST_F(RendererTest, FramesDoNotDependOnTheOnesBefore) {
     }
 }
 
+// Whatever a chunk was, growing, shrinking or gone: the next frame is that of a renderer that never saw it.
+TEST_F(RendererTest, EditsAreWholeInTheNextFrame) {
+    std::vector<mesh::ChunkMesh> meshes;
+    std::vector<base::Image> expected;
+    for (const std::string_view name : {"stone", "water", "grass_tuft", "oak_leaves", "cactus", "lamp_red"}) {
+        meshes.push_back(blockMesh(name, 4, 8, 100));
+        renderer_->setChunk({0, 0}, meshes.back());
+        expected.push_back(draw(noon(kLevel)));
+        renderer_->removeChunk({0, 0});
+    }
+    for (std::size_t frame = 0; frame < 40; ++frame) {
+        const std::size_t shown = frame * frame % meshes.size();
+        for (std::size_t passing = 0; passing < frame % 3; ++passing) {
+            renderer_->setChunk({0, 0}, meshes[(shown + passing + 1) % meshes.size()]);
+        }
+        renderer_->setChunk({0, 0}, meshes[shown]);
+        renderer_->setChunk({static_cast<int>(frame) - 100, 0}, meshes[frame % meshes.size()]);  // behind
+        ASSERT_EQ(draw(noon(kLevel)).rgba, expected[shown].rgba) << "frame " << frame;
+    }
+}
+
 TEST_F(RendererTest, ResizingChangesTheSizeOnly) {
     renderer_->setChunk({0, 0}, blockMesh("stone", 4, 8, 100));
     const base::Image before = draw(noon(kLevel));

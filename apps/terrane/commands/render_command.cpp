@@ -87,9 +87,13 @@ base::Result<void> renderPicture(const RenderOptions& options, const CLI::App& c
     const double load = millisecondsSince(loadStart);
 
     const auto drawStart = Clock::now();
-    renderer->draw({scene->camera, world::environmentAt(scene->timeDay),
-                    fogDistance(options.graphics.viewDistance), 0, options.graphics.view,
-                    options.graphics.coverCracks});
+    const render::FrameInput input{scene->camera,
+                                   world::environmentAt(scene->timeDay),
+                                   fogDistance(options.graphics.viewDistance),
+                                   0,
+                                   options.graphics.view,
+                                   options.graphics.coverCracks};
+    renderer->draw(input);
     const base::Image image = renderer->readImage();
     const double draw = millisecondsSince(drawStart);
     if (auto written = base::writePng(options.output, image); !written) return written;
@@ -108,6 +112,10 @@ base::Result<void> renderPicture(const RenderOptions& options, const CLI::App& c
             {"quads", statistics.quads},
             {"regions", statistics.regions},
             {"draw_commands", statistics.drawCommands},
+            {"triangles",
+             {{"opaque", statistics.opaqueTriangles},
+              {"transparent", statistics.transparentTriangles},
+              {"shadow", renderer->shadowTriangles(input)}}},
             {"bytes",
              {{"blocks", (*session)->world.memoryBytes()},
               {"light", (*session)->pipeline->lightBytes()},

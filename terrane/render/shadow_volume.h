@@ -1,0 +1,33 @@
+// What can throw a shadow onto the part of the world near the camera: everything toward the light from there.
+// Pure functions; any thread.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "terrane/render/camera.h"
+#include "terrane/render/quad_store.h"
+
+namespace terrane::render {
+
+constexpr float kShadowReach = 50;  // blocks from the camera: there shadows have faded
+
+// Beside each other as the light sees them, a rectangle; along its direction, from `farthest` on toward it.
+struct ShadowVolume {
+    glm::mat3 toLight;  // x and y across the light, z toward it
+    glm::vec2 min, max;
+    float farthest;
+};
+
+// Of what the camera sees within `reach` blocks. `lightDirection` points to the light.
+ShadowVolume shadowVolume(const ViewMatrices& view, glm::vec3 lightDirection, float reach);
+// False only where no point of the box is in the volume. Coordinates as in ViewMatrices.
+bool mayBeInVolume(const ShadowVolume& volume, glm::vec3 boxMin, glm::vec3 boxMax);
+
+// Triangles of a shadow map of these chunks: regions in the volume, without blended quads and without the
+// groups that look away from the light.
+std::size_t countShadowTriangles(const QuadStore& quads, const Camera& camera, const ViewMatrices& view,
+                                 glm::vec3 lightDirection);
+
+}  // namespace terrane::render
