@@ -7,9 +7,7 @@ using namespace gen;
 
 // Step 1: flat land.
 void writeStep1(GeneratorBuilder& g) {
-    g.pass3D("ground", [](Pass& p) {
-        p.setBlock(select(p.z() <= 80, p.block("grass"), p.block("air")));
-    });
+    g.pass3D("ground", [](Pass& p) { p.setBlock(select(p.z() <= 80, p.block("grass"), p.block("air"))); });
 }
 
 // Step 2: hills and lakes. A 2D pass computes the height once a column.

@@ -99,8 +99,8 @@ TEST_F(LightPictureTest, ALampShines) {
     EXPECT_GT(redAt(with, 48, 60), redAt(with, 48, 94) + 20) << "it falls with distance";
 }
 
-// Borders of tiles (8 blocks) and chunks (16) lie elsewhere in each of these; the picture is the same but for the
-// steps of filtered fetches and dither. Without the nodes beyond a border it would differ by 20 and more.
+// Borders of tiles (8 blocks) and chunks (16) lie elsewhere in each of these; the picture is the same but for
+// the steps of filtered fetches and dither. Without the nodes beyond a border it would differ by 20 and more.
 TEST_F(LightPictureTest, BordersCannotBeSeen) {
     const base::Image reference = picture({{0, 0}, 4, 4, 100});
     for (const Scene& scene :
