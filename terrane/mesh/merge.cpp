@@ -37,7 +37,8 @@ std::size_t mergeGreedily(const PlaneRows& plane, const QuadPattern& pattern, Qu
             const uint carried = left + lowest;
             const uint run = left & ~carried;
             left ^= run;
-            // A row whose run sticks out on both sides would be cut in three: better it begins a new rectangle.
+            // A row whose run sticks out on both sides would be cut in three: better it begins a new
+            // rectangle.
             const uint before = lowest >> 1, after = run + lowest;
             uint end = row + 1;
             for (std::uint16_t* next = rows + kStep; end < limit; ++end, next += kStep) {

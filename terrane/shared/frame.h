@@ -18,7 +18,7 @@ struct Frame {
     vec4 zenithColor;     // w: exposure
     vec4 horizonColor;    // w: 0 for the picture, else a kView… value
     vec4 glowColor;       // around the light at the horizon
-    vec4 viewport;        // width and height in pixels; z: by how many pixels quads grow, see crack_cover.glsl
+    vec4 viewport;  // width and height in pixels; z: by how many pixels quads grow, see crack_cover.glsl
 };
 
 const uint kViewColor = 0u;
