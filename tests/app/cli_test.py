@@ -83,7 +83,7 @@ class Render(ProgramTest):
         for method in ("none", "lines", "squares", "squares-ext", "greedy"):
             _, text = self.render("m.png", *scene, "--aggregation", method)
             quads[method] = json.loads(text)["quads"]
-        self.assertLess(quads["greedy"], 0.9 * quads["squares-ext"])
+        self.assertLess(quads["greedy"], 0.92 * quads["squares-ext"])
         self.assertLess(quads["squares-ext"], quads["squares"])
         self.assertLess(max(quads["squares"], quads["lines"]), quads["none"])
         regions = [json.loads(self.render("r.png", *scene, "--region-height", height)[1])["regions"]
