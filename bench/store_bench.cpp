@@ -140,7 +140,7 @@ class SaveFolder {
 std::unique_ptr<store::SqliteStore> openSave(const SaveFolder& folder) {
     const store::WorldIdentity identity{kSeed, "overworld", 1};
     return orExit(
-        store::SqliteStore::open(folder.file(), blocks(), {.create = identity, .recreateVersion = {}}));
+        store::SqliteStore::open(folder.file(), blocks(), {.create = identity, .decide = {}}));
 }
 
 void saveAll(store::ChunkStore& store) {

@@ -268,6 +268,29 @@ def oak_log_top():
     return Image(shade)
 
 
+def planks(x: int, y: int) -> tuple:
+    """Boards four texels high, each with its own tone and grain, dark in the joints."""
+    board = y // 4
+    if y % 4 == 3 or (x + 5 * board) % 11 == 10:
+        return WOOD[0]
+    grain = smooth(331 + board, x, y, 3, 16) - 0.5
+    return tone(WOOD, 0.45 + 0.25 * (hash01(335, board) - 0.5) + 0.45 * grain)
+
+
+def chest(lock: bool):
+    """Boards in a frame of dark beams; the sides have a seam under the lid, and a lock on it."""
+    def shade(x, y):
+        edge = min(x, y, 15 - x, 15 - y)
+        if edge < 2:
+            return tone(BARK, 0.75 - 0.3 * edge + 0.25 * (hash01(341, x, y) - 0.5))
+        return planks(x, y)
+    image = Image(shade)
+    if lock:
+        image.stamp(2, 5, " ".join(["d" * 12]), {"d": BARK[0]})
+        image.stamp(6, 3, "gggg gyyg gkkg gkkg gggg", {"g": GOLD[1], "y": GOLD[4], "k": IRON[0]})
+    return image
+
+
 def oak_leaves():
     """Round leaf clumps, each lit from the upper left, painted from the back (small, dark) to the front."""
     image, clumps = Image(), scattered(307, 4, 4, 0.55)
@@ -472,6 +495,8 @@ TEXTURES = {
     "cactus_side": (cactus_side, "test", True),
     "cactus_top": (cactus_top, "opaque", True),
     "cactus_bottom": (cactus_bottom, "opaque", True),
+    "chest_top": (lambda: chest(False), "opaque", False),
+    "chest_side": (lambda: chest(True), "opaque", False),
     "lamp_white": (lambda: lamp((255, 230, 190)), "glow", True),
     "lamp_red": (lambda: lamp((226, 40, 34)), "glow", True),
     "lamp_green": (lambda: lamp((52, 186, 60)), "glow", True),

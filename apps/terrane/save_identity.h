@@ -4,16 +4,18 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/terrane/options.h"
-#include "terrane/store/chunk_store.h"
+#include "terrane/store/save_file.h"
 
 namespace terrane::app {
 
-// Of a new save.
-store::WorldIdentity identityOf(const WorldOptions& options);
+struct SaveRequest {
+    std::filesystem::path path;
+    bool recreate = false;
+};
 
-// Takes the save's seed and generator where the command line does not give them. An error where it gives
-// others, or this program has another version of the generator.
-base::Result<void> adoptIdentity(WorldOptions& options, const CLI::App& command,
-                                 const store::WorldIdentity& saved, const std::string& path);
+// How a save is opened for `options`, which outlive the result: where there is one, the options take its seed
+// and generator. It is refused, and left as it is, where the command line gives others, or where this program
+// lacks the generator, or has another version of it and does not make the world anew.
+store::SaveAccess accessTo(const SaveRequest& request, WorldOptions& options, const CLI::App& command);
 
 }  // namespace terrane::app

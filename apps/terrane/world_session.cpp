@@ -1,11 +1,15 @@
 #include "apps/terrane/world_session.h"
 
+#include <algorithm>
+#include <chrono>
+
 #include "apps/terrane/content.h"
 #include "apps/terrane/save_identity.h"
+#include "terrane/base/log.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/open_store.h"
 #include "terrane/store/save_path.h"
-#include "terrane/world/block_update.h"
+#include "terrane/world/plant_growth.h"
 
 namespace terrane::app {
 namespace {
@@ -16,13 +20,7 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
     if (save.name.empty()) return nullptr;
     auto path = store::savePath(save.name, store::savePlaces());
     if (!path) return tl::unexpected(path.error());
-    store::SaveAccess access{.create = identityOf(options), .recreateVersion = {}};
-    if (save.recreate) access.recreateVersion = access.create->generatorVersion;
-    auto opened = store::openStore(*path, blocks, access);
-    if (!opened) return tl::unexpected(opened.error());
-    auto same = adoptIdentity(options, command, (*opened)->identity(), path->string());
-    if (!same) return tl::unexpected(same.error());
-    return std::move(*opened);
+    return store::openStore(*path, blocks, accessTo({*path, save.recreate}, options, command));
 }
 
 }  // namespace
@@ -69,10 +67,20 @@ base::Result<std::unique_ptr<WorldSession>> WorldSession::create(WorldOptions op
     return session;
 }
 
-bool WorldSession::setBlock(world::BlockPos pos, world::BlockId id) {
-    const std::vector<world::BlockUpdate> updates = world::updateBlock(world, blocks, pos, id);
-    for (const world::BlockUpdate& u : updates) pipeline->blockChanged(u.pos, u.before);
-    return !updates.empty();
+base::Result<void> WorldSession::save() {
+    pipeline->saveAll();
+    return store ? store->flush() : base::Result<void>();
+}
+
+void WorldSession::advance(double seconds, world::ChunkPos centre) {
+    const double tickSeconds = std::chrono::duration<double>(world::kTickLength).count();
+    // After a stall plants grow as if it had been shorter.
+    untilTick_ += std::min(seconds, 1.0);
+    for (; untilTick_ >= tickSeconds; untilTick_ -= tickSeconds) {
+        for (const world::BlockPos pos : world::plantsThatGrow(world, blocks, {ticks_++, centre})) {
+            pipeline->setSmallData(pos, static_cast<std::uint16_t>(world.smallData(pos) - 1));
+        }
+    }
 }
 
 void uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, std::size_t limit) {
@@ -81,7 +89,10 @@ void uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, 
             renderer.removeChunk(change.pos);
             continue;
         }
-        if (change.mesh) renderer.setChunk(change.pos, *change.mesh);
+        if (change.mesh && !renderer.setChunk(change.pos, *change.mesh)) {
+            base::logWarning("chunk {},{}: no room for its quads on the graphics card, it is not shown",
+                             change.pos.x, change.pos.y);
+        }
         if (change.light) renderer.setLight(change.pos, *change.light);
     }
 }

@@ -31,8 +31,11 @@ struct WorldSession {
                                                               const CLI::App& command);
     WorldSession(world::BlockRegistry registry, unsigned threads);
 
-    // Changes a block, what depends on it, and what is seen of it. False where no chunk is loaded.
-    bool setBlock(world::BlockPos pos, world::BlockId id);
+    // Waits until all that changed is in the save.
+    base::Result<void> save();
+
+    // Lets game time pass: plants near `centre` grow.
+    void advance(double seconds, world::ChunkPos centre);
 
     world::BlockRegistry blocks;
     light::LightTable lights;
@@ -41,6 +44,10 @@ struct WorldSession {
     world::World world;
     base::JobSystem jobs;
     std::unique_ptr<stream::ChunkPipeline> pipeline;
+
+  private:
+    double untilTick_ = 0;  // seconds of game time that made no tick yet
+    std::uint64_t ticks_ = 0;
 };
 
 // Hands at most `limit` changed chunks to the renderer.

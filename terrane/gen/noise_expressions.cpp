@@ -1,6 +1,6 @@
 #include "terrane/gen/noise_expressions.h"
 
-#include "terrane/gen/pass.h"
+#include "terrane/gen/expr_vec.h"
 
 namespace terrane::gen {
 namespace {

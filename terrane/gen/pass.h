@@ -11,35 +11,14 @@
 #include <string_view>
 #include <vector>
 
-#include "terrane/gen/expr.h"
 #include "terrane/gen/expr_math.h"
+#include "terrane/gen/expr_vec.h"
 #include "terrane/gen/generator_graph.h"
+#include "terrane/gen/var.h"
 
 namespace terrane::gen {
 
-template <class T>
-struct Field {
-    std::uint32_t index;
-};
-
 class GeneratorBuilder;
-class Pass;
-
-// A value that changes while the pass is written: assignments inside if_ hold where its condition does.
-template <class T>
-class Var {
-  public:
-    operator T() const;  // the value now
-    Var& operator=(const T& value);
-    Var& operator=(const Var& other) { return *this = static_cast<T>(other); }
-    Var(const Var&) = delete;
-
-  private:
-    friend class Pass;
-    Var(Pass& pass, std::size_t slot) : pass_(pass), slot_(slot) {}
-    Pass& pass_;
-    std::size_t slot_;
-};
 
 struct Voronoi2D {
     Float distance;  // blocks

@@ -13,6 +13,14 @@ Float metricRoot(Float sum, int exponent) {
     return pow(sum, 1.0f / static_cast<float>(exponent));
 }
 
+// Calls use(octave, size of its cells, weight) for each octave that has one.
+template <class Use>
+void forEachOctave(const NoiseCall& call, Use use) {
+    for (std::size_t o = 0; o < call.weights.size(); ++o) {
+        if (call.weights[o] != 0.0f) use(o, call.size << o, call.weights[o]);
+    }
+}
+
 NoiseCall octaveNoise(NoiseKind kind, std::string_view name, int size, std::vector<float> weights) {
     return {kind, std::string(name), size, std::move(weights)};
 }
@@ -56,11 +64,10 @@ LatticeHash Pass::latticeHash(const NoiseCall& call, std::size_t octave) {
 
 std::array<Float, 3> Pass::gradient(const NoiseCall& call, std::span<const Int> position) {
     std::array<Float, 3> sum = {0.0f, 0.0f, 0.0f};
-    for (std::size_t o = 0; o < call.weights.size(); ++o) {
-        if (call.weights[o] == 0.0f) continue;
-        const auto slope = perlinGradient(position, call.size << o, latticeHash(call, o));
-        for (std::size_t k = 0; k < 3; ++k) sum[k] = sum[k] + slope[k] * call.weights[o];
-    }
+    forEachOctave(call, [&](std::size_t octave, int cellSize, float weight) {
+        const auto slope = perlinGradient(position, cellSize, latticeHash(call, octave));
+        for (std::size_t k = 0; k < 3; ++k) sum[k] = sum[k] + slope[k] * weight;
+    });
     return sum;
 }
 
@@ -83,10 +90,9 @@ Float Pass::simplex2D(std::string_view name, int size, std::vector<float> weight
     const auto call =
         checkedNoise("simplex 2D", octaveNoise(NoiseKind::Perlin2D, name, size, std::move(weights)));
     Float sum = 0.0f;
-    for (std::size_t o = 0; o < call.weights.size(); ++o) {
-        if (call.weights[o] == 0.0f) continue;
-        sum = sum + gen::simplex2D(x(), y(), call.size << o, latticeHash(call, o)) * call.weights[o];
-    }
+    forEachOctave(call, [&](std::size_t octave, int cellSize, float weight) {
+        sum = sum + gen::simplex2D(x(), y(), cellSize, latticeHash(call, octave)) * weight;
+    });
     return sum;
 }
 
@@ -95,10 +101,9 @@ Float Pass::simplex3D(std::string_view name, int size, std::vector<float> weight
     const auto call =
         checkedNoise("simplex 3D", octaveNoise(NoiseKind::Perlin3D, name, size, std::move(weights)));
     Float sum = 0.0f;
-    for (std::size_t o = 0; o < call.weights.size(); ++o) {
-        if (call.weights[o] == 0.0f) continue;
-        sum = sum + gen::simplex3D(x(), y(), z(), call.size << o, latticeHash(call, o)) * call.weights[o];
-    }
+    forEachOctave(call, [&](std::size_t octave, int cellSize, float weight) {
+        sum = sum + gen::simplex3D(x(), y(), z(), cellSize, latticeHash(call, octave)) * weight;
+    });
     return sum;
 }
 

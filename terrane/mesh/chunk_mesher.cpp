@@ -18,6 +18,7 @@ SectionView viewSection(const MeshInput& input, int number) {
     if (number + 1 < world::kSectionsPerChunk) {
         view.neighbours[world::kFacePosZ] = &input.centre->section(number + 1);
     }
+    view.smallData = &input.centre->smallDataSection(number);
     view.blocks = input.blocks;
     view.target.baseZ = number * world::kSectionSize;
     view.target.method = input.options.method;

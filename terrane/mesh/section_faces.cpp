@@ -1,6 +1,7 @@
 #include "terrane/mesh/section_faces.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <optional>
 
@@ -29,6 +30,20 @@ bool isHidden(const SectionView& view) {
 }
 
 using Borders = std::array<BitSlice, world::kFaceCount>;
+
+// Of the blocks in `layers` those of which `is` says so, by their index in the section.
+template <class Is>
+BitCube blocksWhere(const BitCube& blocks, LayerRange layers, Is is) {
+    BitCube out;
+    for (std::size_t i = 4 * layers.first; i < 4 * layers.end; ++i) {
+        out[i] = 0;
+        for (std::uint64_t left = blocks[i]; left != 0; left &= left - 1) {
+            const auto bit = static_cast<std::size_t>(std::countr_zero(left));
+            if (is(64 * i + bit)) out[i] |= std::uint64_t{1} << bit;
+        }
+    }
+    return out;
+}
 
 // What lies around a section.
 struct Surroundings {
@@ -86,6 +101,7 @@ class SectionFaces {
     void addCube(const TypeBlocks& blocks);
     void addLiquid(const TypeBlocks& blocks);
     void addPlanes(const TypeBlocks& blocks, uint firstFace, uint count);
+    void addGrowingPlanes(const TypeBlocks& blocks, uint firstFace, uint count);
 
     const SectionView& view_;
     const Surroundings& around_;
@@ -218,9 +234,27 @@ void SectionFaces::addLiquid(const TypeBlocks& blocks) {
 
 // Plane k has the material of side k.
 void SectionFaces::addPlanes(const TypeBlocks& blocks, uint firstFace, uint count) {
+    const world::Section& smallData = *view_.smallData;
+    const bool isGrown = smallData.isUniform() && smallData.uniformValue() == 0;
+    if (!blocks.type.growth.empty() && !isGrown) return addGrowingPlanes(blocks, firstFace, count);
     for (uint k = 0; k < count; ++k) {
         writer_.write(blocks.alongX, {firstFace + k, blocks.type.material[k], false, world::kFacePosZ},
                       blocks.layers);
+    }
+}
+
+// The blocks of each stage by themselves; small data that stands for none counts as the youngest.
+void SectionFaces::addGrowingPlanes(const TypeBlocks& blocks, uint firstFace, uint count) {
+    const std::vector<std::uint16_t>& growth = blocks.type.growth;
+    for (std::size_t left = 0; left <= growth.size(); ++left) {
+        const BitCube stage = blocksWhere(blocks.alongX, blocks.layers, [&](std::size_t block) {
+            return std::min<std::size_t>(view_.smallData->get(static_cast<int>(block)), growth.size()) ==
+                   left;
+        });
+        for (uint k = 0; k < count; ++k) {
+            const std::uint16_t material = left == 0 ? blocks.type.material[k] : growth[left - 1];
+            writer_.write(stage, {firstFace + k, material, false, world::kFacePosZ}, blocks.layers);
+        }
     }
 }
 

@@ -16,6 +16,7 @@ struct SectionView {
     const world::Section* centre = nullptr;
     // By side; null above the world, where there is air, and below it, from where nothing is seen.
     std::array<const world::Section*, world::kFaceCount> neighbours{};
+    const world::Section* smallData = nullptr;  // of the section's blocks
     const world::BlockRegistry* blocks = nullptr;
     FaceTarget target;
 };

@@ -24,9 +24,11 @@ base::Result<std::unique_ptr<ChunkStore>> openStore(const std::filesystem::path&
     } else {
         auto file = openToRead(path, registry);
         if (!file) return tl::unexpected(file.error());
-        if (access.recreateVersion) {
+        const auto version = access.decide ? access.decide(file->identity) : std::optional<int>();
+        if (!version) return tl::unexpected(version.error());
+        if (*version) {
             WorldIdentity identity = file->identity;
-            identity.generatorVersion = *access.recreateVersion;
+            identity.generatorVersion = **version;
             store = std::make_unique<MemoryStore>(std::move(identity));
         } else {
             store = std::make_unique<MemoryStore>(std::move(*file));

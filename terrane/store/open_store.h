@@ -11,8 +11,7 @@
 namespace terrane::store {
 
 // As openToWrite(). Where the save or its folder cannot be written, the world runs in memory, and a message
-// says so: what the file has is read, what changes is lost at the end. Nothing is refused because of who made
-// the world: see requireSame().
+// says so: what the file has is read, what changes is lost at the end.
 base::Result<std::unique_ptr<ChunkStore>> openStore(const std::filesystem::path& path,
                                                     const world::BlockRegistry& registry,
                                                     const SaveAccess& access, SaveLimits limits = {});

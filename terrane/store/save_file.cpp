@@ -122,13 +122,26 @@ base::Result<void> recreate(SaveFile& file, const fs::path& path, int generatorV
     return {};
 }
 
-base::Result<void> readContents(SaveFile& file, const world::BlockRegistry& registry) {
+base::Result<void> readIdentity(SaveFile& file) {
     auto settings = readSettings(file.database);
     if (!settings) return tl::unexpected(settings.error());
     file.settings = std::move(*settings);
     auto identity = identityFrom(file.settings, file.database.path());
     if (!identity) return tl::unexpected(identity.error());
     file.identity = std::move(*identity);
+    return {};
+}
+
+base::Result<void> recreateWhereAsked(SaveFile& file, const fs::path& path, const SaveAccess& access) {
+    if (file.isNew || !access.decide) return {};
+    if (auto read = readIdentity(file); !read) return read;
+    const auto version = access.decide(file.identity);
+    if (!version) return tl::unexpected(version.error());
+    return *version ? recreate(file, path, **version) : base::Result<void>();
+}
+
+base::Result<void> readContents(SaveFile& file, const world::BlockRegistry& registry) {
+    if (auto read = readIdentity(file); !read) return read;
     auto names = readBlockNames(file.database);
     if (!names) return tl::unexpected(names.error());
     auto ids = BlockIdMap::make(registry, *names);
@@ -197,10 +210,7 @@ base::Result<SaveFile> openToWrite(const fs::path& path, const world::BlockRegis
     // After the tables: a new file is never seen without them. Each commit waits for the disk.
     const auto set = file.database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
     if (!set) return tl::unexpected(set.error());
-    if (access.recreateVersion && !file.isNew) {
-        if (auto done = recreate(file, path, *access.recreateVersion); !done)
-            return tl::unexpected(done.error());
-    }
+    if (auto done = recreateWhereAsked(file, path, access); !done) return tl::unexpected(done.error());
     if (auto done = readContents(file, registry); !done) return tl::unexpected(done.error());
     if (auto done = writeNewNames(file); !done) return tl::unexpected(done.error());
     reportUnknown(file);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -32,9 +33,10 @@ struct SaveFile {
 struct SaveAccess {
     // Made, with its folders, where it is not there. Nothing: it must be there.
     std::optional<WorldIdentity> create;
-    // All chunks are thrown away after a copy beside the save, and made anew by this version of the
-    // generator.
-    std::optional<int> recreateVersion;
+    // What is to become of a save that is there, from what it is: nothing to take it as it is, a version of
+    // its generator to throw all chunks away, after a copy beside the save, and make them anew by that
+    // version; an error to leave it alone. Empty: it is taken.
+    std::function<base::Result<std::optional<int>>(const WorldIdentity& saved)> decide;
 };
 
 // To read and write. New names of block types are written already.

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <exception>
 
-#include "terrane/base/log.h"
 #include "terrane/base/profile.h"
+#include "terrane/stream/neighbourhood.h"
 
 namespace terrane::stream {
 
@@ -24,9 +24,8 @@ constexpr std::chrono::milliseconds kTidyEvery{250};
 struct ChunkPipeline::Results {
     struct Load {
         ChunkPos pos;
-        ChunkPtr chunk;  // null: to be made by a batch generator, or it failed
+        ChunkPtr chunk;  // null: to be made by a batch generator
         LocalLightPtr local;
-        bool failed = false;
     };
     struct Finish {
         ChunkPos pos;
@@ -37,6 +36,7 @@ struct ChunkPipeline::Results {
     std::condition_variable changed;
     std::vector<Load> loads;
     std::vector<Finish> finishes;
+    std::exception_ptr failure;  // the first
 
     void add(Load load) {
         const std::lock_guard lock(mutex);
@@ -48,7 +48,26 @@ struct ChunkPipeline::Results {
         finishes.push_back(std::move(finish));
         changed.notify_one();
     }
+    void fail(std::exception_ptr error) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::move(error);
+        changed.notify_one();
+    }
+    bool isEmpty() const { return loads.empty() && finishes.empty() && !failure; }
 };
+
+// Work that reports what it throws: as good as always that memory is short. The owner of the pipeline hears
+// of it, saves and ends; nobody waits for a chunk that does not come.
+template <class Work>
+auto ChunkPipeline::guarded(Work work) const {
+    return [work = std::move(work), results = results_](const base::CancelToken&) {
+        try {
+            work(*results);
+        } catch (...) {
+            results->fail(std::current_exception());
+        }
+    };
+}
 
 ChunkPipeline::ChunkPipeline(const PipelineParts& parts)
     : parts_(parts), results_(std::make_shared<Results>()) {
@@ -64,7 +83,7 @@ ChunkPipeline::~ChunkPipeline() {
 }
 
 void ChunkPipeline::setView(ChunkPos centre, int viewDistance, glm::vec2 direction) {
-    table_.setView(centre, viewDistance, direction);
+    if (!table_.setView(centre, viewDistance, direction)) return;
     for (const ChunkPos pos : table_.takeHidden()) {
         setLight(pos, nullptr);
         ChunkChange& hidden = change(pos);
@@ -72,17 +91,16 @@ void ChunkPipeline::setView(ChunkPos centre, int viewDistance, glm::vec2 directi
         hidden.light = nullptr;
         hidden.isHidden = true;
     }
-    cancelDistantLoads();
+    giveUpLoads();
 }
 
-// One ring outside of what is wanted a load goes on, so that a camera that paces a border does not cancel and
-// ask again.
-void ChunkPipeline::cancelDistantLoads() {
+// Those that wait for a worker; a load that runs goes on.
+void ChunkPipeline::giveUpLoads() {
     for (auto it = extras_.begin(); it != extras_.end();) {
         const ChunkPos pos = it->first;
         base::JobHandle& load = it->second.load;
         ++it;
-        if (!load || table_.isWanted(pos)) continue;
+        if (!load || !table_.mayGiveUpLoad(pos)) continue;
         load.cancel();
         if (load.state() != base::JobState::Cancelled) continue;
         extras_.erase(pos);
@@ -114,19 +132,19 @@ void ChunkPipeline::update(Time now) {
 void ChunkPipeline::takeResults() {
     std::vector<Results::Load> loads;
     std::vector<Results::Finish> finishes;
+    std::exception_ptr failure;
     {
         const std::lock_guard lock(results_->mutex);
         loads.swap(results_->loads);
         finishes.swap(results_->finishes);
+        failure = std::exchange(results_->failure, nullptr);
     }
+    if (failure) std::rethrow_exception(failure);
     for (Results::Load& load : loads) {
         // A job that ran on although it was cancelled.
         if (!table_.is(load.pos, ChunkStage::Loading)) continue;
         if (load.chunk) {
             onLoaded(load.pos, std::move(load.chunk), std::move(load.local));
-        } else if (load.failed) {
-            extras_.erase(load.pos);
-            table_.loadEnded(load.pos);
         } else {
             extras_[load.pos].load = {};  // from here on it cannot be cancelled
             absent_.push_back(load.pos);
@@ -150,26 +168,20 @@ void ChunkPipeline::onLoaded(ChunkPos pos, ChunkPtr chunk, LocalLightPtr local) 
 
 void ChunkPipeline::waitForWorkers(std::chrono::milliseconds atMost) {
     std::unique_lock lock(results_->mutex);
-    results_->changed.wait_for(lock, atMost,
-                               [&] { return !results_->loads.empty() || !results_->finishes.empty(); });
+    results_->changed.wait_for(lock, atMost, [&] { return !results_->isEmpty(); });
 }
 
 void ChunkPipeline::submitLoads() {
     const std::size_t limit = kJobsPerWorker * parts_.jobs.threadCount();
     const std::size_t room = limit - std::min(limit, table_.loadingCount() - absent_.size());
     for (const ChunkPos pos : table_.takeLoads(room)) {
-        const auto work = [pos, source = parts_.source, lights = &parts_.lights,
-                           results = results_](const base::CancelToken&) {
-            try {
+        extras_[pos].load = parts_.jobs.submit(
+            table_.urgency(pos),
+            guarded([pos, source = parts_.source, lights = &parts_.lights](Results& results) {
                 ChunkPtr chunk = loadChunk(source, pos);
                 LocalLightPtr local = chunk ? localLight(*chunk, *lights) : nullptr;
-                results->add(Results::Load{pos, std::move(chunk), std::move(local)});
-            } catch (const std::exception& e) {
-                base::logError("chunk {},{}: {}", pos.x, pos.y, e.what());
-                results->add(Results::Load{pos, nullptr, nullptr, true});
-            }
-        };
-        extras_[pos].load = parts_.jobs.submit(table_.urgency(pos), work);
+                results.add(Results::Load{pos, std::move(chunk), std::move(local)});
+            }));
     }
 }
 
@@ -187,20 +199,19 @@ void ChunkPipeline::takeBatches() {
 
 // A generated chunk's own light.
 void ChunkPipeline::submitPrepare(ChunkPos pos, ChunkPtr chunk) {
-    parts_.jobs.submit(table_.urgency(pos), [pos, chunk = std::move(chunk), lights = &parts_.lights,
-                                             results = results_](const base::CancelToken&) {
-        results->add(Results::Load{pos, chunk, localLight(*chunk, *lights)});
-    });
+    parts_.jobs.submit(table_.urgency(pos),
+                       guarded([pos, chunk = std::move(chunk), lights = &parts_.lights](Results& results) {
+                           results.add(Results::Load{pos, chunk, localLight(*chunk, *lights)});
+                       }));
 }
 
 Surroundings ChunkPipeline::surroundings(ChunkPos pos) const {
     Surroundings around;
-    for (int n = 0; n < 9; ++n) {
-        const ChunkPos at{pos.x + n % 3 - 1, pos.y + n / 3 - 1};
-        const auto k = static_cast<std::size_t>(n);
-        around.chunks[k] = parts_.world.maybeChunkAt(at);
-        const auto extra = extras_.find(at);
-        if (extra != extras_.end()) around.locals[k] = extra->second.local;
+    const std::array<ChunkPos, 9> positions = neighbourhood(pos);
+    for (std::size_t n = 0; n < positions.size(); ++n) {
+        around.chunks[n] = parts_.world.maybeChunkAt(positions[n]);
+        const auto extra = extras_.find(positions[n]);
+        if (extra != extras_.end()) around.locals[n] = extra->second.local;
     }
     return around;
 }
@@ -210,12 +221,13 @@ void ChunkPipeline::submitFinishes() {
     const std::size_t room = limit - std::min(limit, table_.finishingCount());
     for (const ChunkPos pos : table_.takeFinishes(room)) {
         // Before loads of equal urgency: what is on screen frees memory.
-        parts_.jobs.submit(table_.urgency(pos) - 1, [pos, around = surroundings(pos), lights = &parts_.lights,
-                                                     blocks = &parts_.blocks, options = meshOptions_,
-                                                     results = results_](const base::CancelToken&) {
-            light::ChunkLightPtr light = lightOf(around, *lights);
-            results->add(Results::Finish{pos, meshOf(around.chunks, *blocks, options), std::move(light)});
-        });
+        parts_.jobs.submit(
+            table_.urgency(pos) - 1,
+            guarded([pos, around = surroundings(pos), lights = &parts_.lights, blocks = &parts_.blocks,
+                     options = meshOptions_](Results& results) {
+                light::ChunkLightPtr light = lightOf(around, *lights);
+                results.add(Results::Finish{pos, meshOf(around.chunks, *blocks, options), std::move(light)});
+            }));
     }
 }
 
@@ -224,13 +236,11 @@ void ChunkPipeline::dropLocalsAround(ChunkPos pos) {
     const auto isLit = [&](ChunkPos at) {
         return table_.is(at, ChunkStage::Visible) || !world::isInWorld(at);
     };
-    for (int n = 0; n < 9; ++n) {
-        const ChunkPos at{pos.x + n % 3 - 1, pos.y + n / 3 - 1};
+    for (const ChunkPos at : neighbourhood(pos)) {
         const auto extra = extras_.find(at);
         if (extra == extras_.end() || !extra->second.local) continue;
-        bool isNeeded = false;
-        for (int m = 0; m < 9 && !isNeeded; ++m) isNeeded = !isLit({at.x + m % 3 - 1, at.y + m / 3 - 1});
-        if (!isNeeded) extra->second.local = nullptr;
+        const std::array<ChunkPos, 9> around = neighbourhood(at);
+        if (std::all_of(around.begin(), around.end(), isLit)) extra->second.local = nullptr;
     }
 }
 

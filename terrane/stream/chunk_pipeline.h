@@ -68,6 +68,7 @@ class ChunkPipeline {
     // Visible chunks are meshed again in the next updates; they are shown as before until then.
     void setMeshOptions(const mesh::MeshOptions& options);
     // Takes in what workers finished, puts edits on screen, gives out new work. Call each frame.
+    // What a worker threw is thrown on from here.
     void update(Time now = std::chrono::steady_clock::now());
     // Blocks until a worker has finished something or the time is over.
     void waitForWorkers(std::chrono::milliseconds atMost);
@@ -77,11 +78,11 @@ class ChunkPipeline {
     // Blocks until the chunk is loaded. `pos` is in the world.
     world::ChunkPtr chunkAt(world::ChunkPos pos);
 
-    // The block was `before` until World::setBlock changed it. Light and mesh follow in the next update; the
-    // chunk is saved within kSaveAfter.
-    void blockChanged(world::BlockPos pos, world::BlockId before);
-    // Small or large data of the block changed.
-    void dataChanged(world::BlockPos pos);
+    // Edits: as world::updateBlock(), World::setSmallData(), World::setLargeData(). False where nothing
+    // changed. Light and mesh follow in the next update; the chunk is saved within kSaveAfter.
+    bool setBlock(world::BlockPos pos, world::BlockId id);
+    bool setSmallData(world::BlockPos pos, std::uint16_t value);
+    bool setLargeData(world::BlockPos pos, world::LargeData data);
     static constexpr std::chrono::seconds kSaveAfter{2};
     // Hands all changed chunks to the store.
     void saveAll();
@@ -113,8 +114,12 @@ class ChunkPipeline {
     void tidy();
     void save(world::ChunkPos pos, Extra& extra);
     void dropLocalsAround(world::ChunkPos pos);
-    void cancelDistantLoads();
+    void giveUpLoads();
 
+    void blockChanged(world::BlockPos pos, world::BlockId before);
+    void dataChanged(world::BlockPos pos);
+    template <class Work>
+    auto guarded(Work work) const;
     Surroundings surroundings(world::ChunkPos pos) const;
     void applyEdits();
     bool relightIncrementally(const std::set<world::ChunkPos>& edited);

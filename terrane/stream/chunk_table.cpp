@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "terrane/stream/neighbourhood.h"
+
 namespace terrane::stream {
 namespace {
 
@@ -13,10 +15,8 @@ constexpr int kNeighbours = 8;
 
 template <class Use>
 void forEachAround(ChunkPos pos, Use use) {
-    for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-            if (dx != 0 || dy != 0) use(ChunkPos{pos.x + dx, pos.y + dy});
-        }
+    for (const ChunkPos at : neighbourhood(pos)) {
+        if (at != pos) use(at);
     }
 }
 
@@ -51,10 +51,10 @@ std::int64_t ChunkTable::urgency(ChunkPos pos) const {
     return urgencyOf({pos.x - centre_.x, pos.y - centre_.y}, direction_);
 }
 
-void ChunkTable::setView(ChunkPos centre, int viewDistance, glm::vec2 direction) {
+bool ChunkTable::setView(ChunkPos centre, int viewDistance, glm::vec2 direction) {
     assert(viewDistance >= 0 && "a view shows at least the camera's chunk");
     const bool isSameOrder = viewDistance == viewDistance_ && direction == direction_;
-    if (isSameOrder && centre == centre_) return;
+    if (isSameOrder && centre == centre_) return false;
     centre_ = centre;
     viewDistance_ = viewDistance;
     direction_ = direction;
@@ -67,6 +67,7 @@ void ChunkTable::setView(ChunkPos centre, int viewDistance, glm::vec2 direction)
         ++wantedVisible_;
         if (is(pos, ChunkStage::Visible)) ++visibleInView_;
     }
+    return true;
 }
 
 void ChunkTable::orderOffsets() {
@@ -96,6 +97,7 @@ void ChunkTable::request(ChunkPos pos, Time now) {
     const auto found = entries_.find(pos);
     if (found != entries_.end()) {
         found->second.asked = now;
+        found->second.isRequested = true;
     } else {
         requests_.push_back(pos);
     }
@@ -103,20 +105,27 @@ void ChunkTable::request(ChunkPos pos, Time now) {
 
 std::vector<ChunkPos> ChunkTable::takeLoads(std::size_t limit) {
     std::vector<ChunkPos> taken;
-    const auto take = [&](ChunkPos pos) {
+    const auto take = [&](ChunkPos pos, bool isRequested) {
         if (!world::isInWorld(pos) || entries_.contains(pos)) return;
         Entry e;
+        e.isRequested = isRequested;
         e.activeAround = countActiveAround(pos);
         entries_.emplace(pos, e);
         ++loading_;
         taken.push_back(pos);
     };
-    for (; taken.size() < limit && !requests_.empty(); requests_.pop_front()) take(requests_.front());
+    for (; taken.size() < limit && !requests_.empty(); requests_.pop_front()) take(requests_.front(), true);
     for (; taken.size() < limit && loadCursor_ < offsets_.size(); ++loadCursor_) {
         const ChunkPos offset = offsets_[loadCursor_];
-        take({centre_.x + offset.x, centre_.y + offset.y});
+        take({centre_.x + offset.x, centre_.y + offset.y}, false);
     }
     return taken;
+}
+
+bool ChunkTable::mayGiveUpLoad(ChunkPos pos) const {
+    const auto found = entries_.find(pos);
+    return found != entries_.end() && found->second.stage == ChunkStage::Loading &&
+           !found->second.isRequested && !isWanted(pos);
 }
 
 std::uint8_t ChunkTable::countActiveAround(ChunkPos pos) const {

@@ -30,13 +30,15 @@ class ChunkTable {
     static constexpr std::chrono::seconds kUnloadAfter{5};
 
     // `direction`: where the view goes in x and y, of length 1 or 0; chunks in front come before those
-    // behind.
-    void setView(world::ChunkPos centre, int viewDistance, glm::vec2 direction = {});
+    // behind. False where all is as before.
+    bool setView(world::ChunkPos centre, int viewDistance, glm::vec2 direction = {});
     // Somebody else asks for a chunk that is in the world: it is loaded soon and kept for 5 s.
     void request(world::ChunkPos pos, Time now);
 
     // At most `limit` absent chunks that are to be loaded, most urgent first; they are Loading then.
     std::vector<world::ChunkPos> takeLoads(std::size_t limit);
+    // Nobody needs the chunk any more: its load may be given up. What was requested is always loaded.
+    bool mayGiveUpLoad(world::ChunkPos pos) const;
     // A Loading chunk is there, or will not come: then it is absent again.
     void loaded(world::ChunkPos pos, Time now);
     void loadEnded(world::ChunkPos pos);
@@ -71,6 +73,7 @@ class ChunkTable {
   private:
     struct Entry {
         ChunkStage stage = ChunkStage::Loading;
+        bool isRequested = false;       // of a Loading one
         bool isOld = false;             // of a Finishing one: blocks changed since it was taken
         std::uint8_t activeAround = 0;  // of its eight neighbours; those beyond the world count
         Time asked;

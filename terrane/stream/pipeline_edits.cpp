@@ -2,7 +2,10 @@
 #include <algorithm>
 
 #include "terrane/base/profile.h"
+#include "terrane/mesh/remesh.h"
 #include "terrane/stream/chunk_pipeline.h"
+#include "terrane/stream/neighbourhood.h"
+#include "terrane/world/block_update.h"
 
 namespace terrane::stream {
 
@@ -14,6 +17,24 @@ namespace {
 constexpr std::size_t kRemeshesPerUpdate = 64;
 
 }  // namespace
+
+bool ChunkPipeline::setBlock(world::BlockPos pos, world::BlockId id) {
+    const std::vector<world::BlockUpdate> updates = world::updateBlock(parts_.world, parts_.blocks, pos, id);
+    for (const world::BlockUpdate& u : updates) blockChanged(u.pos, u.before);
+    return !updates.empty();
+}
+
+bool ChunkPipeline::setSmallData(world::BlockPos pos, std::uint16_t value) {
+    if (!parts_.world.setSmallData(pos, value)) return false;
+    dataChanged(pos);
+    return true;
+}
+
+bool ChunkPipeline::setLargeData(world::BlockPos pos, world::LargeData data) {
+    if (!parts_.world.setLargeData(pos, std::move(data))) return false;
+    dataChanged(pos);
+    return true;
+}
 
 void ChunkPipeline::blockChanged(world::BlockPos pos, world::BlockId before) {
     const ChunkPos chunk = world::chunkOf(pos);
@@ -39,10 +60,8 @@ void ChunkPipeline::applyEdits() {
     TERRANE_ZONE("edits");
     std::set<ChunkPos> edited;
     for (const light::BlockEdit& e : edits_) {
-        // The chunks that see the block: its own, and those whose border it touches.
-        for (const auto& [dx, dy] : {std::pair(0, 0), {-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-            const std::int64_t x = std::int64_t{e.pos.x} + dx, y = std::int64_t{e.pos.y} + dy;
-            toMesh_.insert({static_cast<std::int32_t>(x >> 4), static_cast<std::int32_t>(y >> 4)});
+        for (const mesh::TouchedChunk& touched : mesh::regionsTouchedBy(e.pos, meshOptions_.regionHeight)) {
+            toMesh_.insert(touched.pos);
         }
         edited.insert(world::chunkOf(e.pos));
     }
@@ -54,8 +73,7 @@ void ChunkPipeline::applyEdits() {
 bool ChunkPipeline::relightIncrementally(const std::set<ChunkPos>& edited) {
     light::LitChunks around;
     for (const ChunkPos centre : edited) {
-        for (int n = 0; n < 9; ++n) {
-            const ChunkPos pos{centre.x + n % 3 - 1, centre.y + n / 3 - 1};
+        for (const ChunkPos pos : neighbourhood(centre)) {
             if (!world::isInWorld(pos)) continue;
             const auto extra = extras_.find(pos);
             if (extra == extras_.end() || !extra->second.light) return false;
@@ -73,8 +91,7 @@ bool ChunkPipeline::relightIncrementally(const std::set<ChunkPos>& edited) {
 void ChunkPipeline::relightFromScratch(const std::set<ChunkPos>& edited) {
     std::set<ChunkPos> lit;
     for (const ChunkPos centre : edited) {
-        for (int n = 0; n < 9; ++n) {
-            const ChunkPos pos{centre.x + n % 3 - 1, centre.y + n / 3 - 1};
+        for (const ChunkPos pos : neighbourhood(centre)) {
             if (table_.is(pos, ChunkStage::Visible)) lit.insert(pos);
         }
     }

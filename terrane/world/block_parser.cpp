@@ -1,13 +1,12 @@
 #include "terrane/world/block_parser.h"
 
-#include <fmt/ranges.h>
-#include <toml++/toml.h>
 #include <algorithm>
 #include <initializer_list>
 #include <optional>
-#include <sstream>
 #include <unordered_set>
 #include <utility>
+
+#include "terrane/world/content_table.h"
 
 namespace terrane::world {
 namespace {
@@ -21,12 +20,6 @@ constexpr std::array<Group, kFaceCount> kGroupOfFace{kSide, kSide, kSide, kSide,
 
 template <class T>
 using Groups = std::array<T, kGroupCount>;
-
-template <class T>
-struct Word {
-    std::string_view name;
-    T value;
-};
 
 constexpr std::array<Word<Shape>, 5> kShapes{{{"cube", Shape::Cube},
                                               {"liquid", Shape::Liquid},
@@ -45,132 +38,13 @@ constexpr std::array<Word<Animation>, 4> kAnimations{{{"none", Animation::None},
                                                       {"whole_waves", Animation::WholeWaves},
                                                       {"liquid_surface", Animation::LiquidSurface}}};
 
-constexpr std::array<std::string_view, 15> kBlockKeys{
-    "name",    "shape",    "texture",  "textures",  "alpha",      "animation",    "two_sided", "inner_faces",
-    "opacity", "emission", "collides", "selection", "selectable", "needs_ground", "generated"};
-
-bool isName(std::string_view text) {
-    constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789_";
-    return !text.empty() && text.find_first_not_of(kLetters) == std::string_view::npos;
-}
-
-// How an error shows a value of the file.
-std::string shown(const toml::node& node) {
-    if (node.is_table()) return "a table";
-    if (const toml::array* array = node.as_array()) return fmt::format("an array of {}", array->size());
-    if (const auto text = node.value_exact<std::string_view>()) return fmt::format("\"{}\"", *text);
-    std::ostringstream other;
-    node.visit([&](const auto& value) {
-        if constexpr (toml::is_value<decltype(value)>) other << value;
-    });
-    return other.str();
-}
-
-template <class Words>
-std::string listed(const Words& words) {
-    std::string text;
-    for (const auto& word : words) {
-        if (!text.empty()) text += ", ";
-        text += word.name;
-    }
-    return text;
-}
-
-// One table of the file. Readers return the key's value, or `fallback` where it is absent or wrong; what is
-// wrong goes to the error all tables of a file share, of which the first stays.
-class Table {
-  public:
-    Table(const toml::table& table, std::string_view file, std::optional<std::string>& error)
-        : table_(table), file_(file), error_(error) {}
-
-    const toml::node* node(std::string_view key) const { return table_.get(key); }
-    int line() const { return lineOf(table_); }
-
-    void wrong(int line, std::string_view key, std::string_view what) {
-        if (!error_) error_ = fmt::format("{}:{}: {}: {}", file_, line, key, what);
-    }
-    void expected(const toml::node& node, std::string_view key, std::string_view what) {
-        wrong(lineOf(node), key, fmt::format("expected {}, got {}", what, shown(node)));
-    }
-    void missing(std::string_view key, std::string_view note = "required") {
-        wrong(line(), key, fmt::format("missing ({})", note));
-    }
-
-    // Every key must be one of `known`; `prefix` is the path of the table in errors.
-    template <class Known>
-    void rejectUnknown(const Known& known, std::string_view prefix = "") {
-        const toml::key* first = nullptr;
-        for (const auto& [key, value] : table_) {
-            if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
-            if (!first || key.source().begin.line < first->source().begin.line) first = &key;
-        }
-        if (!first) return;
-        wrong(static_cast<int>(first->source().begin.line), fmt::format("{}{}", prefix, first->str()),
-              fmt::format("unknown key, expected one of {}", fmt::join(known, ", ")));
-    }
-
-    bool boolean(std::string_view key, bool fallback) {
-        const toml::node* found = node(key);
-        return found ? booleanOf(*found, key) : fallback;
-    }
-
-    bool booleanOf(const toml::node& value, std::string_view key) {
-        if (!value.is_boolean()) expected(value, key, "true or false");
-        return value.value_or(false);
-    }
-
-    std::string nameOf(const toml::node& value, std::string_view key) {
-        const auto text = value.value_exact<std::string>();
-        if (text && isName(*text)) return *text;
-        expected(value, key, "a name of a-z, 0-9 and _");
-        return {};
-    }
-
-    template <class T, std::size_t N>
-    T wordOf(const toml::node& value, std::string_view key, const std::array<Word<T>, N>& words) {
-        const auto text = value.value_exact<std::string>();
-        for (const Word<T>& word : words)
-            if (text && *text == word.name) return word.value;
-        expected(value, key, fmt::format("one of {}", listed(words)));
-        return words[0].value;
-    }
-
-    std::uint8_t lightOf(const toml::node& value, std::string_view key) {
-        const auto number = value.value_exact<std::int64_t>();
-        if (number && *number >= 0 && *number <= kMaxLight) return static_cast<std::uint8_t>(*number);
-        expected(value, key, "0 to 15");
-        return 0;
-    }
-
-    // A value for all faces, or a table with one a group; absent groups get `fallback`.
-    template <class T, class Read>
-    Groups<T> groups(std::string_view key, const T& fallback, Read read) {
-        Groups<T> result;
-        result.fill(fallback);
-        const toml::node* found = node(key);
-        if (!found) return result;
-        const toml::table* inner = found->as_table();
-        if (!inner) {
-            result.fill(read(*found, key));
-            return result;
-        }
-        Table(*inner, file_, error_).rejectUnknown(kGroupNames, fmt::format("{}.", key));
-        for (std::size_t g = 0; g < kGroupCount; ++g)
-            if (const toml::node* value = inner->get(kGroupNames[g]))
-                result[g] = read(*value, fmt::format("{}.{}", key, kGroupNames[g]));
-        return result;
-    }
-
-  private:
-    static int lineOf(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
-
-    const toml::table& table_;
-    std::string_view file_;
-    std::optional<std::string>& error_;
-};
+constexpr std::array<std::string_view, 17> kBlockKeys{
+    "name",       "shape",        "texture",   "textures", "alpha",    "animation",
+    "two_sided",  "inner_faces",  "opacity",   "emission", "collides", "selection",
+    "selectable", "needs_ground", "generated", "growth",   "slots"};
 
 // `texture` for all faces or `textures` with one a group: exactly one of them.
-Groups<std::string> readTextures(Table& table) {
+Groups<std::string> readTextures(ContentTable& table) {
     const auto read = [&](const toml::node& value, std::string_view key) { return table.nameOf(value, key); };
     const toml::node* one = table.node("texture");
     const toml::node* several = table.node("textures");
@@ -180,19 +54,21 @@ Groups<std::string> readTextures(Table& table) {
     if (several && !several->is_table())
         table.expected(*several, "textures", "a table of top, bottom and side");
 
-    Groups<std::string> textures = table.groups<std::string>(one ? "texture" : "textures", "", read);
+    Groups<std::string> textures =
+        table.valueEach<std::string>(one ? "texture" : "textures", kGroupNames, "", read);
     for (std::size_t g = 0; g < kGroupCount; ++g)
         if (textures[g].empty()) table.missing(fmt::format("textures.{}", kGroupNames[g]));
     return textures;
 }
 
-void readFaces(Table& table, BlockDescription& block) {
+void readFaces(ContentTable& table, BlockDescription& block) {
     const Groups<std::string> textures = readTextures(table);
-    const auto alpha = table.groups<AlphaMode>(
-        "alpha", AlphaMode::Unused,
+    const auto alpha = table.valueEach<AlphaMode>(
+        "alpha", kGroupNames, AlphaMode::Unused,
         [&](const toml::node& value, auto key) { return table.wordOf(value, key, kAlphaModes); });
-    const auto twoSided = table.groups<bool>(
-        "two_sided", false, [&](const toml::node& value, auto key) { return table.booleanOf(value, key); });
+    const auto twoSided =
+        table.valueEach<bool>("two_sided", kGroupNames, false,
+                              [&](const toml::node& value, auto key) { return table.booleanOf(value, key); });
     for (std::size_t face = 0; face < kFaceCount; ++face) {
         const Group g = kGroupOfFace[face];
         block.faces[face] = {.texture = textures[g], .alpha = alpha[g], .twoSided = twoSided[g]};
@@ -205,9 +81,13 @@ void readFaces(Table& table, BlockDescription& block) {
     block.type.needsGround = table.boolean("needs_ground", isPlant);
 }
 
-void readLight(Table& table, BlockDescription& block) {
+std::uint8_t lightOf(ContentTable& table, const toml::node& value, std::string_view key) {
+    return static_cast<std::uint8_t>(table.numberOf(value, key, 0, kMaxLight));
+}
+
+void readLight(ContentTable& table, BlockDescription& block) {
     if (const toml::node* value = table.node("opacity"))
-        block.type.opacity = table.lightOf(*value, "opacity");
+        block.type.opacity = lightOf(table, *value, "opacity");
     else if (isOpaqueCube(block))
         block.type.opacity = kMaxLight;
     else
@@ -217,7 +97,7 @@ void readLight(Table& table, BlockDescription& block) {
     if (!value) return;
     const toml::array* levels = value->as_array();
     if (!levels || levels->size() != 3) return table.expected(*value, "emission", "[red, green, blue]");
-    for (std::size_t i = 0; i < 3; ++i) block.type.emission[i] = table.lightOf((*levels)[i], "emission");
+    for (std::size_t i = 0; i < 3; ++i) block.type.emission[i] = lightOf(table, (*levels)[i], "emission");
 }
 
 // A corner of a box: three numbers inside the cell.
@@ -233,7 +113,7 @@ std::optional<glm::vec3> readCorner(const toml::node& node) {
     return corner;
 }
 
-Box readBox(Table& table, std::string_view key, const Box& fallback) {
+Box readBox(ContentTable& table, std::string_view key, const Box& fallback) {
     const toml::node* value = table.node(key);
     if (!value) return fallback;
     const toml::array* corners = value->as_array();
@@ -245,7 +125,23 @@ Box readBox(Table& table, std::string_view key, const Box& fallback) {
     return fallback;
 }
 
-BlockDescription readBlock(Table& table) {
+// Textures of the stages before a plant is grown.
+void readGrowth(ContentTable& table, BlockDescription& block) {
+    const toml::node* value = table.node("growth");
+    if (!value) return;
+    const toml::array* names = value->as_array();
+    const bool isPlant = block.type.shape == Shape::Cross || block.type.shape == Shape::Hash;
+    if (!isPlant) return table.expected(*value, "growth", "growth only for the shapes cross and hash");
+    if (!names || names->empty() || names->size() > kMaxGrowthStages) {
+        return table.expected(*value, "growth", fmt::format("1 to {} textures", kMaxGrowthStages));
+    }
+    for (const toml::node& name : *names) {
+        block.growth.push_back(block.faces[kFacePosX]);
+        block.growth.back().texture = table.nameOf(name, "growth");
+    }
+}
+
+BlockDescription readBlock(ContentTable& table) {
     BlockDescription block;
     block.line = table.line();
     table.rejectUnknown(kBlockKeys);
@@ -265,6 +161,9 @@ BlockDescription readBlock(Table& table) {
     block.type.selection = readBox(table, "selection", box);
     block.type.selectable = table.boolean("selectable", true);
     block.type.generated = table.boolean("generated", true);
+    readGrowth(table, block);
+    if (const toml::node* slots = table.node("slots"))
+        block.type.slots = table.numberOf(*slots, "slots", 0, kMaxSlots);
     return block;
 }
 
@@ -280,14 +179,14 @@ base::Result<std::vector<BlockDescription>> readFile(const toml::table& root, st
     std::vector<BlockDescription> blocks;
     std::unordered_set<std::string> names{"air", "missing"};
 
-    Table top(root, file, error);
+    ContentTable top(root, file, error);
     top.rejectUnknown(std::initializer_list<std::string_view>{"block"});
     const toml::node* found = top.node("block");
     const toml::array* tables = found ? found->as_array() : nullptr;
     if (found && !(tables && tables->is_homogeneous<toml::table>()))
         top.expected(*found, "block", "tables that begin with [[block]]");
     for (std::size_t i = 0; tables && !error && i < tables->size(); ++i) {
-        Table table(*(*tables)[i].as_table(), file, error);
+        ContentTable table(*(*tables)[i].as_table(), file, error);
         if (i == kMaxDescribedBlocks)
             table.wrong(table.line(), "block",
                         fmt::format("expected at most {}, got more", kMaxDescribedBlocks));

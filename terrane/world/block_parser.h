@@ -14,6 +14,8 @@ namespace terrane::world {
 
 // Ids are 16 bits; air takes the first and "missing" the one after the file's.
 constexpr std::size_t kMaxDescribedBlocks = 65536 - 2;
+constexpr std::size_t kMaxGrowthStages = 15;
+constexpr int kMaxSlots = 256;
 
 // What one face looks like.
 struct FaceLook {
@@ -23,8 +25,9 @@ struct FaceLook {
 };
 
 struct BlockDescription {
-    BlockType type;  // all but id and material
+    BlockType type;  // all but id and materials
     std::array<FaceLook, kFaceCount> faces;
+    std::vector<FaceLook> growth;  // of all faces, youngest stage first
     Animation animation = Animation::None;
     int line = 0;  // of its table in the file
 };

@@ -36,6 +36,27 @@ BlockType describeAir() {
 // Numbers materials and textures in order of first use.
 class Materials {
   public:
+    // Sets the type's materials. False where 16 bits do not suffice.
+    bool numberFaces(BlockDescription& block) {
+        bool fits = true;
+        const auto set = [&](std::uint16_t& material, const FaceLook& face) {
+            const auto number = this->number(face, block.animation);
+            fits = fits && number;
+            material = number.value_or(0);
+        };
+        for (std::size_t face = 0; face < kFaceCount; ++face)
+            set(block.type.material[face], block.faces[face]);
+        block.type.growth.resize(block.growth.size());
+        for (std::size_t left = 1; left <= block.growth.size(); ++left) {
+            set(block.type.growth[left - 1], block.growth[block.growth.size() - left]);
+        }
+        return fits;
+    }
+
+    std::vector<Material> takeMaterials() { return std::move(materials_); }
+    std::vector<std::string> takeTextures() { return std::move(textures_); }
+
+  private:
     // None where 16 bits do not suffice.
     std::optional<std::uint16_t> number(const FaceLook& face, Animation animation) {
         const auto texture = static_cast<std::uint32_t>(
@@ -53,10 +74,6 @@ class Materials {
         return static_cast<std::uint16_t>(number);
     }
 
-    std::vector<Material> takeMaterials() { return std::move(materials_); }
-    std::vector<std::string> takeTextures() { return std::move(textures_); }
-
-  private:
     std::map<std::string, std::size_t> textureNumbers_;
     std::map<std::tuple<std::uint32_t, AlphaMode, Animation, bool>, std::size_t> numbers_;
     std::vector<Material> materials_;
@@ -77,15 +94,11 @@ base::Result<BlockRegistry> BlockRegistry::parse(std::string_view toml, std::str
         BlockType& type = block.type;
         type.id = static_cast<BlockId>(registry.types_.size());
         type.opaqueCube = isOpaqueCube(block);
-        for (std::size_t face = 0; face < kFaceCount; ++face) {
-            const auto number = materials.number(block.faces[face], block.animation);
-            if (!number)
-                return base::fail(
-                    "{}:{}: texture: expected at most {} combinations of texture, alpha, animation and "
-                    "two_sided in all blocks, got more",
-                    name, block.line, kMaxNumbered);
-            type.material[face] = *number;
-        }
+        if (!materials.numberFaces(block))
+            return base::fail(
+                "{}:{}: texture: expected at most {} combinations of texture, alpha, animation and "
+                "two_sided in all blocks, got more",
+                name, block.line, kMaxNumbered);
         registry.types_.push_back(std::move(type));
     }
     assert(registry.types_.size() <= kMaxNumbered && "the parser limits blocks to what ids can tell apart");

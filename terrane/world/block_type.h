@@ -55,6 +55,9 @@ struct BlockType {
     Shape shape = Shape::Cube;
     std::array<std::uint16_t, kFaceCount> material{};  // index into BlockRegistry::materials()
     bool opaqueCube = false;                           // hides every face that touches it
+    // Of a plant that grows: the material by the stages that are left, growth[0] for 1. The block's small
+    // data counts them; 0 is grown.
+    std::vector<std::uint16_t> growth;
     bool innerFaces = false;                 // faces between two blocks of this type are drawn (leaves)
     std::uint8_t opacity = 15;               // to light, 0…15
     std::array<std::uint8_t, 3> emission{};  // red, green, blue, 0…15
@@ -63,6 +66,7 @@ struct BlockType {
     bool selectable = true;                  // false: rays pass (air, water)
     bool needsGround = false;                // falls when the block below goes (plants)
     bool generated = true;                   // appears in generated terrain (else placed only)
+    int slots = 0;                           // stacks of items it holds, as large data (inventory.h)
 };
 
 }  // namespace terrane::world

@@ -17,6 +17,8 @@ std::vector<BlockUpdate> updateBlock(World& world, const BlockRegistry& registry
                         !givesGround(registry, world.block({pos.x, pos.y, pos.z - 1}), id);
     if (before == id || isBare || !world.setBlock(pos, id)) return updates;
     updates.push_back({pos, before});
+    const std::size_t stages = registry.type(id).growth.size();
+    if (stages > 0) world.setSmallData(pos, static_cast<std::uint16_t>(stages));
     for (BlockPos above{pos.x, pos.y, pos.z + 1}; above.z < kChunkHeight; ++above.z) {
         const BlockId plant = world.block(above);
         const BlockId below = world.block({above.x, above.y, above.z - 1});

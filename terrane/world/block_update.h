@@ -17,7 +17,7 @@ struct BlockUpdate {
 // Puts `id` at `pos`; blocks that need ground (BlockType::needsGround) and lose it become air, upward until
 // one stands. Returns all that changed, `pos` first; nothing where no chunk is loaded, `pos` is above or
 // below the world, or the block is there already. A block that needs ground and has none under it is not
-// placed. On the world's thread.
+// placed; a plant that grows is placed at its youngest stage. On the world's thread.
 std::vector<BlockUpdate> updateBlock(World& world, const BlockRegistry& registry, BlockPos pos, BlockId id);
 
 }  // namespace terrane::world

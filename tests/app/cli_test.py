@@ -19,11 +19,11 @@ BLOCKS = {
     "red_mushroom": (2, [0, 0, 0]), "brown_mushroom": (2, [0, 0, 0]), "glowing_mushroom": (0, [5, 10, 8]),
     "cactus": (11, [0, 0, 0]), "lamp_white": (15, [15, 13, 13]), "lamp_red": (15, [15, 0, 0]),
     "lamp_green": (15, [0, 15, 0]), "lamp_blue": (15, [0, 0, 15]), "cyan_glass": (3, [0, 0, 0]),
-    "water": (1, [0, 0, 0]),
+    "water": (1, [0, 0, 0]), "chest": (15, [0, 0, 0]),
 }
 NO_COLLISION = {"air", "grass_tuft", "blue_orchid", "poppy", "oxeye_daisy", "wheat", "red_mushroom",
                 "brown_mushroom", "glowing_mushroom", "water"}
-PLACED_ONLY = {"lamp_white", "lamp_red", "lamp_green", "lamp_blue", "cyan_glass"}
+PLACED_ONLY = {"lamp_white", "lamp_red", "lamp_green", "lamp_blue", "cyan_glass", "chest"}
 
 
 class Help(ProgramTest):
@@ -266,10 +266,21 @@ class Saves(ProgramTest):
         self.generate("--world", self.save, "--seed", "5", "--radius", "0")
         before = self.save.read_bytes()
         for arguments, hint in ((("--seed", "6"), "seed 5, not 6"), (FLAT, "generator overworld, not flat")):
-            done = run("generate", "--world", self.save, "--radius", "0", *arguments)
-            self.assertRefused(done, arguments)
-            self.assertIn(hint, done.stderr)
+            for more in ((), ("--recreate",)):
+                done = run("generate", "--world", self.save, "--radius", "0", *arguments, *more)
+                self.assertRefused(done, (arguments, more))
+                self.assertIn(hint, done.stderr)
         self.assertEqual(self.save.read_bytes(), before)
+        self.assertFalse((self.folder / "a.backup-1.sqlite").exists())
+
+    def test_recreate_keeps_the_generator_that_made_the_world(self):
+        first = self.generate("--world", self.save, "--radius", "1", *FLAT)
+        anew = self.generate("--world", self.save, "--radius", "1", "--recreate")
+        self.assertEqual((anew["skipped"], anew["digest"]), (0, first["digest"]))
+        self.sql("UPDATE settings SET value = 'gone' WHERE name = 'generator'")
+        done = run("generate", "--world", self.save, "--radius", "1", "--recreate")
+        self.assertRefused(done, "a generator of another program")
+        self.assertIn("made by the generator gone, which this program does not have", done.stderr)
 
     def test_another_version_of_the_generator_is_refused_and_recreate_makes_it_anew(self):
         self.generate("--world", self.save, "--radius", "1", "--seed", "5")

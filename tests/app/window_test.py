@@ -3,9 +3,11 @@
 
 Needs Xvfb (without it the test is skipped, exit code 77), xdotool and xwd; Debian's packages are xvfb, xdotool and
 x11-apps."""
+import contextlib
 import os
 import re
 import shutil
+import sqlite3
 import struct
 import subprocess
 import sys
@@ -13,9 +15,10 @@ import tempfile
 import time
 
 import support
-from support import HANG_SECONDS, ProgramTest
+from support import HANG_SECONDS, Npy, ProgramTest
 
 SKIPPED = 77
+FLAT = ("--generator", "flat")
 SCREEN = (640, 400)
 SIZE, LARGER = (320, 180), (480, 270)
 
@@ -76,13 +79,14 @@ class Screenshot:
 class Game:
     """The running program and its window."""
 
-    def __init__(self, display):
+    def __init__(self, display, folder, arguments):
         self.display = display
         self.log = tempfile.TemporaryFile(mode="w+")
         # Far enough that fog never hides all of the ground.
         self.process = subprocess.Popen(
             [support.program(), "play", "--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "6", "--samples", "1",
-             "--debug-gl"], env=support.environment(display.name), stdout=self.log, stderr=self.log)
+             "--debug-gl", *arguments],
+            cwd=folder, env=support.environment(display.name), stdout=self.log, stderr=self.log)
         self.window = None
 
     def open(self):
@@ -114,6 +118,10 @@ class Game:
     def press(self, key):
         self.display.xdotool("key", key)
 
+    def click(self, button):
+        self.display.xdotool("mousemove", "--window", self.window, SIZE[0] // 2, SIZE[1] // 2)
+        self.display.xdotool("click", button)
+
     def close(self):
         """The exit code, and where the camera was at the end."""
         self.press("Escape")
@@ -129,8 +137,8 @@ class Game:
 
 
 class Window(ProgramTest):
-    def play(self, display):
-        game = Game(display)
+    def play(self, display, *arguments):
+        game = Game(display, self.folder, arguments)
         self.addCleanup(game.log.close)
         self.addCleanup(game.process.kill)  # nothing where it has ended
         game.open()
@@ -161,6 +169,35 @@ class Window(ProgramTest):
             end = self.close(game)
             distance = sum((a - b) ** 2 for a, b in zip(start, end)) ** 0.5
             self.assertGreater(distance, 1, f"the camera stayed at {end}")
+
+
+    def highest_block(self, save):
+        """Height of the highest block of the column 8,8 in the save."""
+        dump = self.folder / "blocks.npy"
+        self.succeed("dump", "--area", "0,0,1,1", "--world", save, "-o", dump)
+        return max(z for z, block in enumerate(Npy(dump).column(8, 8)) if block != 0)
+
+    def set_camera(self, save, text):
+        with contextlib.closing(sqlite3.connect(save)) as database, database:
+            database.execute("UPDATE settings SET value = ? WHERE name = 'camera'", (text,))
+
+    def test_edits_and_the_camera_outlive_the_program(self):
+        save = self.folder / "save" / "home.sqlite"
+        options = ("--save-game", "home", *FLAT)
+        with Display() as display:
+            self.close(self.play(display, *options))
+            top = self.highest_block(save)
+            self.set_camera(save, f"8.5 8.5 {top + 4} 0 -89")
+            game = self.play(display, *options)
+            game.click(1)  # takes the mouse
+            game.click(1)  # breaks what is in the middle
+            first = self.close(game)
+            self.assertEqual(self.highest_block(save), top - 1)
+
+            second = self.close(self.play(display, *options))
+            self.assertEqual(first, second)
+            self.assertEqual(self.highest_block(save), top - 1)
+            self.assertTrue(self.succeed("check", save).endswith("\ngood\n"))
 
 
 if __name__ == "__main__":

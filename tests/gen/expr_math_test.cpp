@@ -105,7 +105,6 @@ TEST(ExprMath, SinAndCos) {
     }
     EXPECT_EQ(folded(sin, 0.0f), 0.0f);
     EXPECT_EQ(folded(cos, 0.0f), 1.0f);
-    EXPECT_LE(std::abs(folded(sin, 1e30f)), 2.0f * std::numeric_limits<float>::max());
 }
 
 // Angles far beyond what is accurate, infinities, NaN: whatever comes out comes out everywhere.

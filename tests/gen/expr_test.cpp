@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "terrane/gen/expr_vec.h"
 #include "terrane/shared/det_math.h"
 
 namespace terrane::gen {

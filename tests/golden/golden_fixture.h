@@ -13,8 +13,8 @@ constexpr glm::ivec2 kPictureSize{320, 180};
 constexpr int kSamples = 4;
 
 // From above the gallery shows the sides -x, -y and +z, from below the others.
-inline const render::Camera kAbove{{0.4, -5.9, 89.2}, 63.5, -38.5, 39};
-inline const render::Camera kBelow{{12.3, 12.0, 73.6}, 230, 38, 39};
+inline const render::Camera kAbove{{0.6, -6.2, 89.9}, 59, -38.5, 37};
+inline const render::Camera kBelow{{14.3, 12.2, 72.9}, 229.0, 39.5, 33};
 
 class GoldenTest : public gpu::GlTest {
   protected:

@@ -55,14 +55,17 @@ inline world::World flatWorld(int radius) {
 
 constexpr int kGalleryZ = 81;  // on the flat world's grass
 
-// Every block type once, in rows of six with gaps.
+// Every block type once, plants that grow at each stage, in rows of seven with gaps.
 inline void placeGallery(world::World& world) {
+    constexpr int kRow = 7;
     int number = 0;
     for (const world::BlockType& type : contentBlocks().types()) {
         if (type.id == world::kAir || type.id == contentBlocks().missing()) continue;
-        const world::BlockPos pos{2 * (number % 6), 2 * (number / 6), kGalleryZ};
-        if (!world.setBlock(pos, type.id)) throw std::runtime_error("the gallery is not in the world");
-        ++number;
+        for (std::size_t left = 0; left <= type.growth.size(); ++left, ++number) {
+            const world::BlockPos pos{2 * (number % kRow), 2 * (number / kRow), kGalleryZ};
+            if (!world.setBlock(pos, type.id)) throw std::runtime_error("the gallery is not in the world");
+            world.setSmallData(pos, static_cast<std::uint16_t>(left));
+        }
     }
 }
 

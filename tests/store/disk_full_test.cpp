@@ -29,7 +29,7 @@ TEST(DiskFull, NothingIsLostAndItWorksAgainWithRoom) {
     const SmallDisk disk;
     if (!disk.isMounted()) GTEST_SKIP() << "a small file system cannot be mounted here";
     const auto registry = testRegistry();
-    auto store = SqliteStore::open(disk / "a.sqlite", registry, {.create = kIdentity, .recreateVersion = {}},
+    auto store = SqliteStore::open(disk / "a.sqlite", registry, {.create = kIdentity, .decide = {}},
                                    {.delay = std::chrono::hours(1), .chunks = 1000000});
     ASSERT_TRUE(store) << store.error().message;
     (*store)->save({-1, 0}, numberedChunk(1), Origin::Edited);

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 class SaveCheckTest : public testing::Test {
   protected:
     void SetUp() override {
-        const auto store = SqliteStore::open(path_, registry_, {.create = kIdentity, .recreateVersion = {}});
+        const auto store = SqliteStore::open(path_, registry_, {.create = kIdentity, .decide = {}});
         ASSERT_TRUE(store);
         for (int x = 0; x < 30; ++x)
             (*store)->save({x, -x}, numberedChunk(x), x % 3 == 0 ? Origin::Edited : Origin::Generated);

@@ -14,8 +14,12 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const SaveAccess kCreate{.create = kIdentity, .recreateVersion = {}};
+const SaveAccess kCreate{.create = kIdentity, .decide = {}};
 const SaveAccess kMustBeThere{};
+
+auto recreateBy(int version) {
+    return [version](const WorldIdentity&) { return base::Result<std::optional<int>>(version); };
+}
 
 class SaveFileTest : public testing::Test {
   protected:
@@ -195,7 +199,7 @@ TEST_F(SaveFileTest, TheNextProgramAfterAKilledOne) {
 TEST_F(SaveFileTest, RecreateKeepsACopy) {
     makeSave();
     {
-        auto store = SqliteStore::open(path_, registry_, {.create = kIdentity, .recreateVersion = 9});
+        auto store = SqliteStore::open(path_, registry_, {.create = kIdentity, .decide = recreateBy(9)});
         ASSERT_TRUE(store) << store.error().message;
         EXPECT_EQ((*store)->load({3, 0}).state, LoadedChunk::State::Absent);
         EXPECT_EQ((*store)->identity().seed, kIdentity.seed);
@@ -207,8 +211,21 @@ TEST_F(SaveFileTest, RecreateKeepsACopy) {
     ASSERT_TRUE(copy) << copy.error().message;
     EXPECT_EQ(*(*copy)->load({3, 0}).chunk, *numberedChunk(3));
     EXPECT_EQ((*copy)->identity(), kIdentity);
-    ASSERT_TRUE(SqliteStore::open(folder_ / "a.sqlite", registry_, {.create = {}, .recreateVersion = 9}));
+    ASSERT_TRUE(SqliteStore::open(folder_ / "a.sqlite", registry_, {.create = {}, .decide = recreateBy(9)}));
     EXPECT_TRUE(fs::exists(folder_ / "a.backup-2.sqlite")) << "a copy never replaces another";
+}
+
+TEST_F(SaveFileTest, ARefusedSaveIsLeftAsItIs) {
+    makeSave();
+    const std::string before = readAll(path_);
+    SaveAccess access = kCreate;
+    access.decide = [](const WorldIdentity& saved) -> base::Result<std::optional<int>> {
+        EXPECT_EQ(saved, kIdentity);
+        return base::fail("not this one");
+    };
+    EXPECT_EQ(errorOfWriting(access), "not this one");
+    EXPECT_TRUE(readAll(path_) == before);
+    EXPECT_FALSE(fs::exists(folder_ / "a.backup-1.sqlite"));
 }
 
 class ReadOnlyTest : public SaveFileTest {
@@ -253,7 +270,7 @@ TEST_F(ReadOnlyTest, RecreateInAReadOnlyFolder) {
     makeSave();
     makeReadOnly();
     const Unprivileged user;
-    auto store = openStore(path_, registry_, {.create = kIdentity, .recreateVersion = 4});
+    auto store = openStore(path_, registry_, {.create = kIdentity, .decide = recreateBy(4)});
     ASSERT_TRUE(store) << store.error().message;
     EXPECT_EQ((*store)->load({3, 0}).state, LoadedChunk::State::Absent);
     EXPECT_EQ((*store)->identity().seed, kIdentity.seed);

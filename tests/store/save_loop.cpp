@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
     const bool isVerifying = std::strcmp(argv[2], "verify") == 0;
     const auto registry = store::testRegistry();
     const store::SaveAccess access{.create = isVerifying ? std::nullopt : std::optional(store::kIdentity),
-                                   .recreateVersion = {}};
+                                   .decide = {}};
     auto store = store::SqliteStore::open(argv[1], registry, access,
                                           {.delay = std::chrono::milliseconds(5), .chunks = 50});
     if (!store) {

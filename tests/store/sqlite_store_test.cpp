@@ -18,7 +18,7 @@ const SaveLimits kNever{.delay = 1h, .chunks = 1000000};
 class SqliteStoreTest : public testing::Test {
   protected:
     std::unique_ptr<SqliteStore> open(const world::BlockRegistry& registry) {
-        auto store = SqliteStore::open(path_, registry, {.create = kIdentity, .recreateVersion = {}}, kNever);
+        auto store = SqliteStore::open(path_, registry, {.create = kIdentity, .decide = {}}, kNever);
         if (!store) throw std::runtime_error(store.error().message);
         return std::move(*store);
     }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "terrane/shared/hash.h"
+#include "terrane/store/memory_store.h"
 #include "tests/stream/pipeline_fixture.h"
 
 namespace terrane::stream {
@@ -24,6 +25,27 @@ class Numbers {
 
   private:
     unsigned seed_, count_ = 0;
+};
+
+// A worker that is busy until open() is called.
+class BusyWorker {
+  public:
+    explicit BusyWorker(base::JobSystem& jobs) {
+        std::promise<void> started;
+        jobs.submit(-1, [this, &started](const base::CancelToken&) {
+            started.set_value();
+            gate_.get_future().wait();
+        });
+        started.get_future().wait();
+    }
+    ~BusyWorker() { open(); }
+    void open() {
+        if (!std::exchange(isOpen_, true)) gate_.set_value();
+    }
+
+  private:
+    std::promise<void> gate_;
+    bool isOpen_ = false;
 };
 
 TEST_F(ChunkPipelineTest, EveryChunkInViewEndsVisible) {
@@ -140,27 +162,6 @@ TEST_F(ChunkPipelineTest, EditsMeshAgainTheChunksThatSeeThem) {
     EXPECT_EQ(changedBy({47, 5, 60}), (Chunks{{2, 0}})) << "the neighbour is not in view";
 }
 
-// A worker that is busy until open() is called.
-class BusyWorker {
-  public:
-    explicit BusyWorker(base::JobSystem& jobs) {
-        std::promise<void> started;
-        jobs.submit(-1, [this, &started](const base::CancelToken&) {
-            started.set_value();
-            gate_.get_future().wait();
-        });
-        started.get_future().wait();
-    }
-    ~BusyWorker() { open(); }
-    void open() {
-        if (!std::exchange(isOpen_, true)) gate_.set_value();
-    }
-
-  private:
-    std::promise<void> gate_;
-    bool isOpen_ = false;
-};
-
 // Edits come faster than workers mesh: the meshes in between may be lost, the last may not.
 TEST_F(ChunkPipelineTest, TheNewestMeshWins) {
     setView({0, 0}, 1);
@@ -197,6 +198,79 @@ TEST_F(ChunkPipelineTest, AnEditIsOnScreenInTheNextUpdate) {
     update();
     take(kAll);
     expectShowsTheView();
+}
+
+TEST_F(ChunkPipelineTest, EditsOfWhatIsNotLoadedAreRefused) {
+    setView({0, 0}, 1);
+    EXPECT_FALSE(pipeline_->setBlock({1000, 0, 60}, contentBlock("sand")));
+    EXPECT_FALSE(pipeline_->setSmallData({1000, 0, 60}, 3));
+    EXPECT_FALSE(pipeline_->setLargeData({1000, 0, 60}, {std::byte{1}}));
+    settle();
+    EXPECT_FALSE(pipeline_->setBlock({3, 3, 256}, contentBlock("sand")));
+    EXPECT_FALSE(pipeline_->setBlock({3, 3, -1}, contentBlock("sand")));
+    expectShowsTheView();
+    rest();
+}
+
+TEST_F(ChunkPipelineTest, EditsOutOfViewAreHarmless) {
+    setView({0, 0}, 0);
+    settle();
+    ASSERT_TRUE(pipeline_->setBlock({20, 20, 90}, contentBlock("sand"))) << "active, and not visible";
+    ASSERT_TRUE(pipeline_->chunkAt({40, 40}));
+    ASSERT_TRUE(pipeline_->setBlock({645, 645, 90}, contentBlock("lamp_red")));
+    settle();
+    expectShowsTheView();
+    setView({40, 40}, 1);
+    settle();
+    EXPECT_EQ(world_.block({645, 645, 90}), contentBlock("lamp_red"));
+    expectShowsTheView();
+}
+
+// The view does not come near, and moves all the time: what others asked for comes all the same.
+TEST_F(ChunkPipelineTest, WhatOthersAskForIsNotGivenUp) {
+    BusyWorker first(jobs_), second(jobs_);
+    setView({0, 0}, 1);
+    pipeline_->maybeLoadChunkAt({40, 40});
+    update();
+    setView({1, 0}, 1);
+    update();
+    first.open();
+    second.open();
+    settle();
+    EXPECT_TRUE(world_.maybeChunkAt({40, 40}));
+}
+
+// A worker that fails ends the wait for what it should have brought.
+TEST_F(ChunkPipelineTest, WhatAWorkerThrowsIsThrownOn) {
+    class FailingStore : public store::MemoryStore {
+      public:
+        using MemoryStore::MemoryStore;
+        store::LoadedChunk load(world::ChunkPos) override { throw std::runtime_error("no memory"); }
+    } store({.seed = 1, .generator = "bumpy", .generatorVersion = 1});
+    pipeline_ = nullptr;
+    pipeline_ = makePipeline({&generator_, &store, false});
+    EXPECT_THROW(pipeline_->chunkAt({0, 0}), std::runtime_error);
+    pipeline_ = nullptr;
+}
+
+TEST_F(ChunkPipelineTest, PlantsAreMeshedByTheirStage) {
+    setView({0, 0}, 0);
+    settle();
+    ASSERT_TRUE(pipeline_->setBlock({3, 3, 100}, contentBlock("dirt")));
+    ASSERT_TRUE(pipeline_->setBlock({3, 3, 101}, contentBlock("wheat")));
+    std::set<std::uint16_t> left;
+    for (int stage = 3;; --stage) {
+        left.insert(world_.smallData({3, 3, 101}));
+        settle();
+        expectShowsTheView();
+        if (stage == 0) break;
+        const auto before = shown_.at({0, 0}).mesh;
+        ASSERT_TRUE(pipeline_->setSmallData({3, 3, 101}, static_cast<std::uint16_t>(stage - 1)));
+        update();
+        take(kAll);
+        EXPECT_NE(*shown_.at({0, 0}).mesh, *before) << "stage " << stage - 1;
+    }
+    EXPECT_EQ(left, (std::set<std::uint16_t>{3, 2, 1, 0}));
 }
 
 TEST_F(ChunkPipelineTest, ChunksOthersAskForAreLoadedAndKept) {

@@ -67,12 +67,14 @@ TEST_F(PipelineStoreTest, GeneratedChunksAreStoredWhereThatIsAskedFor) {
 TEST_F(PipelineStoreTest, DataOfBlocksIsSaved) {
     setView({0, 0}, 0);
     settle();
-    ASSERT_TRUE(world_.setSmallData({3, 3, 20}, 77));
-    pipeline_->dataChanged({3, 3, 20});
+    ASSERT_TRUE(pipeline_->setSmallData({3, 3, 20}, 77));
+    ASSERT_TRUE(pipeline_->setLargeData({4, 3, 20}, {std::byte{1}, std::byte{2}}));
     restart();
     setView({0, 0}, 0);
     settle();
     EXPECT_EQ(world_.smallData({3, 3, 20}), 77);
+    ASSERT_TRUE(world_.largeData({4, 3, 20}));
+    EXPECT_EQ(*world_.largeData({4, 3, 20}), (world::LargeData{std::byte{1}, std::byte{2}}));
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ struct BadLine {
 
 constexpr std::string_view kAllKeys =
     "name, shape, texture, textures, alpha, animation, two_sided, inner_faces, opacity, emission, collides, "
-    "selection, selectable, needs_ground, generated";
+    "selection, selectable, needs_ground, generated, growth, slots";
 
 TEST(BlockParser, BadLines) {
     constexpr BadLine kCases[] = {

@@ -159,6 +159,8 @@ constexpr Row kRows[] = {
     {"lamp_blue", Shape::Cube, 15, {0, 0, 15}, true, false},
     {"cyan_glass", Shape::Cube, 3, kDark, true, false},
     {"water", Shape::Liquid, 1, kDark, false, true},
+    // Not in the specification:
+    {"chest", Shape::Cube, 15, kDark, true, false},
 };
 
 TEST(Content, MatchesTheSpecification) {
@@ -177,6 +179,22 @@ TEST(Content, MatchesTheSpecification) {
         EXPECT_EQ(type.innerFaces, row.name == "oak_leaves");
         EXPECT_EQ(type.selectable, row.name != "water");
     }
+}
+
+TEST(Content, WheatGrowsAndChestsHold) {
+    const BlockType& wheat = *content().find("wheat");
+    ASSERT_EQ(wheat.growth.size(), 3u);
+    const auto textureOfStage = [&](std::size_t left) {
+        return content().textures()[content().materials()[wheat.growth[left - 1]].texture];
+    };
+    EXPECT_EQ(textureOfStage(1), "wheat_2");
+    EXPECT_EQ(textureOfStage(3), "wheat_0");
+    const Material& youngest = content().materials()[wheat.growth[2]];
+    EXPECT_EQ(youngest.alpha, AlphaMode::Test);
+    EXPECT_EQ(youngest.animation, Animation::TopWaves);
+    EXPECT_TRUE(youngest.twoSided);
+    EXPECT_EQ(content().find("chest")->slots, 27);
+    EXPECT_EQ(content().find("stone")->slots, 0);
 }
 
 TEST(Content, SelectionOfPlants) {

@@ -61,6 +61,15 @@ TEST_F(BlockUpdateTest, ReplacingTheGroundByOtherGroundKeepsThePlant) {
     EXPECT_EQ(world_.block({1, 2, 4}), contentBlock("poppy"));
 }
 
+TEST_F(BlockUpdateTest, WheatIsPlacedYoungAndOtherBlocksWithoutData) {
+    put({1, 2, 3}, "dirt");
+    put({1, 2, 4}, "wheat");
+    EXPECT_EQ(world_.smallData({1, 2, 3}), 0);
+    EXPECT_EQ(world_.smallData({1, 2, 4}), 3);
+    put({1, 2, 4}, "poppy");
+    EXPECT_EQ(world_.smallData({1, 2, 4}), 0);
+}
+
 TEST_F(BlockUpdateTest, APlantIsNotPlacedWithoutGround) {
     EXPECT_EQ(put({1, 2, 9}, "poppy"), Updates{});
     EXPECT_EQ(world_.block({1, 2, 9}), kAir);

@@ -159,8 +159,8 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(DumpOptions& options, 
     if (options.save.empty()) return nullptr;
     auto file = store::openToRead(options.save, blocks);
     if (!file) return tl::unexpected(file.error());
-    auto same = adoptIdentity(options.world, command, file->identity, options.save);
-    if (!same) return tl::unexpected(same.error());
+    const auto taken = accessTo({options.save}, options.world, command).decide(file->identity);
+    if (!taken) return tl::unexpected(taken.error());
     return std::make_unique<store::MemoryStore>(std::move(*file));
 }
 

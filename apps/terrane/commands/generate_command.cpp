@@ -126,16 +126,12 @@ class AreaGenerator {
 base::Result<std::unique_ptr<store::ChunkStore>> openSave(GenerateOptions& options, const CLI::App& command,
                                                           const world::BlockRegistry& blocks) {
     if (options.save.empty()) return nullptr;
-    store::SaveAccess access{.create = identityOf(options.world), .recreateVersion = {}};
-    if (access.create->generatorVersion == 0) {  // the error that lists those there are
-        auto unknown = makeGenerator(options.world, blocks);
-        return tl::unexpected(unknown.error());
-    }
-    if (options.recreate) access.recreateVersion = access.create->generatorVersion;
+    // Before a save is made: a generator that does not exist has none.
+    auto known = makeGenerator(options.world, blocks);
+    if (!known) return tl::unexpected(known.error());
+    const store::SaveAccess access = accessTo({options.save, options.recreate}, options.world, command);
     auto save = store::SqliteStore::open(options.save, blocks, access);
     if (!save) return tl::unexpected(save.error());
-    auto same = adoptIdentity(options.world, command, (*save)->identity(), options.save);
-    if (!same) return tl::unexpected(same.error());
     return std::move(*save);
 }
 

@@ -56,6 +56,7 @@ class PlayLoop {
             const double now = window_.timeSeconds();
             // A long stall moves the camera no farther than a tenth of a second would.
             fly(camera_, flyKeys(), static_cast<float>(std::min(now - last, 0.1)));
+            session_.advance(now - last, render::cameraChunk(camera_));
             last = now;
             const glm::ivec2 size = window_.framebufferSize();
             if (size.x == 0 || size.y == 0) continue;  // minimised
@@ -90,13 +91,13 @@ class PlayLoop {
             world::castRay(session_.world, session_.blocks,
                            {camera_.position, glm::dvec3(render::lookDirection(camera_))}, kReach);
         if (!hit) return;
-        if (button == gpu::MouseButton::Left) session_.setBlock(hit->block, world::kAir);
+        if (button == gpu::MouseButton::Left) session_.pipeline->setBlock(hit->block, world::kAir);
         if (button != gpu::MouseButton::Right) return;
         constexpr std::array<glm::ivec3, 6> kOut = {
             {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
         const glm::ivec3 out = kOut[hit->face];
-        session_.setBlock({hit->block.x + out.x, hit->block.y + out.y, hit->block.z + out.z},
-                          session_.blocks.find("stone")->id);
+        session_.pipeline->setBlock({hit->block.x + out.x, hit->block.y + out.y, hit->block.z + out.z},
+                                    session_.blocks.find("stone")->id);
     }
 
     // "X Y Z YAW PITCH", as the save keeps it.
@@ -110,12 +111,12 @@ class PlayLoop {
     }
 
     base::Result<void> leave() {
-        session_.pipeline->saveAll();
-        if (!session_.store) return {};
         const glm::dvec3& p = camera_.position;
-        session_.store->setSetting(kCameraSetting,
-                                   fmt::format("{} {} {} {} {}", p.x, p.y, p.z, camera_.yaw, camera_.pitch));
-        return session_.store->flush();
+        if (session_.store) {
+            session_.store->setSetting(
+                kCameraSetting, fmt::format("{} {} {} {} {}", p.x, p.y, p.z, camera_.yaw, camera_.pitch));
+        }
+        return session_.save();
     }
 
     FlyKeys flyKeys() const {

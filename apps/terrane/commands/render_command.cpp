@@ -97,6 +97,7 @@ base::Result<void> renderPicture(const RenderOptions& options, const CLI::App& c
     const base::Image image = renderer->readImage();
     const double draw = millisecondsSince(drawStart);
     if (auto written = base::writePng(options.output, image); !written) return written;
+    if (auto saved = (*session)->save(); !saved) return saved;
     if (context->debugErrorCount() > 0) return base::fail("the graphics driver reported errors, see above");
 
     const render::FrameStatistics& statistics = renderer->statistics();

@@ -1,0 +1,19 @@
+// A chunk and the eight around it.
+#pragma once
+
+#include <array>
+
+#include "terrane/world/coords.h"
+
+namespace terrane::stream {
+
+// By y, then x: index x + 3 y, the chunk itself is 4. Some may lie beyond the world.
+inline std::array<world::ChunkPos, 9> neighbourhood(world::ChunkPos pos) {
+    std::array<world::ChunkPos, 9> around;
+    for (int n = 0; n < 9; ++n) {
+        around[static_cast<std::size_t>(n)] = {pos.x + n % 3 - 1, pos.y + n / 3 - 1};
+    }
+    return around;
+}
+
+}  // namespace terrane::stream

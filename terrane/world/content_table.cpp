@@ -1,0 +1,63 @@
+#include "terrane/world/content_table.h"
+
+#include <sstream>
+
+namespace terrane::world {
+namespace {
+
+bool isName(std::string_view text) {
+    constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789_";
+    return !text.empty() && text.find_first_not_of(kLetters) == std::string_view::npos;
+}
+
+// How an error shows a value of the file.
+std::string shown(const toml::node& node) {
+    if (node.is_table()) return "a table";
+    if (const toml::array* array = node.as_array()) return fmt::format("an array of {}", array->size());
+    if (const auto text = node.value_exact<std::string_view>()) return fmt::format("\"{}\"", *text);
+    std::ostringstream other;
+    node.visit([&](const auto& value) {
+        if constexpr (toml::is_value<decltype(value)>) other << value;
+    });
+    return other.str();
+}
+
+}  // namespace
+
+void ContentTable::wrong(int line, std::string_view key, std::string_view what) {
+    if (!error_) error_ = fmt::format("{}:{}: {}: {}", file_, line, key, what);
+}
+
+void ContentTable::expected(const toml::node& node, std::string_view key, std::string_view what) {
+    wrong(lineOf(node), key, fmt::format("expected {}, got {}", what, shown(node)));
+}
+
+void ContentTable::missing(std::string_view key, std::string_view note) {
+    wrong(line(), key, fmt::format("missing ({})", note));
+}
+
+bool ContentTable::boolean(std::string_view key, bool fallback) {
+    const toml::node* found = node(key);
+    return found ? booleanOf(*found, key) : fallback;
+}
+
+bool ContentTable::booleanOf(const toml::node& value, std::string_view key) {
+    if (!value.is_boolean()) expected(value, key, "true or false");
+    return value.value_or(false);
+}
+
+int ContentTable::numberOf(const toml::node& value, std::string_view key, int least, int most) {
+    const auto number = value.value_exact<std::int64_t>();
+    if (number && *number >= least && *number <= most) return static_cast<int>(*number);
+    expected(value, key, fmt::format("{} to {}", least, most));
+    return least;
+}
+
+std::string ContentTable::nameOf(const toml::node& value, std::string_view key) {
+    const auto text = value.value_exact<std::string>();
+    if (text && isName(*text)) return *text;
+    expected(value, key, "a name of a-z, 0-9 and _");
+    return {};
+}
+
+}  // namespace terrane::world

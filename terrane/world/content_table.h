@@ -1,0 +1,104 @@
+// One table of a content file (TOML), read key by key with errors that say where and what. Used by
+// block_parser.cpp on the thread that starts a session.
+#pragma once
+
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace terrane::world {
+
+// A word of the file and what it stands for.
+template <class T>
+struct Word {
+    std::string_view name;
+    T value;
+};
+
+template <class Words>
+std::string listed(const Words& words) {
+    std::string text;
+    for (const auto& word : words) {
+        if (!text.empty()) text += ", ";
+        text += word.name;
+    }
+    return text;
+}
+
+// Readers return the key's value, or `fallback` where it is absent or wrong; what is wrong goes to the error
+// all tables of a file share, of which the first stays.
+class ContentTable {
+  public:
+    ContentTable(const toml::table& table, std::string_view file, std::optional<std::string>& error)
+        : table_(table), file_(file), error_(error) {}
+
+    const toml::node* node(std::string_view key) const { return table_.get(key); }
+    int line() const { return lineOf(table_); }
+
+    void wrong(int line, std::string_view key, std::string_view what);
+    void expected(const toml::node& node, std::string_view key, std::string_view what);
+    void missing(std::string_view key, std::string_view note = "required");
+
+    // Every key must be one of `known`; `prefix` is the path of the table in errors.
+    template <class Known>
+    void rejectUnknown(const Known& known, std::string_view prefix = "") {
+        const toml::key* first = nullptr;
+        for (const auto& [key, value] : table_) {
+            if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
+            if (!first || key.source().begin.line < first->source().begin.line) first = &key;
+        }
+        if (!first) return;
+        wrong(static_cast<int>(first->source().begin.line), fmt::format("{}{}", prefix, first->str()),
+              fmt::format("unknown key, expected one of {}", fmt::join(known, ", ")));
+    }
+
+    bool boolean(std::string_view key, bool fallback);
+    bool booleanOf(const toml::node& value, std::string_view key);
+    // From `least` to `most`.
+    int numberOf(const toml::node& value, std::string_view key, int least, int most);
+    std::string nameOf(const toml::node& value, std::string_view key);
+
+    template <class T, std::size_t N>
+    T wordOf(const toml::node& value, std::string_view key, const std::array<Word<T>, N>& words) {
+        const auto text = value.value_exact<std::string>();
+        for (const Word<T>& word : words)
+            if (text && *text == word.name) return word.value;
+        expected(value, key, fmt::format("one of {}", listed(words)));
+        return words[0].value;
+    }
+
+    // A value for all, or a table with one for each of `names`; absent ones get `fallback`.
+    template <class T, std::size_t N, class Read>
+    std::array<T, N> valueEach(std::string_view key, const std::array<std::string_view, N>& names,
+                               const T& fallback, Read read) {
+        std::array<T, N> result;
+        result.fill(fallback);
+        const toml::node* found = node(key);
+        if (!found) return result;
+        const toml::table* inner = found->as_table();
+        if (!inner) {
+            result.fill(read(*found, key));
+            return result;
+        }
+        ContentTable(*inner, file_, error_).rejectUnknown(names, fmt::format("{}.", key));
+        for (std::size_t n = 0; n < N; ++n)
+            if (const toml::node* value = inner->get(names[n]))
+                result[n] = read(*value, fmt::format("{}.{}", key, names[n]));
+        return result;
+    }
+
+  private:
+    static int lineOf(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+
+    const toml::table& table_;
+    std::string_view file_;
+    std::optional<std::string>& error_;
+};
+
+}  // namespace terrane::world

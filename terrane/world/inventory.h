@@ -1,0 +1,41 @@
+// What a block with slots (a chest) holds: stacks of items, kept as the block's large data. Games read,
+// change and write it back: chunk pipeline's setLargeData saves it with the chunk. Plain values, any thread.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/base/result.h"
+#include "terrane/world/chunk.h"
+
+namespace terrane::world {
+
+// An item is named, as block types are in saves: a name keeps its meaning when ids change.
+struct ItemStack {
+    std::string item;  // empty: an empty slot
+    std::uint16_t count = 0;
+
+    bool operator==(const ItemStack&) const = default;
+};
+
+constexpr std::uint16_t kMaxStack = 99;
+constexpr std::size_t kMaxItemName = 255;  // bytes
+
+using Inventory = std::vector<ItemStack>;  // a stack each slot
+
+// Puts `count` items into stacks of the same item that have room, then into empty slots, from the first on.
+// Returns how many found no room.
+int addItems(Inventory& inventory, std::string_view item, int count);
+// Takes at most `count` items, from the last slot on. Returns how many there were.
+int takeItems(Inventory& inventory, std::string_view item, int count);
+int countItems(const Inventory& inventory, std::string_view item);
+
+// Bytes: version 1, number of slots (16 bits), then of each slot the count (16 bits; little-endian both), the
+// length of the name (8 bits) and the name. Names are at most kMaxItemName bytes.
+LargeData encodeInventory(const Inventory& inventory);
+// An error where the bytes are no such inventory. `slots`: the block's; what lies beyond is kept.
+base::Result<Inventory> decodeInventory(const LargeData& data, int slots);
+
+}  // namespace terrane::world

@@ -1,0 +1,53 @@
+#include "terrane/world/plant_growth.h"
+
+#include <algorithm>
+
+#include "terrane/shared/hash.h"
+
+namespace terrane::world {
+namespace {
+
+constexpr std::uint32_t kSeed = 0x67726f77;  // "grow"
+
+bool hasSmallData(const Section& smallData) {
+    return !smallData.isUniform() || smallData.uniformValue() != 0;
+}
+
+void addFromSection(const Chunk& chunk, ChunkPos pos, int number, const BlockRegistry& blocks,
+                    std::uint64_t tick, std::vector<BlockPos>& growing) {
+    const std::uint32_t place =
+        shared::hash2(static_cast<std::uint32_t>(pos.x), static_cast<std::uint32_t>(pos.y), kSeed);
+    for (int pick = 0; pick < kGrowthPicks; ++pick) {
+        const std::uint32_t when =
+            shared::hash2(static_cast<std::uint32_t>(tick), static_cast<std::uint32_t>(tick >> 32),
+                          static_cast<std::uint32_t>(number * kGrowthPicks + pick));
+        const auto inSection =
+            static_cast<int>((place ^ when) % static_cast<std::uint32_t>(kBlocksPerSection));
+        const auto index = static_cast<BlockIndex>(number * kBlocksPerSection + inSection);
+        const BlockType& type = blocks.type(chunk.block(index));
+        if (type.growth.empty() || chunk.smallData(index) == 0) continue;
+        const BlockPos at = blockPos(pos, index);
+        if (std::find(growing.begin(), growing.end(), at) == growing.end()) growing.push_back(at);
+    }
+}
+
+}  // namespace
+
+std::vector<BlockPos> plantsThatGrow(const World& world, const BlockRegistry& blocks,
+                                     const GrowthTick& tick) {
+    std::vector<BlockPos> growing;
+    for (int dy = -tick.radius; dy <= tick.radius; ++dy) {
+        for (int dx = -tick.radius; dx <= tick.radius; ++dx) {
+            const ChunkPos pos{tick.centre.x + dx, tick.centre.y + dy};
+            const ChunkPtr chunk = world.maybeChunkAt(pos);
+            if (!chunk) continue;
+            for (int number = 0; number < kSectionsPerChunk; ++number) {
+                if (!hasSmallData(chunk->smallDataSection(number))) continue;
+                addFromSection(*chunk, pos, number, blocks, tick.number, growing);
+            }
+        }
+    }
+    return growing;
+}
+
+}  // namespace terrane::world

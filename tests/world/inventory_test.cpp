@@ -1,0 +1,65 @@
+#include "terrane/world/inventory.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace terrane::world {
+namespace {
+
+TEST(Inventory, FillsStacksOfTheSameItemFirst) {
+    Inventory chest(3);
+    EXPECT_EQ(addItems(chest, "stone", 5), 0);
+    EXPECT_EQ(addItems(chest, "sand", 98), 0);
+    EXPECT_EQ(addItems(chest, "stone", 10), 0);
+    EXPECT_EQ(chest, (Inventory{{"stone", 15}, {"sand", 98}, {}}));
+    EXPECT_EQ(addItems(chest, "sand", 60), 0);
+    EXPECT_EQ(chest, (Inventory{{"stone", 15}, {"sand", 99}, {"sand", 59}}));
+    EXPECT_EQ(addItems(chest, "glass", 7), 7) << "it is full";
+    EXPECT_EQ(addItems(chest, "sand", 50), 10);
+    EXPECT_EQ(countItems(chest, "sand"), 198);
+}
+
+TEST(Inventory, TakesFromTheLastStackOn) {
+    Inventory chest = {{"sand", 99}, {"stone", 1}, {"sand", 4}};
+    EXPECT_EQ(takeItems(chest, "sand", 5), 5);
+    EXPECT_EQ(chest, (Inventory{{"sand", 98}, {"stone", 1}, {}}));
+    EXPECT_EQ(takeItems(chest, "sand", 1000), 98);
+    EXPECT_EQ(takeItems(chest, "sand", 1), 0);
+    EXPECT_EQ(countItems(chest, "stone"), 1);
+}
+
+TEST(Inventory, BytesComeBack) {
+    const Inventory chest = {{"stone", 99}, {}, {std::string(kMaxItemName, 'x'), 1}};
+    EXPECT_EQ(decodeInventory(encodeInventory(chest), 3).value(), chest);
+    EXPECT_EQ(decodeInventory(encodeInventory({}), 27).value(), Inventory(27)) << "slots that are new";
+    EXPECT_EQ(decodeInventory(encodeInventory(chest), 1).value(), chest) << "nothing is lost to fewer slots";
+}
+
+TEST(Inventory, EveryCutIsFound) {
+    const LargeData whole = encodeInventory({{"stone", 99}, {}, {"sand", 1}});
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        const LargeData cut(whole.begin(), whole.begin() + static_cast<long>(length));
+        EXPECT_FALSE(decodeInventory(cut, 3)) << length;
+    }
+    LargeData longer = whole;
+    longer.push_back({});
+    EXPECT_FALSE(decodeInventory(longer, 3));
+    LargeData newer = whole;
+    newer[0] = std::byte{2};
+    EXPECT_FALSE(decodeInventory(newer, 3));
+}
+
+TEST(Inventory, AnyBytesGiveAnInventoryOrAnError) {
+    std::mt19937 random(7);
+    for (int round = 0; round < 20000; ++round) {
+        LargeData bytes = encodeInventory({{"stone", 9}, {}, {"a", 1}});
+        for (int k = 0; k < 3; ++k) bytes[random() % bytes.size()] = static_cast<std::byte>(random());
+        const auto decoded = decodeInventory(bytes, 0);
+        if (!decoded) continue;
+        EXPECT_EQ(encodeInventory(*decoded), bytes);
+    }
+}
+
+}  // namespace
+}  // namespace terrane::world

@@ -1,0 +1,81 @@
+#include "terrane/world/plant_growth.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <set>
+
+#include "terrane/world/block_update.h"
+#include "tests/light/content_blocks.h"
+
+namespace terrane::world {
+namespace {
+
+class PlantGrowthTest : public testing::Test {
+  protected:
+    PlantGrowthTest() {
+        for (int n = 0; n < 9; ++n) world_.insert({n % 3 - 1, n / 3 - 1}, std::make_shared<Chunk>());
+    }
+    void plantAt(BlockPos ground, std::string_view name) {
+        updateBlock(world_, contentBlocks(), ground, contentBlock("dirt"));
+        updateBlock(world_, contentBlocks(), {ground.x, ground.y, ground.z + 1}, contentBlock(name));
+    }
+    // Runs ticks until none is left to grow; returns how many were needed.
+    std::uint64_t growAll(std::uint64_t atMost) {
+        for (std::uint64_t tick = 0; tick < atMost; ++tick) {
+            for (const BlockPos pos : plantsThatGrow(world_, contentBlocks(), {tick, {0, 0}, 1})) {
+                world_.setSmallData(pos, static_cast<std::uint16_t>(world_.smallData(pos) - 1));
+            }
+            if (isGrown()) return tick + 1;
+        }
+        return atMost;
+    }
+    bool isGrown() const {
+        for (const auto& [pos, chunk] : world_.chunks())
+            for (int s = 0; s < kSectionsPerChunk; ++s)
+                for (int i = 0; i < kBlocksPerSection; ++i)
+                    if (chunk->smallDataSection(s).get(i) != 0) return false;
+        return true;
+    }
+    World world_;
+};
+
+TEST_F(PlantGrowthTest, WheatGrowsThroughItsStages) {
+    plantAt({4, 5, 60}, "wheat");
+    ASSERT_EQ(world_.smallData({4, 5, 61}), 3);
+    // Three stages of 4096 / 3 ticks on average.
+    const std::uint64_t ticks = growAll(60000);
+    EXPECT_GT(ticks, 200u);
+    EXPECT_LT(ticks, 40000u);
+    EXPECT_EQ(world_.block({4, 5, 61}), contentBlock("wheat"));
+}
+
+TEST_F(PlantGrowthTest, EveryPlaceHasItsTurn) {
+    for (int x = -16; x < 32; ++x)
+        for (int y = -16; y < 32; ++y) plantAt({x, y, 30}, "wheat");
+    EXPECT_LT(growAll(100000), 100000u);
+}
+
+TEST_F(PlantGrowthTest, OtherBlocksKeepTheirData) {
+    world_.setBlock({1, 1, 50}, contentBlock("stone"));
+    world_.setSmallData({1, 1, 50}, 7);
+    growAll(20000);
+    EXPECT_EQ(world_.smallData({1, 1, 50}), 7);
+}
+
+TEST_F(PlantGrowthTest, TheSameTickGrowsTheSamePlantsOnce) {
+    for (int x = 0; x < 16; ++x)
+        for (int y = 0; y < 16; ++y) plantAt({x, y, 30}, "wheat");
+    std::size_t count = 0;
+    for (std::uint64_t tick = 0; tick < 200; ++tick) {
+        const auto growing = plantsThatGrow(world_, contentBlocks(), {tick, {0, 0}, 1});
+        EXPECT_EQ(growing, plantsThatGrow(world_, contentBlocks(), {tick, {0, 0}, 1}));
+        EXPECT_EQ(std::set(growing.begin(), growing.end()).size(), growing.size());
+        count += growing.size();
+    }
+    // 200 ticks × 3 picks × 256 / 4096.
+    EXPECT_NEAR(static_cast<double>(count), 37.5, 20);
+}
+
+}  // namespace
+}  // namespace terrane::world
