@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "terrane/mesh/chunk_mesher.h"
+#include "terrane/shared/hash.h"
 #include "tests/mesh/test_blocks.h"
 
 namespace terrane::mesh {
@@ -33,6 +34,15 @@ struct Area {
         : centre(makeChunk(0, 0, source)),
           beside{makeChunk(-16, 0, source), makeChunk(16, 0, source), makeChunk(0, -16, source),
                  makeChunk(0, 16, source)} {}
+
+    // Data for one block in eight, whatever it is.
+    void addSmallData(unsigned seed) {
+        for (int i = 0; i < world::kBlocksPerChunk; ++i) {
+            const unsigned hash = shared::hash2(static_cast<unsigned>(i), 0, seed);
+            if (hash % 8 != 0 || (hash >> 8) % 16 < seed % 16) continue;
+            centre.setSmallData(static_cast<world::BlockIndex>(i), static_cast<std::uint16_t>(hash / 8 % 5));
+        }
+    }
 
     MeshInput input(const MeshOptions& options = {}) const {
         return {&centre, {&beside[0], &beside[1], &beside[2], &beside[3]}, &testBlocks(), options};

@@ -75,9 +75,11 @@ class ReferenceFaces {
 
     void push(int x, int y, int z, unsigned shapeFace, int side) {
         const world::BlockType& type = typeOf(idAt(x, y, z));
-        faces_.push_back(cellFace(static_cast<unsigned>(x), static_cast<unsigned>(y),
-                                  static_cast<unsigned>(z), shapeFace,
-                                  type.material[static_cast<std::size_t>(side)]));
+        const std::size_t left =
+            std::min<std::size_t>(input_.centre->smallData(world::blockIndex(x, y, z)), type.growth.size());
+        faces_.push_back(
+            cellFace(static_cast<unsigned>(x), static_cast<unsigned>(y), static_cast<unsigned>(z), shapeFace,
+                     left > 0 ? type.growth[left - 1] : type.material[static_cast<std::size_t>(side)]));
     }
 
     void addSides(int x, int y, int z, int first, unsigned shapeFaceOfNegX) {

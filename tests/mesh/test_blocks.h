@@ -94,6 +94,7 @@ opacity = 3
 name = "wheat"
 shape = "hash"
 texture = "wheat"
+growth = ["wheat_0", "wheat_1"]
 alpha = "test"
 two_sided = true
 animation = "top_waves"
