@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/options.h"
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
 
@@ -35,6 +36,15 @@ terrane::base::Result<void> run(const terrane::app::CommandEntry& command) {
     }
 }
 
+terrane::base::Result<void> runTraced(const terrane::app::CommandEntry& command, const std::string& trace) {
+    if (trace.empty()) return run(command);
+    terrane::base::startTrace();
+    const terrane::base::Result<void> result = run(command);
+    terrane::base::stopTrace();
+    const terrane::base::Result<void> written = terrane::base::writeTrace(trace);
+    return result ? written : result;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -46,6 +56,8 @@ int main(int argc, char** argv) {
     const std::vector<app::CommandEntry> commands = {
         app::addPlay(app), app::addRender(app), app::addGenerate(app), app::addMap(app),
         app::addDump(app), app::addCheck(app),  app::addBlocks(app),   app::addInfo(app)};
+    std::string trace;
+    for (const app::CommandEntry& command : commands) app::addTraceOption(*command.parser, trace);
     std::vector<const char*> arguments(argv, argv + argc);
     const bool hasCommand = argc > 1 && argv[1][0] != '-';
     const bool asksForHelp =
@@ -61,7 +73,7 @@ int main(int argc, char** argv) {
     }
     for (const app::CommandEntry& command : commands) {
         if (!command.parser->parsed()) continue;
-        const base::Result<void> result = run(command);
+        const base::Result<void> result = runTraced(command, trace);
         if (result) return command.exitCode();
         base::logError("{}", result.error().message);
         return kBadInput;

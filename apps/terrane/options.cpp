@@ -159,6 +159,13 @@ void addOutputOption(CLI::App& command, std::string& output, const std::string& 
         ->required();
 }
 
+void addTraceOption(CLI::App& command, std::string& trace) {
+    command
+        .add_option("--trace", trace, "Write where the time went, for Perfetto or chrome://tracing (JSON)")
+        ->check(fileInAFolder())
+        ->type_name("FILE");
+}
+
 void addSaveOption(CLI::App& command, std::string& save, const std::string& description) {
     command.add_option("--world", save, description)->check(fileInAFolder())->type_name("FILE");
 }

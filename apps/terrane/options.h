@@ -51,6 +51,9 @@ void addSaveOption(CLI::App& command, std::string& save, const std::string& desc
 // -o: the file to write. Refused before the work starts where it cannot be written later.
 void addOutputOption(CLI::App& command, std::string& output, const std::string& description);
 
+// --trace: the file to write; empty: none.
+void addTraceOption(CLI::App& command, std::string& trace);
+
 // For CLI::Option::check.
 CLI::Validator numberFrom(double low, double high);
 

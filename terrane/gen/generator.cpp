@@ -10,94 +10,141 @@
 #include "terrane/gen/program.h"
 
 namespace terrane::gen {
+namespace {
+
+// A thread's own: the scratch memory of passes, and the results that no neighbour needs.
+struct Worker {
+    Worker(const GeneratorGraph& graph, const Seeds& seeds)
+        : executor(graph.noises, seeds), fields(graph.fields.size()) {
+        for (auto& b : blocks) b = std::make_unique_for_overwrite<BlockArray>();
+    }
+
+    Executor executor;
+    std::vector<ColumnValues> fields;                   // by field
+    std::array<std::unique_ptr<BlockArray>, 2> blocks;  // of the newest two 3D passes, in turn
+};
+
+// The fewest chunks that are worth a cache: some rows of a wide area.
+constexpr std::size_t kLeastCached = 256;
+
+}  // namespace
+
 struct Generator::Impl {
-    Impl(GeneratorGraph g, std::uint64_t seed, std::size_t cachedChunks)
+    Impl(GeneratorGraph g, std::uint64_t seed, std::size_t cacheBytes)
         : graph(std::move(g)),
           seeds(makeSeeds(graph, seed)),
-          cache(cachedChunks, graph.fields.size(), graph.passes.size()) {
+          shared(sharedPasses(graph)),
+          cache(std::max(kLeastCached, cacheBytes / workBytes()), graph.fields.size(),
+                static_cast<std::size_t>(shared)) {
         for (const PassGraph& pass : graph.passes) programs.push_back(compile(pass, graph.noises));
     }
 
-    // Executors are expensive to make (scratch memory): each running call borrows one.
-    std::unique_ptr<Executor> borrowExecutor() {
-        const std::lock_guard lock(executorMutex);
-        if (idleExecutors.empty()) return std::make_unique<Executor>(graph.noises, seeds);
-        auto executor = std::move(idleExecutors.back());
-        idleExecutors.pop_back();
-        return executor;
+    std::size_t workBytes() const {
+        const auto blocks = std::count_if(graph.passes.begin(), graph.passes.begin() + shared,
+                                          [](const PassGraph& p) { return p.is3D; });
+        return sizeof(ChunkWork) + graph.fields.size() * sizeof(ColumnValues) +
+               static_cast<std::size_t>(blocks) * sizeof(BlockArray);
     }
-    void giveBack(std::unique_ptr<Executor> executor) {
-        const std::lock_guard lock(executorMutex);
-        idleExecutors.push_back(std::move(executor));
+
+    // Workers are expensive to make: each running call borrows one.
+    std::unique_ptr<Worker> borrowWorker() {
+        const std::lock_guard lock(workerMutex);
+        if (idleWorkers.empty()) return std::make_unique<Worker>(graph, seeds);
+        auto worker = std::move(idleWorkers.back());
+        idleWorkers.pop_back();
+        return worker;
+    }
+    void giveBack(std::unique_ptr<Worker> worker) {
+        const std::lock_guard lock(workerMutex);
+        idleWorkers.push_back(std::move(worker));
     }
 
     using Works = std::array<std::shared_ptr<ChunkWork>, 9>;
     static constexpr std::size_t kOwn = 4;  // the chunk itself among the nine
 
-    // Runs the first `passes` passes of a chunk, and of its neighbours what they need. Who runs a pass waits
-    // only for lower passes of other chunks, so that threads never wait in a circle.
-    void advance(world::ChunkPos pos, ChunkWork& work, int passes, Executor& executor);
-    void runPass(world::ChunkPos pos, ChunkWork& work, int pass, Executor& executor);
+    // Runs the first `passes` passes of a chunk, which are shared ones, and of its neighbours what they need.
+    // Who runs a pass waits only for lower passes of other chunks, so that threads never wait in a circle.
+    void advance(world::ChunkPos pos, ChunkWork& work, int passes, Worker& worker);
+    void runPass(world::ChunkPos pos, ChunkWork& work, int pass, Worker& worker);
     // The pass's inputs; `works` keeps the neighbours alive.
-    PassInputs inputsOf(world::ChunkPos pos, ChunkWork& work, int pass, Works& works);
-    void advanceNeighbours(world::ChunkPos pos, int pass, Works& works, Executor& executor);
+    PassInputs inputsOf(world::ChunkPos pos, ChunkWork& work, int pass, const Works& works, Worker& worker);
+    void advanceNeighbours(world::ChunkPos pos, int pass, Works& works, Worker& worker);
+    // Where the chunk that `worker` is at has its results.
+    ColumnValues& fieldOf(std::size_t field, ChunkWork& work, Worker& worker) const;
+    BlockArray& blocksOf(int pass, ChunkWork& work, Worker& worker) const;
 
     GeneratorGraph graph;
     Seeds seeds;
     std::vector<Program> programs;
+    int shared;  // passes
     PassCache cache;
-    std::mutex executorMutex;
-    std::vector<std::unique_ptr<Executor>> idleExecutors;
+    std::mutex workerMutex;
+    std::vector<std::unique_ptr<Worker>> idleWorkers;
 };
 
-void Generator::Impl::advanceNeighbours(world::ChunkPos pos, int pass, Works& works, Executor& executor) {
+ColumnValues& Generator::Impl::fieldOf(std::size_t field, ChunkWork& work, Worker& worker) const {
+    return graph.fields[field].writtenBy < shared ? work.fields[field] : worker.fields[field];
+}
+
+BlockArray& Generator::Impl::blocksOf(int pass, ChunkWork& work, Worker& worker) const {
+    const auto number = static_cast<std::size_t>(pass);
+    if (pass >= shared) {
+        const auto before = std::count_if(graph.passes.begin(), graph.passes.begin() + pass,
+                                          [](const PassGraph& p) { return p.is3D; });
+        return *worker.blocks[static_cast<std::size_t>(before % 2)];
+    }
+    if (!work.blocks[number]) work.blocks[number] = std::make_unique_for_overwrite<BlockArray>();
+    return *work.blocks[number];
+}
+
+void Generator::Impl::advanceNeighbours(world::ChunkPos pos, int pass, Works& works, Worker& worker) {
     const int needed = passesNeededAround(graph, pass);
     if (needed == 0) return;
     const auto around = chunksAround(pos);
     for (std::size_t n = 0; n < around.size(); ++n) {
         if (n == kOwn) continue;
         works[n] = cache.get(around[n]);
-        advance(around[n], *works[n], needed, executor);
+        advance(around[n], *works[n], needed, worker);
     }
 }
 
-PassInputs Generator::Impl::inputsOf(world::ChunkPos pos, ChunkWork& work, int pass, Works& works) {
+PassInputs Generator::Impl::inputsOf(world::ChunkPos pos, ChunkWork& work, int pass, const Works& works,
+                                     Worker& worker) {
     const Program& program = programs[static_cast<std::size_t>(pass)];
     PassInputs inputs;
     inputs.chunk = pos;
     inputs.fields.resize(graph.fields.size());
     for (std::size_t f = 0; f < graph.fields.size(); ++f) {
         const int writer = graph.fields[f].writtenBy;
-        if (writer >= 0 && writer < pass) inputs.fields[f][kOwn] = &work.fields[f];
+        if (writer >= 0 && writer < pass) inputs.fields[f][kOwn] = &fieldOf(f, work, worker);
     }
     const int source = newest3DBefore(graph, pass);
-    const auto blocksOf = [&](const ChunkWork& w) {
-        return w.blocks[static_cast<std::size_t>(source)].get();
-    };
-    if (source >= 0) inputs.blocks[kOwn] = blocksOf(work);
+    if (source >= 0) inputs.blocks[kOwn] = &blocksOf(source, work, worker);
     for (std::size_t n = 0; n < works.size(); ++n) {
         if (n == kOwn) continue;
         for (const std::uint32_t f : program.readsAt) inputs.fields[f][n] = &works[n]->fields[f];
-        if (program.readsBlocksAt) inputs.blocks[n] = blocksOf(*works[n]);
+        if (program.readsBlocksAt)
+            inputs.blocks[n] = works[n]->blocks[static_cast<std::size_t>(source)].get();
     }
     return inputs;
 }
 
-void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Executor& executor) {
-    TERRANE_ZONE("generator pass");
+void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Worker& worker) {
     Works works;
-    advanceNeighbours(pos, pass, works, executor);
-    const PassInputs inputs = inputsOf(pos, work, pass, works);
+    advanceNeighbours(pos, pass, works, worker);
+    TERRANE_ZONE("generator pass");
+    const PassInputs inputs = inputsOf(pos, work, pass, works, worker);
     const Program& program = programs[static_cast<std::size_t>(pass)];
     std::vector<ColumnValues*> results;
-    for (const Program::FieldResult& f : program.fields) results.push_back(&work.fields[f.field]);
-    if (!program.is3D) return executor.run2D(program, inputs, results);
-    auto& blocks = work.blocks[static_cast<std::size_t>(pass)];
-    blocks = std::make_unique_for_overwrite<BlockArray>();
-    executor.run3D(program, inputs, *blocks, results);
+    for (const Program::FieldResult& f : program.fields) results.push_back(&fieldOf(f.field, work, worker));
+    if (program.is3D) {
+        worker.executor.run3D(program, inputs, blocksOf(pass, work, worker), results);
+    } else {
+        worker.executor.run2D(program, inputs, results);
+    }
 }
 
-void Generator::Impl::advance(world::ChunkPos pos, ChunkWork& work, int passes, Executor& executor) {
+void Generator::Impl::advance(world::ChunkPos pos, ChunkWork& work, int passes, Worker& worker) {
     for (;;) {
         const int done = work.passesDone.load(std::memory_order_acquire);
         if (done >= passes) return;
@@ -106,14 +153,14 @@ void Generator::Impl::advance(world::ChunkPos pos, ChunkWork& work, int passes, 
             work.passesDone.wait(done, std::memory_order_acquire);
             continue;
         }
-        runPass(pos, work, done, executor);
+        runPass(pos, work, done, worker);
         work.passesDone.store(done + 1, std::memory_order_release);
         work.passesDone.notify_all();
     }
 }
 
-Generator::Generator(GeneratorGraph graph, std::uint64_t seed, std::size_t cachedChunks)
-    : impl_(std::make_unique<Impl>(std::move(graph), seed, cachedChunks)) {}
+Generator::Generator(GeneratorGraph graph, std::uint64_t seed, std::size_t cacheBytes)
+    : impl_(std::make_unique<Impl>(std::move(graph), seed, cacheBytes)) {}
 Generator::~Generator() = default;
 Generator::Generator(Generator&&) noexcept = default;
 Generator& Generator::operator=(Generator&&) noexcept = default;
@@ -122,28 +169,25 @@ const std::string& Generator::name() const {
     return impl_->graph.name;
 }
 
-// The last pass runs into a buffer of the call: nobody else needs its result.
 world::Chunk Generator::generate(world::ChunkPos pos) const {
     TERRANE_ZONE("generate chunk");
     assert(world::isInWorld(pos) && "chunks beyond 32-bit block coordinates do not exist");
-    thread_local std::unique_ptr<BlockArray> blocks = std::make_unique_for_overwrite<BlockArray>();
     Impl& impl = *impl_;
-    auto executor = impl.borrowExecutor();
+    auto worker = impl.borrowWorker();
     const auto work = impl.cache.get(pos);
-    const int last = static_cast<int>(impl.programs.size()) - 1;
-    impl.advance(pos, *work, last, *executor);
-    Impl::Works works;
-    impl.advanceNeighbours(pos, last, works, *executor);
-    executor->run3D(impl.programs.back(), impl.inputsOf(pos, *work, last, works), *blocks);
-    impl.giveBack(std::move(executor));
+    impl.advance(pos, *work, impl.shared, *worker);
+    const int passCount = static_cast<int>(impl.programs.size());
+    for (int pass = impl.shared; pass < passCount; ++pass) impl.runPass(pos, *work, pass, *worker);
 
+    const BlockArray& blocks = impl.blocksOf(passCount - 1, *work, *worker);
     world::Chunk chunk;
     for (int s = 0; s < world::kSectionsPerChunk; ++s) {
-        const std::span values(*blocks);
+        const std::span values(blocks);
         const auto section = values.subspan(static_cast<std::size_t>(s) * world::kBlocksPerSection)
                                  .first<world::kBlocksPerSection>();
         chunk.setSection(s, world::Section::fromValues(section));
     }
+    impl.giveBack(std::move(worker));
     return chunk;
 }
 

@@ -1,7 +1,8 @@
 // A generator ready to run for one world seed: position in, chunk out. The blocks depend on nothing but the
 // generator, the seed and the position: not on threads, order of requests or instruction set.
 //
-// Each pass of each chunk is computed once and kept while neighbours may need it, in a cache of bounded size.
+// What neighbours may need of a chunk is computed once and kept, in a cache of bounded size; what they do not
+// is computed with the chunk itself.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +17,9 @@ namespace terrane::gen {
 
 class Generator {
   public:
-    // `cachedChunks`: how many chunks' intermediate results are kept; each takes 1 KiB a field and 128 KiB
-    // for each 3D pass but the last (overworld: about 150 KiB).
-    Generator(GeneratorGraph graph, std::uint64_t seed, std::size_t cachedChunks = 1280);
+    // `cacheBytes`: for what chunks' neighbours need of them, 1 KiB a field and, where they read blocks,
+    // 128 KiB a 3D pass. Overworld: 14 KiB a chunk, so that the default holds 4,680 chunks.
+    Generator(GeneratorGraph graph, std::uint64_t seed, std::size_t cacheBytes = std::size_t{64} << 20);
     ~Generator();
     Generator(Generator&&) noexcept;
     Generator& operator=(Generator&&) noexcept;

@@ -27,4 +27,12 @@ int passesNeededAround(const GeneratorGraph& generator, int pass) {
     return needed;
 }
 
+int sharedPasses(const GeneratorGraph& generator) {
+    int shared = 0;
+    for (int pass = 0; pass < static_cast<int>(generator.passes.size()); ++pass) {
+        shared = std::max(shared, passesNeededAround(generator, pass));
+    }
+    return shared;
+}
+
 }  // namespace terrane::gen

@@ -13,7 +13,7 @@ struct Entry {
     void (*write)(GeneratorBuilder&);
 };
 
-constexpr std::array<Entry, 4> kGenerators = {{{"overworld", 1, writeOverworld},
+constexpr std::array<Entry, 4> kGenerators = {{{"overworld", 2, writeOverworld},
                                                {"flat", 1, writeFlat},
                                                {"hills3d", 1, writeHills3D},
                                                {"voronoi", 1, writeVoronoi}}};

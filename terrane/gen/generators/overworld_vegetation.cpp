@@ -1,5 +1,6 @@
-// The overworld's trees and plants. They come after the ground because they must not grow where a cave cut
-// it.
+// The overworld's trees and plants. What grows is found from columns alone, so that neighbours, into which
+// crowns reach, need no blocks of each other; that no plant stands where a cave cut the ground is seen to when
+// blocks are there.
 #include "terrane/gen/generators/overworld.h"
 
 namespace terrane::gen::overworld {
@@ -20,18 +21,20 @@ Voronoi2D trees(Pass& p) {
 Bool isSolidGround(Pass& p, const Fields& f) {
     const Int surface = p.read(f.surface);
     const Block air = p.block("air");
-    return surface > kSeaLevel && p.blockInColumn(surface) != air && p.blockInColumn(surface - 1) != air &&
+    return p.blockInColumn(surface) != air && p.blockInColumn(surface - 1) != air &&
            p.blockInColumn(surface - 3) != air;
 }
 
+// Trees keep away from cave mouths: no cave can reach their ground.
 Int treeHeightHere(Pass& p, const Fields& f, Bool isGrass) {
+    const Bool isFarFromCaves = p.read(f.caveTop) < p.read(f.surface) - 3;
     const IVec2 offset = trees(p).offset;
     const Bool isPoint = offset.x == 0 && offset.y == 0;
     const Bool grows = p.random2D("tree grows", p.x(), p.y()) < p.read(f.forest);
     const Int height =
         Int(p.random2D("tree height", p.x(), p.y()) * float(kMaxTreeHeight - kMinTreeHeight + 1)) +
         kMinTreeHeight;
-    return select(isPoint && grows && isGrass, height, Int(0));
+    return select(isPoint && grows && isGrass && isFarFromCaves, height, Int(0));
 }
 
 Block plantOnGrass(Pass& p, const Fields& f, Float chance, Float kind) {
@@ -78,7 +81,8 @@ Block vegetation(Pass& p, const Fields& f, const Tree& tree) {
         block = select(hangs, p.block("stone"), static_cast<Block>(block));
     });
     p.if_(z > surface && p.blockHere() == air, [&] {
-        block = select(z <= surface + p.read(f.plantHeight), p.read(f.plant), air);
+        const Bool isPlant = z <= surface + p.read(f.plantHeight) && isSolidGround(p, f);
+        block = select(isPlant, p.read(f.plant), air);
         const Int aboveBase = z - tree.base;
         p.if_(tree.height > 0 && aboveBase > (tree.height >> 1), [&] {
             const Bool leaf = isLeaf(p, tree.offset, aboveBase - tree.height, tree.height);
@@ -100,7 +104,7 @@ Block caveFloor(Pass& p) {
 
 void plantsPass(Pass& p, const Fields& f) {
     const Block top = p.read(f.top);
-    const Bool isGround = isSolidGround(p, f);
+    const Bool isGround = p.read(f.surface) > kSeaLevel;
     const Bool isGrass = isGround && top == p.block("grass");
     const Int tree = treeHeightHere(p, f, isGrass);
 
