@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "apps/terrane/scenes.h"
 #include "terrane/base/embedded.h"
 #include "terrane/gen/builder.h"
 #include "terrane/gen/generator.h"
@@ -71,9 +72,16 @@ MeshWorld fromGenerator(gen::GeneratorGraph graph, ChunkPos middle) {
     return makeWorld(middle, [&](ChunkPos pos) { return generator.generate(pos); });
 }
 
-template <int kX, int kY>
-MeshWorld overworldAt() {
-    return fromGenerator(orExit(gen::makeGenerator("overworld", blocks())), {kX >> 4, kY >> 4});
+ChunkPos chunkUnder(glm::dvec3 position) {
+    return world::chunkOf(
+        {static_cast<int>(std::floor(position.x)), static_cast<int>(std::floor(position.y)), 0});
+}
+
+// Around the camera of a reference scene.
+template <std::size_t kScene>
+MeshWorld scene() {
+    return fromGenerator(orExit(gen::makeGenerator("overworld", blocks())),
+                         chunkUnder(app::scenes()[kScene].camera.position));
 }
 
 constexpr int kSeaLevel = 80;
@@ -174,11 +182,10 @@ MeshWorld allStone() {
     return fromBlocks([stone = id("stone")](int, int, int) { return stone; });
 }
 
-// The cameras of apps/terrane/scenes.cpp.
-constexpr std::array kInputs = {NamedInput{"ocean", overworldAt<-390, 200>},
-                                NamedInput{"desert", overworldAt<2100, 1300>},
-                                NamedInput{"landscape", overworldAt<1560, 700>},
-                                NamedInput{"cave", overworldAt<-276, 325>},
+constexpr std::array kInputs = {NamedInput{"ocean", scene<0>},
+                                NamedInput{"desert", scene<1>},
+                                NamedInput{"landscape", scene<2>},
+                                NamedInput{"cave", scene<3>},
                                 NamedInput{"terrain", terrain},
                                 NamedInput{"perlin_hills", perlinHills},
                                 NamedInput{"perlin_caves", perlinCaves},

@@ -169,6 +169,10 @@ const std::string& Generator::name() const {
     return impl_->graph.name;
 }
 
+std::size_t Generator::cacheBytes() const {
+    return impl_->cache.size() * impl_->workBytes();
+}
+
 world::Chunk Generator::generate(world::ChunkPos pos) const {
     TERRANE_ZONE("generate chunk");
     assert(world::isInWorld(pos) && "chunks beyond 32-bit block coordinates do not exist");

@@ -29,6 +29,7 @@ class Generator {
     world::Chunk generate(world::ChunkPos pos) const;
 
     const std::string& name() const;
+    std::size_t cacheBytes() const;  // in use
 
   private:
     struct Impl;

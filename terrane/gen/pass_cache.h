@@ -30,6 +30,11 @@ class PassCache {
     // The chunk's work, new where it is not kept. A work stays alive while somebody holds it.
     std::shared_ptr<ChunkWork> get(world::ChunkPos pos);
 
+    std::size_t size() {
+        const std::lock_guard lock(mutex_);
+        return entries_.size();
+    }
+
   private:
     using Order = std::list<world::ChunkPos>;
     struct Entry {

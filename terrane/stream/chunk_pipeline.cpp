@@ -297,6 +297,12 @@ std::vector<ChunkChange> ChunkPipeline::takeChanges(std::size_t limit) {
     return taken;
 }
 
+std::size_t ChunkPipeline::localLightBytes() const {
+    std::size_t bytes = 0;
+    for (const auto& [pos, extra] : extras_) bytes += extra.local ? extra.local->memoryBytes() : 0;
+    return bytes;
+}
+
 std::size_t ChunkPipeline::lightBytes() const {
     std::size_t bytes = 0;
     for (const auto& [pos, extra] : extras_) bytes += extra.light ? extra.light->memoryBytes() : 0;

@@ -92,8 +92,9 @@ class ChunkPipeline {
     std::vector<ChunkChange> takeChanges(std::size_t limit);
 
     Progress progress() const { return {table_.wantedVisible(), table_.visibleInView()}; }
-    // Of visible chunks' light.
+    // Of visible chunks' light, and of what chunks' own blocks give, kept until their neighbours are lit.
     std::size_t lightBytes() const;
+    std::size_t localLightBytes() const;
 
   private:
     struct Results;

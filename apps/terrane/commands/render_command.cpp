@@ -1,4 +1,6 @@
 // terrane render: one picture of one place, without a window.
+#include <sys/resource.h>
+
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -31,6 +33,13 @@ struct RenderOptions {
     std::string output;
     bool json = false;
 };
+
+// Of the whole process so far.
+std::size_t peakMemoryBytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
 
 base::Result<Scene> chosenScene(const RenderOptions& options) {
     Scene scene = scenes().front();
@@ -120,7 +129,11 @@ base::Result<void> renderPicture(const RenderOptions& options, const CLI::App& c
             {"bytes",
              {{"blocks", (*session)->world.memoryBytes()},
               {"light", (*session)->pipeline->lightBytes()},
-              {"quads", renderer->quadBytes()}}}};
+              {"light_of_stage_1", (*session)->pipeline->localLightBytes()},
+              {"generator_cache", (*session)->generator->cacheBytes()},
+              {"light_gpu", renderer->lightBytes()},
+              {"quads_gpu", renderer->quadBytes()},
+              {"process_peak", peakMemoryBytes()}}}};
         std::cout << result.dump() << '\n';
     }
     return {};
