@@ -1,0 +1,93 @@
+#include "terrane/world/character.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace terrane::world {
+namespace {
+
+// How fast a wanted velocity is taken on, 1/s: at once by day's measure on the ground, slowly in the air.
+constexpr double kGroundGrip = 14, kAirGrip = 3, kWaterGrip = 5, kFlightGrip = 12;
+
+double approach(double value, double target, double grip) {
+    return value + (target - value) * (1 - std::exp(-grip * kStepSeconds));
+}
+
+void steer(Character& c, const CharacterInput& input, double speed, double grip) {
+    c.velocity.x = approach(c.velocity.x, input.direction.x * speed, grip);
+    c.velocity.y = approach(c.velocity.y, input.direction.y * speed, grip);
+}
+
+void accelerate(Character& c, const CharacterInput& input) {
+    const double upward = (input.jumps ? 1 : 0) - (input.dives ? 1 : 0);
+    if (!input.hasGravity) {
+        steer(c, input, input.runs ? kRunSpeed : kWalkSpeed, kFlightGrip);
+        c.velocity.z = approach(c.velocity.z, upward * kWalkSpeed, kFlightGrip);
+    } else if (c.isSwimming) {
+        steer(c, input, kSwimSpeed, kWaterGrip);
+        c.velocity.z = approach(c.velocity.z, upward * kSwimSpeed - 0.6, kWaterGrip);  // sinks slowly
+    } else {
+        steer(c, input, input.runs ? kRunSpeed : kWalkSpeed, c.isOnGround ? kGroundGrip : kAirGrip);
+        if (c.isOnGround && input.jumps) c.velocity.z = kJumpSpeed;
+        c.velocity.z = std::max(c.velocity.z - kGravity * kStepSeconds, -kFallLimit);
+    }
+}
+
+// What is in the way and no higher than a step is walked onto: up, along, down again.
+glm::dvec3 steppedOver(const World& world, const BlockRegistry& blocks, glm::dvec3 feet, glm::dvec3 along) {
+    const double rise = sweep(world, blocks, characterBox(feet), {0, 0, kStepHeight}).moved.z;
+    glm::dvec3 at = feet + glm::dvec3(0, 0, rise);
+    at += sweep(world, blocks, characterBox(at), along).moved;
+    at += sweep(world, blocks, characterBox(at), {0, 0, -rise}).moved;
+    return at;
+}
+
+void move(const World& world, const BlockRegistry& blocks, Character& c) {
+    const glm::dvec3 motion = c.velocity * kStepSeconds;
+    const Sweep swept = sweep(world, blocks, characterBox(c.feet), motion);
+    glm::dvec3 feet = c.feet + swept.moved;
+    const bool lands = swept.blocked.z && motion.z < 0;
+    bool blockedX = swept.blocked.x, blockedY = swept.blocked.y;
+    if ((blockedX || blockedY) && (c.isOnGround || lands)) {
+        const glm::dvec3 over = steppedOver(world, blocks, c.feet, {motion.x, motion.y, 0});
+        const auto distance = [&](glm::dvec3 to) { return glm::length(glm::dvec2(to - c.feet)); };
+        if (distance(over) > distance(feet) + kSkin) {
+            feet = over;
+            blockedX = blockedY = false;
+        }
+    }
+    c.feet = feet;
+    if (blockedX) c.velocity.x = 0;
+    if (blockedY) c.velocity.y = 0;
+    if (swept.blocked.z) c.velocity.z = 0;
+    c.isOnGround = lands;
+}
+
+}  // namespace
+
+Aabb characterBox(glm::dvec3 feet) {
+    constexpr double kHalf = kCharacterWidth / 2;
+    return {feet - glm::dvec3(kHalf, kHalf, 0), feet + glm::dvec3(kHalf, kHalf, kCharacterHeight)};
+}
+
+Character stepped(const World& world, const BlockRegistry& blocks, const Character& before,
+                  const CharacterInput& input) {
+    Character c = before;
+    if (collides(world, blocks, characterBox(c.feet))) {
+        // Not where nothing is loaded: there it waits for the ground to come.
+        if (!world.maybeChunkAt(chunkOf({static_cast<std::int32_t>(std::floor(c.feet.x)),
+                                         static_cast<std::int32_t>(std::floor(c.feet.y)), 0}))) {
+            return c;
+        }
+        c.feet.z += kRunSpeed * kStepSeconds;
+        c.velocity = {};
+        return c;
+    }
+    c.isSwimming = isInLiquid(world, blocks, c.feet + glm::dvec3(0, 0, kCharacterHeight * 0.45));
+    accelerate(c, input);
+    move(world, blocks, c);
+    return c;
+}
+
+}  // namespace terrane::world

@@ -1,0 +1,46 @@
+// A person who walks, jumps, swims and falls. Called at a fixed rate by whoever runs the game, on the thread
+// that owns the world; between two steps the picture interpolates (characterEye).
+#pragma once
+
+#include <chrono>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "terrane/world/collision.h"
+
+namespace terrane::world {
+
+// Blocks and seconds. A jump reaches kJumpSpeed² / 2 kGravity = 1.28 blocks, enough for one.
+constexpr double kCharacterWidth = 0.6, kCharacterHeight = 1.8, kEyeHeight = 1.62;
+constexpr double kGravity = 26, kJumpSpeed = 8.15, kFallLimit = 55;
+constexpr double kWalkSpeed = 4.5, kRunSpeed = 7.5, kSwimSpeed = 3.2;
+constexpr double kStepHeight = 0.6;  // walked up without a jump
+constexpr double kStepSeconds = 1.0 / 120;
+
+struct Character {
+    glm::dvec3 feet{0};  // middle of the underside
+    glm::dvec3 velocity{0};
+    bool isOnGround = false;
+    bool isSwimming = false;
+};
+
+// What the person wants. `direction`: over the ground, of length 0…1.
+struct CharacterInput {
+    glm::dvec2 direction{0};
+    bool runs = false, jumps = false, dives = false;
+    bool hasGravity = true;  // else up and down are `jumps` and `dives`, at walking speed
+};
+
+// kStepSeconds later. A character that stands inside of a block, as after one was placed on it, is lifted
+// out.
+Character stepped(const World& world, const BlockRegistry& blocks, const Character& before,
+                  const CharacterInput& input);
+
+Aabb characterBox(glm::dvec3 feet);
+
+// The eye at `share` (0…1) of the way between two steps. A step up is smoothed by it too.
+inline glm::dvec3 characterEye(const Character& before, const Character& now, double share) {
+    return before.feet + (now.feet - before.feet) * share + glm::dvec3(0, 0, kEyeHeight);
+}
+
+}  // namespace terrane::world
