@@ -38,9 +38,10 @@ glm::vec2 lookSector(const render::Camera& camera) {
 
 class PlayLoop {
   public:
-    PlayLoop(const PlayOptions& options, gpu::Window& window, WorldSession& session,
-             render::Renderer& renderer)
+    PlayLoop(const PlayOptions& options, const render::RenderOptions& graphics, gpu::Window& window,
+             WorldSession& session, render::Renderer& renderer)
         : options_(options),
+          graphics_(graphics),
           window_(window),
           session_(session),
           renderer_(renderer),
@@ -130,20 +131,21 @@ class PlayLoop {
 
     base::Result<void> drawFrame(glm::ivec2 size, float seconds) {
         if (size != renderer_.size()) {
-            if (auto resized = renderer_.resize(size, options_.graphics.samples); !resized) return resized;
+            if (auto configured = renderer_.configure(size, graphics_); !configured) return configured;
         }
         session_.pipeline->setView(render::cameraChunk(camera_), options_.graphics.viewDistance,
                                    lookSector(camera_));
         session_.pipeline->update();
         uploadChanges(*session_.pipeline, renderer_, kUploadsPerFrame);
         renderer_.draw({camera_, world::environmentAt(0.38f), fogDistance(options_.graphics.viewDistance),
-                        seconds, options_.graphics.view, options_.graphics.coverCracks});
+                        seconds, options_.graphics.view});
         renderer_.presentToWindow(size);
         window_.swapBuffers();
         return {};
     }
 
     const PlayOptions& options_;
+    render::RenderOptions graphics_;
     gpu::Window& window_;
     WorldSession& session_;
     render::Renderer& renderer_;
@@ -162,12 +164,14 @@ base::Result<void> play(const PlayOptions& options, const CLI::App& command) {
                                        .debug = options.graphics.debugGl});
     if (!window) return tl::unexpected(window.error());
     const gpu::ShaderLoader shaders = makeShaderLoader(options.graphics.shaderRoot);
-    auto renderer =
-        render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), gpu::queryDevice());
+    const gpu::DeviceInfo device = gpu::queryDevice();
+    auto renderer = render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), device);
     if (!renderer) return tl::unexpected(renderer.error());
     (*session)->pipeline->setMeshOptions(options.graphics.mesh);
     renderer->setViewDistance(options.graphics.viewDistance);
-    if (auto played = PlayLoop(options, *window, **session, *renderer).run(); !played) return played;
+    const auto graphics = renderOptions(options.graphics.choices, device.software);
+    if (auto played = PlayLoop(options, graphics, *window, **session, *renderer).run(); !played)
+        return played;
     if (window->debugLog() && window->debugLog()->errorCount() > 0) {
         return base::fail("the graphics driver reported errors, see above");
     }
@@ -180,7 +184,7 @@ CommandEntry addPlay(CLI::App& app) {
     auto options = std::make_shared<PlayOptions>();
     CLI::App* command = app.add_subcommand("play", "Open a window and fly through the world (the default)");
     addWorldOptions(*command, options->world);
-    addGraphicsOptions(*command, options->graphics);
+    addGraphicsOptions(*command, options->graphics, "auto");
     command->add_flag("--full-screen", options->fullScreen, "Take the whole screen");
     addSaveGameOptions(*command, options->save);
     return {command, [options, command] { return play(*options, *command); }};
