@@ -67,6 +67,29 @@ CLI::Validator fileInAFolder() {
     return CLI::Validator(check, "");
 }
 
+void addGraphicsChoices(CLI::App& command, GraphicsChoices& choices, std::string preset) {
+    choices.preset = std::move(preset);
+    command
+        .add_option("--preset", choices.preset,
+                    "Graphics options together, changed by the flags that follow: " + presetNames())
+        ->check(isPresetName)
+        ->type_name("WORD")
+        ->capture_default_str();
+    for (std::size_t k = 0; k < graphicsTable().size(); ++k) {
+        const GraphicsRow& row = graphicsTable()[k];
+        const std::string flag = "--" + std::string(row.name), words = wordsOf(row);
+        const auto take = [&choices, k, flag, words](const std::string& text) {
+            if (const auto choice = choiceOf(graphicsTable()[k], text)) {
+                choices.changed.emplace_back(k, *choice);
+                return;
+            }
+            throw CLI::ValidationError(flag, fmt::format("expected one of {}, got \"{}\"", words, text));
+        };
+        command.add_option_function<std::string>(flag, take, std::string(row.description) + ": " + words)
+            ->type_name("WORD");
+    }
+}
+
 void addMeshOptions(CLI::App& command, mesh::MeshOptions& options) {
     using mesh::Method;
     addChoice<Method>(command, "--aggregation", options.method,
@@ -124,7 +147,7 @@ void addWorldOptions(CLI::App& command, WorldOptions& options) {
         ->check(numberFrom(1, 256));
 }
 
-void addGraphicsOptions(CLI::App& command, GraphicsOptions& options) {
+void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string preset) {
     command
         .add_option_function<std::string>(
             "--size", [&](const std::string& text) { options.size = parseSize(text); },
@@ -134,18 +157,15 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options) {
     command.add_option("--view-distance", options.viewDistance, "How far one sees, in chunks")
         ->check(numberFrom(1, 64))
         ->capture_default_str();
-    command.add_option("--samples", options.samples, "Anti-aliasing: samples a pixel")
-        ->check(CLI::IsMember({1, 2, 4, 8}))
-        ->capture_default_str();
+    addGraphicsChoices(command, options.choices, std::move(preset));
     addChoice<render::View>(command, "--view", options.view,
                             {{"color", render::View::Color},
                              {"normal", render::View::Normal},
                              {"depth", render::View::Depth},
+                             {"light", render::View::Light},
                              {"aggregation", render::View::Aggregation}},
                             "What to show");
     addMeshOptions(command, options.mesh);
-    addChoice<bool>(command, "--t-junctions", options.coverCracks, {{"covered", true}, {"open", false}},
-                    "Cracks where rectangles of different sizes meet");
     command
         .add_option("--shader-root", options.shaderRoot, "Source tree to read shaders from, for development")
         ->check(CLI::ExistingDirectory);

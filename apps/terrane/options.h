@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/terrane/graphics_table.h"
 #include "terrane/base/result.h"
 #include "terrane/mesh/mesh_options.h"
 #include "terrane/render/renderer.h"
@@ -25,10 +26,9 @@ struct WorldOptions {
 struct GraphicsOptions {
     glm::ivec2 size{1280, 720};  // pixels
     int viewDistance = 16;       // chunks
-    int samples = 4;             // a pixel
+    GraphicsChoices choices;
     render::View view = render::View::Color;
     mesh::MeshOptions mesh;
-    bool coverCracks = true;
     std::string shaderRoot;
     bool debugGl = false;
 };
@@ -40,7 +40,8 @@ struct Area {
 };
 
 void addWorldOptions(CLI::App& command, WorldOptions& options);
-void addGraphicsOptions(CLI::App& command, GraphicsOptions& options);
+// `preset`: where none is asked for.
+void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string preset);
 // "X0,Y0,X1,Y1", the end excluded; not empty and inside the world.
 void addAreaOption(CLI::App& command, std::optional<Area>& area);
 unsigned threadCount(const WorldOptions& options);

@@ -30,4 +30,13 @@ struct InputEvent {
     double y = 0.0;  // the same, wheel away from the person, cursor down
 };
 
+// Sticks are -1…1, right and up; within a small circle around the middle they are 0.
+struct Gamepad {
+    float leftX = 0, leftY = 0, rightX = 0, rightY = 0;
+    bool south = false, east = false, west = false, north = false;
+    bool leftBumper = false, rightBumper = false;
+    bool leftTrigger = false, rightTrigger = false;
+    bool up = false, down = false;
+};
+
 }  // namespace terrane::gpu

@@ -157,6 +157,7 @@ Texture2DMultisample::Texture2DMultisample(glm::ivec2 size, GLenum format, int s
     assert(size.x > 0 && size.y > 0 && "a texture has a size");
     assert(samples >= 1 && "a texture has samples");
     glTextureStorage2DMultisample(id(), samples, format, size.x, size.y, GL_TRUE);
+    glGetTextureLevelParameteriv(id(), 0, GL_TEXTURE_SAMPLES, &samples_);
 }
 
 void Texture2DMultisample::bind(GLuint unit) const {

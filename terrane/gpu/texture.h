@@ -84,7 +84,8 @@ class Texture3D {
     glm::ivec3 size_ = {0, 0, 0};
 };
 
-// A render target with several samples per pixel, at the same places in every pixel.
+// A render target with several samples per pixel, at the same places in every pixel. The driver may take more
+// than asked for: samples() tells.
 class Texture2DMultisample {
   public:
     Texture2DMultisample() = default;

@@ -6,6 +6,9 @@
 #include <GLFW/glfw3.h>
 
 #include <cassert>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -85,6 +88,7 @@ struct Window::State {
     glm::dvec2 cursor = {0.0, 0.0};
     bool cursorKnown = false;  // false: the next position starts a new motion
     std::unique_ptr<DebugLog> debugLog;
+    glm::ivec4 place{0, 0, 1280, 720};  // and size of the window, for when it leaves the full screen
 
     State() = default;
     State(const State&) = delete;
@@ -203,6 +207,57 @@ float Window::contentScale() const {
     float scaleY = 1.0F;
     glfwGetWindowContentScale(state_->window, &scaleX, &scaleY);
     return scaleX;
+}
+
+void Window::setFullScreen(bool isFullScreen) {
+    State& s = *state_;
+    if (isFullScreen == (glfwGetWindowMonitor(s.window) != nullptr)) return;
+    if (!isFullScreen) {
+        glfwSetWindowMonitor(s.window, nullptr, s.place.x, s.place.y, s.place.z, s.place.w, 0);
+        return;
+    }
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+    if (mode == nullptr) return;
+    glfwGetWindowPos(s.window, &s.place.x, &s.place.y);
+    glfwGetWindowSize(s.window, &s.place.z, &s.place.w);
+    glfwSetWindowMonitor(s.window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+void Window::setIcon(int width, int height, std::span<const std::byte> pixels) {
+    assert(pixels.size() ==
+           std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    std::vector<unsigned char> copy(pixels.size());  // GLFW wants them writable
+    std::memcpy(copy.data(), pixels.data(), pixels.size());
+    const GLFWimage image{width, height, copy.data()};
+    glfwSetWindowIcon(state_->window, 1, &image);
+}
+
+std::optional<Gamepad> Window::gamepad() const {
+    GLFWgamepadstate state;
+    if (glfwGetGamepadState(GLFW_JOYSTICK_1, &state) == GLFW_FALSE) return std::nullopt;
+    const auto isDown = [&](int button) { return state.buttons[button] == GLFW_PRESS; };
+    const auto stick = [&](int axisX, int axisY) {
+        const glm::vec2 at(state.axes[axisX], -state.axes[axisY]);
+        constexpr float kDeadZone = 0.15f;
+        return glm::length(at) < kDeadZone ? glm::vec2(0) : at;
+    };
+    const glm::vec2 left = stick(GLFW_GAMEPAD_AXIS_LEFT_X, GLFW_GAMEPAD_AXIS_LEFT_Y);
+    const glm::vec2 right = stick(GLFW_GAMEPAD_AXIS_RIGHT_X, GLFW_GAMEPAD_AXIS_RIGHT_Y);
+    return Gamepad{left.x,
+                   left.y,
+                   right.x,
+                   right.y,
+                   isDown(GLFW_GAMEPAD_BUTTON_A),
+                   isDown(GLFW_GAMEPAD_BUTTON_B),
+                   isDown(GLFW_GAMEPAD_BUTTON_X),
+                   isDown(GLFW_GAMEPAD_BUTTON_Y),
+                   isDown(GLFW_GAMEPAD_BUTTON_LEFT_BUMPER),
+                   isDown(GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER),
+                   state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER] > 0,
+                   state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] > 0,
+                   isDown(GLFW_GAMEPAD_BUTTON_DPAD_UP),
+                   isDown(GLFW_GAMEPAD_BUTTON_DPAD_DOWN)};
 }
 
 void Window::setCursorCaptured(bool captured) {

@@ -4,6 +4,7 @@
 
 #include <glm/vec2.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -45,6 +46,13 @@ class Window {
 
     [[nodiscard]] glm::ivec2 framebufferSize() const;  // pixels; 0 while minimised
     [[nodiscard]] float contentScale() const;
+    // The whole of the first monitor, or a window as it was before.
+    void setFullScreen(bool isFullScreen);
+    // `pixels`: width × height × 4 bytes, red first, rows from above. Ignored where windows have no icons.
+    void setIcon(int width, int height, std::span<const std::byte> pixels);
+    // The first gamepad, none where there is none.
+    [[nodiscard]] std::optional<Gamepad> gamepad() const;
+
     // A captured cursor is hidden and moves without end.
     void setCursorCaptured(bool captured);
     [[nodiscard]] double timeSeconds() const;  // since the window was made

@@ -32,7 +32,7 @@ base::Result<gpu::Texture2DArray> loadBlockTextures(const world::BlockRegistry& 
         if (layer == 0) {
             size = {image->width, image->height};
             array = gpu::Texture2DArray({size, static_cast<int>(names.size()), gpu::fullLevels(size)},
-                                        GL_SRGB8_ALPHA8, "block textures");
+                                        GL_RGBA8, "block textures");
         }
         if (image->width != size.x) {
             return base::fail("texture \"{}\": is {} wide, the others are {}", names[layer], image->width,

@@ -7,8 +7,6 @@
 namespace terrane::render {
 namespace {
 
-constexpr float kNearPlane = 0.05f;  // blocks
-
 // Right-handed, depth from 1 at the near plane to 0 at infinity: floats are densest near 0, which is where
 // perspective crowds distant depths.
 glm::mat4 reversedInfinitePerspective(float fieldOfViewRadians, float aspect) {
@@ -56,8 +54,8 @@ Frustum frustumOf(const glm::mat4& m) {
     return {row(3) + row(0), row(3) - row(0), row(3) + row(1), row(3) - row(1), row(3) - row(2)};
 }
 
-bool mayBeVisible(const Frustum& frustum, glm::vec3 min, glm::vec3 max) {
-    for (const glm::vec4& plane : frustum) {
+bool mayBeVisible(std::span<const glm::vec4> planes, glm::vec3 min, glm::vec3 max) {
+    for (const glm::vec4& plane : planes) {
         const glm::vec3 farthest(plane.x > 0 ? max.x : min.x, plane.y > 0 ? max.y : min.y,
                                  plane.z > 0 ? max.z : min.z);
         if (glm::dot(glm::vec3(plane), farthest) + plane.w < 0) return false;

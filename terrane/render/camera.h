@@ -5,6 +5,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 
 #include "terrane/world/coords.h"
 
@@ -21,6 +22,8 @@ world::ChunkPos cameraChunk(const Camera& camera);
 glm::vec3 lookDirection(const Camera& camera);
 glm::vec3 rightDirection(const Camera& camera);
 
+constexpr float kNearPlane = 0.05f;  // blocks
+
 // In blocks from the corner of the camera's chunk at z = 0.
 struct ViewMatrices {
     glm::vec3 cameraPosition;
@@ -33,6 +36,6 @@ ViewMatrices viewMatrices(const Camera& camera, float aspect);
 using Frustum = std::array<glm::vec4, 5>;
 Frustum frustumOf(const glm::mat4& viewProjection);
 // False only where no point of the box can be seen.
-bool mayBeVisible(const Frustum& frustum, glm::vec3 min, glm::vec3 max);
+bool mayBeVisible(std::span<const glm::vec4> planes, glm::vec3 min, glm::vec3 max);
 
 }  // namespace terrane::render

@@ -2,7 +2,7 @@
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/shared/hash.h"
 
-layout(binding = kSceneColorUnit) uniform sampler2D sceneColor;
+layout(binding = kSceneUnit) uniform sampler2D scene;
 
 layout(location = 0) in vec2 inScreen;
 layout(location = 0) out vec4 outColor;
@@ -19,11 +19,7 @@ vec3 encodeSrgb(vec3 c) {
 }
 
 void main() {
-    vec3 color = texelFetch(sceneColor, ivec2(gl_FragCoord.xy), 0).rgb;
-    if (uint(frame.horizonColor.w) != kViewColor) {
-        outColor = vec4(color, 1.0);
-        return;
-    }
+    vec3 color = texelFetch(scene, ivec2(gl_FragCoord.xy), 0).rgb;
     color = encodeSrgb(clamp(compressHighlights(color * frame.zenithColor.w), 0.0, 1.0));
     uint noise = hash2(uint(gl_FragCoord.x), uint(gl_FragCoord.y), 0u);
     outColor = vec4(color + (float(noise >> 16) / 65536.0 - 0.5) / 255.0, 1.0);

@@ -1,7 +1,12 @@
 // One triangle that covers the screen, at depth 0: infinitely far.
+#include "terrane/render/frame_uniforms.glsl"
+
 layout(location = 0) out vec2 outScreen;  // -1…1
+layout(location = 1) out vec3 outRay;     // from the camera to what lies one block before it
 
 void main() {
     outScreen = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
     gl_Position = vec4(outScreen, 0.0, 1.0);
+    vec4 onNearPlane = frame.inverseViewProjection * vec4(outScreen, 1.0, 1.0);
+    outRay = (onNearPlane.xyz / onNearPlane.w - frame.cameraPosition.xyz) / frame.viewport.w;
 }

@@ -1,24 +1,19 @@
 #include "terrane/render/fullscreen_pass.h"
 
+#include <fmt/format.h>
+
 #include "terrane/gpu/debug.h"
 
 namespace terrane::render {
 
-base::Result<FullscreenPass> FullscreenPass::create(const gpu::ShaderLoader& shaders,
-                                                    std::string_view fragmentName, std::string_view label) {
-    auto program =
-        gpu::Program::graphics(shaders, "terrane/render/fullscreen.vert.glsl", fragmentName, {}, label);
-    if (!program) return tl::unexpected(program.error());
-    FullscreenPass pass;
-    pass.label_ = label;
-    pass.program_ = std::move(*program);
-    pass.vertexArray_ = gpu::VertexArray(label);
-    return pass;
-}
+FullscreenPass::FullscreenPass(const gpu::ShaderLoader& shaders, std::string_view name)
+    : variants_(shaders, "terrane/render/fullscreen.vert.glsl",
+                fmt::format("terrane/render/{}.frag.glsl", name), std::string(name)),
+      vertexArray_(name) {}
 
 void FullscreenPass::draw() const {
-    const gpu::DebugGroup group(label_);
-    program_.use();
+    const gpu::DebugGroup group(variants_.label());
+    variants_.use();
     vertexArray_.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }

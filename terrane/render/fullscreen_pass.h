@@ -1,26 +1,26 @@
-// A pass that covers the screen with one triangle: the sky, the final picture. Used by the renderer on the
-// context's thread.
+// A pass that covers the screen with one triangle: the sky, shading, the final picture. Used by the renderer
+// on the context's thread.
 #pragma once
 
 #include <string_view>
 
-#include "terrane/base/result.h"
-#include "terrane/gpu/program.h"
 #include "terrane/gpu/vertex_array.h"
+#include "terrane/render/shader_variants.h"
 
 namespace terrane::render {
 
 class FullscreenPass {
   public:
-    static base::Result<FullscreenPass> create(const gpu::ShaderLoader& shaders,
-                                               std::string_view fragmentName, std::string_view label);
+    FullscreenPass() = default;
+    // The loader outlives the pass. `name`: of terrane/render/NAME.frag.glsl.
+    FullscreenPass(const gpu::ShaderLoader& shaders, std::string_view name);
 
+    base::Result<void> select(const gpu::ShaderDefines& defines) { return variants_.select(defines); }
     // Into the bound framebuffer, at depth 0 (farthest); the depth test is the caller's.
     void draw() const;
 
   private:
-    std::string label_;
-    gpu::Program program_;
+    ShaderVariants variants_;
     gpu::VertexArray vertexArray_;
 };
 

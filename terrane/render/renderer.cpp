@@ -2,26 +2,25 @@
 
 #include <algorithm>
 #include <cassert>
-#include <glm/matrix.hpp>
 #include <span>
 
 #include "terrane/base/profile.h"
 #include "terrane/gpu/debug.h"
+#include "terrane/render/frame_uniforms.h"
 #include "terrane/render/shadow_volume.h"
 #include "terrane/shared/bindings.h"
-#include "terrane/shared/frame.h"
 
 namespace terrane::render {
 namespace {
 
-// A landscape at view distance 32: 1,500 regions with a record of 16 bytes and about three commands of 20.
-constexpr std::size_t kRingBytes = 256u << 10;
-// What slices may lose to alignment: the frame, the records and one list of commands a face context.
-constexpr std::size_t kAlignmentSlack = 256 * (mesh::kContextCount + 2);
-constexpr float kAmbientFromBelow = 0.4f;  // share of the sky's light on faces that look down
-constexpr float kExposure = 0.92f;
-constexpr int kLightViewDistance = 16;  // chunks, until setViewDistance
+constexpr std::size_t kRingBytes = 4096;  // uniforms of a frame and of culling, aligned
+constexpr int kLightViewDistance = 16;    // chunks, until setViewDistance
 constexpr float kMaxAnisotropy = 8.0f;
+
+// Along the view, as the depth has it, surfaces may fade from this share of the distance of the fog on: they
+// do from 5/6 over the ground, and more at the sides of a wide picture. sky.frag.glsl has the same.
+constexpr float kFadingBegins = 0.4f;
+constexpr float kSkyDistance = 1e6f;  // blocks: nothing but the sky is farther
 
 // A corner and an edge's ends are each off by up to √½ steps of the rasteriser's grid: two quads that both
 // grow by √½ steps meet. Corners of folded quads grow less, so more is taken; with 2 steps of 1/256 pixel one
@@ -34,38 +33,27 @@ float crackGrowth() {
     return kCrackSteps / static_cast<float>(1 << subpixelBits);
 }
 
-shared::Frame frameOf(const FrameInput& input, const ViewMatrices& view, glm::vec2 size, float growth) {
-    const world::Environment& e = input.environment;
-    shared::Frame frame{};
-    frame.viewProjection = view.viewProjection;
-    frame.inverseViewProjection = glm::inverse(view.viewProjection);
-    frame.cameraPosition = glm::vec4(view.cameraPosition, input.fogDistance);
-    frame.lightDirection = glm::vec4(e.lightDirection, input.timeSeconds);
-    frame.lightColor = glm::vec4(e.lightColor, e.discRadius);
-    frame.ambientColor = glm::vec4(e.ambientColor, kAmbientFromBelow);
-    frame.zenithColor = glm::vec4(e.zenithColor, kExposure);
-    frame.horizonColor = glm::vec4(e.horizonColor, static_cast<float>(input.view));
-    frame.glowColor = glm::vec4(e.glowColor, e.lampShare);
-    frame.viewport = glm::vec4(size, input.coverCracks ? growth : 0.0f, 0.0f);
-    return frame;
+float aspectOf(glm::ivec2 size) {
+    return static_cast<float>(size.x) / static_cast<float>(size.y);
 }
 
-FrameStatistics statisticsOf(const DrawList& list) {
-    FrameStatistics statistics{list.regionCount, list.quadCount};
-    for (int context = 0; context < mesh::kContextCount; ++context) {
-        const bool isBlended = mesh::contextAlphaClass(context) == mesh::AlphaClass::Blended;
-        for (const DrawCommand& command : list.commands[static_cast<std::size_t>(context)]) {
-            ++statistics.drawCommands;
-            (isBlended ? statistics.transparentTriangles : statistics.opaqueTriangles) +=
-                command.indexCount / 3;
-        }
-    }
-    return statistics;
-}
+// The time of what is drawn during its life.
+class TimerZone {
+  public:
+    TimerZone(gpu::GpuTimer& timer, std::string_view name) : timer_(timer) { timer_.begin(name); }
+    ~TimerZone() { timer_.end(); }
+    TimerZone(const TimerZone&) = delete;
+    TimerZone& operator=(const TimerZone&) = delete;
 
-static_assert(static_cast<shared::uint>(View::Normal) == shared::kViewNormal &&
-              static_cast<shared::uint>(View::Depth) == shared::kViewDepth &&
-              static_cast<shared::uint>(View::Aggregation) == shared::kViewAggregation);
+  private:
+    gpu::GpuTimer& timer_;
+};
+
+gpu::ShaderDefines defined(std::initializer_list<std::pair<const char*, int>> values) {
+    gpu::ShaderDefines defines;
+    for (const auto& [name, value] : values) defines.emplace_back(name, std::to_string(value));
+    return defines;
+}
 
 }  // namespace
 
@@ -73,19 +61,22 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
                                         const TextureSource& textures, const gpu::DeviceInfo& device) {
     auto blockTextures = loadBlockTextures(blocks, textures);
     if (!blockTextures) return tl::unexpected(blockTextures.error());
-    // A software renderer pays for each of the samples.
-    const float anisotropy = device.software ? 1.0f : std::min(kMaxAnisotropy, device.maxAnisotropy);
-    auto terrain = TerrainPass::create(shaders, blocks, std::move(*blockTextures), anisotropy);
-    if (!terrain) return tl::unexpected(terrain.error());
-    auto sky = FullscreenPass::create(shaders, "terrane/render/sky.frag.glsl", "sky");
-    if (!sky) return tl::unexpected(sky.error());
-    auto finalPass = FullscreenPass::create(shaders, "terrane/render/final.frag.glsl", "final");
-    if (!finalPass) return tl::unexpected(finalPass.error());
+    auto cull = CullPass::create(shaders, device);
+    if (!cull) return tl::unexpected(cull.error());
 
     Renderer renderer;
-    renderer.terrain_ = std::move(*terrain);
-    renderer.sky_ = std::move(*sky);
-    renderer.final_ = std::move(*finalPass);
+    // A software renderer pays for each of the samples.
+    const float anisotropy = device.software ? 1.0f : std::min(kMaxAnisotropy, device.maxAnisotropy);
+    renderer.resources_ = QuadResources(blocks, std::move(*blockTextures), anisotropy);
+    renderer.cull_ = std::move(*cull);
+    renderer.shadowMap_ = ShadowMap(shaders);
+    renderer.gbuffer_ = GBufferPass(shaders);
+    renderer.layers_ = LayerPass(shaders);
+    renderer.noise_ = SkyNoise::create();
+    renderer.sky_ = FullscreenPass(shaders, "sky");
+    renderer.shade_ = FullscreenPass(shaders, "shade");
+    renderer.debugView_ = FullscreenPass(shaders, "debug_view");
+    renderer.final_ = FullscreenPass(shaders, "final");
     renderer.ring_ = gpu::MappedRing(kRingBytes, "frame data");
     renderer.light_ = LightStore(kLightViewDistance);
     renderer.maxSamples_ = device.maxSamples;
@@ -94,55 +85,66 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     return renderer;
 }
 
-base::Result<void> Renderer::resize(glm::ivec2 size, int samples) {
-    if (samples > maxSamples_) {
-        return base::fail("{} samples a pixel: the graphics driver has at most {}", samples, maxSamples_);
+base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& options) {
+    if (options.samples > maxSamples_) {
+        return base::fail("{} samples a pixel: the graphics driver has at most {}", options.samples,
+                          maxSamples_);
     }
     if (size.x > maxSize_ || size.y > maxSize_) {
         return base::fail("{} × {} pixels: the graphics driver has at most {} a side", size.x, size.y,
                           maxSize_);
     }
-    auto targets = makeTargets(size, samples);
-    if (!targets) return tl::unexpected(targets.error());
-    targets_ = std::move(*targets);
-    return {};
-}
-
-base::Result<Renderer::Targets> Renderer::makeTargets(glm::ivec2 size, int samples) {
-    assert(size.x > 0 && size.y > 0 && "a picture has pixels");
-    Targets t;
-    t.size = size;
-    t.color = gpu::Texture2D(size, GL_RGBA16F, 1, "scene colour");
-    t.pictureColor = gpu::Texture2D(size, GL_RGBA8, 1, "picture");
-    gpu::FramebufferOptions sceneOptions{{t.color}, {}};
-    // Not a multisampled texture of one sample: drivers may take the next number they have, Mesa's software
-    // renderer four.
-    if (samples == 1) {
-        t.depth = gpu::Texture2D(size, GL_DEPTH_COMPONENT32F, 1, "depth");
-        sceneOptions.depth = t.depth;
-    } else if (auto added = addSamples(t, samples); !added) {
-        return tl::unexpected(added.error());
+    std::optional<FrameTargets> made;
+    if (size != targets_.size || options.samples != targets_.wantedSamples) {
+        auto targets = FrameTargets::create(size, options.samples);
+        if (!targets) return tl::unexpected(targets.error());
+        made = std::move(*targets);
     }
-    auto scene = gpu::Framebuffer::create(sceneOptions, "scene");
-    if (!scene) return tl::unexpected(scene.error());
-    auto picture = gpu::Framebuffer::create({{t.pictureColor}, {}}, "picture");
-    if (!picture) return tl::unexpected(picture.error());
-    t.scene = std::move(*scene);
-    t.picture = std::move(*picture);
-    return t;
+    if (auto selected = selectVariants(options, made ? *made : targets_); !selected) return selected;
+    if (made) targets_ = std::move(*made);
+    options_ = options;
+    return {};
 }
 
-base::Result<void> Renderer::addSamples(Targets& t, int samples) {
-    t.sampledColor = gpu::Texture2DMultisample(t.size, GL_RGBA16F, samples, "sampled colour");
-    t.sampledDepth = gpu::Texture2DMultisample(t.size, GL_DEPTH_COMPONENT32F, samples, "sampled depth");
-    auto sampled = gpu::Framebuffer::create({{t.sampledColor}, t.sampledDepth}, "sampled scene");
-    if (!sampled) return tl::unexpected(sampled.error());
-    t.sampled = std::move(*sampled);
-    return {};
+base::Result<void> Renderer::selectVariants(const RenderOptions& options, const FrameTargets& targets) {
+    const int samples = targets.samples;
+    auto done = shadowMap_.resize(options.shading == Shading::Off ? 0 : options.shadowSize);
+    if (done) done = gbuffer_.select(options.sampledAlphaTest ? samples : 1);
+    if (done) done = sky_.select(defined({{"SAMPLES", samples}}));
+    if (done) {
+        done = shade_.select(defined({{"SAMPLES", samples},
+                                      {"PER_SAMPLE", options.shading == Shading::Pixel ? 0 : 1},
+                                      {"SHADOW", shadowMap_.size() > 0 ? 1 : 0},
+                                      {"OCCLUSION", 0}}));
+    }
+    if (done) done = layers_.configure(targets, options.layers, shadowMap_.size() > 0);
+    if (done) done = debugView_.select(defined({{"SAMPLES", samples}}));
+    if (done) done = final_.select({});
+    return done;
+}
+
+bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh) {
+    regions_.remove(pos);
+    if (!quads_.set(pos, mesh)) return false;
+    const auto stored = quads_.chunks().find(pos);
+    if (stored != quads_.chunks().end()) regions_.set(pos, stored->second);
+    return true;
+}
+
+void Renderer::removeChunk(world::ChunkPos pos) {
+    regions_.remove(pos);
+    quads_.remove(pos);
+    light_.remove(pos);
+}
+
+bool Renderer::hasShadows(const FrameInput& input) const {
+    return shadowMap_.size() > 0 && input.view == View::Color;
 }
 
 void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
-    shared::Frame frame = frameOf(input, view, glm::vec2(targets_.size), crackGrowth_);
+    shared::Frame frame = frameUniforms(
+        input, options_,
+        {view, glm::vec2(targets_.size), crackGrowth_, hasShadows(input) ? shadowMap_.size() : 0});
     const world::ChunkPos chunk = cameraChunk(input.camera);
     const int mask = light_.gridChunks() - 1;
     frame.lightGrid = {2 * (chunk.x & mask), 2 * (chunk.y & mask), 2 * light_.gridChunks(), 0};
@@ -151,44 +153,124 @@ void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
     ring_.buffer().bindUniform(shared::kFrameBinding, slice->offsetBytes, sizeof(frame));
 }
 
-// A frame with more draws than the ring was made for gets a larger one; the GPU keeps the old one while it
-// reads it.
-void Renderer::reserveRing() {
-    std::size_t bytes =
-        sizeof(shared::Frame) + drawList_.records.size() * sizeof(shared::DrawRecord) + kAlignmentSlack;
-    for (const auto& commands : drawList_.commands) bytes += commands.size() * sizeof(DrawCommand);
-    if (bytes > ring_.regionBytes()) ring_ = gpu::MappedRing(2 * bytes, "frame data");
+void Renderer::cull(const FrameInput& input, const ViewMatrices& view) {
+    const TimerZone zone(timer_, "cull");
+    CullInput cullInput{cameraChunk(input.camera),
+                        view.cameraPosition,
+                        frustumOf(view.viewProjection),
+                        input.environment.lightDirection,
+                        {}};
+    if (hasShadows(input)) {
+        cullInput.shadow = planesOf(shadowVolume(view, input.environment.lightDirection, kShadowReach));
+    }
+    regions_.update(cullInput.cameraChunk);
+    cull_.run(cullInput, regions_, ring_);
+}
+
+void Renderer::drawShadows() {
+    const TimerZone zone(timer_, "shadow map");
+    shadowMap_.draw(cull_);
+}
+
+void Renderer::drawSurfaces() {
+    const TimerZone zone(timer_, "surfaces");
+    targets_.surfaces.bind();
+    targets_.surfaces.clearColor(0, glm::vec4(1));
+    targets_.surfaces.clearDepth(0.0f);
+    gbuffer_.draw(cull_);
+}
+
+// Sky and surfaces by the depth test, where there is one: the triangle lies at the far end for surfaces,
+// which are all nearer, and where they begin to fade for the sky.
+void Renderer::shadeSurfaces(float fogDistance) {
+    targets_.scene.bind();
+    const bool hasDepth = targets_.samples == 1;
+    glDepthMask(GL_FALSE);
+    (hasDepth ? glEnable : glDisable)(GL_DEPTH_TEST);
+    {
+        const TimerZone zone(timer_, "sky");
+        const float fading = options_.atmosphere ? kFadingBegins * fogDistance : kSkyDistance;
+        glDepthRangef(kNearPlane / fading, 1.0f);
+        glDepthFunc(GL_GREATER);
+        sky_.draw();
+        glDepthRangef(0.0f, 1.0f);
+    }
+    const TimerZone zone(timer_, "shade");
+    glDepthFunc(GL_LESS);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    shade_.draw();
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+}
+
+// Costs nothing where no region in view has blended faces.
+void Renderer::drawLayers(const FrameInput& input) {
+    const ViewMatrices view = viewMatrices(input.camera, aspectOf(targets_.size));
+    const Frustum frustum = frustumOf(view.viewProjection);
+    if (options_.layers == 0 || !regions_.hasBlended(cameraChunk(input.camera), frustum)) return;
+    {
+        const TimerZone zone(timer_, "peel");
+        resources_.bind(quads_, options_.betterTexturing);
+        layers_.peel(targets_, cull_);
+    }
+    const TimerZone zone(timer_, "shade layers");
+    targets_.scene.bind();
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_BLEND);
+    layers_.shade();
+    glDisable(GL_BLEND);
 }
 
 void Renderer::draw(const FrameInput& input) {
     TERRANE_ZONE("draw frame");
-    assert(targets_.size.x > 0 && "resize comes before the first frame");
-    const glm::vec2 size(targets_.size);
-    const ViewMatrices view = viewMatrices(input.camera, size.x / size.y);
-    buildDrawList(drawList_, quads_, input.camera, view);
-    statistics_ = statisticsOf(drawList_);
-
-    reserveRing();
+    assert(targets_.size.x > 0 && "configure comes before the first frame");
+    const ViewMatrices view = viewMatrices(input.camera, aspectOf(targets_.size));
+    timer_.nextFrame();
     ring_.beginFrame();
     bindFrame(input, view);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    targets_.world().bind();
-    targets_.world().clearDepth(0.0f);
-    glDisable(GL_DEPTH_TEST);
-    sky_.draw();
+    cull(input, view);
+    resources_.bind(quads_, options_.betterTexturing);
+    noise_.bind();
+    regions_.bindRecords();
+    if (hasShadows(input)) drawShadows();
+    drawSurfaces();
+    targets_.surface.bind(shared::kSurfaceUnit);
+    targets_.depth.bind(shared::kDepthUnit);
     light_.bind();
-    terrain_.draw(drawList_, quads_, ring_);
-    glDisable(GL_DEPTH_TEST);
-    if (&targets_.world() != &targets_.scene) gpu::resolve(targets_.sampled, targets_.scene);
-    targets_.picture.bind();
-    targets_.color.bind(shared::kSceneColorUnit);
-    final_.draw();
+    if (hasShadows(input)) shadowMap_.bind();
+    if (input.view == View::Color) {
+        shadeSurfaces(input.fogDistance);
+        drawLayers(input);
+        const TimerZone zone(timer_, "final");
+        targets_.picture.bind();
+        targets_.sceneColor.bind(shared::kSceneUnit);
+        final_.draw();
+    } else {
+        glDisable(GL_DEPTH_TEST);
+        targets_.picture.bind();
+        debugView_.draw();
+    }
     ring_.endFrame();
 }
 
+FrameStatistics Renderer::statistics() {
+    const shared::DrawCounts& counts = cull_.counts();
+    FrameStatistics statistics{counts.regions, 0, 0, 0, 0};
+    for (shared::uint list = 0; list < shared::kCameraLists; ++list) {
+        const bool isBlended = mesh::contextAlphaClass(static_cast<int>(list)) == mesh::AlphaClass::Blended;
+        statistics.quads += counts.quads[list];
+        statistics.drawCommands += counts.commands[list];
+        (isBlended ? statistics.transparentTriangles : statistics.opaqueTriangles) +=
+            2 * std::size_t{counts.quads[list]};
+    }
+    return statistics;
+}
+
 std::size_t Renderer::shadowTriangles(const FrameInput& input) const {
-    const glm::vec2 size(targets_.size);
-    return countShadowTriangles(quads_, input.camera, viewMatrices(input.camera, size.x / size.y),
+    return countShadowTriangles(quads_, input.camera, viewMatrices(input.camera, aspectOf(targets_.size)),
                                 input.environment.lightDirection);
 }
 

@@ -1,32 +1,26 @@
-// Draws the world as the camera sees it: sky, terrain, tone mapping. Owns the quads of the visible chunks and
-// the render targets. Used on the thread of the current OpenGL context.
+// Draws the world as the camera sees it. Owns the quads and the light of the visible chunks, the passes of a
+// frame and the targets they draw into, and runs the passes in order. Used on the thread of the current
+// OpenGL context.
 #pragma once
 
 #include <glm/vec2.hpp>
 
 #include "terrane/base/image.h"
-#include "terrane/base/result.h"
-#include "terrane/gpu/device_info.h"
-#include "terrane/gpu/framebuffer.h"
+#include "terrane/gpu/timer.h"
 #include "terrane/render/block_textures.h"
+#include "terrane/render/cull_pass.h"
+#include "terrane/render/frame_input.h"
+#include "terrane/render/frame_targets.h"
 #include "terrane/render/fullscreen_pass.h"
+#include "terrane/render/gbuffer_pass.h"
+#include "terrane/render/layer_pass.h"
 #include "terrane/render/light_store.h"
-#include "terrane/render/quad_store.h"
-#include "terrane/render/terrain_pass.h"
-#include "terrane/world/environment.h"
+#include "terrane/render/quad_resources.h"
+#include "terrane/render/render_options.h"
+#include "terrane/render/shadow_map.h"
+#include "terrane/render/sky_noise.h"
 
 namespace terrane::render {
-
-enum class View : std::uint8_t { Color, Normal, Depth, Aggregation };
-
-struct FrameInput {
-    Camera camera;
-    world::Environment environment;
-    float fogDistance = 256;  // blocks: from here on everything is sky
-    float timeSeconds = 0;    // for animations
-    View view = View::Color;
-    bool coverCracks = true;  // between quads of different sizes
-};
 
 struct FrameStatistics {
     std::size_t regions = 0, quads = 0, drawCommands = 0;
@@ -35,21 +29,21 @@ struct FrameStatistics {
 
 class Renderer {
   public:
+    // The loader outlives the renderer.
     static base::Result<Renderer> create(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
                                          const TextureSource& textures, const gpu::DeviceInfo& device);
 
-    // Size of the picture in pixels; samples a pixel 1, 2, 4 or 8. Fails where the driver has not that many.
-    base::Result<void> resize(glm::ivec2 size, int samples);
+    // Size of the picture in pixels and how it is drawn. Comes before the first frame and whenever something
+    // changes. Fails where the driver cannot; what was before then stays.
+    base::Result<void> configure(glm::ivec2 size, const RenderOptions& options);
+    const RenderOptions& options() const { return options_; }
 
     // The next frame shows the chunk so. False where the GPU has no room: it is not shown then.
-    bool setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh) { return quads_.set(pos, mesh); }
+    bool setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh);
     // Chunks without light are drawn as under the open sky. `viewDistance` of setViewDistance is the farthest
     // that light is kept for.
     void setLight(world::ChunkPos pos, const light::ChunkLight& light) { light_.set(pos, light); }
-    void removeChunk(world::ChunkPos pos) {
-        quads_.remove(pos);
-        light_.remove(pos);
-    }
+    void removeChunk(world::ChunkPos pos);
     // Makes room for light; what was set is forgotten.
     void setViewDistance(int chunks) { light_ = LightStore(chunks); }
 
@@ -58,8 +52,11 @@ class Renderer {
 
     base::Image readImage() const { return gpu::readPixels(targets_.picture); }  // waits for the GPU
     void presentToWindow(glm::ivec2 windowSize) const;
+    GLuint pictureTexture() const { return targets_.pictureColor.id(); }
 
-    const FrameStatistics& statistics() const { return statistics_; }
+    // Of the newest frame that the GPU has finished.
+    FrameStatistics statistics();
+    const std::vector<gpu::GpuTiming>& passTimes() const { return timer_.results(); }
     // What a shadow map for this frame would draw.
     std::size_t shadowTriangles(const FrameInput& input) const;
     std::size_t quadBytes() const { return quads_.usedBytes(); }
@@ -67,27 +64,31 @@ class Renderer {
     glm::ivec2 size() const { return targets_.size; }
 
   private:
-    struct Targets {
-        glm::ivec2 size{0};
-        gpu::Texture2DMultisample sampledColor, sampledDepth;  // where a pixel has several samples
-        gpu::Texture2D color, depth, pictureColor;             // depth: where it has one
-        gpu::Framebuffer sampled, scene, picture;
-        // What the world is drawn into.
-        const gpu::Framebuffer& world() const { return sampled.id() != 0 ? sampled : scene; }
-    };
-    static base::Result<Targets> makeTargets(glm::ivec2 size, int samples);
-    static base::Result<void> addSamples(Targets& targets, int samples);
-    void reserveRing();
+    base::Result<void> selectVariants(const RenderOptions& options, const FrameTargets& targets);
     void bindFrame(const FrameInput& input, const ViewMatrices& view);
+    void cull(const FrameInput& input, const ViewMatrices& view);
+    void drawShadows();
+    void drawSurfaces();
+    void shadeSurfaces(float fogDistance);
+    void drawLayers(const FrameInput& input);
+    bool hasShadows(const FrameInput& input) const;
 
-    FullscreenPass sky_, final_;
-    TerrainPass terrain_;
+    RenderOptions options_;
+    FrameTargets targets_;
     QuadStore quads_;
+    RegionTable regions_;
     LightStore light_;
+    QuadResources resources_;
     gpu::MappedRing ring_;
-    DrawList drawList_;
-    Targets targets_;
-    FrameStatistics statistics_;
+    gpu::GpuTimer timer_;
+
+    CullPass cull_;
+    ShadowMap shadowMap_;
+    GBufferPass gbuffer_;
+    LayerPass layers_;
+    SkyNoise noise_;
+    FullscreenPass sky_, shade_, debugView_, final_;
+
     int maxSamples_ = 1, maxSize_ = 1;
     float crackGrowth_ = 0;  // pixels
 };

@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
 
@@ -65,6 +66,43 @@ bool mayBeInVolume(const ShadowVolume& volume, glm::vec3 boxMin, glm::vec3 boxMa
     const glm::vec3 low = middle - reach, high = middle + reach;
     return high.x >= volume.min.x && low.x <= volume.max.x && high.y >= volume.min.y &&
            low.y <= volume.max.y && high.z >= volume.farthest;
+}
+
+Frustum planesOf(const ShadowVolume& volume) {
+    const glm::mat3 axes = glm::transpose(volume.toLight);  // columns: across, up, toward the light
+    return {glm::vec4(axes[0], -volume.min.x), glm::vec4(-axes[0], volume.max.x),
+            glm::vec4(axes[1], -volume.min.y), glm::vec4(-axes[1], volume.max.y),
+            glm::vec4(axes[2], -volume.farthest)};
+}
+
+ShadowFit fitShadowMap(const Camera& camera, float aspect, glm::vec3 lightDirection, int texels) {
+    const float half = std::tan(glm::radians(camera.fieldOfView) * 0.5f);
+    const float corner = std::atan(half * std::sqrt(1 + aspect * aspect));  // from the view's axis
+    const bool isWide = corner > glm::radians(45.0f);
+    const float radius = isWide ? kShadowReach * std::sin(corner) : kShadowReach / (2 * std::cos(corner));
+    const float ahead = isWide ? kShadowReach * std::cos(corner) : radius;
+
+    // Texels are counted from a corner of the world that the camera seldom leaves: numbers stay small, and
+    // places that are alike have shadows that are.
+    constexpr int kAnchorChunks = 64;
+    const world::ChunkPos chunk = cameraChunk(camera);
+    const glm::vec3 anchor(-world::kChunkSize * (chunk.x & (kAnchorChunks - 1)),
+                           -world::kChunkSize * (chunk.y & (kAnchorChunks - 1)), 0);
+    const glm::mat3 toLight = lightAxes(glm::normalize(lightDirection));
+    const glm::vec3 middle = viewMatrices(camera, aspect).cameraPosition + ahead * lookDirection(camera);
+    const float texel = 2 * radius / static_cast<float>(texels - 1);  // room for the step
+    glm::vec3 low = toLight * (middle - anchor) - radius;
+    low.x = std::floor(low.x / texel) * texel;
+    low.y = std::floor(low.y / texel) * texel;
+    low += toLight * anchor;
+
+    const glm::vec3 size(texel * static_cast<float>(texels), texel * static_cast<float>(texels), 2 * radius);
+    glm::mat4 toMap(toLight);
+    toMap[3] = glm::vec4(-low, 1);
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 3; ++row) toMap[column][row] /= size[row];
+    }
+    return {toMap, texel};
 }
 
 std::size_t countShadowTriangles(const QuadStore& quads, const Camera& camera, const ViewMatrices& view,

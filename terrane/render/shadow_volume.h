@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -24,6 +25,16 @@ struct ShadowVolume {
 ShadowVolume shadowVolume(const ViewMatrices& view, glm::vec3 lightDirection, float reach);
 // False only where no point of the box is in the volume. Coordinates as in ViewMatrices.
 bool mayBeInVolume(const ShadowVolume& volume, glm::vec3 boxMin, glm::vec3 boxMax);
+
+Frustum planesOf(const ShadowVolume& volume);
+
+// A square map over the bounding sphere of what the camera sees within `reach` blocks, which keeps its size
+// while the camera turns, moved in steps of whole texels: edges of shadows do not crawl.
+struct ShadowFit {
+    glm::mat4 toMap;  // x, y: 0…1; z: 0 at the far end of the sphere to 1 at the end toward the light
+    float texelBlocks;
+};
+ShadowFit fitShadowMap(const Camera& camera, float aspect, glm::vec3 lightDirection, int texels);
 
 // Triangles of a shadow map of these chunks: regions in the volume, without blended quads and without the
 // groups that look away from the light.

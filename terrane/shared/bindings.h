@@ -8,18 +8,33 @@ SHARED_BEGIN
 
 // Uniform buffers
 const uint kFrameBinding = 0u;
+const uint kCullBinding = 1u;
 
 // Storage buffers
 const uint kQuadsBinding = 0u;
 const uint kShapeFacesBinding = 1u;
 const uint kMaterialsBinding = 2u;
-const uint kDrawsBinding = 3u;
+const uint kRegionsBinding = 3u;
+const uint kRegionOrderBinding = 4u;
+const uint kVisibleBinding = 5u;
+const uint kCommandsBinding = 6u;
+const uint kCountsBinding = 7u;
 
 // Texture units
 const uint kBlockTexturesUnit = 0u;
-const uint kSceneColorUnit = 1u;
+const uint kSceneUnit = 1u;
 const uint kLightGridUnit = 2u;
 const uint kLightPoolUnit = 3u;
+const uint kSurfaceUnit = 4u;    // the G-buffer's word
+const uint kDepthUnit = 5u;      // its depth
+const uint kShadowUnit = 6u;     // compared
+const uint kSkyNoiseUnit = 7u;   // tiling noise, for clouds and waves
+const uint kOcclusionUnit = 8u;  // ambient occlusion
+const uint kGodRaysUnit = 9u;
+const uint kBlurUnit = 10u;
+const uint kLayerColorUnit = 11u;  // three units: layers from the nearest
+const uint kLayerDepthUnit = 14u;  // three units
+const uint kDistanceUnit = 17u;    // distance along the view, one a pixel
 
 SHARED_END
 #endif

@@ -1,4 +1,4 @@
-// What the shaders know of a frame, of each draw and of each material.
+// What the shaders know of a frame and of each material.
 #ifndef TERRANE_SHARED_FRAME_H
 #define TERRANE_SHARED_FRAME_H
 
@@ -11,6 +11,7 @@ SHARED_BEGIN
 struct Frame {
     mat4 viewProjection;  // to clip space; depth 1 at the near plane, 0 at infinity
     mat4 inverseViewProjection;
+    mat4 toShadowMap;     // x, y: 0…1 over the map; z: its depth
     vec4 cameraPosition;  // w: distance in blocks at which the fog is complete
     vec4 lightDirection;  // to the sun or moon; w: seconds for animations
     vec4 lightColor;      // of the sun or moon; w: radius of its disc, radians
@@ -18,19 +19,29 @@ struct Frame {
     vec4 zenithColor;     // w: exposure
     vec4 horizonColor;    // w: 0 for the picture, else a kView… value
     vec4 glowColor;       // around the light at the horizon; w: share of lamp light that full daylight hides
+    vec4 discColor;       // of the sun or moon itself; w: brightness of the stars, 0…1
     vec4 lightGrid;       // x, y: the camera chunk's first light tile; z: tiles along a side of the grid
-    vec4 viewport;  // width and height in pixels; z: by how many pixels quads grow, see crack_cover.glsl
+    vec4 viewport;  // width and height in pixels; z: by how many pixels quads grow, see crack_cover.glsl;
+                    // w: distance of the near plane, blocks
+    vec4 shadow;    // x: strength, 0 without a map; y: blocks a texel; z: distance of no shadow; w: texels a
+                    // side
+    vec4
+        light;  // x, y: the light on the screen, -1…1; z: how much of its rays is seen, 0…1; w: 1 under water
+    ivec4 camera;  // x, y: the camera's chunk; z: kSwitch… bits; w: the one layer shown, 0 for all
 };
 
 const uint kViewColor = 0u;
 const uint kViewNormal = 1u;
 const uint kViewDepth = 2u;
 const uint kViewAggregation = 3u;  // each quad in a colour of its own
+const uint kViewLight = 4u;
 
-// Of one indirect draw command, found by its base instance.
-struct DrawRecord {
-    vec4 origin;  // of the chunk, in the space above; w: 0…65535 from its place in the world
-};
+// Frame::camera.z: what costs nothing to switch within a shader.
+const int kSwitchAnimation = 1;
+const int kSwitchTexturing = 2;  // magnified texels with sharp and smooth edges
+const int kSwitchAtmosphere = 4;
+const int kSwitchUnlit = 8;  // the colours of the blocks alone
+const int kSwitchClouds = 16;
 
 // Alpha modes and animations are the values of world::AlphaMode and world::Animation.
 struct MaterialRecord {
@@ -44,8 +55,8 @@ SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(Frame) == 2 * 64 + 9 * 16, "std140 and std430 agree on mat4 and vec4");
-static_assert(sizeof(DrawRecord) == 16 && sizeof(MaterialRecord) == 16);
+static_assert(sizeof(Frame) == 3 * 64 + 13 * 16, "std140 and std430 agree on mat4 and vec4");
+static_assert(sizeof(MaterialRecord) == 16);
 }  // namespace terrane::shared
 #endif
 #endif

@@ -1,11 +1,13 @@
 #include "terrane/stream/chunk_pipeline.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <exception>
 
 #include "terrane/base/profile.h"
 #include "terrane/stream/neighbourhood.h"
+#include "terrane/stream/worker_results.h"
 
 namespace terrane::stream {
 
@@ -18,43 +20,10 @@ namespace {
 constexpr std::size_t kJobsPerWorker = 8;
 constexpr std::chrono::milliseconds kTidyEvery{250};
 
+constexpr std::array kTaskNames = {"load or generate", "light", "mesh"};
+static_assert(kTaskNames.size() == kTaskCount);
+
 }  // namespace
-
-// What workers leave for the pipeline's thread. Jobs hold it too, so that one that ends late finds it alive.
-struct ChunkPipeline::Results {
-    struct Load {
-        ChunkPos pos;
-        ChunkPtr chunk;  // null: to be made by a batch generator
-        LocalLightPtr local;
-    };
-    struct Finish {
-        ChunkPos pos;
-        MeshPtr mesh;
-        light::ChunkLightPtr light;
-    };
-    std::mutex mutex;
-    std::condition_variable changed;
-    std::vector<Load> loads;
-    std::vector<Finish> finishes;
-    std::exception_ptr failure;  // the first
-
-    void add(Load load) {
-        const std::lock_guard lock(mutex);
-        loads.push_back(std::move(load));
-        changed.notify_one();
-    }
-    void add(Finish finish) {
-        const std::lock_guard lock(mutex);
-        finishes.push_back(std::move(finish));
-        changed.notify_one();
-    }
-    void fail(std::exception_ptr error) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::move(error);
-        changed.notify_one();
-    }
-    bool isEmpty() const { return loads.empty() && finishes.empty() && !failure; }
-};
 
 // Work that reports what it throws: as good as always that memory is short. The owner of the pipeline hears
 // of it, saves and ends; nobody waits for a chunk that does not come.
@@ -70,7 +39,7 @@ auto ChunkPipeline::guarded(Work work) const {
 }
 
 ChunkPipeline::ChunkPipeline(const PipelineParts& parts)
-    : parts_(parts), results_(std::make_shared<Results>()) {
+    : parts_(parts), results_(std::make_shared<WorkerResults>()) {
     if (parts_.batches) parts_.source.generator = nullptr;
 }
 
@@ -130,8 +99,8 @@ void ChunkPipeline::update(Time now) {
 }
 
 void ChunkPipeline::takeResults() {
-    std::vector<Results::Load> loads;
-    std::vector<Results::Finish> finishes;
+    std::vector<WorkerResults::Load> loads;
+    std::vector<WorkerResults::Finish> finishes;
     std::exception_ptr failure;
     {
         const std::lock_guard lock(results_->mutex);
@@ -140,7 +109,7 @@ void ChunkPipeline::takeResults() {
         failure = std::exchange(results_->failure, nullptr);
     }
     if (failure) std::rethrow_exception(failure);
-    for (Results::Load& load : loads) {
+    for (WorkerResults::Load& load : loads) {
         // A job that ran on although it was cancelled.
         if (!table_.is(load.pos, ChunkStage::Loading)) continue;
         if (load.chunk) {
@@ -150,7 +119,7 @@ void ChunkPipeline::takeResults() {
             absent_.push_back(load.pos);
         }
     }
-    for (Results::Finish& done : finishes) {
+    for (WorkerResults::Finish& done : finishes) {
         if (!table_.finished(done.pos)) continue;
         setLight(done.pos, done.light);
         change(done.pos).mesh = std::move(done.mesh);
@@ -177,10 +146,10 @@ void ChunkPipeline::submitLoads() {
     for (const ChunkPos pos : table_.takeLoads(room)) {
         extras_[pos].load = parts_.jobs.submit(
             table_.urgency(pos),
-            guarded([pos, source = parts_.source, lights = &parts_.lights](Results& results) {
-                ChunkPtr chunk = loadChunk(source, pos);
+            guarded([pos, source = parts_.source, lights = &parts_.lights](WorkerResults& results) {
+                ChunkPtr chunk = results.timed(kLoad, [&] { return loadChunk(source, pos); });
                 LocalLightPtr local = chunk ? localLight(*chunk, *lights) : nullptr;
-                results.add(Results::Load{pos, std::move(chunk), std::move(local)});
+                results.add(WorkerResults::Load{pos, std::move(chunk), std::move(local)});
             }));
     }
 }
@@ -199,9 +168,9 @@ void ChunkPipeline::takeBatches() {
 
 // A generated chunk's own light.
 void ChunkPipeline::submitPrepare(ChunkPos pos, ChunkPtr chunk) {
-    parts_.jobs.submit(table_.urgency(pos),
-                       guarded([pos, chunk = std::move(chunk), lights = &parts_.lights](Results& results) {
-                           results.add(Results::Load{pos, chunk, localLight(*chunk, *lights)});
+    parts_.jobs.submit(table_.urgency(pos), guarded([pos, chunk = std::move(chunk),
+                                                     lights = &parts_.lights](WorkerResults& results) {
+                           results.add(WorkerResults::Load{pos, chunk, localLight(*chunk, *lights)});
                        }));
 }
 
@@ -221,13 +190,14 @@ void ChunkPipeline::submitFinishes() {
     const std::size_t room = limit - std::min(limit, table_.finishingCount());
     for (const ChunkPos pos : table_.takeFinishes(room)) {
         // Before loads of equal urgency: what is on screen frees memory.
-        parts_.jobs.submit(
-            table_.urgency(pos) - 1,
-            guarded([pos, around = surroundings(pos), lights = &parts_.lights, blocks = &parts_.blocks,
-                     options = meshOptions_](Results& results) {
-                light::ChunkLightPtr light = lightOf(around, *lights);
-                results.add(Results::Finish{pos, meshOf(around.chunks, *blocks, options), std::move(light)});
-            }));
+        parts_.jobs.submit(table_.urgency(pos) - 1,
+                           guarded([pos, around = surroundings(pos), lights = &parts_.lights,
+                                    blocks = &parts_.blocks, options = meshOptions_](WorkerResults& results) {
+                               auto light = results.timed(kLight, [&] { return lightOf(around, *lights); });
+                               auto mesh = results.timed(
+                                   kMesh, [&] { return meshOf(around.chunks, *blocks, options); });
+                               results.add(WorkerResults::Finish{pos, std::move(mesh), std::move(light)});
+                           }));
     }
 }
 
@@ -266,6 +236,23 @@ void ChunkPipeline::save(ChunkPos pos, Extra& extra) {
 
 void ChunkPipeline::saveAll() {
     for (auto& [pos, extra] : extras_) save(pos, extra);
+}
+
+void ChunkPipeline::showAgain() {
+    for (const auto& [pos, extra] : extras_) {
+        if (!table_.is(pos, ChunkStage::Visible)) continue;
+        change(pos).light = extra.light;
+        toMesh_.insert(pos);
+    }
+}
+
+std::vector<TaskTime> ChunkPipeline::taskTimes() const {
+    std::vector<TaskTime> times;
+    for (std::size_t k = 0; k < kTaskCount; ++k) {
+        times.push_back(
+            {kTaskNames[k], results_->counts[k], static_cast<double>(results_->nanoseconds[k]) / 1000});
+    }
+    return times;
 }
 
 ChunkPtr ChunkPipeline::maybeLoadChunkAt(ChunkPos pos) {

@@ -38,6 +38,13 @@ struct Progress {
     bool complete() const { return visible == wanted; }
 };
 
+// What workers did so far, of one kind of task.
+struct TaskTime {
+    const char* name = "";
+    std::size_t count = 0;
+    double microseconds = 0;  // of all
+};
+
 // Makes chunks many at a time on the pipeline's thread without waiting: a GPU.
 struct BatchGenerator {
     // Takes chunks from the front and says how many; 0 while it is busy.
@@ -55,6 +62,8 @@ struct PipelineParts {
     ChunkSource source;
     const BatchGenerator* batches = nullptr;  // in place of source.generator
 };
+
+struct WorkerResults;
 
 class ChunkPipeline {
   public:
@@ -91,13 +100,19 @@ class ChunkPipeline {
     // first.
     std::vector<ChunkChange> takeChanges(std::size_t limit);
 
+    // Hands out all that is on screen again, as to a renderer that forgot it.
+    void showAgain();
+
+    // None where the chunk is absent.
+    std::optional<ChunkStage> stageAt(world::ChunkPos pos) const { return table_.stageAt(pos); }
+    std::vector<TaskTime> taskTimes() const;
+    std::size_t queuedCount() const { return table_.loadingCount() + table_.finishingCount(); }
     Progress progress() const { return {table_.wantedVisible(), table_.visibleInView()}; }
     // Of visible chunks' light, and of what chunks' own blocks give, kept until their neighbours are lit.
     std::size_t lightBytes() const;
     std::size_t localLightBytes() const;
 
   private:
-    struct Results;
     // What is kept of a chunk beside its blocks.
     struct Extra {
         base::JobHandle load;
@@ -132,7 +147,7 @@ class ChunkPipeline {
     PipelineParts parts_;
     mesh::MeshOptions meshOptions_;
     ChunkTable table_;
-    std::shared_ptr<Results> results_;
+    std::shared_ptr<WorkerResults> results_;
     std::unordered_map<world::ChunkPos, Extra, world::ChunkPosHash> extras_;
     std::deque<world::ChunkPos> absent_;   // to be made by `batches`
     std::vector<light::BlockEdit> edits_;  // since the last update

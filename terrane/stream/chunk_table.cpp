@@ -37,9 +37,9 @@ ChunkTable::Entry& ChunkTable::entry(ChunkPos pos) {
     return found->second;
 }
 
-bool ChunkTable::is(ChunkPos pos, ChunkStage stage) const {
+std::optional<ChunkStage> ChunkTable::stageAt(ChunkPos pos) const {
     const auto found = entries_.find(pos);
-    return found != entries_.end() && found->second.stage == stage;
+    return found != entries_.end() ? std::optional(found->second.stage) : std::nullopt;
 }
 
 bool ChunkTable::isAtLeastActive(ChunkPos pos) const {

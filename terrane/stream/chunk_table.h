@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <deque>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -57,7 +58,8 @@ class ChunkTable {
     std::vector<world::ChunkPos> takeUnloads(Time now);
 
     bool contains(world::ChunkPos pos) const { return entries_.contains(pos); }
-    bool is(world::ChunkPos pos, ChunkStage stage) const;
+    std::optional<ChunkStage> stageAt(world::ChunkPos pos) const;  // none where it is absent
+    bool is(world::ChunkPos pos, ChunkStage stage) const { return stageAt(pos) == stage; }
     bool isAtLeastActive(world::ChunkPos pos) const;
     bool isWanted(world::ChunkPos pos) const {
         return world::chunkDistance(pos, centre_) <= viewDistance_ + 1;

@@ -87,6 +87,8 @@ Environment environmentAt(float timeDay) {
     e.zenithColor = colorAt(kZenith, time);
     e.horizonColor = colorAt(kHorizon, time);
     e.glowColor = colorAt(kGlow, time);
+    e.discColor = (isSun ? 6.0f : 10.0f) * e.lightColor;
+    e.starLight = glm::smoothstep(0.0f, 1.0f, glm::clamp((std::abs(time - 0.5f) - 0.29f) / 0.1f, 0.0f, 1.0f));
     e.discRadius = isSun ? 0.045f : 0.03f;
     const glm::vec3 noon = linearFromSrgb(kAmbient[2].color);
     e.lampShare = 0.8f * glm::clamp(e.ambientColor.y / noon.y, 0.0f, 1.0f);

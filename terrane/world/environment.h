@@ -13,7 +13,9 @@ struct Environment {
     glm::vec3 zenithColor;
     glm::vec3 horizonColor;
     glm::vec3 glowColor;  // added to the sky around the light near the horizon
+    glm::vec3 discColor;  // of the sun or moon itself
     float discRadius;     // of the sun or moon, radians
+    float starLight;      // brightness of the stars, 0 by day … 1 at night
     float lampShare;      // of lamp light that full daylight hides, 0 at night … 0.8
 };
 

@@ -28,11 +28,12 @@ def program():
     return _program
 
 
-def environment(display=None):
-    """That of this process with no other display server than the one named."""
-    variables = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+def environment(display=None, settings=None):
+    """That of this process with no other display server than the one named, and settings in a folder or none."""
+    variables = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "XDG_CONFIG_HOME")}
     if display:
         variables["DISPLAY"] = display
+    variables["XDG_CONFIG_HOME"] = str(settings or "/nonexistent")
     return variables
 
 

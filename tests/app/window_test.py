@@ -15,7 +15,7 @@ import tempfile
 import time
 
 import support
-from support import HANG_SECONDS, Npy, ProgramTest
+from support import HANG_SECONDS, Npy, Picture, ProgramTest
 
 SKIPPED = 77
 FLAT = ("--generator", "flat")
@@ -26,10 +26,13 @@ SIZE, LARGER = (320, 180), (480, 270)
 class Display:
     """A virtual X server on a number that it chooses itself."""
 
+    def __init__(self, size=SCREEN):
+        self.size = size
+
     def __enter__(self):
         read_end, write_end = os.pipe()
         self.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", f"{SCREEN[0]}x{SCREEN[1]}x24", "-nolisten", "tcp",
+            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", f"{self.size[0]}x{self.size[1]}x24", "-nolisten", "tcp",
              "-noreset"],  # else it starts anew whenever its last window closes
             pass_fds=(write_end,), stderr=subprocess.DEVNULL)
         os.close(write_end)
@@ -84,9 +87,8 @@ class Game:
         self.log = tempfile.TemporaryFile(mode="w+")
         # Far enough that fog never hides all of the ground.
         self.process = subprocess.Popen(
-            [support.program(), "play", "--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "6", "--samples", "1",
-             "--debug-gl", *arguments],
-            cwd=folder, env=support.environment(display.name), stdout=self.log, stderr=self.log)
+            [support.program(), "play", "--debug-gl", *arguments], cwd=folder,
+            env=support.environment(display.name, folder), stdout=self.log, stderr=self.log)
         self.window = None
 
     def open(self):
@@ -118,9 +120,13 @@ class Game:
     def press(self, key):
         self.display.xdotool("key", key)
 
-    def click(self, button):
-        self.display.xdotool("mousemove", "--window", self.window, SIZE[0] // 2, SIZE[1] // 2)
-        self.display.xdotool("click", button)
+    def click(self, button, x=SIZE[0] // 2, y=SIZE[1] // 2, pause=0.3):
+        self.display.xdotool("mousemove", "--window", self.window, x, y)
+        time.sleep(pause)  # some frames, in which the program sees the cursor there
+        self.display.xdotool("mousedown", button)
+        time.sleep(pause)
+        self.display.xdotool("mouseup", button)
+        time.sleep(pause)
 
     def close(self):
         """The exit code, and where the camera was at the end."""
@@ -137,12 +143,14 @@ class Game:
 
 
 class Window(ProgramTest):
-    def play(self, display, *arguments):
-        game = Game(display, self.folder, arguments)
+    def play(self, display, *arguments, size=SIZE):
+        # Far enough that fog never hides all of the ground.
+        usual = ("--size", f"{size[0]}x{size[1]}", "--view-distance", "6", "--samples", "1")
+        game = Game(display, self.folder, (*usual, *arguments))
         self.addCleanup(game.log.close)
         self.addCleanup(game.process.kill)  # nothing where it has ended
         game.open()
-        game.wait_for_picture(SIZE)
+        game.wait_for_picture(size)
         return game
 
     def close(self, game):
@@ -198,6 +206,50 @@ class Window(ProgramTest):
             self.assertEqual(first, second)
             self.assertEqual(self.highest_block(save), top - 1)
             self.assertTrue(self.succeed("check", save).endswith("\ngood\n"))
+
+
+    def test_a_person_tries_everything_and_finds_it_again(self):
+        size, settings = (480, 720), self.folder / "terrane" / "settings.toml"
+        options = ("--save-game", "home", *FLAT)
+        with Display(size) as display:
+            game = self.play(display, *options, size=size)
+            game.click(1, 100, 400)  # takes the mouse
+            display.xdotool("keydown", "w")
+            for key in ("space", "F1", "F3", "F4", "F5", "F6", "F12", "o", "p", "i", "m", "m"):
+                game.press(key)
+                time.sleep(0.2)
+            display.xdotool("keyup", "w")
+            for button in (1, 3, 4, 5):
+                game.click(button, 240, 360)
+            before = display.screenshot(game.window).pixels
+            game.press("F2")
+            game.wait_for(lambda: display.screenshot(game.window).pixels != before)
+            time.sleep(1)
+            for y in range(275, 430, 23):  # down the column of the panel's switches
+                game.click(1, 203, y, pause=0.4)
+            end = self.close(game)
+
+            self.assertEqual(len((self.folder / "positions.txt").read_text().splitlines()), 1)
+            picture = Picture(self.folder / "terrane-0001.png")
+            self.assertEqual((picture.width, picture.height), size)
+            written = settings.read_text()
+            self.assertIn("movement = 'medium'", written)  # gravity, then fast
+            switches = re.findall(r"^(atmosphere|god-rays|clouds|animation|better-texturing) = '(?:on|off)'$", written,
+                                  re.MULTILINE)
+            self.assertGreaterEqual(len(switches), 3, written)
+
+            again = self.play(display, *options, size=size)
+            self.assertEqual(self.close(again), end)
+            self.assertEqual(settings.read_text(), written)
+
+    def test_wrong_settings_are_named(self):
+        settings = self.folder / "settings.toml"
+        for text, hint in (("clouds = 'many'", "settings.toml:1: clouds: "), ("cloud = 'on'", "settings.toml:1: cloud: "),
+                           ("clouds = ", "settings.toml:1: "), ("view-distance = 1000", "settings.toml:1: view-distance: ")):
+            settings.write_text(text)
+            done = support.run("play", "--settings", settings)
+            self.assertRefused(done, text)
+            self.assertIn(hint, done.stderr)
 
 
 if __name__ == "__main__":

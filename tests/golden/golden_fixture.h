@@ -24,8 +24,9 @@ class GoldenTest : public gpu::GlTest {
         device.software = true;  // no anisotropic filter: drivers may filter as they like
         auto made = render::Renderer::create(render::contentShaders(), blocks, textures, device);
         if (!made) throw std::runtime_error(made.error().message);
-        const auto resized = made->resize(kPictureSize, std::min(kSamples, device.maxSamples));
-        if (!resized) throw std::runtime_error(resized.error().message);
+        const auto configured =
+            made->configure(kPictureSize, render::plainOptions(std::min(kSamples, device.maxSamples)));
+        if (!configured) throw std::runtime_error(configured.error().message);
         return *std::move(made);
     }
 

@@ -7,6 +7,7 @@
 #include "terrane/base/embedded.h"
 #include "terrane/gpu/shader_loader.h"
 #include "terrane/render/block_textures.h"
+#include "terrane/render/render_options.h"
 #include "tests/light/content_blocks.h"
 
 namespace terrane::embedded {
@@ -27,6 +28,16 @@ inline base::Result<base::Image> contentTexture(std::string_view name) {
 inline const gpu::ShaderLoader& contentShaders() {
     static const gpu::ShaderLoader loader(embedded::shaders());
     return loader;
+}
+
+// Nothing besides light, textures and what is blended, for pictures that show one thing.
+inline RenderOptions plainOptions(int samples) {
+    RenderOptions options;
+    options.samples = samples;
+    options.shadowSize = 0;
+    options.depthOfField = options.godRays = options.clouds = false;
+    options.animation = options.sampledAlphaTest = false;
+    return options;
 }
 
 }  // namespace terrane::render

@@ -113,10 +113,12 @@ class CrackCover : public gpu::GlTest {
     // Pixels of which at least one sample shows what is behind the terrain: in the view of depth that is
     // black, and all terrain is nearly white with a fog this far away.
     std::size_t backgroundPixels(int samples, bool coverCracks) {
-        EXPECT_TRUE(renderer_->resize(kSize, samples));
+        RenderOptions options = plainOptions(samples);
+        options.coverCracks = coverCracks;
+        EXPECT_TRUE(renderer_->configure(kSize, options));
         std::size_t count = 0;
         for (int view = 0; view < kViews; ++view) {
-            renderer_->draw({cameraOf(view), world::environmentAt(0.5f), 4000, 0, View::Depth, coverCracks});
+            renderer_->draw({cameraOf(view), world::environmentAt(0.5f), 4000, 0, View::Depth});
             const base::Image image = renderer_->readImage();
             for (std::size_t k = 0; k < image.rgba.size(); k += 4) count += image.rgba[k] < 195;
         }

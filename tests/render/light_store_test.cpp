@@ -27,7 +27,7 @@ class LightPictureTest : public gpu::GlTest {
     Renderer makeRenderer() {
         auto made = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice());
         EXPECT_TRUE(made);
-        EXPECT_TRUE(made->resize({96, 96}, 1));
+        EXPECT_TRUE(made->configure({96, 96}, plainOptions(1)));
         return std::move(*made);
     }
 
@@ -100,13 +100,14 @@ TEST_F(LightPictureTest, ALampShines) {
 }
 
 // Borders of tiles (8 blocks) and chunks (16) lie elsewhere in each of these; the picture is the same but for
-// the steps of filtered fetches and dither. Without the nodes beyond a border it would differ by 20 and more.
+// the steps of filtered fetches, of stone's texture too, and dither. Without the nodes beyond a border it
+// would differ by 20 and more.
 TEST_F(LightPictureTest, BordersCannotBeSeen) {
     const base::Image reference = picture({{0, 0}, 4, 4, 100});
     for (const Scene& scene :
          {Scene{{0, 0}, 8, 8, 100}, Scene{{0, 0}, 15, 15, 100}, Scene{{0, 0}, 0, 12, 100},
           Scene{{0, 0}, 4, 4, 104}, Scene{{0, 0}, 4, 4, 96}, Scene{{0, 0}, 7, 8, 112}}) {
-        EXPECT_LE(largestDifference(picture(scene), reference), 5)
+        EXPECT_LE(largestDifference(picture(scene), reference), 10)
             << scene.x << ' ' << scene.y << ' ' << scene.z;
     }
 }

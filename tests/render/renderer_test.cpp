@@ -30,7 +30,7 @@ class RendererTest : public gpu::GlTest {
     }
 
     void resize(glm::ivec2 size, int samples) {
-        const auto resized = renderer_->resize(size, samples);
+        const auto resized = renderer_->configure(size, plainOptions(samples));
         ASSERT_TRUE(resized) << resized.error().message;
         EXPECT_EQ(renderer_->size(), size);
     }
@@ -233,7 +233,7 @@ TEST_F(RendererTest, SamplesSmoothEdges) {
 
 TEST_F(RendererTest, MoreSamplesThanTheDriverHasAreAnError) {
     const int tooMany = 2 * gpu::queryDevice().maxSamples;
-    const auto resized = renderer_->resize(kSize, tooMany);
+    const auto resized = renderer_->configure(kSize, plainOptions(tooMany));
     ASSERT_FALSE(resized);
     EXPECT_NE(resized.error().message.find(std::to_string(tooMany)), std::string::npos)
         << resized.error().message;

@@ -14,11 +14,49 @@ namespace terrane::render {
 namespace {
 
 const std::vector<gpu::ShaderDefines> kPlain = {{}};
-const std::vector<gpu::ShaderDefines> kAlphaClasses = {
-    {{"ALPHA_CLASS", "0"}}, {{"ALPHA_CLASS", "1"}}, {{"ALPHA_CLASS", "2"}}};
 
-const std::vector<gpu::ShaderDefines>& variantsOf(std::string_view name) {
-    return name.starts_with("terrane/render/terrain.") ? kAlphaClasses : kPlain;
+// All combinations of values.
+using Values = std::vector<std::pair<std::string, std::vector<std::string>>>;
+std::vector<gpu::ShaderDefines> combined(const Values& values) {
+    std::vector<gpu::ShaderDefines> all = kPlain;
+    for (const auto& [name, choices] : values) {
+        std::vector<gpu::ShaderDefines> more;
+        for (const gpu::ShaderDefines& defines : all) {
+            for (const std::string& choice : choices) {
+                more.push_back(defines);
+                more.back().emplace_back(name, choice);
+            }
+        }
+        all = std::move(more);
+    }
+    return all;
+}
+
+// By the name between terrane/render/ and the stage.
+const std::map<std::string, Values>& variantValues() {
+    static const std::map<std::string, Values> values = {
+        {"quad.vert", {{"PASS", {"0", "1", "2"}}, {"ALPHA_CLASS", {"0", "1", "2"}}}},
+        {"gbuffer.frag", {{"PASS", {"0"}}, {"ALPHA_CLASS", {"0", "1"}}, {"SAMPLES", {"1", "4"}}}},
+        {"shadow.frag", {{"PASS", {"2"}}, {"ALPHA_CLASS", {"0", "1"}}}},
+        {"layer.frag",
+         {{"PASS", {"1"}}, {"ALPHA_CLASS", {"2"}}, {"NEXT", {"0", "1"}}, {"SAMPLES", {"1", "4"}}}},
+        {"layers.frag", {{"SAMPLES", {"1", "4"}}, {"LAYERS", {"1", "2", "3"}}, {"SHADOW", {"0", "1"}}}},
+        {"sky.frag", {{"SAMPLES", {"1", "4"}}}},
+        {"debug_view.frag", {{"SAMPLES", {"1", "4"}}}},
+        {"shade.frag",
+         {{"SAMPLES", {"1", "4"}},
+          {"PER_SAMPLE", {"0", "1"}},
+          {"SHADOW", {"0", "1"}},
+          {"OCCLUSION", {"0", "1"}}}},
+    };
+    return values;
+}
+
+std::vector<gpu::ShaderDefines> variantsOf(std::string_view path) {
+    for (const auto& [name, values] : variantValues()) {
+        if (path == "terrane/render/" + name + ".glsl") return combined(values);
+    }
+    return kPlain;
 }
 
 struct Stage {
@@ -84,13 +122,13 @@ TEST_F(Shaders, ReferenceCompilerAcceptsEveryVariant) {
             ++checked;
         }
     }
-    EXPECT_GE(checked, 9) << "terrain 2 × 3, fullscreen, sky, final";
+    EXPECT_GE(checked, 40);
 }
 
 TEST_F(Shaders, ReferenceCompilerRefusesMistakes) {
     EXPECT_NE(complaints(folder_, kStages[1], "#version 450 core\nvoid main() { undeclared = 1; }\n"), "");
-    const auto source = contentShaders().load("terrane/render/terrain.frag.glsl", gpu::ShaderStage::Fragment,
-                                              {{"ALPHA_CLASS", "1"}});
+    const auto source = contentShaders().load("terrane/render/gbuffer.frag.glsl", gpu::ShaderStage::Fragment,
+                                              {{"ALPHA_CLASS", "1"}, {"SAMPLES", "1"}});
     ASSERT_TRUE(source);
     EXPECT_NE(complaints(folder_, kStages[0], source->text), "") << "another stage";
 }
@@ -100,7 +138,9 @@ class ShaderPrograms : public gpu::GlTest {};
 // Whatever the reference compiler accepts, stages must fit each other too.
 TEST_F(ShaderPrograms, EveryPairLinksOnTheDriver) {
     const std::map<std::string, std::string> pairs = {
-        {"terrane/render/terrain.frag.glsl", "terrane/render/terrain.vert.glsl"}};
+        {"terrane/render/gbuffer.frag.glsl", "terrane/render/quad.vert.glsl"},
+        {"terrane/render/shadow.frag.glsl", "terrane/render/quad.vert.glsl"},
+        {"terrane/render/layer.frag.glsl", "terrane/render/quad.vert.glsl"}};
     for (const base::EmbeddedFile& file : embedded::shaders()) {
         const Stage* stage = stageOf(file.path);
         if (!stage || stage->stage == gpu::ShaderStage::Vertex) continue;

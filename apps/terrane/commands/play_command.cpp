@@ -1,18 +1,13 @@
-// terrane play: a window to fly through the world.
-#include <array>
-#include <cmath>
+// terrane play: a window to walk, fly and build in.
 #include <memory>
-#include <numbers>
-#include <sstream>
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
-#include "apps/terrane/scenes.h"
-#include "apps/terrane/window/fly_camera.h"
-#include "apps/terrane/world_session.h"
+#include "apps/terrane/spawn.h"
+#include "apps/terrane/window/game.h"
+#include "apps/terrane/window/icon.h"
+#include "apps/terrane/window/positions.h"
 #include "terrane/base/log.h"
-#include "terrane/gpu/window.h"
-#include "terrane/world/ray_cast.h"
 
 namespace terrane::app {
 namespace {
@@ -21,169 +16,132 @@ struct PlayOptions {
     WorldOptions world;
     SaveOptions save;
     GraphicsOptions graphics;
-    bool fullScreen = false;
+    PlaySettings settings;
+    std::optional<int> position;
+    std::optional<double> time;
+    std::string settingsFile = settingsPath().string();
 };
 
-// Chunks handed to the GPU a frame: about 64 × 10 KiB.
-constexpr std::size_t kUploadsPerFrame = 64;
-
-// Where the camera looks over the ground, in sixteenths of a circle: chunks are put in order again only when
-// it turns.
-glm::vec2 lookSector(const render::Camera& camera) {
-    const glm::vec3 look = render::lookDirection(camera);
-    const double sector = std::numbers::pi / 8;
-    const double angle = std::round(std::atan2(double{look.y}, double{look.x}) / sector) * sector;
-    return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+// What the person sees first: a place of the positions file, where the save was left, or a pleasant place.
+base::Result<render::Camera> startOf(const PlayOptions& options, const WorldSession& session) {
+    if (options.position) {
+        const GameOptions defaults;
+        auto positions = readPositions(defaults.positions);
+        if (!positions) return tl::unexpected(positions.error());
+        const auto number = static_cast<std::size_t>(*options.position);
+        if (number > positions->size()) {
+            return base::fail("--position {}: {} has {}", number, defaults.positions.string(),
+                              positions->size());
+        }
+        return (*positions)[number - 1];
+    }
+    if (session.store) {
+        const auto saved = cameraFrom(session.store->setting(kCameraSetting).value_or(""));
+        if (saved && world::isInWorld(render::cameraChunk(*saved))) return *saved;
+    }
+    return findSpawn(*session.generator, session.blocks);
 }
 
-class PlayLoop {
-  public:
-    PlayLoop(const PlayOptions& options, gpu::Window& window, WorldSession& session,
-             render::Renderer& renderer)
-        : options_(options),
-          window_(window),
-          session_(session),
-          renderer_(renderer),
-          camera_(findScene("landscape")->camera) {
-        if (session_.store) restoreCamera();
+DayClock dayOf(const PlayOptions& options, const WorldSession& session) {
+    DayClock day;
+    if (session.store) {
+        const std::string saved = session.store->setting(kTimeSetting).value_or("");
+        if (!saved.empty()) day.timeDay = std::atof(saved.c_str());
+        day.shift(0);  // into a day
     }
+    if (options.time) day.timeDay = *options.time;
+    return day;
+}
 
-    base::Result<void> run() {
-        double last = window_.timeSeconds();
-        while (!window_.shouldClose()) {
-            window_.pollEvents();
-            handleEvents();
-            const double now = window_.timeSeconds();
-            // A long stall moves the camera no farther than a tenth of a second would.
-            fly(camera_, flyKeys(), static_cast<float>(std::min(now - last, 0.1)));
-            session_.advance(now - last, render::cameraChunk(camera_));
-            last = now;
-            const glm::ivec2 size = window_.framebufferSize();
-            if (size.x == 0 || size.y == 0) continue;  // minimised
-            if (auto drawn = drawFrame(size, static_cast<float>(now)); !drawn) return drawn;
-            ++frames_;
-        }
-        base::logInfo("closed after {} frames at {:.2f},{:.2f},{:.2f}", frames_, camera_.position.x,
-                      camera_.position.y, camera_.position.z);
-        return leave();
-    }
-
-  private:
-    void handleEvents() {
-        using Type = gpu::InputEvent::Type;
-        for (const gpu::InputEvent& event : window_.events()) {
-            if (event.type == Type::KeyPress && event.key == gpu::Key::Escape) window_.requestClose();
-            const bool toggles = event.type == Type::ButtonPress && event.button == gpu::MouseButton::Middle;
-            const bool captures = event.type == Type::ButtonPress && !isCaptured_;
-            if (event.type == Type::ButtonPress && isCaptured_) build(event.button);
-            if (toggles || captures) {
-                isCaptured_ = !isCaptured_;
-                window_.setCursorCaptured(isCaptured_);
-            }
-            if (event.type == Type::CursorMove && isCaptured_) turn(camera_, event.x, event.y);
-        }
-    }
-
-    // The left button breaks the block that is looked at, the right one builds on it.
-    void build(gpu::MouseButton button) {
-        constexpr double kReach = 8;  // blocks
-        const auto hit =
-            world::castRay(session_.world, session_.blocks,
-                           {camera_.position, glm::dvec3(render::lookDirection(camera_))}, kReach);
-        if (!hit) return;
-        if (button == gpu::MouseButton::Left) session_.pipeline->setBlock(hit->block, world::kAir);
-        if (button != gpu::MouseButton::Right) return;
-        constexpr std::array<glm::ivec3, 6> kOut = {
-            {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
-        const glm::ivec3 out = kOut[hit->face];
-        session_.pipeline->setBlock({hit->block.x + out.x, hit->block.y + out.y, hit->block.z + out.z},
-                                    session_.blocks.find("stone")->id);
-    }
-
-    // "X Y Z YAW PITCH", as the save keeps it.
-    static constexpr std::string_view kCameraSetting = "camera";
-
-    void restoreCamera() {
-        std::istringstream text(session_.store->setting(kCameraSetting).value_or(""));
-        render::Camera saved;
-        text >> saved.position.x >> saved.position.y >> saved.position.z >> saved.yaw >> saved.pitch;
-        if (text && world::isInWorld(render::cameraChunk(saved))) camera_ = saved;
-    }
-
-    base::Result<void> leave() {
-        const glm::dvec3& p = camera_.position;
-        if (session_.store) {
-            session_.store->setSetting(
-                kCameraSetting, fmt::format("{} {} {} {} {}", p.x, p.y, p.z, camera_.yaw, camera_.pitch));
-        }
-        return session_.save();
-    }
-
-    FlyKeys flyKeys() const {
-        using gpu::Key;
-        return {.forward = window_.keyDown(Key::W),
-                .back = window_.keyDown(Key::S),
-                .left = window_.keyDown(Key::A),
-                .right = window_.keyDown(Key::D),
-                .up = window_.keyDown(Key::E) || window_.keyDown(Key::Shift),
-                .down = window_.keyDown(Key::Q) || window_.keyDown(Key::Control)};
-    }
-
-    base::Result<void> drawFrame(glm::ivec2 size, float seconds) {
-        if (size != renderer_.size()) {
-            if (auto resized = renderer_.resize(size, options_.graphics.samples); !resized) return resized;
-        }
-        session_.pipeline->setView(render::cameraChunk(camera_), options_.graphics.viewDistance,
-                                   lookSector(camera_));
-        session_.pipeline->update();
-        uploadChanges(*session_.pipeline, renderer_, kUploadsPerFrame);
-        renderer_.draw({camera_, world::environmentAt(0.38f), fogDistance(options_.graphics.viewDistance),
-                        seconds, options_.graphics.view, options_.graphics.coverCracks});
-        renderer_.presentToWindow(size);
-        window_.swapBuffers();
-        return {};
-    }
-
-    const PlayOptions& options_;
-    gpu::Window& window_;
-    WorldSession& session_;
-    render::Renderer& renderer_;
-    render::Camera camera_;
-    bool isCaptured_ = false;
-    std::size_t frames_ = 0;
-};
-
-base::Result<void> play(const PlayOptions& options, const CLI::App& command) {
-    auto session = WorldSession::create(options.world, options.save, command);
-    if (!session) return tl::unexpected(session.error());
+base::Result<gpu::Window> openWindow(const PlayOptions& options) {
     auto window = gpu::Window::create({.title = "Terrane",
                                        .width = options.graphics.size.x,
                                        .height = options.graphics.size.y,
-                                       .fullScreen = options.fullScreen,
+                                       .fullScreen = options.settings.fullScreen,
                                        .debug = options.graphics.debugGl});
+    if (window) setTerraneIcon(*window);
+    return window;
+}
+
+PlaySettings settingsOf(const PlayOptions& options, bool isSoftwareRenderer) {
+    PlaySettings settings = options.settings;
+    settings.preset = options.graphics.choices.preset;
+    settings.graphics = renderOptions(options.graphics.choices, isSoftwareRenderer);
+    settings.viewDistance = options.graphics.viewDistance;
+    settings.mesh = options.graphics.mesh;
+    settings.view = options.graphics.view;
+    return settings;
+}
+
+base::Result<void> play(PlayOptions& options, CLI::App& command) {
+    std::vector<std::string> graphics;
+    for (const GraphicsRow& row : graphicsTable()) graphics.emplace_back(row.name);
+    graphics.emplace_back("preset");
+    if (auto read = applySettings(options.settingsFile, command, graphics); !read) return read;
+    auto session = WorldSession::create(options.world, options.save, command);
+    if (!session) return tl::unexpected(session.error());
+    auto window = openWindow(options);
     if (!window) return tl::unexpected(window.error());
     const gpu::ShaderLoader shaders = makeShaderLoader(options.graphics.shaderRoot);
-    auto renderer =
-        render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), gpu::queryDevice());
+    const gpu::DeviceInfo device = gpu::queryDevice();
+    auto renderer = render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), device);
     if (!renderer) return tl::unexpected(renderer.error());
-    (*session)->pipeline->setMeshOptions(options.graphics.mesh);
-    renderer->setViewDistance(options.graphics.viewDistance);
-    if (auto played = PlayLoop(options, *window, **session, *renderer).run(); !played) return played;
+    auto preview = BlockPreview::create(shaders, (*session)->blocks, device);
+    if (!preview) return tl::unexpected(preview.error());
+    auto start = startOf(options, **session);
+    if (!start) return tl::unexpected(start.error());
+
+    GameOptions game;
+    game.settings = settingsOf(options, device.software);
+    game.start = *start;
+    game.start.fieldOfView = game.settings.fieldOfView;
+    game.day = dayOf(options, **session);
+    game.isSoftwareRenderer = device.software;
+    Game loop({*window, **session, *renderer, *preview}, game);
+    if (auto played = loop.run(); !played) return played;
+    if (loop.settings() != game.settings) {
+        auto written = writeSettings(options.settingsFile, valuesOf(loop.settings(), device.software));
+        if (!written) return written;
+    }
     if (window->debugLog() && window->debugLog()->errorCount() > 0) {
         return base::fail("the graphics driver reported errors, see above");
     }
     return {};
 }
 
+void addPlaySettings(CLI::App& command, PlaySettings& settings) {
+    addChoice<Movement>(command, "--movement", settings.movement,
+                        {movementWords().begin(), movementWords().end()}, "How one moves");
+    command.add_option("--field-of-view", settings.fieldOfView, "Degrees, from below to above")
+        ->check(numberFrom(40, 110))
+        ->capture_default_str();
+    command.add_option("--mouse-sensitivity", settings.mouseSensitivity, "Degrees a step of the mouse")
+        ->check(numberFrom(0.02, 0.6))
+        ->capture_default_str();
+    command.add_option("--day-minutes", settings.dayMinutes, "How long a day takes")
+        ->check(numberFrom(0.5, 1440))
+        ->capture_default_str();
+    command.add_flag("--full-screen", settings.fullScreen, "Take the whole screen");
+}
+
 }  // namespace
 
 CommandEntry addPlay(CLI::App& app) {
     auto options = std::make_shared<PlayOptions>();
-    CLI::App* command = app.add_subcommand("play", "Open a window and fly through the world (the default)");
+    CLI::App* command = app.add_subcommand("play", "Open a window to walk, fly and build in (the default)");
     addWorldOptions(*command, options->world);
-    addGraphicsOptions(*command, options->graphics);
-    command->add_flag("--full-screen", options->fullScreen, "Take the whole screen");
     addSaveGameOptions(*command, options->save);
+    command->add_option("--position", options->position, "Start at this line of positions.txt")
+        ->check(numberFrom(1, 1e6))
+        ->type_name("X");
+    command->add_option("--time", options->time, "Time of day: 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk")
+        ->check(numberFrom(0, 1));
+    addPlaySettings(*command, options->settings);
+    addGraphicsOptions(*command, options->graphics, "auto");
+    command
+        ->add_option("--settings", options->settingsFile,
+                     "File of settings that the panel writes; \"\": none")
+        ->type_name("FILE");
     return {command, [options, command] { return play(*options, *command); }};
 }
 

@@ -1,6 +1,7 @@
 // terrane render: one picture of one place, without a window.
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -23,13 +24,15 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-struct RenderOptions {
+struct PictureOptions {
     WorldOptions world;
     SaveOptions save;
     GraphicsOptions graphics;
     std::string scene;
     std::optional<std::vector<double>> at, look;
     std::optional<float> time;
+    float seconds = 0;
+    int frames = 0;
     std::string output;
     bool json = false;
 };
@@ -41,7 +44,7 @@ std::size_t peakMemoryBytes() {
     return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
-base::Result<Scene> chosenScene(const RenderOptions& options) {
+base::Result<Scene> chosenScene(const PictureOptions& options) {
     Scene scene = scenes().front();
     if (!options.scene.empty()) {
         const Scene* found = findScene(options.scene);
@@ -73,7 +76,32 @@ void loadAll(WorldSession& session, render::Renderer& renderer, const render::Ca
     }
 }
 
-base::Result<void> renderPicture(const RenderOptions& options, const CLI::App& command) {
+// Milliseconds of each frame; the picture stays the same.
+std::vector<double> drawFrames(render::Renderer& renderer, const render::FrameInput& input, int count) {
+    std::vector<double> frames;
+    for (int k = 0; k < count; ++k) {
+        const auto start = Clock::now();
+        renderer.draw(input);
+        glFinish();
+        frames.push_back(millisecondsSince(start));
+    }
+    return frames;
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+// GPU milliseconds of the passes of a frame, by name.
+nlohmann::json passTimes(const render::Renderer& renderer) {
+    nlohmann::json times = nlohmann::json::object();
+    for (const gpu::GpuTiming& pass : renderer.passTimes()) times[pass.name] = pass.milliseconds;
+    return times;
+}
+
+base::Result<void> renderPicture(const PictureOptions& options, const CLI::App& command) {
     const auto start = Clock::now();
     auto scene = chosenScene(options);
     if (!scene) return tl::unexpected(scene.error());
@@ -82,11 +110,12 @@ base::Result<void> renderPicture(const RenderOptions& options, const CLI::App& c
     auto context = gpu::HeadlessContext::create({.debug = options.graphics.debugGl});
     if (!context) return tl::unexpected(context.error());
     const gpu::ShaderLoader shaders = makeShaderLoader(options.graphics.shaderRoot);
-    auto renderer =
-        render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), gpu::queryDevice());
+    const gpu::DeviceInfo device = gpu::queryDevice();
+    auto renderer = render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), device);
     if (!renderer) return tl::unexpected(renderer.error());
-    if (auto resized = renderer->resize(options.graphics.size, options.graphics.samples); !resized)
-        return resized;
+    const auto graphics = renderOptions(options.graphics.choices, device.software);
+    if (auto configured = renderer->configure(options.graphics.size, graphics); !configured)
+        return configured;
     const double setUp = millisecondsSince(start);
 
     const auto loadStart = Clock::now();
@@ -96,25 +125,27 @@ base::Result<void> renderPicture(const RenderOptions& options, const CLI::App& c
     const double load = millisecondsSince(loadStart);
 
     const auto drawStart = Clock::now();
-    const render::FrameInput input{scene->camera,
-                                   world::environmentAt(scene->timeDay),
-                                   fogDistance(options.graphics.viewDistance),
-                                   0,
-                                   options.graphics.view,
-                                   options.graphics.coverCracks};
+    const render::FrameInput input{scene->camera, world::environmentAt(scene->timeDay),
+                                   fogDistance(options.graphics.viewDistance), options.seconds,
+                                   options.graphics.view};
     renderer->draw(input);
     const base::Image image = renderer->readImage();
     const double draw = millisecondsSince(drawStart);
+    const std::vector<double> frames = drawFrames(*renderer, input, options.frames);
     if (auto written = base::writePng(options.output, image); !written) return written;
     if (auto saved = (*session)->save(); !saved) return saved;
     if (context->debugErrorCount() > 0) return base::fail("the graphics driver reported errors, see above");
 
-    const render::FrameStatistics& statistics = renderer->statistics();
+    const render::FrameStatistics statistics = renderer->statistics();
     const std::size_t chunks = (*session)->world.chunks().size();
     base::logInfo("{}: {} chunks in {:.1f} s, {} quads in {} regions", options.output, chunks, load / 1000,
                   statistics.quads, statistics.regions);
+    if (!frames.empty()) {
+        base::logInfo("a frame takes {:.1f} ms in the middle of {}, {:.1f} frames/s", median(frames),
+                      frames.size(), 1000 / median(frames));
+    }
     if (options.json) {
-        const nlohmann::json result = {
+        nlohmann::json result = {
             {"file", options.output},
             {"milliseconds",
              {{"set_up", setUp}, {"load", load}, {"draw", draw}, {"all", millisecondsSince(start)}}},
@@ -134,6 +165,10 @@ base::Result<void> renderPicture(const RenderOptions& options, const CLI::App& c
               {"light_gpu", renderer->lightBytes()},
               {"quads_gpu", renderer->quadBytes()},
               {"process_peak", peakMemoryBytes()}}}};
+        if (!frames.empty()) {
+            result["milliseconds"]["frame"] = median(frames);
+            result["passes"] = passTimes(*renderer);
+        }
         std::cout << result.dump() << '\n';
     }
     return {};
@@ -148,7 +183,7 @@ std::string sceneNames() {
 }  // namespace
 
 CommandEntry addRender(CLI::App& app) {
-    auto options = std::make_shared<RenderOptions>();
+    auto options = std::make_shared<PictureOptions>();
     CLI::App* command = app.add_subcommand("render", "Draw a picture into a PNG file, without a window");
     auto* scene = command->add_option("--scene", options->scene, "A reference scene: " + sceneNames());
     command
@@ -170,10 +205,17 @@ CommandEntry addRender(CLI::App& app) {
         ->type_name("YAW,PITCH");
     command->add_option("--time", options->time, "Time of day: 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk")
         ->check(numberFrom(0, 1));
+    command->add_option("--seconds", options->seconds, "Time for what moves: plants, water, clouds")
+        ->check(numberFrom(0, 1e6))
+        ->capture_default_str();
+    command
+        ->add_option("--frames", options->frames,
+                     "Draws the picture so often again and tells how long that takes")
+        ->check(numberFrom(0, 100000));
     addOutputOption(*command, options->output, "The PNG file");
     command->add_flag("--json", options->json, "Print timings and counts as JSON");
     addWorldOptions(*command, options->world);
-    addGraphicsOptions(*command, options->graphics);
+    addGraphicsOptions(*command, options->graphics, "high");
     addSaveGameOptions(*command, options->save);
     return {command, [options, command] { return renderPicture(*options, *command); }};
 }

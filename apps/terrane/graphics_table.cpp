@@ -1,0 +1,127 @@
+#include "apps/terrane/graphics_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace terrane::app {
+namespace {
+
+using render::RenderOptions;
+
+constexpr std::array kSamples = {1, 2, 4, 8};
+constexpr std::array kShadowSizes = {0, 1024, 2048, 4096};
+
+template <std::size_t kCount>
+int indexOf(const std::array<int, kCount>& values, int value) {
+    return static_cast<int>(std::ranges::find(values, value) - values.begin());
+}
+
+GraphicsRow switchRow(std::string_view name, std::string_view description, int (*get)(const RenderOptions&),
+                      void (*set)(RenderOptions&, int)) {
+    return {name, description, {"off", "on"}, get, set};
+}
+
+// A row for a member that a word's number can be cast to.
+template <auto kMember>
+int getMember(const RenderOptions& o) {
+    return static_cast<int>(o.*kMember);
+}
+template <auto kMember>
+void setMember(RenderOptions& o, int word) {
+    using Value = std::remove_reference_t<decltype(o.*kMember)>;
+    o.*kMember = static_cast<Value>(word);
+}
+template <auto kMember>
+GraphicsRow switchOf(std::string_view name, std::string_view description) {
+    return switchRow(name, description, getMember<kMember>, setMember<kMember>);
+}
+
+std::vector<GraphicsRow> makeTable() {
+    return {
+        {"samples",
+         "Anti-aliasing: samples a pixel",
+         {"1", "2", "4", "8"},
+         [](const RenderOptions& o) { return indexOf(kSamples, o.samples); },
+         [](RenderOptions& o, int word) { o.samples = kSamples[static_cast<std::size_t>(word)]; }},
+        {"shading",
+         "Light, of each sample or once a pixel",
+         {"off", "sample", "pixel"},
+         getMember<&RenderOptions::shading>,
+         setMember<&RenderOptions::shading>},
+        {"shadows",
+         "Shadows of the sun and moon: texels along a side of the shadow map",
+         {"off", "1024", "2048", "4096"},
+         [](const RenderOptions& o) { return indexOf(kShadowSizes, o.shadowSize); },
+         [](RenderOptions& o, int word) { o.shadowSize = kShadowSizes[static_cast<std::size_t>(word)]; }},
+        {"ssao",
+         "Ambient occlusion in screen space",
+         {"off", "on", "raw"},
+         getMember<&RenderOptions::occlusion>,
+         setMember<&RenderOptions::occlusion>},
+        switchOf<&RenderOptions::depthOfField>("depth-of-field", "Blurs what is far away"),
+        switchOf<&RenderOptions::atmosphere>("atmosphere", "Fades what is far away into the sky"),
+        switchOf<&RenderOptions::godRays>("god-rays", "Rays of the sun between what stands before it"),
+        switchOf<&RenderOptions::clouds>("clouds", "Clouds"),
+        switchOf<&RenderOptions::animation>("animation", "Plants, leaves and water move"),
+        switchOf<&RenderOptions::betterTexturing>("better-texturing",
+                                                  "Near textures with sharp and smooth edges"),
+        switchOf<&RenderOptions::sampledAlphaTest>("msaa-alpha-test",
+                                                   "Anti-aliasing of holes in leaves and plants"),
+        {"layers",
+         "Layers of water and glass behind each other",
+         {"0", "1", "2", "3"},
+         getMember<&RenderOptions::layers>,
+         setMember<&RenderOptions::layers>},
+        {"single-layer",
+         "Shows one of these layers alone",
+         {"all", "1", "2", "3"},
+         getMember<&RenderOptions::singleLayer>,
+         setMember<&RenderOptions::singleLayer>},
+        {"t-junctions",
+         "Cracks where rectangles of different sizes meet",
+         {"open", "covered"},
+         getMember<&RenderOptions::coverCracks>,
+         setMember<&RenderOptions::coverCracks>},
+    };
+}
+
+}  // namespace
+
+std::span<const GraphicsRow> graphicsTable() {
+    static const std::vector<GraphicsRow> table = makeTable();
+    return table;
+}
+
+std::string wordsOf(const GraphicsRow& row) {
+    return fmt::format("{}", fmt::join(row.words, ", "));
+}
+
+std::optional<int> choiceOf(const GraphicsRow& row, std::string_view word) {
+    const auto found = std::ranges::find(row.words, word);
+    if (found == row.words.end()) return std::nullopt;
+    return static_cast<int>(found - row.words.begin());
+}
+
+std::string presetNames() {
+    std::string names = "auto";
+    for (const render::Preset& preset : render::presets()) names += ", " + std::string(preset.name);
+    return names;
+}
+
+std::string isPresetName(const std::string& preset) {
+    if (render::findPreset(preset, false)) return {};
+    return fmt::format("expected one of {}, got \"{}\"", presetNames(), preset);
+}
+
+render::RenderOptions renderOptions(const GraphicsChoices& choices, bool isSoftwareRenderer) {
+    const auto preset = render::findPreset(choices.preset, isSoftwareRenderer);
+    assert(preset && "the command line has checked the name");
+    RenderOptions options = *preset;
+    for (const auto& [row, word] : choices.changed) graphicsTable()[row].set(options, word);
+    return options;
+}
+
+}  // namespace terrane::app

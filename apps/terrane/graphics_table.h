@@ -1,0 +1,38 @@
+// Every graphics option as one row of a table: its name, its values, where it is kept. The command line,
+// settings and menus are made from it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "terrane/render/render_options.h"
+
+namespace terrane::app {
+
+struct GraphicsRow {
+    std::string_view name;  // of the flag, without dashes, and of the setting
+    std::string_view description;
+    std::vector<std::string_view> words;       // what it can be
+    int (*get)(const render::RenderOptions&);  // which of the words
+    void (*set)(render::RenderOptions&, int word);
+};
+
+std::span<const GraphicsRow> graphicsTable();
+std::string wordsOf(const GraphicsRow& row);  // "off, on"
+std::optional<int> choiceOf(const GraphicsRow& row, std::string_view word);
+
+// What a person asked for: a preset, then single rows.
+struct GraphicsChoices {
+    std::string preset;
+    std::vector<std::pair<std::size_t, int>> changed;  // row, word
+};
+
+std::string presetNames();                            // "auto, low, …"
+std::string isPresetName(const std::string& preset);  // empty, or what is wrong with it
+render::RenderOptions renderOptions(const GraphicsChoices& choices, bool isSoftwareRenderer);
+
+}  // namespace terrane::app

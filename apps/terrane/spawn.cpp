@@ -1,0 +1,82 @@
+#include "apps/terrane/spawn.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "terrane/world/character.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr int kMiddle = world::kChunkSize / 2;
+constexpr int kRings = 7, kSpacing = 6;  // chunks between candidates
+
+int highest(const world::Chunk& chunk, const world::BlockRegistry& blocks, int x, int y) {
+    for (int z = world::kChunkHeight - 1; z >= 0; --z) {
+        const world::BlockType& type = blocks.type(chunk.block(world::blockIndex(x, y, z)));
+        if (!type.collision.empty() || type.shape == world::Shape::Liquid) return z;
+    }
+    return -1;
+}
+
+// The height to stand at; none where it is wet, steep, or under trees.
+std::optional<int> pleasantHeight(const world::Chunk& chunk, const world::BlockRegistry& blocks) {
+    int least = world::kChunkHeight, most = -1;
+    const world::BlockType* grass = blocks.find("grass");
+    for (int y = 3; y < 13; ++y) {
+        for (int x = 3; x < 13; ++x) {
+            const int z = highest(chunk, blocks, x, y);
+            if (z < 0) return std::nullopt;
+            const world::BlockType& top = blocks.type(chunk.block(world::blockIndex(x, y, z)));
+            const bool isGround = grass ? top.id == grass->id : top.opaqueCube;
+            if (!isGround) return std::nullopt;
+            least = std::min(least, z);
+            most = std::max(most, z);
+        }
+    }
+    const int here = highest(chunk, blocks, kMiddle, kMiddle);
+    return most - least <= 3 ? std::optional(here) : std::nullopt;
+}
+
+// Toward the highest land around.
+float viewFrom(const gen::Generator& generator, const world::BlockRegistry& blocks, world::ChunkPos pos) {
+    constexpr int kDirections = 12, kDistance = 9;  // chunks
+    float best = 0;
+    int bestHeight = -1;
+    for (int k = 0; k < kDirections; ++k) {
+        const double angle = 2 * 3.14159265358979 * k / kDirections;
+        const world::ChunkPos at{pos.x + static_cast<int>(std::lround(kDistance * std::cos(angle))),
+                                 pos.y + static_cast<int>(std::lround(kDistance * std::sin(angle)))};
+        const int height = highest(generator.generate(at), blocks, kMiddle, kMiddle);
+        if (height <= bestHeight) continue;
+        bestHeight = height;
+        best = 360.0f * static_cast<float>(k) / kDirections;
+    }
+    return best;
+}
+
+render::Camera standingAt(world::ChunkPos pos, int ground, float yaw) {
+    return {
+        {pos.x * 16 + kMiddle + 0.5, pos.y * 16 + kMiddle + 0.5, ground + 1 + world::kEyeHeight}, yaw, -4};
+}
+
+}  // namespace
+
+render::Camera findSpawn(const gen::Generator& generator, const world::BlockRegistry& blocks) {
+    for (int ring = 0; ring <= kRings; ++ring) {
+        for (int y = -ring; y <= ring; ++y) {
+            for (int x = -ring; x <= ring; ++x) {
+                if (std::max(std::abs(x), std::abs(y)) != ring) continue;
+                const world::ChunkPos pos{x * kSpacing, y * kSpacing};
+                const auto ground = pleasantHeight(generator.generate(pos), blocks);
+                if (ground) return standingAt(pos, *ground, viewFrom(generator, blocks, pos));
+            }
+        }
+    }
+    const int ground = highest(generator.generate({}), blocks, kMiddle, kMiddle);
+    return standingAt({}, std::min(std::max(ground, 0), world::kChunkHeight - 1), 0);
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,47 @@
+#include "apps/terrane/window/block_preview.h"
+
+#include "apps/terrane/content.h"
+#include "terrane/mesh/chunk_mesher.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr int kZ = 100;  // where the block floats
+constexpr render::Camera kCamera{{5.3, 5.3, kZ + 2.6}, 45, -25, 24};
+
+mesh::ChunkMesh meshOf(world::BlockId block, const world::BlockRegistry& blocks) {
+    world::Chunk chunk;
+    const world::Chunk air;
+    chunk.setBlock(world::blockIndex(8, 8, kZ), block);
+    mesh::MeshInput input;
+    input.centre = &chunk;
+    input.neighbours = {&air, &air, &air, &air};
+    input.blocks = &blocks;
+    mesh::MeshScratch scratch;
+    return mesh::meshChunk(input, scratch);
+}
+
+}  // namespace
+
+base::Result<BlockPreview> BlockPreview::create(const gpu::ShaderLoader& shaders,
+                                                const world::BlockRegistry& blocks,
+                                                const gpu::DeviceInfo& device) {
+    auto renderer = render::Renderer::create(shaders, blocks, builtInTextures(), device);
+    if (!renderer) return tl::unexpected(renderer.error());
+    render::RenderOptions options = *render::findPreset("low", true);
+    options.samples = 1;
+    if (auto done = renderer->configure({kSize, kSize}, options); !done) return tl::unexpected(done.error());
+    renderer->setViewDistance(1);
+    return BlockPreview(blocks, std::move(*renderer));
+}
+
+unsigned BlockPreview::picture(world::BlockId block) {
+    if (shown_ != block) {
+        renderer_.setChunk({0, 0}, meshOf(block, *blocks_));
+        renderer_.draw({kCamera, world::environmentAt(0.4f), 1000.0f});
+        shown_ = block;
+    }
+    return renderer_.pictureTexture();
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,80 @@
+// The window's loop: what a person does, what time does, and the picture of it. Everything that is more than
+// putting these together lies in the files beside this one.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "apps/terrane/window/block_preview.h"
+#include "apps/terrane/window/day_clock.h"
+#include "apps/terrane/window/frame_meter.h"
+#include "apps/terrane/window/hand.h"
+#include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/play_settings.h"
+#include "apps/terrane/world_session.h"
+#include "terrane/gpu/window.h"
+
+namespace terrane::app {
+
+// Settings of a save: "X Y Z YAW PITCH", and the time of day.
+constexpr std::string_view kCameraSetting = "camera", kTimeSetting = "time";
+
+// What the loop works with; everything outlives it.
+struct GameParts {
+    gpu::Window& window;
+    WorldSession& session;
+    render::Renderer& renderer;
+    BlockPreview& preview;
+};
+
+struct GameOptions {
+    PlaySettings settings;
+    render::Camera start;
+    DayClock day;
+    bool isSoftwareRenderer = false;
+    std::filesystem::path positions = "positions.txt";
+};
+
+class Game {
+  public:
+    Game(const GameParts& parts, const GameOptions& options);
+
+    // Until the window closes; then everything is saved.
+    base::Result<void> run();
+    const PlaySettings& settings() const { return settings_; }
+
+  private:
+    void handleEvents();
+    void onKey(gpu::Key key);
+    void onButton(gpu::MouseButton button, bool isPress);
+    void capture(bool isCaptured);
+    void savePosition();
+    void nextPosition();
+    void takeScreenshot();
+    void say(std::string message);
+
+    MoveKeys moveKeys(double seconds);
+    void advance(double seconds);
+    void applySettings();
+    base::Result<void> drawFrame();
+    void drawInterface(glm::ivec2 size);
+    base::Result<void> leave();
+
+    GameParts parts_;
+    PlaySettings settings_, applied_;
+    std::filesystem::path positionsFile_;
+    bool isSoftwareRenderer_;
+    ImguiLayer imgui_;
+    Player player_;
+    Hand hand_;
+    DayClock day_;
+    FrameMeter meter_;
+
+    bool isCaptured_ = false, showsPanel_ = false, showsFigures_ = false, showsLoading_ = false;
+    double hintSeconds_ = 12, messageSeconds_ = 0;
+    std::string message_;
+    std::size_t nextPosition_ = 0, frames_ = 0;
+    double seconds_ = 0;  // since the start
+};
+
+}  // namespace terrane::app

@@ -1,0 +1,65 @@
+#include "apps/terrane/window/hand.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace terrane::app {
+namespace {
+
+bool overlap(const world::Aabb& a, const world::Aabb& b) {
+    return glm::all(glm::lessThan(a.min, b.max)) && glm::all(glm::lessThan(b.min, a.max));
+}
+
+// Whether a block of this kind would stand in the body.
+bool isInTheWay(const world::BlockType& type, world::BlockPos pos, const std::optional<world::Aabb>& body) {
+    const glm::dvec3 corner(pos.x, pos.y, pos.z);
+    return body && std::ranges::any_of(type.collision, [&](const world::Box& box) {
+               return overlap({corner + glm::dvec3(box.min), corner + glm::dvec3(box.max)}, *body);
+           });
+}
+
+}  // namespace
+
+world::BlockPos beside(world::BlockPos pos, world::Face face) {
+    constexpr std::array<glm::ivec3, world::kFaceCount> kOut = {
+        {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
+    return {pos.x + kOut[face].x, pos.y + kOut[face].y, pos.z + kOut[face].z};
+}
+
+Hand::Hand(const world::BlockRegistry& blocks) {
+    for (const world::BlockType& type : blocks.types()) {
+        if (type.id != world::kAir && type.id != blocks.missing()) kinds_.push_back(type.id);
+    }
+}
+
+void Hand::choose(int steps) {
+    const int count = static_cast<int>(kinds_.size());
+    chosen_ = static_cast<std::size_t>(((static_cast<int>(chosen_) + steps) % count + count) % count);
+}
+
+void Hand::choose(world::BlockId kind) {
+    const auto found = std::ranges::find(kinds_, kind);
+    if (found != kinds_.end()) chosen_ = static_cast<std::size_t>(found - kinds_.begin());
+}
+
+void Hand::act(const world::World& world, const world::BlockRegistry& blocks, stream::ChunkPipeline& pipeline,
+               const Player& player, double seconds) {
+    const world::Ray ray{player.camera().position, glm::dvec3(render::lookDirection(player.camera()))};
+    target_ = world::castRay(world, blocks, ray, kReach);
+    const bool breaks = breaking.acts(seconds), builds = building.acts(seconds);
+    if (!target_ || (!breaks && !builds)) return;
+    if (breaks) {
+        pipeline.setBlock(target_->block, world::kAir);
+    } else {
+        const world::BlockPos pos = beside(target_->block, target_->face);
+        const world::BlockId there = world.block(pos);
+        // Into air and liquids, not into plants and the like.
+        const bool isFree = there == world::kAir || blocks.type(there).shape == world::Shape::Liquid;
+        if (isFree && !isInTheWay(blocks.type(block()), pos, player.body())) pipeline.setBlock(pos, block());
+    }
+    target_ = world::castRay(world, blocks, ray, kReach);
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,12 @@
+#include "apps/terrane/window/icon.h"
+
+#include "apps/terrane/content.h"
+
+namespace terrane::app {
+
+void setTerraneIcon(gpu::Window& window) {
+    const auto image = builtInTextures()("grass_side");
+    if (image) window.setIcon(image->width, image->height, std::as_bytes(std::span(image->rgba)));
+}
+
+}  // namespace terrane::app

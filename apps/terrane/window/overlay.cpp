@@ -1,0 +1,162 @@
+#include "apps/terrane/window/overlay.h"
+
+#include <imgui.h>
+
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "apps/terrane/window/hand.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
+                                   ImGuiWindowFlags_NoNav;
+
+float scale() {
+    return ImGui::GetIO().FontGlobalScale;
+}
+
+ImU32 withAlpha(int red, int green, int blue, float alpha) {
+    return IM_COL32(red, green, blue, static_cast<int>(255 * glm::clamp(alpha, 0.0f, 1.0f)));
+}
+
+// Where a point of the world is on the screen; none behind the camera.
+std::optional<ImVec2> projected(const Screen& screen, const render::Camera& camera, glm::dvec3 point) {
+    const world::ChunkPos chunk = render::cameraChunk(camera);
+    const glm::dvec3 corner(16.0 * chunk.x, 16.0 * chunk.y, 0);
+    const render::ViewMatrices view = render::viewMatrices(camera, screen.width / screen.height);
+    const glm::vec4 clip = view.viewProjection * glm::vec4(glm::vec3(point - corner), 1.0f);
+    if (clip.w <= render::kNearPlane) return std::nullopt;
+    return ImVec2((clip.x / clip.w * 0.5f + 0.5f) * screen.width,
+                  (0.5f - clip.y / clip.w * 0.5f) * screen.height);
+}
+
+using Corners = std::array<std::optional<ImVec2>, 4>;
+
+Corners faceCorners(const Screen& screen, const render::Camera& camera, glm::dvec3 min, glm::dvec3 max,
+                    int face) {
+    const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+    Corners corners;
+    for (int k = 0; k < 4; ++k) {
+        glm::dvec3 p = min;
+        p[axis] = face % 2 == 1 ? max[axis] : min[axis];
+        p[u] = k == 1 || k == 2 ? max[u] : min[u];
+        p[v] = k >= 2 ? max[v] : min[v];
+        corners[static_cast<std::size_t>(k)] = projected(screen, camera, p);
+    }
+    return corners;
+}
+
+void centred(const char* name, const Screen& screen, float height) {
+    ImGui::SetNextWindowPos({screen.width / 2, height}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowBgAlpha(0.55f);
+    ImGui::Begin(name, nullptr, kBare);
+}
+
+double megabytes(std::size_t bytes) {
+    return static_cast<double>(bytes) / 1e6;
+}
+
+}  // namespace
+
+void drawTarget(const Screen& screen, const render::Camera& camera, const world::RayHit& target,
+                const world::World& world, const world::BlockRegistry& blocks) {
+    const world::BlockType& type = blocks.type(world.block(target.block));
+    constexpr double kGrow = 1.0 / 256;  // outside of the block's own faces
+    const glm::dvec3 corner(target.block.x, target.block.y, target.block.z);
+    const glm::dvec3 min = corner + glm::dvec3(type.selection.min) - kGrow;
+    const glm::dvec3 max = corner + glm::dvec3(type.selection.max) + kGrow;
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    for (int face = 0; face < world::kFaceCount; ++face) {
+        const int axis = face / 2;
+        const bool isSeen =
+            face % 2 == 1 ? camera.position[axis] > max[axis] : camera.position[axis] < min[axis];
+        const world::BlockPos next = beside(target.block, static_cast<world::Face>(face));
+        const bool isCovered = type.shape == world::Shape::Cube && blocks.type(world.block(next)).opaqueCube;
+        const Corners c = faceCorners(screen, camera, min, max, face);
+        if (!isSeen || isCovered || !c[0] || !c[1] || !c[2] || !c[3]) continue;
+        if (face == target.face) draw.AddQuadFilled(*c[0], *c[1], *c[2], *c[3], IM_COL32(255, 255, 255, 28));
+        draw.AddQuad(*c[0], *c[1], *c[2], *c[3], IM_COL32(0, 0, 0, 190), 1.5f * scale());
+    }
+}
+
+void drawCrosshair(const Screen& screen) {
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const float x = std::floor(screen.width / 2), y = std::floor(screen.height / 2), r = 8 * scale();
+    for (const auto& [colour, thick] :
+         {std::pair(IM_COL32(0, 0, 0, 120), 4.0f), {IM_COL32(255, 255, 255, 220), 2.0f}}) {
+        draw.AddLine({x - r, y}, {x + r, y}, colour, thick * scale());
+        draw.AddLine({x, y - r}, {x, y + r}, colour, thick * scale());
+    }
+}
+
+void drawHand(const Screen& screen, const std::string& name, unsigned picture) {
+    const float margin = 12 * scale(), size = 72 * scale();
+    ImGui::SetNextWindowPos({margin, screen.height - margin}, ImGuiCond_Always, {0, 1});
+    ImGui::SetNextWindowBgAlpha(0.45f);
+    ImGui::Begin("hand", nullptr, kBare);
+    if (picture != 0) {
+        // Rows of a texture run from below.
+        ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture)), {size, size},
+                     {0, 1}, {1, 0});
+    }
+    ImGui::TextUnformatted(name.c_str());
+    ImGui::End();
+}
+
+void drawFigures(const Figures& f) {
+    ImGui::SetNextWindowPos({10 * scale(), 10 * scale()});
+    ImGui::SetNextWindowBgAlpha(0.5f);
+    ImGui::Begin("figures", nullptr, kBare);
+    const glm::dvec3& p = f.camera.position;
+    ImGui::Text("%.1f frames/s (%.1f to %.1f)", f.frames->now(), f.frames->least(), f.frames->most());
+    ImGui::Text("x %.1f  y %.1f  z %.1f  yaw %.0f  pitch %.0f  time %.3f", p.x, p.y, p.z,
+                double{f.camera.yaw}, double{f.camera.pitch}, f.timeDay);
+    ImGui::Text("chunks: %zu active, %zu of %zu visible, %zu queued", f.activeChunks, f.progress.visible,
+                f.progress.wanted, f.queuedChunks);
+    ImGui::Text("triangles: %zu opaque, %zu transparent", f.frame.opaqueTriangles,
+                f.frame.transparentTriangles);
+    ImGui::Text("MB: blocks %.1f, light %.1f; on the GPU quads %.1f, light %.1f", megabytes(f.blockBytes),
+                megabytes(f.lightBytes), megabytes(f.quadBytes), megabytes(f.lightGpuBytes));
+    for (const stream::TaskTime& task : f.tasks) {
+        if (task.count == 0) continue;
+        ImGui::Text("%s: %.0f us each, %zu", task.name, task.microseconds / static_cast<double>(task.count),
+                    task.count);
+    }
+    for (const gpu::GpuTiming& pass : *f.passes)
+        ImGui::Text("%s: %.2f ms", pass.name.c_str(), pass.milliseconds);
+    ImGui::End();
+}
+
+void drawProgress(const Screen& screen, const stream::Progress& progress) {
+    const float share =
+        static_cast<float>(progress.visible) / static_cast<float>(std::max<std::size_t>(progress.wanted, 1));
+    centred("progress", screen, screen.height - 40 * scale());
+    ImGui::Text("the world comes into view");
+    ImGui::ProgressBar(share, {240 * scale(), 8 * scale()}, "");
+    ImGui::End();
+}
+
+void drawHint(const Screen& screen, float share) {
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, share);
+    centred("hint", screen, screen.height * 0.3f);
+    ImGui::TextUnformatted(
+        "click: look around    W A S D: move    Space: jump    Shift: run\n"
+        "left button: break    right button: build    wheel: choose a block\n"
+        "F1: this help    F2: settings    Esc: quit");
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+void drawMessage(const Screen& screen, const std::string& message, float share) {
+    const ImVec2 size = ImGui::CalcTextSize(message.c_str());
+    const ImVec2 at((screen.width - size.x) / 2, screen.height * 0.75f);
+    ImDrawList& draw = *ImGui::GetForegroundDrawList();
+    draw.AddText({at.x + scale(), at.y + scale()}, withAlpha(0, 0, 0, share), message.c_str());
+    draw.AddText(at, withAlpha(255, 255, 255, share), message.c_str());
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,50 @@
+// What is drawn over the picture: crosshair, what is looked at, the block in the hand, figures, hints.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/terrane/window/frame_meter.h"
+#include "apps/terrane/window/player.h"
+#include "terrane/gpu/timer.h"
+#include "terrane/render/renderer.h"
+#include "terrane/stream/chunk_pipeline.h"
+#include "terrane/world/ray_cast.h"
+
+namespace terrane::app {
+
+struct Screen {
+    float width = 0, height = 0;  // pixels
+};
+
+// The edges of the block that is looked at, of its faces that nothing covers, and the face under the
+// crosshair.
+void drawTarget(const Screen& screen, const render::Camera& camera, const world::RayHit& target,
+                const world::World& world, const world::BlockRegistry& blocks);
+void drawCrosshair(const Screen& screen);
+
+// The block in the hand, bottom left. `picture`: an OpenGL texture, 0: none.
+void drawHand(const Screen& screen, const std::string& name, unsigned picture);
+
+struct Figures {
+    const FrameMeter* frames = nullptr;
+    render::Camera camera;
+    double timeDay = 0;
+    stream::Progress progress;
+    std::size_t activeChunks = 0, queuedChunks = 0;
+    render::FrameStatistics frame;
+    std::size_t blockBytes = 0, lightBytes = 0, quadBytes = 0, lightGpuBytes = 0;
+    std::vector<stream::TaskTime> tasks;
+    const std::vector<gpu::GpuTiming>* passes = nullptr;
+};
+void drawFigures(const Figures& figures);
+
+// While chunks in view are missing.
+void drawProgress(const Screen& screen, const stream::Progress& progress);
+// The keys, for the first moments. `share`: 1 in full, 0 gone.
+void drawHint(const Screen& screen, float share);
+// A line that tells what just happened.
+void drawMessage(const Screen& screen, const std::string& message, float share);
+
+}  // namespace terrane::app

@@ -1,0 +1,117 @@
+#include "apps/terrane/window/panel.h"
+
+#include <imgui.h>
+
+namespace terrane::app {
+namespace {
+
+// A combo box over `count` words; true when another one was chosen.
+template <class WordOf>
+bool combo(const char* label, int& chosen, int count, WordOf wordOf) {
+    const std::string current(chosen >= 0 && chosen < count ? wordOf(chosen) : "custom");
+    if (!ImGui::BeginCombo(label, current.c_str())) return false;
+    bool isChanged = false;
+    for (int k = 0; k < count; ++k) {
+        if (!ImGui::Selectable(std::string(wordOf(k)).c_str(), k == chosen)) continue;
+        isChanged = k != chosen;
+        chosen = k;
+    }
+    ImGui::EndCombo();
+    return isChanged;
+}
+
+template <class T>
+void choice(const char* label, T& value, std::span<const std::pair<std::string, T>> words) {
+    int chosen = -1;
+    for (std::size_t k = 0; k < words.size(); ++k) {
+        if (words[k].second == value) chosen = static_cast<int>(k);
+    }
+    const auto wordOf = [&](int k) { return words[static_cast<std::size_t>(k)].first; };
+    if (combo(label, chosen, static_cast<int>(words.size()), wordOf)) {
+        value = words[static_cast<std::size_t>(chosen)].second;
+    }
+}
+
+void tooltip(std::string_view text) {
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%.*s", static_cast<int>(text.size()), text.data());
+}
+
+void drawPreset(PlaySettings& settings, bool isSoftwareRenderer) {
+    const auto nameOf = [](int k) {
+        return k == 0 ? std::string_view("auto") : render::presets()[static_cast<std::size_t>(k - 1)].name;
+    };
+    const int count = static_cast<int>(render::presets().size()) + 1;
+    int chosen = 0;
+    for (int k = 0; k < count; ++k) {
+        if (nameOf(k) == settings.preset) chosen = k;
+    }
+    if (!combo("preset", chosen, count, nameOf)) return;
+    settings.preset = nameOf(chosen);
+    settings.graphics = renderOptions({settings.preset, {}}, isSoftwareRenderer);
+}
+
+// A switch where a row has two words, else a choice.
+void drawRow(const GraphicsRow& row, render::RenderOptions& graphics) {
+    const std::string label(row.name);
+    int word = row.get(graphics);
+    bool isChanged = false;
+    if (row.words.size() == 2) {
+        bool isOn = word == 1;
+        isChanged = ImGui::Checkbox(label.c_str(), &isOn);
+        word = isOn ? 1 : 0;
+    } else {
+        const auto wordOf = [&](int k) { return row.words[static_cast<std::size_t>(k)]; };
+        isChanged = combo(label.c_str(), word, static_cast<int>(row.words.size()), wordOf);
+    }
+    tooltip(row.description);
+    if (isChanged) row.set(graphics, word);
+}
+
+void drawView(PlaySettings& s) {
+    constexpr const char* kViews[] = {"color", "normal", "depth", "aggregation", "light"};
+    int view = static_cast<int>(s.view);
+    if (combo("view", view, static_cast<int>(std::size(kViews)), [&](int k) { return kViews[k]; })) {
+        s.view = static_cast<render::View>(view);
+    }
+    ImGui::SliderInt("view distance", &s.viewDistance, 2, 64);
+    ImGui::SliderFloat("field of view", &s.fieldOfView, 40, 110, "%.0f");
+    choice("aggregation", s.mesh.method, aggregationWords());
+    int height = s.mesh.regionHeight;
+    int exponent = 0;
+    while ((mesh::kMinRegionHeight << exponent) < height) ++exponent;
+    const auto heightOf = [](int k) { return std::to_string(mesh::kMinRegionHeight << k); };
+    if (combo("region height", exponent, 5, heightOf))
+        s.mesh.regionHeight = mesh::kMinRegionHeight << exponent;
+}
+
+void drawPerson(PlaySettings& s, DayClock& day) {
+    choice("movement", s.movement, movementWords());
+    ImGui::SliderFloat("mouse", &s.mouseSensitivity, 0.02f, 0.6f, "%.2f");
+    ImGui::Checkbox("full screen", &s.fullScreen);
+    float time = static_cast<float>(day.timeDay);
+    if (ImGui::SliderFloat("time of day", &time, 0, 1, "%.3f")) day.timeDay = double{time};
+    ImGui::Checkbox("time passes", &day.isRunning);
+    float minutes = static_cast<float>(s.dayMinutes);
+    if (ImGui::SliderFloat("minutes a day", &minutes, 0.5f, 60, "%.1f")) s.dayMinutes = double{minutes};
+}
+
+}  // namespace
+
+void drawPanel(PlaySettings& settings, DayClock& day, const PanelInput& input) {
+    const float scale = ImGui::GetIO().FontGlobalScale, width = 280 * scale, margin = 10 * scale;
+    ImGui::SetNextWindowPos({input.width - width - margin, margin});
+    ImGui::SetNextWindowSize({width, 0});
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, input.height - 2 * margin});
+    ImGui::Begin("Settings", nullptr, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize);
+    ImGui::PushItemWidth(120 * scale);
+    drawPreset(settings, input.isSoftwareRenderer);
+    drawView(settings);
+    ImGui::Separator();
+    for (const GraphicsRow& row : graphicsTable()) drawRow(row, settings.graphics);
+    ImGui::Separator();
+    drawPerson(settings, day);
+    ImGui::PopItemWidth();
+    ImGui::End();
+}
+
+}  // namespace terrane::app

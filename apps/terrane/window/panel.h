@@ -1,0 +1,16 @@
+// The panel on the right side: every setting, changed while one plays. Immediate mode: draws and changes.
+#pragma once
+
+#include "apps/terrane/window/day_clock.h"
+#include "apps/terrane/window/play_settings.h"
+
+namespace terrane::app {
+
+struct PanelInput {
+    bool isSoftwareRenderer = false;
+    float width = 0, height = 0;  // of the window, in pixels
+};
+
+void drawPanel(PlaySettings& settings, DayClock& day, const PanelInput& input);
+
+}  // namespace terrane::app

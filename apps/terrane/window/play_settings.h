@@ -1,0 +1,36 @@
+// What a person can change while playing, and how it is written down. Shown by panel.h, kept by settings.h.
+#pragma once
+
+#include <string>
+
+#include "apps/terrane/graphics_table.h"
+#include "apps/terrane/window/player.h"
+#include "apps/terrane/window/settings.h"
+#include "terrane/mesh/mesh_options.h"
+#include "terrane/render/frame_input.h"
+
+namespace terrane::app {
+
+struct PlaySettings {
+    std::string preset = "auto";
+    render::RenderOptions graphics;  // the preset's, with changes
+    int viewDistance = 16;           // chunks
+    mesh::MeshOptions mesh;
+    render::View view = render::View::Color;
+    Movement movement = Movement::Gravity;
+    float fieldOfView = 70;          // degrees
+    float mouseSensitivity = 0.15f;  // degrees a screen unit
+    double dayMinutes = 20;
+    bool fullScreen = false;
+
+    bool operator==(const PlaySettings&) const = default;
+};
+
+// The words of the options --movement, --aggregation.
+std::span<const std::pair<std::string, Movement>> movementWords();
+std::span<const std::pair<std::string, mesh::Method>> aggregationWords();
+
+// As options of `terrane play`: of the graphics options only those that differ from the preset.
+SettingValues valuesOf(const PlaySettings& settings, bool isSoftwareRenderer);
+
+}  // namespace terrane::app

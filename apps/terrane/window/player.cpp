@@ -1,0 +1,91 @@
+#include "apps/terrane/window/player.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace terrane::app {
+namespace {
+
+// A block short of the last chunk on each side, so that the camera's chunk is always in the world.
+constexpr double kEdge = 2147483600.0;
+// A long stall moves a person no farther than this would.
+constexpr double kLongestFrame = 0.25;
+
+float axis(bool positive, bool negative) {
+    return static_cast<float>(positive) - static_cast<float>(negative);
+}
+
+glm::vec2 wanted(const MoveKeys& keys) {
+    return {axis(keys.right, keys.left) + keys.stick.x, axis(keys.forward, keys.back) + keys.stick.y};
+}
+
+}  // namespace
+
+std::optional<world::Aabb> Player::body() const {
+    if (movement_ == Movement::Fast || movement_ == Movement::Medium) return std::nullopt;
+    return world::characterBox(now_.feet);
+}
+
+void Player::placeAt(const render::Camera& camera, Movement movement) {
+    camera_ = camera;
+    movement_ = movement;
+    now_ = {.feet = camera.position - glm::dvec3(0, 0, world::kEyeHeight)};
+    before_ = now_;
+    untilStep_ = 0;
+}
+
+void Player::turn(double right, double down) {
+    camera_.yaw = std::remainder(camera_.yaw - static_cast<float>(right), 360.0f);
+    camera_.pitch = std::clamp(camera_.pitch - static_cast<float>(down), -89.9f, 89.9f);
+}
+
+void Player::move(const world::World& world, const world::BlockRegistry& blocks, const MoveKeys& keys,
+                  double seconds) {
+    seconds = std::min(seconds, kLongestFrame);
+    switch (movement_) {
+        case Movement::Fast:
+            return fly(keys, seconds, kFastSpeed);
+        case Movement::Medium:
+            return fly(keys, seconds, kMediumSpeed);
+        case Movement::Walls:
+        case Movement::Gravity:
+            return walk(world, blocks, keys, seconds);
+    }
+}
+
+void Player::fly(const MoveKeys& keys, double seconds, float speed) {
+    const glm::vec2 along = wanted(keys);
+    const glm::vec3 motion = render::lookDirection(camera_) * along.y +
+                             render::rightDirection(camera_) * along.x +
+                             glm::vec3(0, 0, axis(keys.up || keys.jump, keys.down));
+    const float length = glm::length(motion);
+    if (length < 1e-3f) return;
+    camera_.position += glm::dvec3(motion / std::max(length, 1.0f)) * (speed * seconds);
+    camera_.position.x = std::clamp(camera_.position.x, -kEdge, kEdge);
+    camera_.position.y = std::clamp(camera_.position.y, -kEdge, kEdge);
+    camera_.position.z = std::clamp(camera_.position.z, -64.0, 1024.0);
+}
+
+void Player::walk(const world::World& world, const world::BlockRegistry& blocks, const MoveKeys& keys,
+                  double seconds) {
+    const double yaw = glm::radians(double{camera_.yaw});
+    const glm::dvec2 ahead(std::cos(yaw), std::sin(yaw)), right(ahead.y, -ahead.x);
+    const glm::vec2 along = wanted(keys);
+    glm::dvec2 direction = ahead * double{along.y} + right * double{along.x};
+    direction /= std::max(glm::length(direction), 1.0);
+    const world::CharacterInput input{.direction = direction,
+                                      .runs = keys.run,
+                                      .jumps = keys.jump || keys.up,
+                                      .dives = keys.down,
+                                      .hasGravity = movement_ == Movement::Gravity};
+    untilStep_ += seconds;
+    for (; untilStep_ >= world::kStepSeconds; untilStep_ -= world::kStepSeconds) {
+        before_ = now_;
+        now_ = world::stepped(world, blocks, before_, input);
+    }
+    camera_.position = world::characterEye(before_, now_, untilStep_ / world::kStepSeconds);
+}
+
+}  // namespace terrane::app

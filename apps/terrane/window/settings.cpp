@@ -1,0 +1,102 @@
+#include "apps/terrane/window/settings.h"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+namespace terrane::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path absoluteFrom(const char* variable) {
+    const char* value = std::getenv(variable);
+    const fs::path path = value ? value : "";
+    return path.is_absolute() ? path : fs::path();
+}
+
+std::string textOf(const toml::node& node) {
+    if (const auto text = node.value_exact<std::string>()) return *text;
+    std::ostringstream out;
+    node.visit([&](const auto& value) {
+        if constexpr (toml::is_value<decltype(value)>) out << value;
+    });
+    return out.str();
+}
+
+base::Result<void> applyOne(const fs::path& file, CLI::App& command, const toml::key& key,
+                            const toml::node& node) {
+    const auto wrong = [&](const std::string& what) {
+        return base::fail("{}:{}: {}: {}", file.string(), node.source().begin.line, key.str(), what);
+    };
+    CLI::Option* option = command.get_option_no_throw("--" + std::string(key.str()));
+    if (!option) return wrong("there is no such setting");
+    if (option->count() > 0) return {};
+    try {
+        option->add_result(textOf(node));
+        option->run_callback();
+    } catch (const CLI::ParseError& error) {
+        return wrong(error.what());
+    }
+    return {};
+}
+
+}  // namespace
+
+fs::path settingsPath() {
+    fs::path folder = absoluteFrom("XDG_CONFIG_HOME");
+    if (folder.empty()) {
+        folder = absoluteFrom("HOME");
+        if (folder.empty()) return {};
+        folder /= ".config";
+    }
+    return folder / "terrane" / "settings.toml";
+}
+
+base::Result<void> applySettings(const fs::path& file, CLI::App& command,
+                                 const std::vector<std::string>& graphics) {
+    std::error_code ignored;
+    if (file.empty() || !fs::exists(file, ignored)) return {};
+    toml::table table;
+    try {
+        table = toml::parse_file(file.string());
+    } catch (const toml::parse_error& error) {
+        return base::fail("{}:{}: {}", file.string(), error.source().begin.line, error.description());
+    }
+    const bool standsAlone = command.get_option("--preset")->count() > 0;
+    // In the order of the options: a preset comes before what is changed of it.
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name = option->get_single_name();
+        const bool isGraphics = std::find(graphics.begin(), graphics.end(), name) != graphics.end();
+        const auto found = table.find(name);
+        if (found == table.end() || (isGraphics && standsAlone)) continue;
+        if (auto done = applyOne(file, command, found->first, found->second); !done) return done;
+    }
+    for (const auto& [key, node] : table) {
+        if (command.get_option_no_throw("--" + std::string(key.str()))) continue;
+        return applyOne(file, command, key, node);  // which says that there is none
+    }
+    return {};
+}
+
+base::Result<void> writeSettings(const fs::path& file, const SettingValues& values) {
+    if (file.empty()) return {};
+    std::error_code error;
+    fs::create_directories(file.parent_path(), error);
+    toml::table table;
+    for (const auto& [name, value] : values) table.insert_or_assign(name, value);
+    fs::path fresh = file;
+    fresh += ".new";
+    std::ofstream out(fresh);
+    out << "# Settings of Terrane: options of `terrane play` (see its --help).\n" << table << '\n';
+    out.close();
+    if (out) fs::rename(fresh, file, error);
+    if (!out || error) return base::fail("{}: cannot be written", file.string());
+    return {};
+}
+
+}  // namespace terrane::app

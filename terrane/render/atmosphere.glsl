@@ -1,0 +1,16 @@
+// How distance changes colours. Needs frame_uniforms.glsl and sky_color.glsl.
+
+// Toward the colour of the sky behind, and from 5/6 of the view on toward nothing, so that chunks come and go unseen:
+// colour times what is left of it, and what is left.
+vec4 throughAir(vec3 color, vec3 toPoint) {
+    if ((frame.camera.z & kSwitchAtmosphere) == 0) return vec4(color, 1.0);
+    float share = length(toPoint.xy) / frame.cameraPosition.w;
+    float haze = 1.0 - exp(-0.9 * share * share * share);
+    vec3 direction = normalize(toPoint);
+    direction.z = max(direction.z, 0.0);
+    color = mix(color, skyColor(direction), haze);
+    // Loaded chunks fill a square around the camera's.
+    float border = max(abs(toPoint.x), abs(toPoint.y)) / frame.cameraPosition.w;
+    float left = 1.0 - smoothstep(5.0 / 6.0, 1.0, max(border, 0.85 * share));
+    return vec4(color * left, left);
+}

@@ -1,0 +1,153 @@
+#include "terrane/render/cull_pass.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <span>
+
+#include "terrane/gpu/debug.h"
+#include "terrane/shared/bindings.h"
+
+namespace terrane::render {
+namespace {
+
+constexpr GLuint kCullThreads = 64;  // local_size_x of cull.comp.glsl
+
+gpu::Buffer gpuOnly(std::size_t bytes, std::string_view label) {
+    return gpu::Buffer(bytes, 0, label);
+}
+
+shared::CullFrame frameOf(const CullInput& input, std::uint32_t regions) {
+    shared::CullFrame frame{};
+    std::ranges::copy(input.camera, frame.cameraPlanes);
+    if (input.shadow) std::ranges::copy(*input.shadow, frame.shadowPlanes);
+    frame.cameraPosition = glm::vec4(input.cameraPosition, 0);
+    frame.lightDirection = glm::vec4(input.lightDirection, input.shadow ? 1 : 0);
+    frame.camera = {input.cameraChunk.x, input.cameraChunk.y, static_cast<int>(regions), 0};
+    return frame;
+}
+
+}  // namespace
+
+base::Result<CullPass> CullPass::create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device) {
+    CullPass pass;
+    auto cull = gpu::Program::compute(shaders, "terrane/render/cull.comp.glsl", {}, "cull");
+    if (!cull) return tl::unexpected(cull.error());
+    auto compact = gpu::Program::compute(shaders, "terrane/render/compact.comp.glsl", {}, "compact");
+    if (!compact) return tl::unexpected(compact.error());
+    pass.cull_ = std::move(*cull);
+    pass.compact_ = std::move(*compact);
+    pass.hasIndirectCount_ = device.indirectCount;
+    const shared::DrawCounts none{};
+    pass.countBuffer_ =
+        gpu::Buffer(std::as_bytes(std::span(&none, 1)), GL_DYNAMIC_STORAGE_BIT, "draw counts");
+    for (Readback& readback : pass.readbacks_) {
+        readback.buffer = gpu::ReadbackBuffer(sizeof(shared::DrawCounts), "draw counts");
+    }
+    return pass;
+}
+
+// Each list has room for all faces of its context, so that none can overflow.
+void CullPass::reserve(const RegionTable& regions) {
+    std::uint32_t sum = 0;
+    for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
+        firstCommand_[list] = sum;
+        const std::uint32_t context = list < shared::kCameraLists ? list : list - shared::kCameraLists;
+        mostCommands_[list] = regions.mostCommands()[context];
+        sum += mostCommands_[list];
+    }
+    const std::size_t commandBytes = std::max(sum, 1u) * sizeof(shared::DrawCommand);
+    if (commandBytes > commands_.sizeBytes()) commands_ = gpuOnly(2 * commandBytes, "draw commands");
+    const std::size_t wordBytes = regions.count() * sizeof(std::uint32_t);
+    if (wordBytes > visible_.sizeBytes()) visible_ = gpuOnly(2 * wordBytes, "visible regions");
+}
+
+void CullPass::run(const CullInput& input, const RegionTable& regions, gpu::MappedRing& ring) {
+    const gpu::DebugGroup group("cull");
+    reserve(regions);
+    const GLuint zero = 0;
+    glClearNamedBufferData(countBuffer_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    if (regions.count() > 0) {
+        shared::CullFrame frame = frameOf(input, regions.count());
+        for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
+            frame.firstCommand[list / 4][static_cast<int>(list % 4)] = firstCommand_[list];
+        }
+        const auto slice = ring.write(std::span<const shared::CullFrame>(&frame, 1));
+        assert(slice && "the ring holds a frame's uniforms");
+        ring.buffer().bindUniform(shared::kCullBinding, slice->offsetBytes, sizeof(frame));
+        if (!hasIndirectCount_) {
+            glClearNamedBufferData(commands_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+        }
+        regions.bindRecords();
+        regions.bindOrder();
+        visible_.bindStorage(shared::kVisibleBinding);
+        commands_.bindStorage(shared::kCommandsBinding);
+        countBuffer_.bindStorage(shared::kCountsBinding);
+        cull_.use();
+        glDispatchCompute((regions.count() + kCullThreads - 1) / kCullThreads, 1, 1);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        compact_.use();
+        glDispatchCompute(input.shadow ? shared::kDrawLists : shared::kCameraLists, 1, 1);
+        glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    }
+    queueReadback();
+}
+
+void CullPass::drawList(shared::uint list) const {
+    if (mostCommands_[list] == 0) return;
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
+    const auto offset =
+        reinterpret_cast<const void*>(std::size_t{firstCommand_[list]} * sizeof(shared::DrawCommand));
+    const auto most = static_cast<GLsizei>(mostCommands_[list]);
+    if (hasIndirectCount_) {
+        glBindBuffer(GL_PARAMETER_BUFFER_ARB, countBuffer_.id());
+        const GLintptr countOffset = static_cast<GLintptr>(list * sizeof(shared::uint));
+        glMultiDrawElementsIndirectCountARB(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset, countOffset, most, 0);
+    } else {
+        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset, most, 0);
+    }
+}
+
+void CullPass::drawContexts(mesh::AlphaClass alphaClass, bool forShadows) const {
+    for (const bool isTwoSided : {false, true}) {
+        (isTwoSided ? glDisable : glEnable)(GL_CULL_FACE);
+        const auto context = static_cast<shared::uint>(mesh::faceContext(alphaClass, isTwoSided));
+        drawList(forShadows ? shared::kCameraLists + context : context);
+    }
+    glDisable(GL_CULL_FACE);
+}
+
+// Not where the GPU is as many frames behind as there are buffers.
+void CullPass::queueReadback() {
+    counts();
+    Readback& readback = readbacks_[nextReadback_];
+    if (readback.isPending) return;
+    readback.buffer.copyFrom(countBuffer_, sizeof(shared::DrawCounts));
+    readback.fence = gpu::Fence::insert();
+    readback.isPending = true;
+    nextReadback_ = (nextReadback_ + 1) % kReadbacks;
+}
+
+const shared::DrawCounts& CullPass::counts() {
+    for (std::size_t k = 0; k < kReadbacks; ++k) {
+        Readback& readback = readbacks_[(nextReadback_ + k) % kReadbacks];
+        if (!readback.isPending || !readback.fence.passed()) continue;
+        std::memcpy(&counts_, readback.buffer.data().data(), sizeof(counts_));
+        readback.isPending = false;
+    }
+    return counts_;
+}
+
+std::vector<shared::DrawCommand> CullPass::readCommands(shared::uint list) const {
+    shared::DrawCounts counts{};
+    countBuffer_.download(0, std::as_writable_bytes(std::span(&counts, 1)));
+    std::vector<shared::DrawCommand> commands(counts.commands[list]);
+    assert(commands.size() <= mostCommands_[list] && "each list has room for all commands");
+    if (!commands.empty()) {
+        commands_.download(firstCommand_[list] * sizeof(shared::DrawCommand),
+                           std::as_writable_bytes(std::span(commands)));
+    }
+    return commands;
+}
+
+}  // namespace terrane::render

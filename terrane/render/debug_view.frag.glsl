@@ -1,0 +1,31 @@
+// What the G-buffer holds, instead of the picture. SAMPLES: of the G-buffer.
+#include "terrane/render/frame_uniforms.glsl"
+#include "terrane/render/light_sample.glsl"
+#include "terrane/render/surfaces.glsl"
+
+layout(location = 0) in vec2 inScreen;
+layout(location = 1) in vec3 inRay;
+layout(location = 0) out vec4 outColor;
+
+vec3 lightView(vec3 position, Surface s) {
+    vec4 levels = sampleLight(position, s.direction == kDirectionPlant ? vec3(0.0) : s.normal);
+    return 0.75 * levels.rgb + 0.5 * levels.a * vec3(0.5, 0.5, 0.4);
+}
+
+vec3 viewOf(vec4 word, float depth) {
+    if (directionOfWord(word) == kDirectionNone) return vec3(0.0);
+    Surface s = unpackSurface(word);
+    vec3 toPoint = inRay * blocksOfDepth(depth);
+    uint view = uint(frame.horizonColor.w);
+    if (view == kViewAggregation) return word.rgb;
+    if (view == kViewNormal) return 0.5 + 0.5 * s.normal;
+    if (view == kViewLight) return lightView(frame.cameraPosition.xyz + toPoint, s);
+    return vec3(1.0 - clamp(length(toPoint) / frame.cameraPosition.w, 0.0, 1.0));
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec3 sum = vec3(0.0);
+    for (int k = 0; k < SAMPLES; ++k) sum += viewOf(surfaceAt(pixel, k), depthAt(pixel, k));
+    outColor = vec4(sum / float(SAMPLES), 1.0);
+}

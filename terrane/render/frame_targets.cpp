@@ -1,0 +1,41 @@
+#include "terrane/render/frame_targets.h"
+
+#include <cassert>
+
+namespace terrane::render {
+
+// Not a multisampled texture of one sample: drivers may take the next number they have, Mesa's software
+// renderer four.
+SampledTexture::SampledTexture(glm::ivec2 size, GLenum format, int samples, std::string_view label) {
+    if (samples == 1) {
+        plain_ = gpu::Texture2D(size, format, 1, label);
+    } else {
+        sampled_ = gpu::Texture2DMultisample(size, format, samples, label);
+    }
+}
+
+base::Result<FrameTargets> FrameTargets::create(glm::ivec2 size, int samples) {
+    assert(size.x > 0 && size.y > 0 && "a picture has pixels");
+    FrameTargets t;
+    t.size = size;
+    t.wantedSamples = samples;
+    t.surface = SampledTexture(size, GL_RGBA8, samples, "surfaces");
+    t.depth = SampledTexture(size, GL_DEPTH_COMPONENT32F, samples, "depth");
+    t.samples = t.surface.samples();
+    t.sceneColor = gpu::Texture2D(size, GL_RGBA16F, 1, "scene");
+    t.pictureColor = gpu::Texture2D(size, GL_RGBA8, 1, "picture");
+    auto surfaces = gpu::Framebuffer::create({{t.surface.attachment()}, t.depth.attachment()}, "surfaces");
+    if (!surfaces) return tl::unexpected(surfaces.error());
+    gpu::FramebufferOptions sceneOptions{{t.sceneColor}, {}};
+    if (t.samples == 1) sceneOptions.depth = t.depth.attachment();
+    auto scene = gpu::Framebuffer::create(sceneOptions, "scene");
+    if (!scene) return tl::unexpected(scene.error());
+    auto picture = gpu::Framebuffer::create({{t.pictureColor}, {}}, "picture");
+    if (!picture) return tl::unexpected(picture.error());
+    t.surfaces = std::move(*surfaces);
+    t.scene = std::move(*scene);
+    t.picture = std::move(*picture);
+    return t;
+}
+
+}  // namespace terrane::render

@@ -1,0 +1,42 @@
+// The textures that a frame is drawn into. Made by the renderer when the size or the number of samples
+// changes.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "terrane/gpu/framebuffer.h"
+
+namespace terrane::render {
+
+// One or several samples a pixel: one of the two textures exists.
+class SampledTexture {
+  public:
+    SampledTexture() = default;
+    // Drivers may take more samples than asked for; one sample is a plain texture.
+    SampledTexture(glm::ivec2 size, GLenum format, int samples, std::string_view label);
+
+    void bind(GLuint unit) const { plain_.id() != 0 ? plain_.bind(unit) : sampled_.bind(unit); }
+    gpu::Attachment attachment() const {
+        return plain_.id() != 0 ? gpu::Attachment(plain_) : gpu::Attachment(sampled_);
+    }
+    int samples() const { return plain_.id() != 0 ? 1 : sampled_.samples(); }
+    GLuint id() const { return plain_.id() != 0 ? plain_.id() : sampled_.id(); }
+
+  private:
+    gpu::Texture2D plain_;
+    gpu::Texture2DMultisample sampled_;
+};
+
+struct FrameTargets {
+    static base::Result<FrameTargets> create(glm::ivec2 size, int samples);
+
+    glm::ivec2 size{0};
+    int wantedSamples = 0, samples = 0;  // a pixel; what the driver gives
+    SampledTexture surface, depth;       // see surface_word.glsl; reversed depth
+    gpu::Texture2D sceneColor, pictureColor;
+    gpu::Framebuffer surfaces;  // the G-buffer
+    gpu::Framebuffer scene;     // light, and coverage in alpha; with the depth where a pixel has one sample
+    gpu::Framebuffer picture;   // as the screen shows it
+};
+
+}  // namespace terrane::render

@@ -1,0 +1,34 @@
+#include "terrane/render/gbuffer_pass.h"
+
+#include "terrane/gpu/debug.h"
+
+namespace terrane::render {
+namespace {
+
+constexpr const char* kVertex = "terrane/render/quad.vert.glsl";
+constexpr const char* kFragment = "terrane/render/gbuffer.frag.glsl";
+
+}  // namespace
+
+GBufferPass::GBufferPass(const gpu::ShaderLoader& shaders)
+    : opaque_(shaders, kVertex, kFragment, "opaque quads"),
+      tested_(shaders, kVertex, kFragment, "tested quads") {}
+
+base::Result<void> GBufferPass::select(int alphaSamples) {
+    auto selected = opaque_.select({{"PASS", "0"}, {"ALPHA_CLASS", "0"}, {"SAMPLES", "1"}});
+    if (!selected) return selected;
+    return tested_.select({{"PASS", "0"}, {"ALPHA_CLASS", "1"}, {"SAMPLES", std::to_string(alphaSamples)}});
+}
+
+void GBufferPass::draw(const CullPass& culled) const {
+    const gpu::DebugGroup group("G-buffer");
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_GREATER);
+    opaque_.use();
+    culled.drawContexts(mesh::AlphaClass::Opaque, false);
+    tested_.use();
+    culled.drawContexts(mesh::AlphaClass::Tested, false);
+}
+
+}  // namespace terrane::render

@@ -1,0 +1,37 @@
+// A layer of blended faces: the nearest of those that lie behind the layer before. NEXT: 0 for the first layer, 1 for the
+// others. SAMPLES: of the layers; above 1 the layers behind the first are drawn sample by sample.
+#include "terrane/render/frame_uniforms.glsl"
+#include "terrane/shared/quad.h"
+#include "terrane/shared/shape_face.h"
+#include "terrane/render/face_word.glsl"
+#include "terrane/render/block_texture.glsl"
+#include "terrane/render/layer_word.glsl"
+
+#if NEXT == 1
+#if SAMPLES > 1
+layout(binding = kLayerDepthUnit) uniform sampler2DMS before;
+#else
+layout(binding = kLayerDepthUnit) uniform sampler2D before;
+#endif
+#endif
+
+layout(location = 0) in vec2 inTexel;
+layout(location = 1) flat in uvec2 inFace;
+layout(location = 0) out vec4 outLayer;
+
+void main() {
+#if NEXT == 1
+#if SAMPLES > 1
+    float last = texelFetch(before, ivec2(gl_FragCoord.xy), gl_SampleID).r;
+#else
+    float last = texelFetch(before, ivec2(gl_FragCoord.xy), 0).r;
+#endif
+    if (gl_FragCoord.z >= last) discard;
+#endif
+    vec4 texel = blockTexture(inFace.x, inTexel, dFdx(inTexel), dFdy(inTexel));
+    // Of a liquid the colour counts, its pattern little.
+    if (isLiquid(inFace.x)) texel = mix(texel, textureLod(blockTextures, vec3(0.5, 0.5, textureOf(inFace.x)), 10.0), 0.7);
+    uint direction = directionOfFace(inFace.x);
+    if (!gl_FrontFacing && direction < kDirectionPlant) direction ^= 1u;
+    outLayer = packLayer(texel, direction, isLiquid(inFace.x));
+}

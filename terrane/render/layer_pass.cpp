@@ -1,0 +1,111 @@
+#include "terrane/render/layer_pass.h"
+
+#include "terrane/gpu/debug.h"
+#include "terrane/shared/bindings.h"
+
+namespace terrane::render {
+namespace {
+
+constexpr const char* kVertex = "terrane/render/quad.vert.glsl";
+constexpr const char* kFragment = "terrane/render/layer.frag.glsl";
+
+gpu::Handle<gpu::ObjectKind::Query> makeQuery() {
+    GLuint id = 0;
+    glCreateQueries(GL_ANY_SAMPLES_PASSED, 1, &id);
+    return gpu::Handle<gpu::ObjectKind::Query>(id);
+}
+
+GLenum targetOf(int samples) {
+    return samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+}
+
+}  // namespace
+
+LayerPass::LayerPass(const gpu::ShaderLoader& shaders)
+    : first_(shaders, kVertex, kFragment, "first layer"),
+      next_(shaders, kVertex, kFragment, "next layer"),
+      shade_(shaders, "layers") {
+    for (auto& query : anyDrawn_) query = makeQuery();
+}
+
+base::Result<LayerPass::Target> LayerPass::makeTarget(const FrameTargets& targets) {
+    Target target;
+    target.color = SampledTexture(targets.size, GL_RGBA16, targets.samples, "layer");
+    target.depth = SampledTexture(targets.size, GL_DEPTH_COMPONENT32F, targets.samples, "layer depth");
+    auto framebuffer =
+        gpu::Framebuffer::create({{target.color.attachment()}, target.depth.attachment()}, "layer");
+    if (!framebuffer) return tl::unexpected(framebuffer.error());
+    target.framebuffer = std::move(*framebuffer);
+    return target;
+}
+
+base::Result<void> LayerPass::configure(const FrameTargets& targets, int layers, bool hasShadows) {
+    const std::string samples = std::to_string(targets.samples);
+    if (layers > 0) {
+        auto selected =
+            first_.select({{"PASS", "1"}, {"ALPHA_CLASS", "2"}, {"NEXT", "0"}, {"SAMPLES", samples}});
+        if (selected && layers > 1) {
+            selected =
+                next_.select({{"PASS", "1"}, {"ALPHA_CLASS", "2"}, {"NEXT", "1"}, {"SAMPLES", samples}});
+        }
+        if (selected) {
+            selected = shade_.select({{"SAMPLES", samples},
+                                      {"LAYERS", std::to_string(layers)},
+                                      {"SHADOW", hasShadows ? "1" : "0"}});
+        }
+        if (!selected) return selected;
+    }
+    if (layers == layers_ && size_ == targets.size && samples_ == targets.samples) return {};
+    targets_ = {};
+    for (int k = 0; k < layers; ++k) {
+        auto target = makeTarget(targets);
+        if (!target) return tl::unexpected(target.error());
+        targets_[static_cast<std::size_t>(k)] = std::move(*target);
+    }
+    layers_ = layers;
+    size_ = targets.size;
+    samples_ = targets.samples;
+    return {};
+}
+
+// A layer starts with the depth of what is opaque: faces behind that fail the depth test.
+void LayerPass::drawLayer(const FrameTargets& targets, const CullPass& culled, int number) {
+    const auto index = static_cast<std::size_t>(number);
+    Target& target = targets_[index];
+    const GLenum kind = targetOf(samples_);
+    glCopyImageSubData(targets.depth.id(), kind, 0, 0, 0, 0, target.depth.id(), kind, 0, 0, 0, 0, size_.x,
+                       size_.y, 1);
+    target.framebuffer.bind();
+    target.framebuffer.clearColor(0, glm::vec4(0));
+    // Behind a layer without faces there are none: the GPU leaves out what comes next.
+    if (number > 0) {
+        glBeginConditionalRender(anyDrawn_[index - 1].id(), GL_QUERY_WAIT);
+        targets_[index - 1].depth.bind(shared::kLayerDepthUnit);
+    }
+    glBeginQuery(GL_ANY_SAMPLES_PASSED, anyDrawn_[index].id());
+    (number == 0 ? first_ : next_).use();
+    culled.drawContexts(mesh::AlphaClass::Blended, false);
+    glEndQuery(GL_ANY_SAMPLES_PASSED);
+    if (number > 0) glEndConditionalRender();
+}
+
+void LayerPass::peel(const FrameTargets& targets, const CullPass& culled) {
+    const gpu::DebugGroup group("layers");
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_GREATER);
+    for (int number = 0; number < layers_; ++number) drawLayer(targets, culled, number);
+    for (int k = 0; k < layers_; ++k) {
+        const Target& target = targets_[static_cast<std::size_t>(k)];
+        target.color.bind(shared::kLayerColorUnit + static_cast<GLuint>(k));
+        target.depth.bind(shared::kLayerDepthUnit + static_cast<GLuint>(k));
+    }
+}
+
+void LayerPass::shade() const {
+    glBeginConditionalRender(anyDrawn_[0].id(), GL_QUERY_WAIT);
+    shade_.draw();
+    glEndConditionalRender();
+}
+
+}  // namespace terrane::render

@@ -1,0 +1,24 @@
+// The light of a surface: lamps, sky, sun or moon. Needs frame_uniforms.glsl, surface_word.glsl, light_sample.glsl.
+
+const vec3 kLeastLight = vec3(0.02);  // of the darkest cave: shapes can just be seen
+
+// Levels of light as sampled before the surface. Plants stand inside their block and take its light. The position comes
+// from the depth and is off by less than kOff: moved by that along the normal it is on the near side of the plane between
+// two layers of nodes, everywhere on a face.
+vec4 levelsAt(vec3 position, Surface s) {
+    const float kOff = 1.0 / 256.0;
+    vec3 normal = s.direction == kDirectionPlant ? vec3(0.0) : s.normal;
+    return sampleLight(position + kOff * normal, normal);
+}
+
+// Lamps, hidden by day where daylight reaches; the sky from above; the sun or moon where the sky is seen. `shadow` is
+// the share of direct light, `open` that of light from all around.
+vec3 shade(Surface s, vec4 levels, float shadow, float open) {
+    vec4 light = pow(levels, vec4(0.85));
+    float up = 0.5 + 0.5 * s.normal.z;
+    vec3 sky = frame.ambientColor.rgb * mix(frame.ambientColor.w, 1.0, up);
+    float facing = max(dot(s.normal, frame.lightDirection.xyz), 0.0);
+    vec3 lamps = light.rgb * (1.0 - frame.glowColor.w * light.a);
+    vec3 around = (lamps + kLeastLight + light.a * sky) * open;
+    return s.albedo * (around + s.glow + light.a * frame.lightColor.rgb * facing * shadow);
+}

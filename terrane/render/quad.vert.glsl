@@ -1,0 +1,61 @@
+// PASS: 0 G-buffer, 1 blended layer, 2 shadow map. ALPHA_CLASS: 0 opaque, 1 tested, 2 blended.
+// Pulls a quad's corner from the quad buffer. Four vertices a quad; the base vertex of a draw is four times its first
+// quad, its base instance the number of its region.
+#include "terrane/render/crack_cover.glsl"
+#include "terrane/render/frame_uniforms.glsl"
+#include "terrane/render/waves.glsl"
+#include "terrane/shared/hash.h"
+#include "terrane/shared/quad.h"
+#include "terrane/shared/region.h"
+#include "terrane/shared/shape_face.h"
+
+layout(std430, binding = kQuadsBinding) readonly buffer Quads {
+    Quad quads[];
+};
+layout(std430, binding = kShapeFacesBinding) readonly buffer ShapeFaces {
+    ShapeFace shapeFaces[];
+};
+layout(std430, binding = kMaterialsBinding) readonly buffer Materials {
+    MaterialRecord materials[];
+};
+layout(std430, binding = kRegionsBinding) readonly buffer Regions {
+    RegionRecord regions[];
+};
+
+// Layers are peeled by comparing depths of two programs.
+invariant gl_Position;
+
+layout(location = 0) out vec2 outTexel;        // in textures; row 0 of the image is at integer v
+layout(location = 1) flat out uvec2 outFace;   // see face_word.glsl; a number of the quad's own
+#include "terrane/render/face_word.glsl"
+
+void main() {
+    Quad quad = quads[gl_VertexID >> 2];
+    vec2 corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1);
+    vec2 extent = vec2(quadExtentU(quad), quadExtentV(quad));
+    vec4 cell = vec4(quadX(quad), quadY(quad), quadZ(quad), 0.0);
+    ShapeFace face = shapeFaces[quadShapeFace(quad)];
+    MaterialRecord material = materials[quadMaterial(quad)];
+    ivec2 chunk = regions[gl_BaseInstanceARB].chunk;
+    vec3 inChunk = shapeFaceCorner(face, cell, corner, extent).xyz;
+    if ((frame.camera.z & kSwitchAnimation) != 0) {
+        inChunk += waveOffset(material.animation, chunk, cell.xyz, inChunk, corner.y, frame.lightDirection.w);
+    }
+    vec3 position = inChunk + vec3(16.0 * vec2(chunk - frame.camera.xy), 0.0);
+#if PASS == 2
+    vec3 onMap = (frame.toShadowMap * vec4(position, 1.0)).xyz;
+    gl_Position = vec4(2.0 * onMap.xy - 1.0, onMap.z, 1.0);
+#else
+    gl_Position = frame.viewProjection * vec4(position, 1.0);
+#endif
+#if PASS == 0
+    // Blended quads would show their overlap.
+    vec2 inward = (1.0 - 2.0 * corner) * extent;
+    vec4 alongU = frame.viewProjection * vec4(face.axisU.xyz * inward.x, 0.0);
+    vec4 alongV = frame.viewProjection * vec4(face.axisV.xyz * inward.y, 0.0);
+    gl_Position = coverCracks(gl_Position, gl_Position + alongU, gl_Position + alongV, frame.viewport.xy, frame.viewport.z);
+#endif
+    outTexel = vec2(corner.x, 1.0 - corner.y) * extent;
+    uint seed = hash2(uint(chunk.x), uint(chunk.y), quad.word1);
+    outFace = uvec2(faceWord(quad, material), quad.word0 ^ seed);
+}

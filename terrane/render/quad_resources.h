@@ -1,0 +1,30 @@
+// What every pass that draws the chunks' quads binds: index pattern, shapes, materials, textures. Used by the
+// renderer on the context's thread.
+#pragma once
+
+#include "terrane/base/result.h"
+#include "terrane/gpu/sampler.h"
+#include "terrane/gpu/texture.h"
+#include "terrane/gpu/vertex_array.h"
+#include "terrane/render/quad_store.h"
+#include "terrane/world/block_registry.h"
+
+namespace terrane::render {
+
+class QuadResources {
+  public:
+    QuadResources() = default;
+    // `anisotropy`: samples along the long side of a slanted texel footprint; 1 is none.
+    QuadResources(const world::BlockRegistry& blocks, gpu::Texture2DArray textures, float anisotropy);
+
+    // isSmooth: textures are filtered.
+    void bind(const QuadStore& quads, bool isSmooth) const;
+
+  private:
+    gpu::Texture2DArray textures_;
+    gpu::Sampler smooth_, nearest_;
+    gpu::Buffer indices_, shapeFaces_, materials_;
+    gpu::VertexArray vertexArray_;
+};
+
+}  // namespace terrane::render

@@ -1,0 +1,169 @@
+#include "terrane/render/region_table.h"
+
+#include <algorithm>
+#include <span>
+
+#include "terrane/base/profile.h"
+#include "terrane/render/camera.h"
+
+namespace terrane::render {
+namespace {
+
+constexpr std::uint32_t kFirstSlots = 1024;  // × 208 bytes
+
+static_assert(shared::kFaceContexts == mesh::kContextCount && shared::kFaceGroups == mesh::kGroupCount);
+constexpr std::uint32_t kBlendedRanges =
+    shared::firstRange(mesh::faceContext(mesh::AlphaClass::Blended, false));
+
+shared::RegionRecord recordOf(world::ChunkPos pos, const mesh::RegionMesh& region, std::uint32_t firstQuad) {
+    shared::RegionRecord record{};
+    record.chunk = {pos.x, pos.y};
+    record.heights = static_cast<std::uint32_t>(region.minZ | region.maxZ << 16);
+    for (int context = 0; context < mesh::kContextCount; ++context) {
+        const bool isTwoSided = mesh::contextTwoSided(context);
+        std::uint32_t range = shared::firstRange(static_cast<std::uint32_t>(context));
+        for (int group = isTwoSided ? mesh::kGroupAlways : 0; group < mesh::kGroupCount; ++group, ++range) {
+            const mesh::QuadRange quads = region.groups[context][group];
+            record.ranges[range] = {firstQuad + quads.first, quads.count};
+        }
+    }
+    return record;
+}
+
+bool isEmpty(const shared::RegionRecord& record) {
+    return std::ranges::all_of(record.ranges, [](glm::uvec2 range) { return range.y == 0; });
+}
+
+bool hasBlendedQuads(const shared::RegionRecord& record) {
+    return std::ranges::any_of(std::span(record.ranges).subspan(kBlendedRanges),
+                               [](glm::uvec2 range) { return range.y > 0; });
+}
+
+float blocksBetween(std::int32_t fromChunk, std::int32_t toChunk) {
+    return static_cast<float>(toChunk - fromChunk) * static_cast<float>(world::kChunkSize);
+}
+
+// Squared chunks over the ground, with the place in the table behind, so that equal ones keep an order.
+std::uint64_t sortKey(const shared::RegionRecord& record, world::ChunkPos centre) {
+    const std::int64_t x = std::int64_t{record.chunk.x} - centre.x,
+                       y = std::int64_t{record.chunk.y} - centre.y;
+    return static_cast<std::uint64_t>(std::min<std::int64_t>(x * x + y * y, UINT32_MAX));
+}
+
+}  // namespace
+
+RegionTable::RegionTable()
+    : records_(kFirstSlots * sizeof(shared::RegionRecord), GL_DYNAMIC_STORAGE_BIT, "regions"),
+      order_(kFirstSlots * sizeof(std::uint32_t), GL_DYNAMIC_STORAGE_BIT, "order of regions") {}
+
+std::uint32_t RegionTable::allocateSlot() {
+    if (!free_.empty()) {
+        const std::uint32_t slot = free_.back();
+        free_.pop_back();
+        return slot;
+    }
+    cpuRecords_.emplace_back();
+    return slots() - 1;
+}
+
+// Neighbouring groups share a command: of seven groups at most four commands, or as many as there are groups.
+void RegionTable::addCommands(const shared::RegionRecord& record, std::int32_t sign) {
+    for (std::uint32_t context = 0; context < shared::kFaceContexts; ++context) {
+        const std::uint32_t ranges = context % 2 == 0 ? shared::kFaceGroups : 1;
+        std::uint32_t groups = 0, quads = 0;
+        for (std::uint32_t k = 0; k < ranges; ++k) {
+            const std::uint32_t count = record.ranges[shared::firstRange(context) + k].y;
+            groups += count > 0;
+            quads += count;
+        }
+        const std::uint32_t most = std::min(groups, 4u) + quads / shared::kMaxQuadsPerCommand;
+        mostCommands_[context] += static_cast<std::uint32_t>(sign) * most;
+    }
+}
+
+void RegionTable::set(world::ChunkPos pos, const ChunkQuads& quads) {
+    remove(pos);
+    std::vector<std::uint32_t>& slotsOfChunk = chunks_[pos];
+    for (const mesh::RegionMesh& region : quads.regions) {
+        const shared::RegionRecord record = recordOf(pos, region, quads.first);
+        if (isEmpty(record)) continue;
+        const std::uint32_t slot = allocateSlot();
+        slotsOfChunk.push_back(slot);
+        cpuRecords_[slot] = record;
+        changed_.push_back(slot);
+        if (hasBlendedQuads(record)) blended_.push_back(slot);
+        addCommands(record, 1);
+        ++count_;
+    }
+    isSorted_ = false;
+}
+
+void RegionTable::remove(world::ChunkPos pos) {
+    const auto found = chunks_.find(pos);
+    if (found == chunks_.end()) return;
+    for (const std::uint32_t slot : found->second) {
+        addCommands(cpuRecords_[slot], -1);
+        if (hasBlendedQuads(cpuRecords_[slot])) std::erase(blended_, slot);
+        free_.push_back(slot);
+        --count_;
+    }
+    chunks_.erase(found);
+    isSorted_ = false;
+}
+
+void RegionTable::uploadRecords() {
+    constexpr std::size_t kBytes = sizeof(shared::RegionRecord);
+    if (cpuRecords_.size() * kBytes > records_.sizeBytes()) {
+        records_ = gpu::Buffer(2 * cpuRecords_.size() * kBytes, GL_DYNAMIC_STORAGE_BIT, "regions");
+        records_.uploadVector(0, cpuRecords_);
+    } else {
+        for (const std::uint32_t slot : changed_) {
+            records_.upload(slot * kBytes, std::as_bytes(std::span(&cpuRecords_[slot], 1)));
+        }
+    }
+    changed_.clear();
+}
+
+void RegionTable::uploadOrder() {
+    std::vector<std::uint64_t> keys;
+    keys.reserve(count_);
+    for (const auto& [pos, slotsOfChunk] : chunks_) {
+        for (const std::uint32_t slot : slotsOfChunk) {
+            keys.push_back(sortKey(cpuRecords_[slot], centre_) << 32 | slot);
+        }
+    }
+    // Slots depend on the order in which chunks came: where distances are equal the place in the world
+    // decides.
+    const auto place = [&](std::uint64_t key) {
+        const shared::RegionRecord& r = cpuRecords_[key & UINT32_MAX];
+        return std::tuple(key >> 32, r.chunk.x, r.chunk.y, r.heights);
+    };
+    std::ranges::sort(keys, [&](std::uint64_t a, std::uint64_t b) { return place(a) < place(b); });
+    std::vector<std::uint32_t> order(keys.begin(), keys.end());
+    if (order.size() * sizeof(std::uint32_t) > order_.sizeBytes()) {
+        order_ =
+            gpu::Buffer(2 * order.size() * sizeof(std::uint32_t), GL_DYNAMIC_STORAGE_BIT, "order of regions");
+    }
+    if (!order.empty()) order_.uploadVector(0, order);
+}
+
+void RegionTable::update(world::ChunkPos centre) {
+    TERRANE_ZONE("region table");
+    if (!changed_.empty()) uploadRecords();
+    if (isSorted_ && centre == centre_) return;
+    centre_ = centre;
+    uploadOrder();
+    isSorted_ = true;
+}
+
+bool RegionTable::hasBlended(world::ChunkPos centre, std::span<const glm::vec4> planes) const {
+    return std::ranges::any_of(blended_, [&](std::uint32_t slot) {
+        const shared::RegionRecord& r = cpuRecords_[slot];
+        const glm::vec3 corner(blocksBetween(centre.x, r.chunk.x), blocksBetween(centre.y, r.chunk.y), 0);
+        const glm::vec3 min = corner + glm::vec3(0, 0, r.heights & 0xFFFF);
+        const glm::vec3 max = corner + glm::vec3(world::kChunkSize, world::kChunkSize, r.heights >> 16);
+        return mayBeVisible(planes, min, max);
+    });
+}
+
+}  // namespace terrane::render

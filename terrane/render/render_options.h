@@ -1,0 +1,50 @@
+// How a frame is drawn: every choice that a person has, as one plain value, and named sets of them. Any
+// thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace terrane::render {
+
+enum class Shading : std::uint8_t {
+    Off,     // the colours of the blocks alone
+    Sample,  // each sample of a pixel by itself
+    Pixel,   // once a pixel: the nearest depth, the mean of colours and normals
+};
+
+enum class Occlusion : std::uint8_t { Off, On, Raw };  // Raw shows it instead of the picture
+
+struct RenderOptions {
+    int samples = 2;  // a pixel: 1, 2, 4, 8; the driver may take the next number it has
+    Shading shading = Shading::Sample;
+    int shadowSize = 2048;  // texels a side of the shadow map: 1024, 2048, 4096; 0: no shadows
+    Occlusion occlusion = Occlusion::Off;
+    bool depthOfField = true;
+    bool atmosphere = true;
+    bool godRays = true;
+    bool clouds = true;
+    bool animation = true;
+    bool betterTexturing = true;      // magnified texels with sharp and smooth edges
+    bool sampledAlphaTest = true;     // holes in leaves and plants are found for each sample
+    int layers = 3;                   // of blended faces, 0 to 3
+    int singleLayer = 0;              // shows this one alone, 1 to 3; 0: all
+    bool coverCracks = true;          // between quads of different sizes
+    bool hiddenRegionCulling = true;  // of regions behind others
+
+    bool operator==(const RenderOptions&) const = default;
+};
+
+struct Preset {
+    std::string_view name;
+    RenderOptions options;
+};
+
+// low, medium, high, thesis.
+const std::array<Preset, 4>& presets();
+// None where there is none of the name. "auto" is high on a graphics card and low without one.
+std::optional<RenderOptions> findPreset(std::string_view name, bool isSoftwareRenderer);
+
+}  // namespace terrane::render

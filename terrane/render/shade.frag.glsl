@@ -1,0 +1,80 @@
+// From the G-buffer to the light that reaches the camera: colour times coverage, and coverage, over the sky.
+// SAMPLES: of the G-buffer. PER_SAMPLE: 1 shades each sample of a pixel with several surfaces, 0 their mean.
+// SHADOW, OCCLUSION: 1 where there is a shadow map, ambient occlusion.
+#include "terrane/render/frame_uniforms.glsl"
+#include "terrane/render/light_sample.glsl"
+#include "terrane/render/sky_color.glsl"
+#include "terrane/render/surfaces.glsl"
+#include "terrane/render/atmosphere.glsl"
+#include "terrane/render/lighting.glsl"
+#if SHADOW == 1
+#include "terrane/render/shadow_sample.glsl"
+#endif
+#if OCCLUSION == 1
+layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
+#endif
+
+layout(location = 0) in vec2 inScreen;
+layout(location = 1) in vec3 inRay;
+layout(location = 0) out vec4 outColor;
+
+vec4 shadeAt(Surface s, float depth, float open) {
+    vec3 toPoint = inRay * blocksOfDepth(depth);
+    vec3 position = frame.cameraPosition.xyz + toPoint;
+    if ((frame.camera.z & kSwitchUnlit) != 0) return throughAir(s.albedo, toPoint);
+    float shadow = 1.0;
+#if SHADOW == 1
+    shadow = lightShare(position, s.normal, length(toPoint));
+#endif
+    return throughAir(shade(s, levelsAt(position, s), shadow, open), toPoint);
+}
+
+#if SAMPLES > 1 && PER_SAMPLE == 1
+vec4 shadePixel(ivec2 pixel, float open) {
+    vec4 first = surfaceAt(pixel, 0);
+    int count = isOneSurface(pixel, first) ? 1 : SAMPLES;
+    vec4 sum = vec4(0.0);
+    for (int k = 0; k < count; ++k) {
+        vec4 word = surfaceAt(pixel, k);
+        if (directionOfWord(word) == kDirectionNone) continue;
+        sum += shadeAt(unpackSurface(word), depthAt(pixel, k), open);
+    }
+    return sum / float(count);
+}
+#elif SAMPLES > 1
+vec4 shadePixel(ivec2 pixel, float open) {
+    Surface mean = Surface(vec3(0.0), vec3(0.0), 0.0, kDirectionNone);
+    float nearest = 0.0;
+    int covered = 0;
+    for (int k = 0; k < SAMPLES; ++k) {
+        vec4 word = surfaceAt(pixel, k);
+        if (directionOfWord(word) == kDirectionNone) continue;
+        Surface s = unpackSurface(word);
+        float depth = depthAt(pixel, k);
+        mean.albedo += s.albedo;
+        mean.normal += s.normal;
+        mean.glow += s.glow;
+        if (depth > nearest) mean.direction = s.direction;
+        nearest = max(nearest, depth);
+        ++covered;
+    }
+    if (covered == 0) discard;
+    float share = 1.0 / float(covered);
+    mean = Surface(mean.albedo * share, normalize(mean.normal + 1e-4), mean.glow * share, mean.direction);
+    return shadeAt(mean, nearest, open) * float(covered) / float(SAMPLES);
+}
+#else
+// The depth test has left out the sky.
+vec4 shadePixel(ivec2 pixel, float open) {
+    return shadeAt(unpackSurface(surfaceAt(pixel, 0)), depthAt(pixel, 0), open);
+}
+#endif
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float open = 1.0;
+#if OCCLUSION == 1
+    open = texelFetch(occlusion, pixel, 0).r;
+#endif
+    outColor = shadePixel(pixel, open);
+}

@@ -1,0 +1,28 @@
+#include "terrane/render/shader_variants.h"
+
+#include <algorithm>
+
+namespace terrane::render {
+
+ShaderVariants::ShaderVariants(const gpu::ShaderLoader& shaders, std::string vertexName,
+                               std::string fragmentName, std::string label)
+    : shaders_(&shaders),
+      vertexName_(std::move(vertexName)),
+      fragmentName_(std::move(fragmentName)),
+      label_(std::move(label)) {}
+
+base::Result<void> ShaderVariants::select(const gpu::ShaderDefines& defines) {
+    const auto found =
+        std::ranges::find(variants_, defines, [](const auto& variant) { return variant.first; });
+    if (found != variants_.end()) {
+        selected_ = static_cast<std::size_t>(found - variants_.begin());
+        return {};
+    }
+    auto program = gpu::Program::graphics(*shaders_, vertexName_, fragmentName_, defines, label_);
+    if (!program) return tl::unexpected(program.error());
+    selected_ = variants_.size();
+    variants_.emplace_back(defines, std::move(*program));
+    return {};
+}
+
+}  // namespace terrane::render

@@ -1,0 +1,33 @@
+// One shader pair in the variants that options ask for, each compiled when it is first selected. Used by the
+// passes on the context's thread.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "terrane/gpu/program.h"
+
+namespace terrane::render {
+
+class ShaderVariants {
+  public:
+    ShaderVariants() = default;
+    // The loader outlives this.
+    ShaderVariants(const gpu::ShaderLoader& shaders, std::string vertexName, std::string fragmentName,
+                   std::string label);
+
+    // From now on use() means this variant. On failure the one before stays.
+    base::Result<void> select(const gpu::ShaderDefines& defines);
+    void use() const { variants_[selected_].second.use(); }
+
+    const std::string& label() const { return label_; }
+
+  private:
+    const gpu::ShaderLoader* shaders_ = nullptr;
+    std::string vertexName_, fragmentName_, label_;
+    std::vector<std::pair<gpu::ShaderDefines, gpu::Program>> variants_;
+    std::size_t selected_ = 0;
+};
+
+}  // namespace terrane::render

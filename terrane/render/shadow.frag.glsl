@@ -1,0 +1,16 @@
+// ALPHA_CLASS: 0 opaque, 1 tested. Depth is all that is kept.
+#include "terrane/render/frame_uniforms.glsl"
+#include "terrane/shared/quad.h"
+#include "terrane/shared/shape_face.h"
+#include "terrane/render/face_word.glsl"
+#include "terrane/render/block_texture.glsl"
+
+layout(location = 0) in vec2 inTexel;
+layout(location = 1) flat in uvec2 inFace;
+
+void main() {
+#if ALPHA_CLASS == 1
+    float alpha = blockTexture(inFace.x, inTexel, dFdx(inTexel), dFdy(inTexel)).a;
+    if (alpha < leastAlpha(inFace.x)) discard;
+#endif
+}

@@ -1,0 +1,59 @@
+#include "terrane/render/shadow_map.h"
+
+#include "terrane/gpu/debug.h"
+#include "terrane/shared/bindings.h"
+
+namespace terrane::render {
+namespace {
+
+constexpr const char* kVertex = "terrane/render/quad.vert.glsl";
+constexpr const char* kFragment = "terrane/render/shadow.frag.glsl";
+
+// Depth along the light is linear: 16 bits over 400 blocks are steps of 1/160 block, and half the memory of
+// more.
+constexpr GLenum kFormat = GL_DEPTH_COMPONENT16;
+
+}  // namespace
+
+ShadowMap::ShadowMap(const gpu::ShaderLoader& shaders)
+    : opaque_(shaders, kVertex, kFragment, "opaque shadows"),
+      tested_(shaders, kVertex, kFragment, "tested shadows"),
+      sampler_({.compare = GL_GEQUAL}, "shadow map") {}
+
+base::Result<void> ShadowMap::resize(int size) {
+    if (size == this->size()) return {};
+    framebuffer_ = {};
+    depth_ = {};
+    if (size == 0) return {};
+    auto selected = opaque_.select({{"PASS", "2"}, {"ALPHA_CLASS", "0"}});
+    if (selected) selected = tested_.select({{"PASS", "2"}, {"ALPHA_CLASS", "1"}});
+    if (!selected) return selected;
+    depth_ = gpu::Texture2D({size, size}, kFormat, 1, "shadow map");
+    auto framebuffer = gpu::Framebuffer::create({{}, depth_}, "shadow map");
+    if (!framebuffer) return tl::unexpected(framebuffer.error());
+    framebuffer_ = std::move(*framebuffer);
+    return {};
+}
+
+// Depth grows toward the light. What stands nearer to it than the map begins casts too: its depth is clamped.
+void ShadowMap::draw(const CullPass& culled) const {
+    const gpu::DebugGroup group("shadow map");
+    framebuffer_.bind();
+    framebuffer_.clearDepth(0.0f);
+    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_DEPTH_CLAMP);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_GREATER);
+    opaque_.use();
+    culled.drawContexts(mesh::AlphaClass::Opaque, true);
+    tested_.use();
+    culled.drawContexts(mesh::AlphaClass::Tested, true);
+    glDisable(GL_DEPTH_CLAMP);
+}
+
+void ShadowMap::bind() const {
+    depth_.bind(shared::kShadowUnit);
+    sampler_.bind(shared::kShadowUnit);
+}
+
+}  // namespace terrane::render

@@ -1,0 +1,31 @@
+// The depth of the world near the camera as the sun or moon sees it. Used by the renderer on the context's
+// thread.
+#pragma once
+
+#include "terrane/gpu/framebuffer.h"
+#include "terrane/gpu/sampler.h"
+#include "terrane/render/cull_pass.h"
+#include "terrane/render/shader_variants.h"
+
+namespace terrane::render {
+
+class ShadowMap {
+  public:
+    ShadowMap() = default;
+    explicit ShadowMap(const gpu::ShaderLoader& shaders);
+
+    // Texels a side; 0: none.
+    base::Result<void> resize(int size);
+    int size() const { return depth_.size().x; }
+    // Draws what is culled for shadows, with the quads and the frame's uniforms bound.
+    void draw(const CullPass& culled) const;
+    void bind() const;
+
+  private:
+    ShaderVariants opaque_, tested_;
+    gpu::Texture2D depth_;
+    gpu::Framebuffer framebuffer_;
+    gpu::Sampler sampler_;
+};
+
+}  // namespace terrane::render

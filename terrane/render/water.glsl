@@ -1,0 +1,52 @@
+// Water: waves in its normals, the sky in its mirror, darker and bluer the more of it one looks through. Needs
+// frame_uniforms.glsl, sky_color.glsl.
+layout(binding = kSkyNoiseUnit) uniform sampler2D noiseTexture;
+
+// Positions repeat every 64 blocks, so that they are exact anywhere in the world.
+vec2 wavePosition(vec3 position) {
+    return position.xy + vec2((frame.camera.xy & 3) * 16);
+}
+
+// Two patterns that move through each other; flatter with distance, where a pixel holds many waves.
+vec3 waveNormal(vec3 position, float distance) {
+    float seconds = (frame.camera.z & kSwitchAnimation) != 0 ? frame.lightDirection.w : 0.0;
+    vec2 at = wavePosition(position);
+    vec2 slow = texture(noiseTexture, at / 32.0 + vec2(0.011, 0.007) * seconds).ba - 0.5;
+    vec2 fast = texture(noiseTexture, vec2(at.x + at.y, at.x - at.y) / 16.0 - vec2(0.031, -0.023) * seconds).ba - 0.5;
+    float strength = 0.55 / (1.0 + 0.02 * distance);
+    return normalize(vec3(strength * (slow + 0.6 * fast), 1.0));
+}
+
+// Light that comes back from within a thickness of water of a colour, and the share of what lies behind it that is seen.
+vec4 waterBody(vec3 color, vec3 lit, float blocks) {
+    vec3 shallow = color * vec3(0.9, 1.1, 0.95) + vec3(0.0, 0.05, 0.03), deep = color * vec3(0.10, 0.28, 0.42);
+    vec3 body = mix(shallow, deep, 1.0 - exp(-0.10 * blocks));
+    return vec4(body * lit, exp(-0.22 * blocks));
+}
+
+// Schlick's approximation with the reflectance of water seen from above, 0.02.
+float waterMirror(float facing) {
+    return 0.02 + 0.98 * pow(1.0 - clamp(facing, 0.0, 1.0), 5.0);
+}
+
+// Colour times coverage, and coverage, of a surface of water before `blocks` of it. `levels`: of light; `shadow`: the
+// share of direct light.
+vec4 shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 levels, float shadow) {
+    vec4 light = pow(levels, vec4(0.85));
+    vec3 view = normalize(toPoint);
+    bool isTop = abs(s.normal.z) > 0.5;
+    vec3 normal = isTop ? waveNormal(position, length(toPoint)) * sign(s.normal.z) : s.normal;
+    vec3 direct = frame.lightColor.rgb * max(frame.lightDirection.z, 0.0) * shadow;
+    vec3 lit = light.a * (frame.ambientColor.rgb + direct) + light.rgb * (1.0 - frame.glowColor.w * light.a) + 0.02;
+    vec4 body = waterBody(s.albedo, lit, blocks);
+
+    float mirror = isTop ? waterMirror(dot(-view, normal)) : 0.03;
+    vec3 reflected = reflect(view, normal);
+    reflected.z = abs(reflected.z) + 0.01;
+    reflected = normalize(reflected);
+    float toLight = max(dot(reflected, frame.lightDirection.xyz), 0.0);
+    vec3 glint = frame.discColor.rgb * smoothstep(0.9985, 0.9998, toLight) * shadow;
+    vec3 sky = (skyColor(reflected) + glint) * light.a * light.a;
+    float coverage = 1.0 - (1.0 - mirror) * body.a;
+    return vec4(mix(body.rgb * (1.0 - body.a), sky, mirror), coverage);
+}

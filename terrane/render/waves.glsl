@@ -1,0 +1,43 @@
+// How plants, leaves and water move. Everything repeats after 4,096 chunks, so that numbers stay small and pictures do
+// not depend on where in the world they are. Needs hash.h.
+#include "terrane/shared/hash.h"
+#include "terrane/shared/material.h"
+
+const float kTurn = 6.2831853;
+
+float nodeWave(ivec2 chunk, float seconds) {
+    uvec2 node = uvec2(chunk) & 4095u;
+    float phase = float(hash2(node.x, node.y, 77u) >> 8) / 16777216.0;
+    return sin(kTurn * (0.25 * seconds + phase));
+}
+
+// Straight along x and y between the corners of chunks: quads of any size that lie in one chunk meet at their edges.
+float liquidWave(ivec2 chunk, vec2 inChunk, float seconds) {
+    vec2 f = inChunk / 16.0;
+    float low = mix(nodeWave(chunk, seconds), nodeWave(chunk + ivec2(1, 0), seconds), f.x);
+    float high = mix(nodeWave(chunk + ivec2(0, 1), seconds), nodeWave(chunk + 1, seconds), f.x);
+    return mix(low, high, f.y);
+}
+
+// `top`: 1 at the upper end of upright planes.
+vec3 waveOffset(uint animation, ivec2 chunk, vec3 cell, vec3 inChunk, float top, float seconds) {
+    vec2 base = vec2((chunk & 4095) * 16);
+    if (animation == kAnimationTopWaves) {
+        vec2 at = base + cell.xy;
+        float sway = sin(kTurn * fract(0.3 * seconds + (at.x + at.y) / 8.0));
+        float gust = sin(kTurn * fract(0.11 * seconds + (at.x - 0.5 * at.y) / 32.0));
+        return vec3(0.09 * sway + 0.05 * gust, 0.07 * sway - 0.04 * gust, 0.0) * top;
+    }
+    if (animation == kAnimationWholeWaves) {
+        vec3 at = vec3(base, 0.0) + inChunk;
+        float a = sin(kTurn * fract(0.31 * seconds + (at.x + at.y + at.z) * 3.0 / 16.0));
+        float b = sin(kTurn * fract(0.23 * seconds + (at.x - at.y + 2.0 * at.z) / 8.0));
+        return 0.035 * vec3(a, b, a - b);
+    }
+    if (animation == kAnimationLiquidSurface) {
+        // Only what belongs to the surface, 14/16 above a block's bottom.
+        bool isSurface = abs(fract(inChunk.z) - 14.0 / 16.0) < 0.01;
+        return isSurface ? vec3(0.0, 0.0, 0.06 * liquidWave(chunk, inChunk.xy, seconds) - 0.02) : vec3(0.0);
+    }
+    return vec3(0.0);
+}

@@ -1,0 +1,76 @@
+// The regions of chunks as the GPU culls and draws them: records, lists of draw commands, counts.
+#ifndef TERRANE_SHARED_REGION_H
+#define TERRANE_SHARED_REGION_H
+
+#include "terrane/shared/language.h"
+
+SHARED_BEGIN
+
+const uint kFaceContexts = 6u;  // mesh::kContextCount
+const uint kFaceGroups = 7u;    // mesh::kGroupCount
+
+// Quads of a region, one range for each context and group of faces. Two-sided contexts (the odd ones) have
+// faces of the last group only.
+const uint kRangesOfTwoContexts = 8u;
+const uint kRangesOfRegion = 24u;
+
+SHARED_FN uint firstRange(uint context) {
+    return (context >> 1) * kRangesOfTwoContexts + (context & 1u) * kFaceGroups;
+}
+
+struct RegionRecord {
+    ivec2 chunk;
+    uint heights;  // lowest block, and the block above the highest << 16
+    uint unused;
+    uvec2 ranges[kRangesOfRegion];  // first quad in the buffer, count
+};
+
+// As glMultiDrawElementsIndirect reads it.
+struct DrawCommand {
+    uint indexCount;
+    uint instanceCount;
+    uint firstIndex;
+    int baseVertex;     // 4 × first quad
+    uint baseInstance;  // number of the region
+};
+
+// Quads that a command can draw: four vertices each within 16-bit indices.
+const uint kMaxQuadsPerCommand = 16384u;
+
+// Lists of commands: those of the camera by context, then those of the shadow map, which has none of blended
+// faces.
+const uint kCameraLists = 6u;
+const uint kShadowLists = 4u;
+const uint kDrawLists = 10u;
+
+// Commands and quads of each list, then regions in sight.
+struct DrawCounts {
+    uint commands[kDrawLists];
+    uint quads[kDrawLists];
+    uint regions;
+};
+
+// Bits of a region's word of visibility: groups of faces that may be seen, from each of the two places.
+const uint kCameraGroupBits = 0u;
+const uint kShadowGroupBits = 8u;
+
+// What culling needs to know. A plane (a, w) holds the points p with dot(a, p) + w ≥ 0.
+struct CullFrame {
+    vec4 cameraPlanes[5];
+    vec4 shadowPlanes[5];
+    vec4 cameraPosition;    // from the corner of its chunk
+    vec4 lightDirection;    // to the light; w: 1 where there is a shadow map
+    ivec4 camera;           // x, y: its chunk; z: number of regions
+    uvec4 firstCommand[3];  // of each list, in the buffer of commands
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+namespace terrane::shared {
+static_assert(sizeof(RegionRecord) == 16 + 8 * kRangesOfRegion);
+static_assert(sizeof(DrawCommand) == 20);
+static_assert(sizeof(CullFrame) == 16 * 16);
+}  // namespace terrane::shared
+#endif
+#endif

@@ -1,0 +1,342 @@
+#include "terrane/render/cull_pass.h"
+
+#include <glm/geometric.hpp>
+#include <map>
+#include <set>
+
+#include "terrane/render/shadow_volume.h"
+#include "tests/gpu/gl_fixture.h"
+#include "tests/render/content.h"
+
+namespace terrane::render {
+namespace {
+
+constexpr int kOpaque = mesh::faceContext(mesh::AlphaClass::Opaque, false);
+constexpr int kTestedTwoSided = mesh::faceContext(mesh::AlphaClass::Tested, true);
+constexpr int kBlended = mesh::faceContext(mesh::AlphaClass::Blended, true);
+constexpr int kRegionHeight = 64;
+
+// How many quads of each context, group and region a mesh made here has.
+struct Part {
+    int region, context, group;
+    std::uint32_t count;
+};
+
+// Parts by region, context, group, as the mesher orders them. Regions are full height.
+mesh::ChunkMesh meshOfParts(const std::vector<Part>& parts) {
+    mesh::ChunkMesh mesh;
+    mesh.regions.resize(256 / kRegionHeight);
+    for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+        for (int context = 0; context < mesh::kContextCount; ++context) {
+            for (int group = 0; group < mesh::kGroupCount; ++group) {
+                mesh::QuadRange range{static_cast<std::uint32_t>(mesh.quads.size()), 0};
+                for (const Part& part : parts) {
+                    if (part.region != static_cast<int>(r) || part.context != context || part.group != group)
+                        continue;
+                    range.count = part.count;
+                    mesh.quads.resize(mesh.quads.size() + part.count);
+                    mesh.regions[r].minZ = static_cast<int>(r) * kRegionHeight;
+                    mesh.regions[r].maxZ = mesh.regions[r].minZ + kRegionHeight;
+                }
+                mesh.regions[r].groups[context][group] = range;
+            }
+        }
+    }
+    return mesh;
+}
+
+// What the GPU chose, read back.
+struct Drawn {
+    std::array<std::vector<shared::DrawCommand>, mesh::kContextCount> commands, shadowCommands;
+    std::size_t quadCount = 0, regionCount = 0;
+};
+
+class CullPassTest : public gpu::GlTest {
+  protected:
+    void SetUp() override {
+        GlTest::SetUp();
+        if (IsSkipped()) return;
+        clear();
+        auto pass = CullPass::create(contentShaders(), gpu::queryDevice());
+        ASSERT_TRUE(pass) << pass.error().message;
+        pass_.emplace(std::move(*pass));
+        ring_.emplace(65536, "test");
+    }
+    void TearDown() override {
+        pass_.reset();
+        ring_.reset();
+        regions_.reset();
+        quads_.reset();
+        GlTest::TearDown();
+    }
+
+    void clear() {
+        quads_.emplace();
+        regions_.emplace();
+    }
+    void set(world::ChunkPos pos, const mesh::ChunkMesh& mesh) {
+        ASSERT_TRUE(quads_->set(pos, mesh));
+        regions_->set(pos, quads_->chunks().at(pos));
+    }
+
+    Drawn& build(const Camera& camera, std::optional<Frustum> shadow = {}, glm::vec3 light = {0, 0, 1}) {
+        const ViewMatrices view = viewMatrices(camera, 1.0f);
+        regions_->update(cameraChunk(camera));
+        ring_->beginFrame();
+        pass_->run({cameraChunk(camera), view.cameraPosition, frustumOf(view.viewProjection), light, shadow},
+                   *regions_, *ring_);
+        ring_->endFrame();
+        glFinish();
+        const shared::DrawCounts& counts = pass_->counts();
+        list_ = {};
+        list_.regionCount = counts.regions;
+        for (shared::uint list = 0; list < shared::kDrawLists; ++list) {
+            const bool isShadow = list >= shared::kCameraLists;
+            auto& commands = isShadow ? list_.shadowCommands : list_.commands;
+            commands[isShadow ? list - shared::kCameraLists : list] = pass_->readCommands(list);
+            EXPECT_EQ(counts.commands[list], pass_->readCommands(list).size());
+            if (!isShadow) list_.quadCount += counts.quads[list];
+        }
+        return list_;
+    }
+
+    // Numbers of the quads drawn in a context, by place in the buffer; none may be drawn twice.
+    std::set<std::uint32_t> drawn(int context) const {
+        std::set<std::uint32_t> numbers;
+        for (const shared::DrawCommand& command : list_.commands[static_cast<std::size_t>(context)]) {
+            EXPECT_EQ(command.instanceCount, 1u);
+            EXPECT_EQ(command.firstIndex, 0u);
+            EXPECT_EQ(command.indexCount % 6, 0u);
+            EXPECT_LE(command.indexCount, 6 * shared::kMaxQuadsPerCommand);
+            EXPECT_LT(command.baseInstance, regions_->slots());
+            for (std::uint32_t k = 0; k < command.indexCount / 6; ++k) {
+                EXPECT_TRUE(numbers.insert(static_cast<std::uint32_t>(command.baseVertex) / 4 + k).second);
+            }
+        }
+        return numbers;
+    }
+
+    std::set<std::uint32_t> stored(world::ChunkPos pos, int region, int context, int group) const {
+        const ChunkQuads& chunk = quads_->chunks().at(pos);
+        const mesh::QuadRange range = chunk.regions[static_cast<std::size_t>(region)].groups[context][group];
+        std::set<std::uint32_t> numbers;
+        for (std::uint32_t k = 0; k < range.count; ++k) numbers.insert(chunk.first + range.first + k);
+        return numbers;
+    }
+
+    std::optional<QuadStore> quads_;
+    std::optional<RegionTable> regions_;
+    std::optional<CullPass> pass_;
+    std::optional<gpu::MappedRing> ring_;
+    Drawn list_;
+};
+
+TEST_F(CullPassTest, NothingGivesNoCommands) {
+    const Drawn& list = build({});
+    for (const auto& commands : list.commands) EXPECT_TRUE(commands.empty());
+    EXPECT_EQ(list.quadCount + list.regionCount, 0u);
+}
+
+TEST_F(CullPassTest, RegionsBehindTheCameraAreCulled) {
+    const mesh::ChunkMesh mesh = meshOfParts({{1, kOpaque, mesh::kGroupAlways, 5}});
+    set({3, 0}, mesh);
+    set({-3, 0}, mesh);
+    const Drawn& list = build({.position = {8, 8, 100}, .yaw = 0});
+    EXPECT_EQ(list.regionCount, 1u);
+    EXPECT_EQ(list.quadCount, 5u);
+    EXPECT_EQ(drawn(kOpaque), stored({3, 0}, 1, kOpaque, mesh::kGroupAlways));
+    build({.position = {8, 8, 100}, .yaw = 180});
+    EXPECT_EQ(drawn(kOpaque), stored({-3, 0}, 1, kOpaque, mesh::kGroupAlways));
+}
+
+TEST_F(CullPassTest, RegionsAboveAndBelowTheViewAreCulled) {
+    set({3, 0}, meshOfParts({{0, kOpaque, 6, 1}, {1, kOpaque, 6, 2}, {3, kOpaque, 6, 4}}));
+    build({.position = {8, 8, 96}, .fieldOfView = 30});
+    EXPECT_EQ(drawn(kOpaque), stored({3, 0}, 1, kOpaque, 6));
+}
+
+// Camera and chunk may lie at the ends of the world.
+TEST_F(CullPassTest, TheEndsOfTheWorldAreLikeItsMiddle) {
+    const world::ChunkPos far{world::kMaxChunk, world::kMinChunk};
+    set(far, meshOfParts({{1, kOpaque, mesh::kGroupAlways, 1}}));
+    const glm::dvec3 corner(16.0 * far.x, 16.0 * far.y, 0);
+    EXPECT_EQ(build({.position = corner + glm::dvec3(-20, 8, 100)}).regionCount, 1u);
+    EXPECT_EQ(build({.position = corner + glm::dvec3(-20, 8, 100), .yaw = 180}).regionCount, 0u);
+    EXPECT_EQ(build({.position = {-2147483640.0, 8, 100}}).regionCount, 1u) << "far ahead, without overflow";
+}
+
+TEST_F(CullPassTest, GroupsThatLookAwayAreNotDrawn) {
+    std::vector<Part> parts;
+    for (int group = 0; group < mesh::kGroupCount; ++group) parts.push_back({1, kOpaque, group, 10});
+    set({0, 0}, meshOfParts(parts));
+    struct Case {
+        Camera camera;
+        std::set<int> hidden;
+    };
+    // Around a box of 16 × 16 blocks at heights 64 to 128.
+    const Case cases[] = {
+        {{{-20, 8, 100}, 0, 0}, {world::kFacePosX}},
+        {{{40, 8, 100}, 180, 0}, {world::kFaceNegX}},
+        {{{8, -20, 100}, 90, 0}, {world::kFacePosY}},
+        {{{8, 40, 100}, -90, 0}, {world::kFaceNegY}},
+        {{{8, 8, 200}, 0, -90}, {world::kFaceNegZ}},
+        {{{8, 8, 20}, 0, 90}, {world::kFacePosZ}},
+        {{{-20, -20, 200}, 45, -50}, {world::kFacePosX, world::kFacePosY, world::kFaceNegZ}},
+        {{{8, 8, 100}, 0, 0}, {}},
+    };
+    for (const Case& c : cases) {
+        build(c.camera);
+        std::set<std::uint32_t> expected;
+        for (int group = 0; group < mesh::kGroupCount; ++group) {
+            if (!c.hidden.contains(group)) expected.merge(stored({0, 0}, 1, kOpaque, group));
+        }
+        EXPECT_EQ(drawn(kOpaque), expected);
+        EXPECT_EQ(list_.quadCount, expected.size());
+    }
+}
+
+TEST_F(CullPassTest, TwoSidedQuadsAreAllDrawn) {
+    set({0, 0}, meshOfParts({{0, kTestedTwoSided, mesh::kGroupAlways, 100},
+                             {1, kTestedTwoSided, mesh::kGroupAlways, 50}}));
+    for (const float yaw : {0.0f, 45.0f, 90.0f, 180.0f, 270.0f}) {
+        const Camera around{.position = glm::dvec3(8, 8, 64) - 60.0 * glm::dvec3(lookDirection({.yaw = yaw})),
+                            .yaw = yaw};
+        build(around);
+        std::set<std::uint32_t> all = stored({0, 0}, 0, kTestedTwoSided, mesh::kGroupAlways);
+        all.merge(stored({0, 0}, 1, kTestedTwoSided, mesh::kGroupAlways));
+        EXPECT_EQ(drawn(kTestedTwoSided), all) << "yaw " << yaw;
+    }
+}
+
+TEST_F(CullPassTest, NeighbouringGroupsShareACommand) {
+    set({1, 0}, meshOfParts({{1, kOpaque, 0, 3}, {1, kOpaque, 2, 4}, {1, kOpaque, 6, 5}}));
+    EXPECT_EQ(build({.position = {8, 8, 100}}).commands[kOpaque].size(), 1u);
+    EXPECT_EQ(drawn(kOpaque).size(), 12u);
+}
+
+TEST_F(CullPassTest, LongRangesAreSplit) {
+    constexpr std::uint32_t kCount = 2 * shared::kMaxQuadsPerCommand + 100;
+    set({9, 9}, meshOfParts({{0, kOpaque, mesh::kGroupAlways, 1}}));
+    set({1, 0}, meshOfParts({{1, kOpaque, mesh::kGroupAlways, kCount}}));
+    const auto& commands = build({.position = {8, 8, 100}}).commands[kOpaque];
+    ASSERT_EQ(commands.size(), 3u);
+    EXPECT_EQ(commands[0].indexCount, 6 * shared::kMaxQuadsPerCommand);
+    EXPECT_EQ(commands[2].indexCount, 6 * 100u);
+    EXPECT_EQ(drawn(kOpaque), stored({1, 0}, 1, kOpaque, mesh::kGroupAlways));
+}
+
+// Over the ground, in chunks; squared. Of the commands of a list, in their order.
+std::vector<int> distances(const std::vector<shared::DrawCommand>& commands,
+                           const std::map<std::uint32_t, world::ChunkPos>& chunkOfQuad,
+                           world::ChunkPos from) {
+    std::vector<int> result;
+    for (const shared::DrawCommand& command : commands) {
+        const auto after = chunkOfQuad.upper_bound(static_cast<std::uint32_t>(command.baseVertex) / 4);
+        const world::ChunkPos chunk = std::prev(after)->second;
+        const int x = chunk.x - from.x, y = chunk.y - from.y;
+        result.push_back(x * x + y * y);
+    }
+    return result;
+}
+
+TEST_F(CullPassTest, TheNearestAreDrawnFirst) {
+    std::map<std::uint32_t, world::ChunkPos> chunkOfQuad;
+    for (int y = -4; y <= 4; ++y) {
+        for (int x = -4; x <= 4; ++x) {
+            set({x, y},
+                meshOfParts({{0, kOpaque, mesh::kGroupAlways, 3}, {2, kOpaque, mesh::kGroupAlways, 2}}));
+            chunkOfQuad[quads_->chunks().at({x, y}).first] = {x, y};
+        }
+    }
+    for (const Camera& camera :
+         {Camera{{3, 5, 240}, 30, -30}, Camera{{3, 5, 10}, 200, 30}, Camera{{40, 8, 130}, 0, 0}}) {
+        const std::vector<int> order =
+            distances(build(camera).commands[kOpaque], chunkOfQuad, cameraChunk(camera));
+        EXPECT_GE(order.size(), 9u);
+        EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
+    }
+}
+
+// The order must not depend on the hash table's, or on which chunk came first.
+TEST_F(CullPassTest, OrderDependsOnPlacesOnly) {
+    std::vector<std::uint32_t> first;
+    for (int round = 0; round < 2; ++round) {
+        clear();
+        for (int k = 0; k < 81; ++k) {
+            const int at = round == 0 ? k : 80 - k;
+            const auto count = static_cast<std::uint32_t>(at + 1);  // tells which chunk it is
+            set({at % 9 - 4, at / 9 - 4}, meshOfParts({{1, kOpaque, mesh::kGroupAlways, count}}));
+        }
+        std::vector<std::uint32_t> counts;
+        for (const auto& command : build({.position = {8, 8, 120}}).commands[kOpaque]) {
+            counts.push_back(command.indexCount);
+        }
+        if (round == 0) first = counts;
+        EXPECT_EQ(counts, first);
+    }
+}
+
+TEST_F(CullPassTest, ReplacedAndRemovedChunksAreGone) {
+    set({1, 0}, meshOfParts({{1, kOpaque, mesh::kGroupAlways, 5}}));
+    set({2, 0}, meshOfParts({{1, kOpaque, mesh::kGroupAlways, 6}}));
+    set({1, 0},
+        meshOfParts({{1, kOpaque, mesh::kGroupAlways, 7}, {1, kTestedTwoSided, mesh::kGroupAlways, 1}}));
+    EXPECT_EQ(build({.position = {8, 8, 100}}).quadCount, 14u);
+    regions_->remove({1, 0});
+    EXPECT_EQ(build({.position = {8, 8, 100}}).quadCount, 6u);
+    regions_->remove({2, 0});
+    EXPECT_EQ(build({.position = {8, 8, 100}}).quadCount, 0u);
+}
+
+// A region a chunk over a large area, against the test of a box and a frustum on the processor.
+TEST_F(CullPassTest, ManyRegionsAreCulledAsOneIs) {
+    for (int y = -30; y <= 30; ++y) {
+        for (int x = -30; x <= 30; ++x) {
+            set({x, y}, meshOfParts({{(x + y) & 3, kOpaque, mesh::kGroupAlways, 1}}));
+        }
+    }
+    for (const Camera& camera : {Camera{{3, 5, 240}, 30, -30}, Camera{{3, 5, 10}, 200, 10}}) {
+        const Frustum frustum = frustumOf(viewMatrices(camera, 1).viewProjection);
+        std::size_t expected = 0;
+        for (int y = -30; y <= 30; ++y) {
+            for (int x = -30; x <= 30; ++x) {
+                const glm::vec3 low(16 * x, 16 * y, 64 * ((x + y) & 3));
+                expected += mayBeVisible(frustum, low, low + glm::vec3(16, 16, 64));
+            }
+        }
+        EXPECT_EQ(build(camera).regionCount, expected);
+    }
+}
+
+TEST_F(CullPassTest, ShadowsAreCastByWhatFacesTheLight) {
+    std::vector<Part> parts;
+    for (int group = 0; group < mesh::kGroupCount; ++group) parts.push_back({1, kOpaque, group, 10});
+    parts.push_back({1, kBlended, mesh::kGroupAlways, 10});
+    set({0, 0}, meshOfParts(parts));
+    set({40, 0}, meshOfParts(parts));
+    const Camera camera{.position = {-20, 8, 100}, .yaw = 180};  // away from both
+    const glm::vec3 light = glm::normalize(glm::vec3(-1, 0.5f, 2));
+    const Frustum volume = planesOf({glm::mat3(1), {-60, -60}, {60, 60}, 0});
+    const Drawn& drawn = build(camera, volume, light);
+    EXPECT_EQ(drawn.regionCount, 0u);
+    std::size_t quads = 0;
+    for (const auto& command : drawn.shadowCommands[kOpaque]) quads += command.indexCount / 6;
+    EXPECT_EQ(quads, 40u) << "-x, +y, +z and those that may look anywhere, of the near chunk";
+    EXPECT_TRUE(build(camera).shadowCommands[kOpaque].empty()) << "without shadows";
+}
+
+TEST_F(CullPassTest, BlendedFacesInViewAreKnown) {
+    set({3, 0}, meshOfParts({{1, kBlended, mesh::kGroupAlways, 5}}));
+    set({-3, 0}, meshOfParts({{1, kOpaque, mesh::kGroupAlways, 5}}));
+    const auto isKnown = [&](float yaw) {
+        const Camera camera{.position = {8, 8, 100}, .yaw = yaw};
+        return regions_->hasBlended(cameraChunk(camera), frustumOf(viewMatrices(camera, 1).viewProjection));
+    };
+    EXPECT_TRUE(isKnown(0));
+    EXPECT_FALSE(isKnown(180));
+    regions_->remove({3, 0});
+    EXPECT_FALSE(isKnown(0));
+}
+
+}  // namespace
+}  // namespace terrane::render
