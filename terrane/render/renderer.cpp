@@ -73,6 +73,9 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     renderer.gbuffer_ = GBufferPass(shaders);
     renderer.layers_ = LayerPass(shaders);
     renderer.noise_ = SkyNoise::create();
+    renderer.occlusion_ = AmbientOcclusion(shaders);
+    renderer.godRays_ = GodRays(shaders);
+    renderer.farBlur_ = FarBlur(shaders);
     renderer.sky_ = FullscreenPass(shaders, "sky");
     renderer.shade_ = FullscreenPass(shaders, "shade");
     renderer.debugView_ = FullscreenPass(shaders, "debug_view");
@@ -110,16 +113,24 @@ base::Result<void> Renderer::selectVariants(const RenderOptions& options, const 
     const int samples = targets.samples;
     auto done = shadowMap_.resize(options.shading == Shading::Off ? 0 : options.shadowSize);
     if (done) done = gbuffer_.select(options.sampledAlphaTest ? samples : 1);
-    if (done) done = sky_.select(defined({{"SAMPLES", samples}}));
+    if (done) done = sky_.select(defined({{"SAMPLES", samples}, {"CLOUDS", options.clouds ? 1 : 0}}));
     if (done) {
         done = shade_.select(defined({{"SAMPLES", samples},
                                       {"PER_SAMPLE", options.shading == Shading::Pixel ? 0 : 1},
                                       {"SHADOW", shadowMap_.size() > 0 ? 1 : 0},
-                                      {"OCCLUSION", 0}}));
+                                      {"OCCLUSION", options.occlusion == Occlusion::Off ? 0 : 1}}));
     }
     if (done) done = layers_.configure(targets, options.layers, shadowMap_.size() > 0);
     if (done) done = debugView_.select(defined({{"SAMPLES", samples}}));
-    if (done) done = final_.select({});
+    if (done) done = occlusion_.configure(targets, options.occlusion != Occlusion::Off);
+    if (done) done = godRays_.configure(targets.size, options.godRays);
+    if (done) done = farBlur_.configure(targets, options.depthOfField);
+    if (done) {
+        done = final_.select(defined({{"SAMPLES", samples},
+                                      {"FAR_BLUR", options.depthOfField ? 1 : 0},
+                                      {"GOD_RAYS", options.godRays ? 1 : 0},
+                                      {"RAW_OCCLUSION", options.occlusion == Occlusion::Raw ? 1 : 0}}));
+    }
     return done;
 }
 
@@ -223,6 +234,27 @@ void Renderer::drawLayers(const FrameInput& input) {
     glDisable(GL_BLEND);
 }
 
+void Renderer::drawPicture(const FrameInput& input) {
+    if (options_.occlusion != Occlusion::Off) {
+        const TimerZone zone(timer_, "ambient occlusion");
+        occlusion_.draw();
+    }
+    shadeSurfaces(input.fogDistance);
+    drawLayers(input);
+    if (options_.godRays) {
+        const TimerZone zone(timer_, "god rays");
+        godRays_.draw(targets_);
+    }
+    if (options_.depthOfField) {
+        const TimerZone zone(timer_, "depth of field");
+        farBlur_.draw(targets_);
+    }
+    const TimerZone zone(timer_, "final");
+    targets_.picture.bind();
+    targets_.sceneColor.bind(shared::kSceneUnit);
+    final_.draw();
+}
+
 void Renderer::draw(const FrameInput& input) {
     TERRANE_ZONE("draw frame");
     assert(targets_.size.x > 0 && "configure comes before the first frame");
@@ -242,12 +274,7 @@ void Renderer::draw(const FrameInput& input) {
     light_.bind();
     if (hasShadows(input)) shadowMap_.bind();
     if (input.view == View::Color) {
-        shadeSurfaces(input.fogDistance);
-        drawLayers(input);
-        const TimerZone zone(timer_, "final");
-        targets_.picture.bind();
-        targets_.sceneColor.bind(shared::kSceneUnit);
-        final_.draw();
+        drawPicture(input);
     } else {
         glDisable(GL_DEPTH_TEST);
         targets_.picture.bind();

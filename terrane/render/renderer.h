@@ -7,12 +7,15 @@
 
 #include "terrane/base/image.h"
 #include "terrane/gpu/timer.h"
+#include "terrane/render/ambient_occlusion.h"
 #include "terrane/render/block_textures.h"
 #include "terrane/render/cull_pass.h"
+#include "terrane/render/far_blur.h"
 #include "terrane/render/frame_input.h"
 #include "terrane/render/frame_targets.h"
 #include "terrane/render/fullscreen_pass.h"
 #include "terrane/render/gbuffer_pass.h"
+#include "terrane/render/god_rays.h"
 #include "terrane/render/layer_pass.h"
 #include "terrane/render/light_store.h"
 #include "terrane/render/quad_resources.h"
@@ -70,6 +73,7 @@ class Renderer {
     void drawSurfaces();
     void shadeSurfaces(float fogDistance);
     void drawLayers(const FrameInput& input);
+    void drawPicture(const FrameInput& input);
     bool hasShadows(const FrameInput& input) const;
 
     RenderOptions options_;
@@ -85,6 +89,9 @@ class Renderer {
     ShadowMap shadowMap_;
     GBufferPass gbuffer_;
     LayerPass layers_;
+    AmbientOcclusion occlusion_;
+    GodRays godRays_;
+    FarBlur farBlur_;
     SkyNoise noise_;
     FullscreenPass sky_, shade_, debugView_, final_;
 

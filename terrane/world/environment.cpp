@@ -87,7 +87,9 @@ Environment environmentAt(float timeDay) {
     e.zenithColor = colorAt(kZenith, time);
     e.horizonColor = colorAt(kHorizon, time);
     e.glowColor = colorAt(kGlow, time);
-    e.discColor = (isSun ? 6.0f : 10.0f) * e.lightColor;
+    e.isMoon = !isSun;
+    e.starTurn = time;
+    e.discColor = (isSun ? 8.0f : 16.0f) * e.lightColor;
     e.starLight = glm::smoothstep(0.0f, 1.0f, glm::clamp((std::abs(time - 0.5f) - 0.29f) / 0.1f, 0.0f, 1.0f));
     e.discRadius = isSun ? 0.045f : 0.03f;
     const glm::vec3 noon = linearFromSrgb(kAmbient[2].color);
