@@ -69,6 +69,7 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     const float anisotropy = device.software ? 1.0f : std::min(kMaxAnisotropy, device.maxAnisotropy);
     renderer.resources_ = QuadResources(blocks, std::move(*blockTextures), anisotropy);
     renderer.cull_ = std::move(*cull);
+    renderer.pyramid_ = DepthPyramid(shaders);
     renderer.shadowMap_ = ShadowMap(shaders);
     renderer.gbuffer_ = GBufferPass(shaders);
     renderer.layers_ = LayerPass(shaders);
@@ -112,6 +113,7 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
 base::Result<void> Renderer::selectVariants(const RenderOptions& options, const FrameTargets& targets) {
     const int samples = targets.samples;
     auto done = shadowMap_.resize(options.shading == Shading::Off ? 0 : options.shadowSize);
+    if (done) done = pyramid_.configure(targets, options.hiddenRegionCulling);
     if (done) done = gbuffer_.select(options.sampledAlphaTest ? samples : 1);
     if (done) done = sky_.select(defined({{"SAMPLES", samples}, {"CLOUDS", options.clouds ? 1 : 0}}));
     if (done) {
@@ -164,18 +166,23 @@ void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
     ring_.buffer().bindUniform(shared::kFrameBinding, slice->offsetBytes, sizeof(frame));
 }
 
-void Renderer::cull(const FrameInput& input, const ViewMatrices& view) {
-    const TimerZone zone(timer_, "cull");
-    CullInput cullInput{cameraChunk(input.camera),
-                        view.cameraPosition,
-                        frustumOf(view.viewProjection),
-                        input.environment.lightDirection,
-                        {}};
+CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view) const {
+    CullInput cull{cameraChunk(input.camera),
+                   view.cameraPosition,
+                   frustumOf(view.viewProjection),
+                   input.environment.lightDirection,
+                   {},
+                   view.viewProjection,
+                   glm::vec2(targets_.size)};
     if (hasShadows(input)) {
-        cullInput.shadow = planesOf(shadowVolume(view, input.environment.lightDirection, kShadowReach));
+        cull.shadow = planesOf(shadowVolume(view, input.environment.lightDirection, kShadowReach));
     }
-    regions_.update(cullInput.cameraChunk);
-    cull_.run(cullInput, regions_, ring_);
+    return cull;
+}
+
+void Renderer::cull(CullRun run, const CullInput& input) {
+    const TimerZone zone(timer_, run == CullRun::SeenNow ? "cull again" : "cull");
+    cull_.run(run, input, regions_, ring_);
 }
 
 void Renderer::drawShadows() {
@@ -183,11 +190,31 @@ void Renderer::drawShadows() {
     shadowMap_.draw(cull_);
 }
 
-void Renderer::drawSurfaces() {
-    const TimerZone zone(timer_, "surfaces");
+void Renderer::drawSurfaces(const CullInput& cullInput) {
+    {
+        const TimerZone zone(timer_, "surfaces");
+        targets_.surfaces.bind();
+        targets_.surfaces.clearColor(0, glm::vec4(1));
+        targets_.surfaces.clearDepth(0.0f);
+        gbuffer_.draw(cull_);
+    }
+    targets_.surface.bind(shared::kSurfaceUnit);
+    targets_.depth.bind(shared::kDepthUnit);
+    if (pyramid_.isOn()) drawHiddenBefore(cullInput);
+}
+
+// What was hidden in the frame before and is not now.
+void Renderer::drawHiddenBefore(const CullInput& cullInput) {
+    {
+        const TimerZone zone(timer_, "depth pyramid");
+        pyramid_.build();
+    }
+    CullInput again = cullInput;
+    again.shadow.reset();
+    again.pyramidLevels = pyramid_.levels();
+    cull(CullRun::SeenNow, again);
+    const TimerZone zone(timer_, "surfaces again");
     targets_.surfaces.bind();
-    targets_.surfaces.clearColor(0, glm::vec4(1));
-    targets_.surfaces.clearDepth(0.0f);
     gbuffer_.draw(cull_);
 }
 
@@ -263,14 +290,15 @@ void Renderer::draw(const FrameInput& input) {
     ring_.beginFrame();
     bindFrame(input, view);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    cull(input, view);
+    const CullInput culling = cullInput(input, view);
+    regions_.update(culling.cameraChunk);
+    if (pyramid_.isOn()) pyramid_.bind();
+    cull(pyramid_.isOn() ? CullRun::SeenBefore : CullRun::All, culling);
     resources_.bind(quads_, options_.betterTexturing);
     noise_.bind();
     regions_.bindRecords();
     if (hasShadows(input)) drawShadows();
-    drawSurfaces();
-    targets_.surface.bind(shared::kSurfaceUnit);
-    targets_.depth.bind(shared::kDepthUnit);
+    drawSurfaces(culling);
     light_.bind();
     if (hasShadows(input)) shadowMap_.bind();
     if (input.view == View::Color) {
@@ -280,6 +308,7 @@ void Renderer::draw(const FrameInput& input) {
         targets_.picture.bind();
         debugView_.draw();
     }
+    cull_.queueCounts();
     ring_.endFrame();
 }
 

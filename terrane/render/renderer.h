@@ -10,6 +10,7 @@
 #include "terrane/render/ambient_occlusion.h"
 #include "terrane/render/block_textures.h"
 #include "terrane/render/cull_pass.h"
+#include "terrane/render/depth_pyramid.h"
 #include "terrane/render/far_blur.h"
 #include "terrane/render/frame_input.h"
 #include "terrane/render/frame_targets.h"
@@ -68,9 +69,11 @@ class Renderer {
   private:
     base::Result<void> selectVariants(const RenderOptions& options, const FrameTargets& targets);
     void bindFrame(const FrameInput& input, const ViewMatrices& view);
-    void cull(const FrameInput& input, const ViewMatrices& view);
+    CullInput cullInput(const FrameInput& input, const ViewMatrices& view) const;
+    void cull(CullRun run, const CullInput& input);
     void drawShadows();
-    void drawSurfaces();
+    void drawSurfaces(const CullInput& cullInput);
+    void drawHiddenBefore(const CullInput& cullInput);
     void shadeSurfaces(float fogDistance);
     void drawLayers(const FrameInput& input);
     void drawPicture(const FrameInput& input);
@@ -86,6 +89,7 @@ class Renderer {
     gpu::GpuTimer timer_;
 
     CullPass cull_;
+    DepthPyramid pyramid_;
     ShadowMap shadowMap_;
     GBufferPass gbuffer_;
     LayerPass layers_;
