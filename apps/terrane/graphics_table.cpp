@@ -85,6 +85,8 @@ std::vector<GraphicsRow> makeTable() {
          {"open", "covered"},
          getMember<&RenderOptions::coverCracks>,
          setMember<&RenderOptions::coverCracks>},
+        switchOf<&RenderOptions::hiddenRegionCulling>("occlusion-culling",
+                                                      "Leaves out what lies behind other terrain"),
     };
 }
 

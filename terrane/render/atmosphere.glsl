@@ -1,11 +1,11 @@
 // How distance changes colours. Needs frame_uniforms.glsl and sky_color.glsl.
 
 // Toward the colour of the sky behind, and from 5/6 of the view on toward nothing, so that chunks come and go unseen:
-// colour times what is left of it, and what is left.
-vec4 throughAir(vec3 color, vec3 toPoint) {
+// colour times what is left of it, and what is left. Where no daylight comes (0…1) there is no haze: caves stay dark.
+vec4 throughAir(vec3 color, vec3 toPoint, float daylight) {
     if ((frame.camera.z & kSwitchAtmosphere) == 0) return vec4(color, 1.0);
     float share = length(toPoint.xy) / frame.cameraPosition.w;
-    float haze = 1.0 - exp(-0.9 * share * share * share);
+    float haze = (1.0 - exp(-0.9 * share * share * share)) * smoothstep(-0.1, 0.5, daylight);
     vec3 direction = normalize(toPoint);
     direction.z = max(direction.z, 0.0);
     color = mix(color, skyColor(direction), haze);

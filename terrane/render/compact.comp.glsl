@@ -23,7 +23,7 @@ layout(std430, binding = kCommandsBinding) writeonly buffer Commands {
     DrawCommand commands[];
 };
 layout(std430, binding = kCountsBinding) writeonly buffer Counts {
-    DrawCounts counts;
+    DrawCounts counts[2];  // of the two runs
 };
 
 shared uint sums[kThreads];
@@ -80,7 +80,7 @@ void main() {
     uint thread = gl_LocalInvocationID.x, list = gl_WorkGroupID.x;
     bool isShadow = list >= kCameraLists;
     uint context = isShadow ? list - kCameraLists : list;
-    uint shift = isShadow ? kShadowGroupBits : kCameraGroupBits;
+    uint shift = isShadow ? kShadowGroupBits : context >= 4u ? kBlendedGroupBits : kCameraGroupBits;
     uint all = uint(cull.camera.z), each = (all + kThreads - 1u) / kThreads;
     uint begin = min(thread * each, all), end = min(begin + each, all);
     if (thread == 0u) quadSum = regionSum = 0u;
@@ -103,8 +103,9 @@ void main() {
         if (groups != 0u) at = visit(order[k], context, groups, at, true, ignored);
     }
     if (thread == kThreads - 1u) {
-        counts.commands[list] = last;
-        counts.quads[list] = quadSum;
-        if (list == 0u) counts.regions = regionSum;
+        uint run = uint(cull.camera.w) == kCullSeenNow ? 1u : 0u;
+        counts[run].commands[list] = last;
+        counts[run].quads[list] = quadSum;
+        if (list == 0u) counts[run].regions = regionSum;
     }
 }

@@ -4,6 +4,8 @@
 
 layout(local_size_x = 64) in;
 
+layout(binding = kPyramidUnit) uniform sampler2D pyramid;  // the farthest depths of squares of pixels
+
 layout(std140, binding = kCullBinding) uniform CullBlock {
     CullFrame cull;
 };
@@ -13,6 +15,9 @@ layout(std430, binding = kRegionsBinding) readonly buffer Regions {
 layout(std430, binding = kRegionOrderBinding) readonly buffer Order {
     uint order[];
 };
+layout(std430, binding = kSeenBinding) buffer Seen {
+    uint seen[];  // by slot: 1 where the region was not hidden by others
+};
 layout(std430, binding = kVisibleBinding) writeonly buffer Visible {
     uint visible[];  // in the order of regions
 };
@@ -20,6 +25,36 @@ layout(std430, binding = kVisibleBinding) writeonly buffer Visible {
 bool isOutside(vec4 plane, vec3 low, vec3 high) {
     vec3 farthest = mix(low, high, greaterThan(plane.xyz, vec3(0.0)));
     return dot(plane.xyz, farthest) + plane.w < 0.0;
+}
+
+// How far leaves and plants may leave the box of their region, in blocks.
+const float kWaving = 0.25;
+
+// Whether what was drawn so far hides the box: it lies behind the farthest depth of all pixels that it covers.
+bool isHidden(vec3 low, vec3 high) {
+    vec2 least = vec2(1.0), most = vec2(-1.0);
+    float nearest = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        vec3 at = mix(low - kWaving, high + kWaving, vec3(corner & 1, corner >> 1 & 1, corner >> 2));
+        vec4 clip = cull.viewProjection * vec4(at, 1.0);
+        if (clip.w <= 2.0 * cull.viewport.z) return false;
+        vec2 screen = clip.xy / clip.w;
+        least = min(least, screen);
+        most = max(most, screen);
+        nearest = max(nearest, cull.viewport.z / clip.w);
+    }
+    // A pixel more on each side: quads grow a little.
+    vec2 from = clamp((0.5 + 0.5 * least) * cull.viewport.xy - 1.0, vec2(0.0), cull.viewport.xy - 1.0);
+    vec2 to = clamp((0.5 + 0.5 * most) * cull.viewport.xy + 1.0, vec2(0.0), cull.viewport.xy - 1.0);
+    vec2 size = (to - from) / float(kPyramidTexel);
+    // The level where the box covers at most three texels along each side.
+    int level = int(clamp(ceil(log2(max(max(size.x, size.y), 1.0) / 2.0)), 0.0, cull.viewport.w - 1.0));
+    ivec2 first = ivec2(from) / int(kPyramidTexel) >> level, last = ivec2(to) / int(kPyramidTexel) >> level;
+    float farthest = 1.0;
+    for (int y = first.y; y <= last.y; ++y) {
+        for (int x = first.x; x <= last.x; ++x) farthest = min(farthest, texelFetch(pyramid, ivec2(x, y), level).r);
+    }
+    return nearest < farthest;
 }
 
 // The last group is that of faces which may look anywhere.
@@ -42,9 +77,18 @@ void main() {
         if (isOutside(cull.shadowPlanes[k], low, high)) isCasting = false;
     }
     // Every face that looks to -x is seen from behind where the camera is beyond the last of them, and so on.
-    uint word = 0u;
     vec3 camera = cull.cameraPosition.xyz, light = cull.lightDirection.xyz;
-    if (isSeen) word = bitsOf(lessThan(camera, high), greaterThan(camera, low)) << kCameraGroupBits;
-    if (isCasting) word |= bitsOf(lessThan(light, vec3(0.0)), greaterThan(light, vec3(0.0))) << kShadowGroupBits;
-    visible[number] = word;
+    uint groups = isSeen ? bitsOf(lessThan(camera, high), greaterThan(camera, low)) : 0u;
+    uint casting = isCasting ? bitsOf(lessThan(light, vec3(0.0)), greaterThan(light, vec3(0.0))) : 0u;
+    uint run = uint(cull.camera.w);
+    if (run == kCullAll) {
+        visible[number] = groups << kCameraGroupBits | groups << kBlendedGroupBits | casting << kShadowGroupBits;
+    } else if (run == kCullSeenBefore) {
+        visible[number] = (seen[slot] == 1u ? groups << kCameraGroupBits : 0u) | casting << kShadowGroupBits;
+    } else {
+        bool isNew = seen[slot] != 1u, isOpen = isSeen && !isHidden(low, high);
+        if (!isOpen) groups = 0u;
+        visible[number] = (isNew ? groups << kCameraGroupBits : 0u) | groups << kBlendedGroupBits;
+        seen[slot] = isOpen ? 1u : 0u;
+    }
 }

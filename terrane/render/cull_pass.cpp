@@ -13,18 +13,36 @@ namespace {
 
 constexpr GLuint kCullThreads = 64;  // local_size_x of cull.comp.glsl
 
+using TwoCounts = std::array<shared::DrawCounts, 2>;  // of two runs
+
 gpu::Buffer gpuOnly(std::size_t bytes, std::string_view label) {
     return gpu::Buffer(bytes, 0, label);
 }
 
-shared::CullFrame frameOf(const CullInput& input, std::uint32_t regions) {
+static_assert(static_cast<shared::uint>(CullRun::SeenBefore) == shared::kCullSeenBefore &&
+              static_cast<shared::uint>(CullRun::SeenNow) == shared::kCullSeenNow);
+
+shared::CullFrame frameOf(CullRun run, const CullInput& input, std::uint32_t regions) {
     shared::CullFrame frame{};
     std::ranges::copy(input.camera, frame.cameraPlanes);
     if (input.shadow) std::ranges::copy(*input.shadow, frame.shadowPlanes);
     frame.cameraPosition = glm::vec4(input.cameraPosition, 0);
     frame.lightDirection = glm::vec4(input.lightDirection, input.shadow ? 1 : 0);
-    frame.camera = {input.cameraChunk.x, input.cameraChunk.y, static_cast<int>(regions), 0};
+    frame.camera = {input.cameraChunk.x, input.cameraChunk.y, static_cast<int>(regions),
+                    static_cast<int>(run)};
+    frame.viewProjection = input.viewProjection;
+    frame.viewport = {input.size, kNearPlane, static_cast<float>(input.pyramidLevels)};
     return frame;
+}
+
+shared::DrawCounts sumOf(const TwoCounts& both) {
+    shared::DrawCounts sum = both[0];
+    for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
+        sum.commands[list] += both[1].commands[list];
+        sum.quads[list] += both[1].quads[list];
+    }
+    sum.regions += both[1].regions;
+    return sum;
 }
 
 }  // namespace
@@ -38,11 +56,10 @@ base::Result<CullPass> CullPass::create(const gpu::ShaderLoader& shaders, const 
     pass.cull_ = std::move(*cull);
     pass.compact_ = std::move(*compact);
     pass.hasIndirectCount_ = device.indirectCount;
-    const shared::DrawCounts none{};
-    pass.countBuffer_ =
-        gpu::Buffer(std::as_bytes(std::span(&none, 1)), GL_DYNAMIC_STORAGE_BIT, "draw counts");
+    const TwoCounts none{};
+    pass.countBuffer_ = gpu::Buffer(std::as_bytes(std::span(none)), GL_DYNAMIC_STORAGE_BIT, "draw counts");
     for (Readback& readback : pass.readbacks_) {
-        readback.buffer = gpu::ReadbackBuffer(sizeof(shared::DrawCounts), "draw counts");
+        readback.buffer = gpu::ReadbackBuffer(sizeof(TwoCounts), "draw counts");
     }
     return pass;
 }
@@ -60,37 +77,49 @@ void CullPass::reserve(const RegionTable& regions) {
     if (commandBytes > commands_.sizeBytes()) commands_ = gpuOnly(2 * commandBytes, "draw commands");
     const std::size_t wordBytes = regions.count() * sizeof(std::uint32_t);
     if (wordBytes > visible_.sizeBytes()) visible_ = gpuOnly(2 * wordBytes, "visible regions");
+    const std::size_t seenBytes = regions.slots() * sizeof(std::uint32_t);
+    if (seenBytes <= seen_.sizeBytes()) return;
+    seen_ = gpuOnly(2 * seenBytes, "seen regions");
+    const GLuint zero = 0;
+    glClearNamedBufferData(seen_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
 }
 
-void CullPass::run(const CullInput& input, const RegionTable& regions, gpu::MappedRing& ring) {
-    const gpu::DebugGroup group("cull");
-    reserve(regions);
-    const GLuint zero = 0;
-    glClearNamedBufferData(countBuffer_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
-    if (regions.count() > 0) {
-        shared::CullFrame frame = frameOf(input, regions.count());
-        for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
-            frame.firstCommand[list / 4][static_cast<int>(list % 4)] = firstCommand_[list];
-        }
-        const auto slice = ring.write(std::span<const shared::CullFrame>(&frame, 1));
-        assert(slice && "the ring holds a frame's uniforms");
-        ring.buffer().bindUniform(shared::kCullBinding, slice->offsetBytes, sizeof(frame));
-        if (!hasIndirectCount_) {
-            glClearNamedBufferData(commands_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
-        }
-        regions.bindRecords();
-        regions.bindOrder();
-        visible_.bindStorage(shared::kVisibleBinding);
-        commands_.bindStorage(shared::kCommandsBinding);
-        countBuffer_.bindStorage(shared::kCountsBinding);
-        cull_.use();
-        glDispatchCompute((regions.count() + kCullThreads - 1) / kCullThreads, 1, 1);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-        compact_.use();
-        glDispatchCompute(input.shadow ? shared::kDrawLists : shared::kCameraLists, 1, 1);
-        glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+// Regions that were never tested count as hidden: the second run draws them.
+void CullPass::dispatch(const CullInput& input, const RegionTable& regions, gpu::MappedRing& ring) {
+    shared::CullFrame frame = frameOf(run_, input, regions.count());
+    for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
+        frame.firstCommand[list / 4][static_cast<int>(list % 4)] = firstCommand_[list];
     }
-    queueReadback();
+    const auto slice = ring.write(std::span<const shared::CullFrame>(&frame, 1));
+    assert(slice && "the ring holds a frame's uniforms");
+    ring.buffer().bindUniform(shared::kCullBinding, slice->offsetBytes, sizeof(frame));
+    regions.bindRecords();
+    regions.bindOrder();
+    visible_.bindStorage(shared::kVisibleBinding);
+    seen_.bindStorage(shared::kSeenBinding);
+    commands_.bindStorage(shared::kCommandsBinding);
+    countBuffer_.bindStorage(shared::kCountsBinding);
+    cull_.use();
+    glDispatchCompute((regions.count() + kCullThreads - 1) / kCullThreads, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    compact_.use();
+    glDispatchCompute(input.shadow ? shared::kDrawLists : shared::kCameraLists, 1, 1);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+void CullPass::run(CullRun run, const CullInput& input, const RegionTable& regions, gpu::MappedRing& ring) {
+    const gpu::DebugGroup group("cull");
+    run_ = run;
+    const GLuint zero = 0;
+    if (run != CullRun::SeenNow) {
+        reserve(regions);
+        glClearNamedBufferData(countBuffer_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    }
+    if (regions.count() == 0) return;
+    if (!hasIndirectCount_) {
+        glClearNamedBufferData(commands_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    }
+    dispatch(input, regions, ring);
 }
 
 void CullPass::drawList(shared::uint list) const {
@@ -101,7 +130,7 @@ void CullPass::drawList(shared::uint list) const {
     const auto most = static_cast<GLsizei>(mostCommands_[list]);
     if (hasIndirectCount_) {
         glBindBuffer(GL_PARAMETER_BUFFER_ARB, countBuffer_.id());
-        const GLintptr countOffset = static_cast<GLintptr>(list * sizeof(shared::uint));
+        const auto countOffset = static_cast<GLintptr>(countsOffset() + list * sizeof(shared::uint));
         glMultiDrawElementsIndirectCountARB(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset, countOffset, most, 0);
     } else {
         glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset, most, 0);
@@ -118,11 +147,11 @@ void CullPass::drawContexts(mesh::AlphaClass alphaClass, bool forShadows) const 
 }
 
 // Not where the GPU is as many frames behind as there are buffers.
-void CullPass::queueReadback() {
+void CullPass::queueCounts() {
     counts();
     Readback& readback = readbacks_[nextReadback_];
     if (readback.isPending) return;
-    readback.buffer.copyFrom(countBuffer_, sizeof(shared::DrawCounts));
+    readback.buffer.copyFrom(countBuffer_, sizeof(TwoCounts));
     readback.fence = gpu::Fence::insert();
     readback.isPending = true;
     nextReadback_ = (nextReadback_ + 1) % kReadbacks;
@@ -132,7 +161,9 @@ const shared::DrawCounts& CullPass::counts() {
     for (std::size_t k = 0; k < kReadbacks; ++k) {
         Readback& readback = readbacks_[(nextReadback_ + k) % kReadbacks];
         if (!readback.isPending || !readback.fence.passed()) continue;
-        std::memcpy(&counts_, readback.buffer.data().data(), sizeof(counts_));
+        TwoCounts both;
+        std::memcpy(both.data(), readback.buffer.data().data(), sizeof(both));
+        counts_ = sumOf(both);
         readback.isPending = false;
     }
     return counts_;
@@ -140,7 +171,7 @@ const shared::DrawCounts& CullPass::counts() {
 
 std::vector<shared::DrawCommand> CullPass::readCommands(shared::uint list) const {
     shared::DrawCounts counts{};
-    countBuffer_.download(0, std::as_writable_bytes(std::span(&counts, 1)));
+    countBuffer_.download(countsOffset(), std::as_writable_bytes(std::span(&counts, 1)));
     std::vector<shared::DrawCommand> commands(counts.commands[list]);
     assert(commands.size() <= mostCommands_[list] && "each list has room for all commands");
     if (!commands.empty()) {

@@ -21,27 +21,36 @@ struct CullInput {
     Frustum camera;
     glm::vec3 lightDirection;
     std::optional<Frustum> shadow;  // none: no shadow map
+    glm::mat4 viewProjection{1};
+    glm::vec2 size{1};      // of the picture in pixels
+    int pyramidLevels = 0;  // of the bound DepthPyramid; for the second run
 };
+
+// All in view at once, or in two runs: what was seen in the frame before, then what its depth does not hide.
+enum class CullRun : std::uint8_t { All, SeenBefore, SeenNow };
 
 class CullPass {
   public:
     static base::Result<CullPass> create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device);
 
     // `regions` is up to date.
-    void run(const CullInput& input, const RegionTable& regions, gpu::MappedRing& ring);
-    // The draw call of a list of shared/region.h, with everything else bound.
-    void drawList(shared::uint list) const;
+    // Runs of one frame follow each other, drawing between them.
+    void run(CullRun run, const CullInput& input, const RegionTable& regions, gpu::MappedRing& ring);
+    // Draws what the last run chose, with everything else bound.
     void drawContexts(mesh::AlphaClass alphaClass, bool forShadows) const;
 
-    // Of the newest frame that the GPU has finished; does not wait.
+    // Of the newest frame that the GPU has finished, all runs together; does not wait. Ends the frame.
+    void queueCounts();
     const shared::DrawCounts& counts();
 
-    // For tests: waits for the GPU.
+    // Of the last run, for tests: waits for the GPU.
     std::vector<shared::DrawCommand> readCommands(shared::uint list) const;
 
   private:
     void reserve(const RegionTable& regions);
-    void queueReadback();
+    void dispatch(const CullInput& input, const RegionTable& regions, gpu::MappedRing& ring);
+    void drawList(shared::uint list) const;
+    std::size_t countsOffset() const { return run_ == CullRun::SeenNow ? sizeof(shared::DrawCounts) : 0; }
 
     struct Readback {
         gpu::ReadbackBuffer buffer;
@@ -51,7 +60,8 @@ class CullPass {
     static constexpr std::size_t kReadbacks = 4;
 
     gpu::Program cull_, compact_;
-    gpu::Buffer visible_, commands_, countBuffer_;
+    gpu::Buffer visible_, seen_, commands_, countBuffer_;
+    CullRun run_ = CullRun::All;
     std::array<std::uint32_t, shared::kDrawLists> firstCommand_{}, mostCommands_{};
     std::array<Readback, kReadbacks> readbacks_;
     std::size_t nextReadback_ = 0;

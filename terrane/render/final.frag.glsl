@@ -1,10 +1,23 @@
-// From light to the screen: exposure, a filmic curve, sRGB, and noise of one step against bands in the sky.
+// From light to the screen: blur of what is far, rays of the sun, exposure, a filmic curve, sRGB, and noise of one step
+// against bands in the sky. FAR_BLUR, GOD_RAYS: 1 adds them. RAW_OCCLUSION: 1 shows the ambient occlusion instead.
+// SAMPLES: of the depth.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/shared/hash.h"
 
 layout(binding = kSceneUnit) uniform sampler2D scene;
+#if FAR_BLUR == 1
+#include "terrane/render/surfaces.glsl"
+layout(binding = kBlurUnit) uniform sampler2D blurred;
+#endif
+#if GOD_RAYS == 1
+layout(binding = kGodRaysUnit) uniform sampler2D godRays;
+#endif
+#if RAW_OCCLUSION == 1
+layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
+#endif
 
 layout(location = 0) in vec2 inScreen;
+layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
 
 // Linear up to kStart, from there an exponential shoulder that meets it with equal slope and ends at white.
@@ -18,9 +31,35 @@ vec3 encodeSrgb(vec3 c) {
     return mix(c * 12.92, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
 }
 
+#if GOD_RAYS == 1
+// The mean over the pixels that the steps are distributed among.
+float raysAt(vec2 at) {
+    vec2 texel = 1.0 / vec2(textureSize(godRays, 0));
+    float sum = 0.0;
+    for (int k = 0; k < 4; ++k) sum += textureLod(godRays, at + texel * (vec2(k & 1, k >> 1) * 2.0 - 1.0), 0.0).r;
+    return 0.25 * sum;
+}
+#endif
+
 void main() {
-    vec3 color = texelFetch(scene, ivec2(gl_FragCoord.xy), 0).rgb;
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec2 at = gl_FragCoord.xy / frame.viewport.xy;
+#if RAW_OCCLUSION == 1
+    outColor = vec4(texelFetch(occlusion, pixel, 0).rrr, 1.0);
+    return;
+#endif
+    vec3 color = texelFetch(scene, pixel, 0).rgb;
+#if FAR_BLUR == 1
+    float depth = depthAt(pixel, 0);
+    float blocks = blocksOfDepth(depth) * length(inRay);
+    // The sky keeps its stars.
+    float amount = depth > 0.0 ? pow(min(blocks / 512.0, 1.0), 1.5) : 0.35;
+    color = mix(color, textureLod(blurred, at, 0.0).rgb, amount);
+#endif
+#if GOD_RAYS == 1
+    color += 0.75 * raysAt(at) * (frame.lightColor.rgb + 0.3 * frame.glowColor.rgb);
+#endif
     color = encodeSrgb(clamp(compressHighlights(color * frame.zenithColor.w), 0.0, 1.0));
-    uint noise = hash2(uint(gl_FragCoord.x), uint(gl_FragCoord.y), 0u);
+    uint noise = hash2(uint(pixel.x), uint(pixel.y), 0u);
     outColor = vec4(color + (float(noise >> 16) / 65536.0 - 0.5) / 255.0, 1.0);
 }

@@ -14,6 +14,15 @@ SampledTexture::SampledTexture(glm::ivec2 size, GLenum format, int samples, std:
     }
 }
 
+base::Result<ColorTarget> ColorTarget::create(glm::ivec2 size, GLenum format, std::string_view label) {
+    ColorTarget target;
+    target.texture = gpu::Texture2D(size, format, 1, label);
+    auto framebuffer = gpu::Framebuffer::create({{target.texture}, {}}, label);
+    if (!framebuffer) return tl::unexpected(framebuffer.error());
+    target.framebuffer = std::move(*framebuffer);
+    return target;
+}
+
 base::Result<FrameTargets> FrameTargets::create(glm::ivec2 size, int samples) {
     assert(size.x > 0 && size.y > 0 && "a picture has pixels");
     FrameTargets t;

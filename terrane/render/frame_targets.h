@@ -27,6 +27,14 @@ class SampledTexture {
     gpu::Texture2DMultisample sampled_;
 };
 
+// A texture with one sample a pixel that a full-screen pass draws into and the next one reads.
+struct ColorTarget {
+    static base::Result<ColorTarget> create(glm::ivec2 size, GLenum format, std::string_view label);
+
+    gpu::Texture2D texture;
+    gpu::Framebuffer framebuffer;
+};
+
 struct FrameTargets {
     static base::Result<FrameTargets> create(glm::ivec2 size, int samples);
 

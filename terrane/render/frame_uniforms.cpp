@@ -30,6 +30,7 @@ void setEnvironment(shared::Frame& frame, const FrameInput& input) {
     frame.horizonColor = glm::vec4(e.horizonColor, static_cast<float>(input.view));
     frame.glowColor = glm::vec4(e.glowColor, e.lampShare);
     frame.discColor = glm::vec4(e.discColor, e.starLight);
+    frame.sky = {e.starTurn, e.isMoon ? 1 : 0, 0, 0};
 }
 
 // The light on the screen; behind the camera or far outside nothing of its rays is seen.

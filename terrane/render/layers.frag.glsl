@@ -30,7 +30,7 @@ const vec3 kBackground = vec3(0.35);  // of a single layer
 vec4 shadeLayer(Layer layer, float depth, float behind) {
     float blocks = blocksOfDepth(depth);
     vec3 toPoint = inRay * blocks, position = frame.cameraPosition.xyz + toPoint;
-    if ((frame.camera.z & kSwitchUnlit) != 0) return throughAir(layer.surface.albedo, toPoint) * layer.alpha;
+    if ((frame.camera.z & kSwitchUnlit) != 0) return throughAir(layer.surface.albedo, toPoint, 1.0) * layer.alpha;
     float shadow = 1.0;
 #if SHADOW == 1
     shadow = lightShare(position, layer.surface.normal, length(toPoint));
@@ -44,7 +44,7 @@ vec4 shadeLayer(Layer layer, float depth, float behind) {
     } else {
         color = vec4(shade(layer.surface, levels, shadow, 1.0) * layer.alpha, layer.alpha);
     }
-    vec4 air = throughAir(color.rgb / max(color.a, 1e-3), toPoint);
+    vec4 air = throughAir(color.rgb / max(color.a, 1e-3), toPoint, levels.a);
     return air * color.a;
 }
 

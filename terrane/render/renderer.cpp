@@ -69,10 +69,14 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     const float anisotropy = device.software ? 1.0f : std::min(kMaxAnisotropy, device.maxAnisotropy);
     renderer.resources_ = QuadResources(blocks, std::move(*blockTextures), anisotropy);
     renderer.cull_ = std::move(*cull);
+    renderer.pyramid_ = DepthPyramid(shaders);
     renderer.shadowMap_ = ShadowMap(shaders);
     renderer.gbuffer_ = GBufferPass(shaders);
     renderer.layers_ = LayerPass(shaders);
     renderer.noise_ = SkyNoise::create();
+    renderer.occlusion_ = AmbientOcclusion(shaders);
+    renderer.godRays_ = GodRays(shaders);
+    renderer.farBlur_ = FarBlur(shaders);
     renderer.sky_ = FullscreenPass(shaders, "sky");
     renderer.shade_ = FullscreenPass(shaders, "shade");
     renderer.debugView_ = FullscreenPass(shaders, "debug_view");
@@ -109,17 +113,26 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
 base::Result<void> Renderer::selectVariants(const RenderOptions& options, const FrameTargets& targets) {
     const int samples = targets.samples;
     auto done = shadowMap_.resize(options.shading == Shading::Off ? 0 : options.shadowSize);
+    if (done) done = pyramid_.configure(targets, options.hiddenRegionCulling);
     if (done) done = gbuffer_.select(options.sampledAlphaTest ? samples : 1);
-    if (done) done = sky_.select(defined({{"SAMPLES", samples}}));
+    if (done) done = sky_.select(defined({{"SAMPLES", samples}, {"CLOUDS", options.clouds ? 1 : 0}}));
     if (done) {
         done = shade_.select(defined({{"SAMPLES", samples},
                                       {"PER_SAMPLE", options.shading == Shading::Pixel ? 0 : 1},
                                       {"SHADOW", shadowMap_.size() > 0 ? 1 : 0},
-                                      {"OCCLUSION", 0}}));
+                                      {"OCCLUSION", options.occlusion == Occlusion::Off ? 0 : 1}}));
     }
     if (done) done = layers_.configure(targets, options.layers, shadowMap_.size() > 0);
     if (done) done = debugView_.select(defined({{"SAMPLES", samples}}));
-    if (done) done = final_.select({});
+    if (done) done = occlusion_.configure(targets, options.occlusion != Occlusion::Off);
+    if (done) done = godRays_.configure(targets.size, options.godRays);
+    if (done) done = farBlur_.configure(targets, options.depthOfField);
+    if (done) {
+        done = final_.select(defined({{"SAMPLES", samples},
+                                      {"FAR_BLUR", options.depthOfField ? 1 : 0},
+                                      {"GOD_RAYS", options.godRays ? 1 : 0},
+                                      {"RAW_OCCLUSION", options.occlusion == Occlusion::Raw ? 1 : 0}}));
+    }
     return done;
 }
 
@@ -153,18 +166,23 @@ void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
     ring_.buffer().bindUniform(shared::kFrameBinding, slice->offsetBytes, sizeof(frame));
 }
 
-void Renderer::cull(const FrameInput& input, const ViewMatrices& view) {
-    const TimerZone zone(timer_, "cull");
-    CullInput cullInput{cameraChunk(input.camera),
-                        view.cameraPosition,
-                        frustumOf(view.viewProjection),
-                        input.environment.lightDirection,
-                        {}};
+CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view) const {
+    CullInput cull{cameraChunk(input.camera),
+                   view.cameraPosition,
+                   frustumOf(view.viewProjection),
+                   input.environment.lightDirection,
+                   {},
+                   view.viewProjection,
+                   glm::vec2(targets_.size)};
     if (hasShadows(input)) {
-        cullInput.shadow = planesOf(shadowVolume(view, input.environment.lightDirection, kShadowReach));
+        cull.shadow = planesOf(shadowVolume(view, input.environment.lightDirection, kShadowReach));
     }
-    regions_.update(cullInput.cameraChunk);
-    cull_.run(cullInput, regions_, ring_);
+    return cull;
+}
+
+void Renderer::cull(CullRun run, const CullInput& input) {
+    const TimerZone zone(timer_, run == CullRun::SeenNow ? "cull again" : "cull");
+    cull_.run(run, input, regions_, ring_);
 }
 
 void Renderer::drawShadows() {
@@ -172,11 +190,31 @@ void Renderer::drawShadows() {
     shadowMap_.draw(cull_);
 }
 
-void Renderer::drawSurfaces() {
-    const TimerZone zone(timer_, "surfaces");
+void Renderer::drawSurfaces(const CullInput& cullInput) {
+    {
+        const TimerZone zone(timer_, "surfaces");
+        targets_.surfaces.bind();
+        targets_.surfaces.clearColor(0, glm::vec4(1));
+        targets_.surfaces.clearDepth(0.0f);
+        gbuffer_.draw(cull_);
+    }
+    targets_.surface.bind(shared::kSurfaceUnit);
+    targets_.depth.bind(shared::kDepthUnit);
+    if (pyramid_.isOn()) drawHiddenBefore(cullInput);
+}
+
+// What was hidden in the frame before and is not now.
+void Renderer::drawHiddenBefore(const CullInput& cullInput) {
+    {
+        const TimerZone zone(timer_, "depth pyramid");
+        pyramid_.build();
+    }
+    CullInput again = cullInput;
+    again.shadow.reset();
+    again.pyramidLevels = pyramid_.levels();
+    cull(CullRun::SeenNow, again);
+    const TimerZone zone(timer_, "surfaces again");
     targets_.surfaces.bind();
-    targets_.surfaces.clearColor(0, glm::vec4(1));
-    targets_.surfaces.clearDepth(0.0f);
     gbuffer_.draw(cull_);
 }
 
@@ -223,6 +261,27 @@ void Renderer::drawLayers(const FrameInput& input) {
     glDisable(GL_BLEND);
 }
 
+void Renderer::drawPicture(const FrameInput& input) {
+    if (options_.occlusion != Occlusion::Off) {
+        const TimerZone zone(timer_, "ambient occlusion");
+        occlusion_.draw();
+    }
+    shadeSurfaces(input.fogDistance);
+    drawLayers(input);
+    if (options_.godRays) {
+        const TimerZone zone(timer_, "god rays");
+        godRays_.draw(targets_);
+    }
+    if (options_.depthOfField) {
+        const TimerZone zone(timer_, "depth of field");
+        farBlur_.draw(targets_);
+    }
+    const TimerZone zone(timer_, "final");
+    targets_.picture.bind();
+    targets_.sceneColor.bind(shared::kSceneUnit);
+    final_.draw();
+}
+
 void Renderer::draw(const FrameInput& input) {
     TERRANE_ZONE("draw frame");
     assert(targets_.size.x > 0 && "configure comes before the first frame");
@@ -231,28 +290,25 @@ void Renderer::draw(const FrameInput& input) {
     ring_.beginFrame();
     bindFrame(input, view);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    cull(input, view);
+    const CullInput culling = cullInput(input, view);
+    regions_.update(culling.cameraChunk);
+    if (pyramid_.isOn()) pyramid_.bind();
+    cull(pyramid_.isOn() ? CullRun::SeenBefore : CullRun::All, culling);
     resources_.bind(quads_, options_.betterTexturing);
     noise_.bind();
     regions_.bindRecords();
     if (hasShadows(input)) drawShadows();
-    drawSurfaces();
-    targets_.surface.bind(shared::kSurfaceUnit);
-    targets_.depth.bind(shared::kDepthUnit);
+    drawSurfaces(culling);
     light_.bind();
     if (hasShadows(input)) shadowMap_.bind();
     if (input.view == View::Color) {
-        shadeSurfaces(input.fogDistance);
-        drawLayers(input);
-        const TimerZone zone(timer_, "final");
-        targets_.picture.bind();
-        targets_.sceneColor.bind(shared::kSceneUnit);
-        final_.draw();
+        drawPicture(input);
     } else {
         glDisable(GL_DEPTH_TEST);
         targets_.picture.bind();
         debugView_.draw();
     }
+    cull_.queueCounts();
     ring_.endFrame();
 }
 

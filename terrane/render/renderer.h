@@ -7,12 +7,16 @@
 
 #include "terrane/base/image.h"
 #include "terrane/gpu/timer.h"
+#include "terrane/render/ambient_occlusion.h"
 #include "terrane/render/block_textures.h"
 #include "terrane/render/cull_pass.h"
+#include "terrane/render/depth_pyramid.h"
+#include "terrane/render/far_blur.h"
 #include "terrane/render/frame_input.h"
 #include "terrane/render/frame_targets.h"
 #include "terrane/render/fullscreen_pass.h"
 #include "terrane/render/gbuffer_pass.h"
+#include "terrane/render/god_rays.h"
 #include "terrane/render/layer_pass.h"
 #include "terrane/render/light_store.h"
 #include "terrane/render/quad_resources.h"
@@ -66,11 +70,14 @@ class Renderer {
   private:
     base::Result<void> selectVariants(const RenderOptions& options, const FrameTargets& targets);
     void bindFrame(const FrameInput& input, const ViewMatrices& view);
-    void cull(const FrameInput& input, const ViewMatrices& view);
+    CullInput cullInput(const FrameInput& input, const ViewMatrices& view) const;
+    void cull(CullRun run, const CullInput& input);
     void drawShadows();
-    void drawSurfaces();
+    void drawSurfaces(const CullInput& cullInput);
+    void drawHiddenBefore(const CullInput& cullInput);
     void shadeSurfaces(float fogDistance);
     void drawLayers(const FrameInput& input);
+    void drawPicture(const FrameInput& input);
     bool hasShadows(const FrameInput& input) const;
 
     RenderOptions options_;
@@ -83,9 +90,13 @@ class Renderer {
     gpu::GpuTimer timer_;
 
     CullPass cull_;
+    DepthPyramid pyramid_;
     ShadowMap shadowMap_;
     GBufferPass gbuffer_;
     LayerPass layers_;
+    AmbientOcclusion occlusion_;
+    GodRays godRays_;
+    FarBlur farBlur_;
     SkyNoise noise_;
     FullscreenPass sky_, shade_, debugView_, final_;
 

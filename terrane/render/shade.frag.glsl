@@ -21,12 +21,13 @@ layout(location = 0) out vec4 outColor;
 vec4 shadeAt(Surface s, float depth, float open) {
     vec3 toPoint = inRay * blocksOfDepth(depth);
     vec3 position = frame.cameraPosition.xyz + toPoint;
-    if ((frame.camera.z & kSwitchUnlit) != 0) return throughAir(s.albedo, toPoint);
+    if ((frame.camera.z & kSwitchUnlit) != 0) return throughAir(s.albedo, toPoint, 1.0);
     float shadow = 1.0;
 #if SHADOW == 1
     shadow = lightShare(position, s.normal, length(toPoint));
 #endif
-    return throughAir(shade(s, levelsAt(position, s), shadow, open), toPoint);
+    vec4 levels = levelsAt(position, s);
+    return throughAir(shade(s, levels, shadow, open), toPoint, levels.a);
 }
 
 #if SAMPLES > 1 && PER_SAMPLE == 1

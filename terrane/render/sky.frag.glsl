@@ -1,6 +1,7 @@
-// The sky where it can be seen, behind surfaces that fade too. SAMPLES: of the G-buffer.
+// The sky where it can be seen, behind surfaces that fade too. SAMPLES: of the G-buffer. CLOUDS: 1 draws clouds.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/sky_color.glsl"
+#include "terrane/render/clouds.glsl"
 #if SAMPLES > 1
 #include "terrane/render/surfaces.glsl"
 #endif
@@ -9,6 +10,23 @@ layout(location = 0) in vec2 inScreen;
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
 
+// The sun is plain; the moon has plains, brighter and darker. `at`: from the disc's middle, 1 at its rim.
+vec3 discColor(vec2 at) {
+    float isMoon = frame.sky.y;
+    float pattern = texture(cloudNoise, 0.12 * at + 0.3).r + 0.5 * texture(cloudNoise, 0.3 * at).g;
+    float rim = sqrt(max(1.0 - dot(at, at), 0.0));
+    return frame.discColor.rgb * mix(1.0, (0.35 + 0.65 * smoothstep(0.5, 1.0, pattern)) * (0.6 + 0.4 * rim), isMoon);
+}
+
+vec4 disc(vec3 direction) {
+    vec3 light = frame.lightDirection.xyz;
+    vec3 across = normalize(cross(light, vec3(0.0, 0.0, 1.0))), up = cross(across, light);
+    vec2 at = vec2(dot(direction, across), dot(direction, up)) / sin(frame.lightColor.w);
+    float pixel = length(fwidth(at));
+    float share = dot(direction, light) > 0.0 ? 1.0 - smoothstep(1.0 - pixel, 1.0, length(at)) : 0.0;
+    return vec4(discColor(at), share);
+}
+
 void main() {
 #if SAMPLES > 1
     float farthest = 1.0;
@@ -16,7 +34,17 @@ void main() {
     if (blocksOfDepth(farthest) < 0.4 * frame.cameraPosition.w) discard;
 #endif
     vec3 direction = normalize(inRay);
-    float angle = acos(clamp(dot(direction, frame.lightDirection.xyz), -1.0, 1.0));
-    float disc = 1.0 - smoothstep(0.92, 1.0, angle / frame.lightColor.w);
-    outColor = vec4(skyColor(direction) + disc * frame.discColor.rgb, 0.0);
+    vec3 color = skyColor(direction);
+    vec4 sun = disc(direction);
+    float night = frame.discColor.w;
+#if CLOUDS == 1
+    float pixel = length(fwidth(direction));
+    color += stars(starDirection(direction), pixel) * night * (1.0 - sun.a) * smoothstep(0.0, 0.2, direction.z);
+    color = mix(color, max(color, sun.rgb), sun.a);
+    vec4 cloud = clouds(direction);
+    color = mix(color, cloud.rgb, cloud.a * 0.92);
+#else
+    color = mix(color, max(color, sun.rgb), sun.a);
+#endif
+    outColor = vec4(color, 0.0);
 }

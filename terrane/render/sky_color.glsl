@@ -1,9 +1,13 @@
-// The colour of the sky in a direction (unit length), without the disc of the sun or moon. Also what distance fades to.
+// The colour of the sky in a direction (unit length), without the disc of the sun or moon, clouds and stars. Also what
+// distance fades to and what water mirrors.
 vec3 skyColor(vec3 direction) {
     float height = max(direction.z, 0.0);
-    vec3 color = mix(frame.zenithColor.rgb, frame.horizonColor.rgb, exp(-5.0 * height));
+    // Darker toward the zenith, where one looks through less air, and pale near the horizon.
+    vec3 color = mix(frame.zenithColor.rgb, frame.horizonColor.rgb, exp(-5.5 * height));
     float toLight = max(dot(direction, frame.lightDirection.xyz), 0.0);
+    float t2 = toLight * toLight, t4 = t2 * t2, t8 = t4 * t4;
     float nearHorizon = exp(-3.0 * abs(direction.z));
-    float halo = 0.25 * pow(toLight, 4.0) * nearHorizon + 0.4 * pow(toLight, 24.0) + 0.5 * pow(toLight, 180.0);
-    return color + frame.glowColor.rgb * halo;
+    float near = exp(-90.0 * (1.0 - toLight)), nearer = exp(-520.0 * (1.0 - toLight));
+    float halo = 0.25 * t4 * nearHorizon + 0.28 * t8 * t8 + 0.35 * near;
+    return color + frame.glowColor.rgb * halo + frame.lightColor.rgb * 0.35 * nearer;
 }

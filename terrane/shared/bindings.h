@@ -19,6 +19,7 @@ const uint kRegionOrderBinding = 4u;
 const uint kVisibleBinding = 5u;
 const uint kCommandsBinding = 6u;
 const uint kCountsBinding = 7u;
+const uint kSeenBinding = 8u;
 
 // Texture units
 const uint kBlockTexturesUnit = 0u;
@@ -34,7 +35,11 @@ const uint kGodRaysUnit = 9u;
 const uint kBlurUnit = 10u;
 const uint kLayerColorUnit = 11u;  // three units: layers from the nearest
 const uint kLayerDepthUnit = 14u;  // three units
-const uint kDistanceUnit = 17u;    // distance along the view, one a pixel
+const uint kPyramidUnit = 17u;     // of depths
+
+// Image units
+const uint kPyramidFromImage = 0u;
+const uint kPyramidToImage = 1u;
 
 SHARED_END
 #endif

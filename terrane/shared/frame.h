@@ -27,6 +27,7 @@ struct Frame {
                     // side
     vec4
         light;  // x, y: the light on the screen, -1…1; z: how much of its rays is seen, 0…1; w: 1 under water
+    vec4 sky;      // x: how far the stars have turned, 0…1; y: 1 at night, when the light is the moon
     ivec4 camera;  // x, y: the camera's chunk; z: kSwitch… bits; w: the one layer shown, 0 for all
 };
 
@@ -55,7 +56,7 @@ SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(Frame) == 3 * 64 + 13 * 16, "std140 and std430 agree on mat4 and vec4");
+static_assert(sizeof(Frame) == 3 * 64 + 14 * 16, "std140 and std430 agree on mat4 and vec4");
 static_assert(sizeof(MaterialRecord) == 16);
 }  // namespace terrane::shared
 #endif

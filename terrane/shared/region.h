@@ -50,9 +50,20 @@ struct DrawCounts {
     uint regions;
 };
 
-// Bits of a region's word of visibility: groups of faces that may be seen, from each of the two places.
+// Bits of a region's word of visibility: groups of faces to draw for the camera, for the shadow map, and of
+// blended faces.
 const uint kCameraGroupBits = 0u;
 const uint kShadowGroupBits = 8u;
+const uint kBlendedGroupBits = 16u;
+
+// What a run of culling draws. Where regions behind others are left out there are two: those that were seen
+// in the frame before, then, behind the depth of these, those that are seen now.
+const uint kCullAll = 0u;
+const uint kCullSeenBefore = 1u;
+const uint kCullSeenNow = 2u;
+
+// The pyramid of depths: its finest texels are as many pixels a side, each next level twice as many.
+const uint kPyramidTexel = 8u;
 
 // What culling needs to know. A plane (a, w) holds the points p with dot(a, p) + w ≥ 0.
 struct CullFrame {
@@ -62,6 +73,8 @@ struct CullFrame {
     vec4 lightDirection;    // to the light; w: 1 where there is a shadow map
     ivec4 camera;           // x, y: its chunk; z: number of regions
     uvec4 firstCommand[3];  // of each list, in the buffer of commands
+    mat4 viewProjection;
+    vec4 viewport;  // width and height in pixels; distance of the near plane; levels of the pyramid
 };
 
 SHARED_END
@@ -70,7 +83,7 @@ SHARED_END
 namespace terrane::shared {
 static_assert(sizeof(RegionRecord) == 16 + 8 * kRangesOfRegion);
 static_assert(sizeof(DrawCommand) == 20);
-static_assert(sizeof(CullFrame) == 16 * 16);
+static_assert(sizeof(CullFrame) == 21 * 16);
 }  // namespace terrane::shared
 #endif
 #endif

@@ -20,21 +20,21 @@ struct ColorKey {
 
 // Colours as seen on a screen (sRGB, 0…255), by time of day; linear in between, around midnight too.
 constexpr std::array kLight = {
-    ColorKey{.12f, {52, 66, 92}},    ColorKey{.15f, {0, 0, 0}},       ColorKey{.2f, {255, 160, 90}},
+    ColorKey{.12f, {72, 90, 126}},    ColorKey{.15f, {0, 0, 0}},       ColorKey{.2f, {255, 160, 90}},
     ColorKey{.27f, {255, 236, 200}}, ColorKey{.73f, {255, 240, 208}}, ColorKey{.8f, {255, 140, 80}},
-    ColorKey{.85f, {0, 0, 0}},       ColorKey{.88f, {52, 66, 92}},
+    ColorKey{.85f, {0, 0, 0}},       ColorKey{.88f, {72, 90, 126}},
 };
 constexpr std::array kAmbient = {
-    ColorKey{.13f, {34, 40, 58}},    ColorKey{.2f, {120, 116, 132}}, ColorKey{.27f, {190, 200, 214}},
-    ColorKey{.73f, {190, 200, 214}}, ColorKey{.8f, {128, 112, 130}}, ColorKey{.87f, {34, 40, 58}},
+    ColorKey{.13f, {46, 54, 80}},    ColorKey{.2f, {120, 116, 132}}, ColorKey{.27f, {190, 200, 214}},
+    ColorKey{.73f, {190, 200, 214}}, ColorKey{.8f, {128, 112, 130}}, ColorKey{.87f, {46, 54, 80}},
 };
 constexpr std::array kZenith = {
-    ColorKey{.13f, {6, 9, 20}},     ColorKey{.2f, {58, 84, 132}}, ColorKey{.27f, {44, 112, 214}},
-    ColorKey{.73f, {44, 112, 214}}, ColorKey{.8f, {56, 66, 120}}, ColorKey{.87f, {6, 9, 20}},
+    ColorKey{.13f, {8, 12, 28}},     ColorKey{.2f, {58, 84, 132}}, ColorKey{.27f, {44, 112, 214}},
+    ColorKey{.73f, {44, 112, 214}}, ColorKey{.8f, {56, 66, 120}}, ColorKey{.87f, {8, 12, 28}},
 };
 constexpr std::array kHorizon = {
-    ColorKey{.13f, {20, 26, 44}},    ColorKey{.2f, {214, 168, 140}}, ColorKey{.27f, {182, 212, 236}},
-    ColorKey{.73f, {182, 212, 236}}, ColorKey{.8f, {214, 142, 122}}, ColorKey{.87f, {20, 26, 44}},
+    ColorKey{.13f, {24, 32, 54}},    ColorKey{.2f, {214, 168, 140}}, ColorKey{.27f, {182, 212, 236}},
+    ColorKey{.73f, {182, 212, 236}}, ColorKey{.8f, {214, 142, 122}}, ColorKey{.87f, {24, 32, 54}},
 };
 constexpr std::array kGlow = {
     ColorKey{.13f, {10, 14, 26}},   ColorKey{.2f, {255, 150, 70}}, ColorKey{.27f, {120, 104, 76}},
@@ -87,7 +87,9 @@ Environment environmentAt(float timeDay) {
     e.zenithColor = colorAt(kZenith, time);
     e.horizonColor = colorAt(kHorizon, time);
     e.glowColor = colorAt(kGlow, time);
-    e.discColor = (isSun ? 6.0f : 10.0f) * e.lightColor;
+    e.isMoon = !isSun;
+    e.starTurn = time;
+    e.discColor = (isSun ? 8.0f : 9.0f) * e.lightColor;
     e.starLight = glm::smoothstep(0.0f, 1.0f, glm::clamp((std::abs(time - 0.5f) - 0.29f) / 0.1f, 0.0f, 1.0f));
     e.discRadius = isSun ? 0.045f : 0.03f;
     const glm::vec3 noon = linearFromSrgb(kAmbient[2].color);

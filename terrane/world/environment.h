@@ -15,6 +15,8 @@ struct Environment {
     glm::vec3 glowColor;  // added to the sky around the light near the horizon
     glm::vec3 discColor;  // of the sun or moon itself
     float discRadius;     // of the sun or moon, radians
+    bool isMoon;          // the light is the moon
+    float starTurn;       // of the stars around the sky, 0…1 a day
     float starLight;      // brightness of the stars, 0 by day … 1 at night
     float lampShare;      // of lamp light that full daylight hides, 0 at night … 0.8
 };

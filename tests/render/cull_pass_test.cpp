@@ -83,8 +83,10 @@ class CullPassTest : public gpu::GlTest {
         const ViewMatrices view = viewMatrices(camera, 1.0f);
         regions_->update(cameraChunk(camera));
         ring_->beginFrame();
-        pass_->run({cameraChunk(camera), view.cameraPosition, frustumOf(view.viewProjection), light, shadow},
+        pass_->run(CullRun::All,
+                   {cameraChunk(camera), view.cameraPosition, frustumOf(view.viewProjection), light, shadow},
                    *regions_, *ring_);
+        pass_->queueCounts();
         ring_->endFrame();
         glFinish();
         const shared::DrawCounts& counts = pass_->counts();

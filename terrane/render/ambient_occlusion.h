@@ -1,0 +1,25 @@
+// Ambient occlusion in screen space, for the shading of surfaces. Used by the renderer on the context's
+// thread.
+#pragma once
+
+#include "terrane/render/frame_targets.h"
+#include "terrane/render/fullscreen_pass.h"
+
+namespace terrane::render {
+
+class AmbientOcclusion {
+  public:
+    AmbientOcclusion() = default;
+    explicit AmbientOcclusion(const gpu::ShaderLoader& shaders);
+
+    base::Result<void> configure(const FrameTargets& targets, bool isOn);
+    // From the bound G-buffer; bound for shading.
+    void draw() const;
+
+  private:
+    FullscreenPass find_, alongX_, alongY_;
+    ColorTarget open_, between_;
+    glm::ivec2 size_{0};
+};
+
+}  // namespace terrane::render

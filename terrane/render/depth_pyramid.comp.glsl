@@ -1,0 +1,41 @@
+// A level of the pyramid of depths: of each square of pixels the farthest, which is the smallest. Places beyond the picture
+// count as near. LEVEL_0: 1 makes the finest from the depth, 0 another from the one before. SAMPLES: of the depth.
+#include "terrane/render/frame_uniforms.glsl"
+#include "terrane/shared/region.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(binding = kPyramidToImage, r32f) writeonly uniform image2D to;
+
+#if LEVEL_0 == 1
+#if SAMPLES > 1
+layout(binding = kDepthUnit) uniform sampler2DMS depths;
+#else
+layout(binding = kDepthUnit) uniform sampler2D depths;
+#endif
+
+float farthestIn(ivec2 texel) {
+    ivec2 first = texel * int(kPyramidTexel), end = min(first + int(kPyramidTexel), ivec2(frame.viewport.xy));
+    float farthest = 1.0;
+    for (int y = first.y; y < end.y; ++y) {
+        for (int x = first.x; x < end.x; ++x) {
+            for (int k = 0; k < SAMPLES; ++k) farthest = min(farthest, texelFetch(depths, ivec2(x, y), k).r);
+        }
+    }
+    return farthest;
+}
+#else
+layout(binding = kPyramidFromImage, r32f) readonly uniform image2D from;
+
+float farthestIn(ivec2 texel) {
+    float farthest = 1.0;
+    for (int k = 0; k < 4; ++k) farthest = min(farthest, imageLoad(from, 2 * texel + ivec2(k & 1, k >> 1)).r);
+    return farthest;
+}
+#endif
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 size = imageSize(to);
+    if (texel.x < size.x && texel.y < size.y) imageStore(to, texel, vec4(farthestIn(texel)));
+}

@@ -1,0 +1,71 @@
+#include "terrane/render/depth_pyramid.h"
+
+#include <bit>
+
+#include "terrane/gpu/debug.h"
+#include "terrane/shared/region.h"
+
+namespace terrane::render {
+namespace {
+
+// A power of two, so that texel n of a level always lies over 2 n and 2 n + 1 of the finer one.
+glm::ivec2 finestSize(glm::ivec2 pixels) {
+    const auto side = [](int n) {
+        const auto texels = (static_cast<unsigned>(n) + shared::kPyramidTexel - 1) / shared::kPyramidTexel;
+        return static_cast<int>(std::bit_ceil(texels));
+    };
+    return {side(pixels.x), side(pixels.y)};
+}
+
+void dispatch(glm::ivec2 size) {
+    constexpr int kGroup = 8;  // local size of the shader
+    glDispatchCompute(static_cast<GLuint>((size.x + kGroup - 1) / kGroup),
+                      static_cast<GLuint>((size.y + kGroup - 1) / kGroup), 1);
+}
+
+}  // namespace
+
+base::Result<void> DepthPyramid::configure(const FrameTargets& targets, bool isOn) {
+    if (!isOn) {
+        texture_ = {};
+        return {};
+    }
+    const char* name = "terrane/render/depth_pyramid.comp.glsl";
+    if (samples_ != targets.samples) {
+        auto finest = gpu::Program::compute(*shaders_, name,
+                                            {{"LEVEL_0", "1"}, {"SAMPLES", std::to_string(targets.samples)}},
+                                            "depth pyramid");
+        if (!finest) return tl::unexpected(finest.error());
+        auto next =
+            gpu::Program::compute(*shaders_, name, {{"LEVEL_0", "0"}, {"SAMPLES", "1"}}, "depth pyramid");
+        if (!next) return tl::unexpected(next.error());
+        finest_ = std::move(*finest);
+        next_ = std::move(*next);
+        samples_ = targets.samples;
+    }
+    const glm::ivec2 size = finestSize(targets.size);
+    if (texture_.id() == 0 || texture_.size() != size) {
+        texture_ = gpu::Texture2D(size, GL_R32F, gpu::fullLevels(size), "depth pyramid");
+    }
+    return {};
+}
+
+void DepthPyramid::build() const {
+    const gpu::DebugGroup group("depth pyramid");
+    glBindImageTexture(shared::kPyramidToImage, texture_.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
+    finest_.use();
+    dispatch(texture_.size());
+    next_.use();
+    for (int level = 1; level < levels(); ++level) {
+        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+        glBindImageTexture(shared::kPyramidFromImage, texture_.id(), level - 1, GL_FALSE, 0, GL_READ_ONLY,
+                           GL_R32F);
+        glBindImageTexture(shared::kPyramidToImage, texture_.id(), level, GL_FALSE, 0, GL_WRITE_ONLY,
+                           GL_R32F);
+        dispatch(gpu::levelSize(texture_.size(), level));
+    }
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    bind();
+}
+
+}  // namespace terrane::render

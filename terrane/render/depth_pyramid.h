@@ -1,0 +1,31 @@
+// The farthest depths of squares of pixels, coarser and coarser, by which culling sees what is hidden. Used
+// by the renderer on the context's thread.
+#pragma once
+
+#include "terrane/gpu/program.h"
+#include "terrane/render/frame_targets.h"
+#include "terrane/shared/bindings.h"
+
+namespace terrane::render {
+
+class DepthPyramid {
+  public:
+    DepthPyramid() = default;
+    explicit DepthPyramid(const gpu::ShaderLoader& shaders) : shaders_(&shaders) {}
+
+    base::Result<void> configure(const FrameTargets& targets, bool isOn);
+    bool isOn() const { return texture_.id() != 0; }
+    int levels() const { return texture_.levels(); }
+
+    // From the bound depth; bound for culling.
+    void build() const;
+    void bind() const { texture_.bind(shared::kPyramidUnit); }
+
+  private:
+    const gpu::ShaderLoader* shaders_ = nullptr;
+    gpu::Program finest_, next_;
+    int samples_ = 0;
+    gpu::Texture2D texture_;
+};
+
+}  // namespace terrane::render

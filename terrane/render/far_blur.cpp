@@ -1,0 +1,43 @@
+#include "terrane/render/far_blur.h"
+
+#include "terrane/shared/bindings.h"
+
+namespace terrane::render {
+
+FarBlur::FarBlur(const gpu::ShaderLoader& shaders)
+    : alongX_(shaders, "far_blur"), alongY_(shaders, "far_blur"), smooth_({}, "smooth") {}
+
+base::Result<void> FarBlur::configure(const FrameTargets& targets, bool isOn) {
+    if (isOn) {
+        auto selected = alongX_.select({{"AXIS", "0"}, {"SAMPLES", std::to_string(targets.samples)}});
+        if (selected) selected = alongY_.select({{"AXIS", "1"}, {"SAMPLES", "1"}});
+        if (!selected) return selected;
+    }
+    const glm::ivec2 wanted = isOn ? (targets.size + 1) / 2 : glm::ivec2(0);
+    if (wanted == size_) return {};
+    between_ = {};
+    result_ = {};
+    size_ = {0, 0};
+    if (!isOn) return {};
+    auto between = ColorTarget::create(wanted, GL_RGBA16F, "blurred along x");
+    if (!between) return tl::unexpected(between.error());
+    auto result = ColorTarget::create(wanted, GL_RGBA16F, "blurred");
+    if (!result) return tl::unexpected(result.error());
+    between_ = std::move(*between);
+    result_ = std::move(*result);
+    size_ = wanted;
+    return {};
+}
+
+void FarBlur::draw(const FrameTargets& targets) const {
+    targets.sceneColor.bind(shared::kSceneUnit);
+    between_.framebuffer.bind();
+    alongX_.draw();
+    between_.texture.bind(shared::kBlurUnit);
+    smooth_.bind(shared::kBlurUnit);
+    result_.framebuffer.bind();
+    alongY_.draw();
+    result_.texture.bind(shared::kBlurUnit);
+}
+
+}  // namespace terrane::render

@@ -1,0 +1,27 @@
+// Depth of field as the air makes it: what is far away blurs. Used by the renderer on the context's thread.
+#pragma once
+
+#include "terrane/gpu/sampler.h"
+#include "terrane/render/frame_targets.h"
+#include "terrane/render/fullscreen_pass.h"
+
+namespace terrane::render {
+
+class FarBlur {
+  public:
+    FarBlur() = default;
+    explicit FarBlur(const gpu::ShaderLoader& shaders);
+
+    // Makes room for the blurred picture at half the size, or none.
+    base::Result<void> configure(const FrameTargets& targets, bool isOn);
+    // From the scene and the bound depth; bound for the final pass.
+    void draw(const FrameTargets& targets) const;
+
+  private:
+    FullscreenPass alongX_, alongY_;
+    gpu::Sampler smooth_;
+    ColorTarget between_, result_;
+    glm::ivec2 size_{0};
+};
+
+}  // namespace terrane::render

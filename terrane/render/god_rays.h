@@ -1,0 +1,28 @@
+// Rays of the sun or moon between what stands before it, in screen space. Used by the renderer on the
+// context's thread.
+#pragma once
+
+#include "terrane/gpu/sampler.h"
+#include "terrane/render/frame_targets.h"
+#include "terrane/render/fullscreen_pass.h"
+
+namespace terrane::render {
+
+class GodRays {
+  public:
+    GodRays() = default;
+    explicit GodRays(const gpu::ShaderLoader& shaders);
+
+    // Makes room for rays at half the size, or none.
+    base::Result<void> configure(glm::ivec2 size, bool isOn);
+    // From the scene's coverage; bound for the final pass.
+    void draw(const FrameTargets& targets) const;
+
+  private:
+    FullscreenPass pass_;
+    gpu::Sampler smooth_;
+    ColorTarget rays_;
+    glm::ivec2 size_{0};
+};
+
+}  // namespace terrane::render
