@@ -87,6 +87,7 @@ CASES = [
     (("dump", "-o", "{out}"), "--area"),
     (("dump", "--area", "0,0,100,100", "-o", "{out}"), "10000"),
     ((*DUMP, "--what", "nothing"), '"nothing"'),
+    ((*DUMP, "--backend", "abacus"), '"abacus"'),
     (("map", "-o", "{out}"), "--radius"),
     (("map", "--radius", "512", "-o", "{out}"), '"512"'),
     # Saves
