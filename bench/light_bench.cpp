@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "apps/terrane/scenes.h"
+#include "bench/bench_content.h"
 #include "terrane/base/digest.h"
-#include "terrane/base/embedded.h"
 #include "terrane/base/job_system.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
@@ -22,40 +22,17 @@
 #include "terrane/light/relight.h"
 #include "terrane/shared/hash.h"
 
-namespace terrane::embedded {
-std::span<const base::EmbeddedFile> content();
-}  // namespace terrane::embedded
-
 namespace {
 
 using namespace terrane;
+using bench::blockId;
+using bench::blocks;
+using bench::orExit;
 using light::ChunkLight;
 using light::LocalLight;
 
 constexpr int kViewDistance = 16;
 constexpr int kSide = 2 * kViewDistance + 3;  // chunks along x and y, one around those that are lit
-
-template <class T>
-T orExit(base::Result<T> result) {
-    if (result) return std::move(*result);
-    std::fprintf(stderr, "%s\n", result.error().message.c_str());
-    std::exit(1);
-}
-
-const world::BlockRegistry& blocks() {
-    static const world::BlockRegistry registry = [] {
-        std::string_view text;
-        for (const base::EmbeddedFile& file : embedded::content()) {
-            if (file.path == "blocks.toml") text = file.data;
-        }
-        return orExit(world::BlockRegistry::parse(text, "blocks.toml"));
-    }();
-    return registry;
-}
-
-world::BlockId blockId(std::string_view name) {
-    return blocks().find(name)->id;
-}
 
 const light::LightTable& table() {
     static const light::LightTable result(blocks());

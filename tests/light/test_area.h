@@ -8,7 +8,7 @@
 #include "terrane/light/chunk_light.h"
 #include "terrane/light/light_area.h"
 #include "terrane/shared/hash.h"
-#include "tests/light/content_blocks.h"
+#include "tests/world/content_blocks.h"
 
 namespace terrane::light {
 
