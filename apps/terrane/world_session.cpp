@@ -82,7 +82,7 @@ void uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, 
             continue;
         }
         if (change.mesh) renderer.setChunk(change.pos, *change.mesh);
-        if (change.light) renderer.setLight(change.pos, *change.light);
+        if (change.light) renderer.setLight(change.pos, *change.light, change.bricks);
     }
 }
 
