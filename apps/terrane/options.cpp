@@ -146,6 +146,10 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options) {
     addMeshOptions(command, options.mesh);
     addChoice<bool>(command, "--t-junctions", options.coverCracks, {{"covered", true}, {"open", false}},
                     "Cracks where rectangles of different sizes meet");
+    using render::LightSampling;
+    addChoice<LightSampling>(command, "--light", options.light,
+                             {{"classic", LightSampling::Classic}, {"smooth", LightSampling::Smooth}},
+                             "How light is sampled: four blocks, or more of those that it reaches");
     command
         .add_option("--shader-root", options.shaderRoot, "Source tree to read shaders from, for development")
         ->check(CLI::ExistingDirectory);

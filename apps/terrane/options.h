@@ -29,6 +29,7 @@ struct GraphicsOptions {
     render::View view = render::View::Color;
     mesh::MeshOptions mesh;
     bool coverCracks = true;
+    render::LightSampling light = render::LightSampling::Smooth;
     std::string shaderRoot;
     bool debugGl = false;
 };

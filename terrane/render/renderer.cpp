@@ -177,7 +177,7 @@ void Renderer::draw(const FrameInput& input) {
     glDisable(GL_DEPTH_TEST);
     sky_.draw();
     light_.bind();
-    terrain_.draw(drawList_, quads_, ring_);
+    terrain_.draw(drawList_, quads_, ring_, input.light);
     glDisable(GL_DEPTH_TEST);
     if (&targets_.world() != &targets_.scene) gpu::resolve(targets_.sampled, targets_.scene);
     targets_.picture.bind();

@@ -26,6 +26,7 @@ struct FrameInput {
     float timeSeconds = 0;    // for animations
     View view = View::Color;
     bool coverCracks = true;  // between quads of different sizes
+    LightSampling light = LightSampling::Classic;
 };
 
 struct FrameStatistics {

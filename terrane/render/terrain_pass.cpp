@@ -47,12 +47,15 @@ base::Result<TerrainPass> TerrainPass::create(const gpu::ShaderLoader& shaders,
                                               const world::BlockRegistry& blocks,
                                               gpu::Texture2DArray textures, float anisotropy) {
     TerrainPass pass;
-    for (std::size_t alphaClass = 0; alphaClass < pass.programs_.size(); ++alphaClass) {
-        auto program = gpu::Program::graphics(shaders, "terrane/render/terrain.vert.glsl",
-                                              "terrane/render/terrain.frag.glsl",
-                                              {{"ALPHA_CLASS", std::to_string(alphaClass)}}, "terrain");
-        if (!program) return tl::unexpected(program.error());
-        pass.programs_[alphaClass] = std::move(*program);
+    for (std::size_t light = 0; light < pass.programs_.size(); ++light) {
+        for (std::size_t alphaClass = 0; alphaClass < pass.programs_[light].size(); ++alphaClass) {
+            const gpu::ShaderDefines defines = {{"ALPHA_CLASS", std::to_string(alphaClass)},
+                                                {"LIGHT_SMOOTH", std::to_string(light)}};
+            auto program = gpu::Program::graphics(shaders, "terrane/render/terrain.vert.glsl",
+                                                  "terrane/render/terrain.frag.glsl", defines, "terrain");
+            if (!program) return tl::unexpected(program.error());
+            pass.programs_[light][alphaClass] = std::move(*program);
+        }
     }
     pass.textures_ = std::move(textures);
     pass.sampler_ = gpu::Sampler({.minFilter = GL_LINEAR_MIPMAP_LINEAR,
@@ -69,7 +72,8 @@ base::Result<TerrainPass> TerrainPass::create(const gpu::ShaderLoader& shaders,
     return pass;
 }
 
-void TerrainPass::draw(const DrawList& list, const QuadStore& quads, gpu::MappedRing& ring) {
+void TerrainPass::draw(const DrawList& list, const QuadStore& quads, gpu::MappedRing& ring,
+                       LightSampling light) {
     if (list.records.empty()) return;
     const gpu::DebugGroup group("terrain");
     const auto records = ring.write(std::span(list.records));
@@ -85,19 +89,22 @@ void TerrainPass::draw(const DrawList& list, const QuadStore& quads, gpu::Mapped
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    for (int context = 0; context < mesh::kContextCount; ++context) drawContext(list, context, ring);
+    const Programs& programs = programs_[static_cast<std::size_t>(light)];
+    for (int context = 0; context < mesh::kContextCount; ++context)
+        drawContext(list, context, ring, programs);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
 }
 
-void TerrainPass::drawContext(const DrawList& list, int context, gpu::MappedRing& ring) {
+void TerrainPass::drawContext(const DrawList& list, int context, gpu::MappedRing& ring,
+                              const Programs& programs) {
     const auto& commands = list.commands[static_cast<std::size_t>(context)];
     if (commands.empty()) return;
     const auto slice = ring.write(std::span(commands));
     assert(slice && "the ring holds a frame's draws");
     setState(context);
-    programs_[static_cast<std::size_t>(mesh::contextAlphaClass(context))].use();
+    programs[static_cast<std::size_t>(mesh::contextAlphaClass(context))].use();
     const void* offset = reinterpret_cast<const void*>(slice->offsetBytes);
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset,
                                 static_cast<GLsizei>(commands.size()), 0);

@@ -12,6 +12,9 @@
 
 namespace terrane::render {
 
+// How light is sampled between blocks: docs/light.md.
+enum class LightSampling : std::uint8_t { Classic, Smooth };
+
 class TerrainPass {
   public:
     // `anisotropy`: samples along the long side of a slanted texel footprint; 1 is none.
@@ -20,12 +23,13 @@ class TerrainPass {
                                             float anisotropy);
 
     // Into the bound framebuffer, with the frame's uniforms bound. Uploads the list into `ring`.
-    void draw(const DrawList& list, const QuadStore& quads, gpu::MappedRing& ring);
+    void draw(const DrawList& list, const QuadStore& quads, gpu::MappedRing& ring, LightSampling light);
 
   private:
-    void drawContext(const DrawList& list, int context, gpu::MappedRing& ring);
+    using Programs = std::array<gpu::Program, 3>;  // by alpha class
+    void drawContext(const DrawList& list, int context, gpu::MappedRing& ring, const Programs& programs);
 
-    std::array<gpu::Program, 3> programs_;  // by alpha class
+    std::array<Programs, 2> programs_;  // by LightSampling
     gpu::Texture2DArray textures_;
     gpu::Sampler sampler_;
     gpu::Buffer indices_, shapeFaces_, materials_;

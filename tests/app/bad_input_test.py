@@ -61,6 +61,7 @@ CASES = [
     (("play", "--size", "0x0"), '"0x0"'),
     ((*RENDER, "--view", "nothing"), '"nothing"'),
     ((*RENDER, "--view", "0"), '"0"'),
+    ((*RENDER, "--light", "loud"), '"loud"'),
     ((*RENDER, "--view-distance", "0"), '"0"'),
     ((*RENDER, "--view-distance", "65"), '"65"'),
     ((*RENDER, "--view-distance", "far"), '"far"'),

@@ -14,11 +14,18 @@ namespace terrane::render {
 namespace {
 
 const std::vector<gpu::ShaderDefines> kPlain = {{}};
-const std::vector<gpu::ShaderDefines> kAlphaClasses = {
-    {{"ALPHA_CLASS", "0"}}, {{"ALPHA_CLASS", "1"}}, {{"ALPHA_CLASS", "2"}}};
+std::vector<gpu::ShaderDefines> terrainVariants() {
+    std::vector<gpu::ShaderDefines> variants;
+    for (const char* alphaClass : {"0", "1", "2"}) {
+        for (const char* light : {"0", "1"})
+            variants.push_back({{"ALPHA_CLASS", alphaClass}, {"LIGHT_SMOOTH", light}});
+    }
+    return variants;
+}
 
 const std::vector<gpu::ShaderDefines>& variantsOf(std::string_view name) {
-    return name.starts_with("terrane/render/terrain.") ? kAlphaClasses : kPlain;
+    static const std::vector<gpu::ShaderDefines> terrain = terrainVariants();
+    return name.starts_with("terrane/render/terrain.") ? terrain : kPlain;
 }
 
 struct Stage {
@@ -84,13 +91,13 @@ TEST_F(Shaders, ReferenceCompilerAcceptsEveryVariant) {
             ++checked;
         }
     }
-    EXPECT_GE(checked, 9) << "terrain 2 × 3, fullscreen, sky, final";
+    EXPECT_GE(checked, 19) << "terrain 2 × 6, fullscreen, sky, final, light 4";
 }
 
 TEST_F(Shaders, ReferenceCompilerRefusesMistakes) {
     EXPECT_NE(complaints(folder_, kStages[1], "#version 450 core\nvoid main() { undeclared = 1; }\n"), "");
     const auto source = contentShaders().load("terrane/render/terrain.frag.glsl", gpu::ShaderStage::Fragment,
-                                              {{"ALPHA_CLASS", "1"}});
+                                              {{"ALPHA_CLASS", "1"}, {"LIGHT_SMOOTH", "0"}});
     ASSERT_TRUE(source);
     EXPECT_NE(complaints(folder_, kStages[0], source->text), "") << "another stage";
 }

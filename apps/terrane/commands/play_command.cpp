@@ -72,6 +72,7 @@ class PlayLoop {
         using Type = gpu::InputEvent::Type;
         for (const gpu::InputEvent& event : window_.events()) {
             if (event.type == Type::KeyPress && event.key == gpu::Key::Escape) window_.requestClose();
+            if (event.type == Type::KeyPress && event.key == gpu::Key::L) switchLight();
             const bool toggles = event.type == Type::ButtonPress && event.button == gpu::MouseButton::Middle;
             const bool captures = event.type == Type::ButtonPress && !isCaptured_;
             if (event.type == Type::ButtonPress && isCaptured_) build(event.button);
@@ -81,6 +82,11 @@ class PlayLoop {
             }
             if (event.type == Type::CursorMove && isCaptured_) turn(camera_, event.x, event.y);
         }
+    }
+
+    void switchLight() {
+        using Sampling = render::LightSampling;
+        light_ = light_ == Sampling::Smooth ? Sampling::Classic : Sampling::Smooth;
     }
 
     // The left button breaks the block that is looked at, the right one builds on it.
@@ -137,7 +143,7 @@ class PlayLoop {
         session_.pipeline->update();
         uploadChanges(*session_.pipeline, renderer_, kUploadsPerFrame);
         renderer_.draw({camera_, world::environmentAt(0.38f), fogDistance(options_.graphics.viewDistance),
-                        seconds, options_.graphics.view, options_.graphics.coverCracks});
+                        seconds, options_.graphics.view, options_.graphics.coverCracks, light_});
         renderer_.presentToWindow(size);
         window_.swapBuffers();
         return {};
@@ -148,6 +154,7 @@ class PlayLoop {
     WorldSession& session_;
     render::Renderer& renderer_;
     render::Camera camera_;
+    render::LightSampling light_ = options_.graphics.light;  // L switches
     bool isCaptured_ = false;
     std::size_t frames_ = 0;
 };

@@ -92,7 +92,8 @@ base::Result<void> renderPicture(const RenderOptions& options, const CLI::App& c
                                    fogDistance(options.graphics.viewDistance),
                                    0,
                                    options.graphics.view,
-                                   options.graphics.coverCracks};
+                                   options.graphics.coverCracks,
+                                   options.graphics.light};
     renderer->draw(input);
     const base::Image image = renderer->readImage();
     const double draw = millisecondsSince(drawStart);

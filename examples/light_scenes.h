@@ -1,0 +1,30 @@
+// Small worlds that show what light does. Used by light_pictures.cpp.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "terrane/render/camera.h"
+#include "terrane/world/block_registry.h"
+#include "terrane/world/world.h"
+
+namespace terrane::examples {
+
+struct LightScene {
+    const char* name;
+    void (*build)(world::World& world, const world::BlockRegistry& blocks);
+    render::Camera camera;
+    float timeDay;
+};
+
+// Worlds reach this many chunks from the middle one.
+constexpr int kSceneRadius = 3;
+
+// Four lamps in a cave, a glass house at dusk; a corner that light must not pass, a lamp on open ground from
+// above.
+const std::vector<LightScene>& lightScenes();
+
+// Open ground with so many lamps of four colours on it; the first one stands in the middle.
+void buildLamps(world::World& world, const world::BlockRegistry& blocks, int count);
+
+}  // namespace terrane::examples
