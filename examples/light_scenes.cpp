@@ -93,22 +93,26 @@ void buildCorner(World& world, const BlockRegistry& blocks) {
 }
 
 void buildOneLamp(World& world, const BlockRegistry& blocks) {
-    buildLamps(world, blocks, 1);
+    buildLamps(world, blocks, {1, 1});
 }
 
 }  // namespace
 
-void buildLamps(World& world, const BlockRegistry& blocks, int count) {
+void buildLamps(World& world, const BlockRegistry& blocks, LampCount count) {
     buildGround(world, blocks, "stone");
     constexpr std::array kLamps = {"lamp_white", "lamp_red", "lamp_green", "lamp_blue"};
     constexpr auto kSide = static_cast<unsigned>(kEnd - kFirst);
     world.setBlock({0, 0, kGround}, idOf(blocks, kLamps[0]));
-    for (unsigned placed = 1, k = 0; placed < static_cast<unsigned>(count); ++k) {
+    int placed = 1;
+    for (unsigned k = 0; placed < count.places; ++k) {
         const unsigned hash = shared::hash3(k, 7u, 0u, 1u);
         const BlockPos at{kFirst + static_cast<int>(hash % kSide),
                           kFirst + static_cast<int>(hash / kSide % kSide), kGround};
         if (world.block(at) != world::kAir) continue;
-        world.setBlock(at, idOf(blocks, kLamps[placed++ % 4]));
+        const bool isLamp = placed < count.lamps;
+        const char* name = isLamp ? kLamps[static_cast<std::size_t>(placed) % kLamps.size()] : "stone";
+        world.setBlock(at, idOf(blocks, name));
+        ++placed;
     }
 }
 

@@ -24,7 +24,11 @@ constexpr int kSceneRadius = 3;
 // above.
 const std::vector<LightScene>& lightScenes();
 
-// Open ground with so many lamps of four colours on it; the first one stands in the middle.
-void buildLamps(world::World& world, const world::BlockRegistry& blocks, int count);
+// Blocks at so many random places of open ground, the first ones lamps of four colours, the others stone. One
+// lamp stands in the middle.
+struct LampCount {
+    int lamps, places;
+};
+void buildLamps(world::World& world, const world::BlockRegistry& blocks, LampCount count);
 
 }  // namespace terrane::examples

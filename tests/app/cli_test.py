@@ -69,7 +69,7 @@ class Render(ProgramTest):
         self.assertEqual(result["triangles"]["opaque"] + result["triangles"]["transparent"], 2 * result["quads"])
         for key in ("set_up", "load", "draw", "all"):
             self.assertGreater(result["milliseconds"][key], 0, key)
-        for key in ("blocks", "quads"):
+        for key in ("blocks", "light", "light_gpu", "quads"):
             self.assertGreater(result["bytes"][key], 0, key)
 
     def test_the_picture_does_not_depend_on_threads(self):

@@ -120,6 +120,7 @@ base::Result<void> renderPicture(const RenderOptions& options, const CLI::App& c
             {"bytes",
              {{"blocks", (*session)->world.memoryBytes()},
               {"light", (*session)->pipeline->lightBytes()},
+              {"light_gpu", renderer->lightBytes()},
               {"quads", renderer->quadBytes()}}}};
         std::cout << result.dump() << '\n';
     }
