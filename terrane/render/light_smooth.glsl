@@ -27,9 +27,11 @@ float openness(vec4 light) {
     return light == vec4(0.0) ? 0.0 : 1.0;
 }
 
-// Whether light may go from one to the other directly: in the air it loses a level a step.
-bool isNear(vec4 a, vec4 b, int steps) {
-    return all(lessThan(abs(a - b), vec4((float(steps) + 0.5) / 15.0)));
+// 1 where one may see the other: in the air light loses a level a step. Falls to 0 over one level, so that nothing appears at
+// once where the sample moves.
+float link(vec4 a, vec4 b, float steps) {
+    vec4 d = abs(a - b);
+    return clamp(steps + 1.5 - 15.0 * max(max(d.r, d.g), max(d.b, d.a)), 0.0, 1.0);
 }
 
 // The last levels of a lamp fade into the dark: a straight line would end in an edge, and in the one colour that
@@ -41,10 +43,8 @@ vec4 toned(vec4 light) {
 // The four nodes around the sample. A node across the corner counts only if light gets round it: not between two opaque
 // blocks.
 struct Close {
-    vec4 light;   // of those that are open
-    float open;   // their share, by weight
-    vec4 middle;  // the nearest
-    ivec2 place;  // of the middle
+    vec4 light;  // of those that are open
+    float open;  // their share, by weight
 };
 
 Close closeNodes(Layer layer, vec2 at) {
@@ -52,35 +52,29 @@ Close closeNodes(Layer layer, vec2 at) {
     vec2 f = abs(at - vec2(middle));
     vec4 besideU = lightAt(layer, middle + ivec2(aside.x, 0)), besideV = lightAt(layer, middle + ivec2(0, aside.y));
     vec4 across = lightAt(layer, middle + aside);
+    vec4 nearest = lightAt(layer, middle);
     Close c;
-    c.place = middle;
-    c.middle = lightAt(layer, middle);
     vec4 weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
     vec2 open = vec2(openness(besideU), openness(besideV));
-    weights *= vec4(openness(c.middle), open, max(open.x, open.y) * openness(across));
+    weights *= vec4(openness(nearest), open, max(open.x, open.y) * openness(across));
     c.open = dot(weights, vec4(1.0));
-    c.light = (weights.x * c.middle + weights.y * besideU + weights.z * besideV + weights.w * across) / max(c.open, 1e-4);
+    c.light = (weights.x * nearest + weights.y * besideU + weights.z * besideV + weights.w * across) / max(c.open, 1e-4);
     return c;
 }
 
 // The mean of four points two blocks aside, diagonally, each from the nodes with even coordinates around it: where levels
-// fall by |x| + |y| that is max(|x|, 2) + max(|y|, 2) at these nodes, without a crease and with blunt corners. Nodes that light
-// does not reach directly do not count, `close` stands for them.
+// fall by |x| + |y| that is max(|x|, 2) + max(|y|, 2) at these nodes, without a crease and with blunt corners. Nodes that
+// cannot be seen from here do not count, `close` stands for them.
 vec4 farNodes(Layer layer, vec2 at, Close close) {
     vec2 t = 0.5 * at - 1.0;
     vec4 weightsU = 0.5 * vec4(1.0 - t.x, t.x, 1.0 - t.x, t.x), weightsV = 0.5 * vec4(1.0 - t.y, t.y, 1.0 - t.y, t.y);
-    vec4 inner[4] = vec4[](lightAt(layer, ivec2(2, 2)), lightAt(layer, ivec2(4, 2)), lightAt(layer, ivec2(2, 4)),
-                           lightAt(layer, ivec2(4, 4)));
     vec4 sum = vec4(0.0);
     float weights = 0.0;
     for (int k = 0; k < 16; ++k) {
-        ivec2 node = ivec2(k & 3, k >> 2), step = abs(2 * node - 3) >> 1;  // 0 or 1 steps of two out of the inner four
-        ivec2 side = node >> 1, away = abs(2 + 2 * side - close.place);
-        vec4 from = inner[side.x + 2 * side.y], light = from;
-        if (openness(from) == 0.0 || !isNear(from, close.middle, away.x + away.y)) continue;
-        if (step != ivec2(0)) light = lightAt(layer, 2 * node);
-        if (openness(light) == 0.0 || !isNear(light, from, 2 * (step.x + step.y))) continue;
-        float weight = weightsU[node.x] * weightsV[node.y];
+        ivec2 node = ivec2(k & 3, k >> 2);
+        vec4 light = lightAt(layer, 2 * node);
+        vec2 away = abs(at - vec2(2 * node));
+        float weight = weightsU[node.x] * weightsV[node.y] * openness(light) * link(light, close.light, away.x + away.y);
         sum += weight * light;
         weights += weight;
     }
