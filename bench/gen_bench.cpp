@@ -12,44 +12,24 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/bench_content.h"
 #include "terrane/base/digest.h"
-#include "terrane/base/embedded.h"
 #include "terrane/gen/builder.h"
 #include "terrane/gen/executor.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/program.h"
 
-namespace terrane::embedded {
-std::span<const base::EmbeddedFile> content();
-}  // namespace terrane::embedded
-
 namespace {
 
 using namespace terrane;
+using bench::blocks;
+using bench::orExit;
 using gen::BlockArray;
 using gen::ColumnValues;
 using world::ChunkPos;
 
 constexpr std::uint64_t kSeed = 1;
-
-template <class T>
-T orExit(base::Result<T> result) {
-    if (result) return std::move(*result);
-    std::fprintf(stderr, "%s\n", result.error().message.c_str());
-    std::exit(1);
-}
-
-const world::BlockRegistry& blocks() {
-    static const world::BlockRegistry registry = [] {
-        std::string_view text;
-        for (const base::EmbeddedFile& file : embedded::content()) {
-            if (file.path == "blocks.toml") text = file.data;
-        }
-        return orExit(world::BlockRegistry::parse(text, "blocks.toml"));
-    }();
-    return registry;
-}
 
 gen::GeneratorGraph graphOf(std::string_view name) {
     return orExit(gen::makeGenerator(name, blocks()));

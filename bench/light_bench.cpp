@@ -4,82 +4,35 @@
 
 #include <array>
 #include <bit>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "apps/terrane/scenes.h"
-#include "terrane/base/digest.h"
-#include "terrane/base/embedded.h"
-#include "terrane/base/job_system.h"
-#include "terrane/gen/generator.h"
-#include "terrane/gen/generators/catalogue.h"
+#include "bench/scene_chunks.h"
 #include "terrane/light/light_area.h"
 #include "terrane/light/relight.h"
 #include "terrane/shared/hash.h"
 
-namespace terrane::embedded {
-std::span<const base::EmbeddedFile> content();
-}  // namespace terrane::embedded
-
 namespace {
 
 using namespace terrane;
+using bench::blockId;
+using bench::blocks;
+using bench::orExit;
 using light::ChunkLight;
 using light::LocalLight;
 
-constexpr int kViewDistance = 16;
-constexpr int kSide = 2 * kViewDistance + 3;  // chunks along x and y, one around those that are lit
-
-template <class T>
-T orExit(base::Result<T> result) {
-    if (result) return std::move(*result);
-    std::fprintf(stderr, "%s\n", result.error().message.c_str());
-    std::exit(1);
-}
-
-const world::BlockRegistry& blocks() {
-    static const world::BlockRegistry registry = [] {
-        std::string_view text;
-        for (const base::EmbeddedFile& file : embedded::content()) {
-            if (file.path == "blocks.toml") text = file.data;
-        }
-        return orExit(world::BlockRegistry::parse(text, "blocks.toml"));
-    }();
-    return registry;
-}
-
-world::BlockId blockId(std::string_view name) {
-    return blocks().find(name)->id;
-}
+using bench::kSide;
 
 const light::LightTable& table() {
     static const light::LightTable result(blocks());
     return result;
 }
 
-// Chunks of the scene with one around them, x fastest.
-std::vector<world::Chunk> makeScene(std::string_view name) {
-    const glm::dvec3 at = app::findScene(name)->camera.position;
-    const world::ChunkPos centre =
-        world::chunkOf({static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y), 0});
-    const gen::Generator generator(orExit(gen::makeGenerator("overworld", blocks())), 1);
-    std::vector<world::Chunk> chunks(kSide * kSide);
-    base::JobSystem jobs(2);
-    const auto done = base::parallelFor(jobs, chunks.size(), [&](std::size_t k) {
-        chunks[k] = generator.generate({centre.x - kViewDistance - 1 + static_cast<int>(k) % kSide,
-                                        centre.y - kViewDistance - 1 + static_cast<int>(k) / kSide});
-    });
-    if (!done) std::exit(1);
-    return chunks;
-}
-
 const std::vector<world::Chunk>& landscape() {
-    static const std::vector<world::Chunk> chunks = makeScene("landscape");
+    static const std::vector<world::Chunk> chunks = bench::sceneChunks("landscape");
     return chunks;
 }
 
@@ -102,18 +55,6 @@ std::vector<ChunkLight> lightAll(const std::vector<LocalLight>& locals, light::L
         }
     }
     return lights;
-}
-
-std::string digestOf(const std::vector<ChunkLight>& lights) {
-    base::Digest digest;
-    std::vector<light::LightValue> values(world::kBlocksPerSection);
-    for (const ChunkLight& chunk : lights) {
-        for (int s = 0; s < world::kSectionsPerChunk; ++s) {
-            chunk.brick(s).unpack(std::span(values).first<world::kBlocksPerSection>());
-            digest.update(std::as_bytes(std::span(values)));
-        }
-    }
-    return digest.hex();
 }
 
 // Time a chunk that is lit, the ring around the area (12 %) included.
@@ -145,7 +86,7 @@ void neighbours(benchmark::State& state) {
     for (const ChunkLight& chunk : lights) bytes += chunk.memoryBytes();
     state.counters["time/chunk"] = perChunk(kLit);
     state.counters["bytes"] = static_cast<double>(bytes) / kLit;
-    state.SetLabel(digestOf(lights));
+    state.SetLabel(bench::digestOf(lights));
 }
 
 std::vector<ChunkLight> lightEverything(const std::vector<world::Chunk>& chunks, int side) {
@@ -162,17 +103,17 @@ void lightScene(benchmark::State& state, const std::vector<world::Chunk>& chunks
     for (const ChunkLight& chunk : lights) bytes += chunk.memoryBytes();
     state.counters["time/chunk"] = perChunk(chunks.size());
     state.counters["bytes"] = static_cast<double>(bytes) / static_cast<double>(chunks.size());
-    state.SetLabel(digestOf(lights));
+    state.SetLabel(bench::digestOf(lights));
 }
 
 void landscapeScene(benchmark::State& state) {
     lightScene(state, landscape());
 }
 void oceanScene(benchmark::State& state) {
-    lightScene(state, makeScene("ocean"));
+    lightScene(state, bench::sceneChunks("ocean"));
 }
 void caveScene(benchmark::State& state) {
-    lightScene(state, makeScene("cave"));
+    lightScene(state, bench::sceneChunks("cave"));
 }
 
 // Lamps of four colours on the ground or on what grows there, at random places.

@@ -2,36 +2,19 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "apps/terrane/scenes.h"
-#include "terrane/base/embedded.h"
+#include "bench/bench_content.h"
 #include "terrane/gen/builder.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/shared/hash.h"
-
-namespace terrane::embedded {
-std::span<const base::EmbeddedFile> content();
-}  // namespace terrane::embedded
 
 namespace terrane::bench {
 namespace {
 
 using world::BlockId;
 using world::ChunkPos;
-
-template <class T>
-T orExit(base::Result<T> result) {
-    if (result) return std::move(*result);
-    std::fprintf(stderr, "%s\n", result.error().message.c_str());
-    std::exit(1);
-}
-
-BlockId id(std::string_view name) {
-    return blocks().find(name)->id;
-}
 
 unsigned hashAt(int x, int y, int z) {
     return shared::hash3(static_cast<unsigned>(x), static_cast<unsigned>(y), static_cast<unsigned>(z), 1);
@@ -99,8 +82,8 @@ BlockId treeAt(int x, int y, int z) {
     const int ground = heightAt(treeX, treeY);
     if (ground <= kSeaLevel + 2 || hashAt(x >> 3, y >> 3, 2) % 3 == 0) return world::kAir;
     const int dx = x - treeX, dy = y - treeY, dz = z - ground - 5;
-    if (dx == 0 && dy == 0 && dz < 0 && dz >= -5) return id("oak_log");
-    return dx * dx + dy * dy + dz * dz <= 7 && hashAt(x, y, z) % 8 != 0 ? id("oak_leaves") : world::kAir;
+    if (dx == 0 && dy == 0 && dz < 0 && dz >= -5) return blockId("oak_log");
+    return dx * dx + dy * dy + dz * dz <= 7 && hashAt(x, y, z) % 8 != 0 ? blockId("oak_leaves") : world::kAir;
 }
 
 bool isCave(int x, int y, int z) {
@@ -113,14 +96,14 @@ BlockId terrainAt(int x, int y, int z) {
     const int height = heightAt(x, y);
     if (z < height - 4) {
         if (isCave(x, y, z)) return world::kAir;
-        return hashAt(x / 2, y / 2, z / 2) % 200 == 0 ? id("glowing_ore") : id("stone");
+        return hashAt(x / 2, y / 2, z / 2) % 200 == 0 ? blockId("glowing_ore") : blockId("stone");
     }
     const bool beach = height < kSeaLevel + 3;
-    if (z < height - 1) return beach ? id("sand") : id("dirt");
-    if (z < height) return beach ? id("sand") : id("grass");
-    if (z < kSeaLevel) return id("water");
+    if (z < height - 1) return beach ? blockId("sand") : blockId("dirt");
+    if (z < height) return beach ? blockId("sand") : blockId("grass");
+    if (z < kSeaLevel) return blockId("water");
     if (const BlockId tree = treeAt(x, y, z); tree != world::kAir) return tree;
-    return z == height && !beach && hashAt(x, y, z) % 9 == 0 ? id("grass_tuft") : world::kAir;
+    return z == height && !beach && hashAt(x, y, z) % 9 == 0 ? blockId("grass_tuft") : world::kAir;
 }
 
 MeshWorld terrain() {
@@ -158,7 +141,7 @@ MeshWorld perlinCaves() {
 
 MeshWorld random(const std::array<std::string_view, 4>& names) {
     std::array<BlockId, 4> ids;
-    for (std::size_t k = 0; k < 4; ++k) ids[k] = id(names[k]);
+    for (std::size_t k = 0; k < 4; ++k) ids[k] = blockId(names[k]);
     return fromBlocks([=](int x, int y, int z) {
         const unsigned hash = hashAt(x, y, z);
         return hash % 2 == 0 ? world::kAir : ids[hash / 2 % 4];
@@ -172,14 +155,15 @@ MeshWorld randomKinds() {
     return random({"stone", "oak_leaves", "water", "cyan_glass"});
 }
 MeshWorld checkerboard() {
-    return fromBlocks(
-        [stone = id("stone")](int x, int y, int z) { return (x + y + z) % 2 == 0 ? stone : world::kAir; });
+    return fromBlocks([stone = blockId("stone")](int x, int y, int z) {
+        return (x + y + z) % 2 == 0 ? stone : world::kAir;
+    });
 }
 MeshWorld empty() {
     return fromBlocks([](int, int, int) { return world::kAir; });
 }
 MeshWorld allStone() {
-    return fromBlocks([stone = id("stone")](int, int, int) { return stone; });
+    return fromBlocks([stone = blockId("stone")](int, int, int) { return stone; });
 }
 
 constexpr std::array kInputs = {NamedInput{"ocean", scene<0>},
@@ -196,17 +180,6 @@ constexpr std::array kInputs = {NamedInput{"ocean", scene<0>},
                                 NamedInput{"all_stone", allStone}};
 
 }  // namespace
-
-const world::BlockRegistry& blocks() {
-    static const world::BlockRegistry registry = [] {
-        std::string_view text;
-        for (const base::EmbeddedFile& file : embedded::content()) {
-            if (file.path == "blocks.toml") text = file.data;
-        }
-        return orExit(world::BlockRegistry::parse(text, "blocks.toml"));
-    }();
-    return registry;
-}
 
 std::vector<mesh::MeshInput> MeshWorld::inputs(const mesh::MeshOptions& options) const {
     constexpr std::size_t kRow = kGrid + 2;

@@ -11,8 +11,6 @@
 
 namespace terrane::bench {
 
-const world::BlockRegistry& blocks();
-
 constexpr int kGrid = 8;  // chunks along x and y that are meshed, one row more around them
 
 // The chunks of an input, and what the mesher takes of each.

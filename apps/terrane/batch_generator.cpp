@@ -7,8 +7,6 @@
 #include "terrane/base/job_system.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen_gpu/gpu_generator.h"
-#include "terrane/gpu/context.h"
-#include "terrane/gpu/device_info.h"
 
 namespace terrane::app {
 namespace {
@@ -73,21 +71,11 @@ base::Result<std::unique_ptr<BatchGenerator>> makeGpuBatches(const WorldOptions&
 
 }  // namespace
 
-void addBackendOption(CLI::App& command, Backend& backend) {
-    addChoice<Backend>(command, "--backend", backend,
-                       {{"auto", Backend::Auto}, {"cpu", Backend::Cpu}, {"gpu", Backend::Gpu}},
-                       "Where to generate");
-}
-
 base::Result<std::unique_ptr<BatchGenerator>> makeBatchGenerator(const WorldOptions& options, Backend backend,
                                                                  const world::BlockRegistry& blocks) {
-    if (backend != Backend::Cpu) {
-        auto context = gpu::HeadlessContext::create({});
-        if (!context && backend == Backend::Gpu) return tl::unexpected(context.error());
-        if (context && (backend == Backend::Gpu || !gpu::queryDevice().software)) {
-            return makeGpuBatches(options, blocks, std::move(*context));
-        }
-    }
+    auto context = openBackend(backend);
+    if (!context) return tl::unexpected(context.error());
+    if (*context) return makeGpuBatches(options, blocks, std::move(**context));
     auto generator = makeGenerator(options, blocks);
     if (!generator) return tl::unexpected(generator.error());
     return std::make_unique<CpuBatches>(std::move(*generator), threadCount(options));

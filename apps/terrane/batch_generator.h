@@ -8,16 +8,11 @@
 #include <span>
 #include <string>
 
-#include "apps/terrane/options.h"
+#include "apps/terrane/backend.h"
 #include "terrane/world/block_registry.h"
 #include "terrane/world/chunk.h"
 
 namespace terrane::app {
-
-enum class Backend : std::uint8_t { Auto, Cpu, Gpu };
-
-// --backend; Auto is the GPU where the renderer is a real one.
-void addBackendOption(CLI::App& command, Backend& backend);
 
 class BatchGenerator {
   public:

@@ -93,7 +93,7 @@ void uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, 
             base::logWarning("chunk {},{}: no room for its quads on the graphics card, it is not shown",
                              change.pos.x, change.pos.y);
         }
-        if (change.light) renderer.setLight(change.pos, *change.light);
+        if (change.light) renderer.setLight(change.pos, *change.light, change.bricks);
     }
 }
 

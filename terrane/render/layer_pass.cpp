@@ -39,7 +39,7 @@ base::Result<LayerPass::Target> LayerPass::makeTarget(const FrameTargets& target
     return target;
 }
 
-base::Result<void> LayerPass::configure(const FrameTargets& targets, int layers, bool hasShadows) {
+base::Result<void> LayerPass::configure(const FrameTargets& targets, int layers, gpu::ShaderDefines shading) {
     const std::string samples = std::to_string(targets.samples);
     if (layers > 0) {
         auto selected =
@@ -49,9 +49,9 @@ base::Result<void> LayerPass::configure(const FrameTargets& targets, int layers,
                 next_.select({{"PASS", "1"}, {"ALPHA_CLASS", "2"}, {"NEXT", "1"}, {"SAMPLES", samples}});
         }
         if (selected) {
-            selected = shade_.select({{"SAMPLES", samples},
-                                      {"LAYERS", std::to_string(layers)},
-                                      {"SHADOW", hasShadows ? "1" : "0"}});
+            shading.emplace_back("SAMPLES", samples);
+            shading.emplace_back("LAYERS", std::to_string(layers));
+            selected = shade_.select(shading);
         }
         if (!selected) return selected;
     }

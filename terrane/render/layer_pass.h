@@ -17,8 +17,8 @@ class LayerPass {
     LayerPass() = default;
     explicit LayerPass(const gpu::ShaderLoader& shaders);
 
-    // Makes room for `layers` of the targets' size and samples.
-    base::Result<void> configure(const FrameTargets& targets, int layers, bool hasShadows);
+    // Makes room for `layers` of the targets' size and samples. `shading`: defines SHADOW and LIGHT_SMOOTH.
+    base::Result<void> configure(const FrameTargets& targets, int layers, gpu::ShaderDefines shading);
 
     // Into textures of its own, behind nothing of the depth in `targets`. With the quads bound.
     void peel(const FrameTargets& targets, const CullPass& culled);

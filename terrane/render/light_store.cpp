@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cassert>
+#include <iterator>
 
 #include "terrane/base/profile.h"
 #include "terrane/shared/bindings.h"
@@ -34,8 +35,11 @@ TileValues tileOf(const std::array<std::uint16_t, world::kBlocksPerSection>& bri
     return tile;
 }
 
-std::size_t entryIndex(int x, int y, int z) {
-    return static_cast<std::size_t>(x + 2 * y + 4 * z);
+// Of a whole chunk. Tiles lie by x, y, z: a brick's eight are neighbours.
+constexpr auto filled(std::uint32_t entry) {
+    std::array<std::uint32_t, shared::kLightTilesPerChunk> entries{};
+    entries.fill(entry);
+    return entries;
 }
 
 }  // namespace
@@ -81,52 +85,59 @@ void LightStore::uploadTile(std::uint32_t tile, const std::uint16_t* values) {
     // Red in the lowest bits, as light::LightValue has it.
     pool_.uploadPart(at * kTile, glm::ivec3(kTile), GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4_REV,
                      std::as_bytes(std::span(values, kTileBlocks)));
+    ++uploadedTiles_;
 }
 
-void LightStore::uploadEntries(world::ChunkPos pos, const std::vector<std::uint32_t>& entries) {
+void LightStore::uploadEntries(world::ChunkPos pos, const Entries& entries) {
     const int mask = gridChunks_ - 1;
     grid_.uploadPart({2 * (pos.x & mask), 2 * (pos.y & mask), 0}, {2, 2, shared::kLightTilesHigh},
                      GL_RED_INTEGER, GL_UNSIGNED_INT, std::as_bytes(std::span(entries)));
 }
 
-void LightStore::set(world::ChunkPos pos, const light::ChunkLight& light) {
-    TERRANE_ZONE("upload light");
-    Tiles& tiles = chunks_[pos];
-    free_.insert(free_.end(), tiles.begin(), tiles.end());
-    tiles.clear();
-    std::vector<std::uint32_t> entries(shared::kLightTilesPerChunk);
-    std::array<std::uint16_t, world::kBlocksPerSection> brick;
-    for (int n = 0; n < world::kSectionsPerChunk; ++n) {
-        const light::LightBrick& packed = light.brick(n);
-        const bool isUniform = packed.isUniform();
-        if (!isUniform) packed.unpack(brick);
-        for (int k = 0; k < 8; ++k) {
-            const int x = k & 1, y = k >> 1 & 1, z = k >> 2;
-            std::uint32_t& entry = entries[entryIndex(x, y, 2 * n + z)];
-            if (isUniform) {
-                entry = shared::kLightUniformBit | packed.get(0);
-                continue;
-            }
-            const TileValues values = tileOf(brick, x, y, z);
-            const auto differs = [&](std::uint16_t v) { return v != values[0]; };
-            if (std::none_of(values.begin(), values.end(), differs)) {
-                entry = shared::kLightUniformBit | values[0];
-                continue;
-            }
-            entry = allocateTile();
-            tiles.push_back(entry);
-            uploadTile(entry, values.data());
-        }
+void LightStore::release(std::span<const std::uint32_t> entries) {
+    std::copy_if(entries.begin(), entries.end(), std::back_inserter(free_),
+                 [](std::uint32_t entry) { return (entry & shared::kLightUniformBit) == 0; });
+}
+
+void LightStore::setBrick(std::span<std::uint32_t, kTilesPerBrick> entries, const light::LightBrick& brick) {
+    release(entries);
+    if (brick.isUniform()) {
+        std::fill(entries.begin(), entries.end(), shared::kLightUniformBit | brick.uniformValue());
+        return;
     }
-    uploadEntries(pos, entries);
+    std::array<std::uint16_t, world::kBlocksPerSection> unpacked;
+    brick.unpack(unpacked);
+    for (int k = 0; k < static_cast<int>(kTilesPerBrick); ++k) {
+        const TileValues values = tileOf(unpacked, k & 1, k >> 1 & 1, k >> 2);
+        const auto differs = [&](std::uint16_t v) { return v != values[0]; };
+        std::uint32_t& entry = entries[static_cast<std::size_t>(k)];
+        if (std::none_of(values.begin(), values.end(), differs)) {
+            entry = shared::kLightUniformBit | values[0];
+            continue;
+        }
+        entry = allocateTile();
+        uploadTile(entry, values.data());
+    }
+}
+
+void LightStore::set(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks) {
+    TERRANE_ZONE("upload light");
+    const auto [it, isNew] = chunks_.try_emplace(pos, filled(shared::kLightUnknown));
+    const std::span entries(it->second);
+    for (int n = 0; n < world::kSectionsPerChunk; ++n) {
+        if (!isNew && (bricks >> n & 1) == 0) continue;
+        setBrick(entries.subspan(kTilesPerBrick * static_cast<std::size_t>(n)).first<kTilesPerBrick>(),
+                 light.brick(n));
+    }
+    uploadEntries(pos, it->second);
 }
 
 void LightStore::remove(world::ChunkPos pos) {
     const auto found = chunks_.find(pos);
     if (found == chunks_.end()) return;
-    free_.insert(free_.end(), found->second.begin(), found->second.end());
+    release(found->second);
     chunks_.erase(found);
-    uploadEntries(pos, std::vector<std::uint32_t>(shared::kLightTilesPerChunk, shared::kLightUnknown));
+    uploadEntries(pos, filled(shared::kLightUnknown));
 }
 
 void LightStore::bind() const {

@@ -6,6 +6,8 @@
 // four bits a component that grows by doubling.
 #pragma once
 
+#include <array>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -22,29 +24,36 @@ class LightStore {
     // Room for chunks up to `viewDistance` + 1 around the camera. Keeps nothing of what it had.
     explicit LightStore(int viewDistance);
 
-    void set(world::ChunkPos pos, const light::ChunkLight& light);
+    // `bricks`: which of the sixteen may differ from what was set before, a bit each; of a new chunk all
+    // count.
+    void set(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF);
     void remove(world::ChunkPos pos);
     void bind() const;
 
     // Chunks along a side of the grid: a power of two.
     int gridChunks() const { return gridChunks_; }
     std::size_t usedBytes() const { return (tileCount_ - free_.size()) * kTileBytes + gridBytes(); }
+    std::size_t uploadedTiles() const { return uploadedTiles_; }  // so far
 
   private:
     static constexpr std::size_t kTileBytes = 1024;  // 8³ blocks of 16 bits
-    using Tiles = std::vector<std::uint32_t>;        // numbers in the pool
+    static constexpr std::uint32_t kTilesPerBrick = 8;
+    using Entries = std::array<std::uint32_t, shared::kLightTilesPerChunk>;  // of the grid
 
     std::uint32_t allocateTile();
     void growPool();
     void uploadTile(std::uint32_t tile, const std::uint16_t* values);
-    void uploadEntries(world::ChunkPos pos, const std::vector<std::uint32_t>& entries);
+    void uploadEntries(world::ChunkPos pos, const Entries& entries);
+    void setBrick(std::span<std::uint32_t, kTilesPerBrick> entries, const light::LightBrick& brick);
+    void release(std::span<const std::uint32_t> entries);
     std::size_t gridBytes() const;
 
     int gridChunks_ = 0;
     gpu::Texture3D grid_, pool_;
     std::size_t tileCount_ = 0;  // handed out so far, free ones included
     std::vector<std::uint32_t> free_;
-    std::unordered_map<world::ChunkPos, Tiles, world::ChunkPosHash> chunks_;
+    std::size_t uploadedTiles_ = 0;
+    std::unordered_map<world::ChunkPos, Entries, world::ChunkPosHash> chunks_;
 };
 
 }  // namespace terrane::render

@@ -16,6 +16,7 @@ constexpr RenderOptions low() {
 constexpr RenderOptions medium() {
     RenderOptions o;
     o.samples = 2;
+    o.light = LightSampling::Smooth;
     o.shadowSize = 2048;
     o.depthOfField = false;
     o.layers = 2;
@@ -25,6 +26,7 @@ constexpr RenderOptions medium() {
 constexpr RenderOptions high() {
     RenderOptions o;
     o.samples = 4;
+    o.light = LightSampling::Smooth;
     o.shadowSize = 4096;
     o.occlusion = Occlusion::On;
     o.depthOfField = false;

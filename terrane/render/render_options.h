@@ -15,11 +15,15 @@ enum class Shading : std::uint8_t {
     Pixel,   // once a pixel: the nearest depth, the mean of colours and normals
 };
 
+// How light is sampled between blocks: docs/light.md.
+enum class LightSampling : std::uint8_t { Classic, Smooth };
+
 enum class Occlusion : std::uint8_t { Off, On, Raw };  // Raw shows it instead of the picture
 
 struct RenderOptions {
     int samples = 2;  // a pixel: 1, 2, 4, 8; the driver may take the next number it has
     Shading shading = Shading::Sample;
+    LightSampling light = LightSampling::Classic;
     int shadowSize = 2048;  // texels a side of the shadow map: 1024, 2048, 4096; 0: no shadows
     Occlusion occlusion = Occlusion::Off;
     bool depthOfField = true;

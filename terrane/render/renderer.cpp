@@ -111,7 +111,7 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
 }
 
 base::Result<void> Renderer::selectVariants(const RenderOptions& options, const FrameTargets& targets) {
-    const int samples = targets.samples;
+    const int samples = targets.samples, light = static_cast<int>(options.light);
     auto done = shadowMap_.resize(options.shading == Shading::Off ? 0 : options.shadowSize);
     if (done) done = pyramid_.configure(targets, options.hiddenRegionCulling);
     if (done) done = gbuffer_.select(options.sampledAlphaTest ? samples : 1);
@@ -119,11 +119,15 @@ base::Result<void> Renderer::selectVariants(const RenderOptions& options, const 
     if (done) {
         done = shade_.select(defined({{"SAMPLES", samples},
                                       {"PER_SAMPLE", options.shading == Shading::Pixel ? 0 : 1},
+                                      {"LIGHT_SMOOTH", light},
                                       {"SHADOW", shadowMap_.size() > 0 ? 1 : 0},
                                       {"OCCLUSION", options.occlusion == Occlusion::Off ? 0 : 1}}));
     }
-    if (done) done = layers_.configure(targets, options.layers, shadowMap_.size() > 0);
-    if (done) done = debugView_.select(defined({{"SAMPLES", samples}}));
+    if (done)
+        done = layers_.configure(
+            targets, options.layers,
+            {{"SHADOW", shadowMap_.size() > 0 ? "1" : "0"}, {"LIGHT_SMOOTH", std::to_string(light)}});
+    if (done) done = debugView_.select(defined({{"SAMPLES", samples}, {"LIGHT_SMOOTH", light}}));
     if (done) done = occlusion_.configure(targets, options.occlusion != Occlusion::Off);
     if (done) done = godRays_.configure(targets.size, options.godRays);
     if (done) done = farBlur_.configure(targets, options.depthOfField);

@@ -45,8 +45,10 @@ class Renderer {
     // The next frame shows the chunk so. False where the GPU has no room: it is not shown then.
     bool setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh);
     // Chunks without light are drawn as under the open sky. `viewDistance` of setViewDistance is the farthest
-    // that light is kept for.
-    void setLight(world::ChunkPos pos, const light::ChunkLight& light) { light_.set(pos, light); }
+    // that light is kept for. `bricks`: see LightStore.
+    void setLight(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF) {
+        light_.set(pos, light, bricks);
+    }
     void removeChunk(world::ChunkPos pos);
     // Makes room for light; what was set is forgotten.
     void setViewDistance(int chunks) { light_ = LightStore(chunks); }

@@ -58,6 +58,7 @@ void ChunkPipeline::setView(ChunkPos centre, int viewDistance, glm::vec2 directi
         ChunkChange& hidden = change(pos);
         hidden.mesh = nullptr;
         hidden.light = nullptr;
+        hidden.bricks = 0;
         hidden.isHidden = true;
     }
     giveUpLoads();

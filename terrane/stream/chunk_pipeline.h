@@ -29,7 +29,8 @@ struct ChunkChange {
     world::ChunkPos pos;
     MeshPtr mesh;
     light::ChunkLightPtr light;
-    bool isHidden = false;  // it is no longer on screen
+    std::uint16_t bricks = 0;  // of the light that changed, a bit each
+    bool isHidden = false;     // it is no longer on screen
 };
 
 struct Progress {
@@ -140,7 +141,7 @@ class ChunkPipeline {
     void applyEdits();
     bool relightIncrementally(const std::set<world::ChunkPos>& edited);
     void relightFromScratch(const std::set<world::ChunkPos>& edited);
-    void setLight(world::ChunkPos pos, light::ChunkLightPtr light);
+    void setLight(world::ChunkPos pos, light::ChunkLightPtr light, std::uint16_t bricks = 0xFFFF);
     void remesh();
     ChunkChange& change(world::ChunkPos pos);
 

@@ -82,7 +82,7 @@ bool ChunkPipeline::relightIncrementally(const std::set<ChunkPos>& edited) {
     }
     thread_local light::LightScratch scratch;
     for (const light::LightChange& c : light::relight(around, edits_, parts_.lights, scratch)) {
-        setLight(c.pos, around.at(c.pos).light);
+        setLight(c.pos, around.at(c.pos).light, c.bricks);
     }
     return true;
 }
@@ -98,9 +98,12 @@ void ChunkPipeline::relightFromScratch(const std::set<ChunkPos>& edited) {
     for (const ChunkPos pos : lit) setLight(pos, lightOf(surroundings(pos), parts_.lights));
 }
 
-void ChunkPipeline::setLight(ChunkPos pos, light::ChunkLightPtr light) {
+void ChunkPipeline::setLight(ChunkPos pos, light::ChunkLightPtr light, std::uint16_t bricks) {
     extras_[pos].light = light;
-    if (light) change(pos).light = std::move(light);
+    if (!light) return;
+    ChunkChange& changed = change(pos);
+    changed.light = std::move(light);
+    changed.bricks |= bricks;
 }
 
 void ChunkPipeline::remesh() {

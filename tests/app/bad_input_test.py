@@ -61,6 +61,7 @@ CASES = [
     (("play", "--size", "0x0"), '"0x0"'),
     ((*RENDER, "--view", "nothing"), '"nothing"'),
     ((*RENDER, "--view", "0"), '"0"'),
+    ((*RENDER, "--light", "loud"), '"loud"'),
     ((*RENDER, "--view-distance", "0"), '"0"'),
     ((*RENDER, "--view-distance", "65"), '"65"'),
     ((*RENDER, "--view-distance", "far"), '"far"'),
@@ -87,6 +88,7 @@ CASES = [
     (("dump", "-o", "{out}"), "--area"),
     (("dump", "--area", "0,0,100,100", "-o", "{out}"), "10000"),
     ((*DUMP, "--what", "nothing"), '"nothing"'),
+    ((*DUMP, "--backend", "abacus"), '"abacus"'),
     (("map", "-o", "{out}"), "--radius"),
     (("map", "--radius", "512", "-o", "{out}"), '"512"'),
     # Saves

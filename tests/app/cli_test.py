@@ -214,6 +214,11 @@ class Dump(ProgramTest):
                 self.assertEqual(level >> 12, 0)
         self.assertEqual({light.column(x, 3)[255] >> 12 for x in range(16)}, {15})
 
+    def test_light_is_the_same_on_both_back_ends(self):
+        cpu = self.dump("light", "7,-3,10,-1", "--backend", "cpu")
+        gpu = self.dump("light", "7,-3,10,-1", "--backend", "gpu")
+        self.assertEqual(cpu.data, gpu.data)
+
     def test_quads_of_the_flat_world(self):
         quads = self.dump("quads", "-3,5,-1,6", *FLAT)
         names = [name for name, _ in quads.descr]

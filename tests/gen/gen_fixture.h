@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "terrane/base/files.h"
 #include "terrane/gen/builder.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/kernels.h"
 #include "terrane/world/block_registry.h"
 #include "terrane/world/chunk.h"
 #include "terrane/world/coords.h"
+#include "tests/world/content_blocks.h"
 
 namespace terrane::world {
 
@@ -58,16 +58,6 @@ alpha = "blend"
 opacity = 1
 )",
                                                              "test blocks");
-    return registry;
-}
-
-// The block types that come with the program.
-inline const world::BlockRegistry& contentBlocks() {
-    static const world::BlockRegistry registry = [] {
-        const auto text = base::readFile(TERRANE_SOURCE_DIR "/assets/blocks.toml");
-        EXPECT_TRUE(text.has_value()) << (text ? "" : text.error().message);
-        return parseBlocks(text.value_or(""), "blocks.toml");
-    }();
     return registry;
 }
 

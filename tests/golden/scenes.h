@@ -8,7 +8,7 @@
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/mesh/chunk_mesher.h"
 #include "terrane/world/world.h"
-#include "tests/light/content_blocks.h"
+#include "tests/world/content_blocks.h"
 
 namespace terrane::golden {
 

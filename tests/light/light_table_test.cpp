@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/light/content_blocks.h"
+#include "tests/world/content_blocks.h"
 
 namespace terrane::light {
 namespace {

@@ -8,7 +8,7 @@
 #include "terrane/light/chunk_light.h"
 #include "terrane/light/light_area.h"
 #include "terrane/shared/hash.h"
-#include "tests/light/content_blocks.h"
+#include "tests/world/content_blocks.h"
 
 namespace terrane::light {
 
@@ -40,11 +40,12 @@ struct TestArea {
     void set(int x, int y, int z, world::BlockId id) {
         chunks[chunkIndex(x, y)].setBlock(world::blockIndex(x & 15, y & 15, z), id);
     }
-    std::vector<ChunkLight> lights() const {
+    LightArea view() const {
         LightArea area{chunksX, chunksY, {}};
         for (const world::Chunk& chunk : chunks) area.chunks.push_back(&chunk);
-        return lightArea(area, contentTable());
+        return area;
     }
+    std::vector<ChunkLight> lights() const { return lightArea(view(), contentTable()); }
     // Light of all blocks by index().
     std::vector<LightValue> solve() const { return flatten(lights()); }
     std::vector<LightValue> flatten(const std::vector<ChunkLight>& lights) const {

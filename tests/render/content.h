@@ -8,7 +8,7 @@
 #include "terrane/gpu/shader_loader.h"
 #include "terrane/render/block_textures.h"
 #include "terrane/render/render_options.h"
-#include "tests/light/content_blocks.h"
+#include "tests/world/content_blocks.h"
 
 namespace terrane::embedded {
 std::span<const base::EmbeddedFile> content();

@@ -27,7 +27,9 @@ class LightPictureTest : public gpu::GlTest {
     Renderer makeRenderer() {
         auto made = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice());
         EXPECT_TRUE(made);
-        EXPECT_TRUE(made->configure({96, 96}, plainOptions(1)));
+        RenderOptions options = plainOptions(1);
+        options.light = sampling_;
+        EXPECT_TRUE(made->configure({96, 96}, options));
         return std::move(*made);
     }
 
@@ -65,7 +67,7 @@ class LightPictureTest : public gpu::GlTest {
 
     // From 14 blocks above the lamp, so that borders of chunks and tiles lie in the picture wherever it
     // stands.
-    static base::Image draw(Renderer& renderer, const Scene& scene) {
+    base::Image draw(Renderer& renderer, const Scene& scene) {
         const Camera camera{.position = {scene.middle.x * 16.0 + scene.x + 0.5,
                                          scene.middle.y * 16.0 + scene.y + 0.5, scene.z + 14.0},
                             .yaw = 90,
@@ -87,6 +89,8 @@ class LightPictureTest : public gpu::GlTest {
         }
         return largest;
     }
+
+    LightSampling sampling_ = LightSampling::Classic;
 
     static int redAt(const base::Image& image, int x, int y) {
         return image.rgba[4 * static_cast<std::size_t>(x + y * image.width)];
@@ -112,6 +116,33 @@ TEST_F(LightPictureTest, BordersCannotBeSeen) {
     }
 }
 
+// Smooth light takes nodes with even coordinates from farther away: places of one parity give one picture.
+TEST_F(LightPictureTest, BordersCannotBeSeenInSmoothLight) {
+    sampling_ = LightSampling::Smooth;
+    const base::Image reference = picture({{0, 0}, 4, 4, 100});
+    for (const Scene& scene :
+         {Scene{{0, 0}, 8, 8, 100}, Scene{{0, 0}, 14, 14, 100}, Scene{{0, 0}, 0, 12, 100},
+          Scene{{0, 0}, 4, 4, 104}, Scene{{0, 0}, 6, 8, 112}, Scene{{-1, 3}, 2, 0, 96}}) {
+        EXPECT_LE(largestDifference(picture(scene), reference), 5)
+            << scene.x << ' ' << scene.y << ' ' << scene.z;
+    }
+    EXPECT_LE(largestDifference(picture({{0, 0}, 15, 7, 100}), reference), 16) << "the other parity";
+}
+
+// Of a point on the axis and one on the diagonal at the same distance from the lamp, how much brighter the
+// first is.
+TEST_F(LightPictureTest, SmoothLightIsRounder) {
+    constexpr int kAxis = 34, kDiagonal = 24;  // pixels; 34 / √2
+    const auto excess = [&](LightSampling sampling) {
+        sampling_ = sampling;
+        const base::Image image = picture({});
+        return redAt(image, 48 + kAxis, 48) - redAt(image, 48 + kDiagonal, 48 + kDiagonal);
+    };
+    const int classic = excess(LightSampling::Classic), smooth = excess(LightSampling::Smooth);
+    EXPECT_GT(classic, 12) << "the diamond";
+    EXPECT_LT(3 * smooth, 2 * classic);
+}
+
 TEST_F(LightPictureTest, FarAwayItIsTheSame) {
     const base::Image reference = picture({{0, 0}, 4, 4, 100});
     EXPECT_LE(largestDifference(picture({{1000, -777}, 4, 4, 100}), reference), 2);
@@ -125,6 +156,86 @@ TEST_F(LightPictureTest, LightThatChangesReplacesTheOld) {
     EXPECT_EQ(largestDifference(draw(renderer, {}), picture({.middle = {}, .isLit = false})), 0);
     load(renderer, {});
     EXPECT_EQ(largestDifference(draw(renderer, {}), picture({})), 0);
+}
+
+// Two rooms of stone whose only contact is an edge, a lamp in one.
+class LightCornerTest : public LightPictureTest {
+  protected:
+    // The darker room's floor at the edge, from above; without the lamp's room it would be as dark as
+    // everywhere.
+    int redBesideTheEdge(LightSampling sampling, bool isLit) {
+        sampling_ = sampling;
+        Renderer renderer = makeRenderer();
+        std::vector<world::Chunk> chunks(9);
+        const auto set = [&](int x, int y, int z, std::string_view name) {
+            chunks[static_cast<std::size_t>(x / 16 + 3 * (y / 16))].setBlock(
+                world::blockIndex(x & 15, y & 15, z), contentBlock(name));
+        };
+        for (int k = 0; k < 48 * 48; ++k) {
+            const int x = k % 48, y = k / 48;
+            const bool isRoom = (x < 24) == (y < 24) && x > 16 && x < 31 && y > 16 && y < 31;
+            set(x, y, 99, "stone");
+            if (!isRoom) {
+                for (int z = 100; z < 104; ++z) set(x, y, z, "stone");
+            }
+            set(x, y, 104, "stone");
+        }
+        if (isLit) set(26, 26, 100, "lamp_red");
+        loadChunks(renderer, chunks);
+        // In the dark room, over the block at its corner.
+        const Camera camera{.position = {23.5, 23.5, 103.0}, .yaw = 90, .pitch = -90};
+        renderer.draw({camera, world::environmentAt(0.0f), 4096, 0, View::Color});
+        const base::Image image = renderer.readImage();
+        int brightest = 0;
+        for (int y = 40; y < 56; ++y) {
+            for (int x = 40; x < 56; ++x) brightest = std::max(brightest, redAt(image, x, y));
+        }
+        return brightest;
+    }
+
+    void loadChunks(Renderer& renderer, const std::vector<world::Chunk>& chunks) {
+        light::LightArea area{3, 3, {}};
+        for (const world::Chunk& chunk : chunks) area.chunks.push_back(&chunk);
+        const auto lights = light::lightArea(area, light::LightTable(contentBlocks()));
+        mesh::MeshScratch scratch;
+        const mesh::MeshInput input{
+            &chunks[4], {&chunks[3], &chunks[5], &chunks[1], &chunks[7]}, &contentBlocks(), {}};
+        renderer.setChunk({1, 1}, mesh::meshChunk(input, scratch));
+        for (int k = 0; k < 9; ++k) renderer.setLight({k % 3, k / 3}, lights[static_cast<std::size_t>(k)]);
+    }
+};
+
+TEST_F(LightCornerTest, SmoothLightDoesNotLeak) {
+    const int dark = redBesideTheEdge(LightSampling::Classic, false);
+    EXPECT_GT(redBesideTheEdge(LightSampling::Classic, true), dark + 15) << "classic light does";
+    EXPECT_LE(redBesideTheEdge(LightSampling::Smooth, true),
+              redBesideTheEdge(LightSampling::Smooth, false) + 1);
+}
+
+class LightStoreTest : public gpu::GlTest {};
+
+TEST_F(LightStoreTest, UploadsTheBricksThatChanged) {
+    std::array<world::Section::Value, world::kBlocksPerSection> values{};
+    light::ChunkLight light;
+    for (int n = 0; n < 4; ++n) {
+        for (std::size_t k = 0; k < values.size(); ++k)
+            values[k] = static_cast<world::Section::Value>(k + static_cast<std::size_t>(n));
+        light.setBrick(n, world::Section::fromValues(values));
+    }
+    LightStore store(2);
+    store.set({0, 0}, light, 0b1);  // a chunk that is new is taken as a whole
+    EXPECT_EQ(store.uploadedTiles(), 4u * 8);
+    const std::size_t bytes = store.usedBytes();
+    light.setBrick(2, world::Section(7));
+    light.setBrick(3, light.brick(0));
+    store.set({0, 0}, light, 0b100);
+    EXPECT_EQ(store.uploadedTiles(), 4u * 8) << "one value needs no tile";
+    EXPECT_EQ(store.usedBytes(), bytes - 8 * 1024);
+    store.set({0, 0}, light, 0b1000);
+    EXPECT_EQ(store.uploadedTiles(), 5u * 8);
+    EXPECT_EQ(store.usedBytes(), bytes - 8 * 1024);
+    store.remove({0, 0});
+    EXPECT_EQ(store.usedBytes(), bytes - 4 * 8 * 1024);
 }
 
 // Chunks of noise fill the pool until it grows; what it had stays, and what is removed is used again.

@@ -273,6 +273,22 @@ TEST_F(ChunkPipelineTest, PlantsAreMeshedByTheirStage) {
     EXPECT_EQ(left, (std::set<std::uint16_t>{3, 2, 1, 0}));
 }
 
+TEST_F(ChunkPipelineTest, AnEditNamesTheBricksWhoseLightItChanged) {
+    setView({0, 0}, 1);
+    settle();
+    placeBlock({8, 8, 100}, "lamp_red");  // brick 6, 5 and 7 by its light, 4 by its shadow
+    update();
+    int lit = 0;
+    for (const ChunkChange& change : pipeline_->takeChanges(kAll)) {
+        lit += change.light ? 1 : 0;
+        EXPECT_EQ(change.bricks & ~0b11110000, 0) << change.pos.x << ' ' << change.pos.y;
+        if (change.pos == ChunkPos{0, 0}) {
+            EXPECT_EQ(change.bricks, 0b11110000);
+        }
+    }
+    EXPECT_GE(lit, 5);
+}
+
 TEST_F(ChunkPipelineTest, ChunksOthersAskForAreLoadedAndKept) {
     setView({0, 0}, 0);
     settle();

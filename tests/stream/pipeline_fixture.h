@@ -10,7 +10,7 @@
 
 #include "terrane/gen/builder.h"
 #include "terrane/stream/chunk_pipeline.h"
-#include "tests/light/content_blocks.h"
+#include "tests/world/content_blocks.h"
 
 namespace terrane::stream {
 
@@ -77,9 +77,18 @@ class PipelineTest : public testing::Test {
             }
             Shown& shown = shown_[change.pos];
             if (change.mesh) shown.mesh = change.mesh;
-            if (change.light) shown.light = change.light;
+            if (change.light) shown.light = withBricks(shown.light, change);
         }
         return changes.size();
+    }
+
+    // As a renderer does that uploads nothing but the bricks which are said to have changed.
+    static light::ChunkLightPtr withBricks(const light::ChunkLightPtr& old, const ChunkChange& change) {
+        if (!old) return change.light;
+        auto light = std::make_shared<light::ChunkLight>(*old);
+        for (int n = 0; n < world::kSectionsPerChunk; ++n)
+            if ((change.bricks >> n & 1) != 0) light->setBrick(n, change.light->brick(n));
+        return light;
     }
 
     // Until the view is complete and no job is left.

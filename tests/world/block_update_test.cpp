@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "tests/light/content_blocks.h"
+#include "tests/world/content_blocks.h"
 
 namespace terrane::world {
 

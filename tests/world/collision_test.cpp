@@ -6,7 +6,7 @@
 #include <memory>
 #include <random>
 
-#include "tests/light/content_blocks.h"
+#include "tests/world/content_blocks.h"
 
 namespace terrane::world {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "terrane/world/block_update.h"
-#include "tests/light/content_blocks.h"
+#include "tests/world/content_blocks.h"
 
 namespace terrane::world {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
+#include "apps/terrane/light_solver.h"
 #include "apps/terrane/save_identity.h"
 #include "apps/terrane/world_session.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/npy.h"
-#include "terrane/light/light_area.h"
 #include "terrane/mesh/chunk_mesher.h"
 #include "terrane/store/memory_store.h"
 
@@ -25,6 +25,7 @@ struct DumpOptions {
     What what = What::Blocks;
     std::string output;
     std::string save;  // empty: none
+    Backend backend = Backend::Auto;
 };
 
 // The file is made in memory, 128 KiB a chunk, and written from a copy: 4,096 chunks take about 1 GiB.
@@ -88,12 +89,12 @@ base::NpyArray dumpBlocks(const LoadedArea& area) {
     });
 }
 
-base::NpyArray dumpLight(const LoadedArea& area, const world::BlockRegistry& blocks) {
+base::NpyArray dumpLight(const LoadedArea& area, light::AreaSolver& solver) {
     light::LightArea around{area.chunksX() + 2, area.chunksY() + 2, {}};
     for (int y = -1; y <= area.chunksY(); ++y) {
         for (int x = -1; x <= area.chunksX(); ++x) around.chunks.push_back(&area.chunk(x, y));
     }
-    const std::vector<light::ChunkLight> lights = light::lightArea(around, light::LightTable(blocks));
+    const std::vector<light::ChunkLight> lights = solver.solve(around);
     return volume(area, [&](int x, int y, int z) {
         const int chunk = x / world::kChunkSize + 1 + around.chunksX * (y / world::kChunkSize + 1);
         return lights[static_cast<std::size_t>(chunk)].get(x & 15, y & 15, z);
@@ -175,6 +176,9 @@ base::Result<void> dump(DumpOptions& options, const CLI::App& command) {
     if (!save) return tl::unexpected(save.error());
     auto generator = makeGenerator(options.world, *blocks);
     if (!generator) return tl::unexpected(generator.error());
+    const light::LightTable lights(*blocks);
+    auto solver = makeLightSolver(options.what == What::Light ? options.backend : Backend::Cpu, lights);
+    if (!solver) return tl::unexpected(solver.error());
     base::JobSystem jobs(threadCount(options.world));
     LoadedArea loaded(area);
     if (auto done = loaded.load(save->get(), *generator, jobs); !done) return done;
@@ -185,7 +189,7 @@ base::Result<void> dump(DumpOptions& options, const CLI::App& command) {
             array = dumpBlocks(loaded);
             break;
         case What::Light:
-            array = dumpLight(loaded, *blocks);
+            array = dumpLight(loaded, **solver);
             break;
         case What::Quads:
             array = dumpQuads(loaded, area, *blocks);
@@ -206,6 +210,7 @@ CommandEntry addDump(CLI::App& app) {
     addChoice<What>(*command, "--what", options->what,
                     {{"blocks", What::Blocks}, {"light", What::Light}, {"quads", What::Quads}},
                     "What to write");
+    addBackendOption(*command, options->backend, "Where to find the light");
     addOutputOption(*command, options->output, "The .npy file");
     addWorldOptions(*command, options->world);
     addSaveOption(*command, options->save, "Save to take the chunks from; what it lacks is generated");

@@ -211,7 +211,7 @@ CommandEntry addGenerate(CLI::App& app) {
     command->add_flag("--digest", options->digest, "Print one hash over all blocks");
     command->add_flag("--json", options->json, "Print the result as JSON");
     command->add_flag("--explain", options->explain, "Print the generator's passes and their GLSL instead");
-    addBackendOption(*command, options->backend);
+    addBackendOption(*command, options->backend, "Where to generate");
     command->add_option("--simd", options->simd, "Instruction set, as info lists them (default: the best)");
     addWorldOptions(*command, options->world);
     addSaveOption(*command, options->save,

@@ -135,6 +135,13 @@ void Game::onKey(gpu::Key key) {
             day_.isRunning = !day_.isRunning;
             say(day_.isRunning ? "time passes" : "time stands still");
             break;
+        case Key::L: {
+            using render::LightSampling;
+            render::LightSampling& light = settings_.graphics.light;
+            light = light == LightSampling::Smooth ? LightSampling::Classic : LightSampling::Smooth;
+            say(light == LightSampling::Smooth ? "smooth light" : "classic light");
+            break;
+        }
         case Key::M: {
             const int next =
                 (static_cast<int>(settings_.movement) + 1) % static_cast<int>(movementWords().size());

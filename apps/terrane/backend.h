@@ -1,0 +1,20 @@
+// --backend: whether work that both can do is done by the processor or by the graphics card.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/terrane/options.h"
+#include "terrane/gpu/context.h"
+
+namespace terrane::app {
+
+enum class Backend : std::uint8_t { Auto, Cpu, Gpu };
+
+// Auto is the GPU where the renderer is a real one.
+void addBackendOption(CLI::App& command, Backend& backend, const std::string& description);
+
+// A context to work in, or nothing where the processor is to do it.
+base::Result<std::optional<gpu::HeadlessContext>> openBackend(Backend backend);
+
+}  // namespace terrane::app

@@ -1,0 +1,52 @@
+// Light of whole areas by both back ends, over the landscape scene with a view distance of 16. The label is a
+// digest of the light: the same for both.
+#include <benchmark/benchmark.h>
+
+#include "bench/scene_chunks.h"
+#include "terrane/gpu/context.h"
+#include "terrane/light_gpu/gpu_light_solver.h"
+
+namespace terrane::embedded {
+std::span<const base::EmbeddedFile> shaders();
+}  // namespace terrane::embedded
+
+namespace {
+
+using namespace terrane;
+
+const light::LightTable& table() {
+    static const light::LightTable result(bench::blocks());
+    return result;
+}
+
+void solve(benchmark::State& state, light::AreaSolver& solver, std::string_view scene) {
+    const std::vector<world::Chunk> chunks = bench::sceneChunks(scene);
+    light::LightArea area{bench::kSide, bench::kSide, {}};
+    for (const world::Chunk& chunk : chunks) area.chunks.push_back(&chunk);
+    std::vector<light::ChunkLight> lights;
+    for (auto _ : state) lights = solver.solve(area);
+    state.counters["time/chunk"] =
+        benchmark::Counter(static_cast<double>(chunks.size()),
+                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.SetLabel(bench::digestOf(lights));
+}
+
+void onCpu(benchmark::State& state, std::string_view scene) {
+    solve(state, *light::makeCpuSolver(table()), scene);
+}
+
+void onGpu(benchmark::State& state, std::string_view scene) {
+    static const auto context = bench::orExit(gpu::HeadlessContext::create({}));
+    static const gpu::ShaderLoader shaders(embedded::shaders());
+    auto solver = bench::orExit(light_gpu::GpuLightSolver::create(shaders, table()));
+    solve(state, solver, scene);
+}
+
+BENCHMARK_CAPTURE(onCpu, landscape, "landscape")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(onGpu, landscape, "landscape")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(onCpu, cave, "cave")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(onGpu, cave, "cave")->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+
+BENCHMARK_MAIN();

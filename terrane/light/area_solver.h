@@ -1,0 +1,25 @@
+// Light of areas from scratch, by whichever back end: the processor here, compute shaders in
+// terrane/light_gpu. They give the same light, to the bit.
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "terrane/light/light_area.h"
+
+namespace terrane::light {
+
+class AreaSolver {
+  public:
+    virtual ~AreaSolver() = default;
+
+    // Light of all chunks, in the order of `area.chunks`.
+    virtual std::vector<ChunkLight> solve(const LightArea& area) = 0;
+    virtual std::string_view backend() const = 0;  // "cpu" or "gpu"
+};
+
+// One thread, any. `table` outlives it.
+std::unique_ptr<AreaSolver> makeCpuSolver(const LightTable& table);
+
+}  // namespace terrane::light

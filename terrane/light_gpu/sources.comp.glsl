@@ -1,0 +1,66 @@
+// First levels: emission, and daylight that comes down each column. A work group is a chunk, an invocation the two
+// columns of a word.
+#include "terrane/light_gpu/cells.glsl"
+
+layout(local_size_x = 8, local_size_y = 16) in;
+
+layout(std430, binding = kSolverCellsBinding) writeonly buffer Cells {
+    uint cells[];  // what kCellIs… says
+};
+
+// Of the four cells of a layer of cells, for two layers in turn.
+shared uint allLight[2][4], anyLight[2][4], allOpacity[2][4];
+
+uint daylight[2];  // of the invocation's columns
+
+void resetCell(uint turn, uint k) {
+    allLight[turn][k] = 0xFFFFFFFFu;
+    anyLight[turn][k] = 0u;
+    allOpacity[turn][k] = 15u;
+}
+
+uint sourceAt(uint chunk, uvec3 block, uint column, inout uint opacities) {
+    uint property = propertyAt(chunk, block), opacity = opacityOf(property);
+    opacities &= opacity;
+    daylight[column] -= min(daylight[column], opacity);
+    return emissionOf(property) | daylight[column] << 12;
+}
+
+uint summary(uint turn, uint k) {
+    uint all = allLight[turn][k], any = anyLight[turn][k];
+    bool isUniform = all == any && (all & 0xFFFFu) == all >> 16;
+    return ((any | any >> 16) & 0xFFFFu) | (isUniform ? kCellIsUniform : 0u) |
+           (allOpacity[turn][k] == 15u ? kCellIsOpaque : 0u);
+}
+
+void main() {
+    uint chunk = gl_WorkGroupID.x, local = gl_LocalInvocationIndex;
+    uvec2 corner = 2u * uvec2(chunk % areaChunks.x, chunk / areaChunks.x);
+    uvec2 at = gl_LocalInvocationID.xy;  // x in words
+    uint quarter = at.x / 4u + 2u * (at.y / 8u);
+    if (local < 8u) resetCell(local >> 2, local & 3u);
+    barrier();
+    daylight[0] = 15u;
+    daylight[1] = 15u;
+    for (uint layer = kCellsHigh; layer-- > 0u;) {
+        uint turn = layer & 1u, all = 0xFFFFFFFFu, any = 0u, opacities = 15u;
+        uint cell = cellIndex(uvec3(corner + uvec2(at.x / 4u, at.y / 8u), layer));
+        for (uint k = kCellSize; k-- > 0u;) {
+            uvec3 block = uvec3(2u * at.x, at.y, kCellSize * layer + k);
+            uint word = sourceAt(chunk, block, 0u, opacities);
+            word |= sourceAt(chunk, block + uvec3(1u, 0u, 0u), 1u, opacities) << 16;
+            levels[wordIndex(cell, uvec3(at.x & 3u, at.y & 7u, k))] = word;
+            all &= word;
+            any |= word;
+        }
+        atomicAnd(allLight[turn][quarter], all);
+        atomicOr(anyLight[turn][quarter], any);
+        atomicAnd(allOpacity[turn][quarter], opacities);
+        barrier();
+        // The other layers' results are used until the next barrier: there is time to take and reset these.
+        if (local < 4u) {
+            cells[cellIndex(uvec3(corner + uvec2(local & 1u, local >> 1), layer))] = summary(turn, local);
+            resetCell(turn, local);
+        }
+    }
+}

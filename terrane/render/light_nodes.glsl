@@ -1,0 +1,33 @@
+// Single nodes of the light that LightStore keeps.
+#include "terrane/shared/light_grid.h"
+
+layout(binding = kLightGridUnit) uniform usampler3D lightGrid;
+layout(binding = kLightPoolUnit) uniform sampler3D lightPool;
+
+vec4 unpackLight(uint value) {
+    return vec4(uvec4(value, value >> 4, value >> 8, value >> 12) & 15u) / 15.0;
+}
+
+// The tile of a block counted from the corner of the camera's chunk, or its one value.
+uint lightEntry(ivec3 block) {
+    ivec2 tile = (block.xy >> 3) + ivec2(frame.lightGrid.xy);
+    int mask = int(frame.lightGrid.z) - 1;
+    return texelFetch(lightGrid, ivec3(tile & mask, clamp(block.z, 0, 255) >> 3), 0).r;
+}
+
+ivec3 poolCorner(uint tile) {
+    return ivec3(tile % kLightPoolTiles, tile / kLightPoolTiles % kLightPoolTiles,
+                 tile / (kLightPoolTiles * kLightPoolTiles)) * 8;
+}
+
+// Red, green, blue, daylight of one block, 0…1, whose entry is known.
+vec4 lightOfEntry(uint entry, ivec3 block) {
+    // Above the world is the open sky.
+    if (block.z > 255) return vec4(0.0, 0.0, 0.0, 1.0);
+    if ((entry & kLightUniformBit) != 0u) return unpackLight(entry & 0xFFFFu);
+    return texelFetch(lightPool, poolCorner(entry) + ivec3(block.xy & 7, max(block.z, 0) & 7), 0);
+}
+
+vec4 lightOfBlock(ivec3 block) {
+    return lightOfEntry(lightEntry(block), block);
+}

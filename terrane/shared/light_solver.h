@@ -1,0 +1,74 @@
+// What the host and the shaders that solve light agree on (terrane/light_gpu).
+#ifndef TERRANE_SHARED_LIGHT_SOLVER_H
+#define TERRANE_SHARED_LIGHT_SOLVER_H
+
+#include "terrane/shared/constants.h"
+#include "terrane/shared/language.h"
+
+SHARED_BEGIN
+
+// Storage buffers
+const uint kSolverSectionsBinding = 0u;
+const uint kSolverDataBinding = 1u;
+const uint kSolverLevelsBinding = 2u;
+const uint kSolverCellsBinding = 3u;
+const uint kSolverListsBinding = 4u;
+const uint kSolverRoundsBinding = 5u;
+const uint kSolverBricksBinding = 6u;
+const uint kSolverPoolBinding = 7u;
+
+// Levels lie two to a word (the block at the even x in the lower half) in cells of 8³ blocks: x fastest, then
+// y, then z, 256 words. A work group raises a cell, each invocation a word.
+const uint kCellSize = 8u;
+const uint kCellWordsX = 4u;
+const uint kCellWords = 256u;
+const uint kCellsPerChunk = 128u;  // 2 × 2 × 32
+const uint kCellsHigh = 32u;
+const uint kBrickWords = 2048u;  // 16³ blocks
+
+// Rounds that are given to the GPU at once; even, so that the two work lists keep their turns. Light crosses
+// at most 14 borders between cells, on most paths two.
+const uint kSolverRounds = 4u;
+
+// A section of the blocks. bits: of an index into the palette, 0 (one value), 1, 2, 4, 8, or 16: no palette.
+// Palette and words begin at these places of the data.
+struct SectionInput {
+    uint bits;
+    uint palette;
+    uint words;
+    uint unused;
+};
+
+// The palette holds opacity in bits 0–3, emission in 4–15.
+SHARED_FN uint opacityOf(uint property) {
+    return property & 15u;
+}
+SHARED_FN uint emissionOf(uint property) {
+    return property >> 4;
+}
+
+// A round's indirect dispatch: x is the length of its work list.
+struct SolverRound {
+    uint groupsX;
+    uint groupsY;
+    uint groupsZ;
+    uint unused;
+};
+
+// Of a cell before light spreads: all its light or'ed, and
+const uint kCellIsUniform = 0x10000u;
+const uint kCellIsOpaque = 0x20000u;  // no light gets in
+
+// Of a brick in the result: its one value, or its number in the pool.
+const uint kBrickUniformBit = 0x80000000u;
+
+SHARED_END
+
+#ifdef __cplusplus
+namespace terrane::shared {
+static_assert(sizeof(SectionInput) == 16 && sizeof(SolverRound) == 16);
+static_assert(kCellWords == kCellWordsX * kCellSize * kCellSize);
+static_assert(kCellsPerChunk * kCellWords * 2 == kBlocksPerChunk && kBrickWords * 2 == kBlocksPerSection);
+}  // namespace terrane::shared
+#endif
+#endif

@@ -1,0 +1,17 @@
+#include "terrane/light/area_solver.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/light/area_solver_cases.h"
+
+namespace terrane::light {
+namespace {
+
+TEST(AreaSolver, SolvesWhatEveryBackEndSolves) {
+    const auto solver = makeCpuSolver(contentTable());
+    EXPECT_EQ(solver->backend(), "cpu");
+    expectSolverCases(*solver);
+}
+
+}  // namespace
+}  // namespace terrane::light

@@ -1,0 +1,122 @@
+#include "terrane/light_gpu/gpu_light_solver.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+
+#include "terrane/gen/generator.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "tests/gpu/gl_fixture.h"
+#include "tests/light/area_solver_cases.h"
+#include "tests/light/lit_area.h"
+#include "tests/render/content.h"
+
+namespace terrane::light_gpu {
+namespace {
+
+using light::TestArea;
+
+class GpuLightSolverTest : public gpu::GlTest {
+  protected:
+    void SetUp() override {
+        GlTest::SetUp();
+        if (!context_.valid()) return;
+        auto made = GpuLightSolver::create(render::contentShaders(), light::contentTable());
+        ASSERT_TRUE(made) << made.error().message;
+        solver_.emplace(std::move(*made));
+    }
+    void TearDown() override {
+        solver_.reset();
+        GlTest::TearDown();
+    }
+
+    std::optional<GpuLightSolver> solver_;
+};
+
+TEST_F(GpuLightSolverTest, SolvesWhatEveryBackEndSolves) {
+    light::expectSolverCases(*solver_);
+}
+
+// The first block in which the lights differ, or nothing.
+std::string difference(const std::vector<light::ChunkLight>& a, const std::vector<light::ChunkLight>& b) {
+    if (a.size() != b.size()) return fmt::format("{} and {} chunks", a.size(), b.size());
+    for (std::size_t chunk = 0; chunk < a.size(); ++chunk) {
+        for (int k = 0; k < world::kBlocksPerChunk; ++k) {
+            const auto i = static_cast<world::BlockIndex>(k);
+            if (a[chunk].at(i) == b[chunk].at(i)) continue;
+            return fmt::format("chunk {} x {} y {} z {}: {:04x} and {:04x}", chunk, k & 15, k >> 4 & 15,
+                               k >> 8, a[chunk].at(i), b[chunk].at(i));
+        }
+    }
+    return "";
+}
+
+TEST_F(GpuLightSolverTest, RandomWorldsEqualCpu) {
+    for (std::uint32_t seed = 70; seed < 73; ++seed) {
+        for (const auto& source : {light::caves(seed), light::scattered(seed, 3), light::scattered(seed, 40),
+                                   light::layers(seed)}) {
+            const TestArea area(3, 2, source);
+            ASSERT_EQ(difference(solver_->solve(area.view()), area.lights()), "") << seed;
+        }
+    }
+}
+
+// Two parts along x and y, the last ones small.
+TEST_F(GpuLightSolverTest, PartsFitTogether) {
+    const TestArea area(18, 17, light::caves(80));
+    EXPECT_EQ(difference(solver_->solve(area.view()), area.lights()), "");
+}
+
+// More rounds than one go has: the tunnel crosses a border between cells at every third step.
+TEST_F(GpuLightSolverTest, TunnelsAlongBordersOfCells) {
+    const world::BlockId stone = contentBlock("stone"), lamp = contentBlock("lamp_white");
+    const TestArea area(2, 2, [&](int x, int y, int z) {
+        if (z != 50 || x < 7 || x > 8 || y < 2 || y > 30) return stone;
+        if (y == 2 && x == 7) return lamp;
+        const bool isRung = y % 2 == 0, isLeft = y / 2 % 2 == 1;
+        return isRung || (x == 7) == isLeft ? world::kAir : stone;
+    });
+    const auto light = solver_->solve(area.view());
+    EXPECT_EQ(difference(light, area.lights()), "");
+    EXPECT_EQ(light::levelOf(light[0].get(8, 10, 50), light::kRed), 15 - 11);
+}
+
+TEST_F(GpuLightSolverTest, OverworldEqualsCpu) {
+    const auto graph = gen::makeGenerator("overworld", contentBlocks());
+    ASSERT_TRUE(graph);
+    const gen::Generator generator(*graph, 12345);
+    for (const world::ChunkPos corner : {world::ChunkPos{-5, 11}, {-70, -9}, {60, 66}}) {
+        constexpr int kSide = 8;
+        std::vector<world::Chunk> chunks;
+        for (int k = 0; k < kSide * kSide; ++k)
+            chunks.push_back(generator.generate({corner.x + k % kSide, corner.y + k / kSide}));
+        light::LightArea area{kSide, kSide, {}};
+        for (const world::Chunk& chunk : chunks) area.chunks.push_back(&chunk);
+        ASSERT_EQ(difference(solver_->solve(area), lightArea(area, light::contentTable())), "");
+    }
+}
+
+// Light after ten thousand edits on the processor, each change on top of those before, against light from
+// scratch on the GPU.
+TEST_F(GpuLightSolverTest, EqualsTenThousandEdits) {
+#if defined(NDEBUG)
+    constexpr int kEdits = 10'000;
+#else
+    constexpr int kEdits = 200;
+#endif
+    light::LitArea lit(TestArea(3, 3, light::caves(90)), {-1, 4});
+    light::Random random(90);
+    for (int k = 0; k < kEdits; ++k) {
+        const world::BlockPos p = randomPlace(random, lit.area());
+        lit.set(p.x, p.y, p.z, randomBlock(random));
+        lit.relightQuietly();
+        if (k % (kEdits / 4) != kEdits / 4 - 1) continue;
+        ASSERT_EQ(difference(lit.lights(), solver_->solve(lit.area().view())), "") << k;
+    }
+    light::expectReference(lit.area(), lit.area().flatten(solver_->solve(lit.area().view())),
+                           world::kChunkHeight);
+}
+
+}  // namespace
+}  // namespace terrane::light_gpu

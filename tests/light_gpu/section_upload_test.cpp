@@ -1,0 +1,51 @@
+#include "terrane/light_gpu/section_upload.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/light/test_area.h"
+
+namespace terrane::light_gpu {
+namespace {
+
+// What the shaders read, as they read it (cells.glsl).
+shared::uint propertyAt(const SectionUpload& upload, std::size_t chunk, int index) {
+    const auto at = static_cast<std::size_t>(index);
+    const shared::SectionInput section = upload.sections[chunk * shared::kSectionsPerChunk + at / 4096];
+    if (section.bits == 0) return upload.data[section.palette];
+    const std::size_t bit = at % 4096 * section.bits;
+    const shared::uint value =
+        upload.data[section.words + bit / 32] >> bit % 32 & ((1u << section.bits) - 1u);
+    return section.bits == 16 ? value : upload.data[section.palette + value];
+}
+
+TEST(SectionUpload, HoldsOpacityAndEmissionOfEveryBlockInEveryForm) {
+    // By sections: of one value, palettes of more and more entries, and what no palette holds.
+    const world::Chunk chunk = light::TestArea::makeChunk(0, 0, [](int x, int y, int z) {
+        const std::uint32_t hash = light::hashAt(x, y, z, 3);
+        if (z >= 80) return static_cast<world::BlockId>(hash % (1u << (z / 16 - 4)) % 600);
+        return light::anyBlock(hash % (1u << (z / 16)));
+    });
+    SectionUpload upload;
+    upload.add({}, light::contentTable());
+    upload.add(chunk, light::contentTable());
+    std::set<int> forms;
+    for (int n = 0; n < world::kSectionsPerChunk; ++n) forms.insert(chunk.section(n).bits());
+    EXPECT_GE(forms.size(), 5u);
+    EXPECT_TRUE(forms.contains(16));
+    for (int k = 0; k < world::kBlocksPerChunk; ++k) {
+        const world::BlockId id = chunk.block(static_cast<world::BlockIndex>(k));
+        const shared::uint property = propertyAt(upload, 1, k);
+        ASSERT_EQ(shared::emissionOf(property), light::contentTable().emission(id)) << k;
+        ASSERT_EQ(light::allComponents(static_cast<int>(shared::opacityOf(property))),
+                  light::contentTable().opacity(id))
+            << k;
+    }
+    EXPECT_EQ(propertyAt(upload, 0, 4096), 0u);
+    upload.clear();
+    EXPECT_TRUE(upload.sections.empty() && upload.data.empty());
+}
+
+}  // namespace
+}  // namespace terrane::light_gpu
