@@ -9,6 +9,7 @@
 #include "bench/mesh_inputs.h"
 #include "terrane/base/digest.h"
 #include "terrane/gpu/context.h"
+#include "terrane/mesh/region_quads.h"
 #include "terrane/mesh_gpu/gpu_batch_mesher.h"
 
 namespace terrane::embedded {
@@ -60,7 +61,7 @@ void onGpu(benchmark::State& state, const bench::MeshWorld& world) {
         std::uint32_t total = 0;
         for (const mesh::RegionMesh& region : mesher.regions()) {
             firstQuads.push_back(total);
-            total += mesh_gpu::quadCount(region);
+            total += mesh::quadCount(region);
         }
         mesher.write(firstQuads, quads);
         glFinish();

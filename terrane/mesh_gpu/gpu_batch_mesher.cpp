@@ -2,19 +2,9 @@
 
 #include <algorithm>
 
+#include "terrane/mesh/region_quads.h"
+
 namespace terrane::mesh_gpu {
-namespace {
-
-// The region's ranges count from `first` on.
-mesh::RegionMesh movedTo(std::uint32_t first, mesh::RegionMesh region) {
-    for (auto& context : region.groups) {
-        for (mesh::QuadRange& range : context) range.first += first;
-    }
-    return region;
-}
-
-}  // namespace
-
 std::vector<mesh::ChunkMesh> GpuBatchMesher::mesh(std::span<const mesh::MeshInput> chunks) {
     std::vector<mesh::ChunkMesh> meshes;
     meshes.reserve(chunks.size());
@@ -33,7 +23,7 @@ void GpuBatchMesher::meshPart(std::span<const mesh::MeshInput> chunks, std::vect
     std::uint32_t total = 0;
     for (const mesh::RegionMesh& region : regions) {
         firstQuads.push_back(total);
-        total += quadCount(region);
+        total += mesh::quadCount(region);
     }
     std::vector<shared::Quad> quads(total);
     if (total > 0) {
@@ -45,13 +35,13 @@ void GpuBatchMesher::meshPart(std::span<const mesh::MeshInput> chunks, std::vect
     const std::size_t regionsPerChunk = regions.size() / chunks.size();
     auto from = quads.begin();
     for (std::size_t k = 0; k < regions.size(); k += regionsPerChunk) {
-        mesh::ChunkMesh& mesh = meshes.emplace_back();
+        mesh::ChunkMesh& chunk = meshes.emplace_back();
         std::uint32_t first = 0;
         for (std::size_t r = k; r < k + regionsPerChunk; ++r) {
-            mesh.regions.push_back(movedTo(first, regions[r]));
-            first += quadCount(regions[r]);
+            chunk.regions.push_back(mesh::movedTo(first, regions[r]));
+            first += mesh::quadCount(regions[r]);
         }
-        mesh.quads.assign(from, from + first);
+        chunk.quads.assign(from, from + first);
         from += first;
     }
 }

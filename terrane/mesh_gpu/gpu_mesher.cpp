@@ -9,6 +9,7 @@
 #include "terrane/gpu/fence.h"
 #include "terrane/gpu/program.h"
 #include "terrane/gpu/readback_buffer.h"
+#include "terrane/mesh/region_quads.h"
 #include "terrane/mesh_gpu/block_table.h"
 #include "terrane/mesh_gpu/mesh_upload.h"
 
@@ -180,7 +181,7 @@ void GpuMesher::write(std::span<const std::uint32_t> firstQuads, const gpu::Buff
             }
         }
         assert((counted[k].maxZ == 0 ||
-                (std::size_t{firstQuads[k]} + quadCount(counted[k])) * shared::kQuadBytes <=
+                (std::size_t{firstQuads[k]} + mesh::quadCount(counted[k])) * shared::kQuadBytes <=
                     quads.sizeBytes()) &&
                "the quads fit the buffer");
     }
@@ -190,11 +191,6 @@ void GpuMesher::write(std::span<const std::uint32_t> firstQuads, const gpu::Buff
     quads.bindStorage(shared::kMeshQuadsBinding);
     m.run(m.writeProgram);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-}
-
-std::uint32_t quadCount(const mesh::RegionMesh& region) {
-    const mesh::QuadRange last = region.groups[mesh::kContextCount - 1][mesh::kGroupCount - 1];
-    return last.first + last.count - region.groups[0][0].first;
 }
 
 }  // namespace terrane::mesh_gpu

@@ -55,7 +55,4 @@ class GpuMesher {
     std::unique_ptr<Impl> impl_;
 };
 
-// In a RegionMesh, whose ranges follow each other.
-std::uint32_t quadCount(const mesh::RegionMesh& region);
-
 }  // namespace terrane::mesh_gpu

@@ -6,7 +6,9 @@
 
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
+#include "terrane/mesh/region_quads.h"
 #include "terrane/mesh_gpu/gpu_batch_mesher.h"
+#include "terrane/render/quad_store.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/mesh/random_blocks.h"
 #include "tests/render/content.h"
@@ -135,7 +137,7 @@ TEST_F(GpuMesherTest, WritesOnlyWhereItIsTold) {
     std::uint32_t end = kGap;
     for (const mesh::RegionMesh& region : regions) {
         firstQuads.push_back(end);
-        end += quadCount(region) + kGap;
+        end += mesh::quadCount(region) + kGap;
     }
     constexpr shared::Quad kUntouched{0xDEADBEEF, 0xFFFFFFFF};
     std::vector<shared::Quad> quads(end, kUntouched);
@@ -146,13 +148,47 @@ TEST_F(GpuMesherTest, WritesOnlyWhereItIsTold) {
     for (std::uint32_t at = 0; at < end; ++at) {
         bool isInside = false;
         for (std::size_t r = 0; r < regions.size(); ++r) {
-            isInside |= at >= firstQuads[r] && at < firstQuads[r] + quadCount(regions[r]);
+            isInside |= at >= firstQuads[r] && at < firstQuads[r] + mesh::quadCount(regions[r]);
         }
         ASSERT_EQ(quads[at] == kUntouched, !isInside) << at;
         written += isInside;
     }
     mesh::MeshScratch scratch;
     EXPECT_EQ(written, meshChunk(inputs[0], scratch).quads.size());
+}
+
+// The way to the screen: room is made in the store that is drawn from, the shader fills it.
+TEST_F(GpuMesherTest, FillsTheStoreThatIsDrawnFrom) {
+    auto mesher = GpuMesher::create(render::contentShaders(), mesh::testBlocks());
+    ASSERT_TRUE(mesher) << mesher.error().message;
+    const mesh::Area first(mesh::randomBlocks(mesh::Mix::Terrain, 5)),
+        second(mesh::randomBlocks(mesh::Mix::Slabs, 6));
+    render::QuadStore store(400'000);
+    const std::vector<MeshInput> inputs = {first.input(), second.input()};
+    mesher->count(inputs);
+    const std::vector<mesh::RegionMesh> regions = mesher->regions();
+    const std::size_t perChunk = regions.size() / 2;
+    std::vector<std::uint32_t> firstQuads;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const world::ChunkPos pos{static_cast<int>(k), 0};
+        ASSERT_TRUE(store.reserve(pos, std::span(regions).subspan(k * perChunk, perChunk)));
+        for (const mesh::RegionMesh& region : store.regionsOf(pos))
+            firstQuads.push_back(mesh::firstQuad(region));
+    }
+    mesher->write(firstQuads, store.buffer());
+    EXPECT_EQ(store.uploadedBytes(), 0u);
+    for (std::size_t k = 0; k < 2; ++k) {
+        ChunkMesh stored;
+        for (const mesh::RegionMesh& region : store.regionsOf({static_cast<int>(k), 0})) {
+            const std::size_t at = stored.quads.size();
+            stored.quads.resize(at + mesh::quadCount(region));
+            stored.regions.push_back(mesh::movedTo(static_cast<std::uint32_t>(at), region));
+            store.buffer().download(std::size_t{mesh::firstQuad(region)} * shared::kQuadBytes,
+                                    std::as_writable_bytes(std::span(stored.quads).subspan(at)));
+        }
+        mesh::MeshScratch scratch;
+        EXPECT_TRUE(sorted(stored) == sorted(meshChunk(inputs[k], scratch))) << "chunk " << k;
+    }
 }
 
 }  // namespace
