@@ -23,6 +23,12 @@ std::uint32_t reachableQuads() {
     return static_cast<std::uint32_t>(std::min<std::int64_t>(blockBytes, kMostBytes) / shared::kQuadBytes);
 }
 
+std::uint32_t quadsOf(std::span<const mesh::RegionMesh> regions) {
+    std::uint32_t count = 0;
+    for (const mesh::RegionMesh& region : regions) count += mesh::quadCount(region);
+    return count;
+}
+
 }  // namespace
 
 QuadStore::QuadStore(std::uint32_t maxQuads)
@@ -34,6 +40,7 @@ bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::Regi
     if (!reserve(pos, mesh.regions, regions)) return false;
     if (mesh.quads.empty()) return true;
     const std::span<const mesh::RegionMesh> stored = regionsOf(pos);
+    assert(quadsOf(mesh.regions) == mesh.quads.size() && "ranges name each quad once");
     std::size_t lowest = 0;
     while (!mesh::hasRegion(regions, lowest)) ++lowest;
     buffer_.uploadVector(std::size_t{mesh::firstQuad(stored[lowest])} * shared::kQuadBytes, mesh.quads);
@@ -49,14 +56,11 @@ bool QuadStore::reserve(world::ChunkPos pos, std::span<const mesh::RegionMesh> m
         chunk.assign(meshes.size(), {});
     }
     free(chunk, regions);
-    std::uint32_t count = 0;
-    for (std::size_t r = 0; r < meshes.size(); ++r) {
-        assert((mesh::hasRegion(regions, r) || mesh::quadCount(meshes[r]) == 0) && "nothing for the others");
-        count += mesh::quadCount(meshes[r]);
-    }
+    const std::uint32_t count = quadsOf(meshes);
     const std::optional<std::uint32_t> first = count > 0 ? allocate(count) : 0;
     std::uint32_t next = first.value_or(0);
     for (std::size_t r = 0; first && r < meshes.size(); ++r) {
+        assert((mesh::hasRegion(regions, r) || mesh::quadCount(meshes[r]) == 0) && "nothing for the others");
         if (!mesh::hasRegion(regions, r)) continue;
         chunk[r] = mesh::movedTo(next, meshes[r]);
         next += mesh::quadCount(meshes[r]);

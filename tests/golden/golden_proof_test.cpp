@@ -70,7 +70,20 @@ TEST_F(GoldenProof, SwappedSidesAreNoticed) {
 }
 
 void dropGroup(mesh::ChunkMesh& mesh, int context, int group) {
-    for (mesh::RegionMesh& region : mesh.regions) region.groups[context][group].count = 0;
+    mesh::ChunkMesh rest;
+    for (const mesh::RegionMesh& region : mesh.regions) {
+        mesh::RegionMesh& kept = rest.regions.emplace_back(region);
+        for (int c = 0; c < mesh::kContextCount; ++c) {
+            for (int g = 0; g < mesh::kGroupCount; ++g) {
+                const mesh::QuadRange from = region.groups[c][g];
+                const std::uint32_t count = c == context && g == group ? 0 : from.count;
+                kept.groups[c][g] = {static_cast<std::uint32_t>(rest.quads.size()), count};
+                const auto first = mesh.quads.begin() + from.first;
+                rest.quads.insert(rest.quads.end(), first, first + count);
+            }
+        }
+    }
+    mesh = std::move(rest);
 }
 
 bool hasGroup(const Meshes& meshes, int context, int group) {
