@@ -138,7 +138,7 @@ class PlayLoop {
         session_.pipeline->update();
         uploadChanges(*session_.pipeline, renderer_, kUploadsPerFrame);
         renderer_.draw({camera_, world::environmentAt(0.38f), fogDistance(options_.graphics.viewDistance),
-                        seconds, options_.graphics.view});
+                        seconds, options_.graphics.view, isUnderWater(session_, camera_)});
         renderer_.presentToWindow(size);
         window_.swapBuffers();
         return {};
