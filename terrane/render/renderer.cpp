@@ -108,7 +108,7 @@ base::Result<void> Renderer::selectVariants(const RenderOptions& options, const 
     const int samples = targets.samples;
     auto done = shadowMap_.resize(options.shading == Shading::Off ? 0 : options.shadowSize);
     if (done) done = pyramid_.configure(targets, options.hiddenRegionCulling);
-    if (done) done = gbuffer_.select(options.sampledAlphaTest ? samples : 1);
+    if (done) done = gbuffer_.select(options.sampledAlphaTest ? samples : 1, options.betterTexturing);
     if (done) done = sky_.select(defined({{"SAMPLES", samples}, {"CLOUDS", options.clouds ? 1 : 0}}));
     if (done) {
         done = shade_.select(defined({{"SAMPLES", samples},

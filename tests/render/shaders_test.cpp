@@ -36,7 +36,8 @@ std::vector<gpu::ShaderDefines> combined(const Values& values) {
 const std::map<std::string, Values>& variantValues() {
     static const std::map<std::string, Values> values = {
         {"quad.vert", {{"PASS", {"0", "1", "2"}}, {"ALPHA_CLASS", {"0", "1", "2"}}}},
-        {"gbuffer.frag", {{"PASS", {"0"}}, {"ALPHA_CLASS", {"0", "1"}}, {"SAMPLES", {"1", "4"}}}},
+        {"gbuffer.frag",
+         {{"PASS", {"0"}}, {"ALPHA_CLASS", {"0", "1"}}, {"SAMPLES", {"1", "4"}}, {"SMOOTH", {"0", "1"}}}},
         {"shadow.frag", {{"PASS", {"2"}}, {"ALPHA_CLASS", {"0", "1"}}}},
         {"layer.frag",
          {{"PASS", {"1"}}, {"ALPHA_CLASS", {"2"}}, {"NEXT", {"0", "1"}}, {"SAMPLES", {"1", "4"}}}},
@@ -138,7 +139,7 @@ TEST_F(Shaders, ReferenceCompilerAcceptsEveryVariant) {
 TEST_F(Shaders, ReferenceCompilerRefusesMistakes) {
     EXPECT_NE(complaints(folder_, kStages[1], "#version 450 core\nvoid main() { undeclared = 1; }\n"), "");
     const auto source = contentShaders().load("terrane/render/gbuffer.frag.glsl", gpu::ShaderStage::Fragment,
-                                              {{"ALPHA_CLASS", "1"}, {"SAMPLES", "1"}});
+                                              {{"ALPHA_CLASS", "1"}, {"SAMPLES", "1"}, {"SMOOTH", "1"}});
     ASSERT_TRUE(source);
     EXPECT_NE(complaints(folder_, kStages[0], source->text), "") << "another stage";
 }
