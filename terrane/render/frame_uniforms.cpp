@@ -16,9 +16,8 @@ static_assert(static_cast<shared::uint>(View::Normal) == shared::kViewNormal &&
               static_cast<shared::uint>(View::Light) == shared::kViewLight);
 
 int switchesOf(const RenderOptions& o) {
-    return (o.animation ? shared::kSwitchAnimation : 0) | (o.betterTexturing ? shared::kSwitchTexturing : 0) |
-           (o.atmosphere ? shared::kSwitchAtmosphere : 0) |
-           (o.shading == Shading::Off ? shared::kSwitchUnlit : 0) | (o.clouds ? shared::kSwitchClouds : 0);
+    return (o.animation ? shared::kSwitchAnimation : 0) | (o.atmosphere ? shared::kSwitchAtmosphere : 0) |
+           (o.shading == Shading::Off ? shared::kSwitchUnlit : 0);
 }
 
 void setEnvironment(shared::Frame& frame, const FrameInput& input) {

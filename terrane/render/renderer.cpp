@@ -49,12 +49,6 @@ class TimerZone {
     gpu::GpuTimer& timer_;
 };
 
-gpu::ShaderDefines defined(std::initializer_list<std::pair<const char*, int>> values) {
-    gpu::ShaderDefines defines;
-    for (const auto& [name, value] : values) defines.emplace_back(name, std::to_string(value));
-    return defines;
-}
-
 }  // namespace
 
 base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
@@ -114,7 +108,7 @@ base::Result<void> Renderer::selectVariants(const RenderOptions& options, const 
     const int samples = targets.samples, light = static_cast<int>(options.light);
     auto done = shadowMap_.resize(options.shading == Shading::Off ? 0 : options.shadowSize);
     if (done) done = pyramid_.configure(targets, options.hiddenRegionCulling);
-    if (done) done = gbuffer_.select(options.sampledAlphaTest ? samples : 1);
+    if (done) done = gbuffer_.select(options.sampledAlphaTest ? samples : 1, options.betterTexturing);
     if (done) done = sky_.select(defined({{"SAMPLES", samples}, {"CLOUDS", options.clouds ? 1 : 0}}));
     if (done) {
         done = shade_.select(defined({{"SAMPLES", samples},
@@ -123,10 +117,7 @@ base::Result<void> Renderer::selectVariants(const RenderOptions& options, const 
                                       {"SHADOW", shadowMap_.size() > 0 ? 1 : 0},
                                       {"OCCLUSION", options.occlusion == Occlusion::Off ? 0 : 1}}));
     }
-    if (done)
-        done = layers_.configure(
-            targets, options.layers,
-            {{"SHADOW", shadowMap_.size() > 0 ? "1" : "0"}, {"LIGHT_SMOOTH", std::to_string(light)}});
+    if (done) done = layers_.configure(targets, options, shadowMap_.size() > 0);
     if (done) done = debugView_.select(defined({{"SAMPLES", samples}, {"LIGHT_SMOOTH", light}}));
     if (done) done = occlusion_.configure(targets, options.occlusion != Occlusion::Off);
     if (done) done = godRays_.configure(targets.size, options.godRays);
@@ -258,11 +249,7 @@ void Renderer::drawLayers(const FrameInput& input) {
         layers_.peel(targets_, cull_);
     }
     const TimerZone zone(timer_, "shade layers");
-    targets_.scene.bind();
-    glDisable(GL_DEPTH_TEST);
-    glEnable(GL_BLEND);
-    layers_.shade();
-    glDisable(GL_BLEND);
+    layers_.shade(targets_, cull_);
 }
 
 void Renderer::drawPicture(const FrameInput& input) {

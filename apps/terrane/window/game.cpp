@@ -274,8 +274,7 @@ base::Result<void> Game::drawFrame() {
     input.fogDistance = fogDistance(settings_.viewDistance);
     input.timeSeconds = static_cast<float>(seconds_);
     input.view = settings_.view;
-    input.isUnderWater =
-        world::isInLiquid(parts_.session.world, parts_.session.blocks, player_.camera().position);
+    input.isUnderWater = isUnderWater(parts_.session, player_.camera());
     renderer.draw(input);
     renderer.presentToWindow(size);
     drawInterface(size);
