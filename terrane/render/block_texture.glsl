@@ -24,7 +24,7 @@ vec2 extentOf(uint face) {
 // dx, dy: of the coordinates, before the margin bends them.
 vec4 blockTexture(uint face, vec2 inTextures, vec2 dx, vec2 dy) {
 #if SMOOTH == 0
-    return textureGrad(blockTextures, vec3(inTextures, textureOf(face)), dx, dy);
+    return texture(blockTextures, vec3(inTextures, textureOf(face)));
 #else
     vec2 size = vec2(textureSize(blockTextures, 0).xy);
     vec2 texel = inTextures * size, texelsPerPixel = max((abs(dx) + abs(dy)) * size, 1e-6);

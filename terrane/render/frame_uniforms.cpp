@@ -50,6 +50,7 @@ shared::Frame frameUniforms(const FrameInput& input, const RenderOptions& option
     frame.cameraPosition = glm::vec4(setup.view.cameraPosition, input.fogDistance);
     setEnvironment(frame, input);
     frame.viewport = glm::vec4(setup.size, options.coverCracks ? setup.crackGrowth : 0.0f, kNearPlane);
+    frame.shadow.z = kShadowReach;
     if (setup.shadowSize > 0) {
         const ShadowFit fit = fitShadowMap(input.camera, setup.size.x / setup.size.y,
                                            input.environment.lightDirection, setup.shadowSize);

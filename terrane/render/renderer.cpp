@@ -8,6 +8,7 @@
 #include "terrane/gpu/debug.h"
 #include "terrane/render/frame_uniforms.h"
 #include "terrane/render/shadow_volume.h"
+#include "terrane/render/timer_zone.h"
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
@@ -16,6 +17,9 @@ namespace {
 constexpr std::size_t kRingBytes = 4096;  // uniforms of a frame and of culling, aligned
 constexpr int kLightViewDistance = 16;    // chunks, until setViewDistance
 constexpr float kMaxAnisotropy = 8.0f;
+
+// Between sun and moon it is dark: light that cannot be seen casts no shadows. Linear.
+constexpr float kLeastShadowedLight = 0.002f;
 
 // Along the view, as the depth has it, surfaces may fade from this share of the distance of the fog on: they
 // do from 5/6 over the ground, and more at the sides of a wide picture. sky.frag.glsl has the same.
@@ -36,18 +40,6 @@ float crackGrowth() {
 float aspectOf(glm::ivec2 size) {
     return static_cast<float>(size.x) / static_cast<float>(size.y);
 }
-
-// The time of what is drawn during its life.
-class TimerZone {
-  public:
-    TimerZone(gpu::GpuTimer& timer, std::string_view name) : timer_(timer) { timer_.begin(name); }
-    ~TimerZone() { timer_.end(); }
-    TimerZone(const TimerZone&) = delete;
-    TimerZone& operator=(const TimerZone&) = delete;
-
-  private:
-    gpu::GpuTimer& timer_;
-};
 
 }  // namespace
 
@@ -146,7 +138,9 @@ void Renderer::removeChunk(world::ChunkPos pos) {
 }
 
 bool Renderer::hasShadows(const FrameInput& input) const {
-    return shadowMap_.size() > 0 && input.view == View::Color;
+    const glm::vec3 light = input.environment.lightColor;
+    const bool isLit = std::max({light.x, light.y, light.z}) > kLeastShadowedLight;
+    return shadowMap_.size() > 0 && input.view == View::Color && isLit;
 }
 
 void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
@@ -291,7 +285,7 @@ void Renderer::draw(const FrameInput& input) {
     if (hasShadows(input)) drawShadows();
     drawSurfaces(culling);
     light_.bind();
-    if (hasShadows(input)) shadowMap_.bind();
+    if (shadowMap_.size() > 0) shadowMap_.bind();
     if (input.view == View::Color) {
         drawPicture(input);
     } else {
@@ -301,19 +295,6 @@ void Renderer::draw(const FrameInput& input) {
     }
     cull_.queueCounts();
     ring_.endFrame();
-}
-
-FrameStatistics Renderer::statistics() {
-    const shared::DrawCounts& counts = cull_.counts();
-    FrameStatistics statistics{counts.regions, 0, 0, 0, 0};
-    for (shared::uint list = 0; list < shared::kCameraLists; ++list) {
-        const bool isBlended = mesh::contextAlphaClass(static_cast<int>(list)) == mesh::AlphaClass::Blended;
-        statistics.quads += counts.quads[list];
-        statistics.drawCommands += counts.commands[list];
-        (isBlended ? statistics.transparentTriangles : statistics.opaqueTriangles) +=
-            2 * std::size_t{counts.quads[list]};
-    }
-    return statistics;
 }
 
 std::size_t Renderer::shadowTriangles(const FrameInput& input) const {
