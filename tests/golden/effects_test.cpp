@@ -56,7 +56,8 @@ TEST_F(Effects, InTheGlade) {
     expectEffect("glade_no_atmosphere", afternoon, [](RenderOptions& o) { o.atmosphere = false; });
     expectEffect("glade_unlit", afternoon, [](RenderOptions& o) { o.shading = Shading::Off; });
     expectEffect("glade_animation", afternoon, [](RenderOptions& o) { o.animation = true; });
-    // What is a hundred blocks away blurs a little: less than the tolerance between drivers, but never nothing.
+    // What is a hundred blocks away blurs a little: less than the tolerance between drivers, but never
+    // nothing.
     const base::Image plain = picture(afternoon, [](RenderOptions&) {});
     const base::Image blurred = picture(afternoon, [](RenderOptions& o) { o.depthOfField = true; });
     EXPECT_TRUE(matchesGolden("glade_far_blur", blurred));
