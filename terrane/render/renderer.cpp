@@ -163,6 +163,9 @@ CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view)
                    {},
                    view.viewProjection,
                    glm::vec2(targets_.size)};
+    if (input.culledFor) {
+        cull.camera = frustumOf(viewMatrices(*input.culledFor, aspectOf(targets_.size)).viewProjection);
+    }
     if (hasShadows(input)) {
         cull.shadow = planesOf(shadowVolume(view, input.environment.lightDirection, kShadowReach));
     }
@@ -179,17 +182,14 @@ void Renderer::drawShadows() {
     shadowMap_.draw(cull_);
 }
 
-void Renderer::drawSurfaces(const CullInput& cullInput) {
-    {
-        const TimerZone zone(timer_, "surfaces");
-        targets_.surfaces.bind();
-        targets_.surfaces.clearColor(0, glm::vec4(1));
-        targets_.surfaces.clearDepth(0.0f);
-        gbuffer_.draw(cull_);
-    }
+void Renderer::drawSurfaces() {
+    const TimerZone zone(timer_, "surfaces");
+    targets_.surfaces.bind();
+    targets_.surfaces.clearColor(0, glm::vec4(1));
+    targets_.surfaces.clearDepth(0.0f);
+    gbuffer_.draw(cull_);
     targets_.surface.bind(shared::kSurfaceUnit);
     targets_.depth.bind(shared::kDepthUnit);
-    if (pyramid_.isOn()) drawHiddenBefore(cullInput);
 }
 
 // What was hidden in the frame before and is not now.
@@ -277,13 +277,15 @@ void Renderer::draw(const FrameInput& input) {
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     const CullInput culling = cullInput(input, view);
     regions_.update(culling.cameraChunk);
-    if (pyramid_.isOn()) pyramid_.bind();
-    cull(pyramid_.isOn() ? CullRun::SeenBefore : CullRun::All, culling);
+    const bool leavesOutHidden = pyramid_.isOn() && !input.culledFor;
+    if (leavesOutHidden) pyramid_.bind();
+    cull(leavesOutHidden ? CullRun::SeenBefore : CullRun::All, culling);
     resources_.bind(quads_, options_.betterTexturing);
     noise_.bind();
     regions_.bindRecords();
     if (hasShadows(input)) drawShadows();
-    drawSurfaces(culling);
+    drawSurfaces();
+    if (leavesOutHidden) drawHiddenBefore(culling);
     light_.bind();
     if (shadowMap_.size() > 0) shadowMap_.bind();
     if (input.view == View::Color) {

@@ -71,7 +71,7 @@ class Renderer {
     CullInput cullInput(const FrameInput& input, const ViewMatrices& view) const;
     void cull(CullRun run, const CullInput& input);
     void drawShadows();
-    void drawSurfaces(const CullInput& cullInput);
+    void drawSurfaces();
     void drawHiddenBefore(const CullInput& cullInput);
     void shadeSurfaces(float fogDistance);
     void drawLayers(const FrameInput& input);

@@ -57,6 +57,7 @@ class Game {
     void advance(double seconds);
     void applySettings();
     base::Result<void> drawFrame();
+    render::FrameInput frameInput() const;
     void drawInterface(glm::ivec2 size);
     base::Result<void> leave();
 
@@ -70,7 +71,7 @@ class Game {
     DayClock day_;
     FrameMeter meter_;
 
-    bool isCaptured_ = false, showsPanel_ = false, showsFigures_ = false, showsLoading_ = false;
+    bool isCaptured_ = false, showsPanel_ = false, isAbove_ = false, showsLoading_ = false;
     double hintSeconds_ = 12, messageSeconds_ = 0;
     std::string message_;
     std::size_t nextPosition_ = 0, frames_ = 0;
