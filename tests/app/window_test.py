@@ -212,7 +212,7 @@ class Window(ProgramTest):
         size, settings = (480, 720), self.folder / "terrane" / "settings.toml"
         options = ("--save-game", "home", *FLAT)
         with Display(size) as display:
-            game = self.play(display, *options, size=size)
+            game = self.play(display, *options, "--collect-perf-data", "perf.csv", size=size)
             game.click(1, 100, 400)  # takes the mouse
             display.xdotool("keydown", "w")
             for key in ("space", "F1", "F3", "F4", "F5", "F6", "F12", "o", "p", "i", "m", "m"):
@@ -234,6 +234,11 @@ class Window(ProgramTest):
             self.assertEqual(len((self.folder / "positions.txt").read_text().splitlines()), 1)
             picture = Picture(self.folder / "terrane-0001.png")
             self.assertEqual((picture.width, picture.height), size)
+            rows = [line.split(",") for line in (self.folder / "perf.csv").read_text().splitlines()]
+            self.assertEqual(rows[0][:3], ["time_s", "frame_ms", "fps"])
+            self.assertGreater(len(rows), 10)
+            self.assertTrue(all(len(row) == len(rows[0]) for row in rows))
+            self.assertAlmostEqual(float(rows[-1][0]), sum(float(row[1]) for row in rows[1:]) / 1000, delta=0.1)
             written = settings.read_text()
             self.assertIn("movement = 'medium'", written)  # gravity, then fast
             switches = re.findall(r"^(atmosphere|god-rays|clouds|animation|better-texturing) = '(?:on|off)'$", written,

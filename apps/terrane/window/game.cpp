@@ -39,12 +39,18 @@ Game::Game(const GameParts& parts, const GameOptions& options)
       imgui_(parts.window),
       player_(options.start, options.settings.movement),
       hand_(parts.session.blocks),
-      day_(options.day) {
+      day_(options.day),
+      perfData_(options.perfData) {
     parts_.session.pipeline->setMeshOptions(settings_.mesh);
     parts_.renderer.setViewDistance(settings_.viewDistance);
 }
 
 base::Result<void> Game::run() {
+    if (!perfData_.empty()) {
+        auto log = PerfLog::create(perfData_);
+        if (!log) return tl::unexpected(log.error());
+        perfLog_ = std::move(*log);
+    }
     double last = parts_.window.timeSeconds();
     while (!parts_.window.shouldClose()) {
         parts_.window.pollEvents();
@@ -55,6 +61,7 @@ base::Result<void> Game::run() {
         advance(seconds);
         applySettings();
         if (auto drawn = drawFrame(); !drawn) return drawn;
+        if (perfLog_) perfLog_->add(seconds_, seconds, figures());
     }
     const glm::dvec3& p = player_.camera().position;
     base::logInfo("closed after {} frames at {:.2f},{:.2f},{:.2f}", frames_, p.x, p.y, p.z);
@@ -145,22 +152,27 @@ void Game::drawInterface(glm::ivec2 size) {
         drawLoadingMap(screen, *session.pipeline, render::cameraChunk(player_.camera()),
                        settings_.viewDistance);
     if (showsPanel_) {
-        drawFigures({.frames = &meter_,
-                     .camera = player_.camera(),
-                     .timeDay = day_.timeDay,
-                     .progress = progress,
-                     .activeChunks = session.world.chunks().size(),
-                     .queuedChunks = session.pipeline->queuedCount(),
-                     .frame = parts_.renderer.statistics(),
-                     .blockBytes = session.world.memoryBytes(),
-                     .lightBytes = session.pipeline->lightBytes(),
-                     .quadBytes = parts_.renderer.quadBytes(),
-                     .lightGpuBytes = parts_.renderer.lightBytes(),
-                     .tasks = session.pipeline->taskTimes(),
-                     .passes = &parts_.renderer.passTimes()});
+        drawFigures(figures());
     }
     if (showsPanel_) drawPanel(settings_, day_, {isSoftwareRenderer_, screen.width, screen.height});
     imgui_.endFrame();
+}
+
+Figures Game::figures() const {
+    const WorldSession& session = parts_.session;
+    return {.frames = &meter_,
+            .camera = player_.camera(),
+            .timeDay = day_.timeDay,
+            .progress = session.pipeline->progress(),
+            .activeChunks = session.world.chunks().size(),
+            .queuedChunks = session.pipeline->queuedCount(),
+            .frame = parts_.renderer.statistics(),
+            .blockBytes = session.world.memoryBytes(),
+            .lightBytes = session.pipeline->lightBytes(),
+            .quadBytes = parts_.renderer.quadBytes(),
+            .lightGpuBytes = parts_.renderer.lightBytes(),
+            .tasks = session.pipeline->taskTimes(),
+            .passes = &parts_.renderer.passTimes()};
 }
 
 base::Result<void> Game::leave() {
@@ -168,7 +180,8 @@ base::Result<void> Game::leave() {
         store->setSetting(kCameraSetting, textOf(player_.camera()));
         store->setSetting(kTimeSetting, fmt::format("{:.5f}", day_.timeDay));
     }
-    return parts_.session.save();
+    if (auto saved = parts_.session.save(); !saved) return saved;
+    return perfLog_ ? perfLog_->finish() : base::Result<void>();
 }
 
 }  // namespace terrane::app

@@ -10,6 +10,7 @@
 #include "apps/terrane/window/frame_meter.h"
 #include "apps/terrane/window/hand.h"
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/perf_log.h"
 #include "apps/terrane/window/play_settings.h"
 #include "apps/terrane/world_session.h"
 #include "terrane/gpu/window.h"
@@ -33,6 +34,7 @@ struct GameOptions {
     DayClock day;
     bool isSoftwareRenderer = false;
     std::filesystem::path positions = "positions.txt";
+    std::string perfData;  // file; empty: none
 };
 
 class Game {
@@ -59,6 +61,7 @@ class Game {
     base::Result<void> drawFrame();
     render::FrameInput frameInput() const;
     void drawInterface(glm::ivec2 size);
+    Figures figures() const;
     base::Result<void> leave();
 
     GameParts parts_;
@@ -70,6 +73,8 @@ class Game {
     Hand hand_;
     DayClock day_;
     FrameMeter meter_;
+    std::string perfData_;
+    std::optional<PerfLog> perfLog_;
 
     bool isCaptured_ = false, showsPanel_ = false, isAbove_ = false, showsLoading_ = false;
     double hintSeconds_ = 12, messageSeconds_ = 0;
