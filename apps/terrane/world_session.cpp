@@ -91,9 +91,10 @@ void uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, 
             renderer.removeChunk(change.pos);
             continue;
         }
-        if (change.mesh && !renderer.setChunk(change.pos, *change.mesh)) {
-            base::logWarning("chunk {},{}: no room for its quads on the graphics card, it is not shown",
-                             change.pos.x, change.pos.y);
+        if (change.mesh && !renderer.setChunk(change.pos, *change.mesh, change.regions)) {
+            base::logWarning(
+                "chunk {},{}: no room for its quads on the graphics card, not all of it is shown",
+                change.pos.x, change.pos.y);
         }
         if (change.light) renderer.setLight(change.pos, *change.light, change.bricks);
     }

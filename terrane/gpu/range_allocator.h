@@ -17,7 +17,7 @@ class RangeAllocator {
     // The smallest free range that holds size, and the lowest of those: O(log n). None if there is no such
     // range.
     [[nodiscard]] std::optional<std::uint32_t> allocate(std::uint32_t size);
-    // A range from allocate, whole. O(log n).
+    // A range from allocate, or a part of one: what is left of it is freed later. O(log n).
     void free(std::uint32_t offset, std::uint32_t size);
     // The new room at the end is free.
     void grow(std::uint32_t newCapacity);

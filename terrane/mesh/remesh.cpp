@@ -3,24 +3,13 @@
 #include <cassert>
 #include <cstddef>
 
+#include "terrane/mesh/region_quads.h"
+
 namespace terrane::mesh {
 namespace {
 
 RegionSet regionAt(int z, int regionHeight) {
     return world::isInHeight(z) ? RegionSet{1} << (z / regionHeight) : RegionSet{0};
-}
-
-// Appends a region's quads, which lie together, and says where they are now.
-RegionMesh copyRegion(const ChunkMesh& from, const RegionMesh& region, std::vector<shared::Quad>& quads) {
-    const std::uint32_t first = region.groups[0][0].first;
-    const QuadRange last = region.groups[kContextCount - 1][kGroupCount - 1];
-    const auto moved = static_cast<std::uint32_t>(quads.size()) - first;
-    RegionMesh copy = region;
-    for (auto& context : copy.groups) {
-        for (QuadRange& range : context) range.first += moved;
-    }
-    quads.insert(quads.end(), from.quads.begin() + first, from.quads.begin() + last.first + last.count);
-    return copy;
 }
 
 }  // namespace
@@ -44,16 +33,28 @@ std::vector<TouchedChunk> regionsTouchedBy(world::BlockPos pos, int regionHeight
     return touched;
 }
 
-ChunkMesh remeshRegions(const ChunkMesh& old, const MeshInput& input, RegionSet regions,
-                        MeshScratch& scratch) {
-    const auto count = static_cast<std::size_t>(world::kChunkHeight / input.options.regionHeight);
-    assert(old.regions.size() == count && "made with the same options");
+ChunkMesh meshRegions(const MeshInput& input, RegionSet regions, MeshScratch& scratch) {
+    if (regions == kAllRegions) return meshChunk(input, scratch);
     ChunkMesh mesh;
-    mesh.quads.reserve(old.quads.size());
+    const auto count = static_cast<std::size_t>(world::kChunkHeight / input.options.regionHeight);
     for (std::size_t r = 0; r < count; ++r) {
-        const bool isTouched = (regions >> r & 1) != 0;
-        mesh.regions.push_back(isTouched ? meshRegion(input, static_cast<int>(r), scratch, mesh.quads)
-                                         : copyRegion(old, old.regions[r], mesh.quads));
+        const RegionMesh empty = movedTo(static_cast<std::uint32_t>(mesh.quads.size()), {});
+        mesh.regions.push_back(
+            hasRegion(regions, r) ? meshRegion(input, static_cast<int>(r), scratch, mesh.quads) : empty);
+    }
+    return mesh;
+}
+
+ChunkMesh withRegions(const ChunkMesh& old, const ChunkMesh& newer, RegionSet regions) {
+    assert(old.regions.size() == newer.regions.size() && "made with the same options");
+    ChunkMesh mesh;
+    mesh.quads.reserve(old.quads.size() + newer.quads.size());
+    for (std::size_t r = 0; r < old.regions.size(); ++r) {
+        const ChunkMesh& from = hasRegion(regions, r) ? newer : old;
+        const RegionMesh& region = from.regions[r];
+        mesh.regions.push_back(movedTo(static_cast<std::uint32_t>(mesh.quads.size()), region));
+        const auto first = from.quads.begin() + firstQuad(region);
+        mesh.quads.insert(mesh.quads.end(), first, first + quadCount(region));
     }
     return mesh;
 }

@@ -1,5 +1,5 @@
-// What an edit costs: which regions' meshes change with a block, and a chunk's mesh with only these made
-// anew. Called by whoever owns the world (regionsTouchedBy) and by the meshing workers (remeshRegions).
+// What an edit costs: which regions' meshes change with a block, and the mesh of only these. Called by
+// whoever owns the world; pure functions, any thread.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,12 @@ namespace terrane::mesh {
 
 // One bit a region, the lowest region in bit 0.
 using RegionSet = std::uint32_t;
+constexpr RegionSet kAllRegions = ~RegionSet{0};
 static_assert(world::kChunkHeight / kMinRegionHeight <= 32);
+
+constexpr bool hasRegion(RegionSet regions, std::size_t region) {
+    return (regions >> region & 1) != 0;
+}
 
 struct TouchedChunk {
     world::ChunkPos pos;
@@ -22,12 +27,14 @@ struct TouchedChunk {
 };
 
 // The regions in which a face may change when the block at `pos` (z 0…255) does: its own, and those of the
-// six blocks beside it. At most three chunks, the block's own first; none outside the world. Any thread.
+// six blocks beside it. At most three chunks, the block's own first; none outside the world.
 std::vector<TouchedChunk> regionsTouchedBy(world::BlockPos pos, int regionHeight);
 
-// `old` with the quads of `regions` made anew from `input`, the others copied: what meshChunk would make now,
-// if nothing else changed since `old` was made with the same options.
-ChunkMesh remeshRegions(const ChunkMesh& old, const MeshInput& input, RegionSet regions,
-                        MeshScratch& scratch);
+// What meshChunk makes of these regions; the others have no quads. Bits beyond the highest region are passed
+// over.
+ChunkMesh meshRegions(const MeshInput& input, RegionSet regions, MeshScratch& scratch);
+
+// `old` with `regions` as `newer` has them: both were made with the same options.
+ChunkMesh withRegions(const ChunkMesh& old, const ChunkMesh& newer, RegionSet regions);
 
 }  // namespace terrane::mesh

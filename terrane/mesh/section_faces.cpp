@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "terrane/mesh/bit_cube.h"
+#include "terrane/mesh/face_rules.h"
 #include "terrane/mesh/face_writer.h"
 #include "terrane/mesh/section_bits.h"
 #include "terrane/mesh/section_side.h"
@@ -92,9 +93,8 @@ class SectionFaces {
   private:
     void findUncovered();
     LayerRange visibleLayers(const BlockType& type, const BitCube& blocks) const;
-    bool hidesOwnKind(const BlockType& type, Face side) const;
     BitCube visible(const TypeBlocks& blocks, Face side) const;
-    bool merges(const BlockType& type, Face side) const;
+    bool merges(const BlockType& type, Face side) const { return mergesFaces(type, side, *view_.blocks); }
 
     void add(const TypeBlocks& blocks);
     void addSide(const TypeBlocks& blocks, Face side);
@@ -172,28 +172,13 @@ void SectionFaces::add(const TypeBlocks& blocks) {
     }
 }
 
-// Whether a face toward a block of the same type is left out. Where faces inside are drawn and both of a pair
-// can be seen from both sides, the pair would be the same face twice: the block at the lower coordinate draws
-// it.
-bool SectionFaces::hidesOwnKind(const BlockType& type, Face side) const {
-    if (!type.innerFaces || type.shape == Shape::Liquid) return true;
-    const bool isPositive = side % 2 == 1;
-    return !isPositive && view_.blocks->materials()[type.material[oppositeSide(side)]].twoSided;
-}
-
 BitCube SectionFaces::visible(const TypeBlocks& blocks, Face side) const {
     const LayerRange layers = blocks.layers;
     const BitCube faces = both(blocks.facing(side), uncovered_[side], layers);
-    if (blocks.type.opaqueCube || !hidesOwnKind(blocks.type, side)) return faces;
+    if (blocks.type.opaqueCube || !hidesOwnKind(blocks.type, side, *view_.blocks)) return faces;
     const auto& next = around_.sides[side];
     const BitSlice border = next ? next->blocks(blocks.id) : BitSlice{};
     return without(faces, neighbourBits(blocks.facing(side), side, border, layers), layers);
-}
-
-// Where only the top of a texture waves, a face taller than one block would wave only at its top.
-bool SectionFaces::merges(const BlockType& type, Face side) const {
-    const world::Material& material = view_.blocks->materials()[type.material[side]];
-    return material.animation != world::Animation::TopWaves;
 }
 
 void SectionFaces::addSide(const TypeBlocks& blocks, Face side) {

@@ -1,6 +1,9 @@
 #include "terrane/render/quad_store.h"
 
 #include <algorithm>
+#include <cassert>
+
+#include "terrane/mesh/region_quads.h"
 
 namespace terrane::render {
 namespace {
@@ -27,22 +30,61 @@ QuadStore::QuadStore(std::uint32_t maxQuads)
       buffer_(quadBuffer(std::min(kFirstCapacity, maxQuads_))),
       ranges_(std::min(kFirstCapacity, maxQuads_)) {}
 
-bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh) {
-    remove(pos);
+bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::RegionSet regions) {
+    if (!reserve(pos, mesh.regions, regions)) return false;
     if (mesh.quads.empty()) return true;
-    const auto count = static_cast<std::uint32_t>(mesh.quads.size());
-    const std::optional<std::uint32_t> first = allocate(count);
-    if (!first) return false;
-    buffer_.uploadVector(std::size_t{*first} * shared::kQuadBytes, mesh.quads);
-    chunks_.emplace(pos, ChunkQuads{*first, count, mesh.regions});
+    const std::span<const mesh::RegionMesh> stored = regionsOf(pos);
+    std::size_t lowest = 0;
+    while (!mesh::hasRegion(regions, lowest)) ++lowest;
+    buffer_.uploadVector(std::size_t{mesh::firstQuad(stored[lowest])} * shared::kQuadBytes, mesh.quads);
+    uploadedBytes_ += mesh.quads.size() * shared::kQuadBytes;
     return true;
+}
+
+bool QuadStore::reserve(world::ChunkPos pos, std::span<const mesh::RegionMesh> meshes,
+                        mesh::RegionSet regions) {
+    ChunkRegions& chunk = chunks_[pos];
+    if (chunk.size() != meshes.size()) {
+        free(chunk, mesh::kAllRegions);
+        chunk.assign(meshes.size(), {});
+    }
+    free(chunk, regions);
+    std::uint32_t count = 0;
+    for (std::size_t r = 0; r < meshes.size(); ++r) {
+        assert((mesh::hasRegion(regions, r) || mesh::quadCount(meshes[r]) == 0) && "nothing for the others");
+        count += mesh::quadCount(meshes[r]);
+    }
+    const std::optional<std::uint32_t> first = count > 0 ? allocate(count) : 0;
+    std::uint32_t next = first.value_or(0);
+    for (std::size_t r = 0; first && r < meshes.size(); ++r) {
+        if (!mesh::hasRegion(regions, r)) continue;
+        chunk[r] = mesh::movedTo(next, meshes[r]);
+        next += mesh::quadCount(meshes[r]);
+    }
+    const auto isEmpty = [](const mesh::RegionMesh& region) { return mesh::quadCount(region) == 0; };
+    if (std::ranges::all_of(chunk, isEmpty)) chunks_.erase(pos);
+    return first.has_value();
 }
 
 void QuadStore::remove(world::ChunkPos pos) {
     const auto it = chunks_.find(pos);
     if (it == chunks_.end()) return;
-    ranges_.free(it->second.first, it->second.count);
+    free(it->second, mesh::kAllRegions);
     chunks_.erase(it);
+}
+
+void QuadStore::free(ChunkRegions& chunk, mesh::RegionSet regions) {
+    for (std::size_t r = 0; r < chunk.size(); ++r) {
+        if (!mesh::hasRegion(regions, r)) continue;
+        const std::uint32_t count = mesh::quadCount(chunk[r]);
+        if (count > 0) ranges_.free(mesh::firstQuad(chunk[r]), count);
+        chunk[r] = {};
+    }
+}
+
+std::span<const mesh::RegionMesh> QuadStore::regionsOf(world::ChunkPos pos) const {
+    const auto it = chunks_.find(pos);
+    return it == chunks_.end() ? std::span<const mesh::RegionMesh>() : it->second;
 }
 
 std::optional<std::uint32_t> QuadStore::allocate(std::uint32_t count) {

@@ -1,52 +1,62 @@
 // The quads of all visible chunks in one GPU buffer: one binding and one draw call a face context, however
 // many chunks there are. Used by the renderer on the context's thread.
 //
-// Everything is written and copied by commands in the stream of the context, so a frame sees a chunk's quads
-// as they were or as they are, never a mixture, and nothing waits for the GPU.
+// Everything is written and copied by commands in the stream of the context, so a frame sees a region's quads
+// as they were or as they are, never a mixture, and nothing waits for the GPU. A chunk's regions lie together
+// until an edit gives one of them another place.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "terrane/gpu/buffer.h"
 #include "terrane/gpu/range_allocator.h"
-#include "terrane/mesh/chunk_mesh.h"
+#include "terrane/mesh/remesh.h"
 #include "terrane/world/coords.h"
 
 namespace terrane::render {
 
-struct ChunkQuads {
-    std::uint32_t first = 0, count = 0;     // in the buffer
-    std::vector<mesh::RegionMesh> regions;  // ranges count from `first`
-};
+// Of a chunk the regions, lowest first. Their ranges count in the buffer.
+using ChunkRegions = std::vector<mesh::RegionMesh>;
 
 class QuadStore {
   public:
     // `maxQuads`: the buffer grows no further; as many as a shader can reach where 0.
     explicit QuadStore(std::uint32_t maxQuads = 0);
 
-    // Replaces what the chunk had. The buffer doubles when it is full: its contents are copied on the GPU.
-    // False where it may not grow any more: the chunk then has no quads, since the old ones are wrong.
-    bool set(world::ChunkPos pos, const mesh::ChunkMesh& mesh);
+    // Replaces the quads of these regions; of others `mesh` has none. The buffer doubles when it is full: its
+    // contents are copied on the GPU. False where it may not grow any more: the regions then have no quads,
+    // since the old ones are wrong.
+    bool set(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::RegionSet regions = mesh::kAllRegions);
+    // The same, but for the quads: a shader writes them to where regionsOf() says, before the next frame.
+    bool reserve(world::ChunkPos pos, std::span<const mesh::RegionMesh> meshes,
+                 mesh::RegionSet regions = mesh::kAllRegions);
     void remove(world::ChunkPos pos);
 
-    const std::unordered_map<world::ChunkPos, ChunkQuads, world::ChunkPosHash>& chunks() const {
+    // Chunks that have quads.
+    const std::unordered_map<world::ChunkPos, ChunkRegions, world::ChunkPosHash>& chunks() const {
         return chunks_;
     }
+    // Empty where the chunk has no quads.
+    std::span<const mesh::RegionMesh> regionsOf(world::ChunkPos pos) const;
     const gpu::Buffer& buffer() const { return buffer_; }
     std::size_t usedBytes() const;
+    std::uint64_t uploadedBytes() const { return uploadedBytes_; }  // by set(), since the beginning
     const gpu::RangeAllocator& ranges() const { return ranges_; }
 
   private:
+    void free(ChunkRegions& chunk, mesh::RegionSet regions);
     std::optional<std::uint32_t> allocate(std::uint32_t count);
     bool grow(std::uint32_t count);
 
     std::uint32_t maxQuads_;
     gpu::Buffer buffer_;
     gpu::RangeAllocator ranges_;
-    std::unordered_map<world::ChunkPos, ChunkQuads, world::ChunkPosHash> chunks_;
+    std::unordered_map<world::ChunkPos, ChunkRegions, world::ChunkPosHash> chunks_;
+    std::uint64_t uploadedBytes_ = 0;
 };
 
 }  // namespace terrane::render

@@ -15,7 +15,7 @@ static_assert(shared::kFaceContexts == mesh::kContextCount && shared::kFaceGroup
 constexpr std::uint32_t kBlendedRanges =
     shared::firstRange(mesh::faceContext(mesh::AlphaClass::Blended, false));
 
-shared::RegionRecord recordOf(world::ChunkPos pos, const mesh::RegionMesh& region, std::uint32_t firstQuad) {
+shared::RegionRecord recordOf(world::ChunkPos pos, const mesh::RegionMesh& region) {
     shared::RegionRecord record{};
     record.chunk = {pos.x, pos.y};
     record.heights = static_cast<std::uint32_t>(region.minZ | region.maxZ << 16);
@@ -24,7 +24,7 @@ shared::RegionRecord recordOf(world::ChunkPos pos, const mesh::RegionMesh& regio
         std::uint32_t range = shared::firstRange(static_cast<std::uint32_t>(context));
         for (int group = isTwoSided ? mesh::kGroupAlways : 0; group < mesh::kGroupCount; ++group, ++range) {
             const mesh::QuadRange quads = region.groups[context][group];
-            record.ranges[range] = {firstQuad + quads.first, quads.count};
+            record.ranges[range] = {quads.first, quads.count};
         }
     }
     return record;
@@ -81,34 +81,50 @@ void RegionTable::addCommands(const shared::RegionRecord& record, std::int32_t s
     }
 }
 
-void RegionTable::set(world::ChunkPos pos, const ChunkQuads& quads) {
-    remove(pos);
+void RegionTable::set(world::ChunkPos pos, std::span<const mesh::RegionMesh> regions,
+                      mesh::RegionSet changed) {
+    if (chunks_[pos].size() != regions.size()) {
+        remove(pos);
+        changed = mesh::kAllRegions;
+    }
     std::vector<std::uint32_t>& slotsOfChunk = chunks_[pos];
-    for (const mesh::RegionMesh& region : quads.regions) {
-        const shared::RegionRecord record = recordOf(pos, region, quads.first);
-        if (isEmpty(record)) continue;
-        const std::uint32_t slot = allocateSlot();
-        slotsOfChunk.push_back(slot);
-        cpuRecords_[slot] = record;
-        changed_.push_back(slot);
-        if (hasBlendedQuads(record)) blended_.push_back(slot);
-        addCommands(record, 1);
+    slotsOfChunk.resize(regions.size(), kNoSlot);
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        if (mesh::hasRegion(changed, r)) setRegion(slotsOfChunk[r], recordOf(pos, regions[r]));
+    }
+    if (regions.empty()) chunks_.erase(pos);
+}
+
+// Where the region keeps its slot the order stays: regions of a chunk lie one above the other whatever their
+// quads are.
+void RegionTable::setRegion(std::uint32_t& slot, const shared::RegionRecord& record) {
+    if (slot != kNoSlot) {
+        addCommands(cpuRecords_[slot], -1);
+        if (hasBlendedQuads(cpuRecords_[slot])) std::erase(blended_, slot);
+    }
+    const bool hadSlot = slot != kNoSlot, needsSlot = !isEmpty(record);
+    if (hadSlot && !needsSlot) {
+        free_.push_back(slot);
+        slot = kNoSlot;
+        --count_;
+    }
+    if (!hadSlot && needsSlot) {
+        slot = allocateSlot();
         ++count_;
     }
-    isSorted_ = false;
+    if (hadSlot != needsSlot) isSorted_ = false;
+    if (!needsSlot) return;
+    cpuRecords_[slot] = record;
+    changed_.push_back(slot);
+    if (hasBlendedQuads(record)) blended_.push_back(slot);
+    addCommands(record, 1);
 }
 
 void RegionTable::remove(world::ChunkPos pos) {
     const auto found = chunks_.find(pos);
     if (found == chunks_.end()) return;
-    for (const std::uint32_t slot : found->second) {
-        addCommands(cpuRecords_[slot], -1);
-        if (hasBlendedQuads(cpuRecords_[slot])) std::erase(blended_, slot);
-        free_.push_back(slot);
-        --count_;
-    }
+    for (std::uint32_t& slot : found->second) setRegion(slot, {});
     chunks_.erase(found);
-    isSorted_ = false;
 }
 
 void RegionTable::uploadRecords() {
@@ -129,6 +145,7 @@ void RegionTable::uploadOrder() {
     keys.reserve(count_);
     for (const auto& [pos, slotsOfChunk] : chunks_) {
         for (const std::uint32_t slot : slotsOfChunk) {
+            if (slot == kNoSlot) continue;
             keys.push_back(sortKey(cpuRecords_[slot], centre_) << 32 | slot);
         }
     }

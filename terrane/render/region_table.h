@@ -20,8 +20,10 @@ class RegionTable {
   public:
     RegionTable();
 
-    // The chunk's regions are those of `quads`, as QuadStore holds them.
-    void set(world::ChunkPos pos, const ChunkQuads& quads);
+    // Of `regions`, which are all that the chunk has in the QuadStore (none: it is removed), those in
+    // `changed` are others than before.
+    void set(world::ChunkPos pos, std::span<const mesh::RegionMesh> regions,
+             mesh::RegionSet changed = mesh::kAllRegions);
     void remove(world::ChunkPos pos);
 
     // Sends what changed to the GPU and sorts the regions by their distance from the chunk, nearest first.
@@ -42,11 +44,15 @@ class RegionTable {
     bool hasBlended(world::ChunkPos centre, std::span<const glm::vec4> planes) const;
 
   private:
+    static constexpr std::uint32_t kNoSlot = UINT32_MAX;
+
     std::uint32_t allocateSlot();
+    void setRegion(std::uint32_t& slot, const shared::RegionRecord& record);
     void addCommands(const shared::RegionRecord& record, std::int32_t sign);
     void uploadRecords();
     void uploadOrder();
 
+    // Slots by region, kNoSlot where it has no quads.
     std::unordered_map<world::ChunkPos, std::vector<std::uint32_t>, world::ChunkPosHash> chunks_;
     std::vector<shared::RegionRecord> cpuRecords_;
     std::vector<std::uint32_t> free_, changed_, blended_;  // slots

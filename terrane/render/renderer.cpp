@@ -123,12 +123,10 @@ base::Result<void> Renderer::selectVariants(const RenderOptions& options, const 
     return done;
 }
 
-bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh) {
-    regions_.remove(pos);
-    if (!quads_.set(pos, mesh)) return false;
-    const auto stored = quads_.chunks().find(pos);
-    if (stored != quads_.chunks().end()) regions_.set(pos, stored->second);
-    return true;
+bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::RegionSet regions) {
+    const bool hasRoom = quads_.set(pos, mesh, regions);
+    regions_.set(pos, quads_.regionsOf(pos), regions);
+    return hasRoom;
 }
 
 void Renderer::removeChunk(world::ChunkPos pos) {

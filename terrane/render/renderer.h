@@ -38,8 +38,10 @@ class Renderer {
     base::Result<void> configure(glm::ivec2 size, const RenderOptions& options);
     const RenderOptions& options() const { return options_; }
 
-    // The next frame shows the chunk so. False where the GPU has no room: it is not shown then.
-    bool setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh);
+    // The next frame shows these regions of the chunk so; of others `mesh` has no quads. False where the GPU
+    // has no room: the regions are not shown then.
+    bool setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
+                  mesh::RegionSet regions = mesh::kAllRegions);
     // Chunks without light are drawn as under the open sky. `viewDistance` of setViewDistance is the farthest
     // that light is kept for. `bricks`: see LightStore.
     void setLight(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF) {
@@ -62,6 +64,7 @@ class Renderer {
     // What a shadow map for this frame would draw.
     std::size_t shadowTriangles(const FrameInput& input) const;
     std::size_t quadBytes() const { return quads_.usedBytes(); }
+    std::uint64_t uploadedQuadBytes() const { return quads_.uploadedBytes(); }  // since the beginning
     std::size_t lightBytes() const { return light_.usedBytes(); }
     glm::ivec2 size() const { return targets_.size; }
 

@@ -113,7 +113,7 @@ std::size_t countShadowTriangles(const QuadStore& quads, const Camera& camera, c
     for (const auto& [pos, chunk] : quads.chunks()) {
         const glm::vec3 origin(static_cast<float>(std::int64_t{pos.x} - centre.x) * world::kChunkSize,
                                static_cast<float>(std::int64_t{pos.y} - centre.y) * world::kChunkSize, 0);
-        for (const mesh::RegionMesh& region : chunk.regions) {
+        for (const mesh::RegionMesh& region : chunk) {
             const glm::vec3 min = origin + glm::vec3(0, 0, region.minZ);
             const glm::vec3 max = origin + glm::vec3(world::kChunkSize, world::kChunkSize, region.maxZ);
             if (mayBeInVolume(volume, min, max)) count += 2 * castingQuads(region, lightDirection);

@@ -42,7 +42,7 @@ light::ChunkLightPtr lightOf(const Surroundings& around, const light::LightTable
 }
 
 MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockRegistry& blocks,
-               const mesh::MeshOptions& options) {
+               const mesh::MeshOptions& options, mesh::RegionSet regions) {
     TERRANE_ZONE("mesh chunk");
     thread_local mesh::MeshScratch scratch;
     mesh::MeshInput input;
@@ -52,7 +52,7 @@ MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockR
     input.neighbours = {chunk(3), chunk(5), chunk(1), chunk(7)};
     input.blocks = &blocks;
     input.options = options;
-    return std::make_shared<const mesh::ChunkMesh>(mesh::meshChunk(input, scratch));
+    return std::make_shared<const mesh::ChunkMesh>(mesh::meshRegions(input, regions, scratch));
 }
 
 }  // namespace terrane::stream

@@ -6,7 +6,7 @@
 
 #include "terrane/gen/generator.h"
 #include "terrane/light/light_chunk.h"
-#include "terrane/mesh/chunk_mesher.h"
+#include "terrane/mesh/remesh.h"
 #include "terrane/store/chunk_store.h"
 #include "terrane/world/block_registry.h"
 
@@ -37,6 +37,6 @@ struct Surroundings {
 
 light::ChunkLightPtr lightOf(const Surroundings& around, const light::LightTable& table);
 MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockRegistry& blocks,
-               const mesh::MeshOptions& options);
+               const mesh::MeshOptions& options, mesh::RegionSet regions = mesh::kAllRegions);
 
 }  // namespace terrane::stream

@@ -57,6 +57,7 @@ void ChunkPipeline::setView(ChunkPos centre, int viewDistance, glm::vec2 directi
         setLight(pos, nullptr);
         ChunkChange& hidden = change(pos);
         hidden.mesh = nullptr;
+        hidden.regions = 0;
         hidden.light = nullptr;
         hidden.bricks = 0;
         hidden.isHidden = true;
@@ -81,8 +82,9 @@ void ChunkPipeline::giveUpLoads() {
 void ChunkPipeline::setMeshOptions(const mesh::MeshOptions& options) {
     if (options == meshOptions_) return;
     meshOptions_ = options;
+    for (auto& [pos, regions] : toMesh_) regions = mesh::kAllRegions;  // they were counted by another height
     for (const auto& [pos, extra] : extras_) {
-        if (table_.is(pos, ChunkStage::Visible)) toMesh_.insert(pos);
+        if (table_.is(pos, ChunkStage::Visible)) toMesh_[pos] = mesh::kAllRegions;
         table_.blocksChanged(pos);  // meshes on the way are old
     }
 }
@@ -123,7 +125,7 @@ void ChunkPipeline::takeResults() {
     for (WorkerResults::Finish& done : finishes) {
         if (!table_.finished(done.pos)) continue;
         setLight(done.pos, done.light);
-        change(done.pos).mesh = std::move(done.mesh);
+        setMesh(done.pos, std::move(done.mesh));
         dropLocalsAround(done.pos);
     }
 }
@@ -243,7 +245,7 @@ void ChunkPipeline::showAgain() {
     for (const auto& [pos, extra] : extras_) {
         if (!table_.is(pos, ChunkStage::Visible)) continue;
         change(pos).light = extra.light;
-        toMesh_.insert(pos);
+        toMesh_[pos] = mesh::kAllRegions;
     }
 }
 

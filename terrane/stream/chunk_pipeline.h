@@ -9,6 +9,7 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -28,6 +29,7 @@ namespace terrane::stream {
 struct ChunkChange {
     world::ChunkPos pos;
     MeshPtr mesh;
+    mesh::RegionSet regions = 0;  // of the mesh that changed; the others have no quads in it
     light::ChunkLightPtr light;
     std::uint16_t bricks = 0;  // of the light that changed, a bit each
     bool isHidden = false;     // it is no longer on screen
@@ -142,6 +144,7 @@ class ChunkPipeline {
     bool relightIncrementally(const std::set<world::ChunkPos>& edited);
     void relightFromScratch(const std::set<world::ChunkPos>& edited);
     void setLight(world::ChunkPos pos, light::ChunkLightPtr light, std::uint16_t bricks = 0xFFFF);
+    void setMesh(world::ChunkPos pos, MeshPtr mesh, mesh::RegionSet regions = mesh::kAllRegions);
     void remesh();
     ChunkChange& change(world::ChunkPos pos);
 
@@ -152,7 +155,7 @@ class ChunkPipeline {
     std::unordered_map<world::ChunkPos, Extra, world::ChunkPosHash> extras_;
     std::deque<world::ChunkPos> absent_;   // to be made by `batches`
     std::vector<light::BlockEdit> edits_;  // since the last update
-    std::set<world::ChunkPos> toMesh_;
+    std::map<world::ChunkPos, mesh::RegionSet> toMesh_;
     Time now_{}, nextTidy_{};  // now: of the last update
 
     // What was not taken yet, and the chunks in the order in which they first changed.

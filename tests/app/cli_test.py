@@ -258,6 +258,11 @@ class Dump(ProgramTest):
             self.assertTrue(0 <= chunk_x < 2 and 0 <= chunk_y < 2 and x < 16 and y < 16 and z < 256)
             self.assertTrue(face < 21 and 1 <= u <= 16 and 1 <= v <= 16 and context < 6 and group < 7)
 
+    def test_quads_are_the_same_on_both_back_ends(self):
+        cpu = self.dump("quads", "7,-3,10,-1", "--backend", "cpu")
+        gpu = self.dump("quads", "7,-3,10,-1", "--backend", "gpu")
+        self.assertEqual(cpu.data, gpu.data)
+
 
 class Saves(ProgramTest):
     """generate, dump and check with a save."""

@@ -26,7 +26,7 @@ inline void loadOverworld(render::Renderer& renderer, const render::Camera& came
         pipeline.waitForWorkers(std::chrono::milliseconds(100));
     }
     for (const stream::ChunkChange& change : pipeline.takeChanges(std::numeric_limits<std::size_t>::max())) {
-        if (change.mesh) renderer.setChunk(change.pos, *change.mesh);
+        if (change.mesh) renderer.setChunk(change.pos, *change.mesh, change.regions);
         if (change.light) renderer.setLight(change.pos, *change.light);
     }
 }

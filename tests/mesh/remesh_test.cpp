@@ -69,7 +69,7 @@ TEST_P(RemeshHeights, TouchedRegionsAreEnough) {
             if (touched.pos == world::ChunkPos{0, 0}) regions = touched.regions;
         }
         EXPECT_NE(regions, 0u);
-        mesh = remeshRegions(mesh, edited.area.input(options), regions, scratch);
+        mesh = withRegions(mesh, meshRegions(edited.area.input(options), regions, scratch), regions);
         ASSERT_EQ(mesh, meshChunk(edited.area.input(options), scratch)) << x << ' ' << y << ' ' << z;
     }
 }
@@ -77,16 +77,29 @@ TEST_P(RemeshHeights, TouchedRegionsAreEnough) {
 INSTANTIATE_TEST_SUITE_P(All, RemeshHeights, testing::Values(8, 16, 32, 64, 128));
 
 // The regions left out are not looked at: they stay as they were even where that is wrong by now.
-TEST(RemeshRegions, OthersAreCopied) {
+TEST(WithRegions, OthersAreCopied) {
     Edited edited(randomBlocks(Mix::Terrain, 12));
     MeshScratch scratch;
     const ChunkMesh before = meshChunk(edited.area.input(), scratch);
     edited.area.centre.setBlock(world::blockIndex(8, 8, 40), idOf("lava"));
     edited.area.centre.setBlock(world::blockIndex(8, 8, 120), idOf("lava"));
-    EXPECT_EQ(remeshRegions(before, edited.area.input(), 0, scratch), before);
-    const ChunkMesh upper = remeshRegions(before, edited.area.input(), 0b0010, scratch);
+    const ChunkMesh after = meshChunk(edited.area.input(), scratch);
+    EXPECT_EQ(withRegions(before, after, 0), before);
+    EXPECT_EQ(withRegions(before, after, kAllRegions), after);
+    const ChunkMesh upper = withRegions(before, after, 0b0010);
     EXPECT_EQ(upper.regions[0], before.regions[0]);
     EXPECT_NE(upper.regions[1], before.regions[1]);
+}
+
+TEST(MeshRegions, OthersAreEmpty) {
+    const Area area(randomBlocks(Mix::Terrain, 13));
+    MeshScratch scratch;
+    const ChunkMesh all = meshChunk(area.input(), scratch);
+    ASSERT_GT(all.regions[0].maxZ, 0);
+    const ChunkMesh none = meshRegions(area.input(), 0b1110, scratch);
+    EXPECT_EQ(none.regions[0], RegionMesh{});
+    EXPECT_EQ(withRegions(all, none, 0b1110), all);
+    EXPECT_EQ(meshRegions(area.input(), kAllRegions, scratch), all);
 }
 
 }  // namespace

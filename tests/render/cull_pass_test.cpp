@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "terrane/mesh/region_quads.h"
 #include "terrane/render/shadow_volume.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/render/content.h"
@@ -76,7 +77,7 @@ class CullPassTest : public gpu::GlTest {
     }
     void set(world::ChunkPos pos, const mesh::ChunkMesh& mesh) {
         ASSERT_TRUE(quads_->set(pos, mesh));
-        regions_->set(pos, quads_->chunks().at(pos));
+        regions_->set(pos, quads_->regionsOf(pos));
     }
 
     Drawn& build(const Camera& camera, std::optional<Frustum> shadow = {}, glm::vec3 light = {0, 0, 1}) {
@@ -119,10 +120,10 @@ class CullPassTest : public gpu::GlTest {
     }
 
     std::set<std::uint32_t> stored(world::ChunkPos pos, int region, int context, int group) const {
-        const ChunkQuads& chunk = quads_->chunks().at(pos);
-        const mesh::QuadRange range = chunk.regions[static_cast<std::size_t>(region)].groups[context][group];
+        const mesh::QuadRange range =
+            quads_->regionsOf(pos)[static_cast<std::size_t>(region)].groups[context][group];
         std::set<std::uint32_t> numbers;
-        for (std::uint32_t k = 0; k < range.count; ++k) numbers.insert(chunk.first + range.first + k);
+        for (std::uint32_t k = 0; k < range.count; ++k) numbers.insert(range.first + k);
         return numbers;
     }
 
@@ -247,7 +248,7 @@ TEST_F(CullPassTest, TheNearestAreDrawnFirst) {
         for (int x = -4; x <= 4; ++x) {
             set({x, y},
                 meshOfParts({{0, kOpaque, mesh::kGroupAlways, 3}, {2, kOpaque, mesh::kGroupAlways, 2}}));
-            chunkOfQuad[quads_->chunks().at({x, y}).first] = {x, y};
+            chunkOfQuad[mesh::firstQuad(quads_->regionsOf({x, y})[0])] = {x, y};
         }
     }
     for (const Camera& camera :

@@ -3,7 +3,10 @@
 #include <map>
 #include <span>
 
+#include "terrane/mesh/region_quads.h"
+#include "terrane/shared/hash.h"
 #include "tests/gpu/gl_fixture.h"
+#include "tests/mesh/random_blocks.h"
 
 namespace terrane::render {
 namespace {
@@ -22,15 +25,21 @@ mesh::ChunkMesh numberedMesh(std::uint32_t seed, std::uint32_t count) {
     return mesh;
 }
 
+// What the store has of a chunk, read back: as the chunk's mesh.
+mesh::ChunkMesh readBack(const QuadStore& store, ChunkPos pos) {
+    mesh::ChunkMesh mesh;
+    for (const mesh::RegionMesh& region : store.regionsOf(pos)) {
+        const std::size_t first = mesh.quads.size();
+        mesh.quads.resize(first + mesh::quadCount(region));
+        mesh.regions.push_back(mesh::movedTo(static_cast<std::uint32_t>(first), region));
+        store.buffer().download(std::size_t{mesh::firstQuad(region)} * shared::kQuadBytes,
+                                std::as_writable_bytes(std::span(mesh.quads).subspan(first)));
+    }
+    return mesh;
+}
+
 void expectStored(const QuadStore& store, ChunkPos pos, const mesh::ChunkMesh& mesh) {
-    const auto found = store.chunks().find(pos);
-    ASSERT_NE(found, store.chunks().end());
-    ASSERT_EQ(found->second.count, mesh.quads.size());
-    EXPECT_EQ(found->second.regions, mesh.regions);
-    std::vector<shared::Quad> stored(mesh.quads.size());
-    store.buffer().download(std::size_t{found->second.first} * shared::kQuadBytes,
-                            std::as_writable_bytes(std::span(stored)));
-    EXPECT_TRUE(stored == mesh.quads);
+    EXPECT_TRUE(readBack(store, pos) == mesh);
 }
 
 TEST_F(QuadStoreTest, StartsEmpty) {
@@ -136,6 +145,67 @@ TEST_F(QuadStoreTest, FreedRoomIsUsedAgain) {
     EXPECT_EQ(store.buffer().sizeBytes(), before);
     expectStored(store, {0, 0}, numberedMesh(8, third));
     expectStored(store, {1, 0}, numberedMesh(9, third));
+}
+
+// After random edits, each of which replaces the regions it touches, the store holds what meshing all again
+// gives; only the regions' quads were uploaded, and nothing leaks.
+TEST_F(QuadStoreTest, EditsReplaceOnlyTheirRegions) {
+    for (const int height : {8, 64}) {
+        const mesh::MeshOptions options{mesh::Method::Greedy, height};
+        mesh::Area area(mesh::randomBlocks(mesh::Mix::Terrain, 21));
+        mesh::MeshScratch scratch;
+        QuadStore store;
+        store.set({9, 9}, numberedMesh(1, 100));
+        ASSERT_TRUE(store.set({0, 0}, meshChunk(area.input(options), scratch)));
+        const std::uint64_t atFirst = store.uploadedBytes();
+        std::uint64_t allBytes = 0;
+        for (unsigned step = 0; step < 100; ++step) {
+            const auto random = [&](unsigned k, unsigned count) {
+                return static_cast<int>(shared::hash2(step, k, 8) % count);
+            };
+            const world::BlockPos pos{random(0, 16), random(1, 16), 30 + random(2, 40)};
+            area.centre.setBlock(world::blockIndex(pos.x, pos.y, pos.z),
+                                 mesh::anyId(shared::hash2(step, 3, 8)));
+            const mesh::RegionSet regions = mesh::regionsTouchedBy(pos, height)[0].regions;
+            const mesh::ChunkMesh part = meshRegions(area.input(options), regions, scratch);
+            const std::uint64_t before = store.uploadedBytes();
+            ASSERT_TRUE(store.set({0, 0}, part, regions));
+            EXPECT_EQ(store.uploadedBytes() - before, part.quads.size() * shared::kQuadBytes);
+            const mesh::ChunkMesh all = meshChunk(area.input(options), scratch);
+            allBytes += all.quads.size() * shared::kQuadBytes;
+            ASSERT_TRUE(readBack(store, {0, 0}) == all) << step;
+            ASSERT_EQ(store.usedBytes(), (100 + all.quads.size()) * shared::kQuadBytes);
+        }
+        if (height == 8) {
+            EXPECT_LT(2 * (store.uploadedBytes() - atFirst), allBytes);
+        }
+        expectStored(store, {9, 9}, numberedMesh(1, 100));
+        store.remove({0, 0});
+        EXPECT_EQ(store.usedBytes(), 100u * shared::kQuadBytes);
+    }
+}
+
+// Another height of regions replaces all of them.
+TEST_F(QuadStoreTest, AnotherNumberOfRegions) {
+    const mesh::Area area(mesh::randomBlocks(mesh::Mix::Terrain, 22));
+    mesh::MeshScratch scratch;
+    QuadStore store;
+    for (const int height : {64, 16, 128}) {
+        const mesh::ChunkMesh mesh = meshChunk(area.input({mesh::Method::Greedy, height}), scratch);
+        ASSERT_TRUE(store.set({0, 0}, mesh));
+        expectStored(store, {0, 0}, mesh);
+        EXPECT_EQ(store.usedBytes(), mesh.quads.size() * shared::kQuadBytes);
+    }
+}
+
+TEST_F(QuadStoreTest, ARegionThatFindsNoRoomIsEmpty) {
+    QuadStore store(100);
+    mesh::ChunkMesh two = numberedMesh(1, 60);
+    two.regions.push_back(mesh::movedTo(60, {}));
+    ASSERT_TRUE(store.set({0, 0}, two));
+    mesh::ChunkMesh upper{numberedMesh(2, 50).quads, {mesh::RegionMesh{}, numberedMesh(2, 50).regions[0]}};
+    EXPECT_FALSE(store.set({0, 0}, upper, 0b10));
+    expectStored(store, {0, 0}, two);
 }
 
 }  // namespace

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <set>
 
-#include "terrane/mesh/chunk_mesher.h"
+#include "terrane/mesh/remesh.h"
+#include "terrane/shared/hash.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/render/content.h"
 
@@ -264,6 +265,42 @@ TEST_F(RendererTest, TexturesOfOtherSizesAreAnError) {
         ASSERT_FALSE(made);
         EXPECT_NE(made.error().message.find("\"dirt\""), std::string::npos) << made.error().message;
     }
+}
+
+// After edits that replace the regions they touch every frame is that of a renderer that got all anew, and no
+// more than these regions' quads were uploaded.
+TEST_F(RendererTest, EditsOfRegionsLookAsIfAllWasMeshedAgain) {
+    constexpr int kRegionHeight = 16;
+    constexpr std::array kNames = {"stone", "water", "oak_leaves", "sand", "grass", "air"};
+    world::Chunk chunk;
+    const world::Chunk air;
+    mesh::MeshInput input;
+    input.centre = &chunk;
+    input.neighbours = {&air, &air, &air, &air};
+    input.blocks = &contentBlocks();
+    input.options.regionHeight = kRegionHeight;
+    mesh::MeshScratch scratch;
+    auto other = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice());
+    ASSERT_TRUE(other && other->configure(kSize, plainOptions(1)));
+    const FrameInput frame = noon({.position = {-12, 8, 110}, .yaw = 0, .pitch = -15});
+    for (unsigned step = 0; step < 60; ++step) {
+        const auto random = [&](unsigned k, unsigned count) {
+            return static_cast<int>(shared::hash2(step, k, 31) % count);
+        };
+        const world::BlockPos pos{random(0, 16), random(1, 16), 85 + random(2, 30)};
+        const std::string_view name = kNames[static_cast<std::size_t>(random(3, kNames.size()))];
+        chunk.setBlock(world::blockIndex(pos.x, pos.y, pos.z),
+                       name == "air" ? world::kAir : contentBlock(name));
+        const mesh::RegionSet regions = mesh::regionsTouchedBy(pos, kRegionHeight)[0].regions;
+        const mesh::ChunkMesh part = meshRegions(input, regions, scratch);
+        const std::uint64_t before = renderer_->uploadedQuadBytes();
+        ASSERT_TRUE(renderer_->setChunk({0, 0}, part, regions));
+        EXPECT_EQ(renderer_->uploadedQuadBytes() - before, part.quads.size() * shared::kQuadBytes);
+        ASSERT_TRUE(other->setChunk({0, 0}, meshChunk(input, scratch)));
+        other->draw(frame);
+        ASSERT_TRUE(draw(frame).rgba == other->readImage().rgba) << step;
+    }
+    EXPECT_EQ(renderer_->quadBytes(), other->quadBytes());
 }
 
 }  // namespace

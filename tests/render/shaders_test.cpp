@@ -32,9 +32,10 @@ std::vector<gpu::ShaderDefines> combined(const Values& values) {
     return all;
 }
 
-// By the name between terrane/render/ and the stage.
+// By the name in its folder, with the stage.
 const std::map<std::string, Values>& variantValues() {
     static const std::map<std::string, Values> values = {
+        {"mesh.comp", {{"WRITES_QUADS", {"0", "1"}}}},
         {"quad.vert", {{"PASS", {"0", "1", "2"}}, {"ALPHA_CLASS", {"0", "1", "2"}}}},
         {"gbuffer.frag",
          {{"PASS", {"0"}}, {"ALPHA_CLASS", {"0", "1"}}, {"SAMPLES", {"1", "4"}}, {"SMOOTH", {"0", "1"}}}},
@@ -70,7 +71,7 @@ const std::map<std::string, Values>& variantValues() {
 
 std::vector<gpu::ShaderDefines> variantsOf(std::string_view path) {
     for (const auto& [name, values] : variantValues()) {
-        if (path == "terrane/render/" + name + ".glsl") return combined(values);
+        if (path.ends_with("/" + name + ".glsl")) return combined(values);
     }
     return kPlain;
 }

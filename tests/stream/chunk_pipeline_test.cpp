@@ -289,6 +289,46 @@ TEST_F(ChunkPipelineTest, AnEditNamesTheBricksWhoseLightItChanged) {
     EXPECT_GE(lit, 5);
 }
 
+TEST_F(ChunkPipelineTest, AnEditMeshesOnlyTheRegionsItTouches) {
+    pipeline_->setMeshOptions({mesh::Method::Greedy, 32});
+    setView({0, 0}, 1);
+    settle();
+    placeBlock({15, 8, 95}, "stone");  // in region 2, below 3, and beside region 2 of the next chunk
+    update();
+    std::map<ChunkPos, mesh::RegionSet> meshed;
+    for (const ChunkChange& change : pipeline_->takeChanges(kAll)) {
+        if (!change.mesh) continue;
+        meshed[change.pos] = change.regions;
+        for (std::size_t r = 0; r < change.mesh->regions.size(); ++r) {
+            if (mesh::hasRegion(change.regions, r)) continue;
+            EXPECT_EQ(change.mesh->regions[r].maxZ, 0) << "region " << r << " has quads";
+        }
+    }
+    EXPECT_EQ(meshed, (std::map<ChunkPos, mesh::RegionSet>{{{0, 0}, 0b1100}, {{1, 0}, 0b0100}}));
+}
+
+// Whatever is taken when, between edits and other options: what is shown is what meshing all again gives.
+TEST_F(ChunkPipelineTest, RegionsOfManyEditsAddUp) {
+    setView({0, 0}, 1);
+    settle();
+    mesh::MeshOptions options;
+    for (unsigned step = 0; step < 200; ++step) {
+        const auto random = [&](unsigned k, unsigned count) {
+            return static_cast<int>(shared::hash2(step, k, 77) % count);
+        };
+        if (random(0, 25) == 0)
+            pipeline_->setMeshOptions(options = {mesh::Method::Greedy, 8 << random(1, 5)});
+        placeBlock({random(2, 48) - 16, random(3, 48) - 16, 40 + random(4, 60)},
+                   step % 3 == 0 ? "air" : "stone");
+        if (random(5, 2) == 0) update();
+        if (random(6, 4) == 0) take(static_cast<std::size_t>(random(7, 4)));
+    }
+    settle();
+    for (const auto& [pos, shown] : shown_) {
+        EXPECT_EQ(*shown.mesh, directMesh(world_, pos, options)) << pos.x << ' ' << pos.y;
+    }
+}
+
 TEST_F(ChunkPipelineTest, ChunksOthersAskForAreLoadedAndKept) {
     setView({0, 0}, 0);
     settle();

@@ -76,10 +76,15 @@ class PipelineTest : public testing::Test {
                 continue;
             }
             Shown& shown = shown_[change.pos];
-            if (change.mesh) shown.mesh = change.mesh;
+            if (change.mesh) shown.mesh = withRegions(shown.mesh, change);
             if (change.light) shown.light = withBricks(shown.light, change);
         }
         return changes.size();
+    }
+
+    static MeshPtr withRegions(const MeshPtr& old, const ChunkChange& change) {
+        if (change.regions == mesh::kAllRegions) return change.mesh;
+        return std::make_shared<mesh::ChunkMesh>(mesh::withRegions(*old, *change.mesh, change.regions));
     }
 
     // As a renderer does that uploads nothing but the bricks which are said to have changed.

@@ -1,8 +1,10 @@
 // terrane dump: blocks, light or quads of an area as a NumPy file, so that anyone can check them from
 // outside.
+#include <algorithm>
 #include <cstring>
 #include <memory>
 
+#include "apps/terrane/batch_mesher.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
 #include "apps/terrane/light_solver.h"
@@ -11,7 +13,6 @@
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/npy.h"
-#include "terrane/mesh/chunk_mesher.h"
 #include "terrane/store/memory_store.h"
 
 namespace terrane::app {
@@ -126,30 +127,38 @@ void appendQuad(std::string& data, world::ChunkPos pos, shared::Quad quad,
     for (const int value : contextAndGroup) byte(static_cast<shared::uint>(value));
 }
 
-base::NpyArray dumpQuads(const LoadedArea& area, const Area& where, const world::BlockRegistry& blocks) {
-    base::NpyArray array{kQuadType, {0}, {}};
-    mesh::MeshScratch scratch;
+void appendMesh(base::NpyArray& array, world::ChunkPos pos, mesh::ChunkMesh& mesh) {
+    for (const mesh::RegionMesh& region : mesh.regions) {
+        for (int context = 0; context < mesh::kContextCount; ++context) {
+            for (int group = 0; group < mesh::kGroupCount; ++group) {
+                const mesh::QuadRange range = region.groups[context][group];
+                const auto quads = std::span(mesh.quads).subspan(range.first, range.count);
+                // Each back end has an order of its own; files are the same.
+                std::ranges::sort(quads, {}, [](shared::Quad q) { return std::pair(q.word0, q.word1); });
+                for (const shared::Quad quad : quads) appendQuad(array.data, pos, quad, {context, group});
+            }
+        }
+    }
+    array.shape[0] += mesh.quads.size();
+}
+
+base::NpyArray dumpQuads(const LoadedArea& area, const Area& where, const world::BlockRegistry& blocks,
+                         mesh::BatchMesher& mesher) {
+    std::vector<mesh::MeshInput> inputs;
     for (int y = 0; y < area.chunksY(); ++y) {
         for (int x = 0; x < area.chunksX(); ++x) {
-            mesh::MeshInput input;
-            input.centre = &area.chunk(x, y);
-            input.neighbours = {&area.chunk(x - 1, y), &area.chunk(x + 1, y), &area.chunk(x, y - 1),
-                                &area.chunk(x, y + 1)};
-            input.blocks = &blocks;
-            const mesh::ChunkMesh mesh = mesh::meshChunk(input, scratch);
-            for (const mesh::RegionMesh& region : mesh.regions) {
-                for (int context = 0; context < mesh::kContextCount; ++context) {
-                    for (int group = 0; group < mesh::kGroupCount; ++group) {
-                        const mesh::QuadRange range = region.groups[context][group];
-                        for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
-                            appendQuad(array.data, {where.x0 + x, where.y0 + y}, mesh.quads[k],
-                                       {context, group});
-                        }
-                    }
-                }
-            }
-            array.shape[0] += mesh.quads.size();
+            inputs.push_back(
+                {&area.chunk(x, y),
+                 {&area.chunk(x - 1, y), &area.chunk(x + 1, y), &area.chunk(x, y - 1), &area.chunk(x, y + 1)},
+                 &blocks,
+                 {}});
         }
+    }
+    std::vector<mesh::ChunkMesh> meshes = mesher.mesh(inputs);
+    base::NpyArray array{kQuadType, {0}, {}};
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        const int x = static_cast<int>(k) % area.chunksX(), y = static_cast<int>(k) / area.chunksX();
+        appendMesh(array, {where.x0 + x, where.y0 + y}, meshes[k]);
     }
     return array;
 }
@@ -176,9 +185,12 @@ base::Result<void> dump(DumpOptions& options, const CLI::App& command) {
     if (!save) return tl::unexpected(save.error());
     auto generator = makeGenerator(options.world, *blocks);
     if (!generator) return tl::unexpected(generator.error());
+    const auto backendFor = [&](What what) { return options.what == what ? options.backend : Backend::Cpu; };
     const light::LightTable lights(*blocks);
-    auto solver = makeLightSolver(options.what == What::Light ? options.backend : Backend::Cpu, lights);
+    auto solver = makeLightSolver(backendFor(What::Light), lights);
     if (!solver) return tl::unexpected(solver.error());
+    auto mesher = makeBatchMesher(backendFor(What::Quads), *blocks);
+    if (!mesher) return tl::unexpected(mesher.error());
     base::JobSystem jobs(threadCount(options.world));
     LoadedArea loaded(area);
     if (auto done = loaded.load(save->get(), *generator, jobs); !done) return done;
@@ -192,7 +204,7 @@ base::Result<void> dump(DumpOptions& options, const CLI::App& command) {
             array = dumpLight(loaded, **solver);
             break;
         case What::Quads:
-            array = dumpQuads(loaded, area, *blocks);
+            array = dumpQuads(loaded, area, *blocks, **mesher);
             break;
     }
     if (auto written = base::writeFile(options.output, base::encodeNpy(array)); !written) return written;
@@ -210,7 +222,7 @@ CommandEntry addDump(CLI::App& app) {
     addChoice<What>(*command, "--what", options->what,
                     {{"blocks", What::Blocks}, {"light", What::Light}, {"quads", What::Quads}},
                     "What to write");
-    addBackendOption(*command, options->backend, "Where to find the light");
+    addBackendOption(*command, options->backend, "Where to find the light, or the quads");
     addOutputOption(*command, options->output, "The .npy file");
     addWorldOptions(*command, options->world);
     addSaveOption(*command, options->save, "Save to take the chunks from; what it lacks is generated");

@@ -1,0 +1,23 @@
+// Block types as the meshing shaders read them: rules of visibility and merging as bits, materials with their
+// face contexts. Pure bookkeeping without OpenGL.
+#pragma once
+
+#include <vector>
+
+#include "terrane/shared/mesher.h"
+#include "terrane/world/block_registry.h"
+
+namespace terrane::mesh_gpu {
+
+struct BlockTable {
+    explicit BlockTable(const world::BlockRegistry& blocks);
+
+    const shared::MeshType& type(world::BlockId id) const {
+        return types[id < types.size() ? id : types.size() - 1];
+    }
+
+    std::vector<shared::MeshType> types;  // by id; the last stands for all ids from there on
+    std::vector<shared::uint> growth;     // never empty: OpenGL has no empty buffers
+};
+
+}  // namespace terrane::mesh_gpu

@@ -1,0 +1,58 @@
+// The mesher as compute shaders: quads go straight into the buffer that is drawn from. They are those of
+// mesh::meshChunk, in another order within their ranges. Used on the context's thread.
+//
+// A batch is counted first; the counts (112 bytes a region) come back through a copy that nothing waits for,
+// the host makes room for each region, and a second run writes the quads there. What it costs, per section
+// in which something may be seen, twice: 4,096 block indices read once (512 to 8,192 bytes) and 1,536 of its
+// neighbours, 256 invocations with 20 bit operations a side; then 96 planes, one invocation each, by two to
+// three reads of shared memory a row and rectangle. 23 KB of shared memory a work group: nine fit the 228 KB
+// of a large GPU, two the 64 KB of a small one. Plain planes take alike long; in a warp of 32 planes the one
+// with most rectangles decides.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "terrane/base/result.h"
+#include "terrane/gpu/buffer.h"
+#include "terrane/gpu/shader_loader.h"
+#include "terrane/mesh/chunk_mesher.h"
+
+namespace terrane::mesh_gpu {
+
+class GpuMesher {
+  public:
+    static constexpr std::size_t kMaxChunks = 256;  // a batch
+
+    // Memory on the GPU beside what batches upload (9 KB a chunk): 1 MB for counts, 400 KB for places.
+    static base::Result<GpuMesher> create(const gpu::ShaderLoader& shaders,
+                                          const world::BlockRegistry& blocks);
+    GpuMesher(GpuMesher&&) noexcept;
+    GpuMesher& operator=(GpuMesher&&) noexcept;
+    ~GpuMesher();
+
+    static bool supports(mesh::Method method) {
+        return method == mesh::Method::Greedy || method == mesh::Method::None;
+    }
+
+    // Starts to count the quads of up to kMaxChunks chunks with the same options. What was counted before is
+    // forgotten. The chunks are not needed any more afterwards.
+    void count(std::span<const mesh::MeshInput> chunks);
+    // Does not wait.
+    bool isCounted() const;
+    // Of all chunks, the lowest region first; waits where isCounted() does not hold yet. Ranges count from
+    // the region's first quad.
+    std::vector<mesh::RegionMesh> regions() const;
+    // Writes the quads of each region from `firstQuads` on, in the order of regions(); once a batch. Shaders
+    // that run later see them.
+    void write(std::span<const std::uint32_t> firstQuads, const gpu::Buffer& quads);
+
+  private:
+    struct Impl;
+    explicit GpuMesher(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace terrane::mesh_gpu

@@ -1,0 +1,106 @@
+#include "terrane/mesh_gpu/mesh_upload.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "terrane/mesh/section_side.h"
+
+namespace terrane::mesh_gpu {
+namespace {
+
+using shared::uint;
+using world::Section;
+
+// The section beyond a side; null above and below the world.
+const Section* beside(const mesh::MeshInput& chunk, int number, uint side) {
+    if (side < 4) return &chunk.neighbours[side]->section(number);
+    const int other = side == world::kFaceNegZ ? number - 1 : number + 1;
+    const bool isInside = other >= 0 && other < world::kSectionsPerChunk;
+    return isInside ? &chunk.centre->section(other) : nullptr;
+}
+
+bool isZero(const Section& section) {
+    return section.isUniform() && section.uniformValue() == 0;
+}
+
+}  // namespace
+
+void MeshUpload::clear() {
+    units_.clear();
+    sections_.clear();
+    data_.clear();
+    slots_.clear();
+    regions_ = 0;
+}
+
+uint MeshUpload::slotOf(const Section& section, bool holdsBlocks) {
+    const auto [found, isNew] = slots_.try_emplace(&section, static_cast<uint>(sections_.size()));
+    if (!isNew) return found->second;
+    const auto add = [&](std::uint16_t value) {
+        data_.push_back(holdsBlocks ? value | types_.type(value).flags << 16 : value);
+    };
+    shared::MeshSection entry{};
+    entry.bits = static_cast<uint>(section.bits());
+    entry.palette = static_cast<uint>(data_.size());
+    if (section.isUniform()) add(section.uniformValue());
+    for (const std::uint16_t value : section.palette()) add(value);
+    entry.words = static_cast<uint>(data_.size());
+    for (const std::uint64_t word : section.words()) {
+        data_.push_back(static_cast<uint>(word));
+        data_.push_back(static_cast<uint>(word >> 32));
+    }
+    sections_.push_back(entry);
+    return found->second;
+}
+
+// Not where there is only air, nor where nothing but opaque cubes is within and around: of 16 sections of a
+// landscape chunk 4 or 5 are left.
+bool MeshUpload::mayBeSeen(const mesh::MeshInput& chunk, int number) const {
+    const Section& section = chunk.centre->section(number);
+    const auto isInvisible = [&](std::uint16_t id) {
+        return (types_.type(id).flags & shared::kMeshShapeMask) == 0;
+    };
+    if (section.isUniform() && isInvisible(section.uniformValue())) return false;
+    if (!section.isUniform() && !section.isDense() && std::ranges::all_of(section.palette(), isInvisible)) {
+        return false;
+    }
+    if (!mesh::isAllOpaque(section, *chunk.blocks)) return true;
+    for (uint side = 0; side < world::kFaceCount; ++side) {
+        const Section* next = beside(chunk, number, side);
+        if (!next && side == world::kFaceNegZ) continue;
+        if (!next || !mesh::isAllOpaque(*next, *chunk.blocks)) return true;
+    }
+    return false;
+}
+
+// One, or two where a region is half as high as a section.
+void MeshUpload::addUnits(const mesh::MeshInput& chunk, int number) {
+    shared::MeshUnit unit{};
+    unit.section = slotOf(chunk.centre->section(number), true);
+    const Section& smallData = chunk.centre->smallDataSection(number);
+    unit.smallData = isZero(smallData) ? shared::kNoSection : slotOf(smallData, false);
+    for (uint side = 0; side < world::kFaceCount; ++side) {
+        const Section* next = beside(chunk, number, side);
+        const uint none = side == world::kFaceNegZ ? shared::kOpaqueSection : shared::kNoSection;
+        unit.neighbours[side] = next ? slotOf(*next, true) : none;
+    }
+    unit.baseZ = static_cast<uint>(number * world::kSectionSize);
+    const auto height = static_cast<uint>(chunk.options.regionHeight);
+    const uint step = std::min(height, shared::kSectionSize);
+    for (uint layer = 0; layer < shared::kSectionSize; layer += step) {
+        unit.region = regions_ + (unit.baseZ + layer) / height;
+        unit.layers = layer | (layer + step) << 16;
+        units_.push_back(unit);
+    }
+}
+
+void MeshUpload::add(const mesh::MeshInput& chunk) {
+    assert(chunk.centre && std::ranges::count(chunk.neighbours, nullptr) == 0 &&
+           "a chunk is meshed when its neighbours are known");
+    for (int number = 0; number < world::kSectionsPerChunk; ++number) {
+        if (mayBeSeen(chunk, number)) addUnits(chunk, number);
+    }
+    regions_ += static_cast<uint>(world::kChunkHeight / chunk.options.regionHeight);
+}
+
+}  // namespace terrane::mesh_gpu

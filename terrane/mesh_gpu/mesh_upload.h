@@ -1,0 +1,41 @@
+// Chunks as the meshing shaders read them: sections in their packed form, and a list of those in which
+// something may be seen. Pure bookkeeping without OpenGL.
+#pragma once
+
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "terrane/mesh/chunk_mesher.h"
+#include "terrane/mesh_gpu/block_table.h"
+#include "terrane/shared/mesher.h"
+
+namespace terrane::mesh_gpu {
+
+class MeshUpload {
+  public:
+    explicit MeshUpload(const BlockTable& types) : types_(types) {}  // outlives it
+
+    void clear();
+    // The next chunk. Chunks of a batch have the same options, and stay where they are until clear(): of
+    // sections that several chunks look at there is one copy.
+    void add(const mesh::MeshInput& chunk);
+
+    std::span<const shared::MeshUnit> units() const { return units_; }
+    std::span<const shared::MeshSection> sections() const { return sections_; }
+    std::span<const shared::uint> data() const { return data_; }  // about 9 KB an overworld chunk
+
+  private:
+    shared::uint slotOf(const world::Section& section, bool holdsBlocks);
+    void addUnits(const mesh::MeshInput& chunk, int number);
+    bool mayBeSeen(const mesh::MeshInput& chunk, int number) const;
+
+    const BlockTable& types_;
+    std::vector<shared::MeshUnit> units_;
+    std::vector<shared::MeshSection> sections_;
+    std::vector<shared::uint> data_;
+    std::unordered_map<const world::Section*, shared::uint> slots_;
+    shared::uint regions_ = 0;  // of the chunks before
+};
+
+}  // namespace terrane::mesh_gpu

@@ -1,0 +1,83 @@
+// What the host and the shaders that mesh agree on (terrane/mesh_gpu).
+#ifndef TERRANE_SHARED_MESHER_H
+#define TERRANE_SHARED_MESHER_H
+
+#include "terrane/shared/constants.h"
+#include "terrane/shared/language.h"
+#include "terrane/shared/region.h"
+
+SHARED_BEGIN
+
+// Storage buffers
+const uint kMeshSectionsBinding = 0u;
+const uint kMeshDataBinding = 1u;
+const uint kMeshTypesBinding = 2u;
+const uint kMeshGrowthBinding = 3u;
+const uint kMeshUnitsBinding = 4u;
+const uint kMeshUnitCountsBinding = 5u;
+const uint kMeshRegionsBinding = 6u;  // counts, or where the next quad goes
+const uint kMeshQuadsBinding = 7u;
+
+// Values of a section. bits: of an index into the palette, 0 (one value), 1, 2, 4, 8, or 16: no palette.
+// Palette and words begin at these places of the data. Palettes of blocks hold the id and, from bit 16 on,
+// the flags of its type; those of small data hold values.
+struct MeshSection {
+    uint bits;
+    uint palette;
+    uint words;
+    uint unused;
+};
+
+// In place of a section's number
+const uint kNoSection = 0xFFFFFFFFu;      // air, or no small data
+const uint kOpaqueSection = 0xFFFFFFFEu;  // below the world
+
+// What a work group meshes: the part of a section that lies in one region.
+struct MeshUnit {
+    uint section;
+    uint smallData;
+    uint region;  // of all regions of the batch
+    uint layers;  // of the section: the first, and the one behind the last << 16
+    uint neighbours[6];
+    uint baseZ;  // of the section
+    uint unused;
+};
+
+// A block type: its flags, and for each side the material and, from bit 16 on, its face context. Of plants
+// that grow the same for each stage, `count` << 16 of them from `first` on in the list of growth.
+struct MeshType {
+    uint flags;
+    uint growth;
+    uint faces[6];
+};
+
+// Flags: the shape as world::Shape numbers it, whether it is an opaque cube, then a bit each side.
+const uint kMeshShapeMask = 7u;
+const uint kMeshOpaqueBit = 8u;
+const uint kMeshHidesShift = 4u;    // no face toward the same type
+const uint kMeshMergesShift = 10u;  // faces may become one quad
+const uint kMeshShapeCube = 1u;
+const uint kMeshShapeLiquid = 2u;
+const uint kMeshShapeCross = 3u;
+const uint kMeshShapeHash = 4u;
+const uint kMeshShapeInset = 5u;
+
+// Quads of a unit by range, and 0 where there are none.
+const uint kMeshUnitWords = 25u;
+
+struct MeshRegionCounts {
+    uint quads[kRangesOfRegion];
+    uint minZ;  // as in mesh::RegionMesh; above maxZ where there are no quads
+    uint maxZ;
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+namespace terrane::shared {
+static_assert(sizeof(MeshSection) == 16 && sizeof(MeshUnit) == 48 && sizeof(MeshType) == 32);
+static_assert(sizeof(MeshRegionCounts) == 4 * (kRangesOfRegion + 2));
+static_assert(kMeshUnitWords == kRangesOfRegion + 1);
+}  // namespace terrane::shared
+#endif
+#endif

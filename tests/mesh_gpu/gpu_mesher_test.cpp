@@ -1,0 +1,195 @@
+#include "terrane/mesh_gpu/gpu_mesher.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "terrane/gen/generator.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/mesh/region_quads.h"
+#include "terrane/mesh_gpu/gpu_batch_mesher.h"
+#include "terrane/render/quad_store.h"
+#include "tests/gpu/gl_fixture.h"
+#include "tests/mesh/random_blocks.h"
+#include "tests/render/content.h"
+
+namespace terrane::mesh_gpu {
+namespace {
+
+using mesh::ChunkMesh;
+using mesh::MeshInput;
+using mesh::MeshOptions;
+using mesh::Method;
+
+class GpuMesherTest : public gpu::GlTest {
+  protected:
+    GpuBatchMesher mesherOf(const world::BlockRegistry& blocks) {
+        auto made = GpuMesher::create(render::contentShaders(), blocks);
+        if (!made) throw std::runtime_error(made.error().message);
+        return GpuBatchMesher(std::move(*made));
+    }
+};
+
+// The same quads in each range, sorted.
+ChunkMesh sorted(ChunkMesh mesh) {
+    for (const mesh::RegionMesh& region : mesh.regions) {
+        for (const auto& context : region.groups) {
+            for (const mesh::QuadRange range : context) {
+                std::sort(mesh.quads.begin() + range.first, mesh.quads.begin() + range.first + range.count,
+                          [](shared::Quad a, shared::Quad b) {
+                              return std::pair(a.word0, a.word1) < std::pair(b.word0, b.word1);
+                          });
+            }
+        }
+    }
+    return mesh;
+}
+
+void expectEqual(mesh::BatchMesher& mesher, std::span<const MeshInput> chunks) {
+    const std::vector<ChunkMesh> found = mesher.mesh(chunks);
+    const std::vector<ChunkMesh> expected = mesh::makeCpuMesher()->mesh(chunks);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        ASSERT_EQ(found[k].regions.size(), expected[k].regions.size());
+        for (std::size_t r = 0; r < found[k].regions.size(); ++r) {
+            ASSERT_TRUE(found[k].regions[r] == expected[k].regions[r]) << "chunk " << k << " region " << r;
+        }
+        ASSERT_TRUE(sorted(found[k]) == sorted(expected[k])) << "chunk " << k;
+    }
+}
+
+// All block kinds, with and without small data; every height of regions comes up with several mixes.
+TEST_F(GpuMesherTest, RandomVolumesEqualCpu) {
+    constexpr int kHeights[] = {8, 16, 32, 64, 128};
+    GpuBatchMesher mesher = mesherOf(mesh::testBlocks());
+    unsigned seed = 300;
+    for (int mix = 0; mix < static_cast<int>(mesh::Mix::Count); ++mix) {
+        for (const Method method : {Method::Greedy, Method::Greedy, Method::None}) {
+            mesh::Area area(mesh::randomBlocks(static_cast<mesh::Mix>(mix), ++seed));
+            if (seed % 2 == 0) area.addSmallData(seed);
+            const int height = kHeights[seed % std::size(kHeights)];
+            SCOPED_TRACE(fmt::format("mix {} height {}", mix, height));
+            const std::vector<MeshInput> inputs = {area.input({method, height})};
+            expectEqual(mesher, inputs);
+        }
+    }
+}
+
+// Wheat in every stage, also one that stands for none, in all forms of a section.
+TEST_F(GpuMesherTest, GrowingPlantsEqualCpu) {
+    GpuBatchMesher mesher = mesherOf(mesh::testBlocks());
+    for (const unsigned values : {1u, 2u, 4u, 16u, 4096u}) {
+        mesh::Area area([](int x, int y, int z) {
+            return z < 70 && (x + y + z) % 3 == 0 ? mesh::idOf("wheat") : world::kAir;
+        });
+        for (int i = 0; i < world::kBlocksPerChunk; ++i) {
+            const unsigned hash = shared::hash2(static_cast<unsigned>(i), values, 9);
+            area.centre.setSmallData(static_cast<world::BlockIndex>(i),
+                                     static_cast<std::uint16_t>(hash % values));
+        }
+        const std::vector<MeshInput> inputs = {area.input()};
+        expectEqual(mesher, inputs);
+    }
+}
+
+TEST_F(GpuMesherTest, EmptyAndFullChunksEqualCpu) {
+    GpuBatchMesher mesher = mesherOf(mesh::testBlocks());
+    const mesh::Area air([](int, int, int) { return world::kAir; });
+    const mesh::Area stone([](int, int, int) { return mesh::idOf("stone"); });
+    const mesh::Area water([](int, int, int) { return mesh::idOf("water"); });
+    const std::vector<MeshInput> inputs = {air.input(), stone.input(), water.input()};
+    expectEqual(mesher, std::span(inputs).first(1));
+    expectEqual(mesher, inputs);
+}
+
+// More chunks than a batch holds; neighbours are in the batch, in the next one, or in none.
+TEST_F(GpuMesherTest, OverworldEqualsCpu) {
+    constexpr int kSide = 18;
+    const auto graph = gen::makeGenerator("overworld", contentBlocks());
+    ASSERT_TRUE(graph);
+    const gen::Generator generator(*graph, 12345);
+    std::vector<world::Chunk> chunks;
+    for (int k = 0; k < (kSide + 2) * (kSide + 2); ++k) {
+        chunks.push_back(generator.generate({k % (kSide + 2) - 30, k / (kSide + 2) + 11}));
+    }
+    const auto at = [&](int x, int y) { return &chunks[static_cast<std::size_t>(x + y * (kSide + 2))]; };
+    std::vector<MeshInput> inputs;
+    for (int y = 1; y <= kSide; ++y) {
+        for (int x = 1; x <= kSide; ++x) {
+            inputs.push_back(
+                {at(x, y), {at(x - 1, y), at(x + 1, y), at(x, y - 1), at(x, y + 1)}, &contentBlocks(), {}});
+        }
+    }
+    GpuBatchMesher mesher = mesherOf(contentBlocks());
+    expectEqual(mesher, inputs);
+}
+
+// What lies in the buffer around the regions' places stays as it was.
+TEST_F(GpuMesherTest, WritesOnlyWhereItIsTold) {
+    auto mesher = GpuMesher::create(render::contentShaders(), mesh::testBlocks());
+    ASSERT_TRUE(mesher) << mesher.error().message;
+    const mesh::Area area(mesh::randomBlocks(mesh::Mix::Terrain, 4));
+    const std::vector<MeshInput> inputs = {area.input({Method::Greedy, 16})};
+    mesher->count(inputs);
+    const std::vector<mesh::RegionMesh> regions = mesher->regions();
+    constexpr std::uint32_t kGap = 7;
+    std::vector<std::uint32_t> firstQuads;
+    std::uint32_t end = kGap;
+    for (const mesh::RegionMesh& region : regions) {
+        firstQuads.push_back(end);
+        end += mesh::quadCount(region) + kGap;
+    }
+    constexpr shared::Quad kUntouched{0xDEADBEEF, 0xFFFFFFFF};
+    std::vector<shared::Quad> quads(end, kUntouched);
+    const gpu::Buffer buffer(std::as_bytes(std::span(quads)), 0, "quads");
+    mesher->write(firstQuads, buffer);
+    buffer.download(0, std::as_writable_bytes(std::span(quads)));
+    std::size_t written = 0;
+    for (std::uint32_t at = 0; at < end; ++at) {
+        bool isInside = false;
+        for (std::size_t r = 0; r < regions.size(); ++r) {
+            isInside |= at >= firstQuads[r] && at < firstQuads[r] + mesh::quadCount(regions[r]);
+        }
+        ASSERT_EQ(quads[at] == kUntouched, !isInside) << at;
+        written += isInside;
+    }
+    mesh::MeshScratch scratch;
+    EXPECT_EQ(written, meshChunk(inputs[0], scratch).quads.size());
+}
+
+// The way to the screen: room is made in the store that is drawn from, the shader fills it.
+TEST_F(GpuMesherTest, FillsTheStoreThatIsDrawnFrom) {
+    auto mesher = GpuMesher::create(render::contentShaders(), mesh::testBlocks());
+    ASSERT_TRUE(mesher) << mesher.error().message;
+    const mesh::Area first(mesh::randomBlocks(mesh::Mix::Terrain, 5)),
+        second(mesh::randomBlocks(mesh::Mix::Slabs, 6));
+    render::QuadStore store(400'000);
+    const std::vector<MeshInput> inputs = {first.input(), second.input()};
+    mesher->count(inputs);
+    const std::vector<mesh::RegionMesh> regions = mesher->regions();
+    const std::size_t perChunk = regions.size() / 2;
+    std::vector<std::uint32_t> firstQuads;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const world::ChunkPos pos{static_cast<int>(k), 0};
+        ASSERT_TRUE(store.reserve(pos, std::span(regions).subspan(k * perChunk, perChunk)));
+        for (const mesh::RegionMesh& region : store.regionsOf(pos))
+            firstQuads.push_back(mesh::firstQuad(region));
+    }
+    mesher->write(firstQuads, store.buffer());
+    EXPECT_EQ(store.uploadedBytes(), 0u);
+    for (std::size_t k = 0; k < 2; ++k) {
+        ChunkMesh stored;
+        for (const mesh::RegionMesh& region : store.regionsOf({static_cast<int>(k), 0})) {
+            const std::size_t at = stored.quads.size();
+            stored.quads.resize(at + mesh::quadCount(region));
+            stored.regions.push_back(mesh::movedTo(static_cast<std::uint32_t>(at), region));
+            store.buffer().download(std::size_t{mesh::firstQuad(region)} * shared::kQuadBytes,
+                                    std::as_writable_bytes(std::span(stored.quads).subspan(at)));
+        }
+        mesh::MeshScratch scratch;
+        EXPECT_TRUE(sorted(stored) == sorted(meshChunk(inputs[k], scratch))) << "chunk " << k;
+    }
+}
+
+}  // namespace
+}  // namespace terrane::mesh_gpu
