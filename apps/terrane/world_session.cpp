@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <glm/common.hpp>
 
 #include "apps/terrane/content.h"
 #include "apps/terrane/save_identity.h"
 #include "terrane/base/log.h"
 #include "terrane/gen/generators/catalogue.h"
+#include "terrane/shared/shape_face.h"
 #include "terrane/store/open_store.h"
 #include "terrane/store/save_path.h"
 #include "terrane/world/plant_growth.h"
@@ -96,6 +98,17 @@ void uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, 
         }
         if (change.light) renderer.setLight(change.pos, *change.light, change.bricks);
     }
+}
+
+bool isUnderWater(const WorldSession& session, const render::Camera& camera) {
+    const glm::dvec3 at = glm::floor(camera.position);
+    const world::BlockId water = session.blocks.find("water")->id;
+    const world::BlockPos pos{static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y),
+                              static_cast<std::int32_t>(at.z)};
+    if (session.world.block(pos) != water) return false;
+    constexpr double kSurface = shared::kLiquidSurfaceSixteenths / 16.0;
+    const bool isFull = session.world.block({pos.x, pos.y, pos.z + 1}) == water;
+    return isFull || camera.position.z - at.z < kSurface;
 }
 
 }  // namespace terrane::app

@@ -53,6 +53,9 @@ struct WorldSession {
 // Hands at most `limit` changed chunks to the renderer.
 void uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, std::size_t limit);
 
+// Whether the camera is in water: below its surface, where that is in the same block.
+bool isUnderWater(const WorldSession& session, const render::Camera& camera);
+
 // Where everything has become sky.
 inline float fogDistance(int viewDistance) {
     return static_cast<float>(viewDistance) * static_cast<float>(world::kChunkSize);

@@ -18,20 +18,24 @@ vec2 extentOf(uint face) {
 }
 
 // Magnified textures are constant inside a texel and blend linearly over one pixel at its edges: neither blocks that
-// shimmer nor blur. Without kSwitchTexturing the sampler takes the nearest texel. Textures repeat inside a quad, but
+// shimmer nor blur (SMOOTH 1; 0 takes the nearest texel and costs a third). Textures repeat inside a quad, but
 // filters must not reach around its edge to the opposite one, where a plant has its stem and a grass block its soil: half
 // a texel of the mipmap stays between.
 // dx, dy: of the coordinates, before the margin bends them.
 vec4 blockTexture(uint face, vec2 inTextures, vec2 dx, vec2 dy) {
+#if SMOOTH == 0
+    return texture(blockTextures, vec3(inTextures, textureOf(face)));
+#else
     vec2 size = vec2(textureSize(blockTextures, 0).xy);
     vec2 texel = inTextures * size, texelsPerPixel = max((abs(dx) + abs(dy)) * size, 1e-6);
     vec2 edge = floor(texel + 0.5);
     vec2 sharp = edge + clamp((texel - edge) / texelsPerPixel, -0.5, 0.5);
     float largest = max(texelsPerPixel.x, texelsPerPixel.y);
-    vec2 at = largest < 1.0 && (frame.camera.z & kSwitchTexturing) != 0 ? sharp : texel;
+    vec2 at = largest < 1.0 ? sharp : texel;
     vec2 margin = min(vec2(0.5 * max(largest, 1.0)), 0.5 * size);
     at = clamp(at, margin, extentOf(face) * size - margin);
     return textureGrad(blockTextures, vec3(at / size, textureOf(face)), dx, dy);
+#endif
 }
 
 float leastAlpha(uint face) {

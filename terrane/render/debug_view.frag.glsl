@@ -9,7 +9,7 @@ layout(location = 0) out vec4 outColor;
 
 vec3 lightView(vec3 position, Surface s) {
     vec4 levels = sampleLight(position, s.direction == kDirectionPlant ? vec3(0.0) : s.normal);
-    return 0.75 * levels.rgb + 0.5 * levels.a * vec3(0.5, 0.5, 0.4);
+    return max(levels.rgb, levels.a * vec3(0.85, 0.8, 0.65));
 }
 
 vec3 viewOf(vec4 word, float depth) {

@@ -27,8 +27,10 @@ vec3 compressHighlights(vec3 c) {
     return min(c, kStart) + (1.0 - kStart) * (1.0 - exp(-over / (1.0 - kStart)));
 }
 
+// Linear to sRGB by roots, off by half a step of 8 bits at most (I. Taylor, sRGB approximations for HLSL, 2012).
 vec3 encodeSrgb(vec3 c) {
-    return mix(c * 12.92, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
+    vec3 s1 = sqrt(c), s2 = sqrt(s1), s3 = sqrt(s2);
+    return mix(c * 12.92, 0.585122381 * s1 + 0.783140355 * s2 - 0.368262736 * s3, greaterThan(c, vec3(0.0031308)));
 }
 
 #if GOD_RAYS == 1

@@ -1,6 +1,8 @@
 // What changes from frame to frame. A plain value.
 #pragma once
 
+#include <optional>
+
 #include "terrane/render/camera.h"
 #include "terrane/world/environment.h"
 
@@ -15,6 +17,9 @@ struct FrameInput {
     float timeSeconds = 0;    // for animations
     View view = View::Color;
     bool isUnderWater = false;
+    // Draws only what this camera would see, whatever is hidden from it: to look at culling from outside. It is
+    // in the same chunk as `camera`.
+    std::optional<Camera> culledFor = std::nullopt;
 };
 
 }  // namespace terrane::render

@@ -16,9 +16,8 @@ static_assert(static_cast<shared::uint>(View::Normal) == shared::kViewNormal &&
               static_cast<shared::uint>(View::Light) == shared::kViewLight);
 
 int switchesOf(const RenderOptions& o) {
-    return (o.animation ? shared::kSwitchAnimation : 0) | (o.betterTexturing ? shared::kSwitchTexturing : 0) |
-           (o.atmosphere ? shared::kSwitchAtmosphere : 0) |
-           (o.shading == Shading::Off ? shared::kSwitchUnlit : 0) | (o.clouds ? shared::kSwitchClouds : 0);
+    return (o.animation ? shared::kSwitchAnimation : 0) | (o.atmosphere ? shared::kSwitchAtmosphere : 0) |
+           (o.shading == Shading::Off ? shared::kSwitchUnlit : 0);
 }
 
 void setEnvironment(shared::Frame& frame, const FrameInput& input) {
@@ -51,6 +50,7 @@ shared::Frame frameUniforms(const FrameInput& input, const RenderOptions& option
     frame.cameraPosition = glm::vec4(setup.view.cameraPosition, input.fogDistance);
     setEnvironment(frame, input);
     frame.viewport = glm::vec4(setup.size, options.coverCracks ? setup.crackGrowth : 0.0f, kNearPlane);
+    frame.shadow.z = kShadowReach;
     if (setup.shadowSize > 0) {
         const ShadowFit fit = fitShadowMap(input.camera, setup.size.x / setup.size.y,
                                            input.environment.lightDirection, setup.shadowSize);

@@ -1,4 +1,4 @@
-// ALPHA_CLASS: 0 opaque, 1 tested. SAMPLES: above 1, holes are tested at each sample.
+// ALPHA_CLASS: 0 opaque, 1 tested. SAMPLES: above 1, holes are tested at each sample. SMOOTH: see block_texture.glsl.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/shared/hash.h"
 #include "terrane/shared/quad.h"

@@ -14,10 +14,12 @@ GBufferPass::GBufferPass(const gpu::ShaderLoader& shaders)
     : opaque_(shaders, kVertex, kFragment, "opaque quads"),
       tested_(shaders, kVertex, kFragment, "tested quads") {}
 
-base::Result<void> GBufferPass::select(int alphaSamples) {
-    auto selected = opaque_.select({{"PASS", "0"}, {"ALPHA_CLASS", "0"}, {"SAMPLES", "1"}});
+base::Result<void> GBufferPass::select(int alphaSamples, bool isSmooth) {
+    auto selected =
+        opaque_.select(defined({{"PASS", 0}, {"ALPHA_CLASS", 0}, {"SAMPLES", 1}, {"SMOOTH", isSmooth}}));
     if (!selected) return selected;
-    return tested_.select({{"PASS", "0"}, {"ALPHA_CLASS", "1"}, {"SAMPLES", std::to_string(alphaSamples)}});
+    return tested_.select(
+        defined({{"PASS", 0}, {"ALPHA_CLASS", 1}, {"SAMPLES", alphaSamples}, {"SMOOTH", isSmooth}}));
 }
 
 void GBufferPass::draw(const CullPass& culled) const {

@@ -12,7 +12,8 @@ class GBufferPass {
     explicit GBufferPass(const gpu::ShaderLoader& shaders);
 
     // alphaSamples: at how many places of a pixel holes are tested; 1: in its middle.
-    base::Result<void> select(int alphaSamples);
+    // isSmooth: textures are filtered.
+    base::Result<void> select(int alphaSamples, bool isSmooth);
     // Into the bound framebuffer, with the quads and the frame's uniforms bound.
     void draw(const CullPass& culled) const;
 

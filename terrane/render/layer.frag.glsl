@@ -4,6 +4,7 @@
 #include "terrane/shared/quad.h"
 #include "terrane/shared/shape_face.h"
 #include "terrane/render/face_word.glsl"
+#define SMOOTH 1
 #include "terrane/render/block_texture.glsl"
 #include "terrane/render/layer_word.glsl"
 

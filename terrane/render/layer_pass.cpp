@@ -24,6 +24,7 @@ GLenum targetOf(int samples) {
 LayerPass::LayerPass(const gpu::ShaderLoader& shaders)
     : first_(shaders, kVertex, kFragment, "first layer"),
       next_(shaders, kVertex, kFragment, "next layer"),
+      shadeQuads_(shaders, kVertex, "terrane/render/layers.frag.glsl", "shade layers"),
       shade_(shaders, "layers") {
     for (auto& query : anyDrawn_) query = makeQuery();
 }
@@ -39,32 +40,53 @@ base::Result<LayerPass::Target> LayerPass::makeTarget(const FrameTargets& target
     return target;
 }
 
-base::Result<void> LayerPass::configure(const FrameTargets& targets, int layers, gpu::ShaderDefines shading) {
-    const std::string samples = std::to_string(targets.samples);
-    if (layers > 0) {
-        auto selected =
-            first_.select({{"PASS", "1"}, {"ALPHA_CLASS", "2"}, {"NEXT", "0"}, {"SAMPLES", samples}});
-        if (selected && layers > 1) {
-            selected =
-                next_.select({{"PASS", "1"}, {"ALPHA_CLASS", "2"}, {"NEXT", "1"}, {"SAMPLES", samples}});
-        }
-        if (selected) {
-            shading.emplace_back("SAMPLES", samples);
-            shading.emplace_back("LAYERS", std::to_string(layers));
-            selected = shade_.select(shading);
-        }
-        if (!selected) return selected;
+base::Result<void> LayerPass::selectVariants(int samples, const RenderOptions& options, bool hasShadows) {
+    const int layers = options.layers;
+    const auto peeling = [&](int next) {
+        return defined({{"PASS", 1}, {"ALPHA_CLASS", 2}, {"SAMPLES", samples}, {"NEXT", next}});
+    };
+    auto selected = first_.select(peeling(0));
+    if (selected && layers > 1) selected = next_.select(peeling(1));
+    const gpu::ShaderDefines shading = defined({{"PASS", 1},
+                                                {"ALPHA_CLASS", 2},
+                                                {"SAMPLES", samples},
+                                                {"LAYERS", layers},
+                                                {"SHADOW", hasShadows},
+                                                {"LIGHT_SMOOTH", static_cast<int>(options.light)},
+                                                {"QUADS", shadesQuads_}});
+    if (selected) selected = shadesQuads_ ? shadeQuads_.select(shading) : shade_.select(shading);
+    return selected;
+}
+
+// With one sample a pixel the layers' quads are drawn once more to shade the pixels they cover, and no
+// others. A single layer has a background everywhere.
+base::Result<void> LayerPass::configure(const FrameTargets& targets, const RenderOptions& options,
+                                        bool hasShadows) {
+    shadesQuads_ = targets.samples == 1 && options.singleLayer == 0;
+    if (options.layers > 0) {
+        if (auto selected = selectVariants(targets.samples, options, hasShadows); !selected) return selected;
     }
-    if (layers == layers_ && size_ == targets.size && samples_ == targets.samples) return {};
+    const bool isMade =
+        size_ == targets.size && samples_ == targets.samples && scene_ == targets.sceneColor.id();
+    if (options.layers == layers_ && isMade) return {};
     targets_ = {};
-    for (int k = 0; k < layers; ++k) {
+    overQuads_ = {};
+    layers_ = 0;
+    for (int k = 0; k < options.layers; ++k) {
         auto target = makeTarget(targets);
         if (!target) return tl::unexpected(target.error());
         targets_[static_cast<std::size_t>(k)] = std::move(*target);
     }
-    layers_ = layers;
+    if (options.layers > 0 && targets.samples == 1) {
+        auto over =
+            gpu::Framebuffer::create({{targets.sceneColor}, targets_[0].depth.attachment()}, "over layers");
+        if (!over) return tl::unexpected(over.error());
+        overQuads_ = std::move(*over);
+    }
+    layers_ = options.layers;
     size_ = targets.size;
     samples_ = targets.samples;
+    scene_ = targets.sceneColor.id();
     return {};
 }
 
@@ -102,9 +124,25 @@ void LayerPass::peel(const FrameTargets& targets, const CullPass& culled) {
     }
 }
 
-void LayerPass::shade() const {
+void LayerPass::shade(const FrameTargets& targets, const CullPass& culled) const {
     glBeginConditionalRender(anyDrawn_[0].id(), GL_QUERY_WAIT);
-    shade_.draw();
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
+    if (shadesQuads_) {
+        overQuads_.bind();
+        glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_EQUAL);
+        shadeQuads_.use();
+        culled.drawContexts(mesh::AlphaClass::Blended, false);
+    } else {
+        targets.scene.bind();
+        glDisable(GL_DEPTH_TEST);
+        shade_.draw();
+    }
+    glDisable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
     glEndConditionalRender();
 }
 

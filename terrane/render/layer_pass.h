@@ -7,6 +7,7 @@
 #include "terrane/render/cull_pass.h"
 #include "terrane/render/frame_targets.h"
 #include "terrane/render/fullscreen_pass.h"
+#include "terrane/render/render_options.h"
 
 namespace terrane::render {
 
@@ -17,13 +18,13 @@ class LayerPass {
     LayerPass() = default;
     explicit LayerPass(const gpu::ShaderLoader& shaders);
 
-    // Makes room for `layers` of the targets' size and samples. `shading`: defines SHADOW and LIGHT_SMOOTH.
-    base::Result<void> configure(const FrameTargets& targets, int layers, gpu::ShaderDefines shading);
+    // Makes room for the layers. Comes again whenever the targets are others.
+    base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options, bool hasShadows);
 
     // Into textures of its own, behind nothing of the depth in `targets`. With the quads bound.
     void peel(const FrameTargets& targets, const CullPass& culled);
-    // Over the bound framebuffer, where peel found anything.
-    void shade() const;
+    // Over the scene, where peel found anything.
+    void shade(const FrameTargets& targets, const CullPass& culled) const;
 
   private:
     struct Target {
@@ -33,11 +34,16 @@ class LayerPass {
     static base::Result<Target> makeTarget(const FrameTargets& targets);
     void drawLayer(const FrameTargets& targets, const CullPass& culled, int number);
 
-    ShaderVariants first_, next_;
+    base::Result<void> selectVariants(int samples, const RenderOptions& options, bool hasShadows);
+
+    ShaderVariants first_, next_, shadeQuads_;
     FullscreenPass shade_;
+    bool shadesQuads_ = false;    // instead of the whole screen
+    gpu::Framebuffer overQuads_;  // the scene with the first layer's depth
     int layers_ = 0;
     glm::ivec2 size_{0};
     int samples_ = 0;
+    GLuint scene_ = 0;  // of the targets it was made for
     std::array<Target, kMaxLayers> targets_;
     std::array<gpu::Handle<gpu::ObjectKind::Query>, kMaxLayers> anyDrawn_;
 };

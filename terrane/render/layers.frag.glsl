@@ -1,5 +1,6 @@
 // The light of all layers of blended faces over the picture: colour times coverage, and coverage.
-// SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW: 1 where there is a shadow map.
+// SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW: 1 where there is a shadow map. QUADS: 1 draws over the
+// quads of the first layer, 0 over the whole screen.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
 #include "terrane/render/sky_color.glsl"
@@ -20,8 +21,11 @@ layout(binding = kLayerColorUnit) uniform sampler2D layerColors[LAYERS];
 layout(binding = kLayerDepthUnit) uniform sampler2D layerDepths[LAYERS];
 #endif
 
-layout(location = 0) in vec2 inScreen;
+#if QUADS == 1
+vec3 inRay;
+#else
 layout(location = 1) in vec3 inRay;
+#endif
 layout(location = 0) out vec4 outColor;
 
 const vec3 kBackground = vec3(0.35);  // of a single layer
@@ -76,8 +80,21 @@ bool isOneLayer(ivec2 pixel) {
     return isSame;
 }
 
+#if QUADS == 1
+// As fullscreen.vert.glsl has it.
+vec3 rayOfPixel() {
+    vec2 screen = 2.0 * gl_FragCoord.xy / frame.viewport.xy - 1.0;
+    vec4 onNearPlane = frame.inverseViewProjection * vec4(screen, 1.0, 1.0);
+    return (onNearPlane.xyz / onNearPlane.w - frame.cameraPosition.xyz) / frame.viewport.w;
+}
+#endif
+
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
+#if QUADS == 1
+    inRay = rayOfPixel();
+    outColor = shadeLayers(pixel, 0);
+#else
     bool isThere = isAnyThere(pixel, 0);
     for (int k = 1; k < SAMPLES; ++k) isThere = isThere || isAnyThere(pixel, k);
     if (!isThere && frame.camera.w == 0) discard;
@@ -86,4 +103,5 @@ void main() {
     for (int k = 0; k < count; ++k) sum += shadeLayers(pixel, k);
     outColor = sum / float(count);
     if (frame.camera.w > 0) outColor = vec4(outColor.rgb + (1.0 - outColor.a) * kBackground, 1.0);
+#endif
 }

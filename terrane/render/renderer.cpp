@@ -8,6 +8,7 @@
 #include "terrane/gpu/debug.h"
 #include "terrane/render/frame_uniforms.h"
 #include "terrane/render/shadow_volume.h"
+#include "terrane/render/timer_zone.h"
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
@@ -16,6 +17,9 @@ namespace {
 constexpr std::size_t kRingBytes = 4096;  // uniforms of a frame and of culling, aligned
 constexpr int kLightViewDistance = 16;    // chunks, until setViewDistance
 constexpr float kMaxAnisotropy = 8.0f;
+
+// Between sun and moon it is dark: light that cannot be seen casts no shadows. Linear.
+constexpr float kLeastShadowedLight = 0.002f;
 
 // Along the view, as the depth has it, surfaces may fade from this share of the distance of the fog on: they
 // do from 5/6 over the ground, and more at the sides of a wide picture. sky.frag.glsl has the same.
@@ -35,24 +39,6 @@ float crackGrowth() {
 
 float aspectOf(glm::ivec2 size) {
     return static_cast<float>(size.x) / static_cast<float>(size.y);
-}
-
-// The time of what is drawn during its life.
-class TimerZone {
-  public:
-    TimerZone(gpu::GpuTimer& timer, std::string_view name) : timer_(timer) { timer_.begin(name); }
-    ~TimerZone() { timer_.end(); }
-    TimerZone(const TimerZone&) = delete;
-    TimerZone& operator=(const TimerZone&) = delete;
-
-  private:
-    gpu::GpuTimer& timer_;
-};
-
-gpu::ShaderDefines defined(std::initializer_list<std::pair<const char*, int>> values) {
-    gpu::ShaderDefines defines;
-    for (const auto& [name, value] : values) defines.emplace_back(name, std::to_string(value));
-    return defines;
 }
 
 }  // namespace
@@ -114,7 +100,7 @@ base::Result<void> Renderer::selectVariants(const RenderOptions& options, const 
     const int samples = targets.samples, light = static_cast<int>(options.light);
     auto done = shadowMap_.resize(options.shading == Shading::Off ? 0 : options.shadowSize);
     if (done) done = pyramid_.configure(targets, options.hiddenRegionCulling);
-    if (done) done = gbuffer_.select(options.sampledAlphaTest ? samples : 1);
+    if (done) done = gbuffer_.select(options.sampledAlphaTest ? samples : 1, options.betterTexturing);
     if (done) done = sky_.select(defined({{"SAMPLES", samples}, {"CLOUDS", options.clouds ? 1 : 0}}));
     if (done) {
         done = shade_.select(defined({{"SAMPLES", samples},
@@ -123,10 +109,7 @@ base::Result<void> Renderer::selectVariants(const RenderOptions& options, const 
                                       {"SHADOW", shadowMap_.size() > 0 ? 1 : 0},
                                       {"OCCLUSION", options.occlusion == Occlusion::Off ? 0 : 1}}));
     }
-    if (done)
-        done = layers_.configure(
-            targets, options.layers,
-            {{"SHADOW", shadowMap_.size() > 0 ? "1" : "0"}, {"LIGHT_SMOOTH", std::to_string(light)}});
+    if (done) done = layers_.configure(targets, options, shadowMap_.size() > 0);
     if (done) done = debugView_.select(defined({{"SAMPLES", samples}, {"LIGHT_SMOOTH", light}}));
     if (done) done = occlusion_.configure(targets, options.occlusion != Occlusion::Off);
     if (done) done = godRays_.configure(targets.size, options.godRays);
@@ -153,7 +136,9 @@ void Renderer::removeChunk(world::ChunkPos pos) {
 }
 
 bool Renderer::hasShadows(const FrameInput& input) const {
-    return shadowMap_.size() > 0 && input.view == View::Color;
+    const glm::vec3 light = input.environment.lightColor;
+    const bool isLit = std::max({light.x, light.y, light.z}) > kLeastShadowedLight;
+    return shadowMap_.size() > 0 && input.view == View::Color && isLit;
 }
 
 void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
@@ -176,6 +161,9 @@ CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view)
                    {},
                    view.viewProjection,
                    glm::vec2(targets_.size)};
+    if (input.culledFor) {
+        cull.camera = frustumOf(viewMatrices(*input.culledFor, aspectOf(targets_.size)).viewProjection);
+    }
     if (hasShadows(input)) {
         cull.shadow = planesOf(shadowVolume(view, input.environment.lightDirection, kShadowReach));
     }
@@ -192,17 +180,14 @@ void Renderer::drawShadows() {
     shadowMap_.draw(cull_);
 }
 
-void Renderer::drawSurfaces(const CullInput& cullInput) {
-    {
-        const TimerZone zone(timer_, "surfaces");
-        targets_.surfaces.bind();
-        targets_.surfaces.clearColor(0, glm::vec4(1));
-        targets_.surfaces.clearDepth(0.0f);
-        gbuffer_.draw(cull_);
-    }
+void Renderer::drawSurfaces() {
+    const TimerZone zone(timer_, "surfaces");
+    targets_.surfaces.bind();
+    targets_.surfaces.clearColor(0, glm::vec4(1));
+    targets_.surfaces.clearDepth(0.0f);
+    gbuffer_.draw(cull_);
     targets_.surface.bind(shared::kSurfaceUnit);
     targets_.depth.bind(shared::kDepthUnit);
-    if (pyramid_.isOn()) drawHiddenBefore(cullInput);
 }
 
 // What was hidden in the frame before and is not now.
@@ -256,11 +241,7 @@ void Renderer::drawLayers(const FrameInput& input) {
         layers_.peel(targets_, cull_);
     }
     const TimerZone zone(timer_, "shade layers");
-    targets_.scene.bind();
-    glDisable(GL_DEPTH_TEST);
-    glEnable(GL_BLEND);
-    layers_.shade();
-    glDisable(GL_BLEND);
+    layers_.shade(targets_, cull_);
 }
 
 void Renderer::drawPicture(const FrameInput& input) {
@@ -294,15 +275,17 @@ void Renderer::draw(const FrameInput& input) {
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     const CullInput culling = cullInput(input, view);
     regions_.update(culling.cameraChunk);
-    if (pyramid_.isOn()) pyramid_.bind();
-    cull(pyramid_.isOn() ? CullRun::SeenBefore : CullRun::All, culling);
+    const bool leavesOutHidden = pyramid_.isOn() && !input.culledFor;
+    if (leavesOutHidden) pyramid_.bind();
+    cull(leavesOutHidden ? CullRun::SeenBefore : CullRun::All, culling);
     resources_.bind(quads_, options_.betterTexturing);
     noise_.bind();
     regions_.bindRecords();
     if (hasShadows(input)) drawShadows();
-    drawSurfaces(culling);
+    drawSurfaces();
+    if (leavesOutHidden) drawHiddenBefore(culling);
     light_.bind();
-    if (hasShadows(input)) shadowMap_.bind();
+    if (shadowMap_.size() > 0) shadowMap_.bind();
     if (input.view == View::Color) {
         drawPicture(input);
     } else {
@@ -312,19 +295,6 @@ void Renderer::draw(const FrameInput& input) {
     }
     cull_.queueCounts();
     ring_.endFrame();
-}
-
-FrameStatistics Renderer::statistics() {
-    const shared::DrawCounts& counts = cull_.counts();
-    FrameStatistics statistics{counts.regions, 0, 0, 0, 0};
-    for (shared::uint list = 0; list < shared::kCameraLists; ++list) {
-        const bool isBlended = mesh::contextAlphaClass(static_cast<int>(list)) == mesh::AlphaClass::Blended;
-        statistics.quads += counts.quads[list];
-        statistics.drawCommands += counts.commands[list];
-        (isBlended ? statistics.transparentTriangles : statistics.opaqueTriangles) +=
-            2 * std::size_t{counts.quads[list]};
-    }
-    return statistics;
 }
 
 std::size_t Renderer::shadowTriangles(const FrameInput& input) const {

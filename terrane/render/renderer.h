@@ -13,6 +13,7 @@
 #include "terrane/render/depth_pyramid.h"
 #include "terrane/render/far_blur.h"
 #include "terrane/render/frame_input.h"
+#include "terrane/render/frame_statistics.h"
 #include "terrane/render/frame_targets.h"
 #include "terrane/render/fullscreen_pass.h"
 #include "terrane/render/gbuffer_pass.h"
@@ -25,11 +26,6 @@
 #include "terrane/render/sky_noise.h"
 
 namespace terrane::render {
-
-struct FrameStatistics {
-    std::size_t regions = 0, quads = 0, drawCommands = 0;
-    std::size_t opaqueTriangles = 0, transparentTriangles = 0;  // of these, alpha-tested ones are opaque
-};
 
 class Renderer {
   public:
@@ -63,7 +59,7 @@ class Renderer {
     GLuint pictureTexture() const { return targets_.pictureColor.id(); }
 
     // Of the newest frame that the GPU has finished.
-    FrameStatistics statistics();
+    FrameStatistics statistics() { return statisticsOf(cull_.counts()); }
     const std::vector<gpu::GpuTiming>& passTimes() const { return timer_.results(); }
     // What a shadow map for this frame would draw.
     std::size_t shadowTriangles(const FrameInput& input) const;
@@ -78,7 +74,7 @@ class Renderer {
     CullInput cullInput(const FrameInput& input, const ViewMatrices& view) const;
     void cull(CullRun run, const CullInput& input);
     void drawShadows();
-    void drawSurfaces(const CullInput& cullInput);
+    void drawSurfaces();
     void drawHiddenBefore(const CullInput& cullInput);
     void shadeSurfaces(float fogDistance);
     void drawLayers(const FrameInput& input);

@@ -4,6 +4,12 @@
 
 namespace terrane::render {
 
+gpu::ShaderDefines defined(std::initializer_list<std::pair<const char*, int>> values) {
+    gpu::ShaderDefines defines;
+    for (const auto& [name, value] : values) defines.emplace_back(name, std::to_string(value));
+    return defines;
+}
+
 ShaderVariants::ShaderVariants(const gpu::ShaderLoader& shaders, std::string vertexName,
                                std::string fragmentName, std::string label)
     : shaders_(&shaders),

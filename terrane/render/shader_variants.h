@@ -2,6 +2,7 @@
 // passes on the context's thread.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "terrane/gpu/program.h"
 
 namespace terrane::render {
+
+gpu::ShaderDefines defined(std::initializer_list<std::pair<const char*, int>> values);
 
 class ShaderVariants {
   public:

@@ -12,6 +12,9 @@ layout(location = 0) out vec4 outColor;
 
 // The sun is plain; the moon has plains, brighter and darker. `at`: from the disc's middle, 1 at its rim.
 vec3 discColor(vec2 at) {
+#if CLOUDS == 0
+    return frame.discColor.rgb;
+#endif
     float isMoon = frame.sky.y;
     float pattern = texture(cloudNoise, 0.12 * at + 0.3).r + 0.5 * texture(cloudNoise, 0.3 * at).g;
     float rim = sqrt(max(1.0 - dot(at, at), 0.0));
@@ -46,5 +49,7 @@ void main() {
 #else
     color = mix(color, max(color, sun.rgb), sun.a);
 #endif
+    // From within water the sky is seen through a round window above, beyond which the surface mirrors what is below.
+    if (frame.light.w > 0.5) color = mix(murk(), color, 0.8 * smoothstep(0.5, 0.8, direction.z));
     outColor = vec4(color, 0.0);
 }

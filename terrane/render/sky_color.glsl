@@ -11,3 +11,8 @@ vec3 skyColor(vec3 direction) {
     float halo = 0.25 * t4 * nearHorizon + 0.28 * t8 * t8 + 0.35 * near;
     return color + frame.glowColor.rgb * halo + frame.lightColor.rgb * 0.35 * nearer;
 }
+
+// What one sees in water where there is nothing.
+vec3 murk() {
+    return vec3(0.02, 0.13, 0.19) * (frame.ambientColor.rgb + 0.6 * frame.lightColor.rgb) + 0.002;
+}

@@ -41,6 +41,7 @@ vec4 shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 level
     vec4 body = waterBody(s.albedo, lit, blocks);
 
     float mirror = isTop ? waterMirror(dot(-view, normal)) : 0.03;
+    if (frame.light.w > 0.5) mirror = 0.0;
     vec3 reflected = reflect(view, normal);
     reflected.z = abs(reflected.z) + 0.01;
     reflected = normalize(reflected);

@@ -19,8 +19,10 @@ float liquidWave(ivec2 chunk, vec2 inChunk, float seconds) {
     return mix(low, high, f.y);
 }
 
-// `top`: 1 at the upper end of upright planes.
+// `top`: 1 at the upper end of upright planes. Each class of faces has its own kinds of movement (ALPHA_CLASS, see
+// quad.vert.glsl): opaque faces stand still, only blended ones are liquid.
 vec3 waveOffset(uint animation, ivec2 chunk, vec3 cell, vec3 inChunk, float top, float seconds) {
+#if ALPHA_CLASS == 1
     vec2 base = vec2((chunk & 4095) * 16);
     if (animation == kAnimationTopWaves) {
         vec2 at = base + cell.xy;
@@ -34,10 +36,12 @@ vec3 waveOffset(uint animation, ivec2 chunk, vec3 cell, vec3 inChunk, float top,
         float b = sin(kTurn * fract(0.23 * seconds + (at.x - at.y + 2.0 * at.z) / 8.0));
         return 0.035 * vec3(a, b, a - b);
     }
-    if (animation == kAnimationLiquidSurface) {
-        // Only what belongs to the surface, 14/16 above a block's bottom.
-        bool isSurface = abs(fract(inChunk.z) - 14.0 / 16.0) < 0.01;
-        return isSurface ? vec3(0.0, 0.0, 0.06 * liquidWave(chunk, inChunk.xy, seconds) - 0.02) : vec3(0.0);
+#elif ALPHA_CLASS == 2
+    // Only what belongs to the surface, 14/16 above a block's bottom.
+    bool isSurface = abs(fract(inChunk.z) - 14.0 / 16.0) < 0.01;
+    if (animation == kAnimationLiquidSurface && isSurface) {
+        return vec3(0.0, 0.0, 0.06 * liquidWave(chunk, inChunk.xy, seconds) - 0.02);
     }
+#endif
     return vec3(0.0);
 }

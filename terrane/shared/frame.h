@@ -39,10 +39,8 @@ const uint kViewLight = 4u;
 
 // Frame::camera.z: what costs nothing to switch within a shader.
 const int kSwitchAnimation = 1;
-const int kSwitchTexturing = 2;  // magnified texels with sharp and smooth edges
 const int kSwitchAtmosphere = 4;
 const int kSwitchUnlit = 8;  // the colours of the blocks alone
-const int kSwitchClouds = 16;
 
 // Alpha modes and animations are the values of world::AlphaMode and world::Animation.
 struct MaterialRecord {

@@ -20,7 +20,7 @@ struct ColorKey {
 
 // Colours as seen on a screen (sRGB, 0…255), by time of day; linear in between, around midnight too.
 constexpr std::array kLight = {
-    ColorKey{.12f, {72, 90, 126}},    ColorKey{.15f, {0, 0, 0}},       ColorKey{.2f, {255, 160, 90}},
+    ColorKey{.12f, {72, 90, 126}},   ColorKey{.15f, {0, 0, 0}},       ColorKey{.2f, {255, 160, 90}},
     ColorKey{.27f, {255, 236, 200}}, ColorKey{.73f, {255, 240, 208}}, ColorKey{.8f, {255, 140, 80}},
     ColorKey{.85f, {0, 0, 0}},       ColorKey{.88f, {72, 90, 126}},
 };
@@ -29,7 +29,7 @@ constexpr std::array kAmbient = {
     ColorKey{.73f, {190, 200, 214}}, ColorKey{.8f, {128, 112, 130}}, ColorKey{.87f, {46, 54, 80}},
 };
 constexpr std::array kZenith = {
-    ColorKey{.13f, {8, 12, 28}},     ColorKey{.2f, {58, 84, 132}}, ColorKey{.27f, {44, 112, 214}},
+    ColorKey{.13f, {8, 12, 28}},    ColorKey{.2f, {58, 84, 132}}, ColorKey{.27f, {44, 112, 214}},
     ColorKey{.73f, {44, 112, 214}}, ColorKey{.8f, {56, 66, 120}}, ColorKey{.87f, {8, 12, 28}},
 };
 constexpr std::array kHorizon = {

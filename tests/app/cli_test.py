@@ -92,10 +92,28 @@ class Render(ProgramTest):
 
     def test_views_show_something_else(self):
         pictures = [self.render("v.png", "--scene", "landscape", "--view", view)[0].rows
-                    for view in ("color", "normal", "depth", "aggregation")]
+                    for view in ("color", "normal", "depth", "aggregation", "light")]
         for k, picture in enumerate(pictures):
             self.assertNotIn(picture, pictures[:k])
         self.assertTrue(all(r == g == b for row in pictures[2] for r, g, b in row), "depth is grey")
+
+    def test_presets_and_the_flags_that_change_them(self):
+        scene = ("--scene", "landscape")
+        low, _ = self.render("low.png", *scene, "--preset", "low")
+        self.assertTrue(self.render("thesis.png", *scene, "--preset", "thesis")[0].rows != low.rows)
+        self.assertEqual(self.render("a.png", *scene, "--preset", "low", "--shadows", "off")[0].rows, low.rows)
+        for flag, word, look in (("--shading", "off", "136,-6"), ("--atmosphere", "off", "136,-6"),
+                                 ("--god-rays", "on", "40,45"), ("--ssao", "raw", "136,-6"), ("--clouds", "on", "40,45")):
+            plain, _ = self.render("b.png", *scene, "--preset", "low", "--look", look)
+            changed, _ = self.render("c.png", *scene, "--preset", "low", "--look", look, flag, word)
+            self.assertTrue(plain.rows != changed.rows, flag)
+
+    def test_frames_are_measured(self):
+        _, text = self.render("a.png", "--scene", "ocean", "--frames", "4", "--json", "--preset", "medium")
+        result = json.loads(text)
+        self.assertGreater(result["milliseconds"]["frame"], 0)
+        for name in ("cull", "shadow map", "surfaces", "sky", "shade", "final"):
+            self.assertIn(name, result["passes"])
 
     def test_place_direction_and_time_count(self):
         at = ("--at", "8.5,8.5,84", *FLAT)

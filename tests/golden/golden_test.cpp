@@ -1,10 +1,7 @@
 // The golden pictures; README.md says what each shows and how to make them anew.
-#include <thread>
-
 #include "apps/terrane/scenes.h"
-#include "terrane/stream/chunk_pipeline.h"
 #include "tests/golden/axes_cube.h"
-#include "tests/golden/golden_fixture.h"
+#include "tests/golden/effect_scenes.h"
 
 namespace terrane::golden {
 namespace {
@@ -36,28 +33,6 @@ TEST_F(Golden, AxesOfACube) {
     EXPECT_TRUE(matchesGolden("cube_positive_sides", draw(renderer, cubeFrame(kCubePositive))));
 }
 
-// A small part of the overworld around a camera, generated and meshed as the program does it.
-void loadOverworld(render::Renderer& renderer, const render::Camera& camera, int viewDistance,
-                   const mesh::MeshOptions& options = {}) {
-    auto graph = gen::makeGenerator("overworld", contentBlocks());
-    if (!graph) throw std::runtime_error(graph.error().message);
-    const gen::Generator generator(*std::move(graph), 1);
-    world::World world;
-    base::JobSystem jobs(std::max(1u, std::thread::hardware_concurrency()));
-    const light::LightTable lights(contentBlocks());
-    stream::ChunkPipeline pipeline(
-        {jobs, contentBlocks(), lights, world, {&generator, nullptr, false}, nullptr});
-    pipeline.setMeshOptions(options);
-    pipeline.setView(render::cameraChunk(camera), viewDistance);
-    for (pipeline.update(); !pipeline.progress().complete(); pipeline.update()) {
-        pipeline.waitForWorkers(std::chrono::milliseconds(100));
-    }
-    for (const stream::ChunkChange& change : pipeline.takeChanges(std::numeric_limits<std::size_t>::max())) {
-        if (change.mesh) renderer.setChunk(change.pos, *change.mesh, change.regions);
-        if (change.light) renderer.setLight(change.pos, *change.light);
-    }
-}
-
 TEST_F(Golden, Landscape) {
     constexpr int kViewDistance = 10;
     const app::Scene* scene = app::findScene("landscape");
@@ -71,6 +46,8 @@ TEST_F(Golden, Landscape) {
     EXPECT_TRUE(matchesGolden("landscape_normal", draw(renderer, input)));
     input.view = render::View::Depth;
     EXPECT_TRUE(matchesGolden("landscape_depth", draw(renderer, input)));
+    input.view = render::View::Light;
+    EXPECT_TRUE(matchesGolden("landscape_light", draw(renderer, input)));
     input.view = render::View::Aggregation;
     EXPECT_TRUE(matchesGolden("landscape_aggregation", draw(renderer, input)));
 }

@@ -1,6 +1,7 @@
 // The worlds of the golden pictures.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <string_view>
 

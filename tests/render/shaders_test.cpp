@@ -37,7 +37,8 @@ const std::map<std::string, Values>& variantValues() {
     static const std::map<std::string, Values> values = {
         {"mesh.comp", {{"WRITES_QUADS", {"0", "1"}}}},
         {"quad.vert", {{"PASS", {"0", "1", "2"}}, {"ALPHA_CLASS", {"0", "1", "2"}}}},
-        {"gbuffer.frag", {{"PASS", {"0"}}, {"ALPHA_CLASS", {"0", "1"}}, {"SAMPLES", {"1", "4"}}}},
+        {"gbuffer.frag",
+         {{"PASS", {"0"}}, {"ALPHA_CLASS", {"0", "1"}}, {"SAMPLES", {"1", "4"}}, {"SMOOTH", {"0", "1"}}}},
         {"shadow.frag", {{"PASS", {"2"}}, {"ALPHA_CLASS", {"0", "1"}}}},
         {"layer.frag",
          {{"PASS", {"1"}}, {"ALPHA_CLASS", {"2"}}, {"NEXT", {"0", "1"}}, {"SAMPLES", {"1", "4"}}}},
@@ -45,7 +46,8 @@ const std::map<std::string, Values>& variantValues() {
          {{"SAMPLES", {"1", "4"}},
           {"LAYERS", {"1", "2", "3"}},
           {"SHADOW", {"0", "1"}},
-          {"LIGHT_SMOOTH", {"0", "1"}}}},
+          {"LIGHT_SMOOTH", {"0", "1"}},
+          {"QUADS", {"0"}}}},
         {"sky.frag", {{"SAMPLES", {"1", "4"}}, {"CLOUDS", {"0", "1"}}}},
         {"far_blur.frag", {{"AXIS", {"0", "1"}}, {"SAMPLES", {"1", "4"}}}},
         {"ambient_occlusion.frag", {{"SAMPLES", {"1", "4"}}}},
@@ -55,6 +57,7 @@ const std::map<std::string, Values>& variantValues() {
           {"FAR_BLUR", {"0", "1"}},
           {"GOD_RAYS", {"0", "1"}},
           {"RAW_OCCLUSION", {"0", "1"}}}},
+        {"depth_pyramid.comp", {{"LEVEL_0", {"0", "1"}}, {"SAMPLES", {"1", "4"}}}},
         {"debug_view.frag", {{"SAMPLES", {"1", "4"}}, {"LIGHT_SMOOTH", {"0", "1"}}}},
         {"shade.frag",
          {{"SAMPLES", {"1", "4"}},
@@ -142,7 +145,7 @@ TEST_F(Shaders, ReferenceCompilerAcceptsEveryVariant) {
 TEST_F(Shaders, ReferenceCompilerRefusesMistakes) {
     EXPECT_NE(complaints(folder_, kStages[1], "#version 450 core\nvoid main() { undeclared = 1; }\n"), "");
     const auto source = contentShaders().load("terrane/render/gbuffer.frag.glsl", gpu::ShaderStage::Fragment,
-                                              {{"ALPHA_CLASS", "1"}, {"SAMPLES", "1"}});
+                                              {{"ALPHA_CLASS", "1"}, {"SAMPLES", "1"}, {"SMOOTH", "1"}});
     ASSERT_TRUE(source);
     EXPECT_NE(complaints(folder_, kStages[0], source->text), "") << "another stage";
 }

@@ -19,6 +19,7 @@ struct PlayOptions {
     PlaySettings settings;
     std::optional<int> position;
     std::optional<double> time;
+    std::string perfData;
     std::string settingsFile = settingsPath().string();
 };
 
@@ -96,6 +97,7 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
     game.start = *start;
     game.start.fieldOfView = game.settings.fieldOfView;
     game.day = dayOf(options, **session);
+    game.perfData = options.perfData;
     game.isSoftwareRenderer = device.software;
     Game loop({*window, **session, *renderer, *preview}, game);
     if (auto played = loop.run(); !played) return played;
@@ -136,6 +138,8 @@ CommandEntry addPlay(CLI::App& app) {
         ->type_name("X");
     command->add_option("--time", options->time, "Time of day: 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk")
         ->check(numberFrom(0, 1));
+    command->add_option("--collect-perf-data", options->perfData, "Write figures of each frame (CSV)")
+        ->type_name("FILE");
     addPlaySettings(*command, options->settings);
     addGraphicsOptions(*command, options->graphics, "auto");
     command

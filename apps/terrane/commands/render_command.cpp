@@ -125,9 +125,12 @@ base::Result<void> renderPicture(const PictureOptions& options, const CLI::App& 
     const double load = millisecondsSince(loadStart);
 
     const auto drawStart = Clock::now();
-    const render::FrameInput input{scene->camera, world::environmentAt(scene->timeDay),
-                                   fogDistance(options.graphics.viewDistance), options.seconds,
-                                   options.graphics.view};
+    const render::FrameInput input{scene->camera,
+                                   world::environmentAt(scene->timeDay),
+                                   fogDistance(options.graphics.viewDistance),
+                                   options.seconds,
+                                   options.graphics.view,
+                                   isUnderWater(**session, scene->camera)};
     renderer->draw(input);
     const base::Image image = renderer->readImage();
     const double draw = millisecondsSince(drawStart);

@@ -11,7 +11,6 @@
 #include "apps/terrane/window/overlay.h"
 #include "apps/terrane/window/panel.h"
 #include "apps/terrane/window/positions.h"
-#include "terrane/base/image.h"
 #include "terrane/base/log.h"
 
 namespace terrane::app {
@@ -19,9 +18,6 @@ namespace {
 
 // Chunks handed to the GPU a frame: about 64 × 10 KiB.
 constexpr std::size_t kUploadsPerFrame = 64;
-constexpr double kStickDegrees = 160;  // a second, of a gamepad's stick at its end
-constexpr double kDayStep = 0.01;      // of a day, for each press
-constexpr double kMessageSeconds = 3;
 
 // Where the camera looks over the ground, in sixteenths of a circle: chunks are put in order again only when
 // it turns.
@@ -30,15 +26,6 @@ glm::vec2 lookSector(const render::Camera& camera) {
     const double sector = std::numbers::pi / 8;
     const double angle = std::round(std::atan2(double{look.y}, double{look.x}) / sector) * sector;
     return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
-}
-
-// The first name of its kind that is free in the working directory.
-std::filesystem::path freeScreenshot() {
-    for (int number = 1;; ++number) {
-        const std::filesystem::path path = fmt::format("terrane-{:04}.png", number);
-        std::error_code ignored;
-        if (!std::filesystem::exists(path, ignored)) return path;
-    }
 }
 
 }  // namespace
@@ -52,12 +39,18 @@ Game::Game(const GameParts& parts, const GameOptions& options)
       imgui_(parts.window),
       player_(options.start, options.settings.movement),
       hand_(parts.session.blocks),
-      day_(options.day) {
+      day_(options.day),
+      perfData_(options.perfData) {
     parts_.session.pipeline->setMeshOptions(settings_.mesh);
     parts_.renderer.setViewDistance(settings_.viewDistance);
 }
 
 base::Result<void> Game::run() {
+    if (!perfData_.empty()) {
+        auto log = PerfLog::create(perfData_);
+        if (!log) return tl::unexpected(log.error());
+        perfLog_ = std::move(*log);
+    }
     double last = parts_.window.timeSeconds();
     while (!parts_.window.shouldClose()) {
         parts_.window.pollEvents();
@@ -68,167 +61,11 @@ base::Result<void> Game::run() {
         advance(seconds);
         applySettings();
         if (auto drawn = drawFrame(); !drawn) return drawn;
+        if (perfLog_) perfLog_->add(seconds_, seconds, figures());
     }
     const glm::dvec3& p = player_.camera().position;
     base::logInfo("closed after {} frames at {:.2f},{:.2f},{:.2f}", frames_, p.x, p.y, p.z);
     return leave();
-}
-
-void Game::handleEvents() {
-    using Type = gpu::InputEvent::Type;
-    for (const gpu::InputEvent& event : parts_.window.events()) {
-        switch (event.type) {
-            case Type::KeyPress:
-                onKey(event.key);
-                break;
-            case Type::KeyRelease:
-                break;
-            case Type::ButtonPress:
-            case Type::ButtonRelease:
-                onButton(event.button, event.type == Type::ButtonPress);
-                break;
-            case Type::Wheel:
-                if (isCaptured_) hand_.choose(event.y > 0 ? -1 : 1);
-                break;
-            case Type::CursorMove:
-                if (!isCaptured_) break;
-                player_.turn(event.x * double{settings_.mouseSensitivity},
-                             event.y * double{settings_.mouseSensitivity});
-        }
-    }
-}
-
-void Game::onKey(gpu::Key key) {
-    using gpu::Key;
-    switch (key) {
-        case Key::Escape:
-            return parts_.window.requestClose();
-        case Key::F1:
-            hintSeconds_ = hintSeconds_ > 0 ? 0 : 20;
-            break;
-        case Key::F2:
-            showsPanel_ = !showsPanel_;
-            if (showsPanel_) capture(false);
-            break;
-        case Key::F3:
-            showsFigures_ = !showsFigures_;
-            break;
-        case Key::F4:
-            showsLoading_ = !showsLoading_;
-            break;
-        case Key::F5:
-            return savePosition();
-        case Key::F6:
-            return nextPosition();
-        case Key::F11:
-            settings_.fullScreen = !settings_.fullScreen;
-            break;
-        case Key::F12:
-            return takeScreenshot();
-        case Key::O:
-            day_.shift(-kDayStep);
-            break;
-        case Key::P:
-            day_.shift(kDayStep);
-            break;
-        case Key::I:
-            day_.isRunning = !day_.isRunning;
-            say(day_.isRunning ? "time passes" : "time stands still");
-            break;
-        case Key::L: {
-            using render::LightSampling;
-            render::LightSampling& light = settings_.graphics.light;
-            light = light == LightSampling::Smooth ? LightSampling::Classic : LightSampling::Smooth;
-            say(light == LightSampling::Smooth ? "smooth light" : "classic light");
-            break;
-        }
-        case Key::M: {
-            const int next =
-                (static_cast<int>(settings_.movement) + 1) % static_cast<int>(movementWords().size());
-            settings_.movement = static_cast<Movement>(next);
-            say("movement: " + movementWords()[static_cast<std::size_t>(next)].first);
-            break;
-        }
-        default:
-            break;
-    }
-}
-
-void Game::onButton(gpu::MouseButton button, bool isPress) {
-    HeldButton* held = button == gpu::MouseButton::Left    ? &hand_.breaking
-                       : button == gpu::MouseButton::Right ? &hand_.building
-                                                           : nullptr;
-    if (!isPress) {
-        if (held) held->release();
-        return;
-    }
-    if (button == gpu::MouseButton::Middle) {
-        // The middle button turns mouse look on and off, wherever the cursor is.
-        return capture(!isCaptured_);
-    }
-    if (isCaptured_) return held->press();
-    if (!imgui_.takesMouse()) capture(true);
-}
-
-void Game::capture(bool isCaptured) {
-    isCaptured_ = isCaptured;
-    parts_.window.setCursorCaptured(isCaptured);
-    hand_.breaking.release();
-    hand_.building.release();
-}
-
-void Game::say(std::string message) {
-    message_ = std::move(message);
-    messageSeconds_ = kMessageSeconds;
-}
-
-void Game::savePosition() {
-    const auto done = appendPosition(positionsFile_, player_.camera());
-    say(done ? "position saved in " + positionsFile_.string() : done.error().message);
-}
-
-void Game::nextPosition() {
-    const auto positions = readPositions(positionsFile_);
-    if (!positions) return say(positions.error().message);
-    if (positions->empty()) return say("no position is saved yet (F5)");
-    render::Camera camera = (*positions)[nextPosition_++ % positions->size()];
-    camera.fieldOfView = settings_.fieldOfView;
-    player_.placeAt(camera, settings_.movement);
-}
-
-void Game::takeScreenshot() {
-    const std::filesystem::path file = freeScreenshot();
-    const auto done = base::writePng(file, parts_.renderer.readImage());
-    say(done ? "screenshot " + file.string() : done.error().message);
-}
-
-MoveKeys Game::moveKeys(double seconds) {
-    using gpu::Key;
-    const gpu::Window& window = parts_.window;
-    if (imgui_.takesKeys()) return {};
-    const bool walks = settings_.movement == Movement::Gravity;
-    MoveKeys keys{.forward = window.keyDown(Key::W) || window.keyDown(Key::Up),
-                  .back = window.keyDown(Key::S) || window.keyDown(Key::Down),
-                  .left = window.keyDown(Key::A) || window.keyDown(Key::Left),
-                  .right = window.keyDown(Key::D) || window.keyDown(Key::Right),
-                  .up = window.keyDown(Key::E) || (!walks && window.keyDown(Key::Shift)),
-                  .down = window.keyDown(Key::Q) || window.keyDown(Key::Control),
-                  .jump = window.keyDown(Key::Space),
-                  .run = walks && window.keyDown(Key::Shift),
-                  .stick = {}};
-    if (const auto pad = window.gamepad()) {
-        keys.stick = {pad->leftX, pad->leftY};
-        keys.jump |= pad->south;
-        keys.down |= pad->east;
-        keys.run |= pad->west;
-        player_.turn(double{pad->rightX} * kStickDegrees * seconds,
-                     -double{pad->rightY} * kStickDegrees * seconds);
-        if (pad->rightTrigger != hand_.breaking.isDown() && !isCaptured_)
-            pad->rightTrigger ? hand_.breaking.press() : hand_.breaking.release();
-        if (pad->leftTrigger != hand_.building.isDown() && !isCaptured_)
-            pad->leftTrigger ? hand_.building.press() : hand_.building.release();
-    }
-    return keys;
 }
 
 void Game::advance(double seconds) {
@@ -268,15 +105,7 @@ base::Result<void> Game::drawFrame() {
         if (auto configured = renderer.configure(size, settings_.graphics); !configured) return configured;
     }
     uploadChanges(*parts_.session.pipeline, renderer, kUploadsPerFrame);
-    render::FrameInput input;
-    input.camera = player_.camera();
-    input.environment = world::environmentAt(static_cast<float>(day_.timeDay));
-    input.fogDistance = fogDistance(settings_.viewDistance);
-    input.timeSeconds = static_cast<float>(seconds_);
-    input.view = settings_.view;
-    input.isUnderWater =
-        world::isInLiquid(parts_.session.world, parts_.session.blocks, player_.camera().position);
-    renderer.draw(input);
+    renderer.draw(frameInput());
     renderer.presentToWindow(size);
     drawInterface(size);
     parts_.window.swapBuffers();
@@ -284,15 +113,36 @@ base::Result<void> Game::drawFrame() {
     return {};
 }
 
+render::FrameInput Game::frameInput() const {
+    render::FrameInput input;
+    input.camera = player_.camera();
+    input.environment = world::environmentAt(static_cast<float>(day_.timeDay));
+    input.fogDistance = fogDistance(settings_.viewDistance);
+    input.timeSeconds = static_cast<float>(seconds_);
+    input.view = settings_.view;
+    input.isUnderWater = isUnderWater(parts_.session, player_.camera());
+    if (isAbove_) {
+        input.culledFor = input.camera;
+        input.camera = cameraAbove(player_.camera(), settings_.viewDistance);
+        input.fogDistance = 16 * fogDistance(settings_.viewDistance);
+        input.isUnderWater = false;
+    }
+    return input;
+}
+
 void Game::drawInterface(glm::ivec2 size) {
     const Screen screen{static_cast<float>(size.x), static_cast<float>(size.y)};
     const WorldSession& session = parts_.session;
     const stream::Progress progress = session.pipeline->progress();
     imgui_.beginFrame(isCaptured_);
-    if (const auto& target = hand_.target()) {
+    const render::Camera& camera = player_.camera();
+    if (isAbove_) {
+        drawViewFromAbove(screen, cameraAbove(camera, settings_.viewDistance), camera,
+                          fogDistance(settings_.viewDistance));
+    } else if (const auto& target = hand_.target()) {
         drawTarget(screen, player_.camera(), *target, session.world, session.blocks);
     }
-    if (isCaptured_) drawCrosshair(screen);
+    if (isCaptured_ && !isAbove_) drawCrosshair(screen);
     drawHand(screen, session.blocks.type(hand_.block()).name, parts_.preview.picture(hand_.block()));
     if (hintSeconds_ > 0) drawHint(screen, static_cast<float>(std::min(hintSeconds_, 1.0)));
     if (messageSeconds_ > 0)
@@ -301,23 +151,28 @@ void Game::drawInterface(glm::ivec2 size) {
     if (showsLoading_)
         drawLoadingMap(screen, *session.pipeline, render::cameraChunk(player_.camera()),
                        settings_.viewDistance);
-    if (showsFigures_) {
-        drawFigures({.frames = &meter_,
-                     .camera = player_.camera(),
-                     .timeDay = day_.timeDay,
-                     .progress = progress,
-                     .activeChunks = session.world.chunks().size(),
-                     .queuedChunks = session.pipeline->queuedCount(),
-                     .frame = parts_.renderer.statistics(),
-                     .blockBytes = session.world.memoryBytes(),
-                     .lightBytes = session.pipeline->lightBytes(),
-                     .quadBytes = parts_.renderer.quadBytes(),
-                     .lightGpuBytes = parts_.renderer.lightBytes(),
-                     .tasks = session.pipeline->taskTimes(),
-                     .passes = &parts_.renderer.passTimes()});
+    if (showsPanel_) {
+        drawFigures(figures());
     }
     if (showsPanel_) drawPanel(settings_, day_, {isSoftwareRenderer_, screen.width, screen.height});
     imgui_.endFrame();
+}
+
+Figures Game::figures() const {
+    const WorldSession& session = parts_.session;
+    return {.frames = &meter_,
+            .camera = player_.camera(),
+            .timeDay = day_.timeDay,
+            .progress = session.pipeline->progress(),
+            .activeChunks = session.world.chunks().size(),
+            .queuedChunks = session.pipeline->queuedCount(),
+            .frame = parts_.renderer.statistics(),
+            .blockBytes = session.world.memoryBytes(),
+            .lightBytes = session.pipeline->lightBytes(),
+            .quadBytes = parts_.renderer.quadBytes(),
+            .lightGpuBytes = parts_.renderer.lightBytes(),
+            .tasks = session.pipeline->taskTimes(),
+            .passes = &parts_.renderer.passTimes()};
 }
 
 base::Result<void> Game::leave() {
@@ -325,7 +180,8 @@ base::Result<void> Game::leave() {
         store->setSetting(kCameraSetting, textOf(player_.camera()));
         store->setSetting(kTimeSetting, fmt::format("{:.5f}", day_.timeDay));
     }
-    return parts_.session.save();
+    if (auto saved = parts_.session.save(); !saved) return saved;
+    return perfLog_ ? perfLog_->finish() : base::Result<void>();
 }
 
 }  // namespace terrane::app

@@ -10,6 +10,7 @@
 #include "apps/terrane/window/frame_meter.h"
 #include "apps/terrane/window/hand.h"
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/perf_log.h"
 #include "apps/terrane/window/play_settings.h"
 #include "apps/terrane/world_session.h"
 #include "terrane/gpu/window.h"
@@ -33,6 +34,7 @@ struct GameOptions {
     DayClock day;
     bool isSoftwareRenderer = false;
     std::filesystem::path positions = "positions.txt";
+    std::string perfData;  // file; empty: none
 };
 
 class Game {
@@ -57,7 +59,9 @@ class Game {
     void advance(double seconds);
     void applySettings();
     base::Result<void> drawFrame();
+    render::FrameInput frameInput() const;
     void drawInterface(glm::ivec2 size);
+    Figures figures() const;
     base::Result<void> leave();
 
     GameParts parts_;
@@ -69,8 +73,10 @@ class Game {
     Hand hand_;
     DayClock day_;
     FrameMeter meter_;
+    std::string perfData_;
+    std::optional<PerfLog> perfLog_;
 
-    bool isCaptured_ = false, showsPanel_ = false, showsFigures_ = false, showsLoading_ = false;
+    bool isCaptured_ = false, showsPanel_ = false, isAbove_ = false, showsLoading_ = false;
     double hintSeconds_ = 12, messageSeconds_ = 0;
     std::string message_;
     std::size_t nextPosition_ = 0, frames_ = 0;

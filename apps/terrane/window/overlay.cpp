@@ -5,8 +5,11 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "apps/terrane/window/hand.h"
+#include "terrane/render/shadow_volume.h"
 
 namespace terrane::app {
 namespace {
@@ -83,6 +86,42 @@ void drawTarget(const Screen& screen, const render::Camera& camera, const world:
     }
 }
 
+render::Camera cameraAbove(const render::Camera& camera, int viewDistance) {
+    render::Camera above = camera;
+    above.pitch = -89.9f;
+    const double half = 16.0 * (viewDistance + 1);
+    above.position.z = 80 + half / std::tan(glm::radians(double{camera.fieldOfView} / 2));
+    return above;
+}
+
+void drawViewFromAbove(const Screen& screen, const render::Camera& above, const render::Camera& camera,
+                       float farBlocks) {
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const auto line = [&](glm::dvec3 a, glm::dvec3 b, ImU32 colour) {
+        const auto from = projected(screen, above, a), to = projected(screen, above, b);
+        if (from && to) draw.AddLine(*from, *to, colour, 2 * scale());
+    };
+    const glm::dvec3 ahead(render::lookDirection(camera)), right(render::rightDirection(camera));
+    const glm::dvec3 up = glm::cross(right, ahead);
+    const double tall = std::tan(glm::radians(double{camera.fieldOfView} / 2));
+    const double wide = tall * double{screen.width / screen.height};
+    const auto corner = [&](double x, double y) {
+        return camera.position + (ahead + right * (x * wide) + up * (y * tall)) * double{farBlocks};
+    };
+    const std::array<glm::dvec3, 4> far = {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
+    for (std::size_t k = 0; k < far.size(); ++k) {
+        line(camera.position, far[k], IM_COL32(255, 220, 60, 255));
+        line(far[k], far[(k + 1) % 4], IM_COL32(255, 220, 60, 255));
+    }
+    constexpr int kSteps = 48;
+    const auto onCircle = [&](int k) {
+        const double angle = 2 * 3.14159265358979 * k / kSteps;
+        return camera.position +
+               glm::dvec3(std::cos(angle), std::sin(angle), 0) * double{render::kShadowReach};
+    };
+    for (int k = 0; k < kSteps; ++k) line(onCircle(k), onCircle(k + 1), IM_COL32(120, 190, 255, 255));
+}
+
 void drawCrosshair(const Screen& screen) {
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const float x = std::floor(screen.width / 2), y = std::floor(screen.height / 2), r = 8 * scale();
@@ -146,7 +185,7 @@ void drawHint(const Screen& screen, float share) {
     ImGui::TextUnformatted(
         "click: look around    W A S D: move    Space: jump    Shift: run\n"
         "left button: break    right button: build    wheel: choose a block\n"
-        "F1: this help    F2: settings    Esc: quit");
+        "F1: this help    F2: settings and figures    M: way to move    Esc: quit");
     ImGui::End();
     ImGui::PopStyleVar();
 }

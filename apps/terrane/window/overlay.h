@@ -22,6 +22,11 @@ struct Screen {
 // crosshair.
 void drawTarget(const Screen& screen, const render::Camera& camera, const world::RayHit& target,
                 const world::World& world, const world::BlockRegistry& blocks);
+// Straight over a camera, so high that all within the view distance (chunks) is seen.
+render::Camera cameraAbove(const render::Camera& camera, int viewDistance);
+// What the camera sees, up to `farBlocks`, and where its shadows reach, as seen from above.
+void drawViewFromAbove(const Screen& screen, const render::Camera& above, const render::Camera& camera,
+                       float farBlocks);
 void drawCrosshair(const Screen& screen);
 
 // The block in the hand, bottom left. `picture`: an OpenGL texture, 0: none.

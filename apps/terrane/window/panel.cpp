@@ -50,12 +50,12 @@ void drawPreset(PlaySettings& settings, bool isSoftwareRenderer) {
     settings.graphics = renderOptions({settings.preset, {}}, isSoftwareRenderer);
 }
 
-// A switch where a row has two words, else a choice.
+// A switch where a row is off or on, else a choice.
 void drawRow(const GraphicsRow& row, render::RenderOptions& graphics) {
     const std::string label(row.name);
     int word = row.get(graphics);
     bool isChanged = false;
-    if (row.words.size() == 2) {
+    if (row.words[0] == "off" && row.words.size() == 2) {
         bool isOn = word == 1;
         isChanged = ImGui::Checkbox(label.c_str(), &isOn);
         word = isOn ? 1 : 0;

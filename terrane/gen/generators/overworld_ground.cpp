@@ -44,7 +44,7 @@ Ground groundBlocks(Pass& p, const Fields& f, const Shape& s, Float snowLine, Fl
         top = p.block("stone");
         soil = p.block("stone");
     });
-    p.if_(height > snowLine && s.steepness < patches * 0.6f + 1.05f, [&] { top = p.block("snow"); });
+    p.if_(height > snowLine && s.steepness < patches * 0.9f + 1.45f, [&] { top = p.block("snow"); });
     return {top, soil};
 }
 

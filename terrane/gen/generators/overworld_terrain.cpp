@@ -80,6 +80,7 @@ Float compressPeaks(Float height) {
 
 struct Land {
     Float height;     // blocks above the sea, far from rivers and coasts
+    Float bumps;      // blocks to add on slopes
     Float mountains;  // 0…1
 };
 
@@ -94,11 +95,14 @@ Land land(Pass& p, const Fields& f) {
     const Float plains = max(p.perlin2D("plains", 32, {.6f, 1.2f, 2.5f}) + 3.0f, 0.0f);
     const Float hills = (p.perlin2D("hills", 32, {2.0f, 6.0f, 18.0f}) + 14.0f) * hilliness;
     const Vec2 offset = bend(p);
-    const Float roughness = p.perlin2D("roughness", 8, {.6f, 2.0f, 5.0f, 11.0f});
+    const Float roughness = p.perlin2D("roughness", 8, {1.6f, 3.2f, 6.0f, 12.0f});
     const Float peaks = (readBetween(p, f.crags, offset) + roughness) * mountains;
     const Float dunes =
         (readBetween(p, f.dunes, offset) * 18.0f + p.perlin2D("sand", 64, {2.0f, 6.0f})) * desert;
-    return {base + max(max(dunes, hills), max(peaks, plains)), mountains};
+    // Slopes without it would be contour lines.
+    const Float bumpiness = clamp(max(hilliness * 1.5f, mountains) + 0.2f, 0.0f, 1.0f) * (1.0f - desert);
+    const Float bumps = p.perlin2D("bumps", 4, {.8f, 1.3f, 1.3f}) * bumpiness;
+    return {base + max(max(dunes, hills), max(peaks, plains)), bumps, mountains};
 }
 
 }  // namespace
@@ -125,7 +129,8 @@ void reliefPass(Pass& p, const Fields& f) {
     const Float shore = min(smoothstep(0.02f, -0.02f, ocean), clamp(river.across - 1.0f, 0.0f, 1.0f)) * 1.4f;
     const Float seaFloor = sqrt(max(ocean, 0.0f)) * -40.0f +
                            p.perlin2D("sea floor", 32, {1.0f, 2.0f, 4.0f}) * smoothstep(0.05f, 0.3f, ocean);
-    const Float ground = select(ocean > 0.0f, seaFloor, compressPeaks(l.height) * inland * valley);
+    const Float raised = compressPeaks(l.height) * inland * valley;
+    const Float ground = select(ocean > 0.0f, seaFloor, raised + l.bumps * smoothstep(2.0f, 9.0f, raised));
     const Float bed = (min(river.across * river.across, 1.0f) - 1.0f) * river.depth;
     p.set(f.height, kSea + select(river.across < 1.0f, min(bed, ground + shore), ground + shore));
 }

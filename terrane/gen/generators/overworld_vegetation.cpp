@@ -1,6 +1,6 @@
 // The overworld's trees and plants. What grows is found from columns alone, so that neighbours, into which
-// crowns reach, need no blocks of each other; that no plant stands where a cave cut the ground is seen to when
-// blocks are there.
+// crowns reach, need no blocks of each other; that no plant stands where a cave cut the ground is seen to
+// when blocks are there.
 #include "terrane/gen/generators/overworld.h"
 
 namespace terrane::gen::overworld {

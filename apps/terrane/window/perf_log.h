@@ -1,0 +1,29 @@
+// Figures of each frame as a CSV file, for plots: a line a frame, a column a figure.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "apps/terrane/window/overlay.h"
+
+namespace terrane::app {
+
+class PerfLog {
+  public:
+    static base::Result<PerfLog> create(const std::filesystem::path& file);
+
+    // `seconds`: since the start; `frameSeconds`: of the frame that the figures are of.
+    void add(double seconds, double frameSeconds, const Figures& figures);
+    // An error where something could not be written.
+    base::Result<void> finish();
+
+  private:
+    explicit PerfLog(const std::filesystem::path& file) : path_(file), out_(file) {}
+
+    std::filesystem::path path_;
+    std::ofstream out_;
+    std::vector<stream::TaskTime> tasks_;  // as of the frame before
+};
+
+}  // namespace terrane::app

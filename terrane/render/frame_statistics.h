@@ -1,0 +1,17 @@
+// What a frame drew, for people to read. A plain value.
+#pragma once
+
+#include <cstddef>
+
+#include "terrane/shared/region.h"
+
+namespace terrane::render {
+
+struct FrameStatistics {
+    std::size_t regions = 0, quads = 0, drawCommands = 0;
+    std::size_t opaqueTriangles = 0, transparentTriangles = 0;  // of these, alpha-tested ones are opaque
+};
+
+FrameStatistics statisticsOf(const shared::DrawCounts& counts);
+
+}  // namespace terrane::render

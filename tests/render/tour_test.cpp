@@ -1,0 +1,111 @@
+// A long flight with random options: no error of the driver, no frame that depends on the options before it.
+#include <algorithm>
+#include <random>
+
+#include "terrane/render/renderer.h"
+#include "tests/golden/scenes.h"
+#include "tests/gpu/gl_fixture.h"
+#include "tests/render/content.h"
+
+namespace terrane::render {
+namespace {
+
+constexpr int kFrames = 2000, kFramesOfOptions = 25;
+
+class Tour : public gpu::GlTest {
+  protected:
+    RenderOptions randomOptions() {
+        const auto pick = [&](int count) {
+            return static_cast<int>(random_() % static_cast<unsigned>(count));
+        };
+        RenderOptions o;
+        o.samples = 1 << pick(3);
+        o.shading = static_cast<Shading>(pick(3));
+        o.shadowSize = pick(2) * 512;
+        o.occlusion = static_cast<Occlusion>(pick(3));
+        o.depthOfField = pick(2) == 0;
+        o.atmosphere = pick(4) > 0;
+        o.godRays = pick(2) == 0;
+        o.clouds = pick(2) == 0;
+        o.animation = pick(2) == 0;
+        o.betterTexturing = pick(2) == 0;
+        o.sampledAlphaTest = pick(2) == 0;
+        o.layers = pick(4);
+        o.singleLayer = pick(8) == 0 ? 1 + pick(3) : 0;
+        o.coverCracks = pick(2) == 0;
+        o.hiddenRegionCulling = pick(2) == 0;
+        return o;
+    }
+
+    std::minstd_rand random_{7};
+};
+
+FrameInput frameOf(int frame) {
+    const double angle = 0.02 * frame;
+    const Camera camera{{6 + 14 * std::cos(angle), 4 + 12 * std::sin(angle), 84 + 3 * std::sin(0.7 * angle)},
+                        static_cast<float>(180 + 57.3 * angle),
+                        static_cast<float>(-12 + 20 * std::sin(0.31 * angle))};
+    const float time = static_cast<float>(frame % 500) / 500;
+    return {camera,
+            world::environmentAt(time),
+            60,
+            0.05f * static_cast<float>(frame),
+            frame % 97 < 8 ? static_cast<View>(frame % 5) : View::Color,
+            frame % 211 < 10};
+}
+
+TEST_F(Tour, AnyOptionsInAnyOrder) {
+    auto made = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice());
+    ASSERT_TRUE(made) << made.error().message;
+    world::World world = golden::flatWorld(3);
+    golden::placeGallery(world);
+    golden::placePool(world);
+    const golden::Meshes meshes = golden::meshWorld(world);
+    for (const auto& [pos, mesh] : meshes) made->setChunk(pos, mesh);
+    const int most = gpu::queryDevice().maxSamples;
+    std::optional<base::Image> first;
+    for (int frame = 0; frame < kFrames; ++frame) {
+        if (frame % kFramesOfOptions == 0) {
+            RenderOptions options = randomOptions();
+            options.samples = std::min(options.samples, most);
+            const glm::ivec2 size = frame % 400 == 0 ? glm::ivec2(33, 17 + frame % 31) : glm::ivec2(64, 40);
+            const auto configured = made->configure(size, options);
+            ASSERT_TRUE(configured) << configured.error().message;
+        }
+        if (frame % 7 == 0) made->removeChunk({1, 1});
+        if (frame % 7 == 3) made->setChunk({1, 1}, meshes.at({1, 1}));
+        made->draw(frameOf(frame));
+        ASSERT_EQ(context_.debugErrorCount(), 0) << "frame " << frame;
+        if (frame % 500 > 0) continue;
+        // What was drawn before leaves no trace.
+        made->setChunk({1, 1}, meshes.at({1, 1}));
+        ASSERT_TRUE(made->configure({64, 40}, RenderOptions{}));
+        made->draw(frameOf(3));
+        const base::Image again = made->readImage();
+        if (!first) first = again;
+        EXPECT_EQ(again.rgba, first->rgba) << "frame " << frame;
+    }
+}
+
+// The layers are drawn where one may see blended faces, and nowhere else.
+TEST_F(Tour, LayersCostNothingWithoutBlendedFaces) {
+    auto made = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice());
+    ASSERT_TRUE(made) << made.error().message;
+    world::World world = golden::flatWorld(3);
+    golden::placePool(world);
+    for (const auto& [pos, mesh] : golden::meshWorld(world)) made->setChunk(pos, mesh);
+    ASSERT_TRUE(made->configure({64, 40}, plainOptions(1)));
+    const auto hasPeeled = [&](float yaw) {
+        for (int frame = 0; frame < 6; ++frame) {
+            made->draw({{{-20, 8, 84}, yaw, -5}, world::environmentAt(0.5f), 400, 0, View::Color});
+            made->readImage();
+        }
+        return std::ranges::any_of(made->passTimes(),
+                                   [](const gpu::GpuTiming& t) { return t.name == "peel"; });
+    };
+    EXPECT_TRUE(hasPeeled(0));
+    EXPECT_FALSE(hasPeeled(180));
+}
+
+}  // namespace
+}  // namespace terrane::render
