@@ -1,13 +1,13 @@
 // The mesher as compute shaders: quads go straight into the buffer that is drawn from. They are those of
 // mesh::meshChunk, in another order within their ranges. Used on the context's thread.
 //
-// A batch is counted first; the counts (112 bytes a region) come back through a copy that nothing waits for,
+// A batch is counted first; the counts (104 bytes a region) come back through a copy that nothing waits for,
 // the host makes room for each region, and a second run writes the quads there. What it costs, per section
 // in which something may be seen, twice: 4,096 block indices read once (512 to 8,192 bytes) and 1,536 of its
 // neighbours, 256 invocations with 20 bit operations a side; then 96 planes, one invocation each, by two to
-// three reads of shared memory a row and rectangle. 23 KB of shared memory a work group: nine fit the 228 KB
-// of a large GPU, two the 64 KB of a small one. Plain planes take alike long; in a warp of 32 planes the one
-// with most rectangles decides.
+// three reads of shared memory a row and rectangle. 23 KB of shared memory a work group: the 228 KB of a
+// large GPU hold all the eight that its 2,048 invocations make, the 64 KB of a small one two. Planes of
+// nothing end at once; in a warp of 32 planes the one with most rectangles decides.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ class GpuMesher {
   public:
     static constexpr std::size_t kMaxChunks = 256;  // a batch
 
-    // Memory on the GPU beside what batches upload (9 KB a chunk): 1 MB for counts, 400 KB for places.
+    // Memory on the GPU beside what batches upload (9 KB a chunk): 2.5 MB for counts and
+    // places of 8,192 regions.
     static base::Result<GpuMesher> create(const gpu::ShaderLoader& shaders,
                                           const world::BlockRegistry& blocks);
     GpuMesher(GpuMesher&&) noexcept;
