@@ -244,7 +244,7 @@ void ChunkPipeline::saveAll() {
 void ChunkPipeline::showAgain() {
     for (const auto& [pos, extra] : extras_) {
         if (!table_.is(pos, ChunkStage::Visible)) continue;
-        change(pos).light = extra.light;
+        setLight(pos, extra.light);
         toMesh_[pos] = mesh::kAllRegions;
     }
 }
