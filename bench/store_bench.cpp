@@ -119,8 +119,7 @@ class SaveFolder {
 
 std::unique_ptr<store::SqliteStore> openSave(const SaveFolder& folder) {
     const store::WorldIdentity identity{kSeed, "overworld", 1};
-    return orExit(
-        store::SqliteStore::open(folder.file(), blocks(), {.create = identity, .decide = {}}));
+    return orExit(store::SqliteStore::open(folder.file(), blocks(), {.create = identity, .decide = {}}));
 }
 
 void saveAll(store::ChunkStore& store) {

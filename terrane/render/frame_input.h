@@ -17,8 +17,8 @@ struct FrameInput {
     float timeSeconds = 0;    // for animations
     View view = View::Color;
     bool isUnderWater = false;
-    // Draws only what this camera would see, whatever is hidden from it: to look at culling from outside. It is
-    // in the same chunk as `camera`.
+    // Draws only what this camera would see, whatever is hidden from it: to look at culling from outside. It
+    // is in the same chunk as `camera`.
     std::optional<Camera> culledFor = std::nullopt;
 };
 
