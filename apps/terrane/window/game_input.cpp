@@ -124,8 +124,8 @@ void Game::onButton(gpu::MouseButton button, bool isPress) {
 void Game::capture(bool isCaptured) {
     isCaptured_ = isCaptured;
     parts_.window.setCursorCaptured(isCaptured);
-    hand_.breaking.release();
-    hand_.building.release();
+    hand_.breaking.cancel();
+    hand_.building.cancel();
 }
 
 void Game::say(std::string message) {

@@ -7,27 +7,29 @@ class HeldButton {
   public:
     static constexpr double kFirstPause = 0.3, kPause = 0.15;  // seconds
 
-    void press() {
-        isDown_ = true;
-        wait_ = 0;
-        pause_ = kFirstPause;
-    }
+    void press() { isDown_ = isNew_ = true; }
+    // What was pressed and released within a frame acts all the same.
     void release() { isDown_ = false; }
+    void cancel() { isDown_ = isNew_ = false; }
     bool isDown() const { return isDown_; }
 
     // Whether it acts in a frame of this length; at most once a frame.
     bool acts(double seconds) {
+        if (isNew_) {
+            isNew_ = false;
+            wait_ = kFirstPause;
+            return true;
+        }
         if (!isDown_) return false;
         wait_ -= seconds;
         if (wait_ > 0) return false;
-        wait_ = pause_;
-        pause_ = kPause;
+        wait_ = kPause;
         return true;
     }
 
   private:
-    bool isDown_ = false;
-    double wait_ = 0, pause_ = kFirstPause;
+    bool isDown_ = false, isNew_ = false;
+    double wait_ = 0;  // until it acts again
 };
 
 }  // namespace terrane::app
