@@ -11,7 +11,7 @@
 namespace terrane::mesh {
 namespace {
 
-constexpr unsigned kSeeds = 6;  // × 9 mixes × 5 methods = 270 chunks
+constexpr unsigned kSeeds = 4;  // × 9 mixes × 5 methods = 180 chunks
 constexpr int kRegionHeights[] = {8, 16, 32, 64, 128};
 
 // Every visible face is covered once, no other face is.
