@@ -38,6 +38,19 @@ vec4 blockTexture(uint face, vec2 inTextures, vec2 dx, vec2 dy) {
 #endif
 }
 
+// The mipmap whose texels are nearest to a pixel's size, along its shorter side: planes seen edge on do not close.
+int nearestLevel(vec2 dx, vec2 dy) {
+    vec2 size = vec2(textureSize(blockTextures, 0).xy);
+    float texels = min(length(dx * size), length(dy * size));
+    return clamp(int(log2(max(texels, 1.0)) + 0.5), 0, textureQueryLevels(blockTextures) - 1);
+}
+
+vec4 nearestTexel(uint face, vec2 inTextures, int level) {
+    vec2 inside = clamp(inTextures, vec2(0.0), extentOf(face) - 1.0 / 1024.0);
+    ivec2 texel = ivec2(fract(inside) * vec2(textureSize(blockTextures, level).xy));
+    return texelFetch(blockTextures, ivec3(texel, textureOf(face)), level);
+}
+
 float leastAlpha(uint face) {
     return alphaModeOf(face) == kAlphaTestGlow ? 0.25 : 0.5;
 }

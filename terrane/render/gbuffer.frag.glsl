@@ -11,13 +11,23 @@ layout(location = 1) flat in uvec2 inFace;
 layout(location = 0) out vec4 outSurface;
 
 #if ALPHA_CLASS == 1 && SAMPLES > 1
-// Without a gl_SampleMask all samples that the triangle covers would be drawn.
-int samplesWithoutHole(vec2 dx, vec2 dy) {
+// Without a gl_SampleMask all samples that the triangle covers would be drawn. Of a sample only the side of the edge counts
+// that it lies on: one texel tells, where a filter would read eight.
+bool isHole(vec2 texel, int level) {
+    return nearestTexel(inFace.x, texel, level).a < leastAlpha(inFace.x);
+}
+
+// `seen`: where the colour is to be taken, the middle of the pixel unless it lies in a hole, which has no colour of its own.
+int samplesWithoutHole(int level, out vec2 seen) {
     int mask = 0;
+    seen = inTexel;
     for (int k = 0; k < SAMPLES; ++k) {
-        float alpha = blockTexture(inFace.x, interpolateAtSample(inTexel, k), dx, dy).a;
-        if (alpha >= leastAlpha(inFace.x)) mask |= 1 << k;
+        vec2 texel = interpolateAtSample(inTexel, k);
+        if (isHole(texel, level)) continue;
+        mask |= 1 << k;
+        seen = texel;
     }
+    if (!isHole(inTexel, level)) seen = inTexel;
     return mask;
 }
 #endif
@@ -37,16 +47,15 @@ float glowOf(float alpha) {
 }
 
 void main() {
-    vec2 dx = dFdx(inTexel), dy = dFdy(inTexel);
-    vec4 texel = blockTexture(inFace.x, inTexel, dx, dy);
-#if ALPHA_CLASS == 1
-#if SAMPLES > 1
-    int mask = samplesWithoutHole(dx, dy);
+    vec2 dx = dFdx(inTexel), dy = dFdy(inTexel), at = inTexel;
+#if ALPHA_CLASS == 1 && SAMPLES > 1
+    int mask = samplesWithoutHole(nearestLevel(dx, dy), at);
     if (mask == 0) discard;
     gl_SampleMask[0] = mask;
-#else
-    if (texel.a < leastAlpha(inFace.x)) discard;
 #endif
+    vec4 texel = blockTexture(inFace.x, at, dx, dy);
+#if ALPHA_CLASS == 1 && SAMPLES == 1
+    if (texel.a < leastAlpha(inFace.x)) discard;
 #endif
     uint direction = directionOfFace(inFace.x);
     if (!gl_FrontFacing && direction < kDirectionPlant) direction ^= 1u;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 
 namespace terrane::render {
 namespace {
@@ -115,6 +116,42 @@ float coverageScale(const LinearImage& image, float limit, float wanted) {
     return takesAbove ? high : low;
 }
 
+// Mean of the known colours around a texel of a repeating texture, alpha 0; nothing where none is known.
+std::optional<std::array<std::uint8_t, 4>> colorAround(const base::Image& image,
+                                                       const std::vector<bool>& known, int x, int y) {
+    std::array<int, 3> sum{};
+    int count = 0;
+    for (int k = 0; k < 9; ++k) {
+        const int last = image.width - 1;
+        const int nx = (x + k % 3 - 1) & last, ny = (y + k / 3 - 1) & last;
+        const auto at = static_cast<std::size_t>(ny * image.width + nx);
+        if (!known[at]) continue;
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += image.rgba[4 * at + c];
+        ++count;
+    }
+    if (count == 0) return std::nullopt;
+    const auto mean = [&](std::size_t c) { return static_cast<std::uint8_t>(sum[c] / count); };
+    return std::array<std::uint8_t, 4>{mean(0), mean(1), mean(2), 0};
+}
+
+// Hidden texels take the colour of what is next to them, ring by ring: filters mix it into the edges.
+void colorHiddenTexels(base::Image& image) {
+    std::vector<bool> known;
+    for (std::size_t k = 3; k < image.rgba.size(); k += 4) known.push_back(image.rgba[k] > 0);
+    if (std::ranges::find(known, true) == known.end()) return;
+    while (std::ranges::find(known, false) != known.end()) {
+        const std::vector<bool> before = known;
+        for (std::size_t at = 0; at < known.size(); ++at) {
+            if (before[at]) continue;
+            const int x = static_cast<int>(at) % image.width, y = static_cast<int>(at) / image.width;
+            const auto color = colorAround(image, before, x, y);
+            if (!color) continue;
+            std::ranges::copy(*color, image.rgba.begin() + static_cast<std::ptrdiff_t>(4 * at));
+            known[at] = true;
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<base::Image> mipmaps(const base::Image& image, world::AlphaMode alpha) {
@@ -122,7 +159,8 @@ std::vector<base::Image> mipmaps(const base::Image& image, world::AlphaMode alph
            "block textures are 2^n square");
     const bool isTested = alpha == world::AlphaMode::Test || alpha == world::AlphaMode::TestGlow;
     std::vector<base::Image> levels{image};
-    LinearImage level = decode(image);
+    if (isTested) colorHiddenTexels(levels[0]);
+    LinearImage level = decode(levels[0]);
     const float limit = threshold(alpha), wanted = coverage(level, limit, 1.0f);
     while (level.size > 1) {
         level = half(level, isTested || alpha == world::AlphaMode::Blend);

@@ -8,7 +8,8 @@
 
 namespace terrane::render {
 
-// Level 0 is the image, each next one half as large, down to 1×1. The image is square, its side a power of
+// Level 0 is the image, but that texels hidden by a tested alpha take the colours around them; each next one
+// half as large, down to 1×1. The image is square, its side a power of
 // two.
 //
 // Colours are averaged as light (sRGB is decoded), weighted by alpha where alpha is coverage. Where alpha

@@ -32,16 +32,19 @@ vec4 shadeAt(Surface s, float depth, float open) {
 }
 
 #if SAMPLES > 1 && PER_SAMPLE == 1
+// Each surface once, with the share of its samples: at most edges there are two.
 vec4 shadePixel(ivec2 pixel, float open) {
-    vec4 first = surfaceAt(pixel, 0);
-    int count = isOneSurface(pixel, first) ? 1 : SAMPLES;
     vec4 sum = vec4(0.0);
-    for (int k = 0; k < count; ++k) {
-        vec4 word = surfaceAt(pixel, k);
-        if (directionOfWord(word) == kDirectionNone) continue;
-        sum += shadeAt(unpackSurface(word), depthAt(pixel, k), open);
-    }
-    return sum / float(count);
+    int left = (1 << SAMPLES) - 1;
+    do {
+        int first = findLSB(left);
+        vec4 word = surfaceAt(pixel, first);
+        int same = samplesOf(pixel, word);
+        vec4 color = shadeAt(unpackSurface(word), depthAt(pixel, first), open);
+        if (directionOfWord(word) != kDirectionNone) sum += color * float(bitCount(same));
+        left &= ~same;
+    } while (left != 0);
+    return sum / float(SAMPLES);
 }
 #elif SAMPLES > 1
 vec4 shadePixel(ivec2 pixel, float open) {

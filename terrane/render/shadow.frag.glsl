@@ -3,7 +3,7 @@
 #include "terrane/shared/quad.h"
 #include "terrane/shared/shape_face.h"
 #include "terrane/render/face_word.glsl"
-#define SMOOTH 1
+#define SMOOTH 0
 #include "terrane/render/block_texture.glsl"
 
 layout(location = 0) in vec2 inTexel;
@@ -11,7 +11,7 @@ layout(location = 1) flat in uvec2 inFace;
 
 void main() {
 #if ALPHA_CLASS == 1
-    float alpha = blockTexture(inFace.x, inTexel, dFdx(inTexel), dFdy(inTexel)).a;
+    float alpha = nearestTexel(inFace.x, inTexel, nearestLevel(dFdx(inTexel), dFdy(inTexel))).a;
     if (alpha < leastAlpha(inFace.x)) discard;
 #endif
 }

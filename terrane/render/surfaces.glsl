@@ -21,7 +21,13 @@ float blocksOfDepth(float depth) {
     return frame.viewport.w / max(depth, 1e-9);
 }
 
-// Equal words are one surface: its texture is read once a pixel.
+// Equal words are one surface: its texture is read once a pixel. Bits of its samples.
+int samplesOf(ivec2 pixel, vec4 word) {
+    int samples = 0;
+    for (int k = 0; k < SAMPLES; ++k) samples |= surfaceAt(pixel, k) == word ? 1 << k : 0;
+    return samples;
+}
+
 bool isOneSurface(ivec2 pixel, vec4 first) {
     bool isSame = true;
     for (int k = 1; k < SAMPLES; ++k) isSame = isSame && surfaceAt(pixel, k) == first;

@@ -116,6 +116,21 @@ TEST(Mipmaps, HiddenTexelsGiveNoColour) {
     EXPECT_GT(texel(mipmaps(image, AlphaMode::Glow)[1], 0, 0)[1], 100) << "alpha is no coverage here";
 }
 
+// Whatever colour a painter left under a hole, filters near its edge must not show it.
+TEST(Mipmaps, HiddenTexelsTakeTheColourBesideThem) {
+    const Image stem = makeImage(16, [](int x, int y) {
+        if (x != 8) return Texel{255, 0, 255, 0};
+        return y < 4 ? Texel{200, 200, 200, 255} : Texel{10, 120, 20, 255};
+    });
+    for (const AlphaMode mode : {AlphaMode::Test, AlphaMode::TestGlow}) {
+        const Image filled = mipmaps(stem, mode)[0];
+        for (const int x : {0, 5, 7, 9, 15}) EXPECT_EQ(texel(filled, x, 9), (Texel{10, 120, 20, 0})) << x;
+        EXPECT_EQ(texel(filled, 7, 2), (Texel{200, 200, 200, 0}));
+        EXPECT_EQ(texel(filled, 8, 9), texel(stem, 8, 9));
+    }
+    EXPECT_EQ(mipmaps(stem, AlphaMode::Glow)[0].rgba, stem.rgba) << "alpha says something else";
+}
+
 TEST(Mipmaps, WhereAllIsHiddenColoursStayForFilters) {
     const Image image = makeImage(4, [](int, int) { return Texel{40, 90, 10, 0}; });
     const Texel mean = texel(mipmaps(image, AlphaMode::Test)[2], 0, 0);
