@@ -1,0 +1,107 @@
+// What switching a graphics option costs while playing: from the call to the end of the first frame with it,
+// less a frame as they are afterwards. Each option goes through its words from the preset "medium" and back;
+// the first time its programs are compiled. Counters are milliseconds: the worst word's stall, first and
+// second time.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <thread>
+
+#include "apps/terrane/content.h"
+#include "apps/terrane/graphics_table.h"
+#include "apps/terrane/scenes.h"
+#include "bench/bench_content.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/gpu/context.h"
+#include "terrane/render/renderer.h"
+#include "terrane/stream/chunk_pipeline.h"
+
+namespace {
+
+using namespace terrane;
+
+constexpr int kViewDistance = 6;
+constexpr glm::ivec2 kSize{640, 360};
+constexpr int kSteadyFrames = 5;
+
+void load(render::Renderer& renderer, const render::Camera& camera) {
+    const gen::Generator generator(bench::orExit(gen::makeGenerator("overworld", bench::blocks())), 1);
+    world::World world;
+    base::JobSystem jobs(std::max(1u, std::thread::hardware_concurrency()));
+    const light::LightTable lights(bench::blocks());
+    stream::ChunkPipeline pipeline(
+        {jobs, bench::blocks(), lights, world, {&generator, nullptr, false}, nullptr});
+    pipeline.setView(render::cameraChunk(camera), kViewDistance);
+    for (pipeline.update(); !pipeline.progress().complete(); pipeline.update()) {
+        pipeline.waitForWorkers(std::chrono::milliseconds(100));
+    }
+    for (const stream::ChunkChange& change : pipeline.takeChanges(std::numeric_limits<std::size_t>::max())) {
+        if (change.mesh) renderer.setChunk(change.pos, *change.mesh, change.regions);
+        if (change.light) renderer.setLight(change.pos, *change.light);
+    }
+}
+
+class Stage {
+  public:
+    Stage() : renderer_(makeRenderer()) { load(renderer_, camera_); }
+
+    // Milliseconds that the frame with these options takes longer than those after it; 0 where the driver
+    // has not so many samples.
+    double stallOf(const render::RenderOptions& options) {
+        const auto start = std::chrono::steady_clock::now();
+        if (!renderer_.configure(kSize, options)) return 0;
+        const double first = drawSince(start);
+        std::vector<double> steady;
+        for (int k = 0; k < kSteadyFrames; ++k) steady.push_back(drawSince(std::chrono::steady_clock::now()));
+        std::ranges::nth_element(steady, steady.begin() + kSteadyFrames / 2);
+        return first - steady[kSteadyFrames / 2];
+    }
+
+  private:
+    render::Renderer makeRenderer() {
+        return bench::orExit(
+            render::Renderer::create(shaders_, bench::blocks(), app::builtInTextures(), gpu::queryDevice()));
+    }
+    double drawSince(std::chrono::steady_clock::time_point start) {
+        renderer_.draw({camera_, world::environmentAt(0.34f), 16.0f * kViewDistance, 0, render::View::Color});
+        glFinish();
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    }
+
+    gpu::HeadlessContext context_ = bench::orExit(gpu::HeadlessContext::create({}));
+    gpu::ShaderLoader shaders_ = app::makeShaderLoader("");
+    render::Camera camera_ = app::findScene("landscape")->camera;
+    render::Renderer renderer_;
+};
+
+void switchThrough(benchmark::State& state, const app::GraphicsRow& row) {
+    static Stage stage;
+    const render::RenderOptions usual = *render::findPreset("medium", false);
+    stage.stallOf(usual);
+    double worst[2] = {};
+    for (auto _ : state) {
+        for (double& stall : worst) {
+            for (int word = 0; word < static_cast<int>(row.words.size()); ++word) {
+                render::RenderOptions options = usual;
+                row.set(options, word);
+                stall = std::max({stall, stage.stallOf(options), stage.stallOf(usual)});
+            }
+        }
+    }
+    state.counters["first_ms"] = worst[0];
+    state.counters["again_ms"] = worst[1];
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    for (const app::GraphicsRow& row : app::graphicsTable()) {
+        benchmark::RegisterBenchmark(std::string("switch/").append(row.name).c_str(),
+                                     [&row](benchmark::State& state) { switchThrough(state, row); })
+            ->Iterations(1);
+    }
+    benchmark::Initialize(&argc, argv);
+    benchmark::RunSpecifiedBenchmarks();
+}
