@@ -161,6 +161,14 @@ class Frames(RecordTest):
         last = self.frames(text, "--fps", "1", "--animation", "off", "--from", "13")
         self.assertEqual(last[0].rows == frames[0], True, "what was built before the part is not there")
 
+    def test_a_camera_inside_a_block_is_told_once(self):
+        down = '[[shot.key]]\ntime = 4\nat = [8.5, 8.5, 70]\n'
+        done = run("record", "--path", self.path(HEAD + shot(4, down)),
+                   "--frames-dir", self.folder / "f", "--fps", "2", *SMALL)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr.count("the camera is inside grass"), 1, done.stderr)
+        self.assertEqual(done.stderr.count("the camera is inside"), 1, done.stderr)
+
     def test_a_block_is_taken_away(self):
         dig = '[[shot.edit]]\ntime = 1\nfrom = [-20, -20, 80]\nto = [40, 40, 80]\nblock = "air"\n'
         before, after = [p.rows[45][80] for p in self.frames(HEAD + shot(2, dig), "--fps", "1")]

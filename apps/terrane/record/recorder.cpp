@@ -1,6 +1,9 @@
 #include "apps/terrane/record/recorder.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
+
+#include "terrane/base/log.h"
 
 namespace terrane::app {
 namespace {
@@ -37,6 +40,18 @@ base::Result<void> Recorder::apply(const GraphicsOptions& graphics) {
     return {};
 }
 
+// Once a shot: nobody wants to see the inside of a hill.
+void Recorder::warnOfBlocks(const render::Camera& camera, const Shot& shot, double secondsInShot) {
+    const glm::dvec3 at = glm::floor(camera.position);
+    const world::BlockId id = parts_.session.world.block(
+        {static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y), static_cast<std::int32_t>(at.z)});
+    const world::BlockType& type = parts_.session.blocks.type(id);
+    if (type.collision.empty() || warnedOf_ == &shot) return;
+    warnedOf_ = &shot;
+    base::logWarning("shot \"{}\": after {:.1f} s the camera is inside {}", shot.name, secondsInShot,
+                     type.name);
+}
+
 base::Result<base::Image> Recorder::frame(double seconds) {
     const Shot& shot = shotAt(parts_.script, seconds);
     const double inShot = seconds - shot.start;
@@ -47,6 +62,8 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     loadAll(parts_.session, parts_.renderer, point.camera, viewDistance_, timeOf(seconds));
     edits_.advanceTo(seconds, *parts_.session.pipeline);
     loadAll(parts_.session, parts_.renderer, point.camera, viewDistance_, timeOf(seconds));
+
+    warnOfBlocks(point.camera, shot, inShot);
 
     render::FrameInput input;
     input.camera = point.camera;

@@ -31,10 +31,12 @@ class Recorder {
 
   private:
     base::Result<void> apply(const GraphicsOptions& graphics);
+    void warnOfBlocks(const render::Camera& camera, const Shot& shot, double secondsInShot);
 
     RecorderParts parts_;
     EditPlayer edits_;
     int viewDistance_ = 0;  // that the renderer has room for
+    const Shot* warnedOf_ = nullptr;
 };
 
 // 0…1: how much of a title is to be seen after some seconds of it.
