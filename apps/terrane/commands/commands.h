@@ -26,5 +26,7 @@ CommandEntry addDump(CLI::App& app);
 CommandEntry addCheck(CLI::App& app);
 CommandEntry addBlocks(CLI::App& app);
 CommandEntry addInfo(CLI::App& app);
+CommandEntry addCompletion(CLI::App& app);
+CommandEntry addMan(CLI::App& app);
 
 }  // namespace terrane::app
