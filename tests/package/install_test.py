@@ -32,7 +32,7 @@ class Install(unittest.TestCase):
         cls.prefix = cls.folder / "a prefix"
         run(CMAKE, "--install", BUILD, "--prefix", cls.prefix)
         # As another project has it: without a source tree around it.
-        cls.examples = cls.folder / "examples"
+        cls.examples = cls.folder / "programs"
         shutil.copytree(SOURCE / "examples", cls.examples)
 
     def find(self, name):
@@ -68,14 +68,14 @@ class Install(unittest.TestCase):
 
     def test_an_example_by_find_package_and_by_pkg_config(self):
         build = self.folder / "build"
-        run(CMAKE, "-S", self.examples, "-B", build, "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        run(CMAKE, "-S", self.examples, "-B", build, "-DCMAKE_BUILD_TYPE=Debug", f"-DCMAKE_PREFIX_PATH={self.prefix}")
         run(CMAKE, "--build", build, "--target", "own_generator")
         text = self.build_and_run(build / "own_generator")
 
         paths = {"PKG_CONFIG_PATH": str(self.find("terrane.pc").parent)}
         sources = [self.examples / name for name in ("own_generator.cpp", "tutorial_generators.cpp")]
         flags = shlex.split(run("pkg-config", "--cflags", "--libs", "terrane", env=os.environ | paths))
-        run("c++", f"-I{self.folder}", *sources, "-o", self.folder / "other", *flags)
+        run("c++", f"-I{build / 'include'}", *sources, "-o", self.folder / "other", *flags)
         self.assertEqual(run(self.folder / "other", "3"), text)
 
     def test_another_version_is_refused(self):

@@ -65,7 +65,8 @@ base::Result<void> drawFrames(Recorder& recorder, FrameSink& sink, const FrameRa
         if (!image) return tl::unexpected(image.error());
         if (auto added = sink.add(*image); !added) return added;
         bar.set(static_cast<std::size_t>(k + 1 - range.first));
-        if (signals.stopAsked()) return base::fail("stopped; there is no video");
+        if (signals.stopAsked())
+            return base::fail("stopped after {} of {} frames", k + 1 - range.first, range.end - range.first);
     }
     return {};
 }
