@@ -12,10 +12,14 @@ endif()
 
 add_library(terrane_flags INTERFACE)
 # Contraction of a*b+c into one rounding differs between machines: the generator must not depend on it.
-target_compile_options(terrane_flags INTERFACE
-  -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast
-  $<$<BOOL:${TERRANE_WERROR}>:-Werror>)
-target_include_directories(terrane_flags INTERFACE ${CMAKE_SOURCE_DIR})
+set(terrane_warnings -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast)
+if(TERRANE_WERROR)
+  list(APPEND terrane_warnings -Werror)
+endif()
+target_compile_options(terrane_flags INTERFACE -ffp-contract=off $<BUILD_INTERFACE:-fno-math-errno;${terrane_warnings}>)
+target_compile_features(terrane_flags INTERFACE cxx_std_20)
+target_include_directories(terrane_flags INTERFACE
+  $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:include>)
 if(TERRANE_SANITIZE)
   target_compile_options(terrane_flags INTERFACE
     -fsanitize=${TERRANE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)

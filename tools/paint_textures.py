@@ -541,19 +541,40 @@ def sheet(columns: int = 7, scale: int = 8) -> bytes:
     return png(width * scale, height * scale, b"".join(rows))
 
 
+def icon(size: int = 128) -> bytes:
+    """A block of grass seen from above a corner."""
+    top, side, half = TEXTURES["grass_top"][0](), TEXTURES["grass_side"][0](), size / 2
+
+    def texel(x: int, y: int) -> bytes:
+        u, v = (x + 0.5 - half) / half, (y + 0.5) / half  # -1…1 to the right, 0…2 downward
+        a, b = v + u / 2 - 0.5, v - u / 2 - 0.5  # along the edges of the top face
+        if max(abs(a), abs(b)) < 0.5:
+            return bytes((*top[int((a + 0.5) * SIZE), int((b + 0.5) * SIZE)][:3], 255))
+        depth = v - 1 + abs(u) / 2  # below the front edges of the top face
+        if 0 <= depth < 1 and abs(u) < 1:
+            color = side[int((u % 1) * SIZE), int(depth * SIZE)][:3]
+            return bytes((*(int(c * (0.82 if u < 0 else 0.62)) for c in color), 255))
+        return bytes(4)
+
+    return png(size, size, b"".join(texel(x, y) for y in range(size) for x in range(size)))
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", nargs="?", type=pathlib.Path, help="folder for the textures")
     parser.add_argument("--list", action="store_true", help="print the file names, paint nothing")
     parser.add_argument("--sheet", type=pathlib.Path, metavar="FILE.png", help="paint a sheet of them all")
+    parser.add_argument("--icon", type=pathlib.Path, metavar="FILE.png", help="paint the icon of the program")
     args = parser.parse_args()
-    if not (args.out or args.list or args.sheet):
+    if not (args.out or args.list or args.sheet or args.icon):
         parser.error("an output folder is needed")
     if args.list:
         print(*(f"{name}.png" for name in TEXTURES), sep="\n")
         return
     if args.sheet:
         args.sheet.write_bytes(sheet())
+    if args.icon:
+        args.icon.write_bytes(icon())
     if args.out:
         args.out.mkdir(parents=True, exist_ok=True)
         for name, (paint, _, _) in TEXTURES.items():

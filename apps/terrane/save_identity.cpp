@@ -3,13 +3,10 @@
 #include "terrane/gen/generators/catalogue.h"
 
 namespace terrane::app {
-namespace {
 
 store::WorldIdentity identityOf(const WorldOptions& options) {
     return {options.seed, options.generator, gen::generatorVersion(options.generator)};
 }
-
-}  // namespace
 
 store::SaveAccess accessTo(const SaveRequest& request, WorldOptions& options, const CLI::App& command) {
     store::SaveAccess access;

@@ -8,6 +8,8 @@
 
 namespace terrane::app {
 
+store::WorldIdentity identityOf(const WorldOptions& options);
+
 struct SaveRequest {
     std::filesystem::path path;
     bool recreate = false;

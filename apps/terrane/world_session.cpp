@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <glm/common.hpp>
+#include <limits>
 
 #include "apps/terrane/content.h"
 #include "apps/terrane/save_identity.h"
 #include "terrane/base/log.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/shared/shape_face.h"
+#include "terrane/store/memory_store.h"
 #include "terrane/store/open_store.h"
 #include "terrane/store/save_path.h"
 #include "terrane/world/plant_growth.h"
@@ -19,7 +21,8 @@ namespace {
 base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options, const SaveOptions& save,
                                                           const CLI::App& command,
                                                           const world::BlockRegistry& blocks) {
-    if (save.name.empty()) return nullptr;
+    // Edits of chunks that are left and come back.
+    if (save.name.empty()) return std::make_unique<store::MemoryStore>(identityOf(options));
     auto path = store::savePath(save.name, store::savePlaces());
     if (!path) return tl::unexpected(path.error());
     return store::openStore(*path, blocks, accessTo({*path, save.recreate}, options, command));
@@ -59,13 +62,13 @@ base::Result<std::unique_ptr<WorldSession>> WorldSession::create(WorldOptions op
     session->generator = std::make_unique<gen::Generator>(std::move(*generator));
     // Loading is about ten times as fast as generating (docs/performance.md): generated chunks are stored
     // too.
-    session->pipeline = std::make_unique<stream::ChunkPipeline>(
-        stream::PipelineParts{session->jobs,
-                              session->blocks,
-                              session->lights,
-                              session->world,
-                              {session->generator.get(), session->store.get(), true},
-                              nullptr});
+    session->pipeline = std::make_unique<stream::ChunkPipeline>(stream::PipelineParts{
+        session->jobs,
+        session->blocks,
+        session->lights,
+        session->world,
+        {session->generator.get(), session->store.get(), session->store->isPersistent()},
+        nullptr});
     return session;
 }
 
@@ -85,8 +88,9 @@ void WorldSession::advance(double seconds, world::ChunkPos centre) {
     }
 }
 
-void uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, std::size_t limit) {
-    for (const stream::ChunkChange& change : pipeline.takeChanges(limit)) {
+std::size_t uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, std::size_t limit) {
+    const std::vector<stream::ChunkChange> changes = pipeline.takeChanges(limit);
+    for (const stream::ChunkChange& change : changes) {
         if (change.isHidden) {
             renderer.removeChunk(change.pos);
             continue;
@@ -97,6 +101,20 @@ void uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, 
                 change.pos.x, change.pos.y);
         }
         if (change.light) renderer.setLight(change.pos, *change.light, change.bricks);
+    }
+    return changes.size();
+}
+
+void loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera,
+             int viewDistance, stream::ChunkPipeline::Time now) {
+    session.pipeline->setView(render::cameraChunk(camera), viewDistance);
+    for (;;) {
+        session.pipeline->update(now);
+        const std::size_t changed =
+            uploadChanges(*session.pipeline, renderer, std::numeric_limits<std::size_t>::max());
+        // Visible chunks that are meshed anew come a few an update.
+        if (session.pipeline->progress().complete() && changed == 0) return;
+        if (changed == 0) session.pipeline->waitForWorkers(std::chrono::milliseconds(100));
     }
 }
 

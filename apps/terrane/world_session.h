@@ -39,7 +39,7 @@ struct WorldSession {
 
     world::BlockRegistry blocks;
     light::LightTable lights;
-    std::unique_ptr<store::ChunkStore> store;  // null without a save
+    std::unique_ptr<store::ChunkStore> store;  // in memory without a save
     std::unique_ptr<gen::Generator> generator;
     world::World world;
     base::JobSystem jobs;
@@ -50,8 +50,12 @@ struct WorldSession {
     std::uint64_t ticks_ = 0;
 };
 
-// Hands at most `limit` changed chunks to the renderer.
-void uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, std::size_t limit);
+// Hands at most `limit` changed chunks to the renderer; how many.
+std::size_t uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, std::size_t limit);
+
+// Waits until the renderer has everything that the camera may see, as it is now. `now`: the pipeline's time.
+void loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera,
+             int viewDistance, stream::ChunkPipeline::Time now);
 
 // Whether the camera is in water: below its surface, where that is in the same block.
 bool isUnderWater(const WorldSession& session, const render::Camera& camera);

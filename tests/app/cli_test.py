@@ -7,7 +7,7 @@ import struct
 import support
 from support import Npy, Picture, ProgramTest, run
 
-COMMANDS = ("play", "render", "generate", "map", "dump", "check", "blocks", "info")
+COMMANDS = ("play", "render", "record", "generate", "map", "dump", "check", "blocks", "info", "completion", "man")
 FLAT = ("--generator", "flat")
 
 # Name: opacity to light, emission. Of all blocks that the game starts with.

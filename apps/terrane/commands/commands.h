@@ -19,11 +19,14 @@ struct CommandEntry {
 
 CommandEntry addPlay(CLI::App& app);
 CommandEntry addRender(CLI::App& app);
+CommandEntry addRecord(CLI::App& app);
 CommandEntry addGenerate(CLI::App& app);
 CommandEntry addMap(CLI::App& app);
 CommandEntry addDump(CLI::App& app);
 CommandEntry addCheck(CLI::App& app);
 CommandEntry addBlocks(CLI::App& app);
 CommandEntry addInfo(CLI::App& app);
+CommandEntry addCompletion(CLI::App& app);
+CommandEntry addMan(CLI::App& app);
 
 }  // namespace terrane::app

@@ -64,18 +64,6 @@ base::Result<Scene> chosenScene(const PictureOptions& options) {
     return scene;
 }
 
-// Generates and meshes everything in view; returns when the renderer has it.
-void loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera,
-             int viewDistance) {
-    session.pipeline->setView(render::cameraChunk(camera), viewDistance);
-    for (;;) {
-        session.pipeline->update();
-        uploadChanges(*session.pipeline, renderer, std::numeric_limits<std::size_t>::max());
-        if (session.pipeline->progress().complete()) return;
-        session.pipeline->waitForWorkers(std::chrono::milliseconds(100));
-    }
-}
-
 // Milliseconds of each frame; the picture stays the same.
 std::vector<double> drawFrames(render::Renderer& renderer, const render::FrameInput& input, int count) {
     std::vector<double> frames;
@@ -121,7 +109,7 @@ base::Result<void> renderPicture(const PictureOptions& options, const CLI::App& 
     const auto loadStart = Clock::now();
     (*session)->pipeline->setMeshOptions(options.graphics.mesh);
     renderer->setViewDistance(options.graphics.viewDistance);
-    loadAll(**session, *renderer, scene->camera, options.graphics.viewDistance);
+    loadAll(**session, *renderer, scene->camera, options.graphics.viewDistance, loadStart);
     const double load = millisecondsSince(loadStart);
 
     const auto drawStart = Clock::now();

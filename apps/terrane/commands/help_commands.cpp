@@ -1,0 +1,39 @@
+// terrane completion, terrane man: what shells and manual readers need to know of the command line.
+#include <iostream>
+#include <memory>
+
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/help/completion.h"
+#include "apps/terrane/help/man_page.h"
+
+namespace terrane::app {
+
+CommandEntry addCompletion(CLI::App& app) {
+    struct Shell {
+        const char* name;
+        std::string (*script)(const std::vector<CommandListEntry>&);
+    };
+    static constexpr std::array<Shell, 3> kShells = {
+        {{"bash", bashCompletion}, {"zsh", zshCompletion}, {"fish", fishCompletion}}};
+    auto shell = std::make_shared<std::string>();
+    CLI::App* command = app.add_subcommand("completion", "Print a script that completes commands in a shell");
+    command->add_option("shell", *shell, "The shell: bash, zsh, fish")->type_name("WORD")->required();
+    return {command, [shell, &app]() -> base::Result<void> {
+                for (const Shell& known : kShells) {
+                    if (known.name != *shell) continue;
+                    std::cout << known.script(commandList(app));
+                    return {};
+                }
+                return base::fail("completion: expected one of bash, zsh, fish, got \"{}\"", *shell);
+            }};
+}
+
+CommandEntry addMan(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("man", "Print the manual page (roff)");
+    return {command, [&app]() -> base::Result<void> {
+                std::cout << manPage(commandList(app), TERRANE_VERSION);
+                return {};
+            }};
+}
+
+}  // namespace terrane::app

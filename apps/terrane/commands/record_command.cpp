@@ -1,0 +1,136 @@
+// terrane record: a video along a camera path, without a window.
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/content.h"
+#include "apps/terrane/progress_bar.h"
+#include "apps/terrane/record/frame_sink.h"
+#include "apps/terrane/record/recorder.h"
+#include "apps/terrane/record/script_file.h"
+#include "apps/terrane/record/stop_signals.h"
+#include "terrane/base/files.h"
+#include "terrane/base/log.h"
+#include "terrane/gpu/context.h"
+
+namespace terrane::app {
+namespace {
+
+struct RecordOptions {
+    WorldOptions world;
+    GraphicsOptions graphics;
+    std::string path, output, framesFolder;
+    int framesPerSecond = 30;
+    double from = 0;
+    std::optional<double> until;
+};
+
+// Frame k of the video is at k / framesPerSecond.
+struct FrameRange {
+    std::int64_t first = 0, end = 0;
+};
+
+base::Result<Script> readScript(const RecordOptions& options, const CLI::App& command) {
+    auto text = base::readFile(options.path);
+    if (!text) return tl::unexpected(text.error());
+    auto blocks = loadBlocks();
+    if (!blocks) return tl::unexpected(blocks.error());
+    ScriptDefaults defaults{options.world, options.graphics, {}};
+    for (const CLI::Option* option : command.get_options())
+        if (option->count() > 0) defaults.given.push_back(option->get_single_name());
+    return parseScript(*text, options.path, defaults, *blocks);
+}
+
+base::Result<FrameRange> framesOf(const RecordOptions& options, const Script& script) {
+    const double until = std::min(options.until.value_or(script.seconds()), script.seconds());
+    const auto frameAt = [&](double seconds) { return std::llround(seconds * options.framesPerSecond); };
+    const FrameRange range{frameAt(options.from), frameAt(until)};
+    if (range.first < range.end) return range;
+    return base::fail("{}: no frame between {} and {} seconds; it has {}", options.path, options.from, until,
+                      script.seconds());
+}
+
+base::Result<std::unique_ptr<FrameSink>> openSink(const RecordOptions& options) {
+    if (!options.framesFolder.empty()) return openFrameFolder(options.framesFolder);
+    return openVideo(options.output, {options.graphics.size, options.framesPerSecond});
+}
+
+base::Result<void> drawFrames(Recorder& recorder, FrameSink& sink, const FrameRange& range,
+                              int framesPerSecond) {
+    const StopSignals signals;
+    ProgressBar bar("recording", static_cast<std::size_t>(range.end - range.first));
+    for (std::int64_t k = range.first; k < range.end; ++k) {
+        auto image = recorder.frame(static_cast<double>(k) / framesPerSecond);
+        if (!image) return tl::unexpected(image.error());
+        if (auto added = sink.add(*image); !added) return added;
+        bar.set(static_cast<std::size_t>(k + 1 - range.first));
+        if (signals.stopAsked())
+            return base::fail("stopped after {} of {} frames", k + 1 - range.first, range.end - range.first);
+    }
+    return {};
+}
+
+base::Result<void> recordVideo(const RecordOptions& options, const CLI::App& command) {
+    if (options.output.empty() && options.framesFolder.empty())
+        return base::fail("record needs --output or --frames-dir");
+    auto script = readScript(options, command);
+    if (!script) return tl::unexpected(script.error());
+    const auto range = framesOf(options, *script);
+    if (!range) return tl::unexpected(range.error());
+    const TitlePainter titles(options.graphics.size.y);
+
+    auto session = WorldSession::create(script->world, {}, command);
+    if (!session) return tl::unexpected(session.error());
+    auto context = gpu::HeadlessContext::create({.debug = options.graphics.debugGl});
+    if (!context) return tl::unexpected(context.error());
+    const gpu::ShaderLoader shaders = makeShaderLoader(options.graphics.shaderRoot);
+    const gpu::DeviceInfo device = gpu::queryDevice();
+    auto renderer = render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), device);
+    if (!renderer) return tl::unexpected(renderer.error());
+    auto sink = openSink(options);
+    if (!sink) return tl::unexpected(sink.error());
+
+    const auto start = std::chrono::steady_clock::now();
+    Recorder recorder({*script, **session, *renderer, titles, options.graphics.size, device.software});
+    auto drawn = drawFrames(recorder, **sink, *range, options.framesPerSecond);
+    if (!drawn) return drawn;
+    if (context->debugErrorCount() > 0) return base::fail("the graphics driver reported errors, see above");
+    if (auto finished = (*sink)->finish(); !finished) return finished;
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const std::int64_t frames = range->end - range->first;
+    base::logInfo("{}: {} frames, {:.1f} s of video in {:.1f} s",
+                  options.output.empty() ? options.framesFolder : options.output, frames,
+                  static_cast<double>(frames) / options.framesPerSecond, seconds);
+    return {};
+}
+
+}  // namespace
+
+CommandEntry addRecord(CLI::App& app) {
+    auto options = std::make_shared<RecordOptions>();
+    CLI::App* command = app.add_subcommand("record", "Make a video along a camera path, without a window");
+    command->add_option("--path", options->path, "The path: keys, titles, edits (TOML, see docs/video.md)")
+        ->type_name("FILE")
+        ->required();
+    addOutputOption(*command, options->output, "The video, .mp4 or .mkv; made by ffmpeg");
+    command->get_option("--output")->required(false);
+    command
+        ->add_option("--frames-dir", options->framesFolder,
+                     "Write frames as PNG files into this folder instead")
+        ->type_name("DIR")
+        ->excludes("--output");
+    command->add_option("--fps", options->framesPerSecond, "Frames a second")
+        ->check(numberFrom(1, 240))
+        ->capture_default_str();
+    command->add_option("--from", options->from, "Begin at this second of the path")
+        ->check(numberFrom(0, 1e6))
+        ->capture_default_str();
+    command->add_option("--until", options->until, "End at this second of the path")
+        ->check(numberFrom(0, 1e6));
+    addWorldOptions(*command, options->world);
+    addGraphicsOptions(*command, options->graphics, "high");
+    return {command, [options, command] { return recordVideo(*options, *command); }};
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,32 @@
+// The commands and flags of the command line as plain values, read from the parser itself: completions and
+// the manual page are made from these.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace terrane::app {
+
+struct FlagEntry {
+    std::vector<std::string> names;  // with dashes, "--output", "-o"; none: a plain argument
+    std::string value;               // what it takes, "FILE"; empty: nothing
+    std::vector<std::string> words;  // what the value can be; empty: anything
+    std::string description, defaultText;
+    bool isRequired = false;
+    bool takesFile() const { return value == "FILE"; }
+    bool takesFolder() const { return value == "DIR"; }
+};
+
+struct CommandListEntry {
+    std::string name, description;
+    std::vector<FlagEntry> flags;
+};
+
+// In the order of --help.
+std::vector<CommandListEntry> commandList(const CLI::App& app);
+
+// What runs where no command is named.
+constexpr const char* kDefaultCommand = "play";
+
+}  // namespace terrane::app

@@ -1,0 +1,174 @@
+#include "apps/terrane/help/completion.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace terrane::app {
+namespace {
+
+using Commands = std::vector<CommandListEntry>;
+
+std::string joined(const std::vector<std::string>& words) {
+    return fmt::format("{}", fmt::join(words, " "));
+}
+
+// What can stand behind a command: flags, and words that are arguments of their own.
+std::vector<std::string> namesOf(const CommandListEntry& command) {
+    std::vector<std::string> names;
+    for (const FlagEntry& flag : command.flags) {
+        const std::vector<std::string>& more = flag.names.empty() ? flag.words : flag.names;
+        names.insert(names.end(), more.begin(), more.end());
+    }
+    return names;
+}
+
+bool takesPlainFiles(const CommandListEntry& command) {
+    for (const FlagEntry& flag : command.flags)
+        if (flag.names.empty() && flag.takesFile()) return true;
+    return false;
+}
+
+// For single quotes of all three shells.
+std::string quoted(std::string text) {
+    return "'" + CLI::detail::find_and_replace(std::move(text), "'", "'\\''") + "'";
+}
+
+// What follows a flag that takes a value, in bash.
+std::string bashValues(const FlagEntry& flag) {
+    if (flag.takesFile()) return "_terrane_files -f";
+    if (flag.takesFolder()) return "_terrane_files -d";
+    return flag.words.empty() ? ":" : fmt::format("_terrane_words {}", quoted(joined(flag.words)));
+}
+
+std::string zshAction(const FlagEntry& flag) {
+    if (flag.takesFile()) return "_files";
+    if (flag.takesFolder()) return "_files -/";
+    return flag.words.empty() ? " " : "(" + joined(flag.words) + ")";
+}
+
+// A specification of _arguments for one name of a flag.
+std::string zshFlag(const FlagEntry& flag, const std::string& name) {
+    std::string description = flag.description;
+    for (const char* special : {"\\", "[", "]", ":"})
+        description = CLI::detail::find_and_replace(description, special, std::string("\\") + special);
+    const std::string value = flag.value.empty() ? "" : fmt::format(":{}:{}", flag.value, zshAction(flag));
+    return quoted(fmt::format("{}[{}]{}", name, description, value));
+}
+
+std::string fishFlag(const FlagEntry& flag, const std::string& condition) {
+    std::string line = fmt::format("complete -c terrane -n {}", quoted(condition));
+    for (const std::string& name : flag.names)
+        line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+    if (flag.takesFile() || flag.takesFolder()) {
+        line += " -r -F";
+    } else if (!flag.value.empty()) {
+        line += " -x";
+        if (!flag.words.empty()) line += fmt::format(" -a {}", quoted(joined(flag.words)));
+    }
+    return line + fmt::format(" -d {}\n", quoted(flag.description));
+}
+
+std::vector<std::string> commandNames(const Commands& commands) {
+    std::vector<std::string> names;
+    for (const CommandListEntry& command : commands) names.push_back(command.name);
+    return names;
+}
+
+}  // namespace
+
+std::string bashCompletion(const Commands& commands) {
+    std::string script = R"(# bash completion for terrane, made by: terrane completion bash
+_terrane_words() { mapfile -t COMPREPLY < <(compgen -W "$1" -- "$cur"); }
+_terrane_files() { compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen "$1" -- "$cur"); }
+_terrane() {
+    local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command=)";
+    script += kDefaultCommand;
+    script += R"( more=
+    COMPREPLY=()
+    if ((COMP_CWORD > 1)) && [[ ${COMP_WORDS[1]} != -* ]]; then command=${COMP_WORDS[1]}; fi
+)";
+    script += fmt::format("    if ((COMP_CWORD == 1)); then more='{} --help --version'; fi\n",
+                          joined(commandNames(commands)));
+    script += "    case \"$command $prev\" in\n";
+    for (const CommandListEntry& command : commands) {
+        for (const FlagEntry& flag : command.flags) {
+            for (const std::string& name : flag.value.empty() ? std::vector<std::string>() : flag.names)
+                script +=
+                    fmt::format("        '{} {}') {}; return ;;\n", command.name, name, bashValues(flag));
+        }
+    }
+    script += "    esac\n    case $command in\n";
+    for (const CommandListEntry& command : commands) {
+        const std::string files =
+            takesPlainFiles(command) ? "if [[ $cur != -* ]]; then _terrane_files -f; return; fi; " : "";
+        script += fmt::format("        {}) {}_terrane_words \"$more {}\" ;;\n", command.name, files,
+                              joined(namesOf(command)));
+    }
+    return script + "    esac\n}\ncomplete -F _terrane terrane\n";
+}
+
+std::string zshCompletion(const Commands& commands) {
+    std::string script = R"(#compdef terrane
+# zsh completion for terrane, made by: terrane completion zsh
+_terrane() {
+    local command=)";
+    script += kDefaultCommand;
+    script += "\n    local -a commands=(\n";
+    for (const CommandListEntry& command : commands) {
+        const std::string description = CLI::detail::find_and_replace(command.description, ":", "\\:");
+        script += fmt::format("        {}\n", quoted(command.name + ":" + description));
+    }
+    script += R"(    )
+    if [[ $words[2] != -* ]]; then
+        if ((CURRENT == 2)); then _describe command commands; return; fi
+        command=$words[2]
+        shift words
+        ((CURRENT--))
+    fi
+    case $command in
+)";
+    for (const CommandListEntry& command : commands) {
+        script += fmt::format("        {}) _arguments", command.name);
+        for (const FlagEntry& flag : command.flags) {
+            for (const std::string& name : flag.names)
+                script += fmt::format(" \\\n            {}", zshFlag(flag, name));
+            if (flag.names.empty())
+                script += fmt::format(" \\\n            {}",
+                                      quoted(fmt::format("*:{}:{}", flag.value, zshAction(flag))));
+        }
+        script += " ;;\n";
+    }
+    return script +
+           "    esac\n}\nif [[ $zsh_eval_context[-1] == loadautofunc ]]; then _terrane \"$@\"; "
+           "else compdef _terrane terrane; fi\n";
+}
+
+std::string fishCompletion(const Commands& commands) {
+    std::string script =
+        "# fish completion for terrane, made by: terrane completion fish\ncomplete -c terrane -f\n";
+    const std::string names = joined(commandNames(commands));
+    const std::string none = fmt::format("not __fish_seen_subcommand_from {}", names);
+    script += fmt::format("complete -c terrane -n {} -l version -d 'Print the version'\n", quoted(none));
+    for (const CommandListEntry& command : commands) {
+        script += fmt::format("complete -c terrane -n {} -a {} -d {}\n", quoted(none), command.name,
+                              quoted(command.description));
+    }
+    for (const CommandListEntry& command : commands) {
+        const std::string named = "__fish_seen_subcommand_from " + command.name;
+        const bool isDefault = command.name == kDefaultCommand;
+        const std::string condition = isDefault ? fmt::format("{}; or {}", named, none) : named;
+        for (const FlagEntry& flag : command.flags) {
+            if (!flag.names.empty()) {
+                script += fishFlag(flag, condition);
+            } else if (flag.takesFile()) {
+                script += fmt::format("complete -c terrane -n {} -F\n", quoted(condition));
+            } else {
+                script += fmt::format("complete -c terrane -n {} -a {}\n", quoted(condition),
+                                      quoted(joined(flag.words)));
+            }
+        }
+    }
+    return script;
+}
+
+}  // namespace terrane::app

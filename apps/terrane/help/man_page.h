@@ -1,0 +1,12 @@
+// The manual page terrane(1), made from the list of commands.
+#pragma once
+
+#include <string>
+
+#include "apps/terrane/help/command_list.h"
+
+namespace terrane::app {
+
+std::string manPage(const std::vector<CommandListEntry>& commands, const std::string& version);
+
+}  // namespace terrane::app

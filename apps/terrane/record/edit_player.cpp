@@ -1,0 +1,39 @@
+#include "apps/terrane/record/edit_player.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace terrane::app {
+
+EditPlayer::EditPlayer(const Script& script) {
+    for (const Shot& shot : script.shots)
+        for (const EditCue& edit : shot.edits) edits_.push_back({&edit, shot.start + edit.time});
+}
+
+void EditPlayer::advanceTo(double seconds, stream::ChunkPipeline& pipeline) {
+    for (Progress& progress : edits_) {
+        const std::int64_t wanted = blocksDone(*progress.edit, seconds - progress.start);
+        for (; progress.done < wanted; ++progress.done) {
+            const world::BlockPos pos = blockOf(*progress.edit, progress.done);
+            pipeline.chunkAt(world::chunkOf(pos));
+            pipeline.setBlock(pos, progress.edit->block);
+        }
+    }
+}
+
+std::int64_t blocksDone(const EditCue& edit, double seconds) {
+    if (seconds < -kTimeSlack) return 0;
+    if (seconds + kTimeSlack >= edit.seconds) return edit.count();
+    const double share = (seconds + kTimeSlack) / edit.seconds;
+    return static_cast<std::int64_t>(share * static_cast<double>(edit.count()));
+}
+
+world::BlockPos blockOf(const EditCue& edit, std::int64_t number) {
+    const std::int64_t width = std::int64_t{edit.high.x} - edit.low.x + 1;
+    const std::int64_t depth = std::int64_t{edit.high.y} - edit.low.y + 1;
+    return {static_cast<std::int32_t>(edit.low.x + number % width),
+            static_cast<std::int32_t>(edit.low.y + number / width % depth),
+            static_cast<std::int32_t>(edit.low.z + number / width / depth)};
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,84 @@
+#include "apps/terrane/record/recorder.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "terrane/base/log.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr double kFadeSeconds = 0.5;
+
+// The pipeline's clock follows the video: what it unloads does not depend on how long frames take.
+stream::ChunkPipeline::Time timeOf(double seconds) {
+    using Time = stream::ChunkPipeline::Time;
+    return Time() + std::chrono::duration_cast<Time::duration>(std::chrono::duration<double>(seconds));
+}
+
+}  // namespace
+
+float titleStrength(const TitleCue& title, double seconds) {
+    const double fade = std::min(kFadeSeconds, title.seconds / 2);
+    const double share = std::min(seconds, title.seconds - seconds) / fade;
+    return static_cast<float>(std::clamp(share, 0.0, 1.0));
+}
+
+base::Result<void> Recorder::apply(const GraphicsOptions& graphics) {
+    render::Renderer& renderer = parts_.renderer;
+    stream::ChunkPipeline& pipeline = *parts_.session.pipeline;
+    const auto options = renderOptions(graphics.choices, parts_.isSoftwareRenderer);
+    if (parts_.size != renderer.size() || options != renderer.options()) {
+        if (auto configured = renderer.configure(parts_.size, options); !configured) return configured;
+    }
+    pipeline.setMeshOptions(graphics.mesh);
+    if (graphics.viewDistance != viewDistance_) {
+        viewDistance_ = graphics.viewDistance;
+        renderer.setViewDistance(viewDistance_);
+        pipeline.showAgain();
+    }
+    return {};
+}
+
+// Once a shot: nobody wants to see the inside of a hill.
+void Recorder::warnOfBlocks(const render::Camera& camera, const Shot& shot, double secondsInShot) {
+    const glm::dvec3 at = glm::floor(camera.position);
+    const world::BlockId id = parts_.session.world.block(
+        {static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y), static_cast<std::int32_t>(at.z)});
+    const world::BlockType& type = parts_.session.blocks.type(id);
+    if (type.collision.empty() || warnedOf_ == &shot) return;
+    warnedOf_ = &shot;
+    base::logWarning("shot \"{}\": after {:.1f} s the camera is inside {}", shot.name, secondsInShot,
+                     type.name);
+}
+
+base::Result<base::Image> Recorder::frame(double seconds) {
+    const Shot& shot = shotAt(parts_.script, seconds);
+    const double inShot = seconds - shot.start;
+    const GraphicsOptions& graphics = optionsAt(shot, inShot);
+    if (auto applied = apply(graphics); !applied) return tl::unexpected(applied.error());
+    const PathPoint point = shot.path.at(inShot);
+    // First what is in view: an edit there then changes only what it touches.
+    loadAll(parts_.session, parts_.renderer, point.camera, viewDistance_, timeOf(seconds));
+    edits_.advanceTo(seconds, *parts_.session.pipeline);
+    loadAll(parts_.session, parts_.renderer, point.camera, viewDistance_, timeOf(seconds));
+
+    warnOfBlocks(point.camera, shot, inShot);
+
+    render::FrameInput input;
+    input.camera = point.camera;
+    input.environment = world::environmentAt(point.timeDay);
+    input.fogDistance = fogDistance(viewDistance_);
+    input.timeSeconds = static_cast<float>(seconds);
+    input.view = graphics.view;
+    input.isUnderWater = isUnderWater(parts_.session, point.camera);
+    parts_.renderer.draw(input);
+    base::Image image = parts_.renderer.readImage();
+    for (const TitleCue& title : shot.titles) {
+        const float strength = titleStrength(title, inShot - title.time);
+        if (strength > 0) parts_.titles.paint(image, title.text, title.isLarge, strength);
+    }
+    return image;
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,60 @@
+// What a video shows, as read from a path file: shots one behind the other. Plain values.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/terrane/options.h"
+#include "apps/terrane/record/camera_path.h"
+#include "terrane/world/block_type.h"
+
+namespace terrane::app {
+
+// Times are seconds from the start of the shot.
+
+// A text in the picture.
+struct TitleCue {
+    double time = 0, seconds = 4;
+    std::string text;
+    bool isLarge = false;  // in the middle; else at the bottom
+};
+
+// Fills a box of blocks, all at once or one after the other: by z, y, x.
+struct EditCue {
+    double time = 0, seconds = 0;
+    world::BlockPos low, high;  // both included
+    world::BlockId block = world::kAir;
+    std::int64_t count() const {
+        return (std::int64_t{high.x} - low.x + 1) * (std::int64_t{high.y} - low.y + 1) * (high.z - low.z + 1);
+    }
+};
+
+// How things are drawn from then on.
+struct OptionsCue {
+    double time = 0;
+    GraphicsOptions graphics;
+};
+
+struct Shot {
+    std::string name;
+    double start = 0, seconds = 0;  // start: from the beginning of the video
+    CameraPath path;
+    std::vector<OptionsCue> options;  // by time; the first is at 0
+    std::vector<TitleCue> titles;
+    std::vector<EditCue> edits;  // by time; they last until the end of the video
+};
+
+struct Script {
+    WorldOptions world;
+    std::vector<Shot> shots;  // at least one
+    double seconds() const { return shots.back().start + shots.back().seconds; }
+};
+
+// What is at a time is there for a frame of that time, whatever rounding made of both.
+constexpr double kTimeSlack = 1e-6;
+
+// The shot at a time of the video; the last one where it is over.
+const Shot& shotAt(const Script& script, double seconds);
+const GraphicsOptions& optionsAt(const Shot& shot, double secondsInShot);
+
+}  // namespace terrane::app

@@ -1,0 +1,246 @@
+#include "apps/terrane/record/script_file.h"
+
+#include <algorithm>
+#include <map>
+
+#include "apps/terrane/record/script_values.h"
+#include "apps/terrane/record/title_painter.h"
+
+namespace terrane::app {
+namespace {
+
+using Names = std::vector<std::string>;
+using world::ContentTable;
+
+constexpr double kMostSeconds = 24 * 3600;           // of a shot
+constexpr std::int64_t kMostBlocksOfEdit = 1 << 18;  // about a second of work
+
+// Flags that say how a frame is drawn, a preset before what changes it.
+Names drawingFlags() {
+    Names names = {"preset", "view-distance", "view", "aggregation", "region-height"};
+    for (const GraphicsRow& row : graphicsTable()) names.emplace_back(row.name);
+    return names;
+}
+
+Names with(Names names, std::initializer_list<const char*> more) {
+    names.insert(names.end(), more.begin(), more.end());
+    return names;
+}
+
+// Reads one file. After the first error what is read is of no use.
+class ScriptReader {
+  public:
+    ScriptReader(std::string_view file, const ScriptDefaults& defaults, const world::BlockRegistry& blocks)
+        : file_(file), defaults_(defaults), blocks_(blocks) {}
+
+    base::Result<Script> read(const toml::table& root);
+
+  private:
+    ContentTable open(const toml::table& table) { return {table, file_, error_}; }
+
+    WorldOptions worldOf(ContentTable& table);
+    GraphicsOptions graphicsAfter(GraphicsOptions graphics, ContentTable& table);
+
+    template <class Read>
+    void each(ContentTable& table, std::string_view key, Read read);
+
+    CameraKey keyOf(ContentTable& table, const CameraKey& before, bool isFirst);
+    std::vector<CameraKey> keysOf(ContentTable& shot);
+    TitleCue titleOf(ContentTable& table, double shotSeconds);
+    EditCue editOf(ContentTable& table, double shotSeconds);
+    void readBox(ContentTable& table, EditCue& edit);
+    void readOptions(ContentTable& shot, Shot& into, const GraphicsOptions& atFirst);
+    void readShot(ContentTable& table, const GraphicsOptions& graphics, std::vector<Shot>& shots);
+
+    std::string_view file_;
+    const ScriptDefaults& defaults_;
+    const world::BlockRegistry& blocks_;
+    std::optional<std::string> error_;
+};
+
+WorldOptions ScriptReader::worldOf(ContentTable& table) {
+    WorldOptions world = defaults_.world;
+    CLI::App flags;
+    addWorldOptions(flags, world);
+    applyFlags(table, flags, {"seed", "generator"}, defaults_.given);
+    return world;
+}
+
+GraphicsOptions ScriptReader::graphicsAfter(GraphicsOptions graphics, ContentTable& table) {
+    CLI::App flags;
+    addGraphicsOptions(flags, graphics, graphics.choices.preset);
+    applyFlags(table, flags, drawingFlags(), defaults_.given);
+    return graphics;
+}
+
+// Reads each table of an array of tables.
+template <class Read>
+void ScriptReader::each(ContentTable& table, std::string_view key, Read read) {
+    const toml::node* node = table.node(key);
+    if (!node) return;
+    const toml::array* array = node->as_array();
+    if (!array) return table.expected(*node, key, "an array of tables");
+    for (const toml::node& element : *array) {
+        if (!element.is_table()) return table.expected(element, key, "a table");
+        ContentTable inner = open(*element.as_table());
+        read(inner);
+    }
+}
+
+CameraKey ScriptReader::keyOf(ContentTable& table, const CameraKey& before, bool isFirst) {
+    table.rejectUnknown(Names{"time", "at", "look", "look-at", "day", "fov"});
+    CameraKey key = before;
+    key.time = numberOf(table, "time", 0, 0, kMostSeconds);
+    if (!table.node("time") && !isFirst) table.missing("time");
+    const auto at = numbersOf(table, "at", 3, "[x, y, z] in blocks");
+    if (at) key.position = {(*at)[0], (*at)[1], (*at)[2]};
+    if (!at && isFirst) table.missing("at");
+    const auto look = numbersOf(table, "look", 2, "[yaw, pitch] in degrees");
+    const auto lookAt = numbersOf(table, "look-at", 3, "[x, y, z] in blocks");
+    if (look && lookAt) table.wrong(table.line(), "look-at", "only one of look and look-at");
+    if (!look && !lookAt && isFirst) table.missing("look", "or look-at");
+    if (!isFirst && (look ? before.lookAt.has_value() : lookAt && !before.lookAt))
+        table.wrong(table.line(), "look", "the keys of a shot either all have look or all have look-at");
+    if (look) {
+        key.yaw = (*look)[0];
+        key.pitch = (*look)[1];
+        if (std::abs(key.pitch) > 90) table.expected(*table.node("look"), "look", "a pitch from -90 to 90");
+    }
+    if (lookAt) key.lookAt = glm::dvec3((*lookAt)[0], (*lookAt)[1], (*lookAt)[2]);
+    if (key.lookAt == key.position) table.wrong(table.line(), "look-at", "is where the camera is");
+    key.timeDay = numberOf(table, "day", before.timeDay, 0, 1000);
+    key.fieldOfView = numberOf(table, "fov", before.fieldOfView, 10, 120);
+    if (!world::isInWorld(render::cameraChunk({key.position, 0, 0})))
+        table.wrong(table.line(), "at", "outside the world");
+    return key;
+}
+
+std::vector<CameraKey> ScriptReader::keysOf(ContentTable& shot) {
+    std::vector<CameraKey> keys;
+    each(shot, "key", [&](ContentTable& table) {
+        const CameraKey key = keyOf(table, keys.empty() ? CameraKey{} : keys.back(), keys.empty());
+        if (!keys.empty() && key.time <= keys.back().time)
+            table.wrong(table.line(), "time",
+                        fmt::format("must be after {}, the key before", keys.back().time));
+        keys.push_back(key);
+    });
+    if (keys.empty()) shot.missing("key", "a shot has at least one");
+    return keys;
+}
+
+TitleCue ScriptReader::titleOf(ContentTable& table, double shotSeconds) {
+    table.rejectUnknown(Names{"time", "seconds", "text", "place"});
+    TitleCue title;
+    title.time = numberOf(table, "time", 0, 0, shotSeconds);
+    title.seconds = numberOf(table, "seconds", title.seconds, 0.1, kMostSeconds);
+    const toml::node *text = table.node("text"), *place = table.node("place");
+    if (!text) {
+        table.missing("text");
+    } else if (const auto value = text->value_exact<std::string>(); value && !value->empty()) {
+        title.text = *value;
+        const std::string missing = TitlePainter::missingLetter(title.text);
+        if (!missing.empty())
+            table.expected(*text, "text", fmt::format("letters of ISO 8859-1 (not {})", missing));
+    } else {
+        table.expected(*text, "text", "a text");
+    }
+    constexpr std::array<world::Word<bool>, 2> kPlaces = {{{"bottom", false}, {"middle", true}}};
+    if (place) title.isLarge = table.wordOf(*place, "place", kPlaces);
+    return title;
+}
+
+// One block `at`, or all from corner to corner.
+void ScriptReader::readBox(ContentTable& table, EditCue& edit) {
+    const auto at = blockPosOf(table, "at"), from = blockPosOf(table, "from"), to = blockPosOf(table, "to");
+    if (at ? from || to : !from || !to)
+        return table.wrong(table.line(), "at", "needs either at, or from and to");
+    const world::BlockPos a = at ? *at : *from, b = at ? *at : *to;
+    edit.low = {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+    edit.high = {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+    const double columns = (0.0 + edit.high.x - edit.low.x + 1) * (0.0 + edit.high.y - edit.low.y + 1);
+    if (columns * (edit.high.z - edit.low.z + 1) > kMostBlocksOfEdit)
+        table.wrong(table.line(), "to", fmt::format("more than {} blocks at once", kMostBlocksOfEdit));
+}
+
+EditCue ScriptReader::editOf(ContentTable& table, double shotSeconds) {
+    table.rejectUnknown(Names{"time", "seconds", "at", "from", "to", "block"});
+    EditCue edit;
+    edit.time = numberOf(table, "time", 0, 0, shotSeconds);
+    edit.seconds = numberOf(table, "seconds", 0, 0, kMostSeconds);
+    readBox(table, edit);
+    const toml::node* node = table.node("block");
+    if (!node) {
+        table.missing("block");
+        return edit;
+    }
+    const auto name = node->value_exact<std::string>();
+    const world::BlockType* type = name ? blocks_.find(*name) : nullptr;
+    if (type) edit.block = type->id;
+    if (!type && name != "air") table.expected(*node, "block", "a name that terrane blocks lists, or air");
+    return edit;
+}
+
+void ScriptReader::readOptions(ContentTable& shot, Shot& into, const GraphicsOptions& atFirst) {
+    std::multimap<double, ContentTable> changes;  // by time
+    each(shot, "set", [&](ContentTable& table) {
+        table.rejectUnknown(with(drawingFlags(), {"time"}));
+        changes.emplace(numberOf(table, "time", 0, 0, into.seconds), table);
+    });
+    into.options.push_back({0, atFirst});
+    for (auto& [time, table] : changes)
+        into.options.push_back({time, graphicsAfter(into.options.back().graphics, table)});
+}
+
+void ScriptReader::readShot(ContentTable& table, const GraphicsOptions& graphics, std::vector<Shot>& shots) {
+    table.rejectUnknown(Names{"name", "seconds", "key", "title", "set", "edit"});
+    const std::vector<CameraKey> keys = keysOf(table);
+    if (error_) return;
+    Shot shot{.name = "", .path = CameraPath(keys), .options = {}, .titles = {}, .edits = {}};
+    if (!shots.empty()) shot.start = shots.back().start + shots.back().seconds;
+    shot.seconds = numberOf(table, "seconds", keys.back().time, 0, kMostSeconds);
+    if (shot.seconds <= 0) table.wrong(table.line(), "seconds", "a shot takes more than 0");
+    if (shot.seconds < keys.back().time)
+        table.wrong(table.line(), "seconds", fmt::format("the shot has a key at {}", keys.back().time));
+    if (const toml::node* name = table.node("name")) shot.name = name->value_or(std::string());
+    readOptions(table, shot, graphics);
+    each(table, "title", [&](ContentTable& inner) { shot.titles.push_back(titleOf(inner, shot.seconds)); });
+    each(table, "edit", [&](ContentTable& inner) { shot.edits.push_back(editOf(inner, shot.seconds)); });
+    std::ranges::stable_sort(shot.edits, std::less<>(), &EditCue::time);
+    shots.push_back(std::move(shot));
+}
+
+base::Result<Script> ScriptReader::read(const toml::table& root) {
+    ContentTable table = open(root);
+    table.rejectUnknown(Names{"seed", "generator", "options", "shot"});
+    Script script;
+    script.world = worldOf(table);
+    GraphicsOptions graphics = defaults_.graphics;
+    if (const toml::node* options = table.node("options")) {
+        if (const toml::table* inner = options->as_table()) {
+            ContentTable drawing = open(*inner);
+            drawing.rejectUnknown(drawingFlags());
+            graphics = graphicsAfter(graphics, drawing);
+        } else {
+            table.expected(*options, "options", "a table");
+        }
+    }
+    each(table, "shot", [&](ContentTable& shot) { readShot(shot, graphics, script.shots); });
+    if (script.shots.empty()) table.missing("shot", "a video has at least one");
+    if (error_) return base::fail("{}", *error_);
+    return script;
+}
+
+}  // namespace
+
+base::Result<Script> parseScript(std::string_view toml, std::string_view name, const ScriptDefaults& defaults,
+                                 const world::BlockRegistry& blocks) {
+    toml::table root;
+    try {
+        root = toml::parse(toml, name);
+    } catch (const toml::parse_error& error) {
+        return base::fail("{}:{}: {}", name, error.source().begin.line, error.description());
+    }
+    return ScriptReader(name, defaults, blocks).read(root);
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,26 @@
+// Reads path files (docs/video.md). Errors name the file, the line and the key.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/terrane/record/script.h"
+#include "terrane/base/result.h"
+#include "terrane/world/block_registry.h"
+
+namespace terrane::app {
+
+// What the command line says; it wins over the file.
+struct ScriptDefaults {
+    WorldOptions world;
+    GraphicsOptions graphics;
+    std::vector<std::string>
+        given;  // flags, without dashes: the file's options of these names are passed over
+};
+
+// `name` stands for the file in errors.
+base::Result<Script> parseScript(std::string_view toml, std::string_view name, const ScriptDefaults& defaults,
+                                 const world::BlockRegistry& blocks);
+
+}  // namespace terrane::app

@@ -1,0 +1,78 @@
+#include "apps/terrane/record/script_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace terrane::app {
+namespace {
+
+constexpr double kMostBlocks = 2147483647;  // from the origin
+
+// A value as it would be written on the command line.
+std::string textOf(const toml::node& node) {
+    if (const auto text = node.value_exact<std::string>()) return *text;
+    std::ostringstream out;
+    node.visit([&](const auto& value) {
+        if constexpr (toml::is_value<decltype(value)>) out << value;
+    });
+    return out.str();
+}
+
+}  // namespace
+
+double numberOf(world::ContentTable& table, std::string_view key, double fallback, double least,
+                double most) {
+    const toml::node* node = table.node(key);
+    if (!node) return fallback;
+    const auto value = node->is_number() ? node->value<double>() : std::nullopt;
+    if (value && *value >= least && *value <= most) return *value;
+    table.expected(*node, key, fmt::format("a number from {} to {}", least, most));
+    return fallback;
+}
+
+std::optional<std::vector<double>> numbersOf(world::ContentTable& table, std::string_view key,
+                                             std::size_t count, std::string_view form) {
+    const toml::node* node = table.node(key);
+    if (!node) return std::nullopt;
+    std::vector<double> numbers;
+    if (const toml::array* array = node->as_array()) {
+        for (const toml::node& element : *array) {
+            const auto value = element.is_number() ? element.value<double>() : std::nullopt;
+            if (value && std::abs(*value) <= kMostBlocks) numbers.push_back(*value);
+        }
+        if (numbers.size() == count && array->size() == count) return numbers;
+    }
+    table.expected(*node, key, form);
+    return std::vector<double>(count, 0.0);
+}
+
+std::optional<world::BlockPos> blockPosOf(world::ContentTable& table, std::string_view key) {
+    constexpr std::string_view kForm = "[x, y, z] of a block in the world, whole numbers, z from 0 to 255";
+    const auto n = numbersOf(table, key, 3, kForm);
+    if (!n) return std::nullopt;
+    const bool isWhole = std::ranges::all_of(*n, [](double v) { return v == std::floor(v); });
+    if (!isWhole || (*n)[2] < 0 || (*n)[2] >= world::kChunkHeight)
+        table.expected(*table.node(key), key, kForm);
+    return world::BlockPos{static_cast<std::int32_t>((*n)[0]), static_cast<std::int32_t>((*n)[1]),
+                           static_cast<std::int32_t>((*n)[2])};
+}
+
+void applyFlags(world::ContentTable& table, CLI::App& flags, const Names& names, const Names& given) {
+    for (const std::string& name : names) {
+        const toml::node* value = table.node(name);
+        if (!value || std::ranges::find(given, name) != given.end()) continue;
+        CLI::Option* option = flags.get_option("--" + name);
+        try {
+            option->add_result(textOf(*value));
+            option->run_callback();
+        } catch (const CLI::ParseError& error) {
+            std::string what = error.what();
+            const std::string prefix = "--" + name + ": ";
+            if (what.starts_with(prefix)) what.erase(0, prefix.size());
+            table.wrong(static_cast<int>(value->source().begin.line), name, what);
+        }
+    }
+}
+
+}  // namespace terrane::app

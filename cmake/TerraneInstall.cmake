@@ -1,0 +1,95 @@
+# Installing: the library with its headers, a CMake package and a pkg-config file (component "development"); the program with its
+# manual page, completions, icon and menu entry (component "program"). CPack makes a Debian package of each.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(modules base shared world store gen light mesh stream)
+set(TERRANE_GRAPHICS_PKG "")
+set(TERRANE_GRAPHICS_REQUIRES "")
+if(TERRANE_GRAPHICS)
+  list(APPEND modules gpu gen_gpu light_gpu mesh_gpu render shaders)
+  set(TERRANE_GRAPHICS_PKG "epoxy=epoxy")
+  set(TERRANE_GRAPHICS_REQUIRES "epoxy glfw3")
+endif()
+list(APPEND modules content)
+
+# Everything under one name.
+add_library(terrane_all INTERFACE)
+add_library(terrane::terrane ALIAS terrane_all)
+set_target_properties(terrane_all PROPERTIES EXPORT_NAME terrane)
+set(TERRANE_LINK_FLAGS "")
+foreach(module IN LISTS modules)
+  target_link_libraries(terrane_all INTERFACE terrane_${module})
+  add_library(terrane::${module} ALIAS terrane_${module})
+  set_target_properties(terrane_${module} PROPERTIES EXPORT_NAME ${module})
+  get_target_property(type terrane_${module} TYPE)
+  if(type STREQUAL STATIC_LIBRARY)
+    string(PREPEND TERRANE_LINK_FLAGS "-lterrane_${module} ")  # users before what they use
+  endif()
+endforeach()
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/terrane)
+list(TRANSFORM modules PREPEND terrane_ OUTPUT_VARIABLE targets)
+install(TARGETS ${targets} terrane_flags terrane_all EXPORT terraneTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(EXPORT terraneTargets NAMESPACE terrane:: DESTINATION ${package_folder} COMPONENT development)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/terrane DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
+  FILES_MATCHING PATTERN "*.h" PATTERN "*-inl.h" EXCLUDE)
+configure_package_config_file(packaging/terraneConfig.cmake.in ${CMAKE_BINARY_DIR}/package/terraneConfig.cmake
+  INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/package/terraneConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+file(RELATIVE_PATH TERRANE_PC_TO_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+configure_file(packaging/terrane.pc.in ${CMAKE_BINARY_DIR}/package/terrane.pc @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/package/terraneConfig.cmake ${CMAKE_BINARY_DIR}/package/terraneConfigVersion.cmake
+  DESTINATION ${package_folder} COMPONENT development)
+install(FILES ${CMAKE_BINARY_DIR}/package/terrane.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+install(DIRECTORY examples/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT development)
+
+if(TERRANE_GRAPHICS)
+  set(made ${CMAKE_BINARY_DIR}/package)
+  add_custom_command(OUTPUT ${made}/terrane.1.gz ${made}/terrane ${made}/_terrane ${made}/terrane.fish ${made}/terrane.png
+    COMMAND terrane man | gzip -9n > ${made}/terrane.1.gz
+    COMMAND terrane completion bash > ${made}/terrane
+    COMMAND terrane completion zsh > ${made}/_terrane
+    COMMAND terrane completion fish > ${made}/terrane.fish
+    COMMAND Python3::Interpreter ${CMAKE_SOURCE_DIR}/tools/paint_textures.py --icon ${made}/terrane.png
+    DEPENDS terrane ${CMAKE_SOURCE_DIR}/tools/paint_textures.py COMMENT "Manual page, completions, icon")
+  add_custom_target(terrane_extras ALL DEPENDS ${made}/terrane.1.gz)
+  set(share ${CMAKE_INSTALL_DATADIR})
+  install(TARGETS terrane RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  install(FILES ${made}/terrane.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+  install(FILES ${made}/terrane DESTINATION ${share}/bash-completion/completions COMPONENT program)
+  install(FILES ${made}/_terrane DESTINATION ${share}/zsh/vendor-completions COMPONENT program)
+  install(FILES ${made}/terrane.fish DESTINATION ${share}/fish/vendor_completions.d COMPONENT program)
+  install(FILES ${made}/terrane.png DESTINATION ${share}/icons/hicolor/128x128/apps COMPONENT program)
+  install(FILES packaging/terrane.desktop DESTINATION ${share}/applications COMPONENT program)
+  install(FILES LICENSE DESTINATION ${share}/doc/terrane RENAME copyright COMPONENT program)
+endif()
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libterrane-dev RENAME copyright COMPONENT development)
+
+# cpack -G DEB
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Large voxel worlds to walk, fly and build in")
+set(CPACK_PACKAGE_CONTACT "Terrane <terrane@example.invalid>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL development)
+if(TERRANE_GRAPHICS)
+  list(APPEND CPACK_COMPONENTS_ALL program)
+endif()
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME terrane)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION games)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+# libepoxy opens these while the program runs.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libegl1, libgl1, libopengl0")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libgl1-mesa-dri, ffmpeg")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "A program to make worlds of blocks from a number, to walk, fly and build in them,
+and to make pictures and videos of them.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libterrane-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libepoxy-dev, libexpected-dev, libfmt-dev, libglfw3-dev, libglm-dev, libhwy-dev, \
+libpng-dev, libspdlog-dev, libsqlite3-dev, libtomlplusplus-dev, libxxhash-dev, libzstd-dev")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The library that Terrane is made of: generation, saves, light, meshes, drawing.")
+include(CPack)

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""Completions and the manual page against --help. Usage: help_test.py PROGRAM"""
+import re
+import shutil
+import subprocess
+import unittest
+
+import support
+from support import ProgramTest, run
+
+
+class HelpTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        text = self.succeed("--help")
+        self.commands = re.findall(r"^  (\w+)  +", text[text.index("Subcommands:"):], re.MULTILINE)
+        self.assertGreaterEqual(len(self.commands), 10)
+        self.flags = {c: re.findall(r"^  (-[-\w,]+)", self.succeed(c, "--help"), re.MULTILINE) for c in self.commands}
+        self.assertIn("-o,--output", self.flags["render"])
+
+    def names(self, command):
+        return [name for flag in self.flags[command] for name in flag.split(",")]
+
+    def shell(self, name, *arguments):
+        if not shutil.which(name):
+            self.skipTest(f"{name} is not installed")
+        done = subprocess.run([name, *arguments], capture_output=True, text=True, timeout=support.HANG_SECONDS,
+                              check=False, cwd=self.folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), arguments)
+        return done.stdout.split("\n")
+
+    def script(self, shell):
+        file = self.folder / f"terrane.{shell}"
+        file.write_text(self.succeed("completion", shell))
+        return file
+
+
+class Bash(HelpTest):
+    def complete(self, *words):
+        # The last word is the one being typed.
+        listed = " ".join(f"'{w}'" for w in words)
+        text = f"source {self.script('bash')}; COMP_WORDS=({listed}); COMP_CWORD={len(words) - 1}; _terrane; " \
+               "printf '%s\\n' \"${COMPREPLY[@]}\""
+        return [line for line in self.shell("bash", "-c", text) if line]
+
+    def test_every_command_and_flag(self):
+        self.assertEqual(set(self.commands) - set(self.complete("terrane", "")), set())
+        for command in self.commands:
+            self.assertEqual(set(self.names(command)) - set(self.complete("terrane", command, "-")), set(), command)
+
+    def test_what_is_typed_chooses(self):
+        self.assertEqual(self.complete("terrane", "rend"), ["render"])
+        self.assertEqual(self.complete("terrane", "render", "--aggr"), ["--aggregation"])
+        self.assertEqual(self.complete("terrane", "render", "--aggregation", "s"), ["squares", "squares-ext"])
+        self.assertEqual(self.complete("terrane", "--aggregation", "g"), ["greedy"], "play is the default")
+        self.assertEqual(self.complete("terrane", "render", "--samples", ""), ["1", "2", "4", "8"])
+        self.assertEqual(self.complete("terrane", "render", "--seed", ""), [])
+        self.assertEqual(self.complete("terrane", "completion", "z"), ["zsh"])
+
+    def test_files(self):
+        (self.folder / "a picture.png").write_text("")
+        (self.folder / "a folder").mkdir()
+        self.assertEqual(sorted(self.complete("terrane", "render", "-o", "a ")), ["a folder", "a picture.png"])
+        self.assertEqual(self.complete("terrane", "record", "--frames-dir", "a"), ["a folder"])
+        self.assertEqual(sorted(self.complete("terrane", "check", "a ")), ["a folder", "a picture.png"])
+
+
+class Fish(HelpTest):
+    def complete(self, line):
+        return [x.split("\t")[0] for x in self.shell(
+            "fish", "--no-config", "-c", f"source {self.script('fish')}; complete -C '{line}'") if x]
+
+    def test_every_command_and_flag(self):
+        self.assertEqual(set(self.commands) - set(self.complete("terrane ")), set())
+        for command in self.commands:
+            found = set(self.complete(f"terrane {command} --")) | set(self.complete(f"terrane {command} -"))
+            self.assertEqual(set(self.names(command)) - found, set(), command)
+
+    def test_what_is_typed_chooses(self):
+        self.assertEqual(self.complete("terrane render --aggregation s"), ["squares", "squares-ext"])
+        self.assertEqual(self.complete("terrane --aggregation g"), ["greedy"])
+        self.assertEqual(self.complete("terrane completion z"), ["zsh"])
+
+
+class Zsh(HelpTest):
+    def test_every_command_and_flag(self):
+        script = self.script("zsh")
+        self.shell("zsh", "-n", str(script))
+        text = script.read_text()
+        for command in self.commands:
+            self.assertIn(f"'{command}:", text)
+            part = re.search(rf"^ +{command}\) _arguments(.*?) ;;$", text, re.MULTILINE | re.DOTALL)[1]
+            for name in self.names(command):
+                self.assertIn(f"'{name}[", part, command)
+        self.assertIn(":WORD:(none lines squares squares-ext greedy)'", text)
+
+    # The shell's own check of specifications, without a terminal: it reports wrong ones.
+    def test_specifications_are_understood(self):
+        for command in self.commands:
+            self.shell("zsh", "-f", "-c", "autoload -U compinit; compinit -u -D; " f"source {self.script('zsh')}; "
+                       "_describe() { :; }; _arguments() { for s in $@; do [[ $s == (--#[a-z-]##\\[*\\]*|\\*:*:*) ]] "
+                       "|| { print -u2 bad: $s; }; done; }; setopt extendedglob; "
+                       f"words=(terrane {command} -); CURRENT=3; _terrane")
+
+
+class Man(HelpTest):
+    def test_every_command_and_flag(self):
+        text = self.succeed("man")
+        self.assertIn('.TH TERRANE 1 "" "terrane ', text)
+        plain = text.replace("\\-", "-")
+        for command in self.commands:
+            part = plain[plain.index(f".SS terrane {command}\n"):]
+            part = part[:part.find("\n.S", 1)]
+            for name in self.names(command):
+                self.assertIn(f"\\fB{name}\\fR", part, command)
+
+    def test_roff_has_no_mistakes(self):
+        file = self.folder / "terrane.1"
+        file.write_text(self.succeed("man"))
+        page = "\n".join(self.shell("groff", "-man", "-ww", "-Kutf8", "-Tutf8", "-P-cbou", str(file)))
+        for word in ("--aggregation WORD", "EXIT STATUS", "(required)", "(default: 1280x720)"):
+            self.assertIn(word, page)
+
+
+class Errors(ProgramTest):
+    def test_an_unknown_shell(self):
+        for arguments in (("completion",), ("completion", "tcsh"), ("completion", "")):
+            self.assertRefused(run(*arguments), arguments)
+
+
+if __name__ == "__main__":
+    support.main()

@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+"""Installs a build into a folder and builds an example against it. Usage: install_test.py BUILD SOURCE CMAKE"""
+import gzip
+import os
+import pathlib
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HANG_SECONDS = 600
+
+BUILD, SOURCE = (pathlib.Path(p).resolve() for p in sys.argv[1:3])
+CMAKE = sys.argv[3]
+
+
+def run(*command, **more):
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=HANG_SECONDS, check=False,
+                          **more)
+    if done.returncode != 0:
+        raise AssertionError(f"{command}: {done.stdout}{done.stderr}")
+    return done.stdout
+
+
+class Install(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="terrane_install_"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        cls.prefix = cls.folder / "a prefix"
+        run(CMAKE, "--install", BUILD, "--prefix", cls.prefix)
+        # As another project has it: without a source tree around it.
+        cls.examples = cls.folder / "programs"
+        shutil.copytree(SOURCE / "examples", cls.examples)
+
+    def find(self, name):
+        found = list(self.prefix.rglob(name))
+        self.assertEqual(len(found), 1, f"{name}: {found}")
+        return found[0]
+
+    def test_the_program_and_what_belongs_to_it(self):
+        program = self.prefix / "bin" / "terrane"
+        self.assertRegex(run(program, "--version"), r"\A\d+\.\d+\.\d+\n\Z")
+        page = gzip.decompress(self.find("terrane.1.gz").read_bytes()).decode()
+        self.assertEqual(page, run(program, "man"))
+        for path, shell in (("bash-completion/completions/terrane", "bash"), ("zsh/vendor-completions/_terrane", "zsh"),
+                            ("fish/vendor_completions.d/terrane.fish", "fish")):
+            self.assertEqual((self.prefix / "share" / path).read_text(), run(program, "completion", shell))
+        self.assertEqual(self.find("terrane.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        entry = dict(line.split("=", 1) for line in self.find("terrane.desktop").read_text().split("\n") if "=" in line)
+        self.assertEqual((entry["Exec"], entry["Icon"]), ("terrane play", "terrane"))
+
+    def test_headers_need_nothing_of_the_source_tree(self):
+        headers = list((self.prefix / "include").rglob("*.h"))
+        self.assertGreater(len(headers), 100)
+        for file in self.prefix.rglob("*"):
+            if file.suffix in (".h", ".cmake", ".pc"):
+                self.assertNotIn(str(SOURCE), file.read_text(), file)
+
+    def build_and_run(self, program):
+        first, second = run(program, "3"), run(program, "4")
+        self.assertEqual({len(line) for line in first.split("\n") if line}, {80})
+        self.assertEqual(len(first.split("\n")), 81)
+        self.assertNotEqual(first, second)
+        return first
+
+    def test_an_example_by_find_package_and_by_pkg_config(self):
+        build = self.folder / "build"
+        run(CMAKE, "-S", self.examples, "-B", build, "-DCMAKE_BUILD_TYPE=Debug", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        run(CMAKE, "--build", build, "--target", "own_generator")
+        text = self.build_and_run(build / "own_generator")
+
+        paths = {"PKG_CONFIG_PATH": str(self.find("terrane.pc").parent)}
+        sources = [self.examples / name for name in ("own_generator.cpp", "tutorial_generators.cpp")]
+        flags = shlex.split(run("pkg-config", "--cflags", "--libs", "terrane", env=os.environ | paths))
+        run("c++", f"-I{build / 'include'}", *sources, "-o", self.folder / "other", *flags)
+        self.assertEqual(run(self.folder / "other", "3"), text)
+
+    def test_another_version_is_refused(self):
+        project = self.folder / "other_version"
+        project.mkdir()
+        (project / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.22)\nproject(x LANGUAGES CXX)\n"
+                                                "find_package(terrane 99 REQUIRED)\n")
+        with self.assertRaisesRegex(AssertionError, "99"):
+            run(CMAKE, "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+
+
+if __name__ == "__main__":
+    del sys.argv[1:4]
+    unittest.main(verbosity=2)

@@ -1,0 +1,192 @@
+#include "apps/terrane/record/script_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "apps/terrane/content.h"
+
+namespace terrane::app {
+namespace {
+
+using testing::HasSubstr;
+
+const world::BlockRegistry& blocks() {
+    static const world::BlockRegistry registry = *loadBlocks();
+    return registry;
+}
+
+base::Result<Script> parse(const std::string& text, ScriptDefaults defaults = {}) {
+    defaults.graphics.choices.preset = "high";
+    return parseScript(text, "p.toml", defaults, blocks());
+}
+
+std::string errorOf(const std::string& text) {
+    const auto script = parse(text);
+    return script ? "no error" : script.error().message;
+}
+
+constexpr const char* kKey = "[[shot.key]]\nat = [1, 2, 3]\nlook = [0, 0]\n";
+
+std::string shotOf(const std::string& more, const std::string& head = "seconds = 10\n") {
+    return "[[shot]]\n" + head + kKey + more;
+}
+
+TEST(ScriptFile, ReadsEverything) {
+    const auto script = parse(R"(
+seed = 7
+generator = "flat"
+[options]
+preset = "low"
+view-distance = 5
+
+[[shot]]
+name = "first"
+seconds = 4
+key = [
+    { at = [1, 2, 3.5], look = [90, -5], day = 0.3 },
+    { time = 3, at = [4, 5, 6] },
+]
+title = [{ text = "Hello", place = "middle" }, { time = 1, seconds = 2, text = "a\nb" }]
+set = [{ time = 2, ssao = "on", aggregation = "none" }, { time = 1, view = "light" }]
+edit = [
+    { time = 3, at = [1, 1, 70], block = "stone" },
+    { time = 1, seconds = 2, from = [5, 5, 70], to = [3, 4, 71], block = "lamp_red" },
+]
+
+[[shot]]
+[[shot.key]]
+at = [0, 0, 0]
+look-at = [1, 1, 1]
+[[shot.key]]
+time = 2.5
+at = [0, 9, 0]
+)");
+    ASSERT_TRUE(script) << script.error().message;
+    EXPECT_EQ(script->world.seed, 7u);
+    EXPECT_EQ(script->world.generator, "flat");
+    ASSERT_EQ(script->shots.size(), 2u);
+    const Shot &first = script->shots[0], &second = script->shots[1];
+    EXPECT_EQ(first.name, "first");
+    EXPECT_EQ(first.seconds, 4);
+    EXPECT_EQ(first.path.at(0).camera.position, glm::dvec3(1, 2, 3.5));
+    EXPECT_FLOAT_EQ(first.path.at(3).camera.yaw, 90) << "a key keeps what the one before it has";
+    EXPECT_FLOAT_EQ(first.path.at(3).timeDay, 0.3f);
+    ASSERT_EQ(first.titles.size(), 2u);
+    EXPECT_TRUE(first.titles[0].isLarge);
+    EXPECT_FALSE(first.titles[1].isLarge);
+    EXPECT_EQ(first.titles[1].text, "a\nb");
+    ASSERT_EQ(first.edits.size(), 2u);
+    EXPECT_EQ(first.edits[0].time, 1) << "edits are in the order of time";
+    EXPECT_EQ(first.edits[0].low, (world::BlockPos{3, 4, 70}));
+    EXPECT_EQ(first.edits[0].high, (world::BlockPos{5, 5, 71}));
+    EXPECT_EQ(first.edits[0].count(), 12);
+    EXPECT_EQ(first.edits[1].block, blocks().find("stone")->id);
+    EXPECT_EQ(second.start, 4);
+    EXPECT_EQ(second.seconds, 2.5) << "as long as its keys";
+    EXPECT_EQ(script->seconds(), 6.5);
+}
+
+TEST(ScriptFile, OptionsHoldUntilTheyChangeAndForOneShot) {
+    const auto script = parse("[options]\nview-distance = 5\nssao = \"raw\"\n" +
+                              shotOf("[[shot.set]]\ntime = 2\nssao = \"on\"\nview = \"depth\"\n"
+                                     "[[shot.set]]\ntime = 1\naggregation = \"lines\"\n") +
+                              shotOf(""));
+    ASSERT_TRUE(script) << script.error().message;
+    const auto occlusionAt = [&](std::size_t shot, double time) {
+        return renderOptions(optionsAt(script->shots[shot], time).choices, true).occlusion;
+    };
+    const Shot& shot = script->shots[0];
+    EXPECT_EQ(optionsAt(shot, 0).viewDistance, 5);
+    EXPECT_EQ(optionsAt(shot, 0).mesh.method, mesh::Method::Greedy);
+    EXPECT_EQ(optionsAt(shot, 1).mesh.method, mesh::Method::Lines);
+    EXPECT_EQ(optionsAt(shot, 1.99).view, render::View::Color);
+    EXPECT_EQ(optionsAt(shot, 2).view, render::View::Depth);
+    EXPECT_EQ(optionsAt(shot, 9).mesh.method, mesh::Method::Lines);
+    EXPECT_EQ(occlusionAt(0, 0), render::Occlusion::Raw);
+    EXPECT_EQ(occlusionAt(0, 3), render::Occlusion::On);
+    EXPECT_EQ(occlusionAt(1, 3), render::Occlusion::Raw);
+    EXPECT_EQ(optionsAt(script->shots[1], 0).view, render::View::Color);
+}
+
+TEST(ScriptFile, TheCommandLineWins) {
+    ScriptDefaults defaults;
+    defaults.world.seed = 3;
+    defaults.graphics.viewDistance = 2;
+    defaults.given = {"seed", "view-distance"};
+    const std::string text =
+        "seed = 9\ngenerator = \"flat\"\n[options]\nview-distance = 8\nview = \"depth\"\n" +
+        shotOf("[[shot.set]]\nview-distance = 9\n");
+    const auto script = parse(text, defaults);
+    ASSERT_TRUE(script) << script.error().message;
+    EXPECT_EQ(script->world.seed, 3u);
+    EXPECT_EQ(script->world.generator, "flat");
+    EXPECT_EQ(optionsAt(script->shots[0], 5).viewDistance, 2);
+    EXPECT_EQ(optionsAt(script->shots[0], 5).view, render::View::Depth);
+}
+
+TEST(ScriptFile, ShotsFollowEachOther) {
+    const auto script = parse(shotOf("", "seconds = 0.1\n") + shotOf("", "seconds = 0.2\n") + shotOf(""));
+    ASSERT_TRUE(script) << script.error().message;
+    EXPECT_EQ(&shotAt(*script, 0), &script->shots[0]);
+    EXPECT_EQ(&shotAt(*script, 0.1), &script->shots[1]);
+    EXPECT_EQ(&shotAt(*script, 0.3), &script->shots[2]) << "0.1 + 0.2 is more than 0.3 in binary";
+    EXPECT_EQ(&shotAt(*script, 99), &script->shots[2]);
+}
+
+struct WrongFile {
+    std::string text, error;
+};
+
+TEST(ScriptFile, ErrorsNameFileLineAndKey) {
+    const std::string edit = "[[shot.edit]]\nblock = \"stone\"\n";
+    const std::vector<WrongFile> cases = {
+        {"", "p.toml:"},
+        {"seed = ", "p.toml:1: "},
+        {"\nspeed = 1\n", "p.toml:2: speed: unknown key"},
+        {"\n\nseed = -1\n" + shotOf(""), "p.toml:3: seed: expected a whole number"},
+        {"[options]\nseed = 1\n", "p.toml:2: seed: unknown key"},
+        {"[options]\nssao = \"maybe\"\n", "p.toml:2: ssao: expected one of off, on, raw, got \"maybe\""},
+        {"[options]\nsize = \"2x2\"\n", "p.toml:2: size: unknown key"},
+        {"[options]\nview-distance = 99\n", "p.toml:2: view-distance: "},
+        {"options = 3\n", "p.toml:1: options: expected a table"},
+        {"shot = 3\n", "p.toml:1: shot: expected an array of tables"},
+        {"shot = [3]\n", "p.toml:1: shot: expected a table"},
+        {"[[shot]]\nseconds = 1\n", "p.toml:1: key: missing"},
+        {"[[shot]]\n[[shot.key]]\nlook = [0, 0]\n", "p.toml:2: at: missing"},
+        {"[[shot]]\n[[shot.key]]\nat = [0, 0, 0]\n", "p.toml:2: look: missing"},
+        {"[[shot]]\n[[shot.key]]\nat = [0, 0]\nlook = [0, 0]\n", "p.toml:3: at: expected [x, y, z]"},
+        {"[[shot]]\n[[shot.key]]\nat = [0, \"a\", 0]\nlook = [0, 0]\n", "p.toml:3: at: expected [x, y, z]"},
+        {"[[shot]]\n[[shot.key]]\nat = [0, nan, 0]\nlook = [0, 0]\n", "p.toml:3: at: expected [x, y, z]"},
+        {"[[shot]]\n[[shot.key]]\nat = [0, 3e9, 0]\nlook = [0, 0]\n", "p.toml:3: at: expected [x, y, z]"},
+        {"[[shot]]\n[[shot.key]]\nat = [0, 0, 0]\nlook = [0, 91]\n", "p.toml:4: look: "},
+        {"[[shot]]\n[[shot.key]]\nat = [0, 0, 0]\nlook-at = [0, 0, 0]\n", "p.toml:2: look-at: is where"},
+        {"[[shot]]\n[[shot.key]]\nat = [0, 0, 0]\nlook-at = [0, 0, 1]\nlook = [0, 0]\n", "only one of"},
+        {shotOf("[[shot.key]]\nat = [0, 0, 0]\n"), "p.toml:6: time: missing"},
+        {shotOf("[[shot.key]]\ntime = 0\n"), "p.toml:6: time: must be after 0"},
+        {shotOf("[[shot.key]]\ntime = 1\nlook-at = [0, 0, 1]\n"), "p.toml:6: look: the keys of a shot"},
+        {shotOf("[[shot.key]]\ntime = 11\n"), "p.toml:1: seconds: the shot has a key at 11"},
+        {shotOf("", ""), "p.toml:1: seconds: "},
+        {shotOf("", "seconds = \"a\"\n"), "p.toml:2: seconds: expected a number"},
+        {shotOf("[[shot.title]]\n"), "p.toml:6: text: missing"},
+        {shotOf("[[shot.title]]\ntext = \"\"\n"), "p.toml:7: text: expected a text"},
+        {shotOf("[[shot.title]]\ntext = \"a\u2192\"\n"),
+         "p.toml:7: text: expected letters of ISO 8859-1 (not \u2192)"},
+        {shotOf("[[shot.title]]\ntext = \"a\"\nplace = \"top\"\n"),
+         "p.toml:8: place: expected one of bottom, middle"},
+        {shotOf("[[shot.title]]\ntime = 11\ntext = \"a\"\n"),
+         "p.toml:7: time: expected a number from 0 to 10"},
+        {shotOf("[[shot.set]]\nblur = 1\n"), "p.toml:7: blur: unknown key"},
+        {shotOf(edit), "p.toml:6: at: needs either at, or from and to"},
+        {shotOf(edit + "from = [0, 0, 0]\n"), "p.toml:6: at: needs either"},
+        {shotOf(edit + "at = [0, 0, 256]\n"), "p.toml:8: at: expected [x, y, z] of a block"},
+        {shotOf(edit + "at = [0, 0.5, 0]\n"), "p.toml:8: at: expected [x, y, z] of a block"},
+        {shotOf(edit + "from = [0, 0, 0]\nto = [2000, 2000, 9]\n"), "p.toml:6: to: more than 262144 blocks"},
+        {shotOf("[[shot.edit]]\nat = [0, 0, 0]\nblock = \"cheese\"\n"), "p.toml:8: block: expected a name"},
+        {shotOf("[[shot.edit]]\nat = [0, 0, 0]\n"), "p.toml:6: block: missing"},
+    };
+    for (const WrongFile& wrong : cases)
+        EXPECT_THAT(errorOf(wrong.text), HasSubstr(wrong.error)) << wrong.text;
+}
+
+}  // namespace
+}  // namespace terrane::app
