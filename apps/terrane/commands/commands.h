@@ -24,6 +24,7 @@ CommandEntry addMap(CLI::App& app);
 CommandEntry addDump(CLI::App& app);
 CommandEntry addCheck(CLI::App& app);
 CommandEntry addBlocks(CLI::App& app);
+CommandEntry addBench(CLI::App& app);
 CommandEntry addInfo(CLI::App& app);
 
 }  // namespace terrane::app
