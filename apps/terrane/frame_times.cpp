@@ -16,7 +16,8 @@ FrameTimes measureFrames(render::Renderer& renderer, const render::FrameInput& i
         renderer.draw(input);
         glFinish();
         times.milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-        // Of the frame before, which the GPU has finished.
+        // They are of the frame before, which the GPU has finished: at first of one that is not counted.
+        if (k == 0 && count > 1) continue;
         for (const gpu::GpuTiming& pass : renderer.passTimes())
             times.passes[pass.name].push_back(pass.milliseconds);
     }

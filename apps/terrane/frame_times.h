@@ -13,7 +13,7 @@ namespace terrane::app {
 struct FrameTimes {
     std::vector<double> milliseconds;                   // of each frame, until the GPU has drawn it
     double processorMilliseconds = 0;                   // a frame, of all threads, as a mean
-    std::map<std::string, std::vector<double>> passes;  // GPU milliseconds of each frame, by name
+    std::map<std::string, std::vector<double>> passes;  // GPU milliseconds of frames, by name
 };
 
 // Draws `count` frames, on the thread of the context.

@@ -31,7 +31,7 @@ Measurements twoScenes() {
 Table sceneTable() {
     Table table{"scenes", "Scenes", "About.", "cut", {"scene", "ms", "thesis"}};
     for (const char* scene : {"cave", "ocean", "desert"})
-        table.rows.push_back({textEntry(scene), valueEntry(cellOf(scene), {"/frame"}), textEntry("7")});
+        table.rows.push_back({textEntry(scene), valueEntry(cellOf(scene), {"/frame"}), figureEntry(7)});
     return table;
 }
 

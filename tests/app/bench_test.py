@@ -96,7 +96,7 @@ class Bench(ProgramTest):
         self.assertIn("--resume", refused.stderr)
         other = self.bench("--only", "disk", "--resume", "--frames", "2")
         self.assertRefused(other, "other settings")
-        self.assertIn("frames_of_a_run 1 there, 2 here", other.stderr)
+        self.assertIn("frames_of_a_run 3 there, 2 here", other.stderr)
         done = self.bench("--only", "disk", "--resume")
         self.assertEqual(done.returncode, 0, done.stderr)
         after = self.cells()

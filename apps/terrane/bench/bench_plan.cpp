@@ -10,7 +10,7 @@ BenchSettings quickSettings() {
     settings.isQuick = true;
     settings.size = "320x180";
     settings.viewDistance = 8;
-    settings.frames = 1;
+    settings.frames = 3;
     settings.runs = 1;
     settings.flightSeconds = 4;
     return settings;

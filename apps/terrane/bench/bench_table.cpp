@@ -87,6 +87,10 @@ Entry textEntry(std::string text) {
     return {std::move(text), {}, nullptr};
 }
 
+Entry figureEntry(double figure) {
+    return {"", {}, [figure](std::span<const json>) { return std::optional(figure); }};
+}
+
 Entry valueEntry(Cell cell, Value value) {
     const auto compute = [value = std::move(value)](std::span<const json> m) { return valueIn(m[0], value); };
     return {"", {std::move(cell)}, compute};

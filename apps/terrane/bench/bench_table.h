@@ -22,6 +22,7 @@ struct Entry {
 };
 
 Entry textEntry(std::string text);
+Entry figureEntry(double figure);  // a number that is known
 Entry valueEntry(Cell cell, Value value);
 // In per cent of the same value in `whole`.
 Entry shareEntry(Cell part, Cell whole, Value value);

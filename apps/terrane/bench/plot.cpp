@@ -17,7 +17,7 @@ using nlohmann::json;
 
 constexpr const char* kStyle =
     "set terminal svg size 900,480 font 'sans-serif,13' background rgb 'white'\n"
-    "set key outside below horizontal\n"
+    "set key outside top center horizontal\n"
     "set grid ytics linecolor rgb '#dddddd'\n"
     "set border 3\n"
     "set tics nomirror\n"
@@ -38,19 +38,17 @@ std::string head(const Table& table, const fs::path& svg, const std::string& x, 
                        quoted(svg.string()), quoted(table.title), quoted(x), quoted(y));
 }
 
-// For plots a number of ours, or what the thesis has as text.
-std::optional<double> plottedNumber(const Entry& entry, const Measurements& measured) {
-    if (entry.compute) return numberOf(entry, measured);
-    char* end = nullptr;
-    const double number = std::strtod(entry.text.c_str(), &end);
-    if (entry.text.empty() || *end != '\0') return std::nullopt;
-    return number;
-}
-
 std::string nameOf(const std::vector<Entry>& row, std::size_t columns) {
     std::string name;
     for (std::size_t k = 0; k < columns; ++k) name += (k > 0 ? ", " : "") + row[k].text;
     return '"' + name + '"';
+}
+
+// The first column's numbers, where the points of lines are.
+std::string ticsOf(const Table& table) {
+    std::string tics;
+    for (const auto& row : table.rows) tics += (tics.empty() ? "" : ", ") + row[0].text;
+    return tics;
 }
 
 struct PlotData {
@@ -63,7 +61,7 @@ PlotData dataOf(const Table& table, const Plot& plot, const Measurements& measur
     for (const auto& row : table.rows) {
         data.block += plot.kind == PlotKind::Bars ? nameOf(row, plot.nameColumns) : row[0].text;
         for (const std::size_t column : plot.columns) {
-            const auto number = plottedNumber(row[column], measured);
+            const auto number = numberOf(row[column], measured);
             data.block += number ? fmt::format(" {:.6g}", *number) : std::string(" NaN");
             data.numbers += number ? 1 : 0;
         }
@@ -109,9 +107,9 @@ std::string plotScript(const Table& table, const Plot& plot, const Measurements&
     if (isBars) {
         script +=
             "set style data histogram\nset style histogram clustered gap 1\nset style fill solid 0.9 "
-            "noborder\nset xtics rotate by -35 font ',10'\nset yrange [*<0:*]\n";
+            "noborder\nset xtics scale 0 rotate by -35 font ',10'\nset rmargin 10\nset yrange [*<0:*]\n";
     }
-    if (plot.isLogX) script += "set logscale x\n";
+    if (plot.isLogX) script += "set logscale x\nset xtics (" + ticsOf(table) + ")\n";
     if (plot.isLogY) script += "set logscale y\n";
     script += "plot";
     for (std::size_t k = 0; k < plot.columns.size(); ++k) {

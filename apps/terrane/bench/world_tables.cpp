@@ -21,8 +21,8 @@ constexpr std::array<RegionFigures, 4> kRegions = {
      {32, {40, 44, 41, 41, 44}, {1734210, 1743498, 1768282, 1811754, 1928928}, {172, 87, 60, 41, 31}},
      {56, {26, 0, 0, 28, 29}, {4163242, 0, 0, 4261558, 4407838}, {893, 0, 0, 125, 115}}}};
 
-std::string orNothing(double figure) {
-    return figure > 0 ? fmt::format("{:g}", figure) : "–";
+Entry orNothing(double figure) {
+    return figure > 0 ? figureEntry(figure) : textEntry("–");
 }
 
 Table regionHeights(const BenchSettings& s) {
@@ -50,11 +50,10 @@ Table regionHeights(const BenchSettings& s) {
             const std::string save = "landscape-" + distance;
             cell.arguments.insert(cell.arguments.end(), {"--save-game", save});
             cell.before = loadingCell("landscape", thesis.viewDistance).arguments;
-            table.rows.push_back(
-                {textEntry(distance), textEntry(height), valueEntry(cell, framesPerSecond()),
-                 sumEntry(cell, {{"/triangles/opaque"}, {"/triangles/transparent"}}),
-                 valueEntry(cell, loadSeconds()), textEntry(orNothing(thesis.framesPerSecond[k])),
-                 textEntry(orNothing(thesis.triangles[k])), textEntry(orNothing(thesis.loadSeconds[k]))});
+            table.rows.push_back({textEntry(distance), textEntry(height), valueEntry(cell, framesPerSecond()),
+                                  sumEntry(cell, {{"/triangles/opaque"}, {"/triangles/transparent"}}),
+                                  valueEntry(cell, loadSeconds()), orNothing(thesis.framesPerSecond[k]),
+                                  orNothing(thesis.triangles[k]), orNothing(thesis.loadSeconds[k])});
         }
     }
     return table;
@@ -130,7 +129,7 @@ Table merging(const BenchSettings& s) {
             row.push_back(valueEntry(one, framesPerSecond()));
             const bool isInThesis = k < thesis.shares.size();
             row.push_back(textEntry(isInThesis ? thesis.shares[k] : "–"));
-            row.push_back(textEntry(isInThesis ? fmt::to_string(thesis.framesPerSecond[k]) : "–"));
+            row.push_back(orNothing(isInThesis ? thesis.framesPerSecond[k] : 0));
             table.rows.push_back(std::move(row));
         }
     }

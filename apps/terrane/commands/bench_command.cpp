@@ -178,7 +178,7 @@ void addSettings(CLI::App& command, BenchOptions& options) {
         ->check(numberFrom(1, 64));
     command
         .add_option("--frames", options.frames,
-                    "Frames of a run (default: 9, quick 1; × 20 on a graphics card)")
+                    "Frames of a run (default: 9, quick 3; × 20 on a graphics card)")
         ->check(numberFrom(1, 100000));
     command.add_option("--runs", options.runs, "Runs of each measurement (default: 3, quick 1)")
         ->check(numberFrom(1, 1000));
