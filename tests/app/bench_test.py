@@ -59,16 +59,17 @@ class Bench(ProgramTest):
         self.assertFalse((self.output / "work").exists())
 
     def test_plots(self):
-        done = self.bench("--only", "aggregation")
+        done = self.bench("--only", "passes")
         self.assertEqual(done.returncode, 0, done.stderr)
         report = (self.output / "report.md").read_text()
         if not shutil.which("gnuplot"):
             self.assertIn("gnuplot is missing", report)
             return
-        self.assertIn("(plots/aggregation.svg)", report)
-        svg = (self.output / "plots" / "aggregation.svg").read_text()
+        self.assertIn("(plots/passes.svg)", report)
+        svg = (self.output / "plots" / "passes.svg").read_text()
         self.assertIn("</svg>", svg)
-        self.assertIn("opaque, %", svg)
+        self.assertIn("ocean, ms", svg)
+        self.assertIn("shadow map", svg)
 
     def test_without_gnuplot_the_report_says_so(self):
         environment = {**support.environment(), "PATH": str(self.folder)}

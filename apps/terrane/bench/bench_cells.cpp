@@ -89,6 +89,11 @@ Cell memoryCopyCell() {
     return {{"bench", "--memory-copy"}};
 }
 
+double pixelsOf(const std::string& size) {
+    const std::size_t cross = size.find('x');
+    return std::stod(size.substr(0, cross)) * std::stod(size.substr(cross + 1));
+}
+
 std::vector<int> viewDistances(const BenchSettings& s) {
     std::vector<int> distances;
     for (const int distance : {4, 8, 16, 32, 64})

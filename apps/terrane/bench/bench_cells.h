@@ -26,6 +26,8 @@ Cell flightCell(const BenchSettings& settings, bool isFromSave);
 // How fast one thread copies memory.
 Cell memoryCopyCell();
 
+double pixelsOf(const std::string& size);  // of "1920x1080"
+
 // The distances of tables that grow with it, up to the settings' own.
 std::vector<int> viewDistances(const BenchSettings& settings);
 

@@ -9,7 +9,7 @@ BenchSettings quickSettings() {
     BenchSettings settings;
     settings.isQuick = true;
     settings.size = "320x180";
-    settings.viewDistance = 8;
+    settings.viewDistance = settings.farthest = 8;
     settings.frames = 3;
     settings.runs = 1;
     settings.flightSeconds = 4;
@@ -18,7 +18,8 @@ BenchSettings quickSettings() {
 
 std::vector<Table> planTables(const BenchSettings& settings) {
     std::vector<Table> tables = {goalTable(settings)};
-    for (auto part : {worldTables(settings), frameTables(settings), ownTables(settings)})
+    for (auto part :
+         {worldTables(settings), frameTables(settings), ownTables(settings), growthTables(settings)})
         std::ranges::move(part, std::back_inserter(tables));
     return tables;
 }

@@ -10,6 +10,7 @@ struct BenchSettings {
     bool isQuick = false;
     std::string size = "1920x1080";
     int viewDistance = 32;
+    int farthest = 64;          // of tables that go through view distances
     int frames = 9;             // of a run, beside the first; the median counts
     int runs = 3;               // of each cell; the median counts
     int maxSamples = 4;         // of the graphics driver
@@ -23,9 +24,10 @@ BenchSettings quickSettings();
 std::vector<Table> planTables(const BenchSettings& settings);
 
 // Parts of the plan: the thesis's tables about the world and about frames, and ours.
+Table goalTable(const BenchSettings& settings);
 std::vector<Table> worldTables(const BenchSettings& settings);
 std::vector<Table> frameTables(const BenchSettings& settings);
 std::vector<Table> ownTables(const BenchSettings& settings);
-Table goalTable(const BenchSettings& settings);
+std::vector<Table> growthTables(const BenchSettings& settings);
 
 }  // namespace terrane::app

@@ -1,6 +1,8 @@
 // The thesis's tables about frames: shading, shadows, layers, effects.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/terrane/bench/bench_cells.h"
 
 namespace terrane::app {
@@ -76,7 +78,7 @@ Table shading(const BenchSettings& s) {
                 {}};
     std::vector<std::size_t> used;
     for (std::size_t k = 0; k < kDistances.size(); ++k)
-        if (!s.isQuick || kDistances[k] <= s.viewDistance) used.push_back(k);
+        if (kDistances[k] <= std::max(4, s.farthest)) used.push_back(k);
     for (const std::size_t k : used) {
         table.columns.push_back(fmt::format("V={}", kDistances[k]));
         table.columns.push_back(fmt::format("thesis: V={}", kDistances[k]));
@@ -121,7 +123,7 @@ Table shadowTriangles(const BenchSettings& s) {
     const std::string triangles = std::string(kShadowsOverTheDay) + "/triangles";
     std::vector<Entry> noon{textEntry("noon")}, dawn{textEntry("dawn")};
     for (std::size_t k = 0; k < kDistances.size(); ++k) {
-        if (s.isQuick && kDistances[k] > s.viewDistance) continue;
+        if (kDistances[k] > std::max(4, s.farthest)) continue;
         const Cell cell = generatingCell("landscape", kDistances[k]);
         table.columns.push_back(fmt::format("V={}", kDistances[k]));
         table.columns.push_back(fmt::format("thesis: V={}", kDistances[k]));

@@ -1,6 +1,8 @@
 // The thesis's tables about regions, memory, merging and flights.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/terrane/bench/bench_cells.h"
 
 namespace terrane::app {
@@ -40,7 +42,7 @@ Table regionHeights(const BenchSettings& s) {
         {{"triangles", PlotKind::Bars, "view distance, height of regions", "triangles", {3, 6}, 2},
          {"load", PlotKind::Bars, "view distance, height of regions", "seconds to load", {4, 7}, 2}}};
     for (const RegionFigures& thesis : kRegions) {
-        if (thesis.viewDistance > (s.isQuick ? s.viewDistance : 56)) continue;
+        if (thesis.viewDistance > std::max(8, s.farthest)) continue;
         for (std::size_t k = 0; k < kHeights.size(); ++k) {
             if (thesis.framesPerSecond[k] == 0) continue;
             const std::string distance = fmt::to_string(thesis.viewDistance),

@@ -59,7 +59,7 @@ BenchSettings settingsOf(const BenchOptions& options, const json& graphics) {
     // A graphics card draws hundreds a second.
     if (!settings.isSoftware) settings.frames *= 20;
     settings.size = options.size.value_or(settings.size);
-    settings.viewDistance = options.viewDistance.value_or(settings.viewDistance);
+    if (options.viewDistance) settings.viewDistance = settings.farthest = *options.viewDistance;
     settings.frames = options.frames.value_or(settings.frames);
     settings.runs = options.runs.value_or(settings.runs);
     return settings;
