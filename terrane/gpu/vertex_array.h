@@ -1,4 +1,4 @@
-// A vertex array without attributes: shaders pull vertices from storage buffers. Core OpenGL draws nothing
+// A vertex array without attributes of vertices: shaders pull these from buffers. Core OpenGL draws nothing
 // without one. Used on the thread of its context.
 #pragma once
 
@@ -22,6 +22,16 @@ class VertexArray {
 
     // Indices for glDrawElements*; the buffer must outlive the vertex array.
     void setElementBuffer(const Buffer& indices) { glVertexArrayElementBuffer(id(), indices.id()); }
+
+    // Two integers for each instance at the start of every `strideBytes` of the buffer, which must outlive
+    // its use; may be called again.
+    void setInstanceIntegers(GLuint location, const Buffer& buffer, std::size_t strideBytes) {
+        glVertexArrayVertexBuffer(id(), location, buffer.id(), 0, static_cast<GLsizei>(strideBytes));
+        glVertexArrayAttribIFormat(id(), location, 2, GL_INT, 0);
+        glVertexArrayAttribBinding(id(), location, location);
+        glVertexArrayBindingDivisor(id(), location, 1);
+        glEnableVertexArrayAttrib(id(), location);
+    }
 
     void bind() const {
         assert(id() != 0 && "an empty vertex array cannot be bound");

@@ -20,7 +20,7 @@ enum class Method : std::uint8_t {
 
 // A chunk is culled and drawn in regions: its columns, this many blocks high.
 constexpr int kMinRegionHeight = 8, kMaxRegionHeight = 128;
-constexpr int kDefaultRegionHeight = 64;
+constexpr int kDefaultRegionHeight = 16;
 
 constexpr bool isRegionHeight(int height) {
     return height >= kMinRegionHeight && height <= kMaxRegionHeight && (height & (height - 1)) == 0;

@@ -1,5 +1,6 @@
 #include "terrane/render/frame_uniforms.h"
 
+#include <cmath>
 #include <glm/matrix.hpp>
 
 #include "terrane/render/shadow_volume.h"
@@ -23,7 +24,7 @@ int switchesOf(const RenderOptions& o) {
 void setEnvironment(shared::Frame& frame, const FrameInput& input) {
     const world::Environment& e = input.environment;
     frame.lightDirection = glm::vec4(e.lightDirection, input.timeSeconds);
-    frame.lightColor = glm::vec4(e.lightColor, e.discRadius);
+    frame.lightColor = glm::vec4(e.lightColor, std::sin(e.discRadius));
     frame.ambientColor = glm::vec4(e.ambientColor, kAmbientFromBelow);
     frame.zenithColor = glm::vec4(e.zenithColor, kExposure);
     frame.horizonColor = glm::vec4(e.horizonColor, static_cast<float>(input.view));

@@ -31,3 +31,14 @@ vec4 lightOfEntry(uint entry, ivec3 block) {
 vec4 lightOfBlock(ivec3 block) {
     return lightOfEntry(lightEntry(block), block);
 }
+
+// Between a node and the next ones of its tile: `f` on the way, 0…1 along each axis.
+vec4 lightBetween(ivec3 block, vec3 f) {
+    uint entry = lightEntry(block);
+    bool isUniform = (entry & kLightUniformBit) != 0u;
+    vec3 texel = vec3(poolCorner(isUniform ? 0u : entry) + (block & 7)) + f + 0.5;
+    vec4 light = textureLod(lightPool, texel / vec3(textureSize(lightPool, 0)), 0.0);
+    light = isUniform ? unpackLight(entry & 0xFFFFu) : light;
+    // Above the world is the open sky.
+    return block.z > 255 ? vec4(0.0, 0.0, 0.0, 1.0) : light;
+}

@@ -11,10 +11,15 @@ vec4 levelsAt(vec3 position, Surface s) {
     return sampleLight(position + kOff * normal, normal);
 }
 
+// A level's brightness, near level^0.85: half of all levels are of use.
+vec4 brightnessOf(vec4 levels) {
+    return mix(levels, sqrt(levels), 0.23);
+}
+
 // Lamps, hidden by day where daylight reaches; the sky from above; the sun or moon where the sky is seen. `shadow` is
 // the share of direct light, `open` that of light from all around.
 vec3 shade(Surface s, vec4 levels, float shadow, float open) {
-    vec4 light = pow(levels, vec4(0.85));
+    vec4 light = brightnessOf(levels);
     float up = 0.5 + 0.5 * s.normal.z;
     vec3 sky = frame.ambientColor.rgb * mix(frame.ambientColor.w, 1.0, up);
     float facing = max(dot(s.normal, frame.lightDirection.xyz), 0.0);

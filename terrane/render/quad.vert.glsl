@@ -6,21 +6,13 @@
 #include "terrane/render/waves.glsl"
 #include "terrane/shared/hash.h"
 #include "terrane/shared/quad.h"
-#include "terrane/shared/region.h"
 #include "terrane/shared/shape_face.h"
 
-layout(std430, binding = kQuadsBinding) readonly buffer Quads {
-    Quad quads[];
-};
-layout(std430, binding = kShapeFacesBinding) readonly buffer ShapeFaces {
-    ShapeFace shapeFaces[];
-};
-layout(std430, binding = kMaterialsBinding) readonly buffer Materials {
-    MaterialRecord materials[];
-};
-layout(std430, binding = kRegionsBinding) readonly buffer Regions {
-    RegionRecord regions[];
-};
+layout(binding = kQuadsUnit) uniform usamplerBuffer quads;
+layout(binding = kShapeFacesUnit) uniform samplerBuffer shapeFaces;  // four texels a face
+layout(binding = kMaterialsUnit) uniform usamplerBuffer materials;
+
+layout(location = kRegionChunkAttribute) in ivec2 chunk;  // of the draw's region
 
 // Layers are peeled by comparing depths of two programs.
 invariant gl_Position;
@@ -29,14 +21,30 @@ layout(location = 0) out vec2 outTexel;        // in textures; row 0 of the imag
 layout(location = 1) flat out uvec2 outFace;   // see face_word.glsl; a number of the quad's own
 #include "terrane/render/face_word.glsl"
 
+Quad quadOf(int vertex) {
+    uvec2 words = texelFetch(quads, vertex >> 2).rg;
+    return Quad(words.x, words.y);
+}
+
+// Without the normal.
+ShapeFace shapeFaceOf(Quad quad) {
+    int first = 4 * int(quadShapeFace(quad));
+    return ShapeFace(texelFetch(shapeFaces, first), texelFetch(shapeFaces, first + 1), texelFetch(shapeFaces, first + 2),
+                     vec4(0.0));
+}
+
+MaterialRecord materialOf(Quad quad) {
+    uvec4 words = texelFetch(materials, int(quadMaterial(quad)));
+    return MaterialRecord(words.x, words.y, words.z, words.w);
+}
+
 void main() {
-    Quad quad = quads[gl_VertexID >> 2];
+    Quad quad = quadOf(gl_VertexID);
     vec2 corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1);
     vec2 extent = vec2(quadExtentU(quad), quadExtentV(quad));
     vec4 cell = vec4(quadX(quad), quadY(quad), quadZ(quad), 0.0);
-    ShapeFace face = shapeFaces[quadShapeFace(quad)];
-    MaterialRecord material = materials[quadMaterial(quad)];
-    ivec2 chunk = regions[gl_BaseInstanceARB].chunk;
+    ShapeFace face = shapeFaceOf(quad);
+    MaterialRecord material = materialOf(quad);
     vec3 inChunk = shapeFaceCorner(face, cell, corner, extent).xyz;
     if ((frame.camera.z & kSwitchAnimation) != 0) {
         inChunk += waveOffset(material.animation, chunk, cell.xyz, inChunk, corner.y, frame.lightDirection.w);

@@ -54,14 +54,18 @@ QuadResources::QuadResources(const world::BlockRegistry& blocks, gpu::Texture2DA
       indices_(quadIndices()),
       shapeFaces_(std::as_bytes(mesh::shapeFaces()), 0, "shape faces"),
       materials_(materialRecords(blocks)),
+      shapeFaceTexels_(shapeFaces_, GL_RGBA32F, "shape faces"),
+      materialTexels_(materials_, GL_RGBA32UI, "materials"),
       vertexArray_("quads") {
     vertexArray_.setElementBuffer(indices_);
 }
 
-void QuadResources::bind(const QuadStore& quads, bool isSmooth) const {
-    quads.buffer().bindStorage(shared::kQuadsBinding);
-    shapeFaces_.bindStorage(shared::kShapeFacesBinding);
-    materials_.bindStorage(shared::kMaterialsBinding);
+void QuadResources::bind(const QuadStore& quads, const RegionTable& regions, bool isSmooth) {
+    quads.texels().bind(shared::kQuadsUnit);
+    shapeFaceTexels_.bind(shared::kShapeFacesUnit);
+    materialTexels_.bind(shared::kMaterialsUnit);
+    vertexArray_.setInstanceIntegers(shared::kRegionChunkAttribute, regions.records(),
+                                     sizeof(shared::RegionRecord));
     textures_.bind(shared::kBlockTexturesUnit);
     (isSmooth ? smooth_ : nearest_).bind(shared::kBlockTexturesUnit);
     vertexArray_.bind();

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "terrane/base/result.h"
+#include "terrane/gpu/buffer_texture.h"
 #include "terrane/gpu/sampler.h"
 #include "terrane/gpu/texture.h"
 #include "terrane/gpu/vertex_array.h"
 #include "terrane/render/quad_store.h"
+#include "terrane/render/region_table.h"
 #include "terrane/world/block_registry.h"
 
 namespace terrane::render {
@@ -18,12 +20,13 @@ class QuadResources {
     QuadResources(const world::BlockRegistry& blocks, gpu::Texture2DArray textures, float anisotropy);
 
     // isSmooth: textures are filtered.
-    void bind(const QuadStore& quads, bool isSmooth) const;
+    void bind(const QuadStore& quads, const RegionTable& regions, bool isSmooth);
 
   private:
     gpu::Texture2DArray textures_;
     gpu::Sampler smooth_, nearest_;
     gpu::Buffer indices_, shapeFaces_, materials_;
+    gpu::BufferTexture shapeFaceTexels_, materialTexels_;
     gpu::VertexArray vertexArray_;
 };
 

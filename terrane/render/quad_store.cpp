@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::uint32_t kFirstCapacity = 1u << 20;  // quads: 8 MiB, a landscape at view distance 16
 
+gpu::BufferTexture texelsOf(const gpu::Buffer& quads) {
+    return gpu::BufferTexture(quads, GL_RG32UI, "quads");
+}
+
 gpu::Buffer quadBuffer(std::uint32_t quads) {
     return gpu::Buffer(std::size_t{quads} * shared::kQuadBytes, GL_DYNAMIC_STORAGE_BIT, "quads");
 }
@@ -20,7 +24,8 @@ std::uint32_t reachableQuads() {
     GLint64 blockBytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &blockBytes);
     constexpr std::int64_t kMostBytes = std::int64_t{1} << 30;
-    return static_cast<std::uint32_t>(std::min<std::int64_t>(blockBytes, kMostBytes) / shared::kQuadBytes);
+    const auto quads = static_cast<std::size_t>(std::min(blockBytes, kMostBytes)) / shared::kQuadBytes;
+    return static_cast<std::uint32_t>(std::min(quads, gpu::BufferTexture::mostElements()));
 }
 
 std::uint32_t quadsOf(std::span<const mesh::RegionMesh> regions) {
@@ -34,6 +39,7 @@ std::uint32_t quadsOf(std::span<const mesh::RegionMesh> regions) {
 QuadStore::QuadStore(std::uint32_t maxQuads)
     : maxQuads_(maxQuads > 0 ? maxQuads : reachableQuads()),
       buffer_(quadBuffer(std::min(kFirstCapacity, maxQuads_))),
+      texels_(texelsOf(buffer_)),
       ranges_(std::min(kFirstCapacity, maxQuads_)) {}
 
 bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::RegionSet regions) {
@@ -107,6 +113,7 @@ bool QuadStore::grow(std::uint32_t count) {
     glCopyNamedBufferSubData(buffer_.id(), larger.id(), 0, 0,
                              static_cast<GLsizeiptr>(old * shared::kQuadBytes));
     buffer_ = std::move(larger);
+    texels_ = texelsOf(buffer_);
     ranges_.grow(capacity);
     return true;
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "terrane/gpu/buffer.h"
+#include "terrane/gpu/buffer_texture.h"
 #include "terrane/gpu/range_allocator.h"
 #include "terrane/mesh/remesh.h"
 #include "terrane/world/coords.h"
@@ -43,6 +44,7 @@ class QuadStore {
     // Empty where the chunk has no quads.
     std::span<const mesh::RegionMesh> regionsOf(world::ChunkPos pos) const;
     const gpu::Buffer& buffer() const { return buffer_; }
+    const gpu::BufferTexture& texels() const { return texels_; }  // of the buffer, a quad each
     std::size_t usedBytes() const;
     std::uint64_t uploadedBytes() const { return uploadedBytes_; }  // by set(), since the beginning
     const gpu::RangeAllocator& ranges() const { return ranges_; }
@@ -54,6 +56,7 @@ class QuadStore {
 
     std::uint32_t maxQuads_;
     gpu::Buffer buffer_;
+    gpu::BufferTexture texels_;
     gpu::RangeAllocator ranges_;
     std::unordered_map<world::ChunkPos, ChunkRegions, world::ChunkPosHash> chunks_;
     std::uint64_t uploadedBytes_ = 0;

@@ -31,6 +31,7 @@ class RegionTable {
     void update(world::ChunkPos centre);
 
     void bindRecords() const { records_.bindStorage(shared::kRegionsBinding); }
+    const gpu::Buffer& records() const { return records_; }  // shared::RegionRecord by slot
     void bindOrder() const { order_.bindStorage(shared::kRegionOrderBinding); }
 
     // Regions that have quads; the order has as many entries.

@@ -21,11 +21,6 @@ constexpr float kMaxAnisotropy = 8.0f;
 // Between sun and moon it is dark: light that cannot be seen casts no shadows. Linear.
 constexpr float kLeastShadowedLight = 0.002f;
 
-// Along the view, as the depth has it, surfaces may fade from this share of the distance of the fog on: they
-// do from 5/6 over the ground, and more at the sides of a wide picture. sky.frag.glsl has the same.
-constexpr float kFadingBegins = 0.4f;
-constexpr float kSkyDistance = 1e6f;  // blocks: nothing but the sky is farther
-
 // A corner and an edge's ends are each off by up to √½ steps of the rasteriser's grid: two quads that both
 // grow by √½ steps meet. Corners of folded quads grow less, so more is taken; with 2 steps of 1/256 pixel one
 // in a hundred samples along an edge changes.
@@ -63,8 +58,7 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     renderer.occlusion_ = AmbientOcclusion(shaders);
     renderer.godRays_ = GodRays(shaders);
     renderer.farBlur_ = FarBlur(shaders);
-    renderer.sky_ = FullscreenPass(shaders, "sky");
-    renderer.shade_ = FullscreenPass(shaders, "shade");
+    renderer.shading_ = ShadingPass(shaders);
     renderer.debugView_ = FullscreenPass(shaders, "debug_view");
     renderer.final_ = FullscreenPass(shaders, "final");
     renderer.ring_ = gpu::MappedRing(kRingBytes, "frame data");
@@ -101,14 +95,7 @@ base::Result<void> Renderer::selectVariants(const RenderOptions& options, const 
     auto done = shadowMap_.resize(options.shading == Shading::Off ? 0 : options.shadowSize);
     if (done) done = pyramid_.configure(targets, options.hiddenRegionCulling);
     if (done) done = gbuffer_.select(options.sampledAlphaTest ? samples : 1, options.betterTexturing);
-    if (done) done = sky_.select(defined({{"SAMPLES", samples}, {"CLOUDS", options.clouds ? 1 : 0}}));
-    if (done) {
-        done = shade_.select(defined({{"SAMPLES", samples},
-                                      {"PER_SAMPLE", options.shading == Shading::Pixel ? 0 : 1},
-                                      {"LIGHT_SMOOTH", light},
-                                      {"SHADOW", shadowMap_.size() > 0 ? 1 : 0},
-                                      {"OCCLUSION", options.occlusion == Occlusion::Off ? 0 : 1}}));
-    }
+    if (done) done = shading_.select(options, samples, shadowMap_.size() > 0);
     if (done) done = layers_.configure(targets, options, shadowMap_.size() > 0);
     if (done) done = debugView_.select(defined({{"SAMPLES", samples}, {"LIGHT_SMOOTH", light}}));
     if (done) done = occlusion_.configure(targets, options.occlusion != Occlusion::Off);
@@ -205,29 +192,13 @@ void Renderer::drawHiddenBefore(const CullInput& cullInput) {
     gbuffer_.draw(cull_);
 }
 
-// Sky and surfaces by the depth test, where there is one: the triangle lies at the far end for surfaces,
-// which are all nearer, and where they begin to fade for the sky.
 void Renderer::shadeSurfaces(float fogDistance) {
-    targets_.scene.bind();
-    const bool hasDepth = targets_.samples == 1;
-    glDepthMask(GL_FALSE);
-    (hasDepth ? glEnable : glDisable)(GL_DEPTH_TEST);
     {
         const TimerZone zone(timer_, "sky");
-        const float fading = options_.atmosphere ? kFadingBegins * fogDistance : kSkyDistance;
-        glDepthRangef(kNearPlane / fading, 1.0f);
-        glDepthFunc(GL_GREATER);
-        sky_.draw();
-        glDepthRangef(0.0f, 1.0f);
+        shading_.drawSky(targets_, fogDistance);
     }
     const TimerZone zone(timer_, "shade");
-    glDepthFunc(GL_LESS);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    shade_.draw();
-    glDisable(GL_BLEND);
-    glDisable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
+    shading_.drawSurfaces(targets_);
 }
 
 // Costs nothing where no region in view has blended faces.
@@ -237,7 +208,7 @@ void Renderer::drawLayers(const FrameInput& input) {
     if (options_.layers == 0 || !regions_.hasBlended(cameraChunk(input.camera), frustum)) return;
     {
         const TimerZone zone(timer_, "peel");
-        resources_.bind(quads_, options_.betterTexturing);
+        resources_.bind(quads_, regions_, options_.betterTexturing);
         layers_.peel(targets_, cull_);
     }
     const TimerZone zone(timer_, "shade layers");
@@ -278,9 +249,8 @@ void Renderer::draw(const FrameInput& input) {
     const bool leavesOutHidden = pyramid_.isOn() && !input.culledFor;
     if (leavesOutHidden) pyramid_.bind();
     cull(leavesOutHidden ? CullRun::SeenBefore : CullRun::All, culling);
-    resources_.bind(quads_, options_.betterTexturing);
+    resources_.bind(quads_, regions_, options_.betterTexturing);
     noise_.bind();
-    regions_.bindRecords();
     if (hasShadows(input)) drawShadows();
     drawSurfaces();
     if (leavesOutHidden) drawHiddenBefore(culling);

@@ -22,6 +22,7 @@
 #include "terrane/render/light_store.h"
 #include "terrane/render/quad_resources.h"
 #include "terrane/render/render_options.h"
+#include "terrane/render/shading_pass.h"
 #include "terrane/render/shadow_map.h"
 #include "terrane/render/sky_noise.h"
 
@@ -99,7 +100,8 @@ class Renderer {
     GodRays godRays_;
     FarBlur farBlur_;
     SkyNoise noise_;
-    FullscreenPass sky_, shade_, debugView_, final_;
+    ShadingPass shading_;
+    FullscreenPass debugView_, final_;
 
     int maxSamples_ = 1, maxSize_ = 1;
     float crackGrowth_ = 0;  // pixels

@@ -1,6 +1,7 @@
 // From the G-buffer to the light that reaches the camera: colour times coverage, and coverage, over the sky.
 // SAMPLES: of the G-buffer. PER_SAMPLE: 1 shades each sample of a pixel with several surfaces, 0 their mean.
-// SHADOW, OCCLUSION: 1 where there is a shadow map, ambient occlusion.
+// SHADOW, OCCLUSION: 1 where there is a shadow map, ambient occlusion. OVER_SKY: 1 blends what fades with the sky that was
+// drawn behind it, 0 does so here: without clouds the sky's colour is known, and nothing behind need be drawn or read.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
 #include "terrane/render/sky_color.glsl"
@@ -78,4 +79,7 @@ void main() {
     open = texelFetch(occlusion, pixel, 0).r;
 #endif
     outColor = shadePixel(pixel, open);
+#if OVER_SKY == 0
+    outColor.rgb += (1.0 - outColor.a) * skyColor(normalize(inRay));
+#endif
 }

@@ -24,7 +24,7 @@ vec3 discColor(vec2 at) {
 vec4 disc(vec3 direction) {
     vec3 light = frame.lightDirection.xyz;
     vec3 across = normalize(cross(light, vec3(0.0, 0.0, 1.0))), up = cross(across, light);
-    vec2 at = vec2(dot(direction, across), dot(direction, up)) / sin(frame.lightColor.w);
+    vec2 at = vec2(dot(direction, across), dot(direction, up)) / frame.lightColor.w;
     float pixel = length(fwidth(at));
     float share = dot(direction, light) > 0.0 ? 1.0 - smoothstep(1.0 - pixel, 1.0, length(at)) : 0.0;
     return vec4(discColor(at), share);

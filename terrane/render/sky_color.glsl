@@ -3,13 +3,13 @@
 vec3 skyColor(vec3 direction) {
     float height = max(direction.z, 0.0);
     // Darker toward the zenith, where one looks through less air, and pale near the horizon.
-    vec3 color = mix(frame.zenithColor.rgb, frame.horizonColor.rgb, exp(-5.5 * height));
+    float nearHorizon = exp(-2.75 * height);
+    vec3 color = mix(frame.zenithColor.rgb, frame.horizonColor.rgb, nearHorizon * nearHorizon);
     float toLight = max(dot(direction, frame.lightDirection.xyz), 0.0);
     float t2 = toLight * toLight, t4 = t2 * t2, t8 = t4 * t4;
-    float nearHorizon = exp(-3.0 * abs(direction.z));
-    float near = exp(-90.0 * (1.0 - toLight)), nearer = exp(-520.0 * (1.0 - toLight));
+    float near = exp(-90.0 * (1.0 - toLight)), near3 = near * near * near;
     float halo = 0.25 * t4 * nearHorizon + 0.28 * t8 * t8 + 0.35 * near;
-    return color + frame.glowColor.rgb * halo + frame.lightColor.rgb * 0.35 * nearer;
+    return color + frame.glowColor.rgb * halo + frame.lightColor.rgb * 0.35 * near3 * near3;
 }
 
 // What one sees in water where there is nothing.

@@ -32,7 +32,7 @@ float waterMirror(float facing) {
 // Colour times coverage, and coverage, of a surface of water before `blocks` of it. `levels`: of light; `shadow`: the
 // share of direct light.
 vec4 shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 levels, float shadow) {
-    vec4 light = pow(levels, vec4(0.85));
+    vec4 light = brightnessOf(levels);
     vec3 view = normalize(toPoint);
     bool isTop = abs(s.normal.z) > 0.5;
     vec3 normal = isTop ? waveNormal(position, length(toPoint)) * sign(s.normal.z) : s.normal;

@@ -11,15 +11,12 @@ const uint kFrameBinding = 0u;
 const uint kCullBinding = 1u;
 
 // Storage buffers
-const uint kQuadsBinding = 0u;
-const uint kShapeFacesBinding = 1u;
-const uint kMaterialsBinding = 2u;
-const uint kRegionsBinding = 3u;
-const uint kRegionOrderBinding = 4u;
-const uint kVisibleBinding = 5u;
-const uint kCommandsBinding = 6u;
-const uint kCountsBinding = 7u;
-const uint kSeenBinding = 8u;
+const uint kRegionsBinding = 0u;
+const uint kRegionOrderBinding = 1u;
+const uint kVisibleBinding = 2u;
+const uint kCommandsBinding = 3u;
+const uint kCountsBinding = 4u;
+const uint kSeenBinding = 5u;
 
 // Texture units
 const uint kBlockTexturesUnit = 0u;
@@ -36,6 +33,12 @@ const uint kBlurUnit = 10u;
 const uint kLayerColorUnit = 11u;  // three units: layers from the nearest
 const uint kLayerDepthUnit = 14u;  // three units
 const uint kPyramidUnit = 17u;     // of depths
+const uint kQuadsUnit = 18u;       // buffers as textures
+const uint kShapeFacesUnit = 19u;
+const uint kMaterialsUnit = 20u;
+
+// Vertex attributes
+const uint kRegionChunkAttribute = 0u;  // of a draw's region, by the base instance
 
 // Image units
 const uint kPyramidFromImage = 0u;

@@ -14,7 +14,7 @@ struct Frame {
     mat4 toShadowMap;     // x, y: 0…1 over the map; z: its depth
     vec4 cameraPosition;  // w: distance in blocks at which the fog is complete
     vec4 lightDirection;  // to the sun or moon; w: seconds for animations
-    vec4 lightColor;      // of the sun or moon; w: radius of its disc, radians
+    vec4 lightColor;      // of the sun or moon; w: sine of its disc's radius
     vec4 ambientColor;    // from the sky, on faces that look up; w: share of it on faces that look down
     vec4 zenithColor;     // w: exposure
     vec4 horizonColor;    // w: 0 for the picture, else a kView… value

@@ -1,0 +1,29 @@
+// A buffer seen as a texture of one dimension, which shaders read by texelFetch from a samplerBuffer:
+// elements in a format of the texture unit. Software renderers gather those, where they read storage buffers
+// number by number. Used on the thread of its context.
+#pragma once
+
+#include <string_view>
+
+#include "terrane/gpu/buffer.h"
+#include "terrane/gpu/handle.h"
+
+namespace terrane::gpu {
+
+class BufferTexture {
+  public:
+    BufferTexture() = default;
+    // Of the whole buffer, which must outlive the texture.
+    BufferTexture(const Buffer& buffer, GLenum format, std::string_view label);
+
+    [[nodiscard]] GLuint id() const { return handle_.id(); }
+    void bind(GLuint unit) const;
+
+    // Elements that any buffer texture can have.
+    [[nodiscard]] static std::size_t mostElements();
+
+  private:
+    Handle<ObjectKind::Texture> handle_;
+};
+
+}  // namespace terrane::gpu

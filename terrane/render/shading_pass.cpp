@@ -1,0 +1,64 @@
+#include "terrane/render/shading_pass.h"
+
+#include "terrane/render/camera.h"
+#include "terrane/render/shader_variants.h"
+
+namespace terrane::render {
+namespace {
+
+// Along the view, as the depth has it, surfaces may fade from this share of the distance of the fog on: they
+// do from 5/6 over the ground, and more at the sides of a wide picture. sky.frag.glsl has the same.
+constexpr float kFadingBegins = 0.4f;
+constexpr float kSkyDistance = 1e6f;  // blocks: nothing but the sky is farther
+
+// Where there are samples to test: with several a pixel the scene has one, and no depth.
+void setDepthTest(const FrameTargets& targets) {
+    (targets.samples == 1 ? glEnable : glDisable)(GL_DEPTH_TEST);
+}
+
+}  // namespace
+
+ShadingPass::ShadingPass(const gpu::ShaderLoader& shaders) : sky_(shaders, "sky"), shade_(shaders, "shade") {}
+
+base::Result<void> ShadingPass::select(const RenderOptions& options, int samples, bool hasShadows) {
+    fadesOverSky_ = samples > 1 || options.clouds;
+    hasAtmosphere_ = options.atmosphere;
+    auto selected = sky_.select(defined({{"SAMPLES", samples}, {"CLOUDS", options.clouds}}));
+    if (!selected) return selected;
+    return shade_.select(defined({{"SAMPLES", samples},
+                                  {"PER_SAMPLE", options.shading != Shading::Pixel},
+                                  {"LIGHT_SMOOTH", static_cast<int>(options.light)},
+                                  {"SHADOW", hasShadows},
+                                  {"OCCLUSION", options.occlusion != Occlusion::Off},
+                                  {"OVER_SKY", fadesOverSky_}}));
+}
+
+// By the depth test, as the surfaces: the triangle lies where they begin to fade.
+void ShadingPass::drawSky(const FrameTargets& targets, float fogDistance) const {
+    targets.scene.bind();
+    glDepthMask(GL_FALSE);
+    setDepthTest(targets);
+    const bool isBehind = fadesOverSky_ && hasAtmosphere_;
+    glDepthRangef(kNearPlane / (isBehind ? kFadingBegins * fogDistance : kSkyDistance), 1.0f);
+    glDepthFunc(GL_GREATER);
+    sky_.draw();
+    glDepthRangef(0.0f, 1.0f);
+    glDisable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+}
+
+// The triangle lies at the far end: surfaces are all nearer.
+void ShadingPass::drawSurfaces(const FrameTargets& targets) const {
+    targets.scene.bind();
+    glDepthMask(GL_FALSE);
+    setDepthTest(targets);
+    glDepthFunc(GL_LESS);
+    (fadesOverSky_ ? glEnable : glDisable)(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    shade_.draw();
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+}
+
+}  // namespace terrane::render

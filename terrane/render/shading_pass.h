@@ -1,0 +1,28 @@
+// From the G-buffer to the light that reaches the camera, over the sky. Used by the renderer on the context's
+// thread.
+#pragma once
+
+#include "terrane/base/result.h"
+#include "terrane/render/frame_targets.h"
+#include "terrane/render/fullscreen_pass.h"
+#include "terrane/render/render_options.h"
+
+namespace terrane::render {
+
+class ShadingPass {
+  public:
+    ShadingPass() = default;
+    explicit ShadingPass(const gpu::ShaderLoader& shaders);
+
+    base::Result<void> select(const RenderOptions& options, int samples, bool hasShadows);
+    // The part of the sky that can be seen, or that surfaces fade into. `fogDistance`: blocks.
+    void drawSky(const FrameTargets& targets, float fogDistance) const;
+    // After the sky.
+    void drawSurfaces(const FrameTargets& targets) const;
+
+  private:
+    FullscreenPass sky_, shade_;
+    bool fadesOverSky_ = false, hasAtmosphere_ = false;
+};
+
+}  // namespace terrane::render
