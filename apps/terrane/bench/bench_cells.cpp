@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "terrane/mesh/mesh_options.h"
+
 namespace terrane::app {
 namespace {
 
@@ -18,60 +20,56 @@ void setFlag(Arguments& arguments, const std::string& flag, const std::string& w
     arguments.push_back(word);
 }
 
-Cell withFlags(Arguments arguments, const Flags& flags) {
+Cell renderCell(const Flags& defaults, const Flags& flags) {
+    Arguments arguments = {"render"};
+    for (const auto& [flag, word] : defaults) setFlag(arguments, flag, word);
     for (const auto& [flag, word] : flags) setFlag(arguments, flag, word);
     return {std::move(arguments)};
 }
 
-Arguments smallPicture(const std::string& scene, int viewDistance) {
-    return {"render", "--scene", scene, "--preset", "low", "--view-distance", fmt::to_string(viewDistance),
-            "--size", "320x180"};
+Flags smallPicture(const std::string& scene, int viewDistance) {
+    return {{"--scene", scene},
+            {"--preset", "low"},
+            {"--view-distance", fmt::to_string(viewDistance)},
+            {"--size", "320x180"}};
 }
 
 }  // namespace
 
 Cell frameCell(const BenchSettings& s, const std::string& scene, const Flags& flags) {
     // What tables change is named, although the preset has it.
-    return withFlags({"render",
-                      "--scene",
-                      scene,
-                      "--preset",
-                      "thesis",
-                      "--view-distance",
-                      fmt::to_string(s.viewDistance),
-                      "--size",
-                      s.size,
-                      "--frames",
-                      fmt::to_string(s.frames),
-                      "--samples",
-                      "2",
-                      "--shading",
-                      "sample",
-                      "--shadows",
-                      s.isQuick ? "1024" : "2048",
-                      "--layers",
-                      "3",
-                      "--aggregation",
-                      "greedy",
-                      "--region-height",
-                      "64"},
-                     flags);
+    return renderCell({{"--scene", scene},
+                       {"--preset", "thesis"},
+                       {"--view-distance", fmt::to_string(s.viewDistance)},
+                       {"--size", s.size},
+                       {"--frames", fmt::to_string(s.frames)},
+                       {"--samples", "2"},
+                       {"--shading", "sample"},
+                       {"--shadows", s.isQuick ? "1024" : "2048"},
+                       {"--layers", "3"},
+                       {"--aggregation", "greedy"},
+                       {"--region-height", fmt::to_string(mesh::kDefaultRegionHeight)}},
+                      flags);
 }
 
 Cell plainFrameCell(const BenchSettings& s, const std::string& scene, const Flags& flags) {
-    return withFlags({"render", "--scene", scene, "--preset", "low", "--view-distance",
-                      fmt::to_string(s.viewDistance), "--size", s.size, "--frames", fmt::to_string(s.frames)},
-                     flags);
+    return renderCell({{"--scene", scene},
+                       {"--preset", "low"},
+                       {"--view-distance", fmt::to_string(s.viewDistance)},
+                       {"--size", s.size},
+                       {"--frames", fmt::to_string(s.frames)}},
+                      flags);
 }
 
 Cell generatingCell(const std::string& scene, int viewDistance) {
-    return {smallPicture(scene, viewDistance)};
+    return renderCell(smallPicture(scene, viewDistance), {});
 }
 
 Cell loadingCell(const std::string& scene, int viewDistance) {
-    Arguments arguments = smallPicture(scene, viewDistance);
-    setFlag(arguments, "--save-game", fmt::format("{}-{}", scene, viewDistance));
-    return {arguments, arguments};
+    Cell cell = renderCell(smallPicture(scene, viewDistance),
+                           {{"--save-game", fmt::format("{}-{}", scene, viewDistance)}});
+    cell.before = cell.arguments;
+    return cell;
 }
 
 Cell flightCell(const BenchSettings& s, bool isFromSave) {
