@@ -38,6 +38,7 @@ Table sceneTable() {
 TEST(FormatFigure, HasThreeDigitsAndMore) {
     EXPECT_EQ(formatFigure(0), "0");
     EXPECT_EQ(formatFigure(7), "7");
+    EXPECT_EQ(formatFigure(0.000044), "< 0.001");
     EXPECT_EQ(formatFigure(-70), "-70");
     EXPECT_EQ(formatFigure(0.0123456), "0.0123");
     EXPECT_EQ(formatFigure(1.2345), "1.23");

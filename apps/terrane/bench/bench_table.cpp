@@ -152,6 +152,7 @@ std::vector<Cell> cellsOf(const Table& table) {
 std::string formatFigure(double value) {
     const double size = std::abs(value);
     if (size < 1000 && value == std::round(value)) return fmt::format("{:.0f}", value + 0.0);
+    if (size < 0.0005) return "< 0.001";
     if (size < 0.9995) return fmt::format("{:.3g}", value);
     if (size < 9.995) return fmt::format("{:.2f}", value);
     if (size < 99.95) return fmt::format("{:.1f}", value);

@@ -75,7 +75,7 @@ struct Table {
 // What its entries and curves need, each cell once, in the order of the table.
 std::vector<Cell> cellsOf(const Table& table);
 
-// Three digits and more, of whole numbers all: 0.0123, 1.23, 12.3, 123, 12,345; 7.
+// Three digits and more, of whole numbers all: 0.0123, 1.23, 12.3, 123, 12,345; 7; < 0.001.
 std::string formatFigure(double value);
 
 // "–" where the measurement has no such value, "failed" where there is no measurement.

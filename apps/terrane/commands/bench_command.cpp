@@ -141,6 +141,7 @@ base::Result<void> bench(BenchOptions& options) {
                                                        : ResultFile::create(path, *about);
     if (!results) return tl::unexpected(results.error());
     const std::vector<Cell> cells = cellsOf(tables);
+    base::logInfo("{} tables, {} measurements of {} runs each", tables.size(), cells.size(), settings.runs);
     BenchRunner runner(program, *folder, settings.runs, *results);
     if (auto done = measureAll(cells, runner, *results); !done) return done;
     std::error_code ignored;
