@@ -201,7 +201,7 @@ CommandEntry addBench(CLI::App& app) {
     command->add_option("--only,TABLE", options->only, "Only these tables: " + tableNames())
         ->delimiter(',')
         ->check(CLI::Validator(isTable, ""))
-        ->type_name("TABLE,…");
+        ->type_name("TABLE");
     command->add_flag("--quick", options->isQuick,
                       "Less of everything: some minutes without a graphics card");
     command->add_flag("--resume", options->resumes, "Go on with the results that are in the folder");
