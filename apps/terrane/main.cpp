@@ -1,5 +1,5 @@
 // terrane: reads the command line, runs one command, reports. Exit codes: 0 done, 1 a save is damaged
-// (check), 2 bad input or a missing means.
+// (check) or a measurement failed (bench), 2 bad input or a missing means.
 #include <exception>
 #include <string>
 #include <vector>
@@ -54,9 +54,9 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", TERRANE_VERSION);
     app.require_subcommand(0, 1);
     const std::vector<app::CommandEntry> commands = {
-        app::addPlay(app), app::addRender(app),     app::addRecord(app), app::addGenerate(app),
-        app::addMap(app),  app::addDump(app),       app::addCheck(app),  app::addBlocks(app),
-        app::addInfo(app), app::addCompletion(app), app::addMan(app)};
+        app::addPlay(app), app::addRender(app), app::addRecord(app),     app::addGenerate(app),
+        app::addMap(app),  app::addDump(app),   app::addCheck(app),      app::addBlocks(app),
+        app::addInfo(app), app::addBench(app),  app::addCompletion(app), app::addMan(app)};
     std::string trace;
     for (const app::CommandEntry& command : commands) app::addTraceOption(*command.parser, trace);
     std::vector<const char*> arguments(argv, argv + argc);

@@ -9,21 +9,6 @@ namespace {
 
 constexpr int kMaxPictureSide = 16384;
 
-glm::ivec2 parseSize(const std::string& text) {
-    int width = 0, height = 0;
-    const char* end = text.data() + text.size();
-    const auto x = std::from_chars(text.data(), end, width);
-    const bool hasCross = x.ec == std::errc() && x.ptr != end && *x.ptr == 'x';
-    const auto y = hasCross ? std::from_chars(x.ptr + 1, end, height) : x;
-    const bool isGood = hasCross && y.ec == std::errc() && y.ptr == end;
-    if (!isGood || width < 1 || height < 1 || width > kMaxPictureSide || height > kMaxPictureSide) {
-        throw CLI::ValidationError(
-            "--size",
-            fmt::format("expected WIDTHxHEIGHT with sides of 1 to {}, got \"{}\"", kMaxPictureSide, text));
-    }
-    return {width, height};
-}
-
 // The parser's own reading takes -1 and what is too large for the largest seed.
 std::uint64_t parseSeed(const std::string& text) {
     std::uint64_t seed = 0;
@@ -107,6 +92,21 @@ void addMeshOptions(CLI::App& command, mesh::MeshOptions& options) {
 }
 
 }  // namespace
+
+glm::ivec2 parseSize(const std::string& text) {
+    int width = 0, height = 0;
+    const char* end = text.data() + text.size();
+    const auto x = std::from_chars(text.data(), end, width);
+    const bool hasCross = x.ec == std::errc() && x.ptr != end && *x.ptr == 'x';
+    const auto y = hasCross ? std::from_chars(x.ptr + 1, end, height) : x;
+    const bool isGood = hasCross && y.ec == std::errc() && y.ptr == end;
+    if (!isGood || width < 1 || height < 1 || width > kMaxPictureSide || height > kMaxPictureSide) {
+        throw CLI::ValidationError(
+            "--size",
+            fmt::format("expected WIDTHxHEIGHT with sides of 1 to {}, got \"{}\"", kMaxPictureSide, text));
+    }
+    return {width, height};
+}
 
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const std::string& form) {
     std::vector<double> numbers;

@@ -80,6 +80,9 @@ void addChoice(CLI::App& command, const std::string& name, T& value,
         ->default_str(defaultWord);
 }
 
+// "1280x720", for --size. Throws CLI::ValidationError.
+glm::ivec2 parseSize(const std::string& text);
+
 // "1,2.5,-3": exactly `count` numbers. Throws CLI::ValidationError.
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const std::string& form);
 

@@ -105,15 +105,19 @@ std::size_t uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& ren
     return changes.size();
 }
 
-void loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera,
-             int viewDistance, stream::ChunkPipeline::Time now) {
+double loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera,
+               int viewDistance, stream::ChunkPipeline::Time now) {
     session.pipeline->setView(render::cameraChunk(camera), viewDistance);
+    double uploads = 0;
     for (;;) {
         session.pipeline->update(now);
+        const auto start = std::chrono::steady_clock::now();
         const std::size_t changed =
             uploadChanges(*session.pipeline, renderer, std::numeric_limits<std::size_t>::max());
+        uploads +=
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         // Visible chunks that are meshed anew come a few an update.
-        if (session.pipeline->progress().complete() && changed == 0) return;
+        if (session.pipeline->progress().complete() && changed == 0) return uploads;
         if (changed == 0) session.pipeline->waitForWorkers(std::chrono::milliseconds(100));
     }
 }

@@ -54,7 +54,8 @@ struct WorldSession {
 std::size_t uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, std::size_t limit);
 
 // Waits until the renderer has everything that the camera may see, as it is now. `now`: the pipeline's time.
-void loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera,
+// Milliseconds that uploading took.
+double loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera,
              int viewDistance, stream::ChunkPipeline::Time now);
 
 // Whether the camera is in water: below its surface, where that is in the same block.

@@ -18,7 +18,7 @@ namespace terrane::gen {
 class Generator {
   public:
     // `cacheBytes`: for what chunks' neighbours need of them, 1 KiB a field and, where they read blocks,
-    // 128 KiB a 3D pass. Overworld: 14 KiB a chunk, so that the default holds 4,680 chunks.
+    // 128 KiB a 3D pass. Overworld: 15 KiB a chunk, so that the default holds 4,350 chunks.
     Generator(GeneratorGraph graph, std::uint64_t seed, std::size_t cacheBytes = std::size_t{64} << 20);
     ~Generator();
     Generator(Generator&&) noexcept;

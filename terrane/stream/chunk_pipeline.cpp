@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kJobsPerWorker = 8;
 constexpr std::chrono::milliseconds kTidyEvery{250};
 
-constexpr std::array kTaskNames = {"load or generate", "light", "mesh"};
+constexpr std::array kTaskNames = {"load or generate", "own light", "light", "mesh"};
 static_assert(kTaskNames.size() == kTaskCount);
 
 }  // namespace
@@ -151,7 +151,8 @@ void ChunkPipeline::submitLoads() {
             table_.urgency(pos),
             guarded([pos, source = parts_.source, lights = &parts_.lights](WorkerResults& results) {
                 ChunkPtr chunk = results.timed(kLoad, [&] { return loadChunk(source, pos); });
-                LocalLightPtr local = chunk ? localLight(*chunk, *lights) : nullptr;
+                LocalLightPtr local;
+                if (chunk) local = results.timed(kOwnLight, [&] { return localLight(*chunk, *lights); });
                 results.add(WorkerResults::Load{pos, std::move(chunk), std::move(local)});
             }));
     }
@@ -171,10 +172,12 @@ void ChunkPipeline::takeBatches() {
 
 // A generated chunk's own light.
 void ChunkPipeline::submitPrepare(ChunkPos pos, ChunkPtr chunk) {
-    parts_.jobs.submit(table_.urgency(pos), guarded([pos, chunk = std::move(chunk),
-                                                     lights = &parts_.lights](WorkerResults& results) {
-                           results.add(WorkerResults::Load{pos, chunk, localLight(*chunk, *lights)});
-                       }));
+    parts_.jobs.submit(
+        table_.urgency(pos),
+        guarded([pos, chunk = std::move(chunk), lights = &parts_.lights](WorkerResults& results) {
+            LocalLightPtr local = results.timed(kOwnLight, [&] { return localLight(*chunk, *lights); });
+            results.add(WorkerResults::Load{pos, chunk, std::move(local)});
+        }));
 }
 
 Surroundings ChunkPipeline::surroundings(ChunkPos pos) const {

@@ -15,7 +15,7 @@
 
 namespace terrane::stream {
 
-enum Task : std::size_t { kLoad, kLight, kMesh, kTaskCount };
+enum Task : std::size_t { kLoad, kOwnLight, kLight, kMesh, kTaskCount };
 
 // Filled by any thread. Jobs hold it too, so that one that ends late finds it alive.
 struct WorkerResults {

@@ -49,6 +49,16 @@ CASES = [
     ((*GENERATE, "--threads", "0"), '"0"'),
     ((*GENERATE, "--threads", "-1"), '"-1"'),
     ((*GENERATE, "--threads", "9999"), '"9999"'),
+    # Measurements
+    (("bench",), "--output"),
+    (("bench", "-o", "{folder}/bench", "nothing"), '"nothing"'),
+    (("bench", "-o", "{folder}/bench", "--only", "disk,nothing"), '"nothing"'),
+    (("bench", "-o", "{folder}/bench", "--only", ""), "--only"),
+    (("bench", "-o", "{folder}/bench", "--size", "big"), '"big"'),
+    (("bench", "-o", "{folder}/bench", "--runs", "0"), '"0"'),
+    (("bench", "-o", "{folder}/bench", "--frames", "none"), '"none"'),
+    (("bench", "-o", "{folder}/bench", "--view-distance", "65"), '"65"'),
+    ((*RENDER, "--flight", "-1"), '"-1"'),
     # Pictures
     ((*RENDER, "--size", "0x0"), '"0x0"'),
     ((*RENDER, "--size", "abc"), '"abc"'),

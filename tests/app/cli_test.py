@@ -7,7 +7,7 @@ import struct
 import support
 from support import Npy, Picture, ProgramTest, run
 
-COMMANDS = ("play", "render", "record", "generate", "map", "dump", "check", "blocks", "info", "completion", "man")
+COMMANDS = ("play", "render", "record", "generate", "map", "dump", "check", "blocks", "info", "bench", "completion", "man")
 FLAT = ("--generator", "flat")
 
 # Name: opacity to light, emission. Of all blocks that the game starts with.
@@ -71,6 +71,28 @@ class Render(ProgramTest):
             self.assertGreater(result["milliseconds"][key], 0, key)
         for key in ("blocks", "light", "light_gpu", "quads_gpu", "generator_cache", "process_peak"):
             self.assertGreater(result["bytes"][key], 0, key)
+        for task in ("load or generate", "own light", "light", "mesh"):
+            self.assertGreater(result["tasks"][task]["count"], 0, task)
+            self.assertGreater(result["tasks"][task]["milliseconds"], 0, task)
+        self.assertEqual(result["chunks_in_view"], 25)
+        day = result["shadow_triangles_over_the_day"]
+        self.assertEqual((day["time"][0], day["time"][20], day["time"][-1]), (0, 0.5, 1))
+        self.assertEqual(len(day["time"]), len(day["triangles"]))
+        self.assertGreater(len(set(day["triangles"])), 3)
+
+    def test_a_flight_is_told(self):
+        _, text = self.render("a.png", "--scene", "landscape", "--preset", "low", "--flight", "2", "--json")
+        flight = json.loads(text)["flight"]
+        self.assertGreaterEqual(flight["seconds_of_flight"], 2)
+        self.assertGreater(flight["seconds_to_load"], 0)
+        self.assertGreater(flight["frames"], 0)
+        self.assertGreaterEqual(flight["slowest_frame_ms"], flight["frame_ms"])
+        seconds = flight["by_second"]
+        self.assertGreater(sum(seconds["frames"]), flight["frames"])
+        self.assertEqual(seconds["visible"][-1], 25)
+        self.assertEqual(len({len(values) for values in seconds.values()}), 1)
+        still, _ = self.render("b.png", "--scene", "landscape", "--preset", "low")
+        self.assertNotEqual(Picture(self.folder / "a.png").rows, still.rows, "the picture is from the end of it")
 
     def test_the_picture_does_not_depend_on_threads(self):
         one, _ = self.render("one.png", "--scene", "desert", "--threads", "1")
@@ -112,6 +134,7 @@ class Render(ProgramTest):
         _, text = self.render("a.png", "--scene", "ocean", "--frames", "4", "--json", "--preset", "medium")
         result = json.loads(text)
         self.assertGreater(result["milliseconds"]["frame"], 0)
+        self.assertGreater(result["milliseconds"]["frame_processor"], 0)
         for name in ("cull", "shadow map", "surfaces", "sky", "shade", "final"):
             self.assertIn(name, result["passes"])
 

@@ -25,6 +25,7 @@ CommandEntry addMap(CLI::App& app);
 CommandEntry addDump(CLI::App& app);
 CommandEntry addCheck(CLI::App& app);
 CommandEntry addBlocks(CLI::App& app);
+CommandEntry addBench(CLI::App& app);
 CommandEntry addInfo(CLI::App& app);
 CommandEntry addCompletion(CLI::App& app);
 CommandEntry addMan(CLI::App& app);

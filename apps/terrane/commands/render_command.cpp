@@ -1,19 +1,22 @@
 // terrane render: one picture of one place, without a window.
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
+#include "apps/terrane/flight.h"
+#include "apps/terrane/frame_times.h"
+#include "apps/terrane/process_figures.h"
 #include "apps/terrane/scenes.h"
 #include "apps/terrane/world_session.h"
 #include "terrane/base/image.h"
 #include "terrane/base/log.h"
 #include "terrane/gpu/context.h"
+#include "terrane/store/save_path.h"
 
 namespace terrane::app {
 namespace {
@@ -33,16 +36,10 @@ struct PictureOptions {
     std::optional<float> time;
     float seconds = 0;
     int frames = 0;
+    double flight = 0;  // seconds
     std::string output;
     bool json = false;
 };
-
-// Of the whole process so far.
-std::size_t peakMemoryBytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
 
 base::Result<Scene> chosenScene(const PictureOptions& options) {
     Scene scene = scenes().front();
@@ -64,29 +61,103 @@ base::Result<Scene> chosenScene(const PictureOptions& options) {
     return scene;
 }
 
-// Milliseconds of each frame; the picture stays the same.
-std::vector<double> drawFrames(render::Renderer& renderer, const render::FrameInput& input, int count) {
-    std::vector<double> frames;
-    for (int k = 0; k < count; ++k) {
-        const auto start = Clock::now();
-        renderer.draw(input);
-        glFinish();
-        frames.push_back(millisecondsSince(start));
+// What drawing a picture took; milliseconds.
+struct PictureFigures {
+    double setUp = 0, load = 0, upload = 0, draw = 0, all = 0;
+    FrameTimes frames;
+    std::optional<FlightLog> flight;
+};
+
+Flight flightOf(const PictureOptions& options, const Scene& scene) {
+    return {scene.camera, options.flight, options.graphics.viewDistance, scene.timeDay};
+}
+
+void tell(const PictureOptions& options, const PictureFigures& figures, const WorldSession& session,
+          const render::FrameStatistics& statistics) {
+    base::logInfo("{}: {} chunks in {:.1f} s, {} quads in {} regions", options.output,
+                  session.world.chunks().size(), figures.load / 1000, statistics.quads, statistics.regions);
+    if (figures.frames.milliseconds.empty()) return;
+    const double frame = medianOf(figures.frames);
+    base::logInfo("a frame takes {:.1f} ms in the middle of {}, {:.1f} frames/s", frame,
+                  figures.frames.milliseconds.size(), 1000 / frame);
+}
+
+// Of the save's file and of what SQLite has not moved into it yet; 0 without a save.
+std::uintmax_t saveBytes(const SaveOptions& save) {
+    const auto path = store::savePath(save.name, store::savePlaces());
+    if (save.name.empty() || !path) return 0;
+    std::uintmax_t bytes = 0;
+    for (const char* ending : {"", "-wal"}) {
+        std::error_code error;
+        const std::uintmax_t size = std::filesystem::file_size(path->string() + ending, error);
+        if (!error) bytes += size;
     }
-    return frames;
+    return bytes;
 }
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+// Triangles of the shadow map at times of day from 0 to 1.
+nlohmann::json shadowsOverTheDay(const render::Renderer& renderer, render::FrameInput input) {
+    constexpr int kSteps = 40;
+    nlohmann::json day;
+    for (int k = 0; k <= kSteps; ++k) {
+        const double time = static_cast<double>(k) / kSteps;
+        input.environment = world::environmentAt(static_cast<float>(time));
+        day["time"].push_back(time);
+        day["triangles"].push_back(renderer.shadowTriangles(input));
+    }
+    return day;
 }
 
-// GPU milliseconds of the passes of a frame, by name.
-nlohmann::json passTimes(const render::Renderer& renderer) {
-    nlohmann::json times = nlohmann::json::object();
-    for (const gpu::GpuTiming& pass : renderer.passTimes()) times[pass.name] = pass.milliseconds;
-    return times;
+nlohmann::json memoryJson(const PictureOptions& options, const WorldSession& session,
+                          const render::Renderer& renderer) {
+    return {{"blocks", session.world.memoryBytes()},
+            {"light", session.pipeline->lightBytes()},
+            {"light_of_stage_1", session.pipeline->localLightBytes()},
+            {"generator_cache", session.generator->cacheBytes()},
+            {"light_gpu", renderer.lightBytes()},
+            {"quads_gpu", renderer.quadBytes()},
+            {"save", saveBytes(options.save)},
+            {"process", residentBytes()},
+            {"process_peak", peakResidentBytes()}};
+}
+
+nlohmann::json tasksJson(const WorldSession& session) {
+    nlohmann::json tasks = nlohmann::json::object();
+    for (const stream::TaskTime& task : session.pipeline->taskTimes())
+        tasks[task.name] = {{"count", task.count}, {"milliseconds", task.microseconds / 1000}};
+    return tasks;
+}
+
+nlohmann::json pictureJson(const PictureOptions& options, const PictureFigures& figures,
+                           const WorldSession& session, render::Renderer& renderer,
+                           const render::FrameInput& input) {
+    const render::FrameStatistics statistics = renderer.statistics();
+    nlohmann::json result = {{"file", options.output},
+                             {"milliseconds",
+                              {{"set_up", figures.setUp},
+                               {"load", figures.load},
+                               {"upload", figures.upload},
+                               {"draw", figures.draw},
+                               {"all", figures.all}}},
+                             {"tasks", tasksJson(session)},
+                             {"chunks", session.world.chunks().size()},
+                             {"chunks_in_view", session.pipeline->progress().wanted},
+                             {"quads", statistics.quads},
+                             {"regions", statistics.regions},
+                             {"draw_commands", statistics.drawCommands},
+                             {"triangles",
+                              {{"opaque", statistics.opaqueTriangles},
+                               {"transparent", statistics.transparentTriangles},
+                               {"shadow", renderer.shadowTriangles(input)}}},
+                             {"shadow_triangles_over_the_day", shadowsOverTheDay(renderer, input)},
+                             {"bytes", memoryJson(options, session, renderer)}};
+    if (!figures.frames.milliseconds.empty()) {
+        result["milliseconds"]["frame"] = medianOf(figures.frames);
+        result["milliseconds"]["frame_processor"] = figures.frames.processorMilliseconds;
+        result["passes"] = passMedians(figures.frames);
+    }
+    if (figures.flight) result["flight"] = jsonOf(*figures.flight);
+    return result;
 }
 
 base::Result<void> renderPicture(const PictureOptions& options, const CLI::App& command) {
@@ -109,8 +180,14 @@ base::Result<void> renderPicture(const PictureOptions& options, const CLI::App& 
     const auto loadStart = Clock::now();
     (*session)->pipeline->setMeshOptions(options.graphics.mesh);
     renderer->setViewDistance(options.graphics.viewDistance);
-    loadAll(**session, *renderer, scene->camera, options.graphics.viewDistance, loadStart);
-    const double load = millisecondsSince(loadStart);
+    PictureFigures figures;
+    figures.setUp = setUp;
+    if (options.flight > 0) {
+        figures.flight = fly(**session, *renderer, flightOf(options, *scene));
+        scene->camera = figures.flight->camera;
+    }
+    figures.upload = loadAll(**session, *renderer, scene->camera, options.graphics.viewDistance, loadStart);
+    figures.load = millisecondsSince(loadStart);
 
     const auto drawStart = Clock::now();
     const render::FrameInput input{scene->camera,
@@ -121,47 +198,15 @@ base::Result<void> renderPicture(const PictureOptions& options, const CLI::App& 
                                    isUnderWater(**session, scene->camera)};
     renderer->draw(input);
     const base::Image image = renderer->readImage();
-    const double draw = millisecondsSince(drawStart);
-    const std::vector<double> frames = drawFrames(*renderer, input, options.frames);
+    figures.draw = millisecondsSince(drawStart);
+    figures.frames = measureFrames(*renderer, input, options.frames);
     if (auto written = base::writePng(options.output, image); !written) return written;
     if (auto saved = (*session)->save(); !saved) return saved;
     if (context->debugErrorCount() > 0) return base::fail("the graphics driver reported errors, see above");
 
-    const render::FrameStatistics statistics = renderer->statistics();
-    const std::size_t chunks = (*session)->world.chunks().size();
-    base::logInfo("{}: {} chunks in {:.1f} s, {} quads in {} regions", options.output, chunks, load / 1000,
-                  statistics.quads, statistics.regions);
-    if (!frames.empty()) {
-        base::logInfo("a frame takes {:.1f} ms in the middle of {}, {:.1f} frames/s", median(frames),
-                      frames.size(), 1000 / median(frames));
-    }
-    if (options.json) {
-        nlohmann::json result = {
-            {"file", options.output},
-            {"milliseconds",
-             {{"set_up", setUp}, {"load", load}, {"draw", draw}, {"all", millisecondsSince(start)}}},
-            {"chunks", chunks},
-            {"quads", statistics.quads},
-            {"regions", statistics.regions},
-            {"draw_commands", statistics.drawCommands},
-            {"triangles",
-             {{"opaque", statistics.opaqueTriangles},
-              {"transparent", statistics.transparentTriangles},
-              {"shadow", renderer->shadowTriangles(input)}}},
-            {"bytes",
-             {{"blocks", (*session)->world.memoryBytes()},
-              {"light", (*session)->pipeline->lightBytes()},
-              {"light_of_stage_1", (*session)->pipeline->localLightBytes()},
-              {"generator_cache", (*session)->generator->cacheBytes()},
-              {"light_gpu", renderer->lightBytes()},
-              {"quads_gpu", renderer->quadBytes()},
-              {"process_peak", peakMemoryBytes()}}}};
-        if (!frames.empty()) {
-            result["milliseconds"]["frame"] = median(frames);
-            result["passes"] = passTimes(*renderer);
-        }
-        std::cout << result.dump() << '\n';
-    }
+    figures.all = millisecondsSince(start);
+    tell(options, figures, **session, renderer->statistics());
+    if (options.json) std::cout << pictureJson(options, figures, **session, *renderer, input).dump() << '\n';
     return {};
 }
 
@@ -203,6 +248,11 @@ CommandEntry addRender(CLI::App& app) {
         ->add_option("--frames", options->frames,
                      "Draws the picture so often again and tells how long that takes")
         ->check(numberFrom(0, 100000));
+    command
+        ->add_option(
+            "--flight", options->flight,
+            "Flies ahead so many seconds before, drawing as the window does; --json tells how that went")
+        ->check(numberFrom(0, 3600));
     addOutputOption(*command, options->output, "The PNG file");
     command->add_flag("--json", options->json, "Print timings and counts as JSON");
     addWorldOptions(*command, options->world);

@@ -1,17 +1,11 @@
 #include "apps/terrane/window/perf_log.h"
 
 #include <fmt/ostream.h>
-#include <unistd.h>
+
+#include "apps/terrane/process_figures.h"
 
 namespace terrane::app {
 namespace {
-
-// Resident memory of the process, bytes; 0 where the system does not tell.
-std::size_t residentBytes() {
-    std::size_t total = 0, resident = 0;
-    std::ifstream("/proc/self/statm") >> total >> resident;
-    return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-}
 
 double megabytes(std::size_t bytes) {
     return static_cast<double>(bytes) / 1e6;
@@ -23,7 +17,8 @@ base::Result<PerfLog> PerfLog::create(const std::filesystem::path& file) {
     PerfLog log(file);
     fmt::print(log.out_,
                "time_s,frame_ms,fps,min_fps,max_fps,ram_mb,gpu_mb,active_chunks,visible_chunks,queued_chunks,"
-               "opaque_triangles,transparent_triangles,load_or_generate_ms,light_ms,mesh_ms,passes_ms\n");
+               "opaque_triangles,transparent_triangles,load_or_generate_ms,own_light_ms,light_ms,mesh_ms,"
+               "passes_ms\n");
     if (!log.out_) return base::fail("{}: cannot be written", file.string());
     return log;
 }

@@ -1,0 +1,78 @@
+#include "apps/terrane/bench/bench_runner.h"
+
+#include <sstream>
+
+#include "apps/terrane/bench/child_process.h"
+#include "apps/terrane/bench/machine.h"
+#include "terrane/base/files.h"
+
+namespace terrane::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::chrono::seconds kLongestRun{1800};  // V=64 at 1920×1080 takes some minutes in software
+
+// The last thing that a program said, without its name in front.
+std::string lastLine(const fs::path& file) {
+    const auto text = base::readFile(file);
+    std::istringstream lines(text ? *text : "");
+    std::string line, last;
+    while (std::getline(lines, line))
+        if (!line.empty()) last = line;
+    constexpr std::string_view kPrefix = "terrane: error: ";
+    return last.starts_with(kPrefix) ? last.substr(kPrefix.size()) : last;
+}
+
+}  // namespace
+
+BenchRunner::BenchRunner(fs::path program, const fs::path& folder, int runs, ResultFile& results)
+    : program_(std::move(program)), work_(folder / "work"), runs_(runs), results_(results) {}
+
+base::Result<void> BenchRunner::measure(const Cell& cell) {
+    const auto known = results_.measured().runs.find(keyOf(cell));
+    const std::size_t there = known == results_.measured().runs.end() ? 0 : known->second.size();
+    if (there >= static_cast<std::size_t>(runs_)) return {};
+    if (auto ready = prepare(cell); !ready)
+        return results_.addFailure(cell, "before it: " + ready.error().message);
+    for (std::size_t run = there; run < static_cast<std::size_t>(runs_); ++run) {
+        const auto result = runOnce(cell.arguments);
+        const auto kept =
+            result ? results_.add(cell, *result) : results_.addFailure(cell, result.error().message);
+        if (!kept || !result) return kept;
+    }
+    return {};
+}
+
+base::Result<void> BenchRunner::prepare(const Cell& cell) {
+    const std::string key = keyOf({cell.before});
+    if (cell.before.empty() || prepared_.contains(key)) return {};
+    if (auto done = runOnce(cell.before); !done) return tl::unexpected(done.error());
+    prepared_.insert(key);
+    return {};
+}
+
+base::Result<json> BenchRunner::runOnce(const Arguments& arguments) const {
+    std::error_code error;
+    fs::create_directories(work_, error);
+    if (error) return base::fail("{}: cannot be made: {}", work_.string(), error.message());
+    Arguments command{program_.string()};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    if (arguments[0] == "render") command.insert(command.end(), {"--output", "picture.png"});
+    if (arguments[0] != "bench") command.push_back("--json");
+    const ChildOptions options{work_, work_ / "messages.txt", kLongestRun};
+    const double load = loadAverage();
+    const auto end = runChild(command, options);
+    if (!end) return tl::unexpected(end.error());
+    if (end->tookTooLong) return base::fail("took longer than {} s", kLongestRun.count());
+    if (end->exitCode != 0)
+        return base::fail("exit code {}: {}", end->exitCode, lastLine(options.errorOutput));
+    json result = json::parse(end->output, nullptr, false);
+    if (!result.is_object()) return base::fail("printed no JSON object");
+    result["run"] = {
+        {"seconds", end->seconds}, {"processor_seconds", end->processorSeconds}, {"load_average", load}};
+    return result;
+}
+
+}  // namespace terrane::app

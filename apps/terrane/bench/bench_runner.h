@@ -1,0 +1,33 @@
+// Makes the measurements that tables need, each in a process of its own.
+#pragma once
+
+#include <set>
+
+#include "apps/terrane/bench/bench_plan.h"
+#include "apps/terrane/bench/result_file.h"
+
+namespace terrane::app {
+
+class BenchRunner {
+  public:
+    // `program`: this program's file. `folder`: absolute; what runs need (saves, pictures) goes into its
+    // folder "work". The results outlive the runner.
+    BenchRunner(std::filesystem::path program, const std::filesystem::path& folder, int runs,
+                ResultFile& results);
+
+    // The runs that are missing. What goes wrong in a cell is kept with the results; an error where no run
+    // can be made at all.
+    [[nodiscard]] base::Result<void> measure(const Cell& cell);
+
+  private:
+    // What it printed as JSON, or why there is nothing.
+    base::Result<nlohmann::json> runOnce(const Arguments& arguments) const;
+    base::Result<void> prepare(const Cell& cell);
+
+    std::filesystem::path program_, work_;
+    int runs_;
+    ResultFile& results_;
+    std::set<std::string> prepared_;
+};
+
+}  // namespace terrane::app

@@ -1,0 +1,214 @@
+// terrane bench: all measurements of docs/performance.md in one run.
+#include <unistd.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "apps/terrane/bench/bench_report.h"
+#include "apps/terrane/bench/bench_runner.h"
+#include "apps/terrane/bench/child_process.h"
+#include "apps/terrane/bench/machine.h"
+#include "apps/terrane/bench/plot.h"
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/options.h"
+#include "apps/terrane/progress_bar.h"
+#include "terrane/base/digest.h"
+#include "terrane/base/files.h"
+#include "terrane/base/log.h"
+
+namespace terrane::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct BenchOptions {
+    std::string output;
+    std::vector<std::string> only;
+    bool isQuick = false, resumes = false, copiesMemory = false;
+    std::optional<std::string> size;
+    std::optional<int> viewDistance, frames, runs;
+    bool anyFailed = false;  // of the last run
+};
+
+std::string tableNames() {
+    std::string names;
+    for (const Table& table : planTables({})) names += (names.empty() ? "" : ", ") + table.name;
+    return names;
+}
+
+// What the program says of itself and the graphics driver, from a process of its own.
+base::Result<json> programInfo(const fs::path& program, const fs::path& folder) {
+    const fs::path errors = folder / "info.txt";
+    auto end = runChild({program.string(), "info", "--json"}, {folder, errors});
+    if (!end) return tl::unexpected(end.error());
+    std::error_code ignored;
+    fs::remove(errors, ignored);
+    json info = json::parse(end->output, nullptr, false);
+    if (end->exitCode != 0 || !info.is_object()) return base::fail("terrane info --json does not work");
+    if (info["graphics"].contains("error"))
+        return base::fail("{}", info["graphics"]["error"].get<std::string>());
+    return info;
+}
+
+BenchSettings settingsOf(const BenchOptions& options, const json& graphics) {
+    BenchSettings settings = options.isQuick ? quickSettings() : BenchSettings();
+    settings.isSoftware = graphics["software"];
+    settings.maxSamples = graphics["max_samples"];
+    // A graphics card draws hundreds a second.
+    if (!settings.isSoftware) settings.frames *= 20;
+    settings.size = options.size.value_or(settings.size);
+    if (options.viewDistance) settings.viewDistance = settings.farthest = *options.viewDistance;
+    settings.frames = options.frames.value_or(settings.frames);
+    settings.runs = options.runs.value_or(settings.runs);
+    return settings;
+}
+
+// All that results depend on: what a second run must have to go on with them, and the head of the report.
+base::Result<json> aboutRun(const BenchSettings& settings, const json& info, const fs::path& program) {
+    const auto bytes = base::readFile(program);
+    if (!bytes) return tl::unexpected(bytes.error());
+    base::Digest digest;
+    digest.update(*bytes);
+    json about = machineJson();
+    about["program"] = "terrane " + info["version"].get<std::string>();
+    about["digest_of_the_program"] = digest.hex();
+    about["instruction_sets"] = info["simd"];
+    about["renderer"] = info["graphics"]["renderer"];
+    about["OpenGL"] = info["graphics"]["version"];
+    about["view_distance"] = settings.viewDistance;
+    about["picture"] = settings.size;
+    about["frames_of_a_run"] = settings.frames;
+    about["runs_of_each_measurement"] = settings.runs;
+    about["quick"] = settings.isQuick;
+    return about;
+}
+
+// All where none are named.
+std::vector<Table> chosenTables(const BenchSettings& settings, const std::vector<std::string>& only) {
+    std::vector<Table> tables = planTables(settings);
+    if (!only.empty())
+        std::erase_if(tables, [&](const Table& table) { return std::ranges::count(only, table.name) == 0; });
+    return tables;
+}
+
+// Of all tables, each once.
+std::vector<Cell> cellsOf(const std::vector<Table>& tables) {
+    std::vector<Cell> cells;
+    std::set<std::string> known;
+    for (const Table& table : tables)
+        for (Cell& cell : cellsOf(table))
+            if (known.insert(keyOf(cell)).second) cells.push_back(std::move(cell));
+    return cells;
+}
+
+base::Result<void> measureAll(const std::vector<Cell>& cells, BenchRunner& runner, ResultFile& results) {
+    ProgressBar bar("measuring", cells.size());
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        if (auto done = runner.measure(cells[k]); !done) return done;
+        const std::string_view failure = results.measured().failureOf(cells[k]);
+        if (!failure.empty()) base::logWarning("{}: {}", keyOf(cells[k]), failure);
+        bar.set(k + 1);
+    }
+    return {};
+}
+
+base::Result<fs::path> outputFolder(const std::string& output) {
+    std::error_code error;
+    fs::create_directories(output, error);
+    const fs::path folder = error ? fs::path() : fs::canonical(output, error);
+    if (error) return base::fail("{}: cannot be made: {}", output, error.message());
+    return folder;
+}
+
+base::Result<void> bench(BenchOptions& options) {
+    const double loadAtStart = loadAverage();
+    // By the number of this process: whatever becomes of the file meanwhile, all runs are of the same
+    // program.
+    const fs::path program = fmt::format("/proc/{}/exe", ::getpid());
+    auto folder = outputFolder(options.output);
+    if (!folder) return tl::unexpected(folder.error());
+    auto info = programInfo(program, *folder);
+    if (!info) return tl::unexpected(info.error());
+    const BenchSettings settings = settingsOf(options, (*info)["graphics"]);
+    const std::vector<Table> tables = chosenTables(settings, options.only);
+    auto about = aboutRun(settings, *info, program);
+    if (!about) return tl::unexpected(about.error());
+
+    const fs::path path = *folder / "results.jsonl";
+    auto results = options.resumes && fs::exists(path) ? ResultFile::resume(path, *about)
+                                                       : ResultFile::create(path, *about);
+    if (!results) return tl::unexpected(results.error());
+    const std::vector<Cell> cells = cellsOf(tables);
+    base::logInfo("{} tables, {} measurements of {} runs each", tables.size(), cells.size(), settings.runs);
+    BenchRunner runner(program, *folder, settings.runs, *results);
+    if (auto done = measureAll(cells, runner, *results); !done) return done;
+    std::error_code ignored;
+    fs::remove_all(*folder / "work", ignored);
+
+    const ReportInput input{*about, loadAtStart, loadAverage(), settings.isQuick, hasGnuplot()};
+    if (!input.drawsPlots) base::logWarning("gnuplot is missing: no plots");
+    if (auto written = writeReport(*folder, tables, results->measured(), input); !written) return written;
+    options.anyFailed = !results->measured().failures.empty();
+    base::logInfo("{} tables of {} measurements, {} failed: {}", tables.size(), cells.size(),
+                  results->measured().failures.size(), (*folder / "report.md").string());
+    return {};
+}
+
+base::Result<void> runBench(BenchOptions& options) {
+    if (options.copiesMemory) {
+        std::cout << json{{"bytes_per_second", memoryCopySpeed()}}.dump() << '\n';
+        return {};
+    }
+    if (options.output.empty()) return base::fail("bench needs --output: the folder for its results");
+    return bench(options);
+}
+
+void addSettings(CLI::App& command, BenchOptions& options) {
+    command
+        .add_option_function<std::string>(
+            "--size",
+            [&options](const std::string& text) {
+                const glm::ivec2 size = parseSize(text);
+                options.size = fmt::format("{}x{}", size.x, size.y);
+            },
+            "Picture size in pixels (default: 1920x1080, quick 320x180)")
+        ->type_name("WxH");
+    command.add_option("--view-distance", options.viewDistance, "In chunks (default: 32, quick 8)")
+        ->check(numberFrom(1, 64));
+    command
+        .add_option("--frames", options.frames,
+                    "Frames of a run (default: 9, quick 3; × 20 on a graphics card)")
+        ->check(numberFrom(1, 100000));
+    command.add_option("--runs", options.runs, "Runs of each measurement (default: 3, quick 1)")
+        ->check(numberFrom(1, 1000));
+}
+
+}  // namespace
+
+CommandEntry addBench(CLI::App& app) {
+    auto options = std::make_shared<BenchOptions>();
+    CLI::App* command =
+        app.add_subcommand("bench", "Measure: the tables of docs/performance.md as Markdown, CSV and SVG");
+    command->add_option("-o,--output", options->output, "The folder for results, made where it is not there")
+        ->type_name("FOLDER");
+    const auto isTable = [](const std::string& text) -> std::string {
+        for (const Table& table : planTables({}))
+            if (table.name == text) return {};
+        return fmt::format("expected some of {}, got \"{}\"", tableNames(), text);
+    };
+    command->add_option("--only,TABLE", options->only, "Only these tables: " + tableNames())
+        ->delimiter(',')
+        ->check(CLI::Validator(isTable, ""))
+        ->type_name("TABLE");
+    command->add_flag("--quick", options->isQuick,
+                      "Less of everything: some minutes without a graphics card");
+    command->add_flag("--resume", options->resumes, "Go on with the results that are in the folder");
+    addSettings(*command, *options);
+    command->add_flag("--memory-copy", options->copiesMemory, "")->group("");
+    return {command, [options] { return runBench(*options); },
+            [options] { return options->anyFailed ? 1 : 0; }};
+}
+
+}  // namespace terrane::app

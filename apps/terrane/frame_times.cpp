@@ -1,0 +1,38 @@
+#include "apps/terrane/frame_times.h"
+
+#include <chrono>
+
+#include "apps/terrane/median.h"
+#include "apps/terrane/process_figures.h"
+
+namespace terrane::app {
+
+FrameTimes measureFrames(render::Renderer& renderer, const render::FrameInput& input, int count) {
+    using Clock = std::chrono::steady_clock;
+    FrameTimes times;
+    const double processorBefore = processorSeconds();
+    for (int k = 0; k < count; ++k) {
+        const auto start = Clock::now();
+        renderer.draw(input);
+        glFinish();
+        times.milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+        // They are of the frame before, which the GPU has finished: at first of one that is not counted.
+        if (k == 0 && count > 1) continue;
+        for (const gpu::GpuTiming& pass : renderer.passTimes())
+            times.passes[pass.name].push_back(pass.milliseconds);
+    }
+    if (count > 0) times.processorMilliseconds = 1000 * (processorSeconds() - processorBefore) / count;
+    return times;
+}
+
+double medianOf(const FrameTimes& times) {
+    return medianOf(times.milliseconds);
+}
+
+nlohmann::json passMedians(const FrameTimes& times) {
+    nlohmann::json medians = nlohmann::json::object();
+    for (const auto& [name, milliseconds] : times.passes) medians[name] = medianOf(milliseconds);
+    return medians;
+}
+
+}  // namespace terrane::app

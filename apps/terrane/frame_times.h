@@ -1,0 +1,25 @@
+// How long frames take that show the same picture again and again.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "terrane/render/renderer.h"
+
+namespace terrane::app {
+
+struct FrameTimes {
+    std::vector<double> milliseconds;                   // of each frame, until the GPU has drawn it
+    double processorMilliseconds = 0;                   // a frame, of all threads, as a mean
+    std::map<std::string, std::vector<double>> passes;  // GPU milliseconds of frames, by name
+};
+
+// Draws `count` frames, on the thread of the context.
+FrameTimes measureFrames(render::Renderer& renderer, const render::FrameInput& input, int count);
+
+double medianOf(const FrameTimes& times);             // milliseconds; there are frames
+nlohmann::json passMedians(const FrameTimes& times);  // milliseconds by name
+
+}  // namespace terrane::app

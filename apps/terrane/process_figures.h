@@ -1,0 +1,12 @@
+// What this process takes of the machine. Any thread.
+#pragma once
+
+#include <cstddef>
+
+namespace terrane::app {
+
+std::size_t residentBytes();      // 0 where the system does not tell
+std::size_t peakResidentBytes();  // so far
+double processorSeconds();        // of all threads, so far
+
+}  // namespace terrane::app
