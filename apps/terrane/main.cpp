@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", TERRANE_VERSION);
     app.require_subcommand(0, 1);
     const std::vector<app::CommandEntry> commands = {
-        app::addPlay(app), app::addRender(app), app::addGenerate(app), app::addMap(app),
+        app::addPlay(app), app::addRender(app), app::addFly(app), app::addGenerate(app), app::addMap(app),
         app::addDump(app), app::addCheck(app),  app::addBlocks(app),   app::addInfo(app)};
     std::string trace;
     for (const app::CommandEntry& command : commands) app::addTraceOption(*command.parser, trace);

@@ -50,6 +50,7 @@ CASES = [
     ((*GENERATE, "--threads", "-1"), '"-1"'),
     ((*GENERATE, "--threads", "9999"), '"9999"'),
     # Pictures
+    ((*RENDER, "--resource-pack", "{folder}/none"), "none"),
     ((*RENDER, "--size", "0x0"), '"0x0"'),
     ((*RENDER, "--size", "abc"), '"abc"'),
     ((*RENDER, "--size", "99999x1"), '"99999x1"'),

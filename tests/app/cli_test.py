@@ -7,7 +7,7 @@ import struct
 import support
 from support import Npy, Picture, ProgramTest, run
 
-COMMANDS = ("play", "render", "generate", "map", "dump", "check", "blocks", "info")
+COMMANDS = ("play", "render", "fly", "generate", "map", "dump", "check", "blocks", "info")
 FLAT = ("--generator", "flat")
 
 # Name: opacity to light, emission. Of all blocks that the game starts with.
@@ -124,6 +124,31 @@ class Render(ProgramTest):
         red, green, blue = down.rows[18][32]
         self.assertTrue(green > red and green > blue, "grass below")
         self.assertLess(night.rows[18][32][1], green, "darker at night")
+
+    def test_a_resource_pack_changes_the_faces_it_has(self):
+        # Down on the flat world: nothing but the tops of grass is seen.
+        view = (*FLAT, "--at", "8.5,8.5,100", "--look", "0,-90", "--time", "0.5", "--atmosphere", "off")
+        before, _ = self.render("before.png", *view)
+        pack = self.folder / "pack"
+        pack.mkdir()
+        other = self.folder / "other"
+        other.mkdir()
+        support.write_png(pack / "grass_top.png", 32, 32, (255, 0, 0, 255))
+        support.write_png(other / "stone.png", 1, 1, (255, 0, 0, 255))
+        red, _ = self.render("red.png", *view, "--resource-pack", pack)
+        self.assertTrue(all(r > 2 * g and r > 2 * b for row in red.rows for r, g, b in row))
+        same, _ = self.render("same.png", *view, "--resource-pack", other)
+        self.assertEqual(same.rows, before.rows)
+        map_file = self.folder / "map.png"
+        self.succeed("map", *FLAT, "--radius", "0", "--resource-pack", pack, "-o", map_file)
+        self.assertTrue(all(r > 2 * g for r, g, _ in Picture(map_file).colors()))
+
+    def test_a_wrong_resource_pack_is_refused(self):
+        support.write_png(self.folder / "stone.png", 16, 24, (255, 0, 0, 255))
+        done = run("render", "--scene", "ocean", *self.SMALL, "--resource-pack", self.folder, "-o", self.folder / "a.png")
+        self.assertRefused(done, "16 × 24")
+        self.assertIn("stone.png: 16 × 24 pixels", done.stderr)
+        self.assertFalse((self.folder / "a.png").exists())
 
     def test_more_samples(self):
         path = self.folder / "a.png"

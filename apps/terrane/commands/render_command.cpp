@@ -9,8 +9,9 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
+#include "apps/terrane/resource_pack.h"
 #include "apps/terrane/scenes.h"
-#include "apps/terrane/world_session.h"
+#include "apps/terrane/world_view.h"
 #include "terrane/base/image.h"
 #include "terrane/base/log.h"
 #include "terrane/gpu/context.h"
@@ -68,9 +69,10 @@ base::Result<Scene> chosenScene(const PictureOptions& options) {
 void loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera,
              int viewDistance) {
     session.pipeline->setView(render::cameraChunk(camera), viewDistance);
+    WorldView view(session, renderer);
     for (;;) {
         session.pipeline->update();
-        uploadChanges(*session.pipeline, renderer, std::numeric_limits<std::size_t>::max());
+        view.upload(std::numeric_limits<double>::infinity());
         if (session.pipeline->progress().complete()) return;
         session.pipeline->waitForWorkers(std::chrono::milliseconds(100));
     }
@@ -107,11 +109,13 @@ base::Result<void> renderPicture(const PictureOptions& options, const CLI::App& 
     if (!scene) return tl::unexpected(scene.error());
     auto session = WorldSession::create(options.world, options.save, command);
     if (!session) return tl::unexpected(session.error());
+    auto textures = loadTextures(options.graphics.resourcePack, (*session)->blocks);
+    if (!textures) return tl::unexpected(textures.error());
     auto context = gpu::HeadlessContext::create({.debug = options.graphics.debugGl});
     if (!context) return tl::unexpected(context.error());
     const gpu::ShaderLoader shaders = makeShaderLoader(options.graphics.shaderRoot);
     const gpu::DeviceInfo device = gpu::queryDevice();
-    auto renderer = render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), device);
+    auto renderer = render::Renderer::create(shaders, (*session)->blocks, *textures, device);
     if (!renderer) return tl::unexpected(renderer.error());
     const auto graphics = renderOptions(options.graphics.choices, device.software);
     if (auto configured = renderer->configure(options.graphics.size, graphics); !configured)

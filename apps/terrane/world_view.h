@@ -1,0 +1,32 @@
+// What a frame does so that the world around its camera is on screen: asks for chunks, takes in what workers did,
+// hands it to the renderer within a budget of time. Used on the thread of the OpenGL context.
+#pragma once
+
+#include "apps/terrane/world_session.h"
+#include "terrane/render/renderer.h"
+
+namespace terrane::app {
+
+// A frame's time for what workers finished: a quarter of a frame at 60 Hz, and more than they deliver.
+constexpr double kUploadSeconds = 0.004;
+
+class WorldView {
+  public:
+    // Both outlive this.
+    WorldView(WorldSession& session, render::Renderer& renderer) : session_(session), renderer_(renderer) {}
+
+    // Chunks up to `viewDistance` around the camera come, those in front of it first. Takes in what is there.
+    void follow(const render::Camera& camera, int viewDistance);
+    // Hands changed chunks to the renderer, at least one, until so much time is over; the rest waits for the next
+    // frames. The first time that one finds no room there is a warning. How many it handed on.
+    std::size_t upload(double budgetSeconds);
+
+  private:
+    void show(const stream::ChunkChange& change);
+
+    WorldSession& session_;
+    render::Renderer& renderer_;
+    bool hasWarned_ = false;
+};
+
+}  // namespace terrane::app
