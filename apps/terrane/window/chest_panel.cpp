@@ -15,10 +15,11 @@ void drawStack(ImVec2 min, ImVec2 max, const world::ItemStack& stack, unsigned p
     const ImU32 ground = ImGui::IsItemHovered() ? IM_COL32(90, 100, 120, 200) : IM_COL32(50, 54, 62, 200);
     draw.AddRectFilled(min, max, ground, 3 * uiScale());
     if (stack.count == 0) return;
+    const float edge = 3 * uiScale();
     if (picture != 0) {
         // Rows of a texture run from below.
-        draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture)), min, max, {0, 1},
-                      {1, 0});
+        draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture)),
+                      {min.x + edge, min.y + edge}, {max.x - edge, max.y - edge}, {0, 1}, {1, 0});
     }
     const std::string count = std::to_string(stack.count);
     const ImVec2 size = ImGui::CalcTextSize(count.c_str());
@@ -50,8 +51,7 @@ std::optional<SlotClick> drawChest(const Screen& screen, const world::Inventory&
             click = {slot, takes, ImGui::GetIO().KeyShift};
         ImGui::PopID();
     }
-    ImGui::TextUnformatted(
-        "left: put what is in the hand    right: take    Shift: a whole stack    Esc: close");
+    ImGui::TextUnformatted("left: put in   right: take out   Shift: a stack   Esc: close");
     ImGui::End();
     return click;
 }

@@ -28,6 +28,7 @@ std::filesystem::path freeScreenshot() {
 
 void Game::handleEvents() {
     using Type = gpu::InputEvent::Type;
+    const bool wasCaptured = isCaptured_;  // what moved before the cursor was taken turns nobody
     for (const gpu::InputEvent& event : parts_.window.events()) {
         switch (event.type) {
             case Type::KeyPress:
@@ -43,7 +44,7 @@ void Game::handleEvents() {
                 if (isCaptured_) hand_.choose(event.y > 0 ? -1 : 1);
                 break;
             case Type::CursorMove:
-                if (!isCaptured_) break;
+                if (!wasCaptured || !isCaptured_) break;
                 player_.turn(event.x * double{settings_.mouseSensitivity},
                              event.y * double{settings_.mouseSensitivity});
         }
