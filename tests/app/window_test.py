@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import unittest
 
 import support
 from support import HANG_SECONDS, Npy, Picture, ProgramTest
@@ -354,6 +355,23 @@ class Window(ProgramTest):
                 game.hold(key)
             self.close(game)
             self.assertEqual(self.lines_of_settings(), ["field-of-view = '40'", "movement = 'fast'"])
+
+    @unittest.skipUnless(shutil.which("xrdb"), "xrdb is not installed (Debian: x11-xserver-utils)")
+    def test_on_a_screen_of_twice_the_scale_all_is_twice_as_large(self):
+        twice = (2 * SIZE[0], 2 * SIZE[1])
+        with Display() as display:
+            subprocess.run(["xrdb", "-merge"], input="Xft.dpi: 192\n", text=True, check=True, timeout=HANG_SECONDS,
+                           env=support.environment(display.name))
+            game = Game(display, self.folder, ("--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "6", "--samples", "1", *FLAT))
+            self.addCleanup(game.log.close)
+            self.addCleanup(game.process.kill)
+            game.open()
+            game.wait_for_picture(twice)
+            pause = game.pause_after("F2")
+            # The slider of the view distance lies twice as far from the panel's corner as on other screens.
+            game.click(1, 120, 186, pause)
+            self.close(game)
+        self.assertRegex(self.lines_of_settings()[0], r"\Aview-distance = '1[0-9]'\Z")
 
     def test_wrong_settings_are_named(self):
         settings = self.folder / "settings.toml"

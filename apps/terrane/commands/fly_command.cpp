@@ -34,7 +34,7 @@ struct FlyOptions {
 // programs use the machine as well, any part of a frame may have to wait for them.
 struct Frame {
     double seconds = 0;  // since the start
-    double all = 0, follow = 0, upload = 0, draw = 0, loadingProcessor = 0;
+    double all = 0, follow = 0, upload = 0, draw = 0, followProcessor = 0, uploadProcessor = 0;
     std::size_t uploads = 0, visible = 0, wanted = 0, queued = 0;
 };
 
@@ -65,12 +65,13 @@ Frame flyFrame(Flight& flight, double sinceStart, double seconds) {
     flight.player.move(flight.session.world, flight.session.blocks, {.forward = true}, seconds);
     flight.view.follow(flight.player.camera(), flight.viewDistance);
     frame.follow = millisecondsSince(start);
+    frame.followProcessor = processorMilliseconds() - processorStart;
 
     const auto uploadStart = Clock::now();
-    frame.uploads = flight.view.upload(kUploadSeconds);
+    frame.uploads = flight.view.upload(uploadBudget(seconds));
     glFinish();
     frame.upload = millisecondsSince(uploadStart);
-    frame.loadingProcessor = processorMilliseconds() - processorStart;
+    frame.uploadProcessor = processorMilliseconds() - processorStart - frame.followProcessor;
 
     const auto drawStart = Clock::now();
     render::FrameInput input;
@@ -116,11 +117,13 @@ std::vector<Frame> fly(Flight& flight, double seconds) {
 
 base::Result<void> writeFrames(const std::string& file, const std::vector<Frame>& frames) {
     std::ofstream out(file);
-    out << "time_s,frame_ms,follow_ms,upload_ms,draw_ms,loading_processor_ms,uploads,visible_chunks,wanted_"
+    out << "time_s,frame_ms,follow_ms,upload_ms,draw_ms,follow_processor_ms,upload_processor_ms,uploads,"
+           "visible_chunks,wanted_"
            "chunks,queued_chunks\n";
     for (const Frame& f : frames) {
-        fmt::print(out, "{:.4f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{}\n", f.seconds, f.all, f.follow,
-                   f.upload, f.draw, f.loadingProcessor, f.uploads, f.visible, f.wanted, f.queued);
+        fmt::print(out, "{:.4f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{}\n", f.seconds, f.all,
+                   f.follow, f.upload, f.draw, f.followProcessor, f.uploadProcessor, f.uploads, f.visible,
+                   f.wanted, f.queued);
     }
     out.close();
     return out ? base::Result<void>() : base::fail("{}: cannot be written", file);
@@ -138,7 +141,7 @@ void report(const std::vector<Frame>& frames, const Player& player) {
     for (const Frame& f : frames) {
         all.push_back(f.all);
         longest = std::max(longest, f.all);
-        loading = std::max(loading, f.loadingProcessor);
+        loading = std::max(loading, f.followProcessor + f.uploadProcessor);
     }
     const double middle = median(all);
     // Long frames, and those of them that would not be without the time that loading took or waited.
@@ -147,7 +150,7 @@ void report(const std::vector<Frame>& frames, const Player& player) {
         if (f.all <= 2 * middle) continue;
         ++slow;
         if (f.all - f.follow - f.upload <= 2 * middle) ++byWaiting;
-        if (f.all - f.loadingProcessor <= 2 * middle) ++byLoading;
+        if (f.all - f.followProcessor - f.uploadProcessor <= 2 * middle) ++byLoading;
     }
     const glm::dvec3& p = player.camera().position;
     base::logInfo(

@@ -58,7 +58,7 @@ base::Result<void> Game::run() {
         meter_.add(seconds);
         advance(seconds);
         applySettings();
-        if (auto drawn = drawFrame(); !drawn) return drawn;
+        if (auto drawn = drawFrame(seconds); !drawn) return drawn;
         if (perfLog_) perfLog_->add(seconds_, seconds, figures());
     }
     const glm::dvec3& p = player_.camera().position;
@@ -106,14 +106,14 @@ base::Result<void> Game::useResourcePack(const std::string& folder) {
     return parts_.preview.setTextures(*textures);
 }
 
-base::Result<void> Game::drawFrame() {
+base::Result<void> Game::drawFrame(double seconds) {
     const glm::ivec2 size = parts_.window.framebufferSize();
     if (size.x == 0 || size.y == 0) return {};  // minimised
     render::Renderer& renderer = parts_.renderer;
     if (size != renderer.size() || settings_.graphics != renderer.options()) {
         if (auto configured = renderer.configure(size, settings_.graphics); !configured) return configured;
     }
-    view_.upload(kUploadSeconds);
+    view_.upload(uploadBudget(seconds));
     renderer.draw(frameInput());
     renderer.presentToWindow(size);
     drawInterface();

@@ -67,7 +67,7 @@ class Game {
     void advance(double seconds);
     void applySettings();
     base::Result<void> useResourcePack(const std::string& folder);
-    base::Result<void> drawFrame();
+    base::Result<void> drawFrame(double seconds);
     render::FrameInput frameInput() const;
     void drawInterface();
     void drawOpenChest(const Screen& screen);
