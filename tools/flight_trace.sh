@@ -34,6 +34,7 @@ set xlabel "s"
 set ylabel "ms"
 set key top left
 set yrange [0:*]
+set xrange [0:20]
 do for [name in "generating_16 from_disk_16 generating_32 from_disk_32"] {
     stats name.".csv" using 2 every ::1 name "F" nooutput
     set title (name[1:4] eq "from" ? "from a save" : "generating").", view distance ".name[strlen(name)-1:strlen(name)]

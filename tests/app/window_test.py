@@ -356,6 +356,26 @@ class Window(ProgramTest):
             self.close(game)
             self.assertEqual(self.lines_of_settings(), ["field-of-view = '40'", "movement = 'fast'"])
 
+    def test_a_resource_pack_is_loaded_while_one_plays(self):
+        size, pack = (480, 720), self.folder / "pk"
+        pack.mkdir()
+        support.write_png(pack / "grass_top.png", 16, 16, (255, 0, 0, 255))
+        with Display(size) as display:
+            game = self.play(display, *FLAT, size=size)
+            pause = game.pause_after("F2")
+            for name in ("no", "pk"):  # the first is not there: a message says so, and all stays
+                game.click(1, 258, 561, pause)  # the field of the folder
+                for key in ("BackSpace", "BackSpace", *name, "Return"):
+                    game.hold(key, pause / 2)
+                time.sleep(2 * pause)
+            # Blue, green, red: the ground at the window's lower left, beside what is in the hand.
+            row = display.screenshot(game.window)
+            at = (size[1] - 4) * row.stride + 150 * row.step
+            blue, green, red = row.pixels[at:at + 3]
+            self.assertGreater(red, 2 * max(blue, green))
+            self.close(game)
+        self.assertEqual(self.lines_of_settings(), ["resource-pack = 'pk'"])
+
     @unittest.skipUnless(shutil.which("xrdb"), "xrdb is not installed (Debian: x11-xserver-utils)")
     def test_on_a_screen_of_twice_the_scale_all_is_twice_as_large(self):
         twice = (2 * SIZE[0], 2 * SIZE[1])
