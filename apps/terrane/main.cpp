@@ -54,8 +54,8 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", TERRANE_VERSION);
     app.require_subcommand(0, 1);
     const std::vector<app::CommandEntry> commands = {
-        app::addPlay(app), app::addRender(app), app::addFly(app), app::addGenerate(app), app::addMap(app),
-        app::addDump(app), app::addCheck(app),  app::addBlocks(app),   app::addInfo(app)};
+        app::addPlay(app), app::addRender(app), app::addFly(app),    app::addGenerate(app), app::addMap(app),
+        app::addDump(app), app::addCheck(app),  app::addBlocks(app), app::addInfo(app)};
     std::string trace;
     for (const app::CommandEntry& command : commands) app::addTraceOption(*command.parser, trace);
     std::vector<const char*> arguments(argv, argv + argc);

@@ -96,7 +96,8 @@ void Texture2D::generateMipmaps() {
 
 void Texture2D::copyFrom(const Texture2D& other) {
     assert(other.size_ == size_ && other.format_ == format_ && "copies are of one kind");
-    glCopyImageSubData(other.id(), GL_TEXTURE_2D, 0, 0, 0, 0, id(), GL_TEXTURE_2D, 0, 0, 0, 0, size_.x, size_.y, 1);
+    glCopyImageSubData(other.id(), GL_TEXTURE_2D, 0, 0, 0, 0, id(), GL_TEXTURE_2D, 0, 0, 0, 0, size_.x,
+                       size_.y, 1);
 }
 
 void Texture2D::bind(GLuint unit) const {

@@ -45,8 +45,8 @@ class Window {
     void requestClose();
 
     [[nodiscard]] glm::ivec2 framebufferSize() const;  // pixels; 0 while minimised
-    [[nodiscard]] float contentScale() const;   // how much larger than usual things are to be drawn
-    [[nodiscard]] float pixelsPerUnit() const;  // pixels of the framebuffer along a screen unit
+    [[nodiscard]] float contentScale() const;          // how much larger than usual things are to be drawn
+    [[nodiscard]] float pixelsPerUnit() const;         // pixels of the framebuffer along a screen unit
     // The whole of the first monitor, or a window as it was before.
     void setFullScreen(bool isFullScreen);
     // `pixels`: width × height × 4 bytes, red first, rows from above. Ignored where windows have no icons.

@@ -49,6 +49,8 @@ CASES = [
     ((*GENERATE, "--threads", "0"), '"0"'),
     ((*GENERATE, "--threads", "-1"), '"-1"'),
     ((*GENERATE, "--threads", "9999"), '"9999"'),
+    (("fly", "--at", "3e9,0,80", "-o", "{out}"), "outside the world"),
+    (("fly", "--for", "0", "-o", "{out}"), '"0"'),
     # Pictures
     ((*RENDER, "--resource-pack", "{folder}/none"), "none"),
     ((*RENDER, "--size", "0x0"), '"0x0"'),

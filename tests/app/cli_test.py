@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Every command of the program, end to end. Usage: cli_test.py PROGRAM"""
 import json
+import re
 import sqlite3
 import struct
 
@@ -38,6 +39,24 @@ class Help(ProgramTest):
 
     def test_version(self):
         self.assertRegex(self.succeed("--version"), r"\A\d+\.\d+\.\d+\n\Z")
+
+
+class Fly(ProgramTest):
+    def test_every_frame_has_a_line(self):
+        table = self.folder / "flight.csv"
+        done = run("fly", *FLAT, "--size", "64x36", "--view-distance", "2", "--samples", "1", "--for", "1", "--look", "0,0",
+                   "--debug-gl", "-o", table)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = [line.split(",") for line in table.read_text().splitlines()]
+        self.assertEqual(rows[0][:5], ["time_s", "frame_ms", "follow_ms", "upload_ms", "draw_ms"])
+        self.assertGreater(len(rows), 3)
+        self.assertTrue(all(len(row) == len(rows[0]) for row in rows))
+        for row in rows[1:]:
+            whole, parts = float(row[1]), sum(map(float, row[2:5]))
+            self.assertAlmostEqual(whole, parts, delta=0.5 + 0.5 * whole)
+        frames, x = re.search(r"(\d+) frames to (-?\d+),8,120", done.stderr).groups()
+        self.assertEqual(int(frames), len(rows) - 1)
+        self.assertGreater(int(x), 20)  # 60 blocks a second, but long frames move no farther than a quarter of one
 
 
 class Render(ProgramTest):

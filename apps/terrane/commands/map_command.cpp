@@ -39,8 +39,7 @@ base::Result<void> writeMap(const MapOptions& options) {
     base::Result<base::Image> image;
     {
         ProgressBar bar("mapping", static_cast<std::size_t>(area.y1 - area.y0));
-        image = drawMap(*generator, *blocks, *textures, area, jobs,
-                        [&](std::size_t rows) { bar.set(rows); });
+        image = drawMap(*generator, *blocks, *textures, area, jobs, [&](std::size_t rows) { bar.set(rows); });
     }
     if (!image) return tl::unexpected(image.error());
     if (auto written = base::writePng(options.output, *image); !written) return written;

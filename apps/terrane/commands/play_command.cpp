@@ -61,7 +61,8 @@ DayClock dayOf(const PlayOptions& options, const WorldSession& session) {
     if (session.store) {
         const auto saved = session.store->setting(kTimeSetting);
         const auto time = timeDayFrom(saved.value_or(""));
-        if (saved && !time) base::logWarning("the save's time of day is no number from 0 to 1: \"{}\"", *saved);
+        if (saved && !time)
+            base::logWarning("the save's time of day is no number from 0 to 1: \"{}\"", *saved);
         day.timeDay = time.value_or(day.timeDay);
     }
     if (options.time) day.timeDay = *options.time;

@@ -1,5 +1,5 @@
-// Lit pictures of single blocks, for the corner that shows what is in the hand and for slots of chests. Each is
-// drawn once and kept: 83 KB a kind of block. Used on the thread of the OpenGL context.
+// Lit pictures of single blocks, for the corner that shows what is in the hand and for slots of chests. Each
+// is drawn once and kept: 83 KB a kind of block. Used on the thread of the OpenGL context.
 #pragma once
 
 #include <map>

@@ -24,8 +24,8 @@ bool isChest(const world::World& world, const world::BlockRegistry& blocks, worl
 base::Result<world::Inventory> itemsOf(const world::World& world, const world::BlockRegistry& blocks,
                                        world::BlockPos pos);
 
-// The hand has no end of blocks: what is put does not leave it, and what is taken is what it holds next. False
-// where nothing changed. Items that are no blocks of this program stay where they are.
+// The hand has no end of blocks: what is put does not leave it, and what is taken is what it holds next.
+// False where nothing changed. Items that are no blocks of this program stay where they are.
 bool clickSlot(world::Inventory& items, const world::BlockRegistry& blocks, const SlotClick& click,
                world::BlockId& inHand);
 

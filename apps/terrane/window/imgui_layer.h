@@ -17,8 +17,8 @@ class ImguiLayer {
 
     // While the cursor is captured the mouse belongs to the game.
     void beginFrame(bool isCursorCaptured);
-    // Of the window in the units in which Dear ImGui and the cursor count: the pixels of its framebuffer on some
-    // systems, fewer on others. Since beginFrame().
+    // Of the window in the units in which Dear ImGui and the cursor count: the pixels of its framebuffer on
+    // some systems, fewer on others. Since beginFrame().
     glm::vec2 size() const;
     // Draws into the window's framebuffer.
     void endFrame();

@@ -108,7 +108,8 @@ void drawPerson(PlaySettings& s, DayClock& day) {
     if (ImGui::SliderFloat("time of day", &time, 0, 1, "%.3f", kTyped)) day.timeDay = double{time};
     ImGui::Checkbox("time passes", &day.isRunning);
     float minutes = static_cast<float>(s.dayMinutes);
-    if (ImGui::SliderFloat("minutes a day", &minutes, 0.5f, 60, "%.1f", kTyped)) s.dayMinutes = double{minutes};
+    if (ImGui::SliderFloat("minutes a day", &minutes, 0.5f, 60, "%.1f", kTyped))
+        s.dayMinutes = double{minutes};
 }
 
 }  // namespace

@@ -109,8 +109,8 @@ base::Result<void> applySettings(const fs::path& file, CLI::App& command,
     return {};
 }
 
-base::Result<void> writeChanges(const fs::path& file, const SettingValues& before,
-                                const SettingValues& after, const std::vector<std::string>& graphics) {
+base::Result<void> writeChanges(const fs::path& file, const SettingValues& before, const SettingValues& after,
+                                const std::vector<std::string>& graphics) {
     if (file.empty() || before == after) return {};
     auto table = readTable(file);
     if (!table) return tl::unexpected(table.error());
