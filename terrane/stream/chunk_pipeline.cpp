@@ -76,6 +76,7 @@ void ChunkPipeline::setMeshOptions(const mesh::MeshOptions& options) {
 
 void ChunkPipeline::update(Time now) {
     TERRANE_ZONE("pipeline update");
+    sinceUpdate_ = now - now_;
     now_ = now;
     takeResults();
     if (parts_.batches) takeBatches();

@@ -81,6 +81,7 @@ class ChunkPipeline {
     void takeResults();
     void takeBatches();
     void onLoaded(world::ChunkPos pos, world::ChunkPtr chunk, LocalLightPtr local);
+    std::size_t jobLimit() const;
     void submitLoads();
     void submitPrepare(world::ChunkPos pos, world::ChunkPtr chunk);
     void submitFinishes();
@@ -110,7 +111,8 @@ class ChunkPipeline {
     std::deque<world::ChunkPos> absent_;   // to be made by `batches`
     std::vector<light::BlockEdit> edits_;  // since the last update
     std::map<world::ChunkPos, mesh::RegionSet> toMesh_;
-    Time now_{}, nextTidy_{};  // now: of the last update
+    Time now_{}, nextTidy_{};       // now: of the last update
+    Time::duration sinceUpdate_{};  // between the last two updates
 
     // What was not taken yet, and the chunks in the order in which they first changed.
     std::unordered_map<world::ChunkPos, ChunkChange, world::ChunkPosHash> changes_;

@@ -14,10 +14,17 @@ using world::ChunkPtr;
 
 namespace {
 
-// Jobs in flight a worker: enough that none waits for a frame, few enough that the queue follows the camera.
-constexpr std::size_t kJobsPerWorker = 8;
+// Jobs in flight a worker: enough that none waits for the next update, few enough that the queue follows the
+// camera. A job takes about a millisecond (docs/performance.md), so one for each that passes between updates.
+constexpr std::int64_t kLeastJobsPerWorker = 8, kMostJobsPerWorker = 128;
 
 }  // namespace
+
+std::size_t ChunkPipeline::jobLimit() const {
+    const auto passed = std::chrono::duration_cast<std::chrono::milliseconds>(sinceUpdate_).count();
+    const std::int64_t jobs = std::clamp<std::int64_t>(passed, kLeastJobsPerWorker, kMostJobsPerWorker);
+    return static_cast<std::size_t>(jobs) * parts_.jobs.threadCount();
+}
 
 // Work that reports what it throws: as good as always that memory is short. The owner of the pipeline hears
 // of it, saves and ends; nobody waits for a chunk that does not come.
@@ -33,7 +40,7 @@ auto ChunkPipeline::guarded(Work work) const {
 }
 
 void ChunkPipeline::submitLoads() {
-    const std::size_t limit = kJobsPerWorker * parts_.jobs.threadCount();
+    const std::size_t limit = jobLimit();
     const std::size_t room = limit - std::min(limit, table_.loadingCount() - absent_.size());
     for (const ChunkPos pos : table_.takeLoads(room)) {
         extras_[pos].load = parts_.jobs.submit(
@@ -78,7 +85,7 @@ Surroundings ChunkPipeline::surroundings(ChunkPos pos) const {
 }
 
 void ChunkPipeline::submitFinishes() {
-    const std::size_t limit = kJobsPerWorker * parts_.jobs.threadCount();
+    const std::size_t limit = jobLimit();
     const std::size_t room = limit - std::min(limit, table_.finishingCount());
     for (const ChunkPos pos : table_.takeFinishes(room)) {
         // Before loads of equal urgency: what is on screen frees memory.

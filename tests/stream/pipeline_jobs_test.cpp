@@ -14,12 +14,13 @@ class PipelineJobsTest : public PipelineTest {};
 class BusyWorker {
   public:
     explicit BusyWorker(base::JobSystem& jobs) {
-        std::promise<void> started;
-        jobs.submit(-1, [this, &started](const base::CancelToken&) {
-            started.set_value();
-            gate_.get_future().wait();
+        // What the job uses is its own: it may still look at it when this object is gone.
+        const auto started = std::make_shared<std::promise<void>>();
+        jobs.submit(-1, [started, gate = gate_.get_future().share()](const base::CancelToken&) {
+            started->set_value();
+            gate.wait();
         });
-        started.get_future().wait();
+        started->get_future().wait();
     }
     ~BusyWorker() { open(); }
     void open() {
@@ -30,6 +31,20 @@ class BusyWorker {
     std::promise<void> gate_;
     bool isOpen_ = false;
 };
+
+// Where frames are long workers get more at once, so that they are busy until the next one.
+TEST_F(PipelineJobsTest, ALongFrameIsFilledWithWork) {
+    BusyWorker first(jobs_), second(jobs_);
+    setView({0, 0}, 10);
+    update();
+    EXPECT_EQ(pipeline_->queuedCount(), 2u * 8);
+    now_ += std::chrono::milliseconds(100);
+    update();
+    EXPECT_EQ(pipeline_->queuedCount(), 2u * 100);
+    now_ += std::chrono::seconds(10);
+    update();
+    EXPECT_EQ(pipeline_->queuedCount(), 2u * 128);
+}
 
 // The view does not come near, and moves all the time: what others asked for comes all the same.
 TEST_F(PipelineJobsTest, WhatOthersAskForIsNotGivenUp) {
