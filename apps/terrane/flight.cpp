@@ -13,8 +13,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kUploadsPerFrame = 64;  // as the window does it
-
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -23,7 +21,11 @@ double secondsSince(Clock::time_point start) {
 class Pilot {
   public:
     Pilot(WorldSession& session, render::Renderer& renderer, const Flight& flight)
-        : session_(session), renderer_(renderer), flight_(flight), camera_(flight.start) {}
+        : session_(session),
+          renderer_(renderer),
+          view_(session, renderer),
+          flight_(flight),
+          camera_(flight.start) {}
 
     FlightLog run() {
         while (!frame().complete()) {
@@ -47,9 +49,8 @@ class Pilot {
 
   private:
     stream::Progress frame() {
-        session_.pipeline->setView(render::cameraChunk(camera_), flight_.viewDistance);
-        session_.pipeline->update();
-        uploadChanges(*session_.pipeline, renderer_, kUploadsPerFrame);
+        view_.follow(camera_, flight_.viewDistance);
+        view_.upload(uploadBudget(secondsSince(start_) - last_));
         renderer_.draw({camera_, world::environmentAt(flight_.timeDay), fogDistance(flight_.viewDistance),
                         static_cast<float>(last_), render::View::Color, isUnderWater(session_, camera_)});
         glFinish();
@@ -62,6 +63,7 @@ class Pilot {
 
     WorldSession& session_;
     render::Renderer& renderer_;
+    WorldView view_;
     const Flight& flight_;
     render::Camera camera_;
     FlightLog log_;

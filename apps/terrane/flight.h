@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "apps/terrane/world_session.h"
+#include "apps/terrane/world_view.h"
 
 namespace terrane::app {
 

@@ -54,9 +54,10 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", TERRANE_VERSION);
     app.require_subcommand(0, 1);
     const std::vector<app::CommandEntry> commands = {
-        app::addPlay(app), app::addRender(app), app::addRecord(app),     app::addGenerate(app),
-        app::addMap(app),  app::addDump(app),   app::addCheck(app),      app::addBlocks(app),
-        app::addInfo(app), app::addBench(app),  app::addCompletion(app), app::addMan(app)};
+        app::addPlay(app),     app::addRender(app), app::addRecord(app), app::addFly(app),
+        app::addGenerate(app), app::addMap(app),    app::addDump(app),   app::addCheck(app),
+        app::addBlocks(app),   app::addInfo(app),   app::addBench(app),  app::addCompletion(app),
+        app::addMan(app)};
     std::string trace;
     for (const app::CommandEntry& command : commands) app::addTraceOption(*command.parser, trace);
     std::vector<const char*> arguments(argv, argv + argc);

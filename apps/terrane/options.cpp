@@ -166,6 +166,7 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string
                              {"aggregation", render::View::Aggregation}},
                             "What to show");
     addMeshOptions(command, options.mesh);
+    addResourcePackOption(command, options.resourcePack);
     command
         .add_option("--shader-root", options.shaderRoot, "Source tree to read shaders from, for development")
         ->check(CLI::ExistingDirectory);
@@ -177,6 +178,17 @@ void addOutputOption(CLI::App& command, std::string& output, const std::string& 
         ->check(fileInAFolder())
         ->type_name("FILE")
         ->required();
+}
+
+void addResourcePackOption(CLI::App& command, std::string& folder) {
+    const auto check = [](const std::string& text) {
+        return text.empty() ? std::string() : CLI::ExistingDirectory(text);
+    };
+    command
+        .add_option("--resource-pack", folder,
+                    "Folder of PNG files named as textures, used in place of the built-in ones")
+        ->check(CLI::Validator(check, ""))
+        ->type_name("DIR");
 }
 
 void addTraceOption(CLI::App& command, std::string& trace) {

@@ -29,6 +29,7 @@ struct GraphicsOptions {
     GraphicsChoices choices;
     render::View view = render::View::Color;
     mesh::MeshOptions mesh;
+    std::string resourcePack;  // folder; empty: none
     std::string shaderRoot;
     bool debugGl = false;
 };
@@ -51,6 +52,9 @@ void addSaveOption(CLI::App& command, std::string& save, const std::string& desc
 
 // -o: the file to write. Refused before the work starts where it cannot be written later.
 void addOutputOption(CLI::App& command, std::string& output, const std::string& description);
+
+// --resource-pack: a folder; empty: none.
+void addResourcePackOption(CLI::App& command, std::string& folder);
 
 // --trace: the file to write; empty: none.
 void addTraceOption(CLI::App& command, std::string& trace);

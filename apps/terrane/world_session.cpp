@@ -7,7 +7,6 @@
 
 #include "apps/terrane/content.h"
 #include "apps/terrane/save_identity.h"
-#include "terrane/base/log.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/shared/shape_face.h"
 #include "terrane/store/memory_store.h"
@@ -85,40 +84,6 @@ void WorldSession::advance(double seconds, world::ChunkPos centre) {
         for (const world::BlockPos pos : world::plantsThatGrow(world, blocks, {ticks_++, centre})) {
             pipeline->setSmallData(pos, static_cast<std::uint16_t>(world.smallData(pos) - 1));
         }
-    }
-}
-
-std::size_t uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, std::size_t limit) {
-    const std::vector<stream::ChunkChange> changes = pipeline.takeChanges(limit);
-    for (const stream::ChunkChange& change : changes) {
-        if (change.isHidden) {
-            renderer.removeChunk(change.pos);
-            continue;
-        }
-        if (change.mesh && !renderer.setChunk(change.pos, *change.mesh, change.regions)) {
-            base::logWarning(
-                "chunk {},{}: no room for its quads on the graphics card, not all of it is shown",
-                change.pos.x, change.pos.y);
-        }
-        if (change.light) renderer.setLight(change.pos, *change.light, change.bricks);
-    }
-    return changes.size();
-}
-
-double loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera,
-               int viewDistance, stream::ChunkPipeline::Time now) {
-    session.pipeline->setView(render::cameraChunk(camera), viewDistance);
-    double uploads = 0;
-    for (;;) {
-        session.pipeline->update(now);
-        const auto start = std::chrono::steady_clock::now();
-        const std::size_t changed =
-            uploadChanges(*session.pipeline, renderer, std::numeric_limits<std::size_t>::max());
-        uploads +=
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-        // Visible chunks that are meshed anew come a few an update.
-        if (session.pipeline->progress().complete() && changed == 0) return uploads;
-        if (changed == 0) session.pipeline->waitForWorkers(std::chrono::milliseconds(100));
     }
 }
 

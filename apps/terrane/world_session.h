@@ -50,14 +50,6 @@ struct WorldSession {
     std::uint64_t ticks_ = 0;
 };
 
-// Hands at most `limit` changed chunks to the renderer; how many.
-std::size_t uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, std::size_t limit);
-
-// Waits until the renderer has everything that the camera may see, as it is now. `now`: the pipeline's time.
-// Milliseconds that uploading took.
-double loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera,
-             int viewDistance, stream::ChunkPipeline::Time now);
-
 // Whether the camera is in water: below its surface, where that is in the same block.
 bool isUnderWater(const WorldSession& session, const render::Camera& camera);
 

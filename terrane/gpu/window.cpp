@@ -19,6 +19,9 @@ namespace terrane::gpu {
 
 namespace {
 
+// Where a window appears that began as the full screen.
+constexpr int kLeft = 40, kTop = 40;
+
 struct KeyCode {
     Key key;
     int code;
@@ -88,7 +91,7 @@ struct Window::State {
     glm::dvec2 cursor = {0.0, 0.0};
     bool cursorKnown = false;  // false: the next position starts a new motion
     std::unique_ptr<DebugLog> debugLog;
-    glm::ivec4 place{0, 0, 1280, 720};  // and size of the window, for when it leaves the full screen
+    glm::ivec4 place{kLeft, kTop, 1280, 720};  // and size of the window, for when it leaves the full screen
 
     State() = default;
     State(const State&) = delete;
@@ -161,6 +164,7 @@ base::Result<Window> Window::create(const WindowOptions& options) {
     glfwSwapInterval(options.vsync ? 1 : 0);
     glfwSetTime(0.0);
     state.installCallbacks();
+    if (options.fullScreen) state.place = {kLeft, kTop, options.width, options.height};
     return result;
 }
 
@@ -207,6 +211,13 @@ float Window::contentScale() const {
     float scaleY = 1.0F;
     glfwGetWindowContentScale(state_->window, &scaleX, &scaleY);
     return scaleX;
+}
+
+float Window::pixelsPerUnit() const {
+    int width = 0, height = 0;
+    glfwGetWindowSize(state_->window, &width, &height);
+    const glm::ivec2 pixels = framebufferSize();
+    return width > 0 && pixels.x > 0 ? static_cast<float>(pixels.x) / static_cast<float>(width) : 1.0F;
 }
 
 void Window::setFullScreen(bool isFullScreen) {

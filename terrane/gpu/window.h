@@ -18,7 +18,7 @@ namespace terrane::gpu {
 
 struct WindowOptions {
     std::string title = "Terrane";
-    int width = 1280;  // screen units; the framebuffer is contentScale() times as large
+    int width = 1280;  // screen units, larger where contentScale() is
     int height = 720;
     bool fullScreen = false;  // on the first monitor in its present mode; width and height are not used
     bool debug = false;       // as ContextOptions
@@ -45,7 +45,8 @@ class Window {
     void requestClose();
 
     [[nodiscard]] glm::ivec2 framebufferSize() const;  // pixels; 0 while minimised
-    [[nodiscard]] float contentScale() const;
+    [[nodiscard]] float contentScale() const;          // how much larger than usual things are to be drawn
+    [[nodiscard]] float pixelsPerUnit() const;         // pixels of the framebuffer along a screen unit
     // The whole of the first monitor, or a window as it was before.
     void setFullScreen(bool isFullScreen);
     // `pixels`: width × height × 4 bytes, red first, rows from above. Ignored where windows have no icons.

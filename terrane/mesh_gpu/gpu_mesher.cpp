@@ -120,7 +120,7 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
     TERRANE_ZONE("count quads on the GPU");
     assert(!chunks.empty() && chunks.size() <= kMaxChunks && "a batch");
     const mesh::MeshOptions options = chunks.front().options;
-    assert(supports(options.method) && isRegionHeight(options.regionHeight));
+    assert(supports(options.method) && mesh::isRegionHeight(options.regionHeight));
     const gpu::DebugGroup group("count quads");
     Impl& m = *impl_;
     m.upload.clear();

@@ -19,6 +19,8 @@ class QuadResources {
     // `anisotropy`: samples along the long side of a slanted texel footprint; 1 is none.
     QuadResources(const world::BlockRegistry& blocks, gpu::Texture2DArray textures, float anisotropy);
 
+    void setTextures(gpu::Texture2DArray textures) { textures_ = std::move(textures); }
+
     // isSmooth: textures are filtered.
     void bind(const QuadStore& quads, const RegionTable& regions, bool isSmooth);
 

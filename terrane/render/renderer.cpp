@@ -69,6 +69,13 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     return renderer;
 }
 
+base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, const TextureSource& textures) {
+    auto loaded = loadBlockTextures(blocks, textures);
+    if (!loaded) return tl::unexpected(loaded.error());
+    resources_.setTextures(std::move(*loaded));
+    return {};
+}
+
 base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& options) {
     if (options.samples > maxSamples_) {
         return base::fail("{} samples a pixel: the graphics driver has at most {}", options.samples,

@@ -34,6 +34,9 @@ class Renderer {
     static base::Result<Renderer> create(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
                                          const TextureSource& textures, const gpu::DeviceInfo& device);
 
+    // Other textures for the same blocks, from the next frame on. Where one is wrong those before stay.
+    base::Result<void> setTextures(const world::BlockRegistry& blocks, const TextureSource& textures);
+
     // Size of the picture in pixels and how it is drawn. Comes before the first frame and whenever something
     // changes. Fails where the driver cannot; what was before then stays.
     base::Result<void> configure(glm::ivec2 size, const RenderOptions& options);
@@ -57,7 +60,7 @@ class Renderer {
 
     base::Image readImage() const { return gpu::readPixels(targets_.picture); }  // waits for the GPU
     void presentToWindow(glm::ivec2 windowSize) const;
-    GLuint pictureTexture() const { return targets_.pictureColor.id(); }
+    const gpu::Texture2D& pictureTexture() const { return targets_.pictureColor; }
 
     // Of the newest frame that the GPU has finished.
     FrameStatistics statistics() { return statisticsOf(cull_.counts()); }

@@ -16,27 +16,12 @@ using world::ChunkPtr;
 
 namespace {
 
-// Jobs in flight a worker: enough that none waits for a frame, few enough that the queue follows the camera.
-constexpr std::size_t kJobsPerWorker = 8;
 constexpr std::chrono::milliseconds kTidyEvery{250};
 
 constexpr std::array kTaskNames = {"load or generate", "own light", "light", "mesh"};
 static_assert(kTaskNames.size() == kTaskCount);
 
 }  // namespace
-
-// Work that reports what it throws: as good as always that memory is short. The owner of the pipeline hears
-// of it, saves and ends; nobody waits for a chunk that does not come.
-template <class Work>
-auto ChunkPipeline::guarded(Work work) const {
-    return [work = std::move(work), results = results_](const base::CancelToken&) {
-        try {
-            work(*results);
-        } catch (...) {
-            results->fail(std::current_exception());
-        }
-    };
-}
 
 ChunkPipeline::ChunkPipeline(const PipelineParts& parts)
     : parts_(parts), results_(std::make_shared<WorkerResults>()) {
@@ -91,6 +76,7 @@ void ChunkPipeline::setMeshOptions(const mesh::MeshOptions& options) {
 
 void ChunkPipeline::update(Time now) {
     TERRANE_ZONE("pipeline update");
+    sinceUpdate_ = now - now_;
     now_ = now;
     takeResults();
     if (parts_.batches) takeBatches();
@@ -141,70 +127,6 @@ void ChunkPipeline::onLoaded(ChunkPos pos, ChunkPtr chunk, LocalLightPtr local) 
 void ChunkPipeline::waitForWorkers(std::chrono::milliseconds atMost) {
     std::unique_lock lock(results_->mutex);
     results_->changed.wait_for(lock, atMost, [&] { return !results_->isEmpty(); });
-}
-
-void ChunkPipeline::submitLoads() {
-    const std::size_t limit = kJobsPerWorker * parts_.jobs.threadCount();
-    const std::size_t room = limit - std::min(limit, table_.loadingCount() - absent_.size());
-    for (const ChunkPos pos : table_.takeLoads(room)) {
-        extras_[pos].load = parts_.jobs.submit(
-            table_.urgency(pos),
-            guarded([pos, source = parts_.source, lights = &parts_.lights](WorkerResults& results) {
-                ChunkPtr chunk = results.timed(kLoad, [&] { return loadChunk(source, pos); });
-                LocalLightPtr local;
-                if (chunk) local = results.timed(kOwnLight, [&] { return localLight(*chunk, *lights); });
-                results.add(WorkerResults::Load{pos, std::move(chunk), std::move(local)});
-            }));
-    }
-}
-
-void ChunkPipeline::takeBatches() {
-    while (!absent_.empty()) {
-        const std::vector<ChunkPos> wanted(absent_.begin(), absent_.end());
-        const std::size_t taken = parts_.batches->submit(wanted);
-        if (taken == 0) break;
-        absent_.erase(absent_.begin(), absent_.begin() + static_cast<long>(taken));
-    }
-    for (auto& [pos, chunk] : parts_.batches->take()) {
-        submitPrepare(pos, std::make_shared<world::Chunk>(std::move(chunk)));
-    }
-}
-
-// A generated chunk's own light.
-void ChunkPipeline::submitPrepare(ChunkPos pos, ChunkPtr chunk) {
-    parts_.jobs.submit(
-        table_.urgency(pos),
-        guarded([pos, chunk = std::move(chunk), lights = &parts_.lights](WorkerResults& results) {
-            LocalLightPtr local = results.timed(kOwnLight, [&] { return localLight(*chunk, *lights); });
-            results.add(WorkerResults::Load{pos, chunk, std::move(local)});
-        }));
-}
-
-Surroundings ChunkPipeline::surroundings(ChunkPos pos) const {
-    Surroundings around;
-    const std::array<ChunkPos, 9> positions = neighbourhood(pos);
-    for (std::size_t n = 0; n < positions.size(); ++n) {
-        around.chunks[n] = parts_.world.maybeChunkAt(positions[n]);
-        const auto extra = extras_.find(positions[n]);
-        if (extra != extras_.end()) around.locals[n] = extra->second.local;
-    }
-    return around;
-}
-
-void ChunkPipeline::submitFinishes() {
-    const std::size_t limit = kJobsPerWorker * parts_.jobs.threadCount();
-    const std::size_t room = limit - std::min(limit, table_.finishingCount());
-    for (const ChunkPos pos : table_.takeFinishes(room)) {
-        // Before loads of equal urgency: what is on screen frees memory.
-        parts_.jobs.submit(table_.urgency(pos) - 1,
-                           guarded([pos, around = surroundings(pos), lights = &parts_.lights,
-                                    blocks = &parts_.blocks, options = meshOptions_](WorkerResults& results) {
-                               auto light = results.timed(kLight, [&] { return lightOf(around, *lights); });
-                               auto mesh = results.timed(
-                                   kMesh, [&] { return meshOf(around.chunks, *blocks, options); });
-                               results.add(WorkerResults::Finish{pos, std::move(mesh), std::move(light)});
-                           }));
-    }
 }
 
 // A chunk's own light is needed until it and its neighbours are lit.

@@ -6,65 +6,19 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <deque>
-#include <functional>
 #include <map>
-#include <mutex>
+#include <memory>
 #include <optional>
 #include <set>
-#include <span>
 #include <unordered_map>
 #include <vector>
 
-#include "terrane/base/job_system.h"
 #include "terrane/light/relight.h"
-#include "terrane/stream/chunk_jobs.h"
 #include "terrane/stream/chunk_table.h"
-#include "terrane/world/world.h"
+#include "terrane/stream/pipeline_types.h"
 
 namespace terrane::stream {
-
-// What became of a chunk on screen. Null: as before.
-struct ChunkChange {
-    world::ChunkPos pos;
-    MeshPtr mesh;
-    mesh::RegionSet regions = 0;  // of the mesh that changed; the others have no quads in it
-    light::ChunkLightPtr light;
-    std::uint16_t bricks = 0;  // of the light that changed, a bit each
-    bool isHidden = false;     // it is no longer on screen
-};
-
-struct Progress {
-    std::size_t wanted = 0;   // chunks within the view distance
-    std::size_t visible = 0;  // of these, lit and meshed
-    bool complete() const { return visible == wanted; }
-};
-
-// What workers did so far, of one kind of task.
-struct TaskTime {
-    const char* name = "";
-    std::size_t count = 0;
-    double microseconds = 0;  // of all
-};
-
-// Makes chunks many at a time on the pipeline's thread without waiting: a GPU.
-struct BatchGenerator {
-    // Takes chunks from the front and says how many; 0 while it is busy.
-    std::function<std::size_t(std::span<const world::ChunkPos>)> submit;
-    // Chunks that are done, if there are any.
-    std::function<std::vector<std::pair<world::ChunkPos, world::Chunk>>()> take;
-};
-
-// What the pipeline works with; everything outlives it.
-struct PipelineParts {
-    base::JobSystem& jobs;
-    const world::BlockRegistry& blocks;
-    const light::LightTable& lights;
-    world::World& world;
-    ChunkSource source;
-    const BatchGenerator* batches = nullptr;  // in place of source.generator
-};
 
 struct WorkerResults;
 
@@ -127,6 +81,7 @@ class ChunkPipeline {
     void takeResults();
     void takeBatches();
     void onLoaded(world::ChunkPos pos, world::ChunkPtr chunk, LocalLightPtr local);
+    std::size_t jobLimit() const;
     void submitLoads();
     void submitPrepare(world::ChunkPos pos, world::ChunkPtr chunk);
     void submitFinishes();
@@ -156,7 +111,8 @@ class ChunkPipeline {
     std::deque<world::ChunkPos> absent_;   // to be made by `batches`
     std::vector<light::BlockEdit> edits_;  // since the last update
     std::map<world::ChunkPos, mesh::RegionSet> toMesh_;
-    Time now_{}, nextTidy_{};  // now: of the last update
+    Time now_{}, nextTidy_{};       // now: of the last update
+    Time::duration sinceUpdate_{};  // between the last two updates
 
     // What was not taken yet, and the chunks in the order in which they first changed.
     std::unordered_map<world::ChunkPos, ChunkChange, world::ChunkPosHash> changes_;

@@ -98,7 +98,7 @@ void ChunkTable::request(ChunkPos pos, Time now) {
     if (found != entries_.end()) {
         found->second.asked = now;
         found->second.isRequested = true;
-    } else {
+    } else if (waiting_.insert(pos).second) {
         requests_.push_back(pos);
     }
 }
@@ -114,7 +114,10 @@ std::vector<ChunkPos> ChunkTable::takeLoads(std::size_t limit) {
         ++loading_;
         taken.push_back(pos);
     };
-    for (; taken.size() < limit && !requests_.empty(); requests_.pop_front()) take(requests_.front(), true);
+    for (; taken.size() < limit && !requests_.empty(); requests_.pop_front()) {
+        waiting_.erase(requests_.front());
+        take(requests_.front(), true);
+    }
     for (; taken.size() < limit && loadCursor_ < offsets_.size(); ++loadCursor_) {
         const ChunkPos offset = offsets_[loadCursor_];
         take({centre_.x + offset.x, centre_.y + offset.y}, false);

@@ -17,6 +17,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "terrane/world/coords.h"
@@ -97,7 +98,8 @@ class ChunkTable {
     std::vector<std::size_t> rank_;         // place in offsets_ by offset
     std::size_t loadCursor_ = 0;            // chunks before it are not absent
     std::size_t finishCursor_ = 0;          // chunks before it are Finishing or Visible
-    std::deque<world::ChunkPos> requests_;
+    std::deque<world::ChunkPos> requests_;  // in the order in which they came, each once
+    std::unordered_set<world::ChunkPos, world::ChunkPosHash> waiting_;  // those in requests_
     std::size_t loading_ = 0, finishing_ = 0, wantedVisible_ = 0, visibleInView_ = 0;
 };
 

@@ -19,32 +19,35 @@ std::uint16_t read16(std::span<const std::byte> bytes) {
     return static_cast<std::uint16_t>(std::to_integer<int>(bytes[0]) | std::to_integer<int>(bytes[1]) << 8);
 }
 
-// Moves up to `count` items into a stack; returns how many did not fit.
-int fill(ItemStack& stack, std::string_view item, int count) {
+}  // namespace
+
+int addToStack(ItemStack& stack, std::string_view item, int count) {
+    if (stack.count > 0 && stack.item != item) return count;
     const int moved = std::min(count, kMaxStack - stack.count);
     if (moved > 0) stack = {std::string(item), static_cast<std::uint16_t>(stack.count + moved)};
     return count - std::max(moved, 0);
 }
 
-}  // namespace
+int takeFromStack(ItemStack& stack, int count) {
+    const int moved = std::min<int>(count, stack.count);
+    stack.count = static_cast<std::uint16_t>(stack.count - moved);
+    if (stack.count == 0) stack = {};
+    return moved;
+}
 
 int addItems(Inventory& inventory, std::string_view item, int count) {
     assert(!item.empty() && item.size() <= kMaxItemName && count >= 0 && "items of a name");
     for (ItemStack& stack : inventory)
-        if (stack.item == item) count = fill(stack, item, count);
+        if (stack.item == item) count = addToStack(stack, item, count);
     for (ItemStack& stack : inventory)
-        if (stack.item.empty()) count = fill(stack, item, count);
+        if (stack.item.empty()) count = addToStack(stack, item, count);
     return count;
 }
 
 int takeItems(Inventory& inventory, std::string_view item, int count) {
     int taken = 0;
     for (auto stack = inventory.rbegin(); stack != inventory.rend() && taken < count; ++stack) {
-        if (stack->item != item) continue;
-        const int moved = std::min<int>(count - taken, stack->count);
-        taken += moved;
-        stack->count = static_cast<std::uint16_t>(stack->count - moved);
-        if (stack->count == 0) *stack = {};
+        if (stack->item == item) taken += takeFromStack(*stack, count - taken);
     }
     return taken;
 }

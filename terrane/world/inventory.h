@@ -30,6 +30,9 @@ using Inventory = std::vector<ItemStack>;  // a stack each slot
 int addItems(Inventory& inventory, std::string_view item, int count);
 // Takes at most `count` items, from the last slot on. Returns how many there were.
 int takeItems(Inventory& inventory, std::string_view item, int count);
+// The same with one stack, which holds nothing or the same item: how many found no room, how many there were.
+int addToStack(ItemStack& stack, std::string_view item, int count);
+int takeFromStack(ItemStack& stack, int count);
 int countItems(const Inventory& inventory, std::string_view item);
 
 // Bytes: version 1, number of slots (16 bits), then of each slot the count (16 bits; little-endian both), the

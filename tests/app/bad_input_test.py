@@ -59,7 +59,10 @@ CASES = [
     (("bench", "-o", "{folder}/bench", "--frames", "none"), '"none"'),
     (("bench", "-o", "{folder}/bench", "--view-distance", "65"), '"65"'),
     ((*RENDER, "--flight", "-1"), '"-1"'),
+    (("fly", "--at", "3e9,0,80", "-o", "{out}"), "outside the world"),
+    (("fly", "--for", "0", "-o", "{out}"), '"0"'),
     # Pictures
+    ((*RENDER, "--resource-pack", "{folder}/none"), "none"),
     ((*RENDER, "--size", "0x0"), '"0x0"'),
     ((*RENDER, "--size", "abc"), '"abc"'),
     ((*RENDER, "--size", "99999x1"), '"99999x1"'),

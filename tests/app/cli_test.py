@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Every command of the program, end to end. Usage: cli_test.py PROGRAM"""
 import json
+import re
 import sqlite3
 import struct
 
 import support
 from support import Npy, Picture, ProgramTest, run
 
-COMMANDS = ("play", "render", "record", "generate", "map", "dump", "check", "blocks", "info", "bench", "completion", "man")
+COMMANDS = ("play", "render", "record", "fly", "generate", "map", "dump", "check", "blocks", "info", "bench", "completion", "man")
 FLAT = ("--generator", "flat")
 
 # Name: opacity to light, emission. Of all blocks that the game starts with.
@@ -38,6 +39,24 @@ class Help(ProgramTest):
 
     def test_version(self):
         self.assertRegex(self.succeed("--version"), r"\A\d+\.\d+\.\d+\n\Z")
+
+
+class Fly(ProgramTest):
+    def test_every_frame_has_a_line(self):
+        table = self.folder / "flight.csv"
+        done = run("fly", *FLAT, "--size", "64x36", "--view-distance", "2", "--samples", "1", "--for", "1", "--look", "0,0",
+                   "--debug-gl", "-o", table)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = [line.split(",") for line in table.read_text().splitlines()]
+        self.assertEqual(rows[0][:5], ["time_s", "frame_ms", "follow_ms", "upload_ms", "draw_ms"])
+        self.assertGreater(len(rows), 3)
+        self.assertTrue(all(len(row) == len(rows[0]) for row in rows))
+        for row in rows[1:]:
+            whole, parts = float(row[1]), sum(map(float, row[2:5]))
+            self.assertAlmostEqual(whole, parts, delta=0.5 + 0.5 * whole)
+        frames, x = re.search(r"(\d+) frames to (-?\d+),8,120", done.stderr).groups()
+        self.assertEqual(int(frames), len(rows) - 1)
+        self.assertGreater(int(x), 20)  # 60 blocks a second, but long frames move no farther than a quarter of one
 
 
 class Render(ProgramTest):
@@ -147,6 +166,31 @@ class Render(ProgramTest):
         red, green, blue = down.rows[18][32]
         self.assertTrue(green > red and green > blue, "grass below")
         self.assertLess(night.rows[18][32][1], green, "darker at night")
+
+    def test_a_resource_pack_changes_the_faces_it_has(self):
+        # Down on the flat world: nothing but the tops of grass is seen.
+        view = (*FLAT, "--at", "8.5,8.5,100", "--look", "0,-90", "--time", "0.5", "--atmosphere", "off")
+        before, _ = self.render("before.png", *view)
+        pack = self.folder / "pack"
+        pack.mkdir()
+        other = self.folder / "other"
+        other.mkdir()
+        support.write_png(pack / "grass_top.png", 32, 32, (255, 0, 0, 255))
+        support.write_png(other / "stone.png", 1, 1, (255, 0, 0, 255))
+        red, _ = self.render("red.png", *view, "--resource-pack", pack)
+        self.assertTrue(all(r > 2 * g and r > 2 * b for row in red.rows for r, g, b in row))
+        same, _ = self.render("same.png", *view, "--resource-pack", other)
+        self.assertEqual(same.rows, before.rows)
+        map_file = self.folder / "map.png"
+        self.succeed("map", *FLAT, "--radius", "0", "--resource-pack", pack, "-o", map_file)
+        self.assertTrue(all(r > 2 * g for r, g, _ in Picture(map_file).colors()))
+
+    def test_a_wrong_resource_pack_is_refused(self):
+        support.write_png(self.folder / "stone.png", 16, 24, (255, 0, 0, 255))
+        done = run("render", "--scene", "ocean", *self.SMALL, "--resource-pack", self.folder, "-o", self.folder / "a.png")
+        self.assertRefused(done, "16 × 24")
+        self.assertIn("stone.png: 16 × 24 pixels", done.stderr)
+        self.assertFalse((self.folder / "a.png").exists())
 
     def test_more_samples(self):
         path = self.folder / "a.png"

@@ -116,6 +116,15 @@ class Picture:
         return {pixel for row in self.rows for pixel in row}
 
 
+def write_png(path, width, height, color):
+    """One colour everywhere: (red, green, blue, alpha)."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    rows = (b"\0" + bytes(color) * width) * height
+    pathlib.Path(path).write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">2I5B", width, height, 8, 6, 0, 0, 0)) +
+                                   chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
 class Npy:
     """A NumPy file: descr, shape, and its bytes."""
 

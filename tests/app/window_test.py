@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import unittest
 
 import support
 from support import HANG_SECONDS, Npy, Picture, ProgramTest
@@ -120,12 +121,36 @@ class Game:
     def press(self, key):
         self.display.xdotool("key", key)
 
+    def pause_after(self, key):
+        """Presses a key that changes the picture. What is waited for is two frames or so: on a busy machine they take
+        long, and so must pauses."""
+        before, start = self.display.screenshot(self.window).pixels, time.monotonic()
+        self.press(key)
+        self.wait_for(lambda: self.display.screenshot(self.window).pixels != before)
+        pause = max(0.4, 2 * (time.monotonic() - start))
+        time.sleep(pause)
+        return pause
+
+    def hold(self, key, pause=0.5):
+        """For some frames: this Dear ImGui misses a key that is down within one."""
+        self.display.xdotool("keydown", key)
+        time.sleep(pause)
+        self.display.xdotool("keyup", key)
+        time.sleep(pause)
+
     def click(self, button, x=SIZE[0] // 2, y=SIZE[1] // 2, pause=0.3):
         self.display.xdotool("mousemove", "--window", self.window, x, y)
         time.sleep(pause)  # some frames, in which the program sees the cursor there
         self.display.xdotool("mousedown", button)
         time.sleep(pause)
         self.display.xdotool("mouseup", button)
+        time.sleep(pause)
+
+    def tap(self, button, x, y, pause):
+        """A click too short to act twice."""
+        self.display.xdotool("mousemove", "--window", self.window, x, y)
+        time.sleep(pause)
+        self.display.xdotool("click", button)
         time.sleep(pause)
 
     def close(self):
@@ -185,9 +210,9 @@ class Window(ProgramTest):
         self.succeed("dump", "--area", "0,0,1,1", "--world", save, "-o", dump)
         return max(z for z, block in enumerate(Npy(dump).column(8, 8)) if block != 0)
 
-    def set_camera(self, save, text):
+    def set_setting(self, save, name, value):
         with contextlib.closing(sqlite3.connect(save)) as database, database:
-            database.execute("UPDATE settings SET value = ? WHERE name = 'camera'", (text,))
+            database.execute("UPDATE settings SET value = ? WHERE name = ?", (value, name))
 
     def test_edits_and_the_camera_outlive_the_program(self):
         save = self.folder / "save" / "home.sqlite"
@@ -195,7 +220,7 @@ class Window(ProgramTest):
         with Display() as display:
             self.close(self.play(display, *options))
             top = self.highest_block(save)
-            self.set_camera(save, f"8.5 8.5 {top + 4} 0 -89")
+            self.set_setting(save, "camera", f"8.5 8.5 {top + 4} 0 -89")
             game = self.play(display, *options)
             game.click(1)  # takes the mouse
             display.xdotool("click", 1)  # breaks what is in the middle: pressed and released at once
@@ -207,6 +232,40 @@ class Window(ProgramTest):
             self.assertEqual(self.highest_block(save), top - 1)
             self.assertTrue(self.succeed("check", save).endswith("\ngood\n"))
 
+
+    def test_what_is_in_a_chest_is_saved(self):
+        save, size = self.folder / "save" / "home.sqlite", (480, 300)
+        options = ("--save-game", "home", "--movement", "medium", *FLAT)
+        middle, slot = (240, 150), (64, 94)  # the slot: the first, left above
+        with Display() as display:
+            self.close(self.play(display, *options, size=size))
+            top = self.highest_block(save)
+            self.set_setting(save, "camera", f"8.5 8.5 {top + 5} 0 -89")
+            game = self.play(display, *options, size=size)
+            pause = game.pause_after("F1")
+            game.tap(1, *middle, pause)  # takes the mouse
+            game.tap(4, *middle, pause)  # the wheel, back from the first kind of block to the last, the chest
+            game.tap(3, *middle, pause)  # builds it
+            game.tap(3, *middle, pause)  # opens it
+            game.tap(1, *slot, pause)  # puts a chest into the chest
+            game.tap(1, *slot, pause)
+            game.press("Escape")  # closes it
+            self.close(game)
+            self.assertEqual(self.highest_block(save), top + 1)
+
+            game = self.play(display, *options, size=size)
+            pause = game.pause_after("F1")
+            game.tap(1, *middle, pause)
+            game.tap(3, *middle, pause)
+            game.tap(3, *slot, pause)  # takes it out again: it is in the hand, instead of stone
+            game.press("Escape")
+            time.sleep(pause)
+            for button in (1, 1, 3):  # breaks the chest and the block below it, and builds there
+                game.tap(button, *middle, pause)
+            self.close(game)
+            self.assertEqual(self.highest_block(save), top)
+            names = [line.split()[1] for line in self.succeed("blocks").splitlines()[1:]]
+            self.assertEqual(names[Npy(self.folder / "blocks.npy").column(8, 8)[top]], "chest")
 
     def test_a_person_tries_everything_and_finds_it_again(self):
         size, settings = (480, 720), self.folder / "terrane" / "settings.toml"
@@ -221,12 +280,7 @@ class Window(ProgramTest):
             display.xdotool("keyup", "w")
             for button in (1, 3, 4, 5):
                 game.click(button, 240, 360)
-            before, start = display.screenshot(game.window).pixels, time.monotonic()
-            game.press("F2")
-            game.wait_for(lambda: display.screenshot(game.window).pixels != before)
-            # What is waited for is two frames or so: on a busy machine they take long.
-            pause = max(0.4, 2 * (time.monotonic() - start))
-            time.sleep(pause)
+            pause = game.pause_after("F2")
             for y in range(275, 430, 23):  # down the column of the panel's switches
                 game.click(1, 203, y, pause)
             end = self.close(game)
@@ -248,6 +302,96 @@ class Window(ProgramTest):
             again = self.play(display, *options, size=size)
             self.assertEqual(self.close(again), end)
             self.assertEqual(settings.read_text(), written)
+
+    def lines_of_settings(self):
+        path = self.folder / "terrane" / "settings.toml"
+        return [line for line in path.read_text().splitlines() if line and not line.startswith("#")]
+
+    def test_only_what_a_person_changed_is_kept(self):
+        (self.folder / "terrane").mkdir()
+        (self.folder / "terrane" / "settings.toml").write_text("day-minutes = 3\n")
+        with Display() as display:
+            self.close(self.play(display, "--clouds", "off", *FLAT))
+            self.assertEqual(self.lines_of_settings(), ["day-minutes = 3"])
+            game = self.play(display, "--clouds", "off", "--field-of-view", "80", *FLAT)
+            game.press("m")
+            self.close(game)
+            self.assertEqual(self.lines_of_settings(), ["day-minutes = 3", "movement = 'fast'"])
+
+    def test_the_whole_screen_is_a_setting(self):
+        settings = self.folder / "full.toml"
+        settings.write_text("full-screen = true\n")
+        with Display() as display:
+            game = Game(display, self.folder, ("--settings", settings, "--samples", "1", "--view-distance", "6", *FLAT))
+            self.addCleanup(game.log.close)
+            self.addCleanup(game.process.kill)
+            game.open()
+            game.wait_for_picture(SCREEN)
+            game.press("F11")
+            game.wait_for(lambda: display.screenshot(game.window).width != SCREEN[0])
+            self.close(game)
+        self.assertNotIn("full-screen", settings.read_text())
+
+    def test_a_wrong_time_in_a_save_is_named(self):
+        save = self.folder / "save" / "home.sqlite"
+        with Display() as display:
+            self.close(self.play(display, "--save-game", "home", *FLAT))
+            self.set_setting(save, "time", "nan")
+            game = self.play(display, "--save-game", "home")
+            code, _, _ = game.close()
+            self.assertEqual(code, 0, game.output())
+            self.assertIn('warning: the save\'s time of day is no number from 0 to 1: "nan"', game.output())
+            self.close(self.play(display, "--save-game", "home"))  # there is a time again
+
+    def test_keys_do_nothing_else_while_one_types(self):
+        size = (480, 720)
+        with Display(size) as display:
+            game = self.play(display, *FLAT, size=size)
+            game.press("F2")
+            display.xdotool("keydown", "Control_L")
+            game.click(1, 258, 116, pause=1)  # the field of view's slider: a number can be typed in its place
+            display.xdotool("keyup", "Control_L")
+            for key in ("m", "9", "Return", "m"):
+                game.hold(key)
+            self.close(game)
+            self.assertEqual(self.lines_of_settings(), ["field-of-view = '40'", "movement = 'fast'"])
+
+    def test_a_resource_pack_is_loaded_while_one_plays(self):
+        size, pack = (480, 720), self.folder / "pk"
+        pack.mkdir()
+        support.write_png(pack / "grass_top.png", 16, 16, (255, 0, 0, 255))
+        with Display(size) as display:
+            game = self.play(display, *FLAT, size=size)
+            pause = game.pause_after("F2")
+            for name in ("no", "pk"):  # the first is not there: a message says so, and all stays
+                game.click(1, 258, 561, pause)  # the field of the folder
+                for key in ("BackSpace", "BackSpace", *name, "Return"):
+                    game.hold(key, pause / 2)
+                time.sleep(2 * pause)
+            # Blue, green, red: the ground at the window's lower left, beside what is in the hand.
+            row = display.screenshot(game.window)
+            at = (size[1] - 4) * row.stride + 150 * row.step
+            blue, green, red = row.pixels[at:at + 3]
+            self.assertGreater(red, 2 * max(blue, green))
+            self.close(game)
+        self.assertEqual(self.lines_of_settings(), ["resource-pack = 'pk'"])
+
+    @unittest.skipUnless(shutil.which("xrdb"), "xrdb is not installed (Debian: x11-xserver-utils)")
+    def test_on_a_screen_of_twice_the_scale_all_is_twice_as_large(self):
+        twice = (2 * SIZE[0], 2 * SIZE[1])
+        with Display() as display:
+            subprocess.run(["xrdb", "-merge"], input="Xft.dpi: 192\n", text=True, check=True, timeout=HANG_SECONDS,
+                           env=support.environment(display.name))
+            game = Game(display, self.folder, ("--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "6", "--samples", "1", *FLAT))
+            self.addCleanup(game.log.close)
+            self.addCleanup(game.process.kill)
+            game.open()
+            game.wait_for_picture(twice)
+            pause = game.pause_after("F2")
+            # The slider of the view distance lies twice as far from the panel's corner as on other screens.
+            game.click(1, 120, 186, pause)
+            self.close(game)
+        self.assertRegex(self.lines_of_settings()[0], r"\Aview-distance = '1[0-9]'\Z")
 
     def test_wrong_settings_are_named(self):
         settings = self.folder / "settings.toml"

@@ -136,6 +136,19 @@ TEST_F(ChunkTableTest, ARequestedChunkIsLoadedAndKept) {
     EXPECT_EQ(table_.takeUnloads(now_ + seconds(8)).size(), 1u);
 }
 
+// Somebody who waits asks again every frame.
+TEST_F(ChunkTableTest, WhatIsRequestedOftenIsLoadedOnce) {
+    for (int frame = 0; frame < 100; ++frame) table_.request({50, 50}, now_);
+    table_.request({51, 50}, now_);
+    EXPECT_EQ(table_.takeLoads(kAll), (std::vector<ChunkPos>{{50, 50}, {51, 50}}));
+    table_.loadEnded({50, 50});
+    EXPECT_TRUE(table_.takeLoads(kAll).empty()) << "it is absent again, and nobody asks for it";
+    for (int frame = 0; frame < 100; ++frame) table_.request({50, 50}, now_);
+    EXPECT_EQ(table_.takeLoads(1), (std::vector<ChunkPos>{{50, 50}}));
+    table_.loadEnded({50, 50});
+    EXPECT_TRUE(table_.takeLoads(kAll).empty());
+}
+
 // Walks, jumps, edits, failures, results in any order: in the end everything in view is visible, what is far
 // is gone, and nothing is counted twice.
 TEST_F(ChunkTableTest, RandomWalksEndWellFromAnyState) {

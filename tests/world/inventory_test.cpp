@@ -36,6 +36,18 @@ TEST(Inventory, BytesComeBack) {
     EXPECT_EQ(decodeInventory(encodeInventory(chest), 1).value(), chest) << "nothing is lost to fewer slots";
 }
 
+TEST(Inventory, AStackTakesItsOwnItemUpToItsEnd) {
+    ItemStack stack;
+    EXPECT_EQ(addToStack(stack, "stone", 60), 0);
+    EXPECT_EQ(addToStack(stack, "sand", 1), 1) << "another item";
+    EXPECT_EQ(addToStack(stack, "stone", 60), 60 + 60 - kMaxStack);
+    EXPECT_EQ(stack, (ItemStack{"stone", kMaxStack}));
+    EXPECT_EQ(takeFromStack(stack, 1), 1);
+    EXPECT_EQ(takeFromStack(stack, 200), kMaxStack - 1);
+    EXPECT_EQ(stack, ItemStack{}) << "an empty stack has no name";
+    EXPECT_EQ(takeFromStack(stack, 1), 0);
+}
+
 TEST(Inventory, EveryCutIsFound) {
     const LargeData whole = encodeInventory({{"stone", 99}, {}, {"sand", 1}});
     for (std::size_t length = 0; length < whole.size(); ++length) {

@@ -20,6 +20,7 @@ struct CommandEntry {
 CommandEntry addPlay(CLI::App& app);
 CommandEntry addRender(CLI::App& app);
 CommandEntry addRecord(CLI::App& app);
+CommandEntry addFly(CLI::App& app);
 CommandEntry addGenerate(CLI::App& app);
 CommandEntry addMap(CLI::App& app);
 CommandEntry addDump(CLI::App& app);

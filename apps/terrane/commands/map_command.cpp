@@ -5,6 +5,7 @@
 #include "apps/terrane/content.h"
 #include "apps/terrane/map_image.h"
 #include "apps/terrane/progress_bar.h"
+#include "apps/terrane/resource_pack.h"
 #include "apps/terrane/world_session.h"
 #include "terrane/base/log.h"
 
@@ -15,7 +16,7 @@ struct MapOptions {
     WorldOptions world;
     std::optional<int> radius;
     std::optional<Area> area;
-    std::string output;
+    std::string output, resourcePack;
 };
 
 // 16,384² pixels: a picture of 1 GiB in memory.
@@ -32,12 +33,13 @@ base::Result<void> writeMap(const MapOptions& options) {
     if (!blocks) return tl::unexpected(blocks.error());
     auto generator = makeGenerator(options.world, *blocks);
     if (!generator) return tl::unexpected(generator.error());
+    auto textures = loadTextures(options.resourcePack, *blocks);
+    if (!textures) return tl::unexpected(textures.error());
     base::JobSystem jobs(threadCount(options.world));
     base::Result<base::Image> image;
     {
         ProgressBar bar("mapping", static_cast<std::size_t>(area.y1 - area.y0));
-        image = drawMap(*generator, *blocks, builtInTextures(), area, jobs,
-                        [&](std::size_t rows) { bar.set(rows); });
+        image = drawMap(*generator, *blocks, *textures, area, jobs, [&](std::size_t rows) { bar.set(rows); });
     }
     if (!image) return tl::unexpected(image.error());
     if (auto written = base::writePng(options.output, *image); !written) return written;
@@ -57,6 +59,7 @@ CommandEntry addMap(CLI::App& app) {
     command->get_option("--area")->excludes(radius);
     addOutputOption(*command, options->output, "The PNG file");
     addWorldOptions(*command, options->world);
+    addResourcePackOption(*command, options->resourcePack);
     return {command, [options] { return writeMap(*options); }};
 }
 

@@ -3,6 +3,7 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
+#include "apps/terrane/resource_pack.h"
 #include "apps/terrane/spawn.h"
 #include "apps/terrane/window/game.h"
 #include "apps/terrane/window/icon.h"
@@ -11,6 +12,18 @@
 
 namespace terrane::app {
 namespace {
+
+constexpr const char* kKeys = R"(Keys:
+  click, middle button    look around with the mouse; the middle button gives the cursor back
+  W A S D, Space, Shift   walk, jump, run; E, Q: up, down where one flies or swims
+  left, right button      break a block, build one or open a chest; wheel: choose the block
+  M                       how one moves: on foot, fast or slowly through everything, not through walls
+  O, P, I                 time of day back, forth; let it pass or stand still
+  F1, F2                  help; settings and figures
+  F3, F4                  from above; a map of how far chunks are
+  F5, F6                  save the place in positions.txt, go to the next one there
+  F11, F12, L             full screen; screenshot; light classic or smooth
+  Esc                     end typing, close the chest, quit)";
 
 struct PlayOptions {
     WorldOptions world;
@@ -46,9 +59,11 @@ base::Result<render::Camera> startOf(const PlayOptions& options, const WorldSess
 DayClock dayOf(const PlayOptions& options, const WorldSession& session) {
     DayClock day;
     if (session.store) {
-        const std::string saved = session.store->setting(kTimeSetting).value_or("");
-        if (!saved.empty()) day.timeDay = std::atof(saved.c_str());
-        day.shift(0);  // into a day
+        const auto saved = session.store->setting(kTimeSetting);
+        const auto time = timeDayFrom(saved.value_or(""));
+        if (saved && !time)
+            base::logWarning("the save's time of day is no number from 0 to 1: \"{}\"", *saved);
+        day.timeDay = time.value_or(day.timeDay);
     }
     if (options.time) day.timeDay = *options.time;
     return day;
@@ -71,23 +86,23 @@ PlaySettings settingsOf(const PlayOptions& options, bool isSoftwareRenderer) {
     settings.viewDistance = options.graphics.viewDistance;
     settings.mesh = options.graphics.mesh;
     settings.view = options.graphics.view;
+    settings.resourcePack = options.graphics.resourcePack;
     return settings;
 }
 
 base::Result<void> play(PlayOptions& options, CLI::App& command) {
-    std::vector<std::string> graphics;
-    for (const GraphicsRow& row : graphicsTable()) graphics.emplace_back(row.name);
-    graphics.emplace_back("preset");
-    if (auto read = applySettings(options.settingsFile, command, graphics); !read) return read;
+    if (auto read = applySettings(options.settingsFile, command, graphicsSettings()); !read) return read;
     auto session = WorldSession::create(options.world, options.save, command);
     if (!session) return tl::unexpected(session.error());
+    auto textures = loadTextures(options.graphics.resourcePack, (*session)->blocks);
+    if (!textures) return tl::unexpected(textures.error());
     auto window = openWindow(options);
     if (!window) return tl::unexpected(window.error());
     const gpu::ShaderLoader shaders = makeShaderLoader(options.graphics.shaderRoot);
     const gpu::DeviceInfo device = gpu::queryDevice();
-    auto renderer = render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), device);
+    auto renderer = render::Renderer::create(shaders, (*session)->blocks, *textures, device);
     if (!renderer) return tl::unexpected(renderer.error());
-    auto preview = BlockPreview::create(shaders, (*session)->blocks, device);
+    auto preview = BlockPreview::create(shaders, (*session)->blocks, *textures, device);
     if (!preview) return tl::unexpected(preview.error());
     auto start = startOf(options, **session);
     if (!start) return tl::unexpected(start.error());
@@ -101,10 +116,9 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
     game.isSoftwareRenderer = device.software;
     Game loop({*window, **session, *renderer, *preview}, game);
     if (auto played = loop.run(); !played) return played;
-    if (loop.settings() != game.settings) {
-        auto written = writeSettings(options.settingsFile, valuesOf(loop.settings(), device.software));
-        if (!written) return written;
-    }
+    auto written = writeChanges(options.settingsFile, valuesOf(game.settings, device.software),
+                                valuesOf(loop.settings(), device.software), graphicsSettings());
+    if (!written) return written;
     if (window->debugLog() && window->debugLog()->errorCount() > 0) {
         return base::fail("the graphics driver reported errors, see above");
     }
@@ -146,6 +160,7 @@ CommandEntry addPlay(CLI::App& app) {
         ->add_option("--settings", options->settingsFile,
                      "File of settings that the panel writes; \"\": none")
         ->type_name("FILE");
+    command->footer(kKeys);
     return {command, [options, command] { return play(*options, *command); }};
 }
 

@@ -11,8 +11,9 @@
 #include "apps/terrane/flight.h"
 #include "apps/terrane/frame_times.h"
 #include "apps/terrane/process_figures.h"
+#include "apps/terrane/resource_pack.h"
 #include "apps/terrane/scenes.h"
-#include "apps/terrane/world_session.h"
+#include "apps/terrane/world_view.h"
 #include "terrane/base/image.h"
 #include "terrane/base/log.h"
 #include "terrane/gpu/context.h"
@@ -166,11 +167,13 @@ base::Result<void> renderPicture(const PictureOptions& options, const CLI::App& 
     if (!scene) return tl::unexpected(scene.error());
     auto session = WorldSession::create(options.world, options.save, command);
     if (!session) return tl::unexpected(session.error());
+    auto textures = loadTextures(options.graphics.resourcePack, (*session)->blocks);
+    if (!textures) return tl::unexpected(textures.error());
     auto context = gpu::HeadlessContext::create({.debug = options.graphics.debugGl});
     if (!context) return tl::unexpected(context.error());
     const gpu::ShaderLoader shaders = makeShaderLoader(options.graphics.shaderRoot);
     const gpu::DeviceInfo device = gpu::queryDevice();
-    auto renderer = render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), device);
+    auto renderer = render::Renderer::create(shaders, (*session)->blocks, *textures, device);
     if (!renderer) return tl::unexpected(renderer.error());
     const auto graphics = renderOptions(options.graphics.choices, device.software);
     if (auto configured = renderer->configure(options.graphics.size, graphics); !configured)

@@ -8,7 +8,7 @@
 #include "apps/terrane/record/edit_player.h"
 #include "apps/terrane/record/script.h"
 #include "apps/terrane/record/title_painter.h"
-#include "apps/terrane/world_session.h"
+#include "apps/terrane/world_view.h"
 
 namespace terrane::app {
 

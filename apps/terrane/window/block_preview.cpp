@@ -1,6 +1,5 @@
 #include "apps/terrane/window/block_preview.h"
 
-#include "apps/terrane/content.h"
 #include "terrane/mesh/chunk_mesher.h"
 
 namespace terrane::app {
@@ -25,8 +24,9 @@ mesh::ChunkMesh meshOf(world::BlockId block, const world::BlockRegistry& blocks)
 
 base::Result<BlockPreview> BlockPreview::create(const gpu::ShaderLoader& shaders,
                                                 const world::BlockRegistry& blocks,
+                                                const render::TextureSource& textures,
                                                 const gpu::DeviceInfo& device) {
-    auto renderer = render::Renderer::create(shaders, blocks, builtInTextures(), device);
+    auto renderer = render::Renderer::create(shaders, blocks, textures, device);
     if (!renderer) return tl::unexpected(renderer.error());
     render::RenderOptions options = *render::findPreset("low", true);
     options.samples = 1;
@@ -35,13 +35,24 @@ base::Result<BlockPreview> BlockPreview::create(const gpu::ShaderLoader& shaders
     return BlockPreview(blocks, std::move(*renderer));
 }
 
+base::Result<void> BlockPreview::setTextures(const render::TextureSource& textures) {
+    pictures_.clear();
+    return renderer_.setTextures(*blocks_, textures);
+}
+
+gpu::Texture2D BlockPreview::draw(world::BlockId block) {
+    renderer_.setChunk({0, 0}, meshOf(block, *blocks_));
+    renderer_.draw({kCamera, world::environmentAt(0.4f), 1000.0f});
+    const gpu::Texture2D& drawn = renderer_.pictureTexture();
+    gpu::Texture2D picture(drawn.size(), drawn.format(), 1, "picture of a block");
+    picture.copyFrom(drawn);
+    return picture;
+}
+
 unsigned BlockPreview::picture(world::BlockId block) {
-    if (shown_ != block) {
-        renderer_.setChunk({0, 0}, meshOf(block, *blocks_));
-        renderer_.draw({kCamera, world::environmentAt(0.4f), 1000.0f});
-        shown_ = block;
-    }
-    return renderer_.pictureTexture();
+    auto found = pictures_.find(block);
+    if (found == pictures_.end()) found = pictures_.emplace(block, draw(block)).first;
+    return found->second.id();
 }
 
 }  // namespace terrane::app

@@ -1,9 +1,10 @@
-// A lit picture of one block, for the corner that shows what is in the hand. Drawn again only when the block
-// changes. Used on the thread of the OpenGL context.
+// Lit pictures of single blocks, for the corner that shows what is in the hand and for slots of chests. Each
+// is drawn once and kept: 83 KB a kind of block. Used on the thread of the OpenGL context.
 #pragma once
 
-#include <optional>
+#include <map>
 
+#include "terrane/gpu/texture.h"
 #include "terrane/render/renderer.h"
 #include "terrane/world/block_registry.h"
 
@@ -16,18 +17,21 @@ class BlockPreview {
     // `shaders` and `blocks` outlive this.
     static base::Result<BlockPreview> create(const gpu::ShaderLoader& shaders,
                                              const world::BlockRegistry& blocks,
+                                             const render::TextureSource& textures,
                                              const gpu::DeviceInfo& device);
+    base::Result<void> setTextures(const render::TextureSource& textures);
 
-    // The OpenGL texture with the block's picture.
+    // The OpenGL texture with the block's picture. Its rows run from below.
     unsigned picture(world::BlockId block);
 
   private:
     BlockPreview(const world::BlockRegistry& blocks, render::Renderer renderer)
         : blocks_(&blocks), renderer_(std::move(renderer)) {}
+    gpu::Texture2D draw(world::BlockId block);
 
     const world::BlockRegistry* blocks_;
     render::Renderer renderer_;
-    std::optional<world::BlockId> shown_;
+    std::map<world::BlockId, gpu::Texture2D> pictures_;
 };
 
 }  // namespace terrane::app

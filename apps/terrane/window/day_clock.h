@@ -2,7 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 namespace terrane::app {
 
@@ -17,5 +20,14 @@ struct DayClock {
     // By a part of a day, either way.
     void shift(double days) { timeDay = timeDay + days - std::floor(timeDay + days); }
 };
+
+// A time of day as a save has it; none for anything but a number from 0 to 1.
+inline std::optional<double> timeDayFrom(std::string_view text) {
+    double time = 0;
+    const char* end = text.data() + text.size();
+    const auto [next, error] = std::from_chars(text.data(), end, time);
+    const bool isGood = error == std::errc() && next == end && time >= 0 && time <= 1;
+    return isGood ? std::optional(time) : std::nullopt;
+}
 
 }  // namespace terrane::app

@@ -1,12 +1,14 @@
 #include "apps/terrane/window/game.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
-#include <glm/vec2.hpp>
-#include <numbers>
+#include <fstream>
+#include <glm/geometric.hpp>
 
+#include "apps/terrane/resource_pack.h"
+#include "apps/terrane/window/chest_panel.h"
 #include "apps/terrane/window/loading_map.h"
 #include "apps/terrane/window/overlay.h"
 #include "apps/terrane/window/panel.h"
@@ -16,22 +18,18 @@
 namespace terrane::app {
 namespace {
 
-// Chunks handed to the GPU a frame: about 64 × 10 KiB.
-constexpr std::size_t kUploadsPerFrame = 64;
-
-// Where the camera looks over the ground, in sixteenths of a circle: chunks are put in order again only when
-// it turns.
-glm::vec2 lookSector(const render::Camera& camera) {
-    const glm::vec3 look = render::lookDirection(camera);
-    const double sector = std::numbers::pi / 8;
-    const double angle = std::round(std::atan2(double{look.y}, double{look.x}) / sector) * sector;
-    return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+// Resident memory of the process; 0 where the system does not tell.
+std::size_t residentBytes() {
+    std::size_t total = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> total >> resident;
+    return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
 }  // namespace
 
 Game::Game(const GameParts& parts, const GameOptions& options)
     : parts_(parts),
+      view_(parts.session, parts.renderer),
       settings_(options.settings),
       applied_(options.settings),
       positionsFile_(options.positions),
@@ -60,7 +58,7 @@ base::Result<void> Game::run() {
         meter_.add(seconds);
         advance(seconds);
         applySettings();
-        if (auto drawn = drawFrame(); !drawn) return drawn;
+        if (auto drawn = drawFrame(seconds); !drawn) return drawn;
         if (perfLog_) perfLog_->add(seconds_, seconds, figures());
     }
     const glm::dvec3& p = player_.camera().position;
@@ -75,12 +73,11 @@ void Game::advance(double seconds) {
     messageSeconds_ -= seconds;
     day_.dayMinutes = settings_.dayMinutes;
     day_.advance(seconds);
-    player_.move(session.world, session.blocks, moveKeys(seconds), seconds);
+    onPad(seconds);
+    player_.move(session.world, session.blocks, moveKeys(), seconds);
     hand_.act(session.world, session.blocks, *session.pipeline, player_, seconds);
-    const world::ChunkPos chunk = render::cameraChunk(player_.camera());
-    session.advance(seconds, chunk);
-    session.pipeline->setView(chunk, settings_.viewDistance, lookSector(player_.camera()));
-    session.pipeline->update();
+    session.advance(seconds, render::cameraChunk(player_.camera()));
+    view_.follow(player_.camera(), settings_.viewDistance);
 }
 
 // What changed since the last frame; the renderer sees to its own options with the frame's size.
@@ -94,20 +91,32 @@ void Game::applySettings() {
     if (settings_.movement != applied_.movement) player_.setMovement(settings_.movement);
     if (settings_.fieldOfView != applied_.fieldOfView) player_.setFieldOfView(settings_.fieldOfView);
     if (settings_.fullScreen != applied_.fullScreen) parts_.window.setFullScreen(settings_.fullScreen);
+    if (settings_.resourcePack != applied_.resourcePack) {
+        const auto changed = useResourcePack(settings_.resourcePack);
+        if (!changed) settings_.resourcePack = applied_.resourcePack;
+        say(changed ? "textures are loaded" : changed.error().message);
+    }
     applied_ = settings_;
 }
 
-base::Result<void> Game::drawFrame() {
+base::Result<void> Game::useResourcePack(const std::string& folder) {
+    auto textures = loadTextures(folder, parts_.session.blocks);
+    if (!textures) return tl::unexpected(textures.error());
+    if (auto set = parts_.renderer.setTextures(parts_.session.blocks, *textures); !set) return set;
+    return parts_.preview.setTextures(*textures);
+}
+
+base::Result<void> Game::drawFrame(double seconds) {
     const glm::ivec2 size = parts_.window.framebufferSize();
     if (size.x == 0 || size.y == 0) return {};  // minimised
     render::Renderer& renderer = parts_.renderer;
     if (size != renderer.size() || settings_.graphics != renderer.options()) {
         if (auto configured = renderer.configure(size, settings_.graphics); !configured) return configured;
     }
-    uploadChanges(*parts_.session.pipeline, renderer, kUploadsPerFrame);
+    view_.upload(uploadBudget(seconds));
     renderer.draw(frameInput());
     renderer.presentToWindow(size);
-    drawInterface(size);
+    drawInterface();
     parts_.window.swapBuffers();
     ++frames_;
     return {};
@@ -130,11 +139,11 @@ render::FrameInput Game::frameInput() const {
     return input;
 }
 
-void Game::drawInterface(glm::ivec2 size) {
-    const Screen screen{static_cast<float>(size.x), static_cast<float>(size.y)};
+void Game::drawInterface() {
     const WorldSession& session = parts_.session;
     const stream::Progress progress = session.pipeline->progress();
     imgui_.beginFrame(isCaptured_);
+    const Screen screen{imgui_.size().x, imgui_.size().y};
     const render::Camera& camera = player_.camera();
     if (isAbove_) {
         drawViewFromAbove(screen, cameraAbove(camera, settings_.viewDistance), camera,
@@ -151,14 +160,43 @@ void Game::drawInterface(glm::ivec2 size) {
     if (showsLoading_)
         drawLoadingMap(screen, *session.pipeline, render::cameraChunk(player_.camera()),
                        settings_.viewDistance);
-    if (showsPanel_) {
-        drawFigures(figures());
-    }
+    if (showsPanel_) drawFigures(figures());
     if (showsPanel_) drawPanel(settings_, day_, {isSoftwareRenderer_, screen.width, screen.height});
+    if (chest_) drawOpenChest(screen);
     imgui_.endFrame();
 }
 
-Figures Game::figures() const {
+// A chest that is gone or out of reach closes.
+void Game::drawOpenChest(const Screen& screen) {
+    WorldSession& session = parts_.session;
+    const glm::dvec3 middle(chest_->x + 0.5, chest_->y + 0.5, chest_->z + 0.5);
+    const bool isNear = glm::distance(middle, player_.camera().position) <= Hand::kReach + 1;
+    if (!isNear || !isChest(session.world, session.blocks, *chest_)) return closeChest();
+    auto items = itemsOf(session.world, session.blocks, *chest_);
+    if (!items) {
+        say(items.error().message);
+        return closeChest();
+    }
+    const auto picture = [&](const std::string& item) {
+        const world::BlockType* kind = session.blocks.find(item);
+        return kind ? parts_.preview.picture(kind->id) : 0;
+    };
+    const auto click = drawChest(screen, *items, picture);
+    world::BlockId inHand = hand_.block();
+    if (!click || !clickSlot(*items, session.blocks, *click, inHand)) return;
+    hand_.choose(inHand);
+    session.pipeline->setLargeData(*chest_, world::encodeInventory(*items));
+}
+
+MemoryFigures Game::memoryFigures() const {
+    return {.blocks = parts_.session.world.memoryBytes(),
+            .light = parts_.session.pipeline->lightBytes(),
+            .quads = parts_.renderer.quadBytes(),
+            .lightOnGpu = parts_.renderer.lightBytes(),
+            .resident = residentBytes()};
+}
+
+Figures Game::figures() {
     const WorldSession& session = parts_.session;
     return {.frames = &meter_,
             .camera = player_.camera(),
@@ -167,10 +205,7 @@ Figures Game::figures() const {
             .activeChunks = session.world.chunks().size(),
             .queuedChunks = session.pipeline->queuedCount(),
             .frame = parts_.renderer.statistics(),
-            .blockBytes = session.world.memoryBytes(),
-            .lightBytes = session.pipeline->lightBytes(),
-            .quadBytes = parts_.renderer.quadBytes(),
-            .lightGpuBytes = parts_.renderer.lightBytes(),
+            .memory = memory_.at(seconds_, [&] { return memoryFigures(); }),
             .tasks = session.pipeline->taskTimes(),
             .passes = &parts_.renderer.passTimes()};
 }

@@ -10,9 +10,11 @@
 #include "apps/terrane/window/frame_meter.h"
 #include "apps/terrane/window/hand.h"
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/pad_reader.h"
 #include "apps/terrane/window/perf_log.h"
 #include "apps/terrane/window/play_settings.h"
-#include "apps/terrane/world_session.h"
+#include "apps/terrane/window/timed_value.h"
+#include "apps/terrane/world_view.h"
 #include "terrane/gpu/window.h"
 
 namespace terrane::app {
@@ -39,6 +41,8 @@ struct GameOptions {
 
 class Game {
   public:
+    static constexpr double kMemoryPause = 0.5;  // seconds for which figures of memory stay as they are
+
     Game(const GameParts& parts, const GameOptions& options);
 
     // Until the window closes; then everything is saved.
@@ -48,23 +52,31 @@ class Game {
   private:
     void handleEvents();
     void onKey(gpu::Key key);
+    void onPad(double seconds);
     void onButton(gpu::MouseButton button, bool isPress);
+    bool openChest();
+    void closeChest();
     void capture(bool isCaptured);
     void savePosition();
     void nextPosition();
     void takeScreenshot();
+    void nextMovement();
     void say(std::string message);
 
-    MoveKeys moveKeys(double seconds);
+    MoveKeys moveKeys() const;
     void advance(double seconds);
     void applySettings();
-    base::Result<void> drawFrame();
+    base::Result<void> useResourcePack(const std::string& folder);
+    base::Result<void> drawFrame(double seconds);
     render::FrameInput frameInput() const;
-    void drawInterface(glm::ivec2 size);
-    Figures figures() const;
+    void drawInterface();
+    void drawOpenChest(const Screen& screen);
+    Figures figures();
+    MemoryFigures memoryFigures() const;
     base::Result<void> leave();
 
     GameParts parts_;
+    WorldView view_;
     PlaySettings settings_, applied_;
     std::filesystem::path positionsFile_;
     bool isSoftwareRenderer_;
@@ -72,7 +84,10 @@ class Game {
     Player player_;
     Hand hand_;
     DayClock day_;
+    PadReader pad_;
     FrameMeter meter_;
+    TimedValue<MemoryFigures> memory_{kMemoryPause};
+    std::optional<world::BlockPos> chest_;  // the open one
     std::string perfData_;
     std::optional<PerfLog> perfLog_;
 

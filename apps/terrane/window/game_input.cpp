@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "apps/terrane/window/chest.h"
 #include "apps/terrane/window/game.h"
 #include "apps/terrane/window/positions.h"
 #include "terrane/base/image.h"
@@ -27,6 +28,7 @@ std::filesystem::path freeScreenshot() {
 
 void Game::handleEvents() {
     using Type = gpu::InputEvent::Type;
+    const bool wasCaptured = isCaptured_;  // what moved before the cursor was taken turns nobody
     for (const gpu::InputEvent& event : parts_.window.events()) {
         switch (event.type) {
             case Type::KeyPress:
@@ -42,7 +44,7 @@ void Game::handleEvents() {
                 if (isCaptured_) hand_.choose(event.y > 0 ? -1 : 1);
                 break;
             case Type::CursorMove:
-                if (!isCaptured_) break;
+                if (!wasCaptured || !isCaptured_) break;
                 player_.turn(event.x * double{settings_.mouseSensitivity},
                              event.y * double{settings_.mouseSensitivity});
         }
@@ -51,9 +53,10 @@ void Game::handleEvents() {
 
 void Game::onKey(gpu::Key key) {
     using gpu::Key;
+    if (imgui_.takesKeys()) return;  // Escape ends the typing
     switch (key) {
         case Key::Escape:
-            return parts_.window.requestClose();
+            return chest_ ? closeChest() : parts_.window.requestClose();
         case Key::F1:
             hintSeconds_ = hintSeconds_ > 0 ? 0 : 20;
             break;
@@ -93,16 +96,33 @@ void Game::onKey(gpu::Key key) {
             say(light == LightSampling::Smooth ? "smooth light" : "classic light");
             break;
         }
-        case Key::M: {
-            const int next =
-                (static_cast<int>(settings_.movement) + 1) % static_cast<int>(movementWords().size());
-            settings_.movement = static_cast<Movement>(next);
-            say("movement: " + movementWords()[static_cast<std::size_t>(next)].first);
-            break;
-        }
+        case Key::M:
+            return nextMovement();
         default:
             break;
     }
+}
+
+void Game::nextMovement() {
+    const auto words = movementWords();
+    const std::size_t next = (static_cast<std::size_t>(settings_.movement) + 1) % words.size();
+    settings_.movement = static_cast<Movement>(next);
+    say("movement: " + words[next].first);
+}
+
+// The sticks move and turn, as moveKeys() and this see them; buttons do what keys and the mouse do.
+void Game::onPad(double seconds) {
+    using gpu::Gamepad;
+    pad_.read(parts_.window.gamepad());
+    player_.turn(double{pad_.now().rightX} * kStickDegrees * seconds,
+                 -double{pad_.now().rightY} * kStickDegrees * seconds);
+    pad_.drive(hand_.breaking, &Gamepad::rightTrigger);
+    pad_.drive(hand_.building, &Gamepad::leftTrigger);
+    if (pad_.isPressed(&Gamepad::leftBumper)) hand_.choose(-1);
+    if (pad_.isPressed(&Gamepad::rightBumper)) hand_.choose(1);
+    if (pad_.isPressed(&Gamepad::north)) nextMovement();
+    if (pad_.isPressed(&Gamepad::up)) day_.shift(kDayStep);
+    if (pad_.isPressed(&Gamepad::down)) day_.shift(-kDayStep);
 }
 
 void Game::onButton(gpu::MouseButton button, bool isPress) {
@@ -117,13 +137,34 @@ void Game::onButton(gpu::MouseButton button, bool isPress) {
         // The middle button turns mouse look on and off, wherever the cursor is.
         return capture(!isCaptured_);
     }
+    if (isCaptured_ && button == gpu::MouseButton::Right && openChest()) return;
     if (isCaptured_) return held->press();
     if (!imgui_.takesMouse()) capture(true);
+}
+
+// That which is looked at, unless one runs: then one builds against it.
+bool Game::openChest() {
+    const auto& target = hand_.target();
+    if (!target || parts_.window.keyDown(gpu::Key::Shift) ||
+        !isChest(parts_.session.world, parts_.session.blocks, target->block)) {
+        return false;
+    }
+    chest_ = target->block;
+    capture(false);
+    return true;
+}
+
+void Game::closeChest() {
+    capture(true);
 }
 
 void Game::capture(bool isCaptured) {
     isCaptured_ = isCaptured;
     parts_.window.setCursorCaptured(isCaptured);
+    if (isCaptured) {
+        imgui_.endTyping();
+        chest_.reset();
+    }
     hand_.breaking.cancel();
     hand_.building.cancel();
 }
@@ -153,33 +194,20 @@ void Game::takeScreenshot() {
     say(done ? "screenshot " + file.string() : done.error().message);
 }
 
-MoveKeys Game::moveKeys(double seconds) {
+MoveKeys Game::moveKeys() const {
     using gpu::Key;
-    const gpu::Window& window = parts_.window;
-    if (imgui_.takesKeys()) return {};
-    const bool walks = settings_.movement == Movement::Gravity;
-    MoveKeys keys{.forward = window.keyDown(Key::W) || window.keyDown(Key::Up),
-                  .back = window.keyDown(Key::S) || window.keyDown(Key::Down),
-                  .left = window.keyDown(Key::A) || window.keyDown(Key::Left),
-                  .right = window.keyDown(Key::D) || window.keyDown(Key::Right),
-                  .up = window.keyDown(Key::E) || (!walks && window.keyDown(Key::Shift)),
-                  .down = window.keyDown(Key::Q) || window.keyDown(Key::Control),
-                  .jump = window.keyDown(Key::Space),
-                  .run = walks && window.keyDown(Key::Shift),
-                  .stick = {}};
-    if (const auto pad = window.gamepad()) {
-        keys.stick = {pad->leftX, pad->leftY};
-        keys.jump |= pad->south;
-        keys.down |= pad->east;
-        keys.run |= pad->west;
-        player_.turn(double{pad->rightX} * kStickDegrees * seconds,
-                     -double{pad->rightY} * kStickDegrees * seconds);
-        if (pad->rightTrigger != hand_.breaking.isDown() && !isCaptured_)
-            pad->rightTrigger ? hand_.breaking.press() : hand_.breaking.release();
-        if (pad->leftTrigger != hand_.building.isDown() && !isCaptured_)
-            pad->leftTrigger ? hand_.building.press() : hand_.building.release();
-    }
-    return keys;
+    const gpu::Gamepad& pad = pad_.now();
+    const bool isTyping = imgui_.takesKeys(), walks = settings_.movement == Movement::Gravity;
+    const auto isDown = [&](Key key) { return !isTyping && parts_.window.keyDown(key); };
+    return {.forward = isDown(Key::W) || isDown(Key::Up),
+            .back = isDown(Key::S) || isDown(Key::Down),
+            .left = isDown(Key::A) || isDown(Key::Left),
+            .right = isDown(Key::D) || isDown(Key::Right),
+            .up = isDown(Key::E) || (!walks && isDown(Key::Shift)),
+            .down = isDown(Key::Q) || isDown(Key::Control) || pad.east,
+            .jump = isDown(Key::Space) || pad.south,
+            .run = (walks && isDown(Key::Shift)) || pad.west,
+            .stick = {pad.leftX, pad.leftY}};
 }
 
 }  // namespace terrane::app

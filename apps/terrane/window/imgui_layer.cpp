@@ -5,28 +5,45 @@
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
 
+#include <cmath>
+
 namespace terrane::app {
 namespace {
 
-void style(float scale) {
-    ImGui::StyleColorsDark();
-    ImGuiStyle& s = ImGui::GetStyle();
+constexpr float kFontPixels = 13;  // of Dear ImGui's own font, for which all sizes here are meant
+
+void setStyle(float scale) {
+    ImGuiStyle s;
+    ImGui::StyleColorsDark(&s);
     s.WindowRounding = 6;
     s.FrameRounding = 3;
     s.GrabRounding = 3;
     s.WindowBorderSize = 0;
     s.Colors[ImGuiCol_WindowBg] = ImVec4(0.06f, 0.07f, 0.09f, 0.78f);
     s.ScaleAllSizes(scale);
-    ImGui::GetIO().FontGlobalScale = scale;
+    ImGui::GetStyle() = s;
+}
+
+// Drawn anew in the size that it has on the screen, so that it is sharp.
+void setFont(float pixels) {
+    ImFontConfig config;
+    config.SizePixels = std::round(pixels);
+    ImGui::GetIO().Fonts->Clear();
+    ImGui::GetIO().Fonts->AddFontDefault(&config);
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
 }  // namespace
 
-ImguiLayer::ImguiLayer(const gpu::Window& window) {
+float uiScale() {
+    return ImGui::GetFontSize() / kFontPixels;
+}
+
+ImguiLayer::ImguiLayer(const gpu::Window& window) : window_(&window) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // where its windows lie is ours to say
-    style(window.contentScale());
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
     ImGui_ImplOpenGL3_Init("#version 450 core");
 }
@@ -46,7 +63,24 @@ void ImguiLayer::beginFrame(bool isCursorCaptured) {
     }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    followScale();
     ImGui::NewFrame();
+}
+
+// At first, and when the window has moved to a screen with another scale. Where the system counts in units
+// larger than pixels, Dear ImGui does too: only the rest of the scale is for it to do.
+void ImguiLayer::followScale() {
+    const Scale scale{window_->contentScale(), window_->pixelsPerUnit()};
+    if (scale == scale_) return;
+    scale_ = scale;
+    setStyle(scale.content / scale.pixelsPerUnit);
+    setFont(kFontPixels * scale.content);
+    ImGui::GetIO().FontGlobalScale = 1 / scale.pixelsPerUnit;
+}
+
+glm::vec2 ImguiLayer::size() const {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    return {size.x, size.y};
 }
 
 void ImguiLayer::endFrame() {
@@ -61,6 +95,10 @@ bool ImguiLayer::takesMouse() const {
 
 bool ImguiLayer::takesKeys() const {
     return ImGui::GetIO().WantTextInput;
+}
+
+void ImguiLayer::endTyping() {
+    ImGui::SetWindowFocus(nullptr);
 }
 
 }  // namespace terrane::app

@@ -1,6 +1,8 @@
 // Dear ImGui over a window: set up once, one frame at a time. Used on the window's thread.
 #pragma once
 
+#include <glm/vec2.hpp>
+
 #include "terrane/gpu/window.h"
 
 namespace terrane::app {
@@ -15,11 +17,28 @@ class ImguiLayer {
 
     // While the cursor is captured the mouse belongs to the game.
     void beginFrame(bool isCursorCaptured);
+    // Of the window in the units in which Dear ImGui and the cursor count: the pixels of its framebuffer on
+    // some systems, fewer on others. Since beginFrame().
+    glm::vec2 size() const;
     // Draws into the window's framebuffer.
     void endFrame();
 
     bool takesMouse() const;  // the cursor is over something of the user interface
     bool takesKeys() const;   // a text is being typed
+    void endTyping();
+
+  private:
+    struct Scale {
+        float content = 0, pixelsPerUnit = 0;
+        bool operator==(const Scale&) const = default;
+    };
+    void followScale();
+
+    const gpu::Window* window_;
+    Scale scale_;
 };
+
+// How much larger than designed the user interface is drawn, in Dear ImGui's units. During a frame.
+float uiScale();
 
 }  // namespace terrane::app

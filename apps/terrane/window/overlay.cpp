@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "apps/terrane/window/hand.h"
+#include "apps/terrane/window/imgui_layer.h"
 #include "terrane/render/shadow_volume.h"
 
 namespace terrane::app {
@@ -17,10 +18,6 @@ namespace {
 constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
                                    ImGuiWindowFlags_NoNav;
-
-float scale() {
-    return ImGui::GetIO().FontGlobalScale;
-}
 
 ImU32 withAlpha(int red, int green, int blue, float alpha) {
     return IM_COL32(red, green, blue, static_cast<int>(255 * glm::clamp(alpha, 0.0f, 1.0f)));
@@ -82,7 +79,7 @@ void drawTarget(const Screen& screen, const render::Camera& camera, const world:
         const Corners c = faceCorners(screen, camera, min, max, face);
         if (!isSeen || isCovered || !c[0] || !c[1] || !c[2] || !c[3]) continue;
         if (face == target.face) draw.AddQuadFilled(*c[0], *c[1], *c[2], *c[3], IM_COL32(255, 255, 255, 28));
-        draw.AddQuad(*c[0], *c[1], *c[2], *c[3], IM_COL32(0, 0, 0, 190), 1.5f * scale());
+        draw.AddQuad(*c[0], *c[1], *c[2], *c[3], IM_COL32(0, 0, 0, 190), 1.5f * uiScale());
     }
 }
 
@@ -99,7 +96,7 @@ void drawViewFromAbove(const Screen& screen, const render::Camera& above, const 
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const auto line = [&](glm::dvec3 a, glm::dvec3 b, ImU32 colour) {
         const auto from = projected(screen, above, a), to = projected(screen, above, b);
-        if (from && to) draw.AddLine(*from, *to, colour, 2 * scale());
+        if (from && to) draw.AddLine(*from, *to, colour, 2 * uiScale());
     };
     const glm::dvec3 ahead(render::lookDirection(camera)), right(render::rightDirection(camera));
     const glm::dvec3 up = glm::cross(right, ahead);
@@ -124,16 +121,16 @@ void drawViewFromAbove(const Screen& screen, const render::Camera& above, const 
 
 void drawCrosshair(const Screen& screen) {
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-    const float x = std::floor(screen.width / 2), y = std::floor(screen.height / 2), r = 8 * scale();
+    const float x = std::floor(screen.width / 2), y = std::floor(screen.height / 2), r = 8 * uiScale();
     for (const auto& [colour, thick] :
          {std::pair(IM_COL32(0, 0, 0, 120), 4.0f), {IM_COL32(255, 255, 255, 220), 2.0f}}) {
-        draw.AddLine({x - r, y}, {x + r, y}, colour, thick * scale());
-        draw.AddLine({x, y - r}, {x, y + r}, colour, thick * scale());
+        draw.AddLine({x - r, y}, {x + r, y}, colour, thick * uiScale());
+        draw.AddLine({x, y - r}, {x, y + r}, colour, thick * uiScale());
     }
 }
 
 void drawHand(const Screen& screen, const std::string& name, unsigned picture) {
-    const float margin = 12 * scale(), size = 72 * scale();
+    const float margin = 12 * uiScale(), size = 72 * uiScale();
     ImGui::SetNextWindowPos({margin, screen.height - margin}, ImGuiCond_Always, {0, 1});
     ImGui::SetNextWindowBgAlpha(0.45f);
     ImGui::Begin("hand", nullptr, kBare);
@@ -147,7 +144,7 @@ void drawHand(const Screen& screen, const std::string& name, unsigned picture) {
 }
 
 void drawFigures(const Figures& f) {
-    ImGui::SetNextWindowPos({10 * scale(), 10 * scale()});
+    ImGui::SetNextWindowPos({10 * uiScale(), 10 * uiScale()});
     ImGui::SetNextWindowBgAlpha(0.5f);
     ImGui::Begin("figures", nullptr, kBare);
     const glm::dvec3& p = f.camera.position;
@@ -158,8 +155,8 @@ void drawFigures(const Figures& f) {
                 f.progress.wanted, f.queuedChunks);
     ImGui::Text("triangles: %zu opaque, %zu transparent", f.frame.opaqueTriangles,
                 f.frame.transparentTriangles);
-    ImGui::Text("MB: blocks %.1f, light %.1f; on the GPU quads %.1f, light %.1f", megabytes(f.blockBytes),
-                megabytes(f.lightBytes), megabytes(f.quadBytes), megabytes(f.lightGpuBytes));
+    ImGui::Text("MB: blocks %.1f, light %.1f; on the GPU quads %.1f, light %.1f", megabytes(f.memory.blocks),
+                megabytes(f.memory.light), megabytes(f.memory.quads), megabytes(f.memory.lightOnGpu));
     for (const stream::TaskTime& task : f.tasks) {
         if (task.count == 0) continue;
         ImGui::Text("%s: %.0f us each, %zu", task.name, task.microseconds / static_cast<double>(task.count),
@@ -173,9 +170,9 @@ void drawFigures(const Figures& f) {
 void drawProgress(const Screen& screen, const stream::Progress& progress) {
     const float share =
         static_cast<float>(progress.visible) / static_cast<float>(std::max<std::size_t>(progress.wanted, 1));
-    centred("progress", screen, screen.height - 40 * scale());
+    centred("progress", screen, screen.height - 40 * uiScale());
     ImGui::Text("the world comes into view");
-    ImGui::ProgressBar(share, {240 * scale(), 8 * scale()}, "");
+    ImGui::ProgressBar(share, {240 * uiScale(), 8 * uiScale()}, "");
     ImGui::End();
 }
 
@@ -184,7 +181,7 @@ void drawHint(const Screen& screen, float share) {
     centred("hint", screen, screen.height * 0.3f);
     ImGui::TextUnformatted(
         "click: look around    W A S D: move    Space: jump    Shift: run\n"
-        "left button: break    right button: build    wheel: choose a block\n"
+        "left button: break    right button: build, open a chest    wheel: choose a block\n"
         "F1: this help    F2: settings and figures    M: way to move    Esc: quit");
     ImGui::End();
     ImGui::PopStyleVar();
@@ -194,7 +191,7 @@ void drawMessage(const Screen& screen, const std::string& message, float share) 
     const ImVec2 size = ImGui::CalcTextSize(message.c_str());
     const ImVec2 at((screen.width - size.x) / 2, screen.height * 0.75f);
     ImDrawList& draw = *ImGui::GetForegroundDrawList();
-    draw.AddText({at.x + scale(), at.y + scale()}, withAlpha(0, 0, 0, share), message.c_str());
+    draw.AddText({at.x + uiScale(), at.y + uiScale()}, withAlpha(0, 0, 0, share), message.c_str());
     draw.AddText(at, withAlpha(255, 255, 255, share), message.c_str());
 }
 

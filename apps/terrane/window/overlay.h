@@ -15,7 +15,7 @@
 namespace terrane::app {
 
 struct Screen {
-    float width = 0, height = 0;  // pixels
+    float width = 0, height = 0;  // in Dear ImGui's units
 };
 
 // The edges of the block that is looked at, of its faces that nothing covers, and the face under the
@@ -32,6 +32,12 @@ void drawCrosshair(const Screen& screen);
 // The block in the hand, bottom left. `picture`: an OpenGL texture, 0: none.
 void drawHand(const Screen& screen, const std::string& name, unsigned picture);
 
+// Bytes by owner. Finding them goes through all chunks.
+struct MemoryFigures {
+    std::size_t blocks = 0, light = 0, quads = 0, lightOnGpu = 0;
+    std::size_t resident = 0;  // of the process; 0 where the system does not tell
+};
+
 struct Figures {
     const FrameMeter* frames = nullptr;
     render::Camera camera;
@@ -39,7 +45,7 @@ struct Figures {
     stream::Progress progress;
     std::size_t activeChunks = 0, queuedChunks = 0;
     render::FrameStatistics frame;
-    std::size_t blockBytes = 0, lightBytes = 0, quadBytes = 0, lightGpuBytes = 0;
+    MemoryFigures memory;
     std::vector<stream::TaskTime> tasks;
     const std::vector<gpu::GpuTiming>* passes = nullptr;
 };

@@ -2,8 +2,15 @@
 
 #include <imgui.h>
 
+#include <array>
+
+#include "apps/terrane/window/imgui_layer.h"
+
 namespace terrane::app {
 namespace {
+
+// With Ctrl and a click a number can be typed: it too stays in the range.
+constexpr ImGuiSliderFlags kTyped = ImGuiSliderFlags_AlwaysClamp;
 
 // A combo box over `count` words; true when another one was chosen.
 template <class WordOf>
@@ -73,8 +80,8 @@ void drawView(PlaySettings& s) {
     if (combo("view", view, static_cast<int>(std::size(kViews)), [&](int k) { return kViews[k]; })) {
         s.view = static_cast<render::View>(view);
     }
-    ImGui::SliderInt("view distance", &s.viewDistance, 2, 64);
-    ImGui::SliderFloat("field of view", &s.fieldOfView, 40, 110, "%.0f");
+    ImGui::SliderInt("view distance", &s.viewDistance, 2, 64, "%d", kTyped);
+    ImGui::SliderFloat("field of view", &s.fieldOfView, 40, 110, "%.0f", kTyped);
     choice("aggregation", s.mesh.method, aggregationWords());
     int height = s.mesh.regionHeight;
     int exponent = 0;
@@ -84,21 +91,31 @@ void drawView(PlaySettings& s) {
         s.mesh.regionHeight = mesh::kMinRegionHeight << exponent;
 }
 
+// Taken over with Enter.
+void drawResourcePack(PlaySettings& s) {
+    std::array<char, 512> folder{};
+    s.resourcePack.copy(folder.data(), folder.size() - 1);
+    if (ImGui::InputText("resource pack", folder.data(), folder.size(), ImGuiInputTextFlags_EnterReturnsTrue))
+        s.resourcePack = folder.data();
+    tooltip("Folder of PNG files named as textures; Enter takes it");
+}
+
 void drawPerson(PlaySettings& s, DayClock& day) {
     choice("movement", s.movement, movementWords());
-    ImGui::SliderFloat("mouse", &s.mouseSensitivity, 0.02f, 0.6f, "%.2f");
+    ImGui::SliderFloat("mouse", &s.mouseSensitivity, 0.02f, 0.6f, "%.2f", kTyped);
     ImGui::Checkbox("full screen", &s.fullScreen);
     float time = static_cast<float>(day.timeDay);
-    if (ImGui::SliderFloat("time of day", &time, 0, 1, "%.3f")) day.timeDay = double{time};
+    if (ImGui::SliderFloat("time of day", &time, 0, 1, "%.3f", kTyped)) day.timeDay = double{time};
     ImGui::Checkbox("time passes", &day.isRunning);
     float minutes = static_cast<float>(s.dayMinutes);
-    if (ImGui::SliderFloat("minutes a day", &minutes, 0.5f, 60, "%.1f")) s.dayMinutes = double{minutes};
+    if (ImGui::SliderFloat("minutes a day", &minutes, 0.5f, 60, "%.1f", kTyped))
+        s.dayMinutes = double{minutes};
 }
 
 }  // namespace
 
 void drawPanel(PlaySettings& settings, DayClock& day, const PanelInput& input) {
-    const float scale = ImGui::GetIO().FontGlobalScale, width = 280 * scale, margin = 10 * scale;
+    const float scale = uiScale(), width = 280 * scale, margin = 10 * scale;
     ImGui::SetNextWindowPos({input.width - width - margin, margin});
     ImGui::SetNextWindowSize({width, 0});
     ImGui::SetNextWindowSizeConstraints({width, 0}, {width, input.height - 2 * margin});
@@ -109,6 +126,7 @@ void drawPanel(PlaySettings& settings, DayClock& day, const PanelInput& input) {
     ImGui::Separator();
     for (const GraphicsRow& row : graphicsTable()) drawRow(row, settings.graphics);
     ImGui::Separator();
+    drawResourcePack(settings);
     drawPerson(settings, day);
     ImGui::PopItemWidth();
     ImGui::End();

@@ -8,7 +8,7 @@ namespace terrane::app {
 
 struct PanelInput {
     bool isSoftwareRenderer = false;
-    float width = 0, height = 0;  // of the window, in pixels
+    float width = 0, height = 0;  // of the window
 };
 
 void drawPanel(PlaySettings& settings, DayClock& day, const PanelInput& input);

@@ -26,7 +26,7 @@ base::Result<PerfLog> PerfLog::create(const std::filesystem::path& file) {
 void PerfLog::add(double seconds, double frameSeconds, const Figures& f) {
     fmt::print(out_, "{:.4f},{:.3f},{:.1f},{:.1f},{:.1f},{:.1f},{:.1f},{},{},{},{},{}", seconds,
                frameSeconds * 1000, f.frames->now(), f.frames->least(), f.frames->most(),
-               megabytes(residentBytes()), megabytes(f.quadBytes + f.lightGpuBytes), f.activeChunks,
+               megabytes(f.memory.resident), megabytes(f.memory.quads + f.memory.lightOnGpu), f.activeChunks,
                f.progress.visible, f.queuedChunks, f.frame.opaqueTriangles, f.frame.transparentTriangles);
     for (std::size_t k = 0; k < f.tasks.size(); ++k) {
         const double before = tasks_.empty() ? 0 : tasks_[k].microseconds;

@@ -35,22 +35,29 @@ std::span<const std::pair<std::string, mesh::Method>> aggregationWords() {
     return words;
 }
 
+std::vector<std::string> graphicsSettings() {
+    std::vector<std::string> names = {"preset"};
+    for (const GraphicsRow& row : graphicsTable()) names.emplace_back(row.name);
+    return names;
+}
+
 SettingValues valuesOf(const PlaySettings& s, bool isSoftwareRenderer) {
     SettingValues values = {{"preset", s.preset}};
     const render::RenderOptions preset = renderOptions({s.preset, {}}, isSoftwareRenderer);
     for (const GraphicsRow& row : graphicsTable()) {
         const int word = row.get(s.graphics);
         if (word == row.get(preset)) continue;
-        values.emplace_back(row.name, row.words[static_cast<std::size_t>(word)]);
+        values.emplace(row.name, row.words[static_cast<std::size_t>(word)]);
     }
-    values.emplace_back("view-distance", fmt::format("{}", s.viewDistance));
-    values.emplace_back("aggregation", wordOf(aggregationWords(), s.mesh.method));
-    values.emplace_back("region-height", fmt::format("{}", s.mesh.regionHeight));
-    values.emplace_back("movement", wordOf(movementWords(), s.movement));
-    values.emplace_back("field-of-view", fmt::format("{:.0f}", s.fieldOfView));
-    values.emplace_back("mouse-sensitivity", fmt::format("{:.2f}", s.mouseSensitivity));
-    values.emplace_back("day-minutes", fmt::format("{:.1f}", s.dayMinutes));
-    if (s.fullScreen) values.emplace_back("full-screen", "true");
+    values.emplace("view-distance", fmt::format("{}", s.viewDistance));
+    values.emplace("aggregation", wordOf(aggregationWords(), s.mesh.method));
+    values.emplace("region-height", fmt::format("{}", s.mesh.regionHeight));
+    values.emplace("movement", wordOf(movementWords(), s.movement));
+    values.emplace("field-of-view", fmt::format("{:.0f}", s.fieldOfView));
+    values.emplace("mouse-sensitivity", fmt::format("{:.2f}", s.mouseSensitivity));
+    values.emplace("day-minutes", fmt::format("{:.1f}", s.dayMinutes));
+    if (s.fullScreen) values.emplace("full-screen", "true");
+    if (!s.resourcePack.empty()) values.emplace("resource-pack", s.resourcePack);
     return values;
 }
 

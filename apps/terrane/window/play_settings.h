@@ -22,6 +22,7 @@ struct PlaySettings {
     float mouseSensitivity = 0.15f;  // degrees a screen unit
     double dayMinutes = 20;
     bool fullScreen = false;
+    std::string resourcePack;  // folder; empty: none
 
     bool operator==(const PlaySettings&) const = default;
 };
@@ -29,6 +30,9 @@ struct PlaySettings {
 // The words of the options --movement, --aggregation.
 std::span<const std::pair<std::string, Movement>> movementWords();
 std::span<const std::pair<std::string, mesh::Method>> aggregationWords();
+
+// The options of graphics that a preset stands for, and the preset.
+std::vector<std::string> graphicsSettings();
 
 // As options of `terrane play`: of the graphics options only those that differ from the preset.
 SettingValues valuesOf(const PlaySettings& settings, bool isSoftwareRenderer);

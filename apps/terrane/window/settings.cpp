@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <system_error>
 
@@ -45,6 +46,35 @@ base::Result<void> applyOne(const fs::path& file, CLI::App& command, const toml:
     return {};
 }
 
+// Empty where there is no file.
+base::Result<toml::table> readTable(const fs::path& file) {
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) return toml::table();
+    try {
+        return toml::parse_file(file.string());
+    } catch (const toml::parse_error& error) {
+        return base::fail("{}:{}: {}", file.string(), error.source().begin.line, error.description());
+    }
+}
+
+base::Result<void> writeTable(const fs::path& file, const toml::table& table) {
+    std::error_code error;
+    fs::create_directories(file.parent_path(), error);
+    fs::path fresh = file;
+    fresh += ".new";
+    std::ofstream out(fresh);
+    out << "# Settings of Terrane: options of `terrane play` (see its --help).\n" << table << '\n';
+    out.close();
+    if (out) fs::rename(fresh, file, error);
+    if (!out || error) return base::fail("{}: cannot be written", file.string());
+    return {};
+}
+
+std::optional<std::string> valueOf(const SettingValues& values, const std::string& name) {
+    const auto found = values.find(name);
+    return found != values.end() ? std::optional(found->second) : std::nullopt;
+}
+
 }  // namespace
 
 fs::path settingsPath() {
@@ -59,14 +89,10 @@ fs::path settingsPath() {
 
 base::Result<void> applySettings(const fs::path& file, CLI::App& command,
                                  const std::vector<std::string>& graphics) {
-    std::error_code ignored;
-    if (file.empty() || !fs::exists(file, ignored)) return {};
-    toml::table table;
-    try {
-        table = toml::parse_file(file.string());
-    } catch (const toml::parse_error& error) {
-        return base::fail("{}:{}: {}", file.string(), error.source().begin.line, error.description());
-    }
+    if (file.empty()) return {};
+    const auto read = readTable(file);
+    if (!read) return tl::unexpected(read.error());
+    const toml::table& table = *read;
     const bool standsAlone = command.get_option("--preset")->count() > 0;
     // In the order of the options: a preset comes before what is changed of it.
     for (const CLI::Option* option : command.get_options()) {
@@ -83,20 +109,24 @@ base::Result<void> applySettings(const fs::path& file, CLI::App& command,
     return {};
 }
 
-base::Result<void> writeSettings(const fs::path& file, const SettingValues& values) {
-    if (file.empty()) return {};
-    std::error_code error;
-    fs::create_directories(file.parent_path(), error);
-    toml::table table;
-    for (const auto& [name, value] : values) table.insert_or_assign(name, value);
-    fs::path fresh = file;
-    fresh += ".new";
-    std::ofstream out(fresh);
-    out << "# Settings of Terrane: options of `terrane play` (see its --help).\n" << table << '\n';
-    out.close();
-    if (out) fs::rename(fresh, file, error);
-    if (!out || error) return base::fail("{}: cannot be written", file.string());
-    return {};
+base::Result<void> writeChanges(const fs::path& file, const SettingValues& before, const SettingValues& after,
+                                const std::vector<std::string>& graphics) {
+    if (file.empty() || before == after) return {};
+    auto table = readTable(file);
+    if (!table) return tl::unexpected(table.error());
+    if (valueOf(before, "preset") != valueOf(after, "preset")) {
+        for (const std::string& name : graphics) table->erase(name);
+        for (const std::string& name : graphics) {
+            if (const auto value = valueOf(after, name)) table->insert_or_assign(name, *value);
+        }
+    }
+    for (const auto& [name, value] : before) {
+        if (!after.contains(name)) table->erase(name);
+    }
+    for (const auto& [name, value] : after) {
+        if (valueOf(before, name) != value) table->insert_or_assign(name, value);
+    }
+    return writeTable(file, *table);
 }
 
 }  // namespace terrane::app

@@ -4,8 +4,8 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "terrane/base/result.h"
@@ -16,7 +16,7 @@ namespace terrane::app {
 // $HOME/.config/terrane/settings.toml; empty where there is neither.
 std::filesystem::path settingsPath();
 
-using SettingValues = std::vector<std::pair<std::string, std::string>>;  // option without dashes, value
+using SettingValues = std::map<std::string, std::string>;  // option without dashes, value
 
 // Sets those of `command`'s options that the command line did not. A preset on the command line stands alone:
 // `graphics`, the names of single graphics options, are then left out. Nothing where there is no file. Errors
@@ -24,7 +24,10 @@ using SettingValues = std::vector<std::pair<std::string, std::string>>;  // opti
 base::Result<void> applySettings(const std::filesystem::path& file, CLI::App& command,
                                  const std::vector<std::string>& graphics);
 
-// Replaces the file; makes its folder.
-base::Result<void> writeSettings(const std::filesystem::path& file, const SettingValues& values);
+// Writes what differs between `before` and `after`, as a person changed it; all else in the file stays, so
+// that options of one command line do not become settings. Another preset replaces all of the `graphics`
+// options. Makes the file and its folder.
+base::Result<void> writeChanges(const std::filesystem::path& file, const SettingValues& before,
+                                const SettingValues& after, const std::vector<std::string>& graphics);
 
 }  // namespace terrane::app

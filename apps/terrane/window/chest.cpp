@@ -1,0 +1,33 @@
+#include "apps/terrane/window/chest.h"
+
+#include <cassert>
+
+namespace terrane::app {
+
+bool isChest(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos pos) {
+    return blocks.type(world.block(pos)).slots > 0;
+}
+
+base::Result<world::Inventory> itemsOf(const world::World& world, const world::BlockRegistry& blocks,
+                                       world::BlockPos pos) {
+    const int slots = blocks.type(world.block(pos)).slots;
+    const world::LargeData* data = world.largeData(pos);
+    if (!data) return world::Inventory(static_cast<std::size_t>(slots));
+    auto items = world::decodeInventory(*data, slots);
+    if (!items) return base::fail("the chest at {},{},{}: {}", pos.x, pos.y, pos.z, items.error().message);
+    return items;
+}
+
+bool clickSlot(world::Inventory& items, const world::BlockRegistry& blocks, const SlotClick& click,
+               world::BlockId& inHand) {
+    assert(click.slot < items.size() && "a slot of the chest");
+    const int count = click.wholeStack ? world::kMaxStack : 1;
+    world::ItemStack& stack = items[click.slot];
+    if (!click.takes) return world::addToStack(stack, blocks.type(inHand).name, count) < count;
+    const world::BlockType* kind = blocks.find(stack.item);
+    if (stack.count == 0 || !kind) return false;
+    inHand = kind->id;
+    return world::takeFromStack(stack, count) > 0;
+}
+
+}  // namespace terrane::app

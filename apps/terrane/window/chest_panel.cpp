@@ -1,0 +1,59 @@
+#include "apps/terrane/window/chest_panel.h"
+
+#include <imgui.h>
+
+#include "apps/terrane/window/imgui_layer.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr int kColumns = 9;
+constexpr float kSide = 40;  // of a slot, before scaling
+
+void drawStack(ImVec2 min, ImVec2 max, const world::ItemStack& stack, unsigned picture) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImU32 ground = ImGui::IsItemHovered() ? IM_COL32(90, 100, 120, 200) : IM_COL32(50, 54, 62, 200);
+    draw.AddRectFilled(min, max, ground, 3 * uiScale());
+    if (stack.count == 0) return;
+    const float edge = 3 * uiScale();
+    if (picture != 0) {
+        // Rows of a texture run from below.
+        draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture)),
+                      {min.x + edge, min.y + edge}, {max.x - edge, max.y - edge}, {0, 1}, {1, 0});
+    }
+    const std::string count = std::to_string(stack.count);
+    const ImVec2 size = ImGui::CalcTextSize(count.c_str());
+    const ImVec2 at(max.x - size.x - 2 * uiScale(), max.y - size.y);
+    draw.AddText({at.x + uiScale(), at.y + uiScale()}, IM_COL32(0, 0, 0, 255), count.c_str());
+    draw.AddText(at, IM_COL32(255, 255, 255, 255), count.c_str());
+}
+
+}  // namespace
+
+std::optional<SlotClick> drawChest(const Screen& screen, const world::Inventory& items,
+                                   const std::function<unsigned(const std::string&)>& picture) {
+    std::optional<SlotClick> click;
+    ImGui::SetNextWindowPos({screen.width / 2, screen.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::Begin("Chest", nullptr,
+                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
+    const float side = kSide * uiScale();
+    for (std::size_t slot = 0; slot < items.size(); ++slot) {
+        if (slot % kColumns != 0) ImGui::SameLine(0, 3 * uiScale());
+        ImGui::PushID(static_cast<int>(slot));
+        ImGui::InvisibleButton("slot", {side, side},
+                               ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+        const world::ItemStack& stack = items[slot];
+        drawStack(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), stack,
+                  stack.count > 0 ? picture(stack.item) : 0);
+        if (stack.count > 0 && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", stack.item.c_str());
+        const bool takes = ImGui::IsItemClicked(ImGuiMouseButton_Right);
+        if (takes || ImGui::IsItemClicked(ImGuiMouseButton_Left))
+            click = {slot, takes, ImGui::GetIO().KeyShift};
+        ImGui::PopID();
+    }
+    ImGui::TextUnformatted("left: put in   right: take out   Shift: a stack   Esc: close");
+    ImGui::End();
+    return click;
+}
+
+}  // namespace terrane::app

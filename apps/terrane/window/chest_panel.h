@@ -1,0 +1,16 @@
+// The slots of an open chest in the middle of the window. Immediate mode: draws, and tells what was clicked.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "apps/terrane/window/chest.h"
+#include "apps/terrane/window/overlay.h"
+
+namespace terrane::app {
+
+// `picture`: the OpenGL texture for an item's name, 0: none.
+std::optional<SlotClick> drawChest(const Screen& screen, const world::Inventory& items,
+                                   const std::function<unsigned(const std::string&)>& picture);
+
+}  // namespace terrane::app

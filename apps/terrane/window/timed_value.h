@@ -1,0 +1,28 @@
+// A value that takes long to find: found anew only when some time has passed. Any thread, one at a time.
+#pragma once
+
+namespace terrane::app {
+
+template <class T>
+class TimedValue {
+  public:
+    explicit TimedValue(double pauseSeconds) : pauseSeconds_(pauseSeconds) {}
+
+    // `find()` gives the value where there is none yet or the last one is older than the pause.
+    template <class Find>
+    const T& at(double seconds, Find find) {
+        if (!isFound_ || seconds - foundAt_ >= pauseSeconds_) {
+            value_ = find();
+            foundAt_ = seconds;
+            isFound_ = true;
+        }
+        return value_;
+    }
+
+  private:
+    double pauseSeconds_, foundAt_ = 0;
+    bool isFound_ = false;
+    T value_{};
+};
+
+}  // namespace terrane::app

@@ -1,0 +1,57 @@
+// What goes into the chunk pipeline (chunk_pipeline.h) and what comes out of it: plain values.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "terrane/base/job_system.h"
+#include "terrane/stream/chunk_jobs.h"
+#include "terrane/world/world.h"
+
+namespace terrane::stream {
+
+// What became of a chunk on screen. Null: as before.
+struct ChunkChange {
+    world::ChunkPos pos;
+    MeshPtr mesh;
+    mesh::RegionSet regions = 0;  // of the mesh that changed; the others have no quads in it
+    light::ChunkLightPtr light;
+    std::uint16_t bricks = 0;  // of the light that changed, a bit each
+    bool isHidden = false;     // it is no longer on screen
+};
+
+struct Progress {
+    std::size_t wanted = 0;   // chunks within the view distance
+    std::size_t visible = 0;  // of these, lit and meshed
+    bool complete() const { return visible == wanted; }
+};
+
+// What workers did so far, of one kind of task.
+struct TaskTime {
+    const char* name = "";
+    std::size_t count = 0;
+    double microseconds = 0;  // of all
+};
+
+// Makes chunks many at a time on the pipeline's thread without waiting: a GPU.
+struct BatchGenerator {
+    // Takes chunks from the front and says how many; 0 while it is busy.
+    std::function<std::size_t(std::span<const world::ChunkPos>)> submit;
+    // Chunks that are done, if there are any.
+    std::function<std::vector<std::pair<world::ChunkPos, world::Chunk>>()> take;
+};
+
+// What the pipeline works with; everything outlives it.
+struct PipelineParts {
+    base::JobSystem& jobs;
+    const world::BlockRegistry& blocks;
+    const light::LightTable& lights;
+    world::World& world;
+    ChunkSource source;
+    const BatchGenerator* batches = nullptr;  // in place of source.generator
+};
+
+}  // namespace terrane::stream

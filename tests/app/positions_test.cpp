@@ -1,0 +1,65 @@
+#include "apps/terrane/window/positions.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/base/temp_folder.h"
+
+namespace terrane::app {
+namespace {
+
+class Positions : public testing::Test {
+  protected:
+    void write(std::string_view text) { std::ofstream(file_) << text; }
+
+    base::TempFolder folder_;
+    std::filesystem::path file_ = folder_.path() / "positions.txt";
+};
+
+TEST_F(Positions, ComeBackAsTheyWere) {
+    const render::Camera camera{{-2147483000.25, 0.1, 77.62}, -179.5f, 89.9f};
+    const auto again = cameraFrom(textOf(camera));
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->position, camera.position);
+    EXPECT_EQ(again->yaw, camera.yaw);
+    EXPECT_EQ(again->pitch, camera.pitch);
+}
+
+TEST_F(Positions, WhatIsNoPositionIsNone) {
+    for (const char* text :
+         {"", "1 2 3 4", "1 2 3 4 5 6", "1 2 3 4 five", "nan 2 3 4 5", "1 2 inf 4 5", "1 2 3 nan 5",
+          "1 2 3 4 nan", "1 2 3 4 91", "3000000000 2 3 4 5", "1 -3000000000 3 4 5", "1 2 3 4 5;"}) {
+        EXPECT_FALSE(cameraFrom(text)) << text;
+    }
+}
+
+TEST_F(Positions, NoFileHasNone) {
+    const auto positions = readPositions(file_);
+    ASSERT_TRUE(positions);
+    EXPECT_TRUE(positions->empty());
+}
+
+TEST_F(Positions, AreAppendedLineByLine) {
+    for (const double x : {1.0, 2.5}) ASSERT_TRUE(appendPosition(file_, {{x, 3, 4}, 5, 6}));
+    const auto positions = readPositions(file_);
+    ASSERT_TRUE(positions) << positions.error().message;
+    ASSERT_EQ(positions->size(), 2u);
+    EXPECT_EQ((*positions)[1].position, glm::dvec3(2.5, 3, 4));
+}
+
+TEST_F(Positions, AWrongLineIsNamed) {
+    write("1 2 3 4 5\n\n1 2 3\n");
+    const auto positions = readPositions(file_);
+    ASSERT_FALSE(positions);
+    EXPECT_EQ(positions.error().message, file_.string() + ":3: expected x y z yaw pitch, got \"1 2 3\"");
+}
+
+TEST_F(Positions, AFileThatCannotBeWrittenIsNamed) {
+    const auto done = appendPosition(folder_.path() / "missing" / "positions.txt", {});
+    ASSERT_FALSE(done);
+    EXPECT_NE(done.error().message.find("cannot be written"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace terrane::app

@@ -1,0 +1,82 @@
+#include "apps/terrane/window/settings.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "tests/base/temp_folder.h"
+
+namespace terrane::app {
+namespace {
+
+const std::vector<std::string> kGraphics = {"preset", "clouds", "shadows"};
+
+class Settings : public testing::Test {
+  protected:
+    void write(std::string_view text) { std::ofstream(file_) << text; }
+    std::string written() const {
+        std::ostringstream text;
+        text << std::ifstream(file_).rdbuf();
+        return text.str();
+    }
+    // The lines that are settings.
+    std::vector<std::string> lines() const {
+        std::istringstream in(written());
+        std::vector<std::string> found;
+        for (std::string line; std::getline(in, line);) {
+            if (!line.empty() && line[0] != '#') found.push_back(line);
+        }
+        return found;
+    }
+    using Lines = std::vector<std::string>;
+
+    base::TempFolder folder_;
+    std::filesystem::path file_ = folder_.path() / "terrane" / "settings.toml";
+};
+
+TEST_F(Settings, NothingIsWrittenWhereNothingChanged) {
+    ASSERT_TRUE(writeChanges(file_, {{"movement", "fast"}}, {{"movement", "fast"}}, kGraphics));
+    EXPECT_FALSE(std::filesystem::exists(file_));
+}
+
+TEST_F(Settings, OnlyWhatChangedIsWritten) {
+    // As after: play --view-distance 40 --full-screen, and M pressed.
+    ASSERT_TRUE(writeChanges(file_, {{"view-distance", "40"}, {"full-screen", "true"}, {"movement", "walls"}},
+                             {{"view-distance", "40"}, {"full-screen", "true"}, {"movement", "gravity"}},
+                             kGraphics));
+    EXPECT_EQ(lines(), (Lines{"movement = 'gravity'"}));
+}
+
+TEST_F(Settings, WhatTheFileHasBesidesStays) {
+    std::filesystem::create_directories(file_.parent_path());
+    write("day-minutes = 3\nview-distance = 12\nfull-screen = true\n");
+    ASSERT_TRUE(writeChanges(file_, {{"view-distance", "40"}, {"full-screen", "true"}},
+                             {{"view-distance", "41"}}, kGraphics));
+    EXPECT_EQ(lines(), (Lines{"day-minutes = 3", "view-distance = '41'"}));
+}
+
+TEST_F(Settings, AnotherPresetReplacesAllOfGraphics) {
+    std::filesystem::create_directories(file_.parent_path());
+    write("clouds = 'on'\nmovement = 'fast'\npreset = 'high'\n");
+    // "clouds = on" is what the preset before has anyway, so it stands in neither.
+    ASSERT_TRUE(
+        writeChanges(file_, {{"preset", "high"}}, {{"preset", "low"}, {"shadows", "1024"}}, kGraphics));
+    EXPECT_EQ(lines(), (Lines{"movement = 'fast'", "preset = 'low'", "shadows = '1024'"}));
+}
+
+TEST_F(Settings, AFileThatCannotBeReadStays) {
+    std::filesystem::create_directories(file_.parent_path());
+    write("movement = \n");
+    const auto done = writeChanges(file_, {}, {{"movement", "fast"}}, kGraphics);
+    ASSERT_FALSE(done);
+    EXPECT_NE(done.error().message.find("settings.toml:1: "), std::string::npos) << done.error().message;
+    EXPECT_EQ(written(), "movement = \n");
+}
+
+TEST_F(Settings, NoFileTakesNothing) {
+    EXPECT_TRUE(writeChanges("", {}, {{"movement", "fast"}}, kGraphics));
+}
+
+}  // namespace
+}  // namespace terrane::app

@@ -1,0 +1,199 @@
+// What edits do to light and mesh on screen.
+#include <set>
+
+#include "terrane/shared/hash.h"
+#include "tests/stream/pipeline_fixture.h"
+
+namespace terrane::stream {
+namespace {
+
+class PipelineEditsTest : public PipelineTest {};
+
+TEST_F(PipelineEditsTest, EditsMeshAgainTheChunksThatSeeThem) {
+    setView({0, 0}, 2);
+    settle();
+    const auto changedBy = [&](world::BlockPos pos) {
+        const auto before = shown_;
+        placeBlock(pos, "sand");
+        settle();
+        expectShowsTheView();
+        std::set<ChunkPos> changed;
+        for (const auto& [at, shown] : shown_) {
+            if (shown.mesh != before.at(at).mesh) changed.insert(at);
+        }
+        return changed;
+    };
+    using Chunks = std::set<ChunkPos>;
+    EXPECT_EQ(changedBy({5, 9, 70}), (Chunks{{0, 0}}));
+    EXPECT_EQ(changedBy({16, 9, 60}), (Chunks{{1, 0}, {0, 0}}));
+    EXPECT_EQ(changedBy({-17, 9, 60}), (Chunks{{-2, 0}, {-1, 0}}));
+    EXPECT_EQ(changedBy({5, 31, 60}), (Chunks{{0, 1}, {0, 2}}));
+    EXPECT_EQ(changedBy({15, 0, 60}), (Chunks{{0, 0}, {1, 0}, {0, -1}}));
+    EXPECT_EQ(changedBy({47, 5, 60}), (Chunks{{2, 0}})) << "the neighbour is not in view";
+}
+
+// Edits come faster than workers mesh: the meshes in between may be lost, the last may not.
+TEST_F(PipelineEditsTest, TheNewestMeshWins) {
+    setView({0, 0}, 1);
+    settle();
+    for (int round = 0; round < 40; ++round) {
+        for (int k = 0; k < 6; ++k) placeBlock({15, 15, 80 + (round * 6 + k) % 100}, k % 2 ? "air" : "stone");
+        if (round % 3 == 0) update();
+        if (round % 5 == 0) take(1);
+    }
+    settle();
+    expectShowsTheView();
+}
+
+// Light and mesh that were on the way when a block changed are made again.
+TEST_F(PipelineEditsTest, ResultsOfOldBlocksAreDropped) {
+    setView({0, 0}, 1);
+    for (int step = 0; step < 200 && !pipeline_->progress().complete(); ++step) {
+        update();
+        for (const ChunkPos pos : {ChunkPos{0, 0}, {1, 0}, {-1, 1}, {2, 2}}) {
+            if (!world_.maybeChunkAt(pos)) continue;
+            placeBlock({pos.x * 16 + 15, pos.y * 16 + step % 16, 70 + step % 7},
+                       step % 2 ? "lamp_green" : "air");
+        }
+        pipeline_->waitForWorkers(std::chrono::milliseconds(1));
+    }
+    settle();
+    expectShowsTheView();
+}
+
+TEST_F(PipelineEditsTest, AnEditIsOnScreenInTheNextUpdate) {
+    setView({0, 0}, 1);
+    settle();
+    placeBlock({15, 3, 90}, "lamp_blue");
+    update();
+    take(kAll);
+    expectShowsTheView();
+}
+
+TEST_F(PipelineEditsTest, EditsOfWhatIsNotLoadedAreRefused) {
+    setView({0, 0}, 1);
+    EXPECT_FALSE(pipeline_->setBlock({1000, 0, 60}, contentBlock("sand")));
+    EXPECT_FALSE(pipeline_->setSmallData({1000, 0, 60}, 3));
+    EXPECT_FALSE(pipeline_->setLargeData({1000, 0, 60}, {std::byte{1}}));
+    settle();
+    EXPECT_FALSE(pipeline_->setBlock({3, 3, 256}, contentBlock("sand")));
+    EXPECT_FALSE(pipeline_->setBlock({3, 3, -1}, contentBlock("sand")));
+    expectShowsTheView();
+    rest();
+}
+
+TEST_F(PipelineEditsTest, EditsOutOfViewAreHarmless) {
+    setView({0, 0}, 0);
+    settle();
+    ASSERT_TRUE(pipeline_->setBlock({20, 20, 90}, contentBlock("sand"))) << "active, and not visible";
+    ASSERT_TRUE(pipeline_->chunkAt({40, 40}));
+    ASSERT_TRUE(pipeline_->setBlock({645, 645, 90}, contentBlock("lamp_red")));
+    settle();
+    expectShowsTheView();
+    setView({40, 40}, 1);
+    settle();
+    EXPECT_EQ(world_.block({645, 645, 90}), contentBlock("lamp_red"));
+    expectShowsTheView();
+}
+
+TEST_F(PipelineEditsTest, PlantsAreMeshedByTheirStage) {
+    setView({0, 0}, 0);
+    settle();
+    ASSERT_TRUE(pipeline_->setBlock({3, 3, 100}, contentBlock("dirt")));
+    ASSERT_TRUE(pipeline_->setBlock({3, 3, 101}, contentBlock("wheat")));
+    std::set<std::uint16_t> left;
+    for (int stage = 3;; --stage) {
+        left.insert(world_.smallData({3, 3, 101}));
+        settle();
+        expectShowsTheView();
+        if (stage == 0) break;
+        const auto before = shown_.at({0, 0}).mesh;
+        ASSERT_TRUE(pipeline_->setSmallData({3, 3, 101}, static_cast<std::uint16_t>(stage - 1)));
+        update();
+        take(kAll);
+        EXPECT_NE(*shown_.at({0, 0}).mesh, *before) << "stage " << stage - 1;
+    }
+    EXPECT_EQ(left, (std::set<std::uint16_t>{3, 2, 1, 0}));
+}
+
+TEST_F(PipelineEditsTest, AnEditNamesTheBricksWhoseLightItChanged) {
+    setView({0, 0}, 1);
+    settle();
+    placeBlock({8, 8, 100}, "lamp_red");  // brick 6, 5 and 7 by its light, 4 by its shadow
+    update();
+    int lit = 0;
+    for (const ChunkChange& change : pipeline_->takeChanges(kAll)) {
+        lit += change.light ? 1 : 0;
+        EXPECT_EQ(change.bricks & ~0b11110000, 0) << change.pos.x << ' ' << change.pos.y;
+        if (change.pos == ChunkPos{0, 0}) {
+            EXPECT_EQ(change.bricks, 0b11110000);
+        }
+    }
+    EXPECT_GE(lit, 5);
+}
+
+TEST_F(PipelineEditsTest, AnEditMeshesOnlyTheRegionsItTouches) {
+    pipeline_->setMeshOptions({mesh::Method::Greedy, 32});
+    setView({0, 0}, 1);
+    settle();
+    placeBlock({15, 8, 95}, "stone");  // in region 2, below 3, and beside region 2 of the next chunk
+    update();
+    std::map<ChunkPos, mesh::RegionSet> meshed;
+    for (const ChunkChange& change : pipeline_->takeChanges(kAll)) {
+        if (!change.mesh) continue;
+        meshed[change.pos] = change.regions;
+        for (std::size_t r = 0; r < change.mesh->regions.size(); ++r) {
+            if (mesh::hasRegion(change.regions, r)) continue;
+            EXPECT_EQ(change.mesh->regions[r].maxZ, 0) << "region " << r << " has quads";
+        }
+    }
+    EXPECT_EQ(meshed, (std::map<ChunkPos, mesh::RegionSet>{{{0, 0}, 0b1100}, {{1, 0}, 0b0100}}));
+}
+
+// Whatever is taken when, between edits and other options: what is shown is what meshing all again gives.
+TEST_F(PipelineEditsTest, RegionsOfManyEditsAddUp) {
+    setView({0, 0}, 1);
+    settle();
+    mesh::MeshOptions options;
+    for (unsigned step = 0; step < 200; ++step) {
+        const auto random = [&](unsigned k, unsigned count) {
+            return static_cast<int>(shared::hash2(step, k, 77) % count);
+        };
+        if (random(0, 25) == 0)
+            pipeline_->setMeshOptions(options = {mesh::Method::Greedy, 8 << random(1, 5)});
+        placeBlock({random(2, 48) - 16, random(3, 48) - 16, 40 + random(4, 60)},
+                   step % 3 == 0 ? "air" : "stone");
+        if (random(5, 2) == 0) update();
+        if (random(6, 4) == 0) take(static_cast<std::size_t>(random(7, 4)));
+    }
+    settle();
+    for (const auto& [pos, shown] : shown_) {
+        EXPECT_EQ(*shown.mesh, directMesh(world_, pos, options)) << pos.x << ' ' << pos.y;
+    }
+}
+
+TEST_F(PipelineEditsTest, OfAChunkOnlyTheNewestMeshIsTaken) {
+    setView({0, 0}, 1);
+    settle();
+    for (int round = 0; round < 3; ++round) {
+        placeBlock({8, 8, 40 + round}, "sand");
+        update();
+    }
+    EXPECT_EQ(take(kAll), 1u);
+    expectShowsTheView();
+}
+
+TEST_F(PipelineEditsTest, EditsSurviveWhileTheirChunkStaysInView) {
+    setView({0, 0}, 1);
+    settle();
+    placeBlock({3, 3, 90}, "lamp_red");
+    for (const ChunkPos centre : {ChunkPos{1, 0}, {2, 1}, {3, -1}, {0, 0}}) {
+        setView(centre, 1);
+        settle();
+    }
+    EXPECT_EQ(world_.block({3, 3, 90}), contentBlock("lamp_red"));
+    expectShowsTheView();
+}
+
+}  // namespace
+}  // namespace terrane::stream

@@ -1,0 +1,144 @@
+// Work that workers, batch generators and other askers take part in.
+#include <future>
+#include <utility>
+
+#include "terrane/store/memory_store.h"
+#include "tests/stream/pipeline_fixture.h"
+
+namespace terrane::stream {
+namespace {
+
+class PipelineJobsTest : public PipelineTest {};
+
+// A worker that is busy until open() is called.
+class BusyWorker {
+  public:
+    explicit BusyWorker(base::JobSystem& jobs) {
+        // What the job uses is its own: it may still look at it when this object is gone.
+        const auto started = std::make_shared<std::promise<void>>();
+        jobs.submit(-1, [started, gate = gate_.get_future().share()](const base::CancelToken&) {
+            started->set_value();
+            gate.wait();
+        });
+        started->get_future().wait();
+    }
+    ~BusyWorker() { open(); }
+    void open() {
+        if (!std::exchange(isOpen_, true)) gate_.set_value();
+    }
+
+  private:
+    std::promise<void> gate_;
+    bool isOpen_ = false;
+};
+
+// Where frames are long workers get more at once, so that they are busy until the next one.
+TEST_F(PipelineJobsTest, ALongFrameIsFilledWithWork) {
+    BusyWorker first(jobs_), second(jobs_);
+    setView({0, 0}, 10);
+    update();
+    EXPECT_EQ(pipeline_->queuedCount(), 2u * 8);
+    now_ += std::chrono::milliseconds(100);
+    update();
+    EXPECT_EQ(pipeline_->queuedCount(), 2u * 100);
+    now_ += std::chrono::seconds(10);
+    update();
+    EXPECT_EQ(pipeline_->queuedCount(), 2u * 128);
+}
+
+// The view does not come near, and moves all the time: what others asked for comes all the same.
+TEST_F(PipelineJobsTest, WhatOthersAskForIsNotGivenUp) {
+    BusyWorker first(jobs_), second(jobs_);
+    setView({0, 0}, 1);
+    pipeline_->maybeLoadChunkAt({40, 40});
+    update();
+    setView({1, 0}, 1);
+    update();
+    first.open();
+    second.open();
+    settle();
+    EXPECT_TRUE(world_.maybeChunkAt({40, 40}));
+}
+
+// A worker that fails ends the wait for what it should have brought.
+TEST_F(PipelineJobsTest, WhatAWorkerThrowsIsThrownOn) {
+    class FailingStore : public store::MemoryStore {
+      public:
+        using MemoryStore::MemoryStore;
+        store::LoadedChunk load(world::ChunkPos) override { throw std::runtime_error("no memory"); }
+    } store({.seed = 1, .generator = "bumpy", .generatorVersion = 1});
+    pipeline_ = nullptr;
+    pipeline_ = makePipeline({&generator_, &store, false});
+    EXPECT_THROW(pipeline_->chunkAt({0, 0}), std::runtime_error);
+    pipeline_ = nullptr;
+}
+
+TEST_F(PipelineJobsTest, ChunksOthersAskForAreLoadedAndKept) {
+    setView({0, 0}, 0);
+    settle();
+    EXPECT_EQ(pipeline_->maybeLoadChunkAt({40, 40}), nullptr);
+    const world::ChunkPtr chunk = pipeline_->chunkAt({40, 40});
+    ASSERT_TRUE(chunk);
+    EXPECT_EQ(pipeline_->maybeLoadChunkAt({40, 40}), chunk);
+    EXPECT_EQ(world_.maybeChunkAt({40, 40}), chunk);
+}
+
+// Chunks made elsewhere in batches of at most three, some updates later.
+TEST_F(PipelineJobsTest, ABatchGeneratorMakesTheSame) {
+    std::vector<ChunkPos> running;
+    int wait = 0;
+    BatchGenerator batches;
+    batches.submit = [&](std::span<const ChunkPos> wanted) -> std::size_t {
+        if (!running.empty()) return 0;
+        running.assign(wanted.begin(), wanted.begin() + std::min<long>(3, std::ssize(wanted)));
+        wait = 2;
+        return running.size();
+    };
+    batches.take = [&] {
+        std::vector<std::pair<ChunkPos, world::Chunk>> done;
+        if (running.empty() || --wait > 0) return done;
+        for (const ChunkPos pos : running) done.emplace_back(pos, generator_.generate(pos));
+        running.clear();
+        return done;
+    };
+    pipeline_ = nullptr;
+    pipeline_ = std::make_unique<ChunkPipeline>(
+        PipelineParts{jobs_, contentBlocks(), lightTable(), world_, {}, &batches});
+    setView({3, 3}, 2);
+    settle();
+    expectShowsTheView();
+}
+
+// A chunk whose job is cancelled while it waits must come when the view returns.
+TEST_F(PipelineJobsTest, ComesBackAfterItsJobWasCancelled) {
+    BusyWorker first(jobs_), second(jobs_);
+    setView({0, 0}, 1);
+    update();
+    setView({100, 0}, 1);
+    update();
+    setView({0, 0}, 1);
+    update();
+    first.open();
+    second.open();
+    settle();
+    expectShowsTheView();
+}
+
+TEST(PipelineJobs, MayBeDestroyedWhileJobsRun) {
+    const gen::Generator generator = bumpyGenerator();
+    base::JobSystem jobs(2);
+    for (int round = 0; round < 30; ++round) {
+        world::World world;
+        ChunkPipeline pipeline(
+            {jobs, contentBlocks(), lightTable(), world, {&generator, nullptr, false}, nullptr});
+        pipeline.setView({round, 0}, 2);
+        for (int step = 0; step < round % 5; ++step) {
+            pipeline.update();
+            pipeline.waitForWorkers(std::chrono::milliseconds(2));
+        }
+    }
+    EXPECT_EQ(jobs.queuedCount(), 0u);
+}
+
+}  // namespace
+}  // namespace terrane::stream

@@ -1,0 +1,203 @@
+#!/usr/bin/env python3
+"""Plays at random in a window on a virtual display: keys, mouse, wheel, clicks, the panel, options, resizing.
+
+Usage: random_player.py PROGRAM [MINUTES] [--seed N] [--folder DIR]
+
+Fails (exit code 1) when the program ends by itself or badly, reports a warning or an error (its own, a sanitizer's, or the
+graphics driver's), does not end when Esc is pressed, or when its memory still grows toward the end.
+Needs Xvfb and xdotool (Debian: xvfb, xdotool; exit code 77 without them). The same seed does the same things in the same
+order; when each falls into a frame is chance."""
+import argparse
+import csv
+import os
+import pathlib
+import random
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+SKIPPED = 77
+HANG_SECONDS = 60  # under sanitizers a frame may take seconds
+SCREEN = (640, 480)
+SIZES = ((480, 300), (320, 180), (200, 400), (640, 480), (101, 77))
+HELD = ("w", "a", "s", "d", "space", "Shift_L", "e", "q", "Up", "Left")
+PRESSED = ("F1", "F2", "F3", "F4", "F5", "F6", "F11", "F12", "o", "p", "i", "m", "l", "m", "F2")
+# How much more memory a game may have later: caches fill, textures and buffers double, and a view distance that was
+# chosen in the panel brings chunks (0.4 MB each with what a software renderer keeps for them, more under sanitizers).
+GROWTH = 1.5
+MEGABYTES_A_CHUNK = 0.8
+BAD = re.compile(r"warning|error|AddressSanitizer|LeakSanitizer|runtime error", re.IGNORECASE)
+
+
+class Display:
+    def __init__(self):
+        read_end, write_end = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", f"{SCREEN[0]}x{SCREEN[1]}x24", "-nolisten", "tcp",
+             "-noreset"], pass_fds=(write_end,), stderr=subprocess.DEVNULL)
+        os.close(write_end)
+        with os.fdopen(read_end) as pipe:
+            self.name = ":" + pipe.readline().strip()
+
+    def xdotool(self, *arguments):
+        return subprocess.run(["xdotool", *map(str, arguments)], env={**os.environ, "DISPLAY": self.name},
+                              capture_output=True, text=True, timeout=HANG_SECONDS, check=False).stdout.strip()
+
+    def close(self):
+        self.server.terminate()
+        self.server.wait()
+
+
+class Player:
+    """The program and what is done to it."""
+
+    def __init__(self, program, folder, seed, display):
+        self.random, self.display, self.folder = random.Random(seed), display, folder
+        variables = {**os.environ, "DISPLAY": display.name, "XDG_CONFIG_HOME": str(folder),
+                     # Drivers keep memory until the process ends; what the program leaks grows.
+                     "ASAN_OPTIONS": "detect_leaks=0:abort_on_error=1", "UBSAN_OPTIONS": "print_stacktrace=1"}
+        self.log = open(folder / "log.txt", "w+", encoding="utf-8")
+        self.process = subprocess.Popen(
+            [program, "play", "--debug-gl", "--save-game", "random", "--view-distance", "4", "--samples", "1", "--size",
+             "480x300", "--collect-perf-data", "perf.csv"],
+            cwd=folder, env=variables, stdout=self.log, stderr=self.log)
+        self.most = 0  # bytes in memory
+        self.down = set()
+        self.actions = 0
+
+    def open(self):
+        deadline = time.monotonic() + 2 * HANG_SECONDS
+        while time.monotonic() < deadline and self.process.poll() is None:
+            self.window = self.display.xdotool("search", "--onlyvisible", "--name", "^Terrane$")
+            if self.window:
+                self.display.xdotool("windowmove", self.window, 0, 0, "windowfocus", self.window)
+                return
+            time.sleep(0.2)
+        raise RuntimeError("no window")
+
+    def resident(self):
+        pages = pathlib.Path(f"/proc/{self.process.pid}/statm").read_text(encoding="ascii").split()[1]
+        return int(pages) * os.sysconf("SC_PAGESIZE")
+
+    def act(self):
+        """One thing, as likely as people do it."""
+        choice, xdotool = self.random.random(), self.display.xdotool
+        if choice < 0.30:
+            key = self.random.choice(HELD)
+            xdotool("keyup" if key in self.down else "keydown", key)
+            self.down ^= {key}
+        elif choice < 0.50:
+            xdotool("key", self.random.choice(PRESSED))
+        elif choice < 0.70:
+            xdotool("mousemove", self.random.randrange(SCREEN[0]), self.random.randrange(SCREEN[1]))
+        elif choice < 0.78:
+            xdotool("mousemove_relative", "--", self.random.randint(-200, 200), self.random.randint(-100, 100))
+        elif choice < 0.92:
+            button = self.random.choice((1, 1, 1, 2, 3, 3, 3, 4, 5))
+            xdotool("mousedown", button)
+            time.sleep(self.random.choice((0, 0.05, 0.5)))
+            xdotool("mouseup", button)
+        elif choice < 0.96:  # typed into a slider or a field
+            xdotool("keydown", "Control_L", "click", 1, "keyup", "Control_L")
+            xdotool("key", *self.random.choices("0123456789.-emw", k=3), self.random.choice(("Return", "BackSpace", "Tab")))
+        elif choice < 0.98:
+            xdotool("windowsize", self.window, *self.random.choice(SIZES))
+        else:
+            xdotool("windowfocus", self.window)
+        self.actions += 1
+
+    def play(self, seconds):
+        end, next_look = time.monotonic() + seconds, 0
+        while time.monotonic() < end:
+            if self.process.poll() is not None:
+                raise RuntimeError(f"the program ended by itself with {self.process.returncode}")
+            self.act()
+            time.sleep(self.random.choice((0.02, 0.1, 0.3)))
+            if time.monotonic() > next_look:
+                self.most = max(self.most, self.resident())
+                next_look = time.monotonic() + 1
+
+    def close(self):
+        """Esc may end the typing or close a chest first."""
+        for key in self.down:
+            self.display.xdotool("keyup", key)
+        deadline = time.monotonic() + 2 * HANG_SECONDS
+        while self.process.poll() is None:
+            if time.monotonic() > deadline:
+                self.process.send_signal(signal.SIGABRT)
+                raise RuntimeError("the program does not answer")
+            self.display.xdotool("windowfocus", self.window, "keydown", "Escape")
+            time.sleep(1)
+            self.display.xdotool("keyup", "Escape")
+            time.sleep(1)
+        return self.process.returncode
+
+    def complaints(self):
+        self.log.flush()
+        lines = (self.folder / "log.txt").read_text(encoding="utf-8", errors="replace").splitlines()
+        return [line for line in lines if BAD.search(line)]
+
+
+def growth(figures):
+    """What is wrong with the memory, from the program's own figures of each frame; None where nothing is.
+
+    Compares the most in the last quarter of the time with the most in the second one."""
+    rows = list(csv.DictReader(figures.read_text(encoding="ascii").splitlines()))
+    if not rows:
+        return "no figures were written"
+    end = float(rows[-1]["time_s"])
+    def most(column, quarter):
+        return max((float(row[column]) for row in rows if quarter <= 4 * float(row["time_s"]) / end <= quarter + 1), default=0)
+    before, after = most("ram_mb", 1), most("ram_mb", 3)
+    chunks = most("active_chunks", 3) - most("active_chunks", 1)
+    allowed = GROWTH * before + MEGABYTES_A_CHUNK * max(chunks, 0)
+    return f"memory grows from {before:.0f} to {after:.0f} MB with {chunks:.0f} chunks more" if after > allowed else None
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("minutes", type=float, nargs="?", default=1)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--folder", type=pathlib.Path, help="keep the log, the save and the figures here")
+    options = parser.parse_args()
+    if not shutil.which("Xvfb") or not shutil.which("xdotool"):
+        print("skipped: Xvfb or xdotool is not installed (Debian: xvfb, xdotool)")
+        sys.exit(SKIPPED)
+    folder = options.folder or pathlib.Path(tempfile.mkdtemp(prefix="terrane_player_"))
+    folder.mkdir(parents=True, exist_ok=True)
+    display = Display()
+    player = Player(options.program.resolve(), folder, options.seed, display)
+    faults = []
+    try:
+        player.open()
+        player.play(60 * options.minutes)
+        code = player.close()
+        if code != 0:
+            faults.append(f"exit code {code}")
+    except (RuntimeError, subprocess.TimeoutExpired, OSError) as error:
+        faults.append(str(error))
+    finally:
+        if player.process.poll() is None:
+            player.process.kill()
+            player.process.wait()
+        display.close()
+    faults += player.complaints()
+    if not faults and (grown := growth(folder / "perf.csv")):
+        faults.append(grown)
+    print(f"{player.actions} actions in {options.minutes:g} minutes, at most {player.most / 1e6:.0f} MB, seed {options.seed}")
+    for fault in faults:
+        print("fault:", fault)
+    if not options.folder and not faults:
+        shutil.rmtree(folder)
+    elif faults:
+        print("kept:", folder)
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# Builds the program with address and undefined-behaviour sanitizers and lets a random player at it.
+# Usage: tools/random_player.sh [MINUTES [SEED]]   (15 minutes, seed 1)
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+cmake --preset asan-window --log-level=WARNING
+cmake --build build-asan-window --target terrane
+exec python3 tools/random_player.py build-asan-window/terrane "${1:-15}" --seed "${2:-1}"
