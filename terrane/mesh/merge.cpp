@@ -4,6 +4,8 @@
 #include <bit>
 #include <cassert>
 
+#include "terrane/shared/join_steps.h"
+
 namespace terrane::mesh {
 namespace {
 
@@ -74,42 +76,40 @@ std::size_t mergeNothing(const PlaneRows& plane, const QuadPattern& pattern, Qua
 // The methods of the thesis start from one rectangle a bit and join neighbours, step by step.
 enum Axis : std::uint8_t { kAlongRow, kAcrossRows };
 
-// Joins along an axis rectangles that touch at a line and are equally long beside it.
-struct JoinStep {
-    Axis axis;
-    std::uint16_t lines;  // where: bit n stands for the line between bits (or rows) n − 1 and n
-    unsigned length = 0;  // of both rectangles along the axis; 0: any
-};
-
 // Sizes of the rectangles by the cell of their lowest corner, bit + 16 row; 0 where none begins.
 using Sizes = std::array<std::array<std::uint8_t, 256>, 2>;
 
-void join(Sizes& sizes, JoinStep step) {
-    auto& along = sizes[step.axis];
-    auto& across = sizes[1 - step.axis];
-    const unsigned stride = step.axis == kAlongRow ? 1 : 16;
+void join(Sizes& sizes, uint step) {
+    const auto axis = static_cast<Axis>(step % 2);
+    const uint lines = shared::joinLines(step), length = shared::joinLength(step);
+    auto& along = sizes[axis];
+    auto& across = sizes[1 - axis];
+    const unsigned stride = axis == kAlongRow ? 1 : 16;
     for (unsigned cell = 0; cell < 256; ++cell) {
         if (along[cell] == 0) continue;
         const unsigned first = cell / stride % 16;
         for (;;) {
             const unsigned end = first + along[cell], next = cell + along[cell] * stride;
-            if (end == 16 || (step.lines >> end & 1) == 0 || across[next] != across[cell]) break;
-            if (step.length != 0 && (along[cell] != step.length || along[next] != step.length)) break;
+            if (end == 16 || (lines >> end & 1) == 0 || across[next] != across[cell]) break;
+            if (length != 0 && (along[cell] != length || along[next] != length)) break;
             along[cell] = static_cast<std::uint8_t>(along[cell] + along[next]);
             along[next] = across[next] = 0;
         }
     }
 }
 
-template <class Steps>
-std::size_t mergeInSteps(const PlaneRows& plane, const QuadPattern& pattern, const Steps& steps, Quad* out) {
+template <Method kMethod>
+std::size_t mergeInSteps(const PlaneRows& plane, const QuadPattern& pattern, Quad* out) {
     Sizes sizes{};
     for (unsigned cell = 0; cell < 256; ++cell) {
         if ((plane.used >> cell / 16 & 1) == 0) continue;
         sizes[kAlongRow][cell] = sizes[kAcrossRows][cell] =
             static_cast<std::uint8_t>(plane.rows[cell / 16 * plane.step] >> cell % 16 & 1);
     }
-    for (const JoinStep step : steps) join(sizes, step);
+    constexpr auto kNumber = static_cast<uint>(kMethod);
+    for (uint step = shared::firstJoinStep(kNumber); step < shared::endOfJoinSteps(kNumber); ++step) {
+        join(sizes, step);
+    }
     const Quad* begin = out;
     for (unsigned cell = 0; cell < 256; ++cell) {
         const uint bits = sizes[kAlongRow][cell];
@@ -118,26 +118,15 @@ std::size_t mergeInSteps(const PlaneRows& plane, const QuadPattern& pattern, con
     return static_cast<std::size_t>(out - begin);
 }
 
-constexpr std::uint16_t kInsideCells = 0xFEFE;  // all lines but those between cells of 8
-constexpr std::uint16_t kGrid2 = 0xAAAA, kGrid4 = 0x4444, kGrid8 = 0x1010;  // middles of cells of 2, 4, 8
-
-constexpr std::array<JoinStep, 2> kLines{{{kAlongRow, kInsideCells}, {kAcrossRows, kInsideCells}}};
-constexpr std::array<JoinStep, 6> kSquares{{{kAlongRow, kGrid2, 1},
-                                            {kAcrossRows, kGrid2, 1},
-                                            {kAlongRow, kGrid4, 2},
-                                            {kAcrossRows, kGrid4, 2},
-                                            {kAlongRow, kGrid8, 4},
-                                            {kAcrossRows, kGrid8, 4}}};
-constexpr std::array<JoinStep, 8> kSquaresExt{
-    {kSquares[0], kSquares[1], kSquares[2], kSquares[3], kSquares[4], kSquares[5], kLines[0], kLines[1]}};
-
-template <const auto& kSteps>
-std::size_t mergeBy(const PlaneRows& plane, const QuadPattern& pattern, Quad* out) {
-    return mergeInSteps(plane, pattern, kSteps, out);
-}
+static_assert(static_cast<uint>(Method::None) == shared::kMergeNone &&
+              static_cast<uint>(Method::Lines) == shared::kMergeLines &&
+              static_cast<uint>(Method::Squares) == shared::kMergeSquares &&
+              static_cast<uint>(Method::SquaresExt) == shared::kMergeSquaresExt &&
+              static_cast<uint>(Method::Greedy) == shared::kMergeGreedy);
 
 constexpr std::array<MergeFunction, static_cast<std::size_t>(Method::Count)> kFunctions{
-    mergeNothing, mergeBy<kLines>, mergeBy<kSquares>, mergeBy<kSquaresExt>, mergeGreedy};
+    mergeNothing, mergeInSteps<Method::Lines>, mergeInSteps<Method::Squares>,
+    mergeInSteps<Method::SquaresExt>, mergeGreedy};
 
 }  // namespace
 

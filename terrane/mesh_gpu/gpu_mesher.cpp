@@ -75,7 +75,7 @@ struct GpuMesher::Impl {
     BlockTable table;
     MeshUpload upload;  // of the batch at hand, as are these
     std::size_t unitCount = 0, regionCount = 0;
-    bool merges = true;
+    mesh::Method method = mesh::Method::Greedy;
     gpu::Buffer sections, data, units, unitCounts;
 
     gpu::Program countProgram, writeProgram;
@@ -96,7 +96,7 @@ void GpuMesher::Impl::bind() const {
 
 void GpuMesher::Impl::run(const gpu::Program& program) const {
     program.use();
-    program.set(0, static_cast<GLuint>(merges ? 1 : 0));
+    program.set(0, static_cast<GLuint>(method));
     glDispatchCompute(static_cast<GLuint>(unitCount), 1, 1);
 }
 
@@ -120,7 +120,7 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
     TERRANE_ZONE("count quads on the GPU");
     assert(!chunks.empty() && chunks.size() <= kMaxChunks && "a batch");
     const mesh::MeshOptions options = chunks.front().options;
-    assert(supports(options.method) && isRegionHeight(options.regionHeight));
+    assert(isRegionHeight(options.regionHeight) && "a power of two, 8 to 128");
     const gpu::DebugGroup group("count quads");
     Impl& m = *impl_;
     m.upload.clear();
@@ -128,7 +128,7 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
         assert(chunk.options == options && "the same for the batch");
         m.upload.add(chunk);
     }
-    m.merges = options.method == mesh::Method::Greedy;
+    m.method = options.method;
     m.unitCount = m.upload.units().size();
     m.regionCount = chunks.size() * static_cast<std::size_t>(world::kChunkHeight / options.regionHeight);
     const std::vector<shared::MeshRegionCounts> nothing(m.regionCount, kNothing);

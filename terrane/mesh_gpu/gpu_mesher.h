@@ -4,9 +4,10 @@
 // A batch is counted first; the counts (104 bytes a region) come back through a copy that nothing waits for,
 // the host makes room for each region, and a second run writes the quads there. What it costs, per section
 // in which something may be seen, twice: 4,096 block indices read once (512 to 8,192 bytes) and 1,536 of its
-// neighbours, 256 invocations with 20 bit operations a side; then 96 planes, one invocation each, by two to
-// three reads of shared memory a row and rectangle. 23 KB of shared memory a work group: the 228 KB of a
-// large GPU hold all the eight that its 2,048 invocations make, the 64 KB of a small one two. Planes of
+// neighbours, 256 invocations with 20 bit operations a side. Then greedy merging takes 96 planes, one
+// invocation each, by two to three reads of shared memory a row and rectangle; the other methods take two to
+// eight steps of 1,536 rows or columns. 29 KB of shared memory a work group (32 are sure): the 228 KB of a
+// large GPU hold seven of the eight that its 2,048 invocations make, the 64 KB of a small one two. Planes of
 // nothing end at once; in a warp of 32 planes the one with most rectangles decides.
 #pragma once
 
@@ -33,10 +34,6 @@ class GpuMesher {
     GpuMesher(GpuMesher&&) noexcept;
     GpuMesher& operator=(GpuMesher&&) noexcept;
     ~GpuMesher();
-
-    static bool supports(mesh::Method method) {
-        return method == mesh::Method::Greedy || method == mesh::Method::None;
-    }
 
     // Starts to count the quads of up to kMaxChunks chunks with the same options. What was counted before is
     // forgotten. The chunks are not needed any more afterwards.

@@ -263,6 +263,19 @@ class Dump(ProgramTest):
         gpu = self.dump("quads", "7,-3,10,-1", "--backend", "gpu")
         self.assertEqual(cpu.data, gpu.data)
 
+    def test_every_aggregation_has_the_same_quads_on_both_back_ends(self):
+        counts = {}
+        for method in ("none", "lines", "squares", "squares-ext", "greedy"):
+            arguments = ("7,-3,9,-2", "--aggregation", method, "--region-height", "16")
+            cpu = self.dump("quads", *arguments, "--backend", "cpu")
+            gpu = self.dump("quads", *arguments, "--backend", "gpu")
+            self.assertEqual(cpu.data, gpu.data, method)
+            counts[method] = cpu.shape[0]
+        self.assertGreater(counts["none"], counts["squares"])
+        self.assertGreater(counts["squares"], counts["squares-ext"])
+        self.assertGreater(counts["squares-ext"], counts["greedy"])
+        self.assertGreater(counts["none"], counts["lines"])
+
 
 class Saves(ProgramTest):
     """generate, dump and check with a save."""

@@ -21,6 +21,9 @@ using mesh::MeshInput;
 using mesh::MeshOptions;
 using mesh::Method;
 
+constexpr Method kMethods[] = {Method::None, Method::Lines, Method::Squares, Method::SquaresExt,
+                               Method::Greedy};
+
 class GpuMesherTest : public gpu::GlTest {
   protected:
     GpuBatchMesher mesherOf(const world::BlockRegistry& blocks) {
@@ -64,11 +67,11 @@ TEST_F(GpuMesherTest, RandomVolumesEqualCpu) {
     GpuBatchMesher mesher = mesherOf(mesh::testBlocks());
     unsigned seed = 300;
     for (int mix = 0; mix < static_cast<int>(mesh::Mix::Count); ++mix) {
-        for (const Method method : {Method::Greedy, Method::Greedy, Method::None}) {
+        for (const Method method : kMethods) {
             mesh::Area area(mesh::randomBlocks(static_cast<mesh::Mix>(mix), ++seed));
             if (seed % 2 == 0) area.addSmallData(seed);
             const int height = kHeights[seed % std::size(kHeights)];
-            SCOPED_TRACE(fmt::format("mix {} height {}", mix, height));
+            SCOPED_TRACE(fmt::format("mix {} method {} height {}", mix, static_cast<int>(method), height));
             const std::vector<MeshInput> inputs = {area.input({method, height})};
             expectEqual(mesher, inputs);
         }
@@ -78,6 +81,7 @@ TEST_F(GpuMesherTest, RandomVolumesEqualCpu) {
 // Wheat in every stage, also one that stands for none, in all forms of a section.
 TEST_F(GpuMesherTest, GrowingPlantsEqualCpu) {
     GpuBatchMesher mesher = mesherOf(mesh::testBlocks());
+    std::size_t number = 0;
     for (const unsigned values : {1u, 2u, 4u, 16u, 4096u}) {
         mesh::Area area([](int x, int y, int z) {
             return z < 70 && (x + y + z) % 3 == 0 ? mesh::idOf("wheat") : world::kAir;
@@ -87,7 +91,7 @@ TEST_F(GpuMesherTest, GrowingPlantsEqualCpu) {
             area.centre.setSmallData(static_cast<world::BlockIndex>(i),
                                      static_cast<std::uint16_t>(hash % values));
         }
-        const std::vector<MeshInput> inputs = {area.input()};
+        const std::vector<MeshInput> inputs = {area.input({.method = kMethods[number++]})};
         expectEqual(mesher, inputs);
     }
 }
@@ -102,26 +106,48 @@ TEST_F(GpuMesherTest, EmptyAndFullChunksEqualCpu) {
     expectEqual(mesher, inputs);
 }
 
-// More chunks than a batch holds; neighbours are in the batch, in the next one, or in none.
-TEST_F(GpuMesherTest, OverworldEqualsCpu) {
-    constexpr int kSide = 18;
-    const auto graph = gen::makeGenerator("overworld", contentBlocks());
-    ASSERT_TRUE(graph);
-    const gen::Generator generator(*graph, 12345);
-    std::vector<world::Chunk> chunks;
-    for (int k = 0; k < (kSide + 2) * (kSide + 2); ++k) {
-        chunks.push_back(generator.generate({k % (kSide + 2) - 30, k / (kSide + 2) + 11}));
-    }
-    const auto at = [&](int x, int y) { return &chunks[static_cast<std::size_t>(x + y * (kSide + 2))]; };
-    std::vector<MeshInput> inputs;
-    for (int y = 1; y <= kSide; ++y) {
-        for (int x = 1; x <= kSide; ++x) {
-            inputs.push_back(
-                {at(x, y), {at(x - 1, y), at(x + 1, y), at(x, y - 1), at(x, y + 1)}, &contentBlocks(), {}});
+// Generated chunks and a ring around them.
+struct Overworld {
+    explicit Overworld(int side) : width(side + 2) {
+        const auto graph = gen::makeGenerator("overworld", contentBlocks());
+        if (!graph) throw std::runtime_error(graph.error().message);
+        const gen::Generator generator(*graph, 12345);
+        for (int k = 0; k < width * width; ++k) {
+            chunks.push_back(generator.generate({k % width - 30, k / width + 11}));
         }
     }
+    std::vector<MeshInput> inputs(const MeshOptions& options) const {
+        const auto at = [&](int x, int y) { return &chunks[static_cast<std::size_t>(x + y * width)]; };
+        std::vector<MeshInput> all;
+        for (int y = 1; y + 1 < width; ++y) {
+            for (int x = 1; x + 1 < width; ++x) {
+                all.push_back({at(x, y),
+                               {at(x - 1, y), at(x + 1, y), at(x, y - 1), at(x, y + 1)},
+                               &contentBlocks(),
+                               options});
+            }
+        }
+        return all;
+    }
+
+    int width;
+    std::vector<world::Chunk> chunks;
+};
+
+// More chunks than a batch holds; neighbours are in the batch, in the next one, or in none.
+TEST_F(GpuMesherTest, OverworldEqualsCpu) {
+    const Overworld world(18);
     GpuBatchMesher mesher = mesherOf(contentBlocks());
-    expectEqual(mesher, inputs);
+    expectEqual(mesher, world.inputs({}));
+}
+
+TEST_F(GpuMesherTest, EveryMethodOnTheOverworldEqualsCpu) {
+    const Overworld world(5);
+    GpuBatchMesher mesher = mesherOf(contentBlocks());
+    for (const Method method : kMethods) {
+        SCOPED_TRACE(fmt::format("method {}", static_cast<int>(method)));
+        expectEqual(mesher, world.inputs({.method = method}));
+    }
 }
 
 // What lies in the buffer around the regions' places stays as it was.
