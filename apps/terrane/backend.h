@@ -14,6 +14,9 @@ enum class Backend : std::uint8_t { Auto, Cpu, Gpu };
 // Auto is the GPU where the renderer is a real one.
 void addBackendOption(CLI::App& command, Backend& backend, const std::string& description);
 
+// Of the current context: whether it is to do the work.
+bool usesGpu(Backend backend);
+
 // A context to work in, or nothing where the processor is to do it.
 base::Result<std::optional<gpu::HeadlessContext>> openBackend(Backend backend);
 

@@ -6,7 +6,6 @@
 
 #include "apps/terrane/content.h"
 #include "apps/terrane/save_identity.h"
-#include "terrane/base/log.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/shared/shape_face.h"
 #include "terrane/store/open_store.h"
@@ -82,21 +81,6 @@ void WorldSession::advance(double seconds, world::ChunkPos centre) {
         for (const world::BlockPos pos : world::plantsThatGrow(world, blocks, {ticks_++, centre})) {
             pipeline->setSmallData(pos, static_cast<std::uint16_t>(world.smallData(pos) - 1));
         }
-    }
-}
-
-void uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, std::size_t limit) {
-    for (const stream::ChunkChange& change : pipeline.takeChanges(limit)) {
-        if (change.isHidden) {
-            renderer.removeChunk(change.pos);
-            continue;
-        }
-        if (change.mesh && !renderer.setChunk(change.pos, *change.mesh, change.regions)) {
-            base::logWarning(
-                "chunk {},{}: no room for its quads on the graphics card, not all of it is shown",
-                change.pos.x, change.pos.y);
-        }
-        if (change.light) renderer.setLight(change.pos, *change.light, change.bricks);
     }
 }
 

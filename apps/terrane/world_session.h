@@ -50,9 +50,6 @@ struct WorldSession {
     std::uint64_t ticks_ = 0;
 };
 
-// Hands at most `limit` changed chunks to the renderer.
-void uploadChanges(stream::ChunkPipeline& pipeline, render::Renderer& renderer, std::size_t limit);
-
 // Whether the camera is in water: below its surface, where that is in the same block.
 bool isUnderWater(const WorldSession& session, const render::Camera& camera);
 

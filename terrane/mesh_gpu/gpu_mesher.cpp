@@ -1,6 +1,7 @@
 #include "terrane/mesh_gpu/gpu_mesher.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstring>
 
@@ -32,6 +33,12 @@ base::Result<gpu::Program> compile(const gpu::ShaderLoader& shaders, bool writes
 template <class T>
 gpu::Buffer bufferOf(std::span<const T> values, std::string_view label) {
     return gpu::Buffer(std::as_bytes(values), 0, label);
+}
+
+gpu::Handle<gpu::ObjectKind::Query> timestampQuery() {
+    GLuint id = 0;
+    glCreateQueries(GL_TIMESTAMP, 1, &id);
+    return gpu::Handle<gpu::ObjectKind::Query>(id);
 }
 
 mesh::RegionMesh regionOf(const shared::MeshRegionCounts& counts) {
@@ -83,6 +90,7 @@ struct GpuMesher::Impl {
     gpu::Buffer counts, places;  // by region
     gpu::ReadbackBuffer readback;
     gpu::Fence counted;
+    std::array<gpu::Handle<gpu::ObjectKind::Query>, 2> countTimes = {timestampQuery(), timestampQuery()};
 };
 
 void GpuMesher::Impl::bind() const {
@@ -133,6 +141,7 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
     m.regionCount = chunks.size() * static_cast<std::size_t>(world::kChunkHeight / options.regionHeight);
     const std::vector<shared::MeshRegionCounts> nothing(m.regionCount, kNothing);
     m.counts.uploadVector(0, nothing);
+    glQueryCounter(m.countTimes[0].id(), GL_TIMESTAMP);
     if (m.unitCount > 0) {
         m.sections = bufferOf(m.upload.sections(), "mesh sections");
         m.data = bufferOf(m.upload.data(), "mesh section data");
@@ -146,11 +155,20 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
     }
     m.upload.clear();
     m.readback.copyFrom(m.counts, m.regionCount * sizeof(shared::MeshRegionCounts));
+    glQueryCounter(m.countTimes[1].id(), GL_TIMESTAMP);
     m.counted = gpu::Fence::insert();
 }
 
 bool GpuMesher::isCounted() const {
     return impl_->counted.valid() && impl_->counted.passed();
+}
+
+double GpuMesher::countMilliseconds() const {
+    std::array<GLuint64, 2> nanoseconds{};
+    for (std::size_t k = 0; k < 2; ++k) {
+        glGetQueryObjectui64v(impl_->countTimes[k].id(), GL_QUERY_RESULT, &nanoseconds[k]);
+    }
+    return static_cast<double>(nanoseconds[1] - nanoseconds[0]) / 1e6;
 }
 
 std::vector<mesh::RegionMesh> GpuMesher::regions() const {
@@ -174,6 +192,10 @@ void GpuMesher::write(std::span<const std::uint32_t> firstQuads, const gpu::Buff
     std::vector<uint> places;
     places.reserve(counted.size() * shared::kRangesOfRegion);
     for (std::size_t k = 0; k < counted.size(); ++k) {
+        if (firstQuads[k] == kNoPlace) {
+            places.insert(places.end(), shared::kRangesOfRegion, kNoPlace);
+            continue;
+        }
         for (int context = 0; context < mesh::kContextCount; ++context) {
             const bool isTwoSided = mesh::contextTwoSided(context);
             for (int g = isTwoSided ? mesh::kGroupAlways : 0; g < mesh::kGroupCount; ++g) {

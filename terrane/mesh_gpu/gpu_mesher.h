@@ -20,8 +20,11 @@
 #include "terrane/gpu/buffer.h"
 #include "terrane/gpu/shader_loader.h"
 #include "terrane/mesh/chunk_mesher.h"
+#include "terrane/shared/mesher.h"
 
 namespace terrane::mesh_gpu {
+
+using shared::kNoPlace;
 
 class GpuMesher {
   public:
@@ -43,8 +46,10 @@ class GpuMesher {
     // Of all chunks, the lowest region first; waits where isCounted() does not hold yet. Ranges count from
     // the region's first quad.
     std::vector<mesh::RegionMesh> regions() const;
-    // Writes the quads of each region from `firstQuads` on, in the order of regions(); once a batch. Shaders
-    // that run later see them.
+    // Of the GPU for count(), once isCounted() holds.
+    double countMilliseconds() const;
+    // Writes the quads of each region from `firstQuads` on, in the order of regions(), or leaves them out
+    // (kNoPlace); once a batch. Shaders that run later see them.
     void write(std::span<const std::uint32_t> firstQuads, const gpu::Buffer& quads);
 
   private:

@@ -62,6 +62,7 @@ void main() {
     MeshUnit unit = units[unitIndex];
 #if WRITES_QUADS
     if (unitCounts[kMeshUnitWords * unitIndex + kRangesOfRegion] == 0u) return;  // nothing to be seen
+    if (places[kRangesOfRegion * unit.region] == kNoPlace) return;
 #endif
     begin(unit, unitIndex, local);
     uint planes = shareRow(unit, local);

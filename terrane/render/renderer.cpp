@@ -129,6 +129,12 @@ bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::
     return hasRoom;
 }
 
+bool Renderer::reserveChunk(world::ChunkPos pos, std::span<const mesh::RegionMesh> meshes) {
+    const bool hasRoom = quads_.reserve(pos, meshes);
+    regions_.set(pos, quads_.regionsOf(pos));
+    return hasRoom;
+}
+
 void Renderer::removeChunk(world::ChunkPos pos) {
     regions_.remove(pos);
     quads_.remove(pos);

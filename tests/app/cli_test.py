@@ -90,6 +90,14 @@ class Render(ProgramTest):
                    for height in ("8", "128")]
         self.assertGreater(regions[0], regions[1])
 
+    def test_the_picture_does_not_depend_on_the_back_end(self):
+        for scene, samples in (("landscape", "1"), ("ocean", "4")):
+            arguments = ("--scene", scene, "--size", "160x90", "--view-distance", "4", "--preset", "medium", "--samples",
+                         samples, "--debug-gl")
+            for backend in ("cpu", "gpu"):
+                self.succeed("render", *arguments, "--backend", backend, "-o", self.folder / (backend + ".png"))
+            self.assertEqual(Picture(self.folder / "cpu.png").rows, Picture(self.folder / "gpu.png").rows, scene)
+
     def test_views_show_something_else(self):
         pictures = [self.render("v.png", "--scene", "landscape", "--view", view)[0].rows
                     for view in ("color", "normal", "depth", "aggregation", "light")]

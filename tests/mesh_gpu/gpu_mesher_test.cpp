@@ -4,14 +4,12 @@
 
 #include <algorithm>
 
-#include "terrane/gen/generator.h"
-#include "terrane/gen/generators/catalogue.h"
 #include "terrane/mesh/region_quads.h"
 #include "terrane/mesh_gpu/gpu_batch_mesher.h"
-#include "terrane/render/quad_store.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/mesh/random_blocks.h"
-#include "tests/render/content.h"
+#include "tests/mesh_gpu/mesh_comparison.h"
+#include "tests/mesh_gpu/overworld.h"
 
 namespace terrane::mesh_gpu {
 namespace {
@@ -32,21 +30,6 @@ class GpuMesherTest : public gpu::GlTest {
         return GpuBatchMesher(std::move(*made));
     }
 };
-
-// The same quads in each range, sorted.
-ChunkMesh sorted(ChunkMesh mesh) {
-    for (const mesh::RegionMesh& region : mesh.regions) {
-        for (const auto& context : region.groups) {
-            for (const mesh::QuadRange range : context) {
-                std::sort(mesh.quads.begin() + range.first, mesh.quads.begin() + range.first + range.count,
-                          [](shared::Quad a, shared::Quad b) {
-                              return std::pair(a.word0, a.word1) < std::pair(b.word0, b.word1);
-                          });
-            }
-        }
-    }
-    return mesh;
-}
 
 void expectEqual(mesh::BatchMesher& mesher, std::span<const MeshInput> chunks) {
     const std::vector<ChunkMesh> found = mesher.mesh(chunks);
@@ -105,34 +88,6 @@ TEST_F(GpuMesherTest, EmptyAndFullChunksEqualCpu) {
     expectEqual(mesher, std::span(inputs).first(1));
     expectEqual(mesher, inputs);
 }
-
-// Generated chunks and a ring around them.
-struct Overworld {
-    explicit Overworld(int side) : width(side + 2) {
-        const auto graph = gen::makeGenerator("overworld", contentBlocks());
-        if (!graph) throw std::runtime_error(graph.error().message);
-        const gen::Generator generator(*graph, 12345);
-        for (int k = 0; k < width * width; ++k) {
-            chunks.push_back(generator.generate({k % width - 30, k / width + 11}));
-        }
-    }
-    std::vector<MeshInput> inputs(const MeshOptions& options) const {
-        const auto at = [&](int x, int y) { return &chunks[static_cast<std::size_t>(x + y * width)]; };
-        std::vector<MeshInput> all;
-        for (int y = 1; y + 1 < width; ++y) {
-            for (int x = 1; x + 1 < width; ++x) {
-                all.push_back({at(x, y),
-                               {at(x - 1, y), at(x + 1, y), at(x, y - 1), at(x, y + 1)},
-                               &contentBlocks(),
-                               options});
-            }
-        }
-        return all;
-    }
-
-    int width;
-    std::vector<world::Chunk> chunks;
-};
 
 // More chunks than a batch holds; neighbours are in the batch, in the next one, or in none.
 TEST_F(GpuMesherTest, OverworldEqualsCpu) {
@@ -204,14 +159,7 @@ TEST_F(GpuMesherTest, FillsTheStoreThatIsDrawnFrom) {
     mesher->write(firstQuads, store.buffer());
     EXPECT_EQ(store.uploadedBytes(), 0u);
     for (std::size_t k = 0; k < 2; ++k) {
-        ChunkMesh stored;
-        for (const mesh::RegionMesh& region : store.regionsOf({static_cast<int>(k), 0})) {
-            const std::size_t at = stored.quads.size();
-            stored.quads.resize(at + mesh::quadCount(region));
-            stored.regions.push_back(mesh::movedTo(static_cast<std::uint32_t>(at), region));
-            store.buffer().download(std::size_t{mesh::firstQuad(region)} * shared::kQuadBytes,
-                                    std::as_writable_bytes(std::span(stored.quads).subspan(at)));
-        }
+        const ChunkMesh stored = meshIn(store, {static_cast<int>(k), 0});
         mesh::MeshScratch scratch;
         EXPECT_TRUE(sorted(stored) == sorted(meshChunk(inputs[k], scratch))) << "chunk " << k;
     }

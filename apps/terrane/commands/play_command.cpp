@@ -1,6 +1,7 @@
 // terrane play: a window to walk, fly and build in.
 #include <memory>
 
+#include "apps/terrane/chunk_uploads.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
 #include "apps/terrane/spawn.h"
@@ -16,6 +17,7 @@ struct PlayOptions {
     WorldOptions world;
     SaveOptions save;
     GraphicsOptions graphics;
+    Backend backend = Backend::Auto;
     PlaySettings settings;
     std::optional<int> position;
     std::optional<double> time;
@@ -99,7 +101,10 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
     game.day = dayOf(options, **session);
     game.perfData = options.perfData;
     game.isSoftwareRenderer = device.software;
-    Game loop({*window, **session, *renderer, *preview}, game);
+    auto uploads = ChunkUploads::create(options.backend, ChunkUploads::kFrameMilliseconds, (*session)->blocks,
+                                        *(*session)->pipeline, *renderer);
+    if (!uploads) return tl::unexpected(uploads.error());
+    Game loop({*window, **session, *renderer, *uploads, *preview}, game);
     if (auto played = loop.run(); !played) return played;
     if (loop.settings() != game.settings) {
         auto written = writeSettings(options.settingsFile, valuesOf(loop.settings(), device.software));
@@ -141,6 +146,7 @@ CommandEntry addPlay(CLI::App& app) {
     command->add_option("--collect-perf-data", options->perfData, "Write figures of each frame (CSV)")
         ->type_name("FILE");
     addPlaySettings(*command, options->settings);
+    addBackendOption(*command, options->backend, "Where to make meshes");
     addGraphicsOptions(*command, options->graphics, "auto");
     command
         ->add_option("--settings", options->settingsFile,

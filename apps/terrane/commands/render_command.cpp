@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/terrane/chunk_uploads.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
 #include "apps/terrane/scenes.h"
@@ -28,6 +29,7 @@ struct PictureOptions {
     WorldOptions world;
     SaveOptions save;
     GraphicsOptions graphics;
+    Backend backend = Backend::Auto;
     std::string scene;
     std::optional<std::vector<double>> at, look;
     std::optional<float> time;
@@ -65,14 +67,14 @@ base::Result<Scene> chosenScene(const PictureOptions& options) {
 }
 
 // Generates and meshes everything in view; returns when the renderer has it.
-void loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera,
-             int viewDistance) {
+void loadAll(WorldSession& session, ChunkUploads& uploads, const render::Camera& camera, int viewDistance) {
     session.pipeline->setView(render::cameraChunk(camera), viewDistance);
     for (;;) {
         session.pipeline->update();
-        uploadChanges(*session.pipeline, renderer, std::numeric_limits<std::size_t>::max());
-        if (session.pipeline->progress().complete()) return;
-        session.pipeline->waitForWorkers(std::chrono::milliseconds(100));
+        uploads.update(std::numeric_limits<std::size_t>::max());
+        const bool isLoaded = session.pipeline->progress().complete();
+        if (isLoaded && uploads.isIdle()) return;
+        if (!isLoaded) session.pipeline->waitForWorkers(std::chrono::milliseconds(100));
     }
 }
 
@@ -121,7 +123,10 @@ base::Result<void> renderPicture(const PictureOptions& options, const CLI::App& 
     const auto loadStart = Clock::now();
     (*session)->pipeline->setMeshOptions(options.graphics.mesh);
     renderer->setViewDistance(options.graphics.viewDistance);
-    loadAll(**session, *renderer, scene->camera, options.graphics.viewDistance);
+    auto uploads =
+        ChunkUploads::create(options.backend, 0, (*session)->blocks, *(*session)->pipeline, *renderer);
+    if (!uploads) return tl::unexpected(uploads.error());
+    loadAll(**session, *uploads, scene->camera, options.graphics.viewDistance);
     const double load = millisecondsSince(loadStart);
 
     const auto drawStart = Clock::now();
@@ -218,6 +223,7 @@ CommandEntry addRender(CLI::App& app) {
     addOutputOption(*command, options->output, "The PNG file");
     command->add_flag("--json", options->json, "Print timings and counts as JSON");
     addWorldOptions(*command, options->world);
+    addBackendOption(*command, options->backend, "Where to make meshes");
     addGraphicsOptions(*command, options->graphics, "high");
     addSaveGameOptions(*command, options->save);
     return {command, [options, command] { return renderPicture(*options, *command); }};

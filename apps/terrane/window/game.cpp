@@ -104,7 +104,7 @@ base::Result<void> Game::drawFrame() {
     if (size != renderer.size() || settings_.graphics != renderer.options()) {
         if (auto configured = renderer.configure(size, settings_.graphics); !configured) return configured;
     }
-    uploadChanges(*parts_.session.pipeline, renderer, kUploadsPerFrame);
+    parts_.uploads.update(kUploadsPerFrame);
     renderer.draw(frameInput());
     renderer.presentToWindow(size);
     drawInterface(size);
@@ -165,7 +165,7 @@ Figures Game::figures() const {
             .timeDay = day_.timeDay,
             .progress = session.pipeline->progress(),
             .activeChunks = session.world.chunks().size(),
-            .queuedChunks = session.pipeline->queuedCount(),
+            .queuedChunks = session.pipeline->queuedCount() + parts_.uploads.waiting(),
             .frame = parts_.renderer.statistics(),
             .blockBytes = session.world.memoryBytes(),
             .lightBytes = session.pipeline->lightBytes(),

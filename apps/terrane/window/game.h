@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "apps/terrane/chunk_uploads.h"
 #include "apps/terrane/window/block_preview.h"
 #include "apps/terrane/window/day_clock.h"
 #include "apps/terrane/window/frame_meter.h"
@@ -25,6 +26,7 @@ struct GameParts {
     gpu::Window& window;
     WorldSession& session;
     render::Renderer& renderer;
+    ChunkUploads& uploads;
     BlockPreview& preview;
 };
 
