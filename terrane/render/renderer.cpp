@@ -58,6 +58,7 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     renderer.pyramid_ = DepthPyramid(shaders);
     renderer.shadowMap_ = ShadowMap(shaders);
     renderer.gbuffer_ = GBufferPass(shaders);
+    renderer.holeFill_ = HoleFill(shaders);
     renderer.layers_ = LayerPass(shaders);
     renderer.noise_ = SkyNoise::create();
     renderer.occlusion_ = AmbientOcclusion(shaders);
@@ -101,6 +102,7 @@ base::Result<void> Renderer::selectVariants(const RenderOptions& options, const 
     auto done = shadowMap_.resize(options.shading == Shading::Off ? 0 : options.shadowSize);
     if (done) done = pyramid_.configure(targets, options.hiddenRegionCulling);
     if (done) done = gbuffer_.select(options.sampledAlphaTest ? samples : 1, options.betterTexturing);
+    if (done) done = holeFill_.configure(targets, options.tJunctions == TJunctions::Filled);
     if (done) done = sky_.select(defined({{"SAMPLES", samples}, {"CLOUDS", options.clouds ? 1 : 0}}));
     if (done) {
         done = shade_.select(defined({{"SAMPLES", samples},
@@ -290,6 +292,10 @@ void Renderer::draw(const FrameInput& input) {
     if (hasShadows(input)) drawShadows();
     drawSurfaces();
     if (leavesOutHidden) drawHiddenBefore(culling);
+    if (holeFill_.isOn()) {
+        const TimerZone zone(timer_, "fill holes");
+        holeFill_.draw(targets_);
+    }
     light_.bind();
     if (shadowMap_.size() > 0) shadowMap_.bind();
     if (input.view == View::Color) {

@@ -18,6 +18,7 @@
 #include "terrane/render/fullscreen_pass.h"
 #include "terrane/render/gbuffer_pass.h"
 #include "terrane/render/god_rays.h"
+#include "terrane/render/hole_fill.h"
 #include "terrane/render/layer_pass.h"
 #include "terrane/render/light_store.h"
 #include "terrane/render/quad_resources.h"
@@ -99,6 +100,7 @@ class Renderer {
     DepthPyramid pyramid_;
     ShadowMap shadowMap_;
     GBufferPass gbuffer_;
+    HoleFill holeFill_;
     LayerPass layers_;
     AmbientOcclusion occlusion_;
     GodRays godRays_;
