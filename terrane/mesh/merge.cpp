@@ -20,39 +20,41 @@ Quad quadAt(const QuadPattern& pattern, uint bit, uint row, uint bits, uint rows
             pattern.first.word1};
 }
 
-uint lowestBit(uint value) {
-    return static_cast<uint>(std::countr_zero(value));
+// Of a value that is not 0; std::countr_zero asks whether it is.
+uint lowestOne(uint value) {
+    return static_cast<uint>(__builtin_ctz(value));
 }
 
-// kStep is the plane's: known to the compiler it costs no multiplications (15 % of meshing a landscape).
+constexpr uint kNoBit = 1u << 17;  // no row of 16 bits has it
+
+// kStep is the plane's: known to the compiler it costs no multiplications (15 % of meshing a landscape). One
+// loop over the rectangles mispredicts fewer branches than loops over rows and their runs.
 template <std::size_t kStep>
 std::size_t mergeGreedily(const PlaneRows& plane, const QuadPattern& pattern, Quad* out) {
     const Quad* begin = out;
-    for (uint used = plane.used; used != 0; used &= used - 1) {
-        const uint row = lowestBit(used);
-        const uint limit = row + static_cast<uint>(std::countr_one(used >> row));  // of rows in use
+    // Of a quad's word: extents are less one; a higher first bit is a shorter run where the end is given.
+    const uint oneBit = (1u << pattern.bitShift) - (1u << kShiftU);
+    const uint origin = pattern.first.word0 - (1u << kShiftU);
+    for (uint used = plane.used; used != 0;) {
+        const uint row = lowestOne(used);
         std::uint16_t* const rows = plane.rows + row * kStep;
-        uint left = *rows;
-        do {
-            // Adding the lowest one carries through the ones above it: what the carry clears is the run.
-            const uint lowest = left & (0u - left);
-            const uint carried = left + lowest;
-            const uint run = left & ~carried;
-            left ^= run;
-            // A row whose run sticks out on both sides would be cut in three: better it begins a new
-            // rectangle.
-            const uint before = lowest >> 1, after = run + lowest;
-            uint end = row + 1;
-            for (std::uint16_t* next = rows + kStep; end < limit; ++end, next += kStep) {
-                const uint bits = *next;
-                const bool sticksOut = (bits & before) != 0 && (bits & after) != 0;
-                if ((bits & run) != run || sticksOut) break;
-                *next = static_cast<std::uint16_t>(bits ^ run);
-                used &= ~(uint{bits == run} << end);
-            }
-            const uint bit = lowestBit(lowest);
-            *out++ = quadAt(pattern, bit, row, lowestBit(carried) - bit, end - row);
-        } while (left != 0);
+        // Adding the lowest one carries through the ones above it: what the carry clears is the run.
+        const uint left = *rows, lowest = left & (0u - left), carried = left + lowest, run = left & ~carried;
+        *rows = static_cast<std::uint16_t>(left ^ run);
+        used &= ~(uint{left == run} << row);
+        uint word0 =
+            origin + (row << pattern.rowShift) + (lowestOne(carried) << kShiftU) + lowestOne(lowest) * oneBit;
+        // A row whose run sticks out on both sides would be cut in three: better it begins a new rectangle.
+        const uint before = lowest > 1 ? lowest >> 1 : kNoBit, sides = before | (run + lowest);
+        std::uint16_t* next = rows + kStep;
+        for (uint nextRow = 2u << row; (used & nextRow) != 0; nextRow <<= 1, next += kStep) {
+            const uint bits = *next;
+            if ((bits & run) != run || (bits & sides) == sides) break;
+            *next = static_cast<std::uint16_t>(bits ^ run);
+            used &= ~(bits == run ? nextRow : 0);
+            word0 += 1u << kShiftV;
+        }
+        *out++ = {word0, pattern.first.word1};
     }
     return static_cast<std::size_t>(out - begin);
 }
@@ -65,9 +67,9 @@ std::size_t mergeGreedy(const PlaneRows& plane, const QuadPattern& pattern, Quad
 std::size_t mergeNothing(const PlaneRows& plane, const QuadPattern& pattern, Quad* out) {
     const Quad* begin = out;
     for (uint used = plane.used; used != 0; used &= used - 1) {
-        const uint row = lowestBit(used);
+        const uint row = lowestOne(used);
         for (uint left = plane.rows[row * plane.step]; left != 0; left &= left - 1) {
-            *out++ = quadAt(pattern, lowestBit(left), row, 1, 1);
+            *out++ = quadAt(pattern, lowestOne(left), row, 1, 1);
         }
     }
     return static_cast<std::size_t>(out - begin);
