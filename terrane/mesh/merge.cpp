@@ -27,34 +27,36 @@ uint lowestOne(uint value) {
 
 constexpr uint kNoBit = 1u << 17;  // no row of 16 bits has it
 
-// kStep is the plane's: known to the compiler it costs no multiplications (15 % of meshing a landscape). One
-// loop over the rectangles mispredicts fewer branches than loops over rows and their runs.
+// kStep is the plane's: known to the compiler it costs no multiplications (15 % of meshing a landscape). The
+// word of a quad is added up as its rectangle grows.
 template <std::size_t kStep>
 std::size_t mergeGreedily(const PlaneRows& plane, const QuadPattern& pattern, Quad* out) {
     const Quad* begin = out;
-    // Of a quad's word: extents are less one; a higher first bit is a shorter run where the end is given.
+    // Extents are less one; where the end of a run is given, a higher first bit makes it shorter.
     const uint oneBit = (1u << pattern.bitShift) - (1u << kShiftU);
     const uint origin = pattern.first.word0 - (1u << kShiftU);
-    for (uint used = plane.used; used != 0;) {
-        const uint row = lowestOne(used);
+    for (uint used = plane.used; used != 0; used &= used - 1) {
+        const uint row = lowestOne(used), rowOrigin = origin + (row << pattern.rowShift);
         std::uint16_t* const rows = plane.rows + row * kStep;
-        // Adding the lowest one carries through the ones above it: what the carry clears is the run.
-        const uint left = *rows, lowest = left & (0u - left), carried = left + lowest, run = left & ~carried;
-        *rows = static_cast<std::uint16_t>(left ^ run);
-        used &= ~(uint{left == run} << row);
-        uint word0 =
-            origin + (row << pattern.rowShift) + (lowestOne(carried) << kShiftU) + lowestOne(lowest) * oneBit;
-        // A row whose run sticks out on both sides would be cut in three: better it begins a new rectangle.
-        const uint before = lowest > 1 ? lowest >> 1 : kNoBit, sides = before | (run + lowest);
-        std::uint16_t* next = rows + kStep;
-        for (uint nextRow = 2u << row; (used & nextRow) != 0; nextRow <<= 1, next += kStep) {
-            const uint bits = *next;
-            if ((bits & run) != run || (bits & sides) == sides) break;
-            *next = static_cast<std::uint16_t>(bits ^ run);
-            used &= ~(bits == run ? nextRow : 0);
-            word0 += 1u << kShiftV;
-        }
-        *out++ = {word0, pattern.first.word1};
+        uint left = *rows;
+        do {
+            // Adding the lowest one carries through the ones above it: what the carry clears is the run.
+            const uint lowest = left & (0u - left), carried = left + lowest, run = left & ~carried;
+            left ^= run;
+            uint word0 = rowOrigin + (lowestOne(carried) << kShiftU) + lowestOne(lowest) * oneBit;
+            // A row whose run sticks out on both sides would be cut in three: better it begins a new
+            // rectangle.
+            const uint before = lowest > 1 ? lowest >> 1 : kNoBit, sides = before | (run + lowest);
+            std::uint16_t* next = rows + kStep;
+            for (uint nextRow = 2u << row; (used & nextRow) != 0; nextRow <<= 1, next += kStep) {
+                const uint bits = *next;
+                if ((bits & run) != run || (bits & sides) == sides) break;
+                *next = static_cast<std::uint16_t>(bits ^ run);
+                used &= ~(bits == run ? nextRow : 0);
+                word0 += 1u << kShiftV;
+            }
+            *out++ = {word0, pattern.first.word1};
+        } while (left != 0);
     }
     return static_cast<std::size_t>(out - begin);
 }
