@@ -1,6 +1,7 @@
 // --backend: whether work that both can do is done by the processor or by the graphics card.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -19,5 +20,12 @@ bool usesGpu(Backend backend);
 
 // A context to work in, or nothing where the processor is to do it.
 base::Result<std::optional<gpu::HeadlessContext>> openBackend(Backend backend);
+
+// What works on a back end, and the context that it works in, if it does.
+template <class Worker>
+struct OnBackend {
+    std::optional<gpu::HeadlessContext> context;  // outlives what lives in it
+    std::unique_ptr<Worker> worker;
+};
 
 }  // namespace terrane::app

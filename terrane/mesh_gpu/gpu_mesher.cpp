@@ -41,18 +41,15 @@ gpu::Handle<gpu::ObjectKind::Query> timestampQuery() {
     return gpu::Handle<gpu::ObjectKind::Query>(id);
 }
 
+// Counts are in the order of mesh::rangesOf().
 mesh::RegionMesh regionOf(const shared::MeshRegionCounts& counts) {
     mesh::RegionMesh region;
     uint first = 0;
+    std::size_t next = 0;
     for (int context = 0; context < mesh::kContextCount; ++context) {
-        const int groups = mesh::contextTwoSided(context) ? 1 : mesh::kGroupCount;
         for (int group = 0; group < mesh::kGroupCount; ++group) {
-            const int range = groups == 1 ? 0 : group;  // two-sided: the last group has them all
-            const bool hasQuads = groups > 1 || group == mesh::kGroupAlways;
-            const uint count =
-                hasQuads
-                    ? counts.quads[shared::firstRange(static_cast<uint>(context)) + static_cast<uint>(range)]
-                    : 0;
+            const bool hasRange = !mesh::contextTwoSided(context) || group == mesh::kGroupAlways;
+            const uint count = hasRange ? counts.quads[next++] : 0;
             region.groups[context][group] = {first, count};
             first += count;
         }
@@ -196,11 +193,8 @@ void GpuMesher::write(std::span<const std::uint32_t> firstQuads, const gpu::Buff
             places.insert(places.end(), shared::kRangesOfRegion, kNoPlace);
             continue;
         }
-        for (int context = 0; context < mesh::kContextCount; ++context) {
-            const bool isTwoSided = mesh::contextTwoSided(context);
-            for (int g = isTwoSided ? mesh::kGroupAlways : 0; g < mesh::kGroupCount; ++g) {
-                places.push_back(firstQuads[k] + counted[k].groups[context][g].first);
-            }
+        for (const mesh::QuadRange range : mesh::rangesOf(counted[k])) {
+            places.push_back(firstQuads[k] + range.first);
         }
         assert((counted[k].maxZ == 0 ||
                 (std::size_t{firstQuads[k]} + mesh::quadCount(counted[k])) * shared::kQuadBytes <=

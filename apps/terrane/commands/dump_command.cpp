@@ -202,10 +202,10 @@ base::Result<void> dump(DumpOptions& options, const CLI::App& command) {
             array = dumpBlocks(loaded);
             break;
         case What::Light:
-            array = dumpLight(loaded, **solver);
+            array = dumpLight(loaded, *solver->worker);
             break;
         case What::Quads:
-            array = dumpQuads(loaded, options, *blocks, **mesher);
+            array = dumpQuads(loaded, options, *blocks, *mesher->worker);
             break;
     }
     if (auto written = base::writeFile(options.output, base::encodeNpy(array)); !written) return written;
