@@ -9,10 +9,14 @@ void addBackendOption(CLI::App& command, Backend& backend, const std::string& de
                        {{"auto", Backend::Auto}, {"cpu", Backend::Cpu}, {"gpu", Backend::Gpu}}, description);
 }
 
+bool usesGpu(Backend backend) {
+    return backend == Backend::Gpu || (backend == Backend::Auto && !gpu::queryDevice().software);
+}
+
 base::Result<std::optional<gpu::HeadlessContext>> openBackend(Backend backend) {
     if (backend == Backend::Cpu) return std::nullopt;
     auto context = gpu::HeadlessContext::create({});
-    if (context && (backend == Backend::Gpu || !gpu::queryDevice().software)) return std::move(*context);
+    if (context && usesGpu(backend)) return std::move(*context);
     if (!context && backend == Backend::Gpu) return tl::unexpected(context.error());
     return std::nullopt;
 }

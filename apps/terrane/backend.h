@@ -1,6 +1,7 @@
 // --backend: whether work that both can do is done by the processor or by the graphics card.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -14,7 +15,17 @@ enum class Backend : std::uint8_t { Auto, Cpu, Gpu };
 // Auto is the GPU where the renderer is a real one.
 void addBackendOption(CLI::App& command, Backend& backend, const std::string& description);
 
+// Of the current context: whether it is to do the work.
+bool usesGpu(Backend backend);
+
 // A context to work in, or nothing where the processor is to do it.
 base::Result<std::optional<gpu::HeadlessContext>> openBackend(Backend backend);
+
+// What works on a back end, and the context that it works in, if it does.
+template <class Worker>
+struct OnBackend {
+    std::optional<gpu::HeadlessContext> context;  // outlives what lives in it
+    std::unique_ptr<Worker> worker;
+};
 
 }  // namespace terrane::app

@@ -20,12 +20,8 @@ double secondsSince(Clock::time_point start) {
 // Draws frames and logs them.
 class Pilot {
   public:
-    Pilot(WorldSession& session, render::Renderer& renderer, const Flight& flight)
-        : session_(session),
-          renderer_(renderer),
-          view_(session, renderer),
-          flight_(flight),
-          camera_(flight.start) {}
+    Pilot(WorldSession& session, render::Renderer& renderer, WorldView& view, const Flight& flight)
+        : session_(session), renderer_(renderer), view_(view), flight_(flight), camera_(flight.start) {}
 
     FlightLog run() {
         while (!frame().complete()) {
@@ -63,7 +59,7 @@ class Pilot {
 
     WorldSession& session_;
     render::Renderer& renderer_;
-    WorldView view_;
+    WorldView& view_;
     const Flight& flight_;
     render::Camera camera_;
     FlightLog log_;
@@ -96,8 +92,8 @@ nlohmann::json linesBySecond(const FlightLog& log) {
 
 }  // namespace
 
-FlightLog fly(WorldSession& session, render::Renderer& renderer, const Flight& flight) {
-    return Pilot(session, renderer, flight).run();
+FlightLog fly(WorldSession& session, render::Renderer& renderer, WorldView& view, const Flight& flight) {
+    return Pilot(session, renderer, view, flight).run();
 }
 
 nlohmann::json jsonOf(const FlightLog& log) {

@@ -32,7 +32,7 @@ struct FlightLog {
 constexpr double kFlightSpeed = 60;  // blocks a second: the fastest that one moves in the window
 
 // Waits until all in view is there, flies, waits again.
-FlightLog fly(WorldSession& session, render::Renderer& renderer, const Flight& flight);
+FlightLog fly(WorldSession& session, render::Renderer& renderer, WorldView& view, const Flight& flight);
 
 // The figures, and a line of them for each second.
 nlohmann::json jsonOf(const FlightLog& log);

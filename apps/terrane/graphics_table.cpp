@@ -87,9 +87,9 @@ std::vector<GraphicsRow> makeTable() {
          setMember<&RenderOptions::singleLayer>},
         {"t-junctions",
          "Cracks where rectangles of different sizes meet",
-         {"open", "covered"},
-         getMember<&RenderOptions::coverCracks>,
-         setMember<&RenderOptions::coverCracks>},
+         {"open", "filled", "covered"},
+         getMember<&RenderOptions::tJunctions>,
+         setMember<&RenderOptions::tJunctions>},
         switchOf<&RenderOptions::hiddenRegionCulling>("occlusion-culling",
                                                       "Leaves out what lies behind other terrain"),
     };

@@ -75,22 +75,6 @@ void addGraphicsChoices(CLI::App& command, GraphicsChoices& choices, std::string
     }
 }
 
-void addMeshOptions(CLI::App& command, mesh::MeshOptions& options) {
-    using mesh::Method;
-    addChoice<Method>(command, "--aggregation", options.method,
-                      {{"none", Method::None},
-                       {"lines", Method::Lines},
-                       {"squares", Method::Squares},
-                       {"squares-ext", Method::SquaresExt},
-                       {"greedy", Method::Greedy}},
-                      "How equal faces are merged into rectangles");
-    command
-        .add_option("--region-height", options.regionHeight,
-                    "Height in blocks of the parts of chunks that are culled")
-        ->check(CLI::IsMember({8, 16, 32, 64, 128}))
-        ->capture_default_str();
-}
-
 }  // namespace
 
 glm::ivec2 parseSize(const std::string& text) {
@@ -145,6 +129,22 @@ void addWorldOptions(CLI::App& command, WorldOptions& options) {
         ->capture_default_str();
     command.add_option("--threads", options.threads, "Worker threads (default: one for each processor)")
         ->check(numberFrom(1, 256));
+}
+
+void addMeshOptions(CLI::App& command, mesh::MeshOptions& options) {
+    using mesh::Method;
+    addChoice<Method>(command, "--aggregation", options.method,
+                      {{"none", Method::None},
+                       {"lines", Method::Lines},
+                       {"squares", Method::Squares},
+                       {"squares-ext", Method::SquaresExt},
+                       {"greedy", Method::Greedy}},
+                      "How equal faces are merged into rectangles");
+    command
+        .add_option("--region-height", options.regionHeight,
+                    "Height in blocks of the parts of chunks that are culled")
+        ->check(CLI::IsMember({8, 16, 32, 64, 128}))
+        ->capture_default_str();
 }
 
 void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string preset) {

@@ -43,6 +43,8 @@ struct Area {
 void addWorldOptions(CLI::App& command, WorldOptions& options);
 // `preset`: where none is asked for.
 void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string preset);
+// --aggregation and --region-height.
+void addMeshOptions(CLI::App& command, mesh::MeshOptions& options);
 // "X0,Y0,X1,Y1", the end excluded; not empty and inside the world.
 void addAreaOption(CLI::App& command, std::optional<Area>& area);
 unsigned threadCount(const WorldOptions& options);

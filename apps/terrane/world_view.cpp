@@ -6,8 +6,10 @@
 #include <limits>
 #include <numbers>
 
+#include "apps/terrane/content.h"
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
+#include "terrane/mesh/region_quads.h"
 
 namespace terrane::app {
 namespace {
@@ -30,37 +32,76 @@ void WorldView::follow(const render::Camera& camera, int viewDistance) {
     session_.pipeline->update();
 }
 
+base::Result<void> WorldView::meshOnGpu(double budgetMilliseconds) {
+    auto mesher = mesh_gpu::GpuMesher::create(makeShaderLoader(""), session_.blocks);
+    if (!mesher) return tl::unexpected(mesher.error());
+    queue_.emplace(std::move(*mesher), session_.blocks, budgetMilliseconds);
+    session_.pipeline->leaveMeshesOut();
+    return {};
+}
+
 std::size_t WorldView::upload(double budgetSeconds) {
     TERRANE_ZONE("upload chunks");
     const auto start = Clock::now();
     std::size_t count = 0;
-    for (;;) {
+    do {
         const std::vector<stream::ChunkChange> changes = session_.pipeline->takeChanges(1);
-        if (changes.empty()) return count;
+        if (changes.empty()) break;
         show(changes.front());
         ++count;
-        if (std::chrono::duration<double>(Clock::now() - start).count() >= budgetSeconds) return count;
-    }
+    } while (std::chrono::duration<double>(Clock::now() - start).count() < budgetSeconds);
+    if (queue_) advanceQueue();
+    return count;
 }
 
 void WorldView::show(const stream::ChunkChange& change) {
-    if (change.isHidden) return renderer_.removeChunk(change.pos);
-    if (change.mesh && !renderer_.setChunk(change.pos, *change.mesh, change.regions) && !hasWarned_) {
-        base::logWarning(
-            "no room on the graphics card for all quads: chunk {},{} and others after it are not shown "
-            "whole; "
-            "a shorter --view-distance needs less",
-            change.pos.x, change.pos.y);
-        hasWarned_ = true;
-    }
+    if (change.isHidden) return hide(change.pos);
     if (change.light) renderer_.setLight(change.pos, *change.light, change.bricks);
+    // An edit of a chunk that is on the way is meshed with the rest of it.
+    if (change.needsMesh || (change.mesh && queue_ && queue_->contains(change.pos))) {
+        queue_->add(change.pos);
+    } else if (change.mesh && !renderer_.setChunk(change.pos, *change.mesh, change.regions)) {
+        warnOfNoRoom(change.pos);
+    }
 }
 
-double loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera,
-               int viewDistance, stream::ChunkPipeline::Time now) {
+void WorldView::hide(world::ChunkPos pos) {
+    if (queue_) queue_->remove(pos);
+    renderer_.removeChunk(pos);
+}
+
+void WorldView::advanceQueue() {
+    const auto place = [&](world::ChunkPos pos, std::span<const mesh::RegionMesh> regions) {
+        std::vector<std::uint32_t> firstQuads;
+        if (!renderer_.reserveChunk(pos, regions)) {
+            warnOfNoRoom(pos);
+            return firstQuads;
+        }
+        for (const mesh::RegionMesh& region : renderer_.regionsOf(pos)) {
+            firstQuads.push_back(mesh::firstQuad(region));
+        }
+        return firstQuads;
+    };
+    const stream::ChunkPipeline& pipeline = *session_.pipeline;
+    queue_->advance(pipeline.meshOptions(),
+                    {[&](world::ChunkPos pos) { return pipeline.meshBlocks(pos); }, place,
+                     [&]() -> const gpu::Buffer& { return renderer_.quadBuffer(); }});
+}
+
+// Once: there may be thousands.
+void WorldView::warnOfNoRoom(world::ChunkPos pos) {
+    if (hasWarned_) return;
+    hasWarned_ = true;
+    base::logWarning(
+        "no room on the graphics card for all quads: chunk {},{} and others after it are not shown whole; a "
+        "shorter --view-distance needs less",
+        pos.x, pos.y);
+}
+
+double loadAll(WorldSession& session, WorldView& view, const render::Camera& camera, int viewDistance,
+               stream::ChunkPipeline::Time now) {
     stream::ChunkPipeline& pipeline = *session.pipeline;
     pipeline.setView(render::cameraChunk(camera), viewDistance);
-    WorldView view(session, renderer);
     double uploads = 0;
     for (;;) {
         pipeline.update(now);
@@ -68,8 +109,9 @@ double loadAll(WorldSession& session, render::Renderer& renderer, const render::
         const std::size_t changed = view.upload(std::numeric_limits<double>::infinity());
         uploads += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
         // Visible chunks that are meshed anew come a few an update.
-        if (pipeline.progress().complete() && changed == 0) return uploads;
-        if (changed == 0) pipeline.waitForWorkers(std::chrono::milliseconds(100));
+        const bool isLoaded = pipeline.progress().complete();
+        if (isLoaded && changed == 0 && view.waiting() == 0) return uploads;
+        if (!isLoaded && changed == 0) pipeline.waitForWorkers(std::chrono::milliseconds(100));
     }
 }
 

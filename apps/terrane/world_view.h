@@ -4,7 +4,10 @@
 
 #include <algorithm>
 
+#include <optional>
+
 #include "apps/terrane/world_session.h"
+#include "terrane/mesh_gpu/mesh_queue.h"
 #include "terrane/render/renderer.h"
 
 namespace terrane::app {
@@ -18,26 +21,39 @@ inline double uploadBudget(double frameSeconds) {
 
 class WorldView {
   public:
+    // Time of a frame for meshing on the GPU.
+    static constexpr double kFrameMilliseconds = 3, kNoHurry = 0;
+
     // Both outlive this.
     WorldView(WorldSession& session, render::Renderer& renderer) : session_(session), renderer_(renderer) {}
+
+    // Meshes of whole chunks are made on the GPU, where they are drawn from; those of edits stay with the
+    // pipeline, so that they are seen in the next frame. Comes before the pipeline's first update.
+    base::Result<void> meshOnGpu(double budgetMilliseconds);
 
     // Chunks up to `viewDistance` around the camera come, those in front of it first. Takes in what is there.
     void follow(const render::Camera& camera, int viewDistance);
     // Hands changed chunks to the renderer, at least one, until so much time is over; the rest waits for the
     // next frames. The first time that one finds no room there is a warning. How many it handed on.
     std::size_t upload(double budgetSeconds);
+    // Chunks that were handed on and wait for the GPU to mesh them.
+    std::size_t waiting() const { return queue_ ? queue_->size() : 0; }
 
   private:
     void show(const stream::ChunkChange& change);
+    void hide(world::ChunkPos pos);
+    void advanceQueue();
+    void warnOfNoRoom(world::ChunkPos pos);
 
     WorldSession& session_;
     render::Renderer& renderer_;
+    std::optional<mesh_gpu::MeshQueue> queue_;
     bool hasWarned_ = false;
 };
 
 // Waits until the renderer has everything that the camera may see, as it is now. `now`: the pipeline's time.
 // Milliseconds that uploading took.
-double loadAll(WorldSession& session, render::Renderer& renderer, const render::Camera& camera,
-               int viewDistance, stream::ChunkPipeline::Time now);
+double loadAll(WorldSession& session, WorldView& view, const render::Camera& camera, int viewDistance,
+               stream::ChunkPipeline::Time now);
 
 }  // namespace terrane::app

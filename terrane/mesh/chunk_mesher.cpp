@@ -34,6 +34,13 @@ void checkInput([[maybe_unused]] const MeshInput& input) {
 
 }  // namespace
 
+MeshInput meshInput(const MeshBlocks& chunks, const world::BlockRegistry& blocks,
+                    const MeshOptions& options) {
+    static const world::Chunk kAir;
+    const auto at = [&](std::size_t k) { return chunks[k] ? chunks[k].get() : &kAir; };
+    return {at(0), {at(1), at(2), at(3), at(4)}, &blocks, options};
+}
+
 RegionMesh meshRegion(const MeshInput& input, int region, MeshScratch& scratch,
                       std::vector<shared::Quad>& quads) {
     checkInput(input);

@@ -20,6 +20,13 @@ struct MeshInput {
     MeshOptions options;
 };
 
+// The chunks that one is meshed from: its own, then those at -x, +x, -y, +y. Null beyond the world's edge,
+// which counts as air.
+using MeshBlocks = std::array<world::ChunkPtr, 5>;
+
+// Points into `chunks`.
+MeshInput meshInput(const MeshBlocks& chunks, const world::BlockRegistry& blocks, const MeshOptions& options);
+
 // Memory that is kept from chunk to chunk; holds nothing between calls.
 struct MeshScratch {
     QuadBuckets buckets;

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cassert>
 
+#include "terrane/shared/join_steps.h"
+
 namespace terrane::mesh {
 namespace {
 
@@ -18,38 +20,42 @@ Quad quadAt(const QuadPattern& pattern, uint bit, uint row, uint bits, uint rows
             pattern.first.word1};
 }
 
-uint lowestBit(uint value) {
-    return static_cast<uint>(std::countr_zero(value));
+// Of a value that is not 0; std::countr_zero asks whether it is.
+uint lowestOne(uint value) {
+    return static_cast<uint>(__builtin_ctz(value));
 }
 
-// kStep is the plane's: known to the compiler it costs no multiplications (15 % of meshing a landscape).
+constexpr uint kNoBit = 1u << 17;  // no row of 16 bits has it
+
+// kStep is the plane's: known to the compiler it costs no multiplications (15 % of meshing a landscape). The
+// word of a quad is added up as its rectangle grows.
 template <std::size_t kStep>
 std::size_t mergeGreedily(const PlaneRows& plane, const QuadPattern& pattern, Quad* out) {
     const Quad* begin = out;
+    // Extents are less one; where the end of a run is given, a higher first bit makes it shorter.
+    const uint oneBit = (1u << pattern.bitShift) - (1u << kShiftU);
+    const uint origin = pattern.first.word0 - (1u << kShiftU);
     for (uint used = plane.used; used != 0; used &= used - 1) {
-        const uint row = lowestBit(used);
-        const uint limit = row + static_cast<uint>(std::countr_one(used >> row));  // of rows in use
+        const uint row = lowestOne(used), rowOrigin = origin + (row << pattern.rowShift);
         std::uint16_t* const rows = plane.rows + row * kStep;
         uint left = *rows;
         do {
             // Adding the lowest one carries through the ones above it: what the carry clears is the run.
-            const uint lowest = left & (0u - left);
-            const uint carried = left + lowest;
-            const uint run = left & ~carried;
+            const uint lowest = left & (0u - left), carried = left + lowest, run = left & ~carried;
             left ^= run;
+            uint word0 = rowOrigin + (lowestOne(carried) << kShiftU) + lowestOne(lowest) * oneBit;
             // A row whose run sticks out on both sides would be cut in three: better it begins a new
             // rectangle.
-            const uint before = lowest >> 1, after = run + lowest;
-            uint end = row + 1;
-            for (std::uint16_t* next = rows + kStep; end < limit; ++end, next += kStep) {
+            const uint before = lowest > 1 ? lowest >> 1 : kNoBit, sides = before | (run + lowest);
+            std::uint16_t* next = rows + kStep;
+            for (uint nextRow = 2u << row; (used & nextRow) != 0; nextRow <<= 1, next += kStep) {
                 const uint bits = *next;
-                const bool sticksOut = (bits & before) != 0 && (bits & after) != 0;
-                if ((bits & run) != run || sticksOut) break;
+                if ((bits & run) != run || (bits & sides) == sides) break;
                 *next = static_cast<std::uint16_t>(bits ^ run);
-                used &= ~(uint{bits == run} << end);
+                used &= ~(bits == run ? nextRow : 0);
+                word0 += 1u << kShiftV;
             }
-            const uint bit = lowestBit(lowest);
-            *out++ = quadAt(pattern, bit, row, lowestBit(carried) - bit, end - row);
+            *out++ = {word0, pattern.first.word1};
         } while (left != 0);
     }
     return static_cast<std::size_t>(out - begin);
@@ -63,9 +69,9 @@ std::size_t mergeGreedy(const PlaneRows& plane, const QuadPattern& pattern, Quad
 std::size_t mergeNothing(const PlaneRows& plane, const QuadPattern& pattern, Quad* out) {
     const Quad* begin = out;
     for (uint used = plane.used; used != 0; used &= used - 1) {
-        const uint row = lowestBit(used);
+        const uint row = lowestOne(used);
         for (uint left = plane.rows[row * plane.step]; left != 0; left &= left - 1) {
-            *out++ = quadAt(pattern, lowestBit(left), row, 1, 1);
+            *out++ = quadAt(pattern, lowestOne(left), row, 1, 1);
         }
     }
     return static_cast<std::size_t>(out - begin);
@@ -74,42 +80,40 @@ std::size_t mergeNothing(const PlaneRows& plane, const QuadPattern& pattern, Qua
 // The methods of the thesis start from one rectangle a bit and join neighbours, step by step.
 enum Axis : std::uint8_t { kAlongRow, kAcrossRows };
 
-// Joins along an axis rectangles that touch at a line and are equally long beside it.
-struct JoinStep {
-    Axis axis;
-    std::uint16_t lines;  // where: bit n stands for the line between bits (or rows) n − 1 and n
-    unsigned length = 0;  // of both rectangles along the axis; 0: any
-};
-
 // Sizes of the rectangles by the cell of their lowest corner, bit + 16 row; 0 where none begins.
 using Sizes = std::array<std::array<std::uint8_t, 256>, 2>;
 
-void join(Sizes& sizes, JoinStep step) {
-    auto& along = sizes[step.axis];
-    auto& across = sizes[1 - step.axis];
-    const unsigned stride = step.axis == kAlongRow ? 1 : 16;
+void join(Sizes& sizes, uint step) {
+    const auto axis = static_cast<Axis>(step % 2);
+    const uint lines = shared::joinLines(step), length = shared::joinLength(step);
+    auto& along = sizes[axis];
+    auto& across = sizes[1 - axis];
+    const unsigned stride = axis == kAlongRow ? 1 : 16;
     for (unsigned cell = 0; cell < 256; ++cell) {
         if (along[cell] == 0) continue;
         const unsigned first = cell / stride % 16;
         for (;;) {
             const unsigned end = first + along[cell], next = cell + along[cell] * stride;
-            if (end == 16 || (step.lines >> end & 1) == 0 || across[next] != across[cell]) break;
-            if (step.length != 0 && (along[cell] != step.length || along[next] != step.length)) break;
+            if (end == 16 || (lines >> end & 1) == 0 || across[next] != across[cell]) break;
+            if (length != 0 && (along[cell] != length || along[next] != length)) break;
             along[cell] = static_cast<std::uint8_t>(along[cell] + along[next]);
             along[next] = across[next] = 0;
         }
     }
 }
 
-template <class Steps>
-std::size_t mergeInSteps(const PlaneRows& plane, const QuadPattern& pattern, const Steps& steps, Quad* out) {
+template <Method kMethod>
+std::size_t mergeInSteps(const PlaneRows& plane, const QuadPattern& pattern, Quad* out) {
     Sizes sizes{};
     for (unsigned cell = 0; cell < 256; ++cell) {
         if ((plane.used >> cell / 16 & 1) == 0) continue;
         sizes[kAlongRow][cell] = sizes[kAcrossRows][cell] =
             static_cast<std::uint8_t>(plane.rows[cell / 16 * plane.step] >> cell % 16 & 1);
     }
-    for (const JoinStep step : steps) join(sizes, step);
+    constexpr auto kNumber = static_cast<uint>(kMethod);
+    for (uint step = shared::firstJoinStep(kNumber); step < shared::endOfJoinSteps(kNumber); ++step) {
+        join(sizes, step);
+    }
     const Quad* begin = out;
     for (unsigned cell = 0; cell < 256; ++cell) {
         const uint bits = sizes[kAlongRow][cell];
@@ -118,26 +122,15 @@ std::size_t mergeInSteps(const PlaneRows& plane, const QuadPattern& pattern, con
     return static_cast<std::size_t>(out - begin);
 }
 
-constexpr std::uint16_t kInsideCells = 0xFEFE;  // all lines but those between cells of 8
-constexpr std::uint16_t kGrid2 = 0xAAAA, kGrid4 = 0x4444, kGrid8 = 0x1010;  // middles of cells of 2, 4, 8
-
-constexpr std::array<JoinStep, 2> kLines{{{kAlongRow, kInsideCells}, {kAcrossRows, kInsideCells}}};
-constexpr std::array<JoinStep, 6> kSquares{{{kAlongRow, kGrid2, 1},
-                                            {kAcrossRows, kGrid2, 1},
-                                            {kAlongRow, kGrid4, 2},
-                                            {kAcrossRows, kGrid4, 2},
-                                            {kAlongRow, kGrid8, 4},
-                                            {kAcrossRows, kGrid8, 4}}};
-constexpr std::array<JoinStep, 8> kSquaresExt{
-    {kSquares[0], kSquares[1], kSquares[2], kSquares[3], kSquares[4], kSquares[5], kLines[0], kLines[1]}};
-
-template <const auto& kSteps>
-std::size_t mergeBy(const PlaneRows& plane, const QuadPattern& pattern, Quad* out) {
-    return mergeInSteps(plane, pattern, kSteps, out);
-}
+static_assert(static_cast<uint>(Method::None) == shared::kMergeNone &&
+              static_cast<uint>(Method::Lines) == shared::kMergeLines &&
+              static_cast<uint>(Method::Squares) == shared::kMergeSquares &&
+              static_cast<uint>(Method::SquaresExt) == shared::kMergeSquaresExt &&
+              static_cast<uint>(Method::Greedy) == shared::kMergeGreedy);
 
 constexpr std::array<MergeFunction, static_cast<std::size_t>(Method::Count)> kFunctions{
-    mergeNothing, mergeBy<kLines>, mergeBy<kSquares>, mergeBy<kSquaresExt>, mergeGreedy};
+    mergeNothing, mergeInSteps<Method::Lines>, mergeInSteps<Method::Squares>,
+    mergeInSteps<Method::SquaresExt>, mergeGreedy};
 
 }  // namespace
 

@@ -2,9 +2,11 @@
 // thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "terrane/mesh/chunk_mesh.h"
+#include "terrane/shared/region.h"
 
 namespace terrane::mesh {
 
@@ -18,6 +20,18 @@ inline std::uint32_t quadCount(const RegionMesh& region) {
         for (const QuadRange range : context) count += range.count;
     }
     return count;
+}
+
+// In the order of a record for the GPU: two-sided contexts have faces of the last group only.
+inline std::array<QuadRange, shared::kRangesOfRegion> rangesOf(const RegionMesh& region) {
+    std::array<QuadRange, shared::kRangesOfRegion> ranges;
+    std::size_t next = 0;
+    for (int context = 0; context < kContextCount; ++context) {
+        for (int g = contextTwoSided(context) ? kGroupAlways : 0; g < kGroupCount; ++g) {
+            ranges[next++] = region.groups[context][g];
+        }
+    }
+    return ranges;
 }
 
 // The same region with its quads from `first` on.

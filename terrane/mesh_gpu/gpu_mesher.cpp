@@ -1,6 +1,7 @@
 #include "terrane/mesh_gpu/gpu_mesher.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstring>
 
@@ -34,18 +35,21 @@ gpu::Buffer bufferOf(std::span<const T> values, std::string_view label) {
     return gpu::Buffer(std::as_bytes(values), 0, label);
 }
 
+gpu::Handle<gpu::ObjectKind::Query> timestampQuery() {
+    GLuint id = 0;
+    glCreateQueries(GL_TIMESTAMP, 1, &id);
+    return gpu::Handle<gpu::ObjectKind::Query>(id);
+}
+
+// Counts are in the order of mesh::rangesOf().
 mesh::RegionMesh regionOf(const shared::MeshRegionCounts& counts) {
     mesh::RegionMesh region;
     uint first = 0;
+    std::size_t next = 0;
     for (int context = 0; context < mesh::kContextCount; ++context) {
-        const int groups = mesh::contextTwoSided(context) ? 1 : mesh::kGroupCount;
         for (int group = 0; group < mesh::kGroupCount; ++group) {
-            const int range = groups == 1 ? 0 : group;  // two-sided: the last group has them all
-            const bool hasQuads = groups > 1 || group == mesh::kGroupAlways;
-            const uint count =
-                hasQuads
-                    ? counts.quads[shared::firstRange(static_cast<uint>(context)) + static_cast<uint>(range)]
-                    : 0;
+            const bool hasRange = !mesh::contextTwoSided(context) || group == mesh::kGroupAlways;
+            const uint count = hasRange ? counts.quads[next++] : 0;
             region.groups[context][group] = {first, count};
             first += count;
         }
@@ -75,7 +79,7 @@ struct GpuMesher::Impl {
     BlockTable table;
     MeshUpload upload;  // of the batch at hand, as are these
     std::size_t unitCount = 0, regionCount = 0;
-    bool merges = true;
+    mesh::Method method = mesh::Method::Greedy;
     gpu::Buffer sections, data, units, unitCounts;
 
     gpu::Program countProgram, writeProgram;
@@ -83,6 +87,7 @@ struct GpuMesher::Impl {
     gpu::Buffer counts, places;  // by region
     gpu::ReadbackBuffer readback;
     gpu::Fence counted;
+    std::array<gpu::Handle<gpu::ObjectKind::Query>, 2> countTimes = {timestampQuery(), timestampQuery()};
 };
 
 void GpuMesher::Impl::bind() const {
@@ -96,7 +101,7 @@ void GpuMesher::Impl::bind() const {
 
 void GpuMesher::Impl::run(const gpu::Program& program) const {
     program.use();
-    program.set(0, static_cast<GLuint>(merges ? 1 : 0));
+    program.set(0, static_cast<GLuint>(method));
     glDispatchCompute(static_cast<GLuint>(unitCount), 1, 1);
 }
 
@@ -120,7 +125,7 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
     TERRANE_ZONE("count quads on the GPU");
     assert(!chunks.empty() && chunks.size() <= kMaxChunks && "a batch");
     const mesh::MeshOptions options = chunks.front().options;
-    assert(supports(options.method) && mesh::isRegionHeight(options.regionHeight));
+    assert(mesh::isRegionHeight(options.regionHeight) && "a power of two, 8 to 128");
     const gpu::DebugGroup group("count quads");
     Impl& m = *impl_;
     m.upload.clear();
@@ -128,11 +133,12 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
         assert(chunk.options == options && "the same for the batch");
         m.upload.add(chunk);
     }
-    m.merges = options.method == mesh::Method::Greedy;
+    m.method = options.method;
     m.unitCount = m.upload.units().size();
     m.regionCount = chunks.size() * static_cast<std::size_t>(world::kChunkHeight / options.regionHeight);
     const std::vector<shared::MeshRegionCounts> nothing(m.regionCount, kNothing);
     m.counts.uploadVector(0, nothing);
+    glQueryCounter(m.countTimes[0].id(), GL_TIMESTAMP);
     if (m.unitCount > 0) {
         m.sections = bufferOf(m.upload.sections(), "mesh sections");
         m.data = bufferOf(m.upload.data(), "mesh section data");
@@ -146,11 +152,20 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
     }
     m.upload.clear();
     m.readback.copyFrom(m.counts, m.regionCount * sizeof(shared::MeshRegionCounts));
+    glQueryCounter(m.countTimes[1].id(), GL_TIMESTAMP);
     m.counted = gpu::Fence::insert();
 }
 
 bool GpuMesher::isCounted() const {
     return impl_->counted.valid() && impl_->counted.passed();
+}
+
+double GpuMesher::countMilliseconds() const {
+    std::array<GLuint64, 2> nanoseconds{};
+    for (std::size_t k = 0; k < 2; ++k) {
+        glGetQueryObjectui64v(impl_->countTimes[k].id(), GL_QUERY_RESULT, &nanoseconds[k]);
+    }
+    return static_cast<double>(nanoseconds[1] - nanoseconds[0]) / 1e6;
 }
 
 std::vector<mesh::RegionMesh> GpuMesher::regions() const {
@@ -174,11 +189,12 @@ void GpuMesher::write(std::span<const std::uint32_t> firstQuads, const gpu::Buff
     std::vector<uint> places;
     places.reserve(counted.size() * shared::kRangesOfRegion);
     for (std::size_t k = 0; k < counted.size(); ++k) {
-        for (int context = 0; context < mesh::kContextCount; ++context) {
-            const bool isTwoSided = mesh::contextTwoSided(context);
-            for (int g = isTwoSided ? mesh::kGroupAlways : 0; g < mesh::kGroupCount; ++g) {
-                places.push_back(firstQuads[k] + counted[k].groups[context][g].first);
-            }
+        if (firstQuads[k] == kNoPlace) {
+            places.insert(places.end(), shared::kRangesOfRegion, kNoPlace);
+            continue;
+        }
+        for (const mesh::QuadRange range : mesh::rangesOf(counted[k])) {
+            places.push_back(firstQuads[k] + range.first);
         }
         assert((counted[k].maxZ == 0 ||
                 (std::size_t{firstQuads[k]} + mesh::quadCount(counted[k])) * shared::kQuadBytes <=

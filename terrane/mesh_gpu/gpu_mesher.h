@@ -4,9 +4,10 @@
 // A batch is counted first; the counts (104 bytes a region) come back through a copy that nothing waits for,
 // the host makes room for each region, and a second run writes the quads there. What it costs, per section
 // in which something may be seen, twice: 4,096 block indices read once (512 to 8,192 bytes) and 1,536 of its
-// neighbours, 256 invocations with 20 bit operations a side; then 96 planes, one invocation each, by two to
-// three reads of shared memory a row and rectangle. 23 KB of shared memory a work group: the 228 KB of a
-// large GPU hold all the eight that its 2,048 invocations make, the 64 KB of a small one two. Planes of
+// neighbours, 256 invocations with 20 bit operations a side. Then greedy merging takes 96 planes, one
+// invocation each, by two to three reads of shared memory a row and rectangle; the other methods take two to
+// eight steps of 1,536 rows or columns. 29 KB of shared memory a work group (32 are sure): the 228 KB of a
+// large GPU hold seven of the eight that its 2,048 invocations make, the 64 KB of a small one two. Planes of
 // nothing end at once; in a warp of 32 planes the one with most rectangles decides.
 #pragma once
 
@@ -19,8 +20,11 @@
 #include "terrane/gpu/buffer.h"
 #include "terrane/gpu/shader_loader.h"
 #include "terrane/mesh/chunk_mesher.h"
+#include "terrane/shared/mesher.h"
 
 namespace terrane::mesh_gpu {
+
+using shared::kNoPlace;
 
 class GpuMesher {
   public:
@@ -34,10 +38,6 @@ class GpuMesher {
     GpuMesher& operator=(GpuMesher&&) noexcept;
     ~GpuMesher();
 
-    static bool supports(mesh::Method method) {
-        return method == mesh::Method::Greedy || method == mesh::Method::None;
-    }
-
     // Starts to count the quads of up to kMaxChunks chunks with the same options. What was counted before is
     // forgotten. The chunks are not needed any more afterwards.
     void count(std::span<const mesh::MeshInput> chunks);
@@ -46,8 +46,10 @@ class GpuMesher {
     // Of all chunks, the lowest region first; waits where isCounted() does not hold yet. Ranges count from
     // the region's first quad.
     std::vector<mesh::RegionMesh> regions() const;
-    // Writes the quads of each region from `firstQuads` on, in the order of regions(); once a batch. Shaders
-    // that run later see them.
+    // Of the GPU for count(), once isCounted() holds.
+    double countMilliseconds() const;
+    // Writes the quads of each region from `firstQuads` on, in the order of regions(), or leaves them out
+    // (kNoPlace); once a batch. Shaders that run later see them.
     void write(std::span<const std::uint32_t> firstQuads, const gpu::Buffer& quads);
 
   private:

@@ -50,7 +50,8 @@ shared::Frame frameUniforms(const FrameInput& input, const RenderOptions& option
     frame.inverseViewProjection = glm::inverse(setup.view.viewProjection);
     frame.cameraPosition = glm::vec4(setup.view.cameraPosition, input.fogDistance);
     setEnvironment(frame, input);
-    frame.viewport = glm::vec4(setup.size, options.coverCracks ? setup.crackGrowth : 0.0f, kNearPlane);
+    const float growth = options.tJunctions == TJunctions::Covered ? setup.crackGrowth : 0.0f;
+    frame.viewport = glm::vec4(setup.size, growth, kNearPlane);
     frame.shadow.z = kShadowReach;
     if (setup.shadowSize > 0) {
         const ShadowFit fit = fitShadowMap(input.camera, setup.size.x / setup.size.y,

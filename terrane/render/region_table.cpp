@@ -4,6 +4,7 @@
 #include <span>
 
 #include "terrane/base/profile.h"
+#include "terrane/mesh/region_quads.h"
 #include "terrane/render/camera.h"
 
 namespace terrane::render {
@@ -19,14 +20,8 @@ shared::RegionRecord recordOf(world::ChunkPos pos, const mesh::RegionMesh& regio
     shared::RegionRecord record{};
     record.chunk = {pos.x, pos.y};
     record.heights = static_cast<std::uint32_t>(region.minZ | region.maxZ << 16);
-    for (int context = 0; context < mesh::kContextCount; ++context) {
-        const bool isTwoSided = mesh::contextTwoSided(context);
-        std::uint32_t range = shared::firstRange(static_cast<std::uint32_t>(context));
-        for (int group = isTwoSided ? mesh::kGroupAlways : 0; group < mesh::kGroupCount; ++group, ++range) {
-            const mesh::QuadRange quads = region.groups[context][group];
-            record.ranges[range] = {quads.first, quads.count};
-        }
-    }
+    std::ranges::transform(mesh::rangesOf(region), record.ranges,
+                           [](mesh::QuadRange quads) { return glm::uvec2(quads.first, quads.count); });
     return record;
 }
 

@@ -20,6 +20,13 @@ enum class LightSampling : std::uint8_t { Classic, Smooth };
 
 enum class Occlusion : std::uint8_t { Off, On, Raw };  // Raw shows it instead of the picture
 
+// What is done about the cracks between quads of different sizes.
+enum class TJunctions : std::uint8_t {
+    Open,     // nothing
+    Filled,   // holes of one sample take on what is beside them: hole_fill.h
+    Covered,  // quads overlap by a little, so that there are none: crack_cover.glsl
+};
+
 struct RenderOptions {
     int samples = 2;  // a pixel: 1, 2, 4, 8; the driver may take the next number it has
     Shading shading = Shading::Sample;
@@ -31,11 +38,11 @@ struct RenderOptions {
     bool godRays = true;
     bool clouds = true;
     bool animation = true;
-    bool betterTexturing = true;      // magnified texels with sharp and smooth edges
-    bool sampledAlphaTest = true;     // holes in leaves and plants are found for each sample
-    int layers = 3;                   // of blended faces, 0 to 3
-    int singleLayer = 0;              // shows this one alone, 1 to 3; 0: all
-    bool coverCracks = true;          // between quads of different sizes
+    bool betterTexturing = true;   // magnified texels with sharp and smooth edges
+    bool sampledAlphaTest = true;  // holes in leaves and plants are found for each sample
+    int layers = 3;                // of blended faces, 0 to 3
+    int singleLayer = 0;           // shows this one alone, 1 to 3; 0: all
+    TJunctions tJunctions = TJunctions::Covered;
     bool hiddenRegionCulling = true;  // of regions behind others
 
     bool operator==(const RenderOptions&) const = default;

@@ -53,6 +53,7 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     renderer.pyramid_ = DepthPyramid(shaders);
     renderer.shadowMap_ = ShadowMap(shaders);
     renderer.gbuffer_ = GBufferPass(shaders);
+    renderer.holeFill_ = HoleFill(shaders);
     renderer.layers_ = LayerPass(shaders);
     renderer.noise_ = SkyNoise::create();
     renderer.occlusion_ = AmbientOcclusion(shaders);
@@ -102,6 +103,7 @@ base::Result<void> Renderer::selectVariants(const RenderOptions& options, const 
     auto done = shadowMap_.resize(options.shading == Shading::Off ? 0 : options.shadowSize);
     if (done) done = pyramid_.configure(targets, options.hiddenRegionCulling);
     if (done) done = gbuffer_.select(options.sampledAlphaTest ? samples : 1, options.betterTexturing);
+    if (done) done = holeFill_.configure(targets, options.tJunctions == TJunctions::Filled);
     if (done) done = shading_.select(options, samples, shadowMap_.size() > 0);
     if (done) done = layers_.configure(targets, options, shadowMap_.size() > 0);
     if (done) done = debugView_.select(defined({{"SAMPLES", samples}, {"LIGHT_SMOOTH", light}}));
@@ -120,6 +122,12 @@ base::Result<void> Renderer::selectVariants(const RenderOptions& options, const 
 bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::RegionSet regions) {
     const bool hasRoom = quads_.set(pos, mesh, regions);
     regions_.set(pos, quads_.regionsOf(pos), regions);
+    return hasRoom;
+}
+
+bool Renderer::reserveChunk(world::ChunkPos pos, std::span<const mesh::RegionMesh> meshes) {
+    const bool hasRoom = quads_.reserve(pos, meshes);
+    regions_.set(pos, quads_.regionsOf(pos));
     return hasRoom;
 }
 
@@ -261,6 +269,10 @@ void Renderer::draw(const FrameInput& input) {
     if (hasShadows(input)) drawShadows();
     drawSurfaces();
     if (leavesOutHidden) drawHiddenBefore(culling);
+    if (holeFill_.isOn()) {
+        const TimerZone zone(timer_, "fill holes");
+        holeFill_.draw(targets_);
+    }
     light_.bind();
     if (shadowMap_.size() > 0) shadowMap_.bind();
     if (input.view == View::Color) {

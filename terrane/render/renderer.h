@@ -18,6 +18,7 @@
 #include "terrane/render/fullscreen_pass.h"
 #include "terrane/render/gbuffer_pass.h"
 #include "terrane/render/god_rays.h"
+#include "terrane/render/hole_fill.h"
 #include "terrane/render/layer_pass.h"
 #include "terrane/render/light_store.h"
 #include "terrane/render/quad_resources.h"
@@ -46,6 +47,11 @@ class Renderer {
     // has no room: the regions are not shown then.
     bool setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
                   mesh::RegionSet regions = mesh::kAllRegions);
+    // The same of the whole chunk, but for the quads: before the next frame a shader writes them into
+    // quadBuffer(), to where regionsOf() says.
+    bool reserveChunk(world::ChunkPos pos, std::span<const mesh::RegionMesh> meshes);
+    std::span<const mesh::RegionMesh> regionsOf(world::ChunkPos pos) const { return quads_.regionsOf(pos); }
+    const gpu::Buffer& quadBuffer() const { return quads_.buffer(); }  // until the next change
     // Chunks without light are drawn as under the open sky. `viewDistance` of setViewDistance is the farthest
     // that light is kept for. `bricks`: see LightStore.
     void setLight(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF) {
@@ -98,6 +104,7 @@ class Renderer {
     DepthPyramid pyramid_;
     ShadowMap shadowMap_;
     GBufferPass gbuffer_;
+    HoleFill holeFill_;
     LayerPass layers_;
     AmbientOcclusion occlusion_;
     GodRays godRays_;

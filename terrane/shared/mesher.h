@@ -28,6 +28,9 @@ struct MeshSection {
     uint unused;
 };
 
+// In place of where a region's quads go: they are not written.
+const uint kNoPlace = 0xFFFFFFFFu;
+
 // In place of a section's number
 const uint kNoSection = 0xFFFFFFFFu;      // air, or no small data
 const uint kOpaqueSection = 0xFFFFFFFEu;  // below the world

@@ -45,13 +45,8 @@ MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockR
                const mesh::MeshOptions& options, mesh::RegionSet regions) {
     TERRANE_ZONE("mesh chunk");
     thread_local mesh::MeshScratch scratch;
-    mesh::MeshInput input;
-    static const world::Chunk kAirChunk;
-    const auto chunk = [&](std::size_t n) { return chunks[n] ? chunks[n].get() : &kAirChunk; };
-    input.centre = chunk(4);
-    input.neighbours = {chunk(3), chunk(5), chunk(1), chunk(7)};
-    input.blocks = &blocks;
-    input.options = options;
+    const mesh::MeshBlocks around = meshBlocksOf(chunks);
+    const mesh::MeshInput input = mesh::meshInput(around, blocks, options);
     return std::make_shared<const mesh::ChunkMesh>(mesh::meshRegions(input, regions, scratch));
 }
 

@@ -36,6 +36,10 @@ struct Surroundings {
 };
 
 light::ChunkLightPtr lightOf(const Surroundings& around, const light::LightTable& table);
+// Of 3×3 chunks those that the middle one is meshed from.
+inline mesh::MeshBlocks meshBlocksOf(const std::array<world::ChunkPtr, 9>& chunks) {
+    return {chunks[4], chunks[3], chunks[5], chunks[1], chunks[7]};
+}
 MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockRegistry& blocks,
                const mesh::MeshOptions& options, mesh::RegionSet regions = mesh::kAllRegions);
 

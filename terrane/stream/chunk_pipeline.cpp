@@ -43,6 +43,7 @@ void ChunkPipeline::setView(ChunkPos centre, int viewDistance, glm::vec2 directi
         ChunkChange& hidden = change(pos);
         hidden.mesh = nullptr;
         hidden.regions = 0;
+        hidden.needsMesh = false;
         hidden.light = nullptr;
         hidden.bricks = 0;
         hidden.isHidden = true;
@@ -111,7 +112,11 @@ void ChunkPipeline::takeResults() {
     for (WorkerResults::Finish& done : finishes) {
         if (!table_.finished(done.pos)) continue;
         setLight(done.pos, done.light);
-        setMesh(done.pos, std::move(done.mesh));
+        if (done.mesh) {
+            setMesh(done.pos, std::move(done.mesh));
+        } else {
+            askForMesh(done.pos);
+        }
         dropLocalsAround(done.pos);
     }
 }

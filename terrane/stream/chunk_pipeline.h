@@ -33,6 +33,12 @@ class ChunkPipeline {
     void setView(world::ChunkPos centre, int viewDistance, glm::vec2 direction = {});
     // Visible chunks are meshed again in the next updates; they are shown as before until then.
     void setMeshOptions(const mesh::MeshOptions& options);
+    // Before the first update: whoever takes the changes makes the meshes of whole chunks, as on the GPU,
+    // from meshBlocks(). Edits stay here: they are to be seen at once.
+    void leaveMeshesOut() { leavesMeshesOut_ = true; }
+    // What the chunk is meshed from, as it is now.
+    mesh::MeshBlocks meshBlocks(world::ChunkPos pos) const { return meshBlocksOf(surroundings(pos).chunks); }
+    const mesh::MeshOptions& meshOptions() const { return meshOptions_; }
     // Takes in what workers finished, puts edits on screen, gives out new work. Call each frame.
     // What a worker threw is thrown on from here.
     void update(Time now = std::chrono::steady_clock::now());
@@ -100,11 +106,14 @@ class ChunkPipeline {
     void relightFromScratch(const std::set<world::ChunkPos>& edited);
     void setLight(world::ChunkPos pos, light::ChunkLightPtr light, std::uint16_t bricks = 0xFFFF);
     void setMesh(world::ChunkPos pos, MeshPtr mesh, mesh::RegionSet regions = mesh::kAllRegions);
+    void askForMesh(world::ChunkPos pos);
+    bool isMeshedElsewhere(world::ChunkPos pos, mesh::RegionSet regions) const;
     void remesh();
     ChunkChange& change(world::ChunkPos pos);
 
     PipelineParts parts_;
     mesh::MeshOptions meshOptions_;
+    bool leavesMeshesOut_ = false;
     ChunkTable table_;
     std::shared_ptr<WorkerResults> results_;
     std::unordered_map<world::ChunkPos, Extra, world::ChunkPosHash> extras_;

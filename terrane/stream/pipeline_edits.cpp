@@ -116,12 +116,30 @@ void ChunkPipeline::setMesh(ChunkPos pos, MeshPtr mesh, mesh::RegionSet regions)
     changed.regions |= regions;
 }
 
+void ChunkPipeline::askForMesh(ChunkPos pos) {
+    ChunkChange& changed = change(pos);
+    changed.mesh = nullptr;
+    changed.regions = 0;
+    changed.needsMesh = true;
+}
+
+// Whole chunks, and those that somebody is to mesh anyway.
+bool ChunkPipeline::isMeshedElsewhere(ChunkPos pos, mesh::RegionSet regions) const {
+    if (!leavesMeshesOut_) return false;
+    const auto waiting = changes_.find(pos);
+    return regions == mesh::kAllRegions || (waiting != changes_.end() && waiting->second.needsMesh);
+}
+
 void ChunkPipeline::remesh() {
     std::size_t count = 0;
     for (auto it = toMesh_.begin(); it != toMesh_.end() && count < kRemeshesPerUpdate;
          it = toMesh_.erase(it)) {
         const auto [pos, regions] = *it;
         if (!table_.is(pos, ChunkStage::Visible)) continue;  // it will be meshed with the new blocks
+        if (isMeshedElsewhere(pos, regions)) {
+            askForMesh(pos);
+            continue;
+        }
         setMesh(pos, meshOf(surroundings(pos).chunks, parts_.blocks, meshOptions_, regions), regions);
         ++count;
     }

@@ -92,14 +92,17 @@ void ChunkPipeline::submitFinishes() {
     const std::size_t room = limit - std::min(limit, table_.finishingCount());
     for (const ChunkPos pos : table_.takeFinishes(room)) {
         // Before loads of equal urgency: what is on screen frees memory.
-        parts_.jobs.submit(table_.urgency(pos) - 1,
-                           guarded([pos, around = surroundings(pos), lights = &parts_.lights,
-                                    blocks = &parts_.blocks, options = meshOptions_](WorkerResults& results) {
-                               auto light = results.timed(kLight, [&] { return lightOf(around, *lights); });
-                               auto mesh = results.timed(
-                                   kMesh, [&] { return meshOf(around.chunks, *blocks, options); });
-                               results.add(WorkerResults::Finish{pos, std::move(mesh), std::move(light)});
-                           }));
+        parts_.jobs.submit(
+            table_.urgency(pos) - 1,
+            guarded([pos, around = surroundings(pos), lights = &parts_.lights, blocks = &parts_.blocks,
+                     options = meshOptions_, meshes = !leavesMeshesOut_](WorkerResults& results) {
+                auto light = results.timed(kLight, [&] { return lightOf(around, *lights); });
+                MeshPtr mesh;
+                if (meshes) {
+                    mesh = results.timed(kMesh, [&] { return meshOf(around.chunks, *blocks, options); });
+                }
+                results.add(WorkerResults::Finish{pos, std::move(mesh), std::move(light)});
+            }));
     }
 }
 

@@ -131,6 +131,14 @@ class Render(ProgramTest):
                    for height in ("8", "128")]
         self.assertGreater(regions[0], regions[1])
 
+    def test_the_picture_does_not_depend_on_the_back_end(self):
+        for scene, samples in (("landscape", "1"), ("ocean", "4")):
+            arguments = ("--scene", scene, "--size", "160x90", "--view-distance", "4", "--preset", "medium", "--samples",
+                         samples, "--debug-gl")
+            for backend in ("cpu", "gpu"):
+                self.succeed("render", *arguments, "--backend", backend, "-o", self.folder / (backend + ".png"))
+            self.assertEqual(Picture(self.folder / "cpu.png").rows, Picture(self.folder / "gpu.png").rows, scene)
+
     def test_views_show_something_else(self):
         pictures = [self.render("v.png", "--scene", "landscape", "--view", view)[0].rows
                     for view in ("color", "normal", "depth", "aggregation", "light")]
@@ -329,6 +337,19 @@ class Dump(ProgramTest):
         cpu = self.dump("quads", "7,-3,10,-1", "--backend", "cpu")
         gpu = self.dump("quads", "7,-3,10,-1", "--backend", "gpu")
         self.assertEqual(cpu.data, gpu.data)
+
+    def test_every_aggregation_has_the_same_quads_on_both_back_ends(self):
+        counts = {}
+        for method in ("none", "lines", "squares", "squares-ext", "greedy"):
+            arguments = ("7,-3,9,-2", "--aggregation", method, "--region-height", "16")
+            cpu = self.dump("quads", *arguments, "--backend", "cpu")
+            gpu = self.dump("quads", *arguments, "--backend", "gpu")
+            self.assertEqual(cpu.data, gpu.data, method)
+            counts[method] = cpu.shape[0]
+        self.assertGreater(counts["none"], counts["squares"])
+        self.assertGreater(counts["squares"], counts["squares-ext"])
+        self.assertGreater(counts["squares-ext"], counts["greedy"])
+        self.assertGreater(counts["none"], counts["lines"])
 
 
 class Saves(ProgramTest):

@@ -203,6 +203,18 @@ class Window(ProgramTest):
             distance = sum((a - b) ** 2 for a, b in zip(start, end)) ** 0.5
             self.assertGreater(distance, 1, f"the camera stayed at {end}")
 
+    def test_the_gpu_makes_meshes_while_one_flies_and_builds(self):
+        with Display() as display:
+            game = self.play(display, "--backend", "gpu", "--debug-gl", "--movement", "fast")
+            game.click(1)  # takes the mouse
+            display.xdotool("keydown", "w")
+            time.sleep(1)
+            display.xdotool("keyup", "w")
+            for button in (1, 3, 1):
+                game.click(button)
+            game.press("F3")  # all that is loaded, from above
+            game.wait_for_picture(SIZE)
+            self.close(game)
 
     def highest_block(self, save):
         """Height of the highest block of the column 8,8 in the save."""

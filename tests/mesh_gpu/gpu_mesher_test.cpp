@@ -4,14 +4,12 @@
 
 #include <algorithm>
 
-#include "terrane/gen/generator.h"
-#include "terrane/gen/generators/catalogue.h"
 #include "terrane/mesh/region_quads.h"
 #include "terrane/mesh_gpu/gpu_batch_mesher.h"
-#include "terrane/render/quad_store.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/mesh/random_blocks.h"
-#include "tests/render/content.h"
+#include "tests/mesh_gpu/mesh_comparison.h"
+#include "tests/mesh_gpu/overworld.h"
 
 namespace terrane::mesh_gpu {
 namespace {
@@ -21,6 +19,9 @@ using mesh::MeshInput;
 using mesh::MeshOptions;
 using mesh::Method;
 
+constexpr Method kMethods[] = {Method::None, Method::Lines, Method::Squares, Method::SquaresExt,
+                               Method::Greedy};
+
 class GpuMesherTest : public gpu::GlTest {
   protected:
     GpuBatchMesher mesherOf(const world::BlockRegistry& blocks) {
@@ -29,21 +30,6 @@ class GpuMesherTest : public gpu::GlTest {
         return GpuBatchMesher(std::move(*made));
     }
 };
-
-// The same quads in each range, sorted.
-ChunkMesh sorted(ChunkMesh mesh) {
-    for (const mesh::RegionMesh& region : mesh.regions) {
-        for (const auto& context : region.groups) {
-            for (const mesh::QuadRange range : context) {
-                std::sort(mesh.quads.begin() + range.first, mesh.quads.begin() + range.first + range.count,
-                          [](shared::Quad a, shared::Quad b) {
-                              return std::pair(a.word0, a.word1) < std::pair(b.word0, b.word1);
-                          });
-            }
-        }
-    }
-    return mesh;
-}
 
 void expectEqual(mesh::BatchMesher& mesher, std::span<const MeshInput> chunks) {
     const std::vector<ChunkMesh> found = mesher.mesh(chunks);
@@ -64,11 +50,11 @@ TEST_F(GpuMesherTest, RandomVolumesEqualCpu) {
     GpuBatchMesher mesher = mesherOf(mesh::testBlocks());
     unsigned seed = 300;
     for (int mix = 0; mix < static_cast<int>(mesh::Mix::Count); ++mix) {
-        for (const Method method : {Method::Greedy, Method::Greedy, Method::None}) {
+        for (const Method method : kMethods) {
             mesh::Area area(mesh::randomBlocks(static_cast<mesh::Mix>(mix), ++seed));
             if (seed % 2 == 0) area.addSmallData(seed);
             const int height = kHeights[seed % std::size(kHeights)];
-            SCOPED_TRACE(fmt::format("mix {} height {}", mix, height));
+            SCOPED_TRACE(fmt::format("mix {} method {} height {}", mix, static_cast<int>(method), height));
             const std::vector<MeshInput> inputs = {area.input({method, height})};
             expectEqual(mesher, inputs);
         }
@@ -78,6 +64,7 @@ TEST_F(GpuMesherTest, RandomVolumesEqualCpu) {
 // Wheat in every stage, also one that stands for none, in all forms of a section.
 TEST_F(GpuMesherTest, GrowingPlantsEqualCpu) {
     GpuBatchMesher mesher = mesherOf(mesh::testBlocks());
+    std::size_t number = 0;
     for (const unsigned values : {1u, 2u, 4u, 16u, 4096u}) {
         mesh::Area area([](int x, int y, int z) {
             return z < 70 && (x + y + z) % 3 == 0 ? mesh::idOf("wheat") : world::kAir;
@@ -87,7 +74,7 @@ TEST_F(GpuMesherTest, GrowingPlantsEqualCpu) {
             area.centre.setSmallData(static_cast<world::BlockIndex>(i),
                                      static_cast<std::uint16_t>(hash % values));
         }
-        const std::vector<MeshInput> inputs = {area.input()};
+        const std::vector<MeshInput> inputs = {area.input({.method = kMethods[number++]})};
         expectEqual(mesher, inputs);
     }
 }
@@ -104,24 +91,18 @@ TEST_F(GpuMesherTest, EmptyAndFullChunksEqualCpu) {
 
 // More chunks than a batch holds; neighbours are in the batch, in the next one, or in none.
 TEST_F(GpuMesherTest, OverworldEqualsCpu) {
-    constexpr int kSide = 18;
-    const auto graph = gen::makeGenerator("overworld", contentBlocks());
-    ASSERT_TRUE(graph);
-    const gen::Generator generator(*graph, 12345);
-    std::vector<world::Chunk> chunks;
-    for (int k = 0; k < (kSide + 2) * (kSide + 2); ++k) {
-        chunks.push_back(generator.generate({k % (kSide + 2) - 30, k / (kSide + 2) + 11}));
-    }
-    const auto at = [&](int x, int y) { return &chunks[static_cast<std::size_t>(x + y * (kSide + 2))]; };
-    std::vector<MeshInput> inputs;
-    for (int y = 1; y <= kSide; ++y) {
-        for (int x = 1; x <= kSide; ++x) {
-            inputs.push_back(
-                {at(x, y), {at(x - 1, y), at(x + 1, y), at(x, y - 1), at(x, y + 1)}, &contentBlocks(), {}});
-        }
-    }
+    const Overworld world(18);
     GpuBatchMesher mesher = mesherOf(contentBlocks());
-    expectEqual(mesher, inputs);
+    expectEqual(mesher, world.inputs({}));
+}
+
+TEST_F(GpuMesherTest, EveryMethodOnTheOverworldEqualsCpu) {
+    const Overworld world(5);
+    GpuBatchMesher mesher = mesherOf(contentBlocks());
+    for (const Method method : kMethods) {
+        SCOPED_TRACE(fmt::format("method {}", static_cast<int>(method)));
+        expectEqual(mesher, world.inputs({.method = method}));
+    }
 }
 
 // What lies in the buffer around the regions' places stays as it was.
@@ -178,14 +159,7 @@ TEST_F(GpuMesherTest, FillsTheStoreThatIsDrawnFrom) {
     mesher->write(firstQuads, store.buffer());
     EXPECT_EQ(store.uploadedBytes(), 0u);
     for (std::size_t k = 0; k < 2; ++k) {
-        ChunkMesh stored;
-        for (const mesh::RegionMesh& region : store.regionsOf({static_cast<int>(k), 0})) {
-            const std::size_t at = stored.quads.size();
-            stored.quads.resize(at + mesh::quadCount(region));
-            stored.regions.push_back(mesh::movedTo(static_cast<std::uint32_t>(at), region));
-            store.buffer().download(std::size_t{mesh::firstQuad(region)} * shared::kQuadBytes,
-                                    std::as_writable_bytes(std::span(stored.quads).subspan(at)));
-        }
+        const ChunkMesh stored = meshIn(store, {static_cast<int>(k), 0});
         mesh::MeshScratch scratch;
         EXPECT_TRUE(sorted(stored) == sorted(meshChunk(inputs[k], scratch))) << "chunk " << k;
     }

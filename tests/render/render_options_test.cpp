@@ -14,7 +14,7 @@ TEST(RenderOptions, ThesisIsWhatItMeasuredWith) {
     EXPECT_EQ(o.shadowSize, 2048);
     EXPECT_EQ(o.occlusion, Occlusion::Off);
     EXPECT_EQ(o.layers, 3);
-    EXPECT_TRUE(o.coverCracks);
+    EXPECT_EQ(o.tJunctions, TJunctions::Covered);
     EXPECT_EQ(o, RenderOptions{});
 }
 

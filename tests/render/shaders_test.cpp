@@ -49,6 +49,7 @@ const std::map<std::string, Values>& variantValues() {
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"QUADS", {"0"}}}},
         {"sky.frag", {{"SAMPLES", {"1", "4"}}, {"CLOUDS", {"0", "1"}}}},
+        {"hole_fill.frag", {{"SAMPLES", {"1", "4"}}}},
         {"far_blur.frag", {{"AXIS", {"0", "1"}}, {"SAMPLES", {"1", "4"}}}},
         {"ambient_occlusion.frag", {{"SAMPLES", {"1", "4"}}}},
         {"occlusion_blur.frag", {{"AXIS", {"0", "1"}}, {"SAMPLES", {"1", "4"}}}},

@@ -32,7 +32,7 @@ class Tour : public gpu::GlTest {
         o.sampledAlphaTest = pick(2) == 0;
         o.layers = pick(4);
         o.singleLayer = pick(8) == 0 ? 1 + pick(3) : 0;
-        o.coverCracks = pick(2) == 0;
+        o.tJunctions = static_cast<TJunctions>(pick(3));
         o.hiddenRegionCulling = pick(2) == 0;
         return o;
     }

@@ -195,5 +195,39 @@ TEST_F(PipelineEditsTest, EditsSurviveWhileTheirChunkStaysInView) {
     expectShowsTheView();
 }
 
+// Where whole chunks are meshed elsewhere, edits still come with their mesh, but where the chunk has none
+// yet.
+TEST_F(PipelineEditsTest, MeshesOfWholeChunksAreLeftOut) {
+    pipeline_->leaveMeshesOut();
+    setView({0, 0}, 1);
+    for (update(); !pipeline_->progress().complete(); update()) {
+        pipeline_->waitForWorkers(std::chrono::milliseconds(100));
+    }
+    placeBlock({8, 8, 80}, "stone");
+    update();
+    const std::vector<ChunkChange> changes = pipeline_->takeChanges(kAll);
+    EXPECT_EQ(changes.size(), 9u);
+    for (const ChunkChange& change : changes) {
+        EXPECT_TRUE(change.needsMesh && !change.mesh && change.light) << change.pos.x << ' ' << change.pos.y;
+        const mesh::MeshBlocks blocks = pipeline_->meshBlocks(change.pos);
+        mesh::MeshScratch scratch;
+        EXPECT_EQ(meshChunk(mesh::meshInput(blocks, contentBlocks(), {}), scratch),
+                  directMesh(world_, change.pos));
+    }
+    placeBlock({8, 8, 90}, "stone");
+    update();
+    std::size_t meshed = 0;
+    for (const ChunkChange& change : pipeline_->takeChanges(kAll)) {
+        EXPECT_FALSE(change.needsMesh);
+        meshed += change.mesh && change.regions != mesh::kAllRegions;
+    }
+    EXPECT_EQ(meshed, 1u);
+    pipeline_->setMeshOptions({mesh::Method::None, 16});
+    update();
+    std::size_t again = 0;
+    for (const ChunkChange& change : pipeline_->takeChanges(kAll)) again += change.needsMesh;
+    EXPECT_EQ(again, 9u);
+}
+
 }  // namespace
 }  // namespace terrane::stream

@@ -27,6 +27,7 @@ struct DumpOptions {
     std::string output;
     std::string save;  // empty: none
     Backend backend = Backend::Auto;
+    mesh::MeshOptions mesh;
 };
 
 // The file is made in memory, 128 KiB a chunk, and written from a copy: 4,096 chunks take about 1 GiB.
@@ -142,8 +143,8 @@ void appendMesh(base::NpyArray& array, world::ChunkPos pos, mesh::ChunkMesh& mes
     array.shape[0] += mesh.quads.size();
 }
 
-base::NpyArray dumpQuads(const LoadedArea& area, const Area& where, const world::BlockRegistry& blocks,
-                         mesh::BatchMesher& mesher) {
+base::NpyArray dumpQuads(const LoadedArea& area, const DumpOptions& options,
+                         const world::BlockRegistry& blocks, mesh::BatchMesher& mesher) {
     std::vector<mesh::MeshInput> inputs;
     for (int y = 0; y < area.chunksY(); ++y) {
         for (int x = 0; x < area.chunksX(); ++x) {
@@ -151,14 +152,14 @@ base::NpyArray dumpQuads(const LoadedArea& area, const Area& where, const world:
                 {&area.chunk(x, y),
                  {&area.chunk(x - 1, y), &area.chunk(x + 1, y), &area.chunk(x, y - 1), &area.chunk(x, y + 1)},
                  &blocks,
-                 {}});
+                 options.mesh});
         }
     }
     std::vector<mesh::ChunkMesh> meshes = mesher.mesh(inputs);
     base::NpyArray array{kQuadType, {0}, {}};
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         const int x = static_cast<int>(k) % area.chunksX(), y = static_cast<int>(k) / area.chunksX();
-        appendMesh(array, {where.x0 + x, where.y0 + y}, meshes[k]);
+        appendMesh(array, {options.area->x0 + x, options.area->y0 + y}, meshes[k]);
     }
     return array;
 }
@@ -201,10 +202,10 @@ base::Result<void> dump(DumpOptions& options, const CLI::App& command) {
             array = dumpBlocks(loaded);
             break;
         case What::Light:
-            array = dumpLight(loaded, **solver);
+            array = dumpLight(loaded, *solver->worker);
             break;
         case What::Quads:
-            array = dumpQuads(loaded, area, *blocks, **mesher);
+            array = dumpQuads(loaded, options, *blocks, *mesher->worker);
             break;
     }
     if (auto written = base::writeFile(options.output, base::encodeNpy(array)); !written) return written;
@@ -223,6 +224,7 @@ CommandEntry addDump(CLI::App& app) {
                     {{"blocks", What::Blocks}, {"light", What::Light}, {"quads", What::Quads}},
                     "What to write");
     addBackendOption(*command, options->backend, "Where to find the light, or the quads");
+    addMeshOptions(*command, options->mesh);
     addOutputOption(*command, options->output, "The .npy file");
     addWorldOptions(*command, options->world);
     addSaveOption(*command, options->save, "Save to take the chunks from; what it lacks is generated");

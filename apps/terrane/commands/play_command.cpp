@@ -1,6 +1,7 @@
 // terrane play: a window to walk, fly and build in.
 #include <memory>
 
+#include "apps/terrane/backend.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
 #include "apps/terrane/resource_pack.h"
@@ -29,6 +30,7 @@ struct PlayOptions {
     WorldOptions world;
     SaveOptions save;
     GraphicsOptions graphics;
+    Backend backend = Backend::Auto;
     PlaySettings settings;
     std::optional<int> position;
     std::optional<double> time;
@@ -114,7 +116,11 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
     game.day = dayOf(options, **session);
     game.perfData = options.perfData;
     game.isSoftwareRenderer = device.software;
-    Game loop({*window, **session, *renderer, *preview}, game);
+    WorldView view(**session, *renderer);
+    if (usesGpu(options.backend)) {
+        if (auto meshes = view.meshOnGpu(WorldView::kFrameMilliseconds); !meshes) return meshes;
+    }
+    Game loop({*window, **session, *renderer, view, *preview}, game);
     if (auto played = loop.run(); !played) return played;
     auto written = writeChanges(options.settingsFile, valuesOf(game.settings, device.software),
                                 valuesOf(loop.settings(), device.software), graphicsSettings());
@@ -155,6 +161,7 @@ CommandEntry addPlay(CLI::App& app) {
     command->add_option("--collect-perf-data", options->perfData, "Write figures of each frame (CSV)")
         ->type_name("FILE");
     addPlaySettings(*command, options->settings);
+    addBackendOption(*command, options->backend, "Where to make meshes");
     addGraphicsOptions(*command, options->graphics, "auto");
     command
         ->add_option("--settings", options->settingsFile,

@@ -10,6 +10,7 @@
 #include "apps/terrane/record/recorder.h"
 #include "apps/terrane/record/script_file.h"
 #include "apps/terrane/record/stop_signals.h"
+#include "apps/terrane/resource_pack.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/gpu/context.h"
@@ -82,11 +83,13 @@ base::Result<void> recordVideo(const RecordOptions& options, const CLI::App& com
 
     auto session = WorldSession::create(script->world, {}, command);
     if (!session) return tl::unexpected(session.error());
+    auto textures = loadTextures(options.graphics.resourcePack, (*session)->blocks);
+    if (!textures) return tl::unexpected(textures.error());
     auto context = gpu::HeadlessContext::create({.debug = options.graphics.debugGl});
     if (!context) return tl::unexpected(context.error());
     const gpu::ShaderLoader shaders = makeShaderLoader(options.graphics.shaderRoot);
     const gpu::DeviceInfo device = gpu::queryDevice();
-    auto renderer = render::Renderer::create(shaders, (*session)->blocks, builtInTextures(), device);
+    auto renderer = render::Renderer::create(shaders, (*session)->blocks, *textures, device);
     if (!renderer) return tl::unexpected(renderer.error());
     auto sink = openSink(options);
     if (!sink) return tl::unexpected(sink.error());

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/terrane/backend.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
 #include "apps/terrane/flight.h"
@@ -32,6 +33,7 @@ struct PictureOptions {
     WorldOptions world;
     SaveOptions save;
     GraphicsOptions graphics;
+    Backend backend = Backend::Auto;
     std::string scene;
     std::optional<std::vector<double>> at, look;
     std::optional<float> time;
@@ -183,13 +185,17 @@ base::Result<void> renderPicture(const PictureOptions& options, const CLI::App& 
     const auto loadStart = Clock::now();
     (*session)->pipeline->setMeshOptions(options.graphics.mesh);
     renderer->setViewDistance(options.graphics.viewDistance);
+    WorldView view(**session, *renderer);
+    if (usesGpu(options.backend)) {
+        if (auto meshes = view.meshOnGpu(WorldView::kNoHurry); !meshes) return meshes;
+    }
     PictureFigures figures;
     figures.setUp = setUp;
     if (options.flight > 0) {
-        figures.flight = fly(**session, *renderer, flightOf(options, *scene));
+        figures.flight = fly(**session, *renderer, view, flightOf(options, *scene));
         scene->camera = figures.flight->camera;
     }
-    figures.upload = loadAll(**session, *renderer, scene->camera, options.graphics.viewDistance, loadStart);
+    figures.upload = loadAll(**session, view, scene->camera, options.graphics.viewDistance, loadStart);
     figures.load = millisecondsSince(loadStart);
 
     const auto drawStart = Clock::now();
@@ -259,6 +265,7 @@ CommandEntry addRender(CLI::App& app) {
     addOutputOption(*command, options->output, "The PNG file");
     command->add_flag("--json", options->json, "Print timings and counts as JSON");
     addWorldOptions(*command, options->world);
+    addBackendOption(*command, options->backend, "Where to make meshes");
     addGraphicsOptions(*command, options->graphics, "high");
     addSaveGameOptions(*command, options->save);
     return {command, [options, command] { return renderPicture(*options, *command); }};

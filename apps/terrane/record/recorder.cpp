@@ -59,9 +59,9 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     if (auto applied = apply(graphics); !applied) return tl::unexpected(applied.error());
     const PathPoint point = shot.path.at(inShot);
     // First what is in view: an edit there then changes only what it touches.
-    loadAll(parts_.session, parts_.renderer, point.camera, viewDistance_, timeOf(seconds));
+    loadAll(parts_.session, view_, point.camera, viewDistance_, timeOf(seconds));
     edits_.advanceTo(seconds, *parts_.session.pipeline);
-    loadAll(parts_.session, parts_.renderer, point.camera, viewDistance_, timeOf(seconds));
+    loadAll(parts_.session, view_, point.camera, viewDistance_, timeOf(seconds));
 
     warnOfBlocks(point.camera, shot, inShot);
 

@@ -24,7 +24,8 @@ struct RecorderParts {
 
 class Recorder {
   public:
-    explicit Recorder(const RecorderParts& parts) : parts_(parts), edits_(parts.script) {}
+    explicit Recorder(const RecorderParts& parts)
+        : parts_(parts), view_(parts.session, parts.renderer), edits_(parts.script) {}
 
     // The frame at a time of the video, not before that of the last call.
     base::Result<base::Image> frame(double seconds);
@@ -34,6 +35,7 @@ class Recorder {
     void warnOfBlocks(const render::Camera& camera, const Shot& shot, double secondsInShot);
 
     RecorderParts parts_;
+    WorldView view_;
     EditPlayer edits_;
     int viewDistance_ = 0;  // that the renderer has room for
     const Shot* warnedOf_ = nullptr;

@@ -29,7 +29,6 @@ std::size_t residentBytes() {
 
 Game::Game(const GameParts& parts, const GameOptions& options)
     : parts_(parts),
-      view_(parts.session, parts.renderer),
       settings_(options.settings),
       applied_(options.settings),
       positionsFile_(options.positions),
@@ -77,7 +76,7 @@ void Game::advance(double seconds) {
     player_.move(session.world, session.blocks, moveKeys(), seconds);
     hand_.act(session.world, session.blocks, *session.pipeline, player_, seconds);
     session.advance(seconds, render::cameraChunk(player_.camera()));
-    view_.follow(player_.camera(), settings_.viewDistance);
+    parts_.view.follow(player_.camera(), settings_.viewDistance);
 }
 
 // What changed since the last frame; the renderer sees to its own options with the frame's size.
@@ -113,7 +112,7 @@ base::Result<void> Game::drawFrame(double seconds) {
     if (size != renderer.size() || settings_.graphics != renderer.options()) {
         if (auto configured = renderer.configure(size, settings_.graphics); !configured) return configured;
     }
-    view_.upload(uploadBudget(seconds));
+    parts_.view.upload(uploadBudget(seconds));
     renderer.draw(frameInput());
     renderer.presentToWindow(size);
     drawInterface();
@@ -203,7 +202,7 @@ Figures Game::figures() {
             .timeDay = day_.timeDay,
             .progress = session.pipeline->progress(),
             .activeChunks = session.world.chunks().size(),
-            .queuedChunks = session.pipeline->queuedCount(),
+            .queuedChunks = session.pipeline->queuedCount() + parts_.view.waiting(),
             .frame = parts_.renderer.statistics(),
             .memory = memory_.at(seconds_, [&] { return memoryFigures(); }),
             .tasks = session.pipeline->taskTimes(),

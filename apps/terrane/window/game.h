@@ -27,6 +27,7 @@ struct GameParts {
     gpu::Window& window;
     WorldSession& session;
     render::Renderer& renderer;
+    WorldView& view;
     BlockPreview& preview;
 };
 
@@ -76,7 +77,6 @@ class Game {
     base::Result<void> leave();
 
     GameParts parts_;
-    WorldView view_;
     PlaySettings settings_, applied_;
     std::filesystem::path positionsFile_;
     bool isSoftwareRenderer_;

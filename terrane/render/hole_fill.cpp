@@ -1,0 +1,45 @@
+#include "terrane/render/hole_fill.h"
+
+#include "terrane/shared/bindings.h"
+
+namespace terrane::render {
+namespace {
+
+void copy(const SampledTexture& from, const SampledTexture& to, glm::ivec2 size) {
+    const GLenum target = from.samples() > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+    glCopyImageSubData(from.id(), target, 0, 0, 0, 0, to.id(), target, 0, 0, 0, 0, size.x, size.y, 1);
+}
+
+}  // namespace
+
+HoleFill::HoleFill(const gpu::ShaderLoader& shaders) : fill_(shaders, "hole_fill") {}
+
+base::Result<void> HoleFill::configure(const FrameTargets& targets, bool isOn) {
+    if (!isOn) {
+        surface_ = {};
+        depth_ = {};
+        return {};
+    }
+    if (auto selected = fill_.select(defined({{"SAMPLES", targets.samples}})); !selected) return selected;
+    if (this->isOn() && size_ == targets.size && surface_.samples() == targets.samples) return {};
+    surface_ = SampledTexture(targets.size, GL_RGBA8, targets.samples, "surfaces with holes");
+    depth_ = SampledTexture(targets.size, GL_DEPTH_COMPONENT32F, targets.samples, "depth with holes");
+    size_ = targets.size;
+    return {};
+}
+
+void HoleFill::draw(const FrameTargets& targets) const {
+    copy(targets.surface, surface_, size_);
+    copy(targets.depth, depth_, size_);
+    surface_.bind(shared::kSurfaceUnit);
+    depth_.bind(shared::kDepthUnit);
+    targets.surfaces.bind();
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_ALWAYS);
+    fill_.draw();
+    targets.surface.bind(shared::kSurfaceUnit);
+    targets.depth.bind(shared::kDepthUnit);
+}
+
+}  // namespace terrane::render

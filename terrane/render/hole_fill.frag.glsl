@@ -1,0 +1,31 @@
+// A sample of the G-buffer that lies farther away than all four beside it is a hole between quads: it becomes
+// the farthest of these, which reaches over the least. SAMPLES: of the G-buffer; each fills its own holes.
+#include "terrane/render/frame_uniforms.glsl"
+#include "terrane/render/surfaces.glsl"
+
+layout(location = 0) out vec4 outSurface;
+
+// By more than surfaces fall away within a pixel where they meet in a corner.
+const float kFarther = 0.99;
+
+const ivec2 kBeside[4] = ivec2[](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
+
+void main() {
+#if SAMPLES > 1
+    int number = gl_SampleID;
+#else
+    int number = 0;
+#endif
+    ivec2 pixel = ivec2(gl_FragCoord.xy), last = ivec2(frame.viewport.xy) - 1, from = pixel;
+    float farthest = 2.0;  // depths are reversed
+    for (int k = 0; k < 4; ++k) {
+        ivec2 at = clamp(pixel + kBeside[k], ivec2(0), last);
+        float depth = depthAt(at, number);
+        if (depth >= farthest) continue;
+        farthest = depth;
+        from = at;
+    }
+    if (depthAt(pixel, number) >= kFarther * farthest) discard;
+    outSurface = surfaceAt(from, number);
+    gl_FragDepth = farthest;
+}

@@ -1,0 +1,199 @@
+#include "terrane/mesh_gpu/mesh_queue.h"
+
+#include <map>
+
+#include "terrane/shared/hash.h"
+#include "tests/gpu/gl_fixture.h"
+#include "tests/mesh/test_blocks.h"
+#include "tests/mesh_gpu/mesh_comparison.h"
+#include "tests/render/content.h"
+
+namespace terrane::mesh_gpu {
+namespace {
+
+using world::ChunkPos;
+
+// A few chunks that change, a store that is drawn from, and the queue between them.
+class MeshQueueTest : public gpu::GlTest {
+  protected:
+    static constexpr int kSide = 3;
+
+    void SetUp() override {
+        GlTest::SetUp();
+        if (IsSkipped()) return;
+        for (int k = 0; k < kSide * kSide; ++k) change({k % kSide, k / kSide});
+        makeQueue(0);
+    }
+    void TearDown() override {
+        queue_.reset();
+        store_.reset();
+        GlTest::TearDown();
+    }
+
+    void makeQueue(double budgetMilliseconds, std::uint32_t maxQuads = 0) {
+        auto mesher = GpuMesher::create(render::contentShaders(), mesh::testBlocks());
+        ASSERT_TRUE(mesher) << mesher.error().message;
+        queue_.emplace(std::move(*mesher), mesh::testBlocks(), budgetMilliseconds);
+        store_.emplace(maxQuads);
+    }
+
+    // Other blocks than before.
+    void change(ChunkPos pos) {
+        auto chunk = std::make_shared<world::Chunk>();
+        const unsigned seed = ++changes_;
+        for (unsigned k = 0; k < 300; ++k) {
+            const auto index =
+                static_cast<world::BlockIndex>(shared::hash2(k, 1, seed) % world::kBlocksPerChunk);
+            chunk->setBlock(index, mesh::testBlocks().types()[shared::hash2(k, 2, seed) % 16 + 1].id);
+        }
+        chunks_[pos] = std::move(chunk);
+    }
+
+    mesh::MeshBlocks blocksOf(ChunkPos pos) const {
+        const auto at = [&](int dx, int dy) {
+            const auto found = chunks_.find({pos.x + dx, pos.y + dy});
+            return found != chunks_.end() ? found->second : nullptr;
+        };
+        return {at(0, 0), at(-1, 0), at(1, 0), at(0, -1), at(0, 1)};
+    }
+
+    void advance() {
+        const auto place = [&](ChunkPos pos, std::span<const mesh::RegionMesh> regions) {
+            std::vector<std::uint32_t> firstQuads;
+            if (!store_->reserve(pos, regions)) return firstQuads;
+            for (const mesh::RegionMesh& region : store_->regionsOf(pos)) {
+                firstQuads.push_back(mesh::firstQuad(region));
+            }
+            return firstQuads;
+        };
+        queue_->advance(options_, {[&](ChunkPos pos) { return blocksOf(pos); }, place,
+                                   [&]() -> const gpu::Buffer& { return store_->buffer(); }});
+    }
+    void finish() {
+        for (int k = 0; queue_->size() > 0; ++k) {
+            ASSERT_LT(k, 1'000'000) << "the queue never ends";
+            advance();
+        }
+    }
+
+    mesh::ChunkMesh expected(ChunkPos pos) const {
+        mesh::MeshScratch scratch;
+        const mesh::MeshBlocks blocks = blocksOf(pos);
+        return meshChunk(mesh::meshInput(blocks, mesh::testBlocks(), options_), scratch);
+    }
+    void expectStored(ChunkPos pos) const {
+        EXPECT_TRUE(sorted(meshIn(*store_, pos)) == sorted(expected(pos))) << pos.x << ' ' << pos.y;
+    }
+
+    std::map<ChunkPos, world::ChunkPtr> chunks_;
+    unsigned changes_ = 0;
+    mesh::MeshOptions options_;
+    std::optional<MeshQueue> queue_;
+    std::optional<render::QuadStore> store_;
+};
+
+TEST_F(MeshQueueTest, WritesWhatTheProcessorWouldUpload) {
+    for (const auto& [pos, chunk] : chunks_) queue_->add(pos);
+    finish();
+    for (const auto& [pos, chunk] : chunks_) expectStored(pos);
+    EXPECT_EQ(store_->uploadedBytes(), 0u);
+}
+
+// However small the budget, it goes on.
+TEST_F(MeshQueueTest, ABudgetMakesSmallBatches) {
+    makeQueue(1e-9);
+    for (const auto& [pos, chunk] : chunks_) queue_->add(pos);
+    advance();
+    EXPECT_EQ(queue_->size(), chunks_.size());
+    EXPECT_TRUE(store_->chunks().empty()) << "quads are written a frame later";
+    finish();
+    for (const auto& [pos, chunk] : chunks_) expectStored(pos);
+}
+
+TEST_F(MeshQueueTest, OldQuadsStayUntilTheNewOnesAreThere) {
+    queue_->add({1, 1});
+    finish();
+    const mesh::ChunkMesh before = meshIn(*store_, {1, 1});
+    change({1, 1});
+    queue_->add({1, 1});
+    advance();
+    ASSERT_TRUE(queue_->contains({1, 1}));
+    EXPECT_TRUE(meshIn(*store_, {1, 1}) == before);
+    finish();
+    expectStored({1, 1});
+    EXPECT_FALSE(meshIn(*store_, {1, 1}) == before);
+}
+
+// What changes while its old blocks are on the way is meshed again.
+TEST_F(MeshQueueTest, AddedAgainOnTheWayItIsMeshedAgain) {
+    queue_->add({1, 1});
+    advance();
+    change({1, 1});
+    queue_->add({1, 1});
+    finish();
+    expectStored({1, 1});
+}
+
+TEST_F(MeshQueueTest, RemovedChunksAreNotStored) {
+    queue_->add({0, 0});
+    queue_->add({1, 0});
+    queue_->remove({0, 0});  // while it waits
+    advance();
+    queue_->add({2, 0});
+    queue_->remove({1, 0});  // on the way
+    EXPECT_FALSE(queue_->contains({1, 0}));
+    finish();
+    EXPECT_EQ(store_->chunks().size(), 1u);
+    expectStored({2, 0});
+}
+
+TEST_F(MeshQueueTest, RemovedAndAddedAgainOnTheWayItIsStored) {
+    queue_->add({1, 0});
+    advance();
+    queue_->remove({1, 0});
+    queue_->add({1, 0});
+    finish();
+    expectStored({1, 0});
+}
+
+TEST_F(MeshQueueTest, WithoutRoomOthersAreStored) {
+    const auto quads = static_cast<std::uint32_t>(expected({0, 0}).quads.size());
+    makeQueue(0, quads + quads / 2);
+    queue_->add({0, 0});
+    queue_->add({1, 0});
+    finish();
+    EXPECT_EQ(store_->chunks().size(), 1u);
+    expectStored({0, 0});
+}
+
+TEST_F(MeshQueueTest, ManyChangesAddUp) {
+    makeQueue(1);
+    for (unsigned step = 0; step < 300; ++step) {
+        const auto random = [&](unsigned k, unsigned count) {
+            return static_cast<int>(shared::hash2(step, k, 5) % count);
+        };
+        const ChunkPos pos{random(0, kSide), random(1, kSide)};
+        if (random(2, 4) == 0) {
+            queue_->remove(pos);
+            store_->remove(pos);
+        } else {
+            if (random(3, 3) == 0) {
+                change(pos);
+                for (const ChunkPos at : {ChunkPos{pos.x - 1, pos.y},
+                                          {pos.x + 1, pos.y},
+                                          {pos.x, pos.y - 1},
+                                          {pos.x, pos.y + 1}}) {
+                    if (store_->chunks().contains(at) || queue_->contains(at)) queue_->add(at);
+                }
+            }
+            queue_->add(pos);
+        }
+        if (random(4, 3) == 0) advance();
+    }
+    finish();
+    EXPECT_GT(store_->chunks().size(), 3u);
+    for (const auto& [pos, regions] : store_->chunks()) expectStored(pos);
+}
+
+}  // namespace
+}  // namespace terrane::mesh_gpu
