@@ -148,7 +148,8 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
         m.bind();
         m.counts.bindStorage(shared::kMeshRegionsBinding);
         m.run(m.countProgram);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                        GL_TEXTURE_FETCH_BARRIER_BIT);
     }
     m.upload.clear();
     m.readback.copyFrom(m.counts, m.regionCount * sizeof(shared::MeshRegionCounts));
@@ -206,7 +207,8 @@ void GpuMesher::write(std::span<const std::uint32_t> firstQuads, const gpu::Buff
     m.places.bindStorage(shared::kMeshRegionsBinding);
     quads.bindStorage(shared::kMeshQuadsBinding);
     m.run(m.writeProgram);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                    GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 }  // namespace terrane::mesh_gpu

@@ -23,8 +23,8 @@ TEST_F(Flight, HiddenRegionsAreNeverMissed) {
     render::Renderer renderer = makeRenderer();
     loadOverworld(renderer, start, kViewDistance);
     RenderOptions visible = render::plainOptions(1);
-    visible.coverCracks =
-        false;  // quads overlap by it: where their depths are equal the first one drawn stays
+    // Covering quads overlap: where their depths are equal the first one drawn stays.
+    visible.tJunctions = render::TJunctions::Open;
     RenderOptions all = visible;
     all.hiddenRegionCulling = false;
     std::size_t quadsOfAll = 0, quadsOfVisible = 0;
