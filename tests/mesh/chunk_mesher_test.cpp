@@ -178,7 +178,7 @@ TEST(ChunkMesher, RegionHeightOnlyRegroups) {
 }
 
 TEST(ChunkMesher, EmptyChunkHasEmptyRegions) {
-    const ChunkMesh mesh = meshOf(placed({}));
+    const ChunkMesh mesh = meshOf(placed({}), {.regionHeight = 64});
     EXPECT_TRUE(mesh.quads.empty());
     ASSERT_EQ(mesh.regions.size(), 4u);
     EXPECT_EQ(mesh.regions[0], RegionMesh{});
@@ -204,7 +204,7 @@ TEST(ChunkMesher, SectionSizedCubeIsSixQuads) {
         const bool inside = x >= 0 && x < 16 && y >= 0 && y < 16 && z >= 32 && z < 48;
         return inside ? idOf("stone") : world::kAir;
     });
-    const ChunkMesh mesh = meshOf(area);
+    const ChunkMesh mesh = meshOf(area, {.regionHeight = 64});
     ASSERT_EQ(mesh.quads.size(), 6u);
     for (const shared::Quad q : mesh.quads) {
         EXPECT_EQ(quadExtentU(q), 16u);
@@ -218,7 +218,7 @@ TEST(ChunkMesher, SectionSizedCubeIsSixQuads) {
 TEST(ChunkMesher, BoundsOfRegionsAreTight) {
     std::vector<Placed> blocks{{8, 4, 62, "stone"}, {4, 8, 62, "stone"}};
     for (int z = 60; z < 66; ++z) blocks.push_back({4, 4, z, "stone"});
-    const ChunkMesh mesh = meshOf(placed(blocks));
+    const ChunkMesh mesh = meshOf(placed(blocks), {.regionHeight = 64});
     EXPECT_EQ(mesh.regions[0].minZ, 60);
     EXPECT_EQ(mesh.regions[0].maxZ, 64);
     EXPECT_EQ(mesh.regions[1].minZ, 64);

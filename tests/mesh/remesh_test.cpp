@@ -76,14 +76,16 @@ TEST_P(RemeshHeights, TouchedRegionsAreEnough) {
 
 INSTANTIATE_TEST_SUITE_P(All, RemeshHeights, testing::Values(8, 16, 32, 64, 128));
 
+constexpr MeshOptions kFourRegions{.regionHeight = 64};
+
 // The regions left out are not looked at: they stay as they were even where that is wrong by now.
 TEST(WithRegions, OthersAreCopied) {
     Edited edited(randomBlocks(Mix::Terrain, 12));
     MeshScratch scratch;
-    const ChunkMesh before = meshChunk(edited.area.input(), scratch);
+    const ChunkMesh before = meshChunk(edited.area.input(kFourRegions), scratch);
     edited.area.centre.setBlock(world::blockIndex(8, 8, 40), idOf("lava"));
     edited.area.centre.setBlock(world::blockIndex(8, 8, 120), idOf("lava"));
-    const ChunkMesh after = meshChunk(edited.area.input(), scratch);
+    const ChunkMesh after = meshChunk(edited.area.input(kFourRegions), scratch);
     EXPECT_EQ(withRegions(before, after, 0), before);
     EXPECT_EQ(withRegions(before, after, kAllRegions), after);
     const ChunkMesh upper = withRegions(before, after, 0b0010);
@@ -94,12 +96,12 @@ TEST(WithRegions, OthersAreCopied) {
 TEST(MeshRegions, OthersAreEmpty) {
     const Area area(randomBlocks(Mix::Terrain, 13));
     MeshScratch scratch;
-    const ChunkMesh all = meshChunk(area.input(), scratch);
+    const ChunkMesh all = meshChunk(area.input(kFourRegions), scratch);
     ASSERT_GT(all.regions[0].maxZ, 0);
-    const ChunkMesh none = meshRegions(area.input(), 0b1110, scratch);
+    const ChunkMesh none = meshRegions(area.input(kFourRegions), 0b1110, scratch);
     EXPECT_EQ(none.regions[0], RegionMesh{});
     EXPECT_EQ(withRegions(all, none, 0b1110), all);
-    EXPECT_EQ(meshRegions(area.input(), kAllRegions, scratch), all);
+    EXPECT_EQ(meshRegions(area.input(kFourRegions), kAllRegions, scratch), all);
 }
 
 }  // namespace
