@@ -1,5 +1,7 @@
 #include "apps/terrane/backend.h"
 
+#include "apps/terrane/options.h"
+
 #include "terrane/gpu/device_info.h"
 
 namespace terrane::app {

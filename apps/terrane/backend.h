@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/terrane/options.h"
+#include "apps/terrane/option_values.h"
 #include "terrane/gpu/context.h"
 
 namespace terrane::app {

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "apps/terrane/options.h"
+#include "apps/terrane/option_values.h"
 #include "terrane/base/image.h"
 #include "terrane/base/job_system.h"
 #include "terrane/gen/generator.h"

@@ -1,44 +1,15 @@
-// Options that several commands share, and how their values are written.
+// Options that several commands share, as the command line has them.
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cstdint>
-#include <glm/vec2.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "apps/terrane/graphics_table.h"
-#include "terrane/base/result.h"
-#include "terrane/mesh/mesh_options.h"
-#include "terrane/render/renderer.h"
-#include "terrane/world/coords.h"
+#include "apps/terrane/option_values.h"
 
 namespace terrane::app {
-
-struct WorldOptions {
-    std::uint64_t seed = 1;
-    std::string generator = "overworld";
-    unsigned threads = 0;  // 0: as many as the machine has
-};
-
-struct GraphicsOptions {
-    glm::ivec2 size{1280, 720};  // pixels
-    int viewDistance = 16;       // chunks
-    GraphicsChoices choices;
-    render::View view = render::View::Color;
-    mesh::MeshOptions mesh;
-    std::string resourcePack;  // folder; empty: none
-    std::string shaderRoot;
-    bool debugGl = false;
-};
-
-// Chunks x0 … x1 − 1, y0 … y1 − 1.
-struct Area {
-    std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-    std::int64_t chunkCount() const { return (std::int64_t{x1} - x0) * (std::int64_t{y1} - y0); }
-};
 
 void addWorldOptions(CLI::App& command, WorldOptions& options);
 // `preset`: where none is asked for.
@@ -47,7 +18,6 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string
 void addMeshOptions(CLI::App& command, mesh::MeshOptions& options);
 // "X0,Y0,X1,Y1", the end excluded; not empty and inside the world.
 void addAreaOption(CLI::App& command, std::optional<Area>& area);
-unsigned threadCount(const WorldOptions& options);
 
 // --world: a save. Its folder must be there.
 void addSaveOption(CLI::App& command, std::string& save, const std::string& description);

@@ -1,5 +1,6 @@
 #include "apps/terrane/save_identity.h"
 
+#include <CLI/CLI.hpp>
 #include "terrane/gen/generators/catalogue.h"
 
 namespace terrane::app {

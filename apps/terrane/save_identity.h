@@ -1,9 +1,7 @@
 // Which world a save is of, against what the command line asks for.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
-#include "apps/terrane/options.h"
+#include "apps/terrane/option_values.h"
 #include "terrane/store/save_file.h"
 
 namespace terrane::app {

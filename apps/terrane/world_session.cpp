@@ -1,5 +1,6 @@
 #include "apps/terrane/world_session.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <glm/common.hpp>

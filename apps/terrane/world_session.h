@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "apps/terrane/options.h"
+#include "apps/terrane/option_values.h"
 #include "terrane/base/job_system.h"
 #include "terrane/gen/generator.h"
 #include "terrane/light/light_table.h"

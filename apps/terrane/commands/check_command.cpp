@@ -7,6 +7,7 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
+#include "apps/terrane/options.h"
 #include "terrane/store/save_check.h"
 
 namespace terrane::app {

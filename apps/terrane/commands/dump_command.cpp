@@ -8,6 +8,7 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
 #include "apps/terrane/light_solver.h"
+#include "apps/terrane/options.h"
 #include "apps/terrane/save_identity.h"
 #include "apps/terrane/world_session.h"
 #include "terrane/base/files.h"

@@ -10,6 +10,7 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
+#include "apps/terrane/options.h"
 #include "apps/terrane/resource_pack.h"
 #include "apps/terrane/window/player.h"
 #include "apps/terrane/world_view.h"

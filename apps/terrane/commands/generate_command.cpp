@@ -9,6 +9,7 @@
 #include "apps/terrane/batch_generator.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
+#include "apps/terrane/options.h"
 #include "apps/terrane/progress_bar.h"
 #include "apps/terrane/save_identity.h"
 #include "apps/terrane/world_session.h"

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/options.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/kernels.h"
 #include "terrane/gpu/context.h"

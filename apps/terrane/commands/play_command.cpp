@@ -4,6 +4,7 @@
 #include "apps/terrane/backend.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
+#include "apps/terrane/options.h"
 #include "apps/terrane/resource_pack.h"
 #include "apps/terrane/spawn.h"
 #include "apps/terrane/window/game.h"

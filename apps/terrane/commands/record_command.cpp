@@ -5,6 +5,7 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
+#include "apps/terrane/options.h"
 #include "apps/terrane/progress_bar.h"
 #include "apps/terrane/record/frame_sink.h"
 #include "apps/terrane/record/recorder.h"

@@ -11,6 +11,7 @@
 #include "apps/terrane/content.h"
 #include "apps/terrane/flight.h"
 #include "apps/terrane/frame_times.h"
+#include "apps/terrane/options.h"
 #include "apps/terrane/process_figures.h"
 #include "apps/terrane/resource_pack.h"
 #include "apps/terrane/scenes.h"

@@ -1,8 +1,10 @@
 #include "apps/terrane/record/script_file.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
 
+#include "apps/terrane/options.h"
 #include "apps/terrane/record/script_values.h"
 #include "apps/terrane/record/title_painter.h"
 

@@ -1,5 +1,6 @@
 #include "apps/terrane/record/script_values.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <sstream>

@@ -1,7 +1,6 @@
 // Values in the tables of a path file: numbers, positions, and what flags of the command line take.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +8,10 @@
 
 #include "terrane/world/content_table.h"
 #include "terrane/world/coords.h"
+
+namespace CLI {
+class App;
+}
 
 namespace terrane::app {
 

@@ -1,6 +1,7 @@
 #include "apps/terrane/window/settings.h"
 
 #include <toml++/toml.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdlib>

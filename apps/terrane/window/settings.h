@@ -2,13 +2,16 @@
 // `terrane play` of the same name: the file gives options that the command line leaves out.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "terrane/base/result.h"
+
+namespace CLI {
+class App;
+}
 
 namespace terrane::app {
 
