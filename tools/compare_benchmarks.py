@@ -20,7 +20,7 @@ DEFAULT_THRESHOLD = 15.0  # per cent; the same code varies by that much between 
 TIMES = ("milliseconds", "passes", "tasks", "flight")
 # What these hold that is no time of the program: counts, and how long was flown.
 NO_TIMES = ("count", "frames", "by_second", "seconds_of_flight", "chunks_missing_on_landing",
-            "frames_over_twice_the_median")
+            "frames_over_twice_the_median", "of_these_by_loading")
 
 
 class BadInput(Exception):

@@ -1,12 +1,14 @@
 #include "apps/terrane/flight.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <glm/trigonometric.hpp>
 #include <map>
 
 #include "apps/terrane/median.h"
+#include "apps/terrane/window/player.h"
 
 namespace terrane::app {
 namespace {
@@ -17,73 +19,107 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+double processorMilliseconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) / 1e6;
+}
+
 // Draws frames and logs them.
 class Pilot {
   public:
-    Pilot(WorldSession& session, render::Renderer& renderer, WorldView& view, const Flight& flight)
-        : session_(session), renderer_(renderer), view_(view), flight_(flight), camera_(flight.start) {}
+    Pilot(Offscreen& world, const Flight& flight)
+        : world_(world),
+          view_(*world.session, world.renderer),
+          flight_(flight),
+          player_(flight.start, Movement::Fast) {}
 
     FlightLog run() {
-        while (!frame().complete()) {
-        }
-        log_.takeOff = last_;
-        const double yaw = glm::radians(static_cast<double>(camera_.yaw));
-        stream::Progress progress;
-        while (last_ < log_.takeOff + flight_.seconds) {
-            const double way = kFlightSpeed * (secondsSince(start_) - log_.takeOff);
-            camera_.position = flight_.start.position + way * glm::dvec3(std::cos(yaw), std::sin(yaw), 0);
-            progress = frame();
-        }
-        log_.landing = last_;
-        log_.missing = progress.wanted - progress.visible;
-        while (!frame().complete()) {
-        }
-        log_.end = last_;
-        log_.camera = camera_;
+        log_.secondsToLoad = standUntilLoaded();
+        const auto takeOff = Clock::now();
+        log_.takeOff = log_.frames.size();
+        lastFrame_ = takeOff;
+        do {
+            frame({.forward = true});
+            log_.secondsOfFlight = secondsSince(takeOff);
+        } while (log_.secondsOfFlight < flight_.seconds);
+        log_.landing = log_.frames.size();
+        const FlightFrame& last = log_.frames.back();
+        log_.missing = last.wanted - last.visible;
+        log_.secondsToLoadAgain = standUntilLoaded();
+        log_.camera = player_.camera();
+        for (FlightFrame& frame : log_.frames)
+            frame.seconds -= std::chrono::duration<double>(takeOff - start_).count();
         return std::move(log_);
     }
 
   private:
-    stream::Progress frame() {
-        view_.follow(camera_, flight_.viewDistance);
-        view_.upload(uploadBudget(secondsSince(start_) - last_));
-        renderer_.draw({camera_, world::environmentAt(flight_.timeDay), fogDistance(flight_.viewDistance),
-                        static_cast<float>(last_), render::View::Color, isUnderWater(session_, camera_)});
-        glFinish();
-        const stream::Progress progress = session_.pipeline->progress();
-        const double now = secondsSince(start_);
-        log_.frames.push_back({now, 1000 * (now - last_), progress.visible, session_.world.chunks().size()});
-        last_ = now;
-        return progress;
+    // Seconds that it took.
+    double standUntilLoaded() {
+        const auto start = Clock::now();
+        do frame({});
+        while (!world_.session->pipeline->progress().complete());
+        return secondsSince(start);
     }
 
-    WorldSession& session_;
-    render::Renderer& renderer_;
-    WorldView& view_;
-    const Flight& flight_;
-    render::Camera camera_;
-    FlightLog log_;
-    Clock::time_point start_ = Clock::now();
-    double last_ = 0;  // seconds, of the frame before
-};
+    void frame(const MoveKeys& keys) {
+        const auto start = Clock::now();
+        const double seconds = std::chrono::duration<double>(start - lastFrame_).count();
+        lastFrame_ = start;
+        FlightFrame frame;
+        frame.seconds = secondsSince(start_);
+        const double processorStart = processorMilliseconds();
+        player_.move(world_.session->world, world_.session->blocks, keys, seconds);
+        view_.follow(player_.camera(), flight_.viewDistance);
+        frame.follow = 1000 * secondsSince(start);
+        frame.followProcessor = processorMilliseconds() - processorStart;
 
-std::vector<double> flightFrames(const FlightLog& log) {
-    std::vector<double> milliseconds;
-    for (const FlightFrame& frame : log.frames)
-        if (frame.seconds > log.takeOff && frame.seconds <= log.landing)
-            milliseconds.push_back(frame.milliseconds);
-    return milliseconds;
-}
+        const auto uploadStart = Clock::now();
+        frame.uploads = view_.upload(uploadBudget(seconds));
+        glFinish();
+        frame.upload = 1000 * secondsSince(uploadStart);
+        frame.uploadProcessor = processorMilliseconds() - processorStart - frame.followProcessor;
+
+        const auto drawStart = Clock::now();
+        draw(static_cast<float>(frame.seconds));
+        frame.draw = 1000 * secondsSince(drawStart);
+        frame.all = 1000 * secondsSince(start);
+        const stream::ChunkPipeline& pipeline = *world_.session->pipeline;
+        const stream::Progress progress = pipeline.progress();
+        frame.visible = progress.visible;
+        frame.wanted = progress.wanted;
+        frame.active = world_.session->world.chunks().size();
+        frame.queued = pipeline.queuedCount();
+        log_.frames.push_back(frame);
+    }
+
+    void draw(float seconds) {
+        const render::Camera& camera = player_.camera();
+        world_.renderer.draw({camera, world::environmentAt(flight_.timeDay),
+                              fogDistance(flight_.viewDistance), seconds, render::View::Color,
+                              isUnderWater(*world_.session, camera)});
+        glFinish();
+    }
+
+    Offscreen& world_;
+    WorldView view_;
+    const Flight& flight_;
+    Player player_;
+    FlightLog log_;
+    Clock::time_point start_ = Clock::now(), lastFrame_ = start_;
+};
 
 nlohmann::json linesBySecond(const FlightLog& log) {
     std::map<int, std::vector<FlightFrame>> seconds;
-    for (const FlightFrame& frame : log.frames) seconds[static_cast<int>(frame.seconds)].push_back(frame);
+    const double first = log.frames.front().seconds;
+    for (const FlightFrame& frame : log.frames)
+        seconds[static_cast<int>(frame.seconds - first)].push_back(frame);
     nlohmann::json lines;
     for (const auto& [second, frames] : seconds) {
-        const auto slowest = std::ranges::max_element(frames, {}, &FlightFrame::milliseconds);
+        const auto slowest = std::ranges::max_element(frames, {}, &FlightFrame::all);
         lines["seconds"].push_back(second);
         lines["frames"].push_back(frames.size());
-        lines["slowest_ms"].push_back(slowest->milliseconds);
+        lines["slowest_ms"].push_back(slowest->all);
         lines["visible"].push_back(frames.back().visible);
         lines["active"].push_back(frames.back().active);
     }
@@ -92,22 +128,41 @@ nlohmann::json linesBySecond(const FlightLog& log) {
 
 }  // namespace
 
-FlightLog fly(WorldSession& session, render::Renderer& renderer, WorldView& view, const Flight& flight) {
-    return Pilot(session, renderer, view, flight).run();
+FlightLog fly(Offscreen& world, const Flight& flight) {
+    return Pilot(world, flight).run();
+}
+
+std::span<const FlightFrame> framesInFlight(const FlightLog& log) {
+    return std::span(log.frames).subspan(log.takeOff, log.landing - log.takeOff);
+}
+
+FlightFigures figuresOf(const FlightLog& log) {
+    const std::span<const FlightFrame> frames = framesInFlight(log);
+    std::vector<double> all;
+    for (const FlightFrame& frame : frames) all.push_back(frame.all);
+    FlightFigures figures{.median = medianOf(all), .longest = *std::ranges::max_element(all)};
+    for (const FlightFrame& frame : frames) {
+        figures.mostLoading = std::max(figures.mostLoading, frame.loadingProcessor());
+        if (frame.all <= 2 * figures.median) continue;
+        ++figures.slow;
+        if (frame.all - frame.follow - frame.upload <= 2 * figures.median) ++figures.slowByWaiting;
+        if (frame.all - frame.loadingProcessor() <= 2 * figures.median) ++figures.slowByLoading;
+    }
+    return figures;
 }
 
 nlohmann::json jsonOf(const FlightLog& log) {
-    const std::vector<double> frames = flightFrames(log);
-    const double median = medianOf(frames);
-    return {{"seconds_to_load", log.takeOff},
-            {"seconds_of_flight", log.landing - log.takeOff},
-            {"seconds_to_load_again", log.end - log.landing},
+    const FlightFigures figures = figuresOf(log);
+    return {{"seconds_to_load", log.secondsToLoad},
+            {"seconds_of_flight", log.secondsOfFlight},
+            {"seconds_to_load_again", log.secondsToLoadAgain},
             {"chunks_missing_on_landing", log.missing},
-            {"frames", frames.size()},
-            {"frame_ms", median},
-            {"slowest_frame_ms", *std::ranges::max_element(frames)},
-            {"frames_over_twice_the_median",
-             std::ranges::count_if(frames, [&](double ms) { return ms > 2 * median; })},
+            {"frames", framesInFlight(log).size()},
+            {"frame_ms", figures.median},
+            {"slowest_frame_ms", figures.longest},
+            {"most_loading_ms", figures.mostLoading},
+            {"frames_over_twice_the_median", figures.slow},
+            {"of_these_by_loading", figures.slowByLoading},
             {"by_second", linesBySecond(log)}};
 }
 

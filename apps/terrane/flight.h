@@ -1,38 +1,57 @@
-// A flight through the world as the window would show it: frames are drawn while chunks load. What each frame
-// took is kept.
+// A flight straight ahead at full speed, as the window would show it: in real time, with frames drawn while
+// chunks load. What each frame took is kept.
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <span>
 #include <vector>
 
+#include "apps/terrane/offscreen.h"
 #include "apps/terrane/world_view.h"
 
 namespace terrane::app {
 
 struct Flight {
-    render::Camera start;  // flies ahead from here, at the same height
-    double seconds = 20;   // of flying
+    render::Camera start;
+    double seconds = 20;  // of flying
     int viewDistance = 16;
-    float timeDay = 0.5f;
+    float timeDay = 0.4f;
 };
 
 struct FlightFrame {
-    double seconds = 0;                   // since the start, when it was on screen
-    double milliseconds = 0;              // since the frame before
-    std::size_t visible = 0, active = 0;  // chunks
+    double seconds = 0;  // of its beginning, since take-off
+    // Milliseconds, and what they were spent on; each with what the GPU does for it.
+    double all = 0, follow = 0, upload = 0, draw = 0;
+    // Of these the processor time of this thread: where other programs use the machine as well, any part of a
+    // frame may have to wait for them.
+    double followProcessor = 0, uploadProcessor = 0;
+    std::size_t uploads = 0, visible = 0, wanted = 0, active = 0, queued = 0;  // chunks
+
+    double loadingProcessor() const { return followProcessor + uploadProcessor; }
 };
 
+// The camera stands until all in view is there, flies, and stands again until all is there.
 struct FlightLog {
     std::vector<FlightFrame> frames;
-    double takeOff = 0, landing = 0, end = 0;  // seconds; all in view was there at the first and at the last
-    render::Camera camera;                     // at the end
-    std::size_t missing = 0;                   // chunks in view that were not there on landing
+    std::size_t takeOff = 0, landing = 0;  // frames: the flight's first, the first after it
+    double secondsToLoad = 0, secondsOfFlight = 0, secondsToLoadAgain = 0;
+    render::Camera camera;    // at the end
+    std::size_t missing = 0;  // chunks in view that were not there on landing
 };
 
-constexpr double kFlightSpeed = 60;  // blocks a second: the fastest that one moves in the window
+FlightLog fly(Offscreen& world, const Flight& flight);
 
-// Waits until all in view is there, flies, waits again.
-FlightLog fly(WorldSession& session, render::Renderer& renderer, WorldView& view, const Flight& flight);
+// There is at least one.
+std::span<const FlightFrame> framesInFlight(const FlightLog& log);
+
+// Of the frames in flight; milliseconds.
+struct FlightFigures {
+    double median = 0, longest = 0, mostLoading = 0;  // the last of processor time
+    // Frames over twice the median, and those of them that would not be without the time that loading took by
+    // the clock, or without its processor time.
+    std::size_t slow = 0, slowByWaiting = 0, slowByLoading = 0;
+};
+FlightFigures figuresOf(const FlightLog& log);
 
 // The figures, and a line of them for each second.
 nlohmann::json jsonOf(const FlightLog& log);

@@ -12,24 +12,24 @@
 namespace terrane::gen {
 namespace {
 
-// A thread's own: the scratch memory of passes, and the results that no neighbour needs.
-struct Worker {
-    Worker(const GeneratorGraph& graph, const Seeds& seeds)
-        : executor(graph.noises, seeds), fields(graph.fields.size()) {
-        for (auto& b : blocks) b = std::make_unique_for_overwrite<BlockArray>();
-    }
-
-    Executor executor;
-    std::vector<ColumnValues> fields;                   // by field
-    std::array<std::unique_ptr<BlockArray>, 2> blocks;  // of the newest two 3D passes, in turn
-};
-
 // The fewest chunks that are worth a cache: some rows of a wide area.
 constexpr std::size_t kLeastCached = 256;
 
 }  // namespace
 
 struct Generator::Impl {
+    // A thread's own: the scratch memory of passes, and the results that no neighbour needs.
+    struct Worker {
+        Worker(const GeneratorGraph& graph, const Seeds& seeds)
+            : executor(graph.noises, seeds), fields(graph.fields.size()) {
+            for (auto& b : blocks) b = std::make_unique_for_overwrite<BlockArray>();
+        }
+
+        Executor executor;
+        std::vector<ColumnValues> fields;                   // by field
+        std::array<std::unique_ptr<BlockArray>, 2> blocks;  // of the newest two 3D passes, in turn
+    };
+
     Impl(GeneratorGraph g, std::uint64_t seed, std::size_t cacheBytes)
         : graph(std::move(g)),
           seeds(makeSeeds(graph, seed)),

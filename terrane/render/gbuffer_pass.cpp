@@ -3,16 +3,9 @@
 #include "terrane/gpu/debug.h"
 
 namespace terrane::render {
-namespace {
-
-constexpr const char* kVertex = "terrane/render/quad.vert.glsl";
-constexpr const char* kFragment = "terrane/render/gbuffer.frag.glsl";
-
-}  // namespace
-
 GBufferPass::GBufferPass(const gpu::ShaderLoader& shaders)
-    : opaque_(shaders, kVertex, kFragment, "opaque quads"),
-      tested_(shaders, kVertex, kFragment, "tested quads") {}
+    : opaque_(quadShaders(shaders, "gbuffer", "opaque quads")),
+      tested_(quadShaders(shaders, "gbuffer", "tested quads")) {}
 
 base::Result<void> GBufferPass::select(int alphaSamples, bool isSmooth) {
     auto selected =

@@ -6,9 +6,6 @@
 namespace terrane::render {
 namespace {
 
-constexpr const char* kVertex = "terrane/render/quad.vert.glsl";
-constexpr const char* kFragment = "terrane/render/layer.frag.glsl";
-
 gpu::Handle<gpu::ObjectKind::Query> makeQuery() {
     GLuint id = 0;
     glCreateQueries(GL_ANY_SAMPLES_PASSED, 1, &id);
@@ -22,9 +19,9 @@ GLenum targetOf(int samples) {
 }  // namespace
 
 LayerPass::LayerPass(const gpu::ShaderLoader& shaders)
-    : first_(shaders, kVertex, kFragment, "first layer"),
-      next_(shaders, kVertex, kFragment, "next layer"),
-      shadeQuads_(shaders, kVertex, "terrane/render/layers.frag.glsl", "shade layers"),
+    : first_(quadShaders(shaders, "layer", "first layer")),
+      next_(quadShaders(shaders, "layer", "next layer")),
+      shadeQuads_(quadShaders(shaders, "layers", "shade layers")),
       shade_(shaders, "layers") {
     for (auto& query : anyDrawn_) query = makeQuery();
 }

@@ -12,10 +12,12 @@
 // through the subsets of the axes on which a second tile begins; for most samples that is the empty one.
 vec4 sampleClassic(vec3 at) {
     const float kOnNode = 1.0 / 64.0;  // so near a node the next one does not count
+    const float kSteps = 256.0;        // exact sums wherever a tile lies in its pool: its place must not be seen
     at.z = max(at.z, 0.0);
     ivec3 block = ivec3(floor(at));
-    vec3 f = at - vec3(block);
-    ivec3 crosses = ivec3(equal(block & 7, ivec3(7))) * ivec3(greaterThan(f, vec3(kOnNode)));
+    vec3 f = floor(kSteps * (at - vec3(block)) + 0.5) / kSteps;
+    f *= vec3(greaterThan(f, vec3(kOnNode)));
+    ivec3 crosses = ivec3(equal(block & 7, ivec3(7))) * ivec3(greaterThan(f, vec3(0.0)));
     vec3 inTile = vec3(1 - crosses) * f;
     int axes = crosses.x | crosses.y << 1 | crosses.z << 2, beyond = 0;
     vec4 sum = vec4(0.0);

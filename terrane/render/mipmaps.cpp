@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
-#include <optional>
+#include <utility>
 
 namespace terrane::render {
 namespace {
@@ -116,39 +116,49 @@ float coverageScale(const LinearImage& image, float limit, float wanted) {
     return takesAbove ? high : low;
 }
 
-// Mean of the known colours around a texel of a repeating texture, alpha 0; nothing where none is known.
-std::optional<std::array<std::uint8_t, 4>> colorAround(const base::Image& image,
-                                                       const std::vector<bool>& known, int x, int y) {
+// The texels around one of a repeating texture, and itself.
+std::array<std::size_t, 9> texelsAround(const base::Image& image, std::size_t at) {
+    const int last = image.width - 1, x = static_cast<int>(at) & last, y = static_cast<int>(at) / image.width;
+    std::array<std::size_t, 9> texels{};
+    for (int k = 0; k < 9; ++k) {
+        const int nx = (x + k % 3 - 1) & last, ny = (y + k / 3 - 1) & last;
+        texels[static_cast<std::size_t>(k)] = static_cast<std::size_t>(ny * image.width + nx);
+    }
+    return texels;
+}
+
+// Gives a texel the mean of the known colours around it, alpha 0. There is one at least.
+void takeColorAround(base::Image& image, const std::vector<bool>& known, std::size_t at) {
     std::array<int, 3> sum{};
     int count = 0;
-    for (int k = 0; k < 9; ++k) {
-        const int last = image.width - 1;
-        const int nx = (x + k % 3 - 1) & last, ny = (y + k / 3 - 1) & last;
-        const auto at = static_cast<std::size_t>(ny * image.width + nx);
-        if (!known[at]) continue;
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += image.rgba[4 * at + c];
+    for (const std::size_t texel : texelsAround(image, at)) {
+        if (!known[texel]) continue;
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += image.rgba[4 * texel + c];
         ++count;
     }
-    if (count == 0) return std::nullopt;
-    const auto mean = [&](std::size_t c) { return static_cast<std::uint8_t>(sum[c] / count); };
-    return std::array<std::uint8_t, 4>{mean(0), mean(1), mean(2), 0};
+    for (std::size_t c = 0; c < 3; ++c) image.rgba[4 * at + c] = static_cast<std::uint8_t>(sum[c] / count);
+    image.rgba[4 * at + 3] = 0;
 }
 
 // Hidden texels take the colour of what is next to them, ring by ring: filters mix it into the edges.
 void colorHiddenTexels(base::Image& image) {
     std::vector<bool> known;
     for (std::size_t k = 3; k < image.rgba.size(); k += 4) known.push_back(image.rgba[k] > 0);
-    if (std::ranges::find(known, true) == known.end()) return;
-    while (std::ranges::find(known, false) != known.end()) {
-        const std::vector<bool> before = known;
-        for (std::size_t at = 0; at < known.size(); ++at) {
-            if (before[at]) continue;
-            const int x = static_cast<int>(at) % image.width, y = static_cast<int>(at) / image.width;
-            const auto color = colorAround(image, before, x, y);
-            if (!color) continue;
-            std::ranges::copy(*color, image.rgba.begin() + static_cast<std::ptrdiff_t>(4 * at));
-            known[at] = true;
+    std::vector<bool> isInRing = known;  // this one or one before
+    std::vector<std::size_t> ring;
+    const auto addAround = [&](std::size_t at) {
+        for (const std::size_t texel : texelsAround(image, at)) {
+            if (isInRing[texel]) continue;
+            isInRing[texel] = true;
+            ring.push_back(texel);
         }
+    };
+    for (std::size_t at = 0; at < known.size(); ++at)
+        if (known[at]) addAround(at);
+    while (!ring.empty()) {
+        for (const std::size_t at : ring) takeColorAround(image, known, at);
+        for (const std::size_t at : ring) known[at] = true;
+        for (const std::size_t at : std::exchange(ring, {})) addAround(at);
     }
 }
 

@@ -1,5 +1,7 @@
 #include "terrane/render/shader_variants.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace terrane::render {
@@ -29,6 +31,11 @@ base::Result<void> ShaderVariants::select(const gpu::ShaderDefines& defines) {
     selected_ = variants_.size();
     variants_.emplace_back(defines, std::move(*program));
     return {};
+}
+
+ShaderVariants quadShaders(const gpu::ShaderLoader& shaders, std::string_view name, std::string label) {
+    return {shaders, "terrane/render/quad.vert.glsl", fmt::format("terrane/render/{}.frag.glsl", name),
+            std::move(label)};
 }
 
 }  // namespace terrane::render

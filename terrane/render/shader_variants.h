@@ -33,4 +33,7 @@ class ShaderVariants {
     std::size_t selected_ = 0;
 };
 
+// Of a pass over quads. `name`: of terrane/render/NAME.frag.glsl.
+ShaderVariants quadShaders(const gpu::ShaderLoader& shaders, std::string_view name, std::string label);
+
 }  // namespace terrane::render

@@ -6,9 +6,6 @@
 namespace terrane::render {
 namespace {
 
-constexpr const char* kVertex = "terrane/render/quad.vert.glsl";
-constexpr const char* kFragment = "terrane/render/shadow.frag.glsl";
-
 // Depth along the light is linear: 16 bits over 400 blocks are steps of 1/160 block, and half the memory of
 // more.
 constexpr GLenum kFormat = GL_DEPTH_COMPONENT16;
@@ -16,8 +13,8 @@ constexpr GLenum kFormat = GL_DEPTH_COMPONENT16;
 }  // namespace
 
 ShadowMap::ShadowMap(const gpu::ShaderLoader& shaders)
-    : opaque_(shaders, kVertex, kFragment, "opaque shadows"),
-      tested_(shaders, kVertex, kFragment, "tested shadows"),
+    : opaque_(quadShaders(shaders, "shadow", "opaque shadows")),
+      tested_(quadShaders(shaders, "shadow", "tested shadows")),
       sampler_({.compare = GL_GEQUAL}, "shadow map") {}
 
 base::Result<void> ShadowMap::resize(int size) {

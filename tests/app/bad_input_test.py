@@ -58,7 +58,8 @@ CASES = [
     (("bench", "-o", "{folder}/bench", "--runs", "0"), '"0"'),
     (("bench", "-o", "{folder}/bench", "--frames", "none"), '"none"'),
     (("bench", "-o", "{folder}/bench", "--view-distance", "65"), '"65"'),
-    ((*RENDER, "--flight", "-1"), '"-1"'),
+    (("fly",), "--json"),
+    (("fly", "--scene", "nowhere", "--json"), '"nowhere"'),
     (("fly", "--at", "3e9,0,80", "-o", "{out}"), "outside the world"),
     (("fly", "--for", "0", "-o", "{out}"), '"0"'),
     # Pictures

@@ -124,15 +124,6 @@ class Video(RecordTest):
 
 
 class Frames(RecordTest):
-    # Where a tile of light lies in its texture depends on the order in which chunks came, and with it how a filter
-    # rounds: a few pixels differ by one step.
-    def assertSameFrames(self, some, others):
-        self.assertEqual(len(some), len(others))
-        for a, b in zip(some, others):
-            steps = [abs(x - y) for r, s in zip(a.rows, b.rows) for p, q in zip(r, s) for x, y in zip(p, q)]
-            self.assertLessEqual(max(steps), 1)
-            self.assertLess(sum(steps), len(steps) / 1000)
-
     def test_the_same_every_time(self):
         text = shot(1, "[[shot.key]]\ntime = 1\nat = [-1040, -100, 118]\nlook = [150, -20]\nday = 0.6\n",
                     "[[shot.key]]\nat = [-1048, -108, 122]\nlook = [136, -6]\nday = 0.4\n")
@@ -140,8 +131,8 @@ class Frames(RecordTest):
         two = self.frames(text, "--fps", "4", "--threads", "2", "--shadows", "1024")
         part = self.frames(text, "--fps", "4", "--from", "0.5", "--shadows", "1024")
         self.assertEqual(len(one), 4)
-        self.assertSameFrames(one, two)
-        self.assertSameFrames(one[2:], part)
+        self.assertEqual([p.rows for p in one], [p.rows for p in two])
+        self.assertEqual([p.rows for p in one[2:]], [p.rows for p in part])
         for a, b in zip(one, one[1:]):
             self.assertNotEqual(a.rows, b.rows)
 

@@ -27,13 +27,13 @@ double ulp(double v) {
     return std::ldexp(1.0, std::ilogb(v) - 23);
 }
 
-constexpr int kSamples = 200000;
+constexpr int kPoints = 200000;
 
 template <class Use>
 void forRandom(float low, float high, Use use) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> value(low, high);
-    for (int k = 0; k < kSamples; ++k) use(value(random));
+    for (int k = 0; k < kPoints; ++k) use(value(random));
 }
 
 TEST(ExprMath, Exp2) {

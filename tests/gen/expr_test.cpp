@@ -7,13 +7,12 @@
 
 #include "terrane/gen/expr_vec.h"
 #include "terrane/shared/det_math.h"
+#include "tests/gen/not_a_number.h"
 
 namespace terrane::gen {
 namespace {
 
 using shared::detDivide;
-
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 float floatOf(Float v) {
     EXPECT_EQ(v.graph, nullptr) << "literals alone give a literal";

@@ -7,10 +7,10 @@
 #include <limits>
 #include <vector>
 
+#include "tests/gen/not_a_number.h"
+
 namespace terrane::gen {
 namespace {
-
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 class GraphTest : public testing::Test {
   protected:

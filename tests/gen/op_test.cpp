@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "terrane/shared/det_math.h"
+#include "tests/gen/not_a_number.h"
 
 namespace terrane::gen {
 namespace {
@@ -21,7 +22,6 @@ using shared::detSqrt;
 constexpr std::int32_t kMin = std::numeric_limits<std::int32_t>::min();
 constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 template <class... Args>
 Bits evaluate(Op op, Args... args) {

@@ -14,7 +14,7 @@
 namespace terrane::gen {
 namespace {
 
-constexpr std::uint32_t kSeed = 0xC0FFEEu;
+constexpr std::uint32_t kPerlinSeed = 0xC0FFEEu;
 
 NoiseCall call2D(int size, std::vector<float> weights) {
     return {NoiseKind::Perlin2D, "n", size, std::move(weights)};
@@ -36,20 +36,20 @@ std::vector<NoiseCall> calls(NoiseKind kind) {
     return result;
 }
 
-std::string describe(const NoiseCall& call) {
+std::string sizeAndOctaves(const NoiseCall& call) {
     return "size " + std::to_string(call.size) + ", " + std::to_string(call.weights.size()) + " octaves";
 }
 
 void expectTile2D(const NoiseCall& call, ChunkPos chunk) {
-    NoiseTile tile(call, kSeed);
+    NoiseTile tile(call, kPerlinSeed);
     tile.moveTo(chunk);
     tile.run();
     for (int y = 0; y < kTileSize; ++y) {
         for (int x = 0; x < kTileSize; ++x) {
             const std::int64_t blockX = std::int64_t{chunk.x} * 16 + x,
                                blockY = std::int64_t{chunk.y} * 16 + y;
-            ASSERT_EQ(tile.at(x, y), bitsOf(reference::perlin2D(call, kSeed, blockX, blockY)))
-                << describe(call) << " at (" << blockX << ", " << blockY << ")";
+            ASSERT_EQ(tile.at(x, y), bitsOf(reference::perlin2D(call, kPerlinSeed, blockX, blockY)))
+                << sizeAndOctaves(call) << " at (" << blockX << ", " << blockY << ")";
         }
     }
 }
@@ -67,8 +67,8 @@ void expectLayer(const NoiseTile& tile, const NoiseCall& call, ChunkPos chunk, s
         for (int x = 0; x < kTileSize; ++x) {
             const std::int64_t blockX = std::int64_t{chunk.x} * 16 + x,
                                blockY = std::int64_t{chunk.y} * 16 + y;
-            ASSERT_EQ(tile.at(x, y), bitsOf(reference::perlin3D(call, kSeed, {blockX, blockY, z})))
-                << describe(call) << " at (" << blockX << ", " << blockY << ", " << z << ")";
+            ASSERT_EQ(tile.at(x, y), bitsOf(reference::perlin3D(call, kPerlinSeed, {blockX, blockY, z})))
+                << sizeAndOctaves(call) << " at (" << blockX << ", " << blockY << ", " << z << ")";
         }
     }
 }
@@ -77,7 +77,7 @@ void expectLayer(const NoiseTile& tile, const NoiseCall& call, ChunkPos chunk, s
 TEST(Perlin3D, EverySampleIsThatOfTheDescription) {
     onEachTarget([] {
         for (const NoiseCall& call : calls(NoiseKind::Perlin3D)) {
-            NoiseTile tile(call, kSeed);
+            NoiseTile tile(call, kPerlinSeed);
             for (const ChunkPos chunk : kPlaces) {
                 tile.moveTo(chunk);
                 for (const std::int32_t z : {0, 1, 2, 3, 4, 8, 9, 64, 65, 200, 255}) {
@@ -92,7 +92,7 @@ TEST(Perlin3D, EverySampleIsThatOfTheDescription) {
 TEST(Perlin3D, LayersMayComeInAnyOrder) {
     for (const int size : {1, 3, 8, 64}) {
         const NoiseCall call = call3D(size, {1.0f, 0.5f});
-        NoiseTile tile(call, kSeed);
+        NoiseTile tile(call, kPerlinSeed);
         tile.moveTo({3, -2});
         for (const std::int32_t z : {255, 0, 17, 16, 15, 15, 8, 9, 7, 100, 0}) {
             tile.run(z);
@@ -104,7 +104,7 @@ TEST(Perlin3D, LayersMayComeInAnyOrder) {
 // Zeros are zeros of either sign: both compare equal to 0.
 TEST(Perlin, IsZeroAtTheNodes) {
     for (const int size : {1, 3, 8, 16}) {
-        NoiseTile flat(call2D(size, {1.0f}), kSeed), solid(call3D(size, {1.0f}), kSeed);
+        NoiseTile flat(call2D(size, {1.0f}), kPerlinSeed), solid(call3D(size, {1.0f}), kPerlinSeed);
         flat.moveTo({0, 0});
         solid.moveTo({0, 0});
         flat.run();
@@ -137,7 +137,7 @@ struct Range {
 TEST(Perlin2D, FillsMinusOneToOne) {
     Range range;
     for (const int size : {8, 13, 64}) {
-        NoiseTile tile(call2D(size, {1.0f}), kSeed);
+        NoiseTile tile(call2D(size, {1.0f}), kPerlinSeed);
         for (std::int32_t k = 0; k < 600; ++k) {
             tile.moveTo({k, -7 * k});
             tile.run();
@@ -154,7 +154,7 @@ TEST(Perlin2D, FillsMinusOneToOne) {
 TEST(Perlin3D, FillsAboutMinusOneToOne) {
     Range range;
     for (const int size : {8, 13, 32}) {
-        NoiseTile tile(call3D(size, {1.0f}), kSeed);
+        NoiseTile tile(call3D(size, {1.0f}), kPerlinSeed);
         for (std::int32_t k = 0; k < 40; ++k) {
             tile.moveTo({k, -7 * k});
             for (std::int32_t z = 0; z < 256; z += 5) {
@@ -175,7 +175,7 @@ TEST(Perlin3D, FillsAboutMinusOneToOne) {
 TEST(Perlin2D, GoesOnSmoothlyAcrossChunks) {
     constexpr int kSize = 64;
     constexpr float kStep = 3.0f / kSize;
-    NoiseTile tile(call2D(kSize, {1.0f}), kSeed), next(call2D(kSize, {1.0f}), kSeed);
+    NoiseTile tile(call2D(kSize, {1.0f}), kPerlinSeed), next(call2D(kSize, {1.0f}), kPerlinSeed);
     for (std::int32_t chunk = -200; chunk < 200; ++chunk) {
         tile.moveTo({chunk, chunk / 3});
         next.moveTo({chunk + 1, chunk / 3});

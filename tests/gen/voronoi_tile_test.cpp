@@ -15,13 +15,13 @@
 namespace terrane::gen {
 namespace {
 
-constexpr std::uint32_t kSeed = 0xBEEFu;
+constexpr std::uint32_t kVoronoiSeed = 0xBEEFu;
 
 NoiseCall cells(int size, int maxPoints) {
     return {NoiseKind::Voronoi2D, "v", size, {}, maxPoints};
 }
 
-std::string describe(const NoiseCall& call) {
+std::string sizeAndPoints(const NoiseCall& call) {
     return "size " + std::to_string(call.size) + ", " + std::to_string(call.maxPoints) + " points";
 }
 
@@ -30,8 +30,9 @@ constexpr int kReach = 4;
 
 void expectColumn(const NoiseTile& tile, const NoiseCall& call, ChunkPos chunk, int x, int y) {
     const std::int64_t blockX = std::int64_t{chunk.x} * 16 + x, blockY = std::int64_t{chunk.y} * 16 + y;
-    const reference::VoronoiSample want = reference::voronoi2D(call, kSeed, blockX, blockY, kReach);
-    SCOPED_TRACE(describe(call) + " at (" + std::to_string(blockX) + ", " + std::to_string(blockY) + ")");
+    const reference::VoronoiSample want = reference::voronoi2D(call, kVoronoiSeed, blockX, blockY, kReach);
+    SCOPED_TRACE(sizeAndPoints(call) + " at (" + std::to_string(blockX) + ", " + std::to_string(blockY) +
+                 ")");
     ASSERT_EQ(tile.at(x, y, kVoronoiDistance), bitsOf(want.distance));
     ASSERT_EQ(tile.at(x, y, kVoronoiRatio), bitsOf(want.ratio));
     ASSERT_EQ(asInt(tile.at(x, y, kVoronoiOffsetX)), want.offsetX);
@@ -42,7 +43,7 @@ TEST(Voronoi2D, EverySampleIsThatOfASearchOfMoreCells) {
     onEachTarget([] {
         for (const int size : {1, 2, 3, 10, 56, 512, kMaxVoronoiSize}) {
             for (int maxPoints = 1; maxPoints <= 4; ++maxPoints) {
-                NoiseTile tile(cells(size, maxPoints), kSeed);
+                NoiseTile tile(cells(size, maxPoints), kVoronoiSeed);
                 for (const ChunkPos chunk : kPlaces) {
                     tile.moveTo(chunk);
                     tile.run();
@@ -61,7 +62,7 @@ TEST(Voronoi2D, ManyTilesAgreeWithASearchOfMoreCells) {
     for (const int size : {3, 10, 64}) {
         for (const int maxPoints : {1, 2, 4}) {
             const NoiseCall call = cells(size, maxPoints);
-            NoiseTile tile(call, kSeed);
+            NoiseTile tile(call, kVoronoiSeed);
             for (std::int32_t k = -40; k < 40; ++k) {
                 const ChunkPos chunk = {k, 13 * k};
                 tile.moveTo(chunk);
@@ -77,14 +78,14 @@ TEST(Voronoi2D, ManyTilesAgreeWithASearchOfMoreCells) {
 // With one point a cell the second nearest lies two cells away for one column in 10,000.
 TEST(Voronoi2D, PointsTwoCellsAwayAreFound) {
     const NoiseCall call = cells(16, 1);
-    NoiseTile tile(call, kSeed);
+    NoiseTile tile(call, kVoronoiSeed);
     for (std::int32_t k = 0; k < 1500; ++k) {
         const ChunkPos chunk = {k, -7 * k};
         tile.moveTo(chunk);
         tile.run();
         for (int lane = 0; lane < kTileLanes; ++lane) {
             const int x = lane % 16, y = lane / 16;
-            const auto want = reference::voronoi2D(call, kSeed, chunk.x * 16 + x, chunk.y * 16 + y, 2);
+            const auto want = reference::voronoi2D(call, kVoronoiSeed, chunk.x * 16 + x, chunk.y * 16 + y, 2);
             ASSERT_EQ(tile.at(x, y, kVoronoiRatio), bitsOf(want.ratio))
                 << "chunk (" << chunk.x << ", " << chunk.y << "), column " << lane;
         }
@@ -93,7 +94,7 @@ TEST(Voronoi2D, PointsTwoCellsAwayAreFound) {
 
 TEST(Voronoi2D, ResultsAreInRange) {
     for (const int size : {1, 10, 100}) {
-        NoiseTile tile(cells(size, 3), kSeed);
+        NoiseTile tile(cells(size, 3), kVoronoiSeed);
         for (std::int32_t k = 0; k < 60; ++k) {
             tile.moveTo({k, -k});
             tile.run();
@@ -110,7 +111,7 @@ TEST(Voronoi2D, ResultsAreInRange) {
 }
 
 TEST(Voronoi2D, AtAPointTheDistanceIsZero) {
-    NoiseTile tile(cells(10, 1), kSeed);
+    NoiseTile tile(cells(10, 1), kVoronoiSeed);
     int points = 0;
     for (std::int32_t k = 0; k < 40; ++k) {
         tile.moveTo({k, k});
@@ -128,7 +129,7 @@ TEST(Voronoi2D, AtAPointTheDistanceIsZero) {
 
 // In small cells many columns have two points at equal distance: the search order decides.
 TEST(Voronoi2D, OfEquallyNearPointsTheFirstCounts) {
-    NoiseTile tile(cells(2, 4), kSeed);
+    NoiseTile tile(cells(2, 4), kVoronoiSeed);
     tile.moveTo({0, 0});
     tile.run();
     for (int lane = 0; lane < kTileLanes; ++lane) {
@@ -138,7 +139,7 @@ TEST(Voronoi2D, OfEquallyNearPointsTheFirstCounts) {
 
 TEST(Voronoi2D, APointIsTheSameForAllWhoSeeIt) {
     std::set<std::pair<int, int>> seen;
-    NoiseTile tile(cells(40, 1), kSeed);
+    NoiseTile tile(cells(40, 1), kVoronoiSeed);
     for (std::int32_t cy = 0; cy < 10; ++cy) {
         for (std::int32_t cx = 0; cx < 10; ++cx) {
             tile.moveTo({cx, cy});
@@ -157,7 +158,7 @@ TEST(Voronoi2D, APointIsTheSameForAllWhoSeeIt) {
 
 // The point of the tile: far points are not looked at for every column.
 TEST(Voronoi2D, OnlyPointsThatMayBeNearAreKept) {
-    NoiseTile large(cells(512, 2), kSeed), small(cells(10, 1), kSeed);
+    NoiseTile large(cells(512, 2), kVoronoiSeed), small(cells(10, 1), kVoronoiSeed);
     large.moveTo({5, 5});
     small.moveTo({5, 5});
     EXPECT_LE(large.pointCount(), 8u);
@@ -169,9 +170,9 @@ NoiseCall solidCells(int size, int maxPoints, int exponent) {
 }
 
 void expectVoxel(const NoiseTile& tile, const NoiseCall& call, std::array<std::int64_t, 3> block, int reach) {
-    const reference::Voronoi3DSample want = reference::voronoi3D(call, kSeed, block, reach);
+    const reference::Voronoi3DSample want = reference::voronoi3D(call, kVoronoiSeed, block, reach);
     const int x = static_cast<int>(block[0] & 15), y = static_cast<int>(block[1] & 15);
-    SCOPED_TRACE(describe(call) + ", exponent " + std::to_string(call.exponent) + " at (" +
+    SCOPED_TRACE(sizeAndPoints(call) + ", exponent " + std::to_string(call.exponent) + " at (" +
                  std::to_string(block[0]) + ", " + std::to_string(block[1]) + ", " +
                  std::to_string(block[2]) + ")");
     ASSERT_EQ(tile.at(x, y, kVoronoi3DNearest), bitsOf(want.nearest));
@@ -187,7 +188,7 @@ TEST(Voronoi3D, EverySampleIsThatOfASearchOfMoreCells) {
         for (const int size : {1, 5, 32, 200}) {
             for (const auto& [maxPoints, exponent] : {std::pair(1, 2), {3, 4}, {2, 8}, {4, 3}}) {
                 const NoiseCall call = solidCells(size, maxPoints, exponent);
-                NoiseTile tile(call, kSeed);
+                NoiseTile tile(call, kVoronoiSeed);
                 for (const ChunkPos chunk : kPlaces) {
                     tile.moveTo(chunk);
                     for (const std::int32_t z : {0, 1, 40, 39, 255, 100}) {

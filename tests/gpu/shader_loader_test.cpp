@@ -11,11 +11,11 @@
 namespace terrane::gpu {
 namespace {
 
-constexpr std::array<base::EmbeddedFile, 2> kFiles = {
+constexpr std::array<base::EmbeddedFile, 2> kTwoFiles = {
     {{"terrane/a.glsl", "#include \"terrane/b.h\"\n"}, {"terrane/b.h", "embedded\n"}}};
 
 TEST(ShaderLoaderTest, loadsEmbeddedFiles) {
-    const ShaderLoader loader(kFiles);
+    const ShaderLoader loader(kTwoFiles);
     const base::Result<ShaderSource> source =
         loader.load("terrane/a.glsl", ShaderStage::Compute, {{"A", "2"}});
     ASSERT_TRUE(source) << source.error().message;
@@ -27,15 +27,15 @@ TEST(ShaderLoaderTest, loadsEmbeddedFiles) {
 TEST(ShaderLoaderTest, filesUnderTheRootComeFirst) {
     const ScratchFolder folder;
     folder.write("terrane/b.h", "from disk\n");
-    const ShaderLoader loader(kFiles, folder.path());
+    const ShaderLoader loader(kTwoFiles, folder.path());
     EXPECT_EQ(loader.find("terrane/b.h"), "from disk\n");
-    EXPECT_EQ(loader.find("terrane/a.glsl"), kFiles[0].data);
+    EXPECT_EQ(loader.find("terrane/a.glsl"), kTwoFiles[0].data);
     EXPECT_EQ(loader.find("terrane"), std::nullopt);  // a folder
 }
 
 TEST(ShaderLoaderTest, laterFilesReplaceEarlierOnes) {
     constexpr std::array<base::EmbeddedFile, 1> kMore = {{{"terrane/b.h", "newer"}}};
-    ShaderLoader loader(kFiles);
+    ShaderLoader loader(kTwoFiles);
     loader.addFiles(kMore);
     EXPECT_EQ(loader.find("terrane/b.h"), "newer");
 }
@@ -43,13 +43,13 @@ TEST(ShaderLoaderTest, laterFilesReplaceEarlierOnes) {
 TEST(ShaderLoaderTest, seesWhenAFileWasWritten) {
     const ScratchFolder folder;
     folder.write("terrane/b.h", "one");
-    const ShaderLoader loader(kFiles, folder.path());
+    const ShaderLoader loader(kTwoFiles, folder.path());
     const std::vector<std::string> files = {"terrane/a.glsl", "terrane/b.h"};
     const auto before = loader.newestWrite(files);
     EXPECT_EQ(loader.newestWrite(files), before);
     folder.setNewer("terrane/b.h");
     EXPECT_GT(loader.newestWrite(files), before);
-    EXPECT_EQ(ShaderLoader(kFiles).newestWrite(files), std::filesystem::file_time_type::min());
+    EXPECT_EQ(ShaderLoader(kTwoFiles).newestWrite(files), std::filesystem::file_time_type::min());
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace terrane::render {
 namespace {
 
 constexpr int kViews = 120;
-constexpr glm::ivec2 kSize{320, 180};
+constexpr glm::ivec2 kPicture{320, 180};
 constexpr int kHollow = 3;  // chunks around the middle one that are hollow; the ring around them is solid
 
 float unitHash(int x, int y, unsigned seed) {
@@ -116,7 +116,7 @@ class CrackCover : public gpu::GlTest {
     std::size_t backgroundPixels(int samples, TJunctions tJunctions) {
         RenderOptions options = plainOptions(samples);
         options.tJunctions = tJunctions;
-        EXPECT_TRUE(renderer_->configure(kSize, options));
+        EXPECT_TRUE(renderer_->configure(kPicture, options));
         std::size_t count = 0;
         for (int view = 0; view < kViews; ++view) {
             renderer_->draw({cameraOf(view), world::environmentAt(0.5f), 4000, 0, View::Depth});

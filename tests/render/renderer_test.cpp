@@ -270,7 +270,7 @@ TEST_F(RendererTest, TexturesOfOtherSizesAreAnError) {
 // After edits that replace the regions they touch every frame is that of a renderer that got all anew, and no
 // more than these regions' quads were uploaded.
 TEST_F(RendererTest, EditsOfRegionsLookAsIfAllWasMeshedAgain) {
-    constexpr int kRegionHeight = 16;
+    constexpr int kLowRegion = 16;
     constexpr std::array kNames = {"stone", "water", "oak_leaves", "sand", "grass", "air"};
     world::Chunk chunk;
     const world::Chunk air;
@@ -278,7 +278,7 @@ TEST_F(RendererTest, EditsOfRegionsLookAsIfAllWasMeshedAgain) {
     input.centre = &chunk;
     input.neighbours = {&air, &air, &air, &air};
     input.blocks = &contentBlocks();
-    input.options.regionHeight = kRegionHeight;
+    input.options.regionHeight = kLowRegion;
     mesh::MeshScratch scratch;
     auto other = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice());
     ASSERT_TRUE(other && other->configure(kSize, plainOptions(1)));
@@ -291,7 +291,7 @@ TEST_F(RendererTest, EditsOfRegionsLookAsIfAllWasMeshedAgain) {
         const std::string_view name = kNames[static_cast<std::size_t>(random(3, kNames.size()))];
         chunk.setBlock(world::blockIndex(pos.x, pos.y, pos.z),
                        name == "air" ? world::kAir : contentBlock(name));
-        const mesh::RegionSet regions = mesh::regionsTouchedBy(pos, kRegionHeight)[0].regions;
+        const mesh::RegionSet regions = mesh::regionsTouchedBy(pos, kLowRegion)[0].regions;
         const mesh::ChunkMesh part = meshRegions(input, regions, scratch);
         const std::uint64_t before = renderer_->uploadedQuadBytes();
         ASSERT_TRUE(renderer_->setChunk({0, 0}, part, regions));

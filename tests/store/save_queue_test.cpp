@@ -9,9 +9,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Never by itself: only flush and the end write.
-const SaveLimits kNever{.delay = 1h, .chunks = 1000000};
-
 struct Recorder {
     std::mutex mutex;
     std::vector<SaveBatch> batches;

@@ -13,8 +13,6 @@ using namespace std::chrono_literals;
 using testing::HasSubstr;
 using State = LoadedChunk::State;
 
-const SaveLimits kNever{.delay = 1h, .chunks = 1000000};
-
 class SqliteStoreTest : public testing::Test {
   protected:
     std::unique_ptr<SqliteStore> open(const world::BlockRegistry& registry) {

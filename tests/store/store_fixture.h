@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <fstream>
 #include <random>
 #include <string>
@@ -11,11 +12,15 @@
 
 #include "terrane/store/block_id_map.h"
 #include "terrane/store/chunk_store.h"
+#include "terrane/store/save_queue.h"
 #include "terrane/store/sqlite.h"
 #include "terrane/world/block_registry.h"
 #include "tests/base/temp_folder.h"
 
 namespace terrane::store {
+
+// Saves nothing by itself: only flush and the end write.
+inline constexpr SaveLimits kNever{.delay = std::chrono::hours(1), .chunks = 1000000};
 
 // "air", the names, "missing": ids in this order.
 inline world::BlockRegistry registryOf(const std::vector<std::string>& names) {

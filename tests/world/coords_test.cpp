@@ -5,11 +5,10 @@
 #include <limits>
 #include <set>
 
+#include "tests/world/lowest_highest.h"
+
 namespace terrane::world {
 namespace {
-
-constexpr std::int32_t kLowest = std::numeric_limits<std::int32_t>::min();
-constexpr std::int32_t kHighest = std::numeric_limits<std::int32_t>::max();
 
 TEST(Coords, ChunkOfFloors) {
     EXPECT_EQ(chunkOf({0, 15, 0}), (ChunkPos{0, 0}));

@@ -11,11 +11,11 @@
 #include <limits>
 #include <random>
 
+#include "tests/world/lowest_highest.h"
+
 namespace terrane::world {
 namespace {
 
-constexpr std::int32_t kLowest = std::numeric_limits<std::int32_t>::min();
-constexpr std::int32_t kHighest = std::numeric_limits<std::int32_t>::max();
 constexpr BlockId kRock = 1, kPlant = 2, kWater = 3, kSlab = 4;
 
 const BlockRegistry& registry() {

@@ -7,11 +7,10 @@
 #include <memory>
 #include <thread>
 
+#include "tests/world/lowest_highest.h"
+
 namespace terrane::world {
 namespace {
-
-constexpr std::int32_t kLowest = std::numeric_limits<std::int32_t>::min();
-constexpr std::int32_t kHighest = std::numeric_limits<std::int32_t>::max();
 
 TEST(World, AirWhereNothingIsLoaded) {
     World world;

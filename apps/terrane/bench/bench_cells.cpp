@@ -73,10 +73,11 @@ Cell loadingCell(const std::string& scene, int viewDistance) {
 }
 
 Cell flightCell(const BenchSettings& s, bool isFromSave) {
-    Cell cell = s.isSoftware ? plainFrameCell(s, "landscape") : frameCell(s, "landscape");
-    setFlag(cell.arguments, "--flight", fmt::format("{:g}", s.flightSeconds));
+    Cell cell{{"fly", "--scene", "landscape", "--for", fmt::format("{:g}", s.flightSeconds)}};
+    setFlag(cell.arguments, "--preset", s.isSoftware ? "low" : "thesis");
+    setFlag(cell.arguments, "--view-distance", fmt::to_string(s.viewDistance));
     // The flight takes so long in any case: its frames need not.
-    if (s.isSoftware) setFlag(cell.arguments, "--size", "320x180");
+    setFlag(cell.arguments, "--size", s.isSoftware ? "320x180" : s.size);
     if (!isFromSave) return cell;
     setFlag(cell.arguments, "--save-game", "flight");
     cell.before = cell.arguments;

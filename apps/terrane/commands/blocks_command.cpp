@@ -53,10 +53,10 @@ nlohmann::json typeJson(const world::BlockRegistry& blocks, const world::BlockTy
             {"generated", type.generated}};
 }
 
-base::Result<void> listBlocks(bool json) {
+base::Result<void> listBlocks(bool asJson) {
     auto blocks = loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
-    if (json) {
+    if (asJson) {
         nlohmann::json list = nlohmann::json::array();
         for (const world::BlockType& type : blocks->types()) list.push_back(typeJson(*blocks, type));
         std::cout << list.dump() << '\n';
@@ -76,10 +76,10 @@ base::Result<void> listBlocks(bool json) {
 }  // namespace
 
 CommandEntry addBlocks(CLI::App& app) {
-    auto json = std::make_shared<bool>(false);
+    auto asJson = std::make_shared<bool>(false);
     CLI::App* command = app.add_subcommand("blocks", "List every block type");
-    command->add_flag("--json", *json, "Print all properties as JSON");
-    return {command, [json] { return listBlocks(*json); }};
+    command->add_flag("--json", *asJson, "Print all properties as JSON");
+    return {command, [asJson] { return listBlocks(*asJson); }};
 }
 
 }  // namespace terrane::app

@@ -32,7 +32,7 @@ struct DumpOptions {
 };
 
 // The file is made in memory, 128 KiB a chunk, and written from a copy: 4,096 chunks take about 1 GiB.
-constexpr std::int64_t kMaxChunks = 4096;
+constexpr std::int64_t kMaxChunksInFile = 4096;
 
 // The area and one chunk around it, which light and meshes need.
 class LoadedArea {
@@ -178,8 +178,8 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(DumpOptions& options, 
 
 base::Result<void> dump(DumpOptions& options, const CLI::App& command) {
     const Area area = *options.area;
-    if (area.chunkCount() > kMaxChunks) {
-        return base::fail("--area: {} chunks, at most {} fit one file", area.chunkCount(), kMaxChunks);
+    if (area.chunkCount() > kMaxChunksInFile) {
+        return base::fail("--area: {} chunks, at most {} fit one file", area.chunkCount(), kMaxChunksInFile);
     }
     auto blocks = loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());

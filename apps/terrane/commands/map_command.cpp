@@ -21,14 +21,14 @@ struct MapOptions {
 };
 
 // 16,384² pixels: a picture of 1 GiB in memory.
-constexpr std::int64_t kMaxChunks = 1024 * 1024;
+constexpr std::int64_t kMaxChunksInMap = 1024 * 1024;
 
 base::Result<void> writeMap(const MapOptions& options) {
     if (!options.area && !options.radius) return base::fail("map needs --radius or --area");
     const int r = options.radius.value_or(0);
     const Area area = options.area.value_or(Area{-r, -r, r + 1, r + 1});
-    if (area.chunkCount() > kMaxChunks) {
-        return base::fail("--area: {} chunks, a map shows at most {}", area.chunkCount(), kMaxChunks);
+    if (area.chunkCount() > kMaxChunksInMap) {
+        return base::fail("--area: {} chunks, a map shows at most {}", area.chunkCount(), kMaxChunksInMap);
     }
     auto blocks = loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());

@@ -107,6 +107,7 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
     if (!renderer) return tl::unexpected(renderer.error());
     auto preview = BlockPreview::create(shaders, (*session)->blocks, *textures, device);
     if (!preview) return tl::unexpected(preview.error());
+    render::BackgroundCompiler compiler(shaders, (*session)->blocks, builtInTextures());
     auto start = startOf(options, **session);
     if (!start) return tl::unexpected(start.error());
 
@@ -121,7 +122,7 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
     if (usesGpu(options.backend)) {
         if (auto meshes = view.meshOnGpu(WorldView::kFrameMilliseconds); !meshes) return meshes;
     }
-    Game loop({*window, **session, *renderer, view, *preview}, game);
+    Game loop({*window, **session, *renderer, view, *preview, compiler}, game);
     if (auto played = loop.run(); !played) return played;
     auto written = writeChanges(options.settingsFile, valuesOf(game.settings, device.software),
                                 valuesOf(loop.settings(), device.software), graphicsSettings());

@@ -11,10 +11,8 @@
 #include "apps/terrane/record/recorder.h"
 #include "apps/terrane/record/script_file.h"
 #include "apps/terrane/record/stop_signals.h"
-#include "apps/terrane/resource_pack.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
-#include "terrane/gpu/context.h"
 
 namespace terrane::app {
 namespace {
@@ -82,24 +80,16 @@ base::Result<void> recordVideo(const RecordOptions& options, const CLI::App& com
     if (!range) return tl::unexpected(range.error());
     const TitlePainter titles(options.graphics.size.y);
 
-    auto session = WorldSession::create(script->world, {}, command);
-    if (!session) return tl::unexpected(session.error());
-    auto textures = loadTextures(options.graphics.resourcePack, (*session)->blocks);
-    if (!textures) return tl::unexpected(textures.error());
-    auto context = gpu::HeadlessContext::create({.debug = options.graphics.debugGl});
-    if (!context) return tl::unexpected(context.error());
-    const gpu::ShaderLoader shaders = makeShaderLoader(options.graphics.shaderRoot);
-    const gpu::DeviceInfo device = gpu::queryDevice();
-    auto renderer = render::Renderer::create(shaders, (*session)->blocks, *textures, device);
-    if (!renderer) return tl::unexpected(renderer.error());
+    auto world = Offscreen::create(script->world, {}, options.graphics, command);
+    if (!world) return tl::unexpected(world.error());
     auto sink = openSink(options);
     if (!sink) return tl::unexpected(sink.error());
 
     const auto start = std::chrono::steady_clock::now();
-    Recorder recorder({*script, **session, *renderer, titles, options.graphics.size, device.software});
+    Recorder recorder({*script, **world, titles, options.graphics.size});
     auto drawn = drawFrames(recorder, **sink, *range, options.framesPerSecond);
     if (!drawn) return drawn;
-    if (context->debugErrorCount() > 0) return base::fail("the graphics driver reported errors, see above");
+    if (auto finished = (*world)->finish(); !finished) return finished;
     if (auto finished = (*sink)->finish(); !finished) return finished;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const std::int64_t frames = range->end - range->first;

@@ -25,9 +25,9 @@ float titleStrength(const TitleCue& title, double seconds) {
 }
 
 base::Result<void> Recorder::apply(const GraphicsOptions& graphics) {
-    render::Renderer& renderer = parts_.renderer;
-    stream::ChunkPipeline& pipeline = *parts_.session.pipeline;
-    const auto options = renderOptions(graphics.choices, parts_.isSoftwareRenderer);
+    render::Renderer& renderer = parts_.world.renderer;
+    stream::ChunkPipeline& pipeline = *parts_.world.session->pipeline;
+    const auto options = renderOptions(graphics.choices, parts_.world.device.software);
     if (parts_.size != renderer.size() || options != renderer.options()) {
         if (auto configured = renderer.configure(parts_.size, options); !configured) return configured;
     }
@@ -43,9 +43,10 @@ base::Result<void> Recorder::apply(const GraphicsOptions& graphics) {
 // Once a shot: nobody wants to see the inside of a hill.
 void Recorder::warnOfBlocks(const render::Camera& camera, const Shot& shot, double secondsInShot) {
     const glm::dvec3 at = glm::floor(camera.position);
-    const world::BlockId id = parts_.session.world.block(
+    const WorldSession& session = *parts_.world.session;
+    const world::BlockId id = session.world.block(
         {static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y), static_cast<std::int32_t>(at.z)});
-    const world::BlockType& type = parts_.session.blocks.type(id);
+    const world::BlockType& type = session.blocks.type(id);
     if (type.collision.empty() || warnedOf_ == &shot) return;
     warnedOf_ = &shot;
     base::logWarning("shot \"{}\": after {:.1f} s the camera is inside {}", shot.name, secondsInShot,
@@ -58,10 +59,11 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     const GraphicsOptions& graphics = optionsAt(shot, inShot);
     if (auto applied = apply(graphics); !applied) return tl::unexpected(applied.error());
     const PathPoint point = shot.path.at(inShot);
+    WorldSession& session = *parts_.world.session;
     // First what is in view: an edit there then changes only what it touches.
-    loadAll(parts_.session, view_, point.camera, viewDistance_, timeOf(seconds));
-    edits_.advanceTo(seconds, *parts_.session.pipeline);
-    loadAll(parts_.session, view_, point.camera, viewDistance_, timeOf(seconds));
+    loadAll(session, view_, point.camera, viewDistance_, timeOf(seconds));
+    edits_.advanceTo(seconds, *session.pipeline);
+    loadAll(session, view_, point.camera, viewDistance_, timeOf(seconds));
 
     warnOfBlocks(point.camera, shot, inShot);
 
@@ -71,9 +73,9 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     input.fogDistance = fogDistance(viewDistance_);
     input.timeSeconds = static_cast<float>(seconds);
     input.view = graphics.view;
-    input.isUnderWater = isUnderWater(parts_.session, point.camera);
-    parts_.renderer.draw(input);
-    base::Image image = parts_.renderer.readImage();
+    input.isUnderWater = isUnderWater(session, point.camera);
+    parts_.world.renderer.draw(input);
+    base::Image image = parts_.world.renderer.readImage();
     for (const TitleCue& title : shot.titles) {
         const float strength = titleStrength(title, inShot - title.time);
         if (strength > 0) parts_.titles.paint(image, title.text, title.isLarge, strength);

@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "apps/terrane/offscreen.h"
 #include "apps/terrane/record/edit_player.h"
 #include "apps/terrane/record/script.h"
 #include "apps/terrane/record/title_painter.h"
@@ -15,17 +16,15 @@ namespace terrane::app {
 // All outlive the recorder.
 struct RecorderParts {
     const Script& script;
-    WorldSession& session;
-    render::Renderer& renderer;
+    Offscreen& world;
     const TitlePainter& titles;
     glm::ivec2 size;  // pixels
-    bool isSoftwareRenderer = false;
 };
 
 class Recorder {
   public:
     explicit Recorder(const RecorderParts& parts)
-        : parts_(parts), view_(parts.session, parts.renderer), edits_(parts.script) {}
+        : parts_(parts), view_(*parts.world.session, parts.world.renderer), edits_(parts.script) {}
 
     // The frame at a time of the video, not before that of the last call.
     base::Result<base::Image> frame(double seconds);

@@ -105,13 +105,26 @@ base::Result<void> Game::useResourcePack(const std::string& folder) {
     return parts_.preview.setTextures(*textures);
 }
 
+// Other options come once their shaders are compiled; until then frames are drawn as before. The first frame
+// has none to be drawn as.
+base::Result<void> Game::configureRenderer(glm::ivec2 size) {
+    render::Renderer& renderer = parts_.renderer;
+    render::RenderOptions options = settings_.graphics;
+    if (frames_ > 0 && options != renderer.options() && !parts_.compiler.isReady(size, options)) {
+        say("shaders are being compiled");
+        options = renderer.options();
+    }
+    if (size == renderer.size() && options == renderer.options()) return {};
+    if (auto configured = renderer.configure(size, options); !configured) return configured;
+    parts_.compiler.setReady(size, options);
+    return {};
+}
+
 base::Result<void> Game::drawFrame(double seconds) {
     const glm::ivec2 size = parts_.window.framebufferSize();
     if (size.x == 0 || size.y == 0) return {};  // minimised
+    if (auto configured = configureRenderer(size); !configured) return configured;
     render::Renderer& renderer = parts_.renderer;
-    if (size != renderer.size() || settings_.graphics != renderer.options()) {
-        if (auto configured = renderer.configure(size, settings_.graphics); !configured) return configured;
-    }
     parts_.view.upload(uploadBudget(seconds));
     renderer.draw(frameInput());
     renderer.presentToWindow(size);

@@ -16,6 +16,7 @@
 #include "apps/terrane/window/timed_value.h"
 #include "apps/terrane/world_view.h"
 #include "terrane/gpu/window.h"
+#include "terrane/render/background_compiler.h"
 
 namespace terrane::app {
 
@@ -29,6 +30,7 @@ struct GameParts {
     render::Renderer& renderer;
     WorldView& view;
     BlockPreview& preview;
+    render::BackgroundCompiler& compiler;
 };
 
 struct GameOptions {
@@ -68,6 +70,7 @@ class Game {
     void advance(double seconds);
     void applySettings();
     base::Result<void> useResourcePack(const std::string& folder);
+    base::Result<void> configureRenderer(glm::ivec2 size);
     base::Result<void> drawFrame(double seconds);
     render::FrameInput frameInput() const;
     void drawInterface();

@@ -1,0 +1,104 @@
+// Shaders that are compiled in the background are compiled whole: the driver's cache gets nothing new from the
+// frames that need them.
+#include "terrane/render/background_compiler.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <thread>
+
+#include "tests/base/temp_folder.h"
+#include "tests/golden/effect_scenes.h"
+
+namespace terrane::golden {
+namespace {
+
+using namespace std::chrono_literals;
+using render::RenderOptions;
+
+class BackgroundCompilerTest : public GoldenTest {
+  protected:
+    // Before there is a context. Mesa keeps a file for each shader.
+    static void SetUpTestSuite() {
+        ::setenv("MESA_SHADER_CACHE_DIR", cache().path().c_str(), 1);
+        ::setenv("MESA_SHADER_CACHE_DISABLE", "false", 1);
+    }
+
+    static base::TempFolder& cache() {
+        static base::TempFolder folder;
+        return folder;
+    }
+
+    // As soon as the driver's own thread has written all.
+    static std::size_t filesInCache() {
+        std::size_t before = 0, now = 0;
+        do {
+            before = now;
+            std::this_thread::sleep_for(300ms);
+            now = 0;
+            for (const auto& entry : std::filesystem::recursive_directory_iterator(cache().path()))
+                now += entry.is_regular_file();
+        } while (now != before);
+        return now;
+    }
+
+    static void waitFor(render::BackgroundCompiler& compiler, const RenderOptions& options) {
+        while (!compiler.isReady(kPictureSize, options)) std::this_thread::sleep_for(5ms);
+    }
+
+    static void configure(render::Renderer& renderer, const RenderOptions& options) {
+        const auto configured = renderer.configure(kPictureSize, options);
+        ASSERT_TRUE(configured) << (configured ? "" : configured.error().message);
+    }
+
+    render::BackgroundCompiler compiler_{render::contentShaders(), contentBlocks(), render::contentTexture};
+};
+
+TEST_F(BackgroundCompilerTest, FramesThatFollowCompileNothing) {
+    render::Renderer renderer = makeRenderer();
+    world::World world = flatWorld(2);
+    placeGallery(world);
+    placePool(world);
+    for (const auto& [pos, mesh] : meshWorld(world)) renderer.setChunk(pos, mesh);
+    renderer.setLight({0, 0}, light::ChunkLight());
+    const render::FrameInput input{kAbove, world::environmentAt(0.34f), 400, 0, render::View::Color};
+    draw(renderer, input);
+    if (filesInCache() == 0) GTEST_SKIP() << "a driver without a cache of files";
+
+    RenderOptions all = *render::findPreset("thesis", true);
+    all.occlusion = render::Occlusion::On;
+    RenderOptions others = *render::findPreset("medium", true);
+    others.light = render::LightSampling::Smooth;
+    others.tJunctions = render::TJunctions::Filled;
+    others.shading = render::Shading::Pixel;
+    for (const RenderOptions& options : {all, others}) {
+        waitFor(compiler_, options);
+        const std::size_t files = filesInCache();
+        configure(renderer, options);
+        draw(renderer, input);
+        draw(renderer, input);
+        EXPECT_EQ(filesInCache(), files);
+    }
+}
+
+TEST_F(BackgroundCompilerTest, KnowsWhatTheRendererCompiled) {
+    RenderOptions options;
+    compiler_.setReady({640, 360}, options);
+    EXPECT_TRUE(compiler_.isReady({1280, 720}, options)) << "compiled programs do not depend on the size";
+    options.godRays = !options.godRays;
+    EXPECT_FALSE(compiler_.isReady({1280, 720}, options));
+}
+
+TEST_F(BackgroundCompilerTest, TheLastWishIsMet) {
+    RenderOptions options = *render::findPreset("low", true);
+    for (const int layers : {0, 1, 2, 3}) {
+        options.layers = layers;
+        EXPECT_FALSE(compiler_.isReady(kPictureSize, options));
+    }
+    waitFor(compiler_, options);
+    options.layers = 2;
+    EXPECT_FALSE(compiler_.isReady(kPictureSize, options)) << "nobody waited for it";
+}
+
+}  // namespace
+}  // namespace terrane::golden
