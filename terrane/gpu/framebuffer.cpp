@@ -145,6 +145,12 @@ void blitToWindow(const Framebuffer& from, int colorIndex, glm::ivec2 windowSize
     blit(from, 0, windowSize, GL_COLOR_BUFFER_BIT, filter);
 }
 
+void clearWindow(glm::vec3 color) {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glClearColor(color.r, color.g, color.b, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+}
+
 base::Image readPixels(const Framebuffer& from, int colorIndex) {
     assert(from.samples() == 0 && "samples are resolved before they are read");
     assert(colorIndex >= 0 && colorIndex < from.colorCount() && "the colour attachment exists");

@@ -68,6 +68,7 @@ void resolve(const Framebuffer& from, const Framebuffer& to);
 void blitColor(const Framebuffer& from, int colorIndex, const Framebuffer& to, GLenum filter);
 // The same into the window.
 void blitToWindow(const Framebuffer& from, int colorIndex, glm::ivec2 windowSize, GLenum filter);
+void clearWindow(glm::vec3 color);  // as the screen has it
 
 // The colours as 8 bits a channel, the top row first. Waits for the GPU. Not from multisampled framebuffers.
 [[nodiscard]] base::Image readPixels(const Framebuffer& from, int colorIndex = 0);

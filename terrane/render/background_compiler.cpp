@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -17,6 +18,9 @@
 
 namespace terrane::render {
 namespace {
+
+// Drivers write what they compiled on a thread of their own.
+constexpr std::chrono::milliseconds kWriting{150};
 
 // Drivers may compile apart for textures whose sides are powers of two.
 int smallSide(int pixels) {
@@ -111,6 +115,7 @@ base::Result<void> BackgroundCompiler::State::compileAll() {
             // The second frame draws what was hidden in the first, by other passes.
             for (int frame = 0; frame < 2; ++frame) renderer->draw(sampleInput());
             glFinish();
+            std::this_thread::sleep_for(kWriting);
         }
         // Options that the driver cannot do are the renderer's to tell of.
         const std::lock_guard lock(mutex);
@@ -155,12 +160,6 @@ bool BackgroundCompiler::isReady(glm::ivec2 size, const RenderOptions& options) 
     if (!state_->thread.joinable()) state_->thread = std::thread([state = state_.get()] { state->run(); });
     state_->changed.notify_one();
     return false;
-}
-
-void BackgroundCompiler::setReady(glm::ivec2 size, const RenderOptions& options) {
-    const State::Wanted wanted{{smallSide(size.x), smallSide(size.y)}, options};
-    const std::lock_guard lock(state_->mutex);
-    if (!state_->isReady(wanted)) state_->ready.push_back(wanted);
 }
 
 }  // namespace terrane::render

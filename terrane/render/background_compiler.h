@@ -25,8 +25,6 @@ class BackgroundCompiler {
     // Whether a renderer of this size (pixels) can take these options without compiling. If not, they come
     // next, in place of others that wait: ask again before each frame until it is so.
     [[nodiscard]] bool isReady(glm::ivec2 size, const RenderOptions& options);
-    // The renderer compiled these itself.
-    void setReady(glm::ivec2 size, const RenderOptions& options);
 
   private:
     struct State;

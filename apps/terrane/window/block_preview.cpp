@@ -22,15 +22,20 @@ mesh::ChunkMesh meshOf(world::BlockId block, const world::BlockRegistry& blocks)
 
 }  // namespace
 
+render::RenderOptions BlockPreview::options() {
+    render::RenderOptions options = *render::findPreset("low", true);
+    options.samples = 1;
+    return options;
+}
+
 base::Result<BlockPreview> BlockPreview::create(const gpu::ShaderLoader& shaders,
                                                 const world::BlockRegistry& blocks,
                                                 const render::TextureSource& textures,
                                                 const gpu::DeviceInfo& device) {
     auto renderer = render::Renderer::create(shaders, blocks, textures, device);
     if (!renderer) return tl::unexpected(renderer.error());
-    render::RenderOptions options = *render::findPreset("low", true);
-    options.samples = 1;
-    if (auto done = renderer->configure({kSize, kSize}, options); !done) return tl::unexpected(done.error());
+    if (auto done = renderer->configure({kSize, kSize}, options()); !done)
+        return tl::unexpected(done.error());
     renderer->setViewDistance(1);
     return BlockPreview(blocks, std::move(*renderer));
 }

@@ -13,6 +13,7 @@ namespace terrane::app {
 class BlockPreview {
   public:
     static constexpr int kSize = 144;  // pixels
+    static render::RenderOptions options();
 
     // `shaders` and `blocks` outlive this.
     static base::Result<BlockPreview> create(const gpu::ShaderLoader& shaders,

@@ -4,8 +4,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
+#include <thread>
 
 #include "apps/terrane/resource_pack.h"
 #include "apps/terrane/window/chest_panel.h"
@@ -14,9 +18,13 @@
 #include "apps/terrane/window/panel.h"
 #include "apps/terrane/window/positions.h"
 #include "terrane/base/log.h"
+#include "terrane/gpu/framebuffer.h"
 
 namespace terrane::app {
 namespace {
+
+// Between frames that show no world, so that the compiler has the processor.
+constexpr std::chrono::milliseconds kCompilePause{15};
 
 // Resident memory of the process; 0 where the system does not tell.
 std::size_t residentBytes() {
@@ -105,29 +113,40 @@ base::Result<void> Game::useResourcePack(const std::string& folder) {
     return parts_.preview.setTextures(*textures);
 }
 
-// Other options come once their shaders are compiled; until then frames are drawn as before. The first frame
-// has none to be drawn as.
+bool Game::shadersAreReady(glm::ivec2 size) {
+    constexpr glm::ivec2 kPreview(BlockPreview::kSize);
+    if (hasWorldPicture() && settings_.graphics == parts_.renderer.options()) return true;
+    if (!hasWorldPicture() && !parts_.compiler.isReady(kPreview, BlockPreview::options())) return false;
+    return parts_.compiler.isReady(size, settings_.graphics);
+}
+
+// Other options come once their shaders are compiled; until then frames are drawn as before, and at first
+// none.
 base::Result<void> Game::configureRenderer(glm::ivec2 size) {
     render::Renderer& renderer = parts_.renderer;
     render::RenderOptions options = settings_.graphics;
-    if (frames_ > 0 && options != renderer.options() && !parts_.compiler.isReady(size, options)) {
+    if (!shadersAreReady(size)) {
         say("shaders are being compiled");
+        if (!hasWorldPicture()) return {};
         options = renderer.options();
     }
     if (size == renderer.size() && options == renderer.options()) return {};
-    if (auto configured = renderer.configure(size, options); !configured) return configured;
-    parts_.compiler.setReady(size, options);
-    return {};
+    return renderer.configure(size, options);
 }
 
 base::Result<void> Game::drawFrame(double seconds) {
     const glm::ivec2 size = parts_.window.framebufferSize();
     if (size.x == 0 || size.y == 0) return {};  // minimised
     if (auto configured = configureRenderer(size); !configured) return configured;
-    render::Renderer& renderer = parts_.renderer;
-    parts_.view.upload(uploadBudget(seconds));
-    renderer.draw(frameInput());
-    renderer.presentToWindow(size);
+    if (hasWorldPicture()) {
+        parts_.view.upload(uploadBudget(seconds));
+        parts_.renderer.draw(frameInput());
+        parts_.renderer.presentToWindow(size);
+    } else {
+        const glm::vec3 sky = world::environmentAt(static_cast<float>(day_.timeDay)).horizonColor;
+        gpu::clearWindow(glm::pow(glm::min(sky, 1.0f), glm::vec3(1 / 2.2f)));
+        std::this_thread::sleep_for(kCompilePause);
+    }
     drawInterface();
     parts_.window.swapBuffers();
     ++frames_;
@@ -164,7 +183,8 @@ void Game::drawInterface() {
         drawTarget(screen, player_.camera(), *target, session.world, session.blocks);
     }
     if (isCaptured_ && !isAbove_) drawCrosshair(screen);
-    drawHand(screen, session.blocks.type(hand_.block()).name, parts_.preview.picture(hand_.block()));
+    drawHand(screen, session.blocks.type(hand_.block()).name,
+             hasWorldPicture() ? parts_.preview.picture(hand_.block()) : 0);
     if (hintSeconds_ > 0) drawHint(screen, static_cast<float>(std::min(hintSeconds_, 1.0)));
     if (messageSeconds_ > 0)
         drawMessage(screen, message_, static_cast<float>(std::min(messageSeconds_, 1.0)));

@@ -70,6 +70,8 @@ class Game {
     void advance(double seconds);
     void applySettings();
     base::Result<void> useResourcePack(const std::string& folder);
+    bool hasWorldPicture() const { return parts_.renderer.size().x > 0; }
+    bool shadersAreReady(glm::ivec2 size);
     base::Result<void> configureRenderer(glm::ivec2 size);
     base::Result<void> drawFrame(double seconds);
     render::FrameInput frameInput() const;
