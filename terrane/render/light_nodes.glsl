@@ -28,10 +28,6 @@ vec4 lightOfEntry(uint entry, ivec3 block) {
     return texelFetch(lightPool, poolCorner(entry) + ivec3(block.xy & 7, max(block.z, 0) & 7), 0);
 }
 
-vec4 lightOfBlock(ivec3 block) {
-    return lightOfEntry(lightEntry(block), block);
-}
-
 // Between a node and the next ones of its tile: `f` on the way, 0…1 along each axis.
 vec4 lightBetween(ivec3 block, vec3 f) {
     uint entry = lightEntry(block);

@@ -111,7 +111,7 @@ TEST_F(LightPictureTest, BordersCannotBeSeen) {
     for (const Scene& scene :
          {Scene{{0, 0}, 8, 8, 100}, Scene{{0, 0}, 15, 15, 100}, Scene{{0, 0}, 0, 12, 100},
           Scene{{0, 0}, 4, 4, 104}, Scene{{0, 0}, 4, 4, 96}, Scene{{0, 0}, 7, 8, 112}}) {
-        EXPECT_LE(largestDifference(picture(scene), reference), 10)
+        EXPECT_LE(largestDifference(picture(scene), reference), 5)
             << scene.x << ' ' << scene.y << ' ' << scene.z;
     }
 }
