@@ -9,4 +9,8 @@ std::size_t residentBytes();      // 0 where the system does not tell
 std::size_t peakResidentBytes();  // so far
 double processorSeconds();        // of all threads, so far
 
+constexpr double megabytes(std::size_t bytes) {
+    return static_cast<double>(bytes) / 1e6;
+}
+
 }  // namespace terrane::app

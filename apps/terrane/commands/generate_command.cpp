@@ -161,14 +161,14 @@ void report(const GenerateOptions& options, const Generated& result, double seco
     base::logInfo("{} chunks in {:.2f} s, {:.0f} chunks/s, back end {}, threads {}", result.chunks, seconds,
                   speed, backend, threads);
     if (options.json) {
-        nlohmann::json json = {{"chunks", result.chunks},
+        nlohmann::json line = {{"chunks", result.chunks},
                                {"seconds", seconds},
                                {"chunks_per_second", speed},
                                {"threads", threads},
                                {"backend", backend}};
-        if (options.digest) json["digest"] = result.digest;
-        if (!options.save.empty()) json["skipped"] = result.skipped;
-        std::cout << json.dump() << '\n';
+        if (options.digest) line["digest"] = result.digest;
+        if (!options.save.empty()) line["skipped"] = result.skipped;
+        std::cout << line.dump() << '\n';
     } else if (options.digest) {
         std::cout << result.digest << '\n';
     }

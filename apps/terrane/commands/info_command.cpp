@@ -33,13 +33,13 @@ nlohmann::json graphicsJson() {
             {"max_anisotropy", d.maxAnisotropy}};
 }
 
-base::Result<void> printInfo(bool json) {
+base::Result<void> printInfo(bool asJson) {
     const nlohmann::json info = {{"version", TERRANE_VERSION},
                                  {"processors", std::thread::hardware_concurrency()},
                                  {"simd", gen::simdTargets()},
                                  {"generators", gen::generatorNames()},
                                  {"graphics", graphicsJson()}};
-    if (json) {
+    if (asJson) {
         std::cout << info.dump() << '\n';
         return {};
     }
@@ -55,11 +55,11 @@ base::Result<void> printInfo(bool json) {
 }  // namespace
 
 CommandEntry addInfo(CLI::App& app) {
-    auto json = std::make_shared<bool>(false);
+    auto asJson = std::make_shared<bool>(false);
     CLI::App* command =
         app.add_subcommand("info", "Show the renderer, its limits and the processor's features");
-    command->add_flag("--json", *json, "Print as JSON");
-    return {command, [json] { return printInfo(*json); }};
+    command->add_flag("--json", *asJson, "Print as JSON");
+    return {command, [asJson] { return printInfo(*asJson); }};
 }
 
 }  // namespace terrane::app

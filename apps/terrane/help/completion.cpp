@@ -29,7 +29,7 @@ bool takesPlainFiles(const CommandListEntry& command) {
 }
 
 // For single quotes of all three shells.
-std::string quoted(std::string text) {
+std::string inQuotes(std::string text) {
     return "'" + CLI::detail::find_and_replace(std::move(text), "'", "'\\''") + "'";
 }
 
@@ -37,7 +37,7 @@ std::string quoted(std::string text) {
 std::string bashValues(const FlagEntry& flag) {
     if (flag.takesFile()) return "_terrane_files -f";
     if (flag.takesFolder()) return "_terrane_files -d";
-    return flag.words.empty() ? ":" : fmt::format("_terrane_words {}", quoted(joined(flag.words)));
+    return flag.words.empty() ? ":" : fmt::format("_terrane_words {}", inQuotes(joined(flag.words)));
 }
 
 std::string zshAction(const FlagEntry& flag) {
@@ -52,20 +52,20 @@ std::string zshFlag(const FlagEntry& flag, const std::string& name) {
     for (const char* special : {"\\", "[", "]", ":"})
         description = CLI::detail::find_and_replace(description, special, std::string("\\") + special);
     const std::string value = flag.value.empty() ? "" : fmt::format(":{}:{}", flag.value, zshAction(flag));
-    return quoted(fmt::format("{}[{}]{}", name, description, value));
+    return inQuotes(fmt::format("{}[{}]{}", name, description, value));
 }
 
 std::string fishFlag(const FlagEntry& flag, const std::string& condition) {
-    std::string line = fmt::format("complete -c terrane -n {}", quoted(condition));
+    std::string line = fmt::format("complete -c terrane -n {}", inQuotes(condition));
     for (const std::string& name : flag.names)
         line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
     if (flag.takesFile() || flag.takesFolder()) {
         line += " -r -F";
     } else if (!flag.value.empty()) {
         line += " -x";
-        if (!flag.words.empty()) line += fmt::format(" -a {}", quoted(joined(flag.words)));
+        if (!flag.words.empty()) line += fmt::format(" -a {}", inQuotes(joined(flag.words)));
     }
-    return line + fmt::format(" -d {}\n", quoted(flag.description));
+    return line + fmt::format(" -d {}\n", inQuotes(flag.description));
 }
 
 std::vector<std::string> commandNames(const Commands& commands) {
@@ -116,7 +116,7 @@ _terrane() {
     script += "\n    local -a commands=(\n";
     for (const CommandListEntry& command : commands) {
         const std::string description = CLI::detail::find_and_replace(command.description, ":", "\\:");
-        script += fmt::format("        {}\n", quoted(command.name + ":" + description));
+        script += fmt::format("        {}\n", inQuotes(command.name + ":" + description));
     }
     script += R"(    )
     if [[ $words[2] != -* ]]; then
@@ -134,7 +134,7 @@ _terrane() {
                 script += fmt::format(" \\\n            {}", zshFlag(flag, name));
             if (flag.names.empty())
                 script += fmt::format(" \\\n            {}",
-                                      quoted(fmt::format("*:{}:{}", flag.value, zshAction(flag))));
+                                      inQuotes(fmt::format("*:{}:{}", flag.value, zshAction(flag))));
         }
         script += " ;;\n";
     }
@@ -148,10 +148,10 @@ std::string fishCompletion(const Commands& commands) {
         "# fish completion for terrane, made by: terrane completion fish\ncomplete -c terrane -f\n";
     const std::string names = joined(commandNames(commands));
     const std::string none = fmt::format("not __fish_seen_subcommand_from {}", names);
-    script += fmt::format("complete -c terrane -n {} -l version -d 'Print the version'\n", quoted(none));
+    script += fmt::format("complete -c terrane -n {} -l version -d 'Print the version'\n", inQuotes(none));
     for (const CommandListEntry& command : commands) {
-        script += fmt::format("complete -c terrane -n {} -a {} -d {}\n", quoted(none), command.name,
-                              quoted(command.description));
+        script += fmt::format("complete -c terrane -n {} -a {} -d {}\n", inQuotes(none), command.name,
+                              inQuotes(command.description));
     }
     for (const CommandListEntry& command : commands) {
         const std::string named = "__fish_seen_subcommand_from " + command.name;
@@ -161,10 +161,10 @@ std::string fishCompletion(const Commands& commands) {
             if (!flag.names.empty()) {
                 script += fishFlag(flag, condition);
             } else if (flag.takesFile()) {
-                script += fmt::format("complete -c terrane -n {} -F\n", quoted(condition));
+                script += fmt::format("complete -c terrane -n {} -F\n", inQuotes(condition));
             } else {
-                script += fmt::format("complete -c terrane -n {} -a {}\n", quoted(condition),
-                                      quoted(joined(flag.words)));
+                script += fmt::format("complete -c terrane -n {} -a {}\n", inQuotes(condition),
+                                      inQuotes(joined(flag.words)));
             }
         }
     }

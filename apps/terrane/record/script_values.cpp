@@ -3,22 +3,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+
+#include "apps/terrane/toml_flags.h"
 
 namespace terrane::app {
 namespace {
 
 constexpr double kMostBlocks = 2147483647;  // from the origin
-
-// A value as it would be written on the command line.
-std::string textOf(const toml::node& node) {
-    if (const auto text = node.value_exact<std::string>()) return *text;
-    std::ostringstream out;
-    node.visit([&](const auto& value) {
-        if constexpr (toml::is_value<decltype(value)>) out << value;
-    });
-    return out.str();
-}
 
 }  // namespace
 
@@ -63,16 +54,8 @@ void applyFlags(world::ContentTable& table, CLI::App& flags, const Names& names,
     for (const std::string& name : names) {
         const toml::node* value = table.node(name);
         if (!value || std::ranges::find(given, name) != given.end()) continue;
-        CLI::Option* option = flags.get_option("--" + name);
-        try {
-            option->add_result(textOf(*value));
-            option->run_callback();
-        } catch (const CLI::ParseError& error) {
-            std::string what = error.what();
-            const std::string prefix = "--" + name + ": ";
-            if (what.starts_with(prefix)) what.erase(0, prefix.size());
-            table.wrong(static_cast<int>(value->source().begin.line), name, what);
-        }
+        if (const auto set = setFromToml(*flags.get_option("--" + name), *value); !set)
+            table.wrong(static_cast<int>(value->source().begin.line), name, set.error().message);
     }
 }
 

@@ -1,16 +1,15 @@
 #include "apps/terrane/window/game.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <thread>
 
+#include "apps/terrane/process_figures.h"
 #include "apps/terrane/resource_pack.h"
 #include "apps/terrane/window/chest_panel.h"
 #include "apps/terrane/window/loading_map.h"
@@ -25,13 +24,6 @@ namespace {
 
 // Between frames that show no world, so that the compiler has the processor.
 constexpr std::chrono::milliseconds kCompilePause{15};
-
-// Resident memory of the process; 0 where the system does not tell.
-std::size_t residentBytes() {
-    std::size_t total = 0, resident = 0;
-    std::ifstream("/proc/self/statm") >> total >> resident;
-    return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-}
 
 }  // namespace
 

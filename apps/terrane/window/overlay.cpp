@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "apps/terrane/process_figures.h"
 #include "apps/terrane/window/hand.h"
 #include "apps/terrane/window/imgui_layer.h"
 #include "terrane/render/shadow_volume.h"
@@ -54,10 +55,6 @@ void centred(const char* name, const Screen& screen, float height) {
     ImGui::SetNextWindowPos({screen.width / 2, height}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowBgAlpha(0.55f);
     ImGui::Begin(name, nullptr, kBare);
-}
-
-double megabytes(std::size_t bytes) {
-    return static_cast<double>(bytes) / 1e6;
 }
 
 }  // namespace

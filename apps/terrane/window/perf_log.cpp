@@ -5,13 +5,7 @@
 #include "apps/terrane/process_figures.h"
 
 namespace terrane::app {
-namespace {
-
-double megabytes(std::size_t bytes) {
-    return static_cast<double>(bytes) / 1e6;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 base::Result<PerfLog> PerfLog::create(const std::filesystem::path& file) {
     PerfLog log(file);

@@ -1,14 +1,14 @@
 #include "apps/terrane/window/settings.h"
 
-#include <toml++/toml.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <system_error>
+
+#include "apps/terrane/toml_flags.h"
 
 namespace terrane::app {
 namespace {
@@ -21,15 +21,6 @@ fs::path absoluteFrom(const char* variable) {
     return path.is_absolute() ? path : fs::path();
 }
 
-std::string textOf(const toml::node& node) {
-    if (const auto text = node.value_exact<std::string>()) return *text;
-    std::ostringstream out;
-    node.visit([&](const auto& value) {
-        if constexpr (toml::is_value<decltype(value)>) out << value;
-    });
-    return out.str();
-}
-
 base::Result<void> applyOne(const fs::path& file, CLI::App& command, const toml::key& key,
                             const toml::node& node) {
     const auto wrong = [&](const std::string& what) {
@@ -38,13 +29,8 @@ base::Result<void> applyOne(const fs::path& file, CLI::App& command, const toml:
     CLI::Option* option = command.get_option_no_throw("--" + std::string(key.str()));
     if (!option) return wrong("there is no such setting");
     if (option->count() > 0) return {};
-    try {
-        option->add_result(textOf(node));
-        option->run_callback();
-    } catch (const CLI::ParseError& error) {
-        return wrong(error.what());
-    }
-    return {};
+    const auto set = setFromToml(*option, node);
+    return set ? set : wrong(set.error().message);
 }
 
 // Empty where there is no file.

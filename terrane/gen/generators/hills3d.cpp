@@ -1,10 +1,9 @@
 // Land from noise in space: hills with overhangs, arches and floating rocks, grass wherever the sky is near.
 #include "terrane/gen/generators/catalogue.h"
+#include "terrane/gen/generators/sea_level.h"
 
 namespace terrane::gen {
 namespace {
-
-constexpr int kSeaLevel = 80;
 
 // Solid where the noise is denser than the height above the middle of the land takes away.
 Bool isSolid(Pass& p, Field<Float> middle) {

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "terrane/gen/builder.h"
+#include "terrane/gen/generators/sea_level.h"
 
 namespace terrane::gen::overworld {
 
-constexpr int kSeaLevel = 80;  // z of the highest water
 constexpr float kSea = kSeaLevel;
 constexpr int kSoilDepth = 3;  // blocks of soil under the highest block
 

@@ -1,11 +1,11 @@
 // Mountains that are nothing but Voronoi diagrams: bowls with a lake around every point, sharp ridges between
 // them, and boxy caves of a diagram in space whose metric makes cells of cubes.
 #include "terrane/gen/generators/catalogue.h"
+#include "terrane/gen/generators/sea_level.h"
 
 namespace terrane::gen {
 namespace {
 
-constexpr int kSeaLevel = 80;
 constexpr int kSpacing = 96;  // blocks between the points of two bowls, about
 
 // Walls rise with the square of the distance, so that they are steepest at the ridge.

@@ -1,0 +1,17 @@
+// Flags of the command line that get their values from a TOML file.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include "terrane/base/result.h"
+
+namespace CLI {
+class Option;
+}
+
+namespace terrane::app {
+
+// As if the value stood behind the flag. The error says what is wrong with the value, not where it stands.
+base::Result<void> setFromToml(CLI::Option& flag, const toml::node& value);
+
+}  // namespace terrane::app
