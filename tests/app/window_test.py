@@ -14,6 +14,7 @@ import sys
 import tempfile
 import time
 import unittest
+import unittest.mock
 
 import support
 from support import HANG_SECONDS, Npy, Picture, ProgramTest
@@ -202,6 +203,18 @@ class Window(ProgramTest):
             end = self.close(game)
             distance = sum((a - b) ** 2 for a, b in zip(start, end)) ** 0.5
             self.assertGreater(distance, 1, f"the camera stayed at {end}")
+
+    def test_keys_are_taken_before_there_is_a_picture(self):
+        cache = self.folder / "no shaders yet"
+        with Display() as display, unittest.mock.patch.dict(os.environ, {"MESA_SHADER_CACHE_DIR": str(cache)}):
+            game = Game(display, self.folder, ("--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "3"))
+            self.addCleanup(game.log.close)
+            self.addCleanup(game.process.kill)
+            game.open()
+            for key in ("F12", "F3", "F4", "F2", "m", "l", "F12"):
+                game.press(key)
+            game.wait_for_picture(SIZE)
+            self.close(game)
 
     def test_the_gpu_makes_meshes_while_one_flies_and_builds(self):
         with Display() as display:

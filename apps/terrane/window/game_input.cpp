@@ -189,6 +189,7 @@ void Game::nextPosition() {
 }
 
 void Game::takeScreenshot() {
+    if (!hasWorldPicture()) return;
     const std::filesystem::path file = freeScreenshot();
     const auto done = base::writePng(file, parts_.renderer.readImage());
     say(done ? "screenshot " + file.string() : done.error().message);
