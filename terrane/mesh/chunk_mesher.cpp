@@ -67,4 +67,10 @@ ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch) {
     return mesh;
 }
 
+ChunkMesh meshAlone(const world::Chunk& chunk, const world::BlockRegistry& blocks) {
+    const world::Chunk air;
+    MeshScratch scratch;
+    return meshChunk({&chunk, {&air, &air, &air, &air}, &blocks, {}}, scratch);
+}
+
 }  // namespace terrane::mesh

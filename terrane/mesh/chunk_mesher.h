@@ -36,6 +36,9 @@ struct MeshScratch {
 // Quads stay inside one section and region, so they are at most 16 blocks wide and high.
 ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch);
 
+// Of a chunk with air all around.
+ChunkMesh meshAlone(const world::Chunk& chunk, const world::BlockRegistry& blocks);
+
 // One region of it, the lowest is 0: appends its quads to `quads`, in which its ranges count.
 RegionMesh meshRegion(const MeshInput& input, int region, MeshScratch& scratch,
                       std::vector<shared::Quad>& quads);

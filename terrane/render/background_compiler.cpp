@@ -47,16 +47,6 @@ FrameInput sampleInput() {
     return input;
 }
 
-mesh::ChunkMesh sampleMesh(const world::BlockRegistry& blocks) {
-    const world::Chunk chunk = sampleChunk(blocks), air;
-    mesh::MeshInput input;
-    input.centre = &chunk;
-    input.neighbours = {&air, &air, &air, &air};
-    input.blocks = &blocks;
-    mesh::MeshScratch scratch;
-    return mesh::meshChunk(input, scratch);
-}
-
 }  // namespace
 
 struct BackgroundCompiler::State {
@@ -107,7 +97,7 @@ base::Result<void> BackgroundCompiler::State::compileAll() {
     auto renderer = Renderer::create(shaders, blocks, textures, gpu::queryDevice());
     if (!renderer) return tl::unexpected(renderer.error());
     renderer->setViewDistance(1);
-    renderer->setChunk({0, 0}, sampleMesh(blocks));
+    renderer->setChunk({0, 0}, mesh::meshAlone(sampleChunk(blocks), blocks));
     renderer->setLight({0, 0}, light::ChunkLight());
     for (; wanted; wanted = takeNext()) {
         TERRANE_ZONE("compile shaders");

@@ -10,14 +10,8 @@ constexpr render::Camera kCamera{{5.3, 5.3, kZ + 2.6}, 45, -25, 24};
 
 mesh::ChunkMesh meshOf(world::BlockId block, const world::BlockRegistry& blocks) {
     world::Chunk chunk;
-    const world::Chunk air;
     chunk.setBlock(world::blockIndex(8, 8, kZ), block);
-    mesh::MeshInput input;
-    input.centre = &chunk;
-    input.neighbours = {&air, &air, &air, &air};
-    input.blocks = &blocks;
-    mesh::MeshScratch scratch;
-    return mesh::meshChunk(input, scratch);
+    return mesh::meshAlone(chunk, blocks);
 }
 
 }  // namespace
