@@ -10,11 +10,11 @@ readonly BUILD_FOLDER=build-fuzz
 readonly SECONDS_TO_RUN=${1:-10}
 
 if ! command -v clang++ >/dev/null; then
-    echo "fuzz: needs clang++: apt-get install clang" >&2
+    echo "fuzz: needs clang++: apt-get install clang libclang-rt-dev" >&2
     exit 2
 fi
 cmake -S . -B "$BUILD_FOLDER" -G Ninja --log-level=WARNING -DCMAKE_CXX_COMPILER=clang++ \
-    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=-O1 -DTERRANE_WERROR=OFF -DTERRANE_FUZZ=ON \
+    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=-O1 -DCMAKE_UNITY_BUILD=ON -DTERRANE_WERROR=OFF -DTERRANE_FUZZ=ON \
     -DTERRANE_SANITIZE=fuzzer-no-link,address,undefined -DTERRANE_GRAPHICS=OFF -DTERRANE_TESTS=OFF -DTERRANE_BENCHMARKS=OFF
 cmake --build "$BUILD_FOLDER" --target fuzz_chunk_codec
 mkdir -p "$BUILD_FOLDER/corpus"

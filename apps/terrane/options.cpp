@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <thread>
 
+#include "terrane/gen/generators/catalogue.h"
+
 namespace terrane::app {
 namespace {
 
@@ -125,7 +127,9 @@ void addWorldOptions(CLI::App& command, WorldOptions& options) {
             "--seed", [&](const std::string& text) { options.seed = parseSeed(text); }, "Seed of the world")
         ->type_name("NUMBER")
         ->default_str("1");
-    command.add_option("--generator", options.generator, "Generator of the world: overworld or flat")
+    command
+        .add_option("--generator", options.generator,
+                    fmt::format("Generator of the world: {}", fmt::join(gen::generatorNames(), ", ")))
         ->capture_default_str();
     command.add_option("--threads", options.threads, "Worker threads (default: one for each processor)")
         ->check(numberFrom(1, 256));

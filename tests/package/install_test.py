@@ -68,7 +68,7 @@ class Install(unittest.TestCase):
 
     def test_an_example_by_find_package_and_by_pkg_config(self):
         build = self.folder / "build"
-        run(CMAKE, "-S", self.examples, "-B", build, "-DCMAKE_BUILD_TYPE=Debug", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        run(CMAKE, "-G", "Ninja", "-S", self.examples, "-B", build, "-DCMAKE_BUILD_TYPE=Debug", f"-DCMAKE_PREFIX_PATH={self.prefix}")
         run(CMAKE, "--build", build, "--target", "own_generator")
         text = self.build_and_run(build / "own_generator")
 
@@ -84,7 +84,7 @@ class Install(unittest.TestCase):
         (project / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.22)\nproject(x LANGUAGES CXX)\n"
                                                 "find_package(terrane 99 REQUIRED)\n")
         with self.assertRaisesRegex(AssertionError, "99"):
-            run(CMAKE, "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+            run(CMAKE, "-G", "Ninja", "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
 
 
 if __name__ == "__main__":

@@ -2,8 +2,6 @@
 
 #include <fmt/ranges.h>
 
-#include <array>
-
 namespace terrane::gen {
 namespace {
 
@@ -13,10 +11,10 @@ struct Entry {
     void (*write)(GeneratorBuilder&);
 };
 
-constexpr std::array<Entry, 4> kGenerators = {{{"overworld", 2, writeOverworld},
-                                               {"flat", 1, writeFlat},
-                                               {"hills3d", 1, writeHills3D},
-                                               {"voronoi", 1, writeVoronoi}}};
+constexpr Entry kGenerators[] = {{"overworld", 2, writeOverworld},
+                                 {"flat", 1, writeFlat},
+                                 {"hills3d", 1, writeHills3D},
+                                 {"voronoi", 1, writeVoronoi}};
 
 }  // namespace
 
