@@ -49,16 +49,11 @@ class Conditions {
             if (!parts_.empty()) parts_.back().inCpp = parts_.back().thenInCpp;
         } else if (word == "endif") {
             if (!parts_.empty()) parts_.pop_back();
-            if (parts_.empty()) hasInclude_ = false;
         } else {
             return false;
         }
         return true;
     }
-
-    void addInclude() { hasInclude_ = !parts_.empty(); }
-    // Whether a file was included since the outermost #if.
-    [[nodiscard]] bool hasInclude() const { return hasInclude_; }
 
     [[nodiscard]] bool inCpp() const {
         return std::ranges::any_of(parts_, [](const Part& part) { return part.inCpp; });
@@ -70,7 +65,6 @@ class Conditions {
         bool thenInCpp;  // so are the parts after #else and #elif
     };
     std::vector<Part> parts_;
-    bool hasInclude_ = false;
 };
 
 class Expander {
@@ -112,11 +106,6 @@ class Expander {
         return {};
     }
 
-    base::Result<void> keepAndCount(std::string_view line, const Place& place) {
-        out_.text += fmt::format("{}\n#line {} {}\n", line, place.line + 1, place.number);
-        return {};
-    }
-
     base::Result<void> expandLine(std::string_view line, const Place& place, Conditions& conditions) {
         std::string_view directive = withoutLeadingSpace(line);
         const bool inCpp = conditions.inCpp();
@@ -124,16 +113,9 @@ class Expander {
         directive.remove_prefix(1);
         const std::string_view word = takeWord(directive);
         // Conditions within a part for C++ stay too, so that every #endif finds its #if.
-        const bool hasInclude = conditions.hasInclude();
-        if (conditions.take(word, directive)) {
-            // Where a part does not hold, the #line behind a file that it includes does not either.
-            return hasInclude ? keepAndCount(line, place) : keep(line);
-        }
+        if (conditions.take(word, directive)) return keep(line);
         if (inCpp) return keep({});
-        if (word == "include") {
-            conditions.addInclude();
-            return include(withoutLeadingSpace(directive), place);
-        }
+        if (word == "include") return include(withoutLeadingSpace(directive), place);
         return keep(line);
     }
 

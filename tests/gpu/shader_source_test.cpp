@@ -82,13 +82,11 @@ TEST(ShaderSourceTest, nestedConditionsOfCppKeepTheirEnds) {
     EXPECT_EQ(expandedText(files), "#line 1 0\n#ifdef __cplusplus\n#if X\n\n#else\n\n#endif\n\n#endif\nd\n");
 }
 
-// A part that does not hold takes the #line behind its include with it.
 TEST(ShaderSourceTest, otherConditionsAreNotJudged) {
     const Files files = {{"main", "#ifndef GUARD\n#if FOO\n#include \"a\"\n#elif BAR\nb\n#endif\n#endif\n"},
                          {"a", "A\n"}};
     EXPECT_EQ(expandedText(files),
-              "#line 1 0\n#ifndef GUARD\n#if FOO\n#line 1 1\nA\n#line 4 0\n#elif BAR\n#line 5 0\nb\n#endif\n"
-              "#line 7 0\n#endif\n#line 8 0\n");
+              "#line 1 0\n#ifndef GUARD\n#if FOO\n#line 1 1\nA\n#line 4 0\n#elif BAR\nb\n#endif\n#endif\n");
 }
 
 TEST(ShaderSourceTest, commentsAreNotDirectives) {
