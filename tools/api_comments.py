@@ -1,0 +1,29 @@
+#!/usr/bin/env python3
+"""Writes a header with its comments as Doxygen reads them: those in front of a declaration, and those behind one on its
+line. Doxygen's INPUT_FILTER (docs/Doxyfile). Usage: api_comments.py HEADER"""
+import re
+import sys
+
+BEFORE = re.compile(r"^(\s*)// ?(.*)$")
+BEHIND = re.compile(r"^(\s*[^\s/].*[;,{}]) +// (.*)$")
+
+
+def escaped(text):
+    """What means something else to Doxygen or HTML."""
+    return re.sub(r"([<>#@\\&])", r"\\\1", text)
+
+
+def main():
+    with open(sys.argv[1], encoding="utf-8") as file:
+        for number, line in enumerate(file.read().split("\n")):
+            if before := BEFORE.match(line):
+                if number == 0:
+                    print("/// @file")
+                print(f"{before[1]}/// {escaped(before[2])}")
+            elif behind := BEHIND.match(line):
+                print(f"{behind[1]} ///< {escaped(behind[2])}")
+            else:
+                print(line)
+
+
+main()
