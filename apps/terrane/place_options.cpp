@@ -28,30 +28,23 @@ void addPlaceOptions(CLI::App& command, PlaceOptions& options) {
                 "--scene", [&options](const std::string& name) { options.scene = sceneNamed(name); },
                 "A reference scene: " + sceneNames())
             ->type_name("WORD");
-    command
-        .add_option_function<std::string>(
-            "--at",
-            [&options](const std::string& text) {
-                options.at = parseNumbers(text, 3, "--at: expected X,Y,Z in blocks");
-            },
-            "Camera position")
-        ->type_name("X,Y,Z")
-        ->excludes(scene);
-    command
-        .add_option_function<std::string>(
-            "--look",
-            [&options](const std::string& text) {
-                options.look = parseNumbers(text, 2, "--look: expected YAW,PITCH in degrees");
-            },
-            "Camera direction; yaw 0 looks along x, 90 along y")
-        ->type_name("YAW,PITCH");
+    const auto addNumbers = [&](const std::string& name, auto& numbers, std::size_t count,
+                                const std::string& form, const std::string& unit, const std::string& help) {
+        const auto take = [=, &numbers](const std::string& text) {
+            numbers = parseNumbers(text, count, fmt::format("{}: expected {} in {}", name, form, unit));
+        };
+        return command.add_option_function<std::string>(name, take, help)->type_name(form);
+    };
+    addNumbers("--at", options.at, 3, "X,Y,Z", "blocks", "Camera position")->excludes(scene);
+    addNumbers("--look", options.look, 2, "YAW,PITCH", "degrees",
+               "Camera direction; yaw 0 looks along x, 90 along y");
     command.add_option("--time", options.time, "Time of day: 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk")
         ->check(numberFrom(0, 1));
 }
 
 base::Result<Scene> placeOf(const PlaceOptions& options, const Scene& otherwise) {
     Scene place = options.scene ? *options.scene : otherwise;
-    if (options.at) place.camera = {{(*options.at)[0], (*options.at)[1], (*options.at)[2]}, 0, 0};
+    if (options.at) place.camera.position = {(*options.at)[0], (*options.at)[1], (*options.at)[2]};
     if (options.look) {
         place.camera.yaw = static_cast<float>((*options.look)[0]);
         place.camera.pitch = static_cast<float>(std::clamp((*options.look)[1], -90.0, 90.0));

@@ -19,8 +19,8 @@
 namespace terrane::render {
 namespace {
 
-// Drivers write what they compiled on a thread of their own.
-constexpr std::chrono::milliseconds kWriting{150};
+// Then the context goes, with what it takes of memory.
+constexpr std::chrono::seconds kIdle{10};
 
 // Drivers may compile apart for textures whose sides are powers of two.
 int smallSide(int pixels) {
@@ -75,23 +75,29 @@ struct BackgroundCompiler::State {
     bool isReady(const Wanted& wanted) const {
         return isUseless || std::ranges::find(ready, wanted) != ready.end();
     }
+    bool waitForNext();
     std::optional<Wanted> takeNext();
     void run();
-    base::Result<void> compileAll();
+    base::Result<void> compileUntilIdle();
 };
 
-// None when the thread is to end.
-std::optional<BackgroundCompiler::State::Wanted> BackgroundCompiler::State::takeNext() {
+// False when the thread is to end.
+bool BackgroundCompiler::State::waitForNext() {
     std::unique_lock lock(mutex);
     changed.wait(lock, [&] { return next || isEnding; });
+    return !isEnding;
+}
+
+// None when nothing has been wanted for a while, or the thread is to end.
+std::optional<BackgroundCompiler::State::Wanted> BackgroundCompiler::State::takeNext() {
+    std::unique_lock lock(mutex);
+    changed.wait_for(lock, kIdle, [&] { return next || isEnding; });
     if (isEnding) return std::nullopt;
     current = std::exchange(next, std::nullopt);
     return current;
 }
 
-base::Result<void> BackgroundCompiler::State::compileAll() {
-    std::optional<Wanted> wanted = takeNext();
-    if (!wanted) return {};
+base::Result<void> BackgroundCompiler::State::compileUntilIdle() {
     auto context = gpu::HeadlessContext::create({});
     if (!context) return tl::unexpected(context.error());
     auto renderer = Renderer::create(shaders, blocks, textures, gpu::queryDevice());
@@ -99,13 +105,12 @@ base::Result<void> BackgroundCompiler::State::compileAll() {
     renderer->setViewDistance(1);
     renderer->setChunk({0, 0}, mesh::meshAlone(sampleChunk(blocks), blocks));
     renderer->setLight({0, 0}, light::ChunkLight());
-    for (; wanted; wanted = takeNext()) {
+    while (const std::optional<Wanted> wanted = takeNext()) {
         TERRANE_ZONE("compile shaders");
         if (renderer->configure(wanted->size, wanted->options)) {
             // The second frame draws what was hidden in the first, by other passes.
             for (int frame = 0; frame < 2; ++frame) renderer->draw(sampleInput());
             glFinish();
-            std::this_thread::sleep_for(kWriting);
         }
         // Options that the driver cannot do are the renderer's to tell of.
         const std::lock_guard lock(mutex);
@@ -116,19 +121,19 @@ base::Result<void> BackgroundCompiler::State::compileAll() {
 }
 
 void BackgroundCompiler::State::run() {
-    if (auto done = compileAll(); !done) {
+    while (waitForNext()) {
+        const auto done = compileUntilIdle();
+        if (done) continue;
         base::logWarning("shaders are compiled when they are first needed: {}", done.error().message);
         const std::lock_guard lock(mutex);
         isUseless = true;
+        return;
     }
 }
 
 BackgroundCompiler::BackgroundCompiler(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
                                        TextureSource textures)
     : state_(std::make_unique<State>(shaders, blocks, std::move(textures))) {}
-
-BackgroundCompiler::BackgroundCompiler(BackgroundCompiler&&) noexcept = default;
-BackgroundCompiler& BackgroundCompiler::operator=(BackgroundCompiler&&) noexcept = default;
 
 BackgroundCompiler::~BackgroundCompiler() {
     if (!state_ || !state_->thread.joinable()) return;

@@ -18,9 +18,9 @@ class BackgroundCompiler {
     // Loader and registry outlive this; `textures` is called on the other thread.
     BackgroundCompiler(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
                        TextureSource textures);
-    BackgroundCompiler(BackgroundCompiler&&) noexcept;
-    BackgroundCompiler& operator=(BackgroundCompiler&&) noexcept;
     ~BackgroundCompiler();  // waits until the thread ends the picture it is at
+    BackgroundCompiler(const BackgroundCompiler&) = delete;
+    BackgroundCompiler& operator=(const BackgroundCompiler&) = delete;
 
     // Whether a renderer of this size (pixels) can take these options without compiling. If not, they come
     // next, in place of others that wait: ask again before each frame until it is so.

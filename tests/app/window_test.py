@@ -214,6 +214,9 @@ class Window(ProgramTest):
             for key in ("F12", "F3", "F4", "F2", "m", "l", "F12"):
                 game.press(key)
             game.wait_for_picture(SIZE)
+            self.assertEqual(self.screenshots(), [])  # of what was not there yet
+            game.press("F12")
+            game.wait_for(self.screenshots)
             self.close(game)
 
     def test_the_gpu_makes_meshes_while_one_flies_and_builds(self):
@@ -228,6 +231,9 @@ class Window(ProgramTest):
             game.press("F3")  # all that is loaded, from above
             game.wait_for_picture(SIZE)
             self.close(game)
+
+    def screenshots(self):
+        return list(self.folder.glob("terrane-*.png"))
 
     def highest_block(self, save):
         """Height of the highest block of the column 8,8 in the save."""

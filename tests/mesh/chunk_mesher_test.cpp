@@ -12,7 +12,7 @@ namespace terrane::mesh {
 namespace {
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr unsigned kSeeds = 3;
+constexpr unsigned kSeeds = 4;
 #else
 constexpr unsigned kSeeds = 6;  // × 9 mixes × 5 methods = 270 chunks
 #endif

@@ -80,7 +80,7 @@ base::Result<void> recordVideo(const RecordOptions& options, const CLI::App& com
     if (!range) return tl::unexpected(range.error());
     const TitlePainter titles(options.graphics.size.y);
 
-    auto world = Offscreen::create(script->world, {}, options.graphics, command);
+    auto world = Offscreen::create(script->world, {}, optionsAt(shotAt(*script, options.from), 0), command);
     if (!world) return tl::unexpected(world.error());
     auto sink = openSink(options);
     if (!sink) return tl::unexpected(sink.error());

@@ -134,7 +134,7 @@ nlohmann::json pictureJson(const PictureOptions& options, const PictureFigures& 
 base::Result<void> renderPicture(const PictureOptions& options, const CLI::App& command) {
     const auto start = Clock::now();
     if (!options.place.scene && !options.place.at) return base::fail("render needs --scene or --at");
-    const auto place = placeOf(options.place, scenes().front());
+    const auto place = placeOf(options.place, {"", {}, scenes().front().timeDay});
     if (!place) return tl::unexpected(place.error());
     auto world = Offscreen::create(options.world, options.save, options.graphics, command);
     if (!world) return tl::unexpected(world.error());
