@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Flies 20 s at full speed at view distances 16 and 32, once while the world is generated and once from a save, and plots
-# what each frame took. Usage: tools/flight_trace.sh [PROGRAM [FOLDER]]   (build/terrane, out/flight)
+# what each frame took, beside frames from the same places with nothing left to load. Usage: tools/flight_trace.sh [PROGRAM [FOLDER]]   (build/terrane, out/flight)
 # Offscreen at 320x180, so that drawing in software does not decide. Needs gnuplot.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -18,7 +18,20 @@ fly() {
     "$program" fly --size 320x180 --preset low --view-distance "$distance" --trace "$name.json" -o "$name.csv" "$@"
 }
 
+# What the land alone takes to draw where the flight is after 0, 2, … 20 s.
+stand() {
+    local distance=$1 at frame
+    for second in {0..20..2}; do
+        at=$((8 + 424 * second / 10))
+        frame=$("$program" render --at "$at,$at,120" --look 45,0 --time 0.4 --size 320x180 --preset low \
+            --view-distance "$distance" --frames 9 --json -o place.png | grep -o '"frame":[0-9.]*')
+        echo "$second,${frame#*:}"
+    done >"standing_$distance.csv"
+}
+
 for distance in 16 32; do
+    echo "standing, view distance $distance" >&2
+    stand "$distance"
     fly "generating_$distance" "$distance"
     # The first flight fills the save; the second one reads the same chunks.
     fly "filling_$distance" "$distance" --save-game "flight_$distance" --recreate --for 25
@@ -37,9 +50,11 @@ set yrange [0:*]
 set xrange [0:20]
 do for [name in "generating_16 from_disk_16 generating_32 from_disk_32"] {
     stats name.".csv" using 2 every ::1 name "F" nooutput
-    set title (name[1:4] eq "from" ? "from a save" : "generating").", view distance ".name[strlen(name)-1:strlen(name)]
+    distance = name[strlen(name)-1:strlen(name)]
+    set title (name[1:4] eq "from" ? "from a save" : "generating").", view distance ".distance
     plot name.".csv" using 1:2 every ::1 with impulses lc rgb "#9db8d2" title "frame", \
          "" using 1:($6+$7) every ::1 with impulses lc rgb "#c0392b" title "of it loading (processor time)", \
+         "standing_".distance.".csv" using 1:2 with lines lw 2 lc rgb "#2e7d32" title "the same place, nothing to load", \
          2*F_median with lines dt 2 lc rgb "#555555" title "twice the median"
 }
 PLOT

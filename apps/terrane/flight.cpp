@@ -75,7 +75,7 @@ class Pilot {
         frame.followProcessor = processorMilliseconds() - processorStart;
 
         const auto uploadStart = Clock::now();
-        frame.uploads = view_.upload(uploadBudget(seconds));
+        frame.uploads = view_.upload(uploadBudget(seconds, view_.missing()));
         glFinish();
         frame.upload = 1000 * secondsSince(uploadStart);
         frame.uploadProcessor = processorMilliseconds() - processorStart - frame.followProcessor;

@@ -15,13 +15,24 @@ namespace {
 constexpr int kTile = static_cast<int>(shared::kLightTileSize);
 constexpr int kPoolTiles = static_cast<int>(shared::kLightPoolTiles);
 constexpr int kTilesPerSlab = kPoolTiles * kPoolTiles;
-constexpr int kFirstSlabs = 4;  // 16,384 tiles, 16 MiB
+// What a landscape needs: copying a pool that is too small takes a tenth of a second in software.
+constexpr int kTilesAChunk = 28;
 constexpr std::size_t kTileBlocks = shared::kLightTileSize * shared::kLightTileSize * shared::kLightTileSize;
 
 using TileValues = std::array<std::uint16_t, kTileBlocks>;
 
+// Red and blue change places on the way in and when sampled: drivers keep four bits a component with blue lowest,
+// light::LightValue has red there, and a driver that reorders texels takes four times as long for an upload.
 gpu::Texture3D makePool(int slabs) {
-    return gpu::Texture3D({kPoolTiles * kTile, kPoolTiles * kTile, slabs * kTile}, GL_RGBA4, "light pool");
+    gpu::Texture3D pool({kPoolTiles * kTile, kPoolTiles * kTile, slabs * kTile}, GL_RGBA4, "light pool");
+    glTextureParameteri(pool.id(), GL_TEXTURE_SWIZZLE_R, GL_BLUE);
+    glTextureParameteri(pool.id(), GL_TEXTURE_SWIZZLE_B, GL_RED);
+    return pool;
+}
+
+int slabsFor(int viewDistance) {
+    const int side = 2 * viewDistance + 1;
+    return (side * side * kTilesAChunk + kTilesPerSlab - 1) / kTilesPerSlab;
 }
 
 // Tile (x, y, z), 0 or 1 each, of an unpacked brick of 16³.
@@ -50,7 +61,7 @@ LightStore::LightStore(int viewDistance) {
     grid_ = gpu::Texture3D({side, side, high}, GL_R32UI, "light grid");
     const shared::uint unknown = shared::kLightUnknown;
     glClearTexImage(grid_.id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &unknown);
-    pool_ = makePool(kFirstSlabs);
+    pool_ = makePool(slabsFor(viewDistance));
 }
 
 std::size_t LightStore::gridBytes() const {
@@ -82,8 +93,7 @@ void LightStore::growPool() {
 void LightStore::uploadTile(std::uint32_t tile, const std::uint16_t* values) {
     const auto n = static_cast<int>(tile);
     const glm::ivec3 at{n % kPoolTiles, n / kPoolTiles % kPoolTiles, n / kTilesPerSlab};
-    // Red in the lowest bits, as light::LightValue has it.
-    pool_.uploadPart(at * kTile, glm::ivec3(kTile), GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4_REV,
+    pool_.uploadPart(at * kTile, glm::ivec3(kTile), GL_BGRA, GL_UNSIGNED_SHORT_4_4_4_4_REV,
                      std::as_bytes(std::span(values, kTileBlocks)));
     ++uploadedTiles_;
 }

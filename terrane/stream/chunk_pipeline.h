@@ -62,6 +62,7 @@ class ChunkPipeline {
     // What changed on screen since the last call, at most `limit` chunks, in the order in which they changed
     // first.
     std::vector<ChunkChange> takeChanges(std::size_t limit);
+    std::size_t waitingChanges() const { return changed_.size(); }
 
     // Hands out all that is on screen again, as to a renderer that forgot it.
     void showAgain();

@@ -5,20 +5,29 @@
 namespace terrane::app {
 namespace {
 
+constexpr double kNothingYet = 1, kNextToAll = 0.05;  // what is missing
+
 // A frame that draws for so long, and loads for as long as the frame before it allows, again and again.
+double frameThatLoads(double drawing, double missing) {
+    double frame = drawing;
+    for (int k = 0; k < 100; ++k) frame = drawing + uploadBudget(frame, missing);
+    return frame;
+}
+
 TEST(WorldView, LoadingAddsAThirdToFramesAtMost) {
-    for (const double drawing : {0.004, 0.016, 0.1, 0.4}) {
-        double frame = drawing;
-        for (int k = 0; k < 100; ++k) {
-            frame = drawing + uploadBudget(frame);
-            EXPECT_LE(frame, drawing * 4 / 3 + 1e-9);
-        }
-    }
+    for (const double drawing : {0.004, 0.016, 0.1, 0.4})
+        EXPECT_LE(frameThatLoads(drawing, kNothingYet), drawing * 4 / 3 + 1e-9);
+}
+
+TEST(WorldView, LoadingAddsAFifteenthWhereNextToAllIsThere) {
+    for (const double drawing : {0.015, 0.1, 0.4})
+        EXPECT_LE(frameThatLoads(drawing, kNextToAll), drawing * 16 / 15 + 1e-9);
 }
 
 TEST(WorldView, FramesOfNoTimeLoadToo) {
-    EXPECT_EQ(uploadBudget(0), 0.001);
-    EXPECT_EQ(uploadBudget(60), 0.025);
+    EXPECT_EQ(uploadBudget(0, 0), 0.001);
+    EXPECT_EQ(uploadBudget(0, kNothingYet), 0.001);
+    EXPECT_EQ(uploadBudget(60, kNothingYet), 0.025);
 }
 
 }  // namespace

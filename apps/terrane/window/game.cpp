@@ -131,7 +131,7 @@ base::Result<void> Game::drawFrame(double seconds) {
     if (size.x == 0 || size.y == 0) return {};  // minimised
     if (auto configured = configureRenderer(size); !configured) return configured;
     if (hasWorldPicture()) {
-        parts_.view.upload(uploadBudget(seconds));
+        parts_.view.upload(uploadBudget(seconds, parts_.view.missing()));
         parts_.renderer.draw(frameInput());
         parts_.renderer.presentToWindow(size);
     } else {
