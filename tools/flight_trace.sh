@@ -45,11 +45,12 @@ set datafile separator ","
 set multiplot layout 2,2
 set xlabel "s"
 set ylabel "ms"
-set key top left
-set yrange [0:*]
+set key top left Left reverse samplen 2
 set xrange [0:20]
 do for [name in "generating_16 from_disk_16 generating_32 from_disk_32"] {
+    set autoscale y  # stats leaves out what is not in the range
     stats name.".csv" using 2 every ::1 name "F" nooutput
+    set yrange [0:1.6*F_max]  # with room for the key
     distance = name[strlen(name)-1:strlen(name)]
     set title (name[1:4] eq "from" ? "from a save" : "generating").", view distance ".distance
     plot name.".csv" using 1:2 every ::1 with impulses lc rgb "#9db8d2" title "frame", \

@@ -42,8 +42,8 @@ save times
 draw rays --at 975,1104,87.5 --look 176,4 --time 0.235
 save rays
 
-draw open --scene landscape --ssao off
-draw occluded --scene landscape --ssao on
+draw open --scene cave --ssao off
+draw occluded --scene cave --ssao on
 beside ssao open occluded
 draw sharp --at -1125,35,168 --look 60,-8 --time 0.4 --depth-of-field off
 draw blurred --at -1125,35,168 --look 60,-8 --time 0.4 --depth-of-field on

@@ -21,8 +21,9 @@ constexpr std::size_t kTileBlocks = shared::kLightTileSize * shared::kLightTileS
 
 using TileValues = std::array<std::uint16_t, kTileBlocks>;
 
-// Red and blue change places on the way in and when sampled: drivers keep four bits a component with blue lowest,
-// light::LightValue has red there, and a driver that reorders texels takes four times as long for an upload.
+// Red and blue change places on the way in and when sampled: drivers keep four bits a component with blue
+// lowest, light::LightValue has red there, and a driver that reorders texels takes four times as long for an
+// upload.
 gpu::Texture3D makePool(int slabs) {
     gpu::Texture3D pool({kPoolTiles * kTile, kPoolTiles * kTile, slabs * kTile}, GL_RGBA4, "light pool");
     glTextureParameteri(pool.id(), GL_TEXTURE_SWIZZLE_R, GL_BLUE);

@@ -31,8 +31,7 @@ Table goalTable(const BenchSettings& s) {
         "goals",
         "Figures to reach on two cores without a graphics card",
         "Landscape, overworld with everything on; goals are for V=32 and a quiet machine. Beside them what "
-        "the "
-        "thesis has, with a graphics card.",
+        "the thesis has, with a graphics card.",
         "view distance, area, time of flight",
         {"what", "goal", "measured", "thesis"},
         {{textEntry("generating with one thread, chunks/s"), textEntry("≥ 1500"),
@@ -53,10 +52,10 @@ Table goalTable(const BenchSettings& s) {
           valueEntry(loaded, {"/bytes/save", 1e-3, false, "/chunks"}), textEntry("–")},
          {textEntry("opaque triangles, greedy, % of squares ext"), textEntry("≤ 90"),
           shareEntry(triangles("greedy"), triangles("squares-ext"), {"/triangles/opaque"}), textEntry("100")},
-         {textEntry("flight while generating: frames over twice the median"), textEntry("0"),
-          valueEntry(flight, {"/flight/frames_over_twice_the_median"}), textEntry("–")},
-         {textEntry("its slowest frame, ms"), textEntry("≤ 2 × the median"),
-          valueEntry(flight, {"/flight/slowest_frame_ms"}), textEntry("600")},
+         {textEntry("flight while generating: frames over twice the median because of loading"),
+          textEntry("0"), valueEntry(flight, {"/flight/of_these_by_loading"}), textEntry("–")},
+         {textEntry("what loading takes of one of its frames at most, ms of the processor"), textEntry("–"),
+          valueEntry(flight, {"/flight/most_loading_ms"}), textEntry("600")},
          {textEntry("the median of its frames, ms"), textEntry("–"), valueEntry(flight, {"/flight/frame_ms"}),
           textEntry("–")}},
         {}};
