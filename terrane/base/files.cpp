@@ -71,6 +71,12 @@ Result<std::string> readFile(const std::filesystem::path& path) {
 
 Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes) {
     std::error_code ignored;
+    if (std::filesystem::is_symlink(path, ignored)) {
+        std::error_code error;
+        const std::filesystem::path target = std::filesystem::canonical(path, error);
+        if (error) return cannotWrite(path, error.value());
+        return writeFile(target, bytes);
+    }
     const std::filesystem::file_status status = std::filesystem::status(path, ignored);
     if (std::filesystem::is_directory(status)) return cannotWrite(path, EISDIR);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "terrane/gen/program.h"
+
 namespace terrane::gen {
 
 GeneratorBuilder::GeneratorBuilder(std::string name, const world::BlockRegistry& blocks) : blocks_(blocks) {
@@ -100,6 +102,17 @@ std::uint32_t GeneratorBuilder::hashSlot(const std::string& seedName) {
     return static_cast<std::uint32_t>(names.size() - 1);
 }
 
+// Compiles only what has no other mistakes: a graph that has some may not make sense.
+void GeneratorBuilder::checkRegisters() {
+    for (const PassGraph& pass : generator_.passes) {
+        const std::uint32_t rows = compile(pass, generator_.noises).arenaRows;
+        if (rows <= kMaxArenaRows) continue;
+        errors_.push_back(fmt::format(
+            "pass \"{}\": its values need {} rows of registers, {} are possible: divide it into several",
+            pass.name, rows, kMaxArenaRows));
+    }
+}
+
 base::Result<GeneratorGraph> GeneratorBuilder::finish() {
     if (generator_.passes.empty() || !generator_.passes.back().is3D) {
         errors_.push_back("the last pass must be a 3D pass");
@@ -110,6 +123,7 @@ base::Result<GeneratorGraph> GeneratorBuilder::finish() {
                                           last.name, generator_.fields[f.field].name));
         }
     }
+    if (errors_.empty()) checkRegisters();
     if (!errors_.empty()) {
         return base::fail("generator \"{}\": {}", generator_.name, fmt::join(errors_, "; "));
     }

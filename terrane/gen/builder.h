@@ -1,15 +1,19 @@
 // Writes a generator: a list of passes over columns (2D) and voxels (3D), as C++ expressions.
 //
+// clang-format off
 //   GeneratorBuilder g("hills", blocks);
 //   auto height = g.field<Float>("height");
-//   g.pass2D("terrain", [&](Pass& p) { p.set(height, 80.0f + 20.0f * p.perlin2D("hills", 64, {1.0f, 2.0f}));
-//   }); g.pass3D("ground", [&](Pass& p) {
+//   g.pass2D("terrain", [&](Pass& p) {
+//       p.set(height, 80.0f + 20.0f * p.perlin2D("hills", 64, {1.0f, 2.0f}));
+//   });
+//   g.pass3D("ground", [&](Pass& p) {
 //       p.setBlock(select(Float(p.z()) <= p.read(height), p.block("stone"), p.block("air")));
 //   });
-//   auto program = g.finish();
+//   auto generator = g.finish();
+// clang-format on
 //
-// Used on one thread. Mistakes (unknown block, offset too large, a name used twice) are collected and
-// reported by finish(), each with pass and name.
+// Used on one thread. Mistakes (unknown block, offset too large, a name used twice, more values at once than
+// there are registers) are collected and reported by finish(), each with pass and name.
 #pragma once
 
 #include <functional>
@@ -39,7 +43,7 @@ class GeneratorBuilder {
         addPass(std::move(name), true, body);
     }
 
-    base::Result<GeneratorGraph> finish();
+    [[nodiscard]] base::Result<GeneratorGraph> finish();
 
   private:
     friend class Pass;
@@ -50,6 +54,7 @@ class GeneratorBuilder {
     NoiseCall checkedNoise(Pass& pass, std::string_view kind, NoiseCall call);
     std::uint32_t noiseIndex(const NoiseCall& call);
     std::uint32_t hashSlot(const std::string& seedName);
+    void checkRegisters();
 
     GeneratorGraph generator_;
     const world::BlockRegistry& blocks_;

@@ -10,12 +10,6 @@
 #include "terrane/gen/program.h"
 
 namespace terrane::gen {
-namespace {
-
-// The fewest chunks that are worth a cache: some rows of a wide area.
-constexpr std::size_t kLeastCached = 256;
-
-}  // namespace
 
 struct Generator::Impl {
     // A thread's own: the scratch memory of passes, and the results that no neighbour needs.
@@ -30,13 +24,16 @@ struct Generator::Impl {
         std::array<std::unique_ptr<BlockArray>, 2> blocks;  // of the newest two 3D passes, in turn
     };
 
-    Impl(GeneratorGraph g, std::uint64_t seed, std::size_t cacheBytes)
+    Impl(GeneratorGraph g, std::uint64_t seed, CacheSize size)
         : graph(std::move(g)),
           seeds(makeSeeds(graph, seed)),
           shared(sharedPasses(graph)),
-          cache(std::max(kLeastCached, cacheBytes / workBytes()), graph.fields.size(),
+          cache(std::max(size.leastChunks, size.bytes / workBytes()), graph.fields.size(),
                 static_cast<std::size_t>(shared)) {
-        for (const PassGraph& pass : graph.passes) programs.push_back(compile(pass, graph.noises));
+        for (const PassGraph& pass : graph.passes) {
+            programs.push_back(compile(pass, graph.noises));
+            assert(programs.back().arenaRows <= kMaxArenaRows && "GeneratorBuilder::finish() refuses others");
+        }
     }
 
     std::size_t workBytes() const {
@@ -145,22 +142,11 @@ void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Wo
 }
 
 void Generator::Impl::advance(world::ChunkPos pos, ChunkWork& work, int passes, Worker& worker) {
-    for (;;) {
-        const int done = work.passesDone.load(std::memory_order_acquire);
-        if (done >= passes) return;
-        int expected = done;
-        if (!work.claimed.compare_exchange_strong(expected, done + 1)) {
-            work.passesDone.wait(done, std::memory_order_acquire);
-            continue;
-        }
-        runPass(pos, work, done, worker);
-        work.passesDone.store(done + 1, std::memory_order_release);
-        work.passesDone.notify_all();
-    }
+    work.advance(passes, [&](int pass) { runPass(pos, work, pass, worker); });
 }
 
-Generator::Generator(GeneratorGraph graph, std::uint64_t seed, std::size_t cacheBytes)
-    : impl_(std::make_unique<Impl>(std::move(graph), seed, cacheBytes)) {}
+Generator::Generator(GeneratorGraph graph, std::uint64_t seed, CacheSize cacheSize)
+    : impl_(std::make_unique<Impl>(std::move(graph), seed, cacheSize)) {}
 Generator::~Generator() = default;
 Generator::Generator(Generator&&) noexcept = default;
 Generator& Generator::operator=(Generator&&) noexcept = default;

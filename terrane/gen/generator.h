@@ -15,17 +15,24 @@
 
 namespace terrane::gen {
 
+// Room for what chunks' neighbours need of them: 1 KiB a field and, where they read blocks, 128 KiB a 3D
+// pass. Overworld: 15 KiB a chunk, so that the default holds 4,350 chunks.
+struct CacheSize {
+    std::size_t bytes = std::size_t{64} << 20;
+    // Kept even where they need more bytes: with less than some rows of a wide area nearly everything would
+    // be computed again.
+    std::size_t leastChunks = 256;
+};
+
 class Generator {
   public:
-    // `cacheBytes`: for what chunks' neighbours need of them, 1 KiB a field and, where they read blocks,
-    // 128 KiB a 3D pass. Overworld: 15 KiB a chunk, so that the default holds 4,350 chunks.
-    Generator(GeneratorGraph graph, std::uint64_t seed, std::size_t cacheBytes = std::size_t{64} << 20);
+    Generator(GeneratorGraph graph, std::uint64_t seed, CacheSize cacheSize = {});
     ~Generator();
     Generator(Generator&&) noexcept;
     Generator& operator=(Generator&&) noexcept;
 
-    // Any thread, any number at a time. `pos` must be in the world. Beyond its edge generation sees
-    // coordinates wrap.
+    // Any thread, any number at a time. Where one runs out of memory the others go on. `pos` must be in the
+    // world. Beyond its edge generation sees coordinates wrap.
     world::Chunk generate(world::ChunkPos pos) const;
 
     const std::string& name() const;

@@ -9,10 +9,11 @@
 
 #include "terrane/gen/graph.h"
 #include "terrane/gen/noise.h"
+#include "terrane/shared/generation.h"
 
 namespace terrane::gen {
 
-constexpr int kMaxReadOffset = 16;  // blocks: a pass sees at most the eight chunks around its own
+using shared::kMaxReadOffset;
 
 // A value of each column that one pass writes and later ones read.
 struct FieldInfo {

@@ -3,7 +3,6 @@
 #include <fmt/args.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
 
 #include "terrane/gen/schedule.h"

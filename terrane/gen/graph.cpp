@@ -1,8 +1,8 @@
 #include "terrane/gen/graph.h"
 
-#include <algorithm>
 #include <cassert>
 #include <optional>
+#include <utility>
 
 #include "terrane/shared/hash.h"
 
@@ -139,6 +139,7 @@ void Graph::endLoop(NodeId condition, std::span<const NodeId> next) {
     Loop& loop = loops_[static_cast<std::size_t>(openLoop_)];
     assert(next.size() == loop.variables.size() && "each variable has a next value");
     loop.condition = condition;
+    leaksOutOfLoop_ = leaksOutOfLoop_ || !isOpen(nodes_[condition].loop);
     for (std::size_t k = 0; k < next.size(); ++k) {
         LoopVariable& v = loopVariables_[loop.variables[k]];
         v.next = next[k];

@@ -1,8 +1,6 @@
 #include "terrane/gen/kernels.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cstring>
 #include <limits>
 
 #include "terrane/world/coords.h"

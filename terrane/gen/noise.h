@@ -31,7 +31,7 @@ enum class NoiseKind : std::uint8_t { Perlin2D, Perlin3D, Voronoi2D, Voronoi3D }
 struct NoiseCall {
     NoiseKind kind = NoiseKind::Perlin2D;
     std::string name;            // names the seed: stable when code moves
-    std::int32_t size = 1;       // blocks: smallest lattice (Perlin), cell (Voronoi); 1…65,536
+    std::int32_t size = 1;       // blocks: smallest lattice (Perlin), 1…65,536; cell, 1…kMaxVoronoiSize
     std::vector<float> weights;  // Perlin: of octaves size, 2 size, 4 size, …
     int maxPoints = 1;           // Voronoi: 1…4
     int exponent = 2;            // Voronoi 3D: of the metric, 2…8

@@ -12,15 +12,48 @@
 
 namespace terrane::gen {
 
-// One chunk on its way through the passes. Pass k is run by the thread that raises `claimed` from k to k + 1;
-// who needs its result waits on `passesDone`. Results of the first `passesDone` passes never change again.
+// One chunk on its way through the passes. Results of the first `passesDone` passes never change again.
 struct ChunkWork {
     ChunkWork(std::size_t fieldCount, std::size_t passCount) : fields(fieldCount), blocks(passCount) {}
 
-    std::atomic<int> claimed = 0, passesDone = 0;
+    // Until the first `passes` passes are done: calls run(pass) for each that nobody is at, waits where
+    // another thread is. An exception of `run` passes through; then the pass is anybody's again.
+    template <class Run>
+    void advance(int passes, const Run& run);
+
+    int passesDone() const { return state_.load(std::memory_order_acquire) / 2; }
+
     std::vector<ColumnValues> fields;                 // by field
     std::vector<std::unique_ptr<BlockArray>> blocks;  // by pass; null for 2D passes
+
+  private:
+    void setState(int state) {
+        state_.store(state, std::memory_order_release);
+        state_.notify_all();
+    }
+
+    std::atomic<int> state_ = 0;  // twice the passes done, and one more while a thread is at the next
 };
+
+template <class Run>
+void ChunkWork::advance(int passes, const Run& run) {
+    for (;;) {
+        int state = state_.load(std::memory_order_acquire);
+        if (state / 2 >= passes) return;
+        if (state % 2 != 0) {
+            state_.wait(state, std::memory_order_acquire);
+            continue;
+        }
+        if (!state_.compare_exchange_strong(state, state + 1)) continue;
+        try {
+            run(state / 2);
+        } catch (...) {
+            setState(state);  // or those who wait would wait for ever
+            throw;
+        }
+        setState(state + 2);
+    }
+}
 
 class PassCache {
   public:

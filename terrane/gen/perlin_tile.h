@@ -3,7 +3,7 @@
 // Between two lattice nodes along x the noise is a blend of two linear functions of the other offsets, so a
 // node row (all nodes of equal y, or equal y and z) is kept as the coefficients of the blended function for
 // each of the 16 x of the tile. A sample then costs one multiply-add at each of two node rows and one blend.
-// noise.h states the order of operations; perlin_tile.cpp and kernels.cpp follow it.
+// noise.h states the order of operations; perlin_tile.cpp and noise_kernels-inl.h follow it.
 #pragma once
 
 #include <array>

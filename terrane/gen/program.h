@@ -17,6 +17,9 @@ constexpr int kTileSize = 16;                      // columns along x and along 
 constexpr int kTileLanes = kTileSize * kTileSize;  // lane = x + 16 y
 constexpr int kRowLanes = kTileSize;               // lanes of a row: 64 bytes
 
+// Operands count rows in 16 bits: 65,536 × 64 bytes = 4 MiB.
+constexpr std::uint32_t kMaxArenaRows = 65536;
+
 // Where a value lies in the arena: rows of 16 lanes of 32 bits. A value that is the same in every column has
 // one row (rowStep 0), others have 16.
 struct Operand {
@@ -77,6 +80,7 @@ struct Program {
     bool readsBlocksAt = false;          // reads blocks with an offset
 };
 
+// A program that needs more than kMaxArenaRows cannot run: GeneratorBuilder::finish() refuses it.
 Program compile(const PassGraph& pass, const std::vector<NoiseCall>& noises);
 
 }  // namespace terrane::gen

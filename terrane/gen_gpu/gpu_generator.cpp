@@ -29,7 +29,6 @@ constexpr std::size_t kBatchesInFlight = 3;
 constexpr int kLayersPerGroup =
     64;  // four work groups a chunk: the part that is free of z is computed four times
 constexpr std::size_t kChunkBytes = std::size_t{world::kBlocksPerChunk} * sizeof(std::uint16_t);
-constexpr std::size_t kWordsPerColumn = world::kChunkHeight / 2;
 
 gpu::Buffer seedBuffer(const std::vector<std::uint32_t>& seeds, std::string_view label) {
     // Buffers are not empty, generators without noise or random numbers are possible.
@@ -193,6 +192,14 @@ GpuGenerator::~GpuGenerator() = default;
 
 base::Result<GpuGenerator> GpuGenerator::create(const gpu::ShaderLoader& shaders,
                                                 const gen::GeneratorGraph& generator, std::uint64_t seed) {
+    // submit() could take no chunk of it, and its caller would never end.
+    const std::size_t slotsOfOne = neededPasses(generator, {{0, 0}}).size();
+    if (slotsOfOne > kSlots) {
+        return base::fail(
+            "generator \"{}\": a chunk needs results of {} chunks, the GPU has room for {}: let fewer passes "
+            "read around each other",
+            generator.name, slotsOfOne, kSlots);
+    }
     auto impl = std::make_unique<Impl>(generator, shaders);
     if (auto built = impl->build(seed); !built) return tl::unexpected(built.error());
     return GpuGenerator(std::move(impl));

@@ -18,8 +18,8 @@
 
 namespace terrane::gen_gpu {
 
-// 8×8 neighbouring overworld chunks need 12×12 slots with the rings around them: the slots hold four such
-// batches.
+// A batch of 8×8 neighbouring overworld chunks needs four rings around it: (8 + 2 × 4)² = 256 slots. The
+// slots hold 640 / 256 = 2.5 such batches, so that neighbouring ones share their rings.
 constexpr std::size_t kMaxBatch = 64;
 constexpr std::size_t kSlots = 640;
 
@@ -27,10 +27,13 @@ class GpuGenerator {
   public:
     using Batch = std::vector<std::pair<world::ChunkPos, world::Chunk>>;
 
-    // Memory on the GPU: a slot takes 1 KiB a field and 128 KiB for each 3D pass but the last (overworld: 71
-    // MiB in all), results 8 MiB a batch in flight.
-    static base::Result<GpuGenerator> create(const gpu::ShaderLoader& shaders,
-                                             const gen::GeneratorGraph& generator, std::uint64_t seed);
+    // Memory on the GPU: a slot takes 1 KiB a field and 128 KiB for each 3D pass but the last (overworld, 15
+    // fields and two 3D passes: 640 × (15 + 128) KiB = 89 MiB); the results of a batch 64 × 128 KiB = 8 MiB,
+    // once on the GPU and once for each of three batches on their way back. A generator whose single chunk
+    // needs more than kSlots is refused.
+    [[nodiscard]] static base::Result<GpuGenerator> create(const gpu::ShaderLoader& shaders,
+                                                           const gen::GeneratorGraph& generator,
+                                                           std::uint64_t seed);
     GpuGenerator(GpuGenerator&&) noexcept;
     GpuGenerator& operator=(GpuGenerator&&) noexcept;
     ~GpuGenerator();

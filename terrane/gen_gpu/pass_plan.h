@@ -1,4 +1,5 @@
-// Which passes of which chunks a batch needs: pure bookkeeping without OpenGL. Used by gpu_generator.cpp.
+// Which passes of which chunks a batch needs: pure bookkeeping without OpenGL. Used by gpu_generator.cpp. Any
+// thread.
 #pragma once
 
 #include <unordered_map>

@@ -1,4 +1,5 @@
-// Which chunk's intermediate results lie in which slot on the GPU, and how far they are. Pure bookkeeping.
+// Which chunk's intermediate results lie in which slot on the GPU, and how far they are. Pure bookkeeping
+// without OpenGL. Used on one thread, that of gpu_generator.cpp.
 #pragma once
 
 #include <cstdint>

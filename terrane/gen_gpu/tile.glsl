@@ -58,14 +58,14 @@ void writeField(uint field, uint bits) {
     fields[(slot * FIELD_COUNT + field) * kBlocksPerLayer + column] = bits;
 }
 
-// A column of one of the nine chunks. Offsets beyond 16 blocks are clamped, as on the CPU.
+// A column of one of the nine chunks. Offsets beyond kMaxReadOffset are clamped, as on the CPU.
 struct Place {
     uint slot, column;
 };
 
 Place placeAt(int dx, int dy) {
-    int x = int(gl_LocalInvocationID.x) + clamp(dx, -16, 16) + 16;
-    int y = int(gl_LocalInvocationID.y) + clamp(dy, -16, 16) + 16;
+    int x = int(gl_LocalInvocationID.x) + clamp(dx, -kMaxReadOffset, kMaxReadOffset) + 16;
+    int y = int(gl_LocalInvocationID.y) + clamp(dy, -kMaxReadOffset, kMaxReadOffset) + 16;
     uint neighbour = uint((y >> 4) * 3 + (x >> 4));
     return Place(jobs[gl_WorkGroupID.x].neighbours[neighbour >> 2][neighbour & 3u], uint((x & 15) + 16 * (y & 15)));
 }

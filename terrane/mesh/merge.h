@@ -32,9 +32,4 @@ using MergeFunction = std::size_t (*)(const PlaneRows& plane, const QuadPattern&
 
 MergeFunction mergeFunction(Method method);
 
-// Bits and rows of the largest rectangle a method makes.
-constexpr int largestExtent(Method method) {
-    return method == Method::None ? 1 : method == Method::Greedy ? 16 : 8;
-}
-
 }  // namespace terrane::mesh

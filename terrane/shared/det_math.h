@@ -1,6 +1,6 @@
 // Division and square root from additions, multiplications and integer operations, so that every machine,
-// every instruction set and every GPU gives the same bits. gen/kernels.cpp repeats them in SIMD, step by
-// step; tests compare.
+// every instruction set and every GPU gives the same bits. gen/tile_rows-inl.h repeats them in SIMD, step
+// by step; tests compare.
 #ifndef TERRANE_SHARED_DET_MATH_H
 #define TERRANE_SHARED_DET_MATH_H
 

@@ -9,6 +9,9 @@ SHARED_BEGIN
 // Loops in generators end after so many rounds: no mistake in a generator hangs a GPU.
 const int kMaxLoopRounds = 1024;
 
+// How far a pass reads from its column, blocks along x and y: the eight chunks around its own.
+const int kMaxReadOffset = 16;
+
 // Storage buffers of a generator pass
 const uint kTileJobsBinding = 0u;
 const uint kFieldsBinding = 1u;

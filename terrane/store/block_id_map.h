@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "terrane/base/result.h"
@@ -27,8 +26,8 @@ class BlockIdMap {
     // lacks get ids that it does not use. Names the registry lacks become the session ids behind the
     // registry's last, for which BlockRegistry::type gives "missing": they are drawn, and go back under their
     // own id. An error where more than 65,536 types are needed.
-    static base::Result<BlockIdMap> make(const world::BlockRegistry& registry,
-                                         const std::vector<SavedName>& saved);
+    [[nodiscard]] static base::Result<BlockIdMap> make(const world::BlockRegistry& registry,
+                                                       const std::vector<SavedName>& saved);
 
     std::uint32_t toSession(world::BlockId saved) const { return at(toSession_, saved); }  // kNone: no name
     std::uint32_t toSaved(world::BlockId session) const {

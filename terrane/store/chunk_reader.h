@@ -2,7 +2,6 @@
 // and leaves it for the next.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -23,8 +22,8 @@ class ChunkReader {
     ChunkReader(std::filesystem::path path, OpenMode mode) : path_(std::move(path)), mode_(mode) {}
 
     // Any thread. Nothing where the save has no chunk; an error where the file is damaged.
-    base::Result<std::optional<StoredChunk>> read(world::ChunkPos pos);
-    base::Result<bool> contains(world::ChunkPos pos);
+    [[nodiscard]] base::Result<std::optional<StoredChunk>> read(world::ChunkPos pos);
+    [[nodiscard]] base::Result<bool> contains(world::ChunkPos pos);
 
   private:
     struct Connection {

@@ -2,7 +2,6 @@
 // MemoryStore until the program ends. Any thread may call everything.
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -68,7 +67,9 @@ class ChunkStore {
     // waits. A generated chunk never replaces an edited one.
     virtual SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Origin origin) = 0;
 
-    // Small texts by name, for example the player's position. Saved in the same order as chunks.
+    // Small texts by name, for example the player's position. Saved in the same order as chunks. What
+    // identity() is read from (seed, generator, generator_version) cannot be set: that is logged as an error,
+    // and nothing changes.
     virtual std::optional<std::string> setting(std::string_view name) = 0;
     virtual SaveNumber setSetting(std::string_view name, std::string value) = 0;
 

@@ -11,6 +11,6 @@ namespace terrane::store {
 void appendCompressed(Bytes& out, ByteView bytes);
 
 // Fills `target` from one frame, which must hold exactly that many bytes.
-base::Result<void> decompress(ByteView frame, std::span<std::byte> target);
+[[nodiscard]] base::Result<void> decompress(ByteView frame, std::span<std::byte> target);
 
 }  // namespace terrane::store

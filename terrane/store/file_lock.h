@@ -1,6 +1,8 @@
 // Keeps other programs from a save. The lock is a file beside it, removed at the end; a program that is
 // killed leaves the file but not the lock. Not a lock on the save itself: closing any handle of a file would
 // end the locks that SQLite has on it.
+//
+// Any thread may acquire one; a lock is used by one thread at a time.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +17,7 @@ class FileLock {
     enum class Kind { Exclusive, Shared };
 
     // Does not wait. The error names `path`, what is locked, and the program that has it.
-    static base::Result<FileLock> acquire(const std::filesystem::path& path, Kind kind);
+    [[nodiscard]] static base::Result<FileLock> acquire(const std::filesystem::path& path, Kind kind);
     ~FileLock();
     FileLock(FileLock&& other) noexcept;
     FileLock& operator=(FileLock&& other) noexcept;

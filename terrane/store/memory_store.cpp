@@ -65,6 +65,10 @@ std::optional<std::string> MemoryStore::setting(std::string_view name) {
 
 SaveNumber MemoryStore::setSetting(std::string_view name, std::string value) {
     const std::lock_guard lock(mutex_);
+    if (isIdentitySetting(name)) {
+        base::logError("the setting {} belongs to the world's identity and stays as it is", name);
+        return saves_;
+    }
     settings_.insert_or_assign(std::string(name), std::move(value));
     return ++saves_;
 }

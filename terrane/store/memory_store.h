@@ -25,7 +25,7 @@ class MemoryStore : public ChunkStore {
     SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Origin origin) override;
     std::optional<std::string> setting(std::string_view name) override;
     SaveNumber setSetting(std::string_view name, std::string value) override;
-    base::Result<void> flush() override { return {}; }
+    [[nodiscard]] base::Result<void> flush() override { return {}; }
     SaveStatus status() override;  // "durable" as far as memory is
     const WorldIdentity& identity() const override { return identity_; }
     bool isPersistent() const override { return false; }

@@ -1,4 +1,5 @@
-// Looks through a whole save for damage, changing nothing.
+// Looks through a whole save for damage, changing nothing. Any thread; it runs for as long as reading all of
+// it takes.
 #pragma once
 
 #include <filesystem>

@@ -105,11 +105,7 @@ base::Result<void> makeCurrent(SaveFile& file, const fs::path& path, const SaveA
 // The copy is made before anything is deleted.
 base::Result<void> recreate(SaveFile& file, const fs::path& path, int generatorVersion) {
     const fs::path backup = backupPath(path, "backup");
-    if (auto copied = file.database.backUpTo(backup); !copied) {
-        std::error_code ignored;
-        fs::remove(backup, ignored);
-        return copied;
-    }
+    if (auto copied = file.database.backUpTo(backup); !copied) return copied;
     auto transaction = Transaction::begin(file.database);
     if (!transaction) return tl::unexpected(transaction.error());
     const std::string sql = fmt::format(

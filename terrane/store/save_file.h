@@ -1,5 +1,6 @@
 // Opens the file of a save: finds out what is wrong with it before anything is done, takes the lock, makes or
-// migrates the tables.
+// migrates the tables. Called by the stores and by save_check.cpp, on the thread that opens the save; what is
+// opened is used by one thread at a time.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "terrane/store/block_id_map.h"
 #include "terrane/store/file_lock.h"
@@ -40,11 +42,13 @@ struct SaveAccess {
 };
 
 // To read and write. New names of block types are written already.
-base::Result<SaveFile> openToWrite(const std::filesystem::path& path, const world::BlockRegistry& registry,
-                                   const SaveAccess& access);
+[[nodiscard]] base::Result<SaveFile> openToWrite(const std::filesystem::path& path,
+                                                 const world::BlockRegistry& registry,
+                                                 const SaveAccess& access);
 
 // Changes nothing; no other program may write meanwhile.
-base::Result<SaveFile> openToRead(const std::filesystem::path& path, const world::BlockRegistry& registry);
+[[nodiscard]] base::Result<SaveFile> openToRead(const std::filesystem::path& path,
+                                                const world::BlockRegistry& registry);
 
 // Whether the save, or a new one, could be written there: the file, its folder, their file system.
 bool isWritable(const std::filesystem::path& path);

@@ -1,4 +1,5 @@
-// Where the save of a name lies.
+// Where the save of a name lies. Called by programs while they start; reads the environment, which no thread
+// may change meanwhile.
 #pragma once
 
 #include <filesystem>

@@ -17,6 +17,14 @@ void put(Chunks& chunks, world::ChunkPos pos, WaitingChunk newer) {
     if (!isNew && newer.origin >= entry->second.origin) entry->second = std::move(newer);
 }
 
+// Settings by name. A damaged row is not lost: it stays in the file, to be found again.
+std::string contentOf(const SaveBatch& batch) {
+    std::string text = fmt::format("{} chunks", batch.chunks.size());
+    for (const auto& [name, value] : batch.settings) text += fmt::format(", the setting {}", name);
+    if (!batch.damaged.empty()) text += fmt::format(", {} damaged rows put aside", batch.damaged.size());
+    return text;
+}
+
 }  // namespace
 
 SaveQueue::SaveQueue(WriteBatch write, SaveLimits limits)
@@ -29,8 +37,7 @@ SaveQueue::~SaveQueue() {
     }
     wake_.notify_all();
     thread_.join();
-    if (!waiting_.chunks.empty() && !isProblemTold_)
-        base::logError("{} chunks are lost: {}", waiting_.chunks.size(), problem_);
+    if (!waiting_.isEmpty() && !isProblemTold_) base::logError("{}; lost: {}", problem_, contentOf(waiting_));
 }
 
 template <class Add>
@@ -108,12 +115,12 @@ void SaveQueue::run() {
             }
         }
         const bool isLast = isEnding_;
-        writeOnce(lock);
+        writeOnce(lock, isLast);
         if (isLast) return;
     }
 }
 
-void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock) {
+void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
     ++attempts_;
     writing_ = std::exchange(waiting_, {});
     due_ = Clock::time_point::max();
@@ -129,10 +136,10 @@ void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock) {
         durable_ = goal;
         writing_ = {};
     } else {
-        // Who waits for flush() is told there.
-        if (problem_.empty() && wantedAttempts_ < attempts_)
-            base::logError("{}; {} chunks wait, tried again every {} s", done.error().message,
-                           writing_.chunks.size(), static_cast<double>(limits_.delay.count()) / 1000);
+        // Who waits for flush() is told there; what the last attempt loses is told by the destructor.
+        if (problem_.empty() && wantedAttempts_ < attempts_ && !isLast)
+            base::logError("{}; waiting, tried again every {} s: {}", done.error().message,
+                           static_cast<double>(limits_.delay.count()) / 1000, contentOf(writing_));
         problem_ = done.error().message;
         takeBack(std::exchange(writing_, {}));
     }

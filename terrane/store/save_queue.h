@@ -59,7 +59,7 @@ class SaveQueue {
     void add(DamagedRow row);
 
     std::optional<WaitingChunk> find(world::ChunkPos pos);  // waiting or being written
-    base::Result<void> flush();                             // as ChunkStore::flush()
+    [[nodiscard]] base::Result<void> flush();               // as ChunkStore::flush()
     SaveStatus status();
 
   private:
@@ -67,7 +67,7 @@ class SaveQueue {
 
     void run();
     bool isDue() const;
-    void writeOnce(std::unique_lock<std::mutex>& lock);
+    void writeOnce(std::unique_lock<std::mutex>& lock, bool isLast);
     void takeBack(SaveBatch failed);
     template <class Add>
     SaveNumber addNumbered(Add add);

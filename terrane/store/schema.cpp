@@ -14,13 +14,15 @@ CREATE TABLE chunks (key INTEGER PRIMARY KEY, origin INTEGER NOT NULL, data BLOB
 CREATE TABLE quarantine (number INTEGER PRIMARY KEY, key INTEGER NOT NULL, reason TEXT NOT NULL, data BLOB NOT NULL);
 )";
 
+constexpr const char *kSeed = "seed", *kGenerator = "generator", *kGeneratorVersion = "generator_version";
+
 base::Result<void> writeIdentity(Database& database, const WorldIdentity& identity) {
     auto insert = database.prepare("INSERT INTO settings (name, value) VALUES (?1, ?2)");
     if (!insert) return tl::unexpected(insert.error());
     const std::pair<const char*, std::string> values[] = {
-        {"seed", std::to_string(identity.seed)},
-        {"generator", identity.generator},
-        {"generator_version", std::to_string(identity.generatorVersion)}};
+        {kSeed, std::to_string(identity.seed)},
+        {kGenerator, identity.generator},
+        {kGeneratorVersion, std::to_string(identity.generatorVersion)}};
     for (const auto& [name, value] : values) {
         insert->bind(1, std::string_view(name));
         insert->bind(2, std::string_view(value));
@@ -41,6 +43,30 @@ base::Result<T> numberSetting(const std::map<std::string, std::string>& settings
         return base::fail("{}: damaged: the setting {} is \"{}\", expected a number", path, name,
                           found->second);
     return value;
+}
+
+// The SQL of each step from the save's format to `current`.
+base::Result<std::vector<const char*>> findWay(Database& database, std::span<const Migration> steps,
+                                               std::int64_t current) {
+    const auto version = database.queryNumber("PRAGMA user_version");
+    if (!version) return tl::unexpected(version.error());
+    std::vector<const char*> way;
+    for (std::int64_t at = **version; at < current; ++at) {
+        const auto step =
+            std::find_if(steps.begin(), steps.end(), [&](const Migration& m) { return m.from == at; });
+        if (step == steps.end()) return base::fail("{}: in format {}, which is unknown", database.path(), at);
+        way.push_back(step->sql);
+    }
+    return way;
+}
+
+base::Result<void> runSteps(Database& database, const std::vector<const char*>& way, std::int64_t current) {
+    auto transaction = Transaction::begin(database);
+    if (!transaction) return tl::unexpected(transaction.error());
+    for (const char* sql : way)
+        if (auto done = database.execute(sql); !done) return done;
+    if (auto done = database.execute(fmt::format("PRAGMA user_version = {}", current)); !done) return done;
+    return transaction->commit();
 }
 
 }  // namespace
@@ -77,19 +103,16 @@ base::Result<void> createTables(Database& database, const WorldIdentity& identit
 
 base::Result<void> migrate(Database& database, std::span<const Migration> steps, std::int64_t current,
                            const std::filesystem::path& backup) {
-    auto version = database.queryNumber("PRAGMA user_version");
-    if (!version) return tl::unexpected(version.error());
+    const auto way = findWay(database, steps, current);
+    if (!way) return tl::unexpected(way.error());
     if (auto copied = database.backUpTo(backup); !copied) return copied;
-    auto transaction = Transaction::begin(database);
-    if (!transaction) return tl::unexpected(transaction.error());
-    for (std::int64_t at = **version; at < current; ++at) {
-        const auto step =
-            std::find_if(steps.begin(), steps.end(), [&](const Migration& m) { return m.from == at; });
-        if (step == steps.end()) return base::fail("{}: in format {}, which is unknown", database.path(), at);
-        if (auto done = database.execute(step->sql); !done) return done;
+    auto migrated = runSteps(database, *way, current);
+    if (!migrated) {
+        // The save is as it was. Each further attempt would leave one more copy of it.
+        std::error_code ignored;
+        std::filesystem::remove(backup, ignored);
     }
-    if (auto done = database.execute(fmt::format("PRAGMA user_version = {}", current)); !done) return done;
-    return transaction->commit();
+    return migrated;
 }
 
 base::Result<std::vector<SavedName>> readBlockNames(Database& database) {
@@ -124,13 +147,17 @@ base::Result<std::map<std::string, std::string>> readSettings(Database& database
     }
 }
 
+bool isIdentitySetting(std::string_view name) {
+    return name == kSeed || name == kGenerator || name == kGeneratorVersion;
+}
+
 base::Result<WorldIdentity> identityFrom(const std::map<std::string, std::string>& settings,
                                          const std::string& path) {
-    const auto seed = numberSetting<std::uint64_t>(settings, "seed", path);
+    const auto seed = numberSetting<std::uint64_t>(settings, kSeed, path);
     if (!seed) return tl::unexpected(seed.error());
-    const auto version = numberSetting<int>(settings, "generator_version", path);
+    const auto version = numberSetting<int>(settings, kGeneratorVersion, path);
     if (!version) return tl::unexpected(version.error());
-    const auto generator = settings.find("generator");
+    const auto generator = settings.find(kGenerator);
     if (generator == settings.end()) return base::fail("{}: damaged: the setting generator is missing", path);
     return WorldIdentity{*seed, generator->second, *version};
 }

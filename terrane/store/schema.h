@@ -1,10 +1,12 @@
 // The tables of a save, and the way from older formats to this one. docs/file-format.md describes them.
+// Called while a save is opened, on the thread that opens it and uses its connection.
 #pragma once
 
 #include <filesystem>
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "terrane/store/block_id_map.h"
@@ -37,12 +39,15 @@ enum class SaveKind {
 // Makes the tables of an empty file. All or nothing.
 [[nodiscard]] base::Result<void> createTables(Database& database, const WorldIdentity& identity);
 
-// Leads an old save to format `current`, step by step, all or nothing, after copying it to `backup`.
+// Leads an old save to format `current`, step by step, all or nothing, after copying it to `backup`. A
+// failure leaves no copy.
 [[nodiscard]] base::Result<void> migrate(Database& database, std::span<const Migration> steps,
                                          std::int64_t current, const std::filesystem::path& backup);
 
 [[nodiscard]] base::Result<std::vector<SavedName>> readBlockNames(Database& database);
 [[nodiscard]] base::Result<std::map<std::string, std::string>> readSettings(Database& database);
+// Whether the setting is part of the world's identity, which only making a save, or making it anew, writes.
+bool isIdentitySetting(std::string_view name);
 // From the settings; an error where one is missing or no number.
 [[nodiscard]] base::Result<WorldIdentity> identityFrom(const std::map<std::string, std::string>& settings,
                                                        const std::string& path);

@@ -7,7 +7,8 @@
 namespace terrane::store {
 namespace {
 
-// How long a statement waits for another connection of this program. Other programs are kept out by the lock.
+// How long a statement waits for another connection. Terrane's own programs keep each other out by the lock;
+// what can still be in the way after this time is a program that does not know it, such as sqlite3.
 constexpr int kBusyMilliseconds = 10000;
 
 // What a person can do something about, in plain words; SQLite's own words for the rest.
@@ -82,8 +83,11 @@ void Statement::bind(int parameter, std::string_view text) {
 }
 
 void Statement::bind(int parameter, ByteView blob) {
+    // A null pointer would bind NULL, and nothing equals NULL.
     [[maybe_unused]] const int code =
-        sqlite3_bind_blob64(statement_.get(), parameter, blob.data(), blob.size(), SQLITE_TRANSIENT);
+        blob.empty()
+            ? sqlite3_bind_zeroblob(statement_.get(), parameter, 0)
+            : sqlite3_bind_blob64(statement_.get(), parameter, blob.data(), blob.size(), SQLITE_TRANSIENT);
     assert(code == SQLITE_OK && "the statement has this parameter and was reset");
 }
 
@@ -159,6 +163,16 @@ base::Result<std::optional<std::int64_t>> Database::queryNumber(std::string_view
 }
 
 base::Result<void> Database::backUpTo(const std::filesystem::path& target) {
+    assert(!std::filesystem::exists(target) && "a copy never replaces a file");
+    auto copied = copyTo(target);
+    if (!copied) {
+        std::error_code ignored;
+        std::filesystem::remove(target, ignored);
+    }
+    return copied;
+}
+
+base::Result<void> Database::copyTo(const std::filesystem::path& target) {
     auto copy = open(target, OpenMode::Create);
     if (!copy) return tl::unexpected(copy.error());
     sqlite3* to = copy->database_.get();

@@ -55,7 +55,7 @@ enum class OpenMode {
 
 class Database {
   public:
-    static base::Result<Database> open(const std::filesystem::path& path, OpenMode mode);
+    [[nodiscard]] static base::Result<Database> open(const std::filesystem::path& path, OpenMode mode);
 
     // Statements that give no rows; several are separated by semicolons.
     [[nodiscard]] base::Result<void> execute(const std::string& sql);
@@ -63,7 +63,8 @@ class Database {
     [[nodiscard]] base::Result<Statement> prepare(std::string_view sql);
     // The first column of the first row; nothing where there is no row.
     [[nodiscard]] base::Result<std::optional<std::int64_t>> queryNumber(std::string_view sql);
-    // Copies everything into a new file, also while others read and write.
+    // Copies everything into a new file, also while others read and write. What a failed copy leaves is
+    // removed.
     [[nodiscard]] base::Result<void> backUpTo(const std::filesystem::path& target);
 
     const std::string& path() const { return *path_; }
@@ -72,6 +73,7 @@ class Database {
     struct Close {
         void operator()(sqlite3* database) const;
     };
+    base::Result<void> copyTo(const std::filesystem::path& target);
     explicit Database(std::string path) : path_(std::make_unique<std::string>(std::move(path))) {}
 
     std::unique_ptr<std::string> path_;  // statements point to it
@@ -81,7 +83,7 @@ class Database {
 // Rolls back unless committed. One at a time on a connection.
 class Transaction {
   public:
-    static base::Result<Transaction> begin(Database& database);
+    [[nodiscard]] static base::Result<Transaction> begin(Database& database);
     ~Transaction();
     Transaction(Transaction&& other) noexcept : database_(std::exchange(other.database_, nullptr)) {}
     Transaction& operator=(Transaction&&) = delete;

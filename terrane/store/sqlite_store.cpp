@@ -170,6 +170,11 @@ std::optional<std::string> SqliteStore::setting(std::string_view name) {
 }
 
 SaveNumber SqliteStore::setSetting(std::string_view name, std::string value) {
+    if (isIdentitySetting(name)) {
+        base::logError("{}: the setting {} belongs to the world's identity and stays as it is",
+                       file_.database.path(), name);
+        return queue_->status().queued;
+    }
     const std::lock_guard lock(settingsMutex_);
     settings_.insert_or_assign(std::string(name), value);
     return queue_->add(std::string(name), std::move(value));

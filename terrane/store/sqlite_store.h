@@ -14,9 +14,10 @@ namespace terrane::store {
 
 class SqliteStore : public ChunkStore {
   public:
-    static base::Result<std::unique_ptr<SqliteStore>> open(const std::filesystem::path& path,
-                                                           const world::BlockRegistry& registry,
-                                                           const SaveAccess& access, SaveLimits limits = {});
+    [[nodiscard]] static base::Result<std::unique_ptr<SqliteStore>> open(const std::filesystem::path& path,
+                                                                         const world::BlockRegistry& registry,
+                                                                         const SaveAccess& access,
+                                                                         SaveLimits limits = {});
     ~SqliteStore() override;
 
     LoadedChunk load(world::ChunkPos pos) override;
@@ -25,12 +26,10 @@ class SqliteStore : public ChunkStore {
     SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Origin origin) override;
     std::optional<std::string> setting(std::string_view name) override;
     SaveNumber setSetting(std::string_view name, std::string value) override;
-    base::Result<void> flush() override { return queue_->flush(); }
+    [[nodiscard]] base::Result<void> flush() override { return queue_->flush(); }
     SaveStatus status() override { return queue_->status(); }
     const WorldIdentity& identity() const override { return file_.identity; }
     bool isPersistent() const override { return true; }
-
-    bool isNew() const { return file_.isNew; }  // the file was not there before
 
   private:
     struct Writer;

@@ -174,7 +174,7 @@ base::Error oneLine(std::string message) {
     return {std::move(message)};
 }
 
-base::Result<std::vector<BlockDescription>> readFile(const toml::table& root, std::string_view file) {
+base::Result<std::vector<BlockDescription>> readBlocks(const toml::table& root, std::string_view file) {
     std::optional<std::string> error;
     std::vector<BlockDescription> blocks;
     std::unordered_set<std::string> names{"air", "missing"};
@@ -202,7 +202,7 @@ base::Result<std::vector<BlockDescription>> readFile(const toml::table& root, st
 
 base::Result<std::vector<BlockDescription>> parseBlocks(std::string_view toml, std::string_view file) {
     try {
-        return readFile(toml::parse(toml), file);
+        return readBlocks(toml::parse(toml), file);
     } catch (const toml::parse_error& error) {  // the only way this library tells of wrong syntax
         return tl::unexpected(
             oneLine(fmt::format("{}:{}: syntax: {}", file, error.source().begin.line, error.description())));

@@ -33,7 +33,8 @@ struct BlockDescription {
 };
 
 // The file's blocks in its order, names unique. Errors read "file:line: key: what is wrong", always one line.
-base::Result<std::vector<BlockDescription>> parseBlocks(std::string_view toml, std::string_view file);
+[[nodiscard]] base::Result<std::vector<BlockDescription>> parseBlocks(std::string_view toml,
+                                                                      std::string_view file);
 
 // A cube that hides what touches it: no face lets the eye through.
 bool isOpaqueCube(const BlockDescription& block);

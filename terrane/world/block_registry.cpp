@@ -1,6 +1,5 @@
 #include "terrane/world/block_registry.h"
 
-#include <algorithm>
 #include <cassert>
 #include <map>
 #include <optional>

@@ -2,7 +2,6 @@
 // that owns the world; between two steps the picture interpolates (characterEye).
 #pragma once
 
-#include <chrono>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -32,7 +31,7 @@ struct CharacterInput {
 };
 
 // kStepSeconds later. A character that stands inside of a block, as after one was placed on it, is lifted
-// out.
+// out; one that reaches into a chunk that is not loaded waits for it.
 Character stepped(const World& world, const BlockRegistry& blocks, const Character& before,
                   const CharacterInput& input);
 

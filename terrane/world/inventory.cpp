@@ -22,6 +22,7 @@ std::uint16_t read16(std::span<const std::byte> bytes) {
 }  // namespace
 
 int addToStack(ItemStack& stack, std::string_view item, int count) {
+    assert(count >= 0 && "adding never takes");
     if (stack.count > 0 && stack.item != item) return count;
     const int moved = std::min(count, kMaxStack - stack.count);
     if (moved > 0) stack = {std::string(item), static_cast<std::uint16_t>(stack.count + moved)};
@@ -29,6 +30,7 @@ int addToStack(ItemStack& stack, std::string_view item, int count) {
 }
 
 int takeFromStack(ItemStack& stack, int count) {
+    assert(count >= 0 && "taking never adds");
     const int moved = std::min<int>(count, stack.count);
     stack.count = static_cast<std::uint16_t>(stack.count - moved);
     if (stack.count == 0) stack = {};
@@ -45,6 +47,7 @@ int addItems(Inventory& inventory, std::string_view item, int count) {
 }
 
 int takeItems(Inventory& inventory, std::string_view item, int count) {
+    assert(count >= 0 && "taking never adds");
     int taken = 0;
     for (auto stack = inventory.rbegin(); stack != inventory.rend() && taken < count; ++stack) {
         if (stack->item == item) taken += takeFromStack(*stack, count - taken);
@@ -75,10 +78,11 @@ LargeData encodeInventory(const Inventory& inventory) {
 base::Result<Inventory> decodeInventory(const LargeData& data, int slots) {
     if (data.size() < kHeaderBytes || data[0] != kVersion) return base::fail("not an inventory of version 1");
     std::span<const std::byte> rest(data);
-    Inventory inventory(read16(rest.subspan(1)));
+    const std::size_t slotCount = read16(rest.subspan(1));
     rest = rest.subspan(kHeaderBytes);
     // Before memory is taken for slots: a slot has at least three bytes.
-    if (inventory.size() * kSlotBytes > rest.size()) return base::fail("an inventory that is cut off");
+    if (slotCount * kSlotBytes > rest.size()) return base::fail("an inventory that is cut off");
+    Inventory inventory(slotCount);
     for (ItemStack& stack : inventory) {
         if (rest.size() < kSlotBytes) return base::fail("an inventory that is cut off");
         const auto length = std::to_integer<std::size_t>(rest[2]);

@@ -31,6 +31,7 @@ int addItems(Inventory& inventory, std::string_view item, int count);
 // Takes at most `count` items, from the last slot on. Returns how many there were.
 int takeItems(Inventory& inventory, std::string_view item, int count);
 // The same with one stack, which holds nothing or the same item: how many found no room, how many there were.
+// Counts are 0 or more in all four.
 int addToStack(ItemStack& stack, std::string_view item, int count);
 int takeFromStack(ItemStack& stack, int count);
 int countItems(const Inventory& inventory, std::string_view item);
@@ -39,6 +40,6 @@ int countItems(const Inventory& inventory, std::string_view item);
 // length of the name (8 bits) and the name. Names are at most kMaxItemName bytes.
 LargeData encodeInventory(const Inventory& inventory);
 // An error where the bytes are no such inventory. `slots`: the block's; what lies beyond is kept.
-base::Result<Inventory> decodeInventory(const LargeData& data, int slots);
+[[nodiscard]] base::Result<Inventory> decodeInventory(const LargeData& data, int slots);
 
 }  // namespace terrane::world

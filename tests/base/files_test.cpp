@@ -1,14 +1,13 @@
 #include "terrane/base/files.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "temp_folder.h"
+#include "tests/base/file_size_limit.h"
+#include "tests/base/temp_folder.h"
 
 namespace terrane::base {
 namespace {
@@ -63,26 +62,6 @@ TEST(Files, WritingOverADeviceIsRefused) {
     EXPECT_EQ(result.error().message, "/dev/null: cannot be written: it is not a regular file");
 }
 
-// No file may grow beyond the limit while this lives.
-class FileSizeLimit {
-  public:
-    explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-        getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit limit{bytes, before_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    ~FileSizeLimit() {
-        setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-    FileSizeLimit(const FileSizeLimit&) = delete;
-    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
-  private:
-    rlimit before_{};
-    void (*handler_)(int);
-};
-
 TEST(Files, AFailedWriteLeavesTheOldFileAndNoTemporaryOne) {
     const TempFolder folder;
     ASSERT_TRUE(writeFile(folder / "file", "old"));
@@ -94,6 +73,30 @@ TEST(Files, AFailedWriteLeavesTheOldFileAndNoTemporaryOne) {
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().message, (folder / "file").string() + ": cannot be written: File too large");
     EXPECT_EQ(readFile(folder / "file").value(), "old");
+    EXPECT_EQ(folder.fileCount(), 1);
+}
+
+TEST(Files, LinksAreFollowed) {
+    const TempFolder folder;
+    std::filesystem::create_directory(folder / "inner");
+    ASSERT_TRUE(writeFile(folder / "inner/target", "old"));
+    std::filesystem::create_symlink("inner/target", folder / "link");
+    std::filesystem::create_symlink("link", folder / "link to a link");
+    ASSERT_TRUE(writeFile(folder / "link to a link", "new"));
+    EXPECT_EQ(readFile(folder / "inner/target").value(), "new");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link to a link"));
+    EXPECT_EQ(folder.fileCount(), 3);
+}
+
+TEST(Files, ALinkThatLeadsNowhereIsAnError) {
+    const TempFolder folder;
+    std::filesystem::create_symlink("nothing", folder / "link");
+    const Result<void> result = writeFile(folder / "link", "a");
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().message,
+              (folder / "link").string() + ": cannot be written: No such file or directory");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
     EXPECT_EQ(folder.fileCount(), 1);
 }
 

@@ -128,6 +128,39 @@ TEST(BuilderErrors, AValueThatLeavesALoop) {
     EXPECT_THAT(error, HasSubstr("pass \"solid\": a value made inside while_ is used after it"));
 }
 
+TEST(BuilderErrors, AConditionThatIsAValueOfAnInnerLoop) {
+    const std::string error = errorOf([](GeneratorBuilder& g) {
+        g.pass3D("solid", [&](Pass& p) {
+            Var<Int> n = p.var(Int(0));
+            const auto leaking = [&] {
+                Bool leaked = false;
+                p.while_([&] { return n < p.x(); },
+                         [&] {
+                             n = n + 1;
+                             leaked = n < p.y();
+                         });
+                return leaked;
+            };
+            p.while_(leaking, [&] { n = n + 1; });
+            p.setBlock(Block(static_cast<Int>(n)));
+        });
+    });
+    EXPECT_THAT(error, HasSubstr("pass \"solid\": a value made inside while_ is used after it"));
+}
+
+// 5,000 products that are all needed at the end: 16 rows each.
+TEST(BuilderErrors, MoreValuesAtOnceThanThereAreRegisters) {
+    const std::string error = errorIn3D([](Pass& p) {
+        std::vector<Int> products;
+        for (int k = 0; k < 5000; ++k) products.push_back(p.x() * p.x() * (k + 3));
+        Int sum = 0;
+        for (std::size_t k = products.size(); k-- > 0;) sum = sum * 3 + products[k];
+        p.setBlock(Block(sum));
+    });
+    EXPECT_THAT(error, HasSubstr("pass \"faulty\": its values need "));
+    EXPECT_THAT(error, HasSubstr("rows of registers, 65536 are possible"));
+}
+
 TEST(BuilderErrors, AMetricThatIsNone) {
     const std::string error = errorOf([](GeneratorBuilder& g) {
         g.pass3D("solid", [&](Pass& p) { p.setBlock(Block(p.voronoi3D("cells", 8, 1, 1).offset.x)); });

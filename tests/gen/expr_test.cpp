@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "terrane/gen/expr_vec.h"
@@ -43,6 +44,21 @@ TEST(Expr, IntLiterals) {
     EXPECT_EQ(intOf(clamp(a, -5, 5)), -5);
     EXPECT_EQ(intOf(clamp(b, 4, 5)), 4);
     EXPECT_EQ(intOf(Int(Float(-2.75f))), -2);
+}
+
+TEST(Expr, FloorDivisionAndItsRest) {
+    const auto expect = [](std::int32_t a, std::int32_t b, std::int32_t quotient, std::int32_t rest) {
+        EXPECT_EQ(intOf(floorDivide(a, b)), quotient) << a << " / " << b;
+        EXPECT_EQ(intOf(floorModulo(a, b)), rest) << a << " mod " << b;
+    };
+    expect(7, 3, 2, 1);
+    expect(-7, 3, -3, 2);
+    expect(-6, 3, -2, 0);
+    expect(0, 5, 0, 0);
+    expect(-1, 16, -1, 15);
+    expect(INT32_MIN, 10, -214748365, 2);
+    expect(INT32_MIN, 1, INT32_MIN, 0);
+    expect(INT32_MAX, 16, INT32_MAX / 16, 15);
 }
 
 TEST(Expr, IntComparisons) {

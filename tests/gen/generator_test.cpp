@@ -84,6 +84,18 @@ std::vector<std::size_t> inOrder(std::size_t count) {
     return order;
 }
 
+// A cache of so many chunks, however much memory they need.
+CacheSize chunks(std::size_t count) {
+    return {.bytes = 0, .leastChunks = count};
+}
+
+// Fails unless the cache of a generator that made these chunks had to let some of what they need go.
+void expectEvictions(const Generator& generator, const std::vector<ChunkPos>& positions) {
+    const Generator roomy(build(writeDeep), kTestSeed);
+    for (const ChunkPos pos : positions) roomy.generate(pos);
+    EXPECT_LT(generator.cacheBytes(), roomy.cacheBytes());
+}
+
 void expectSame(const Chunks& a, const Chunks& b) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t k = 0; k < a.size(); ++k) ASSERT_TRUE(a[k] == b[k]) << "chunk " << k << " of the list";
@@ -133,17 +145,26 @@ TEST_F(GeneratorTest, TheCacheDoesNotMatter) {
     const Chunks want(expected().begin(), expected().begin() + 3);
     for (const std::size_t capacity : {0u, 1u, 2u, 9u}) {
         SCOPED_TRACE("capacity " + std::to_string(capacity));
-        const Generator generator(build(writeDeep), kTestSeed, capacity);
+        const Generator generator(build(writeDeep), kTestSeed, chunks(capacity));
         ASSERT_NO_FATAL_FAILURE(expectSame(generateBy(generator, few, inOrder(3), 1), want));
         ASSERT_NO_FATAL_FAILURE(expectSame(generateBy(generator, few, inOrder(3), 3), want));
+        expectEvictions(generator, few);
     }
 }
 
 TEST_F(GeneratorTest, AskingAgainGivesTheSame) {
-    const Generator generator(build(writeDeep), kTestSeed, 20);
+    const Generator generator(build(writeDeep), kTestSeed, chunks(20));
     for (int round = 0; round < 2; ++round)
         ASSERT_NO_FATAL_FAILURE(expectSame(generateAll(generator, positions_), expected()));
+    expectEvictions(generator, positions_);
     for (int k = 0; k < 3; ++k) EXPECT_EQ(blocksOf(generator.generate(positions_[7])), expected()[7]);
+}
+
+TEST_F(GeneratorTest, TheCacheKeepsItsMinimum) {
+    const Generator least(build(writeDeep), kTestSeed, {.bytes = 0});
+    const Generator roomy(build(writeDeep), kTestSeed);
+    for (const Generator* generator : {&least, &roomy}) generateAll(*generator, positions_);
+    EXPECT_EQ(least.cacheBytes(), roomy.cacheBytes()) << "all that 16 chunks need are fewer than 256";
 }
 
 TEST_F(GeneratorTest, TheInstructionSetDoesNotMatter) {
@@ -197,7 +218,7 @@ TEST_F(GeneratorTest, ManyThreadsOnNeighboursDoNotLockUp) {
     const Chunks& want = expected();
     for (const std::size_t capacity : {512u, 24u}) {
         for (std::uint32_t round = 0; round < 2; ++round) {
-            const Generator generator(build(writeDeep), kTestSeed, capacity);
+            const Generator generator(build(writeDeep), kTestSeed, chunks(capacity));
             std::vector<std::thread> threads;
             std::atomic<int> wrong = 0;
             for (std::uint32_t t = 0; t < 6; ++t) {
@@ -211,12 +232,13 @@ TEST_F(GeneratorTest, ManyThreadsOnNeighboursDoNotLockUp) {
             }
             for (std::thread& t : threads) t.join();
             EXPECT_EQ(wrong, 0);
+            if (capacity == 24) expectEvictions(generator, {positions_.begin(), positions_.begin() + 9});
         }
     }
 }
 
 TEST_F(GeneratorTest, AGeneratorOfOnePass) {
-    const Generator generator(build(writeFlatStone), 5, 1);
+    const Generator generator(build(writeFlatStone), 5, chunks(1));
     const auto flat = [](std::int32_t, std::int32_t, std::int32_t z) { return z < 60 ? 1 : 0; };
     for (const ChunkPos pos : kPlaces) ASSERT_NO_FATAL_FAILURE(expectChunk(generator, pos, flat));
 }

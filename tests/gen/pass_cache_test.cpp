@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -19,8 +20,7 @@ TEST(PassCache, AWorkHasRoomForEveryFieldAndPass) {
     EXPECT_EQ(work->fields.size(), 3u);
     EXPECT_EQ(work->blocks.size(), 5u);
     for (const auto& blocks : work->blocks) EXPECT_EQ(blocks, nullptr);
-    EXPECT_EQ(work->claimed, 0);
-    EXPECT_EQ(work->passesDone, 0);
+    EXPECT_EQ(work->passesDone(), 0);
 }
 
 TEST(PassCache, TheSameChunkIsTheSameWork) {
@@ -43,12 +43,12 @@ TEST(PassCache, TheChunkUsedLongestAgoGoesFirst) {
 TEST(PassCache, AWorkThatSomebodyHoldsStaysAlive) {
     PassCache cache(1, 1, 1);
     const auto held = cache.get({0, 0});
-    held->passesDone = 1;
+    held->advance(1, [](int) {});
     cache.get({1, 0});
-    EXPECT_EQ(held->passesDone, 1);
+    EXPECT_EQ(held->passesDone(), 1);
     const auto again = cache.get({0, 0});
     EXPECT_NE(again, held) << "the cache had let go of it";
-    EXPECT_EQ(again->passesDone, 0);
+    EXPECT_EQ(again->passesDone(), 0);
 }
 
 TEST(PassCache, ACapacityOfNoneStillWorks) {
@@ -65,6 +65,42 @@ TEST(PassCache, KeepsAsManyAsItsCapacity) {
     for (std::size_t k = 0; k < works.size(); ++k) EXPECT_EQ(works[k].expired(), k < 150) << k;
 }
 
+TEST(ChunkWork, EachPassRunsOnceAndInOrder) {
+    ChunkWork work(1, 3);
+    std::vector<int> passes;  // never two at a time, or TSan tells
+    const auto advance = [&](int count) { work.advance(count, [&](int pass) { passes.push_back(pass); }); };
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 6; ++t) threads.emplace_back([&, t] { advance(1 + t % 3); });
+    for (std::thread& t : threads) t.join();
+    EXPECT_EQ(passes, (std::vector<int>{0, 1, 2}));
+    EXPECT_EQ(work.passesDone(), 3);
+}
+
+// As when memory runs out: who waits for the pass runs it.
+TEST(ChunkWork, APassThatThrowsIsAnybodysAgain) {
+    ChunkWork work(1, 1);
+    std::atomic<bool> isRunning = false, mayThrow = false;
+    std::thread failing([&] {
+        EXPECT_THROW(work.advance(1,
+                                  [&](int) {
+                                      isRunning = true;
+                                      mayThrow.wait(false);
+                                      throw std::bad_alloc();
+                                  }),
+                     std::bad_alloc);
+    });
+    while (!isRunning) std::this_thread::yield();
+    std::atomic<int> runs = 0;
+    std::vector<std::thread> waiting;
+    for (int t = 0; t < 3; ++t) waiting.emplace_back([&] { work.advance(1, [&](int) { ++runs; }); });
+    mayThrow = true;
+    mayThrow.notify_all();
+    failing.join();
+    for (std::thread& t : waiting) t.join();
+    EXPECT_EQ(runs, 1);
+    EXPECT_EQ(work.passesDone(), 1);
+}
+
 // One work a chunk, however many ask at once; nothing is lost while others push it out.
 TEST(PassCache, ManyThreadsAsk) {
     PassCache large(100, 1, 1), small(3, 1, 1);
@@ -78,7 +114,7 @@ TEST(PassCache, ManyThreadsAsk) {
             ChunkWork* expected = nullptr;
             auto& slot = first[static_cast<std::size_t>(number)];
             if (!slot.compare_exchange_strong(expected, work.get()) && expected != work.get()) ++differing;
-            small.get(pos)->claimed++;
+            small.get(pos)->advance(1, [](int) {});
         }
     };
     std::vector<std::thread> threads;

@@ -123,6 +123,27 @@ TEST_F(GpuGeneratorTest, EveryPartOfTheLanguageEqualsCpu) {
     compare(*graph, square({world::kMinChunk, world::kMaxChunk}, 1), 1);
 }
 
+// Each pass reads around what the one before made: 27×27 chunks for one, more than there are slots.
+TEST_F(GpuGeneratorTest, AGeneratorThatTheSlotsCannotHoldIsRefused) {
+    using namespace gen;
+    GeneratorBuilder builder("wide", contentBlocks());
+    std::vector<Field<Int>> fields = {builder.field<Int>("0")};
+    builder.pass2D("0", [&](Pass& p) { p.set(fields[0], p.x()); });
+    for (int k = 1; k <= 13; ++k) {
+        fields.push_back(builder.field<Int>(std::to_string(k)));
+        const auto before = fields[static_cast<std::size_t>(k) - 1];
+        builder.pass2D(std::to_string(k), [&](Pass& p) { p.set(fields.back(), p.readAt(before, {16, 16})); });
+    }
+    builder.pass3D("last", [&](Pass& p) { p.setBlock(Block(p.read(fields.back()))); });
+    const auto graph = builder.finish();
+    ASSERT_TRUE(graph) << graph.error().message;
+    const auto refused = GpuGenerator::create(render::contentShaders(), *graph, kSeed);
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(
+        refused.error().message.starts_with("generator \"wide\": a chunk needs results of 729 chunks"))
+        << refused.error().message;
+}
+
 TEST_F(GpuGeneratorTest, OverworldEqualsCpuAroundTheOrigin) {
     compare("overworld", square({-5, -5}, 10), 50);
 }

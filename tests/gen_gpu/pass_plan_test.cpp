@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "terrane/gen/chunks_around.h"
 #include "terrane/gen/generators/catalogue.h"
+#include "tests/world/content_blocks.h"
 
 namespace terrane::gen_gpu {
 namespace {
@@ -46,6 +48,18 @@ TEST(PassPlan, WithoutReadsNothingButTheChunkIsNeeded) {
     const PassCounts counts = neededPasses(*g.finish(), {{5, 5}});
     EXPECT_EQ(counts.size(), 1u);
     EXPECT_EQ(counts.at({5, 5}), 1);
+}
+
+// The arithmetic of kSlots in gpu_generator.h.
+TEST(PassPlan, OverworldNeedsFourRings) {
+    const auto overworld = gen::makeGenerator("overworld", contentBlocks());
+    ASSERT_TRUE(overworld) << overworld.error().message;
+    std::vector<ChunkPos> wanted;
+    for (int k = 0; k < 64; ++k) wanted.push_back({k % 8, k / 8});
+    EXPECT_EQ(neededPasses(*overworld, wanted).size(), 256u);
+    EXPECT_EQ(overworld->fields.size(), 15u);
+    const auto is3D = [](const gen::PassGraph& pass) { return pass.is3D; };
+    EXPECT_EQ(std::count_if(overworld->passes.begin(), overworld->passes.end(), is3D), 2);
 }
 
 TEST(PassPlan, AroundTheEdgeCoordinatesWrap) {

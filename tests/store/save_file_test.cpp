@@ -182,7 +182,7 @@ TEST_F(SaveFileTest, TheNextProgramAfterAKilledOne) {
     const pid_t child = ::fork();
     if (child == 0) {
         auto store = SqliteStore::open(path_, registry_, kCreate);
-        (*store)->save({4, 4}, numberedChunk(77), Origin::Edited);
+        if (store) (*store)->save({4, 4}, numberedChunk(77), Origin::Edited);
         const bool good = store && (*store)->flush();
         ::_exit(good ? 0 : 1);  // as when killed: nothing is closed
     }

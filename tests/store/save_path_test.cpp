@@ -32,6 +32,8 @@ TEST(SavePath, NamesThatAreFiles) {
         EXPECT_FALSE(savePath(name, places)) << name;
     }
     EXPECT_FALSE(savePath(std::string_view("a\0b", 3), places));
+    EXPECT_EQ(savePath("a\nb", places).error().message,
+              "\"a\\nb\": the name of a save has neither slashes nor control characters");
 }
 
 TEST(SavePath, OfThisProgram) {

@@ -1,6 +1,7 @@
 #include "terrane/store/save_queue.h"
 
 #include <atomic>
+#include <functional>
 
 #include "tests/store/store_fixture.h"
 
@@ -121,6 +122,33 @@ TEST(SaveQueue, TriedAgainByItself) {
     recorder.fail("");
     while (queue.status().durable < 1) std::this_thread::sleep_for(1ms);
     EXPECT_EQ(recorder.batches.size(), 1u);
+}
+
+std::string lastWords(const std::function<void(SaveQueue&)>& use) {
+    Recorder recorder;
+    recorder.fail("a.sqlite: the disk is full");
+    testing::internal::CaptureStderr();
+    {
+        SaveQueue queue(recorder.write(), kNever);
+        use(queue);
+    }
+    return testing::internal::GetCapturedStderr();
+}
+
+TEST(SaveQueue, WhatTheLastAttemptLosesIsNamed) {
+    EXPECT_EQ(lastWords([](SaveQueue& queue) { queue.add("time", "0.5"); }),
+              "terrane: error: a.sqlite: the disk is full; lost: 0 chunks, the setting time\n");
+    EXPECT_EQ(lastWords([](SaveQueue& queue) {
+                  queue.add({0, 0}, {numberedChunk(1), Origin::Edited});
+                  queue.add(DamagedRow{{1, 1}, {}, "cut off"});
+              }),
+              "terrane: error: a.sqlite: the disk is full; lost: 1 chunks, 1 damaged rows put aside\n");
+    EXPECT_EQ(lastWords([](SaveQueue& queue) {
+                  queue.add("time", "0.5");
+                  EXPECT_FALSE(queue.flush());
+              }),
+              "")
+        << "who called flush() knows";
 }
 
 TEST(SaveQueue, ManyThreads) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/base/file_size_limit.h"
 #include "tests/store/store_fixture.h"
 
 namespace terrane::store {
@@ -59,13 +60,23 @@ TEST_F(MigrationTest, AllOrNothing) {
     EXPECT_THAT(failed.error().message, HasSubstr("a.sqlite: "));
     EXPECT_EQ(queryFile(path_, "PRAGMA user_version"), 1);
     EXPECT_EQ(queryFile(path_, "SELECT count(*) FROM pragma_table_info('chunks')"), 3);
+    EXPECT_FALSE(std::filesystem::exists(backup_)) << "or each attempt would leave one more";
+}
+
+TEST_F(MigrationTest, ACopyThatFailsLeavesNothing) {
+    {
+        const base::FileSizeLimit limit(8192);  // two pages of about six
+        EXPECT_FALSE(migrateTo(3));
+    }
+    EXPECT_FALSE(std::filesystem::exists(backup_));
+    EXPECT_EQ(queryFile(path_, "PRAGMA user_version"), 1);
 }
 
 TEST_F(MigrationTest, FormatsWithoutAWayOn) {
-    EXPECT_THAT(migrateTo(6).error().message, HasSubstr("table more already exists"));
+    EXPECT_THAT(migrateTo(6).error().message, HasSubstr("in format 4, which is unknown"));
     runSql(path_, "PRAGMA user_version = 0");
-    std::filesystem::remove(backup_);
     EXPECT_THAT(migrateTo(2).error().message, HasSubstr("in format 0, which is unknown"));
+    EXPECT_FALSE(std::filesystem::exists(backup_)) << "nothing is copied where there is no way";
 }
 
 TEST_F(MigrationTest, Kinds) {

@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "terrane/store/memory_store.h"
 #include "tests/store/store_fixture.h"
 
 namespace terrane::store {
@@ -30,7 +31,6 @@ class SqliteStoreTest : public testing::Test {
 TEST_F(SqliteStoreTest, ChunksAndSettingsComeBack) {
     {
         const auto store = open();
-        EXPECT_TRUE(store->isNew());
         EXPECT_TRUE(store->isPersistent());
         EXPECT_EQ(store->load({0, 0}).state, State::Absent);
         EXPECT_FALSE(store->contains({0, 0}));
@@ -46,7 +46,6 @@ TEST_F(SqliteStoreTest, ChunksAndSettingsComeBack) {
     }
     EXPECT_EQ(folder_.fileCount(), 1) << "one file is left, no log and no lock";
     const auto store = open();
-    EXPECT_FALSE(store->isNew());
     EXPECT_EQ(store->identity(), kIdentity);
     EXPECT_EQ(store->setting("player"), "1,2,3");
     EXPECT_EQ(store->setting("nothing"), std::nullopt);
@@ -130,6 +129,39 @@ TEST_F(SqliteStoreTest, DamagedRowIsPutAsideAlsoWhenNobodyLooked) {
     { open()->save({0, 0}, numberedChunk(2), Origin::Edited); }
     EXPECT_EQ(queryFile(path_, "SELECT count(*) FROM quarantine WHERE data = x'0102'"), 1);
     EXPECT_EQ(*open()->load({0, 0}).chunk, *numberedChunk(2));
+}
+
+TEST_F(SqliteStoreTest, ARowWithoutBytesIsPutAsideAndReplaced) {
+    {
+        const auto store = open();
+        for (int x = 0; x < 2; ++x) store->save({x, 0}, numberedChunk(1), Origin::Edited);
+    }
+    runSql(path_, "UPDATE chunks SET data = x''");
+    {
+        const auto store = open();
+        EXPECT_EQ(store->load({0, 0}).state, State::Damaged);
+        for (int x = 0; x < 2; ++x) store->save({x, 0}, numberedChunk(2), Origin::Generated);
+    }
+    EXPECT_EQ(queryFile(path_, "SELECT count(*) FROM quarantine WHERE data = x''"), 2);
+    const auto store = open();
+    for (int x = 0; x < 2; ++x) {
+        const LoadedChunk loaded = store->load({x, 0});
+        ASSERT_EQ(loaded.state, State::Present);
+        EXPECT_EQ(*loaded.chunk, *numberedChunk(2));
+    }
+}
+
+TEST_F(SqliteStoreTest, TheIdentityIsNoSettingToBeSet) {
+    const auto trySetting = [](ChunkStore& store) {
+        for (const char* name : {"seed", "generator", "generator_version"}) store.setSetting(name, "x");
+        EXPECT_EQ(store.status().queued, 0u);
+        EXPECT_EQ(store.identity(), kIdentity);
+    };
+    trySetting(*open());
+    EXPECT_EQ(open()->identity(), kIdentity);
+    MemoryStore inMemory(kIdentity);
+    trySetting(inMemory);
+    EXPECT_FALSE(inMemory.setting("seed"));
 }
 
 TEST_F(SqliteStoreTest, IdWithoutANameIsDamage) {

@@ -118,6 +118,16 @@ TEST_F(CharacterTest, WaitsWhereNothingIsLoaded) {
     EXPECT_EQ(c_.feet, glm::dvec3(1000.5, 0.5, 60));
 }
 
+TEST_F(CharacterTest, WaitsWhereItReachesIntoWhatIsNotLoaded) {
+    world_.erase({1, 0});
+    c_.feet = {15.9, 0.5, 10.01};
+    run(1, {.direction = {1, 0}});
+    EXPECT_EQ(c_.feet, glm::dvec3(15.9, 0.5, 10.01));
+    world_.insert({1, 0}, world_.maybeChunkAt({0, 0}));
+    run(1, {});
+    EXPECT_NEAR(c_.feet.z, 10, 0.01) << "it goes on once the chunk is there";
+}
+
 // A random walk among blocks: never inside of one, never through the floor.
 TEST_F(CharacterTest, NeverEndsInsideABlock) {
     std::mt19937 random(3);

@@ -1,4 +1,4 @@
-// The generators that come with Terrane, by name.
+// The generators that come with Terrane, by name. Any thread; each call has a builder of its own.
 #pragma once
 
 #include <string>
@@ -16,7 +16,8 @@ std::vector<std::string> generatorNames();
 int generatorVersion(std::string_view name);
 
 // An unknown name is an error that lists the known ones.
-base::Result<GeneratorGraph> makeGenerator(std::string_view name, const world::BlockRegistry& blocks);
+[[nodiscard]] base::Result<GeneratorGraph> makeGenerator(std::string_view name,
+                                                         const world::BlockRegistry& blocks);
 
 void writeOverworld(
     GeneratorBuilder& g);  // overworld.cpp: seas, rivers, plains, deserts, mountains, caves, plants
