@@ -29,9 +29,7 @@ ChunkPipeline::ChunkPipeline(const PipelineParts& parts)
 }
 
 ChunkPipeline::~ChunkPipeline() {
-    for (const auto& [pos, extra] : extras_) {
-        if (extra.load) extra.load.cancel();
-    }
+    results_->isOver = true;
     parts_.jobs.waitIdle();
     saveAll();
 }
@@ -211,9 +209,13 @@ ChunkChange& ChunkPipeline::change(ChunkPos pos) {
 
 std::vector<ChunkChange> ChunkPipeline::takeChanges(std::size_t limit) {
     std::vector<ChunkChange> taken;
-    for (; taken.size() < limit && !changed_.empty(); changed_.pop_front()) {
-        taken.push_back(std::move(changes_.extract(changed_.front()).mapped()));
+    const auto take = [&](ChunkPos pos) {
+        if (auto node = changes_.extract(pos)) taken.push_back(std::move(node.mapped()));
+    };
+    for (; taken.size() < limit && !takeFirst_.empty(); takeFirst_.erase(takeFirst_.begin())) {
+        take(*takeFirst_.begin());
     }
+    for (; taken.size() < limit && !changed_.empty(); changed_.pop_front()) take(changed_.front());
     return taken;
 }
 

@@ -27,7 +27,7 @@ class ChunkPipeline {
     using Time = ChunkTable::Time;
 
     explicit ChunkPipeline(const PipelineParts& parts);
-    ~ChunkPipeline();  // waits for its running jobs; saves what changed
+    ~ChunkPipeline();  // waits for its running jobs, the others do nothing; saves what changed
 
     // Chunks up to `viewDistance` (Chebyshev) around `centre` are to be visible. `direction`: see ChunkTable.
     void setView(world::ChunkPos centre, int viewDistance, glm::vec2 direction = {});
@@ -59,10 +59,10 @@ class ChunkPipeline {
     // Hands all changed chunks to the store.
     void saveAll();
 
-    // What changed on screen since the last call, at most `limit` chunks, in the order in which they changed
-    // first.
+    // What changed on screen since the last call, at most `limit` chunks: those that edits changed, then the
+    // others in the order in which they changed first.
     std::vector<ChunkChange> takeChanges(std::size_t limit);
-    std::size_t waitingChanges() const { return changed_.size(); }
+    std::size_t waitingChanges() const { return changes_.size(); }
 
     // Hands out all that is on screen again, as to a renderer that forgot it.
     void showAgain();
@@ -109,6 +109,7 @@ class ChunkPipeline {
     void setMesh(world::ChunkPos pos, MeshPtr mesh, mesh::RegionSet regions = mesh::kAllRegions);
     void askForMesh(world::ChunkPos pos);
     bool isMeshedElsewhere(world::ChunkPos pos, mesh::RegionSet regions) const;
+    void meshFirst(world::ChunkPos pos, mesh::RegionSet regions);
     void remesh();
     ChunkChange& change(world::ChunkPos pos);
 
@@ -121,12 +122,15 @@ class ChunkPipeline {
     std::deque<world::ChunkPos> absent_;   // to be made by `batches`
     std::vector<light::BlockEdit> edits_;  // since the last update
     std::map<world::ChunkPos, mesh::RegionSet> toMesh_;
-    Time now_{}, nextTidy_{};       // now: of the last update
-    Time::duration sinceUpdate_{};  // between the last two updates
+    std::set<world::ChunkPos> meshFirst_;  // of toMesh_: what edits touched
+    Time now_{}, nextTidy_{};              // now: of the last update
+    Time::duration sinceUpdate_{};         // between the last two updates
 
-    // What was not taken yet, and the chunks in the order in which they first changed.
+    // What was not taken yet, and the chunks in the order in which they first changed; what was taken first
+    // still stands there.
     std::unordered_map<world::ChunkPos, ChunkChange, world::ChunkPosHash> changes_;
     std::deque<world::ChunkPos> changed_;
+    std::set<world::ChunkPos> takeFirst_;  // of changes_: what edits changed
 };
 
 }  // namespace terrane::stream

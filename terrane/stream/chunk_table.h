@@ -58,7 +58,6 @@ class ChunkTable {
     // Active chunks that nobody asked for; they are absent then.
     std::vector<world::ChunkPos> takeUnloads(Time now);
 
-    bool contains(world::ChunkPos pos) const { return entries_.contains(pos); }
     std::optional<ChunkStage> stageAt(world::ChunkPos pos) const;  // none where it is absent
     bool is(world::ChunkPos pos, ChunkStage stage) const { return stageAt(pos) == stage; }
     bool isAtLeastActive(world::ChunkPos pos) const;

@@ -13,7 +13,8 @@ using world::ChunkPos;
 
 namespace {
 
-// Edits are seen in the next frame, up to so many chunks a frame; a chunk takes at most about 0.05 ms.
+// Edits are seen in the next frame, up to so many chunks a frame, and before all that is only meshed again; a
+// chunk takes at most about 0.05 ms.
 constexpr std::size_t kRemeshesPerUpdate = 64;
 
 }  // namespace
@@ -52,7 +53,12 @@ void ChunkPipeline::dataChanged(world::BlockPos pos) {
     Extra& extra = extras_[chunk];
     if (!extra.editedAt) extra.editedAt = now_;
     table_.blocksChanged(chunk);
-    toMesh_[chunk] |= mesh::RegionSet{1} << (pos.z / meshOptions_.regionHeight);
+    meshFirst(chunk, mesh::RegionSet{1} << (pos.z / meshOptions_.regionHeight));
+}
+
+void ChunkPipeline::meshFirst(ChunkPos pos, mesh::RegionSet regions) {
+    toMesh_[pos] |= regions;
+    meshFirst_.insert(pos);
 }
 
 void ChunkPipeline::applyEdits() {
@@ -61,7 +67,7 @@ void ChunkPipeline::applyEdits() {
     std::set<ChunkPos> edited;
     for (const light::BlockEdit& e : edits_) {
         for (const mesh::TouchedChunk& touched : mesh::regionsTouchedBy(e.pos, meshOptions_.regionHeight)) {
-            toMesh_[touched.pos] |= touched.regions;
+            meshFirst(touched.pos, touched.regions);
         }
         edited.insert(world::chunkOf(e.pos));
     }
@@ -83,6 +89,7 @@ bool ChunkPipeline::relightIncrementally(const std::set<ChunkPos>& edited) {
     thread_local light::LightScratch scratch;
     for (const light::LightChange& c : light::relight(around, edits_, parts_.lights, scratch)) {
         setLight(c.pos, around.at(c.pos).light, c.bricks);
+        takeFirst_.insert(c.pos);
     }
     return true;
 }
@@ -96,6 +103,7 @@ void ChunkPipeline::relightFromScratch(const std::set<ChunkPos>& edited) {
         }
     }
     for (const ChunkPos pos : lit) setLight(pos, lightOf(surroundings(pos), parts_.lights));
+    takeFirst_.insert(lit.begin(), lit.end());
 }
 
 void ChunkPipeline::setLight(ChunkPos pos, light::ChunkLightPtr light, std::uint16_t bricks) {
@@ -132,10 +140,12 @@ bool ChunkPipeline::isMeshedElsewhere(ChunkPos pos, mesh::RegionSet regions) con
 
 void ChunkPipeline::remesh() {
     std::size_t count = 0;
-    for (auto it = toMesh_.begin(); it != toMesh_.end() && count < kRemeshesPerUpdate;
-         it = toMesh_.erase(it)) {
-        const auto [pos, regions] = *it;
+    while (count < kRemeshesPerUpdate && !toMesh_.empty()) {
+        const ChunkPos pos = meshFirst_.empty() ? toMesh_.begin()->first : *meshFirst_.begin();
+        const mesh::RegionSet regions = toMesh_.extract(pos).mapped();
+        const bool isEdited = meshFirst_.erase(pos) > 0;
         if (!table_.is(pos, ChunkStage::Visible)) continue;  // it will be meshed with the new blocks
+        if (isEdited) takeFirst_.insert(pos);
         if (isMeshedElsewhere(pos, regions)) {
             askForMesh(pos);
             continue;

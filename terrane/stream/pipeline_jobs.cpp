@@ -31,6 +31,7 @@ std::size_t ChunkPipeline::jobLimit() const {
 template <class Work>
 auto ChunkPipeline::guarded(Work work) const {
     return [work = std::move(work), results = results_](const base::CancelToken&) {
+        if (results->isOver) return;
         try {
             work(*results);
         } catch (...) {

@@ -33,7 +33,8 @@ struct WorkerResults {
     std::condition_variable changed;
     std::vector<Load> loads;
     std::vector<Finish> finishes;
-    std::exception_ptr failure;  // the first
+    std::exception_ptr failure;       // the first
+    std::atomic<bool> isOver{false};  // nobody takes results any more: jobs that begin now do nothing
 
     // Runs work and counts it. Any thread, without the mutex.
     template <class Work>

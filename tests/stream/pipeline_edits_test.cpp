@@ -70,6 +70,37 @@ TEST_F(PipelineEditsTest, AnEditIsOnScreenInTheNextUpdate) {
     expectShowsTheView();
 }
 
+// All that is shown is meshed and handed out again, in many updates: edits do not wait for that.
+TEST_F(PipelineEditsTest, EditsComeBeforeWhatIsShownAgain) {
+    constexpr ChunkPos kLast{5, 5};
+    setView({0, 0}, 5);
+    settle();
+    const auto expectEditIsNext = [&](const mesh::MeshOptions& options, int z) {
+        placeBlock({kLast.x * 16 + 8, kLast.y * 16 + 8, z}, "stone");
+        update();
+        bool isThere = false;
+        for (const ChunkChange& change : pipeline_->takeChanges(4)) {
+            if (change.pos != kLast) continue;
+            isThere = change.mesh && change.light;
+            if (!isThere) continue;
+            EXPECT_EQ(*change.mesh, directMesh(world_, kLast, options));
+            EXPECT_EQ(*change.light, directLight(world_, kLast));
+        }
+        EXPECT_TRUE(isThere);
+        do update();
+        while (take(kAll) > 0);
+        EXPECT_EQ(pipeline_->waitingChanges(), 0u);
+    };
+    pipeline_->showAgain();
+    expectEditIsNext({}, 90);
+    shown_.erase(kLast);  // it was taken above
+    const mesh::MeshOptions none{mesh::Method::None, 16};
+    pipeline_->setMeshOptions(none);
+    expectEditIsNext(none, 100);
+    EXPECT_EQ(shown_.size(), 120u);
+    for (const auto& [pos, shown] : shown_) EXPECT_EQ(*shown.mesh, directMesh(world_, pos, none));
+}
+
 TEST_F(PipelineEditsTest, EditsOfWhatIsNotLoadedAreRefused) {
     setView({0, 0}, 1);
     EXPECT_FALSE(pipeline_->setBlock({1000, 0, 60}, contentBlock("sand")));
