@@ -74,18 +74,15 @@ void APIENTRY onMessage(GLenum source, GLenum type, GLuint id, GLenum severity, 
 }  // namespace
 
 void DebugLog::addError(std::string_view message) {
-    errors_.fetch_add(1, std::memory_order_relaxed);
+    ++errors_;
     base::logError("{}", message);
     if (fatal_) std::abort();
 }
 
 std::unique_ptr<DebugLog> enableDebugOutput(bool fatal) {
     auto log = std::make_unique<DebugLog>(fatal);
-    GLint flags = 0;
-    glGetIntegerv(GL_CONTEXT_FLAGS, &flags);
     glEnable(GL_DEBUG_OUTPUT);
-    // Synchronous messages come inside the call at fault, so that a debugger shows it; that costs speed.
-    if ((flags & GL_CONTEXT_FLAG_DEBUG_BIT) != 0) glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);  // so that a debugger shows the call at fault
     glDebugMessageCallback(onMessage, log.get());
     glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
     glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DEBUG_SEVERITY_NOTIFICATION, 0, nullptr, GL_FALSE);

@@ -1,9 +1,8 @@
 // The driver's debug messages: logged, and its errors counted. A context made with the debug option owns the
-// log; tests fail when it counted an error. The driver may write to the log from a thread of its own in
-// contexts without the debug option, so the count is atomic.
+// log; tests fail when it counted an error. Messages come inside the call at fault, so on the context's
+// thread and no other.
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <string_view>
 
@@ -13,14 +12,14 @@ class DebugLog {
   public:
     explicit DebugLog(bool fatal) : fatal_(fatal) {}
 
-    [[nodiscard]] int errorCount() const { return errors_.load(std::memory_order_relaxed); }
-    void clear() { errors_.store(0, std::memory_order_relaxed); }
+    [[nodiscard]] int errorCount() const { return errors_; }
+    void clear() { errors_ = 0; }
 
     // An error of the driver; aborts the program after logging when the log is fatal.
     void addError(std::string_view message);
 
   private:
-    std::atomic<int> errors_{0};
+    int errors_ = 0;
     bool fatal_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <string_view>
 
 namespace terrane::gpu {
@@ -43,7 +44,8 @@ DeviceInfo queryDevice() {
     info.glsl = glText(GL_SHADING_LANGUAGE_VERSION);
     info.software = isSoftware(info.renderer);
     info.indirectCount = epoxy_gl_version() >= 46 || epoxy_has_gl_extension("GL_ARB_indirect_parameters");
-    info.maxSamples = glInt(GL_MAX_SAMPLES);
+    info.maxSamples = std::min(
+        {glInt(GL_MAX_SAMPLES), glInt(GL_MAX_COLOR_TEXTURE_SAMPLES), glInt(GL_MAX_DEPTH_TEXTURE_SAMPLES)});
     info.maxTextureSize = glInt(GL_MAX_TEXTURE_SIZE);
     info.maxTexture3dSize = glInt(GL_MAX_3D_TEXTURE_SIZE);
     info.maxArrayLayers = glInt(GL_MAX_ARRAY_TEXTURE_LAYERS);

@@ -15,7 +15,7 @@ struct DeviceInfo {
     std::string glsl;
     bool software = false;       // drawn by the processor: the CPU back ends are faster then
     bool indirectCount = false;  // glMultiDraw*IndirectCount: draw counts written by the GPU
-    int maxSamples = 0;
+    int maxSamples = 0;          // of textures that are drawn into, colours and depth
     int maxTextureSize = 0;
     int maxTexture3dSize = 0;
     int maxArrayLayers = 0;

@@ -1,6 +1,5 @@
 #include "terrane/gpu/framebuffer.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cstring>
 
@@ -18,11 +17,7 @@ GLenum depthPoint(GLenum format) {
 
 void attach(GLuint framebuffer, GLenum point, const Attachment& attachment) {
     assert(attachment.texture != 0 && "an empty texture cannot be drawn into");
-    if (attachment.layer < 0)
-        glNamedFramebufferTexture(framebuffer, point, attachment.texture, attachment.level);
-    else
-        glNamedFramebufferTextureLayer(framebuffer, point, attachment.texture, attachment.level,
-                                       attachment.layer);
+    glNamedFramebufferTexture(framebuffer, point, attachment.texture, 0);
 }
 
 // Draws write all colours, in the order of their attachments.
@@ -50,25 +45,10 @@ std::string_view statusName(GLenum status) {
     }
 }
 
-void blit(const Framebuffer& from, GLuint to, glm::ivec2 toSize, GLbitfield mask, GLenum filter) {
-    const glm::ivec2 size = from.size();
-    glBlitNamedFramebuffer(from.id(), to, 0, 0, size.x, size.y, 0, 0, toSize.x, toSize.y, mask, filter);
-}
-
 }  // namespace
 
-Attachment::Attachment(const Texture2D& source, int atLevel)
-    : texture(source.id()),
-      format(source.format()),
-      size(levelSize(source.size(), atLevel)),
-      level(atLevel) {}
-
-Attachment::Attachment(const Texture2DArray& source, int atLayer, int atLevel)
-    : texture(source.id()),
-      format(source.format()),
-      size(levelSize(source.shape().size, atLevel)),
-      level(atLevel),
-      layer(atLayer) {}
+Attachment::Attachment(const Texture2D& source)
+    : texture(source.id()), format(source.format()), size(source.size()) {}
 
 Attachment::Attachment(const Texture2DMultisample& source)
     : texture(source.id()), format(source.format()), size(source.size()), samples(source.samples()) {}
@@ -121,28 +101,12 @@ void Framebuffer::clearDepth(float depth) const {
     glClearNamedFramebufferfv(id(), GL_DEPTH, 0, &depth);
 }
 
-void resolve(const Framebuffer& from, const Framebuffer& to) {
-    assert(from.size() == to.size() && "samples are resolved pixel by pixel");
-    const int colors = std::min(from.colorCount(), to.colorCount());
-    for (int i = 0; i < colors; ++i) {
-        glNamedFramebufferReadBuffer(from.id(), colorPoint(i));
-        glNamedFramebufferDrawBuffer(to.id(), colorPoint(i));
-        blit(from, to.id(), to.size(), GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    }
-    setDrawBuffers(to.id(), to.colorCount());
-    if (from.hasDepth() && to.hasDepth()) blit(from, to.id(), to.size(), GL_DEPTH_BUFFER_BIT, GL_NEAREST);
-}
-
-void blitColor(const Framebuffer& from, int colorIndex, const Framebuffer& to, GLenum filter) {
-    assert(colorIndex >= 0 && colorIndex < from.colorCount() && "the colour attachment exists");
-    glNamedFramebufferReadBuffer(from.id(), colorPoint(colorIndex));
-    blit(from, to.id(), to.size(), GL_COLOR_BUFFER_BIT, filter);
-}
-
 void blitToWindow(const Framebuffer& from, int colorIndex, glm::ivec2 windowSize, GLenum filter) {
     assert(colorIndex >= 0 && colorIndex < from.colorCount() && "the colour attachment exists");
     glNamedFramebufferReadBuffer(from.id(), colorPoint(colorIndex));
-    blit(from, 0, windowSize, GL_COLOR_BUFFER_BIT, filter);
+    const glm::ivec2 size = from.size();
+    glBlitNamedFramebuffer(from.id(), 0, 0, 0, size.x, size.y, 0, 0, windowSize.x, windowSize.y,
+                           GL_COLOR_BUFFER_BIT, filter);
 }
 
 void clearWindow(glm::vec3 color) {

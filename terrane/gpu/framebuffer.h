@@ -14,18 +14,15 @@
 
 namespace terrane::gpu {
 
-// One level of one texture, for a short while: refers to the texture by its GL name.
+// Level 0 of a texture, for a short while: refers to the texture by its GL name.
 struct Attachment {
     Attachment() = default;
-    Attachment(const Texture2D& texture, int atLevel = 0);
-    Attachment(const Texture2DArray& texture, int atLayer, int atLevel = 0);
+    Attachment(const Texture2D& texture);
     Attachment(const Texture2DMultisample& texture);
 
     GLuint texture = 0;
     GLenum format = GL_NONE;
     glm::ivec2 size = {0, 0};
-    int level = 0;
-    int layer = -1;  // -1: not of an array
     int samples = 0;
 };
 
@@ -49,7 +46,6 @@ class Framebuffer {
     [[nodiscard]] GLuint id() const { return handle_.id(); }
     [[nodiscard]] glm::ivec2 size() const { return size_; }
     [[nodiscard]] int colorCount() const { return colorCount_; }
-    [[nodiscard]] bool hasDepth() const { return hasDepth_; }
     [[nodiscard]] int samples() const { return samples_; }
 
   private:
@@ -60,13 +56,7 @@ class Framebuffer {
     int samples_ = 0;  // 0: not multisampled
 };
 
-// Averages the samples of every colour, attachment by attachment, and takes one sample of the depth where
-// both have one. Without samples it copies. Both have the same size.
-void resolve(const Framebuffer& from, const Framebuffer& to);
-
-// Scales one colour attachment to all of the colours of `to`.
-void blitColor(const Framebuffer& from, int colorIndex, const Framebuffer& to, GLenum filter);
-// The same into the window.
+// One colour attachment, scaled to the whole of the window.
 void blitToWindow(const Framebuffer& from, int colorIndex, glm::ivec2 windowSize, GLenum filter);
 void clearWindow(glm::vec3 color);  // as the screen has it
 

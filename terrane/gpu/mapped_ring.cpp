@@ -58,10 +58,6 @@ std::optional<MappedRing::Slice> MappedRing::allocate(std::size_t sizeBytes) {
     return Slice{{mapped_ + offset, sizeBytes}, offset};
 }
 
-void MappedRing::bindStorage(GLuint index, const Slice& slice) const {
-    buffer_.bindStorage(index, slice.offsetBytes, slice.data.size());
-}
-
 void MappedRing::bindUniform(GLuint index, const Slice& slice) const {
     buffer_.bindUniform(index, slice.offsetBytes, slice.data.size());
 }

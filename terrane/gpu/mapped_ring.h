@@ -34,7 +34,7 @@ class MappedRing {
     // After the last GL command that reads this frame's slices.
     void endFrame();
 
-    // Memory of this frame, aligned for bindStorage and bindUniform. None when the region is full.
+    // Memory of this frame, aligned for every binding. None when the region is full.
     [[nodiscard]] std::optional<Slice> allocate(std::size_t sizeBytes);
     template <class T>
     [[nodiscard]] std::optional<Slice> write(std::span<const T> values) {
@@ -43,7 +43,6 @@ class MappedRing {
         return slice;
     }
 
-    void bindStorage(GLuint index, const Slice& slice) const;
     void bindUniform(GLuint index, const Slice& slice) const;
 
     [[nodiscard]] const Buffer& buffer() const { return buffer_; }

@@ -1,15 +1,10 @@
-// A linked GL program of shaders found by a ShaderLoader, which can be built again from changed files while
-// the program runs. Used on the thread of its context.
+// A linked GL program of shaders found by a ShaderLoader. Used on the thread of its context.
 #pragma once
 
-#include <filesystem>
-#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <string>
 #include <string_view>
-#include <vector>
+#include <utility>
 
 #include "terrane/base/result.h"
 #include "terrane/gpu/handle.h"
@@ -19,8 +14,8 @@ namespace terrane::gpu {
 
 class Program {
   public:
-    // The loader outlives the program. The error's first line names the shader; the compiler's messages
-    // follow, one a line, each with its file and line.
+    // The error's first line names the shader; the compiler's messages follow, one a line, each with its file
+    // and line.
     [[nodiscard]] static base::Result<Program> graphics(const ShaderLoader& loader,
                                                         std::string_view vertexName,
                                                         std::string_view fragmentName,
@@ -31,50 +26,17 @@ class Program {
 
     void use() const;
 
-    // By explicit location: layout(location = 0) uniform float …
-    void set(GLint location, float value) const;
-    void set(GLint location, GLint value) const;
+    // By explicit location: layout(location = 0) uniform uint …
     void set(GLint location, GLuint value) const;
-    void set(GLint location, glm::vec2 value) const;
-    void set(GLint location, glm::vec3 value) const;
-    void set(GLint location, glm::vec4 value) const;
-    void set(GLint location, glm::ivec2 value) const;
-    void set(GLint location, glm::ivec3 value) const;
-    void set(GLint location, glm::ivec4 value) const;
     void set(GLint location, glm::uvec2 value) const;
     void set(GLint location, glm::uvec4 value) const;
-    void set(GLint location, const glm::mat4& value) const;
 
-    // Builds the program again if one of its files was written since it was last built; true if it now is
-    // another one, with all uniforms at their defaults. A failure is logged and the old program stays. Asks
-    // the file system for every file: for development, a few times a second.
-    bool reloadIfChanged();
-
-    [[nodiscard]] GLuint id() const { return built_.handle.id(); }
+    [[nodiscard]] GLuint id() const { return handle_.id(); }
 
   private:
-    struct Stage {
-        ShaderStage stage;
-        std::string name;
-    };
-    // All that building needs.
-    struct Recipe {
-        const ShaderLoader* loader = nullptr;
-        std::vector<Stage> stages;
-        ShaderDefines defines;
-        std::string label;
-    };
-    struct Built {
-        Handle<ObjectKind::Program> handle;
-        std::vector<std::string> files;               // of all stages
-        std::filesystem::file_time_type newestWrite;  // of the files, when they were read
-    };
+    explicit Program(Handle<ObjectKind::Program> handle) : handle_(std::move(handle)) {}
 
-    static base::Result<Program> create(Recipe recipe);
-    static base::Result<Built> build(const Recipe& recipe);
-
-    Built built_;
-    Recipe recipe_;
+    Handle<ObjectKind::Program> handle_;
 };
 
 }  // namespace terrane::gpu

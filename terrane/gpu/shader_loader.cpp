@@ -33,13 +33,18 @@ std::optional<std::string> ShaderLoader::find(std::string_view path) const {
     return std::nullopt;
 }
 
-std::filesystem::file_time_type ShaderLoader::newestWrite(std::span<const std::string> files) const {
-    auto newest = std::filesystem::file_time_type::min();
+std::optional<std::filesystem::file_time_type> ShaderLoader::newestWrite() const {
+    namespace fs = std::filesystem;
+    std::optional<fs::file_time_type> newest;
     if (shaderRoot_.empty()) return newest;
-    for (const std::string& file : files) {
-        std::error_code failed;  // an embedded file, or one being replaced right now
-        const auto written = std::filesystem::last_write_time(shaderRoot_ / file, failed);
-        if (!failed) newest = std::max(newest, written);
+    std::error_code failed;  // a file may be replaced right now
+    fs::recursive_directory_iterator file(shaderRoot_ / "terrane", failed);
+    for (; !failed && file != fs::recursive_directory_iterator(); file.increment(failed)) {
+        const fs::path extension = file->path().extension();
+        if (extension != ".glsl" && extension != ".h") continue;
+        std::error_code isGone;
+        const fs::file_time_type written = file->last_write_time(isGone);
+        if (!isGone) newest = std::max(newest.value_or(written), written);
     }
     return newest;
 }

@@ -1,6 +1,6 @@
 // Finds shaders and their includes: files embedded in the program, or, while developing, the files of a
-// source tree, which may change while the program runs. Made once by the program, used on the thread of the
-// GL context.
+// source tree, which may change while the program runs. Made once by the program, used on the threads of its
+// GL contexts.
 #pragma once
 
 #include <filesystem>
@@ -33,8 +33,9 @@ class ShaderLoader {
 
     [[nodiscard]] std::optional<std::string> find(std::string_view path) const;
 
-    // When the newest of the files was written; the same always for embedded ones.
-    [[nodiscard]] std::filesystem::file_time_type newestWrite(std::span<const std::string> files) const;
+    // When the newest .glsl or .h file in the root's folder terrane was written; none without such files.
+    // Looks at every file there, 1 ms or so: for development, once in a while.
+    [[nodiscard]] std::optional<std::filesystem::file_time_type> newestWrite() const;
 
   private:
     std::map<std::string, std::string_view, std::less<>> embedded_;

@@ -121,10 +121,6 @@ void Texture2DArray::upload(int level, int layer, GLenum format, GLenum type,
     glTextureSubImage3D(id(), level, 0, 0, layer, size.x, size.y, 1, format, type, data.data());
 }
 
-void Texture2DArray::generateMipmaps() {
-    glGenerateTextureMipmap(id());
-}
-
 void Texture2DArray::bind(GLuint unit) const {
     assert(id() != 0 && "an empty texture cannot be bound");
     glBindTextureUnit(unit, id());

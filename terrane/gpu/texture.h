@@ -54,7 +54,6 @@ class Texture2DArray {
 
     // The whole of one level of one layer.
     void upload(int level, int layer, GLenum format, GLenum type, std::span<const std::byte> data);
-    void generateMipmaps();
     void bind(GLuint unit) const;
 
     [[nodiscard]] GLuint id() const { return handle_.id(); }

@@ -5,7 +5,6 @@
 #include "terrane/render/surfaces.glsl"
 #include "terrane/shared/hash.h"
 
-layout(location = 0) in vec2 inScreen;
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outOpen;
 

@@ -23,8 +23,11 @@ vec2 extentOf(uint face) {
 // a texel of the mipmap stays between.
 // dx, dy: of the coordinates, before the margin bends them.
 vec4 blockTexture(uint face, vec2 inTextures, vec2 dx, vec2 dy) {
-#if SMOOTH == 0
+#if SMOOTH == 0 && SAMPLES <= 1
+    // Cheaper, and the same where no pixel beside has ended and the coordinates are those of the face.
     return texture(blockTextures, vec3(inTextures, textureOf(face)));
+#elif SMOOTH == 0
+    return textureGrad(blockTextures, vec3(inTextures, textureOf(face)), dx, dy);
 #else
     vec2 size = vec2(textureSize(blockTextures, 0).xy);
     vec2 texel = inTextures * size, texelsPerPixel = max((abs(dx) + abs(dy)) * size, 1e-6);

@@ -14,10 +14,14 @@ namespace terrane::render {
 // Gives the image of a texture by its name in the content file.
 using TextureSource = std::function<base::Result<base::Image>(std::string_view)>;
 
-// Layer n is registry.textures()[n]. Colours stay sRGB bytes, as the G-buffer keeps them: sampling decodes
-// nothing, and software renderers have a fast way for such formats. All images must be square, of one size, a
-// power of two; errors name the texture.
+// Layer n is registry.textures()[n]; `maxLayers`: of the graphics driver. Colours stay sRGB bytes, as the
+// G-buffer keeps them: sampling decodes nothing, and software renderers have a fast way for such formats. All
+// images must be square, of one size, a power of two; errors name the texture.
 base::Result<gpu::Texture2DArray> loadBlockTextures(const world::BlockRegistry& registry,
-                                                    const TextureSource& source);
+                                                    const TextureSource& source, int maxLayers);
+
+// What alpha means to a texture's mipmaps. Of several meanings it is one that tests, so that the coverage
+// stays, else the last that is used.
+world::AlphaMode textureAlpha(const world::BlockRegistry& registry, std::size_t texture);
 
 }  // namespace terrane::render

@@ -42,9 +42,12 @@ ViewMatrices viewMatrices(const Camera& camera, float aspect) {
                             static_cast<double>(chunk.y) * world::kChunkSize, 0.0);
     ViewMatrices v;
     v.cameraPosition = glm::vec3(camera.position - corner);
-    const glm::vec3 up = glm::cross(rightDirection(camera), lookDirection(camera));
-    const glm::mat4 view = glm::lookAt(v.cameraPosition, v.cameraPosition + lookDirection(camera), up);
-    v.viewProjection = reversedInfinitePerspective(glm::radians(camera.fieldOfView), aspect) * view;
+    const float fieldOfView = glm::radians(camera.fieldOfView), half = std::tan(fieldOfView * 0.5f);
+    v.ahead = lookDirection(camera);
+    v.across = half * aspect * rightDirection(camera);
+    v.up = half * glm::cross(rightDirection(camera), v.ahead);
+    const glm::mat4 view = glm::lookAt(v.cameraPosition, v.cameraPosition + v.ahead, v.up);
+    v.viewProjection = reversedInfinitePerspective(fieldOfView, aspect) * view;
     return v;
 }
 

@@ -2,7 +2,7 @@
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/region.h"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kCullThreads) in;
 
 layout(binding = kPyramidUnit) uniform sampler2D pyramid;  // the farthest depths of squares of pixels
 
@@ -27,15 +27,12 @@ bool isOutside(vec4 plane, vec3 low, vec3 high) {
     return dot(plane.xyz, farthest) + plane.w < 0.0;
 }
 
-// How far leaves and plants may leave the box of their region, in blocks.
-const float kWaving = 0.25;
-
-// Whether what was drawn so far hides the box: it lies behind the farthest depth of all pixels that it covers.
+// Whether what was drawn so far hides the box, with what waves: it lies behind the farthest depth of all pixels that it covers.
 bool isHidden(vec3 low, vec3 high) {
     vec2 least = vec2(1.0), most = vec2(-1.0);
     float nearest = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
-        vec3 at = mix(low - kWaving, high + kWaving, vec3(corner & 1, corner >> 1 & 1, corner >> 2));
+        vec3 at = mix(low, high, vec3(corner & 1, corner >> 1 & 1, corner >> 2));
         vec4 clip = cull.viewProjection * vec4(at, 1.0);
         if (clip.w <= 2.0 * cull.viewport.z) return false;
         vec2 screen = clip.xy / clip.w;
@@ -72,9 +69,10 @@ void main() {
     vec3 low = vec3(corner, float(heights & 0xFFFFu)), high = vec3(corner + 16.0, float(heights >> 16));
 
     bool isSeen = true, isCasting = cull.lightDirection.w > 0.0;
+    vec3 wavingLow = low - kWaving, wavingHigh = high + kWaving;
     for (int k = 0; k < 5; ++k) {
-        if (isOutside(cull.cameraPlanes[k], low, high)) isSeen = false;
-        if (isOutside(cull.shadowPlanes[k], low, high)) isCasting = false;
+        if (isOutside(cull.cameraPlanes[k], wavingLow, wavingHigh)) isSeen = false;
+        if (isOutside(cull.shadowPlanes[k], wavingLow, wavingHigh)) isCasting = false;
     }
     // Every face that looks to -x is seen from behind where the camera is beyond the last of them, and so on.
     vec3 camera = cull.cameraPosition.xyz, light = cull.lightDirection.xyz;
@@ -86,7 +84,7 @@ void main() {
     } else if (run == kCullSeenBefore) {
         visible[number] = (seen[slot] == 1u ? groups << kCameraGroupBits : 0u) | casting << kShadowGroupBits;
     } else {
-        bool isNew = seen[slot] != 1u, isOpen = isSeen && !isHidden(low, high);
+        bool isNew = seen[slot] != 1u, isOpen = isSeen && !isHidden(wavingLow, wavingHigh);
         if (!isOpen) groups = 0u;
         visible[number] = (isNew ? groups << kCameraGroupBits : 0u) | groups << kBlendedGroupBits;
         seen[slot] = isOpen ? 1u : 0u;

@@ -11,8 +11,6 @@
 namespace terrane::render {
 namespace {
 
-constexpr GLuint kCullThreads = 64;  // local_size_x of cull.comp.glsl
-
 using TwoCounts = std::array<shared::DrawCounts, 2>;  // of two runs
 
 gpu::Buffer gpuOnly(std::size_t bytes, std::string_view label) {
@@ -100,11 +98,12 @@ void CullPass::dispatch(const CullInput& input, const RegionTable& regions, gpu:
     commands_.bindStorage(shared::kCommandsBinding);
     countBuffer_.bindStorage(shared::kCountsBinding);
     cull_.use();
-    glDispatchCompute((regions.count() + kCullThreads - 1) / kCullThreads, 1, 1);
+    glDispatchCompute((regions.count() + shared::kCullThreads - 1) / shared::kCullThreads, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     compact_.use();
     glDispatchCompute(input.shadow ? shared::kDrawLists : shared::kCameraLists, 1, 1);
-    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    // The second run writes anew what this one read.
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void CullPass::run(CullRun run, const CullInput& input, const RegionTable& regions, gpu::MappedRing& ring) {

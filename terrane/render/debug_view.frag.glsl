@@ -3,7 +3,6 @@
 #include "terrane/render/light_sample.glsl"
 #include "terrane/render/surfaces.glsl"
 
-layout(location = 0) in vec2 inScreen;
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
 

@@ -3,7 +3,7 @@
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/shared/region.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kPyramidThreads, local_size_y = kPyramidThreads) in;
 
 layout(binding = kPyramidToImage, r32f) writeonly uniform image2D to;
 
@@ -29,7 +29,10 @@ layout(binding = kPyramidFromImage, r32f) readonly uniform image2D from;
 
 float farthestIn(ivec2 texel) {
     float farthest = 1.0;
-    for (int k = 0; k < 4; ++k) farthest = min(farthest, imageLoad(from, 2 * texel + ivec2(k & 1, k >> 1)).r);
+    ivec2 last = imageSize(from) - 1;  // where a level has one row, the next has it too
+    for (int k = 0; k < 4; ++k) {
+        farthest = min(farthest, imageLoad(from, min(2 * texel + ivec2(k & 1, k >> 1), last)).r);
+    }
     return farthest;
 }
 #endif

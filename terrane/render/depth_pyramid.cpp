@@ -18,7 +18,7 @@ glm::ivec2 finestSize(glm::ivec2 pixels) {
 }
 
 void dispatch(glm::ivec2 size) {
-    constexpr int kGroup = 8;  // local size of the shader
+    constexpr int kGroup = shared::kPyramidThreads;
     glDispatchCompute(static_cast<GLuint>((size.x + kGroup - 1) / kGroup),
                       static_cast<GLuint>((size.y + kGroup - 1) / kGroup), 1);
 }
@@ -52,6 +52,7 @@ base::Result<void> DepthPyramid::configure(const FrameTargets& targets, bool isO
 
 void DepthPyramid::build() const {
     const gpu::DebugGroup group("depth pyramid");
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);  // the frame before may still read it
     glBindImageTexture(shared::kPyramidToImage, texture_.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
     finest_.use();
     dispatch(texture_.size());

@@ -9,7 +9,6 @@ layout(binding = kSceneUnit) uniform sampler2D source;
 layout(binding = kBlurUnit) uniform sampler2D source;
 #endif
 
-layout(location = 0) in vec2 inScreen;
 layout(location = 0) out vec4 outColor;
 
 const float kWeights[5] = float[](0.2042, 0.1802, 0.1238, 0.0663, 0.0276);

@@ -16,7 +16,6 @@ layout(binding = kGodRaysUnit) uniform sampler2D godRays;
 layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
 #endif
 
-layout(location = 0) in vec2 inScreen;
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
 

@@ -41,6 +41,9 @@ base::Result<FrameTargets> FrameTargets::create(glm::ivec2 size, int samples) {
     if (!scene) return tl::unexpected(scene.error());
     auto picture = gpu::Framebuffer::create({{t.pictureColor}, {}}, "picture");
     if (!picture) return tl::unexpected(picture.error());
+    // No sky is drawn behind what is near; there the scene is blended with a share of 0 of what was before,
+    // which must be a number.
+    scene->clearColor(0, glm::vec4(0));
     t.surfaces = std::move(*surfaces);
     t.scene = std::move(*scene);
     t.picture = std::move(*picture);

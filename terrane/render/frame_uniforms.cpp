@@ -1,7 +1,6 @@
 #include "terrane/render/frame_uniforms.h"
 
 #include <cmath>
-#include <glm/matrix.hpp>
 
 #include "terrane/render/shadow_volume.h"
 
@@ -47,7 +46,9 @@ glm::vec4 lightOnScreen(const ViewMatrices& view, glm::vec3 direction) {
 shared::Frame frameUniforms(const FrameInput& input, const RenderOptions& options, const FrameSetup& setup) {
     shared::Frame frame{};
     frame.viewProjection = setup.view.viewProjection;
-    frame.inverseViewProjection = glm::inverse(setup.view.viewProjection);
+    frame.rayAhead = glm::vec4(setup.view.ahead, 0);
+    frame.rayAcross = glm::vec4(setup.view.across, 0);
+    frame.rayUp = glm::vec4(setup.view.up, 0);
     frame.cameraPosition = glm::vec4(setup.view.cameraPosition, input.fogDistance);
     setEnvironment(frame, input);
     const float growth = options.tJunctions == TJunctions::Covered ? setup.crackGrowth : 0.0f;

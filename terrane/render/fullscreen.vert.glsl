@@ -7,6 +7,5 @@ layout(location = 1) out vec3 outRay;     // from the camera to what lies one bl
 void main() {
     outScreen = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
     gl_Position = vec4(outScreen, 0.0, 1.0);
-    vec4 onNearPlane = frame.inverseViewProjection * vec4(outScreen, 1.0, 1.0);
-    outRay = (onNearPlane.xyz / onNearPlane.w - frame.cameraPosition.xyz) / frame.viewport.w;
+    outRay = rayAt(outScreen);
 }

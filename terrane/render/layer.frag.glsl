@@ -21,6 +21,7 @@ layout(location = 1) flat in uvec2 inFace;
 layout(location = 0) out vec4 outLayer;
 
 void main() {
+    vec2 dx = dFdx(inTexel), dy = dFdy(inTexel);  // before a pixel beside may have ended
 #if NEXT == 1
 #if SAMPLES > 1
     float last = texelFetch(before, ivec2(gl_FragCoord.xy), gl_SampleID).r;
@@ -29,7 +30,7 @@ void main() {
 #endif
     if (gl_FragCoord.z >= last) discard;
 #endif
-    vec4 texel = blockTexture(inFace.x, inTexel, dFdx(inTexel), dFdy(inTexel));
+    vec4 texel = blockTexture(inFace.x, inTexel, dx, dy);
     // Of a liquid the colour counts, its pattern little.
     if (isLiquid(inFace.x)) texel = mix(texel, textureLod(blockTextures, vec3(0.5, 0.5, textureOf(inFace.x)), 10.0), 0.7);
     uint direction = directionOfFace(inFace.x);

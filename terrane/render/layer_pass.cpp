@@ -87,7 +87,8 @@ base::Result<void> LayerPass::configure(const FrameTargets& targets, const Rende
     return {};
 }
 
-// A layer starts with the depth of what is opaque: faces behind that fail the depth test.
+// A layer starts with the depth of what is opaque: faces behind that fail the depth test, and where none is drawn
+// the depth tells so. The colour is not cleared.
 void LayerPass::drawLayer(const FrameTargets& targets, const CullPass& culled, int number) {
     const auto index = static_cast<std::size_t>(number);
     Target& target = targets_[index];
@@ -95,8 +96,7 @@ void LayerPass::drawLayer(const FrameTargets& targets, const CullPass& culled, i
     glCopyImageSubData(targets.depth.id(), kind, 0, 0, 0, 0, target.depth.id(), kind, 0, 0, 0, 0, size_.x,
                        size_.y, 1);
     target.framebuffer.bind();
-    target.framebuffer.clearColor(0, glm::vec4(0));
-    // Behind a layer without faces there are none: the GPU leaves out what comes next.
+    // Behind a layer without faces there are none: the GPU leaves out their drawing, not the copy above.
     if (number > 0) {
         glBeginConditionalRender(anyDrawn_[index - 1].id(), GL_QUERY_WAIT);
         targets_[index - 1].depth.bind(shared::kLayerDepthUnit);

@@ -1,21 +1,20 @@
 // A layer's word for a blended surface, sixteen bits a channel: colour (sRGB), and in alpha eight bits of coverage above
-// the direction, whether it is a liquid, and a bit that tells that there is one.
+// the direction and whether it is a liquid.
 #include "terrane/render/surface_word.glsl"
 
 struct Layer {
     Surface surface;
     float alpha;
     bool isLiquid;
-    bool isThere;
 };
 
 vec4 packLayer(vec4 color, uint direction, bool isLiquid) {
-    uint bits = uint(255.0 * color.a + 0.5) << 8 | (isLiquid ? 16u : 0u) | 8u | direction;
+    uint bits = uint(255.0 * color.a + 0.5) << 8 | (isLiquid ? 16u : 0u) | direction;
     return vec4(color.rgb, float(bits) / 65535.0);
 }
 
 Layer unpackLayer(vec4 word) {
     uint bits = uint(65535.0 * word.a + 0.5);
     Surface s = Surface(linearFromSrgb(word.rgb), normalOf(bits & 7u), 0.0, bits & 7u);
-    return Layer(s, float(bits >> 8) / 255.0, (bits & 16u) != 0u, (bits & 8u) != 0u);
+    return Layer(s, float(bits >> 8) / 255.0, (bits & 16u) != 0u);
 }

@@ -52,52 +52,53 @@ vec4 shadeLayer(Layer layer, float depth, float behind) {
     return air * color.a;
 }
 
+// A layer that has no face there has the depth of what is opaque, and behind it there are none.
+bool isThere(ivec2 pixel, int k, int n) {
+    return texelFetch(layerDepths[n], pixel, k).r > depthAt(pixel, k);
+}
+
+int layersAt(ivec2 pixel, int k) {
+    int count = 0;
+    for (int n = 0; n < LAYERS; ++n) count += count == n && isThere(pixel, k, n) ? 1 : 0;
+    return count;
+}
+
 vec4 shadeLayers(ivec2 pixel, int k) {
     vec4 sum = vec4(0.0);
     float behind = depthAt(pixel, k);
+    int count = layersAt(pixel, k);
     for (int n = LAYERS - 1; n >= 0; --n) {
-        Layer layer = unpackLayer(texelFetch(layerColors[n], pixel, k));
+        if (n >= count || (frame.camera.w != 0 && frame.camera.w != n + 1)) continue;
         float depth = texelFetch(layerDepths[n], pixel, k).r;
-        bool isShown = layer.isThere && (frame.camera.w == 0 || frame.camera.w == n + 1);
-        vec4 color = shadeLayer(layer, depth, behind);
-        if (!isShown) continue;
+        vec4 color = shadeLayer(unpackLayer(texelFetch(layerColors[n], pixel, k)), depth, behind);
         sum = color + (1.0 - color.a) * sum;
         behind = depth;
     }
     return sum;
 }
 
-bool isAnyThere(ivec2 pixel, int k) {
-    return (uint(65535.0 * texelFetch(layerColors[0], pixel, k).a + 0.5) & 8u) != 0u;
-}
-
+// Whether all samples show the same.
 bool isOneLayer(ivec2 pixel) {
     bool isSame = isOneSurface(pixel, surfaceAt(pixel, 0));
+    int count = layersAt(pixel, 0);
+    for (int k = 1; k < SAMPLES; ++k) isSame = isSame && layersAt(pixel, k) == count;
     for (int n = 0; n < LAYERS; ++n) {
         vec4 first = texelFetch(layerColors[n], pixel, 0);
-        for (int k = 1; k < SAMPLES; ++k) isSame = isSame && texelFetch(layerColors[n], pixel, k) == first;
+        for (int k = 1; k < SAMPLES; ++k)
+            isSame = isSame && (n >= count || texelFetch(layerColors[n], pixel, k) == first);
     }
     return isSame;
 }
 
-#if QUADS == 1
-// As fullscreen.vert.glsl has it.
-vec3 rayOfPixel() {
-    vec2 screen = 2.0 * gl_FragCoord.xy / frame.viewport.xy - 1.0;
-    vec4 onNearPlane = frame.inverseViewProjection * vec4(screen, 1.0, 1.0);
-    return (onNearPlane.xyz / onNearPlane.w - frame.cameraPosition.xyz) / frame.viewport.w;
-}
-#endif
-
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
 #if QUADS == 1
-    inRay = rayOfPixel();
+    inRay = rayAt(2.0 * gl_FragCoord.xy / frame.viewport.xy - 1.0);
     outColor = shadeLayers(pixel, 0);
 #else
-    bool isThere = isAnyThere(pixel, 0);
-    for (int k = 1; k < SAMPLES; ++k) isThere = isThere || isAnyThere(pixel, k);
-    if (!isThere && frame.camera.w == 0) discard;
+    bool isAnyThere = false;
+    for (int k = 0; k < SAMPLES; ++k) isAnyThere = isAnyThere || isThere(pixel, k, 0);
+    if (!isAnyThere && frame.camera.w == 0) discard;
     int count = isOneLayer(pixel) ? 1 : SAMPLES;
     vec4 sum = vec4(0.0);
     for (int k = 0; k < count; ++k) sum += shadeLayers(pixel, k);

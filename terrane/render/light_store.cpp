@@ -5,7 +5,9 @@
 #include <bit>
 #include <cassert>
 #include <iterator>
+#include <utility>
 
+#include "terrane/base/log.h"
 #include "terrane/base/profile.h"
 #include "terrane/shared/bindings.h"
 
@@ -18,6 +20,8 @@ constexpr int kTilesPerSlab = kPoolTiles * kPoolTiles;
 // What a landscape needs: copying a pool that is too small takes a tenth of a second in software.
 constexpr int kTilesAChunk = 28;
 constexpr std::size_t kTileBlocks = shared::kLightTileSize * shared::kLightTileSize * shared::kLightTileSize;
+
+constexpr std::size_t kMiddle = kTile / 2 * (1 + kTile + kTile * kTile);
 
 using TileValues = std::array<std::uint16_t, kTileBlocks>;
 
@@ -34,6 +38,12 @@ gpu::Texture3D makePool(int slabs) {
 int slabsFor(int viewDistance) {
     const int side = 2 * viewDistance + 1;
     return (side * side * kTilesAChunk + kTilesPerSlab - 1) / kTilesPerSlab;
+}
+
+int slabsOfDriver() {
+    GLint texels = 0;
+    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &texels);
+    return texels / kTile;
 }
 
 // Tile (x, y, z), 0 or 1 each, of an unpacked brick of 16³.
@@ -56,13 +66,14 @@ constexpr auto filled(std::uint32_t entry) {
 
 }  // namespace
 
-LightStore::LightStore(int viewDistance) {
+LightStore::LightStore(int viewDistance, int maxSlabs)
+    : maxSlabs_(maxSlabs > 0 ? maxSlabs : slabsOfDriver()) {
     gridChunks_ = static_cast<int>(std::bit_ceil(static_cast<unsigned>(2 * (viewDistance + 2) + 1)));
     const int side = 2 * gridChunks_, high = static_cast<int>(shared::kLightTilesHigh);
     grid_ = gpu::Texture3D({side, side, high}, GL_R32UI, "light grid");
     const shared::uint unknown = shared::kLightUnknown;
     glClearTexImage(grid_.id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &unknown);
-    pool_ = makePool(slabsFor(viewDistance));
+    pool_ = makePool(std::min(slabsFor(viewDistance), maxSlabs_));
 }
 
 std::size_t LightStore::gridBytes() const {
@@ -71,24 +82,30 @@ std::size_t LightStore::gridBytes() const {
            static_cast<std::size_t>(size.z) * sizeof(std::uint32_t);
 }
 
-std::uint32_t LightStore::allocateTile() {
+int LightStore::slabs() const {
+    return pool_.size().z / kTile;
+}
+
+std::optional<std::uint32_t> LightStore::allocateTile() {
     if (!free_.empty()) {
         const std::uint32_t tile = free_.back();
         free_.pop_back();
         return tile;
     }
-    const auto slabs = static_cast<std::size_t>(pool_.size().z / kTile);
-    if (tileCount_ == slabs * kTilesPerSlab) growPool();
+    const bool isFull = tileCount_ == static_cast<std::size_t>(slabs()) * kTilesPerSlab;
+    if (isFull && !growPool()) return std::nullopt;
     return static_cast<std::uint32_t>(tileCount_++);
 }
 
 // The GPU copies; draws on the way keep the old texture alive.
-void LightStore::growPool() {
+bool LightStore::growPool() {
+    if (slabs() == maxSlabs_) return false;
     const glm::ivec3 size = pool_.size();
-    gpu::Texture3D larger = makePool(2 * size.z / kTile);
+    gpu::Texture3D larger = makePool(std::min(2 * slabs(), maxSlabs_));
     glCopyImageSubData(pool_.id(), GL_TEXTURE_3D, 0, 0, 0, 0, larger.id(), GL_TEXTURE_3D, 0, 0, 0, 0, size.x,
                        size.y, size.z);
     pool_ = std::move(larger);
+    return true;
 }
 
 void LightStore::uploadTile(std::uint32_t tile, const std::uint16_t* values) {
@@ -126,8 +143,13 @@ void LightStore::setBrick(std::span<std::uint32_t, kTilesPerBrick> entries, cons
             entry = shared::kLightUniformBit | values[0];
             continue;
         }
-        entry = allocateTile();
-        uploadTile(entry, values.data());
+        const auto tile = allocateTile();
+        entry = tile.value_or(shared::kLightUniformBit | values[kMiddle]);
+        if (tile) uploadTile(*tile, values.data());
+        if (!tile && !std::exchange(hasWarned_, true)) {
+            base::logWarning(
+                "no room on the graphics card for all light: a shorter --view-distance needs less");
+        }
     }
 }
 

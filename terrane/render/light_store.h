@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -21,8 +22,9 @@ namespace terrane::render {
 class LightStore {
   public:
     LightStore() = default;
-    // Room for chunks up to `viewDistance` + 1 around the camera. Keeps nothing of what it had.
-    explicit LightStore(int viewDistance);
+    // Room for chunks up to `viewDistance` + 1 around the camera. `maxSlabs`: of 4,096 tiles each, as many as
+    // the driver allows where it is 0. Tiles for which there is no room have the light of their middle.
+    explicit LightStore(int viewDistance, int maxSlabs = 0);
 
     // `bricks`: which of the sixteen may differ from what was set before, a bit each; of a new chunk all
     // count.
@@ -40,15 +42,17 @@ class LightStore {
     static constexpr std::uint32_t kTilesPerBrick = 8;
     using Entries = std::array<std::uint32_t, shared::kLightTilesPerChunk>;  // of the grid
 
-    std::uint32_t allocateTile();
-    void growPool();
+    std::optional<std::uint32_t> allocateTile();
+    bool growPool();  // false where it is as large as it can be
+    int slabs() const;
     void uploadTile(std::uint32_t tile, const std::uint16_t* values);
     void uploadEntries(world::ChunkPos pos, const Entries& entries);
     void setBrick(std::span<std::uint32_t, kTilesPerBrick> entries, const light::LightBrick& brick);
     void release(std::span<const std::uint32_t> entries);
     std::size_t gridBytes() const;
 
-    int gridChunks_ = 0;
+    int gridChunks_ = 0, maxSlabs_ = 0;
+    bool hasWarned_ = false;
     gpu::Texture3D grid_, pool_;
     std::size_t tileCount_ = 0;  // handed out so far, free ones included
     std::vector<std::uint32_t> free_;

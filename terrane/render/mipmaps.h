@@ -9,8 +9,7 @@
 namespace terrane::render {
 
 // Level 0 is the image, but that texels hidden by a tested alpha take the colours around them; each next one
-// half as large, down to 1×1. The image is square, its side a power of
-// two.
+// half as large, down to 1×1. The image is square, its side a power of two.
 //
 // Colours are averaged as light (sRGB is decoded), weighted by alpha where alpha is coverage. Where alpha
 // decides holes, each level is scaled so that the share of the surface that passes the test stays that of

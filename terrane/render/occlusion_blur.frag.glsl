@@ -5,7 +5,6 @@
 
 layout(binding = kOcclusionUnit) uniform sampler2D source;
 
-layout(location = 0) in vec2 inScreen;
 layout(location = 0) out vec4 outOpen;
 
 const float kWeights[5] = float[](0.1509, 0.1427, 0.1208, 0.0915, 0.0620);

@@ -17,6 +17,10 @@ layout(location = kRegionChunkAttribute) in ivec2 chunk;  // of the draw's regio
 // Layers are peeled by comparing depths of two programs.
 invariant gl_Position;
 
+// A liquid's faces lie so many blocks inside of it: those against glass would share a plane with the glass's, and which
+// of the two is nearer would change from pixel to pixel.
+const float kLiquidInset = 1.0 / 1024.0;
+
 layout(location = 0) out vec2 outTexel;        // in textures; row 0 of the image is at integer v
 layout(location = 1) flat out uvec2 outFace;   // see face_word.glsl; a number of the quad's own
 #include "terrane/render/face_word.glsl"
@@ -31,6 +35,10 @@ ShapeFace shapeFaceOf(Quad quad) {
     int first = 4 * int(quadShapeFace(quad));
     return ShapeFace(texelFetch(shapeFaces, first), texelFetch(shapeFaces, first + 1), texelFetch(shapeFaces, first + 2),
                      vec4(0.0));
+}
+
+vec3 normalOfFace(Quad quad) {
+    return texelFetch(shapeFaces, 4 * int(quadShapeFace(quad)) + 3).xyz;
 }
 
 MaterialRecord materialOf(Quad quad) {
@@ -49,6 +57,9 @@ void main() {
     if ((frame.camera.z & kSwitchAnimation) != 0) {
         inChunk += waveOffset(material.animation, chunk, cell.xyz, inChunk, corner.y, frame.lightDirection.w);
     }
+#if PASS == 1
+    if (material.animation == kAnimationLiquidSurface) inChunk -= kLiquidInset * normalOfFace(quad);
+#endif
     vec3 position = inChunk + vec3(16.0 * vec2(chunk - frame.camera.xy), 0.0);
 #if PASS == 2
     vec3 onMap = (frame.toShadowMap * vec4(position, 1.0)).xyz;

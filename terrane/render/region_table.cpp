@@ -38,18 +38,11 @@ float blocksBetween(std::int32_t fromChunk, std::int32_t toChunk) {
     return static_cast<float>(toChunk - fromChunk) * static_cast<float>(world::kChunkSize);
 }
 
-// Squared chunks over the ground, with the place in the table behind, so that equal ones keep an order.
-std::uint64_t sortKey(const shared::RegionRecord& record, world::ChunkPos centre) {
-    const std::int64_t x = std::int64_t{record.chunk.x} - centre.x,
-                       y = std::int64_t{record.chunk.y} - centre.y;
-    return static_cast<std::uint64_t>(std::min<std::int64_t>(x * x + y * y, UINT32_MAX));
-}
-
 }  // namespace
 
 RegionTable::RegionTable()
     : records_(kFirstSlots * sizeof(shared::RegionRecord), GL_DYNAMIC_STORAGE_BIT, "regions"),
-      order_(kFirstSlots * sizeof(std::uint32_t), GL_DYNAMIC_STORAGE_BIT, "order of regions") {}
+      orderBuffer_(kFirstSlots * sizeof(std::uint32_t), GL_DYNAMIC_STORAGE_BIT, "order of regions") {}
 
 std::uint32_t RegionTable::allocateSlot() {
     if (!free_.empty()) {
@@ -99,15 +92,16 @@ void RegionTable::setRegion(std::uint32_t& slot, const shared::RegionRecord& rec
     }
     const bool hadSlot = slot != kNoSlot, needsSlot = !isEmpty(record);
     if (hadSlot && !needsSlot) {
+        order_.remove(slot);
         free_.push_back(slot);
         slot = kNoSlot;
         --count_;
     }
     if (!hadSlot && needsSlot) {
         slot = allocateSlot();
+        order_.add(slot, {record.chunk.x, record.chunk.y}, record.heights);
         ++count_;
     }
-    if (hadSlot != needsSlot) isSorted_ = false;
     if (!needsSlot) return;
     cpuRecords_[slot] = record;
     changed_.push_back(slot);
@@ -136,36 +130,18 @@ void RegionTable::uploadRecords() {
 }
 
 void RegionTable::uploadOrder() {
-    std::vector<std::uint64_t> keys;
-    keys.reserve(count_);
-    for (const auto& [pos, slotsOfChunk] : chunks_) {
-        for (const std::uint32_t slot : slotsOfChunk) {
-            if (slot == kNoSlot) continue;
-            keys.push_back(sortKey(cpuRecords_[slot], centre_) << 32 | slot);
-        }
+    const std::vector<std::uint32_t>& slots = order_.slots();
+    const std::size_t bytes = slots.size() * sizeof(std::uint32_t);
+    if (bytes > orderBuffer_.sizeBytes()) {
+        orderBuffer_ = gpu::Buffer(2 * bytes, GL_DYNAMIC_STORAGE_BIT, "order of regions");
     }
-    // Slots depend on the order in which chunks came: where distances are equal the place in the world
-    // decides.
-    const auto place = [&](std::uint64_t key) {
-        const shared::RegionRecord& r = cpuRecords_[key & UINT32_MAX];
-        return std::tuple(key >> 32, r.chunk.x, r.chunk.y, r.heights);
-    };
-    std::ranges::sort(keys, [&](std::uint64_t a, std::uint64_t b) { return place(a) < place(b); });
-    std::vector<std::uint32_t> order(keys.begin(), keys.end());
-    if (order.size() * sizeof(std::uint32_t) > order_.sizeBytes()) {
-        order_ =
-            gpu::Buffer(2 * order.size() * sizeof(std::uint32_t), GL_DYNAMIC_STORAGE_BIT, "order of regions");
-    }
-    if (!order.empty()) order_.uploadVector(0, order);
+    if (!slots.empty()) orderBuffer_.uploadVector(0, slots);
 }
 
 void RegionTable::update(world::ChunkPos centre) {
     TERRANE_ZONE("region table");
     if (!changed_.empty()) uploadRecords();
-    if (isSorted_ && centre == centre_) return;
-    centre_ = centre;
-    uploadOrder();
-    isSorted_ = true;
+    if (order_.update(centre)) uploadOrder();
 }
 
 bool RegionTable::hasBlended(world::ChunkPos centre, std::span<const glm::vec4> planes) const {
@@ -174,7 +150,7 @@ bool RegionTable::hasBlended(world::ChunkPos centre, std::span<const glm::vec4> 
         const glm::vec3 corner(blocksBetween(centre.x, r.chunk.x), blocksBetween(centre.y, r.chunk.y), 0);
         const glm::vec3 min = corner + glm::vec3(0, 0, r.heights & 0xFFFF);
         const glm::vec3 max = corner + glm::vec3(world::kChunkSize, world::kChunkSize, r.heights >> 16);
-        return mayBeVisible(planes, min, max);
+        return mayBeVisible(planes, min - shared::kWaving, max + shared::kWaving);  // as in cull.comp.glsl
     });
 }
 

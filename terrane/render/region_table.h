@@ -11,6 +11,7 @@
 #include "terrane/gpu/buffer.h"
 #include "terrane/render/camera.h"
 #include "terrane/render/quad_store.h"
+#include "terrane/render/region_order.h"
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/region.h"
 
@@ -32,7 +33,7 @@ class RegionTable {
 
     void bindRecords() const { records_.bindStorage(shared::kRegionsBinding); }
     const gpu::Buffer& records() const { return records_; }  // shared::RegionRecord by slot
-    void bindOrder() const { order_.bindStorage(shared::kRegionOrderBinding); }
+    void bindOrder() const { orderBuffer_.bindStorage(shared::kRegionOrderBinding); }
 
     // Regions that have quads; the order has as many entries.
     std::uint32_t count() const { return count_; }
@@ -59,9 +60,8 @@ class RegionTable {
     std::vector<std::uint32_t> free_, changed_, blended_;  // slots
     std::array<std::uint32_t, shared::kFaceContexts> mostCommands_{};
     std::uint32_t count_ = 0;
-    world::ChunkPos centre_{};
-    bool isSorted_ = false;
-    gpu::Buffer records_, order_;
+    RegionOrder order_;
+    gpu::Buffer records_, orderBuffer_;
 };
 
 }  // namespace terrane::render

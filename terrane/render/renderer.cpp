@@ -4,8 +4,8 @@
 #include <cassert>
 #include <span>
 
+#include "terrane/base/log.h"
 #include "terrane/base/profile.h"
-#include "terrane/gpu/debug.h"
 #include "terrane/render/frame_uniforms.h"
 #include "terrane/render/shadow_volume.h"
 #include "terrane/render/timer_zone.h"
@@ -40,51 +40,40 @@ float aspectOf(glm::ivec2 size) {
 
 base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
                                         const TextureSource& textures, const gpu::DeviceInfo& device) {
-    auto blockTextures = loadBlockTextures(blocks, textures);
+    auto blockTextures = loadBlockTextures(blocks, textures, device.maxArrayLayers);
     if (!blockTextures) return tl::unexpected(blockTextures.error());
-    auto cull = CullPass::create(shaders, device);
-    if (!cull) return tl::unexpected(cull.error());
+    auto passes = FramePasses::create(shaders, device);
+    if (!passes) return tl::unexpected(passes.error());
 
     Renderer renderer;
     // A software renderer pays for each of the samples.
     const float anisotropy = device.software ? 1.0f : std::min(kMaxAnisotropy, device.maxAnisotropy);
     renderer.resources_ = QuadResources(blocks, std::move(*blockTextures), anisotropy);
-    renderer.cull_ = std::move(*cull);
-    renderer.pyramid_ = DepthPyramid(shaders);
-    renderer.shadowMap_ = ShadowMap(shaders);
-    renderer.gbuffer_ = GBufferPass(shaders);
-    renderer.holeFill_ = HoleFill(shaders);
-    renderer.layers_ = LayerPass(shaders);
+    renderer.passes_ = std::move(*passes);
     renderer.noise_ = SkyNoise::create();
-    renderer.occlusion_ = AmbientOcclusion(shaders);
-    renderer.godRays_ = GodRays(shaders);
-    renderer.farBlur_ = FarBlur(shaders);
-    renderer.shading_ = ShadingPass(shaders);
-    renderer.debugView_ = FullscreenPass(shaders, "debug_view");
-    renderer.final_ = FullscreenPass(shaders, "final");
     renderer.ring_ = gpu::MappedRing(kRingBytes, "frame data");
     renderer.light_ = LightStore(kLightViewDistance);
-    renderer.maxSamples_ = device.maxSamples;
-    renderer.maxSize_ = device.maxTextureSize;
+    renderer.shaders_ = &shaders;
+    renderer.device_ = device;
     renderer.crackGrowth_ = crackGrowth();
     return renderer;
 }
 
 base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, const TextureSource& textures) {
-    auto loaded = loadBlockTextures(blocks, textures);
+    auto loaded = loadBlockTextures(blocks, textures, device_.maxArrayLayers);
     if (!loaded) return tl::unexpected(loaded.error());
     resources_.setTextures(std::move(*loaded));
     return {};
 }
 
 base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& options) {
-    if (options.samples > maxSamples_) {
+    if (options.samples > device_.maxSamples) {
         return base::fail("{} samples a pixel: the graphics driver has at most {}", options.samples,
-                          maxSamples_);
+                          device_.maxSamples);
     }
-    if (size.x > maxSize_ || size.y > maxSize_) {
+    if (std::max(size.x, size.y) > device_.maxTextureSize) {
         return base::fail("{} × {} pixels: the graphics driver has at most {} a side", size.x, size.y,
-                          maxSize_);
+                          device_.maxTextureSize);
     }
     std::optional<FrameTargets> made;
     if (size != targets_.size || options.samples != targets_.wantedSamples) {
@@ -92,31 +81,25 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
         if (!targets) return tl::unexpected(targets.error());
         made = std::move(*targets);
     }
-    if (auto selected = selectVariants(options, made ? *made : targets_); !selected) return selected;
+    if (auto done = passes_.configure(made ? *made : targets_, options); !done) {
+        const bool isDrawn = targets_.size.x > 0;
+        const auto undone = isDrawn ? passes_.configure(targets_, options_) : base::Result<void>();
+        if (!undone) base::logError("options cannot be as they were: {}", undone.error().message);
+        return done;
+    }
     if (made) targets_ = std::move(*made);
     options_ = options;
     return {};
 }
 
-base::Result<void> Renderer::selectVariants(const RenderOptions& options, const FrameTargets& targets) {
-    const int samples = targets.samples, light = static_cast<int>(options.light);
-    auto done = shadowMap_.resize(options.shading == Shading::Off ? 0 : options.shadowSize);
-    if (done) done = pyramid_.configure(targets, options.hiddenRegionCulling);
-    if (done) done = gbuffer_.select(options.sampledAlphaTest ? samples : 1, options.betterTexturing);
-    if (done) done = holeFill_.configure(targets, options.tJunctions == TJunctions::Filled);
-    if (done) done = shading_.select(options, samples, shadowMap_.size() > 0);
-    if (done) done = layers_.configure(targets, options, shadowMap_.size() > 0);
-    if (done) done = debugView_.select(defined({{"SAMPLES", samples}, {"LIGHT_SMOOTH", light}}));
-    if (done) done = occlusion_.configure(targets, options.occlusion != Occlusion::Off);
-    if (done) done = godRays_.configure(targets.size, options.godRays);
-    if (done) done = farBlur_.configure(targets, options.depthOfField);
-    if (done) {
-        done = final_.select(defined({{"SAMPLES", samples},
-                                      {"FAR_BLUR", options.depthOfField ? 1 : 0},
-                                      {"GOD_RAYS", options.godRays ? 1 : 0},
-                                      {"RAW_OCCLUSION", options.occlusion == Occlusion::Raw ? 1 : 0}}));
+base::Result<void> Renderer::reloadShaders() {
+    auto passes = FramePasses::create(*shaders_, device_);
+    if (!passes) return tl::unexpected(passes.error());
+    if (targets_.size.x > 0) {
+        if (auto done = passes->configure(targets_, options_); !done) return done;
     }
-    return done;
+    passes_ = std::move(*passes);
+    return {};
 }
 
 bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::RegionSet regions) {
@@ -140,19 +123,19 @@ void Renderer::removeChunk(world::ChunkPos pos) {
 bool Renderer::hasShadows(const FrameInput& input) const {
     const glm::vec3 light = input.environment.lightColor;
     const bool isLit = std::max({light.x, light.y, light.z}) > kLeastShadowedLight;
-    return shadowMap_.size() > 0 && input.view == View::Color && isLit;
+    return passes_.shadowMap.size() > 0 && input.view == View::Color && isLit;
 }
 
 void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
     shared::Frame frame = frameUniforms(
         input, options_,
-        {view, glm::vec2(targets_.size), crackGrowth_, hasShadows(input) ? shadowMap_.size() : 0});
+        {view, glm::vec2(targets_.size), crackGrowth_, hasShadows(input) ? passes_.shadowMap.size() : 0});
     const world::ChunkPos chunk = cameraChunk(input.camera);
     const int mask = light_.gridChunks() - 1;
     frame.lightGrid = {2 * (chunk.x & mask), 2 * (chunk.y & mask), 2 * light_.gridChunks(), 0};
     const auto slice = ring_.write(std::span<const shared::Frame>(&frame, 1));
     assert(slice && "the ring is empty at the start of a frame");
-    ring_.buffer().bindUniform(shared::kFrameBinding, slice->offsetBytes, sizeof(frame));
+    ring_.bindUniform(shared::kFrameBinding, *slice);
 }
 
 CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view) const {
@@ -174,12 +157,12 @@ CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view)
 
 void Renderer::cull(CullRun run, const CullInput& input) {
     const TimerZone zone(timer_, run == CullRun::SeenNow ? "cull again" : "cull");
-    cull_.run(run, input, regions_, ring_);
+    passes_.cull.run(run, input, regions_, ring_);
 }
 
 void Renderer::drawShadows() {
     const TimerZone zone(timer_, "shadow map");
-    shadowMap_.draw(cull_);
+    passes_.shadowMap.draw(passes_.cull);
 }
 
 void Renderer::drawSurfaces() {
@@ -187,7 +170,7 @@ void Renderer::drawSurfaces() {
     targets_.surfaces.bind();
     targets_.surfaces.clearColor(0, glm::vec4(1));
     targets_.surfaces.clearDepth(0.0f);
-    gbuffer_.draw(cull_);
+    passes_.gbuffer.draw(passes_.cull);
     targets_.surface.bind(shared::kSurfaceUnit);
     targets_.depth.bind(shared::kDepthUnit);
 }
@@ -196,24 +179,24 @@ void Renderer::drawSurfaces() {
 void Renderer::drawHiddenBefore(const CullInput& cullInput) {
     {
         const TimerZone zone(timer_, "depth pyramid");
-        pyramid_.build();
+        passes_.pyramid.build();
     }
     CullInput again = cullInput;
     again.shadow.reset();
-    again.pyramidLevels = pyramid_.levels();
+    again.pyramidLevels = passes_.pyramid.levels();
     cull(CullRun::SeenNow, again);
     const TimerZone zone(timer_, "surfaces again");
     targets_.surfaces.bind();
-    gbuffer_.draw(cull_);
+    passes_.gbuffer.draw(passes_.cull);
 }
 
 void Renderer::shadeSurfaces(float fogDistance) {
     {
         const TimerZone zone(timer_, "sky");
-        shading_.drawSky(targets_, fogDistance);
+        passes_.shading.drawSky(targets_, fogDistance);
     }
     const TimerZone zone(timer_, "shade");
-    shading_.drawSurfaces(targets_);
+    passes_.shading.drawSurfaces(targets_);
 }
 
 // Costs nothing where no region in view has blended faces.
@@ -224,31 +207,31 @@ void Renderer::drawLayers(const FrameInput& input) {
     {
         const TimerZone zone(timer_, "peel");
         resources_.bind(quads_, regions_, options_.betterTexturing);
-        layers_.peel(targets_, cull_);
+        passes_.layers.peel(targets_, passes_.cull);
     }
     const TimerZone zone(timer_, "shade layers");
-    layers_.shade(targets_, cull_);
+    passes_.layers.shade(targets_, passes_.cull);
 }
 
 void Renderer::drawPicture(const FrameInput& input) {
     if (options_.occlusion != Occlusion::Off) {
         const TimerZone zone(timer_, "ambient occlusion");
-        occlusion_.draw();
+        passes_.occlusion.draw();
     }
     shadeSurfaces(input.fogDistance);
     drawLayers(input);
     if (options_.godRays) {
         const TimerZone zone(timer_, "god rays");
-        godRays_.draw(targets_);
+        passes_.godRays.draw(targets_);
     }
     if (options_.depthOfField) {
         const TimerZone zone(timer_, "depth of field");
-        farBlur_.draw(targets_);
+        passes_.farBlur.draw(targets_);
     }
     const TimerZone zone(timer_, "final");
     targets_.picture.bind();
     targets_.sceneColor.bind(shared::kSceneUnit);
-    final_.draw();
+    passes_.finalPass.draw();
 }
 
 void Renderer::draw(const FrameInput& input) {
@@ -261,28 +244,28 @@ void Renderer::draw(const FrameInput& input) {
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     const CullInput culling = cullInput(input, view);
     regions_.update(culling.cameraChunk);
-    const bool leavesOutHidden = pyramid_.isOn() && !input.culledFor;
-    if (leavesOutHidden) pyramid_.bind();
+    const bool leavesOutHidden = passes_.pyramid.isOn() && !input.culledFor;
+    if (leavesOutHidden) passes_.pyramid.bind();
     cull(leavesOutHidden ? CullRun::SeenBefore : CullRun::All, culling);
     resources_.bind(quads_, regions_, options_.betterTexturing);
     noise_.bind();
     if (hasShadows(input)) drawShadows();
     drawSurfaces();
     if (leavesOutHidden) drawHiddenBefore(culling);
-    if (holeFill_.isOn()) {
+    if (passes_.holeFill.isOn()) {
         const TimerZone zone(timer_, "fill holes");
-        holeFill_.draw(targets_);
+        passes_.holeFill.draw(targets_);
     }
     light_.bind();
-    if (shadowMap_.size() > 0) shadowMap_.bind();
+    if (passes_.shadowMap.size() > 0) passes_.shadowMap.bind();
     if (input.view == View::Color) {
         drawPicture(input);
     } else {
         glDisable(GL_DEPTH_TEST);
         targets_.picture.bind();
-        debugView_.draw();
+        passes_.debugView.draw();
     }
-    cull_.queueCounts();
+    passes_.cull.queueCounts();
     ring_.endFrame();
 }
 

@@ -7,24 +7,12 @@
 
 #include "terrane/base/image.h"
 #include "terrane/gpu/timer.h"
-#include "terrane/render/ambient_occlusion.h"
 #include "terrane/render/block_textures.h"
-#include "terrane/render/cull_pass.h"
-#include "terrane/render/depth_pyramid.h"
-#include "terrane/render/far_blur.h"
 #include "terrane/render/frame_input.h"
+#include "terrane/render/frame_passes.h"
 #include "terrane/render/frame_statistics.h"
-#include "terrane/render/frame_targets.h"
-#include "terrane/render/fullscreen_pass.h"
-#include "terrane/render/gbuffer_pass.h"
-#include "terrane/render/god_rays.h"
-#include "terrane/render/hole_fill.h"
-#include "terrane/render/layer_pass.h"
 #include "terrane/render/light_store.h"
 #include "terrane/render/quad_resources.h"
-#include "terrane/render/render_options.h"
-#include "terrane/render/shading_pass.h"
-#include "terrane/render/shadow_map.h"
 #include "terrane/render/sky_noise.h"
 
 namespace terrane::render {
@@ -42,6 +30,8 @@ class Renderer {
     // changes. Fails where the driver cannot; what was before then stays.
     base::Result<void> configure(glm::ivec2 size, const RenderOptions& options);
     const RenderOptions& options() const { return options_; }
+    // Shaders as the loader gives them now, from the next frame on. Where one is wrong those before stay.
+    base::Result<void> reloadShaders();
 
     // The next frame shows these regions of the chunk so; of others `mesh` has no quads. False where the GPU
     // has no room: the regions are not shown then.
@@ -69,7 +59,7 @@ class Renderer {
     const gpu::Texture2D& pictureTexture() const { return targets_.pictureColor; }
 
     // Of the newest frame that the GPU has finished.
-    FrameStatistics statistics() { return statisticsOf(cull_.counts()); }
+    FrameStatistics statistics() { return statisticsOf(passes_.cull.counts()); }
     const std::vector<gpu::GpuTiming>& passTimes() const { return timer_.results(); }
     // What a shadow map for this frame would draw.
     std::size_t shadowTriangles(const FrameInput& input) const;
@@ -79,7 +69,6 @@ class Renderer {
     glm::ivec2 size() const { return targets_.size; }
 
   private:
-    base::Result<void> selectVariants(const RenderOptions& options, const FrameTargets& targets);
     void bindFrame(const FrameInput& input, const ViewMatrices& view);
     CullInput cullInput(const FrameInput& input, const ViewMatrices& view) const;
     void cull(CullRun run, const CullInput& input);
@@ -100,20 +89,11 @@ class Renderer {
     gpu::MappedRing ring_;
     gpu::GpuTimer timer_;
 
-    CullPass cull_;
-    DepthPyramid pyramid_;
-    ShadowMap shadowMap_;
-    GBufferPass gbuffer_;
-    HoleFill holeFill_;
-    LayerPass layers_;
-    AmbientOcclusion occlusion_;
-    GodRays godRays_;
-    FarBlur farBlur_;
+    FramePasses passes_;
     SkyNoise noise_;
-    ShadingPass shading_;
-    FullscreenPass debugView_, final_;
 
-    int maxSamples_ = 1, maxSize_ = 1;
+    const gpu::ShaderLoader* shaders_ = nullptr;
+    gpu::DeviceInfo device_;
     float crackGrowth_ = 0;  // pixels
 };
 

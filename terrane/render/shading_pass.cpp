@@ -2,13 +2,11 @@
 
 #include "terrane/render/camera.h"
 #include "terrane/render/shader_variants.h"
+#include "terrane/shared/frame.h"
 
 namespace terrane::render {
 namespace {
 
-// Along the view, as the depth has it, surfaces may fade from this share of the distance of the fog on: they
-// do from 5/6 over the ground, and more at the sides of a wide picture. sky.frag.glsl has the same.
-constexpr float kFadingBegins = 0.4f;
 constexpr float kSkyDistance = 1e6f;  // blocks: nothing but the sky is farther
 
 // Where there are samples to test: with several a pixel the scene has one, and no depth.
@@ -39,7 +37,7 @@ void ShadingPass::drawSky(const FrameTargets& targets, float fogDistance) const 
     glDepthMask(GL_FALSE);
     setDepthTest(targets);
     const bool isBehind = fadesOverSky_ && hasAtmosphere_;
-    glDepthRangef(kNearPlane / (isBehind ? kFadingBegins * fogDistance : kSkyDistance), 1.0f);
+    glDepthRangef(kNearPlane / (isBehind ? shared::kFadingBegins * fogDistance : kSkyDistance), 1.0f);
     glDepthFunc(GL_GREATER);
     sky_.draw();
     glDepthRangef(0.0f, 1.0f);

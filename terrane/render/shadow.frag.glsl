@@ -4,6 +4,7 @@
 #include "terrane/shared/shape_face.h"
 #include "terrane/render/face_word.glsl"
 #define SMOOTH 0
+#define SAMPLES 1
 #include "terrane/render/block_texture.glsl"
 
 layout(location = 0) in vec2 inTexel;

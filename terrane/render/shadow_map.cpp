@@ -6,8 +6,8 @@
 namespace terrane::render {
 namespace {
 
-// Depth along the light is linear: 16 bits over 400 blocks are steps of 1/160 block, and half the memory of
-// more.
+// Depth along the light is linear: 16 bits over little more than twice kShadowReach at most are steps of a
+// few thousandths of a block, in half the memory of more.
 constexpr GLenum kFormat = GL_DEPTH_COMPONENT16;
 
 }  // namespace
@@ -25,9 +25,10 @@ base::Result<void> ShadowMap::resize(int size) {
     auto selected = opaque_.select({{"PASS", "2"}, {"ALPHA_CLASS", "0"}});
     if (selected) selected = tested_.select({{"PASS", "2"}, {"ALPHA_CLASS", "1"}});
     if (!selected) return selected;
-    depth_ = gpu::Texture2D({size, size}, kFormat, 1, "shadow map");
-    auto framebuffer = gpu::Framebuffer::create({{}, depth_}, "shadow map");
+    gpu::Texture2D depth({size, size}, kFormat, 1, "shadow map");
+    auto framebuffer = gpu::Framebuffer::create({{}, depth}, "shadow map");
     if (!framebuffer) return tl::unexpected(framebuffer.error());
+    depth_ = std::move(depth);
     framebuffer_ = std::move(*framebuffer);
     return {};
 }

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
 
 #include "terrane/mesh/face_context.h"
+#include "terrane/shared/region.h"
 
 namespace terrane::render {
 namespace {
@@ -49,11 +49,9 @@ ShadowVolume shadowVolume(const ViewMatrices& view, glm::vec3 lightDirection, fl
         volume.farthest = std::min(volume.farthest, p.z);
     };
     cover(view.cameraPosition);
-    const glm::mat4 toWorld = glm::inverse(view.viewProjection);
-    for (const glm::vec2 corner : {glm::vec2(-1, -1), {1, -1}, {-1, 1}, {1, 1}, {0, 0}}) {
-        const glm::vec4 nearPoint = toWorld * glm::vec4(corner, 1, 1);
-        const glm::vec3 direction = glm::normalize(glm::vec3(nearPoint) / nearPoint.w - view.cameraPosition);
-        cover(view.cameraPosition + reach * direction);
+    // A pyramid that ends `reach` blocks ahead, not around the camera: it holds the cap between its edges.
+    for (const glm::vec2 corner : {glm::vec2(-1, -1), {1, -1}, {-1, 1}, {1, 1}}) {
+        cover(view.cameraPosition + reach * (view.ahead + corner.x * view.across + corner.y * view.up));
     }
     return volume;
 }
@@ -116,7 +114,8 @@ std::size_t countShadowTriangles(const QuadStore& quads, const Camera& camera, c
         for (const mesh::RegionMesh& region : chunk) {
             const glm::vec3 min = origin + glm::vec3(0, 0, region.minZ);
             const glm::vec3 max = origin + glm::vec3(world::kChunkSize, world::kChunkSize, region.maxZ);
-            if (mayBeInVolume(volume, min, max)) count += 2 * castingQuads(region, lightDirection);
+            if (mayBeInVolume(volume, min - shared::kWaving, max + shared::kWaving))
+                count += 2 * castingQuads(region, lightDirection);
         }
     }
     return count;

@@ -6,11 +6,10 @@
 #include "terrane/render/surfaces.glsl"
 #endif
 
-layout(location = 0) in vec2 inScreen;
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
 
-// The sun is plain; the moon has plains, brighter and darker. `at`: from the disc's middle, 1 at its rim.
+// The sun is plain; the moon has plains, brighter and darker.
 vec3 discColor(vec2 at) {
 #if CLOUDS == 0
     return frame.discColor.rgb;
@@ -21,30 +20,37 @@ vec3 discColor(vec2 at) {
     return frame.discColor.rgb * mix(1.0, (0.35 + 0.65 * smoothstep(0.5, 1.0, pattern)) * (0.6 + 0.4 * rim), isMoon);
 }
 
-vec4 disc(vec3 direction) {
-    vec3 light = frame.lightDirection.xyz;
-    vec3 across = normalize(cross(light, vec3(0.0, 0.0, 1.0))), up = cross(across, light);
-    vec2 at = vec2(dot(direction, across), dot(direction, up)) / frame.lightColor.w;
-    float pixel = length(fwidth(at));
-    float share = dot(direction, light) > 0.0 ? 1.0 - smoothstep(1.0 - pixel, 1.0, length(at)) : 0.0;
+// `at`: from the disc's middle, 1 at its rim; `pixel`: its size there.
+vec4 disc(vec3 direction, vec2 at, float pixel) {
+    float share = dot(direction, frame.lightDirection.xyz) > 0.0 ? 1.0 - smoothstep(1.0 - pixel, 1.0, length(at)) : 0.0;
     return vec4(discColor(at), share);
 }
 
+vec2 onDisc(vec3 direction) {
+    vec3 light = frame.lightDirection.xyz;
+    vec3 across = normalize(cross(light, vec3(0.0, 0.0, 1.0))), up = cross(across, light);
+    return vec2(dot(direction, across), dot(direction, up)) / frame.lightColor.w;
+}
+
 void main() {
+    vec3 direction = normalize(inRay);
+    // All that needs the pixels beside comes before any of them may have ended.
+    vec2 at = onDisc(direction);
+    vec4 sun = disc(direction, at, length(fwidth(at)));
+    vec3 color = skyColor(direction);
+#if CLOUDS == 1
+    float pixel = length(fwidth(direction));
+    vec4 cloud = clouds(direction);
+#endif
 #if SAMPLES > 1
     float farthest = 1.0;
     for (int k = 0; k < SAMPLES; ++k) farthest = min(farthest, depthAt(ivec2(gl_FragCoord.xy), k));
-    if (blocksOfDepth(farthest) < 0.4 * frame.cameraPosition.w) discard;
+    if (blocksOfDepth(farthest) < kFadingBegins * frame.cameraPosition.w) discard;
 #endif
-    vec3 direction = normalize(inRay);
-    vec3 color = skyColor(direction);
-    vec4 sun = disc(direction);
-    float night = frame.discColor.w;
 #if CLOUDS == 1
-    float pixel = length(fwidth(direction));
+    float night = frame.discColor.w;
     color += stars(starDirection(direction), pixel) * night * (1.0 - sun.a) * smoothstep(0.0, 0.2, direction.z);
     color = mix(color, max(color, sun.rgb), sun.a);
-    vec4 cloud = clouds(direction);
     color = mix(color, cloud.rgb, cloud.a * 0.92);
 #else
     color = mix(color, max(color, sun.rgb), sun.a);

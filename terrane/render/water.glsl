@@ -7,13 +7,28 @@ vec2 wavePosition(vec3 position) {
     return position.xy + vec2((frame.camera.xy & 3) * 16);
 }
 
+// How far it is over level water from one pixel to the next, whose rays differ so: pixels beside may show other things, so
+// their positions do not tell.
+vec2 stepOnWater(vec3 toPoint, vec3 rayStep) {
+    float ahead = dot(toPoint, frame.rayAhead.xyz), down = abs(toPoint.z) < 1e-3 ? 1e-3 : toPoint.z;
+    return ahead * (rayStep.xy - toPoint.xy * (rayStep.z / down));
+}
+
+vec2 turned(vec2 v) {
+    return vec2(v.x + v.y, v.x - v.y);
+}
+
 // Two patterns that move through each other; flatter with distance, where a pixel holds many waves.
-vec3 waveNormal(vec3 position, float distance) {
+vec3 waveNormal(vec3 position, vec3 toPoint) {
     float seconds = (frame.camera.z & kSwitchAnimation) != 0 ? frame.lightDirection.w : 0.0;
     vec2 at = wavePosition(position);
-    vec2 slow = texture(noiseTexture, at / 32.0 + vec2(0.011, 0.007) * seconds).ba - 0.5;
-    vec2 fast = texture(noiseTexture, vec2(at.x + at.y, at.x - at.y) / 16.0 - vec2(0.031, -0.023) * seconds).ba - 0.5;
-    float strength = 0.55 / (1.0 + 0.02 * distance);
+    vec2 dx = stepOnWater(toPoint, frame.rayAcross.xyz * (2.0 / frame.viewport.x));
+    vec2 dy = stepOnWater(toPoint, frame.rayUp.xyz * (2.0 / frame.viewport.y));
+    vec2 slowAt = at / 32.0 + vec2(0.011, 0.007) * seconds;
+    vec2 fastAt = turned(at) / 16.0 - vec2(0.031, -0.023) * seconds;
+    vec2 slow = textureGrad(noiseTexture, slowAt, dx / 32.0, dy / 32.0).ba - 0.5;
+    vec2 fast = textureGrad(noiseTexture, fastAt, turned(dx) / 16.0, turned(dy) / 16.0).ba - 0.5;
+    float strength = 0.55 / (1.0 + 0.02 * length(toPoint));
     return normalize(vec3(strength * (slow + 0.6 * fast), 1.0));
 }
 
@@ -35,7 +50,7 @@ vec4 shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 level
     vec4 light = brightnessOf(levels);
     vec3 view = normalize(toPoint);
     bool isTop = abs(s.normal.z) > 0.5;
-    vec3 normal = isTop ? waveNormal(position, length(toPoint)) * sign(s.normal.z) : s.normal;
+    vec3 normal = isTop ? waveNormal(position, toPoint) * sign(s.normal.z) : s.normal;
     vec3 direct = frame.lightColor.rgb * max(frame.lightDirection.z, 0.0) * shadow;
     vec3 lit = light.a * (frame.ambientColor.rgb + direct) + light.rgb * (1.0 - frame.glowColor.w * light.a) + 0.02;
     vec4 body = waterBody(s.albedo, lit, blocks);

@@ -10,8 +10,10 @@ SHARED_BEGIN
 // and exact wherever in the world the camera is. Colours are linear.
 struct Frame {
     mat4 viewProjection;  // to clip space; depth 1 at the near plane, 0 at infinity
-    mat4 inverseViewProjection;
     mat4 toShadowMap;     // x, y: 0…1 over the map; z: its depth
+    vec4 rayAhead;        // from the camera to the middle of the picture one block ahead
+    vec4 rayAcross;       // from there to its right edge
+    vec4 rayUp;           // and to its upper edge
     vec4 cameraPosition;  // w: distance in blocks at which the fog is complete
     vec4 lightDirection;  // to the sun or moon; w: seconds for animations
     vec4 lightColor;      // of the sun or moon; w: sine of its disc's radius
@@ -31,7 +33,10 @@ struct Frame {
     ivec4 camera;  // x, y: the camera's chunk; z: kSwitch… bits; w: the one layer shown, 0 for all
 };
 
-const uint kViewColor = 0u;
+// Along the view, as the depth has it, surfaces may fade from this share of the distance of the fog on: they
+// do from 5/6 over the ground, and more at the sides of a wide picture.
+const float kFadingBegins = 0.4f;
+
 const uint kViewNormal = 1u;
 const uint kViewDepth = 2u;
 const uint kViewAggregation = 3u;  // each quad in a colour of its own
@@ -54,7 +59,7 @@ SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(Frame) == 3 * 64 + 14 * 16, "std140 and std430 agree on mat4 and vec4");
+static_assert(sizeof(Frame) == 2 * 64 + 17 * 16, "std140 and std430 agree on mat4 and vec4");
 static_assert(sizeof(MaterialRecord) == 16);
 }  // namespace terrane::shared
 #endif

@@ -1,10 +1,12 @@
-// Values of a material's alpha mode and animation, as world::AlphaMode and world::Animation number them.
+// Values of a material: alpha mode and animation as world::AlphaMode and world::Animation number them.
 #ifndef TERRANE_SHARED_MATERIAL_H
 #define TERRANE_SHARED_MATERIAL_H
 
 #include "terrane/shared/language.h"
 
 SHARED_BEGIN
+
+const uint kMaxBlockTextures = 4096u;  // face_word.glsl has 12 bits for the texture
 
 const uint kAlphaUnused = 0u;
 const uint kAlphaTest = 1u;

@@ -16,7 +16,6 @@
 SHARED_BEGIN
 
 const uint kQuadBytes = 8u;
-const uint kMaxQuadExtent = 16u;
 
 struct Quad {
     uint word0;

@@ -62,6 +62,13 @@ const uint kCullAll = 0u;
 const uint kCullSeenBefore = 1u;
 const uint kCullSeenNow = 2u;
 
+// How far leaves and plants may leave the box of their region, in blocks.
+const float kWaving = 0.25f;
+
+// Threads of a work group: regions of cull.comp.glsl, texels a side of depth_pyramid.comp.glsl.
+const uint kCullThreads = 64u;
+const uint kPyramidThreads = 8u;
+
 // The pyramid of depths: its finest texels are as many pixels a side, each next level twice as many.
 const uint kPyramidTexel = 8u;
 

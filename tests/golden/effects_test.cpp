@@ -127,5 +127,18 @@ TEST_F(Effects, WaterIsTheSameBothWays) {
     EXPECT_LT(d.mean, 1.5) << "edges alone";
 }
 
+// The faces of both lie in one plane: which is nearer must not change with how numbers are rounded.
+TEST_F(Effects, GlassInWaterDoesNotFlicker) {
+    world::World world = flatWorld(3);
+    placePool(world);
+    for (const auto& [pos, mesh] : meshWorld(world)) renderer_->setChunk(pos, mesh);
+    render::FrameInput input{
+        {{-1.5, -4, 82.8}, 50, -9, 55}, world::environmentAt(0.34f), 400, 0, render::View::Color};
+    const auto oneSample = [](RenderOptions& o) { o.samples = 1; };
+    const base::Image before = picture(input, oneSample);
+    input.camera.position.x += 1e-4;
+    EXPECT_LT(difference(before, picture(input, oneSample)).mean, 0.01);
+}
+
 }  // namespace
 }  // namespace terrane::golden

@@ -20,8 +20,7 @@ TEST_F(ContextTest, offersWhatIsNeeded) {
     EXPECT_FALSE(info.renderer.empty());
     EXPECT_FALSE(info.version.empty());
     EXPECT_FALSE(info.glsl.empty());
-    EXPECT_GE(info.maxSamples, 4);  // the least that OpenGL 4.5 allows, and so on
-    EXPECT_GE(info.maxTextureSize, 16384);
+    EXPECT_GE(info.maxTextureSize, 16384);  // the least that OpenGL 4.5 allows, and so on
     EXPECT_GE(info.maxTexture3dSize, 2048);
     EXPECT_GE(info.maxArrayLayers, 2048);
     EXPECT_GE(info.maxComputeInvocations, 1024);
@@ -30,6 +29,24 @@ TEST_F(ContextTest, offersWhatIsNeeded) {
     EXPECT_GE(info.storageAlignmentBytes, 1);
     EXPECT_GE(info.maxAnisotropy, 1.0F);
     EXPECT_EQ(info.software, info.renderer.find("llvmpipe") != std::string::npos) << info.renderer;
+}
+
+// OpenGL has a limit for each use: textures of that many samples can be made for both.
+TEST_F(ContextTest, SamplesAreThoseOfColoursAndDepth) {
+    const int samples = queryDevice().maxSamples;
+    EXPECT_GE(samples, 1);
+    for (const GLenum limit : {GL_MAX_SAMPLES, GL_MAX_COLOR_TEXTURE_SAMPLES, GL_MAX_DEPTH_TEXTURE_SAMPLES}) {
+        GLint most = 0;
+        glGetIntegerv(limit, &most);
+        EXPECT_LE(samples, most);
+    }
+    for (const GLenum format : {GL_RGBA8, GL_DEPTH_COMPONENT32F}) {
+        GLuint texture = 0;
+        glCreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &texture);
+        glTextureStorage2DMultisample(texture, samples, format, 4, 4, GL_TRUE);
+        EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+        glDeleteTextures(1, &texture);
+    }
 }
 
 TEST_F(ContextTest, movesAndLeavesAnEmptyOne) {

@@ -51,10 +51,9 @@ TEST_F(FramebufferTest, readsTheTopRowFirst) {
 
 TEST_F(FramebufferTest, everyColourIsCleared) {
     const Texture2D first({4, 4}, GL_RGBA8, 1, "first");
-    Texture2DArray layers({.size = {8, 8}, .layers = 3, .levels = 2}, GL_RGBA8, "second");
+    const Texture2D second({4, 4}, GL_RGBA8, 1, "second");
     const Texture2D depth({4, 4}, GL_DEPTH32F_STENCIL8, 1, "depth");
-    const Framebuffer target = make({.colors = {first, Attachment(layers, 2, 1)}, .depth = depth});
-    EXPECT_TRUE(target.hasDepth());
+    const Framebuffer target = make({.colors = {first, second}, .depth = depth});
     EXPECT_EQ(target.colorCount(), 2);
     target.bind();
     target.clearColor(0, {1, 0, 0, 1});
@@ -65,43 +64,6 @@ TEST_F(FramebufferTest, everyColourIsCleared) {
     std::array<GLint, 4> viewport = {};
     glGetIntegerv(GL_VIEWPORT, viewport.data());
     EXPECT_EQ(viewport, (std::array<GLint, 4>{0, 0, 4, 4}));
-}
-
-TEST_F(FramebufferTest, resolvesEachColour) {
-    const glm::ivec2 size(4, 4);
-    const Texture2DMultisample samples0(size, GL_RGBA8, 4, "samples 0");
-    const Texture2DMultisample samples1(size, GL_RGBA8, 4, "samples 1");
-    const Texture2DMultisample sampleDepth(size, GL_DEPTH_COMPONENT32F, 4, "sample depth");
-    const Texture2D color0(size, GL_RGBA8, 1, "color 0");
-    const Texture2D color1(size, GL_RGBA8, 1, "color 1");
-    const Texture2D depth(size, GL_DEPTH_COMPONENT32F, 1, "depth");
-    const Framebuffer from = make({.colors = {samples0, samples1}, .depth = sampleDepth});
-    const Framebuffer to = make({.colors = {color0, color1}, .depth = depth});
-    EXPECT_EQ(from.samples(), 4);
-    from.clearColor(0, {1, 0, 0, 1});
-    from.clearColor(1, {0, 1, 0, 1});
-    from.clearDepth(0.25F);
-    resolve(from, to);
-    EXPECT_EQ(pixel(readPixels(to, 0), 2, 1), kRed);
-    EXPECT_EQ(pixel(readPixels(to, 1), 2, 1), kGreen);
-    std::array<float, 16> depths = {};
-    glGetTextureImage(depth.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, sizeof depths, depths.data());
-    EXPECT_EQ(depths[7], 0.25F);
-}
-
-TEST_F(FramebufferTest, blitsScaledWithoutFlipping) {
-    const Texture2D small({2, 2}, GL_RGBA8, 1, "small");
-    const Texture2D large({4, 4}, GL_RGBA8, 1, "large");
-    const Framebuffer from = make({.colors = {small}, .depth = {}});
-    const Framebuffer to = make({.colors = {large}, .depth = {}});
-    from.clearColor(0, {1, 0, 0, 1});
-    clearRectangle(from, {1, 1, 1, 1}, {0, 1, 0, 1});  // right top
-    blitColor(from, 0, to, GL_NEAREST);
-    const base::Image image = readPixels(to);
-    EXPECT_EQ(pixel(image, 3, 0), kGreen);
-    EXPECT_EQ(pixel(image, 2, 1), kGreen);
-    EXPECT_EQ(pixel(image, 1, 1), kRed);
-    EXPECT_EQ(pixel(image, 3, 2), kRed);
 }
 
 TEST_F(FramebufferTest, incompleteOnesSayWhy) {

@@ -45,7 +45,6 @@ TEST_F(MappedRingTest, slicesAreAlignedAndEnd) {
     EXPECT_EQ(second->offsetBytes % static_cast<std::size_t>(alignment), 0U);
     EXPECT_GE(second->offsetBytes, first->offsetBytes + 3);
     EXPECT_FALSE(ring.allocate(ring.regionBytes()));
-    ring.bindStorage(0, *first);
     ring.bindUniform(0, *second);
     ring.endFrame();
     ring.beginFrame();

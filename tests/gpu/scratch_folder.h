@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -32,13 +31,6 @@ class ScratchFolder {
         std::filesystem::create_directories((path_ / name).parent_path());
         const base::Result<void> written = base::writeFile(path_ / name, text);
         ASSERT_TRUE(written) << written.error().message;
-    }
-
-    // Two writes of a test may fall into one tick of the file system's clock: sets the time two seconds
-    // ahead.
-    void setNewer(std::string_view name) const {
-        const auto now = std::filesystem::last_write_time(path_ / name);
-        std::filesystem::last_write_time(path_ / name, now + std::chrono::seconds(2));
     }
 
   private:

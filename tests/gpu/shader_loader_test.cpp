@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <utility>
 
 #include "terrane/base/files.h"
 #include "tests/gpu/scratch_folder.h"
@@ -40,16 +41,28 @@ TEST(ShaderLoaderTest, laterFilesReplaceEarlierOnes) {
     EXPECT_EQ(loader.find("terrane/b.h"), "newer");
 }
 
-TEST(ShaderLoaderTest, seesWhenAFileWasWritten) {
+TEST(ShaderLoaderTest, SeesWhenAShaderWasWritten) {
     const ScratchFolder folder;
-    folder.write("terrane/b.h", "one");
+    EXPECT_EQ(ShaderLoader(kTwoFiles).newestWrite(), std::nullopt) << "embedded files are never written";
     const ShaderLoader loader(kTwoFiles, folder.path());
-    const std::vector<std::string> files = {"terrane/a.glsl", "terrane/b.h"};
-    const auto before = loader.newestWrite(files);
-    EXPECT_EQ(loader.newestWrite(files), before);
-    folder.setNewer("terrane/b.h");
-    EXPECT_GT(loader.newestWrite(files), before);
-    EXPECT_EQ(ShaderLoader(kTwoFiles).newestWrite(files), std::filesystem::file_time_type::min());
+    EXPECT_EQ(loader.newestWrite(), std::nullopt) << "there is no folder terrane";
+    folder.write("terrane/readme.txt", "no shader");
+    folder.write("other/a.glsl", "not included by a path that begins with terrane");
+    EXPECT_EQ(loader.newestWrite(), std::nullopt);
+
+    folder.write("terrane/b.h", "one");
+    auto newest = loader.newestWrite();
+    ASSERT_TRUE(newest);
+    EXPECT_EQ(loader.newestWrite(), newest) << "nothing was written";
+    for (const char* name : {"terrane/b.h", "terrane/deep/folder/c.comp.glsl"}) {
+        folder.write(name, "two");
+        std::filesystem::last_write_time(folder.path() / name, *newest + std::chrono::seconds(2));
+        const auto before = std::exchange(newest, loader.newestWrite());
+        EXPECT_EQ(newest, *before + std::chrono::seconds(2)) << name;
+    }
+    folder.write("terrane/readme.txt", "still no shader");
+    std::filesystem::last_write_time(folder.path() / "terrane/readme.txt", *newest + std::chrono::seconds(9));
+    EXPECT_EQ(loader.newestWrite(), newest);
 }
 
 }  // namespace

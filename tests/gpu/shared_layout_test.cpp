@@ -1,10 +1,22 @@
-// Structs of terrane/shared have the layout in std430 that C++ gives them, as the driver itself reports it.
+// Structs of terrane/shared lie in buffers as C++ has them in memory: offsets and sizes as a linked program
+// reports them.
 
 #include <cstddef>
+#include <filesystem>
+#include <regex>
+#include <set>
 #include <string>
+#include <vector>
 
+#include "terrane/base/files.h"
 #include "terrane/gpu/program.h"
+#include "terrane/shared/frame.h"
+#include "terrane/shared/generation.h"
+#include "terrane/shared/light_solver.h"
+#include "terrane/shared/mesher.h"
 #include "terrane/shared/quad.h"
+#include "terrane/shared/region.h"
+#include "terrane/shared/shape_face.h"
 #include "tests/gpu/gl_fixture.h"
 
 namespace terrane::gpu {
@@ -12,42 +24,241 @@ namespace {
 
 class SharedLayoutTest : public GlTest {};
 
-struct VariableLayout {
-    GLint offset = -1;
-    GLint topStride = -1;
+struct Member {
+    std::string name;
+    std::size_t offset;
+};
+struct StructLayout {
+    std::string name, header;
+    bool isUniform;  // std140, else std430
+    std::size_t sizeBytes;
+    std::vector<Member> members;  // all
 };
 
-VariableLayout layoutOf(GLuint program, const char* name) {
-    const GLuint index = glGetProgramResourceIndex(program, GL_BUFFER_VARIABLE, name);
-    if (index == GL_INVALID_INDEX) return {};
-    const GLenum properties[] = {GL_OFFSET, GL_TOP_LEVEL_ARRAY_STRIDE};
-    GLint values[2] = {-1, -1};
-    glGetProgramResourceiv(program, GL_BUFFER_VARIABLE, index, 2, properties, 2, nullptr, values);
-    return {values[0], values[1]};
+std::vector<StructLayout> frameLayouts() {
+    using shared::Frame, shared::MaterialRecord;
+    return {{"Frame",
+             "frame.h",
+             true,
+             sizeof(Frame),
+             {{"viewProjection", offsetof(Frame, viewProjection)},
+              {"toShadowMap", offsetof(Frame, toShadowMap)},
+              {"rayAhead", offsetof(Frame, rayAhead)},
+              {"rayAcross", offsetof(Frame, rayAcross)},
+              {"rayUp", offsetof(Frame, rayUp)},
+              {"cameraPosition", offsetof(Frame, cameraPosition)},
+              {"lightDirection", offsetof(Frame, lightDirection)},
+              {"lightColor", offsetof(Frame, lightColor)},
+              {"ambientColor", offsetof(Frame, ambientColor)},
+              {"zenithColor", offsetof(Frame, zenithColor)},
+              {"horizonColor", offsetof(Frame, horizonColor)},
+              {"glowColor", offsetof(Frame, glowColor)},
+              {"discColor", offsetof(Frame, discColor)},
+              {"lightGrid", offsetof(Frame, lightGrid)},
+              {"viewport", offsetof(Frame, viewport)},
+              {"shadow", offsetof(Frame, shadow)},
+              {"light", offsetof(Frame, light)},
+              {"sky", offsetof(Frame, sky)},
+              {"camera", offsetof(Frame, camera)}}},
+            {"MaterialRecord",
+             "frame.h",
+             false,
+             sizeof(MaterialRecord),
+             {{"texture", offsetof(MaterialRecord, texture)},
+              {"alphaMode", offsetof(MaterialRecord, alphaMode)},
+              {"animation", offsetof(MaterialRecord, animation)},
+              {"unused", offsetof(MaterialRecord, unused)}}}};
 }
 
-TEST_F(SharedLayoutTest, quad) {
-    constexpr std::string_view kText = R"(
-#include "terrane/shared/constants.h"
-#include "terrane/shared/hash.h"
-#include "terrane/shared/quad.h"
-layout(local_size_x = kChunkSize) in;
-layout(binding = 0, std430) buffer Quads { Quad quads[]; };
-void main() {
-    Quad q = quads[gl_LocalInvocationIndex];
-    quads[gl_LocalInvocationIndex].word0 = quadX(q) + quadY(q) + quadZ(q) + quadShapeFace(q);
-    quads[gl_LocalInvocationIndex].word1 = hash3(quadExtentU(q), quadExtentV(q), quadMaterial(q), q.word1);
+std::vector<StructLayout> regionLayouts() {
+    using shared::RegionRecord, shared::DrawCommand, shared::DrawCounts, shared::CullFrame;
+    return {{"RegionRecord",
+             "region.h",
+             false,
+             sizeof(RegionRecord),
+             {{"chunk", offsetof(RegionRecord, chunk)},
+              {"heights", offsetof(RegionRecord, heights)},
+              {"unused", offsetof(RegionRecord, unused)},
+              {"ranges", offsetof(RegionRecord, ranges)}}},
+            {"DrawCommand",
+             "region.h",
+             false,
+             sizeof(DrawCommand),
+             {{"indexCount", offsetof(DrawCommand, indexCount)},
+              {"instanceCount", offsetof(DrawCommand, instanceCount)},
+              {"firstIndex", offsetof(DrawCommand, firstIndex)},
+              {"baseVertex", offsetof(DrawCommand, baseVertex)},
+              {"baseInstance", offsetof(DrawCommand, baseInstance)}}},
+            {"DrawCounts",
+             "region.h",
+             false,
+             sizeof(DrawCounts),
+             {{"commands", offsetof(DrawCounts, commands)},
+              {"quads", offsetof(DrawCounts, quads)},
+              {"regions", offsetof(DrawCounts, regions)}}},
+            {"CullFrame",
+             "region.h",
+             true,
+             sizeof(CullFrame),
+             {{"cameraPlanes", offsetof(CullFrame, cameraPlanes)},
+              {"shadowPlanes", offsetof(CullFrame, shadowPlanes)},
+              {"cameraPosition", offsetof(CullFrame, cameraPosition)},
+              {"lightDirection", offsetof(CullFrame, lightDirection)},
+              {"camera", offsetof(CullFrame, camera)},
+              {"firstCommand", offsetof(CullFrame, firstCommand)},
+              {"viewProjection", offsetof(CullFrame, viewProjection)},
+              {"viewport", offsetof(CullFrame, viewport)}}}};
 }
-)";
-    const base::EmbeddedFile file = {"quad.comp.glsl", kText};
-    const ShaderLoader loader(std::span(&file, 1), TERRANE_SOURCE_DIR);
-    const base::Result<Program> program = Program::compute(loader, file.path, {}, "quad layout");
-    ASSERT_TRUE(program) << program.error().message;
-    const VariableLayout word0 = layoutOf(program->id(), "quads[0].word0");
-    const VariableLayout word1 = layoutOf(program->id(), "quads[0].word1");
-    EXPECT_EQ(word0.offset, static_cast<GLint>(offsetof(shared::Quad, word0)));
-    EXPECT_EQ(word1.offset, static_cast<GLint>(offsetof(shared::Quad, word1)));
-    EXPECT_EQ(word0.topStride, static_cast<GLint>(sizeof(shared::Quad)));
+
+std::vector<StructLayout> mesherLayouts() {
+    using shared::MeshSection, shared::MeshUnit, shared::MeshType, shared::MeshRegionCounts;
+    return {{"MeshSection",
+             "mesher.h",
+             false,
+             sizeof(MeshSection),
+             {{"bits", offsetof(MeshSection, bits)},
+              {"palette", offsetof(MeshSection, palette)},
+              {"words", offsetof(MeshSection, words)},
+              {"unused", offsetof(MeshSection, unused)}}},
+            {"MeshUnit",
+             "mesher.h",
+             false,
+             sizeof(MeshUnit),
+             {{"section", offsetof(MeshUnit, section)},
+              {"smallData", offsetof(MeshUnit, smallData)},
+              {"region", offsetof(MeshUnit, region)},
+              {"layers", offsetof(MeshUnit, layers)},
+              {"neighbours", offsetof(MeshUnit, neighbours)},
+              {"baseZ", offsetof(MeshUnit, baseZ)},
+              {"unused", offsetof(MeshUnit, unused)}}},
+            {"MeshType",
+             "mesher.h",
+             false,
+             sizeof(MeshType),
+             {{"flags", offsetof(MeshType, flags)},
+              {"growth", offsetof(MeshType, growth)},
+              {"faces", offsetof(MeshType, faces)}}},
+            {"MeshRegionCounts",
+             "mesher.h",
+             false,
+             sizeof(MeshRegionCounts),
+             {{"quads", offsetof(MeshRegionCounts, quads)},
+              {"minZ", offsetof(MeshRegionCounts, minZ)},
+              {"maxZ", offsetof(MeshRegionCounts, maxZ)}}}};
+}
+
+std::vector<StructLayout> otherLayouts() {
+    using shared::Quad, shared::ShapeFace, shared::TileJob, shared::SectionInput, shared::SolverRound;
+    return {{"Quad",
+             "quad.h",
+             false,
+             sizeof(Quad),
+             {{"word0", offsetof(Quad, word0)}, {"word1", offsetof(Quad, word1)}}},
+            {"ShapeFace",
+             "shape_face.h",
+             false,
+             sizeof(ShapeFace),
+             {{"base", offsetof(ShapeFace, base)},
+              {"axisU", offsetof(ShapeFace, axisU)},
+              {"axisV", offsetof(ShapeFace, axisV)},
+              {"normal", offsetof(ShapeFace, normal)}}},
+            {"TileJob",
+             "generation.h",
+             false,
+             sizeof(TileJob),
+             {{"origin", offsetof(TileJob, origin)}, {"neighbours", offsetof(TileJob, neighbours)}}},
+            {"SectionInput",
+             "light_solver.h",
+             false,
+             sizeof(SectionInput),
+             {{"bits", offsetof(SectionInput, bits)},
+              {"palette", offsetof(SectionInput, palette)},
+              {"words", offsetof(SectionInput, words)},
+              {"unused", offsetof(SectionInput, unused)}}},
+            {"SolverRound",
+             "light_solver.h",
+             false,
+             sizeof(SolverRound),
+             {{"groupsX", offsetof(SolverRound, groupsX)},
+              {"groupsY", offsetof(SolverRound, groupsY)},
+              {"groupsZ", offsetof(SolverRound, groupsZ)},
+              {"unused", offsetof(SolverRound, unused)}}}};
+}
+
+std::vector<StructLayout> allLayouts() {
+    std::vector<StructLayout> all;
+    for (const auto& layouts : {frameLayouts(), regionLayouts(), mesherLayouts(), otherLayouts()}) {
+        all.insert(all.end(), layouts.begin(), layouts.end());
+    }
+    return all;
+}
+
+// Has two of the struct in a block, and a word behind them whose offset tells how long they are.
+std::string shaderWith(const StructLayout& layout) {
+    const std::string block = layout.isUniform ? "layout(binding = 0, std140) uniform"
+                                               : "layout(binding = 0, std430) readonly buffer";
+    return "#include \"terrane/shared/" + layout.header + "\"\nlayout(local_size_x = 1) in;\n" + block +
+           " Items { " + layout.name + " items[2]; uint behind; };\n" +
+           "layout(binding = 1, std430) writeonly buffer Copy { " + layout.name + " copy; };\n" +
+           "void main() { copy = items[behind & 1u]; }\n";
+}
+
+GLint offsetOf(const Program& program, GLenum interface, const std::string& name) {
+    const GLuint index = glGetProgramResourceIndex(program.id(), interface, name.c_str());
+    if (index == GL_INVALID_INDEX) return -1;
+    const GLenum property = GL_OFFSET;
+    GLint offset = -1;
+    glGetProgramResourceiv(program.id(), interface, index, 1, &property, 1, nullptr, &offset);
+    return offset;
+}
+
+std::size_t countNames(const Program& program, GLenum interface, const std::string& beginning) {
+    GLint resources = 0;
+    glGetProgramInterfaceiv(program.id(), interface, GL_ACTIVE_RESOURCES, &resources);
+    std::size_t count = 0;
+    for (GLint k = 0; k < resources; ++k) {
+        char name[128] = {};
+        glGetProgramResourceName(program.id(), interface, static_cast<GLuint>(k), sizeof(name), nullptr,
+                                 name);
+        count += std::string(name).starts_with(beginning) ? 1 : 0;
+    }
+    return count;
+}
+
+TEST_F(SharedLayoutTest, structsLieInBuffersAsInMemory) {
+    for (const StructLayout& layout : allLayouts()) {
+        const std::string text = shaderWith(layout);
+        const base::EmbeddedFile file = {"layout.comp.glsl", text};
+        const ShaderLoader loader(std::span(&file, 1), TERRANE_SOURCE_DIR);
+        const base::Result<Program> program = Program::compute(loader, file.path, {}, "layout");
+        ASSERT_TRUE(program) << layout.name << ": " << program.error().message;
+        const GLenum interface = layout.isUniform ? GL_UNIFORM : GL_BUFFER_VARIABLE;
+        for (const Member& member : layout.members) {
+            EXPECT_EQ(offsetOf(*program, interface, "items[0]." + member.name),
+                      static_cast<GLint>(member.offset))
+                << layout.name << "::" << member.name;
+        }
+        EXPECT_EQ(countNames(*program, interface, "items[0]."), layout.members.size()) << layout.name;
+        EXPECT_EQ(offsetOf(*program, interface, "behind"), static_cast<GLint>(2 * layout.sizeBytes))
+            << layout.name;
+    }
+}
+
+// A struct that is new in terrane/shared is to stand in the lists above.
+TEST(SharedStructs, everyOneIsChecked) {
+    std::set<std::string> known, found;
+    for (const StructLayout& layout : allLayouts()) known.insert(layout.name);
+    const std::filesystem::path folder = std::filesystem::path(TERRANE_SOURCE_DIR) / "terrane/shared";
+    const std::regex declaration("\nstruct (\\w+) \\{");
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const base::Result<std::string> text = base::readFile(entry.path());
+        ASSERT_TRUE(text) << text.error().message;
+        const std::string shared = text->substr(0, text->rfind("\nSHARED_END\n"));  // behind it: C++ alone
+        for (std::sregex_iterator at(shared.begin(), shared.end(), declaration), end; at != end; ++at) {
+            found.insert((*at)[1]);
+        }
+    }
+    EXPECT_EQ(found, known);
 }
 
 }  // namespace

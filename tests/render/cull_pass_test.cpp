@@ -304,7 +304,8 @@ TEST_F(CullPassTest, ManyRegionsAreCulledAsOneIs) {
         for (int y = -30; y <= 30; ++y) {
             for (int x = -30; x <= 30; ++x) {
                 const glm::vec3 low(16 * x, 16 * y, 64 * ((x + y) & 3));
-                expected += mayBeVisible(frustum, low, low + glm::vec3(16, 16, 64));
+                expected += mayBeVisible(frustum, low - shared::kWaving,
+                                         low + glm::vec3(16, 16, 64) + shared::kWaving);
             }
         }
         EXPECT_EQ(build(camera).regionCount, expected);
@@ -337,6 +338,11 @@ TEST_F(CullPassTest, BlendedFacesInViewAreKnown) {
     };
     EXPECT_TRUE(isKnown(0));
     EXPECT_FALSE(isKnown(180));
+    const auto isKnownBeyond = [&](float x) {
+        return regions_->hasBlended({}, std::vector{glm::vec4(1, 0, 0, -x)});
+    };
+    EXPECT_TRUE(isKnownBeyond(64.0f + 0.9f * shared::kWaving)) << "waves leave the box";
+    EXPECT_FALSE(isKnownBeyond(64.0f + 1.1f * shared::kWaving));
     regions_->remove({3, 0});
     EXPECT_FALSE(isKnown(0));
 }

@@ -238,13 +238,7 @@ TEST_F(LightStoreTest, UploadsTheBricksThatChanged) {
     EXPECT_EQ(store.usedBytes(), bytes - 4 * 8 * 1024);
 }
 
-// Chunks of noise fill the pool until it grows; what it had stays, and what is removed is used again.
-TEST_F(LightPictureTest, ThePoolGrowsAndKeepsWhatItHas) {
-    Renderer renderer = makeRenderer();
-    renderer.setViewDistance(8);  // 8,192 tiles at first
-    load(renderer, {});
-    const base::Image before = draw(renderer, {});
-    const std::size_t bytesBefore = renderer.lightBytes();
+light::ChunkLight noiseLight() {
     std::mt19937 random(5);
     light::ChunkLight noise;
     for (int n = 0; n < world::kSectionsPerChunk; ++n) {
@@ -252,6 +246,33 @@ TEST_F(LightPictureTest, ThePoolGrowsAndKeepsWhatItHas) {
         for (auto& v : values) v = static_cast<world::Section::Value>(random());
         noise.setBrick(n, world::Section::fromValues(values));
     }
+    return noise;
+}
+
+// 4,096 tiles are those of 32 chunks of noise: of others only the middles of tiles are kept, until there is
+// room.
+TEST_F(LightPictureTest, APoolThatCannotGrowKeepsWhatFits) {
+    constexpr std::size_t kPoolBytes = 4096 * 1024;
+    LightStore store(2, 1);
+    const std::size_t gridBytes = store.usedBytes();
+    const light::ChunkLight noise = noiseLight();
+    for (int x = 0; x < 40; ++x) store.set({x % 8, x / 8}, noise);
+    EXPECT_EQ(store.usedBytes(), gridBytes + kPoolBytes);
+    EXPECT_EQ(store.uploadedTiles(), 4096u);
+    for (int x = 0; x < 40; ++x) store.remove({x % 8, x / 8});
+    EXPECT_EQ(store.usedBytes(), gridBytes);
+    store.set({0, 0}, noise);
+    EXPECT_EQ(store.uploadedTiles(), 4096u + 128);
+}
+
+// Chunks of noise fill the pool until it grows; what it had stays, and what is removed is used again.
+TEST_F(LightPictureTest, ThePoolGrowsAndKeepsWhatItHas) {
+    Renderer renderer = makeRenderer();
+    renderer.setViewDistance(8);  // 8,192 tiles at first
+    load(renderer, {});
+    const base::Image before = draw(renderer, {});
+    const std::size_t bytesBefore = renderer.lightBytes();
+    const light::ChunkLight noise = noiseLight();
     const auto forFarChunks = [](const std::function<void(world::ChunkPos)>& use) {
         for (int y = 4; y <= 9; ++y)
             for (int x = -9; x <= 9; ++x) use({x, y});

@@ -261,7 +261,7 @@ TEST_F(RendererTest, TexturesOfOtherSizesAreAnError) {
         };
     };
     for (const auto& [width, height] : {std::pair(16, 8), {12, 12}, {32, 32}, {8, 8}}) {
-        const auto made = loadBlockTextures(contentBlocks(), sized(width, height));
+        const auto made = loadBlockTextures(contentBlocks(), sized(width, height), 2048);
         ASSERT_FALSE(made);
         EXPECT_NE(made.error().message.find("\"dirt\""), std::string::npos) << made.error().message;
     }

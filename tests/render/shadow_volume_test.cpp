@@ -24,8 +24,9 @@ TEST(ShadowVolume, HoldsWhatCanCastAShadow) {
     int seen = 0;
     for (unsigned k = 0; k < 4000; ++k) {
         const glm::vec3 random(unit(k, 0), unit(k, 1), unit(k, 2));
-        const glm::vec3 point = view.cameraPosition + 60.0f * (random - 0.5f);
-        if (glm::distance(point, view.cameraPosition) > 25 || !mayBeVisible(frustum, point, point)) continue;
+        const glm::vec3 point = view.cameraPosition + 2 * kShadowReach * (random - 0.5f);
+        if (glm::distance(point, view.cameraPosition) > kShadowReach || !mayBeVisible(frustum, point, point))
+            continue;
         ++seen;
         for (const float way : {0.0f, 3.0f, 200.0f}) {
             const glm::vec3 caster = point + way * light;

@@ -26,8 +26,8 @@ TEST(Quad, RoundTripOfExtremes) {
                          .y = pick(1, 0, 15),
                          .z = pick(2, 0, 255),
                          .shapeFace = pick(3, 0, 255),
-                         .extentU = pick(4, 1, kMaxQuadExtent),
-                         .extentV = pick(5, 1, kMaxQuadExtent),
+                         .extentU = pick(4, 1, 16),
+                         .extentV = pick(5, 1, 16),
                          .material = pick(6, 0, 65535)});
     }
 }
@@ -40,8 +40,8 @@ TEST(Quad, RoundTripOfRandomFields) {
                          .y = below(16),
                          .z = below(256),
                          .shapeFace = below(256),
-                         .extentU = 1 + below(kMaxQuadExtent),
-                         .extentV = 1 + below(kMaxQuadExtent),
+                         .extentU = 1 + below(16),
+                         .extentV = 1 + below(16),
                          .material = below(65536)});
 }
 

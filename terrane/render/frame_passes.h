@@ -1,0 +1,41 @@
+// The passes of a frame that have shaders. They are made together, so that they can all be made anew when
+// files of shaders were written. Used by the renderer on the context's thread.
+#pragma once
+
+#include "terrane/render/ambient_occlusion.h"
+#include "terrane/render/cull_pass.h"
+#include "terrane/render/depth_pyramid.h"
+#include "terrane/render/far_blur.h"
+#include "terrane/render/fullscreen_pass.h"
+#include "terrane/render/gbuffer_pass.h"
+#include "terrane/render/god_rays.h"
+#include "terrane/render/hole_fill.h"
+#include "terrane/render/layer_pass.h"
+#include "terrane/render/render_options.h"
+#include "terrane/render/shading_pass.h"
+#include "terrane/render/shadow_map.h"
+
+namespace terrane::render {
+
+struct FramePasses {
+    // The loader outlives the passes.
+    static base::Result<FramePasses> create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device);
+
+    // Selects the variants of the shaders and makes the passes' own targets. After a failure some passes are
+    // as before: configured as it was before, all are. That compiles nothing.
+    base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options);
+
+    CullPass cull;
+    DepthPyramid pyramid;
+    ShadowMap shadowMap;
+    GBufferPass gbuffer;
+    HoleFill holeFill;
+    LayerPass layers;
+    AmbientOcclusion occlusion;
+    GodRays godRays;
+    FarBlur farBlur;
+    ShadingPass shading;
+    FullscreenPass debugView, finalPass;
+};
+
+}  // namespace terrane::render

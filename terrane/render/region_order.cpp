@@ -1,0 +1,56 @@
+#include "terrane/render/region_order.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace terrane::render {
+
+void RegionOrder::add(std::uint32_t slot, world::ChunkPos pos, std::uint32_t heights) {
+    if (slot >= numbers_.size()) numbers_.resize(slot + 1);
+    assert(numbers_[slot] == 0 && "a slot has one region");
+    numbers_[slot] = ++lastNumber_;
+    added_.push_back({0, pos.x, pos.y, heights, slot, lastNumber_});
+}
+
+// The entry stays until the next update.
+void RegionOrder::remove(std::uint32_t slot) {
+    assert(numbers_[slot] != 0 && "the slot has a region");
+    numbers_[slot] = 0;
+    hasGone_ = true;
+}
+
+void RegionOrder::measure(std::vector<Entry>& entries) const {
+    for (Entry& entry : entries) {
+        const std::int64_t x = std::int64_t{entry.x} - centre_.x, y = std::int64_t{entry.y} - centre_.y;
+        entry.distance = static_cast<std::uint32_t>(std::min<std::int64_t>(x * x + y * y, UINT32_MAX));
+    }
+}
+
+// While chunks stream in, each frame changes a few regions of thousands: these are sorted and merged in. All
+// are sorted where the camera has entered another chunk.
+bool RegionOrder::update(world::ChunkPos centre) {
+    const bool hasMoved = centre != centre_;
+    if (!hasMoved && !hasGone_ && added_.empty()) return false;
+    centre_ = centre;
+    if (hasGone_) {
+        const auto isGone = [this](const Entry& entry) { return this->isGone(entry); };
+        std::erase_if(sorted_, isGone);
+        std::erase_if(added_, isGone);
+        hasGone_ = false;
+    }
+    measure(added_);
+    std::ranges::sort(added_);
+    const auto added = sorted_.insert(sorted_.end(), added_.begin(), added_.end());
+    if (hasMoved) {
+        measure(sorted_);
+        std::ranges::sort(sorted_);
+    } else {
+        std::ranges::inplace_merge(sorted_, added);
+    }
+    added_.clear();
+    slots_.resize(sorted_.size());
+    std::ranges::transform(sorted_, slots_.begin(), &Entry::slot);
+    return true;
+}
+
+}  // namespace terrane::render

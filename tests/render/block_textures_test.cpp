@@ -1,0 +1,73 @@
+#include "terrane/render/block_textures.h"
+
+#include <gtest/gtest.h>
+
+#include "terrane/shared/material.h"
+
+namespace terrane::render {
+namespace {
+
+using world::AlphaMode;
+
+world::BlockRegistry textureRegistry(const std::string& toml) {
+    auto parsed = world::BlockRegistry::parse(toml, "blocks.toml");
+    EXPECT_TRUE(parsed) << (parsed ? "" : parsed.error().message);
+    return parsed ? *std::move(parsed) : world::BlockRegistry();
+}
+
+// A block for each meaning of alpha, all with one texture.
+world::BlockRegistry withMeanings(std::initializer_list<std::string_view> meanings) {
+    std::string toml;
+    for (const std::string_view alpha : meanings) {
+        toml += fmt::format(
+            "[[block]]\nname = \"b{}\"\nshape = \"cube\"\ntexture = \"shared\"\nalpha = \"{}\"\nopacity = "
+            "0\n",
+            toml.size(), alpha);
+    }
+    return textureRegistry(toml);
+}
+
+TEST(BlockTextures, OfSeveralMeaningsOfAlphaOneThatTestsCounts) {
+    struct Case {
+        std::initializer_list<std::string_view> meanings;
+        AlphaMode expected;
+    };
+    const Case cases[] = {
+        {{"unused"}, AlphaMode::Unused},
+        {{"test"}, AlphaMode::Test},
+        {{"test", "blend"}, AlphaMode::Test},
+        {{"blend", "test"}, AlphaMode::Test},
+        {{"glow", "test_glow", "blend", "unused"}, AlphaMode::TestGlow},
+        {{"test_glow", "test"}, AlphaMode::TestGlow},
+        {{"blend", "glow", "unused"}, AlphaMode::Glow},
+    };
+    for (const Case& c : cases) {
+        const world::BlockRegistry registry = withMeanings(c.meanings);
+        ASSERT_EQ(registry.textures()[0], "shared");
+        EXPECT_EQ(textureAlpha(registry, 0), c.expected) << "case " << &c - cases;
+    }
+}
+
+base::Result<base::Image> textureNobodyReads(std::string_view name) {
+    ADD_FAILURE() << name << " was read";
+    return base::fail("not to be read");
+}
+
+// Before an image is read, and in words that tell the number.
+TEST(BlockTextures, MoreThanCanBeDrawnAreAnError) {
+    std::string toml;
+    for (shared::uint k = 0; k < shared::kMaxBlockTextures; ++k) {
+        toml += fmt::format("[[block]]\nname = \"b{0}\"\nshape = \"cube\"\ntexture = \"t{0}\"\n", k);
+    }
+    const world::BlockRegistry registry = textureRegistry(toml);
+    ASSERT_EQ(registry.textures().size(), 4097u) << "those and the one of the missing block";
+    const auto byWord = loadBlockTextures(registry, textureNobodyReads, 1 << 20);
+    ASSERT_FALSE(byWord);
+    EXPECT_EQ(byWord.error().message, "the blocks have 4097 textures: at most 4096 can be drawn");
+    const auto byDriver = loadBlockTextures(registry, textureNobodyReads, 2048);
+    ASSERT_FALSE(byDriver);
+    EXPECT_EQ(byDriver.error().message, "the blocks have 4097 textures: at most 2048 can be drawn");
+}
+
+}  // namespace
+}  // namespace terrane::render

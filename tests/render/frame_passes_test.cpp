@@ -1,0 +1,148 @@
+// What a failure leaves of the passes, and passes made anew from shaders that were written.
+#include "terrane/render/frame_passes.h"
+
+#include "terrane/render/renderer.h"
+#include "tests/golden/scenes.h"
+#include "tests/gpu/gl_fixture.h"
+#include "tests/gpu/scratch_folder.h"
+#include "tests/render/content.h"
+
+namespace terrane::render {
+namespace {
+
+constexpr glm::ivec2 kPassesSize{96, 64};
+
+constexpr std::string_view kFinalShader = "terrane/render/final.frag.glsl";
+constexpr std::string_view kRed =
+    "layout(location = 0) out vec4 picture;\nvoid main() { picture = vec4(1, 0, 0, 1); }\n";
+constexpr std::string_view kBroken = "this is no shader\n";
+
+class FramePassesTest : public gpu::GlTest {
+  protected:
+    void SetUp() override {
+        GlTest::SetUp();
+        if (IsSkipped()) return;
+        shaders_.emplace(embedded::shaders(), folder_.path());
+        auto made = Renderer::create(*shaders_, contentBlocks(), contentTexture, gpu::queryDevice());
+        ASSERT_TRUE(made) << made.error().message;
+        renderer_ = std::move(*made);
+        world::World world = golden::flatWorld(3);
+        golden::placeGallery(world);
+        golden::placePool(world);
+        for (const auto& [pos, mesh] : golden::meshWorld(world)) renderer_->setChunk(pos, mesh);
+    }
+    void TearDown() override {
+        renderer_.reset();
+        GlTest::TearDown();
+    }
+
+    // All that has targets or a memory of its own: shadows, layers, occlusion, blur, rays, culling.
+    static RenderOptions fullOptions(int samples) {
+        RenderOptions options;
+        options.samples = samples;
+        options.shadowSize = 512;
+        options.occlusion = Occlusion::On;
+        return options;
+    }
+
+    base::Image draw() {
+        renderer_->draw({{{-9, 5, 86}, 10, -14}, world::environmentAt(0.4f), 120, 1, View::Color});
+        return renderer_->readImage();
+    }
+    // The second picture draws by what the first one saw.
+    base::Image drawTwice() {
+        draw();
+        return draw();
+    }
+
+    gpu::ScratchFolder folder_;
+    std::optional<gpu::ShaderLoader> shaders_;
+    std::optional<Renderer> renderer_;
+};
+
+// Wherever among the passes it happens, in whichever direction the options change.
+TEST_F(FramePassesTest, OptionsThatFailLeaveAllAsItWas) {
+    struct Case {
+        std::string name, condition;
+    };
+    const Case cases[] = {
+        {"terrane/render/final.frag.glsl", "RAW_OCCLUSION == 1"},
+        {"terrane/render/depth_pyramid.comp.glsl", "SAMPLES > 1"},
+        {"terrane/render/hole_fill.frag.glsl", "1"},
+        {"terrane/render/layers.frag.glsl", "LAYERS == 1"},
+    };
+    RenderOptions other = fullOptions(4);
+    other.shadowSize = 1024;
+    other.shading = Shading::Pixel;
+    other.layers = 1;
+    other.occlusion = Occlusion::Raw;
+    other.tJunctions = TJunctions::Filled;
+    other.clouds = other.betterTexturing = other.depthOfField = other.godRays = false;
+    for (const Case& c : cases) {
+        const std::string original = *contentShaders().find(c.name);
+        const RenderOptions options = fullOptions(1);
+        ASSERT_TRUE(renderer_->configure(kPassesSize, options));
+        folder_.write(c.name, fmt::format("#if {}\n{}#endif\n{}", c.condition, kBroken, original));
+        ASSERT_TRUE(renderer_->reloadShaders());
+        const base::Image before = drawTwice();
+        for (const glm::ivec2 size : {2 * kPassesSize, kPassesSize}) {
+            const auto configured = renderer_->configure(size, other);
+            ASSERT_FALSE(configured) << c.name;
+            EXPECT_NE(configured.error().message.find(c.name), std::string::npos)
+                << configured.error().message;
+            EXPECT_EQ(renderer_->size(), kPassesSize);
+            EXPECT_EQ(renderer_->options(), options);
+            EXPECT_EQ(draw().rgba, before.rgba) << c.name;
+            EXPECT_EQ(draw().rgba, before.rgba) << c.name;
+        }
+        folder_.write(c.name, original);
+        ASSERT_TRUE(renderer_->configure(2 * kPassesSize, other)) << "what failed is not remembered";
+        draw();
+    }
+}
+
+TEST_F(FramePassesTest, ShadersThatStayGiveTheSamePictureAtOnce) {
+    for (const int samples : {1, 4}) {
+        ASSERT_TRUE(renderer_->configure(kPassesSize, fullOptions(samples)));
+        const base::Image before = drawTwice();
+        ASSERT_TRUE(renderer_->reloadShaders());
+        EXPECT_EQ(draw().rgba, before.rgba) << "the first frame, " << samples << " samples";
+        EXPECT_EQ(draw().rgba, before.rgba);
+    }
+}
+
+TEST_F(FramePassesTest, WrittenShadersAreSeenAndWrongOnesChangeNothing) {
+    ASSERT_TRUE(renderer_->configure(kPassesSize, fullOptions(1)));
+    const base::Image before = drawTwice();
+    folder_.write(kFinalShader, kRed);
+    EXPECT_EQ(draw().rgba, before.rgba) << "not before they are read";
+    ASSERT_TRUE(renderer_->reloadShaders());
+    const base::Image red = draw();
+    for (std::size_t k = 0; k < red.rgba.size(); k += 4) {
+        ASSERT_EQ(red.rgba[k], 255);
+        ASSERT_EQ(red.rgba[k + 1], 0);
+    }
+
+    folder_.write(kFinalShader, kBroken);
+    const auto reloaded = renderer_->reloadShaders();
+    ASSERT_FALSE(reloaded);
+    EXPECT_EQ(reloaded.error().message.find(kFinalShader), 0u) << reloaded.error().message;
+    EXPECT_EQ(draw().rgba, red.rgba);
+    folder_.write("terrane/render/cull.comp.glsl", kBroken);  // a pass that is made before all others
+    ASSERT_FALSE(renderer_->reloadShaders());
+    EXPECT_EQ(draw().rgba, red.rgba);
+
+    std::filesystem::remove_all(folder_.path() / "terrane");
+    ASSERT_TRUE(renderer_->reloadShaders());
+    EXPECT_EQ(draw().rgba, before.rgba) << "what is compiled in is back";
+}
+
+TEST_F(FramePassesTest, ShadersCanBeWrittenBeforeThereIsAPicture) {
+    folder_.write(kFinalShader, kRed);
+    ASSERT_TRUE(renderer_->reloadShaders());
+    ASSERT_TRUE(renderer_->configure(kPassesSize, fullOptions(1)));
+    EXPECT_EQ(draw().rgba[0], 255);
+}
+
+}  // namespace
+}  // namespace terrane::render
