@@ -1,4 +1,4 @@
-// Meshing of whole chunks on one thread: bench_mesh/INPUT/METHOD. The label is a digest of all quads: it
+// Meshing of whole chunks on one thread: mesh/INPUT/METHOD. The label is a digest of all quads: it
 // changes where the result does.
 #include <benchmark/benchmark.h>
 

@@ -8,7 +8,7 @@ program=$(realpath "${1:-build/terrane}")
 folder=${2:-out/flight}
 mkdir -p "$folder"
 cd "$folder"
-rm -f ./*.csv
+rm -f {standing,generating,filling,from_disk}_{16,32}.csv
 export XDG_DATA_HOME=$PWD
 
 fly() {

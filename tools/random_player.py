@@ -20,6 +20,8 @@ import sys
 import tempfile
 import time
 
+import virtual_display
+
 SKIPPED = 77
 HANG_SECONDS = 60  # under sanitizers a frame may take seconds
 SCREEN = (640, 480)
@@ -31,25 +33,6 @@ PRESSED = ("F1", "F2", "F3", "F4", "F5", "F6", "F11", "F12", "o", "p", "i", "m",
 GROWTH = 1.5
 MEGABYTES_A_CHUNK = 0.8
 BAD = re.compile(r"warning|error|AddressSanitizer|LeakSanitizer|runtime error", re.IGNORECASE)
-
-
-class Display:
-    def __init__(self):
-        read_end, write_end = os.pipe()
-        self.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", f"{SCREEN[0]}x{SCREEN[1]}x24", "-nolisten", "tcp",
-             "-noreset"], pass_fds=(write_end,), stderr=subprocess.DEVNULL)
-        os.close(write_end)
-        with os.fdopen(read_end) as pipe:
-            self.name = ":" + pipe.readline().strip()
-
-    def xdotool(self, *arguments):
-        return subprocess.run(["xdotool", *map(str, arguments)], env={**os.environ, "DISPLAY": self.name},
-                              capture_output=True, text=True, timeout=HANG_SECONDS, check=False).stdout.strip()
-
-    def close(self):
-        self.server.terminate()
-        self.server.wait()
 
 
 class Player:
@@ -158,6 +141,20 @@ def growth(figures):
     return f"memory grows from {before:.0f} to {after:.0f} MB with {chunks:.0f} chunks more" if after > allowed else None
 
 
+def faults_of(player, minutes):
+    try:
+        player.open()
+        player.play(60 * minutes)
+        code = player.close()
+        return [f"exit code {code}"] if code != 0 else []
+    except (RuntimeError, subprocess.TimeoutExpired, OSError) as error:
+        return [str(error)]
+    finally:
+        if player.process.poll() is None:
+            player.process.kill()
+            player.process.wait()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=pathlib.Path)
@@ -170,22 +167,9 @@ def main():
         sys.exit(SKIPPED)
     folder = options.folder or pathlib.Path(tempfile.mkdtemp(prefix="terrane_player_"))
     folder.mkdir(parents=True, exist_ok=True)
-    display = Display()
-    player = Player(options.program.resolve(), folder, options.seed, display)
-    faults = []
-    try:
-        player.open()
-        player.play(60 * options.minutes)
-        code = player.close()
-        if code != 0:
-            faults.append(f"exit code {code}")
-    except (RuntimeError, subprocess.TimeoutExpired, OSError) as error:
-        faults.append(str(error))
-    finally:
-        if player.process.poll() is None:
-            player.process.kill()
-            player.process.wait()
-        display.close()
+    with virtual_display.Display(SCREEN) as display:
+        player = Player(options.program.resolve(), folder, options.seed, display)
+        faults = faults_of(player, options.minutes)
     faults += player.complaints()
     if not faults and (grown := growth(folder / "perf.csv")):
         faults.append(grown)

@@ -2,7 +2,6 @@
 // the same.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>

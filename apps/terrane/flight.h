@@ -16,6 +16,7 @@ struct Flight {
     double seconds = 20;  // of flying
     int viewDistance = 16;
     float timeDay = 0.4f;
+    bool meshesOnGpu = false;
 };
 
 struct FlightFrame {
@@ -39,7 +40,7 @@ struct FlightLog {
     std::size_t missing = 0;  // chunks in view that were not there on landing
 };
 
-FlightLog fly(Offscreen& world, const Flight& flight);
+base::Result<FlightLog> fly(Offscreen& world, const Flight& flight);
 
 // There is at least one.
 std::span<const FlightFrame> framesInFlight(const FlightLog& log);
@@ -49,7 +50,7 @@ struct FlightFigures {
     double median = 0, longest = 0, mostLoading = 0;  // the last of processor time
     // Frames over twice the median, and those of them that would not be without the time that loading took by
     // the clock, or without its processor time.
-    std::size_t slow = 0, slowByWaiting = 0, slowByLoading = 0;
+    std::size_t slow = 0, slowByLoadingTime = 0, slowByLoadingProcessor = 0;
 };
 FlightFigures figuresOf(const FlightLog& log);
 

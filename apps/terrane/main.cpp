@@ -1,6 +1,8 @@
 // terrane: reads the command line, runs one command, reports. Exit codes: 0 done, 1 a save is damaged
 // (check) or a measurement failed (bench), 2 bad input or a missing means.
+#include <cstdio>
 #include <exception>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -45,6 +47,14 @@ terrane::base::Result<void> runTraced(const terrane::app::CommandEntry& command,
     return result ? written : result;
 }
 
+// What the program ends with: results that could not be written are none.
+int withOutputWritten(int exitCode) {
+    std::cout.flush();
+    if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exitCode;
+    terrane::base::logError("standard output cannot be written");
+    return kBadInput;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -69,14 +79,14 @@ int main(int argc, char** argv) {
     try {
         app.parse(static_cast<int>(arguments.size()), arguments.data());
     } catch (const CLI::Success& help) {
-        return app.exit(help);
+        return withOutputWritten(app.exit(help));
     } catch (const CLI::ParseError& error) {
         return reportBadArguments(error);
     }
     for (const app::CommandEntry& command : commands) {
         if (!command.parser->parsed()) continue;
         const base::Result<void> result = runTraced(command, trace);
-        if (result) return command.exitCode();
+        if (result) return withOutputWritten(command.exitCode());
         base::logError("{}", result.error().message);
         return kBadInput;
     }

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "apps/terrane/graphics_table.h"
 #include "terrane/base/result.h"
@@ -43,5 +45,12 @@ struct Area {
 };
 
 unsigned threadCount(const WorldOptions& options);
+
+// What an option can be, and what each word means.
+template <class T>
+using Words = std::span<const std::pair<std::string, T>>;
+
+Words<mesh::Method> aggregationWords();  // --aggregation
+Words<render::View> viewWords();         // --view
 
 }  // namespace terrane::app

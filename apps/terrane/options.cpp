@@ -1,5 +1,8 @@
 #include "apps/terrane/options.h"
 
+#include <unistd.h>
+
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <thread>
@@ -39,17 +42,41 @@ Area parseArea(const std::string& text) {
 }
 
 // What could be the name of a file in a folder that is there.
-CLI::Validator fileInAFolder() {
-    const auto check = [](const std::string& text) -> std::string {
-        const std::filesystem::path path(text), folder = path.parent_path();
-        std::error_code ignored;
-        if (!path.has_filename() || std::filesystem::is_directory(path, ignored)) {
-            return fmt::format("\"{}\" does not name a file", text);
-        }
-        if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
-            return fmt::format("\"{}\": there is no folder {}", text, folder.string());
-        }
-        return {};
+std::string isInAFolder(const std::string& text) {
+    const std::filesystem::path path(text), folder = path.parent_path();
+    std::error_code ignored;
+    if (!path.has_filename() || std::filesystem::is_directory(path, ignored))
+        return fmt::format("\"{}\" does not name a file", text);
+    if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
+        return fmt::format("\"{}\": there is no folder {}", text, folder.string());
+    return {};
+}
+
+// Files are written beside their name and renamed, so the folder counts; but for what is no regular file, as
+// /dev/stdout.
+std::string isWritable(const std::string& text) {
+    const std::filesystem::path path(text);
+    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+    std::error_code ignored;
+    const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+    const bool isOther = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+    if (isOther || ::access(folder.c_str(), W_OK) == 0) return {};
+    return fmt::format("\"{}\": nothing can be written in the folder {}", text, folder);
+}
+
+// The name of a file that can be written.
+CLI::Validator newFile() {
+    const auto check = [](const std::string& text) {
+        const std::string wrong = isInAFolder(text);
+        return wrong.empty() ? isWritable(text) : wrong;
+    };
+    return CLI::Validator(check, "");
+}
+
+// A folder that is there; empty: none.
+CLI::Validator existingFolder() {
+    const auto check = [](const std::string& text) {
+        return text.empty() ? std::string() : CLI::ExistingDirectory(text);
     };
     return CLI::Validator(check, "");
 }
@@ -136,14 +163,9 @@ void addWorldOptions(CLI::App& command, WorldOptions& options) {
 }
 
 void addMeshOptions(CLI::App& command, mesh::MeshOptions& options) {
-    using mesh::Method;
-    addChoice<Method>(command, "--aggregation", options.method,
-                      {{"none", Method::None},
-                       {"lines", Method::Lines},
-                       {"squares", Method::Squares},
-                       {"squares-ext", Method::SquaresExt},
-                       {"greedy", Method::Greedy}},
-                      "How equal faces are merged into rectangles");
+    addChoice<mesh::Method>(command, "--aggregation", options.method,
+                            {aggregationWords().begin(), aggregationWords().end()},
+                            "How equal faces are merged into rectangles");
     command
         .add_option("--region-height", options.regionHeight,
                     "Height in blocks of the parts of chunks that are culled")
@@ -162,48 +184,40 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string
         ->check(numberFrom(1, 64))
         ->capture_default_str();
     addGraphicsChoices(command, options.choices, std::move(preset));
-    addChoice<render::View>(command, "--view", options.view,
-                            {{"color", render::View::Color},
-                             {"normal", render::View::Normal},
-                             {"depth", render::View::Depth},
-                             {"light", render::View::Light},
-                             {"aggregation", render::View::Aggregation}},
+    addChoice<render::View>(command, "--view", options.view, {viewWords().begin(), viewWords().end()},
                             "What to show");
     addMeshOptions(command, options.mesh);
     addResourcePackOption(command, options.resourcePack);
     command
         .add_option("--shader-root", options.shaderRoot, "Source tree to read shaders from, for development")
-        ->check(CLI::ExistingDirectory);
+        ->check(existingFolder())
+        ->type_name("DIR");
     command.add_flag("--debug-gl", options.debugGl, "Report errors of the graphics driver");
 }
 
 void addOutputOption(CLI::App& command, std::string& output, const std::string& description) {
-    command.add_option("-o,--output", output, description)
-        ->check(fileInAFolder())
-        ->type_name("FILE")
-        ->required();
+    command.add_option("-o,--output", output, description)->check(newFile())->type_name("FILE")->required();
 }
 
 void addResourcePackOption(CLI::App& command, std::string& folder) {
-    const auto check = [](const std::string& text) {
-        return text.empty() ? std::string() : CLI::ExistingDirectory(text);
-    };
     command
         .add_option("--resource-pack", folder,
                     "Folder of PNG files named as textures, used in place of the built-in ones")
-        ->check(CLI::Validator(check, ""))
+        ->check(existingFolder())
         ->type_name("DIR");
 }
 
 void addTraceOption(CLI::App& command, std::string& trace) {
     command
         .add_option("--trace", trace, "Write where the time went, for Perfetto or chrome://tracing (JSON)")
-        ->check(fileInAFolder())
+        ->check(newFile())
         ->type_name("FILE");
 }
 
 void addSaveOption(CLI::App& command, std::string& save, const std::string& description) {
-    command.add_option("--world", save, description)->check(fileInAFolder())->type_name("FILE");
+    command.add_option("--world", save, description)
+        ->check(CLI::Validator(isInAFolder, ""))
+        ->type_name("FILE");
 }
 
 void addAreaOption(CLI::App& command, std::optional<Area>& area) {
@@ -215,6 +229,26 @@ void addAreaOption(CLI::App& command, std::optional<Area>& area) {
 
 unsigned threadCount(const WorldOptions& options) {
     return options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+}
+
+Words<mesh::Method> aggregationWords() {
+    using mesh::Method;
+    static const std::array<std::pair<std::string, Method>, 5> words = {{{"none", Method::None},
+                                                                         {"lines", Method::Lines},
+                                                                         {"squares", Method::Squares},
+                                                                         {"squares-ext", Method::SquaresExt},
+                                                                         {"greedy", Method::Greedy}}};
+    return words;
+}
+
+Words<render::View> viewWords() {
+    using render::View;
+    static const std::array<std::pair<std::string, View>, 5> words = {{{"color", View::Color},
+                                                                       {"normal", View::Normal},
+                                                                       {"depth", View::Depth},
+                                                                       {"aggregation", View::Aggregation},
+                                                                       {"light", View::Light}}};
+    return words;
 }
 
 }  // namespace terrane::app

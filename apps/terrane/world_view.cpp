@@ -54,13 +54,6 @@ std::size_t WorldView::upload(double budgetSeconds) {
     return count;
 }
 
-double WorldView::missing() const {
-    const stream::ChunkPipeline& pipeline = *session_.pipeline;
-    const auto [wanted, visible] = pipeline.progress();
-    const std::size_t count = wanted - visible + pipeline.waitingChanges();
-    return std::min(1.0, static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(wanted, 1)));
-}
-
 void WorldView::show(const stream::ChunkChange& change) {
     if (change.isHidden) return hide(change.pos);
     if (change.light) renderer_.setLight(change.pos, *change.light, change.bricks);

@@ -14,10 +14,18 @@ namespace terrane::app {
 
 // A frame's time for what workers finished, as a share of what the last one took, so that loading makes no
 // frame much longer however fast the machine draws: a sixteenth, and up to a quarter where all of the view is
-// `missing` (see WorldView). A chunk takes about 0.1 ms: at 60 frames a second 600 chunks a second come on
+// `missing`. A chunk takes about 0.1 ms: at 60 frames a second 600 chunks a second come on
 // screen, and a flight at full speed with view distance 32 needs 350.
 inline double uploadBudget(double frameSeconds, double missing) {
     return std::clamp(frameSeconds * std::clamp(missing / 4, 1.0 / 16, 1.0 / 4), 0.001, 0.025);
+}
+
+// The share of a view that is not on screen as it is, 0 to 1: chunks that are not visible yet, and changes
+// that wait for the renderer.
+inline double missingShare(const stream::Progress& progress, std::size_t waitingChanges) {
+    const auto wanted = static_cast<double>(std::max<std::size_t>(progress.wanted, 1));
+    const auto missing = static_cast<double>(progress.wanted - progress.visible + waitingChanges);
+    return std::min(1.0, missing / wanted);
 }
 
 class WorldView {
@@ -37,8 +45,9 @@ class WorldView {
     // Hands changed chunks to the renderer, at least one, until so much time is over; the rest waits for the
     // next frames. The first time that one finds no room there is a warning. How many it handed on.
     std::size_t upload(double budgetSeconds);
-    // The share of the view that is not on screen as it is, 0 to 1.
-    double missing() const;
+    double missing() const {
+        return missingShare(session_.pipeline->progress(), session_.pipeline->waitingChanges());
+    }
     // Chunks that were handed on and wait for the GPU to mesh them.
     std::size_t waiting() const { return queue_ ? queue_->size() : 0; }
 

@@ -2,6 +2,9 @@
 """Whatever is wrong on the command line: one line that says what, exit code 2, and nothing written.
 
 Usage: bad_input_test.py PROGRAM"""
+import os
+import subprocess
+
 import support
 from support import ProgramTest, run
 
@@ -153,6 +156,31 @@ class BadInput(ProgramTest):
                 self.assertRefused(done, filled)
                 self.assertIn(hint.format(**names), done.stderr)
                 self.assertEqual(written, [], "something was written")
+
+    # root can write everywhere but in file systems that take nothing.
+    def test_a_folder_that_nothing_can_be_written_in(self):
+        closed = self.folder / "closed"
+        closed.mkdir(0o500)
+        folder = next((f for f in (closed, "/proc/sys", "/sys") if not os.access(f, os.W_OK)), None)
+        if not folder:
+            self.skipTest("this user can write everywhere")
+        for arguments in (("render", "--scene", "ocean", "-o", f"{folder}/a.png"), ("blocks", "--trace", f"{folder}/a.json")):
+            done = run(*arguments)
+            self.assertRefused(done, arguments)
+            self.assertIn(f"written in the folder {folder}", done.stderr)
+        done = subprocess.run([support.program(), "map", "--radius", "0", "-o", "a.png"], cwd=folder, capture_output=True,
+                              text=True, timeout=support.HANG_SECONDS, check=False)
+        self.assertRefused(done, "the working directory")
+        self.assertIn("written in the folder .", done.stderr)
+
+    def test_output_that_cannot_be_written(self):
+        for arguments in (("blocks",), ("info", "--json"), ("generate", "--radius", "0", "--json"), ("man",), ("--help",),
+                          ("--version",), ("completion", "bash")):
+            with open("/dev/full", "w", encoding="utf-8") as full:
+                done = subprocess.run([support.program(), *arguments], stdout=full, stderr=subprocess.PIPE, text=True,
+                                      timeout=support.HANG_SECONDS, env=support.environment(), check=False)
+            self.assertEqual(done.returncode, 2, f"{arguments}: {done.stderr}")
+            self.assertIn("terrane: error: standard output cannot be written\n", done.stderr, arguments)
 
     # A window needs a display; there is nothing else that could be shown.
     def test_play_without_a_display(self):

@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import pathlib
+import resource
 import shutil
 import signal
 import subprocess
@@ -24,9 +25,9 @@ class Bench(ProgramTest):
     def command(self, *arguments):
         return [support.program(), "bench", "--output", str(self.output), *map(str, arguments)]
 
-    def bench(self, *arguments, environment=None):
+    def bench(self, *arguments, environment=None, limit=None):
         return subprocess.run(self.command(*TINY, *arguments), capture_output=True, text=True, timeout=HANG_SECONDS,
-                              env=environment or support.environment(), check=False)
+                              env=environment or support.environment(), check=False, preexec_fn=limit)
 
     def lines(self):
         return [json.loads(line) for line in (self.output / "results.jsonl").read_text().splitlines()]
@@ -56,7 +57,17 @@ class Bench(ProgramTest):
         self.assertEqual(layers[0]["thesis: 3"], "57")
         self.assertGreater(float(layers[0]["3"]), 0)
         self.assertNotIn("failed", report)
-        self.assertFalse((self.output / "work").exists())
+        self.assertEqual(list(self.output.glob(".*")), [], "what runs needed is left")
+
+    def test_a_persons_own_files_stay(self):
+        (self.output / "work").mkdir(parents=True)
+        for name in ("work/thesis.txt", "info.txt", "messages.txt"):
+            (self.output / name).write_text("mine")
+        done = self.bench("--only", "disk")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("work/thesis.txt", "info.txt", "messages.txt"):
+            self.assertEqual((self.output / name).read_text(), "mine")
+        self.assertEqual(list(self.output.glob(".*")), [], "what runs needed is left")
 
     def test_plots(self):
         done = self.bench("--only", "passes")
@@ -106,9 +117,10 @@ class Bench(ProgramTest):
         self.assertEqual(len(set(after)), 4, "nothing is measured twice")
 
     def test_what_fails_is_named(self):
-        self.output.mkdir()
-        (self.output / "work").write_text("in the way of the folder that runs need")
-        done = self.bench("--only", "disk")
+        def limit():  # no run can write its save
+            resource.setrlimit(resource.RLIMIT_FSIZE, (30000, 30000))
+        environment = {**support.environment(), "MESA_SHADER_CACHE_DISABLE": "true"}
+        done = self.bench("--only", "disk", environment=environment, limit=limit)
         self.assertEqual(done.returncode, 1, done.stderr)
         report = (self.output / "report.md").read_text()
         self.assertIn("| cave | failed |", report)

@@ -59,8 +59,11 @@ class Fly(ProgramTest):
         self.assertGreater(int(x), 20)  # 60 blocks a second, but long frames move no farther than a quarter of one
 
     def test_figures_as_json(self):
-        text = self.succeed("fly", "--scene", "landscape", "--preset", "low", "--size", "64x36", "--view-distance", "2",
-                            "--for", "2", "--json")
+        for backend in ("cpu", "gpu"):
+            self.check_figures(self.succeed("fly", "--scene", "landscape", "--preset", "low", "--size", "64x36", "--for", "2",
+                                            "--view-distance", "2", "--backend", backend, "--debug-gl", "--json"))
+
+    def check_figures(self, text):
         flight = json.loads(text)["flight"]
         self.assertGreaterEqual(flight["seconds_of_flight"], 2)
         self.assertGreater(flight["seconds_to_load"], 0)

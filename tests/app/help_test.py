@@ -61,7 +61,8 @@ class Bash(HelpTest):
         (self.folder / "a picture.png").write_text("")
         (self.folder / "a folder").mkdir()
         self.assertEqual(sorted(self.complete("terrane", "render", "-o", "a ")), ["a folder", "a picture.png"])
-        self.assertEqual(self.complete("terrane", "record", "--frames-dir", "a"), ["a folder"])
+        for command, flag in (("record", "--frames-dir"), ("render", "--shader-root"), ("bench", "--output"), ("bench", "-o")):
+            self.assertEqual(self.complete("terrane", command, flag, "a"), ["a folder"], command)
         self.assertEqual(sorted(self.complete("terrane", "check", "a ")), ["a folder", "a picture.png"])
 
 
@@ -118,7 +119,7 @@ class Man(HelpTest):
         file = self.folder / "terrane.1"
         file.write_text(self.succeed("man"))
         page = "\n".join(self.shell("groff", "-man", "-ww", "-Kutf8", "-Tutf8", "-P-cbou", str(file)))
-        for word in ("--aggregation WORD", "EXIT STATUS", "(required)", "(default: 1280x720)"):
+        for word in ("--aggregation WORD", "EXIT STATUS", "a measurement of terrane bench", "(required)", "(default: 1280x720)"):
             self.assertIn(word, page)
 
 

@@ -123,6 +123,24 @@ class Video(RecordTest):
             self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["a.mp4", "path.toml"])
 
 
+    def test_an_interrupt_while_ffmpeg_finishes_waits_for_it(self):
+        tool, finishing = self.folder / "ffmpeg", self.folder / "finishing"
+        tool.write_text(f"#!/bin/sh\ncat > /dev/null\ntouch '{finishing}'\nsleep 1\n"
+                        "for last; do :; done\necho video > \"${last#file:}\"\n")
+        tool.chmod(0o755)
+        process = subprocess.Popen(
+            [support.program(), "record", "--path", self.path(HEAD + shot(1)), "-o", self.folder / "a.mp4", *SMALL],
+            stderr=subprocess.PIPE, text=True,
+            env=support.environment() | {"PATH": f"{self.folder}:{os.environ['PATH']}"})
+        end = time.monotonic() + support.HANG_SECONDS
+        while not finishing.exists() and time.monotonic() < end:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=support.HANG_SECONDS)
+        self.assertEqual(process.returncode, 0, errors)
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["a.mp4", "ffmpeg", "finishing", "path.toml"])
+
+
 class Frames(RecordTest):
     def test_the_same_every_time(self):
         text = shot(1, "[[shot.key]]\ntime = 1\nat = [-1040, -100, 118]\nlook = [150, -20]\nday = 0.6\n",

@@ -1,5 +1,6 @@
 #include "apps/terrane/window/settings.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -63,6 +64,46 @@ TEST_F(Settings, AnotherPresetReplacesAllOfGraphics) {
     ASSERT_TRUE(
         writeChanges(file_, {{"preset", "high"}}, {{"preset", "low"}, {"shadows", "1024"}}, kGraphics));
     EXPECT_EQ(lines(), (Lines{"movement = 'fast'", "preset = 'low'", "shadows = '1024'"}));
+}
+
+TEST_F(Settings, CommentsAndOrderStay) {
+    std::filesystem::create_directories(file_.parent_path());
+    write(
+        "# mine\n\nresource-pack = \"/ä/ö\"  # näher\n\"movement\" = 'walls' # for now\nday-minutes = 3\n"
+        "clouds = 'on'  # gone\n# the end");
+    ASSERT_TRUE(writeChanges(
+        file_, {{"resource-pack", "/ä/ö"}, {"movement", "walls"}, {"clouds", "on"}, {"shadows", "1024"}},
+        {{"resource-pack", "it's \"ü\""}, {"movement", "fast"}, {"shadows", "off"}, {"view-distance", "8"}},
+        kGraphics));
+    EXPECT_EQ(written(),
+              "# mine\n\nresource-pack = \"it's \\\"ü\\\"\"  # näher\n\"movement\" = 'fast' # for now\n"
+              "day-minutes = 3\n# the end\nshadows = 'off'\nview-distance = '8'\n");
+}
+
+TEST_F(Settings, AByteOrderMarkIsNoLetter) {
+    std::filesystem::create_directories(file_.parent_path());
+    write("\xEF\xBB\xBFmovement = 'walls'\r\nday-minutes = 3\r\n");
+    ASSERT_TRUE(writeChanges(file_, {{"movement", "walls"}}, {{"movement", "fast"}}, kGraphics));
+    EXPECT_EQ(written(), "\xEF\xBB\xBFmovement = 'fast'\r\nday-minutes = 3\r\n");
+}
+
+TEST_F(Settings, ALinkStaysOne) {
+    std::filesystem::create_directories(file_.parent_path());
+    const std::filesystem::path target = folder_ / "dotfiles.toml";
+    std::filesystem::create_symlink("../dotfiles.toml", file_);
+    for (const char* movement : {"fast", "walls"}) {  // at first the link leads nowhere
+        ASSERT_TRUE(writeChanges(file_, {}, {{"movement", movement}}, kGraphics));
+        EXPECT_TRUE(std::filesystem::is_symlink(file_));
+        EXPECT_TRUE(std::filesystem::is_regular_file(target));
+        EXPECT_EQ(lines(), (Lines{fmt::format("movement = '{}'", movement)}));
+    }
+}
+
+TEST_F(Settings, NothingIsLeftOfAFileThatCannotBeWritten) {
+    std::filesystem::create_directories(file_);  // a folder in its place
+    EXPECT_FALSE(writeChanges(file_, {}, {{"movement", "fast"}}, kGraphics));
+    EXPECT_EQ(folder_.fileCount(), 1);
+    EXPECT_TRUE(std::filesystem::is_empty(file_));
 }
 
 TEST_F(Settings, AFileThatCannotBeReadStays) {

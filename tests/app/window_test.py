@@ -5,8 +5,10 @@ Needs Xvfb (without it the test is skipped, exit code 77), xdotool and xwd; Debi
 x11-apps."""
 import contextlib
 import os
+import pathlib
 import re
 import shutil
+import signal
 import sqlite3
 import struct
 import subprocess
@@ -19,40 +21,18 @@ import unittest.mock
 import support
 from support import HANG_SECONDS, Npy, Picture, ProgramTest
 
+sys.path.append(str(pathlib.Path(__file__).parents[2] / "tools"))
+import virtual_display  # noqa: E402
+
 SKIPPED = 77
 FLAT = ("--generator", "flat")
 SCREEN = (640, 400)
 SIZE, LARGER = (320, 180), (480, 270)
 
 
-class Display:
-    """A virtual X server on a number that it chooses itself."""
-
+class Display(virtual_display.Display):
     def __init__(self, size=SCREEN):
-        self.size = size
-
-    def __enter__(self):
-        read_end, write_end = os.pipe()
-        self.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", f"{self.size[0]}x{self.size[1]}x24", "-nolisten", "tcp",
-             "-noreset"],  # else it starts anew whenever its last window closes
-            pass_fds=(write_end,), stderr=subprocess.DEVNULL)
-        os.close(write_end)
-        with os.fdopen(read_end) as pipe:
-            number = pipe.readline().strip()
-        if not number:
-            raise RuntimeError("Xvfb does not start")
-        self.name = ":" + number
-        return self
-
-    def __exit__(self, *_):
-        self.server.terminate()
-        self.server.wait(HANG_SECONDS)
-
-    def xdotool(self, *arguments):
-        done = subprocess.run(["xdotool", *map(str, arguments)], env=support.environment(self.name),
-                              capture_output=True, text=True, timeout=HANG_SECONDS, check=False)
-        return done.stdout.strip()
+        super().__init__(size)
 
     def screenshot(self, window):
         data = subprocess.run(["xwd", "-id", window, "-silent", "-display", self.name], capture_output=True,
@@ -72,6 +52,12 @@ class Screenshot:
             raise ValueError(f"unexpected window dump: version {version}, depth {depth}")
         self.pixels = data[header_bytes + 12 * header[19]:]  # behind the colour map
 
+    def color(self, x, y):
+        """Red, green, blue."""
+        at = y * self.stride + x * self.step
+        blue, green, red = self.pixels[at:at + 3]
+        return red, green, blue
+
     def colors(self, x0=0, y0=0):
         """All colours to the right of x0 and below y0."""
         found = set()
@@ -81,13 +67,25 @@ class Screenshot:
         return found
 
 
+# What kind of ground a colour is of: grass, earth, stone.
+def is_green(red, green, blue):
+    return green > 1.1 * max(red, blue)
+
+
+def is_brown(red, green, blue):
+    return red > 1.1 * green > 1.1 * blue
+
+
+def is_grey(red, green, blue):
+    return max(red, green, blue) < 1.1 * min(red, green, blue)
+
+
 class Game:
     """The running program and its window."""
 
     def __init__(self, display, folder, arguments):
         self.display = display
         self.log = tempfile.TemporaryFile(mode="w+")
-        # Far enough that fog never hides all of the ground.
         self.process = subprocess.Popen(
             [support.program(), "play", "--debug-gl", *arguments], cwd=folder,
             env=support.environment(display.name, folder), stdout=self.log, stderr=self.log)
@@ -110,7 +108,7 @@ class Game:
             if self.process.poll() is not None:
                 raise RuntimeError(f"the program ended: {self.output()}")
             time.sleep(0.05)
-        raise RuntimeError("nothing happens")
+        raise RuntimeError(f"nothing happens: {self.output()}")
 
     def wait_for_picture(self, size, x0=0, y0=0):
         """Waits for a window of this size with a picture: a world has many colours, an undrawn window one."""
@@ -118,6 +116,10 @@ class Game:
             picture = self.display.screenshot(self.window)
             return (picture.width, picture.height) == size and len(picture.colors(x0, y0)) > 30
         self.wait_for(is_drawn)
+
+    def wait_for_ground(self, is_it):
+        """Waits for a colour (red, green, blue) of the block that one looks down on, beside the crosshair."""
+        self.wait_for(lambda: is_it(*self.display.screenshot(self.window).color(SIZE[0] // 2 + 8, SIZE[1] // 2 + 8)))
 
     def press(self, key):
         self.display.xdotool("key", key)
@@ -190,9 +192,9 @@ class Window(ProgramTest):
 
     def test_draws_flies_resizes_and_closes(self):
         with Display() as display:
-            start = self.close(self.play(display))
+            start = self.close(self.play(display, "--movement", "fast"))
 
-            game = self.play(display)
+            game = self.play(display, "--movement", "fast")
             display.xdotool("keydown", "w")
             time.sleep(1)
             display.xdotool("keyup", "w")
@@ -202,7 +204,7 @@ class Window(ProgramTest):
             game.wait_for_picture(LARGER, y0=SIZE[1])
             end = self.close(game)
             distance = sum((a - b) ** 2 for a, b in zip(start, end)) ** 0.5
-            self.assertGreater(distance, 1, f"the camera stayed at {end}")
+            self.assertGreater(distance, 5, f"the camera stayed at {end}")  # farther than one falls or walks
 
     def test_keys_are_taken_before_there_is_a_picture(self):
         cache = self.folder / "no shaders yet"
@@ -215,22 +217,48 @@ class Window(ProgramTest):
                 game.press(key)
             game.wait_for_picture(SIZE)
             self.assertEqual(self.screenshots(), [])  # of what was not there yet
-            game.press("F12")
-            game.wait_for(self.screenshots)
+            # Again and again: the panel's picture comes before the world's.
+            game.wait_for(lambda: game.press("F12") or self.screenshots())
             self.close(game)
 
+    # Above the flat world, whose ground is grass at z = 80 on earth: one block fills the middle of the picture.
+    def look_down(self, display, *arguments):
+        (self.folder / "positions.txt").write_text("8.5 8.5 84 0 -89\n")
+        game = self.play(display, "--position", "1", *arguments, *FLAT)
+        game.pause_after("F1")  # no help in the picture
+        game.wait_for_ground(is_green)
+        game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # takes the mouse
+        return game
+
     def test_the_gpu_makes_meshes_while_one_flies_and_builds(self):
+        save = self.folder / "save" / "home.sqlite"
         with Display() as display:
-            game = self.play(display, "--backend", "gpu", "--debug-gl", "--movement", "fast")
-            game.click(1)  # takes the mouse
+            game = self.look_down(display, "--backend", "gpu", "--movement", "fast", "--save-game", "home")
             display.xdotool("keydown", "w")
             time.sleep(1)
             display.xdotool("keyup", "w")
-            for button in (1, 3, 1):
-                game.click(button)
-            game.press("F3")  # all that is loaded, from above
-            game.wait_for_picture(SIZE)
+            game.press("F6")  # back
+            game.wait_for_ground(is_green)
+            display.xdotool("click", 1)
+            game.wait_for_ground(is_brown)
+            display.xdotool("click", 3)
+            game.wait_for_ground(is_grey)
             self.close(game)
+            self.assertEqual(self.highest_block(save), 80)
+
+    def test_a_signal_saves_and_quits(self):
+        with Display() as display:
+            for number in (signal.SIGINT, signal.SIGTERM):
+                save = self.folder / "save" / f"{number}.sqlite"
+                game = self.look_down(display, "--movement", "medium", "--save-game", save.stem)
+                display.xdotool("click", 1)
+                game.wait_for_ground(is_brown)
+                game.pause_after("m")
+                game.process.send_signal(number)
+                self.assertEqual(game.process.wait(HANG_SECONDS), 0, game.output())
+                self.assertEqual(self.highest_block(save), 79)
+                self.assertEqual(self.setting(save, "camera"), "8.5 8.5 84 0 -89")
+                self.assertEqual(self.lines_of_settings(), ["movement = 'walls'"])
 
     def screenshots(self):
         return list(self.folder.glob("terrane-*.png"))
@@ -240,6 +268,10 @@ class Window(ProgramTest):
         dump = self.folder / "blocks.npy"
         self.succeed("dump", "--area", "0,0,1,1", "--world", save, "-o", dump)
         return max(z for z, block in enumerate(Npy(dump).column(8, 8)) if block != 0)
+
+    def setting(self, save, name):
+        with contextlib.closing(sqlite3.connect(save)) as database:
+            return database.execute("SELECT value FROM settings WHERE name = ?", (name,)).fetchone()[0]
 
     def set_setting(self, save, name, value):
         with contextlib.closing(sqlite3.connect(save)) as database, database:
@@ -399,13 +431,46 @@ class Window(ProgramTest):
                 for key in ("BackSpace", "BackSpace", *name, "Return"):
                     game.hold(key, pause / 2)
                 time.sleep(2 * pause)
-            # Blue, green, red: the ground at the window's lower left, beside what is in the hand.
-            row = display.screenshot(game.window)
-            at = (size[1] - 4) * row.stride + 150 * row.step
-            blue, green, red = row.pixels[at:at + 3]
+            # The ground at the window's lower left, beside what is in the hand.
+            red, green, blue = display.screenshot(game.window).color(150, size[1] - 4)
             self.assertGreater(red, 2 * max(blue, green))
             self.close(game)
         self.assertEqual(self.lines_of_settings(), ["resource-pack = 'pk'"])
+
+    def test_shaders_are_read_again_while_one_plays(self):
+        root = self.folder / "root"
+        shader = root / "terrane" / "render" / "final.frag.glsl"
+        shader.parent.mkdir(parents=True)
+        red = "layout(location = 0) out vec4 picture;\nvoid main() { picture = vec4(1, 0, 0, 1); }\n"
+
+        def write(path, text):
+            """At once: a file that is seen while it is written is read twice."""
+            path.with_suffix(".new").write_text(text)
+            path.with_suffix(".new").replace(path)
+
+        def is_red(display, game):
+            picture = display.screenshot(game.window)
+            at = 3 * picture.stride + (SIZE[0] - 3) * picture.step  # where nothing else is drawn
+            return picture.pixels[at:at + 3] == bytes((0, 0, 255))
+
+        with Display() as display:
+            game = self.play(display, "--shader-root", root, *FLAT)
+            self.assertFalse(is_red(display, game))
+            write(shader, red)
+            game.wait_for(lambda: is_red(display, game))
+            wrong = shader.with_name("debug_view.frag.glsl")
+            write(wrong, "this is no shader\n")
+            complaint = "debug_view.frag.glsl: the shader does not compile"
+            game.wait_for(lambda: complaint in game.output())
+            self.assertTrue(is_red(display, game))
+            game.hold("l")  # needs a variant of the wrong shader: the light stays as it is, and the game goes on
+            game.wait_for(lambda: game.output().count(complaint) == 2)
+            wrong.unlink()
+            write(shader, red.replace("1, 0, 0", "0, 0, 1"))
+            game.wait_for(lambda: not is_red(display, game))
+            code, _, _ = game.close()
+            self.assertEqual(code, 0, game.output())
+            self.assertEqual(game.output().count(complaint), 2, game.output())
 
     @unittest.skipUnless(shutil.which("xrdb"), "xrdb is not installed (Debian: x11-xserver-utils)")
     def test_on_a_screen_of_twice_the_scale_all_is_twice_as_large(self):

@@ -14,20 +14,29 @@ double frameThatLoads(double drawing, double missing) {
     return frame;
 }
 
-TEST(WorldView, LoadingAddsAThirdToFramesAtMost) {
+TEST(UploadBudget, LoadingAddsAThirdToFramesAtMost) {
     for (const double drawing : {0.004, 0.016, 0.1, 0.4})
         EXPECT_LE(frameThatLoads(drawing, kNothingYet), drawing * 4 / 3 + 1e-9);
 }
 
-TEST(WorldView, LoadingAddsAFifteenthWhereNextToAllIsThere) {
+TEST(UploadBudget, LoadingAddsAFifteenthWhereNextToAllIsThere) {
     for (const double drawing : {0.015, 0.1, 0.4})
         EXPECT_LE(frameThatLoads(drawing, kNextToAll), drawing * 16 / 15 + 1e-9);
 }
 
-TEST(WorldView, FramesOfNoTimeLoadToo) {
+TEST(UploadBudget, FramesOfNoTimeLoadToo) {
     EXPECT_EQ(uploadBudget(0, 0), 0.001);
     EXPECT_EQ(uploadBudget(0, kNothingYet), 0.001);
     EXPECT_EQ(uploadBudget(60, kNothingYet), 0.025);
+}
+
+TEST(MissingShare, CountsWhatIsNotVisibleAndWhatWaits) {
+    EXPECT_EQ(missingShare({.wanted = 0, .visible = 0}, 0), 0);
+    EXPECT_EQ(missingShare({.wanted = 100, .visible = 0}, 0), 1);
+    EXPECT_EQ(missingShare({.wanted = 100, .visible = 90}, 0), 0.1);
+    EXPECT_EQ(missingShare({.wanted = 100, .visible = 90}, 15), 0.25);
+    EXPECT_EQ(missingShare({.wanted = 100, .visible = 100}, 300), 1);
+    EXPECT_EQ(missingShare({.wanted = 0, .visible = 0}, 3), 1);
 }
 
 }  // namespace

@@ -124,6 +124,26 @@ TEST(ScriptFile, TheCommandLineWins) {
     EXPECT_EQ(optionsAt(script->shots[0], 5).view, render::View::Depth);
 }
 
+TEST(ScriptFile, APresetOfTheCommandLineStandsAlone) {
+    ScriptDefaults defaults;
+    defaults.graphics.choices.preset = "low";
+    defaults.graphics.viewDistance = 2;
+    const std::string text = "[options]\npreset = \"high\"\nclouds = \"on\"\nview-distance = 8\n" +
+                             shotOf("[[shot.set]]\nssao = \"raw\"\nview = \"depth\"\n");
+    const auto choicesWith = [&](std::vector<std::string> given) {
+        defaults.given = std::move(given);
+        const auto script = parseScript(text, "p.toml", defaults, blocks());
+        EXPECT_TRUE(script);
+        EXPECT_EQ(optionsAt(script->shots[0], 5).view, render::View::Depth) << "no part of a preset";
+        EXPECT_EQ(optionsAt(script->shots[0], 5).viewDistance, 8) << "no part of a preset";
+        return optionsAt(script->shots[0], 5).choices;
+    };
+    EXPECT_EQ(choicesWith({"preset"}).preset, "low");
+    EXPECT_TRUE(choicesWith({"preset"}).changed.empty());
+    EXPECT_EQ(choicesWith({}).preset, "high");
+    EXPECT_EQ(choicesWith({}).changed.size(), 2u);
+}
+
 TEST(ScriptFile, ShotsFollowEachOther) {
     const auto script = parse(shotOf("", "seconds = 0.1\n") + shotOf("", "seconds = 0.2\n") + shotOf(""));
     ASSERT_TRUE(script) << script.error().message;

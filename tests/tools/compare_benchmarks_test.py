@@ -51,6 +51,13 @@ class Compare(unittest.TestCase):
     def test_equal_runs_are_not_slower(self):
         self.assertExit(0, self.compare(google(a=[10, 11, 12]), google(a=[10, 11, 12])))
 
+    def test_what_is_measured_by_the_clock_is_compared_by_it(self):
+        slow, slower = ({"name": "save/real_time", "run_name": "save/real_time", "run_type": "iteration", "real_time": time,
+                         "cpu_time": 1, "time_unit": "us"} for time in (10, 20))
+        files = [json.dumps({"context": {}, "benchmarks": 3 * [run]}) for run in (slow, slower)]
+        self.assertExit(1, self.compare(*files))
+        self.assertExit(0, self.compare(*(file.replace("/real_time", "/process_time/real_time") for file in files)))
+
     def test_what_is_slower_is_named(self):
         done = self.compare(google(a=[10, 11, 12], b=[5, 5, 5]), google(a=[20, 21, 22], b=[5, 5, 5]))
         self.assertExit(1, done)

@@ -27,8 +27,8 @@ std::string lastLine(const fs::path& file) {
 
 }  // namespace
 
-BenchRunner::BenchRunner(fs::path program, const fs::path& folder, int runs, ResultFile& results)
-    : program_(std::move(program)), work_(folder / "work"), runs_(runs), results_(results) {}
+BenchRunner::BenchRunner(fs::path program, fs::path work, int runs, ResultFile& results)
+    : program_(std::move(program)), work_(std::move(work)), runs_(runs), results_(results) {}
 
 base::Result<void> BenchRunner::measure(const Cell& cell) {
     const auto known = results_.measured().runs.find(keyOf(cell));
@@ -54,9 +54,6 @@ base::Result<void> BenchRunner::prepare(const Cell& cell) {
 }
 
 base::Result<json> BenchRunner::runOnce(const Arguments& arguments) const {
-    std::error_code error;
-    fs::create_directories(work_, error);
-    if (error) return base::fail("{}: cannot be made: {}", work_.string(), error.message());
     Arguments command{program_.string()};
     command.insert(command.end(), arguments.begin(), arguments.end());
     if (arguments[0] == "render") command.insert(command.end(), {"--output", "picture.png"});

@@ -10,10 +10,9 @@ namespace terrane::app {
 
 class BenchRunner {
   public:
-    // `program`: this program's file. `folder`: absolute; what runs need (saves, pictures) goes into its
-    // folder "work". The results outlive the runner.
-    BenchRunner(std::filesystem::path program, const std::filesystem::path& folder, int runs,
-                ResultFile& results);
+    // `program`: this program's file. `work`: absolute; what runs need (saves, pictures) goes there. The
+    // results outlive the runner.
+    BenchRunner(std::filesystem::path program, std::filesystem::path work, int runs, ResultFile& results);
 
     // The runs that are missing. What goes wrong in a cell is kept with the results; an error where no run
     // can be made at all.

@@ -24,8 +24,8 @@ struct ChildEnd {
 };
 
 // Waits. The child ends with the calling thread. XDG_DATA_HOME is the folder, so that an installed program
-// keeps its saves there too. For a process that has no other threads. An error where the child could not be
-// started.
+// keeps its saves there too. For a process that has no other threads. An error where the system has no room
+// for another process; a program that is not there or cannot be run gives exit code 127, as in a shell.
 [[nodiscard]] base::Result<ChildEnd> runChild(const std::vector<std::string>& command,
                                               const ChildOptions& options);
 

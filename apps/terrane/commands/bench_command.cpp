@@ -2,8 +2,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <system_error>
+#include <utility>
 
 #include "apps/terrane/bench/bench_report.h"
 #include "apps/terrane/bench/bench_runner.h"
@@ -38,13 +42,35 @@ std::string tableNames() {
     return names;
 }
 
+// What runs need: saves, pictures, messages. A folder that nobody had before, as the person's own files may
+// lie beside it; removed with all that is in it.
+class WorkFolder {
+  public:
+    static base::Result<WorkFolder> make(const fs::path& parent) {
+        std::string path = parent / ".terrane-bench-XXXXXX";
+        if (::mkdtemp(path.data())) return WorkFolder(path);
+        return base::fail("{}: no folder can be made in it: {}", parent.string(),
+                          std::generic_category().message(errno));
+    }
+    ~WorkFolder() {
+        std::error_code ignored;
+        if (!path_.empty()) fs::remove_all(path_, ignored);
+    }
+    WorkFolder(WorkFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+    WorkFolder& operator=(WorkFolder&&) = delete;
+
+    const fs::path& path() const { return path_; }
+
+  private:
+    explicit WorkFolder(fs::path path) : path_(std::move(path)) {}
+
+    fs::path path_;
+};
+
 // What the program says of itself and the graphics driver, from a process of its own.
-base::Result<json> programInfo(const fs::path& program, const fs::path& folder) {
-    const fs::path errors = folder / "info.txt";
-    auto end = runChild({program.string(), "info", "--json"}, {folder, errors});
+base::Result<json> programInfo(const fs::path& program, const fs::path& work) {
+    auto end = runChild({program.string(), "info", "--json"}, {work, work / "messages.txt"});
     if (!end) return tl::unexpected(end.error());
-    std::error_code ignored;
-    fs::remove(errors, ignored);
     json info = json::parse(end->output, nullptr, false);
     if (end->exitCode != 0 || !info.is_object()) return base::fail("terrane info --json does not work");
     if (info["graphics"].contains("error"))
@@ -129,7 +155,9 @@ base::Result<void> bench(BenchOptions& options) {
     const fs::path program = fmt::format("/proc/{}/exe", ::getpid());
     auto folder = outputFolder(options.output);
     if (!folder) return tl::unexpected(folder.error());
-    auto info = programInfo(program, *folder);
+    const auto work = WorkFolder::make(*folder);
+    if (!work) return tl::unexpected(work.error());
+    auto info = programInfo(program, work->path());
     if (!info) return tl::unexpected(info.error());
     const BenchSettings settings = settingsOf(options, (*info)["graphics"]);
     const std::vector<Table> tables = chosenTables(settings, options.only);
@@ -142,10 +170,8 @@ base::Result<void> bench(BenchOptions& options) {
     if (!results) return tl::unexpected(results.error());
     const std::vector<Cell> cells = cellsOf(tables);
     base::logInfo("{} tables, {} measurements of {} runs each", tables.size(), cells.size(), settings.runs);
-    BenchRunner runner(program, *folder, settings.runs, *results);
+    BenchRunner runner(program, work->path(), settings.runs, *results);
     if (auto done = measureAll(cells, runner, *results); !done) return done;
-    std::error_code ignored;
-    fs::remove_all(*folder / "work", ignored);
 
     const ReportInput input{*about, loadAtStart, loadAverage(), settings.isQuick, hasGnuplot()};
     if (!input.drawsPlots) base::logWarning("gnuplot is missing: no plots");
@@ -192,7 +218,7 @@ CommandEntry addBench(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("bench", "Measure: the tables of docs/performance.md as Markdown, CSV and SVG");
     command->add_option("-o,--output", options->output, "The folder for results, made where it is not there")
-        ->type_name("FOLDER");
+        ->type_name("DIR");
     const auto isTable = [](const std::string& text) -> std::string {
         for (const Table& table : planTables({}))
             if (table.name == text) return {};

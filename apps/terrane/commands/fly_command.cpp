@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 
+#include "apps/terrane/backend.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/flight.h"
 #include "apps/terrane/options.h"
@@ -19,6 +20,7 @@ struct FlyOptions {
     WorldOptions world;
     SaveOptions save;
     GraphicsOptions graphics;
+    Backend backend = Backend::Auto;
     PlaceOptions place;
     double seconds = 20;
     std::string output;
@@ -30,7 +32,7 @@ base::Result<Flight> flightOf(const FlyOptions& options) {
     if (!place) return tl::unexpected(place.error());
     // A scene looks down on the ground.
     if (!options.place.look) place->camera.pitch = 0;
-    return Flight{place->camera, options.seconds, options.graphics.viewDistance, place->timeDay};
+    return Flight{place->camera, options.seconds, options.graphics.viewDistance, place->timeDay, false};
 }
 
 base::Result<void> writeFrames(const std::string& file, std::span<const FlightFrame> frames) {
@@ -56,23 +58,25 @@ void report(const FlightLog& log) {
     base::logInfo(
         "{} frames over twice the median; without the time in loading {} would not be, without its processor "
         "time {}",
-        figures.slow, figures.slowByWaiting, figures.slowByLoading);
+        figures.slow, figures.slowByLoadingTime, figures.slowByLoadingProcessor);
 }
 
 base::Result<void> flyAndTell(const FlyOptions& options, const CLI::App& command) {
     if (options.output.empty() && !options.json) return base::fail("fly needs --output or --json");
-    const auto flight = flightOf(options);
+    auto flight = flightOf(options);
     if (!flight) return tl::unexpected(flight.error());
     auto world = Offscreen::create(options.world, options.save, options.graphics, command);
     if (!world) return tl::unexpected(world.error());
-    const FlightLog log = fly(**world, *flight);
+    flight->meshesOnGpu = usesGpu(options.backend);
+    const auto log = fly(**world, *flight);
+    if (!log) return tl::unexpected(log.error());
     if (!options.output.empty()) {
-        if (auto written = writeFrames(options.output, framesInFlight(log)); !written) return written;
+        if (auto written = writeFrames(options.output, framesInFlight(*log)); !written) return written;
     }
     if (auto saved = (*world)->session->save(); !saved) return saved;
     if (auto finished = (*world)->finish(); !finished) return finished;
-    report(log);
-    if (options.json) std::cout << nlohmann::json{{"flight", jsonOf(log)}}.dump() << '\n';
+    report(*log);
+    if (options.json) std::cout << nlohmann::json{{"flight", jsonOf(*log)}}.dump() << '\n';
     return {};
 }
 
@@ -90,6 +94,7 @@ CommandEntry addFly(CLI::App& app) {
     command->get_option("--output")->required(false);
     command->add_flag("--json", options->json, "Print figures of the flight as JSON");
     addWorldOptions(*command, options->world);
+    addBackendOption(*command, options->backend, "Where to make meshes");
     addGraphicsOptions(*command, options->graphics, "auto");
     addSaveGameOptions(*command, options->save);
     return {command, [options, command] { return flyAndTell(*options, *command); }};

@@ -7,6 +7,7 @@
 #include "apps/terrane/options.h"
 #include "apps/terrane/resource_pack.h"
 #include "apps/terrane/spawn.h"
+#include "apps/terrane/stop_signals.h"
 #include "apps/terrane/window/game.h"
 #include "apps/terrane/window/icon.h"
 #include "apps/terrane/window/positions.h"
@@ -25,7 +26,7 @@ constexpr const char* kKeys = R"(Keys:
   F3, F4                  from above; a map of how far chunks are
   F5, F6                  save the place in positions.txt, go to the next one there
   F11, F12, L             full screen; screenshot; light classic or smooth
-  Esc                     end typing, close the chest, quit)";
+  Esc                     end typing, close the chest, quit; Ctrl+C in the terminal quits, too)";
 
 struct PlayOptions {
     WorldOptions world;
@@ -42,13 +43,11 @@ struct PlayOptions {
 // What the person sees first: a place of the positions file, where the save was left, or a pleasant place.
 base::Result<render::Camera> startOf(const PlayOptions& options, const WorldSession& session) {
     if (options.position) {
-        const GameOptions defaults;
-        auto positions = readPositions(defaults.positions);
+        auto positions = readPositions(kPositionsFile);
         if (!positions) return tl::unexpected(positions.error());
         const auto number = static_cast<std::size_t>(*options.position);
         if (number > positions->size()) {
-            return base::fail("--position {}: {} has {}", number, defaults.positions.string(),
-                              positions->size());
+            return base::fail("--position {}: {} has {}", number, kPositionsFile, positions->size());
         }
         return (*positions)[number - 1];
     }
@@ -122,10 +121,12 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
     if (usesGpu(options.backend)) {
         if (auto meshes = view.meshOnGpu(WorldView::kFrameMilliseconds); !meshes) return meshes;
     }
-    Game loop({*window, **session, *renderer, view, *preview, compiler}, game);
-    if (auto played = loop.run(); !played) return played;
+    const StopSignals signals;
+    Game loop({*window, **session, *renderer, view, *preview, compiler, shaders, signals}, game);
+    const auto played = loop.run();
     auto written = writeChanges(options.settingsFile, valuesOf(game.settings, device.software),
                                 valuesOf(loop.settings(), device.software), graphicsSettings());
+    if (!played) return played;
     if (!written) return written;
     if (window->debugLog() && window->debugLog()->errorCount() > 0) {
         return base::fail("the graphics driver reported errors, see above");

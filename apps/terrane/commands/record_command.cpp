@@ -10,7 +10,7 @@
 #include "apps/terrane/record/frame_sink.h"
 #include "apps/terrane/record/recorder.h"
 #include "apps/terrane/record/script_file.h"
-#include "apps/terrane/record/stop_signals.h"
+#include "apps/terrane/stop_signals.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 
@@ -57,8 +57,7 @@ base::Result<std::unique_ptr<FrameSink>> openSink(const RecordOptions& options) 
 }
 
 base::Result<void> drawFrames(Recorder& recorder, FrameSink& sink, const FrameRange& range,
-                              int framesPerSecond) {
-    const StopSignals signals;
+                              int framesPerSecond, const StopSignals& signals) {
     ProgressBar bar("recording", static_cast<std::size_t>(range.end - range.first));
     for (std::int64_t k = range.first; k < range.end; ++k) {
         auto image = recorder.frame(static_cast<double>(k) / framesPerSecond);
@@ -82,12 +81,13 @@ base::Result<void> recordVideo(const RecordOptions& options, const CLI::App& com
 
     auto world = Offscreen::create(script->world, {}, optionsAt(shotAt(*script, options.from), 0), command);
     if (!world) return tl::unexpected(world.error());
+    const StopSignals signals;  // until the file is finished: an unfinished one goes with its sink
     auto sink = openSink(options);
     if (!sink) return tl::unexpected(sink.error());
 
     const auto start = std::chrono::steady_clock::now();
     Recorder recorder({*script, **world, titles, options.graphics.size});
-    auto drawn = drawFrames(recorder, **sink, *range, options.framesPerSecond);
+    auto drawn = drawFrames(recorder, **sink, *range, options.framesPerSecond, signals);
     if (!drawn) return drawn;
     if (auto finished = (*world)->finish(); !finished) return finished;
     if (auto finished = (*sink)->finish(); !finished) return finished;

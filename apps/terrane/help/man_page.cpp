@@ -24,7 +24,9 @@ Done.
 .TP
 1
 .B terrane check
-found damage.
+found damage, or a measurement of
+.B terrane bench
+failed.
 .TP
 2
 Bad input, or something that is needed is missing; one line on standard error says what.

@@ -3,8 +3,6 @@
 // machine is. Used on the thread of the OpenGL context.
 #pragma once
 
-#include <functional>
-
 #include "apps/terrane/offscreen.h"
 #include "apps/terrane/record/edit_player.h"
 #include "apps/terrane/record/script.h"

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
+#include <span>
 
 #include "apps/terrane/options.h"
 #include "apps/terrane/record/script_values.h"
@@ -17,11 +18,20 @@ using world::ContentTable;
 constexpr double kMostSeconds = 24 * 3600;           // of a shot
 constexpr std::int64_t kMostBlocksOfEdit = 1 << 18;  // about a second of work
 
+Names with(Names names, std::span<const GraphicsRow> rows) {
+    for (const GraphicsRow& row : rows) names.emplace_back(row.name);
+    return names;
+}
+
 // Flags that say how a frame is drawn, a preset before what changes it.
 Names drawingFlags() {
-    Names names = {"preset", "view-distance", "view", "aggregation", "region-height"};
-    for (const GraphicsRow& row : graphicsTable()) names.emplace_back(row.name);
-    return names;
+    return with({"preset", "view-distance", "view", "aggregation", "region-height"}, graphicsTable());
+}
+
+// A preset on the command line stands alone, as with settings of the window.
+Names passedOver(const Names& given) {
+    const bool hasPreset = std::ranges::find(given, "preset") != given.end();
+    return hasPreset ? with(given, graphicsTable()) : given;
 }
 
 Names with(Names names, std::initializer_list<const char*> more) {
@@ -33,7 +43,7 @@ Names with(Names names, std::initializer_list<const char*> more) {
 class ScriptReader {
   public:
     ScriptReader(std::string_view file, const ScriptDefaults& defaults, const world::BlockRegistry& blocks)
-        : file_(file), defaults_(defaults), blocks_(blocks) {}
+        : file_(file), defaults_(defaults), passedOver_(passedOver(defaults.given)), blocks_(blocks) {}
 
     base::Result<Script> read(const toml::table& root);
 
@@ -56,6 +66,7 @@ class ScriptReader {
 
     std::string_view file_;
     const ScriptDefaults& defaults_;
+    const Names passedOver_;
     const world::BlockRegistry& blocks_;
     std::optional<std::string> error_;
 };
@@ -64,14 +75,14 @@ WorldOptions ScriptReader::worldOf(ContentTable& table) {
     WorldOptions world = defaults_.world;
     CLI::App flags;
     addWorldOptions(flags, world);
-    applyFlags(table, flags, {"seed", "generator"}, defaults_.given);
+    applyFlags(table, flags, {"seed", "generator"}, passedOver_);
     return world;
 }
 
 GraphicsOptions ScriptReader::graphicsAfter(GraphicsOptions graphics, ContentTable& table) {
     CLI::App flags;
     addGraphicsOptions(flags, graphics, graphics.choices.preset);
-    applyFlags(table, flags, drawingFlags(), defaults_.given);
+    applyFlags(table, flags, drawingFlags(), passedOver_);
     return graphics;
 }
 

@@ -15,8 +15,9 @@ namespace terrane::app {
 struct ScriptDefaults {
     WorldOptions world;
     GraphicsOptions graphics;
-    std::vector<std::string>
-        given;  // flags, without dashes: the file's options of these names are passed over
+    // Flags, without dashes: the file's options of these names are passed over; with a preset all that it
+    // stands for.
+    std::vector<std::string> given;
 };
 
 // `name` stands for the file in errors.

@@ -39,6 +39,11 @@ base::Result<void> BlockPreview::setTextures(const render::TextureSource& textur
     return renderer_.setTextures(*blocks_, textures);
 }
 
+base::Result<void> BlockPreview::reloadShaders() {
+    pictures_.clear();
+    return renderer_.reloadShaders();
+}
+
 gpu::Texture2D BlockPreview::draw(world::BlockId block) {
     renderer_.setChunk({0, 0}, meshOf(block, *blocks_));
     renderer_.draw({kCamera, world::environmentAt(0.4f), 1000.0f});

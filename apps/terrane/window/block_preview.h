@@ -21,6 +21,7 @@ class BlockPreview {
                                              const render::TextureSource& textures,
                                              const gpu::DeviceInfo& device);
     base::Result<void> setTextures(const render::TextureSource& textures);
+    base::Result<void> reloadShaders();  // of pictures as they are asked for from then on
 
     // The OpenGL texture with the block's picture. Its rows run from below.
     unsigned picture(world::BlockId block);

@@ -31,12 +31,12 @@ Game::Game(const GameParts& parts, const GameOptions& options)
     : parts_(parts),
       settings_(options.settings),
       applied_(options.settings),
-      positionsFile_(options.positions),
       isSoftwareRenderer_(options.isSoftwareRenderer),
       imgui_(parts.window),
       player_(options.start, options.settings.movement),
       hand_(parts.session.blocks),
       day_(options.day),
+      shadersRead_(parts.shaders.newestWrite()),
       perfData_(options.perfData) {
     parts_.session.pipeline->setMeshOptions(settings_.mesh);
     parts_.renderer.setViewDistance(settings_.viewDistance);
@@ -48,8 +48,17 @@ base::Result<void> Game::run() {
         if (!log) return tl::unexpected(log.error());
         perfLog_ = std::move(*log);
     }
+    const auto drawn = drawFrames();
+    const glm::dvec3& p = player_.camera().position;
+    base::logInfo("closed after {} frames at {:.2f},{:.2f},{:.2f}", frames_, p.x, p.y, p.z);
+    const auto saved = leave();
+    if (!drawn && !saved) base::logError("{}", saved.error().message);
+    return drawn ? saved : drawn;
+}
+
+base::Result<void> Game::drawFrames() {
     double last = parts_.window.timeSeconds();
-    while (!parts_.window.shouldClose()) {
+    while (!parts_.window.shouldClose() && !parts_.signals.stopAsked()) {
         parts_.window.pollEvents();
         handleEvents();
         const double now = parts_.window.timeSeconds(), seconds = now - last;
@@ -57,12 +66,11 @@ base::Result<void> Game::run() {
         meter_.add(seconds);
         advance(seconds);
         applySettings();
+        reloadWrittenShaders();
         if (auto drawn = drawFrame(seconds); !drawn) return drawn;
         if (perfLog_) perfLog_->add(seconds_, seconds, figures());
     }
-    const glm::dvec3& p = player_.camera().position;
-    base::logInfo("closed after {} frames at {:.2f},{:.2f},{:.2f}", frames_, p.x, p.y, p.z);
-    return leave();
+    return {};
 }
 
 void Game::advance(double seconds) {
@@ -105,6 +113,17 @@ base::Result<void> Game::useResourcePack(const std::string& folder) {
     return parts_.preview.setTextures(*textures);
 }
 
+// While developing, a shader is seen as soon as it is written. One that is wrong changes nothing.
+void Game::reloadWrittenShaders() {
+    const WriteTime written = shadersWritten_.at(seconds_, [&] { return parts_.shaders.newestWrite(); });
+    if (written == shadersRead_) return;
+    shadersRead_ = written;
+    auto done = parts_.renderer.reloadShaders();
+    if (done) done = parts_.preview.reloadShaders();
+    if (!done) base::logWarning("{}", done.error().message);
+    say(done ? "shaders are read again" : done.error().message);
+}
+
 bool Game::shadersAreReady(glm::ivec2 size) {
     constexpr glm::ivec2 kPreview(BlockPreview::kSize);
     if (hasWorldPicture() && settings_.graphics == parts_.renderer.options()) return true;
@@ -113,7 +132,7 @@ bool Game::shadersAreReady(glm::ivec2 size) {
 }
 
 // Other options come once their shaders are compiled; until then frames are drawn as before, and at first
-// none.
+// none. Options that cannot be drawn are taken back.
 base::Result<void> Game::configureRenderer(glm::ivec2 size) {
     render::Renderer& renderer = parts_.renderer;
     render::RenderOptions options = settings_.graphics;
@@ -123,7 +142,12 @@ base::Result<void> Game::configureRenderer(glm::ivec2 size) {
         options = renderer.options();
     }
     if (size == renderer.size() && options == renderer.options()) return {};
-    return renderer.configure(size, options);
+    const auto configured = renderer.configure(size, options);
+    if (configured || !hasWorldPicture() || options == renderer.options()) return configured;
+    base::logWarning("{}", configured.error().message);
+    say(configured.error().message);
+    settings_.graphics = renderer.options();
+    return {};
 }
 
 base::Result<void> Game::drawFrame(double seconds) {

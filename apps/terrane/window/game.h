@@ -2,9 +2,9 @@
 // putting these together lies in the files beside this one.
 #pragma once
 
-#include <filesystem>
 #include <string>
 
+#include "apps/terrane/stop_signals.h"
 #include "apps/terrane/window/block_preview.h"
 #include "apps/terrane/window/day_clock.h"
 #include "apps/terrane/window/frame_meter.h"
@@ -31,6 +31,8 @@ struct GameParts {
     WorldView& view;
     BlockPreview& preview;
     render::BackgroundCompiler& compiler;
+    const gpu::ShaderLoader& shaders;
+    const StopSignals& signals;
 };
 
 struct GameOptions {
@@ -38,21 +40,23 @@ struct GameOptions {
     render::Camera start;
     DayClock day;
     bool isSoftwareRenderer = false;
-    std::filesystem::path positions = "positions.txt";
     std::string perfData;  // file; empty: none
 };
 
 class Game {
   public:
     static constexpr double kMemoryPause = 0.5;  // seconds for which figures of memory stay as they are
+    static constexpr double kShaderPause = 1;    // seconds between looks at the files of shaders
 
     Game(const GameParts& parts, const GameOptions& options);
 
-    // Until the window closes; then everything is saved.
+    // Until the window closes, a signal asks to stop or a frame fails; then everything is saved.
     base::Result<void> run();
     const PlaySettings& settings() const { return settings_; }
 
   private:
+    using WriteTime = std::optional<std::filesystem::file_time_type>;
+
     void handleEvents();
     void onKey(gpu::Key key);
     void onPad(double seconds);
@@ -67,9 +71,11 @@ class Game {
     void say(std::string message);
 
     MoveKeys moveKeys() const;
+    base::Result<void> drawFrames();
     void advance(double seconds);
     void applySettings();
     base::Result<void> useResourcePack(const std::string& folder);
+    void reloadWrittenShaders();
     bool hasWorldPicture() const { return parts_.renderer.size().x > 0; }
     bool shadersAreReady(glm::ivec2 size);
     base::Result<void> configureRenderer(glm::ivec2 size);
@@ -83,7 +89,6 @@ class Game {
 
     GameParts parts_;
     PlaySettings settings_, applied_;
-    std::filesystem::path positionsFile_;
     bool isSoftwareRenderer_;
     ImguiLayer imgui_;
     Player player_;
@@ -92,6 +97,8 @@ class Game {
     PadReader pad_;
     FrameMeter meter_;
     TimedValue<MemoryFigures> memory_{kMemoryPause};
+    TimedValue<WriteTime> shadersWritten_{kShaderPause};
+    WriteTime shadersRead_;                 // the newest one when they were last read
     std::optional<world::BlockPos> chest_;  // the open one
     std::string perfData_;
     std::optional<PerfLog> perfLog_;

@@ -175,12 +175,12 @@ void Game::say(std::string message) {
 }
 
 void Game::savePosition() {
-    const auto done = appendPosition(positionsFile_, player_.camera());
-    say(done ? "position saved in " + positionsFile_.string() : done.error().message);
+    const auto done = appendPosition(kPositionsFile, player_.camera());
+    say(done ? fmt::format("position saved in {}", kPositionsFile) : done.error().message);
 }
 
 void Game::nextPosition() {
-    const auto positions = readPositions(positionsFile_);
+    const auto positions = readPositions(kPositionsFile);
     if (!positions) return say(positions.error().message);
     if (positions->empty()) return say("no position is saved yet (F5)");
     render::Camera camera = (*positions)[nextPosition_++ % positions->size()];

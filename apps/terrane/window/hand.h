@@ -1,4 +1,4 @@
-// What the person does to blocks: breaks, builds, uses, and which block it builds with. Called by the game's
+// What the person does to blocks: breaks, builds, and which block it builds with. Called by the game's
 // loop once a frame.
 #pragma once
 
@@ -29,7 +29,7 @@ class Hand {
     // What the person looks at and can reach, as of the last act().
     const std::optional<world::RayHit>& target() const { return target_; }
 
-    // Breaks or builds where a button is held. `body`: is never built into.
+    // Breaks or builds where a button is held; never into the player.
     void act(const world::World& world, const world::BlockRegistry& blocks, stream::ChunkPipeline& pipeline,
              const Player& player, double seconds);
 

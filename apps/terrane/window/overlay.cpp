@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
@@ -186,7 +187,8 @@ void drawHint(const Screen& screen, float share) {
 
 void drawMessage(const Screen& screen, const std::string& message, float share) {
     const ImVec2 size = ImGui::CalcTextSize(message.c_str());
-    const ImVec2 at((screen.width - size.x) / 2, screen.height * 0.75f);
+    // Long messages begin where they can be read.
+    const ImVec2 at(std::max(0.0f, (screen.width - size.x) / 2), screen.height * 0.75f);
     ImDrawList& draw = *ImGui::GetForegroundDrawList();
     draw.AddText({at.x + uiScale(), at.y + uiScale()}, withAlpha(0, 0, 0, share), message.c_str());
     draw.AddText(at, withAlpha(255, 255, 255, share), message.c_str());

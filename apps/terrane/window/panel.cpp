@@ -28,7 +28,7 @@ bool combo(const char* label, int& chosen, int count, WordOf wordOf) {
 }
 
 template <class T>
-void choice(const char* label, T& value, std::span<const std::pair<std::string, T>> words) {
+void choice(const char* label, T& value, Words<T> words) {
     int chosen = -1;
     for (std::size_t k = 0; k < words.size(); ++k) {
         if (words[k].second == value) chosen = static_cast<int>(k);
@@ -75,11 +75,7 @@ void drawRow(const GraphicsRow& row, render::RenderOptions& graphics) {
 }
 
 void drawView(PlaySettings& s) {
-    constexpr const char* kViews[] = {"color", "normal", "depth", "aggregation", "light"};
-    int view = static_cast<int>(s.view);
-    if (combo("view", view, static_cast<int>(std::size(kViews)), [&](int k) { return kViews[k]; })) {
-        s.view = static_cast<render::View>(view);
-    }
+    choice("view", s.view, viewWords());
     ImGui::SliderInt("view distance", &s.viewDistance, 2, 64, "%d", kTyped);
     ImGui::SliderFloat("field of view", &s.fieldOfView, 40, 110, "%.0f", kTyped);
     choice("aggregation", s.mesh.method, aggregationWords());

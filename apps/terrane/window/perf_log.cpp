@@ -5,7 +5,6 @@
 #include "apps/terrane/process_figures.h"
 
 namespace terrane::app {
-namespace {}  // namespace
 
 base::Result<PerfLog> PerfLog::create(const std::filesystem::path& file) {
     PerfLog log(file);

@@ -8,7 +8,7 @@ namespace terrane::app {
 namespace {
 
 template <class T>
-std::string wordOf(std::span<const std::pair<std::string, T>> words, T value) {
+std::string wordOf(Words<T> words, T value) {
     for (const auto& [word, meaning] : words) {
         if (meaning == value) return word;
     }
@@ -17,21 +17,11 @@ std::string wordOf(std::span<const std::pair<std::string, T>> words, T value) {
 
 }  // namespace
 
-std::span<const std::pair<std::string, Movement>> movementWords() {
+Words<Movement> movementWords() {
     static const std::array<std::pair<std::string, Movement>, 4> words = {{{"fast", Movement::Fast},
                                                                            {"medium", Movement::Medium},
                                                                            {"walls", Movement::Walls},
                                                                            {"gravity", Movement::Gravity}}};
-    return words;
-}
-
-std::span<const std::pair<std::string, mesh::Method>> aggregationWords() {
-    using mesh::Method;
-    static const std::array<std::pair<std::string, Method>, 5> words = {{{"none", Method::None},
-                                                                         {"lines", Method::Lines},
-                                                                         {"squares", Method::Squares},
-                                                                         {"squares-ext", Method::SquaresExt},
-                                                                         {"greedy", Method::Greedy}}};
     return words;
 }
 

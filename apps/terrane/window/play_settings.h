@@ -4,6 +4,7 @@
 #include <string>
 
 #include "apps/terrane/graphics_table.h"
+#include "apps/terrane/option_values.h"
 #include "apps/terrane/window/player.h"
 #include "apps/terrane/window/settings.h"
 #include "terrane/mesh/mesh_options.h"
@@ -27,9 +28,7 @@ struct PlaySettings {
     bool operator==(const PlaySettings&) const = default;
 };
 
-// The words of the options --movement, --aggregation.
-std::span<const std::pair<std::string, Movement>> movementWords();
-std::span<const std::pair<std::string, mesh::Method>> aggregationWords();
+Words<Movement> movementWords();  // of the option --movement
 
 // The options of graphics that a preset stands for, and the preset.
 std::vector<std::string> graphicsSettings();

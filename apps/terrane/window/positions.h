@@ -11,6 +11,8 @@
 
 namespace terrane::app {
 
+constexpr const char* kPositionsFile = "positions.txt";  // in the working directory
+
 std::string textOf(const render::Camera& camera);                   // "x y z yaw pitch"
 std::optional<render::Camera> cameraFrom(const std::string& text);  // none for anything else
 

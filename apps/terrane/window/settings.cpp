@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
+#include <functional>
 #include <optional>
+#include <sstream>
 #include <system_error>
 
 #include "apps/terrane/toml_flags.h"
+#include "terrane/base/files.h"
 
 namespace terrane::app {
 namespace {
@@ -33,33 +35,104 @@ base::Result<void> applyOne(const fs::path& file, CLI::App& command, const toml:
     return set ? set : wrong(set.error().message);
 }
 
+struct SettingsText {
+    std::string text;
+    toml::table table;
+};
+
 // Empty where there is no file.
-base::Result<toml::table> readTable(const fs::path& file) {
+base::Result<SettingsText> readSettings(const fs::path& file) {
     std::error_code ignored;
-    if (!fs::exists(file, ignored)) return toml::table();
+    if (!fs::exists(file, ignored)) return SettingsText();
+    auto text = base::readFile(file);
+    if (!text) return tl::unexpected(text.error());
     try {
-        return toml::parse_file(file.string());
+        toml::table table = toml::parse(*text, file.string());
+        return SettingsText{std::move(*text), std::move(table)};
     } catch (const toml::parse_error& error) {
         return base::fail("{}:{}: {}", file.string(), error.source().begin.line, error.description());
     }
 }
 
-base::Result<void> writeTable(const fs::path& file, const toml::table& table) {
-    std::error_code error;
-    fs::create_directories(file.parent_path(), error);
-    fs::path fresh = file;
-    fresh += ".new";
-    std::ofstream out(fresh);
-    out << "# Settings of Terrane: options of `terrane play` (see its --help).\n" << table << '\n';
-    out.close();
-    if (out) fs::rename(fresh, file, error);
-    if (!out || error) return base::fail("{}: cannot be written", file.string());
-    return {};
-}
-
 std::optional<std::string> valueOf(const SettingValues& values, const std::string& name) {
     const auto found = values.find(name);
     return found != values.end() ? std::optional(found->second) : std::nullopt;
+}
+
+// Settings and what they become; none: they go.
+using Changes = std::map<std::string, std::optional<std::string>>;
+
+Changes changesOf(const SettingValues& before, const SettingValues& after,
+                  const std::vector<std::string>& graphics) {
+    Changes changes;
+    if (valueOf(before, "preset") != valueOf(after, "preset"))
+        for (const std::string& name : graphics) changes[name] = valueOf(after, name);
+    for (const auto& [name, value] : before)
+        if (!after.contains(name)) changes[name] = std::nullopt;
+    for (const auto& [name, value] : after)
+        if (valueOf(before, name) != value) changes[name] = value;
+    return changes;
+}
+
+// Bytes in front of a place, which the parser names by line and letter, both from 1.
+std::size_t offsetOf(std::string_view text, toml::source_position place) {
+    std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // a byte order mark is no letter
+    for (toml::source_index line = 1; line < place.line; ++line) at = text.find('\n', at) + 1;
+    for (toml::source_index letter = 1; letter < place.column && at < text.size(); ++letter) {
+        do ++at;
+        while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80);
+    }
+    return at;
+}
+
+std::string tomlOf(const std::string& value) {
+    std::ostringstream out;
+    out << toml::value<std::string>(value);
+    return out.str();
+}
+
+struct Replacement {
+    std::size_t begin = 0, end = 0;  // bytes of the text
+    std::string text;
+};
+
+// Of the value alone, or of its lines where the setting goes.
+Replacement replacementOf(std::string_view text, const toml::key& key, const toml::node& node,
+                          const std::optional<std::string>& value) {
+    const std::size_t end = offsetOf(text, node.source().end);
+    if (value) return {offsetOf(text, node.source().begin), end, tomlOf(*value)};
+    const std::size_t newline = text.find('\n', end);
+    return {offsetOf(text, {key.source().begin.line, 1}),
+            newline == std::string_view::npos ? text.size() : newline + 1, ""};
+}
+
+// Everything else, comments too, stays as it is; what is new comes last.
+std::string withChanges(const SettingsText& settings, const Changes& changes) {
+    std::string text = settings.text, added;
+    std::vector<Replacement> replacements;
+    for (const auto& [name, value] : changes) {
+        const auto found = settings.table.find(name);
+        if (found != settings.table.end()) {
+            replacements.push_back(replacementOf(text, found->first, found->second, value));
+        } else if (value) {
+            added += name + " = " + tomlOf(*value) + '\n';
+        }
+    }
+    // From the end, so that the places of the others stay.
+    std::ranges::sort(replacements, std::greater<>(), &Replacement::begin);
+    for (const Replacement& part : replacements) text.replace(part.begin, part.end - part.begin, part.text);
+    if (text.empty()) text = "# Settings of Terrane: options of `terrane play` (see its --help).\n";
+    if (!text.ends_with('\n')) text += '\n';
+    return text + added;
+}
+
+// Where links lead, so that they stay links.
+fs::path behindLinks(fs::path file) {
+    constexpr int kMostLinks = 40;  // as the system follows
+    std::error_code error;
+    for (int k = 0; k < kMostLinks && fs::is_symlink(file, error); ++k)
+        file = file.parent_path() / fs::read_symlink(file, error);
+    return file;
 }
 
 }  // namespace
@@ -77,9 +150,9 @@ fs::path settingsPath() {
 base::Result<void> applySettings(const fs::path& file, CLI::App& command,
                                  const std::vector<std::string>& graphics) {
     if (file.empty()) return {};
-    const auto read = readTable(file);
+    const auto read = readSettings(file);
     if (!read) return tl::unexpected(read.error());
-    const toml::table& table = *read;
+    const toml::table& table = read->table;
     const bool standsAlone = command.get_option("--preset")->count() > 0;
     // In the order of the options: a preset comes before what is changed of it.
     for (const CLI::Option* option : command.get_options()) {
@@ -99,21 +172,12 @@ base::Result<void> applySettings(const fs::path& file, CLI::App& command,
 base::Result<void> writeChanges(const fs::path& file, const SettingValues& before, const SettingValues& after,
                                 const std::vector<std::string>& graphics) {
     if (file.empty() || before == after) return {};
-    auto table = readTable(file);
-    if (!table) return tl::unexpected(table.error());
-    if (valueOf(before, "preset") != valueOf(after, "preset")) {
-        for (const std::string& name : graphics) table->erase(name);
-        for (const std::string& name : graphics) {
-            if (const auto value = valueOf(after, name)) table->insert_or_assign(name, *value);
-        }
-    }
-    for (const auto& [name, value] : before) {
-        if (!after.contains(name)) table->erase(name);
-    }
-    for (const auto& [name, value] : after) {
-        if (valueOf(before, name) != value) table->insert_or_assign(name, value);
-    }
-    return writeTable(file, *table);
+    const auto settings = readSettings(file);
+    if (!settings) return tl::unexpected(settings.error());
+    const fs::path target = behindLinks(file);
+    std::error_code ignored;  // what is wrong shows when the file is written
+    fs::create_directories(target.parent_path(), ignored);
+    return base::writeFile(target, withChanges(*settings, changesOf(before, after, graphics)));
 }
 
 }  // namespace terrane::app

@@ -27,9 +27,9 @@ using SettingValues = std::map<std::string, std::string>;  // option without das
 base::Result<void> applySettings(const std::filesystem::path& file, CLI::App& command,
                                  const std::vector<std::string>& graphics);
 
-// Writes what differs between `before` and `after`, as a person changed it; all else in the file stays, so
-// that options of one command line do not become settings. Another preset replaces all of the `graphics`
-// options. Makes the file and its folder.
+// Writes what differs between `before` and `after`, as a person changed it; all else in the file stays,
+// comments and order too, so that options of one command line do not become settings. Another preset replaces
+// all of the `graphics` options. Makes the file and its folder; a link stays one.
 base::Result<void> writeChanges(const std::filesystem::path& file, const SettingValues& before,
                                 const SettingValues& after, const std::vector<std::string>& graphics);
 

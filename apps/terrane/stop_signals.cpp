@@ -1,6 +1,4 @@
-#include "apps/terrane/record/stop_signals.h"
-
-#include <csignal>
+#include "apps/terrane/stop_signals.h"
 
 namespace terrane::app {
 namespace {
@@ -16,13 +14,14 @@ void ask(int) {
 
 StopSignals::StopSignals() {
     wasAsked = 0;
-    std::signal(SIGINT, ask);
-    std::signal(SIGTERM, ask);
+    for (std::size_t k = 0; k < kSignals.size(); ++k) {
+        before_[k] = std::signal(kSignals[k], ask);
+        if (kSignals[k] == SIGHUP && before_[k] == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+    }
 }
 
 StopSignals::~StopSignals() {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
+    for (std::size_t k = 0; k < kSignals.size(); ++k) std::signal(kSignals[k], before_[k]);
 }
 
 bool StopSignals::stopAsked() const {
