@@ -52,9 +52,22 @@ vec4 shadeLayer(Layer layer, float depth, float behind) {
     return air * color.a;
 }
 
+// Of one of the layers. Which one may differ from pixel to pixel: such an index of textures would be undefined.
+vec4 wordAt(ivec2 pixel, int k, int n) {
+    vec4 word = texelFetch(layerColors[0], pixel, k);
+    for (int m = 1; m < LAYERS; ++m) word = m == n ? texelFetch(layerColors[m], pixel, k) : word;
+    return word;
+}
+
+float layerDepthAt(ivec2 pixel, int k, int n) {
+    float depth = texelFetch(layerDepths[0], pixel, k).r;
+    for (int m = 1; m < LAYERS; ++m) depth = m == n ? texelFetch(layerDepths[m], pixel, k).r : depth;
+    return depth;
+}
+
 // A layer that has no face there has the depth of what is opaque, and behind it there are none.
 bool isThere(ivec2 pixel, int k, int n) {
-    return texelFetch(layerDepths[n], pixel, k).r > depthAt(pixel, k);
+    return layerDepthAt(pixel, k, n) > depthAt(pixel, k);
 }
 
 int layersAt(ivec2 pixel, int k) {
@@ -63,14 +76,14 @@ int layersAt(ivec2 pixel, int k) {
     return count;
 }
 
+// A loop over the layers that are there: software renderers run what a branch leaves out.
 vec4 shadeLayers(ivec2 pixel, int k) {
     vec4 sum = vec4(0.0);
     float behind = depthAt(pixel, k);
-    int count = layersAt(pixel, k);
-    for (int n = LAYERS - 1; n >= 0; --n) {
-        if (n >= count || (frame.camera.w != 0 && frame.camera.w != n + 1)) continue;
-        float depth = texelFetch(layerDepths[n], pixel, k).r;
-        vec4 color = shadeLayer(unpackLayer(texelFetch(layerColors[n], pixel, k)), depth, behind);
+    for (int n = layersAt(pixel, k) - 1; n >= 0; --n) {
+        float depth = layerDepthAt(pixel, k, n);
+        bool isShown = frame.camera.w == 0 || frame.camera.w == n + 1;
+        vec4 color = isShown ? shadeLayer(unpackLayer(wordAt(pixel, k, n)), depth, behind) : vec4(0.0);
         sum = color + (1.0 - color.a) * sum;
         behind = depth;
     }
@@ -90,19 +103,24 @@ bool isOneLayer(ivec2 pixel) {
     return isSame;
 }
 
+vec4 shadeSamples(ivec2 pixel) {
+    int count = isOneLayer(pixel) ? 1 : SAMPLES;
+    vec4 sum = vec4(0.0);
+    for (int k = 0; k < count; ++k) sum += shadeLayers(pixel, k);
+    vec4 color = sum / float(count);
+    return frame.camera.w > 0 ? vec4(color.rgb + (1.0 - color.a) * kBackground, 1.0) : color;
+}
+
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
 #if QUADS == 1
     inRay = rayAt(2.0 * gl_FragCoord.xy / frame.viewport.xy - 1.0);
     outColor = shadeLayers(pixel, 0);
 #else
-    bool isAnyThere = false;
+    bool isAnyThere = frame.camera.w > 0;
     for (int k = 0; k < SAMPLES; ++k) isAnyThere = isAnyThere || isThere(pixel, k, 0);
-    if (!isAnyThere && frame.camera.w == 0) discard;
-    int count = isOneLayer(pixel) ? 1 : SAMPLES;
-    vec4 sum = vec4(0.0);
-    for (int k = 0; k < count; ++k) sum += shadeLayers(pixel, k);
-    outColor = sum / float(count);
-    if (frame.camera.w > 0) outColor = vec4(outColor.rgb + (1.0 - outColor.a) * kBackground, 1.0);
+    if (!isAnyThere) discard;
+    outColor = vec4(0.0);
+    for (bool isLeft = isAnyThere; isLeft; isLeft = false) outColor = shadeSamples(pixel);
 #endif
 }
