@@ -35,8 +35,14 @@ base::Result<FrameTargets> FrameTargets::create(glm::ivec2 size, int samples) {
     t.pictureColor = gpu::Texture2D(size, GL_RGBA8, 1, "picture");
     auto surfaces = gpu::Framebuffer::create({{t.surface.attachment()}, t.depth.attachment()}, "surfaces");
     if (!surfaces) return tl::unexpected(surfaces.error());
-    gpu::FramebufferOptions sceneOptions{{t.sceneColor}, {}};
-    if (t.samples == 1) sceneOptions.depth = t.depth.attachment();
+    gpu::FramebufferOptions sceneOptions{{t.sceneColor}, t.depth.attachment()};
+    if (t.samples > 1) {
+        t.maskDepth = gpu::Texture2D(size, GL_DEPTH_COMPONENT16, 1, "mask");
+        auto mask = gpu::Framebuffer::create({{}, t.maskDepth}, "mask");
+        if (!mask) return tl::unexpected(mask.error());
+        t.mask = std::move(*mask);
+        sceneOptions.depth = t.maskDepth;
+    }
     auto scene = gpu::Framebuffer::create(sceneOptions, "scene");
     if (!scene) return tl::unexpected(scene.error());
     auto picture = gpu::Framebuffer::create({{t.pictureColor}, {}}, "picture");

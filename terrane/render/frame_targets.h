@@ -41,9 +41,10 @@ struct FrameTargets {
     glm::ivec2 size{0};
     int wantedSamples = 0, samples = 0;  // a pixel; what the driver gives
     SampledTexture surface, depth;       // see surface_word.glsl; reversed depth
-    gpu::Texture2D sceneColor, pictureColor;
+    gpu::Texture2D sceneColor, pictureColor, maskDepth;
     gpu::Framebuffer surfaces;  // the G-buffer
-    gpu::Framebuffer scene;     // light, and coverage in alpha; with the depth where a pixel has one sample
+    gpu::Framebuffer scene;     // light, and coverage in alpha; depth: that of the one sample, or the mask
+    gpu::Framebuffer mask;      // where a pixel has several samples: see pixel_mask.h
     gpu::Framebuffer picture;   // as the screen shows it
 };
 

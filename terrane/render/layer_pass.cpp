@@ -22,7 +22,8 @@ LayerPass::LayerPass(const gpu::ShaderLoader& shaders)
     : first_(quadShaders(shaders, "layer", "first layer")),
       next_(quadShaders(shaders, "layer", "next layer")),
       shadeQuads_(quadShaders(shaders, "layers", "shade layers")),
-      shade_(shaders, "layers") {
+      shade_(shaders, "layers"),
+      mask_(shaders, PixelMask::Of::Layers) {
     for (auto& query : anyDrawn_) query = makeQuery();
 }
 
@@ -52,6 +53,7 @@ base::Result<void> LayerPass::selectVariants(int samples, const RenderOptions& o
                                                 {"LIGHT_SMOOTH", static_cast<int>(options.light)},
                                                 {"QUADS", shadesQuads_}});
     if (selected) selected = shadesQuads_ ? shadeQuads_.select(shading) : shade_.select(shading);
+    if (selected && isMasked_) selected = mask_.select(samples);
     return selected;
 }
 
@@ -60,6 +62,7 @@ base::Result<void> LayerPass::selectVariants(int samples, const RenderOptions& o
 base::Result<void> LayerPass::configure(const FrameTargets& targets, const RenderOptions& options,
                                         bool hasShadows) {
     shadesQuads_ = targets.samples == 1 && options.singleLayer == 0;
+    isMasked_ = targets.samples > 1 && options.singleLayer == 0;
     if (options.layers > 0) {
         if (auto selected = selectVariants(targets.samples, options, hasShadows); !selected) return selected;
     }
@@ -87,8 +90,8 @@ base::Result<void> LayerPass::configure(const FrameTargets& targets, const Rende
     return {};
 }
 
-// A layer starts with the depth of what is opaque: faces behind that fail the depth test, and where none is drawn
-// the depth tells so. The colour is not cleared.
+// A layer starts with the depth of what is opaque: faces behind that fail the depth test, and where none is
+// drawn the depth tells so. The colour is not cleared.
 void LayerPass::drawLayer(const FrameTargets& targets, const CullPass& culled, int number) {
     const auto index = static_cast<std::size_t>(number);
     Target& target = targets_[index];
@@ -123,6 +126,7 @@ void LayerPass::peel(const FrameTargets& targets, const CullPass& culled) {
 
 void LayerPass::shade(const FrameTargets& targets, const CullPass& culled) const {
     glBeginConditionalRender(anyDrawn_[0].id(), GL_QUERY_WAIT);
+    if (isMasked_) mask_.draw(targets);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glDepthMask(GL_FALSE);
@@ -134,7 +138,8 @@ void LayerPass::shade(const FrameTargets& targets, const CullPass& culled) const
         culled.drawContexts(mesh::AlphaClass::Blended, false);
     } else {
         targets.scene.bind();
-        glDisable(GL_DEPTH_TEST);
+        (isMasked_ ? glEnable : glDisable)(GL_DEPTH_TEST);
+        glDepthFunc(GL_LESS);
         shade_.draw();
     }
     glDisable(GL_DEPTH_TEST);

@@ -7,6 +7,7 @@
 #include "terrane/render/cull_pass.h"
 #include "terrane/render/frame_targets.h"
 #include "terrane/render/fullscreen_pass.h"
+#include "terrane/render/pixel_mask.h"
 #include "terrane/render/render_options.h"
 
 namespace terrane::render {
@@ -38,7 +39,9 @@ class LayerPass {
 
     ShaderVariants first_, next_, shadeQuads_;
     FullscreenPass shade_;
+    PixelMask mask_;
     bool shadesQuads_ = false;    // instead of the whole screen
+    bool isMasked_ = false;       // the whole screen but for pixels without layers
     gpu::Framebuffer overQuads_;  // the scene with the first layer's depth
     int layers_ = 0;
     glm::ivec2 size_{0};

@@ -117,10 +117,6 @@ void main() {
     inRay = rayAt(2.0 * gl_FragCoord.xy / frame.viewport.xy - 1.0);
     outColor = shadeLayers(pixel, 0);
 #else
-    bool isAnyThere = frame.camera.w > 0;
-    for (int k = 0; k < SAMPLES; ++k) isAnyThere = isAnyThere || isThere(pixel, k, 0);
-    if (!isAnyThere) discard;
-    outColor = vec4(0.0);
-    for (bool isLeft = isAnyThere; isLeft; isLeft = false) outColor = shadeSamples(pixel);
+    outColor = shadeSamples(pixel);
 #endif
 }

@@ -62,7 +62,6 @@ vec4 shadePixel(ivec2 pixel, float open) {
         nearest = max(nearest, depth);
         ++covered;
     }
-    if (covered == 0) discard;
     float share = 1.0 / float(covered);
     mean = Surface(mean.albedo * share, normalize(mean.normal + 1e-4), mean.glow * share, mean.direction);
     return shadeAt(mean, nearest, open) * float(covered) / float(SAMPLES);

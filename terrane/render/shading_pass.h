@@ -5,6 +5,7 @@
 #include "terrane/base/result.h"
 #include "terrane/render/frame_targets.h"
 #include "terrane/render/fullscreen_pass.h"
+#include "terrane/render/pixel_mask.h"
 #include "terrane/render/render_options.h"
 
 namespace terrane::render {
@@ -22,6 +23,7 @@ class ShadingPass {
 
   private:
     FullscreenPass sky_, shade_;
+    PixelMask skyMask_, surfaceMask_;
     bool fadesOverSky_ = false, hasAtmosphere_ = false;
 };
 

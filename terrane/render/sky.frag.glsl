@@ -1,10 +1,7 @@
-// The sky where it can be seen, behind surfaces that fade too. SAMPLES: of the G-buffer. CLOUDS: 1 draws clouds.
+// The sky where it can be seen, behind surfaces that fade too. CLOUDS: 1 draws clouds.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/sky_color.glsl"
 #include "terrane/render/clouds.glsl"
-#if SAMPLES > 1
-#include "terrane/render/surfaces.glsl"
-#endif
 
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
@@ -20,40 +17,27 @@ vec3 discColor(vec2 at) {
     return frame.discColor.rgb * mix(1.0, (0.35 + 0.65 * smoothstep(0.5, 1.0, pattern)) * (0.6 + 0.4 * rim), isMoon);
 }
 
-// `at`: from the disc's middle, 1 at its rim; `pixel`: its size there.
-vec4 disc(vec3 direction, vec2 at, float pixel) {
-    float share = dot(direction, frame.lightDirection.xyz) > 0.0 ? 1.0 - smoothstep(1.0 - pixel, 1.0, length(at)) : 0.0;
-    return vec4(discColor(at), share);
-}
-
-vec2 onDisc(vec3 direction) {
+vec4 disc(vec3 direction) {
     vec3 light = frame.lightDirection.xyz;
     vec3 across = normalize(cross(light, vec3(0.0, 0.0, 1.0))), up = cross(across, light);
-    return vec2(dot(direction, across), dot(direction, up)) / frame.lightColor.w;
+    vec2 at = vec2(dot(direction, across), dot(direction, up)) / frame.lightColor.w;  // from the middle, 1 at the rim
+    float pixel = length(fwidth(at));
+    float share = dot(direction, light) > 0.0 ? 1.0 - smoothstep(1.0 - pixel, 1.0, length(at)) : 0.0;
+    return vec4(discColor(at), share);
 }
 
 void main() {
     vec3 direction = normalize(inRay);
-    // All that needs the pixels beside comes before any of them may have ended.
-    vec2 at = onDisc(direction);
-    vec4 sun = disc(direction, at, length(fwidth(at)));
+    vec4 sun = disc(direction);
     vec3 color = skyColor(direction);
 #if CLOUDS == 1
-    float pixel = length(fwidth(direction));
-    vec4 cloud = clouds(direction);
-#endif
-#if SAMPLES > 1
-    float farthest = 1.0;
-    for (int k = 0; k < SAMPLES; ++k) farthest = min(farthest, depthAt(ivec2(gl_FragCoord.xy), k));
-    if (blocksOfDepth(farthest) < kFadingBegins * frame.cameraPosition.w) discard;
-#endif
-#if CLOUDS == 1
-    float night = frame.discColor.w;
+    float pixel = length(fwidth(direction)), night = frame.discColor.w;
     color += stars(starDirection(direction), pixel) * night * (1.0 - sun.a) * smoothstep(0.0, 0.2, direction.z);
+#endif
     color = mix(color, max(color, sun.rgb), sun.a);
+#if CLOUDS == 1
+    vec4 cloud = clouds(direction);
     color = mix(color, cloud.rgb, cloud.a * 0.92);
-#else
-    color = mix(color, max(color, sun.rgb), sun.a);
 #endif
     // From within water the sky is seen through a round window above, beyond which the surface mirrors what is below.
     if (frame.light.w > 0.5) color = mix(murk(), color, 0.8 * smoothstep(0.5, 0.8, direction.z));

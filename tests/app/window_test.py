@@ -454,7 +454,7 @@ class Window(ProgramTest):
             return picture.pixels[at:at + 3] == bytes((0, 0, 255))
 
         with Display() as display:
-            game = self.play(display, "--shader-root", root, *FLAT)
+            game = self.look_down(display, "--shader-root", root)  # waits for the world: its first shaders are read by then
             self.assertFalse(is_red(display, game))
             write(shader, red)
             game.wait_for(lambda: is_red(display, game))

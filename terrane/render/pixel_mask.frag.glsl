@@ -1,0 +1,25 @@
+// Leaves out pixels of which no sample has what OF asks for: 0 a surface, 1 the sky or a surface that may fade into it,
+// 2 a layer of blended faces. SAMPLES: more than one.
+#include "terrane/render/frame_uniforms.glsl"
+#include "terrane/render/surfaces.glsl"
+
+#if OF == 2
+layout(binding = kLayerDepthUnit) uniform sampler2DMS layerDepth;
+#endif
+
+bool isThere(ivec2 pixel, int k) {
+#if OF == 2
+    return texelFetch(layerDepth, pixel, k).r > depthAt(pixel, k);
+#elif OF == 1
+    return blocksOfDepth(depthAt(pixel, k)) >= kFadingBegins * frame.cameraPosition.w;
+#else
+    return depthAt(pixel, k) > 0.0;
+#endif
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    bool isAnyThere = false;
+    for (int k = 0; k < SAMPLES; ++k) isAnyThere = isAnyThere || isThere(pixel, k);
+    if (!isAnyThere) discard;
+}
