@@ -69,6 +69,7 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libterrane-dev RE
 
 # cpack -G DEB
 set(CPACK_GENERATOR DEB)
+set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/TerranePackage.cmake)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Large voxel worlds to walk, fly and build in")
 set(CPACK_PACKAGE_CONTACT "Terrane <terrane@example.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
