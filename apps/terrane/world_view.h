@@ -14,8 +14,8 @@ namespace terrane::app {
 
 // A frame's time for what workers finished, as a share of what the last one took, so that loading makes no
 // frame much longer however fast the machine draws: a sixteenth, and up to a quarter where all of the view is
-// `missing`. A chunk takes about 0.1 ms: at 60 frames a second 600 chunks a second come on
-// screen, and a flight at full speed with view distance 32 needs 350.
+// `missing`. A chunk takes about 0.1 ms: at 60 frames a second 600 chunks a second come on screen, and a
+// flight at full speed with view distance 32 needs 350.
 inline double uploadBudget(double frameSeconds, double missing) {
     return std::clamp(frameSeconds * std::clamp(missing / 4, 1.0 / 16, 1.0 / 4), 0.001, 0.025);
 }

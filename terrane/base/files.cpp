@@ -55,6 +55,16 @@ int writeAndClose(File file, std::string_view bytes) {
     return writeError != 0 ? writeError : closeError;
 }
 
+// Also to what is not there yet. A link still, where they lead in a circle.
+std::filesystem::path behindLinks(std::filesystem::path file) {
+    constexpr int kMostLinks = 40;  // as the system follows
+    std::error_code ignored;
+    for (int k = 0; k < kMostLinks && std::filesystem::is_symlink(file, ignored); ++k) {
+        file = file.parent_path() / std::filesystem::read_symlink(file, ignored);
+    }
+    return file;
+}
+
 }  // namespace
 
 Result<std::string> readFile(const std::filesystem::path& path) {
@@ -69,14 +79,10 @@ Result<std::string> readFile(const std::filesystem::path& path) {
     return bytes;
 }
 
-Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes) {
+Result<void> writeFile(const std::filesystem::path& given, std::string_view bytes) {
     std::error_code ignored;
-    if (std::filesystem::is_symlink(path, ignored)) {
-        std::error_code error;
-        const std::filesystem::path target = std::filesystem::canonical(path, error);
-        if (error) return cannotWrite(path, error.value());
-        return writeFile(target, bytes);
-    }
+    const std::filesystem::path path = behindLinks(given);
+    if (std::filesystem::is_symlink(path, ignored)) return cannotWrite(given, ELOOP);
     const std::filesystem::file_status status = std::filesystem::status(path, ignored);
     if (std::filesystem::is_directory(status)) return cannotWrite(path, EISDIR);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {

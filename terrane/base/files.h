@@ -14,8 +14,8 @@ namespace terrane::base {
 
 // Writes a temporary file beside the path, then renames it over the path: a reader, or a program that ends
 // midway, finds the old file or the new one. (Not a promise for power cuts: nothing is synchronised to the
-// disk.) A symbolic link is followed: the file it leads to is replaced and the link stays; one that leads
-// nowhere is an error. Makes no folders and refuses to replace what is not a regular file, such as a folder
+// disk.) A symbolic link is followed: the file it leads to is replaced, or made, and the link stays. Makes no
+// folders and refuses to replace what is not a regular file, such as a folder
 // or a device.
 [[nodiscard]] Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes);
 

@@ -27,7 +27,8 @@ bool isOutside(vec4 plane, vec3 low, vec3 high) {
     return dot(plane.xyz, farthest) + plane.w < 0.0;
 }
 
-// Whether what was drawn so far hides the box, with what waves: it lies behind the farthest depth of all pixels that it covers.
+// Whether what was drawn so far hides the box, with what waves: it lies behind the farthest depth of all pixels that it
+// covers.
 bool isHidden(vec3 low, vec3 high) {
     vec2 least = vec2(1.0), most = vec2(-1.0);
     float nearest = 0.0;

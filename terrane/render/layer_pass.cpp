@@ -34,6 +34,7 @@ base::Result<LayerPass::Target> LayerPass::makeTarget(const FrameTargets& target
     auto framebuffer =
         gpu::Framebuffer::create({{target.color.attachment()}, target.depth.attachment()}, "layer");
     if (!framebuffer) return tl::unexpected(framebuffer.error());
+    framebuffer->clearColor(0, glm::vec4(0));  // once: what no face was drawn to is read, but never used
     target.framebuffer = std::move(*framebuffer);
     return target;
 }
@@ -91,7 +92,7 @@ base::Result<void> LayerPass::configure(const FrameTargets& targets, const Rende
 }
 
 // A layer starts with the depth of what is opaque: faces behind that fail the depth test, and where none is
-// drawn the depth tells so. The colour is not cleared.
+// drawn the depth tells so.
 void LayerPass::drawLayer(const FrameTargets& targets, const CullPass& culled, int number) {
     const auto index = static_cast<std::size_t>(number);
     Target& target = targets_[index];

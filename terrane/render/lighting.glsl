@@ -3,8 +3,8 @@
 const vec3 kLeastLight = vec3(0.02);  // of the darkest cave: shapes can just be seen
 
 // Levels of light as sampled before the surface. Plants stand inside their block and take its light. The position comes
-// from the depth and is off by less than kOff within some hundred blocks: moved by that along the normal it is on the near side of the plane between
-// two layers of nodes, everywhere on a face.
+// from the depth and is off by less than kOff within some hundred blocks: moved by that along the normal it is on the
+// near side of the plane between two layers of nodes, everywhere on a face.
 vec4 levelsAt(vec3 position, Surface s) {
     const float kOff = 1.0 / 256.0;
     vec3 normal = s.direction == kDirectionPlant ? vec3(0.0) : s.normal;

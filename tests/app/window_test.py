@@ -449,9 +449,7 @@ class Window(ProgramTest):
             path.with_suffix(".new").replace(path)
 
         def is_red(display, game):
-            picture = display.screenshot(game.window)
-            at = 3 * picture.stride + (SIZE[0] - 3) * picture.step  # where nothing else is drawn
-            return picture.pixels[at:at + 3] == bytes((0, 0, 255))
+            return display.screenshot(game.window).color(SIZE[0] - 3, 3) == (255, 0, 0)  # where nothing else is drawn
 
         with Display() as display:
             game = self.look_down(display, "--shader-root", root)  # waits for the world: its first shaders are read by then

@@ -89,15 +89,31 @@ TEST(Files, LinksAreFollowed) {
     EXPECT_EQ(folder.fileCount(), 3);
 }
 
-TEST(Files, ALinkThatLeadsNowhereIsAnError) {
+TEST(Files, WhatALinkLeadsToIsMade) {
     const TempFolder folder;
-    std::filesystem::create_symlink("nothing", folder / "link");
-    const Result<void> result = writeFile(folder / "link", "a");
-    ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().message,
-              (folder / "link").string() + ": cannot be written: No such file or directory");
+    std::filesystem::create_directory(folder / "inner");
+    std::filesystem::create_symlink("inner/target", folder / "link");
+    ASSERT_TRUE(writeFile(folder / "link", "new"));
+    EXPECT_EQ(readFile(folder / "inner/target").value(), "new");
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
-    EXPECT_EQ(folder.fileCount(), 1);
+    EXPECT_FALSE(std::filesystem::is_symlink(folder / "inner/target"));
+    EXPECT_EQ(folder.fileCount(), 2);
+}
+
+TEST(Files, LinksThatLeadNowhereAreAnError) {
+    const TempFolder folder;
+    std::filesystem::create_symlink("no folder/target", folder / "link");
+    std::filesystem::create_symlink("circle", folder / "circle");
+    const Result<void> nowhere = writeFile(folder / "link", "a");
+    ASSERT_FALSE(nowhere);
+    EXPECT_EQ(nowhere.error().message,
+              (folder / "no folder/target").string() + ": cannot be written: No such file or directory");
+    const Result<void> circle = writeFile(folder / "circle", "a");
+    ASSERT_FALSE(circle);
+    EXPECT_EQ(circle.error().message,
+              (folder / "circle").string() + ": cannot be written: Too many levels of symbolic links");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_EQ(folder.fileCount(), 2);
 }
 
 TEST(Files, LeftoversOfACrashAreSteppedOver) {

@@ -126,15 +126,6 @@ std::string withChanges(const SettingsText& settings, const Changes& changes) {
     return text + added;
 }
 
-// Where links lead, so that they stay links.
-fs::path behindLinks(fs::path file) {
-    constexpr int kMostLinks = 40;  // as the system follows
-    std::error_code error;
-    for (int k = 0; k < kMostLinks && fs::is_symlink(file, error); ++k)
-        file = file.parent_path() / fs::read_symlink(file, error);
-    return file;
-}
-
 }  // namespace
 
 fs::path settingsPath() {
@@ -174,10 +165,9 @@ base::Result<void> writeChanges(const fs::path& file, const SettingValues& befor
     if (file.empty() || before == after) return {};
     const auto settings = readSettings(file);
     if (!settings) return tl::unexpected(settings.error());
-    const fs::path target = behindLinks(file);
     std::error_code ignored;  // what is wrong shows when the file is written
-    fs::create_directories(target.parent_path(), ignored);
-    return base::writeFile(target, withChanges(*settings, changesOf(before, after, graphics)));
+    fs::create_directories(file.parent_path(), ignored);
+    return base::writeFile(file, withChanges(*settings, changesOf(before, after, graphics)));
 }
 
 }  // namespace terrane::app
