@@ -175,8 +175,8 @@ std::vector<LightChange> relight(LitChunks& chunks, std::span<const BlockEdit> e
         LightWindow window;
         std::array<LitChunk*, kFieldChunks> around{};
         const auto offset = [&, centre = pos](std::size_t k) {
-            return world::ChunkPos{centre.x + static_cast<int>(k) % kFieldSide - 1,
-                                   centre.y + static_cast<int>(k) / kFieldSide - 1};
+            return world::offsetBy(centre, static_cast<int>(k) % kFieldSide - 1,
+                                   static_cast<int>(k) / kFieldSide - 1);
         };
         for (std::size_t k = 0; k < around.size(); ++k) {
             const auto found = chunks.find(offset(k));

@@ -22,7 +22,7 @@ std::vector<TouchedChunk> regionsTouchedBy(world::BlockPos pos, int regionHeight
     std::vector<TouchedChunk> touched{
         {chunk, own | regionAt(pos.z - 1, regionHeight) | regionAt(pos.z + 1, regionHeight)}};
     const auto addBeside = [&](int dx, int dy) {
-        const world::ChunkPos beside{chunk.x + dx, chunk.y + dy};
+        const world::ChunkPos beside = world::offsetBy(chunk, dx, dy);
         if (world::isInWorld(beside)) touched.push_back({beside, own});
     };
     const int x = pos.x & 15, y = pos.y & 15;

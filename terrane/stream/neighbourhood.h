@@ -11,7 +11,7 @@ namespace terrane::stream {
 inline std::array<world::ChunkPos, 9> neighbourhood(world::ChunkPos pos) {
     std::array<world::ChunkPos, 9> around;
     for (int n = 0; n < 9; ++n) {
-        around[static_cast<std::size_t>(n)] = {pos.x + n % 3 - 1, pos.y + n / 3 - 1};
+        around[static_cast<std::size_t>(n)] = world::offsetBy(pos, n % 3 - 1, n / 3 - 1);
     }
     return around;
 }

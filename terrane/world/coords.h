@@ -17,12 +17,17 @@ constexpr int kSectionsPerChunk = static_cast<int>(shared::kSectionsPerChunk);
 constexpr int kBlocksPerSection = static_cast<int>(shared::kBlocksPerSection);
 constexpr int kBlocksPerChunk = static_cast<int>(shared::kBlocksPerChunk);
 
-// Chunk coordinates run over [-2^27, 2^27): 2^32 blocks / 16.
+// Chunk coordinates of level 0 run over [-2^27, 2^27): 2^32 blocks / 16. Each level halves the range.
 constexpr std::int32_t kMinChunk = -(1 << 27);
 constexpr std::int32_t kMaxChunk = (1 << 27) - 1;
 
+// Levels 0…15. A chunk of level k has 16×16 columns, each 2^k blocks wide, and the height of every chunk.
+// Level 0 is the one that is played in.
+constexpr int kMaxLevel = 15;
+
 struct ChunkPos {
-    std::int32_t x = 0, y = 0;
+    std::int32_t x = 0, y = 0;  // in chunks of the level
+    std::uint8_t level = 0;
     auto operator<=>(const ChunkPos&) const = default;
 };
 
@@ -34,9 +39,20 @@ struct BlockPos {
 // Index of a block in its chunk: x + 16 y + 256 z, so that a layer of equal z and a section are contiguous.
 using BlockIndex = std::uint16_t;
 
+// The chunk of level 0 that holds the block. Floors, also below zero.
 constexpr ChunkPos chunkOf(BlockPos p) {
     return {p.x >> 4, p.y >> 4};
-}  // floors, also below zero
+}
+
+// The chunk of the same level that lies dx, dy chunks away.
+constexpr ChunkPos offsetBy(ChunkPos c, std::int32_t dx, std::int32_t dy) {
+    return {c.x + dx, c.y + dy, c.level};
+}
+
+// Width of a column of a chunk, in blocks.
+constexpr std::int32_t columnWidth(int level) {
+    return std::int32_t{1} << level;
+}
 
 constexpr BlockIndex blockIndex(int xInChunk, int yInChunk, int z) {
     return static_cast<BlockIndex>(xInChunk | yInChunk << 4 | z << 8);
@@ -47,8 +63,10 @@ constexpr BlockIndex blockIndex(BlockPos p) {
     return blockIndex(p.x & 15, p.y & 15, p.z);
 }
 
+// The block, or at higher levels the corner of the column of blocks, that lies lowest in x and y.
 constexpr BlockPos blockPos(ChunkPos c, BlockIndex i) {
-    return {c.x * kChunkSize + (i & 15), c.y * kChunkSize + ((i >> 4) & 15), i >> 8};
+    const std::int32_t width = columnWidth(c.level);
+    return {(c.x * kChunkSize + (i & 15)) * width, (c.y * kChunkSize + ((i >> 4) & 15)) * width, i >> 8};
 }
 
 constexpr bool isInHeight(int z) {
@@ -57,22 +75,25 @@ constexpr bool isInHeight(int z) {
 
 // True where every block of the chunk has 32-bit coordinates.
 constexpr bool isInWorld(ChunkPos c) {
-    return c.x >= kMinChunk && c.x <= kMaxChunk && c.y >= kMinChunk && c.y <= kMaxChunk;
+    const std::int32_t low = kMinChunk >> c.level, high = kMaxChunk >> c.level;
+    return c.x >= low && c.x <= high && c.y >= low && c.y <= high;
 }
 
-// Chebyshev distance in chunks, without overflow.
+// Chebyshev distance in chunks between two of one level, without overflow.
 constexpr std::int64_t chunkDistance(ChunkPos a, ChunkPos b) {
     const std::int64_t dx = std::int64_t{a.x} - b.x, dy = std::int64_t{a.y} - b.y;
     const std::int64_t ax = dx < 0 ? -dx : dx, ay = dy < 0 ? -dy : dy;
     return ax > ay ? ax : ay;
 }
 
-// No two positions have the same hash: multiplying by an odd number and folding the upper half are
-// reversible.
+// No two positions in the world have the same hash: coordinates have 28 bits and the level 8, and multiplying
+// by an odd number and folding the upper half are reversible.
 struct ChunkPosHash {
     std::size_t operator()(ChunkPos c) const {
-        const std::uint64_t key =
-            std::uint64_t{static_cast<std::uint32_t>(c.x)} << 32 | static_cast<std::uint32_t>(c.y);
+        const std::uint64_t mask = (1u << 28) - 1;
+        const std::uint64_t key = std::uint64_t{c.level} << 56 |
+                                  (static_cast<std::uint32_t>(c.x) & mask) << 28 |
+                                  (static_cast<std::uint32_t>(c.y) & mask);
         const std::uint64_t spread =
             key * 0x9E3779B97F4A7C15u;  // 2^64 / golden ratio, which spreads neighbours evenly
         return spread ^ spread >> 32;

@@ -60,6 +60,32 @@ TEST(Coords, DistanceDoesNotOverflow) {
     EXPECT_EQ(chunkDistance({0, kHighest}, {0, kLowest}), (std::int64_t{1} << 32) - 1);
 }
 
+TEST(Coords, LevelsDoubleTheWidthOfColumns) {
+    EXPECT_EQ(blockPos({1, -1, 0}, blockIndex(3, 2, 7)), (BlockPos{19, -14, 7}));
+    EXPECT_EQ(blockPos({1, -1, 1}, blockIndex(3, 2, 7)), (BlockPos{38, -28, 7}));
+    EXPECT_EQ(blockPos({1, -1, 4}, blockIndex(3, 2, 7)), (BlockPos{304, -224, 7}));
+    EXPECT_EQ(offsetBy({5, 6, 3}, -1, 2), (ChunkPos{4, 8, 3}));
+    EXPECT_NE((ChunkPos{1, 2, 0}), (ChunkPos{1, 2, 1}));
+}
+
+TEST(Coords, EachLevelCoversTheSameBlocks) {
+    for (std::uint8_t level = 0; level <= kMaxLevel; ++level) {
+        const ChunkPos first{kMinChunk >> level, kMinChunk >> level, level};
+        const ChunkPos last{kMaxChunk >> level, kMaxChunk >> level, level};
+        EXPECT_TRUE(isInWorld(first) && isInWorld(last));
+        EXPECT_FALSE(isInWorld(offsetBy(first, -1, 0)) || isInWorld(offsetBy(last, 0, 1)));
+        EXPECT_EQ(blockPos(first, 0), (BlockPos{kLowest, kLowest, 0}));
+        EXPECT_EQ(blockPos(last, blockIndex(15, 15, 0)).x, kHighest - (columnWidth(level) - 1));
+    }
+}
+
+TEST(Coords, HashTellsLevelsApart) {
+    std::set<std::size_t> hashes;
+    for (std::uint8_t level = 0; level <= kMaxLevel; ++level)
+        for (int x = -8; x < 8; ++x) hashes.insert(ChunkPosHash()({x, kMaxChunk >> level, level}));
+    EXPECT_EQ(hashes.size(), 256u);
+}
+
 // Tables take the lowest bits or a remainder: these must differ too.
 TEST(Coords, HashTellsNeighboursApart) {
     std::set<std::size_t> hashes, low;
