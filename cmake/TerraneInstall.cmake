@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(modules base shared world store gen light mesh stream)
+set(modules base shared world store gen light mesh stream game)
 set(TERRANE_GRAPHICS_PKG "")
 set(TERRANE_GRAPHICS_REQUIRES "")
 if(TERRANE_GRAPHICS)

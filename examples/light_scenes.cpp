@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "terrane/shared/hash.h"
+#include "terrane/world/block_edit.h"
 
 namespace terrane::examples {
 namespace {
@@ -16,11 +17,16 @@ using world::World;
 constexpr int kGround = 80;  // the lowest block of air
 constexpr int kFirst = -16 * kSceneRadius, kEnd = 16 * (kSceneRadius + 1);
 
+void put(World& world, const BlockRegistry& blocks, BlockPos pos, BlockId id) {
+    std::vector<world::BlockEdit> edits;  // nobody shows this world while it is built
+    world::applyChange(world, blocks, pos, world::SetBlock{id}, edits);
+}
+
 // Blocks of the box, ends excluded.
-void fill(World& world, BlockPos from, BlockPos to, BlockId id) {
+void fill(World& world, const BlockRegistry& blocks, BlockPos from, BlockPos to, BlockId id) {
     for (int z = from.z; z < to.z; ++z) {
         for (int y = from.y; y < to.y; ++y) {
-            for (int x = from.x; x < to.x; ++x) world.setBlock({x, y, z}, id);
+            for (int x = from.x; x < to.x; ++x) put(world, blocks, {x, y, z}, id);
         }
     }
 }
@@ -30,13 +36,13 @@ BlockId idOf(const BlockRegistry& blocks, std::string_view name) {
 }
 
 void buildGround(World& world, const BlockRegistry& blocks, std::string_view top) {
-    fill(world, {kFirst, kFirst, kGround - 4}, {kEnd, kEnd, kGround - 1}, idOf(blocks, "stone"));
-    fill(world, {kFirst, kFirst, kGround - 1}, {kEnd, kEnd, kGround}, idOf(blocks, top));
+    fill(world, blocks, {kFirst, kFirst, kGround - 4}, {kEnd, kEnd, kGround - 1}, idOf(blocks, "stone"));
+    fill(world, blocks, {kFirst, kFirst, kGround - 1}, {kEnd, kEnd, kGround}, idOf(blocks, top));
 }
 
 // A hollow with uneven walls in solid stone, a lamp of each colour on its floor.
 void buildCave(World& world, const BlockRegistry& blocks) {
-    fill(world, {kFirst, kFirst, 60}, {kEnd, kEnd, 110}, idOf(blocks, "stone"));
+    fill(world, blocks, {kFirst, kFirst, 60}, {kEnd, kEnd, 110}, idOf(blocks, "stone"));
     for (int z = 70; z < 100; ++z) {
         for (int y = -22; y < 22; ++y) {
             for (int x = -22; x < 22; ++x) {
@@ -45,7 +51,7 @@ void buildCave(World& world, const BlockRegistry& blocks) {
                 const auto fx = static_cast<float>(x), fy = static_cast<float>(y), fz = static_cast<float>(z);
                 const float bumps = 0.18f * std::sin(fx * 0.7f + fz * 0.3f) * std::sin(fy * 0.6f) +
                                     0.12f * std::sin(fz * 0.9f + fx);
-                if (u * u + v * v + w * w + bumps < 1) world.setBlock({x, y, z}, world::kAir);
+                if (u * u + v * v + w * w + bumps < 1) put(world, blocks, {x, y, z}, world::kAir);
             }
         }
     }
@@ -55,7 +61,7 @@ void buildCave(World& world, const BlockRegistry& blocks) {
         const auto [x, y] = kPlaces[k];
         int z = 84;
         while (world.block({x, y, z - 1}) == world::kAir) --z;
-        world.setBlock({x, y, z}, idOf(blocks, kLamps[k]));
+        put(world, blocks, {x, y, z}, idOf(blocks, kLamps[k]));
     }
 }
 
@@ -63,19 +69,19 @@ void buildCave(World& world, const BlockRegistry& blocks) {
 void buildGlassHouse(World& world, const BlockRegistry& blocks) {
     buildGround(world, blocks, "grass");
     const BlockId glass = idOf(blocks, "cyan_glass"), log = idOf(blocks, "oak_log");
-    fill(world, {-5, -4, kGround}, {6, 5, kGround + 5}, glass);
-    fill(world, {-4, -3, kGround}, {5, 4, kGround + 4}, world::kAir);
+    fill(world, blocks, {-5, -4, kGround}, {6, 5, kGround + 5}, glass);
+    fill(world, blocks, {-4, -3, kGround}, {5, 4, kGround + 4}, world::kAir);
     for (const int x : {-5, 5}) {
-        for (const int y : {-4, 4}) fill(world, {x, y, kGround}, {x + 1, y + 1, kGround + 5}, log);
+        for (const int y : {-4, 4}) fill(world, blocks, {x, y, kGround}, {x + 1, y + 1, kGround + 5}, log);
     }
-    fill(world, {0, -4, kGround}, {1, -3, kGround + 2}, world::kAir);  // the door
-    world.setBlock({-3, 1, kGround}, idOf(blocks, "lamp_white"));
-    world.setBlock({3, 2, kGround}, idOf(blocks, "lamp_red"));
+    fill(world, blocks, {0, -4, kGround}, {1, -3, kGround + 2}, world::kAir);  // the door
+    put(world, blocks, {-3, 1, kGround}, idOf(blocks, "lamp_white"));
+    put(world, blocks, {3, 2, kGround}, idOf(blocks, "lamp_red"));
     constexpr std::array kPlants = {"poppy", "blue_orchid", "oxeye_daisy", "grass_tuft"};
     for (int k = 0; k < 60; ++k) {
         const unsigned hash = shared::hash3(static_cast<unsigned>(k), 5u, 0u, 1u);
         const BlockPos at{static_cast<int>(hash % 25) - 12, static_cast<int>(hash / 25 % 21) - 12, kGround};
-        if (world.block(at) == world::kAir) world.setBlock(at, idOf(blocks, kPlants[hash / 800 % 4]));
+        if (world.block(at) == world::kAir) put(world, blocks, at, idOf(blocks, kPlants[hash / 800 % 4]));
     }
 }
 
@@ -83,13 +89,13 @@ void buildGlassHouse(World& world, const BlockRegistry& blocks) {
 void buildCorner(World& world, const BlockRegistry& blocks) {
     buildGround(world, blocks, "grass");
     const BlockId stone = idOf(blocks, "stone");
-    fill(world, {-6, -6, kGround}, {7, 7, kGround + 3}, stone);
-    fill(world, {1, 1, kGround}, {6, 6, kGround + 3}, world::kAir);
-    fill(world, {-5, -5, kGround}, {1, 1, kGround + 3}, world::kAir);
-    fill(world, {0, 1, kGround}, {1, 6, kGround + 3}, stone);
-    fill(world, {1, 0, kGround}, {6, 1, kGround + 3}, stone);
-    world.setBlock({0, 0, kGround}, world::kAir);
-    world.setBlock({3, 3, kGround}, idOf(blocks, "lamp_red"));
+    fill(world, blocks, {-6, -6, kGround}, {7, 7, kGround + 3}, stone);
+    fill(world, blocks, {1, 1, kGround}, {6, 6, kGround + 3}, world::kAir);
+    fill(world, blocks, {-5, -5, kGround}, {1, 1, kGround + 3}, world::kAir);
+    fill(world, blocks, {0, 1, kGround}, {1, 6, kGround + 3}, stone);
+    fill(world, blocks, {1, 0, kGround}, {6, 1, kGround + 3}, stone);
+    put(world, blocks, {0, 0, kGround}, world::kAir);
+    put(world, blocks, {3, 3, kGround}, idOf(blocks, "lamp_red"));
 }
 
 void buildOneLamp(World& world, const BlockRegistry& blocks) {
@@ -102,7 +108,7 @@ void buildLamps(World& world, const BlockRegistry& blocks, LampCount count) {
     buildGround(world, blocks, "stone");
     constexpr std::array kLamps = {"lamp_white", "lamp_red", "lamp_green", "lamp_blue"};
     constexpr auto kSide = static_cast<unsigned>(kEnd - kFirst);
-    world.setBlock({0, 0, kGround}, idOf(blocks, kLamps[0]));
+    put(world, blocks, {0, 0, kGround}, idOf(blocks, kLamps[0]));
     int placed = 1;
     for (unsigned k = 0; placed < count.places; ++k) {
         const unsigned hash = shared::hash3(k, 7u, 0u, 1u);
@@ -111,7 +117,7 @@ void buildLamps(World& world, const BlockRegistry& blocks, LampCount count) {
         if (world.block(at) != world::kAir) continue;
         const bool isLamp = placed < count.lamps;
         const char* name = isLamp ? kLamps[static_cast<std::size_t>(placed) % kLamps.size()] : "stone";
-        world.setBlock(at, idOf(blocks, name));
+        put(world, blocks, at, idOf(blocks, name));
         ++placed;
     }
 }

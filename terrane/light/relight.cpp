@@ -164,10 +164,10 @@ ChangedBricks relight(LightWindow& window, std::span<const BlockChange> changes,
     return store(window, range, scratch.suspects, scratch.field);
 }
 
-std::vector<LightChange> relight(LitChunks& chunks, std::span<const BlockEdit> edits, const LightTable& table,
+std::vector<LightChange> relight(LitChunks& chunks, std::span<const world::BlockEdit> edits, const LightTable& table,
                                  LightScratch& scratch) {
     std::map<world::ChunkPos, std::vector<BlockChange>> byChunk;
-    for (const BlockEdit& edit : edits)
+    for (const world::BlockEdit& edit : edits)
         byChunk[world::chunkOf(edit.pos)].push_back({world::blockIndex(edit.pos), edit.before});
 
     std::map<world::ChunkPos, std::uint16_t> changed;

@@ -10,6 +10,7 @@
 
 #include "terrane/light/light_chunk.h"
 #include "terrane/light/light_table.h"
+#include "terrane/world/block_edit.h"
 
 namespace terrane::light {
 
@@ -42,11 +43,6 @@ struct LitChunk {
 };
 using LitChunks = std::unordered_map<world::ChunkPos, LitChunk, world::ChunkPosHash>;
 
-struct BlockEdit {
-    world::BlockPos pos;
-    world::BlockId before = world::kAir;
-};
-
 struct LightChange {
     world::ChunkPos pos;
     std::uint16_t bricks = 0;  // a bit each
@@ -54,7 +50,7 @@ struct LightChange {
 
 // `chunks` hold the new blocks of all edits; their lights are brought up to date. Edits in chunks that are
 // not there, or have no light, are left out. Returns each changed chunk once, sorted by position.
-std::vector<LightChange> relight(LitChunks& chunks, std::span<const BlockEdit> edits, const LightTable& table,
+std::vector<LightChange> relight(LitChunks& chunks, std::span<const world::BlockEdit> edits, const LightTable& table,
                                  LightScratch& scratch);
 
 }  // namespace terrane::light

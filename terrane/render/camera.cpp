@@ -4,6 +4,8 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "terrane/world/pose.h"
+
 namespace terrane::render {
 namespace {
 
@@ -22,18 +24,15 @@ glm::mat4 reversedInfinitePerspective(float fieldOfViewRadians, float aspect) {
 }  // namespace
 
 world::ChunkPos cameraChunk(const Camera& camera) {
-    return {static_cast<std::int32_t>(std::floor(camera.position.x / world::kChunkSize)),
-            static_cast<std::int32_t>(std::floor(camera.position.y / world::kChunkSize))};
+    return world::chunkOf(camera.position);
 }
 
 glm::vec3 lookDirection(const Camera& camera) {
-    const float yaw = glm::radians(camera.yaw), pitch = glm::radians(camera.pitch);
-    return {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)};
+    return world::lookDirection(camera.yaw, camera.pitch);
 }
 
 glm::vec3 rightDirection(const Camera& camera) {
-    const float yaw = glm::radians(camera.yaw);
-    return {std::sin(yaw), -std::cos(yaw), 0.0f};
+    return world::rightDirection(camera.yaw);
 }
 
 ViewMatrices viewMatrices(const Camera& camera, float aspect) {

@@ -13,11 +13,11 @@ light::LightScratch& lightScratch() {
 
 }  // namespace
 
-world::ChunkPtr loadChunk(const ChunkSource& source, world::ChunkPos pos) {
+std::shared_ptr<world::Chunk> loadChunk(const ChunkSource& source, world::ChunkPos pos) {
     if (source.store) {
         TERRANE_ZONE("load chunk");
         store::LoadedChunk stored = source.store->load(pos);
-        if (stored.state == store::LoadedChunk::State::Present) return stored.chunk;
+        if (stored.state == store::LoadedChunk::State::Present) return std::make_shared<world::Chunk>(*stored.chunk);
     }
     if (!source.generator) return nullptr;
     const auto chunk = std::make_shared<world::Chunk>(source.generator->generate(pos));
@@ -30,8 +30,8 @@ LocalLightPtr localLight(const world::Chunk& chunk, const light::LightTable& tab
     return std::make_shared<const light::LocalLight>(light::solveLocal(chunk, table, lightScratch()));
 }
 
-light::ChunkLightPtr lightOf(const Surroundings& around, const light::LightTable& table) {
-    std::array<LocalLightPtr, 9> locals = around.locals;
+light::ChunkLightPtr lightOf(const ChunkNeighborhood& around, const light::LightTable& table) {
+    std::array<LocalLightPtr, 9> locals = around.localLights;
     for (std::size_t n = 0; n < locals.size(); ++n) {
         if (!locals[n] && around.chunks[n]) locals[n] = localLight(*around.chunks[n], table);
     }

@@ -23,19 +23,19 @@ struct ChunkSource {
 };
 
 // From the store, else from the generator. Null where it is to be made elsewhere.
-world::ChunkPtr loadChunk(const ChunkSource& source, world::ChunkPos pos);
+std::shared_ptr<world::Chunk> loadChunk(const ChunkSource& source, world::ChunkPos pos);
 
 // The light that a chunk's own blocks give.
 LocalLightPtr localLight(const world::Chunk& chunk, const light::LightTable& table);
 
 // What a chunk needs to become visible: 3×3 chunks, x + 3 y. Null beyond the world's edge, which counts as
-// air for meshes and as dark for light. Of the local lights those that are null are found first.
-struct Surroundings {
+// air for meshes and as dark for light. Local light that is null is computed first.
+struct ChunkNeighborhood {
     std::array<world::ChunkPtr, 9> chunks;
-    std::array<LocalLightPtr, 9> locals;
+    std::array<LocalLightPtr, 9> localLights;
 };
 
-light::ChunkLightPtr lightOf(const Surroundings& around, const light::LightTable& table);
+light::ChunkLightPtr lightOf(const ChunkNeighborhood& around, const light::LightTable& table);
 // Of 3×3 chunks those that the middle one is meshed from.
 inline mesh::MeshBlocks meshBlocksOf(const std::array<world::ChunkPtr, 9>& chunks) {
     return {chunks[4], chunks[3], chunks[5], chunks[1], chunks[7]};

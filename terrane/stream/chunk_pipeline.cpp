@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <exception>
+#include <map>
 
 #include "terrane/base/profile.h"
-#include "terrane/stream/neighbourhood.h"
-#include "terrane/stream/worker_results.h"
+#include "terrane/mesh/remesh.h"
+#include "terrane/stream/lighting.h"
+#include "terrane/stream/meshing.h"
+#include "terrane/stream/neighborhood.h"
+#include "terrane/stream/relight_edits.h"
+#include "terrane/stream/residency.h"
 
 namespace terrane::stream {
 
@@ -16,61 +20,50 @@ using world::ChunkPtr;
 
 namespace {
 
-constexpr std::chrono::milliseconds kTidyEvery{250};
+constexpr std::chrono::milliseconds kHousekeepingEvery{250};
 
-constexpr std::array kTaskNames = {"load or generate", "own light", "light", "mesh"};
-static_assert(kTaskNames.size() == kTaskCount);
+// Edits are seen in the next frame, up to so many chunks a frame, and before all that is only meshed again; a
+// chunk takes at most about 0.05 ms.
+constexpr std::size_t kEditedMeshesPerUpdate = 64;
 
 }  // namespace
 
-ChunkPipeline::ChunkPipeline(const PipelineParts& parts)
-    : parts_(parts), results_(std::make_shared<WorkerResults>()) {
+ChunkPipeline::ChunkPipeline(const PipelineParts& parts) : parts_(parts), workers_(parts_) {
     if (parts_.batches) parts_.source.generator = nullptr;
 }
 
 ChunkPipeline::~ChunkPipeline() {
-    results_->isOver = true;
-    parts_.jobs.waitIdle();
     saveAll();
 }
 
-void ChunkPipeline::setView(ChunkPos centre, int viewDistance, glm::vec2 direction) {
-    if (!table_.setView(centre, viewDistance, direction)) return;
-    for (const ChunkPos pos : table_.takeHidden()) {
-        setLight(pos, nullptr);
-        ChunkChange& hidden = change(pos);
-        hidden.mesh = nullptr;
-        hidden.regions = 0;
-        hidden.needsMesh = false;
-        hidden.light = nullptr;
-        hidden.bricks = 0;
-        hidden.isHidden = true;
-    }
-    giveUpLoads();
+void ChunkPipeline::setView(ChunkPos center, int viewDistance, glm::vec2 direction) {
+    if (!stream::setView(table_, center, viewDistance, direction)) return;
+    for (const ChunkPos pos : popHidden(table_)) changes_.hide(pos);
+    cancelLoads();
 }
 
 // Those that wait for a worker; a load that runs goes on.
-void ChunkPipeline::giveUpLoads() {
-    for (auto it = extras_.begin(); it != extras_.end();) {
-        const ChunkPos pos = it->first;
-        base::JobHandle& load = it->second.load;
-        ++it;
-        if (!load || !table_.mayGiveUpLoad(pos)) continue;
-        load.cancel();
-        if (load.state() != base::JobState::Cancelled) continue;
-        extras_.erase(pos);
-        table_.loadEnded(pos);
+void ChunkPipeline::cancelLoads() {
+    std::vector<ChunkPos> cancelled;
+    for (auto& [pos, record] : table_.records) {
+        if (!record.load || !mayCancelLoad(table_, pos)) continue;
+        record.load.cancel();
+        if (record.load.state() == base::JobState::Cancelled) cancelled.push_back(pos);
     }
+    for (const ChunkPos pos : cancelled) abandonLoad(table_, pos);
 }
 
 void ChunkPipeline::setMeshOptions(const mesh::MeshOptions& options) {
     if (options == meshOptions_) return;
     meshOptions_ = options;
-    for (auto& [pos, regions] : toMesh_) regions = mesh::kAllRegions;  // they were counted by another height
-    for (const auto& [pos, extra] : extras_) {
-        if (table_.is(pos, ChunkStage::Visible)) toMesh_[pos] = mesh::kAllRegions;
-        table_.blocksChanged(pos);  // meshes on the way are old
+    for (auto& [pos, record] : table_.records) {
+        record.isOutdated = true;  // what is lit and meshed now has the old options
+        requestWholeMesh(table_, pos);
     }
+}
+
+mesh::MeshBlocks ChunkPipeline::meshBlocks(ChunkPos pos) const {
+    return meshBlocksOf(neighborhoodOf(table_, parts_.world, pos).chunks);
 }
 
 void ChunkPipeline::update(Time now) {
@@ -78,116 +71,200 @@ void ChunkPipeline::update(Time now) {
     sinceUpdate_ = now - now_;
     now_ = now;
     takeResults();
-    if (parts_.batches) takeBatches();
-    applyEdits();
-    remesh();
-    if (now >= nextTidy_) tidy();
+    if (parts_.batches) exchangeBatches();
+    relight();
+    meshEdits();
+    if (now >= nextHousekeeping_) keepHouse();
     submitLoads();
-    submitFinishes();
+    submitLighting();
+    submitMeshes();
 }
 
 void ChunkPipeline::takeResults() {
-    std::vector<WorkerResults::Load> loads;
-    std::vector<WorkerResults::Finish> finishes;
-    std::exception_ptr failure;
-    {
-        const std::lock_guard lock(results_->mutex);
-        loads.swap(results_->loads);
-        finishes.swap(results_->finishes);
-        failure = std::exchange(results_->failure, nullptr);
-    }
-    if (failure) std::rethrow_exception(failure);
-    for (WorkerResults::Load& load : loads) {
+    const WorkerResults::Lists done = workers_.takeResults();
+    for (const WorkerResults::Load& load : done.loads) {
         // A job that ran on although it was cancelled.
-        if (!table_.is(load.pos, ChunkStage::Loading)) continue;
+        if (!isAt(table_, load.pos, ChunkStage::Loading)) continue;
         if (load.chunk) {
-            onLoaded(load.pos, std::move(load.chunk), std::move(load.local));
+            onLoaded(load.pos, load.chunk, load.localLight);
         } else {
-            extras_[load.pos].load = {};  // from here on it cannot be cancelled
-            absent_.push_back(load.pos);
+            findRecord(table_, load.pos)->load = {};  // from here on it cannot be cancelled
+            toGenerate_.push_back(load.pos);
         }
     }
-    for (WorkerResults::Finish& done : finishes) {
-        if (!table_.finished(done.pos)) continue;
-        setLight(done.pos, done.light);
-        if (done.mesh) {
-            setMesh(done.pos, std::move(done.mesh));
-        } else {
-            askForMesh(done.pos);
+    for (const WorkerResults::Lit& lit : done.lit) onLit(lit.pos, lit.light, lit.mesh);
+    for (const WorkerResults::Meshed& meshed : done.meshed) {
+        if (finishMeshJob(table_, meshed.job)) {
+            changes_.setMesh(meshed.job.pos, meshed.mesh, mesh::kAllRegions);
         }
-        dropLocalsAround(done.pos);
     }
 }
 
-void ChunkPipeline::onLoaded(ChunkPos pos, ChunkPtr chunk, LocalLightPtr local) {
-    Extra& extra = extras_[pos];
-    extra.load = {};
-    extra.local = std::move(local);
+void ChunkPipeline::onLoaded(ChunkPos pos, std::shared_ptr<world::Chunk> chunk, LocalLightPtr local) {
+    ChunkRecord& record = *findRecord(table_, pos);
+    record.load = {};
+    record.localLight = std::move(local);
     parts_.world.insert(pos, std::move(chunk));
-    table_.loaded(pos, now_);
+    finishLoad(table_, pos, now_);
 }
 
-void ChunkPipeline::waitForWorkers(std::chrono::milliseconds atMost) {
-    std::unique_lock lock(results_->mutex);
-    results_->changed.wait_for(lock, atMost, [&] { return !results_->isEmpty(); });
+void ChunkPipeline::onLit(ChunkPos pos, light::ChunkLightPtr light, MeshPtr mesh) {
+    if (!finishLighting(table_, pos)) return;
+    findRecord(table_, pos)->light = light;
+    changes_.setLight(pos, std::move(light), kAllBricks);
+    if (mesh) {
+        changes_.setMesh(pos, std::move(mesh), mesh::kAllRegions);
+    } else {
+        changes_.askForMesh(pos);
+    }
+    dropLocalLightAround(pos);
 }
 
-// A chunk's own light is needed until it and its neighbours are lit.
-void ChunkPipeline::dropLocalsAround(ChunkPos pos) {
+// A chunk's own light is needed until it and its neighbors are lit.
+void ChunkPipeline::dropLocalLightAround(ChunkPos pos) {
     const auto isLit = [&](ChunkPos at) {
-        return table_.is(at, ChunkStage::Visible) || !world::isInWorld(at);
+        return isAt(table_, at, ChunkStage::Visible) || !world::isInWorld(at);
     };
-    for (const ChunkPos at : neighbourhood(pos)) {
-        const auto extra = extras_.find(at);
-        if (extra == extras_.end() || !extra->second.local) continue;
-        const std::array<ChunkPos, 9> around = neighbourhood(at);
-        if (std::all_of(around.begin(), around.end(), isLit)) extra->second.local = nullptr;
+    for (const ChunkPos at : neighborhood(pos)) {
+        ChunkRecord* record = findRecord(table_, at);
+        if (!record || !record->localLight) continue;
+        if (std::ranges::all_of(neighborhood(at), isLit)) record->localLight = nullptr;
     }
 }
 
-// What need not be done every frame: saving what was edited some time ago, unloading what nobody asks for.
-void ChunkPipeline::tidy() {
-    nextTidy_ = now_ + kTidyEvery;
-    for (auto& [pos, extra] : extras_) {
-        if (extra.editedAt && now_ - *extra.editedAt >= kSaveAfter) save(pos, extra);
+// Chunks that may go to workers in this update, besides those that are there.
+std::size_t ChunkPipeline::roomFor(std::size_t running) const {
+    const std::size_t limit = workers_.jobLimit(sinceUpdate_);
+    return limit - std::min(limit, running);
+}
+
+void ChunkPipeline::submitLoads() {
+    const std::size_t loading = countOf(table_, ChunkStage::Loading) - toGenerate_.size();
+    for (const ChunkPos pos : popLoadRequests(table_, roomFor(loading))) {
+        findRecord(table_, pos)->load = workers_.submitLoad(urgency(table_.view, pos), pos, parts_.source);
     }
-    for (const ChunkPos pos : table_.takeUnloads(now_)) {
-        save(pos, extras_[pos]);
-        extras_.erase(pos);
+}
+
+void ChunkPipeline::exchangeBatches() {
+    while (!toGenerate_.empty()) {
+        const std::vector<ChunkPos> requested(toGenerate_.begin(), toGenerate_.end());
+        const std::size_t taken = parts_.batches->submit(requested);
+        if (taken == 0) break;
+        toGenerate_.erase(toGenerate_.begin(), toGenerate_.begin() + static_cast<long>(taken));
+    }
+    for (auto& [pos, chunk] : parts_.batches->take()) {
+        workers_.submitLocalLight(urgency(table_.view, pos), pos,
+                                  std::make_shared<world::Chunk>(std::move(chunk)));
+    }
+}
+
+void ChunkPipeline::submitLighting() {
+    const std::size_t room = roomFor(countOf(table_, ChunkStage::Lighting));
+    for (const ChunkPos pos : popLightingRequests(table_, room)) {
+        // Before loads of equal urgency: chunks on screen free memory.
+        workers_.submitLighting(urgency(table_.view, pos) - 1, pos, neighborhoodOf(table_, parts_.world, pos),
+                                meshOptions_);
+    }
+}
+
+void ChunkPipeline::submitMeshes() {
+    for (const MeshJob& job : popMeshJobs(table_, roomFor(table_.meshJobCount))) {
+        if (parts_.meshing == MeshPolicy::Workers) {
+            workers_.submitMesh(urgency(table_.view, job.pos), job,
+                                neighborhoodOf(table_, parts_.world, job.pos), meshOptions_);
+        } else if (finishMeshJob(table_, job)) {
+            changes_.askForMesh(job.pos);
+        }
+    }
+}
+
+void ChunkPipeline::onEdits(std::span<const world::BlockEdit> edits) {
+    ChunkRecord* record = nullptr;
+    ChunkPos chunk;
+    for (const world::BlockEdit& edit : edits) {
+        if (!record || chunk != world::chunkOf(edit.pos)) {
+            chunk = world::chunkOf(edit.pos);
+            record = findRecord(table_, chunk);
+            assert(record && "a chunk in the world has a record");
+            if (!record->editedAt) record->editedAt = now_;
+            outdateLighting(table_, chunk);
+        }
+        if (edit.before == edit.after) {  // its data only
+            requestEditedMesh(table_, chunk, mesh::RegionSet{1} << (edit.pos.z / meshOptions_.regionHeight));
+        } else {
+            record->localLight = nullptr;
+            toRelight_.try_emplace(edit.pos, edit);
+        }
+    }
+}
+
+void ChunkPipeline::relight() {
+    if (toRelight_.empty()) return;
+    TERRANE_ZONE("edits");
+    std::vector<world::BlockEdit> edits;
+    std::map<ChunkPos, mesh::RegionSet> touched;
+    for (const auto& [pos, edit] : toRelight_) {
+        edits.push_back(edit);
+        for (const auto& [chunk, regions] : mesh::regionsTouchedBy(pos, meshOptions_.regionHeight)) {
+            touched[chunk] |= regions;
+        }
+    }
+    toRelight_.clear();
+    for (const auto& [chunk, regions] : touched) requestEditedMesh(table_, chunk, regions);
+    for (const light::LightChange& change : relightEdits(table_, parts_.world, edits, parts_.lights)) {
+        changes_.setLight(change.pos, findRecord(table_, change.pos)->light, change.bricks);
+        changes_.putFirst(change.pos);
+    }
+}
+
+void ChunkPipeline::meshEdits() {
+    for (const MeshRequest& request : popEditedMeshes(table_, kEditedMeshesPerUpdate)) {
+        changes_.putFirst(request.pos);
+        showMesh(request.pos, request.regions);
+    }
+}
+
+// Whole chunks, and those that the caller is to mesh anyway, are the caller's where it makes the meshes.
+void ChunkPipeline::showMesh(ChunkPos pos, mesh::RegionSet regions) {
+    if (parts_.meshing == MeshPolicy::Caller && (regions == mesh::kAllRegions || changes_.asksForMesh(pos))) {
+        return changes_.askForMesh(pos);
+    }
+    const std::array<ChunkPtr, 9> chunks = neighborhoodOf(table_, parts_.world, pos).chunks;
+    changes_.setMesh(pos, meshOf(chunks, parts_.blocks, meshOptions_, regions), regions);
+}
+
+// Saves what was edited some time ago, unloads what nobody needs.
+void ChunkPipeline::keepHouse() {
+    nextHousekeeping_ = now_ + kHousekeepingEvery;
+    for (auto& [pos, record] : table_.records) {
+        if (record.editedAt && now_ - *record.editedAt >= kSaveAfter) save(pos, record);
+    }
+    for (const ChunkPos pos : findUnneeded(table_, now_)) {
+        save(pos, *findRecord(table_, pos));
+        unload(table_, pos);
         parts_.world.erase(pos);
     }
 }
 
-void ChunkPipeline::save(ChunkPos pos, Extra& extra) {
-    if (!extra.editedAt) return;
-    extra.editedAt.reset();
+void ChunkPipeline::save(ChunkPos pos, ChunkRecord& record) {
+    if (!record.editedAt) return;
+    record.editedAt.reset();
     if (!parts_.source.store) return;
     parts_.source.store->save(pos, parts_.world.maybeChunkAt(pos), store::Origin::Edited);
 }
 
 void ChunkPipeline::saveAll() {
-    for (auto& [pos, extra] : extras_) save(pos, extra);
+    for (auto& [pos, record] : table_.records) save(pos, record);
 }
 
-void ChunkPipeline::showAgain() {
-    for (const auto& [pos, extra] : extras_) {
-        if (!table_.is(pos, ChunkStage::Visible)) continue;
-        setLight(pos, extra.light);
-        toMesh_[pos] = mesh::kAllRegions;
+void ChunkPipeline::resendLight() {
+    for (const auto& [pos, record] : table_.records) {
+        if (record.light) changes_.setLight(pos, record.light, kAllBricks);
     }
-}
-
-std::vector<TaskTime> ChunkPipeline::taskTimes() const {
-    std::vector<TaskTime> times;
-    for (std::size_t k = 0; k < kTaskCount; ++k) {
-        times.push_back(
-            {kTaskNames[k], results_->counts[k], static_cast<double>(results_->nanoseconds[k]) / 1000});
-    }
-    return times;
 }
 
 ChunkPtr ChunkPipeline::maybeLoadChunkAt(ChunkPos pos) {
-    table_.request(pos, now_);
+    requestChunk(table_, pos, now_);
     return parts_.world.maybeChunkAt(pos);
 }
 
@@ -199,35 +276,25 @@ ChunkPtr ChunkPipeline::chunkAt(ChunkPos pos) {
     }
 }
 
-ChunkChange& ChunkPipeline::change(ChunkPos pos) {
-    const auto [it, isNew] = changes_.try_emplace(pos);
-    it->second.pos = pos;
-    it->second.isHidden = false;
-    if (isNew) changed_.push_back(pos);
-    return it->second;
+std::size_t ChunkPipeline::queuedCount() const {
+    return countOf(table_, ChunkStage::Loading) + countOf(table_, ChunkStage::Lighting) + table_.meshJobCount;
 }
 
-std::vector<ChunkChange> ChunkPipeline::takeChanges(std::size_t limit) {
-    std::vector<ChunkChange> taken;
-    const auto take = [&](ChunkPos pos) {
-        if (auto node = changes_.extract(pos)) taken.push_back(std::move(node.mapped()));
-    };
-    for (; taken.size() < limit && !takeFirst_.empty(); takeFirst_.erase(takeFirst_.begin())) {
-        take(*takeFirst_.begin());
-    }
-    for (; taken.size() < limit && !changed_.empty(); changed_.pop_front()) take(changed_.front());
-    return taken;
+Progress ChunkPipeline::progress() const {
+    return {table_.chunksInView, table_.visibleInView, pendingMeshes(table_) + toRelight_.size()};
 }
 
 std::size_t ChunkPipeline::localLightBytes() const {
     std::size_t bytes = 0;
-    for (const auto& [pos, extra] : extras_) bytes += extra.local ? extra.local->memoryBytes() : 0;
+    for (const auto& [pos, record] : table_.records) {
+        bytes += record.localLight ? record.localLight->memoryBytes() : 0;
+    }
     return bytes;
 }
 
 std::size_t ChunkPipeline::lightBytes() const {
     std::size_t bytes = 0;
-    for (const auto& [pos, extra] : extras_) bytes += extra.light ? extra.light->memoryBytes() : 0;
+    for (const auto& [pos, record] : table_.records) bytes += record.light ? record.light->memoryBytes() : 0;
     return bytes;
 }
 

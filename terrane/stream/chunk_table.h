@@ -1,105 +1,92 @@
-// Which chunks there are and how far each is: the rules of streaming without threads, clocks or blocks. The
-// owner (chunk_pipeline.h) asks what to do next and tells what was done.
+// One record for each chunk in memory or on its way there, and the view around which they are ordered. The
+// data that the three schedulers share: residency.h decides what is loaded and unloaded, lighting.h what is
+// lit, meshing.h what is meshed again. None of them knows threads, clocks or blocks; chunk_pipeline.h runs
+// their work. One thread.
 //
-//   (absent) ─► Loading ─► Active ─► Finishing ─► Visible
-//                            ▲ │ ▲───────┘ blocks changed meanwhile
+//   (absent) ─► Loading ─► Loaded ─► Lighting ─► Visible
+//                            ▲ │ ▲──────┘ blocks changed meanwhile
 //                            │ ▼
-//                            │ (absent): nobody asked for 5 s
-//                            └──────────────────────── Visible: the view moved on
+//                            │ (absent): nobody needed it for 5 s
+//                            └─────────────────── Visible: the view moved on
 //
-// Chunks within the view distance ask to be visible, those one ring around them to be active, since a chunk
-// can be finished (lit and meshed) only while its eight neighbours are active. One thread.
+// Chunks within the view distance are to be visible, those one ring around them loaded, since a chunk can be
+// lit and meshed only while its eight neighbors are loaded.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <deque>
-#include <glm/vec2.hpp>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
-#include <vector>
 
-#include "terrane/world/coords.h"
+#include "terrane/base/job_system.h"
+#include "terrane/stream/chunk_jobs.h"
+#include "terrane/stream/view_order.h"
 
 namespace terrane::stream {
 
-enum class ChunkStage : std::uint8_t { Loading, Active, Finishing, Visible };
+using Time = std::chrono::steady_clock::time_point;
 
-class ChunkTable {
-  public:
-    using Time = std::chrono::steady_clock::time_point;
-    static constexpr std::chrono::seconds kUnloadAfter{5};
-
-    // `direction`: where the view goes in x and y, of length 1 or 0; chunks in front come before those
-    // behind. False where all is as before.
-    bool setView(world::ChunkPos centre, int viewDistance, glm::vec2 direction = {});
-    // Somebody else asks for a chunk that is in the world: it is loaded soon and kept for 5 s.
-    void request(world::ChunkPos pos, Time now);
-
-    // At most `limit` absent chunks that are to be loaded, most urgent first; they are Loading then.
-    std::vector<world::ChunkPos> takeLoads(std::size_t limit);
-    // Nobody needs the chunk any more: its load may be given up. What was requested is always loaded.
-    bool mayGiveUpLoad(world::ChunkPos pos) const;
-    // A Loading chunk is there, or will not come: then it is absent again.
-    void loaded(world::ChunkPos pos, Time now);
-    void loadEnded(world::ChunkPos pos);
-
-    // At most `limit` chunks that can be made visible, most urgent first; they are Finishing then.
-    std::vector<world::ChunkPos> takeFinishes(std::size_t limit);
-    // A Finishing chunk is done. False where its blocks or a neighbour's changed meanwhile, or it is out of
-    // view: the result is to be dropped; it is Active again.
-    bool finished(world::ChunkPos pos);
-    // Blocks of a chunk changed: results on the way for it and its neighbours are old.
-    void blocksChanged(world::ChunkPos pos);
-
-    // Visible chunks that the view has left; they are Active then.
-    std::vector<world::ChunkPos> takeHidden();
-    // Active chunks that nobody asked for; they are absent then.
-    std::vector<world::ChunkPos> takeUnloads(Time now);
-
-    std::optional<ChunkStage> stageAt(world::ChunkPos pos) const;  // none where it is absent
-    bool is(world::ChunkPos pos, ChunkStage stage) const { return stageAt(pos) == stage; }
-    bool isAtLeastActive(world::ChunkPos pos) const;
-    bool isWanted(world::ChunkPos pos) const {
-        return world::chunkDistance(pos, centre_) <= viewDistance_ + 1;
-    }
-    std::size_t size() const { return entries_.size(); }
-    std::size_t loadingCount() const { return loading_; }
-    std::size_t finishingCount() const { return finishing_; }
-    std::size_t wantedVisible() const { return wantedVisible_; }  // chunks within the view distance
-    std::size_t visibleInView() const { return visibleInView_; }
-    // The smaller the sooner.
-    std::int64_t urgency(world::ChunkPos pos) const;
-
-  private:
-    struct Entry {
-        ChunkStage stage = ChunkStage::Loading;
-        bool isRequested = false;       // of a Loading one
-        bool isOld = false;             // of a Finishing one: blocks changed since it was taken
-        std::uint8_t activeAround = 0;  // of its eight neighbours; those beyond the world count
-        Time asked;
-    };
-
-    Entry& entry(world::ChunkPos pos);
-    bool isInView(world::ChunkPos pos) const { return world::chunkDistance(pos, centre_) <= viewDistance_; }
-    std::uint8_t countActiveAround(world::ChunkPos pos) const;
-    void changeActiveAround(world::ChunkPos pos, int change);
-    void setStage(world::ChunkPos pos, Entry& e, ChunkStage stage);
-    void lookAgainFrom(world::ChunkPos pos, std::size_t& cursor) const;
-    void orderOffsets();
-
-    std::unordered_map<world::ChunkPos, Entry, world::ChunkPosHash> entries_;
-    world::ChunkPos centre_;
-    int viewDistance_ = -1;
-    glm::vec2 direction_{};
-    std::vector<world::ChunkPos> offsets_;  // of wanted chunks from the centre, most urgent first
-    std::vector<std::size_t> rank_;         // place in offsets_ by offset
-    std::size_t loadCursor_ = 0;            // chunks before it are not absent
-    std::size_t finishCursor_ = 0;          // chunks before it are Finishing or Visible
-    std::deque<world::ChunkPos> requests_;  // in the order in which they came, each once
-    std::unordered_set<world::ChunkPos, world::ChunkPosHash> waiting_;  // those in requests_
-    std::size_t loading_ = 0, finishing_ = 0, wantedVisible_ = 0, visibleInView_ = 0;
+enum class ChunkStage : std::uint8_t {
+    Loading,   // from the store or the generator
+    Loaded,    // its blocks are there
+    Lighting,  // it is lit and meshed for the first time
+    Visible,   // light and mesh are there
+    Count,
 };
+
+struct ChunkRecord {
+    // Residency.
+    ChunkStage stage = ChunkStage::Loading;
+    bool isRequested = false;        // by others than the view: such a load is never cancelled
+    Time neededAt{};                 // when somebody last needed the chunk
+    base::JobHandle load;            // while the load can be cancelled
+    std::optional<Time> editedAt{};  // of the first edit that the store does not have
+
+    // Lighting.
+    std::uint8_t loadedAround = 0;  // of its eight neighbors; those beyond the world count
+    bool isOutdated = false;        // blocks changed since its lighting began
+    LocalLightPtr localLight{};     // null once nobody needs it
+    light::ChunkLightPtr light{};   // of visible chunks
+
+    // Meshing again, of visible chunks.
+    mesh::RegionSet toMesh = 0;  // what waits to be meshed
+    std::uint64_t meshJob = 0;   // the job that meshes all of it; 0: none, or its result is outdated
+};
+
+struct ChunkTable {
+    ViewOrder view;
+    std::unordered_map<world::ChunkPos, ChunkRecord, world::ChunkPosHash> records;
+    std::array<std::size_t, static_cast<std::size_t>(ChunkStage::Count)> stageCounts{};
+    std::size_t chunksInView = 0;   // within the view distance and the world
+    std::size_t visibleInView = 0;  // of these
+
+    // Residency: chunks before loadCursor in the view's order are not absent. Requests of others, each once.
+    std::size_t loadCursor = 0;
+    std::deque<world::ChunkPos> requests;
+    std::unordered_set<world::ChunkPos, world::ChunkPosHash> requested;
+
+    // Lighting: chunks before lightCursor in the view's order are Lighting or Visible, or not in view.
+    std::size_t lightCursor = 0;
+
+    // Meshing: chunks with `toMesh`, after edits and for other reasons; some stand here twice, or are meshed
+    // by now. Jobs are numbered from 1.
+    std::deque<world::ChunkPos> editedMeshes, otherMeshes;
+    std::uint64_t lastMeshJob = 0;
+    std::size_t meshJobCount = 0;  // on workers
+};
+
+ChunkRecord* findRecord(ChunkTable& table, world::ChunkPos pos);  // null where it is absent
+const ChunkRecord* findRecord(const ChunkTable& table, world::ChunkPos pos);
+std::optional<ChunkStage> stageAt(const ChunkTable& table, world::ChunkPos pos);
+bool isAt(const ChunkTable& table, world::ChunkPos pos, ChunkStage stage);
+std::size_t countOf(const ChunkTable& table, ChunkStage stage);
+
+// For the schedulers: keeps the counts. A new record is Loading.
+ChunkRecord& addRecord(ChunkTable& table, world::ChunkPos pos);
+void eraseRecord(ChunkTable& table, world::ChunkPos pos);
+void setStage(ChunkTable& table, world::ChunkPos pos, ChunkRecord& record, ChunkStage stage);
 
 }  // namespace terrane::stream

@@ -18,16 +18,18 @@ struct ChunkChange {
     world::ChunkPos pos;
     MeshPtr mesh;
     mesh::RegionSet regions = 0;  // of the mesh that changed; the others have no quads in it
-    bool needsMesh = false;       // whoever takes the change makes the mesh: see leaveMeshesOut()
+    bool needsMesh = false;       // whoever takes the change makes the mesh: see MeshPolicy
     light::ChunkLightPtr light;
     std::uint16_t bricks = 0;  // of the light that changed, a bit each
     bool isHidden = false;     // it is no longer on screen
 };
 
 struct Progress {
-    std::size_t wanted = 0;   // chunks within the view distance
-    std::size_t visible = 0;  // of these, lit and meshed
+    std::size_t wanted = 0;     // chunks within the view distance
+    std::size_t visible = 0;    // of these, lit and meshed
+    std::size_t remaining = 0;  // meshes and edits of visible chunks that are not up to date
     bool complete() const { return visible == wanted; }
+    bool isUpToDate() const { return complete() && remaining == 0; }
 };
 
 // What workers did so far, of one kind of task.
@@ -45,6 +47,11 @@ struct BatchGenerator {
     std::function<std::vector<std::pair<world::ChunkPos, world::Chunk>>()> take;
 };
 
+// Who meshes whole chunks: workers, or whoever takes the changes, as on the GPU, from
+// ChunkPipeline::meshBlocks(). Sections that edits touch are meshed by the pipeline either way: they are seen
+// in the next frame.
+enum class MeshPolicy : std::uint8_t { Workers, Caller };
+
 // What the pipeline works with; everything outlives it.
 struct PipelineParts {
     base::JobSystem& jobs;
@@ -53,6 +60,7 @@ struct PipelineParts {
     world::World& world;
     ChunkSource source;
     const BatchGenerator* batches = nullptr;  // in place of source.generator
+    MeshPolicy meshing = MeshPolicy::Workers;
 };
 
 }  // namespace terrane::stream

@@ -11,29 +11,43 @@
 #include <vector>
 
 #include "terrane/stream/chunk_jobs.h"
-#include "terrane/world/coords.h"
+#include "terrane/stream/meshing.h"
 
 namespace terrane::stream {
 
-enum Task : std::size_t { kLoad, kOwnLight, kLight, kMesh, kTaskCount };
+enum Task : std::size_t { kLoad, kLocalLight, kLight, kMesh, kTaskCount };
 
 // Filled by any thread. Jobs hold it too, so that one that ends late finds it alive.
 struct WorkerResults {
     struct Load {
         world::ChunkPos pos;
-        world::ChunkPtr chunk;  // null: to be made by a batch generator
-        LocalLightPtr local;
+        std::shared_ptr<world::Chunk> chunk;  // null: to be made by a batch generator
+        LocalLightPtr localLight;
     };
-    struct Finish {
+    struct Lit {
         world::ChunkPos pos;
-        MeshPtr mesh;
         light::ChunkLightPtr light;
+        MeshPtr mesh;  // null where the caller of the pipeline makes meshes
     };
+    struct Meshed {
+        MeshJob job;
+        MeshPtr mesh;
+    };
+    struct Lists {
+        std::vector<Load> loads;
+        std::vector<Lit> lit;
+        std::vector<Meshed> meshed;
+        std::exception_ptr failure;  // the first
+
+        bool isEmpty() const { return loads.empty() && lit.empty() && meshed.empty() && !failure; }
+        void add(Load load) { loads.push_back(std::move(load)); }
+        void add(Lit chunk) { lit.push_back(std::move(chunk)); }
+        void add(Meshed chunk) { meshed.push_back(std::move(chunk)); }
+    };
+
     std::mutex mutex;
     std::condition_variable changed;
-    std::vector<Load> loads;
-    std::vector<Finish> finishes;
-    std::exception_ptr failure;       // the first
+    Lists lists;                      // under the mutex
     std::atomic<bool> isOver{false};  // nobody takes results any more: jobs that begin now do nothing
 
     // Runs work and counts it. Any thread, without the mutex.
@@ -49,22 +63,25 @@ struct WorkerResults {
     std::array<std::atomic<std::int64_t>, kTaskCount> nanoseconds{};
     std::array<std::atomic<std::size_t>, kTaskCount> counts{};
 
-    void add(Load load) {
+    template <class Result>
+    void add(Result result) {
         const std::lock_guard lock(mutex);
-        loads.push_back(std::move(load));
-        changed.notify_one();
-    }
-    void add(Finish finish) {
-        const std::lock_guard lock(mutex);
-        finishes.push_back(std::move(finish));
+        lists.add(std::move(result));
         changed.notify_one();
     }
     void fail(std::exception_ptr error) {
         const std::lock_guard lock(mutex);
-        if (!failure) failure = std::move(error);
+        if (!lists.failure) lists.failure = std::move(error);
         changed.notify_one();
     }
-    bool isEmpty() const { return loads.empty() && finishes.empty() && !failure; }
+    Lists takeAll() {
+        const std::lock_guard lock(mutex);
+        return std::exchange(lists, {});
+    }
+    void waitForAny(std::chrono::milliseconds atMost) {
+        std::unique_lock lock(mutex);
+        changed.wait_for(lock, atMost, [&] { return !lists.isEmpty(); });
+    }
 };
 
 }  // namespace terrane::stream

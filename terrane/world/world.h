@@ -1,9 +1,10 @@
 // The chunks in memory and access to their blocks. Used on one thread (the one that runs the game); chunks
-// themselves are shared with workers as immutable snapshots: an edit replaces the chunk by a changed copy
-// when a worker holds it.
+// themselves are shared with workers as immutable snapshots: an edit (block_edit.h) replaces the chunk by a
+// changed copy when a worker holds it.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <unordered_map>
 
 #include "terrane/world/chunk.h"
@@ -15,32 +16,34 @@ class World {
     // The chunk, or null unless it is loaded.
     ChunkPtr maybeChunkAt(ChunkPos pos) const;
 
-    // Adds a chunk or replaces the one there. The chunk must not have been created as a constant object.
-    void insert(ChunkPos pos, ChunkPtr chunk);
+    // Adds a chunk or replaces the one there. The world owns it from here on: the caller may keep the pointer
+    // to read, never to write.
+    void insert(ChunkPos pos, std::shared_ptr<Chunk> chunk);
     void erase(ChunkPos pos) { chunks_.erase(pos); }
 
     // Air above and below the world and where no chunk is loaded.
     BlockId block(BlockPos pos) const;
-    // False where no chunk is loaded or pos.z is outside the world; then nothing changes.
-    bool setBlock(BlockPos pos, BlockId id);
 
     // A block's 16 bits of small data, and the bytes it keeps beyond them. Where no chunk is loaded there are
-    // none, and setting returns false. What belongs to a block goes when setBlock replaces it. A pointer
-    // holds until the chunk changes or goes.
+    // none. A pointer holds until the chunk changes or goes.
     std::uint16_t smallData(BlockPos pos) const;
-    bool setSmallData(BlockPos pos, std::uint16_t value);  // large data the block had goes
-    const LargeData* largeData(BlockPos pos) const;        // null where the block has none
-    bool setLargeData(BlockPos pos, LargeData data);
-    bool clearLargeData(BlockPos pos);
+    const LargeData* largeData(BlockPos pos) const;  // null where the block has none
 
-    const std::unordered_map<ChunkPos, ChunkPtr, ChunkPosHash>& chunks() const { return chunks_; }
+    std::size_t chunkCount() const { return chunks_.size(); }
     std::size_t memoryBytes() const;  // of all chunks
+    // use(ChunkPos, ChunkPtr) for each chunk, in no order.
+    template <class Use>
+    void forEachChunk(Use use) const {
+        for (const auto& [pos, chunk] : chunks_) use(pos, ChunkPtr(chunk));
+    }
 
   private:
-    const Chunk* findChunk(BlockPos pos) const;  // null above, below and where none is loaded
-    Chunk* findWritable(BlockPos pos);           // the same
+    friend struct BlockWriter;  // of block_edit.cpp
 
-    std::unordered_map<ChunkPos, ChunkPtr, ChunkPosHash> chunks_;
+    const Chunk* findChunk(BlockPos pos) const;  // null above, below and where none is loaded
+    Chunk* findWritable(BlockPos pos);           // the same; no snapshot shows what is written to it
+
+    std::unordered_map<ChunkPos, std::shared_ptr<Chunk>, ChunkPosHash> chunks_;
 };
 
 }  // namespace terrane::world

@@ -94,9 +94,9 @@ TEST_F(Effects, OfSamples) {
 TEST_F(Effects, OfLayers) {
     world::World world = flatWorld(3);
     for (int row = 0; row < 4; ++row) {
-        for (int x = 0; x < 4 + row; ++x) world.setBlock({x, 3 * row, kGalleryZ}, contentBlock("cyan_glass"));
+        for (int x = 0; x < 4 + row; ++x) world::putBlock(world, {x, 3 * row, kGalleryZ}, contentBlock("cyan_glass"));
     }
-    for (int x = 0; x < 4; ++x) world.setBlock({x, 4, kGalleryZ}, contentBlock("water"));
+    for (int x = 0; x < 4; ++x) world::putBlock(world, {x, 4, kGalleryZ}, contentBlock("water"));
     for (const auto& [pos, mesh] : meshWorld(world)) renderer_->setChunk(pos, mesh);
     const render::FrameInput input{
         {{2.0, -4.5, 83}, 88, -14, 50}, world::environmentAt(0.4f), 400, 0, render::View::Color};

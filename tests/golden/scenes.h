@@ -10,6 +10,7 @@
 #include "terrane/mesh/chunk_mesher.h"
 #include "terrane/world/world.h"
 #include "tests/world/content_blocks.h"
+#include "tests/world/put_block.h"
 
 namespace terrane::golden {
 
@@ -19,17 +20,17 @@ using Meshes = std::map<world::ChunkPos, mesh::ChunkMesh>;
 inline Meshes meshWorld(const world::World& world) {
     Meshes meshes;
     mesh::MeshScratch scratch;
-    for (const auto& [pos, chunk] : world.chunks()) {
+    world.forEachChunk([&](world::ChunkPos pos, const world::ChunkPtr& chunk) {
         const std::array<world::ChunkPtr, 4> beside = {
             world.maybeChunkAt({pos.x - 1, pos.y}), world.maybeChunkAt({pos.x + 1, pos.y}),
             world.maybeChunkAt({pos.x, pos.y - 1}), world.maybeChunkAt({pos.x, pos.y + 1})};
-        if (std::ranges::any_of(beside, [](const world::ChunkPtr& c) { return !c; })) continue;
+        if (std::ranges::any_of(beside, [](const world::ChunkPtr& c) { return !c; })) return;
         mesh::MeshInput input;
         input.centre = chunk.get();
         for (std::size_t k = 0; k < beside.size(); ++k) input.neighbours[k] = beside[k].get();
         input.blocks = &contentBlocks();
         meshes[pos] = mesh::meshChunk(input, scratch);
-    }
+    });
     return meshes;
 }
 
@@ -64,8 +65,9 @@ inline void placeGallery(world::World& world) {
         if (type.id == world::kAir || type.id == contentBlocks().missing()) continue;
         for (std::size_t left = 0; left <= type.growth.size(); ++left, ++number) {
             const world::BlockPos pos{2 * (number % kRow), 2 * (number / kRow), kGalleryZ};
-            if (!world.setBlock(pos, type.id)) throw std::runtime_error("the gallery is not in the world");
-            world.setSmallData(pos, static_cast<std::uint16_t>(left));
+            if (!world::putBlock(world, pos, type.id))
+                throw std::runtime_error("the gallery is not in the world");
+            world::putState(world, pos, static_cast<std::uint16_t>(left));
         }
     }
 }
@@ -75,12 +77,12 @@ inline void placePool(world::World& world) {
     const world::BlockId water = contentBlock("water"), glass = contentBlock("cyan_glass");
     for (int y = 0; y < 14; ++y) {
         for (int x = 0; x < 14; ++x) {
-            for (int z = kGalleryZ - 3; z < kGalleryZ; ++z) world.setBlock({x, y, z}, water);
+            for (int z = kGalleryZ - 3; z < kGalleryZ; ++z) world::putBlock(world, {x, y, z}, water);
         }
     }
     for (const world::BlockPos pos :
          {world::BlockPos{5, 9, 80}, {5, 9, 81}, {10, 12, 81}, {11, 15, 81}, {3, 4, 79}}) {
-        world.setBlock(pos, glass);
+        world::putBlock(world, pos, glass);
     }
 }
 

@@ -136,7 +136,8 @@ TEST(Relight, TakesASeveralTimesChangedBlockFromItsFirst) {
 TEST(Relight, LeavesChunksWithoutLightAlone) {
     LitChunks chunks;
     chunks[{0, 0}] = {std::make_shared<world::Chunk>(), nullptr};
-    const BlockEdit edits[] = {{{3, 3, 3}, contentBlock("stone")}, {{99, 99, 3}, contentBlock("stone")}};
+    const world::BlockEdit edits[] = {{{3, 3, 3}, contentBlock("stone"), world::kAir},
+                                      {{99, 99, 3}, contentBlock("stone"), world::kAir}};
     LightScratch scratch;
     EXPECT_TRUE(relight(chunks, edits, contentTable(), scratch).empty());
     EXPECT_EQ((chunks[{0, 0}].light), nullptr);

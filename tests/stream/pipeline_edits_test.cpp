@@ -70,7 +70,7 @@ TEST_F(PipelineEditsTest, AnEditIsOnScreenInTheNextUpdate) {
     expectShowsTheView();
 }
 
-// All that is shown is meshed and handed out again, in many updates: edits do not wait for that.
+// All light is handed out again, all is meshed again, in many updates: edits do not wait for that.
 TEST_F(PipelineEditsTest, EditsComeBeforeWhatIsShownAgain) {
     constexpr ChunkPos kLast{5, 5};
     setView({0, 0}, 5);
@@ -83,32 +83,50 @@ TEST_F(PipelineEditsTest, EditsComeBeforeWhatIsShownAgain) {
             if (change.pos != kLast) continue;
             isThere = change.mesh && change.light;
             if (!isThere) continue;
-            EXPECT_EQ(*change.mesh, directMesh(world_, kLast, options));
+            const mesh::ChunkMesh expected = directMesh(world_, kLast, options);
+            EXPECT_EQ(*change.mesh, change.regions == mesh::kAllRegions
+                                        ? expected
+                                        : mesh::withRegions(*change.mesh, expected, change.regions));
             EXPECT_EQ(*change.light, directLight(world_, kLast));
         }
         EXPECT_TRUE(isThere);
-        do update();
-        while (take(kAll) > 0);
+        settle();
         EXPECT_EQ(pipeline_->waitingChanges(), 0u);
     };
-    pipeline_->showAgain();
+    pipeline_->resendLight();
+    EXPECT_EQ(pipeline_->waitingChanges(), 121u);
     expectEditIsNext({}, 90);
-    shown_.erase(kLast);  // it was taken above
     const mesh::MeshOptions none{mesh::Method::None, 16};
     pipeline_->setMeshOptions(none);
     expectEditIsNext(none, 100);
-    EXPECT_EQ(shown_.size(), 120u);
-    for (const auto& [pos, shown] : shown_) EXPECT_EQ(*shown.mesh, directMesh(world_, pos, none));
+    for (const auto& [pos, shown] : shown_) {
+        if (pos == kLast) continue;  // it was taken above
+        EXPECT_EQ(*shown.mesh, directMesh(world_, pos, none));
+    }
+}
+
+// As a new store of light needs: no quads go along.
+TEST_F(PipelineEditsTest, LightIsSentAgainWithoutMeshes) {
+    setView({0, 0}, 1);
+    settle();
+    pipeline_->resendLight();
+    update();
+    const std::vector<ChunkChange> changes = pipeline_->takeChanges(kAll);
+    EXPECT_EQ(changes.size(), 9u);
+    for (const ChunkChange& change : changes) {
+        EXPECT_TRUE(change.light && change.bricks == 0xFFFF);
+        EXPECT_TRUE(!change.mesh && !change.needsMesh);
+    }
 }
 
 TEST_F(PipelineEditsTest, EditsOfWhatIsNotLoadedAreRefused) {
     setView({0, 0}, 1);
-    EXPECT_FALSE(pipeline_->setBlock({1000, 0, 60}, contentBlock("sand")));
-    EXPECT_FALSE(pipeline_->setSmallData({1000, 0, 60}, 3));
-    EXPECT_FALSE(pipeline_->setLargeData({1000, 0, 60}, {std::byte{1}}));
+    EXPECT_FALSE(placeBlock({1000, 0, 60}, "sand"));
+    EXPECT_FALSE(edit({1000, 0, 60}, world::SetState{3}));
+    EXPECT_FALSE(edit({1000, 0, 60}, world::SetEntityData{{std::byte{1}}}));
     settle();
-    EXPECT_FALSE(pipeline_->setBlock({3, 3, 256}, contentBlock("sand")));
-    EXPECT_FALSE(pipeline_->setBlock({3, 3, -1}, contentBlock("sand")));
+    EXPECT_FALSE(placeBlock({3, 3, 256}, "sand"));
+    EXPECT_FALSE(placeBlock({3, 3, -1}, "sand"));
     expectShowsTheView();
     rest();
 }
@@ -116,9 +134,9 @@ TEST_F(PipelineEditsTest, EditsOfWhatIsNotLoadedAreRefused) {
 TEST_F(PipelineEditsTest, EditsOutOfViewAreHarmless) {
     setView({0, 0}, 0);
     settle();
-    ASSERT_TRUE(pipeline_->setBlock({20, 20, 90}, contentBlock("sand"))) << "active, and not visible";
+    ASSERT_TRUE(placeBlock({20, 20, 90}, "sand")) << "active, and not visible";
     ASSERT_TRUE(pipeline_->chunkAt({40, 40}));
-    ASSERT_TRUE(pipeline_->setBlock({645, 645, 90}, contentBlock("lamp_red")));
+    ASSERT_TRUE(placeBlock({645, 645, 90}, "lamp_red"));
     settle();
     expectShowsTheView();
     setView({40, 40}, 1);
@@ -130,8 +148,8 @@ TEST_F(PipelineEditsTest, EditsOutOfViewAreHarmless) {
 TEST_F(PipelineEditsTest, PlantsAreMeshedByTheirStage) {
     setView({0, 0}, 0);
     settle();
-    ASSERT_TRUE(pipeline_->setBlock({3, 3, 100}, contentBlock("dirt")));
-    ASSERT_TRUE(pipeline_->setBlock({3, 3, 101}, contentBlock("wheat")));
+    ASSERT_TRUE(placeBlock({3, 3, 100}, "dirt"));
+    ASSERT_TRUE(placeBlock({3, 3, 101}, "wheat"));
     std::set<std::uint16_t> left;
     for (int stage = 3;; --stage) {
         left.insert(world_.smallData({3, 3, 101}));
@@ -139,7 +157,7 @@ TEST_F(PipelineEditsTest, PlantsAreMeshedByTheirStage) {
         expectShowsTheView();
         if (stage == 0) break;
         const auto before = shown_.at({0, 0}).mesh;
-        ASSERT_TRUE(pipeline_->setSmallData({3, 3, 101}, static_cast<std::uint16_t>(stage - 1)));
+        ASSERT_TRUE(edit({3, 3, 101}, world::SetState{static_cast<std::uint16_t>(stage - 1)}));
         update();
         take(kAll);
         EXPECT_NE(*shown_.at({0, 0}).mesh, *before) << "stage " << stage - 1;
@@ -229,7 +247,9 @@ TEST_F(PipelineEditsTest, EditsSurviveWhileTheirChunkStaysInView) {
 // Where whole chunks are meshed elsewhere, edits still come with their mesh, but where the chunk has none
 // yet.
 TEST_F(PipelineEditsTest, MeshesOfWholeChunksAreLeftOut) {
-    pipeline_->leaveMeshesOut();
+    pipeline_ = nullptr;
+    world_ = {};
+    pipeline_ = makePipeline({&generator_, nullptr, false}, MeshPolicy::Caller);
     setView({0, 0}, 1);
     for (update(); !pipeline_->progress().complete(); update()) {
         pipeline_->waitForWorkers(std::chrono::milliseconds(100));
@@ -258,6 +278,54 @@ TEST_F(PipelineEditsTest, MeshesOfWholeChunksAreLeftOut) {
     std::size_t again = 0;
     for (const ChunkChange& change : pipeline_->takeChanges(kAll)) again += change.needsMesh;
     EXPECT_EQ(again, 9u);
+}
+
+// An edit where not all around is lit yet relights what is around it alone; the rest stays incremental. Light
+// is that of everything from scratch, in whatever order chunks came.
+TEST_F(PipelineEditsTest, EditsWhileTheViewLoads) {
+    for (unsigned round = 0; round < 12; ++round) {
+        pipeline_ = nullptr;
+        world_ = {};
+        shown_.clear();
+        pipeline_ = makePipeline({&generator_, nullptr, false});
+        setView({0, 0}, 4);
+        for (unsigned step = 0; !pipeline_->progress().complete(); ++step) {
+            update();
+            for (unsigned k = 0; k < 20; ++k) {
+                const auto random = [&](unsigned n, unsigned count) {
+                    return static_cast<int>(shared::hash3(step, k, n, round) % count);
+                };
+                const char* const kinds[] = {"air", "stone", "lamp_red", "lamp_blue"};
+                placeBlock({random(0, 144) - 64, random(1, 144) - 64, 50 + random(2, 24)},
+                           kinds[random(3, 4)]);
+            }
+            pipeline_->waitForWorkers(std::chrono::milliseconds(2));
+            take(static_cast<std::size_t>(step % 7));
+        }
+        settle();
+        expectShowsTheView();
+        if (HasFatalFailure()) return;
+    }
+}
+
+// One batch of 32³ blocks over several chunks.
+TEST_F(PipelineEditsTest, AFillOfManyBlocksAtOnce) {
+    setView({0, 0}, 2);
+    settle();
+    const auto fill = [&](std::string_view name) {
+        std::vector<world::BlockEdit> edits;
+        for (int z = 60; z < 92; ++z)
+            for (int y = -9; y < 23; ++y)
+                for (int x = -9; x < 23; ++x)
+                    world::applyChange(world_, contentBlocks(), {x, y, z},
+                                       world::SetBlock{contentBlock(name)}, edits);
+        pipeline_->onEdits(edits);
+        settle();
+        expectShowsTheView();
+    };
+    fill("stone");
+    fill("lamp_green");
+    fill("air");
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ class PipelineTest : public testing::Test {
     // Until the view is complete and no job is left.
     void settle() {
         const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-        for (update(); !pipeline_->progress().complete(); update()) {
+        for (update(); !pipeline_->progress().isUpToDate(); update()) {
             ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "the view is never complete";
             pipeline_->waitForWorkers(std::chrono::milliseconds(100));
         }
@@ -115,8 +115,10 @@ class PipelineTest : public testing::Test {
         now_ += std::chrono::seconds(6);
         update();
         const std::size_t side = 2 * (static_cast<std::size_t>(distance_) + 1) + 1;
-        ASSERT_LE(world_.chunks().size(), side * side);
-        for (const auto& [pos, chunk] : world_.chunks()) ASSERT_TRUE(isWithin(pos, centre_, distance_ + 1));
+        ASSERT_LE(world_.chunkCount(), side * side);
+        world_.forEachChunk([&](ChunkPos pos, const world::ChunkPtr&) {
+            ASSERT_TRUE(isWithin(pos, centre_, distance_ + 1));
+        });
     }
 
     void expectShowsTheView() const {
@@ -138,13 +140,21 @@ class PipelineTest : public testing::Test {
         EXPECT_EQ(pipeline_->progress().visible, wanted);
     }
 
-    void placeBlock(world::BlockPos pos, std::string_view name) {
-        pipeline_->setBlock(pos, contentBlock(name));
+    // As terrane/game does. False where nothing changed.
+    bool edit(world::BlockPos pos, const world::BlockChange& change) {
+        std::vector<world::BlockEdit> edits;
+        world::applyChange(world_, contentBlocks(), pos, change, edits);
+        pipeline_->onEdits(edits);
+        return !edits.empty();
+    }
+    bool placeBlock(world::BlockPos pos, std::string_view name) {
+        return edit(pos, world::SetBlock{contentBlock(name)});
     }
 
-    std::unique_ptr<ChunkPipeline> makePipeline(ChunkSource source) {
+    std::unique_ptr<ChunkPipeline> makePipeline(ChunkSource source,
+                                                MeshPolicy meshing = MeshPolicy::Workers) {
         return std::make_unique<ChunkPipeline>(
-            PipelineParts{jobs_, contentBlocks(), lightTable(), world_, source, nullptr});
+            PipelineParts{jobs_, contentBlocks(), lightTable(), world_, source, nullptr, meshing});
     }
 
     struct Shown {

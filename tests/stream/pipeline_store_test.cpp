@@ -12,7 +12,7 @@ class PipelineStoreTest : public PipelineTest {
     // As the program does that is closed and started again.
     void restart(bool storesGenerated = false) {
         pipeline_ = nullptr;
-        for (const auto& [pos, chunk] : std::unordered_map(world_.chunks())) world_.erase(pos);
+        world_ = {};
         shown_.clear();
         pipeline_ = makePipeline({&generator_, &store_, storesGenerated});
     }
@@ -67,8 +67,8 @@ TEST_F(PipelineStoreTest, GeneratedChunksAreStoredWhereThatIsAskedFor) {
 TEST_F(PipelineStoreTest, DataOfBlocksIsSaved) {
     setView({0, 0}, 0);
     settle();
-    ASSERT_TRUE(pipeline_->setSmallData({3, 3, 20}, 77));
-    ASSERT_TRUE(pipeline_->setLargeData({4, 3, 20}, {std::byte{1}, std::byte{2}}));
+    ASSERT_TRUE(edit({3, 3, 20}, world::SetState{77}));
+    ASSERT_TRUE(edit({4, 3, 20}, world::SetEntityData{{std::byte{1}, std::byte{2}}}));
     restart();
     setView({0, 0}, 0);
     settle();

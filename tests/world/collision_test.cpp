@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tests/world/content_blocks.h"
+#include "tests/world/put_block.h"
 
 namespace terrane::world {
 namespace {
@@ -22,7 +23,7 @@ class CollisionTest : public testing::Test {
             world_.insert({n % 3 - 1, n / 3 - 1}, chunk);
         }
     }
-    void put(BlockPos pos, std::string_view name) { world_.setBlock(pos, contentBlock(name)); }
+    void put(BlockPos pos, std::string_view name) { putBlock(world_, pos, contentBlock(name)); }
     Sweep move(const Aabb& box, glm::dvec3 motion) const {
         return sweep(world_, contentBlocks(), box, motion);
     }
@@ -70,7 +71,7 @@ TEST_F(CollisionTest, ABoxInsideABlockCanLeave) {
     for (const glm::dvec3 motion : {glm::dvec3(0, 0, 3), {2, 0, 0}, {0, -2, 0}}) {
         World empty;
         empty.insert({0, 0}, std::make_shared<Chunk>());
-        empty.setBlock({8, 8, 50}, contentBlock("stone"));
+        putBlock(empty, {8, 8, 50}, contentBlock("stone"));
         EXPECT_EQ(sweep(empty, contentBlocks(), personAt({8.5, 8.5, 50.2}), motion).moved, motion);
     }
 }

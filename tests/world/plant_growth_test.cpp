@@ -5,8 +5,9 @@
 #include <memory>
 #include <set>
 
-#include "terrane/world/block_update.h"
+#include "terrane/world/block_edit.h"
 #include "tests/world/content_blocks.h"
+#include "tests/world/put_block.h"
 
 namespace terrane::world {
 namespace {
@@ -17,15 +18,17 @@ class PlantGrowthTest : public testing::Test {
         for (int n = 0; n < 9; ++n) world_.insert({n % 3 - 1, n / 3 - 1}, std::make_shared<Chunk>());
     }
     void plantAt(BlockPos ground, std::string_view name) {
-        updateBlock(world_, contentBlocks(), ground, contentBlock("dirt"));
-        updateBlock(world_, contentBlocks(), {ground.x, ground.y, ground.z + 1}, contentBlock(name));
+        std::vector<BlockEdit> edits;
+        const BlockPos above{ground.x, ground.y, ground.z + 1};
+        applyChange(world_, contentBlocks(), ground, SetBlock{contentBlock("dirt")}, edits);
+        applyChange(world_, contentBlocks(), above, SetBlock{contentBlock(name)}, edits);
     }
     // Runs ticks until `stages` are grown; returns how many were needed.
     std::uint64_t grow(std::uint64_t stages, std::uint64_t atMost) {
         for (std::uint64_t tick = 0; tick < atMost; ++tick) {
             if (stages == 0) return tick;
             for (const BlockPos pos : plantsThatGrow(world_, contentBlocks(), {tick, {0, 0}, 1})) {
-                world_.setSmallData(pos, static_cast<std::uint16_t>(world_.smallData(pos) - 1));
+                putState(world_, pos, static_cast<std::uint16_t>(world_.smallData(pos) - 1));
                 --stages;
             }
         }
@@ -52,8 +55,8 @@ TEST_F(PlantGrowthTest, EveryPlaceHasItsTurn) {
 }
 
 TEST_F(PlantGrowthTest, OtherBlocksKeepTheirData) {
-    world_.setBlock({1, 1, 50}, contentBlock("stone"));
-    world_.setSmallData({1, 1, 50}, 7);
+    putBlock(world_, {1, 1, 50}, contentBlock("stone"));
+    putState(world_, {1, 1, 50}, 7);
     grow(1, 3000);
     EXPECT_EQ(world_.smallData({1, 1, 50}), 7);
 }

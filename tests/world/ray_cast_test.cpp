@@ -12,6 +12,7 @@
 #include <random>
 
 #include "tests/world/lowest_highest.h"
+#include "tests/world/put_block.h"
 
 namespace terrane::world {
 namespace {
@@ -48,7 +49,7 @@ std::optional<RayHit> cast(const World& world, glm::dvec3 origin, glm::dvec3 dir
 
 TEST(RayCast, FaceAndDistanceAlongEachAxis) {
     World world = worldAround({5, 5, 5});
-    world.setBlock({5, 5, 5}, kRock);
+    putBlock(world, {5, 5, 5}, kRock);
     const glm::dvec3 centre(5.5, 5.5, 5.5);
     for (int face = 0; face < kFaceCount; ++face) {
         glm::dvec3 outward(0);
@@ -64,7 +65,7 @@ TEST(RayCast, FaceAndDistanceAlongEachAxis) {
 
 TEST(RayCast, NoFurtherThanTheMaximum) {
     World world = worldAround({0, 0, 0});
-    world.setBlock({10, 0, 0}, kRock);
+    putBlock(world, {10, 0, 0}, kRock);
     EXPECT_TRUE(cast(world, {0.5, 0.5, 0.5}, {1, 0, 0}, 9.5));
     EXPECT_FALSE(cast(world, {0.5, 0.5, 0.5}, {1, 0, 0}, 9.4999));
     EXPECT_FALSE(cast(world, {9.5, 0.5, 0.5}, {1, 0, 0}, -1));
@@ -72,8 +73,8 @@ TEST(RayCast, NoFurtherThanTheMaximum) {
 
 TEST(RayCast, SelectionBoxes) {
     World world = worldAround({0, 0, 0});
-    world.setBlock({3, 0, 5}, kPlant);
-    world.setBlock({6, 0, 5}, kRock);
+    putBlock(world, {3, 0, 5}, kPlant);
+    putBlock(world, {6, 0, 5}, kRock);
     const auto low = cast(world, {0.5, 0.5, 5.25}, {1, 0, 0});
     ASSERT_TRUE(low);
     EXPECT_EQ(low->block, (BlockPos{3, 0, 5}));
@@ -89,8 +90,8 @@ TEST(RayCast, SelectionBoxes) {
 
 TEST(RayCast, PassesWhatIsNotSelectable) {
     World world = worldAround({0, 0, 0});
-    for (int x = 0; x < 4; ++x) world.setBlock({x, 0, 0}, kWater);
-    world.setBlock({4, 0, 0}, kRock);
+    for (int x = 0; x < 4; ++x) putBlock(world, {x, 0, 0}, kWater);
+    putBlock(world, {4, 0, 0}, kRock);
     const auto hit = cast(world, {0.5, 0.5, 0.5}, {1, 0, 0});
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->block, (BlockPos{4, 0, 0}));
@@ -98,13 +99,13 @@ TEST(RayCast, PassesWhatIsNotSelectable) {
 
 TEST(RayCast, UnknownBlocksAreHit) {
     World world = worldAround({0, 0, 0});
-    world.setBlock({4, 0, 0}, 60000);
+    putBlock(world, {4, 0, 0}, 60000);
     EXPECT_TRUE(cast(world, {0.5, 0.5, 0.5}, {1, 0, 0}));
 }
 
 TEST(RayCast, FromInsideABox) {
     World world = worldAround({0, 0, 0});
-    world.setBlock({0, 0, 0}, kRock);
+    putBlock(world, {0, 0, 0}, kRock);
     const auto hit = cast(world, {0.5, 0.5, 0.5}, {0.1, 0, 1});
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->block, (BlockPos{0, 0, 0}));
@@ -114,8 +115,8 @@ TEST(RayCast, FromInsideABox) {
 
 TEST(RayCast, FromOutsideTheHeight) {
     World world = worldAround({0, 0, 0});
-    world.setBlock({0, 0, 255}, kRock);
-    world.setBlock({1, 0, 0}, kRock);
+    putBlock(world, {0, 0, 255}, kRock);
+    putBlock(world, {1, 0, 0}, kRock);
     EXPECT_DOUBLE_EQ(cast(world, {0.5, 0.5, 300}, {0, 0, -1}, 100)->distance, 44);
     EXPECT_DOUBLE_EQ(cast(world, {1.5, 0.5, -10}, {0, 0, 1}, 100)->distance, 10);
     EXPECT_FALSE(cast(world, {0.5, 0.5, 300}, {1, 0, 0}, 1e18)) << "ends, though nothing is there";
@@ -124,7 +125,7 @@ TEST(RayCast, FromOutsideTheHeight) {
 
 TEST(RayCast, RaysThatAreNone) {
     World world = worldAround({0, 0, 0});
-    world.setBlock({0, 0, 0}, kRock);
+    putBlock(world, {0, 0, 0}, kRock);
     const double infinity = std::numeric_limits<double>::infinity(), nan = std::nan("");
     EXPECT_FALSE(cast(world, {0.5, 0.5, 0.5}, {0, 0, 0}));
     EXPECT_FALSE(cast(world, {0.5, 0.5, 0.5}, {nan, 0, 0}));
@@ -137,7 +138,7 @@ TEST(RayCast, RaysThatAreNone) {
 
 TEST(RayCast, LengthOfTheDirectionDoesNotMatter) {
     World world = worldAround({0, 0, 0});
-    world.setBlock({3, 4, 0}, kRock);
+    putBlock(world, {3, 4, 0}, kRock);
     for (const double scale : {1e-300, 1.0, 1e300}) {
         const auto hit = cast(world, {0.5, 0.5, 0.5}, scale * glm::dvec3(3, 4, 0));
         ASSERT_TRUE(hit) << scale;
@@ -150,7 +151,7 @@ TEST(RayCast, AtTheCornersOfTheWorld) {
     for (const std::int32_t x : {kLowest, kHighest})
         for (const std::int32_t y : {kLowest, kHighest}) {
             World world = worldAround({x, y, 0});
-            world.setBlock({x, y, 100}, kRock);
+            putBlock(world, {x, y, 100}, kRock);
             const double inward = x < 0 ? 1 : -1;
             const glm::dvec3 centre(x + 0.5, y + 0.5, 100.5);
             const auto hit = cast(world, centre + glm::dvec3(5 * inward, 0, 0), {-inward, 0, 0});
@@ -173,8 +174,8 @@ World randomWorld(BlockPos corner, int percentFilled, std::mt19937& random) {
         for (int y = 0; y < kRegion; ++y)
             for (int x = 0; x < kRegion; ++x)
                 if (static_cast<int>(random() % 100) < percentFilled)
-                    world.setBlock({corner.x + x, corner.y + y, corner.z + z},
-                                   static_cast<BlockId>(1 + random() % 4));
+                    putBlock(world, {corner.x + x, corner.y + y, corner.z + z},
+                             static_cast<BlockId>(1 + random() % 4));
     return world;
 }
 

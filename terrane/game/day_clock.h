@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-namespace terrane::app {
+namespace terrane::game {
 
 struct DayClock {
     double timeDay = 0.38;   // 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk
@@ -30,4 +30,4 @@ inline std::optional<double> timeDayFrom(std::string_view text) {
     return isGood ? std::optional(time) : std::nullopt;
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::game

@@ -1,8 +1,8 @@
-#include "apps/terrane/window/day_clock.h"
+#include "terrane/game/day_clock.h"
 
 #include <gtest/gtest.h>
 
-namespace terrane::app {
+namespace terrane::game {
 namespace {
 
 TEST(DayClock, ADayEndsWhereTheNextBegins) {
@@ -26,4 +26,4 @@ TEST(DayClock, OnlyNumbersOfADayAreTimes) {
 }
 
 }  // namespace
-}  // namespace terrane::app
+}  // namespace terrane::game

@@ -1,11 +1,11 @@
-#include "apps/terrane/window/hand.h"
+#include "terrane/game/block_interaction.h"
 
 #include <algorithm>
 #include <array>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
-namespace terrane::app {
+namespace terrane::game {
 namespace {
 
 bool overlap(const world::Aabb& a, const world::Aabb& b) {
@@ -28,38 +28,42 @@ world::BlockPos beside(world::BlockPos pos, world::Face face) {
     return {pos.x + kOut[face].x, pos.y + kOut[face].y, pos.z + kOut[face].z};
 }
 
-Hand::Hand(const world::BlockRegistry& blocks) {
+BlockInteraction::BlockInteraction(const world::BlockRegistry& blocks) {
     for (const world::BlockType& type : blocks.types()) {
         if (type.id != world::kAir && type.id != blocks.missing()) kinds_.push_back(type.id);
     }
 }
 
-void Hand::choose(int steps) {
+void BlockInteraction::choose(int steps) {
     const int count = static_cast<int>(kinds_.size());
     chosen_ = static_cast<std::size_t>(((static_cast<int>(chosen_) + steps) % count + count) % count);
 }
 
-void Hand::choose(world::BlockId kind) {
+void BlockInteraction::choose(world::BlockId kind) {
     const auto found = std::ranges::find(kinds_, kind);
     if (found != kinds_.end()) chosen_ = static_cast<std::size_t>(found - kinds_.begin());
 }
 
-void Hand::act(const world::World& world, const world::BlockRegistry& blocks, stream::ChunkPipeline& pipeline,
-               const Player& player, double seconds) {
-    const world::Ray ray{player.camera().position, glm::dvec3(render::lookDirection(player.camera()))};
+void BlockInteraction::act(Session& session, PlayerId id, const Player& player, double seconds) {
+    const world::World& world = session.world();
+    const world::BlockRegistry& blocks = session.blocks();
+    const world::Pose& pose = player.pose();
+    const world::Ray ray{pose.position, glm::dvec3(world::lookDirection(pose.yaw, pose.pitch))};
     target_ = world::castRay(world, blocks, ray, kReach);
     const bool breaks = breaking.acts(seconds), builds = building.acts(seconds);
     if (!target_ || (!breaks && !builds)) return;
+    const world::BlockPos pos = breaks ? target_->block : beside(target_->block, target_->face);
+    const world::BlockId there = world.block(pos);
     if (breaks) {
-        pipeline.setBlock(target_->block, world::kAir);
+        session.edit({id, pos, world::SetBlock{world::kAir}, there});
     } else {
-        const world::BlockPos pos = beside(target_->block, target_->face);
-        const world::BlockId there = world.block(pos);
         // Into air and liquids, not into plants and the like.
         const bool isFree = there == world::kAir || blocks.type(there).shape == world::Shape::Liquid;
-        if (isFree && !isInTheWay(blocks.type(block()), pos, player.body())) pipeline.setBlock(pos, block());
+        if (isFree && !isInTheWay(blocks.type(block()), pos, player.body())) {
+            session.edit({id, pos, world::SetBlock{block()}, there});
+        }
     }
     target_ = world::castRay(world, blocks, ray, kReach);
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::game

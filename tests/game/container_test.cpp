@@ -1,37 +1,38 @@
-#include "apps/terrane/window/chest.h"
+#include "terrane/game/container.h"
 
 #include <gtest/gtest.h>
 
-#include "apps/terrane/content.h"
+#include "tests/world/content_blocks.h"
+#include "tests/world/put_block.h"
 
-namespace terrane::app {
+namespace terrane::game {
 namespace {
 
-class ChestTest : public testing::Test {
+class ContainerTest : public testing::Test {
   protected:
-    ChestTest() {
+    ContainerTest() {
         world_.insert({0, 0}, std::make_shared<world::Chunk>());
-        world_.setBlock(kChest, id("chest"));
-        world_.setBlock(kStone, id("stone"));
+        world::putBlock(world_, kChest, id("chest"));
+        world::putBlock(world_, kStone, id("stone"));
     }
     world::BlockId id(const char* name) const { return blocks_.find(name)->id; }
 
     static constexpr world::BlockPos kChest{3, 4, 50}, kStone{4, 4, 50}, kFar{100, 4, 50};
-    world::BlockRegistry blocks_ = loadBlocks().value();
+    const world::BlockRegistry& blocks_ = contentBlocks();
     world::World world_;
 };
 
-TEST_F(ChestTest, OnlyBlocksWithSlotsOpen) {
-    EXPECT_TRUE(isChest(world_, blocks_, kChest));
-    EXPECT_FALSE(isChest(world_, blocks_, kStone));
-    EXPECT_FALSE(isChest(world_, blocks_, kFar));
+TEST_F(ContainerTest, OnlyBlocksWithSlotsOpen) {
+    EXPECT_TRUE(isContainer(world_, blocks_, kChest));
+    EXPECT_FALSE(isContainer(world_, blocks_, kStone));
+    EXPECT_FALSE(isContainer(world_, blocks_, kFar));
 }
 
-TEST_F(ChestTest, IsEmptyUntilSomethingIsPut) {
+TEST_F(ContainerTest, IsEmptyUntilSomethingIsPut) {
     EXPECT_EQ(itemsOf(world_, blocks_, kChest).value(), world::Inventory(27));
 }
 
-TEST_F(ChestTest, ClicksPutAndTake) {
+TEST_F(ContainerTest, ClicksPutAndTake) {
     world::Inventory items(27);
     world::BlockId hand = id("sand");
     EXPECT_TRUE(clickSlot(items, blocks_, {.slot = 26}, hand));
@@ -52,7 +53,7 @@ TEST_F(ChestTest, ClicksPutAndTake) {
     EXPECT_EQ(items, world::Inventory(27));
 }
 
-TEST_F(ChestTest, ItemsOfOtherProgramsStay) {
+TEST_F(ContainerTest, ItemsOfOtherProgramsStay) {
     world::Inventory items(27);
     world::addItems(items, "philosophers_stone", 3);
     const world::Inventory before = items;
@@ -62,12 +63,13 @@ TEST_F(ChestTest, ItemsOfOtherProgramsStay) {
     EXPECT_EQ(items, before);
 }
 
-TEST_F(ChestTest, DataThatIsNoInventoryIsNamed) {
-    world_.setLargeData(kChest, {std::byte{7}});
+TEST_F(ContainerTest, DataThatIsNoInventoryIsNamed) {
+    std::vector<world::BlockEdit> edits;
+    world::applyChange(world_, blocks_, kChest, world::SetEntityData{{std::byte{7}}}, edits);
     const auto items = itemsOf(world_, blocks_, kChest);
     ASSERT_FALSE(items);
     EXPECT_EQ(items.error().message, "the chest at 3,4,50: not an inventory of version 1");
 }
 
 }  // namespace
-}  // namespace terrane::app
+}  // namespace terrane::game

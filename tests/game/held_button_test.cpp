@@ -1,8 +1,8 @@
-#include "apps/terrane/window/held_button.h"
+#include "terrane/game/held_button.h"
 
 #include <gtest/gtest.h>
 
-namespace terrane::app {
+namespace terrane::game {
 namespace {
 
 int actions(HeldButton& button, int frames, double seconds) {
@@ -48,4 +48,4 @@ TEST(HeldButton, WhatIsCancelledDoesNotAct) {
 }
 
 }  // namespace
-}  // namespace terrane::app
+}  // namespace terrane::game

@@ -1,10 +1,10 @@
-#include "apps/terrane/window/chest.h"
+#include "terrane/game/container.h"
 
 #include <cassert>
 
-namespace terrane::app {
+namespace terrane::game {
 
-bool isChest(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos pos) {
+bool isContainer(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos pos) {
     return blocks.type(world.block(pos)).slots > 0;
 }
 
@@ -20,7 +20,7 @@ base::Result<world::Inventory> itemsOf(const world::World& world, const world::B
 
 bool clickSlot(world::Inventory& items, const world::BlockRegistry& blocks, const SlotClick& click,
                world::BlockId& inHand) {
-    assert(click.slot < items.size() && "a slot of the chest");
+    assert(click.slot < items.size() && "a slot of the container");
     const int count = click.wholeStack ? world::kMaxStack : 1;
     world::ItemStack& stack = items[click.slot];
     if (!click.takes) return world::addToStack(stack, blocks.type(inHand).name, count) < count;
@@ -30,4 +30,9 @@ bool clickSlot(world::Inventory& items, const world::BlockRegistry& blocks, cons
     return world::takeFromStack(stack, count) > 0;
 }
 
-}  // namespace terrane::app
+EditResult putItems(Session& session, PlayerId player, world::BlockPos pos, const world::Inventory& items) {
+    return session.edit(
+        {player, pos, world::SetEntityData{world::encodeInventory(items)}, session.world().block(pos)});
+}
+
+}  // namespace terrane::game

@@ -1,14 +1,13 @@
-// The person in the world: how keys and mouse move the camera. Pure bookkeeping: input goes in, the camera
-// comes out.
+// How a player moves: flying, or on foot among blocks. Pure bookkeeping: input goes in, the pose comes out.
 #pragma once
 
 #include <glm/vec2.hpp>
 #include <optional>
 
-#include "terrane/render/camera.h"
 #include "terrane/world/character.h"
+#include "terrane/world/pose.h"
 
-namespace terrane::app {
+namespace terrane::game {
 
 enum class Movement : std::uint8_t {
     Fast,     // through everything
@@ -27,16 +26,15 @@ constexpr float kFastSpeed = 60, kMediumSpeed = 16;  // blocks a second
 
 class Player {
   public:
-    explicit Player(const render::Camera& camera, Movement movement) { placeAt(camera, movement); }
+    explicit Player(const world::Pose& pose, Movement movement) { placeAt(pose, movement); }
 
-    const render::Camera& camera() const { return camera_; }
+    const world::Pose& pose() const { return pose_; }
     Movement movement() const { return movement_; }
-    // Where the person cannot pass through blocks: what it takes up.
+    // The space that the player takes up; none where it passes through blocks.
     std::optional<world::Aabb> body() const;
 
-    void placeAt(const render::Camera& camera, Movement movement);
-    void setMovement(Movement movement) { placeAt(camera_, movement); }
-    void setFieldOfView(float degrees) { camera_.fieldOfView = degrees; }
+    void placeAt(const world::Pose& pose, Movement movement);
+    void setMovement(Movement movement) { placeAt(pose_, movement); }
     void turn(double right, double down);  // degrees
 
     void move(const world::World& world, const world::BlockRegistry& blocks, const MoveKeys& keys,
@@ -47,10 +45,10 @@ class Player {
     void walk(const world::World& world, const world::BlockRegistry& blocks, const MoveKeys& keys,
               double seconds);
 
-    render::Camera camera_;
+    world::Pose pose_;
     Movement movement_ = Movement::Gravity;
     world::Character before_, now_;  // of the last two steps
     double untilStep_ = 0;           // seconds that made no step yet
 };
 
-}  // namespace terrane::app
+}  // namespace terrane::game

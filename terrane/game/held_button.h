@@ -1,7 +1,7 @@
 // A button that acts once when it is pressed, and again and again while it is held.
 #pragma once
 
-namespace terrane::app {
+namespace terrane::game {
 
 class HeldButton {
   public:
@@ -32,4 +32,4 @@ class HeldButton {
     double wait_ = 0;  // until it acts again
 };
 
-}  // namespace terrane::app
+}  // namespace terrane::game

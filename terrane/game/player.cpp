@@ -1,16 +1,16 @@
-#include "apps/terrane/window/player.h"
+#include "terrane/game/player.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-namespace terrane::app {
+namespace terrane::game {
 namespace {
 
-// A block short of the last chunk on each side, so that the camera's chunk is always in the world.
+// A block short of the last chunk on each side, so that the player's chunk is always in the world.
 constexpr double kEdge = 2147483600.0;
-// A long stall moves a person no farther than this would.
+// A long stall moves a player no farther than this would.
 constexpr double kLongestFrame = 0.25;
 
 float axis(bool positive, bool negative) {
@@ -28,17 +28,17 @@ std::optional<world::Aabb> Player::body() const {
     return world::characterBox(now_.feet);
 }
 
-void Player::placeAt(const render::Camera& camera, Movement movement) {
-    camera_ = camera;
+void Player::placeAt(const world::Pose& pose, Movement movement) {
+    pose_ = pose;
     movement_ = movement;
-    now_ = {.feet = camera.position - glm::dvec3(0, 0, world::kEyeHeight)};
+    now_ = {.feet = pose.position - glm::dvec3(0, 0, world::kEyeHeight)};
     before_ = now_;
     untilStep_ = 0;
 }
 
 void Player::turn(double right, double down) {
-    camera_.yaw = std::remainder(camera_.yaw - static_cast<float>(right), 360.0f);
-    camera_.pitch = std::clamp(camera_.pitch - static_cast<float>(down), -89.9f, 89.9f);
+    pose_.yaw = std::remainder(pose_.yaw - static_cast<float>(right), 360.0f);
+    pose_.pitch = std::clamp(pose_.pitch - static_cast<float>(down), -89.9f, 89.9f);
 }
 
 void Player::move(const world::World& world, const world::BlockRegistry& blocks, const MoveKeys& keys,
@@ -57,20 +57,20 @@ void Player::move(const world::World& world, const world::BlockRegistry& blocks,
 
 void Player::fly(const MoveKeys& keys, double seconds, float speed) {
     const glm::vec2 along = wanted(keys);
-    const glm::vec3 motion = render::lookDirection(camera_) * along.y +
-                             render::rightDirection(camera_) * along.x +
+    const glm::vec3 motion = world::lookDirection(pose_.yaw, pose_.pitch) * along.y +
+                             world::rightDirection(pose_.yaw) * along.x +
                              glm::vec3(0, 0, axis(keys.up || keys.jump, keys.down));
     const float length = glm::length(motion);
     if (length < 1e-3f) return;
-    camera_.position += glm::dvec3(motion / std::max(length, 1.0f)) * (speed * seconds);
-    camera_.position.x = std::clamp(camera_.position.x, -kEdge, kEdge);
-    camera_.position.y = std::clamp(camera_.position.y, -kEdge, kEdge);
-    camera_.position.z = std::clamp(camera_.position.z, -64.0, 1024.0);
+    pose_.position += glm::dvec3(motion / std::max(length, 1.0f)) * (speed * seconds);
+    pose_.position.x = std::clamp(pose_.position.x, -kEdge, kEdge);
+    pose_.position.y = std::clamp(pose_.position.y, -kEdge, kEdge);
+    pose_.position.z = std::clamp(pose_.position.z, -64.0, 1024.0);
 }
 
 void Player::walk(const world::World& world, const world::BlockRegistry& blocks, const MoveKeys& keys,
                   double seconds) {
-    const double yaw = glm::radians(double{camera_.yaw});
+    const double yaw = glm::radians(double{pose_.yaw});
     const glm::dvec2 ahead(std::cos(yaw), std::sin(yaw)), right(ahead.y, -ahead.x);
     const glm::vec2 along = wanted(keys);
     glm::dvec2 direction = ahead * double{along.y} + right * double{along.x};
@@ -85,7 +85,7 @@ void Player::walk(const world::World& world, const world::BlockRegistry& blocks,
         before_ = now_;
         now_ = world::stepped(world, blocks, before_, input);
     }
-    camera_.position = world::characterEye(before_, now_, untilStep_ / world::kStepSeconds);
+    pose_.position = world::characterEye(before_, now_, untilStep_ / world::kStepSeconds);
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::game

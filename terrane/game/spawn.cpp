@@ -1,4 +1,4 @@
-#include "apps/terrane/spawn.h"
+#include "terrane/game/spawn.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "terrane/world/character.h"
 
-namespace terrane::app {
+namespace terrane::game {
 namespace {
 
 constexpr int kMiddle = world::kChunkSize / 2;
@@ -47,8 +47,9 @@ float viewFrom(const gen::Generator& generator, const world::BlockRegistry& bloc
     int bestHeight = -1;
     for (int k = 0; k < kDirections; ++k) {
         const double angle = 2 * 3.14159265358979 * k / kDirections;
-        const world::ChunkPos at{pos.x + static_cast<int>(std::lround(kDistance * std::cos(angle))),
-                                 pos.y + static_cast<int>(std::lround(kDistance * std::sin(angle)))};
+        const world::ChunkPos at =
+            world::offsetBy(pos, static_cast<int>(std::lround(kDistance * std::cos(angle))),
+                            static_cast<int>(std::lround(kDistance * std::sin(angle))));
         const int height = highest(generator.generate(at), blocks, kMiddle, kMiddle);
         if (height <= bestHeight) continue;
         bestHeight = height;
@@ -57,14 +58,14 @@ float viewFrom(const gen::Generator& generator, const world::BlockRegistry& bloc
     return best;
 }
 
-render::Camera standingAt(world::ChunkPos pos, int ground, float yaw) {
+world::Pose standingAt(world::ChunkPos pos, int ground, float yaw) {
     return {
         {pos.x * 16 + kMiddle + 0.5, pos.y * 16 + kMiddle + 0.5, ground + 1 + world::kEyeHeight}, yaw, -4};
 }
 
 }  // namespace
 
-render::Camera findSpawn(const gen::Generator& generator, const world::BlockRegistry& blocks) {
+world::Pose findSpawn(const gen::Generator& generator, const world::BlockRegistry& blocks) {
     for (int ring = 0; ring <= kRings; ++ring) {
         for (int y = -ring; y <= ring; ++y) {
             for (int x = -ring; x <= ring; ++x) {
@@ -79,4 +80,4 @@ render::Camera findSpawn(const gen::Generator& generator, const world::BlockRegi
     return standingAt({}, std::min(std::max(ground, 0), world::kChunkHeight - 1), 0);
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::game

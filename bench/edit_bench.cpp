@@ -1,0 +1,87 @@
+// Edits in batches through the session's door: what a fill or a clear of N³ blocks costs until its light and
+// meshes are there. Items a second are blocks; they stay the same where time is linear in blocks.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "bench/bench_content.h"
+#include "terrane/game/session.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/store/memory_store.h"
+
+namespace {
+
+using namespace terrane;
+
+constexpr int kViewDistance = 4;  // chunks: the largest box and its light lie inside
+constexpr int kBottom = 40;       // of the boxes: in the ground of the generator flat and in the air above it
+
+void settle(game::Session& session) {
+    stream::ChunkPipeline& pipeline = session.pipeline();
+    for (pipeline.update(); !pipeline.progress().isUpToDate(); pipeline.update()) {
+        pipeline.waitForWorkers(std::chrono::milliseconds(100));
+    }
+}
+
+std::unique_ptr<game::Session> loadedSession() {
+    auto graph = bench::orExit(gen::makeGenerator("flat", bench::blocks()));
+    auto store = std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "flat", 1});
+    auto session = std::make_unique<game::Session>(
+        game::SessionParts{bench::blocks(), gen::Generator(std::move(graph), 1), std::move(store), 2});
+    session->pipeline().setView({0, 0}, kViewDistance);
+    settle(*session);
+    return session;
+}
+
+std::vector<game::EditCommand> box(int side, std::string_view name) {
+    const world::BlockId id = bench::blockId(name);
+    std::vector<game::EditCommand> commands;
+    for (int z = kBottom; z < kBottom + side; ++z)
+        for (int y = -side / 2; y < side - side / 2; ++y)
+            for (int x = -side / 2; x < side - side / 2; ++x)
+                commands.push_back({game::kNoPlayer, {x, y, z}, world::SetBlock{id}, {}});
+    return commands;
+}
+
+// Each round changes every block of the box, to one kind and back.
+void editBox(benchmark::State& state, std::string_view name, std::string_view other) {
+    const auto session = loadedSession();
+    const int side = static_cast<int>(state.range(0));
+    const std::vector<game::EditCommand> there = box(side, name), back = box(side, other);
+    session->edit(back);
+    settle(*session);
+    std::int64_t applied = 0;
+    for (auto _ : state) {
+        const auto results = session->edit(there);
+        settle(*session);
+        state.PauseTiming();
+        applied += std::count(results.begin(), results.end(), game::EditResult::Applied);
+        session->edit(back);
+        settle(*session);
+        session->pipeline().takeChanges(1 << 20);
+        state.ResumeTiming();
+    }
+    state.SetItemsProcessed(applied);
+}
+
+void fillWithStone(benchmark::State& state) {
+    editBox(state, "stone", "air");
+}
+void fillWithLamps(benchmark::State& state) {
+    editBox(state, "lamp_red", "air");
+}
+void clearStone(benchmark::State& state) {
+    editBox(state, "air", "stone");
+}
+
+}  // namespace
+
+BENCHMARK(fillWithStone)->Arg(8)->Arg(16)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
+BENCHMARK(fillWithLamps)->Arg(8)->Arg(16)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
+BENCHMARK(clearStone)->Arg(8)->Arg(16)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
+
+BENCHMARK_MAIN();

@@ -1,0 +1,100 @@
+#include "terrane/game/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "terrane/shared/shape_face.h"
+#include "terrane/world/plant_growth.h"
+
+namespace terrane::game {
+namespace {
+
+// Between the middle of a block and its farthest corner: 0.87 blocks.
+constexpr double kBlockRadius = 1;
+// After a stall plants grow as if it had been shorter.
+constexpr double kMaxGrowthSeconds = 1;
+
+}  // namespace
+
+// Loading is about ten times as fast as generating (docs/performance.md): stores that last keep generated
+// chunks too.
+Session::Session(SessionParts parts)
+    : blocks_(std::move(parts.blocks)),
+      lights_(blocks_),
+      store_(std::move(parts.store)),
+      generator_(std::move(parts.generator)),
+      jobs_(parts.threads),
+      pipeline_({jobs_,
+                 blocks_,
+                 lights_,
+                 world_,
+                 {&generator_, store_.get(), store_->isPersistent()},
+                 nullptr,
+                 parts.meshing}) {}
+
+EditResult Session::edit(const EditCommand& command) {
+    return edit(std::span(&command, 1)).front();
+}
+
+std::vector<EditResult> Session::edit(std::span<const EditCommand> commands) {
+    std::vector<EditResult> results;
+    std::vector<world::BlockEdit> edits;
+    results.reserve(commands.size());
+    for (const EditCommand& command : commands) results.push_back(apply(command, edits));
+    pipeline_.onEdits(edits);
+    return results;
+}
+
+EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEdit>& edits) {
+    if (!canReach(command.player, command.pos)) return EditResult::OutOfReach;
+    if (!world::isInHeight(command.pos.z) || !world_.maybeChunkAt(world::chunkOf(command.pos))) {
+        return EditResult::NotLoaded;
+    }
+    if (command.expected && *command.expected != world_.block(command.pos)) return EditResult::Conflict;
+    const std::size_t before = edits.size();
+    world::applyChange(world_, blocks_, command.pos, command.change, edits);
+    return edits.size() > before ? EditResult::Applied : EditResult::Unchanged;
+}
+
+bool Session::canReach(PlayerId player, world::BlockPos pos) const {
+    if (player == kNoPlayer) return true;
+    const auto found = players_.find(player);
+    if (found == players_.end()) return false;
+    const glm::dvec3 middle(pos.x + 0.5, pos.y + 0.5, pos.z + 0.5);
+    return glm::distance(middle, found->second.position) <= kReach + kBlockRadius;
+}
+
+void Session::advance(double seconds, world::ChunkPos center) {
+    clock.advance(seconds);
+    const double tickSeconds = std::chrono::duration<double>(world::kTickLength).count();
+    untilTick_ += std::min(seconds, kMaxGrowthSeconds);
+    for (; untilTick_ >= tickSeconds; untilTick_ -= tickSeconds) {
+        std::vector<EditCommand> growth;
+        for (const world::BlockPos pos : world::plantsThatGrow(world_, blocks_, {ticks_++, center})) {
+            const auto stagesLeft = static_cast<std::uint16_t>(world_.smallData(pos) - 1);
+            growth.push_back({kNoPlayer, pos, world::SetState{stagesLeft}, std::nullopt});
+        }
+        edit(growth);
+    }
+}
+
+base::Result<void> Session::save() {
+    pipeline_.saveAll();
+    return store_->flush();
+}
+
+bool isUnderWater(const Session& session, const glm::dvec3& point) {
+    const glm::dvec3 at = glm::floor(point);
+    const world::BlockId water = session.blocks().find("water")->id;
+    const world::BlockPos pos{static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y),
+                              static_cast<std::int32_t>(at.z)};
+    if (session.world().block(pos) != water) return false;
+    constexpr double kSurface = shared::kLiquidSurfaceSixteenths / 16.0;
+    const bool isFull = session.world().block({pos.x, pos.y, pos.z + 1}) == water;
+    return isFull || point.z - at.z < kSurface;
+}
+
+}  // namespace terrane::game

@@ -1,0 +1,84 @@
+// A world that is played: its chunks, the pipeline that loads, lights and meshes them, its store, its players
+// and its clock. Commands come in through edit(), which is the only way to change a block; events go out to
+// the pipeline and so to screens and disk. Free of OpenGL. Used on one thread, the world's.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "terrane/base/job_system.h"
+#include "terrane/game/day_clock.h"
+#include "terrane/game/edit_command.h"
+#include "terrane/gen/generator.h"
+#include "terrane/light/light_table.h"
+#include "terrane/store/chunk_store.h"
+#include "terrane/stream/chunk_pipeline.h"
+#include "terrane/world/block_registry.h"
+#include "terrane/world/pose.h"
+#include "terrane/world/world.h"
+
+namespace terrane::game {
+
+// What a session is made of.
+struct SessionParts {
+    world::BlockRegistry blocks;
+    gen::Generator generator;
+    std::unique_ptr<store::ChunkStore> store;
+    unsigned threads = 1;  // workers
+    stream::MeshPolicy meshing = stream::MeshPolicy::Workers;
+};
+
+class Session {
+  public:
+    explicit Session(SessionParts parts);
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    // Checks a command and applies it. Light, meshes and the store follow with the pipeline's next update.
+    EditResult edit(const EditCommand& command);
+    // The same for many, in their order: one result each. Time grows with the number of blocks.
+    std::vector<EditResult> edit(std::span<const EditCommand> commands);
+
+    // Where a player stands: its edits are checked against that.
+    void setPlayer(PlayerId player, const world::Pose& pose) { players_[player] = pose; }
+    void removePlayer(PlayerId player) { players_.erase(player); }
+
+    // Game time passes: the day, and plants near `center` grow.
+    void advance(double seconds, world::ChunkPos center);
+
+    // Waits until all that changed is in the store.
+    [[nodiscard]] base::Result<void> save();
+
+    const world::BlockRegistry& blocks() const { return blocks_; }
+    const world::World& world() const { return world_; }
+    const gen::Generator& generator() const { return generator_; }
+    store::ChunkStore& store() { return *store_; }
+    stream::ChunkPipeline& pipeline() { return pipeline_; }
+    const stream::ChunkPipeline& pipeline() const { return pipeline_; }
+
+    DayClock clock;
+
+  private:
+    EditResult apply(const EditCommand& command, std::vector<world::BlockEdit>& edits);
+    bool canReach(PlayerId player, world::BlockPos pos) const;
+
+    // They refer to each other: destroyed in reverse order.
+    world::BlockRegistry blocks_;
+    light::LightTable lights_;
+    std::unique_ptr<store::ChunkStore> store_;
+    gen::Generator generator_;
+    world::World world_;
+    base::JobSystem jobs_;
+    stream::ChunkPipeline pipeline_;
+
+    std::unordered_map<PlayerId, world::Pose> players_;
+    double untilTick_ = 0;  // seconds of game time that made no tick yet
+    std::uint64_t ticks_ = 0;
+};
+
+// Whether a point is in water: below its surface, where that is in the same block.
+bool isUnderWater(const Session& session, const glm::dvec3& point);
+
+}  // namespace terrane::game

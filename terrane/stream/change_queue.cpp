@@ -1,0 +1,65 @@
+#include "terrane/stream/change_queue.h"
+
+#include <utility>
+
+namespace terrane::stream {
+
+using world::ChunkPos;
+
+ChunkChange& ChangeQueue::change(ChunkPos pos) {
+    const auto [it, isNew] = changes_.try_emplace(pos);
+    it->second.pos = pos;
+    it->second.isHidden = false;
+    if (isNew) others_.push_back(pos);
+    return it->second;
+}
+
+void ChangeQueue::setLight(ChunkPos pos, light::ChunkLightPtr light, std::uint16_t bricks) {
+    ChunkChange& changed = change(pos);
+    changed.light = std::move(light);
+    changed.bricks |= bricks;
+}
+
+void ChangeQueue::setMesh(ChunkPos pos, MeshPtr mesh, mesh::RegionSet regions) {
+    ChunkChange& changed = change(pos);
+    if (changed.mesh && regions != mesh::kAllRegions) {
+        mesh = std::make_shared<const mesh::ChunkMesh>(mesh::withRegions(*changed.mesh, *mesh, regions));
+    }
+    changed.mesh = std::move(mesh);
+    changed.regions |= regions;
+}
+
+void ChangeQueue::askForMesh(ChunkPos pos) {
+    ChunkChange& changed = change(pos);
+    changed.mesh = nullptr;
+    changed.regions = 0;
+    changed.needsMesh = true;
+}
+
+bool ChangeQueue::asksForMesh(ChunkPos pos) const {
+    const auto found = changes_.find(pos);
+    return found != changes_.end() && found->second.needsMesh;
+}
+
+void ChangeQueue::hide(ChunkPos pos) {
+    ChunkChange& changed = change(pos);
+    changed = {};
+    changed.pos = pos;
+    changed.isHidden = true;
+}
+
+void ChangeQueue::putFirst(ChunkPos pos) {
+    if (first_.empty() || first_.back() != pos) first_.push_back(pos);
+}
+
+std::vector<ChunkChange> ChangeQueue::take(std::size_t limit) {
+    std::vector<ChunkChange> taken;
+    for (std::deque<ChunkPos>* queue : {&first_, &others_}) {
+        for (; taken.size() < limit && !queue->empty(); queue->pop_front()) {
+            if (auto node = changes_.extract(queue->front())) taken.push_back(std::move(node.mapped()));
+        }
+    }
+    return taken;
+}
+
+}  // namespace terrane::stream

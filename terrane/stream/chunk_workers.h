@@ -1,0 +1,51 @@
+// Runs the pipeline's work on workers: each submit makes one job, whose result comes back through results().
+// Workers see immutable snapshots only. Used on the pipeline's thread.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "terrane/base/job_system.h"
+#include "terrane/stream/pipeline_types.h"
+#include "terrane/stream/worker_results.h"
+
+namespace terrane::stream {
+
+class ChunkWorkers {
+  public:
+    // The parts outlive this.
+    explicit ChunkWorkers(const PipelineParts& parts);
+    ~ChunkWorkers();  // waits for its running jobs; the others do nothing
+
+    // Loads or generates a chunk and finds its local light. A source without a generator gives null where the
+    // store has no chunk.
+    base::JobHandle submitLoad(base::JobPriority priority, world::ChunkPos pos, const ChunkSource& source);
+    // Finds the local light of a chunk that a batch generator made.
+    void submitLocalLight(base::JobPriority priority, world::ChunkPos pos,
+                          std::shared_ptr<world::Chunk> chunk);
+    // Lights the chunk, and meshes it where workers do that.
+    void submitLighting(base::JobPriority priority, world::ChunkPos pos, ChunkNeighborhood around,
+                        const mesh::MeshOptions& options);
+    // Meshes a visible chunk again.
+    void submitMesh(base::JobPriority priority, const MeshJob& job, const ChunkNeighborhood& around,
+                    const mesh::MeshOptions& options);
+
+    // What is finished. Throws on what a job threw: nearly always that memory is short.
+    WorkerResults::Lists takeResults();
+    // Blocks until there is a result or the time is over.
+    void waitForAny(std::chrono::milliseconds atMost) { results_->waitForAny(atMost); }
+
+    // How many jobs of a kind may be in flight, more where updates come rarely.
+    std::size_t jobLimit(std::chrono::nanoseconds sinceUpdate) const;
+    std::vector<TaskTime> taskTimes() const;
+
+  private:
+    template <class Work>
+    base::JobHandle submit(base::JobPriority priority, Work work);
+
+    const PipelineParts& parts_;
+    std::shared_ptr<WorkerResults> results_;
+};
+
+}  // namespace terrane::stream

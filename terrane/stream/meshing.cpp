@@ -1,0 +1,71 @@
+#include "terrane/stream/meshing.h"
+
+#include <cassert>
+#include <utility>
+
+namespace terrane::stream {
+namespace {
+
+using world::ChunkPos;
+
+// Null where there is nothing to mesh any more.
+ChunkRecord* waitingRecord(ChunkTable& table, ChunkPos pos) {
+    ChunkRecord* record = findRecord(table, pos);
+    return record && record->toMesh != 0 ? record : nullptr;
+}
+
+}  // namespace
+
+void requestEditedMesh(ChunkTable& table, ChunkPos pos, mesh::RegionSet regions) {
+    ChunkRecord* record = findRecord(table, pos);
+    if (!record || record->stage != ChunkStage::Visible) return;
+    const bool isInJob = std::exchange(record->meshJob, 0) != 0;
+    record->toMesh |= isInJob ? mesh::kAllRegions : regions;
+    // A run of edits in one chunk asks once.
+    if (table.editedMeshes.empty() || table.editedMeshes.back() != pos) table.editedMeshes.push_back(pos);
+}
+
+void requestWholeMesh(ChunkTable& table, ChunkPos pos) {
+    ChunkRecord* record = findRecord(table, pos);
+    if (!record || record->stage != ChunkStage::Visible) return;
+    record->meshJob = 0;
+    record->toMesh = mesh::kAllRegions;
+    table.otherMeshes.push_back(pos);
+}
+
+std::vector<MeshRequest> popEditedMeshes(ChunkTable& table, std::size_t limit) {
+    std::vector<MeshRequest> popped;
+    for (; popped.size() < limit && !table.editedMeshes.empty(); table.editedMeshes.pop_front()) {
+        const ChunkPos pos = table.editedMeshes.front();
+        if (ChunkRecord* record = waitingRecord(table, pos)) {
+            popped.push_back({pos, std::exchange(record->toMesh, 0)});
+        }
+    }
+    return popped;
+}
+
+std::vector<MeshJob> popMeshJobs(ChunkTable& table, std::size_t limit) {
+    std::vector<MeshJob> popped;
+    for (; popped.size() < limit && !table.otherMeshes.empty(); table.otherMeshes.pop_front()) {
+        const ChunkPos pos = table.otherMeshes.front();
+        ChunkRecord* record = waitingRecord(table, pos);
+        // What an edit touched in part waits among the edited ones.
+        if (!record || record->toMesh != mesh::kAllRegions) continue;
+        record->toMesh = 0;
+        record->meshJob = ++table.lastMeshJob;
+        popped.push_back({pos, record->meshJob});
+    }
+    table.meshJobCount += popped.size();
+    return popped;
+}
+
+bool finishMeshJob(ChunkTable& table, const MeshJob& job) {
+    assert(table.meshJobCount > 0 && "what is finished was popped");
+    --table.meshJobCount;
+    ChunkRecord* record = findRecord(table, job.pos);
+    if (!record || record->meshJob != job.number) return false;
+    record->meshJob = 0;
+    return true;
+}
+
+}  // namespace terrane::stream

@@ -1,0 +1,39 @@
+// Which visible chunks are meshed again: the third of the pipeline's three schedulers (chunk_table.h). What
+// edits touched is meshed at once, before everything else; whole chunks, as when the options of meshing
+// change, are meshed by jobs and shown as before until then.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "terrane/stream/chunk_table.h"
+
+namespace terrane::stream {
+
+// Chunks that are not Visible are passed over: they are meshed when they are lit.
+void requestEditedMesh(ChunkTable& table, world::ChunkPos pos, mesh::RegionSet regions);
+void requestWholeMesh(ChunkTable& table, world::ChunkPos pos);
+
+struct MeshRequest {
+    world::ChunkPos pos;
+    mesh::RegionSet regions = 0;  // all where a job was to mesh the chunk, or does
+};
+// Up to `limit` chunks that edits touched; their mesh is up to date then.
+std::vector<MeshRequest> popEditedMeshes(ChunkTable& table, std::size_t limit);
+
+struct MeshJob {
+    world::ChunkPos pos;
+    std::uint64_t number = 0;
+};
+// Up to `limit` whole chunks for workers. Each job ends with finishMeshJob().
+std::vector<MeshJob> popMeshJobs(ChunkTable& table, std::size_t limit);
+// False where the result is outdated: the chunk was meshed since, or is not shown any more.
+bool finishMeshJob(ChunkTable& table, const MeshJob& job);
+
+// Chunks that wait or are being meshed; some may count twice.
+inline std::size_t pendingMeshes(const ChunkTable& table) {
+    return table.editedMeshes.size() + table.otherMeshes.size() + table.meshJobCount;
+}
+
+}  // namespace terrane::stream

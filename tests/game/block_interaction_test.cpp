@@ -1,0 +1,62 @@
+#include "terrane/game/block_interaction.h"
+
+#include "tests/game/session_fixture.h"
+
+namespace terrane::game {
+namespace {
+
+class BlockInteractionTest : public SessionTest {
+  protected:
+    BlockInteractionTest() { session_.setPlayer(kLocalPlayer, player_.pose()); }
+
+    void act(HeldButton& button) {
+        button.press();
+        interaction_.act(session_, kLocalPlayer, player_, 0.01);
+        button.release();
+    }
+
+    // Looks straight down from 5 blocks above the ground.
+    Player player_{{.position = {5.5, 5.5, kGroundHeight + 5.0}, .pitch = -89.9f}, Movement::Medium};
+    BlockInteraction interaction_{contentBlocks()};
+};
+
+TEST_F(BlockInteractionTest, BreaksTheBlockThatIsLookedAt) {
+    act(interaction_.breaking);
+    EXPECT_EQ(session_.world().block({5, 5, kGroundHeight - 1}), world::kAir);
+    ASSERT_TRUE(interaction_.target());
+    EXPECT_EQ(interaction_.target()->block, (world::BlockPos{5, 5, kGroundHeight - 2})) << "what is seen now";
+}
+
+TEST_F(BlockInteractionTest, BuildsOnTheFaceThatIsLookedAt) {
+    interaction_.choose(contentBlock("sand"));
+    act(interaction_.building);
+    EXPECT_EQ(session_.world().block({5, 5, kGroundHeight}), contentBlock("sand"));
+}
+
+TEST_F(BlockInteractionTest, NeverBuildsIntoThePlayer) {
+    player_.placeAt({.position = {5.5, 5.5, kGroundHeight + world::kEyeHeight}, .pitch = -89.9f},
+                    Movement::Walls);
+    session_.setPlayer(kLocalPlayer, player_.pose());
+    interaction_.choose(contentBlock("stone"));
+    act(interaction_.building);
+    EXPECT_EQ(session_.world().block({5, 5, kGroundHeight}), world::kAir);
+}
+
+TEST_F(BlockInteractionTest, NothingWithinReachChangesNothing) {
+    player_.placeAt({.position = {5.5, 5.5, kGroundHeight + 30.0}, .pitch = -89.9f}, Movement::Medium);
+    session_.setPlayer(kLocalPlayer, player_.pose());
+    act(interaction_.breaking);
+    EXPECT_FALSE(interaction_.target());
+    EXPECT_EQ(session_.world().block({5, 5, kGroundHeight - 1}), contentBlock("stone"));
+}
+
+TEST_F(BlockInteractionTest, ChoosingGoesAroundInACircle) {
+    const world::BlockId first = interaction_.block();
+    interaction_.choose(-1);
+    EXPECT_NE(interaction_.block(), first);
+    interaction_.choose(1);
+    EXPECT_EQ(interaction_.block(), first);
+}
+
+}  // namespace
+}  // namespace terrane::game

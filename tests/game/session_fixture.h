@@ -1,0 +1,55 @@
+// A session on flat ground of stone, 64 blocks high, kept in memory.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <memory>
+
+#include "terrane/game/session.h"
+#include "terrane/gen/builder.h"
+#include "terrane/store/memory_store.h"
+#include "tests/world/content_blocks.h"
+
+namespace terrane::game {
+
+constexpr int kGroundHeight = 64;
+
+inline gen::Generator flatGenerator() {
+    gen::GeneratorBuilder builder("flat stone", contentBlocks());
+    builder.pass3D("ground", [](gen::Pass& p) {
+        p.setBlock(select(p.z() < kGroundHeight, p.block("stone"), p.block("air")));
+    });
+    auto graph = builder.finish();
+    if (!graph) throw std::runtime_error(graph.error().message);
+    return gen::Generator(*std::move(graph), 1);
+}
+
+inline SessionParts flatParts() {
+    const store::WorldIdentity identity{.seed = 1, .generator = "flat stone", .generatorVersion = 1};
+    return {contentBlocks(), flatGenerator(), std::make_unique<store::MemoryStore>(identity), 2};
+}
+
+class SessionTest : public testing::Test {
+  protected:
+    SessionTest() { load(2); }
+
+    // Until all up to `distance` around the origin is lit and meshed.
+    void load(int distance) {
+        session_.pipeline().setView({0, 0}, distance);
+        settle();
+    }
+    void settle() {
+        stream::ChunkPipeline& pipeline = session_.pipeline();
+        for (pipeline.update(); !pipeline.progress().isUpToDate(); pipeline.update()) {
+            pipeline.waitForWorkers(std::chrono::milliseconds(100));
+        }
+    }
+    std::vector<stream::ChunkChange> takeChanges() {
+        return session_.pipeline().takeChanges(std::numeric_limits<std::size_t>::max());
+    }
+
+    Session session_{flatParts()};
+};
+
+}  // namespace terrane::game

@@ -1,0 +1,124 @@
+#include "terrane/game/session.h"
+
+#include "terrane/light/light_chunk.h"
+#include "tests/game/session_fixture.h"
+
+namespace terrane::game {
+namespace {
+
+const world::BlockPos kOnGround{5, 5, kGroundHeight};
+
+EditCommand put(world::BlockPos pos, std::string_view name, PlayerId player = kNoPlayer) {
+    return {player, pos, world::SetBlock{contentBlock(name)}, std::nullopt};
+}
+
+TEST_F(SessionTest, AnAppliedEditChangesTheWorld) {
+    EXPECT_EQ(session_.edit(put(kOnGround, "sand")), EditResult::Applied);
+    EXPECT_EQ(session_.world().block(kOnGround), contentBlock("sand"));
+    EXPECT_EQ(session_.edit(put(kOnGround, "sand")), EditResult::Unchanged);
+    EXPECT_EQ(session_.edit(put({5, 5, 100}, "poppy")), EditResult::Unchanged) << "it has no ground";
+}
+
+TEST_F(SessionTest, EditsOutsideOfWhatIsLoadedAreRefused) {
+    EXPECT_EQ(session_.edit(put({5000, 5, 70}, "sand")), EditResult::NotLoaded);
+    EXPECT_EQ(session_.edit(put({5, 5, 256}, "sand")), EditResult::NotLoaded);
+    EXPECT_EQ(session_.edit(put({5, 5, -1}, "sand")), EditResult::NotLoaded);
+}
+
+TEST_F(SessionTest, PlayersReachEightBlocks) {
+    EXPECT_EQ(session_.edit(put(kOnGround, "sand", 7)), EditResult::OutOfReach) << "nobody knows player 7";
+    session_.setPlayer(7, {.position = {5.5, 5.5, kGroundHeight + 8.0}});
+    EXPECT_EQ(session_.edit(put(kOnGround, "sand", 7)), EditResult::Applied);
+    EXPECT_EQ(session_.edit(put({5, 20, kGroundHeight}, "sand", 7)), EditResult::OutOfReach);
+    session_.removePlayer(7);
+    EXPECT_EQ(session_.edit(put(kOnGround, "air", 7)), EditResult::OutOfReach);
+    EXPECT_EQ(session_.world().block(kOnGround), contentBlock("sand"));
+}
+
+// Two players see the same block and break it: the second one breaks nothing that it did not see.
+TEST_F(SessionTest, AnotherBlockThanExpectedIsAConflict) {
+    EditCommand command = put(kOnGround, "sand");
+    command.expected = contentBlock("stone");
+    EXPECT_EQ(session_.edit(command), EditResult::Conflict);
+    EXPECT_EQ(session_.world().block(kOnGround), world::kAir);
+    command.expected = world::kAir;
+    EXPECT_EQ(session_.edit(command), EditResult::Applied);
+}
+
+TEST_F(SessionTest, ABatchAnswersEachCommand) {
+    const std::vector<EditCommand> commands = {put(kOnGround, "sand"), put(kOnGround, "sand"),
+                                               put({5000, 5, 70}, "sand"), put(kOnGround, "stone")};
+    const std::vector<EditResult> expected = {EditResult::Applied, EditResult::Unchanged,
+                                              EditResult::NotLoaded, EditResult::Applied};
+    EXPECT_EQ(session_.edit(commands), expected);
+    EXPECT_EQ(session_.world().block(kOnGround), contentBlock("stone"));
+}
+
+TEST_F(SessionTest, AnEditIsOnScreenWithTheNextUpdate) {
+    takeChanges();
+    session_.edit(put(kOnGround, "lamp_red"));
+    session_.pipeline().update();
+    bool isMeshed = false, isLit = false;
+    for (const stream::ChunkChange& change : takeChanges()) {
+        if (change.pos != world::ChunkPos{0, 0}) continue;
+        isMeshed = change.mesh != nullptr;
+        isLit = change.light && change.light->get(6, 5, kGroundHeight) != 0;
+    }
+    EXPECT_TRUE(isMeshed && isLit);
+}
+
+TEST_F(SessionTest, SavingReachesTheStore) {
+    session_.edit(put(kOnGround, "sand"));
+    EXPECT_FALSE(session_.store().contains({0, 0}));
+    ASSERT_TRUE(session_.save());
+    const store::LoadedChunk stored = session_.store().load({0, 0});
+    ASSERT_EQ(stored.state, store::LoadedChunk::State::Present);
+    EXPECT_EQ(stored.chunk->block(world::blockIndex(kOnGround)), contentBlock("sand"));
+}
+
+TEST_F(SessionTest, TimeLetsPlantsGrow) {
+    session_.edit(put(kOnGround, "dirt"));
+    const world::BlockPos plant{5, 5, kGroundHeight + 1};
+    session_.edit(put(plant, "wheat"));
+    const std::uint16_t young = session_.world().smallData(plant);
+    ASSERT_GT(young, 0);
+    const double before = session_.clock.timeDay;
+    for (int second = 0; second < 3600 && session_.world().smallData(plant) > 0; ++second) {
+        session_.advance(1, {0, 0});
+    }
+    EXPECT_EQ(session_.world().smallData(plant), 0) << "grown within an hour";
+    EXPECT_NE(session_.clock.timeDay, before);
+}
+
+// A fill and a clear through the door, over several chunks: light is that of lighting everything anew.
+TEST_F(SessionTest, LightAfterABatchIsThatFromScratch) {
+    const auto fill = [&](std::string_view name) {
+        std::vector<EditCommand> commands;
+        for (int z = kGroundHeight - 16; z < kGroundHeight + 16; ++z)
+            for (int y = -9; y < 23; ++y)
+                for (int x = -9; x < 23; ++x) commands.push_back(put({x, y, z}, name));
+        session_.edit(commands);
+        settle();
+    };
+    std::map<world::ChunkPos, light::ChunkLightPtr> shown;
+    const light::LightTable table(contentBlocks());
+    for (const char* name : {"lamp_green", "stone", "air"}) {
+        fill(name);
+        for (const stream::ChunkChange& change : takeChanges()) {
+            if (change.light) shown[change.pos] = change.light;
+        }
+        for (const auto& [pos, light] : shown) {
+            if (world::chunkDistance(pos, {0, 0}) > 2) continue;
+            stream::ChunkNeighborhood around;
+            for (int n = 0; n < 9; ++n) {
+                around.chunks[static_cast<std::size_t>(n)] =
+                    session_.world().maybeChunkAt(world::offsetBy(pos, n % 3 - 1, n / 3 - 1));
+            }
+            EXPECT_EQ(*light, *stream::lightOf(around, table)) << name << ' ' << pos.x << ' ' << pos.y;
+        }
+    }
+    EXPECT_EQ(shown.size(), 25u);
+}
+
+}  // namespace
+}  // namespace terrane::game
