@@ -62,9 +62,7 @@ void ChunkPipeline::takeBatches() {
         if (taken == 0) break;
         absent_.erase(absent_.begin(), absent_.begin() + static_cast<long>(taken));
     }
-    for (auto& [pos, chunk] : parts_.batches->take()) {
-        submitPrepare(pos, std::make_shared<world::Chunk>(std::move(chunk)));
-    }
+    for (auto& [pos, chunk] : parts_.batches->take(false)) submitPrepare(pos, std::move(chunk));
 }
 
 // A generated chunk's own light.

@@ -2,12 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include "terrane/base/job_system.h"
+#include "terrane/gen/batch_generator.h"
 #include "terrane/stream/chunk_jobs.h"
 #include "terrane/world/world.h"
 
@@ -37,14 +34,6 @@ struct TaskTime {
     double microseconds = 0;  // of all
 };
 
-// Makes chunks many at a time on the pipeline's thread without waiting: a GPU.
-struct BatchGenerator {
-    // Takes chunks from the front and says how many; 0 while it is busy.
-    std::function<std::size_t(std::span<const world::ChunkPos>)> submit;
-    // Chunks that are done, if there are any.
-    std::function<std::vector<std::pair<world::ChunkPos, world::Chunk>>()> take;
-};
-
 // What the pipeline works with; everything outlives it.
 struct PipelineParts {
     base::JobSystem& jobs;
@@ -52,7 +41,7 @@ struct PipelineParts {
     const light::LightTable& lights;
     world::World& world;
     ChunkSource source;
-    const BatchGenerator* batches = nullptr;  // in place of source.generator
+    gen::BatchGenerator* batches = nullptr;  // in place of source.generator
 };
 
 }  // namespace terrane::stream

@@ -83,24 +83,35 @@ TEST_F(PipelineJobsTest, ChunksOthersAskForAreLoadedAndKept) {
     EXPECT_EQ(world_.maybeChunkAt({40, 40}), chunk);
 }
 
-// Chunks made elsewhere in batches of at most three, some updates later.
-TEST_F(PipelineJobsTest, ABatchGeneratorMakesTheSame) {
-    std::vector<ChunkPos> running;
-    int wait = 0;
-    BatchGenerator batches;
-    batches.submit = [&](std::span<const ChunkPos> wanted) -> std::size_t {
-        if (!running.empty()) return 0;
-        running.assign(wanted.begin(), wanted.begin() + std::min<long>(3, std::ssize(wanted)));
-        wait = 2;
-        return running.size();
-    };
-    batches.take = [&] {
-        std::vector<std::pair<ChunkPos, world::Chunk>> done;
-        if (running.empty() || --wait > 0) return done;
-        for (const ChunkPos pos : running) done.emplace_back(pos, generator_.generate(pos));
-        running.clear();
+// Batches of at most three, done two calls after they were submitted.
+class SlowBatches : public gen::BatchGenerator {
+  public:
+    explicit SlowBatches(const gen::Generator& generator) : generator_(generator) {}
+
+    std::size_t submit(std::span<const ChunkPos> positions) override {
+        if (!running_.empty()) return 0;
+        running_.assign(positions.begin(), positions.begin() + std::min<long>(3, std::ssize(positions)));
+        calls_ = 2;
+        return running_.size();
+    }
+    std::vector<gen::GeneratedChunk> take(bool) override {
+        std::vector<gen::GeneratedChunk> done;
+        if (running_.empty() || --calls_ > 0) return done;
+        for (const ChunkPos pos : running_)
+            done.push_back({pos, std::make_shared<world::Chunk>(generator_.generate(pos))});
+        running_.clear();
         return done;
-    };
+    }
+    std::string_view backend() const override { return "test"; }
+
+  private:
+    const gen::Generator& generator_;
+    std::vector<ChunkPos> running_;
+    int calls_ = 0;
+};
+
+TEST_F(PipelineJobsTest, ABatchGeneratorMakesTheSame) {
+    SlowBatches batches(generator_);
     pipeline_ = nullptr;
     pipeline_ = std::make_unique<ChunkPipeline>(
         PipelineParts{jobs_, contentBlocks(), lightTable(), world_, {}, &batches});
