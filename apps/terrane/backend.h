@@ -28,7 +28,8 @@ struct OnBackend {
     std::unique_ptr<Worker> worker;
 };
 
-// `makeCpu` returns a Result<unique_ptr<Worker>>, `makeGpu` a Result of what implements Worker in the context.
+// `makeCpu` returns a Result<unique_ptr<Worker>>, `makeGpu` a Result of what implements Worker in the
+// context.
 template <class Worker, class MakeCpu, class MakeGpu>
 base::Result<OnBackend<Worker>> makeOnBackend(Backend backend, const MakeCpu& makeCpu,
                                               const MakeGpu& makeGpu) {

@@ -1,5 +1,5 @@
-// Generates chunks many at a time, by whichever back end: threads here, compute shaders in terrane/gen_gpu. They
-// give the same blocks. Used on one thread; that of terrane/gen_gpu is the context's.
+// Generates chunks many at a time, by whichever back end: threads here, compute shaders in terrane/gen_gpu.
+// They give the same blocks. Used on one thread; that of terrane/gen_gpu is the context's.
 #pragma once
 
 #include <memory>

@@ -43,7 +43,8 @@ class Generator {
     Generator& operator=(Generator&&) noexcept;
 
     // Any thread, any number at a time. Where one runs out of memory the others go on. Throws
-    // std::invalid_argument unless isGenerated(pos). Beyond the world's edge generation sees coordinates wrap.
+    // std::invalid_argument unless isGenerated(pos). Beyond the world's edge generation sees coordinates
+    // wrap.
     world::Chunk generate(world::ChunkPos pos) const;
 
     const std::string& name() const;

@@ -1,7 +1,7 @@
 // Runs a generator's passes as compute shaders: the same blocks as gen::Generator, to the bit.
 //
-// Results come some frames later through a copy that nothing waits for. Intermediate results stay on the GPU in
-// slots, one a chunk, so that neighbouring batches share them. Used on the context's thread.
+// Results come some frames later through a copy that nothing waits for. Intermediate results stay on the GPU
+// in slots, one a chunk, so that neighbouring batches share them. Used on the context's thread.
 #pragma once
 
 #include <memory>

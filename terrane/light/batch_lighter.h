@@ -1,6 +1,6 @@
-// Light of single chunks from scratch, many at a time, by whichever back end: the calling thread here, compute
-// shaders in terrane/light_gpu. They give the same light as lightChunk (light_chunk.h), to the bit. Used on one
-// thread; that of terrane/light_gpu is the context's.
+// Light of single chunks from scratch, many at a time, by whichever back end: the calling thread here,
+// compute shaders in terrane/light_gpu. They give the same light as lightChunk (light_chunk.h), to the bit.
+// Used on one thread; that of terrane/light_gpu is the context's.
 #pragma once
 
 #include <array>
