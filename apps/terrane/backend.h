@@ -28,4 +28,22 @@ struct OnBackend {
     std::unique_ptr<Worker> worker;
 };
 
+// `makeCpu` returns a Result<unique_ptr<Worker>>, `makeGpu` a Result of what implements Worker in the
+// context.
+template <class Worker, class MakeCpu, class MakeGpu>
+base::Result<OnBackend<Worker>> makeOnBackend(Backend backend, const MakeCpu& makeCpu,
+                                              const MakeGpu& makeGpu) {
+    auto context = openBackend(backend);
+    if (!context) return tl::unexpected(context.error());
+    if (!*context) {
+        base::Result<std::unique_ptr<Worker>> worker = makeCpu();
+        if (!worker) return tl::unexpected(worker.error());
+        return OnBackend<Worker>{std::nullopt, std::move(*worker)};
+    }
+    auto worker = makeGpu();
+    if (!worker) return tl::unexpected(worker.error());
+    using GpuWorker = typename decltype(worker)::value_type;
+    return OnBackend<Worker>{std::move(*context), std::make_unique<GpuWorker>(std::move(*worker))};
+}
+
 }  // namespace terrane::app

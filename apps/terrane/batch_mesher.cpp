@@ -7,13 +7,15 @@ namespace terrane::app {
 
 base::Result<OnBackend<mesh::BatchMesher>> makeBatchMesher(Backend backend,
                                                            const world::BlockRegistry& blocks) {
-    using Made = OnBackend<mesh::BatchMesher>;
-    auto context = openBackend(backend);
-    if (!context) return tl::unexpected(context.error());
-    if (!*context) return Made{std::nullopt, mesh::makeCpuMesher()};
-    auto mesher = mesh_gpu::GpuMesher::create(makeShaderLoader(""), blocks);
-    if (!mesher) return tl::unexpected(mesher.error());
-    return Made{std::move(*context), std::make_unique<mesh_gpu::GpuBatchMesher>(std::move(*mesher))};
+    const auto makeCpu = []() -> base::Result<std::unique_ptr<mesh::BatchMesher>> {
+        return mesh::makeCpuMesher();
+    };
+    const auto makeGpu = [&]() -> base::Result<mesh_gpu::GpuBatchMesher> {
+        auto mesher = mesh_gpu::GpuMesher::create(makeShaderLoader(""), blocks);
+        if (!mesher) return tl::unexpected(mesher.error());
+        return mesh_gpu::GpuBatchMesher(std::move(*mesher));
+    };
+    return makeOnBackend<mesh::BatchMesher>(backend, makeCpu, makeGpu);
 }
 
 }  // namespace terrane::app

@@ -32,7 +32,8 @@ Session::Session(SessionParts parts)
                  lights_,
                  world_,
                  {&generator_, store_.get(), store_->isPersistent()},
-                 nullptr,
+                 parts.batchGenerator,
+                 parts.batchLighter,
                  parts.meshing}) {}
 
 EditResult Session::edit(const EditCommand& command) {

@@ -27,6 +27,9 @@ struct SessionParts {
     gen::Generator generator;
     std::unique_ptr<store::ChunkStore> store;
     unsigned threads = 1;  // workers
+    // Null: workers generate and light. They outlive the session.
+    gen::BatchGenerator* batchGenerator = nullptr;
+    light::BatchLighter* batchLighter = nullptr;
     stream::MeshPolicy meshing = stream::MeshPolicy::Workers;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <stdexcept>
 
 #include "terrane/base/profile.h"
 #include "terrane/gen/chunks_around.h"
@@ -145,6 +146,20 @@ void Generator::Impl::advance(world::ChunkPos pos, ChunkWork& work, int passes, 
     work.advance(passes, [&](int pass) { runPass(pos, work, pass, worker); });
 }
 
+base::Result<void> checkGenerated(world::ChunkPos pos) {
+    if (isGenerated(pos)) return {};
+    if (pos.level != 0) {
+        return base::fail("chunk {},{} of level {}: generators make level 0 only", pos.x, pos.y, pos.level);
+    }
+    return base::fail("chunk {},{}: outside of the world, {} to {}", pos.x, pos.y, world::kMinChunk,
+                      world::kMaxChunk);
+}
+
+void requireGenerated(world::ChunkPos pos) {
+    if (isGenerated(pos)) return;
+    throw std::invalid_argument(checkGenerated(pos).error().message);
+}
+
 Generator::Generator(GeneratorGraph graph, std::uint64_t seed, CacheSize cacheSize)
     : impl_(std::make_unique<Impl>(std::move(graph), seed, cacheSize)) {}
 Generator::~Generator() = default;
@@ -161,7 +176,7 @@ std::size_t Generator::cacheBytes() const {
 
 world::Chunk Generator::generate(world::ChunkPos pos) const {
     TERRANE_ZONE("generate chunk");
-    assert(world::isInWorld(pos) && "chunks beyond 32-bit block coordinates do not exist");
+    requireGenerated(pos);
     Impl& impl = *impl_;
     auto worker = impl.borrowWorker();
     const auto work = impl.cache.get(pos);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "terrane/base/result.h"
 #include "terrane/gen/generator_graph.h"
 #include "terrane/world/chunk.h"
 #include "terrane/world/coords.h"
@@ -24,6 +25,16 @@ struct CacheSize {
     std::size_t leastChunks = 256;
 };
 
+// Whether generators make the chunk: level 0, in the world. Higher levels have keys, but no blocks yet, and
+// nobody gets those of level 0 in their place.
+constexpr bool isGenerated(world::ChunkPos pos) {
+    return pos.level == 0 && world::isInWorld(pos);
+}
+// The reason where it is not.
+base::Result<void> checkGenerated(world::ChunkPos pos);
+// Throws std::invalid_argument with the reason.
+void requireGenerated(world::ChunkPos pos);
+
 class Generator {
   public:
     Generator(GeneratorGraph graph, std::uint64_t seed, CacheSize cacheSize = {});
@@ -31,8 +42,9 @@ class Generator {
     Generator(Generator&&) noexcept;
     Generator& operator=(Generator&&) noexcept;
 
-    // Any thread, any number at a time. Where one runs out of memory the others go on. `pos` must be in the
-    // world. Beyond its edge generation sees coordinates wrap.
+    // Any thread, any number at a time. Where one runs out of memory the others go on. Throws
+    // std::invalid_argument unless isGenerated(pos). Beyond the world's edge generation sees coordinates
+    // wrap.
     world::Chunk generate(world::ChunkPos pos) const;
 
     const std::string& name() const;

@@ -46,7 +46,7 @@ std::string shaderText(const gen::GeneratorGraph& generator, std::size_t pass) {
 }
 
 // The GPU keeps a column's layers together, the chunk keeps layers together.
-world::Chunk chunkOf(const std::byte* words) {
+std::shared_ptr<world::Chunk> chunkOf(const std::byte* words) {
     thread_local std::array<world::Section::Value, world::kBlocksPerChunk> blocks;
     constexpr std::size_t kColumns = shared::kBlocksPerLayer;
     for (std::size_t column = 0; column < kColumns; ++column) {
@@ -54,11 +54,11 @@ world::Chunk chunkOf(const std::byte* words) {
         std::memcpy(layers.data(), words + column * sizeof(layers), sizeof(layers));
         for (std::size_t z = 0; z < layers.size(); ++z) blocks[z * kColumns + column] = layers[z];
     }
-    world::Chunk chunk;
+    auto chunk = std::make_shared<world::Chunk>();
     for (int s = 0; s < world::kSectionsPerChunk; ++s) {
         const auto first = static_cast<std::size_t>(s) * world::kBlocksPerSection;
-        chunk.setSection(s, world::Section::fromValues(
-                                std::span(blocks).subspan(first).first<world::kBlocksPerSection>()));
+        chunk->setSection(s, world::Section::fromValues(
+                                 std::span(blocks).subspan(first).first<world::kBlocksPerSection>()));
     }
     return chunk;
 }
@@ -205,13 +205,13 @@ base::Result<GpuGenerator> GpuGenerator::create(const gpu::ShaderLoader& shaders
     return GpuGenerator(std::move(impl));
 }
 
-std::size_t GpuGenerator::submit(std::span<const ChunkPos> chunks) {
+std::size_t GpuGenerator::submit(std::span<const ChunkPos> positions) {
     TERRANE_ZONE("submit generation");
-    assert(!chunks.empty() && "a batch has chunks");
     Impl& impl = *impl_;
-    if (impl.inFlight.size() == kBatchesInFlight) return 0;
-    std::vector<ChunkPos> wanted(chunks.begin(),
-                                 chunks.begin() + std::min<long>(kMaxBatch, std::ssize(chunks)));
+    if (impl.inFlight.size() == kBatchesInFlight || positions.empty()) return 0;
+    std::vector<ChunkPos> wanted(positions.begin(),
+                                 positions.begin() + std::min<long>(kMaxBatch, std::ssize(positions)));
+    for (const ChunkPos pos : wanted) gen::requireGenerated(pos);
     PassCounts needed = neededPasses(impl.generator, wanted);
     while (needed.size() > kSlots) {
         assert(wanted.size() > 1 && "the slots hold what one chunk needs");
@@ -226,17 +226,17 @@ std::size_t GpuGenerator::submit(std::span<const ChunkPos> chunks) {
     return wanted.size();
 }
 
-std::optional<GpuGenerator::Batch> GpuGenerator::take(bool wait) {
+std::vector<gen::GeneratedChunk> GpuGenerator::take(bool wait) {
     Impl& impl = *impl_;
-    if (impl.inFlight.empty()) return std::nullopt;
+    if (impl.inFlight.empty()) return {};
     const Impl::InFlight& oldest = impl.inFlight.front();
     if (wait) oldest.fence.wait();
-    if (!oldest.fence.passed()) return std::nullopt;
+    if (!oldest.fence.passed()) return {};
+    TERRANE_ZONE("take generated chunks");
     const std::byte* words = impl.readbacks[oldest.readback].data().data();
-    Batch batch;
-    for (std::size_t k = 0; k < oldest.chunks.size(); ++k) {
-        batch.emplace_back(oldest.chunks[k], chunkOf(words + k * kChunkBytes));
-    }
+    std::vector<gen::GeneratedChunk> batch;
+    for (std::size_t k = 0; k < oldest.chunks.size(); ++k)
+        batch.push_back({oldest.chunks[k], chunkOf(words + k * kChunkBytes)});
     impl.inFlight.pop_front();
     return batch;
 }

@@ -1,20 +1,13 @@
 // Runs a generator's passes as compute shaders: the same blocks as gen::Generator, to the bit.
 //
-// Chunks are asked for in batches; results come some frames later through a copy that nothing waits for.
-// Intermediate results stay on the GPU in slots, one a chunk, so that neighbouring batches share them. Used
-// on the context's thread.
+// Results come some frames later through a copy that nothing waits for. Intermediate results stay on the GPU
+// in slots, one a chunk, so that neighbouring batches share them. Used on the context's thread.
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
 
-#include "terrane/base/result.h"
-#include "terrane/gen/generator_graph.h"
+#include "terrane/gen/batch_generator.h"
 #include "terrane/gpu/shader_loader.h"
-#include "terrane/world/chunk.h"
 
 namespace terrane::gen_gpu {
 
@@ -23,10 +16,8 @@ namespace terrane::gen_gpu {
 constexpr std::size_t kMaxBatch = 64;
 constexpr std::size_t kSlots = 640;
 
-class GpuGenerator {
+class GpuGenerator : public gen::BatchGenerator {
   public:
-    using Batch = std::vector<std::pair<world::ChunkPos, world::Chunk>>;
-
     // Memory on the GPU: a slot takes 1 KiB a field and 128 KiB for each 3D pass but the last (overworld, 15
     // fields and two 3D passes: 640 × (15 + 128) KiB = 89 MiB); the results of a batch 64 × 128 KiB = 8 MiB,
     // once on the GPU and once for each of three batches on their way back. A generator whose single chunk
@@ -36,14 +27,13 @@ class GpuGenerator {
                                                            std::uint64_t seed);
     GpuGenerator(GpuGenerator&&) noexcept;
     GpuGenerator& operator=(GpuGenerator&&) noexcept;
-    ~GpuGenerator();
+    ~GpuGenerator() override;
 
-    // Queues a batch from the front of `chunks`, which are different, and returns how many it took: as many
-    // as kMaxBatch and the slots hold, which is most where they lie close together. 0 when as many batches
-    // are in flight as there is room for: take one first.
-    [[nodiscard]] std::size_t submit(std::span<const world::ChunkPos> chunks);
-    // The oldest batch, if the GPU has finished it (or, with `wait`, once it has).
-    std::optional<Batch> take(bool wait);
+    // Takes as many as kMaxBatch and the slots hold, which is most where they lie close together. Three
+    // batches may be in flight.
+    [[nodiscard]] std::size_t submit(std::span<const world::ChunkPos> positions) override;
+    [[nodiscard]] std::vector<gen::GeneratedChunk> take(bool wait) override;
+    std::string_view backend() const override { return "gpu"; }
 
   private:
     struct Impl;

@@ -18,6 +18,9 @@ class ReadbackBuffer {
     // Queues a copy of the first `sizeBytes` of `from`. Nothing waits; a Fence inserted behind it tells when
     // data() holds it.
     void copyFrom(const Buffer& from, std::size_t sizeBytes);
+    // For shaders that write here themselves: before the fence comes
+    // glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT).
+    void bindStorage(GLuint index) const { buffer_.bindStorage(index); }
     [[nodiscard]] std::span<const std::byte> data() const { return {mapped_, buffer_.sizeBytes()}; }
 
   private:

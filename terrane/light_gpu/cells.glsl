@@ -1,11 +1,11 @@
-// The area that is solved: its blocks and its levels in cells of 8³.
+// The chunks that are solved: their blocks and their levels in cells of 8³.
 #include "terrane/shared/light_solver.h"
 #include "terrane/shared/packed_levels.h"
 
-layout(location = 0) uniform uvec2 areaChunks;
+layout(location = 0) uniform uint chunkCount;
 
 layout(std430, binding = kSolverSectionsBinding) readonly buffer Sections {
-    SectionInput sections[];  // by chunk (x fastest), sixteen each
+    SectionInput sections[];  // by chunk, sixteen each
 };
 layout(std430, binding = kSolverDataBinding) readonly buffer Data {
     uint data[];
@@ -14,17 +14,18 @@ layout(std430, binding = kSolverLevelsBinding) buffer Levels {
     uint levels[];  // by cell
 };
 
-uint cellIndex(uvec3 cell) {
-    return cell.x + 2u * areaChunks.x * (cell.y + 2u * areaChunks.y * cell.z);
+uint cellCount() {
+    return kCellsPerChunk * chunkCount;
 }
 
-uvec3 cellPlace(uint index) {
-    uvec2 size = 2u * areaChunks;
-    return uvec3(index % size.x, index / size.x % size.y, index / (size.x * size.y));
+// `place` counts cells in the chunk, 2 × 2 × 32 of them.
+uint cellIndex(uint chunk, uvec3 place) {
+    return chunk * kCellsPerChunk + place.x + 2u * place.y + 4u * place.z;
 }
 
-bool isInside(ivec3 cell) {
-    return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(2u * areaChunks, kCellsHigh)));
+// Of its chunk, in blocks.
+uvec3 cellCorner(uint cell) {
+    return kCellSize * uvec3(cell & 1u, cell >> 1 & 1u, cell >> 2 & (kCellsHigh - 1u));
 }
 
 uint wordIndex(uint cell, uvec3 word) {

@@ -13,9 +13,8 @@ void main() {
     if ((summary & kCellIsOpaque) != 0u) return;
     bool isWorthALook = (summary & kCellIsUniform) == 0u;
     for (uint side = 0u; side < 6u && !isWorthALook; ++side) {
-        ivec3 beside = ivec3(cellPlace(cell)) + kSides[side];
-        if (!isInside(beside)) continue;
-        isWorthALook = couldRaise(cells[cellIndex(uvec3(beside))] & 0xFFFFu, summary & 0xFFFFu);
+        uint beside = cellBeside(cell, side);
+        isWorthALook = beside != kNoCell && couldRaise(cells[beside] & 0xFFFFu, summary & 0xFFFFu);
     }
     if (isWorthALook) addToList(0u, cell);
 }

@@ -1,30 +1,23 @@
-// The result: bricks of 16³ in the order of a section's blocks, without those of one value. A work group is a brick.
+// The result: bricks of 16³ in the order of a section's blocks, without those of one value. A work group is a brick of one
+// of the first chunks. Nothing is written but their number while cells are left that could change.
 #include "terrane/light_gpu/cells.glsl"
+#include "terrane/light_gpu/solver_state.glsl"
 
 layout(local_size_x = 256) in;
 
-layout(location = 1) uniform uvec4 part;  // the chunks whose light is wanted: first x and y, number along x and y
-
-layout(std430, binding = kSolverBricksBinding) buffer Bricks {
-    uint poolCount;
-    uint bricks[];  // by chunk of the part, sixteen each
-};
-layout(std430, binding = kSolverPoolBinding) writeonly buffer Pool {
-    uint pool[];
+layout(std430, binding = kSolverResultBinding) writeonly buffer Result {
+    uint result[];  // as resultEntry and resultWords say
 };
 
 shared uint allLight, anyLight, brick;
 
-uint wordOfBrick(uvec3 corner, uint k) {
+uint wordOfBrick(uint k) {
     uvec3 word = uvec3(k & 7u, k >> 3 & 15u, k >> 7);
-    uint cell = cellIndex(corner + uvec3(word.x >> 2, word.yz >> 3));
-    return levels[wordIndex(cell, word & uvec3(3u, 7u, 7u))];
+    uvec3 place = uvec3(word.x >> 2, word.y >> 3, 2u * gl_WorkGroupID.y + (word.z >> 3));
+    return levels[wordIndex(cellIndex(gl_WorkGroupID.x, place), word & uvec3(3u, 7u, 7u))];
 }
 
-void main() {
-    uint local = gl_LocalInvocationIndex, chunk = gl_WorkGroupID.x;
-    uvec2 place = part.xy + uvec2(chunk % part.z, chunk / part.z);
-    uvec3 corner = 2u * uvec3(place, gl_WorkGroupID.y);
+void packBrick(uint local) {
     if (local == 0u) {
         allLight = 0xFFFFFFFFu;
         anyLight = 0u;
@@ -32,7 +25,7 @@ void main() {
     barrier();
     uint all = 0xFFFFFFFFu, any = 0u;
     for (uint k = local; k < kBrickWords; k += 256u) {
-        uint word = wordOfBrick(corner, k);
+        uint word = wordOfBrick(k);
         all &= word;
         any |= word;
     }
@@ -41,10 +34,17 @@ void main() {
     barrier();
     bool isUniform = allLight == anyLight && (allLight & 0xFFFFu) == allLight >> 16;
     if (local == 0u) {
-        brick = isUniform ? kBrickUniformBit | (allLight & 0xFFFFu) : atomicAdd(poolCount, 1u);
-        bricks[chunk * kSectionsPerChunk + gl_WorkGroupID.y] = brick;
+        brick = isUniform ? kBrickUniformBit | (allLight & 0xFFFFu) : atomicAdd(state.brickCount, 1u);
+        result[resultEntry(gl_WorkGroupID.x, gl_WorkGroupID.y)] = brick;
     }
     barrier();
     if (isUniform) return;
-    for (uint k = local; k < kBrickWords; k += 256u) pool[brick * kBrickWords + k] = wordOfBrick(corner, k);
+    uint first = resultWords(gl_NumWorkGroups.x, brick);
+    for (uint k = local; k < kBrickWords; k += 256u) result[first + k] = wordOfBrick(k);
+}
+
+void main() {
+    uint local = gl_LocalInvocationIndex, cellsLeft = state.rounds[kSolverRounds].groupsX;
+    if (local == 0u && gl_WorkGroupID.x == 0u && gl_WorkGroupID.y == 0u) result[0] = cellsLeft;
+    if (cellsLeft == 0u) packBrick(local);
 }

@@ -35,7 +35,6 @@ uint summary(uint turn, uint k) {
 
 void main() {
     uint chunk = gl_WorkGroupID.x, local = gl_LocalInvocationIndex;
-    uvec2 corner = 2u * uvec2(chunk % areaChunks.x, chunk / areaChunks.x);
     uvec2 at = gl_LocalInvocationID.xy;  // x in words
     uint quarter = at.x / 4u + 2u * (at.y / 8u);
     if (local < 8u) resetCell(local >> 2, local & 3u);
@@ -44,7 +43,7 @@ void main() {
     daylight[1] = 15u;
     for (uint layer = kCellsHigh; layer-- > 0u;) {
         uint turn = layer & 1u, all = 0xFFFFFFFFu, any = 0u, opacities = 15u;
-        uint cell = cellIndex(uvec3(corner + uvec2(at.x / 4u, at.y / 8u), layer));
+        uint cell = cellIndex(chunk, uvec3(at.x / 4u, at.y / 8u, layer));
         for (uint k = kCellSize; k-- > 0u;) {
             uvec3 block = uvec3(2u * at.x, at.y, kCellSize * layer + k);
             uint word = sourceAt(chunk, block, 0u, opacities);
@@ -59,7 +58,7 @@ void main() {
         barrier();
         // The other layers' results are used until the next barrier: there is time to take and reset these.
         if (local < 4u) {
-            cells[cellIndex(uvec3(corner + uvec2(local & 1u, local >> 1), layer))] = summary(turn, local);
+            cells[cellIndex(chunk, uvec3(local & 1u, local >> 1, layer))] = summary(turn, local);
             resetCell(turn, local);
         }
     }

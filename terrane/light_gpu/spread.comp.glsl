@@ -11,19 +11,26 @@ layout(location = 1) uniform uint thisRound;  // counted on over all that the ho
 // The cell and one word around it: x fastest, 6 × 10 × 10 words.
 const uint kRow = 6u, kLayer = 60u, kTile = 600u;
 shared uint tile[kTile];
+shared uint cellsBeside[6];  // by side
 shared uint changed[3];  // by iteration, in turn
 shared uint raisedSides;
 
-uint wordAround(ivec3 cell, uint place) {
+uint wordAround(uint cell, uint place) {
     ivec3 word = ivec3(place % kRow, place / kRow % 10u, place / kLayer) - 1;
-    ivec3 from = cell + ivec3(word.x >> 2, word.y >> 3, word.z >> 3);
-    if (!isInside(from)) return 0u;
-    return levels[wordIndex(cellIndex(uvec3(from)), uvec3(word & ivec3(3, 7, 7)))];
+    ivec3 away = ivec3(word.x >> 2, word.y >> 3, word.z >> 3), axes = abs(away);
+    if (axes.x + axes.y + axes.z > 1) return 0u;  // nobody looks at edges and corners
+    uint from = cell;
+    if (axes != ivec3(0)) {
+        uint side = uint(2 * axes.y + 4 * axes.z) + (away.x + away.y + away.z > 0 ? 1u : 0u);
+        from = cellsBeside[side];
+        if (from == kNoCell) return 0u;
+    }
+    return levels[wordIndex(from, uvec3(word & ivec3(3, 7, 7)))];
 }
 
-uint lossHere(uvec3 cell, uvec3 word) {
-    uint chunk = cell.x / 2u + areaChunks.x * (cell.y / 2u);
-    uvec3 block = (cell * kCellSize + uvec3(2u * word.x, word.yz)) & uvec3(15u, 15u, 255u);
+uint lossHere(uint cell, uvec3 word) {
+    uint chunk = cell / kCellsPerChunk;
+    uvec3 block = cellCorner(cell) + uvec3(2u * word.x, word.yz);
     uint low = lossOfOpacity(opacityOf(propertyAt(chunk, block)));
     uint high = lossOfOpacity(opacityOf(propertyAt(chunk, block + uvec3(1u, 0u, 0u))));
     return low * 0x0101u | high * 0x01010000u;
@@ -48,24 +55,24 @@ uint sidesRaised(uint now, uint at, uvec3 word) {
     return sides;
 }
 
-void putDown(ivec3 cell) {
-    if (!isInside(cell)) return;
-    uint index = cellIndex(uvec3(cell));
-    if ((cells[index] & kCellIsOpaque) != 0u) return;
-    bool isThere = atomicExchange(lists[2u * cellCount() + index], thisRound + 1u) == thisRound + 1u;
-    if (!isThere) addToList(thisRound % kSolverRounds + 1u, index);
+void putDown(uint cell) {
+    if (cell == kNoCell || (cells[cell] & kCellIsOpaque) != 0u) return;
+    bool isThere = atomicExchange(lists[2u * cellCount() + cell], thisRound + 1u) == thisRound + 1u;
+    if (!isThere) addToList(thisRound % kSolverRounds + 1u, cell);
 }
 
 void main() {
     uint local = gl_LocalInvocationIndex, cell = cellOfList(thisRound % kSolverRounds, gl_WorkGroupID.x);
-    uvec3 place = cellPlace(cell), word = uvec3(local & 3u, local >> 2 & 7u, local >> 5);
-    for (uint k = local; k < kTile; k += kCellWords) tile[k] = wordAround(ivec3(place), k);
+    uvec3 word = uvec3(local & 3u, local >> 2 & 7u, local >> 5);
+    if (local < 6u) cellsBeside[local] = cellBeside(cell, local);
     if (local < 3u) changed[local] = 0u;
     if (local == 3u) raisedSides = 0u;
     barrier();
+    for (uint k = local; k < kTile; k += kCellWords) tile[k] = wordAround(cell, k);
+    barrier();
 
     uint at = word.x + 1u + kRow * (word.y + 1u) + kLayer * (word.z + 1u);
-    uint loss = lossHere(place, word), first = tile[at], now = first;
+    uint loss = lossHere(cell, word), first = tile[at], now = first;
     for (uint turn = 0u;; turn = (turn + 1u) % 3u) {
         uint next = raised(now, at, loss);
         barrier();  // all have read
@@ -85,5 +92,5 @@ void main() {
         atomicOr(raisedSides, sidesRaised(now, at, word));
     }
     barrier();
-    if (local < 6u && (raisedSides >> local & 1u) != 0u) putDown(ivec3(place) + kSides[local]);
+    if (local < 6u && (raisedSides >> local & 1u) != 0u) putDown(cellsBeside[local]);
 }

@@ -13,12 +13,13 @@ const uint kSolverDataBinding = 1u;
 const uint kSolverLevelsBinding = 2u;
 const uint kSolverCellsBinding = 3u;
 const uint kSolverListsBinding = 4u;
-const uint kSolverRoundsBinding = 5u;
-const uint kSolverBricksBinding = 6u;
-const uint kSolverPoolBinding = 7u;
+const uint kSolverStateBinding = 5u;
+const uint kSolverNeighboursBinding = 6u;
+const uint kSolverResultBinding = 7u;
 
 // Levels lie two to a word (the block at the even x in the lower half) in cells of 8³ blocks: x fastest, then
-// y, then z, 256 words. A work group raises a cell, each invocation a word.
+// y, then z, 256 words. A work group raises a cell, each invocation a word. Cell k of a chunk is the one at
+// x + 2 y + 4 z.
 const uint kCellSize = 8u;
 const uint kCellWordsX = 4u;
 const uint kCellWords = 256u;
@@ -47,6 +48,9 @@ SHARED_FN uint emissionOf(uint property) {
     return property >> 4;
 }
 
+// Of the chunks beside one, where nothing is known.
+const uint kNoChunk = 0xFFFFFFFFu;
+
 // A round's indirect dispatch: x is the length of its work list.
 struct SolverRound {
     uint groupsX;
@@ -55,18 +59,36 @@ struct SolverRound {
     uint unused;
 };
 
+// The last round is the first one of the rounds that are given next: where its list is empty the light is
+// found.
+struct SolverState {
+    SolverRound rounds[kSolverRounds + 1u];
+    uint brickCount;  // in the result
+    uint unused0;
+    uint unused1;
+    uint unused2;
+};
+
 // Of a cell before light spreads: all its light or'ed, and
 const uint kCellIsUniform = 0x10000u;
 const uint kCellIsOpaque = 0x20000u;  // no light gets in
 
-// Of a brick in the result: its one value, or its number in the pool.
+// The result, in words: how many cells are left on the list of the last round; if none is, sixteen entries a
+// chunk, each the one value of a brick or the number of its words; the words of bricks, kBrickWords each.
 const uint kBrickUniformBit = 0x80000000u;
+SHARED_FN uint resultEntry(uint chunk, uint section) {
+    return 1u + chunk * kSectionsPerChunk + section;
+}
+SHARED_FN uint resultWords(uint chunkCount, uint brick) {
+    return 1u + chunkCount * kSectionsPerChunk + brick * kBrickWords;
+}
 
 SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
 static_assert(sizeof(SectionInput) == 16 && sizeof(SolverRound) == 16);
+static_assert(sizeof(SolverState) == (kSolverRounds + 2) * sizeof(SolverRound));
 static_assert(kCellWords == kCellWordsX * kCellSize * kCellSize);
 static_assert(kCellsPerChunk * kCellWords * 2 == kBlocksPerChunk && kBrickWords * 2 == kBlocksPerSection);
 }  // namespace terrane::shared

@@ -17,12 +17,17 @@ std::shared_ptr<world::Chunk> loadChunk(const ChunkSource& source, world::ChunkP
     if (source.store) {
         TERRANE_ZONE("load chunk");
         store::LoadedChunk stored = source.store->load(pos);
-        if (stored.state == store::LoadedChunk::State::Present) return std::make_shared<world::Chunk>(*stored.chunk);
+        if (stored.state == store::LoadedChunk::State::Present)
+            return std::make_shared<world::Chunk>(*stored.chunk);
     }
     if (!source.generator) return nullptr;
     const auto chunk = std::make_shared<world::Chunk>(source.generator->generate(pos));
-    if (source.store && source.storesGenerated) source.store->save(pos, chunk, store::Origin::Generated);
+    storeGenerated(source, pos, chunk);
     return chunk;
+}
+
+void storeGenerated(const ChunkSource& source, world::ChunkPos pos, const world::ChunkPtr& chunk) {
+    if (source.store && source.storesGenerated) source.store->save(pos, chunk, store::Origin::Generated);
 }
 
 LocalLightPtr localLight(const world::Chunk& chunk, const light::LightTable& table) {

@@ -25,6 +25,9 @@ struct ChunkSource {
 // From the store, else from the generator. Null where it is to be made elsewhere.
 std::shared_ptr<world::Chunk> loadChunk(const ChunkSource& source, world::ChunkPos pos);
 
+// Stores a generated chunk where the source says so.
+void storeGenerated(const ChunkSource& source, world::ChunkPos pos, const world::ChunkPtr& chunk);
+
 // The light that a chunk's own blocks give.
 LocalLightPtr localLight(const world::Chunk& chunk, const light::LightTable& table);
 

@@ -26,10 +26,15 @@ constexpr std::chrono::milliseconds kHousekeepingEvery{250};
 // chunk takes at most about 0.05 ms.
 constexpr std::size_t kEditedMeshesPerUpdate = 64;
 
+// Chunks that a batch lighter gets at once, and that wait for it: two batches.
+constexpr std::size_t kLightBatch = 64;
+// Batches end without a signal.
+constexpr std::chrono::milliseconds kBatchPause{1};
+
 }  // namespace
 
 ChunkPipeline::ChunkPipeline(const PipelineParts& parts) : parts_(parts), workers_(parts_) {
-    if (parts_.batches) parts_.source.generator = nullptr;
+    if (parts_.batchGenerator) parts_.source.generator = nullptr;
 }
 
 ChunkPipeline::~ChunkPipeline() {
@@ -71,7 +76,8 @@ void ChunkPipeline::update(Time now) {
     sinceUpdate_ = now - now_;
     now_ = now;
     takeResults();
-    if (parts_.batches) exchangeBatches();
+    if (parts_.batchGenerator) exchangeChunks();
+    if (parts_.batchLighter) exchangeLight();
     relight();
     meshEdits();
     if (now >= nextHousekeeping_) keepHouse();
@@ -145,22 +151,63 @@ void ChunkPipeline::submitLoads() {
     }
 }
 
-void ChunkPipeline::exchangeBatches() {
+void ChunkPipeline::exchangeChunks() {
+    gen::BatchGenerator& generator = *parts_.batchGenerator;
     while (!toGenerate_.empty()) {
-        const std::vector<ChunkPos> requested(toGenerate_.begin(), toGenerate_.end());
-        const std::size_t taken = parts_.batches->submit(requested);
+        const std::vector<ChunkPos> requests(toGenerate_.begin(), toGenerate_.end());
+        const std::size_t taken = generator.submit(requests);
         if (taken == 0) break;
         toGenerate_.erase(toGenerate_.begin(), toGenerate_.begin() + static_cast<long>(taken));
+        generating_ += taken;
     }
-    for (auto& [pos, chunk] : parts_.batches->take()) {
-        workers_.submitLocalLight(urgency(table_.view, pos), pos,
-                                  std::make_shared<world::Chunk>(std::move(chunk)));
+    for (gen::GeneratedChunk& generated : generator.take(false)) {
+        --generating_;
+        storeGenerated(parts_.source, generated.pos, generated.chunk);
+        if (parts_.batchLighter) {
+            onLoaded(generated.pos, std::move(generated.chunk), nullptr);
+        } else {
+            workers_.submitLocalLight(urgency(table_.view, generated.pos), generated.pos,
+                                      std::move(generated.chunk));
+        }
     }
 }
 
+void ChunkPipeline::exchangeLight() {
+    light::BatchLighter& lighter = *parts_.batchLighter;
+    while (!toLight_.empty()) {
+        std::vector<light::LightRequest> requests;
+        for (std::size_t k = 0; k < std::min(toLight_.size(), kLightBatch); ++k) {
+            requests.push_back({toLight_[k], neighborhoodOf(table_, parts_.world, toLight_[k]).chunks});
+        }
+        const std::size_t taken = lighter.submit(requests);
+        if (taken == 0) break;
+        toLight_.erase(toLight_.begin(), toLight_.begin() + static_cast<long>(taken));
+        lighting_ += taken;
+    }
+    for (light::LightResult& lit : lighter.take(false)) {
+        --lighting_;
+        auto light = std::make_shared<const light::ChunkLight>(std::move(lit.light));
+        if (parts_.meshing == MeshPolicy::Caller) {
+            onLit(lit.pos, std::move(light), nullptr);
+        } else {
+            workers_.submitFirstMesh(urgency(table_.view, lit.pos) - 1, lit.pos, std::move(light),
+                                     neighborhoodOf(table_, parts_.world, lit.pos), meshOptions_);
+        }
+    }
+}
+
+void ChunkPipeline::waitForWorkers(std::chrono::milliseconds atMost) {
+    workers_.waitForAny(generating_ + lighting_ > 0 ? std::min(atMost, kBatchPause) : atMost);
+}
+
 void ChunkPipeline::submitLighting() {
-    const std::size_t room = roomFor(countOf(table_, ChunkStage::Lighting));
+    std::size_t room = roomFor(countOf(table_, ChunkStage::Lighting));
+    if (parts_.batchLighter) room = 2 * kLightBatch - std::min(2 * kLightBatch, toLight_.size() + lighting_);
     for (const ChunkPos pos : popLightingRequests(table_, room)) {
+        if (parts_.batchLighter) {
+            toLight_.push_back(pos);
+            continue;
+        }
         // Before loads of equal urgency: chunks on screen free memory.
         workers_.submitLighting(urgency(table_.view, pos) - 1, pos, neighborhoodOf(table_, parts_.world, pos),
                                 meshOptions_);

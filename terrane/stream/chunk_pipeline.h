@@ -38,8 +38,8 @@ class ChunkPipeline {
     // Takes in what workers finished, puts edits on screen, gives out new work. Call each frame.
     // What a worker threw is thrown on from here.
     void update(Time now = std::chrono::steady_clock::now());
-    // Blocks until a worker has finished something or the time is over.
-    void waitForWorkers(std::chrono::milliseconds atMost) { workers_.waitForAny(atMost); }
+    // Blocks until a worker or a batch may have finished something, or the time is over.
+    void waitForWorkers(std::chrono::milliseconds atMost);
 
     // The chunk, or null unless it is loaded; then it is loaded soon, and is kept for 5 s from each call.
     world::ChunkPtr maybeLoadChunkAt(world::ChunkPos pos);
@@ -74,7 +74,8 @@ class ChunkPipeline {
     void onLoaded(world::ChunkPos pos, std::shared_ptr<world::Chunk> chunk, LocalLightPtr local);
     void onLit(world::ChunkPos pos, light::ChunkLightPtr light, MeshPtr mesh);
     void dropLocalLightAround(world::ChunkPos pos);
-    void exchangeBatches();
+    void exchangeChunks();
+    void exchangeLight();
     void submitLoads();
     void submitLighting();
     void submitMeshes();
@@ -93,7 +94,9 @@ class ChunkPipeline {
     ChunkTable table_;
     ChangeQueue changes_;
     ChunkWorkers workers_;
-    std::deque<world::ChunkPos> toGenerate_;  // by the batch generator
+    // For the batch generator and the batch lighter, and how many chunks they have.
+    std::deque<world::ChunkPos> toGenerate_, toLight_;
+    std::size_t generating_ = 0, lighting_ = 0;
     // Edits that are not lit yet: each block once, as it was first.
     std::unordered_map<world::BlockPos, world::BlockEdit, world::BlockPosHash> toRelight_;
     Time now_{}, nextHousekeeping_{};  // now: of the last update

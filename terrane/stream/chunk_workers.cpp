@@ -73,6 +73,15 @@ void ChunkWorkers::submitLighting(base::JobPriority priority, ChunkPos pos, Chun
            });
 }
 
+void ChunkWorkers::submitFirstMesh(base::JobPriority priority, ChunkPos pos, light::ChunkLightPtr light,
+                                   const ChunkNeighborhood& around, const mesh::MeshOptions& options) {
+    submit(priority, [pos, light = std::move(light), chunks = around.chunks, options,
+                      blocks = &parts_.blocks](WorkerResults& results) {
+        auto mesh = results.timed(kMesh, [&] { return meshOf(chunks, *blocks, options); });
+        return WorkerResults::Lit{pos, light, std::move(mesh)};
+    });
+}
+
 void ChunkWorkers::submitMesh(base::JobPriority priority, const MeshJob& job, const ChunkNeighborhood& around,
                               const mesh::MeshOptions& options) {
     submit(priority, [job, chunks = around.chunks, options, blocks = &parts_.blocks](WorkerResults& results) {

@@ -27,6 +27,9 @@ class ChunkWorkers {
     // Lights the chunk, and meshes it where workers do that.
     void submitLighting(base::JobPriority priority, world::ChunkPos pos, ChunkNeighborhood around,
                         const mesh::MeshOptions& options);
+    // Meshes a chunk that a batch lighter lit.
+    void submitFirstMesh(base::JobPriority priority, world::ChunkPos pos, light::ChunkLightPtr light,
+                         const ChunkNeighborhood& around, const mesh::MeshOptions& options);
     // Meshes a visible chunk again.
     void submitMesh(base::JobPriority priority, const MeshJob& job, const ChunkNeighborhood& around,
                     const mesh::MeshOptions& options);

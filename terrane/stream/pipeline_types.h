@@ -2,12 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include "terrane/base/job_system.h"
+#include "terrane/gen/batch_generator.h"
+#include "terrane/light/batch_lighter.h"
 #include "terrane/stream/chunk_jobs.h"
 #include "terrane/world/world.h"
 
@@ -39,14 +37,6 @@ struct TaskTime {
     double microseconds = 0;  // of all
 };
 
-// Makes chunks many at a time on the pipeline's thread without waiting: a GPU.
-struct BatchGenerator {
-    // Takes chunks from the front and says how many; 0 while it is busy.
-    std::function<std::size_t(std::span<const world::ChunkPos>)> submit;
-    // Chunks that are done, if there are any.
-    std::function<std::vector<std::pair<world::ChunkPos, world::Chunk>>()> take;
-};
-
 // Who meshes whole chunks: workers, or whoever takes the changes, as on the GPU, from
 // ChunkPipeline::meshBlocks(). Sections that edits touch are meshed by the pipeline either way: they are seen
 // in the next frame.
@@ -59,7 +49,8 @@ struct PipelineParts {
     const light::LightTable& lights;
     world::World& world;
     ChunkSource source;
-    const BatchGenerator* batches = nullptr;  // in place of source.generator
+    gen::BatchGenerator* batchGenerator = nullptr;  // null: workers generate, with source.generator
+    light::BatchLighter* batchLighter = nullptr;    // null: workers light
     MeshPolicy meshing = MeshPolicy::Workers;
 };
 

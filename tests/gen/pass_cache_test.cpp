@@ -31,6 +31,13 @@ TEST(PassCache, TheSameChunkIsTheSameWork) {
     EXPECT_EQ(cache.get({2, 1}), b);
 }
 
+TEST(PassCache, LevelsAreChunksOfTheirOwn) {
+    PassCache cache(4, 1, 1);
+    const auto fine = cache.get({1, 2, 0}), coarse = cache.get({1, 2, 3});
+    EXPECT_NE(fine, coarse);
+    EXPECT_EQ(cache.get({1, 2, 3}), coarse);
+}
+
 TEST(PassCache, TheChunkUsedLongestAgoGoesFirst) {
     PassCache cache(2, 1, 1);
     const std::weak_ptr<ChunkWork> a = cache.get({0, 0}), b = cache.get({1, 0});

@@ -5,6 +5,7 @@
 
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
+#include "tests/gen/batch_generator_cases.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/render/content.h"
 
@@ -44,9 +45,9 @@ class GpuGeneratorTest : public gpu::GlTest {
             const std::size_t count = std::min(batch, chunks.size() - compared);
             ASSERT_GT(onGpu->submit(std::span(chunks).subspan(compared, count)), 0u);
             const auto done = onGpu->take(true);
-            ASSERT_TRUE(done);
-            for (const auto& [pos, chunk] : *done) {
-                ASSERT_EQ(difference(cpu.generate(pos), chunk), "")
+            ASSERT_FALSE(done.empty());
+            for (const auto& [pos, chunk] : done) {
+                ASSERT_EQ(difference(cpu.generate(pos), *chunk), "")
                     << graph.name << " chunk " << pos.x << "," << pos.y;
                 ++compared;
             }
@@ -57,22 +58,23 @@ class GpuGeneratorTest : public gpu::GlTest {
     static constexpr std::uint64_t kSeed = 12345;
 };
 
-std::vector<ChunkPos> square(ChunkPos first, int size) {
-    std::vector<ChunkPos> chunks;
-    for (int y = 0; y < size; ++y) {
-        for (int x = 0; x < size; ++x) chunks.push_back({first.x + x, first.y + y});
-    }
-    return chunks;
+TEST_F(GpuGeneratorTest, DoesWhatEveryBackEndDoes) {
+    const auto graph = gen::makeGenerator("hills3d", contentBlocks());
+    ASSERT_TRUE(graph) << graph.error().message;
+    auto batches = GpuGenerator::create(render::contentShaders(), *graph, kSeed);
+    ASSERT_TRUE(batches) << batches.error().message;
+    EXPECT_EQ(batches->backend(), "gpu");
+    gen::expectBatchGeneratorCases(*batches, gen::Generator(*graph, kSeed));
 }
 
 TEST_F(GpuGeneratorTest, FlatEqualsCpu) {
-    compare("flat", square({-1, -1}, 3), 9);
+    compare("flat", gen::chunksInSquare({-1, -1}, 3), 9);
 }
 
 TEST_F(GpuGeneratorTest, OtherGeneratorsEqualCpu) {
     for (const char* name : {"hills3d", "voronoi"}) {
-        compare(name, square({-2, -1}, 3), 9);
-        compare(name, square({world::kMinChunk, world::kMaxChunk - 1}, 2), 4);
+        compare(name, gen::chunksInSquare({-2, -1}, 3), 9);
+        compare(name, gen::chunksInSquare({world::kMinChunk, world::kMaxChunk - 1}, 2), 4);
     }
 }
 
@@ -118,9 +120,9 @@ TEST_F(GpuGeneratorTest, EveryPartOfTheLanguageEqualsCpu) {
     writeEverything(builder);
     const auto graph = builder.finish();
     ASSERT_TRUE(graph) << graph.error().message;
-    compare(*graph, square({-1, -2}, 1), 1);
-    compare(*graph, square({12345, -6789}, 1), 1);
-    compare(*graph, square({world::kMinChunk, world::kMaxChunk}, 1), 1);
+    compare(*graph, gen::chunksInSquare({-1, -2}, 1), 1);
+    compare(*graph, gen::chunksInSquare({12345, -6789}, 1), 1);
+    compare(*graph, gen::chunksInSquare({world::kMinChunk, world::kMaxChunk}, 1), 1);
 }
 
 // Each pass reads around what the one before made: 27×27 chunks for one, more than there are slots.
@@ -145,14 +147,14 @@ TEST_F(GpuGeneratorTest, AGeneratorThatTheSlotsCannotHoldIsRefused) {
 }
 
 TEST_F(GpuGeneratorTest, OverworldEqualsCpuAroundTheOrigin) {
-    compare("overworld", square({-5, -5}, 10), 50);
+    compare("overworld", gen::chunksInSquare({-5, -5}, 10), 50);
 }
 
 TEST_F(GpuGeneratorTest, OverworldEqualsCpuFarAway) {
-    compare("overworld", square({100000, -70000}, 6), 36);
-    compare("overworld", square({world::kMinChunk, world::kMinChunk}, 5), 25);
-    compare("overworld", square({world::kMaxChunk - 4, world::kMaxChunk - 4}, 5), 25);
-    compare("overworld", square({world::kMinChunk, world::kMaxChunk - 4}, 5), 25);
+    compare("overworld", gen::chunksInSquare({100000, -70000}, 6), 36);
+    compare("overworld", gen::chunksInSquare({world::kMinChunk, world::kMinChunk}, 5), 25);
+    compare("overworld", gen::chunksInSquare({world::kMaxChunk - 4, world::kMaxChunk - 4}, 5), 25);
+    compare("overworld", gen::chunksInSquare({world::kMinChunk, world::kMaxChunk - 4}, 5), 25);
 }
 
 TEST_F(GpuGeneratorTest, ScatteredChunksReuseSlots) {

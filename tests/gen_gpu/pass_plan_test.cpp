@@ -50,6 +50,14 @@ TEST(PassPlan, WithoutReadsNothingButTheChunkIsNeeded) {
     EXPECT_EQ(counts.at({5, 5}), 1);
 }
 
+TEST(PassPlan, NeighboursAreOfTheSameLevel) {
+    const PassCounts counts = neededPasses(chainOfReads(), {{0, 0, 3}, {0, 0, 1}});
+    EXPECT_EQ(counts.size(), 50u);
+    EXPECT_EQ(counts.at({2, 2, 3}), 1);
+    EXPECT_EQ(counts.at({2, 2, 1}), 1);
+    EXPECT_FALSE(counts.contains({0, 0, 0}));
+}
+
 // The arithmetic of kSlots in gpu_generator.h.
 TEST(PassPlan, OverworldNeedsFourRings) {
     const auto overworld = gen::makeGenerator("overworld", contentBlocks());
@@ -68,6 +76,14 @@ TEST(PassPlan, AroundTheEdgeCoordinatesWrap) {
     EXPECT_EQ(around[5], (ChunkPos{world::kMinChunk, world::kMinChunk}));
     EXPECT_EQ(around[1], (ChunkPos{world::kMaxChunk, world::kMaxChunk}));
     EXPECT_EQ(std::set(around.begin(), around.end()).size(), 9u);
+}
+
+// Level k has 2^k times fewer chunks along an axis.
+TEST(PassPlan, AroundTheEdgeOfHigherLevelsCoordinatesWrapToo) {
+    const auto around = gen::chunksAround({world::kMaxChunk >> 3, 0, 3});
+    EXPECT_EQ(around[4], (ChunkPos{world::kMaxChunk >> 3, 0, 3}));
+    EXPECT_EQ(around[5], (ChunkPos{world::kMinChunk >> 3, 0, 3}));
+    EXPECT_EQ(around[1], (ChunkPos{world::kMaxChunk >> 3, -1, 3}));
 }
 
 }  // namespace

@@ -47,6 +47,15 @@ TEST(SlotCache, ReplacesTheLeastRecentlyUsed) {
     EXPECT_EQ(cache.passesDone({1, 0}), 0) << "what was replaced starts again";
 }
 
+TEST(SlotCache, LevelsAreChunksOfTheirOwn) {
+    SlotCache cache(4);
+    cache.reserve({{3, 0, 0}, {3, 0, 1}});
+    EXPECT_NE(cache.slot({3, 0, 0}), cache.slot({3, 0, 1}));
+    cache.setPassesDone({3, 0, 1}, 2);
+    EXPECT_EQ(cache.passesDone({3, 0, 0}), 0);
+    EXPECT_FALSE(cache.find({3, 0, 2}));
+}
+
 // A batch as large as the cache that shares some chunks with the one before: none of them replaces another.
 TEST(SlotCache, OverlappingFullBatches) {
     SlotCache cache(100);

@@ -154,7 +154,7 @@ class PipelineTest : public testing::Test {
     std::unique_ptr<ChunkPipeline> makePipeline(ChunkSource source,
                                                 MeshPolicy meshing = MeshPolicy::Workers) {
         return std::make_unique<ChunkPipeline>(
-            PipelineParts{jobs_, contentBlocks(), lightTable(), world_, source, nullptr, meshing});
+            PipelineParts{jobs_, contentBlocks(), lightTable(), world_, source, nullptr, nullptr, meshing});
     }
 
     struct Shown {

@@ -83,28 +83,75 @@ TEST_F(PipelineJobsTest, ChunksOthersAskForAreLoadedAndKept) {
     EXPECT_EQ(world_.maybeChunkAt({40, 40}), chunk);
 }
 
-// Chunks made elsewhere in batches of at most three, some updates later.
-TEST_F(PipelineJobsTest, ABatchGeneratorMakesTheSame) {
-    std::vector<ChunkPos> running;
-    int wait = 0;
-    BatchGenerator batches;
-    batches.submit = [&](std::span<const ChunkPos> wanted) -> std::size_t {
-        if (!running.empty()) return 0;
-        running.assign(wanted.begin(), wanted.begin() + std::min<long>(3, std::ssize(wanted)));
-        wait = 2;
-        return running.size();
-    };
-    batches.take = [&] {
-        std::vector<std::pair<ChunkPos, world::Chunk>> done;
-        if (running.empty() || --wait > 0) return done;
-        for (const ChunkPos pos : running) done.emplace_back(pos, generator_.generate(pos));
-        running.clear();
+// Batches of at most three, done two calls after they were submitted.
+class SlowBatches : public gen::BatchGenerator {
+  public:
+    explicit SlowBatches(const gen::Generator& generator) : generator_(generator) {}
+
+    std::size_t submit(std::span<const ChunkPos> positions) override {
+        if (!running_.empty()) return 0;
+        running_.assign(positions.begin(), positions.begin() + std::min<long>(3, std::ssize(positions)));
+        calls_ = 2;
+        return running_.size();
+    }
+    std::vector<gen::GeneratedChunk> take(bool) override {
+        std::vector<gen::GeneratedChunk> done;
+        if (running_.empty() || --calls_ > 0) return done;
+        for (const ChunkPos pos : running_)
+            done.push_back({pos, std::make_shared<world::Chunk>(generator_.generate(pos))});
+        running_.clear();
         return done;
-    };
+    }
+    std::string_view backend() const override { return "test"; }
+
+  private:
+    const gen::Generator& generator_;
+    std::vector<ChunkPos> running_;
+    int calls_ = 0;
+};
+
+TEST_F(PipelineJobsTest, ABatchGeneratorMakesTheSame) {
+    SlowBatches batches(generator_);
     pipeline_ = nullptr;
     pipeline_ = std::make_unique<ChunkPipeline>(
-        PipelineParts{jobs_, contentBlocks(), lightTable(), world_, {}, &batches});
+        PipelineParts{jobs_, contentBlocks(), lightTable(), world_, {}, &batches, nullptr});
     setView({3, 3}, 2);
+    settle();
+    expectShowsTheView();
+}
+
+// Light of a batch comes some updates after it was asked for.
+TEST_F(PipelineJobsTest, ABatchLighterMakesTheSame) {
+    for (const MeshPolicy meshing : {MeshPolicy::Workers, MeshPolicy::Caller}) {
+        const auto lighter = light::makeCpuLighter(lightTable());
+        pipeline_ = nullptr;
+        world_ = {};
+        shown_.clear();
+        pipeline_ = std::make_unique<ChunkPipeline>(PipelineParts{
+            jobs_, contentBlocks(), lightTable(), world_, {&generator_}, nullptr, lighter.get(), meshing});
+        setView({3, 3}, 3);
+        settle();
+        EXPECT_EQ(shown_.size(), 49u);
+        for (const auto& [pos, shown] : shown_) EXPECT_EQ(*shown.light, directLight(world_, pos));
+        if (meshing == MeshPolicy::Workers) expectShowsTheView();
+    }
+}
+
+// Edits while batches are on the way: the result is that of lighting and meshing all anew.
+TEST_F(PipelineJobsTest, EditsOutdateBatches) {
+    SlowBatches batches(generator_);
+    const auto lighter = light::makeCpuLighter(lightTable());
+    pipeline_ = nullptr;
+    pipeline_ = std::make_unique<ChunkPipeline>(
+        PipelineParts{jobs_, contentBlocks(), lightTable(), world_, {}, &batches, lighter.get()});
+    setView({0, 0}, 2);
+    for (int step = 0; step < 500 && !pipeline_->progress().complete(); ++step) {
+        update();
+        const world::BlockPos pos{step * 7 % 80 - 32, step * 13 % 80 - 32, 60 + step % 9};
+        placeBlock(pos, step % 2 == 0 ? "lamp_green" : "stone");
+        pipeline_->waitForWorkers(std::chrono::milliseconds(1));
+        take(kAll);
+    }
     settle();
     expectShowsTheView();
 }

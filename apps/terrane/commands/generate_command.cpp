@@ -58,7 +58,7 @@ struct Generated {
 class AreaGenerator {
   public:
     // `save` may be null.
-    AreaGenerator(BatchGenerator& generator, store::ChunkStore* save, bool wantsDigest)
+    AreaGenerator(gen::BatchGenerator& generator, store::ChunkStore* save, bool wantsDigest)
         : generator_(generator), save_(save), wantsDigest_(wantsDigest) {}
 
     // The digest takes chunks by y, then x; blocks by z, y, x, as 16-bit little-endian ids.
@@ -84,8 +84,9 @@ class AreaGenerator {
         std::vector<world::ChunkPos> wanted;
         for (const world::ChunkPos pos : positions)
             if (!isStored(pos)) wanted.push_back(pos);
-        chunks_.resize(wanted.size());
-        if (auto done = generator_.generate(wanted, chunks_); !done) return done;
+        auto chunks = gen::generateAll(generator_, wanted);
+        if (!chunks) return tl::unexpected(chunks.error());
+        chunks_ = std::move(*chunks);
         result_.chunks += wanted.size();
         result_.skipped += positions.size() - wanted.size();
         if (wantsDigest_) addBatchToDigest(positions, wanted);
@@ -102,23 +103,21 @@ class AreaGenerator {
         std::size_t k = 0;
         for (const world::ChunkPos pos : positions) {
             const bool isNew = k < wanted.size() && wanted[k] == pos;
-            addToDigest(digest_, isNew ? chunks_[k] : *save_->load(pos).chunk);
+            addToDigest(digest_, isNew ? *chunks_[k] : *save_->load(pos).chunk);
             if (isNew) ++k;
         }
     }
 
     base::Result<void> saveBatch(const std::vector<world::ChunkPos>& wanted) {
-        for (std::size_t k = 0; k < wanted.size(); ++k) {
-            save_->save(wanted[k], std::make_shared<world::Chunk>(std::move(chunks_[k])),
-                        store::Origin::Generated);
-        }
+        for (std::size_t k = 0; k < wanted.size(); ++k)
+            save_->save(wanted[k], std::move(chunks_[k]), store::Origin::Generated);
         return save_->flush();
     }
 
-    BatchGenerator& generator_;
+    gen::BatchGenerator& generator_;
     store::ChunkStore* save_;
     bool wantsDigest_;
-    std::vector<world::Chunk> chunks_;
+    std::vector<std::shared_ptr<world::Chunk>> chunks_;
     base::Digest digest_;
     Generated result_;
 };
@@ -154,7 +153,7 @@ base::Result<void> explain(const WorldOptions& options, const world::BlockRegist
 }
 
 void report(const GenerateOptions& options, const Generated& result, double seconds,
-            const std::string& backend) {
+            std::string_view backend) {
     const double speed = static_cast<double>(result.chunks) / seconds;
     const unsigned threads = threadCount(options.world);
     if (result.skipped > 0) base::logInfo("{}: {} chunks were there already", options.save, result.skipped);
@@ -193,10 +192,10 @@ base::Result<void> generate(GenerateOptions& options, const CLI::App& command) {
     if (!generator) return tl::unexpected(generator.error());
 
     const auto start = std::chrono::steady_clock::now();
-    auto result = AreaGenerator(**generator, save->get(), options.digest).run(area);
+    auto result = AreaGenerator(*generator->worker, save->get(), options.digest).run(area);
     if (!result) return tl::unexpected(result.error());
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    report(options, *result, seconds, (*generator)->backend());
+    report(options, *result, seconds, generator->worker->backend());
     return {};
 }
 

@@ -1,0 +1,174 @@
+#include "terrane/light_gpu/light_workspace.h"
+
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "terrane/base/profile.h"
+#include "terrane/gpu/debug.h"
+
+namespace terrane::light_gpu {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "words of two levels are read back as they are");
+
+constexpr std::size_t kWordBytes = sizeof(shared::uint);
+constexpr std::size_t kLevelBytes = world::kBlocksPerChunk * sizeof(light::LightValue);  // a chunk
+static_assert(kMaxSolved * shared::kCellsPerChunk < 65536,
+              "OpenGL has as many work groups along an axis at least");
+
+// The next multiple of the chunks of a small batch, so that buffers grow a few times only.
+std::size_t roundedUp(std::size_t chunks) {
+    return (chunks + 63) / 64 * 64;
+}
+
+// Before the first of the rounds that are given at once.
+std::vector<shared::SolverState> stateWith(shared::uint cellsListed) {
+    shared::SolverState state{};
+    for (shared::SolverRound& round : state.rounds) round = {0, 1, 1, 0};
+    state.rounds[0].groupsX = cellsListed;
+    return {state};
+}
+
+}  // namespace
+
+base::Result<LightPrograms> LightPrograms::create(const gpu::ShaderLoader& shaders) {
+    LightPrograms programs;
+    for (const auto& [program, name] :
+         {std::pair(&programs.sources, "sources"), std::pair(&programs.firstCells, "first_cells"),
+          std::pair(&programs.spread, "spread"), std::pair(&programs.pack, "pack")}) {
+        auto made = gpu::Program::compute(shaders, fmt::format("terrane/light_gpu/{}.comp.glsl", name), {},
+                                          fmt::format("light {}", name));
+        if (!made) return tl::unexpected(made.error());
+        *program = std::move(*made);
+    }
+    return programs;
+}
+
+void LightWorkspace::upload(const LightBatch& batch, const light::LightTable& table) {
+    input_.clear();
+    for (const world::ChunkPtr& chunk : batch.chunks) input_.add(*chunk, table);
+    sections_ = gpu::Buffer(std::as_bytes(std::span(input_.sections)), 0, "light sections");
+    data_ = gpu::Buffer(std::as_bytes(std::span(input_.data)), 0, "light section data");
+    neighbours_ = gpu::Buffer(std::as_bytes(std::span(batch.beside)), 0, "light neighbours");
+}
+
+void LightWorkspace::makeRoom() {
+    const std::size_t chunks = roundedUp(chunkCount_), cells = chunks * shared::kCellsPerChunk;
+    if (levels_.sizeBytes() < chunks * kLevelBytes) {
+        levels_ = gpu::Buffer(chunks * kLevelBytes, 0, "light levels");
+        cells_ = gpu::Buffer(cells * kWordBytes, 0, "light cells");
+        lists_ = gpu::Buffer(3 * cells * kWordBytes, 0, "light work lists");
+    }
+    const auto results = static_cast<shared::uint>(roundedUp(requested_.size()));
+    const std::size_t resultBytes =
+        std::size_t{shared::resultWords(results, results * shared::kSectionsPerChunk)} * kWordBytes;
+    if (result_.data().size() < resultBytes) result_ = gpu::ReadbackBuffer(resultBytes, "light result");
+    if (state_.sizeBytes() == 0)
+        state_ = gpu::Buffer(sizeof(shared::SolverState), GL_DYNAMIC_STORAGE_BIT, "light state");
+}
+
+void LightWorkspace::bind() const {
+    sections_.bindStorage(shared::kSolverSectionsBinding);
+    data_.bindStorage(shared::kSolverDataBinding);
+    levels_.bindStorage(shared::kSolverLevelsBinding);
+    cells_.bindStorage(shared::kSolverCellsBinding);
+    lists_.bindStorage(shared::kSolverListsBinding);
+    state_.bindStorage(shared::kSolverStateBinding);
+    neighbours_.bindStorage(shared::kSolverNeighboursBinding);
+    result_.bindStorage(shared::kSolverResultBinding);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, state_.id());
+}
+
+// Emission, daylight down the columns, and which cells the first round looks at.
+void LightWorkspace::setSources(const LightPrograms& programs) {
+    const auto chunks = static_cast<GLuint>(chunkCount_);
+    programs.sources.use();
+    programs.sources.set(0, chunks);
+    glDispatchCompute(chunks, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    programs.firstCells.use();
+    programs.firstCells.set(0, chunks);
+    glDispatchCompute(chunks * shared::kCellsPerChunk / 64, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+}
+
+// Rounds whose list is empty cost a command each, and packing where they were not enough costs little more.
+void LightWorkspace::spreadAndPack(const LightPrograms& programs) {
+    const auto chunks = static_cast<GLuint>(chunkCount_);
+    programs.spread.use();
+    programs.spread.set(0, chunks);
+    for (shared::uint k = 0; k < shared::kSolverRounds; ++k) {
+        programs.spread.set(1, roundsDone_++);
+        glDispatchComputeIndirect(static_cast<GLintptr>(k * sizeof(shared::SolverRound)));
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    }
+    programs.pack.use();
+    programs.pack.set(0, chunks);
+    glDispatchCompute(static_cast<GLuint>(requested_.size()), shared::kSectionsPerChunk, 1);
+    glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    fence_ = gpu::Fence::insert();
+}
+
+void LightWorkspace::start(const LightPrograms& programs, const LightBatch& batch,
+                           const light::LightTable& table) {
+    TERRANE_ZONE("start light on the GPU");
+    assert(isFree() && !batch.requested.empty());
+    const gpu::DebugGroup group("light");
+    requested_ = batch.requested;
+    chunkCount_ = batch.chunks.size();
+    roundsDone_ = 0;
+    upload(batch, table);
+    makeRoom();
+    bind();
+    state_.uploadVector(0, stateWith(0));
+    setSources(programs);
+    spreadAndPack(programs);
+}
+
+bool LightWorkspace::isFinished(const LightPrograms& programs, bool wait) {
+    for (;;) {
+        if (wait) fence_.wait();
+        if (!fence_.passed()) return false;
+        const shared::uint cellsLeft = resultWord(0);
+        if (cellsLeft == 0) return true;
+        const gpu::DebugGroup group("light again");
+        bind();
+        state_.uploadVector(0, stateWith(cellsLeft));
+        spreadAndPack(programs);
+    }
+}
+
+shared::uint LightWorkspace::resultWord(std::size_t index) const {
+    shared::uint word = 0;
+    std::memcpy(&word, result_.data().data() + index * kWordBytes, kWordBytes);
+    return word;
+}
+
+light::LightBrick LightWorkspace::brickAt(std::size_t entry) const {
+    const shared::uint brick = resultWord(entry);
+    if ((brick & shared::kBrickUniformBit) != 0)
+        return light::LightBrick(static_cast<light::LightValue>(brick));
+    const std::size_t first = shared::resultWords(static_cast<shared::uint>(requested_.size()), brick);
+    std::array<light::LightValue, world::kBlocksPerSection> values;
+    std::memcpy(values.data(), result_.data().data() + first * kWordBytes, sizeof(values));
+    return light::LightBrick::fromValues(values);
+}
+
+std::vector<light::LightResult> LightWorkspace::takeResult() {
+    TERRANE_ZONE("take light from the GPU");
+    std::vector<light::LightResult> results;
+    results.reserve(requested_.size());
+    for (shared::uint k = 0; k < requested_.size(); ++k) {
+        light::LightResult& result = results.emplace_back(light::LightResult{requested_[k], {}});
+        for (shared::uint n = 0; n < shared::kSectionsPerChunk; ++n)
+            result.light.setBrick(static_cast<int>(n), brickAt(shared::resultEntry(k, n)));
+    }
+    requested_.clear();
+    return results;
+}
+
+}  // namespace terrane::light_gpu

@@ -1,0 +1,92 @@
+#include "terrane/light_gpu/light_batch.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <set>
+
+namespace terrane::light_gpu {
+namespace {
+
+using light::LightRequest;
+using world::ChunkPos;
+using world::ChunkPtr;
+
+// A world of equal chunks; each is an object of its own.
+class Chunks {
+  public:
+    explicit Chunks(ChunkPos low, ChunkPos high) {
+        for (int y = low.y; y <= high.y; ++y) {
+            for (int x = low.x; x <= high.x; ++x) chunks_[{x, y}] = std::make_shared<world::Chunk>();
+        }
+    }
+    ChunkPtr& at(ChunkPos pos) { return chunks_.at(pos); }
+    LightRequest request(ChunkPos pos) const {
+        LightRequest request{pos, {}};
+        for (int n = 0; n < light::kFieldChunks; ++n) {
+            const auto found = chunks_.find(world::offsetBy(pos, n % 3 - 1, n / 3 - 1));
+            if (found != chunks_.end()) request.chunks[static_cast<std::size_t>(n)] = found->second;
+        }
+        return request;
+    }
+    std::vector<LightRequest> square(ChunkPos first, int size) const {
+        std::vector<LightRequest> requests;
+        for (int k = 0; k < size * size; ++k)
+            requests.push_back(request(world::offsetBy(first, k % size, k / size)));
+        return requests;
+    }
+
+  private:
+    std::map<ChunkPos, ChunkPtr> chunks_;
+};
+
+TEST(LightBatch, ASquareSharesItsNeighbours) {
+    const Chunks chunks({-20, -20}, {20, 20});
+    const LightBatch batch = gatherBatch(chunks.square({-3, 5}, 8));
+    EXPECT_EQ(batch.requested.size(), 64u);
+    EXPECT_EQ(batch.chunks.size(), 100u);
+    EXPECT_EQ(batch.requested[9], (ChunkPos{-2, 6}));
+    EXPECT_EQ(std::set(batch.chunks.begin(), batch.chunks.end()).size(), 100u) << "each chunk once";
+    const shared::uvec4 beside = batch.beside[9];
+    EXPECT_EQ(beside, shared::uvec4(8, 10, 1, 17));
+    const LightBatch most = gatherBatch(chunks.square({-8, -8}, 16));
+    EXPECT_EQ(most.requested.size(), kMaxRequests);
+    EXPECT_EQ(most.chunks.size(), kMaxSolved);
+}
+
+TEST(LightBatch, ChunksThatAreNotThereHaveNoNumber) {
+    const Chunks chunks({0, 0}, {1, 0});
+    const std::vector<LightRequest> requests = {chunks.request({1, 0})};
+    const LightBatch batch = gatherBatch(requests);
+    ASSERT_EQ(batch.chunks.size(), 2u);
+    EXPECT_EQ(batch.chunks[0], requests[0].chunks[light::kCentreChunk]);
+    EXPECT_EQ(batch.beside[0], shared::uvec4(1, shared::kNoChunk, shared::kNoChunk, shared::kNoChunk));
+    EXPECT_EQ(batch.beside[1], shared::uvec4(shared::kNoChunk, 0, shared::kNoChunk, shared::kNoChunk));
+}
+
+TEST(LightBatch, TakesAsManyAsThereIsRoomFor) {
+    const Chunks chunks({-2, -2}, {300, 2});
+    std::vector<LightRequest> apart;
+    for (int k = 0; k < 60; ++k) apart.push_back(chunks.request({4 * k, 0}));
+    const LightBatch batch = gatherBatch(apart);
+    EXPECT_EQ(batch.requested.size(), kMaxSolved / 9);
+    EXPECT_EQ(batch.chunks.size(), kMaxSolved);
+}
+
+TEST(LightBatch, EndsWhereSnapshotsDiffer) {
+    Chunks chunks({-2, -2}, {9, 2});
+    std::vector<LightRequest> requests = {chunks.request({0, 0}), chunks.request({5, 0})};
+    chunks.at({1, 1}) = std::make_shared<world::Chunk>();
+    requests.push_back(chunks.request({6, 0}));  // does not see it
+    requests.push_back(chunks.request({2, 0}));
+    EXPECT_EQ(gatherBatch(requests).requested.size(), 3u);
+    requests[3] = requests[0];
+    EXPECT_EQ(gatherBatch(requests).requested.size(), 3u) << "the same chunk twice";
+    requests[3] = chunks.request({2, 2});
+    requests[3].chunks[0] = nullptr;  // 1,1, which the first one has
+    EXPECT_EQ(gatherBatch(requests).requested.size(), 3u);
+}
+
+}  // namespace
+}  // namespace terrane::light_gpu
