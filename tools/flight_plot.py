@@ -24,18 +24,17 @@ STYLE = {"svg.fonttype": "none", "svg.hashsalt": "terrane", "font.size": 9, "axe
 def draw(axes, folder, name):
     kind, _, distance = name.rpartition("_")
     flight = pandas.read_csv(folder / f"{name}.csv")
-    seconds, frames = flight.iloc[:, 0], flight.iloc[:, 1]
     standing = pandas.read_csv(folder / f"standing_{distance}.csv", names=["seconds", "milliseconds"])
-    axes.vlines(seconds, 0, frames, color="#9db8d2", label="frame")
-    axes.vlines(seconds, 0, flight.iloc[:, 5] + flight.iloc[:, 6], color="#c0392b",
+    axes.vlines(flight.time_s, 0, flight.frame_ms, color="#9db8d2", label="frame")
+    axes.vlines(flight.time_s, 0, flight.follow_processor_ms + flight.upload_processor_ms, color="#c0392b",
                 label="of it loading (processor time)")
     axes.plot(standing.seconds, standing.milliseconds, color="#2e7d32", linewidth=2,
               label="the same place, nothing to load")
-    axes.axhline(2 * frames.median(), color="#555555", linestyle="--", label="twice the median")
+    axes.axhline(2 * flight.frame_ms.median(), color="#555555", linestyle="--", label="twice the median")
     title = "generating" if kind == "generating" else "from a save"
     # Higher than all frames, with room for the legend.
     axes.set(title=f"{title}, view distance {distance}", xlabel="s", ylabel="ms", xlim=(0, SECONDS),
-             ylim=(0, 1.6 * frames.max()))
+             ylim=(0, 1.6 * flight.frame_ms.max()))
     axes.legend(loc="upper left", frameon=False)
 
 
@@ -53,5 +52,7 @@ if __name__ == "__main__":
         sys.exit(__doc__)
     try:
         main(pathlib.Path(sys.argv[1]))
-    except (OSError, ValueError, IndexError) as error:
+    except (OSError, ValueError) as error:
         sys.exit(f"flight_plot: {sys.argv[1]}: {error}")
+    except AttributeError as error:  # a column
+        sys.exit(f"flight_plot: {sys.argv[1]}: no flight: {error}")
