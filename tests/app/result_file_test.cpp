@@ -37,24 +37,25 @@ TEST_F(ResultFileTest, GoesOnWithWhatIsThere) {
         ASSERT_TRUE(file->add(kCave, {{"frame", 1}}));
         ASSERT_TRUE(file->add(kCave, {{"frame", 3}}));
         ASSERT_TRUE(file->addFailure(kOcean, "dry"));
-        EXPECT_EQ(file->measured().failureOf(kOcean), "dry");
+        EXPECT_EQ(file->failureOf(kOcean), "dry");
     }
     auto file = ResultFile::resume(path, kSettings);
     ASSERT_TRUE(file);
-    EXPECT_EQ((*file->measured().find(kCave))["frame"], 2);
-    EXPECT_EQ(file->measured().failureOf(kOcean), "") << "it is tried again";
-    EXPECT_FALSE(file->measured().find(kOcean));
+    EXPECT_EQ(file->runsOf(kCave), 2);
+    EXPECT_EQ(file->failureOf(kOcean), "") << "it is tried again";
+    EXPECT_EQ(file->runsOf(kOcean), 0);
+    EXPECT_EQ(file->failureCount(), 0u);
     ASSERT_TRUE(file->add(kOcean, {{"frame", 7}}));
     auto again = ResultFile::resume(path, kSettings);
     ASSERT_TRUE(again);
-    EXPECT_EQ((*again->measured().find(kOcean))["frame"], 7);
-    EXPECT_EQ(again->measured().runs.size(), 2u);
+    EXPECT_EQ(again->runsOf(kOcean), 1);
+    EXPECT_EQ(again->runsOf(kCave), 2);
 }
 
 TEST_F(ResultFileTest, ASuccessTakesAFailureAway) {
     auto file = ResultFile::create(path, kSettings);
     ASSERT_TRUE(file && file->addFailure(kCave, "dark") && file->add(kCave, {{"frame", 1}}));
-    EXPECT_EQ(file->measured().failureOf(kCave), "");
+    EXPECT_EQ(file->failureOf(kCave), "");
 }
 
 TEST_F(ResultFileTest, NeverReplacesAFile) {
@@ -76,8 +77,8 @@ TEST_F(ResultFileTest, ALineThatWasCutShortIsDropped) {
         write(whole.substr(0, size));
         auto file = ResultFile::resume(path, kSettings);
         ASSERT_TRUE(file) << size;
-        EXPECT_TRUE(file->measured().find(kCave));
-        EXPECT_FALSE(file->measured().find(kOcean)) << size;
+        EXPECT_EQ(file->runsOf(kCave), 1);
+        EXPECT_EQ(file->runsOf(kOcean), 0) << size;
         ASSERT_TRUE(file->add(kOcean, {{"frame", 2}}));
         EXPECT_EQ(text(), whole) << size;
     }

@@ -1,9 +1,145 @@
 #include "apps/terrane/bench/bench_plan.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <iterator>
+#include <set>
+
+#include "apps/terrane/bench/plan_line.h"
+#include "terrane/mesh/mesh_options.h"
 
 namespace terrane::app {
+namespace {
+
+using Cells = std::vector<Cell>;
+
+constexpr const char* kScenes = "--scene ocean,desert,landscape,cave ";
+
+void append(Cells& cells, Cells more) {
+    std::ranges::move(more, std::back_inserter(cells));
+}
+
+// Frames of the landscape with the options that the thesis measured with; `flags` changes them. Options that
+// groups vary are named, although the preset has them.
+Cells frames(const BenchSettings& s, const std::string& flags) {
+    return expandLine(fmt::format(
+        "render --scene landscape --preset thesis --view-distance {} --size {} --frames {} --samples 2 "
+        "--shading sample "
+        "--shadows {} --layers 3 --aggregation greedy --region-height {} {}",
+        s.viewDistance, s.size, s.frames, s.isQuick ? 1024 : 2048, mesh::kDefaultRegionHeight, flags));
+}
+
+// With the least options, which are those of `--preset auto` without a graphics card.
+Cells plainFrames(const BenchSettings& s, const std::string& flags) {
+    return expandLine(
+        fmt::format("render --scene landscape --preset low --view-distance {} --size {} --frames {} {}",
+                    s.viewDistance, s.size, s.frames, flags));
+}
+
+// Everything in view of a scene generated; a small picture, as loading does not wait for it.
+Cells generating(const std::string& scene, const std::string& distances) {
+    return expandLine(
+        fmt::format("render --scene {} --preset low --view-distance {} --size 320x180", scene, distances));
+}
+
+// The same from a save that has it all.
+Cell loading(const std::string& scene, int distance) {
+    Cell cell = generating(scene, fmt::to_string(distance))[0];
+    cell.arguments.insert(cell.arguments.end(), {"--save-game", fmt::format("{}-{}", scene, distance)});
+    return {cell.arguments, cell.arguments};
+}
+
+// A flight ahead over the landscape, generating or from a save. It takes as long as it does: without a
+// graphics card its frames need not.
+Cell flight(const BenchSettings& s, bool isFromSave) {
+    Cell cell = expandLine(fmt::format(
+        "fly --scene landscape --for {:g} --preset {} --view-distance {} --size {}", s.flightSeconds,
+        s.isSoftware ? "low" : "thesis", s.viewDistance, s.isSoftware ? "320x180" : s.size))[0];
+    if (!isFromSave) return cell;
+    cell.arguments.insert(cell.arguments.end(), {"--save-game", "flight"});
+    return {cell.arguments, cell.arguments};
+}
+
+std::vector<int> upTo(int farthest, std::vector<int> numbers) {
+    std::erase_if(numbers, [&](int number) { return number > farthest; });
+    return numbers;
+}
+
+Cells goals(const BenchSettings& s) {
+    Cells cells =
+        expandLine(fmt::format("generate --radius {} --threads 1 --backend cpu", s.isQuick ? 6 : 16));
+    append(cells, generating("landscape", fmt::to_string(s.viewDistance)));
+    cells.push_back(loading("landscape", s.viewDistance));
+    append(cells, frames(s, "--aggregation greedy,squares-ext --occlusion-culling off"));
+    cells.push_back(flight(s, false));
+    return cells;
+}
+
+Cells regionHeights(const BenchSettings& s) {
+    Cells cells;
+    for (const int distance : upTo(std::max(8, s.farthest), {8, 16, 32, 56})) {
+        // The thesis has no others at 56.
+        const char* heights = distance == 56 ? "8,64,128" : "8,16,32,64,128";
+        for (Cell& cell :
+             frames(s, fmt::format("--view-distance {0} --region-height {1} --save-game landscape-{0}",
+                                   distance, heights)))
+            cells.push_back({std::move(cell.arguments), loading("landscape", distance).arguments});
+    }
+    return cells;
+}
+
+Cells shadowMaps(const BenchSettings& s) {
+    const auto samples = upTo(s.maxSamples, s.isQuick ? std::vector{1, 4} : std::vector{1, 2, 4, 8});
+    return frames(s, fmt::format("--samples {} --shadows {} --time 0.2", fmt::join(samples, ","),
+                                 s.isQuick ? "off,1024" : "off,1024,2048,4096"));
+}
+
+Cells effects(const BenchSettings& s) {
+    Cells cells;
+    for (const char* flag : {"", "--depth-of-field off", "--god-rays off", "--better-texturing off",
+                             "--msaa-alpha-test off", "--t-junctions open", "--animation off"})
+        append(cells, frames(s, (s.isQuick ? "--scene ocean,landscape " : kScenes) + std::string(flag)));
+    return cells;
+}
+
+Cells viewDistances(const BenchSettings& s) {
+    Cells cells;
+    for (const int distance : upTo(std::max(4, (s.isQuick ? 2 : 1) * s.farthest), {4, 8, 16, 32, 64})) {
+        const std::string word = fmt::to_string(distance);
+        append(cells, generating("landscape", word));
+        cells.push_back(loading("landscape", distance));
+        append(cells, frames(s, "--view-distance " + word));
+        append(cells, plainFrames(s, "--view-distance " + word));
+    }
+    return cells;
+}
+
+Cells resolutions(const BenchSettings& s) {
+    const std::string sizes =
+        s.isQuick ? "--size 160x90,320x180,640x360" : "--size 320x180,640x360,960x540,1280x720,1920x1080";
+    Cells cells = frames(s, sizes);
+    append(cells, plainFrames(s, sizes));
+    return cells;
+}
+
+// Each effect off and on: `--preset low` has one of both.
+Cells effectCosts(const BenchSettings& s) {
+    Cells cells;
+    for (const char* flag :
+         {"", "--samples 4", "--shading off", "--light smooth", "--shadows 2048", "--ssao on",
+          "--depth-of-field on", "--atmosphere off", "--god-rays on", "--clouds on", "--animation off",
+          "--better-texturing on", "--layers 0,3", "--t-junctions open", "--occlusion-culling off"})
+        append(cells, plainFrames(s, flag));
+    return cells;
+}
+
+}  // namespace
+
+std::string keyOf(const Cell& cell) {
+    return fmt::format("{}", fmt::join(cell.arguments, " "));
+}
 
 BenchSettings quickSettings() {
     BenchSettings settings;
@@ -16,12 +152,47 @@ BenchSettings quickSettings() {
     return settings;
 }
 
-std::vector<Table> planTables(const BenchSettings& settings) {
-    std::vector<Table> tables = {goalTable(settings)};
-    for (auto part :
-         {worldTables(settings), frameTables(settings), ownTables(settings), growthTables(settings)})
-        std::ranges::move(part, std::back_inserter(tables));
-    return tables;
+std::vector<CellGroup> planGroups(const BenchSettings& s) {
+    const auto scenes = [&](const std::string& flags) { return frames(s, kScenes + flags); };
+    std::vector<int> upToOwn = upTo(s.viewDistance - 1, {4, 8, 16, 32, 64});
+    upToOwn.push_back(s.viewDistance);
+    const Cells landscapes = generating("landscape", fmt::format("{}", fmt::join(upToOwn, ",")));
+    const std::string distances =
+        fmt::format("{}", fmt::join(upTo(std::max(4, s.farthest), {4, 8, 16, 32}), ","));
+    Cells saves;
+    for (const char* scene : {"ocean", "desert", "landscape", "cave"})
+        saves.push_back(loading(scene, s.viewDistance));
+    return {
+        {"goals", goals(s)},
+        {"region-height", regionHeights(s)},
+        {"memory", landscapes},
+        {"aggregation",
+         scenes("--aggregation none,lines,squares,squares-ext,greedy --occlusion-culling off")},
+        {"flight", {flight(s, true), flight(s, false)}},
+        {"post-processing", scenes("--ssao on")},
+        {"light-texture", scenes("")},
+        {"shading", scenes("--samples 4 --shading off,pixel,sample --view-distance " + distances)},
+        {"shadow-triangles", generating("landscape", distances)},
+        {"shadow-maps", shadowMaps(s)},
+        {"layers", scenes(s.isQuick ? "--layers 0,3" : "--layers 0,1,2,3")},
+        {"effects", effects(s)},
+        {"stages", {landscapes.back(), loading("landscape", s.viewDistance), {{"bench", "--memory-copy"}}}},
+        {"passes", scenes("")},
+        {"memory-by-owner", landscapes},
+        {"disk", saves},
+        {"view-distance", viewDistances(s)},
+        {"resolution", resolutions(s)},
+        {"effect-costs", effectCosts(s)},
+    };
+}
+
+std::vector<Cell> uniqueCells(const std::vector<CellGroup>& groups) {
+    std::vector<Cell> cells;
+    std::set<std::string> known;
+    for (const CellGroup& group : groups)
+        for (const Cell& cell : group.cells)
+            if (known.insert(keyOf(cell)).second) cells.push_back(cell);
+    return cells;
 }
 
 }  // namespace terrane::app

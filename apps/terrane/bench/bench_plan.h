@@ -1,16 +1,33 @@
-// All tables of `terrane bench`, with the thesis's figures beside ours. The thesis: D. Čejchan, Brno 2019,
-// tables 6.5 to 6.14, measured on an i7-6700HQ and a GeForce GTX 960M at 1920×1080.
+// All measurements of `terrane bench`: command lines of the program, in groups with the names of the tables
+// that tools/bench_report makes from them. tests/app/bench_test.py compares the two.
 #pragma once
 
-#include "apps/terrane/bench/bench_table.h"
+#include <string>
+#include <vector>
 
 namespace terrane::app {
+
+using Arguments = std::vector<std::string>;
+
+// One run of the program. Equal arguments are one measurement, whichever groups have it.
+struct Cell {
+    Arguments arguments;
+    Arguments before = {};  // a run that must be made once before and is not measured; empty: none
+};
+
+// As on a command line. The name of a measurement.
+std::string keyOf(const Cell& cell);
+
+struct CellGroup {
+    std::string name;
+    std::vector<Cell> cells;
+};
 
 struct BenchSettings {
     bool isQuick = false;
     std::string size = "1920x1080";
     int viewDistance = 32;
-    int farthest = 64;          // of tables that go through view distances
+    int farthest = 64;          // of groups that go through view distances
     int frames = 9;             // of a run, beside the first; the median counts
     int runs = 3;               // of each cell; the median counts
     int maxSamples = 4;         // of the graphics driver
@@ -18,16 +35,12 @@ struct BenchSettings {
     double flightSeconds = 20;  // of the flights
 };
 
-// What is cut for --quick.
+// Less of everything, for --quick.
 BenchSettings quickSettings();
 
-std::vector<Table> planTables(const BenchSettings& settings);
+std::vector<CellGroup> planGroups(const BenchSettings& settings);
 
-// Parts of the plan: the thesis's tables about the world and about frames, and ours.
-Table goalTable(const BenchSettings& settings);
-std::vector<Table> worldTables(const BenchSettings& settings);
-std::vector<Table> frameTables(const BenchSettings& settings);
-std::vector<Table> ownTables(const BenchSettings& settings);
-std::vector<Table> growthTables(const BenchSettings& settings);
+// Each cell once, in the order of the groups.
+std::vector<Cell> uniqueCells(const std::vector<CellGroup>& groups);
 
 }  // namespace terrane::app

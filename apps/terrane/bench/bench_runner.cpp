@@ -31,12 +31,11 @@ BenchRunner::BenchRunner(fs::path program, fs::path work, int runs, ResultFile& 
     : program_(std::move(program)), work_(std::move(work)), runs_(runs), results_(results) {}
 
 base::Result<void> BenchRunner::measure(const Cell& cell) {
-    const auto known = results_.measured().runs.find(keyOf(cell));
-    const std::size_t there = known == results_.measured().runs.end() ? 0 : known->second.size();
-    if (there >= static_cast<std::size_t>(runs_)) return {};
+    const int there = results_.runsOf(cell);
+    if (there >= runs_) return {};
     if (auto ready = prepare(cell); !ready)
         return results_.addFailure(cell, "before it: " + ready.error().message);
-    for (std::size_t run = there; run < static_cast<std::size_t>(runs_); ++run) {
+    for (int run = there; run < runs_; ++run) {
         const auto result = runOnce(cell.arguments);
         const auto kept =
             result ? results_.add(cell, *result) : results_.addFailure(cell, result.error().message);

@@ -1,4 +1,4 @@
-// Makes the measurements that tables need, each in a process of its own.
+// Makes the measurements of the plan, each in a process of its own.
 #pragma once
 
 #include <set>

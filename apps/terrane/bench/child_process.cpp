@@ -26,9 +26,9 @@ std::string reason(int errorNumber) {
 }
 
 // In the child.
-[[noreturn]] void become(const std::vector<std::string>& command, const ChildOptions& options, int output) {
+[[noreturn]] void become(std::vector<std::string> command, const ChildOptions& options, int output) {
     std::vector<char*> arguments;
-    for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+    for (std::string& argument : command) arguments.push_back(argument.data());
     arguments.push_back(nullptr);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     const int errors = ::open(options.errorOutput.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);

@@ -22,18 +22,6 @@ std::string difference(const json& there, const json& here) {
     return "settings that this program does not know";
 }
 
-// A line of a run, taken into what was measured; false where it is none.
-bool takeLine(const json& line, Measurements& measured) {
-    if (!line.is_object() || !line.contains("cell") || !line["cell"].is_array()) return false;
-    Cell cell;
-    for (const json& argument : line["cell"]) {
-        if (!argument.is_string()) return false;
-        cell.arguments.push_back(argument.get<std::string>());
-    }
-    if (line.contains("result")) measured.runs[keyOf(cell)].push_back(line["result"]);
-    return line.contains("result") || line.contains("failure");
-}
-
 }  // namespace
 
 base::Result<ResultFile> ResultFile::create(const fs::path& path, const json& settings) {
@@ -62,7 +50,7 @@ base::Result<ResultFile> ResultFile::resume(const fs::path& path, const json& se
             if (value[kSettings] != settings)
                 return base::fail("{}: results of other settings: {}", path.string(),
                                   difference(value[kSettings], settings));
-        } else if (!takeLine(value, file.measured_)) {
+        } else if (!file.takeLine(value)) {
             return base::fail("{}:{}: no result of terrane bench", path.string(), number);
         }
     }
@@ -73,14 +61,35 @@ base::Result<ResultFile> ResultFile::resume(const fs::path& path, const json& se
     return file;
 }
 
+bool ResultFile::takeLine(const json& line) {
+    if (!line.is_object() || !line.contains("cell") || !line["cell"].is_array()) return false;
+    Cell cell;
+    for (const json& argument : line["cell"]) {
+        if (!argument.is_string()) return false;
+        cell.arguments.push_back(argument.get<std::string>());
+    }
+    if (line.contains("result")) ++runs_[keyOf(cell)];
+    return line.contains("result") || line.contains("failure");
+}
+
+int ResultFile::runsOf(const Cell& cell) const {
+    const auto found = runs_.find(keyOf(cell));
+    return found == runs_.end() ? 0 : found->second;
+}
+
+std::string_view ResultFile::failureOf(const Cell& cell) const {
+    const auto found = failures_.find(keyOf(cell));
+    return found == failures_.end() ? std::string_view() : found->second;
+}
+
 base::Result<void> ResultFile::add(const Cell& cell, const json& result) {
-    measured_.failures.erase(keyOf(cell));
-    measured_.runs[keyOf(cell)].push_back(result);
+    failures_.erase(keyOf(cell));
+    ++runs_[keyOf(cell)];
     return append({{"cell", cell.arguments}, {"result", result}});
 }
 
 base::Result<void> ResultFile::addFailure(const Cell& cell, const std::string& reason) {
-    measured_.failures[keyOf(cell)] = reason;
+    failures_[keyOf(cell)] = reason;
     return append({{"cell", cell.arguments}, {"failure", reason}});
 }
 

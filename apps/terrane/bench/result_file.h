@@ -1,11 +1,13 @@
 // The file that measurements are written to as they are made: a JSON value a line. The first tells the
-// settings, each other line is one run of one cell.
+// settings, each other line is one run of one cell: its result, or why it failed.
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
-#include "apps/terrane/bench/measurement.h"
+#include "apps/terrane/bench/bench_plan.h"
 #include "terrane/base/result.h"
 
 namespace terrane::app {
@@ -20,7 +22,9 @@ class ResultFile {
     [[nodiscard]] static base::Result<ResultFile> resume(const std::filesystem::path& path,
                                                          const nlohmann::json& settings);
 
-    const Measurements& measured() const { return measured_; }
+    int runsOf(const Cell& cell) const;                  // that have a result
+    std::string_view failureOf(const Cell& cell) const;  // empty: none
+    std::size_t failureCount() const { return failures_.size(); }
 
     // On the disk's side of the system when it returns: killing the program loses nothing.
     [[nodiscard]] base::Result<void> add(const Cell& cell, const nlohmann::json& result);
@@ -28,10 +32,12 @@ class ResultFile {
 
   private:
     explicit ResultFile(std::filesystem::path path) : path_(std::move(path)) {}
+    bool takeLine(const nlohmann::json& line);  // false where it is no run
     base::Result<void> append(const nlohmann::json& line) const;
 
     std::filesystem::path path_;
-    Measurements measured_;
+    std::map<std::string, int> runs_;              // by key
+    std::map<std::string, std::string> failures_;  // why a cell has no further runs
 };
 
 }  // namespace terrane::app

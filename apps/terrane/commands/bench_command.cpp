@@ -1,4 +1,5 @@
-// terrane bench: all measurements of docs/performance.md in one run.
+// terrane bench: all measurements of docs/performance.md in one run. tools/bench_report.py makes tables and
+// plots from what it writes.
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,11 +10,9 @@
 #include <system_error>
 #include <utility>
 
-#include "apps/terrane/bench/bench_report.h"
 #include "apps/terrane/bench/bench_runner.h"
 #include "apps/terrane/bench/child_process.h"
 #include "apps/terrane/bench/machine.h"
-#include "apps/terrane/bench/plot.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/progress_bar.h"
@@ -30,7 +29,7 @@ using nlohmann::json;
 struct BenchOptions {
     std::string output;
     std::vector<std::string> only;
-    bool isQuick = false, resumes = false, copiesMemory = false;
+    bool isQuick = false, resumes = false, lists = false, copiesMemory = false;
     std::optional<std::string> size;
     std::optional<int> viewDistance, frames, runs;
     bool anyFailed = false;  // of the last run
@@ -38,7 +37,7 @@ struct BenchOptions {
 
 std::string tableNames() {
     std::string names;
-    for (const Table& table : planTables({})) names += (names.empty() ? "" : ", ") + table.name;
+    for (const CellGroup& group : planGroups({})) names += (names.empty() ? "" : ", ") + group.name;
     return names;
 }
 
@@ -91,7 +90,7 @@ BenchSettings settingsOf(const BenchOptions& options, const json& graphics) {
     return settings;
 }
 
-// All that results depend on: what a second run must have to go on with them, and the head of the report.
+// All that results depend on: the first line of results. A second run must have the same to go on with them.
 base::Result<json> aboutRun(const BenchSettings& settings, const json& info, const fs::path& program) {
     const auto bytes = base::readFile(program);
     if (!bytes) return tl::unexpected(bytes.error());
@@ -103,37 +102,42 @@ base::Result<json> aboutRun(const BenchSettings& settings, const json& info, con
     about["instruction_sets"] = info["simd"];
     about["renderer"] = info["graphics"]["renderer"];
     about["OpenGL"] = info["graphics"]["version"];
+    about["software_renderer"] = settings.isSoftware;
+    about["most_samples"] = settings.maxSamples;
     about["view_distance"] = settings.viewDistance;
+    about["farthest_view_distance"] = settings.farthest;
     about["picture"] = settings.size;
     about["frames_of_a_run"] = settings.frames;
+    about["seconds_of_a_flight"] = settings.flightSeconds;
     about["runs_of_each_measurement"] = settings.runs;
     about["quick"] = settings.isQuick;
     return about;
 }
 
 // All where none are named.
-std::vector<Table> chosenTables(const BenchSettings& settings, const std::vector<std::string>& only) {
-    std::vector<Table> tables = planTables(settings);
+std::vector<CellGroup> chosenGroups(const BenchSettings& settings, const std::vector<std::string>& only) {
+    std::vector<CellGroup> groups = planGroups(settings);
     if (!only.empty())
-        std::erase_if(tables, [&](const Table& table) { return std::ranges::count(only, table.name) == 0; });
-    return tables;
+        std::erase_if(groups,
+                      [&](const CellGroup& group) { return std::ranges::count(only, group.name) == 0; });
+    return groups;
 }
 
-// Of all tables, each once.
-std::vector<Cell> cellsOf(const std::vector<Table>& tables) {
-    std::vector<Cell> cells;
-    std::set<std::string> known;
-    for (const Table& table : tables)
-        for (Cell& cell : cellsOf(table))
-            if (known.insert(keyOf(cell)).second) cells.push_back(std::move(cell));
-    return cells;
+// The settings and each table with its command lines; a JSON value a line.
+void printPlan(const json& about, const std::vector<CellGroup>& groups) {
+    std::cout << json{{"settings", about}}.dump() << '\n';
+    for (const CellGroup& group : groups) {
+        json cells = json::array();
+        for (const Cell& cell : uniqueCells({group})) cells.push_back(cell.arguments);
+        std::cout << json{{"table", group.name}, {"cells", cells}}.dump() << '\n';
+    }
 }
 
 base::Result<void> measureAll(const std::vector<Cell>& cells, BenchRunner& runner, ResultFile& results) {
     ProgressBar bar("measuring", cells.size());
     for (std::size_t k = 0; k < cells.size(); ++k) {
         if (auto done = runner.measure(cells[k]); !done) return done;
-        const std::string_view failure = results.measured().failureOf(cells[k]);
+        const std::string_view failure = results.failureOf(cells[k]);
         if (!failure.empty()) base::logWarning("{}: {}", keyOf(cells[k]), failure);
         bar.set(k + 1);
     }
@@ -149,36 +153,34 @@ base::Result<fs::path> outputFolder(const std::string& output) {
 }
 
 base::Result<void> bench(BenchOptions& options) {
-    const double loadAtStart = loadAverage();
     // By the number of this process: whatever becomes of the file meanwhile, all runs are of the same
     // program.
     const fs::path program = fmt::format("/proc/{}/exe", ::getpid());
-    auto folder = outputFolder(options.output);
+    auto folder = options.lists ? fs::temp_directory_path() : outputFolder(options.output);
     if (!folder) return tl::unexpected(folder.error());
     const auto work = WorkFolder::make(*folder);
     if (!work) return tl::unexpected(work.error());
     auto info = programInfo(program, work->path());
     if (!info) return tl::unexpected(info.error());
     const BenchSettings settings = settingsOf(options, (*info)["graphics"]);
-    const std::vector<Table> tables = chosenTables(settings, options.only);
+    const std::vector<CellGroup> groups = chosenGroups(settings, options.only);
     auto about = aboutRun(settings, *info, program);
     if (!about) return tl::unexpected(about.error());
+    if (options.lists) {
+        printPlan(*about, groups);
+        return {};
+    }
 
     const fs::path path = *folder / "results.jsonl";
     auto results = options.resumes && fs::exists(path) ? ResultFile::resume(path, *about)
                                                        : ResultFile::create(path, *about);
     if (!results) return tl::unexpected(results.error());
-    const std::vector<Cell> cells = cellsOf(tables);
-    base::logInfo("{} tables, {} measurements of {} runs each", tables.size(), cells.size(), settings.runs);
+    const std::vector<Cell> cells = uniqueCells(groups);
+    base::logInfo("{} tables, {} measurements of {} runs each", groups.size(), cells.size(), settings.runs);
     BenchRunner runner(program, work->path(), settings.runs, *results);
     if (auto done = measureAll(cells, runner, *results); !done) return done;
-
-    const ReportInput input{*about, loadAtStart, loadAverage(), settings.isQuick, hasGnuplot()};
-    if (!input.drawsPlots) base::logWarning("gnuplot is missing: no plots");
-    if (auto written = writeReport(*folder, tables, results->measured(), input); !written) return written;
-    options.anyFailed = !results->measured().failures.empty();
-    base::logInfo("{} tables of {} measurements, {} failed: {}", tables.size(), cells.size(),
-                  results->measured().failures.size(), (*folder / "report.md").string());
+    options.anyFailed = results->failureCount() > 0;
+    base::logInfo("{} measurements, {} failed: {}", cells.size(), results->failureCount(), path.string());
     return {};
 }
 
@@ -187,7 +189,8 @@ base::Result<void> runBench(BenchOptions& options) {
         std::cout << json{{"bytes_per_second", memoryCopySpeed()}}.dump() << '\n';
         return {};
     }
-    if (options.output.empty()) return base::fail("bench needs --output: the folder for its results");
+    if (options.output.empty() && !options.lists)
+        return base::fail("bench needs --output: the folder for its results");
     return bench(options);
 }
 
@@ -216,21 +219,25 @@ void addSettings(CLI::App& command, BenchOptions& options) {
 CommandEntry addBench(CLI::App& app) {
     auto options = std::make_shared<BenchOptions>();
     CLI::App* command =
-        app.add_subcommand("bench", "Measure: the tables of docs/performance.md as Markdown, CSV and SVG");
-    command->add_option("-o,--output", options->output, "The folder for results, made where it is not there")
+        app.add_subcommand("bench", "Measure, for the tables that tools/bench_report.py makes");
+    command
+        ->add_option("-o,--output", options->output,
+                     "The folder for results.jsonl, made where it is not there")
         ->type_name("DIR");
     const auto isTable = [](const std::string& text) -> std::string {
-        for (const Table& table : planTables({}))
-            if (table.name == text) return {};
+        for (const CellGroup& group : planGroups({}))
+            if (group.name == text) return {};
         return fmt::format("expected some of {}, got \"{}\"", tableNames(), text);
     };
-    command->add_option("--only,TABLE", options->only, "Only these tables: " + tableNames())
+    command->add_option("--only,TABLE", options->only, "Only what these tables need: " + tableNames())
         ->delimiter(',')
         ->check(CLI::Validator(isTable, ""))
         ->type_name("TABLE");
     command->add_flag("--quick", options->isQuick,
                       "Less of everything: some minutes without a graphics card");
     command->add_flag("--resume", options->resumes, "Go on with the results that are in the folder");
+    command->add_flag("--list", options->lists,
+                      "Print settings and command lines as JSON lines, measure nothing");
     addSettings(*command, *options);
     command->add_flag("--memory-copy", options->copiesMemory, "")->group("");
     return {command, [options] { return runBench(*options); },

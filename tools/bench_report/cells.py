@@ -1,0 +1,92 @@
+"""Command lines of the program: what a measurement is found by. apps/terrane/bench/bench_plan.cpp runs the same ones;
+tests/app/bench_test.py compares the two."""
+
+from dataclasses import dataclass
+
+from .results import BadInput
+
+SCENES = ("ocean", "desert", "landscape", "cave")
+MEMORY_COPY = "bench --memory-copy"  # how fast one thread copies memory
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Those of the run, as far as command lines depend on them."""
+    is_quick: bool
+    size: str
+    view_distance: int
+    farthest: int          # of tables that go through view distances
+    frames: int            # of a run
+    most_samples: int      # of the graphics driver
+    is_software: bool      # drawn by the processor
+    flight_seconds: float
+
+
+def settings_of(results):
+    """Files of older programs do not have them all."""
+    about = results.about
+    try:
+        is_quick, view_distance = bool(about["quick"]), int(about["view_distance"])
+        is_software = about.get("software_renderer", "llvmpipe" in str(about.get("renderer")))
+        return Settings(is_quick, str(about["picture"]), view_distance,
+                        int(about.get("farthest_view_distance", view_distance if is_quick else 64)),
+                        int(about["frames_of_a_run"]), int(about.get("most_samples", 4 if is_software else 8)),
+                        bool(is_software), float(about.get("seconds_of_a_flight", 4 if is_quick else 20)))
+    except (KeyError, TypeError, ValueError) as error:
+        raise BadInput(f"results without the settings of terrane bench: {error}") from error
+
+
+def command_line(command, **flags):
+    """`_` in a flag's name stands for `-`."""
+    return " ".join([command, *(f"--{flag.replace('_', '-')} {word}" for flag, word in flags.items())])
+
+
+def frame(s, scene, **flags):
+    """Frames of a scene with the options that the thesis measured with, `flags` apart."""
+    return command_line("render", **{
+        "scene": scene, "preset": "thesis", "view_distance": s.view_distance, "size": s.size, "frames": s.frames,
+        "samples": 2, "shading": "sample", "shadows": 1024 if s.is_quick else 2048, "layers": 3,
+        "aggregation": "greedy", "region_height": 16, **flags})
+
+
+def plain_frame(s, **flags):
+    """Of the landscape with the least options."""
+    return command_line("render", **{"scene": "landscape", "preset": "low", "view_distance": s.view_distance,
+                                     "size": s.size, "frames": s.frames, **flags})
+
+
+def merging(s, scene, method):
+    """Frames with a method of merging, all triangles drawn."""
+    return frame(s, scene, aggregation=method, occlusion_culling="off")
+
+
+def generating(scene, view_distance, **flags):
+    """Everything in view of a scene generated, in a small picture."""
+    return command_line("render", scene=scene, preset="low", view_distance=view_distance, size="320x180", **flags)
+
+
+def loading(scene, view_distance):
+    """The same from a save that has it all."""
+    return generating(scene, view_distance, save_game=f"{scene}-{view_distance}")
+
+
+def flight(s, is_from_save):
+    """A flight ahead over the landscape."""
+    return command_line("fly", scene="landscape", **{"for": f"{s.flight_seconds:g}"},
+                        preset="low" if s.is_software else "thesis", view_distance=s.view_distance,
+                        size="320x180" if s.is_software else s.size,
+                        **({"save_game": "flight"} if is_from_save else {}))
+
+
+def generate_one_thread(s):
+    return command_line("generate", radius=6 if s.is_quick else 16, threads=1, backend="cpu")
+
+
+def view_distances(s):
+    """Of tables that grow with it, up to the settings' own."""
+    return [*(distance for distance in (4, 8, 16, 32, 64) if distance < s.view_distance), s.view_distance]
+
+
+def pixels(size):
+    width, height = size.split("x")
+    return int(width) * int(height)

@@ -1,0 +1,176 @@
+"""The thesis's tables about frames: shading, shadows, layers, effects."""
+
+from .cells import SCENES, frame, generating
+from .table import CHUNKS_IN_VIEW, FRAMES_PER_SECOND, Curve, CurvePlot, Plot, Table, Value, value
+
+# Tables 6.6 and 6.7, of work groups of 8², which are about the best: frames a second.
+POST_PROCESSING = {"ocean": 56, "desert": 55, "landscape": 45, "cave": 66}
+# Table 6.8, of 4²: MB, frames a second.
+LIGHT_TEXTURE = {"ocean": (1967, 56), "desert": (1965, 54), "landscape": (1967, 45), "cave": (1967, 65)}
+
+
+def with_thesis(names):
+    """Columns of ours, each with the thesis's behind it."""
+    return [column for name in names for column in (str(name), f"thesis: {name}")]
+
+
+def post_processing(s):
+    rows = []
+    for scene in SCENES:
+        cell = frame(s, scene, ssao="on")
+        passes = ("ambient occlusion", "god rays", "depth of field", "final")
+        rows.append([scene, value(cell, FRAMES_PER_SECOND), *(value(cell, Value(f"/passes/{name}")) for name in passes),
+                     POST_PROCESSING[scene]])
+    return Table(
+        "post-processing", "Effects after shading, in place of work groups (tables 6.6 and 6.7)",
+        "The thesis computes effects in compute shaders and varies their work groups (2² to 32²; about the same from "
+        "8² on). Ours are fragment shaders without work groups; what they cost is beside: GPU milliseconds of each "
+        "pass, ambient occlusion switched on.",
+        "view distance, size",
+        ["scene", "frames/s", "ambient occlusion, ms", "god rays, ms", "depth of field, ms", "final, ms",
+         "thesis: frames/s, 8²"], rows)
+
+
+def light_texture(s):
+    rows = []
+    for scene in SCENES:
+        cell = frame(s, scene)
+        rows.append([scene, value(cell, Value("/bytes/light_gpu", 1e-6)),
+                     value(cell, Value("/bytes/light_gpu", 1e-3, per=CHUNKS_IN_VIEW)), value(cell, FRAMES_PER_SECOND),
+                     *LIGHT_TEXTURE[scene]])
+    return Table(
+        "light-texture", "Light on the GPU, in place of a texture's size (table 6.8)",
+        "The thesis varies the size of its light map's textures (2² to 32² chunks: 1931 to 2665 MB). Ours is a pool of "
+        "tiles of 8³ blocks of which equal ones are kept once: it has no size to choose.",
+        "view distance, size",
+        ["scene", "light on the GPU, MB", "kB a chunk", "frames/s", "thesis: all on the GPU, MB, 4²",
+         "thesis: frames/s, 4²"], rows)
+
+
+DISTANCES = (4, 8, 16, 32)
+
+
+def distances(s):
+    """Indices of those that are measured."""
+    return [k for k, distance in enumerate(DISTANCES) if distance <= max(4, s.farthest)]
+
+
+# Table 6.10: frames a second by view distance.
+SHADING = {
+    "ocean": {"off": (82, 77, 71, 57), "pixel": (77, 71, 65, 52), "sample": (60, 53, 49, 41)},
+    "desert": {"off": (88, 83, 73, 51), "pixel": (82, 77, 68, 52), "sample": (66, 60, 55, 44)},
+    "landscape": {"off": (81, 73, 55, 42), "pixel": (79, 68, 52, 40), "sample": (69, 57, 43, 34)},
+    "cave": {"off": (72, 68, 68, 62), "pixel": (60, 59, 58, 55), "sample": (45, 44, 44, 42)},
+}
+
+
+def shading(s):
+    rows = []
+    for scene in SCENES:
+        for mode, thesis in SHADING[scene].items():
+            row = [scene, mode]
+            for k in distances(s):
+                cell = frame(s, scene, samples=4, shading=mode, view_distance=DISTANCES[k])
+                row += [value(cell, FRAMES_PER_SECOND), thesis[k]]
+            rows.append(row)
+    ours = [2 + 2 * k for k in range(len(distances(s)))]
+    return Table(
+        "shading", "Shading and view distance (table 6.10)",
+        "Frames a second with 4 samples a pixel: without shading, once a pixel, for each sample.",
+        "view distances", ["scene", "shading", *with_thesis(f"V={DISTANCES[k]}" for k in distances(s))], rows,
+        [Plot("scene, shading", "frames/s", ours, name_columns=2)])
+
+
+# Table 6.11, in thousands, by view distance; steps of 40 of a day.
+SHADOW_TRIANGLES = {"noon": (20, (39, 50, 50, 50)), "dawn": (8, (35, 70, 221, 262))}
+
+
+def shadow_triangles(s):
+    over_the_day = "/shadow_triangles_over_the_day"
+    cells = {k: generating("landscape", DISTANCES[k]) for k in distances(s)}
+    rows = []
+    for time, (step, thesis) in SHADOW_TRIANGLES.items():
+        rows.append([time])
+        for k, cell in cells.items():
+            rows[-1] += [value(cell, Value(f"{over_the_day}/triangles/{step}", 1e-3)), thesis[k]]
+    curves = [Curve(cell, over_the_day + "/time", over_the_day + "/triangles", f"V={DISTANCES[k]}")
+              for k, cell in cells.items()]
+    return Table(
+        "shadow-triangles", "Triangles of the shadow map (table 6.11, graph 6.6)",
+        "Landscape, in thousands: what is drawn into the shadow map at noon (time 0.5) and at dawn (0.2), and over the "
+        "day. Only what can throw a shadow on the nearest 50 blocks is drawn, without the faces that look away from "
+        "the light.",
+        "view distances", ["time", *with_thesis(f"V={DISTANCES[k]}" for k in cells)], rows,
+        curve_plot=CurvePlot("time of day (0: midnight, 0.5: noon)", "triangles of the shadow map", curves))
+
+
+# Table 6.12: frames a second without a map and by its size, by samples.
+SHADOW_SIZES = ("off", "1024", "2048", "4096")
+SHADOW_MAPS = {1: (54, 49, 39, 24), 2: (47, 41, 35, 22), 4: (35, 32, 28, 20), 8: (23, 21, 19, 15)}
+
+
+def shadow_maps(s):
+    sizes = SHADOW_SIZES[:2] if s.is_quick else SHADOW_SIZES
+    rows = []
+    for samples, thesis in SHADOW_MAPS.items():
+        if s.is_quick and samples in (2, 8):
+            continue
+        rows.append([samples])
+        for size, figure in zip(sizes, thesis):
+            cell = frame(s, "landscape", samples=samples, shadows=size, time="0.2")
+            ours = "not offered" if samples > s.most_samples else value(cell, FRAMES_PER_SECOND)
+            rows[-1] += [ours, figure]
+    return Table(
+        "shadow-maps", "Size of the shadow map and samples a pixel (table 6.12)",
+        "Landscape at dawn (0.2), frames a second. A driver may take more samples than asked for: Mesa's software "
+        "renderer takes 4 for 2.",
+        "shadow maps of 2048² and 4096²; 2 and 8 samples",
+        ["samples", *with_thesis(size if size == "off" else size + "²" for size in sizes)], rows)
+
+
+# Table 6.13: frames a second with 0 to 3 layers.
+LAYERS = {"ocean": (81, 64, 61, 57), "desert": (68, 61, 59, 56), "landscape": (54, 50, 47, 45), "cave": (100, 86, 80, 75)}
+
+
+def layers(s):
+    counts = (0, 3) if s.is_quick else (0, 1, 2, 3)
+    rows = []
+    for scene in SCENES:
+        rows.append([scene])
+        for count in counts:
+            rows[-1] += [value(frame(s, scene, layers=count), FRAMES_PER_SECOND), LAYERS[scene][count]]
+    return Table(
+        "layers", "Layers of water and glass (table 6.13)",
+        "Frames a second. In the thesis layers cost frames where nothing blended is in view, too (desert, cave); here "
+        "they cost nothing there.",
+        "view distance, size; 1 and 2 layers", ["scene", *with_thesis(counts)], rows)
+
+
+# Table 6.14: frames a second of the four scenes; the thesis says of the last ones that nothing changed.
+EFFECTS = (
+    ("default", {}, (57, 56, 41, 59)),
+    ("without depth of field", {"depth_of_field": "off"}, (66, 65, 46, 71)),
+    ("without god rays", {"god_rays": "off"}, (59, 56, 42, 59)),
+    ("without better texturing", {"better_texturing": "off"}, 4 * ("no change",)),
+    ("without MSAA alpha test", {"msaa_alpha_test": "off"}, 4 * ("no change",)),
+    ("T-junctions open", {"t_junctions": "open"}, 4 * ("no change",)),
+    ("without animation", {"animation": "off"}, 4 * ("no change",)),
+)
+
+
+def effects(s):
+    step = 2 if s.is_quick else 1
+    rows = []
+    for name, flags, thesis in EFFECTS:
+        rows.append([name])
+        for scene, figure in list(zip(SCENES, thesis))[::step]:
+            rows[-1] += [value(frame(s, scene, **flags), FRAMES_PER_SECOND), figure]
+    return Table(
+        "effects", "Effects switched off, one at a time (table 6.14)",
+        "Frames a second. The thesis saw no change from the last four.",
+        "two of the four scenes", ["options", *with_thesis(SCENES[::step])], rows)
+
+
+def frame_tables(s):
+    return [post_processing(s), light_texture(s), shading(s), shadow_triangles(s), shadow_maps(s), layers(s),
+            effects(s)]
