@@ -62,9 +62,9 @@ class GpuBatches : public BatchGenerator {
 base::Result<std::unique_ptr<BatchGenerator>> makeGpuBatches(const WorldOptions& options,
                                                              const world::BlockRegistry& blocks,
                                                              gpu::HeadlessContext context) {
-    auto graph = gen::makeGenerator(options.generator, blocks);
+    auto graph = gen::makeGenerator(options.effectiveGenerator(), blocks);
     if (!graph) return tl::unexpected(graph.error());
-    auto generator = gen_gpu::GpuGenerator::create(makeShaderLoader(""), *graph, options.seed);
+    auto generator = gen_gpu::GpuGenerator::create(makeShaderLoader(""), *graph, options.effectiveSeed());
     if (!generator) return tl::unexpected(generator.error());
     return std::make_unique<GpuBatches>(std::move(context), std::move(*generator));
 }

@@ -21,7 +21,7 @@ world::ChunkPtr loadChunk(const ChunkSource& source, world::ChunkPos pos) {
     }
     if (!source.generator) return nullptr;
     const auto chunk = std::make_shared<world::Chunk>(source.generator->generate(pos));
-    if (source.store && source.storesGenerated) source.store->save(pos, chunk, store::Origin::Generated);
+    if (source.store && source.storesGenerated) source.store->save(pos, chunk, store::Provenance::Generated);
     return chunk;
 }
 

@@ -162,7 +162,7 @@ void ChunkPipeline::save(ChunkPos pos, Extra& extra) {
     if (!extra.editedAt) return;
     extra.editedAt.reset();
     if (!parts_.source.store) return;
-    parts_.source.store->save(pos, parts_.world.maybeChunkAt(pos), store::Origin::Edited);
+    parts_.source.store->save(pos, parts_.world.maybeChunkAt(pos), store::Provenance::Edited);
 }
 
 void ChunkPipeline::saveAll() {
