@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -123,7 +124,7 @@ std::unique_ptr<store::SqliteStore> openSave(const SaveFolder& folder) {
 }
 
 void saveAll(store::ChunkStore& store) {
-    for (const Place& place : places()) store.save(place.pos, place.chunk, store::Origin::Generated);
+    for (const Place& place : places()) store.save(place.pos, place.chunk, store::Provenance::Generated);
     if (const auto done = store.flush(); !done) {
         std::fprintf(stderr, "%s\n", done.error().message.c_str());
         std::exit(1);
@@ -158,6 +159,21 @@ void loadFromFile(benchmark::State& state) {
     setRate(state);
 }
 BENCHMARK(loadFromFile)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// As the jobs of a pipeline may: 48 chunks a call.
+void loadManyFromFile(benchmark::State& state) {
+    const SaveFolder folder;
+    { saveAll(*openSave(folder)); }
+    const auto store = openSave(folder);
+    std::vector<world::ChunkPos> positions;
+    for (const Place& place : places()) positions.push_back(place.pos);
+    constexpr std::size_t kAtOnce = 48;
+    for (auto _ : state)
+        for (std::size_t first = 0; first < positions.size(); first += kAtOnce)
+            benchmark::DoNotOptimize(store->loadMany(std::span(positions).subspan(first, kAtOnce)));
+    setRate(state);
+}
+BENCHMARK(loadManyFromFile)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void loadWhatIsNotThere(benchmark::State& state) {
     const SaveFolder folder;

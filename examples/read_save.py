@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Reads a chunk of a save by docs/file-format.md alone. Usage: read_save.py SAVE.sqlite CX CY [OUT.bin]
+"""Reads a chunk of a save by docs/file-format.md alone. Usage: read_save.py SAVE.sqlite CX CY [OUT.bin [LEVEL]]
 
 Prints how many blocks of each type the chunk has; OUT.bin gets the blocks as u16, in the order of x + 16 y + 256 z.
+Reads formats 1 and 2. "" as OUT.bin: none.
 Debian: apt-get install python3-zstandard python3-xxhash
 """
 import collections
@@ -58,15 +59,16 @@ def read_blocks(content):
     return blocks
 
 
-def main(path, cx, cy, out=None):
+def main(path, cx, cy, out=None, level=0):
     save = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
     marks = [save.execute(f"PRAGMA {name}").fetchone()[0] for name in ("application_id", "user_version")]
-    if marks != [0x5445524E, 1]:
-        sys.exit(f"{path}: no save of format 1")
+    if marks not in ([0x5445524E, 1], [0x5445524E, 2]):
+        sys.exit(f"{path}: no save of format 1 or 2")
     names = dict(save.execute("SELECT id, name FROM blocks"))
-    row = save.execute("SELECT data FROM chunks WHERE key = ?", [((cx + 2**27) << 28) + cy + 2**27]).fetchone()
+    key = (int(level) << 56) + (cx + 2**27 << 28) + cy + 2**27
+    row = save.execute("SELECT data FROM chunks WHERE key = ?", [key]).fetchone()
     if row is None:
-        sys.exit(f"{path}: chunk {cx},{cy} was not saved")
+        sys.exit(f"{path}: chunk {cx},{cy} of level {level} was not saved")
     blocks = read_blocks(unpack(row[0]))
     for block, count in collections.Counter(blocks).most_common():
         print(count, names[block])
@@ -76,7 +78,7 @@ def main(path, cx, cy, out=None):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (4, 5):
+    if len(sys.argv) not in (4, 5, 6):
         sys.exit(__doc__)
     try:
         main(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]), *sys.argv[4:])

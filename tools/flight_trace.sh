@@ -35,8 +35,8 @@ for distance in 16 32; do
     stand "$distance"
     fly "generating_$distance" "$distance"
     # The first flight fills the save; the second one reads the same chunks.
-    fly "filling_$distance" "$distance" --save-game "flight_$distance" --recreate --for 25
-    fly "from_disk_$distance" "$distance" --save-game "flight_$distance"
+    fly "filling_$distance" "$distance" --world "flight_$distance" --recreate --for 25
+    fly "from_disk_$distance" "$distance" --world "flight_$distance"
 done
 
 "$plot" .

@@ -45,7 +45,7 @@ class Player:
                      "ASAN_OPTIONS": "detect_leaks=0:abort_on_error=1", "UBSAN_OPTIONS": "print_stacktrace=1"}
         self.log = open(folder / "log.txt", "w+", encoding="utf-8")
         self.process = subprocess.Popen(
-            [program, "play", "--debug-gl", "--save-game", "random", "--view-distance", "4", "--samples", "1", "--size",
+            [program, "play", "--debug-gl", "--world", "random", "--view-distance", "4", "--samples", "1", "--size",
              "480x300", "--collect-perf-data", "perf.csv"],
             cwd=folder, env=variables, stdout=self.log, stderr=self.log)
         self.most = 0  # bytes in memory

@@ -15,9 +15,9 @@ base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const WorldOptio
         return gen::makeCpuGenerator(std::move(*generator), threadCount(options));
     };
     const auto makeGpu = [&]() -> base::Result<gen_gpu::GpuGenerator> {
-        auto graph = gen::makeGenerator(options.generator, blocks);
+        auto graph = gen::makeGenerator(options.effectiveGenerator(), blocks);
         if (!graph) return tl::unexpected(graph.error());
-        return gen_gpu::GpuGenerator::create(makeShaderLoader(""), *graph, options.seed);
+        return gen_gpu::GpuGenerator::create(makeShaderLoader(""), *graph, options.effectiveSeed());
     };
     return makeOnBackend<gen::BatchGenerator>(backend, makeCpu, makeGpu);
 }

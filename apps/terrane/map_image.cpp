@@ -14,6 +14,9 @@ namespace {
 constexpr float kReliefPerBlock = 0.07f;  // brightness a block of difference to the column in the north-west
 constexpr float kWaterFade = 14.0f;       // blocks of water after which the ground is hardly seen
 
+// Of a row, about 10 KB each in memory.
+constexpr std::size_t kChunksAtOnce = 512;
+
 using Palette = std::vector<glm::vec3>;  // by block id: mean colour of the top face, 0…255
 
 // What a map shows of a column.
@@ -86,9 +89,10 @@ glm::vec3 shade(const Column& column, const Column& northWest, const Palette& pa
 
 }  // namespace
 
-base::Result<base::Image> drawMap(const gen::Generator& generator, const world::BlockRegistry& blocks,
-                                  const render::TextureSource& textures, const Area& area,
-                                  base::JobSystem& jobs, const std::function<void(std::size_t)>& onRow) {
+base::Result<base::Image> drawMap(const MapSource& source, const world::BlockRegistry& blocks,
+                                  const render::TextureSource& textures, base::JobSystem& jobs,
+                                  const std::function<void(std::size_t)>& onRow) {
+    const Area& area = source.area;
     auto palette = makePalette(blocks, textures);
     if (!palette) return tl::unexpected(palette.error());
     const auto chunksX = static_cast<std::size_t>(area.x1 - area.x0);
@@ -96,16 +100,22 @@ base::Result<base::Image> drawMap(const gen::Generator& generator, const world::
     const std::size_t width = chunksX * world::kChunkSize, height = chunksY * world::kChunkSize;
     std::vector<Column> columns(width * height);
     for (std::size_t cy = 0; cy < chunksY; ++cy) {
-        auto done = base::parallelFor(jobs, chunksX, [&](std::size_t cx) {
-            const world::Chunk chunk = generator.generate(
-                {area.x0 + static_cast<std::int32_t>(cx), area.y0 + static_cast<std::int32_t>(cy)});
-            for (int k = 0; k < world::kChunkSize * world::kChunkSize; ++k) {
-                const std::size_t x = cx * world::kChunkSize + static_cast<std::size_t>(k & 15);
-                const std::size_t y = cy * world::kChunkSize + static_cast<std::size_t>(k >> 4);
-                columns[y * width + x] = lookDown(chunk, blocks, k & 15, k >> 4);
-            }
-        });
-        if (!done) return tl::unexpected(done.error());
+        for (std::size_t first = 0; first < chunksX; first += kChunksAtOnce) {
+            std::vector<world::ChunkPos> positions;
+            for (std::size_t cx = first; cx < std::min(first + kChunksAtOnce, chunksX); ++cx)
+                positions.push_back(
+                    {area.x0 + static_cast<std::int32_t>(cx), area.y0 + static_cast<std::int32_t>(cy)});
+            const auto chunks = source.chunks(positions);
+            if (!chunks) return tl::unexpected(chunks.error());
+            auto done = base::parallelFor(jobs, chunks->size(), [&](std::size_t n) {
+                for (int k = 0; k < world::kChunkSize * world::kChunkSize; ++k) {
+                    const std::size_t x = (first + n) * world::kChunkSize + static_cast<std::size_t>(k & 15);
+                    const std::size_t y = cy * world::kChunkSize + static_cast<std::size_t>(k >> 4);
+                    columns[y * width + x] = lookDown((*chunks)[n], blocks, k & 15, k >> 4);
+                }
+            });
+            if (!done) return tl::unexpected(done.error());
+        }
         onRow(cy + 1);
     }
     base::Image image{static_cast<int>(width), static_cast<int>(height), {}};

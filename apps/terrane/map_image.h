@@ -3,19 +3,27 @@
 #pragma once
 
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "apps/terrane/option_values.h"
 #include "terrane/base/image.h"
 #include "terrane/base/job_system.h"
-#include "terrane/gen/generator.h"
 #include "terrane/render/block_textures.h"
 #include "terrane/world/block_registry.h"
+#include "terrane/world/chunk.h"
 
 namespace terrane::app {
 
+// What is drawn: the area, and its chunks, asked for a row after the other.
+struct MapSource {
+    Area area;
+    std::function<base::Result<std::vector<world::Chunk>>(std::span<const world::ChunkPos>)> chunks;
+};
+
 // One pixel a block; y points up. `onRow` is called with the number of chunk rows done.
-base::Result<base::Image> drawMap(const gen::Generator& generator, const world::BlockRegistry& blocks,
-                                  const render::TextureSource& textures, const Area& area,
-                                  base::JobSystem& jobs, const std::function<void(std::size_t)>& onRow);
+base::Result<base::Image> drawMap(const MapSource& source, const world::BlockRegistry& blocks,
+                                  const render::TextureSource& textures, base::JobSystem& jobs,
+                                  const std::function<void(std::size_t)>& onRow);
 
 }  // namespace terrane::app

@@ -7,8 +7,8 @@ namespace terrane::app {
 
 base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const WorldOptions& world, const SaveOptions& save,
                                                            const GraphicsOptions& graphics,
-                                                           const CLI::App& command) {
-    auto session = WorldSession::create(world, save, command);
+                                                           store::WorldAccess access) {
+    auto session = WorldSession::create(world, save, access);
     if (!session) return tl::unexpected(session.error());
     auto textures = loadTextures(graphics.resourcePack, (*session)->blocks);
     if (!textures) return tl::unexpected(textures.error());

@@ -14,10 +14,10 @@ namespace terrane::app {
 // The parts refer to each other by address: made in place, destroyed in reverse order. Used on the thread
 // that made it.
 struct Offscreen {
-    // With the options' size, quality, view distance and mesher set up. `command`: see WorldSession.
-    static base::Result<std::unique_ptr<Offscreen>> create(const WorldOptions& world, const SaveOptions& save,
-                                                           const GraphicsOptions& graphics,
-                                                           const CLI::App& command);
+    // With the options' size, quality, view distance and mesher set up.
+    static base::Result<std::unique_ptr<Offscreen>> create(
+        const WorldOptions& world, const SaveOptions& save, const GraphicsOptions& graphics,
+        store::WorldAccess access = store::WorldAccess::ReadWriteOrMemory);
 
     // Fails where the graphics driver reported errors.
     base::Result<void> finish() const;

@@ -22,9 +22,22 @@ class App;
 namespace terrane::app {
 
 struct WorldOptions {
-    std::uint64_t seed = 1;
-    std::string generator = "overworld";
+    // Where none is given: those of the world that is opened, or these of a new one.
+    static constexpr std::uint64_t kDefaultSeed = 1;
+    static constexpr const char* kDefaultGenerator = "overworld";
+
+    std::optional<std::uint64_t> seed;
+    std::optional<std::string> generator;
     unsigned threads = 0;  // 0: as many as the machine has
+
+    std::uint64_t effectiveSeed() const { return seed.value_or(kDefaultSeed); }
+    std::string effectiveGenerator() const { return generator.value_or(kDefaultGenerator); }
+};
+
+// --world and --recreate.
+struct SaveOptions {
+    std::string world;  // a store::WorldLocation; empty: none, edits last until the program ends
+    bool recreate = false;
 };
 
 struct GraphicsOptions {

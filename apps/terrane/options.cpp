@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "terrane/gen/generators/catalogue.h"
+#include "terrane/store/world_location.h"
 
 namespace terrane::app {
 namespace {
@@ -50,6 +51,13 @@ std::string isInAFolder(const std::string& text) {
     if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
         return fmt::format("\"{}\": there is no folder {}", text, folder.string());
     return {};
+}
+
+// What could be a store::WorldLocation.
+std::string isALocation(const std::string& text) {
+    if (text.empty()) return "\"\" does not name a world";
+    const bool isFile = store::worldLocation(text).kind == store::WorldLocation::Kind::File;
+    return isFile ? isInAFolder(text) : std::string();
 }
 
 // Files are written beside their name and renamed, so the folder counts; but for what is no regular file, as
@@ -153,11 +161,11 @@ void addWorldOptions(CLI::App& command, WorldOptions& options) {
         .add_option_function<std::string>(
             "--seed", [&](const std::string& text) { options.seed = parseSeed(text); }, "Seed of the world")
         ->type_name("NUMBER")
-        ->default_str("1");
+        ->default_str(std::to_string(WorldOptions::kDefaultSeed));
     command
         .add_option("--generator", options.generator,
                     fmt::format("Generator of the world: {}", fmt::join(gen::generatorNames(), ", ")))
-        ->capture_default_str();
+        ->default_str(WorldOptions::kDefaultGenerator);
     command.add_option("--threads", options.threads, "Worker threads (default: one for each processor)")
         ->check(numberFrom(1, 256));
 }
@@ -214,10 +222,23 @@ void addTraceOption(CLI::App& command, std::string& trace) {
         ->type_name("FILE");
 }
 
-void addSaveOption(CLI::App& command, std::string& save, const std::string& description) {
-    command.add_option("--world", save, description)
-        ->check(CLI::Validator(isInAFolder, ""))
-        ->type_name("FILE");
+void addWorldOption(CLI::App& command, SaveOptions& save, const std::string& description) {
+    command.add_option("--world", save.world, description)
+        ->check(CLI::Validator(isALocation, ""))
+        ->type_name("NAME|FILE|URL");
+}
+
+void addRecreateOption(CLI::App& command, SaveOptions& save) {
+    command.add_flag("--recreate", save.recreate, "Copy the world and regenerate it; edits are gone");
+}
+
+void addSaveGameOptions(CLI::App& command, SaveOptions& save) {
+    addWorldOption(command, save, "World to play in; made where it is not there");
+    command.add_option("--save-game", save.world)
+        ->check(CLI::Validator(isALocation, ""))
+        ->excludes("--world")
+        ->group("");
+    addRecreateOption(command, save);
 }
 
 void addAreaOption(CLI::App& command, std::optional<Area>& area) {

@@ -19,8 +19,12 @@ void addMeshOptions(CLI::App& command, mesh::MeshOptions& options);
 // "X0,Y0,X1,Y1", the end excluded; not empty and inside the world.
 void addAreaOption(CLI::App& command, std::optional<Area>& area);
 
-// --world: a save. Its folder must be there.
-void addSaveOption(CLI::App& command, std::string& save, const std::string& description);
+// --world: NAME, FILE or URL. The folder of a file must be there.
+void addWorldOption(CLI::App& command, SaveOptions& save, const std::string& description);
+// --world and --recreate of commands that play, which make a world where none is there; --save-game, the old
+// name of --world, still works.
+void addSaveGameOptions(CLI::App& command, SaveOptions& save);
+void addRecreateOption(CLI::App& command, SaveOptions& save);
 
 // -o: the file to write. Refused before the work starts where it cannot be written later.
 void addOutputOption(CLI::App& command, std::string& output, const std::string& description);

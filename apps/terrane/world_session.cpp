@@ -1,45 +1,22 @@
 #include "apps/terrane/world_session.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <glm/common.hpp>
 #include <limits>
 
 #include "apps/terrane/content.h"
-#include "apps/terrane/save_identity.h"
+#include "apps/terrane/open_save.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/shared/shape_face.h"
 #include "terrane/store/memory_store.h"
-#include "terrane/store/open_store.h"
-#include "terrane/store/save_path.h"
 #include "terrane/world/plant_growth.h"
 
 namespace terrane::app {
-namespace {
-
-base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options, const SaveOptions& save,
-                                                          const CLI::App& command,
-                                                          const world::BlockRegistry& blocks) {
-    // Edits of chunks that are left and come back.
-    if (save.name.empty()) return std::make_unique<store::MemoryStore>(identityOf(options));
-    auto path = store::savePath(save.name, store::savePlaces());
-    if (!path) return tl::unexpected(path.error());
-    return store::openStore(*path, blocks, accessTo({*path, save.recreate}, options, command));
-}
-
-}  // namespace
-
 base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const world::BlockRegistry& blocks) {
-    auto graph = gen::makeGenerator(options.generator, blocks);
+    auto graph = gen::makeGenerator(options.effectiveGenerator(), blocks);
     if (!graph) return tl::unexpected(graph.error());
-    return gen::Generator(std::move(*graph), options.seed);
-}
-
-void addSaveGameOptions(CLI::App& command, SaveOptions& options) {
-    command.add_option("--save-game", options.name, "Save of the world, by name; made where it is not there");
-    command.add_flag("--recreate", options.recreate, "Copy the save and make the world anew; edits are gone")
-        ->needs("--save-game");
+    return gen::Generator(std::move(*graph), options.effectiveSeed());
 }
 
 WorldSession::WorldSession(world::BlockRegistry registry, unsigned threads)
@@ -47,16 +24,15 @@ WorldSession::WorldSession(world::BlockRegistry registry, unsigned threads)
 
 base::Result<std::unique_ptr<WorldSession>> WorldSession::create(WorldOptions options,
                                                                  const SaveOptions& save,
-                                                                 const CLI::App& command) {
+                                                                 store::WorldAccess access) {
     auto blocks = loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
-    // Before a save is made: a generator that does not exist has none.
-    auto known = makeGenerator(options, *blocks);
-    if (!known) return tl::unexpected(known.error());
     auto session = std::make_unique<WorldSession>(std::move(*blocks), threadCount(options));
-    auto opened = openSave(options, save, command, session->blocks);
+    auto opened = openSave(options, save, access, session->blocks);
     if (!opened) return tl::unexpected(opened.error());
     session->store = std::move(*opened);
+    // Edits of chunks that are left and come back.
+    if (!session->store) session->store = std::make_unique<store::MemoryStore>(identityOf(options));
     auto generator = makeGenerator(options, session->blocks);
     if (!generator) return tl::unexpected(generator.error());
     session->generator = std::make_unique<gen::Generator>(std::move(*generator));

@@ -7,7 +7,7 @@
 #include "terrane/base/job_system.h"
 #include "terrane/gen/generator.h"
 #include "terrane/light/light_table.h"
-#include "terrane/store/chunk_store.h"
+#include "terrane/store/open_world.h"
 #include "terrane/stream/chunk_pipeline.h"
 #include "terrane/world/block_registry.h"
 #include "terrane/world/world.h"
@@ -16,19 +16,11 @@ namespace terrane::app {
 
 base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const world::BlockRegistry& blocks);
 
-// Which save a world is kept in.
-struct SaveOptions {
-    std::string name;  // empty: none, edits last until the program ends
-    bool recreate = false;
-};
-// --save-game and --recreate.
-void addSaveGameOptions(CLI::App& command, SaveOptions& options);
-
 // The parts refer to each other by address: made in place, destroyed in reverse order.
 struct WorldSession {
-    // `command`: whose options say which of seed and generator were given; a save has its own.
-    static base::Result<std::unique_ptr<WorldSession>> create(WorldOptions options, const SaveOptions& save,
-                                                              const CLI::App& command);
+    static base::Result<std::unique_ptr<WorldSession>> create(
+        WorldOptions options, const SaveOptions& save,
+        store::WorldAccess access = store::WorldAccess::ReadWriteOrMemory);
     WorldSession(world::BlockRegistry registry, unsigned threads);
 
     // Waits until all that changed is in the save.

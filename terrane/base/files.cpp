@@ -21,7 +21,7 @@ std::string reason(int errorNumber) {
 }
 
 tl::unexpected<Error> cannotWrite(const std::filesystem::path& path, int errorNumber) {
-    return fail("{}: cannot be written: {}", path.string(), reason(errorNumber));
+    return fail(ErrorCode::Io, "{}: cannot be written: {}", path.string(), reason(errorNumber));
 }
 
 struct TemporaryFile {
@@ -41,7 +41,7 @@ Result<TemporaryFile> openBeside(const std::filesystem::path& path) {
         }
         if (errno != EEXIST) return cannotWrite(path, errno);
     }
-    return fail("{}: cannot be written: delete the old files {}.tmp* beside it", path.string(),
+    return fail(ErrorCode::Io, "{}: cannot be written: delete the old files {}.tmp* beside it", path.string(),
                 path.filename().string());
 }
 
@@ -69,13 +69,14 @@ std::filesystem::path behindLinks(std::filesystem::path file) {
 
 Result<std::string> readFile(const std::filesystem::path& path) {
     const File file{std::fopen(path.c_str(), "rb")};
-    if (!file) return fail("{}: cannot be read: {}", path.string(), reason(errno));
+    if (!file) return fail(ErrorCode::Io, "{}: cannot be read: {}", path.string(), reason(errno));
     std::string bytes;
     std::array<char, 65536> part;
     while (const std::size_t partBytes = std::fread(part.data(), 1, part.size(), file.get())) {
         bytes.append(part.data(), partBytes);
     }
-    if (std::ferror(file.get()) != 0) return fail("{}: cannot be read: {}", path.string(), reason(errno));
+    if (std::ferror(file.get()) != 0)
+        return fail(ErrorCode::Io, "{}: cannot be read: {}", path.string(), reason(errno));
     return bytes;
 }
 
@@ -86,7 +87,7 @@ Result<void> writeFile(const std::filesystem::path& given, std::string_view byte
     const std::filesystem::file_status status = std::filesystem::status(path, ignored);
     if (std::filesystem::is_directory(status)) return cannotWrite(path, EISDIR);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-        return fail("{}: cannot be written: it is not a regular file", path.string());
+        return fail(ErrorCode::Io, "{}: cannot be written: it is not a regular file", path.string());
     }
     Result<TemporaryFile> temporary = openBeside(path);
     if (!temporary) return tl::unexpected(temporary.error());

@@ -1,27 +1,74 @@
 // Results and errors: what a function returns that can fail because of its input (files, arguments, drivers).
-// Broken invariants are asserted instead. Errors are shown to a person as one line.
+// Broken invariants are asserted instead. An error has a message, one line for the player, and a code, by
+// which callers branch: no code reads messages.
 #pragma once
 
 #include <fmt/format.h>
 
+#include <concepts>
+#include <cstdint>
 #include <string>
 #include <tl/expected.hpp>
+#include <type_traits>
 #include <utility>
 
 namespace terrane::base {
 
-// One line that names what failed and where, for example "blocks.toml:12: opacity: expected 0 to 15, got 40".
+enum class ErrorCode : std::uint8_t {
+    Failed,          // the default: no caller needs to know more than the message says
+    BadInput,        // an argument, or content, that is not as documented
+    NotFound,        // what is named is not there
+    Io,              // the file system, or the network, refused or failed
+    Damaged,         // of the right kind, but broken
+    Incompatible,    // whole, but of another version, program or world
+    Busy,            // in use by another program; may work later
+    Unsupported,     // understood, but not in this build or on this machine
+    OutOfResources,  // no room on the disk, no memory
+};
+
+// The message names what failed and where, for example "blocks.toml:12: opacity: expected 0 to 15, got 40".
 struct Error {
+    ErrorCode code = ErrorCode::Failed;
     std::string message;
 };
 
+// A value or an error. Never ignored silently: write (void) where an error makes no difference.
 template <class T>
-using Result = tl::expected<T, Error>;
+class [[nodiscard]] Result : public tl::expected<T, Error> {
+    using Base = tl::expected<T, Error>;
+
+  public:
+    Result() = default;
+    Result(tl::unexpected<Error> error) : Base(std::move(error)) {}
+    Result(Base base) : Base(std::move(base)) {}
+
+    template <class U = T>
+    requires(!std::derived_from<std::remove_cvref_t<U>, Base> &&
+             !std::same_as<std::remove_cvref_t<U>, tl::unexpected<Error>> &&
+             std::is_constructible_v<T, U>) explicit(!std::is_convertible_v<U, T>) Result(U&& value)
+        : Base(tl::in_place, std::forward<U>(value)) {}
+};
+
+template <>
+class [[nodiscard]] Result<void> : public tl::expected<void, Error> {
+    using Base = tl::expected<void, Error>;
+
+  public:
+    Result() = default;
+    Result(tl::unexpected<Error> error) : Base(std::move(error)) {}
+    Result(Base base) : Base(std::move(base)) {}
+};
+
+// return fail(ErrorCode::NotFound, "{}: there is no such file", path);
+template <class... Args>
+[[nodiscard]] tl::unexpected<Error> fail(ErrorCode code, fmt::format_string<Args...> format, Args&&... args) {
+    return tl::unexpected<Error>(Error{code, fmt::format(format, std::forward<Args>(args)...)});
+}
 
 // return fail("{}: cannot be read", path);
 template <class... Args>
 [[nodiscard]] tl::unexpected<Error> fail(fmt::format_string<Args...> format, Args&&... args) {
-    return tl::unexpected<Error>(Error{fmt::format(format, std::forward<Args>(args)...)});
+    return fail(ErrorCode::Failed, format, std::forward<Args>(args)...);
 }
 
 }  // namespace terrane::base

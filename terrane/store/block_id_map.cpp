@@ -27,7 +27,8 @@ base::Result<BlockIdMap> BlockIdMap::make(const world::BlockRegistry& registry,
         }
         map.unknown_.push_back(entry.name);
         map.toSaved_.push_back(kNone);
-        if (map.toSaved_.size() > kMaxIds) return base::fail("more than {} block types", kMaxIds);
+        if (map.toSaved_.size() > kMaxIds)
+            return base::fail(base::ErrorCode::Incompatible, "more than {} block types", kMaxIds);
         connect(entry.id, map.toSaved_.size() - 1);
     }
 
@@ -35,7 +36,8 @@ base::Result<BlockIdMap> BlockIdMap::make(const world::BlockRegistry& registry,
     for (const world::BlockType& type : registry.types()) {
         if (map.toSaved_[type.id] != kNone) continue;
         while (next < kMaxIds && map.toSession_[next] != kNone) ++next;
-        if (next == kMaxIds) return base::fail("more than {} block types", kMaxIds);
+        if (next == kMaxIds)
+            return base::fail(base::ErrorCode::Incompatible, "more than {} block types", kMaxIds);
         const auto id = static_cast<world::BlockId>(next);
         connect(id, type.id);
         map.added_.push_back({id, type.name});

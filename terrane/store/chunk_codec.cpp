@@ -140,7 +140,8 @@ base::Result<SectionHead> readHead(ByteReader& reader) {
         case 4:
         case 8: {
             const auto count = reader.number<std::uint16_t>();
-            if (count > 256) return base::fail("a section has a palette of {} values", count);
+            if (count > 256)
+                return base::fail(base::ErrorCode::Damaged, "a section has a palette of {} values", count);
             head.palette.resize(count);
             reader.copyTo(std::as_writable_bytes(std::span(head.palette)));
             return head;
@@ -148,7 +149,7 @@ base::Result<SectionHead> readHead(ByteReader& reader) {
         case 16:
             return head;
         default:
-            return base::fail("a section has {} bits a block", head.bits);
+            return base::fail(base::ErrorCode::Damaged, "a section has {} bits a block", head.bits);
     }
 }
 
@@ -157,7 +158,9 @@ base::Result<Section> readSection(ByteReader& reader, SectionHead head) {
     std::vector<std::uint64_t> words(wordCount(head.bits));
     reader.copyTo(std::as_writable_bytes(std::span(words)));
     auto section = Section::fromPacked(head.bits, std::move(head.palette), std::move(words));
-    if (!section) return base::fail("a section's palette of {} bits does not fit its blocks", head.bits);
+    if (!section)
+        return base::fail(base::ErrorCode::Damaged, "a section's palette of {} bits does not fit its blocks",
+                          head.bits);
     return std::move(*section);
 }
 
@@ -179,19 +182,22 @@ base::Result<Section> readBlocks(ByteReader& reader, SectionHead head, const Blo
         for (Value& id : values) map(id);
         section = Section::fromValues(values);
     }
-    if (section && unnamed) return base::fail("block id {} has no name in this save", *unnamed);
+    if (section && unnamed)
+        return base::fail(base::ErrorCode::Damaged, "block id {} has no name in this save", *unnamed);
     return section;
 }
 
 base::Result<void> readLargeData(ByteReader& reader, world::Chunk& chunk) {
     const auto count = reader.number<std::uint32_t>();
-    if (count > world::kBlocksPerChunk) return base::fail("{} blocks have large data", count);
+    if (count > world::kBlocksPerChunk)
+        return base::fail(base::ErrorCode::Damaged, "{} blocks have large data", count);
     constexpr std::size_t kEntryBytes = sizeof(world::BlockIndex) + sizeof(std::uint32_t);
     ByteReader entries(reader.take(count * kEntryBytes));
     int last = -1;
     for (std::uint32_t n = 0; n < count && !reader.isPastEnd(); ++n) {
         const auto index = entries.number<world::BlockIndex>();
-        if (index <= last) return base::fail("large data of blocks is out of order");
+        if (index <= last)
+            return base::fail(base::ErrorCode::Damaged, "large data of blocks is out of order");
         last = index;
         const ByteView data = reader.take(entries.number<std::uint32_t>());
         chunk.setLargeData(index, world::LargeData(data.begin(), data.end()));
@@ -221,8 +227,9 @@ base::Result<world::Chunk> readPlain(ByteView bytes, const BlockIdMap& ids) {
         }
     }
     if (auto read = readLargeData(reader, chunk); !read) return tl::unexpected(read.error());
-    if (reader.isPastEnd()) return base::fail("the chunk ends too early");
-    if (!reader.rest().empty()) return base::fail("{} bytes too many", reader.rest().size());
+    if (reader.isPastEnd()) return base::fail(base::ErrorCode::Damaged, "the chunk ends too early");
+    if (!reader.rest().empty())
+        return base::fail(base::ErrorCode::Damaged, "{} bytes too many", reader.rest().size());
     return chunk;
 }
 
@@ -246,12 +253,14 @@ base::Result<Bytes> encodeChunk(const world::Chunk& chunk, const BlockIdMap& ids
 }
 
 base::Result<void> verifyChunk(ByteView bytes) {
-    if (bytes.size() < kHeaderBytes) return base::fail("{} bytes are too few for a chunk", bytes.size());
+    if (bytes.size() < kHeaderBytes)
+        return base::fail(base::ErrorCode::Damaged, "{} bytes are too few for a chunk", bytes.size());
     ByteReader reader(bytes);
     const auto sum = reader.number<std::uint64_t>();
-    if (sum != checksum(reader.rest())) return base::fail("the checksum is wrong");
+    if (sum != checksum(reader.rest())) return base::fail(base::ErrorCode::Damaged, "the checksum is wrong");
     const auto version = reader.number<std::uint8_t>();
-    if (version != kChunkVersion) return base::fail("chunk version {}, expected {}", version, kChunkVersion);
+    if (version != kChunkVersion)
+        return base::fail(base::ErrorCode::Damaged, "chunk version {}, expected {}", version, kChunkVersion);
     return {};
 }
 
@@ -260,7 +269,8 @@ base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids) {
     ByteReader reader(bytes.subspan(sizeof(std::uint64_t) + sizeof(std::uint8_t)));
     const auto plainBytes = reader.number<std::uint32_t>();
     if (plainBytes > kMaxChunkBytes)
-        return base::fail("the chunk says it has {} bytes, expected at most {}", plainBytes, kMaxChunkBytes);
+        return base::fail(base::ErrorCode::Damaged, "the chunk says it has {} bytes, expected at most {}",
+                          plainBytes, kMaxChunkBytes);
     Bytes& plain = scratch();
     plain.resize(plainBytes);
     if (auto done = decompress(reader.rest(), plain); !done) return tl::unexpected(done.error());

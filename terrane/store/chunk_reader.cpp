@@ -2,9 +2,54 @@
 
 #include <utility>
 
-#include "terrane/store/schema.h"
+#include "terrane/store/chunk_codec.h"
+#include "terrane/store/chunk_key.h"
 
 namespace terrane::store {
+
+LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids) {
+    if (row && !*row) return {};
+    base::Result<world::Chunk> chunk = row ? decodeChunk((*row)->data, ids) : tl::unexpected(row.error());
+    if (chunk) {
+        return {LoadedChunk::State::Present,
+                std::make_shared<world::Chunk>(std::move(*chunk)),
+                (*row)->provenance,
+                {}};
+    }
+    LoadedChunk damaged;
+    damaged.state = LoadedChunk::State::Damaged;
+    damaged.problem = chunk.error().message;
+    return damaged;
+}
+
+StoredRow ChunkReader::Connection::read(world::ChunkPos pos) {
+    select.bind(1, keyOf(pos));
+    const auto row = select.step();
+    std::optional<StoredChunk> chunk;
+    if (row && *row) {
+        const ByteView data = select.blob(0);
+        const Provenance provenance = select.number(1) == 0 ? Provenance::Generated : Provenance::Edited;
+        chunk = StoredChunk{Bytes(data.begin(), data.end()), provenance};
+    }
+    select.reset();
+    if (!row) return tl::unexpected(row.error());
+    return chunk;
+}
+
+base::Result<std::unique_ptr<ChunkReader::Connection>> ChunkReader::open() const {
+    auto database = Database::open(path_, mode_);
+    if (!database) return tl::unexpected(database.error());
+    auto select = database->prepare("SELECT data, origin FROM chunks WHERE key = ?1");
+    if (!select) return tl::unexpected(select.error());
+    auto count = database->prepare("SELECT count(*) FROM chunks WHERE key = ?1");
+    if (!count) return tl::unexpected(count.error());
+    auto begin = database->prepare("BEGIN");
+    if (!begin) return tl::unexpected(begin.error());
+    auto end = database->prepare("COMMIT");
+    if (!end) return tl::unexpected(end.error());
+    return std::make_unique<Connection>(Connection{std::move(*database), std::move(*select),
+                                                   std::move(*count), std::move(*begin), std::move(*end)});
+}
 
 base::Result<std::unique_ptr<ChunkReader::Connection>> ChunkReader::take() {
     {
@@ -15,38 +60,35 @@ base::Result<std::unique_ptr<ChunkReader::Connection>> ChunkReader::take() {
             return connection;
         }
     }
-    auto database = Database::open(path_, mode_);
-    if (!database) return tl::unexpected(database.error());
-    auto select = database->prepare("SELECT data, origin FROM chunks WHERE key = ?1");
-    if (!select) return tl::unexpected(select.error());
-    auto count = database->prepare("SELECT count(*) FROM chunks WHERE key = ?1");
-    if (!count) return tl::unexpected(count.error());
-    return std::make_unique<Connection>(
-        Connection{std::move(*database), std::move(*select), std::move(*count)});
+    return open();
 }
 
 void ChunkReader::giveBack(std::unique_ptr<Connection> connection) {
-    connection->select.reset();
-    connection->count.reset();
     const std::lock_guard lock(mutex_);
     idle_.push_back(std::move(connection));
 }
 
-base::Result<std::optional<StoredChunk>> ChunkReader::read(world::ChunkPos pos) {
+StoredRow ChunkReader::read(world::ChunkPos pos) {
     auto connection = take();
     if (!connection) return tl::unexpected(connection.error());
-    Statement& select = (*connection)->select;
-    select.bind(1, keyOf(pos));
-    const auto row = select.step();
-    std::optional<StoredChunk> chunk;
-    if (row && *row) {
-        const ByteView data = select.blob(0);
-        const Origin origin = select.number(1) == 0 ? Origin::Generated : Origin::Edited;
-        chunk = StoredChunk{Bytes(data.begin(), data.end()), origin};
-    }
+    StoredRow row = (*connection)->read(pos);
     giveBack(std::move(*connection));
-    if (!row) return tl::unexpected(row.error());
-    return chunk;
+    return row;
+}
+
+std::vector<StoredRow> ChunkReader::readMany(std::span<const world::ChunkPos> positions) {
+    auto connection = take();
+    if (!connection)
+        return std::vector<StoredRow>(positions.size(), StoredRow(tl::unexpected(connection.error())));
+    std::vector<StoredRow> rows;
+    rows.reserve(positions.size());
+    // A transaction that cannot begin makes it slower, not wrong.
+    const bool hasBegun = (*connection)->begin.run().has_value();
+    for (const world::ChunkPos pos : positions) rows.push_back((*connection)->read(pos));
+    const bool hasEnded = !hasBegun || (*connection)->end.run();
+    // One that cannot end goes with its connection.
+    if (hasEnded) giveBack(std::move(*connection));
+    return rows;
 }
 
 base::Result<bool> ChunkReader::contains(world::ChunkPos pos) {
@@ -56,6 +98,7 @@ base::Result<bool> ChunkReader::contains(world::ChunkPos pos) {
     count.bind(1, keyOf(pos));
     const auto row = count.step();
     const bool found = row && *row && count.number(0) > 0;
+    count.reset();
     giveBack(std::move(*connection));
     if (!row) return tl::unexpected(row.error());
     return found;

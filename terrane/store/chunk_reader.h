@@ -5,8 +5,10 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "terrane/store/block_id_map.h"
 #include "terrane/store/chunk_store.h"
 #include "terrane/store/sqlite.h"
 
@@ -14,22 +16,32 @@ namespace terrane::store {
 
 struct StoredChunk {
     Bytes data;
-    Origin origin = Origin::Generated;
+    Provenance provenance = Provenance::Generated;
 };
+
+// Nothing where the save has no chunk; an error where the file is damaged.
+using StoredRow = base::Result<std::optional<StoredChunk>>;
+
+// The chunk of a row, or what is wrong with it, without the file and the position.
+LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids);
 
 class ChunkReader {
   public:
     ChunkReader(std::filesystem::path path, OpenMode mode) : path_(std::move(path)), mode_(mode) {}
 
-    // Any thread. Nothing where the save has no chunk; an error where the file is damaged.
-    [[nodiscard]] base::Result<std::optional<StoredChunk>> read(world::ChunkPos pos);
+    // Any thread.
+    [[nodiscard]] StoredRow read(world::ChunkPos pos);
+    // All as they were at one moment, in one transaction.
+    [[nodiscard]] std::vector<StoredRow> readMany(std::span<const world::ChunkPos> positions);
     [[nodiscard]] base::Result<bool> contains(world::ChunkPos pos);
 
   private:
     struct Connection {
         Database database;
-        Statement select, count;
+        Statement select, count, begin, end;
+        StoredRow read(world::ChunkPos pos);
     };
+    base::Result<std::unique_ptr<Connection>> open() const;
     base::Result<std::unique_ptr<Connection>> take();
     void giveBack(std::unique_ptr<Connection> connection);
 

@@ -2,18 +2,17 @@
 
 namespace terrane::store {
 
-base::Result<void> requireSame(const WorldIdentity& saved, const WorldIdentity& wanted,
-                               const std::string& path) {
-    if (saved.generator != wanted.generator)
-        return base::fail("{}: made by the generator {}, not {}", path, saved.generator, wanted.generator);
-    if (saved.seed != wanted.seed)
-        return base::fail("{}: made with seed {}, not {}", path, saved.seed, wanted.seed);
-    if (saved.generatorVersion != wanted.generatorVersion)
-        return base::fail(
-            "{}: made by version {} of the generator {}, this program has version {} (--recreate makes it "
-            "anew)",
-            path, saved.generatorVersion, saved.generator, wanted.generatorVersion);
-    return {};
+std::string nameOf(world::ChunkPos pos) {
+    std::string name = fmt::format("chunk {},{}", pos.x, pos.y);
+    if (pos.level > 0) name += fmt::format(" of level {}", pos.level);
+    return name;
+}
+
+std::vector<LoadedChunk> ReadableStore::loadMany(std::span<const world::ChunkPos> positions) {
+    std::vector<LoadedChunk> loaded;
+    loaded.reserve(positions.size());
+    for (const world::ChunkPos pos : positions) loaded.push_back(load(pos));
+    return loaded;
 }
 
 }  // namespace terrane::store

@@ -43,8 +43,9 @@ base::Result<void> decompress(ByteView frame, std::span<std::byte> target) {
     if (!context) throw std::bad_alloc();
     const std::size_t size =
         ZSTD_decompressDCtx(context.get(), target.data(), target.size(), frame.data(), frame.size());
-    if (ZSTD_isError(size)) return base::fail("zstd: {}", ZSTD_getErrorName(size));
-    if (size != target.size()) return base::fail("zstd: {} bytes, expected {}", size, target.size());
+    if (ZSTD_isError(size)) return base::fail(base::ErrorCode::Damaged, "zstd: {}", ZSTD_getErrorName(size));
+    if (size != target.size())
+        return base::fail(base::ErrorCode::Damaged, "zstd: {} bytes, expected {}", size, target.size());
     return {};
 }
 

@@ -45,14 +45,17 @@ base::Result<FileLock> FileLock::acquire(const std::filesystem::path& path, Kind
     file += "-lock";
     while (true) {
         const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-        if (descriptor < 0) return base::fail("{}: cannot be written: {}", file.string(), reason(errno));
+        if (descriptor < 0)
+            return base::fail(base::ErrorCode::Io, "{}: cannot be written: {}", file.string(), reason(errno));
         FileLock lock(descriptor, file);
         if (::flock(descriptor, (kind == Kind::Exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
             const int error = errno;
             lock.file_.clear();  // it is another's to remove
             if (error != EWOULDBLOCK)
-                return base::fail("{}: cannot be locked: {}", path.string(), reason(error));
-            return base::fail("{}: open in another program{}", path.string(), ownerOf(descriptor));
+                return base::fail(base::ErrorCode::Io, "{}: cannot be locked: {}", path.string(),
+                                  reason(error));
+            return base::fail(base::ErrorCode::Busy, "{}: open in another program{}", path.string(),
+                              ownerOf(descriptor));
         }
         if (!isStillThere(descriptor, file)) {
             lock.file_.clear();

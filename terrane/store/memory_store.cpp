@@ -1,75 +1,49 @@
 #include "terrane/store/memory_store.h"
 
+#include <utility>
+
 #include "terrane/base/log.h"
-#include "terrane/store/chunk_codec.h"
+#include "terrane/store/metadata.h"
 
 namespace terrane::store {
 
-MemoryStore::MemoryStore(SaveFile below)
-    : identity_(below.identity), settings_(below.settings.begin(), below.settings.end()) {
-    below_.emplace(std::move(below));
-    reader_.emplace(below_->database.path(), below_->readers);
-}
-
 LoadedChunk MemoryStore::load(world::ChunkPos pos) {
+    Saved saved;
     {
         const std::lock_guard lock(mutex_);
         const auto found = chunks_.find(pos);
-        if (found != chunks_.end())
-            return {LoadedChunk::State::Present, found->second.chunk, found->second.origin, {}};
+        if (found == chunks_.end()) return {};
+        saved = found->second;
     }
-    return below_ ? loadBelow(pos) : LoadedChunk{};
-}
-
-LoadedChunk MemoryStore::loadBelow(world::ChunkPos pos) {
-    const auto stored = reader_->read(pos);
-    if (stored && !*stored) return {};
-    base::Result<world::Chunk> chunk =
-        stored ? decodeChunk((*stored)->data, below_->ids) : tl::unexpected(stored.error());
-    if (chunk) {
-        return {LoadedChunk::State::Present,
-                std::make_shared<world::Chunk>(std::move(*chunk)),
-                (*stored)->origin,
-                {}};
-    }
-    LoadedChunk damaged{LoadedChunk::State::Damaged, nullptr, Origin::Generated, {}};
-    damaged.problem =
-        fmt::format("{}: chunk {},{}: {}", below_->database.path(), pos.x, pos.y, chunk.error().message);
-    base::logWarning("{}", damaged.problem);
-    return damaged;
+    return {LoadedChunk::State::Present, std::make_shared<world::Chunk>(*saved.chunk), saved.provenance, {}};
 }
 
 bool MemoryStore::contains(world::ChunkPos pos) {
-    {
-        const std::lock_guard lock(mutex_);
-        if (chunks_.contains(pos)) return true;
-    }
-    if (!below_) return false;
-    const auto found = reader_->contains(pos);
-    return found && *found;
+    const std::lock_guard lock(mutex_);
+    return chunks_.contains(pos);
 }
 
-SaveNumber MemoryStore::save(world::ChunkPos pos, world::ChunkPtr chunk, Origin origin) {
+SaveNumber MemoryStore::save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) {
     const std::lock_guard lock(mutex_);
-    const auto [entry, isNew] = chunks_.try_emplace(pos, WaitingChunk{chunk, origin});
-    if (!isNew && origin >= entry->second.origin) entry->second = {std::move(chunk), origin};
+    const auto [entry, isNew] = chunks_.try_emplace(pos, Saved{chunk, provenance});
+    if (!isNew && provenance >= entry->second.provenance) entry->second = {std::move(chunk), provenance};
     return ++saves_;
 }
 
-std::optional<std::string> MemoryStore::setting(std::string_view name) {
+std::optional<std::string> MemoryStore::metadata(std::string_view name) {
     const std::lock_guard lock(mutex_);
-    const auto found = settings_.find(name);
-    if (found == settings_.end()) return std::nullopt;
+    const auto found = metadata_.find(name);
+    if (found == metadata_.end()) return std::nullopt;
     return found->second;
 }
 
-SaveNumber MemoryStore::setSetting(std::string_view name, std::string value) {
+SaveNumber MemoryStore::setMetadata(std::string_view name, std::string value) {
     const std::lock_guard lock(mutex_);
-    if (isIdentitySetting(name)) {
-        base::logError("the setting {} belongs to the world's identity and stays as it is", name);
+    if (isPartOfIdentity(name)) {
+        base::logError("{} belongs to the world's identity and stays as it is", name);
         return saves_;
     }
-    settings_.insert_or_assign(std::string(name), std::move(value));
+    metadata_.insert_or_assign(std::string(name), std::move(value));
     return ++saves_;
 }
 

@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "terrane/store/chunk_codec.h"
+#include "terrane/store/chunk_key.h"
 #include "terrane/store/save_file.h"
 
 namespace terrane::store {
@@ -68,11 +69,11 @@ base::Result<CheckReport> checkSave(const std::filesystem::path& path, const wor
     report.fileBytes = sizeOf(path, "") + sizeOf(path, "-wal");
     auto file = openToRead(path, registry);
     if (!file) {
-        if (file.error().message.find(kDamaged) == std::string::npos) return tl::unexpected(file.error());
+        if (file.error().code != base::ErrorCode::Damaged) return tl::unexpected(file.error());
         report.fileProblems.push_back(file.error().message);
         return report;
     }
-    report.format = kFormatVersion;
+    report.format = file->format;
     report.identity = file->identity;
     report.unknownBlocks = file->ids.unknown();
     note(report, checkPages(file->database, report));

@@ -13,6 +13,7 @@
 namespace terrane::store {
 namespace {
 
+using base::ErrorCode;
 namespace fs = std::filesystem;
 
 bool isPresent(const fs::path& path) {
@@ -52,7 +53,8 @@ base::Result<void> checkLength(const fs::path& path, std::uintmax_t sizeBytes) {
     const std::uint32_t pageBytes = bigEndian(header + 16, 2) == 1 ? 65536 : bigEndian(header + 16, 2);
     const std::uintmax_t expected = std::uintmax_t{pageBytes} * bigEndian(header + 28, 4);
     if (sizeBytes >= expected || hasLog(path) || hasJournal(path)) return {};
-    return base::fail("{}: damaged: cut off after {} of {} bytes", path.string(), sizeBytes, expected);
+    return base::fail(ErrorCode::Damaged, "{}: damaged: cut off after {} of {} bytes", path.string(),
+                      sizeBytes, expected);
 }
 
 // True where there is a file with something in it that may be a save.
@@ -60,19 +62,26 @@ base::Result<bool> checkFile(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (!fs::exists(status)) return false;
-    if (!fs::is_regular_file(status)) return base::fail("{}: not a file", path.string());
+    if (!fs::is_regular_file(status))
+        return base::fail(ErrorCode::Incompatible, "{}: not a file", path.string());
     const std::uintmax_t size = fs::file_size(path, error);
-    if (error) return base::fail("{}: cannot be read: {}", path.string(), error.message());
+    if (error) return base::fail(ErrorCode::Io, "{}: cannot be read: {}", path.string(), error.message());
     if (size == 0) return false;
     std::ifstream file(path, std::ios::binary);
     if (!file)
-        return base::fail("{}: cannot be read: {}", path.string(), std::generic_category().message(errno));
+        return base::fail(ErrorCode::Io, "{}: cannot be read: {}", path.string(),
+                          std::generic_category().message(errno));
     char magic[16] = {};
     file.read(magic, sizeof magic);
     if (std::string_view(magic, sizeof magic) != std::string_view("SQLite format 3", 16))
-        return base::fail("{}: not a save: not a SQLite file", path.string());
+        return base::fail(ErrorCode::Incompatible, "{}: not a save: not a SQLite file", path.string());
     if (auto whole = checkLength(path, size); !whole) return tl::unexpected(whole.error());
     return true;
+}
+
+tl::unexpected<base::Error> notASave(const fs::path& path) {
+    if (isPresent(path)) return base::fail(ErrorCode::Incompatible, "{}: empty, not a save", path.string());
+    return base::fail(ErrorCode::NotFound, "{}: there is no such file", path.string());
 }
 
 // "a.sqlite" gives "a.backup-1.sqlite", or the first number that is free.
@@ -88,7 +97,7 @@ base::Result<void> makeCurrent(SaveFile& file, const fs::path& path, const SaveA
     auto kind = classify(file.database);
     if (!kind) return tl::unexpected(kind.error());
     if (*kind == SaveKind::Empty) {
-        if (!access.create) return base::fail("{}: empty, not a save", path.string());
+        if (!access.create) return notASave(path);
         file.isNew = true;
         return createTables(file.database, *access.create);
     }
@@ -103,7 +112,7 @@ base::Result<void> makeCurrent(SaveFile& file, const fs::path& path, const SaveA
 }
 
 // The copy is made before anything is deleted.
-base::Result<void> recreate(SaveFile& file, const fs::path& path, int generatorVersion) {
+base::Result<void> regenerate(SaveFile& file, const fs::path& path, int generatorVersion) {
     const fs::path backup = backupPath(path, "backup");
     if (auto copied = file.database.backUpTo(backup); !copied) return copied;
     auto transaction = Transaction::begin(file.database);
@@ -114,26 +123,26 @@ base::Result<void> recreate(SaveFile& file, const fs::path& path, int generatorV
         generatorVersion);
     if (auto done = file.database.execute(sql); !done) return done;
     if (auto done = transaction->commit(); !done) return done;
-    base::logInfo("{}: made anew; the world as it was is {}", path.string(), backup.string());
+    base::logInfo("{}: regenerated; the world as it was is {}", path.string(), backup.string());
     return {};
 }
 
 base::Result<void> readIdentity(SaveFile& file) {
-    auto settings = readSettings(file.database);
-    if (!settings) return tl::unexpected(settings.error());
-    file.settings = std::move(*settings);
-    auto identity = identityFrom(file.settings, file.database.path());
+    auto metadata = readMetadata(file.database);
+    if (!metadata) return tl::unexpected(metadata.error());
+    file.metadata = std::move(*metadata);
+    auto identity = identityFrom(file.metadata, file.database.path());
     if (!identity) return tl::unexpected(identity.error());
     file.identity = std::move(*identity);
     return {};
 }
 
-base::Result<void> recreateWhereAsked(SaveFile& file, const fs::path& path, const SaveAccess& access) {
+base::Result<void> regenerateIfAsked(SaveFile& file, const fs::path& path, const SaveAccess& access) {
     if (file.isNew || !access.decide) return {};
     if (auto read = readIdentity(file); !read) return read;
     const auto version = access.decide(file.identity);
     if (!version) return tl::unexpected(version.error());
-    return *version ? recreate(file, path, **version) : base::Result<void>();
+    return *version ? regenerate(file, path, **version) : base::Result<void>();
 }
 
 base::Result<void> readContents(SaveFile& file, const world::BlockRegistry& registry) {
@@ -141,7 +150,7 @@ base::Result<void> readContents(SaveFile& file, const world::BlockRegistry& regi
     auto names = readBlockNames(file.database);
     if (!names) return tl::unexpected(names.error());
     auto ids = BlockIdMap::make(registry, *names);
-    if (!ids) return base::fail("{}: {}", file.database.path(), ids.error().message);
+    if (!ids) return base::fail(ids.error().code, "{}: {}", file.database.path(), ids.error().message);
     file.ids = std::move(*ids);
     return {};
 }
@@ -163,7 +172,9 @@ base::Result<void> writeNewNames(SaveFile& file) {
 base::Result<void> makeFolder(const fs::path& path) {
     std::error_code error;
     if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
-    if (error) return base::fail("{}: cannot be made: {}", path.parent_path().string(), error.message());
+    if (error)
+        return base::fail(ErrorCode::Io, "{}: cannot be made: {}", path.parent_path().string(),
+                          error.message());
     return {};
 }
 
@@ -172,6 +183,16 @@ void reportUnknown(const SaveFile& file) {
     if (names.empty()) return;
     base::logWarning("{}: {} block types are unknown here and shown as missing, the first is {}",
                      file.database.path(), names.size(), names.front());
+}
+
+// Of a save that is read as it is.
+base::Result<void> readFormat(SaveFile& file) {
+    const auto version = file.database.queryNumber("PRAGMA user_version");
+    if (!version) return tl::unexpected(version.error());
+    file.format = version->value_or(0);
+    if (file.format >= kOldestReadable) return {};
+    return base::fail(ErrorCode::Incompatible, "{}: in format {}, which is unknown", file.database.path(),
+                      file.format);
 }
 
 }  // namespace
@@ -192,8 +213,7 @@ base::Result<SaveFile> openToWrite(const fs::path& path, const world::BlockRegis
     auto isThere = checkFile(path);
     if (!isThere) return tl::unexpected(isThere.error());
     if (!*isThere && !access.create) {
-        return base::fail("{}: {}", path.string(),
-                          isPresent(path) ? "empty, not a save" : "there is no such file");
+        return notASave(path);
     }
     if (auto made = makeFolder(path); !made) return tl::unexpected(made.error());
     auto lock = FileLock::acquire(path, FileLock::Kind::Exclusive);
@@ -201,12 +221,13 @@ base::Result<SaveFile> openToWrite(const fs::path& path, const world::BlockRegis
     auto database = Database::open(path, access.create ? OpenMode::Create : OpenMode::ReadWrite);
     if (!database) return tl::unexpected(database.error());
 
-    SaveFile file{std::move(*lock), std::move(*database), OpenMode::ReadOnly, false, {}, {}, {}};
+    SaveFile file{
+        std::move(*lock), std::move(*database), OpenMode::ReadOnly, false, kFormatVersion, {}, {}, {}};
     if (auto done = makeCurrent(file, path, access); !done) return tl::unexpected(done.error());
     // After the tables: a new file is never seen without them. Each commit waits for the disk.
     const auto set = file.database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
     if (!set) return tl::unexpected(set.error());
-    if (auto done = recreateWhereAsked(file, path, access); !done) return tl::unexpected(done.error());
+    if (auto done = regenerateIfAsked(file, path, access); !done) return tl::unexpected(done.error());
     if (auto done = readContents(file, registry); !done) return tl::unexpected(done.error());
     if (auto done = writeNewNames(file); !done) return tl::unexpected(done.error());
     reportUnknown(file);
@@ -217,8 +238,7 @@ base::Result<SaveFile> openToRead(const fs::path& path, const world::BlockRegist
     auto isThere = checkFile(path);
     if (!isThere) return tl::unexpected(isThere.error());
     if (!*isThere) {
-        return base::fail("{}: {}", path.string(),
-                          isPresent(path) ? "empty, not a save" : "there is no such file");
+        return notASave(path);
     }
     std::optional<FileLock> lock;
     if (isWritable(path)) {
@@ -231,13 +251,11 @@ base::Result<SaveFile> openToRead(const fs::path& path, const world::BlockRegist
     if (hasJournal(path)) mode = OpenMode::ReadWrite;
     auto database = Database::open(path, mode);
     if (!database) return tl::unexpected(database.error());
-    SaveFile file{std::move(lock), std::move(*database), mode, false, {}, {}, {}};
+    SaveFile file{std::move(lock), std::move(*database), mode, false, kFormatVersion, {}, {}, {}};
     auto kind = classify(file.database);
     if (!kind) return tl::unexpected(kind.error());
-    if (*kind == SaveKind::Empty) return base::fail("{}: empty, not a save", path.string());
-    if (*kind == SaveKind::Old)
-        return base::fail("{}: in an older format; playing in it once brings it to format {}", path.string(),
-                          kFormatVersion);
+    if (*kind == SaveKind::Empty) return notASave(path);
+    if (auto done = readFormat(file); !done) return tl::unexpected(done.error());
     if (auto done = readContents(file, registry); !done) return tl::unexpected(done.error());
     reportUnknown(file);
     return file;

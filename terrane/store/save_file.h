@@ -5,10 +5,7 @@
 
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <optional>
-#include <string>
-#include <string_view>
 
 #include "terrane/store/block_id_map.h"
 #include "terrane/store/file_lock.h"
@@ -17,9 +14,6 @@
 
 namespace terrane::store {
 
-// Stands after the path in errors about a file that is a save and damaged, rather than the wrong one.
-constexpr std::string_view kDamaged = ": damaged: ";
-
 struct SaveFile {
     std::optional<FileLock> lock;  // none where the folder cannot be written. Goes last.
     Database database;
@@ -27,7 +21,8 @@ struct SaveFile {
     bool isNew = false;
 
     // What the save had when it was opened.
-    std::map<std::string, std::string> settings;
+    std::int64_t format = kFormatVersion;  // an older one only where it is read alone
+    Metadata metadata;
     WorldIdentity identity;
     BlockIdMap ids;
 };
@@ -36,8 +31,8 @@ struct SaveAccess {
     // Made, with its folders, where it is not there. Nothing: it must be there.
     std::optional<WorldIdentity> create;
     // What is to become of a save that is there, from what it is: nothing to take it as it is, a version of
-    // its generator to throw all chunks away, after a copy beside the save, and make them anew by that
-    // version; an error to leave it alone. Empty: it is taken.
+    // its generator to regenerate all chunks by that version, after a copy beside the save; an error to leave
+    // it alone. Empty: it is taken.
     std::function<base::Result<std::optional<int>>(const WorldIdentity& saved)> decide;
 };
 

@@ -21,14 +21,17 @@ base::Result<void> checkName(std::string_view name) {
         const auto byte = static_cast<unsigned char>(c);
         return c == '/' || c == '\\' || byte < 0x20 || byte == 0x7F;
     };
-    if (name.empty()) return base::fail("\"\": the name of a save is empty");
+    if (name.empty()) return base::fail(base::ErrorCode::BadInput, "\"\": the name of a save is empty");
     if (name.size() > kMaxNameBytes)
-        return base::fail("{:?}: the name of a save has {} bytes, expected at most {}", name, name.size(),
+        return base::fail(base::ErrorCode::BadInput,
+                          "{:?}: the name of a save has {} bytes, expected at most {}", name, name.size(),
                           kMaxNameBytes);
     if (std::any_of(name.begin(), name.end(), isForbidden))
-        return base::fail("{:?}: the name of a save has neither slashes nor control characters", name);
+        return base::fail(base::ErrorCode::BadInput,
+                          "{:?}: the name of a save has neither slashes nor control characters", name);
     if (name.front() == '.' || name.front() == ' ')
-        return base::fail("{:?}: the name of a save begins with neither a dot nor a space", name);
+        return base::fail(base::ErrorCode::BadInput,
+                          "{:?}: the name of a save begins with neither a dot nor a space", name);
     return {};
 }
 
@@ -47,7 +50,8 @@ base::Result<fs::path> savePath(std::string_view name, const SavePlaces& places)
     // The specification has relative values ignored.
     if (fs::path(places.xdgDataHome).is_absolute()) return fs::path(places.xdgDataHome) / "terrane" / file;
     if (!places.home.empty()) return fs::path(places.home) / ".local/share/terrane" / file;
-    return base::fail("{:?}: no place for saves: neither XDG_DATA_HOME nor HOME is set", name);
+    return base::fail(base::ErrorCode::NotFound,
+                      "{:?}: no place for saves: neither XDG_DATA_HOME nor HOME is set", name);
 }
 
 }  // namespace terrane::store

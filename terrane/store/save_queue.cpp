@@ -14,13 +14,13 @@ using Chunks = decltype(SaveBatch::chunks);
 // The newer one counts, but for a generated chunk after an edited one.
 void put(Chunks& chunks, world::ChunkPos pos, WaitingChunk newer) {
     const auto [entry, isNew] = chunks.try_emplace(pos, newer);
-    if (!isNew && newer.origin >= entry->second.origin) entry->second = std::move(newer);
+    if (!isNew && newer.provenance >= entry->second.provenance) entry->second = std::move(newer);
 }
 
-// Settings by name. A damaged row is not lost: it stays in the file, to be found again.
+// Metadata by name. A damaged row is not lost: it stays in the file, to be found again.
 std::string contentOf(const SaveBatch& batch) {
     std::string text = fmt::format("{} chunks", batch.chunks.size());
-    for (const auto& [name, value] : batch.settings) text += fmt::format(", the setting {}", name);
+    for (const auto& [name, value] : batch.metadata) text += fmt::format(", the setting {}", name);
     if (!batch.damaged.empty()) text += fmt::format(", {} damaged rows put aside", batch.damaged.size());
     return text;
 }
@@ -37,7 +37,8 @@ SaveQueue::~SaveQueue() {
     }
     wake_.notify_all();
     thread_.join();
-    if (!waiting_.isEmpty() && !isProblemTold_) base::logError("{}; lost: {}", problem_, contentOf(waiting_));
+    if (!waiting_.isEmpty() && !isProblemTold_)
+        base::logError("{}; lost: {}", problem_.message, contentOf(waiting_));
 }
 
 template <class Add>
@@ -61,21 +62,33 @@ SaveNumber SaveQueue::add(world::ChunkPos pos, WaitingChunk chunk) {
     return addNumbered([&] { put(waiting_.chunks, pos, std::move(chunk)); });
 }
 
-SaveNumber SaveQueue::add(const std::string& setting, std::string value) {
-    return addNumbered([&] { waiting_.settings[setting] = std::move(value); });
+SaveNumber SaveQueue::add(const std::string& name, std::string value) {
+    return addNumbered([&] { waiting_.metadata[name] = std::move(value); });
 }
 
 void SaveQueue::add(DamagedRow row) {
     (void)addNumbered([&] { waiting_.damaged.push_back(std::move(row)); });
 }
 
-std::optional<WaitingChunk> SaveQueue::find(world::ChunkPos pos) {
-    const std::lock_guard lock(mutex_);
+std::optional<WaitingChunk> SaveQueue::findLocked(world::ChunkPos pos) const {
     for (const SaveBatch* batch : {&waiting_, &writing_}) {
         const auto found = batch->chunks.find(pos);
         if (found != batch->chunks.end()) return found->second;
     }
     return std::nullopt;
+}
+
+std::optional<WaitingChunk> SaveQueue::find(world::ChunkPos pos) {
+    const std::lock_guard lock(mutex_);
+    return findLocked(pos);
+}
+
+std::vector<std::optional<WaitingChunk>> SaveQueue::findMany(std::span<const world::ChunkPos> positions) {
+    std::vector<std::optional<WaitingChunk>> found;
+    found.reserve(positions.size());
+    const std::lock_guard lock(mutex_);
+    for (const world::ChunkPos pos : positions) found.push_back(findLocked(pos));
+    return found;
 }
 
 base::Result<void> SaveQueue::flush() {
@@ -89,18 +102,18 @@ base::Result<void> SaveQueue::flush() {
     written_.wait(lock, [&] { return durable_ >= goal || finished_ >= attempt; });
     if (durable_ >= goal) return {};
     isProblemTold_ = true;
-    return tl::unexpected(base::Error{problem_});
+    return tl::unexpected(problem_);
 }
 
 SaveStatus SaveQueue::status() {
     const std::lock_guard lock(mutex_);
-    return {queued_, durable_, waiting_.chunks.size() + writing_.chunks.size(), problem_};
+    return {queued_, durable_, waiting_.chunks.size() + writing_.chunks.size(), problem_.message};
 }
 
 // After a failure the number of chunks no longer counts, or a full disk would be tried again at each save.
 bool SaveQueue::isDue() const {
     if (isEnding_ || wantedAttempts_ > attempts_) return true;
-    return (waiting_.chunks.size() >= limits_.chunks && problem_.empty()) || Clock::now() >= due_;
+    return (waiting_.chunks.size() >= limits_.chunks && problem_.message.empty()) || Clock::now() >= due_;
 }
 
 void SaveQueue::run() {
@@ -131,16 +144,16 @@ void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
     lock.lock();
 
     if (done) {
-        if (!problem_.empty()) base::logInfo("saving works again");
-        problem_.clear();
+        if (!problem_.message.empty()) base::logInfo("saving works again");
+        problem_ = {};
         durable_ = goal;
         writing_ = {};
     } else {
         // Who waits for flush() is told there; what the last attempt loses is told by the destructor.
-        if (problem_.empty() && wantedAttempts_ < attempts_ && !isLast)
+        if (problem_.message.empty() && wantedAttempts_ < attempts_ && !isLast)
             base::logError("{}; waiting, tried again every {} s: {}", done.error().message,
                            static_cast<double>(limits_.delay.count()) / 1000, contentOf(writing_));
-        problem_ = done.error().message;
+        problem_ = done.error();
         takeBack(std::exchange(writing_, {}));
     }
     ++finished_;
@@ -151,7 +164,7 @@ void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
 void SaveQueue::takeBack(SaveBatch failed) {
     SaveBatch newer = std::exchange(waiting_, std::move(failed));
     for (auto& [pos, chunk] : newer.chunks) put(waiting_.chunks, pos, std::move(chunk));
-    for (auto& [name, value] : newer.settings) waiting_.settings[name] = std::move(value);
+    for (auto& [name, value] : newer.metadata) waiting_.metadata[name] = std::move(value);
     std::move(newer.damaged.begin(), newer.damaged.end(), std::back_inserter(waiting_.damaged));
     due_ = Clock::now() + limits_.delay;
 }

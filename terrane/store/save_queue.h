@@ -8,8 +8,10 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include "terrane/store/bytes.h"
@@ -19,7 +21,7 @@ namespace terrane::store {
 
 struct WaitingChunk {
     world::ChunkPtr chunk;
-    Origin origin = Origin::Generated;
+    Provenance provenance = Provenance::Generated;
 };
 
 // A row that is no chunk: to be moved aside if it still has these bytes.
@@ -29,13 +31,20 @@ struct DamagedRow {
     std::string reason;
 };
 
+// The order of the keys in a store.
+struct KeyOrder {
+    bool operator()(world::ChunkPos a, world::ChunkPos b) const {
+        return std::tie(a.level, a.x, a.y) < std::tie(b.level, b.x, b.y);
+    }
+};
+
 struct SaveBatch {
-    // In the order of the file's keys: pages are filled one after the other.
-    std::map<world::ChunkPos, WaitingChunk> chunks;
-    std::map<std::string, std::string> settings;
+    // Sorted by key: pages of a file are filled one after the other.
+    std::map<world::ChunkPos, WaitingChunk, KeyOrder> chunks;
+    std::map<std::string, std::string> metadata;
     std::vector<DamagedRow> damaged;
 
-    bool isEmpty() const { return chunks.empty() && settings.empty() && damaged.empty(); }
+    bool isEmpty() const { return chunks.empty() && metadata.empty() && damaged.empty(); }
 };
 
 struct SaveLimits {
@@ -55,11 +64,13 @@ class SaveQueue {
     SaveQueue& operator=(const SaveQueue&) = delete;
 
     SaveNumber add(world::ChunkPos pos, WaitingChunk chunk);
-    SaveNumber add(const std::string& setting, std::string value);
+    SaveNumber add(const std::string& name, std::string value);
     void add(DamagedRow row);
 
     std::optional<WaitingChunk> find(world::ChunkPos pos);  // waiting or being written
-    [[nodiscard]] base::Result<void> flush();               // as ChunkStore::flush()
+    // In the order of `positions`, all at one moment.
+    std::vector<std::optional<WaitingChunk>> findMany(std::span<const world::ChunkPos> positions);
+    [[nodiscard]] base::Result<void> flush();  // as ChunkStore::flush()
     SaveStatus status();
 
   private:
@@ -69,6 +80,7 @@ class SaveQueue {
     bool isDue() const;
     void writeOnce(std::unique_lock<std::mutex>& lock, bool isLast);
     void takeBack(SaveBatch failed);
+    std::optional<WaitingChunk> findLocked(world::ChunkPos pos) const;
     template <class Add>
     SaveNumber addNumbered(Add add);
 
@@ -81,7 +93,7 @@ class SaveQueue {
     Clock::time_point due_ = Clock::time_point::max();  // when what waits must be written
     std::uint64_t attempts_ = 0, wantedAttempts_ = 0;   // begun and asked for by flush
     std::uint64_t finished_ = 0;                        // attempts
-    std::string problem_;
+    base::Error problem_;         // of the last attempt; no message where it did not fail
     bool isProblemTold_ = false;  // by flush(), and nothing was added since
     bool isEnding_ = false;
     std::thread thread_;

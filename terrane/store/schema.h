@@ -3,20 +3,21 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "terrane/store/block_id_map.h"
-#include "terrane/store/chunk_store.h"
+#include "terrane/store/metadata.h"
 #include "terrane/store/sqlite.h"
 
 namespace terrane::store {
 
 constexpr std::int64_t kApplicationId = 0x5445524E;  // "TERN"; PRAGMA application_id
-constexpr std::int64_t kFormatVersion = 1;           // PRAGMA user_version
+constexpr std::int64_t kFormatVersion = 2;           // PRAGMA user_version
+
+// Saves of this format can be read as they are: they are saves of the present one with chunks of level 0
+// alone.
+constexpr std::int64_t kOldestReadable = 1;
 
 // SQL that brings a save from format `from` to `from + 1`.
 struct Migration {
@@ -24,7 +25,7 @@ struct Migration {
     const char* sql;
 };
 
-// All there are: none yet. Never changed after a release, only added to.
+// All there are. Never changed after a release, only added to.
 std::span<const Migration> migrations();
 
 enum class SaveKind {
@@ -45,24 +46,6 @@ enum class SaveKind {
                                          std::int64_t current, const std::filesystem::path& backup);
 
 [[nodiscard]] base::Result<std::vector<SavedName>> readBlockNames(Database& database);
-[[nodiscard]] base::Result<std::map<std::string, std::string>> readSettings(Database& database);
-// Whether the setting is part of the world's identity, which only making a save, or making it anew, writes.
-bool isIdentitySetting(std::string_view name);
-// From the settings; an error where one is missing or no number.
-[[nodiscard]] base::Result<WorldIdentity> identityFrom(const std::map<std::string, std::string>& settings,
-                                                       const std::string& path);
-
-// A chunk's number in the tables: x and y from 0, in 28 bits each.
-constexpr std::int64_t keyOf(world::ChunkPos pos) {
-    return (std::int64_t{pos.x} - world::kMinChunk) << 28 | (std::int64_t{pos.y} - world::kMinChunk);
-}
-
-// What no position has the number of gives a position outside the world.
-constexpr world::ChunkPos posOf(std::int64_t key) {
-    constexpr std::int64_t kEnd = std::int64_t{1} << 56;
-    if (key < 0 || key >= kEnd) return {world::kMaxChunk + 1, world::kMaxChunk + 1};
-    return {static_cast<std::int32_t>((key >> 28) + world::kMinChunk),
-            static_cast<std::int32_t>((key & ((1 << 28) - 1)) + world::kMinChunk)};
-}
+[[nodiscard]] base::Result<Metadata> readMetadata(Database& database);
 
 }  // namespace terrane::store

@@ -34,8 +34,30 @@ std::string describe(int code, const char* message) {
     }
 }
 
+base::ErrorCode codeOf(int code) {
+    switch (code & 0xFF) {
+        case SQLITE_FULL:
+        case SQLITE_NOMEM:
+            return base::ErrorCode::OutOfResources;
+        case SQLITE_NOTADB:
+            return base::ErrorCode::Incompatible;
+        case SQLITE_BUSY:
+        case SQLITE_LOCKED:
+            return base::ErrorCode::Busy;
+        case SQLITE_READONLY:
+        case SQLITE_CANTOPEN:
+        case SQLITE_IOERR:
+            return base::ErrorCode::Io;
+        case SQLITE_CORRUPT:
+            return base::ErrorCode::Damaged;
+        default:
+            return base::ErrorCode::Failed;
+    }
+}
+
 tl::unexpected<base::Error> failure(const std::string& path, sqlite3* database) {
-    return base::fail("{}: {}", path, describe(sqlite3_extended_errcode(database), sqlite3_errmsg(database)));
+    const int code = sqlite3_extended_errcode(database);
+    return base::fail(codeOf(code), "{}: {}", path, describe(code, sqlite3_errmsg(database)));
 }
 
 // "file:" and the path with what means something in a URI escaped.

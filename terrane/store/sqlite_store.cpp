@@ -5,12 +5,13 @@
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
 #include "terrane/store/chunk_codec.h"
+#include "terrane/store/chunk_key.h"
 
 namespace terrane::store {
 
 // The statements that write a batch.
 struct SqliteStore::Writer {
-    Statement selectChunk, putChunk, putSetting, quarantineIfSame, deleteIfSame;
+    Statement selectChunk, putChunk, putMetadata, quarantineIfSame, deleteIfSame;
 
     static base::Result<std::unique_ptr<Writer>> make(Database& database);
 
@@ -22,7 +23,7 @@ struct SqliteStore::Writer {
 namespace {
 
 std::string describe(const std::string& path, world::ChunkPos pos, const std::string& problem) {
-    return fmt::format("{}: chunk {},{}: {}", path, pos.x, pos.y, problem);
+    return fmt::format("{}: {}: {}", path, nameOf(pos), problem);
 }
 
 }  // namespace
@@ -34,8 +35,8 @@ base::Result<std::unique_ptr<SqliteStore::Writer>> SqliteStore::Writer::make(Dat
         "INSERT INTO chunks (key, origin, data) VALUES (?1, ?2, ?3) ON CONFLICT (key) DO UPDATE "
         "SET origin = excluded.origin, data = excluded.data WHERE excluded.origin >= origin");
     if (!putChunk) return tl::unexpected(putChunk.error());
-    auto putSetting = database.prepare("INSERT OR REPLACE INTO settings (name, value) VALUES (?1, ?2)");
-    if (!putSetting) return tl::unexpected(putSetting.error());
+    auto putMetadata = database.prepare("INSERT OR REPLACE INTO settings (name, value) VALUES (?1, ?2)");
+    if (!putMetadata) return tl::unexpected(putMetadata.error());
     auto quarantine = database.prepare(
         "INSERT INTO quarantine (key, reason, data) SELECT key, ?2, data FROM chunks WHERE key = ?1 AND "
         "CAST(data AS BLOB) = ?3");
@@ -43,7 +44,7 @@ base::Result<std::unique_ptr<SqliteStore::Writer>> SqliteStore::Writer::make(Dat
     auto remove = database.prepare("DELETE FROM chunks WHERE key = ?1 AND CAST(data AS BLOB) = ?2");
     if (!remove) return tl::unexpected(remove.error());
     return std::make_unique<Writer>(Writer{std::move(*selectChunk), std::move(*putChunk),
-                                           std::move(*putSetting), std::move(*quarantine),
+                                           std::move(*putMetadata), std::move(*quarantine),
                                            std::move(*remove)});
 }
 
@@ -53,10 +54,10 @@ base::Result<void> SqliteStore::Writer::write(SaveFile& file, const SaveBatch& b
     if (!transaction) return tl::unexpected(transaction.error());
     for (const DamagedRow& row : batch.damaged)
         if (auto done = quarantine(row); !done) return done;
-    for (const auto& [name, value] : batch.settings) {
-        putSetting.bind(1, std::string_view(name));
-        putSetting.bind(2, std::string_view(value));
-        if (auto done = putSetting.run(); !done) return done;
+    for (const auto& [name, value] : batch.metadata) {
+        putMetadata.bind(1, std::string_view(name));
+        putMetadata.bind(2, std::string_view(value));
+        if (auto done = putMetadata.run(); !done) return done;
     }
     for (const auto& [pos, chunk] : batch.chunks)
         if (auto done = writeChunk(file, pos, chunk); !done) return done;
@@ -89,7 +90,7 @@ base::Result<void> SqliteStore::Writer::writeChunk(SaveFile& file, world::ChunkP
         return {};
     }
     putChunk.bind(1, keyOf(pos));
-    putChunk.bind(2, std::int64_t{chunk.origin == Origin::Edited});
+    putChunk.bind(2, std::int64_t{chunk.provenance == Provenance::Edited});
     putChunk.bind(3, ByteView(*bytes));
     return putChunk.run();
 }
@@ -117,39 +118,57 @@ base::Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const std::filesyst
 SqliteStore::SqliteStore(SaveFile file, std::unique_ptr<Writer> writer, SaveLimits limits)
     : file_(std::move(file)),
       reader_(file_.database.path(), file_.readers),
-      settings_(file_.settings.begin(), file_.settings.end()),
+      metadata_(file_.metadata),
       writer_(std::move(writer)),
       queue_(std::make_unique<SaveQueue>(
           [this](const SaveBatch& batch) { return writer_->write(file_, batch); }, limits)) {}
 
 SqliteStore::~SqliteStore() = default;
 
-LoadedChunk SqliteStore::load(world::ChunkPos pos) {
-    TERRANE_ZONE("load chunk");
-    if (const auto waiting = queue_->find(pos))
-        return {LoadedChunk::State::Present, waiting->chunk, waiting->origin, {}};
-    auto stored = reader_.read(pos);
-    if (stored && !*stored) return {};
+namespace {
 
-    LoadedChunk result;
-    if (stored) {
-        auto chunk = decodeChunk((*stored)->data, file_.ids);
-        if (chunk) {
-            return {LoadedChunk::State::Present,
-                    std::make_shared<world::Chunk>(std::move(*chunk)),
-                    (*stored)->origin,
-                    {}};
-        }
-        result.problem = describe(file_.database.path(), pos, chunk.error().message);
-        base::logWarning("{}; what it had is kept in the table quarantine", result.problem);
-        queue_->add(DamagedRow{pos, std::move((*stored)->data), chunk.error().message});
+LoadedChunk copyOf(const WaitingChunk& waiting) {
+    return {
+        LoadedChunk::State::Present, std::make_shared<world::Chunk>(*waiting.chunk), waiting.provenance, {}};
+}
+
+}  // namespace
+
+LoadedChunk SqliteStore::loadStored(StoredRow row, world::ChunkPos pos) {
+    LoadedChunk loaded = decodeRow(row, file_.ids);
+    if (loaded.state != LoadedChunk::State::Damaged) return loaded;
+    const std::string reason =
+        std::exchange(loaded.problem, describe(file_.database.path(), pos, loaded.problem));
+    if (row) {
+        base::logWarning("{}; what it had is kept in the table quarantine", loaded.problem);
+        queue_->add(DamagedRow{pos, std::move((*row)->data), reason});
     } else {
         // The file itself is damaged here. Writing fails too, so nothing is overwritten.
-        result.problem = describe(file_.database.path(), pos, stored.error().message);
-        base::logWarning("{}", result.problem);
+        base::logWarning("{}", loaded.problem);
     }
-    result.state = LoadedChunk::State::Damaged;
-    return result;
+    return loaded;
+}
+
+LoadedChunk SqliteStore::load(world::ChunkPos pos) {
+    TERRANE_ZONE("load chunk");
+    if (const auto waiting = queue_->find(pos)) return copyOf(*waiting);
+    return loadStored(reader_.read(pos), pos);
+}
+
+// The queue first: what is no longer in it is in the file, and in the transaction that reads it.
+std::vector<LoadedChunk> SqliteStore::loadMany(std::span<const world::ChunkPos> positions) {
+    TERRANE_ZONE("load chunks");
+    const auto waiting = queue_->findMany(positions);
+    std::vector<world::ChunkPos> stored;
+    for (std::size_t k = 0; k < positions.size(); ++k)
+        if (!waiting[k]) stored.push_back(positions[k]);
+    std::vector<StoredRow> rows = reader_.readMany(stored);
+    auto next = rows.begin();
+    std::vector<LoadedChunk> loaded;
+    loaded.reserve(positions.size());
+    for (std::size_t k = 0; k < positions.size(); ++k)
+        loaded.push_back(waiting[k] ? copyOf(*waiting[k]) : loadStored(std::move(*next++), positions[k]));
+    return loaded;
 }
 
 bool SqliteStore::contains(world::ChunkPos pos) {
@@ -158,25 +177,25 @@ bool SqliteStore::contains(world::ChunkPos pos) {
     return found && *found;
 }
 
-SaveNumber SqliteStore::save(world::ChunkPos pos, world::ChunkPtr chunk, Origin origin) {
-    return queue_->add(pos, {std::move(chunk), origin});
+SaveNumber SqliteStore::save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) {
+    return queue_->add(pos, {std::move(chunk), provenance});
 }
 
-std::optional<std::string> SqliteStore::setting(std::string_view name) {
-    const std::lock_guard lock(settingsMutex_);
-    const auto found = settings_.find(name);
-    if (found == settings_.end()) return std::nullopt;
+std::optional<std::string> SqliteStore::metadata(std::string_view name) {
+    const std::lock_guard lock(metadataMutex_);
+    const auto found = metadata_.find(name);
+    if (found == metadata_.end()) return std::nullopt;
     return found->second;
 }
 
-SaveNumber SqliteStore::setSetting(std::string_view name, std::string value) {
-    if (isIdentitySetting(name)) {
-        base::logError("{}: the setting {} belongs to the world's identity and stays as it is",
-                       file_.database.path(), name);
+SaveNumber SqliteStore::setMetadata(std::string_view name, std::string value) {
+    if (isPartOfIdentity(name)) {
+        base::logError("{}: {} belongs to the world's identity and stays as it is", file_.database.path(),
+                       name);
         return queue_->status().queued;
     }
-    const std::lock_guard lock(settingsMutex_);
-    settings_.insert_or_assign(std::string(name), value);
+    const std::lock_guard lock(metadataMutex_);
+    metadata_.insert_or_assign(std::string(name), value);
     return queue_->add(std::string(name), std::move(value));
 }
 

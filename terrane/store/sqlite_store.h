@@ -21,11 +21,12 @@ class SqliteStore : public ChunkStore {
     ~SqliteStore() override;
 
     LoadedChunk load(world::ChunkPos pos) override;
+    std::vector<LoadedChunk> loadMany(std::span<const world::ChunkPos> positions) override;
     bool contains(world::ChunkPos pos) override;
     // A chunk with more large data than a save keeps (62 MiB) is reported and left out.
-    SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Origin origin) override;
-    std::optional<std::string> setting(std::string_view name) override;
-    SaveNumber setSetting(std::string_view name, std::string value) override;
+    SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) override;
+    std::optional<std::string> metadata(std::string_view name) override;
+    SaveNumber setMetadata(std::string_view name, std::string value) override;
     [[nodiscard]] base::Result<void> flush() override { return queue_->flush(); }
     SaveStatus status() override { return queue_->status(); }
     const WorldIdentity& identity() const override { return file_.identity; }
@@ -34,11 +35,12 @@ class SqliteStore : public ChunkStore {
   private:
     struct Writer;
     SqliteStore(SaveFile file, std::unique_ptr<Writer> writer, SaveLimits limits);
+    LoadedChunk loadStored(StoredRow row, world::ChunkPos pos);
 
     SaveFile file_;
     ChunkReader reader_;
-    std::mutex settingsMutex_;
-    std::map<std::string, std::string, std::less<>> settings_;
+    std::mutex metadataMutex_;
+    Metadata metadata_;
     std::unique_ptr<Writer> writer_;    // used by the queue's thread
     std::unique_ptr<SaveQueue> queue_;  // ends first
 };

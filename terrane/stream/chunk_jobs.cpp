@@ -18,7 +18,7 @@ std::shared_ptr<world::Chunk> loadChunk(const ChunkSource& source, world::ChunkP
         TERRANE_ZONE("load chunk");
         store::LoadedChunk stored = source.store->load(pos);
         if (stored.state == store::LoadedChunk::State::Present)
-            return std::make_shared<world::Chunk>(*stored.chunk);
+            return stored.chunk;
     }
     if (!source.generator) return nullptr;
     const auto chunk = std::make_shared<world::Chunk>(source.generator->generate(pos));
@@ -27,7 +27,7 @@ std::shared_ptr<world::Chunk> loadChunk(const ChunkSource& source, world::ChunkP
 }
 
 void storeGenerated(const ChunkSource& source, world::ChunkPos pos, const world::ChunkPtr& chunk) {
-    if (source.store && source.storesGenerated) source.store->save(pos, chunk, store::Origin::Generated);
+    if (source.store && source.storesGenerated) source.store->save(pos, chunk, store::Provenance::Generated);
 }
 
 LocalLightPtr localLight(const world::Chunk& chunk, const light::LightTable& table) {

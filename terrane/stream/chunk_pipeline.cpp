@@ -297,7 +297,7 @@ void ChunkPipeline::save(ChunkPos pos, ChunkRecord& record) {
     if (!record.editedAt) return;
     record.editedAt.reset();
     if (!parts_.source.store) return;
-    parts_.source.store->save(pos, parts_.world.maybeChunkAt(pos), store::Origin::Edited);
+    parts_.source.store->save(pos, parts_.world.maybeChunkAt(pos), store::Provenance::Edited);
 }
 
 void ChunkPipeline::saveAll() {

@@ -171,7 +171,7 @@ BlockDescription readBlock(ContentTable& table) {
 base::Error oneLine(std::string message) {
     std::replace_if(
         message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-    return {std::move(message)};
+    return {base::ErrorCode::BadInput, std::move(message)};
 }
 
 base::Result<std::vector<BlockDescription>> readBlocks(const toml::table& root, std::string_view file) {

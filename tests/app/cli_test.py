@@ -2,8 +2,10 @@
 """Every command of the program, end to end. Usage: cli_test.py PROGRAM"""
 import json
 import re
+import shutil
 import sqlite3
 import struct
+import subprocess
 
 import support
 from support import Npy, Picture, ProgramTest, run
@@ -425,12 +427,71 @@ class Saves(ProgramTest):
         ids = {block["name"]: block["id"] for block in json.loads(self.succeed("blocks", "--json"))}
         self.assertEqual(Npy(saved).column(3, 3)[0], ids["sand"])
 
+    def test_map_and_record_show_what_the_save_has_and_leave_it_as_it_is(self):
+        self.succeed("generate", "--world", self.save, "--radius", "2", *FLAT)
+        plain, drawn = self.folder / "plain.png", self.folder / "drawn.png"
+        area = ("--area", "-1,-1,2,2")
+        self.succeed("map", *area, "-o", plain, *FLAT)
+        self.succeed("map", *area, "-o", drawn, "--world", self.save)
+        self.assertEqual(plain.read_bytes(), drawn.read_bytes(), "the save has the generator, too")
+        self.sql("UPDATE blocks SET name = 'sand_' WHERE name = 'sand'")
+        self.sql("UPDATE blocks SET name = 'sand' WHERE name = 'grass'")
+        before = self.save.read_bytes()
+        self.succeed("map", *area, "-o", drawn, "--world", self.save)
+        self.assertNotEqual(plain.read_bytes(), drawn.read_bytes(), "sand in place of grass")
+        path = self.folder / "path.toml"
+        path.write_text("[[shot]]\nseconds = 1\nkey = [{ at = [8, 8, 90], look = [0, -80] }]\n"
+                        "edit = [{ at = [8, 8, 81], block = 'stone' }]\n")
+        self.succeed("record", "--path", path, "--frames-dir", self.folder / "frames", "--size", "64x48", "--fps", "1",
+                     "--view-distance", "1", "--preset", "low", "--world", self.save)
+        self.assertEqual(self.save.read_bytes(), before)
+
+    def run_here(self, *arguments):
+        """Runs where worlds by name lie in the folder of the test."""
+        variables = {**support.environment(), "XDG_DATA_HOME": str(self.folder)}
+        return subprocess.run([support.program(), *map(str, arguments)], capture_output=True, text=True, cwd=self.folder,
+                              timeout=support.HANG_SECONDS, env=variables, check=False)
+
+    def test_a_world_has_a_name_a_file_or_a_url(self):
+        area = ("--backend", "cpu", "--json", "--radius", "0")
+        made = self.run_here("generate", *area, "--world", "home", "--seed", "5")
+        self.assertEqual((made.returncode, json.loads(made.stdout)["chunks"]), (0, 1), made.stderr)
+        (self.save,) = self.folder.glob("*/home.sqlite")
+        for name in ("home", self.save, self.save.relative_to(self.folder)):
+            again = self.run_here("generate", *area, "--world", name)
+            self.assertEqual((again.returncode, json.loads(again.stdout)["skipped"]), (0, 1), again.stderr)
+        self.assertTrue(self.run_here("check", "home").stdout.endswith("\ngood\n"))
+        shutil.copy(self.save, self.folder / "b.sqlite")  # an ending makes it a file
+        again = self.run_here("generate", *area, "--world", "b.sqlite")
+        self.assertEqual((again.returncode, json.loads(again.stdout)["skipped"]), (0, 1), again.stderr)
+
+    def test_worlds_in_databases_are_not_supported(self):
+        url = "postgresql://me:secret@host/name"
+        out = self.folder / "out.png"
+        for command in (("generate", "--radius", "0"), ("map", "--radius", "0", "-o", out),
+                        ("dump", "--area", "0,0,1,1", "-o", out), ("render", "--scene", "landscape", "-o", out),
+                        ("fly", "--json")):
+            done = run(*command, "--world", url)
+            self.assertRefused(done, command)
+            self.assertIn("not supported by this build", done.stderr)
+            self.assertNotIn("secret", done.stderr)
+
+    def test_save_game_is_the_old_name_of_world(self):
+        out = self.folder / "out.png"
+        view = ("render", "--scene", "landscape", "-o", out, "--size", "32x24", "--view-distance", "1", "--preset", "low", *FLAT)
+        for flag in ("--save-game", "--world"):
+            done = self.run_here(*view, flag, "home")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(len(list(self.folder.glob("*/*.sqlite"))), 1)
+        self.assertNotIn("--save-game", self.succeed("render", "--help"))
+        self.assertRefused(run(*view, "--save-game", "a", "--world", "b"), "both")
+
     def test_check_good(self):
         self.generate("--world", self.save, "--radius", "1", "--seed", "5")
         self.assertTrue(self.succeed("check", self.save).endswith("\ngood\n"))
         report = json.loads(self.succeed("check", self.save, "--json"))
         self.assertEqual((report["damaged"], report["chunks"], report["seed"]), (False, 9, 5))
-        self.assertEqual((report["format"], report["generator"]), (1, "overworld"))
+        self.assertEqual((report["format"], report["generator"]), (2, "overworld"))
 
     def test_check_damaged(self):
         self.succeed("generate", "--world", self.save, "--radius", "1", *FLAT)
@@ -441,7 +502,7 @@ class Saves(ProgramTest):
         done = run("check", self.save, "--json")
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(json.loads(done.stdout)["damaged_chunks"],
-                         [{"x": -1, "y": -1, "problem": "the checksum is wrong"}])
+                         [{"x": -1, "y": -1, "level": 0, "problem": "the checksum is wrong"}])
         # Generating repairs it and keeps what was there.
         self.succeed("generate", "--world", self.save, "--radius", "1", *FLAT)
         report = json.loads(self.succeed("check", self.save, "--json"))

@@ -103,6 +103,32 @@ class ReadSave(ProgramTest):
         self.put(-7, 13, heads + bytes(3) * 16 + bodies + bytes(4))
         self.assertGreater(len(set(self.assertSame(-7, 13))), 20)
 
+    def test_format_1_and_levels(self):
+        blocks = self.blocks_by_reader(-7, 13)
+        with sqlite3.connect(self.save) as save:
+            self.assertEqual(save.execute("PRAGMA user_version").fetchone(), (2,))
+            key = (-7 + 2**27 << 28) + 13 + 2**27
+            save.execute("UPDATE chunks SET key = ? WHERE key = ?", [(3 << 56) + key, key])
+        out = self.folder / "level.bin"
+        done = self.reader(self.save, -7, 13, out, 3)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        with sqlite3.connect(self.save) as save:
+            names = dict(save.execute("SELECT id, name FROM blocks"))
+        self.assertEqual([names[v] for v in struct.unpack("<65536H", out.read_bytes())], blocks)
+        self.assertIn("chunk -7,13 of level 0 was not saved", self.reader(self.save, -7, 13).stderr)
+        with sqlite3.connect(self.save) as save:  # as format 1 has the others
+            save.execute("DELETE FROM chunks WHERE key >= ?", [1 << 56])
+            save.execute("PRAGMA user_version = 1")
+        self.assertSame(-6, 12)
+        with sqlite3.connect(self.save) as save:
+            self.assertEqual(save.execute("PRAGMA user_version").fetchone(), (1,), "read by the program as it is")
+        self.succeed("generate", "--area", "-8,12,-5,14", "--world", self.save)
+        self.assertSame(-6, 12)
+        self.assertEqual(self.blocks_by_reader(-7, 13), blocks, "generated again")
+        with sqlite3.connect(self.save) as save:
+            self.assertEqual(save.execute("PRAGMA user_version").fetchone(), (2,))
+        self.assertTrue((self.folder / "w.before-migration-1.sqlite").exists())
+
     def test_what_is_wrong_is_said(self):
         for arguments in ((self.save, 99, 99), (__file__, 0, 0), (self.folder / "none.sqlite", 0, 0), ()):
             done = self.reader(*arguments)

@@ -32,7 +32,7 @@ TEST(DiskFull, NothingIsLostAndItWorksAgainWithRoom) {
     auto store = SqliteStore::open(disk / "a.sqlite", registry, {.create = kIdentity, .decide = {}},
                                    {.delay = std::chrono::hours(1), .chunks = 1000000});
     ASSERT_TRUE(store) << store.error().message;
-    (*store)->save({-1, 0}, numberedChunk(1), Origin::Edited);
+    (*store)->save({-1, 0}, numberedChunk(1), Provenance::Edited);
     ASSERT_TRUE((*store)->flush());
 
     // Leaves less than the 1.2 MB that follow.
@@ -44,14 +44,15 @@ TEST(DiskFull, NothingIsLostAndItWorksAgainWithRoom) {
         return chunk;
     };
     std::vector<world::ChunkPtr> chunks;
-    for (int x = 0; x < 60; ++x) (*store)->save({x, 0}, chunks.emplace_back(noise()), Origin::Edited);
+    for (int x = 0; x < 60; ++x) (*store)->save({x, 0}, chunks.emplace_back(noise()), Provenance::Edited);
     const auto failed = (*store)->flush();
     ASSERT_FALSE(failed);
+    EXPECT_EQ(failed.error().code, base::ErrorCode::OutOfResources);
     EXPECT_THAT(failed.error().message, HasSubstr("a.sqlite: the disk is full"));
     EXPECT_EQ((*store)->status().durable, 1u);
     EXPECT_EQ((*store)->status().waiting, 60u);
     EXPECT_EQ(*(*store)->load({-1, 0}).chunk, *numberedChunk(1));
-    EXPECT_EQ((*store)->load({30, 0}).chunk, chunks[30]) << "still there to be loaded";
+    EXPECT_EQ(*(*store)->load({30, 0}).chunk, *chunks[30]) << "still there to be loaded";
 
     std::filesystem::remove(disk / "other");
     const auto again = (*store)->flush();

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "terrane/store/chunk_key.h"
 #include "terrane/store/schema.h"
 #include "terrane/store/sqlite_store.h"
 #include "tests/store/store_fixture.h"
@@ -17,7 +18,8 @@ class SaveCheckTest : public testing::Test {
         const auto store = SqliteStore::open(path_, registry_, {.create = kIdentity, .decide = {}});
         ASSERT_TRUE(store);
         for (int x = 0; x < 30; ++x)
-            (*store)->save({x, -x}, numberedChunk(x), x % 3 == 0 ? Origin::Edited : Origin::Generated);
+            (*store)->save({x, -x}, numberedChunk(x),
+                           x % 3 == 0 ? Provenance::Edited : Provenance::Generated);
     }
     CheckReport check() {
         auto report = checkSave(path_, registry_);
@@ -58,6 +60,19 @@ TEST_F(SaveCheckTest, NamesEveryDamagedChunk) {
     EXPECT_EQ(report.damaged[2].pos, (world::ChunkPos{9, -9}));
     EXPECT_THAT(report.damaged[2].problem, HasSubstr("checksum"));
     EXPECT_TRUE(report.fileProblems.empty());
+}
+
+TEST_F(SaveCheckTest, LooksAtAllLevels) {
+    {
+        const auto store = SqliteStore::open(path_, registry_, {});
+        ASSERT_TRUE(store);
+        (*store)->save({3, 4, 5}, numberedChunk(1), Provenance::Edited);
+    }
+    EXPECT_EQ(check().chunks, 31u);
+    EXPECT_FALSE(check().isDamaged());
+    runSql(path_, fmt::format("UPDATE chunks SET data = x'00' WHERE key = {}", keyOf({3, 4, 5})));
+    ASSERT_EQ(check().damaged.size(), 1u);
+    EXPECT_EQ(check().damaged[0].pos, (world::ChunkPos{3, 4, 5}));
 }
 
 TEST_F(SaveCheckTest, UnknownBlocksAreNoDamage) {

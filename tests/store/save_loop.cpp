@@ -42,7 +42,7 @@ int numberIn(const world::Chunk& chunk) {
 [[noreturn]] void saveForEver(store::ChunkStore& store, int first) {
     store::SaveNumber told = 0;
     for (int number = first;; ++number) {
-        const store::SaveNumber save = store.save(posOf(number), edited(number), store::Origin::Edited);
+        const store::SaveNumber save = store.save(posOf(number), edited(number), store::Provenance::Edited);
         if (number % 64 == 0 && !store.flush()) std::exit(3);
         const store::SaveNumber durable = store.status().durable;
         if (durable == told) continue;

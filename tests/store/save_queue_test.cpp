@@ -33,9 +33,9 @@ TEST(SaveQueue, FlushWritesOneBatchWithTheNewest) {
     Recorder recorder;
     SaveQueue queue(recorder.write(), kNever);
     const auto older = numberedChunk(1), newer = numberedChunk(2);
-    EXPECT_EQ(queue.add({1, 2}, {older, Origin::Edited}), 1u);
-    EXPECT_EQ(queue.add({1, 2}, {newer, Origin::Edited}), 2u);
-    EXPECT_EQ(queue.add({3, 4}, {older, Origin::Generated}), 3u);
+    EXPECT_EQ(queue.add({1, 2}, {older, Provenance::Edited}), 1u);
+    EXPECT_EQ(queue.add({1, 2}, {newer, Provenance::Edited}), 2u);
+    EXPECT_EQ(queue.add({3, 4}, {older, Provenance::Generated}), 3u);
     EXPECT_EQ(queue.add("time", "0.5"), 4u);
     EXPECT_EQ(queue.status().durable, 0u);
     EXPECT_EQ(queue.status().waiting, 2u);
@@ -49,7 +49,7 @@ TEST(SaveQueue, FlushWritesOneBatchWithTheNewest) {
     ASSERT_EQ(recorder.batches.size(), 1u);
     EXPECT_EQ(recorder.batches[0].chunks.at({1, 2}).chunk, newer);
     EXPECT_EQ(recorder.batches[0].chunks.size(), 2u);
-    EXPECT_EQ(recorder.batches[0].settings.at("time"), "0.5");
+    EXPECT_EQ(recorder.batches[0].metadata.at("time"), "0.5");
     ASSERT_TRUE(queue.flush());
     EXPECT_EQ(recorder.batches.size(), 1u) << "nothing to write";
 }
@@ -58,8 +58,8 @@ TEST(SaveQueue, GeneratedNeverReplacesEdited) {
     Recorder recorder;
     SaveQueue queue(recorder.write(), kNever);
     const auto edited = numberedChunk(1);
-    queue.add({0, 0}, {edited, Origin::Edited});
-    queue.add({0, 0}, {numberedChunk(2), Origin::Generated});
+    queue.add({0, 0}, {edited, Provenance::Edited});
+    queue.add({0, 0}, {numberedChunk(2), Provenance::Generated});
     EXPECT_EQ(queue.find({0, 0})->chunk, edited);
 }
 
@@ -67,12 +67,12 @@ TEST(SaveQueue, WritesAfterTheDelayAndWhenThereIsMuch) {
     Recorder recorder;
     {
         SaveQueue queue(recorder.write(), {.delay = 20ms, .chunks = 1000});
-        queue.add({0, 0}, {numberedChunk(1), Origin::Edited});
+        queue.add({0, 0}, {numberedChunk(1), Provenance::Edited});
         while (queue.status().durable < 1) std::this_thread::sleep_for(1ms);
     }
     EXPECT_EQ(recorder.batches.size(), 1u);
     SaveQueue queue(recorder.write(), {.delay = 1h, .chunks = 3});
-    for (int x = 0; x < 3; ++x) queue.add({x, 0}, {numberedChunk(x), Origin::Edited});
+    for (int x = 0; x < 3; ++x) queue.add({x, 0}, {numberedChunk(x), Provenance::Edited});
     while (queue.status().durable < 3) std::this_thread::sleep_for(1ms);
     EXPECT_EQ(recorder.batches.size(), 2u);
 }
@@ -81,7 +81,7 @@ TEST(SaveQueue, TheEndWritesWhatWaits) {
     Recorder recorder;
     {
         SaveQueue queue(recorder.write(), kNever);
-        queue.add({0, 0}, {numberedChunk(1), Origin::Edited});
+        queue.add({0, 0}, {numberedChunk(1), Provenance::Edited});
     }
     EXPECT_EQ(recorder.batches.size(), 1u);
 }
@@ -91,8 +91,8 @@ TEST(SaveQueue, WhatFailedStaysAndIsTriedAgain) {
     Recorder recorder;
     SaveQueue queue(recorder.write(), kNever);
     recorder.fail("a.sqlite: the disk is full");
-    queue.add({0, 0}, {numberedChunk(1), Origin::Edited});
-    queue.add({1, 0}, {numberedChunk(2), Origin::Edited});
+    queue.add({0, 0}, {numberedChunk(1), Provenance::Edited});
+    queue.add({1, 0}, {numberedChunk(2), Provenance::Edited});
     const auto failed = queue.flush();
     ASSERT_FALSE(failed);
     EXPECT_EQ(failed.error().message, "a.sqlite: the disk is full");
@@ -101,7 +101,7 @@ TEST(SaveQueue, WhatFailedStaysAndIsTriedAgain) {
     EXPECT_EQ(queue.status().waiting, 2u);
 
     const auto newer = numberedChunk(3);
-    queue.add({1, 0}, {newer, Origin::Edited});
+    queue.add({1, 0}, {newer, Provenance::Edited});
     EXPECT_FALSE(queue.flush());
     EXPECT_EQ(queue.find({1, 0})->chunk, newer);
     recorder.fail("");
@@ -117,7 +117,7 @@ TEST(SaveQueue, TriedAgainByItself) {
     Recorder recorder;
     SaveQueue queue(recorder.write(), {.delay = 10ms, .chunks = 1});
     recorder.fail("no");
-    queue.add({0, 0}, {numberedChunk(1), Origin::Edited});
+    queue.add({0, 0}, {numberedChunk(1), Provenance::Edited});
     while (queue.status().problem.empty()) std::this_thread::sleep_for(1ms);
     recorder.fail("");
     while (queue.status().durable < 1) std::this_thread::sleep_for(1ms);
@@ -139,7 +139,7 @@ TEST(SaveQueue, WhatTheLastAttemptLosesIsNamed) {
     EXPECT_EQ(lastWords([](SaveQueue& queue) { queue.add("time", "0.5"); }),
               "terrane: error: a.sqlite: the disk is full; lost: 0 chunks, the setting time\n");
     EXPECT_EQ(lastWords([](SaveQueue& queue) {
-                  queue.add({0, 0}, {numberedChunk(1), Origin::Edited});
+                  queue.add({0, 0}, {numberedChunk(1), Provenance::Edited});
                   queue.add(DamagedRow{{1, 1}, {}, "cut off"});
               }),
               "terrane: error: a.sqlite: the disk is full; lost: 1 chunks, 1 damaged rows put aside\n");
@@ -164,7 +164,7 @@ TEST(SaveQueue, ManyThreads) {
         for (int t = 0; t < 4; ++t) {
             threads.emplace_back([&queue, t] {
                 for (int i = 0; i < 200; ++i) {
-                    queue.add({i, t}, {numberedChunk(i), Origin::Edited});
+                    queue.add({i, t}, {numberedChunk(i), Provenance::Edited});
                     (void)queue.find({i, t});
                     if (i % 50 == 0 && !queue.flush()) ADD_FAILURE() << "nothing fails here";
                 }

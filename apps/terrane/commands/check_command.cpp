@@ -9,6 +9,7 @@
 #include "apps/terrane/content.h"
 #include "apps/terrane/options.h"
 #include "terrane/store/save_check.h"
+#include "terrane/store/world_location.h"
 
 namespace terrane::app {
 namespace {
@@ -22,7 +23,8 @@ struct CheckOptions {
 nlohmann::json toJson(const store::CheckReport& report) {
     nlohmann::json damaged = nlohmann::json::array();
     for (const store::DamagedChunk& chunk : report.damaged)
-        damaged.push_back({{"x", chunk.pos.x}, {"y", chunk.pos.y}, {"problem", chunk.problem}});
+        damaged.push_back(
+            {{"x", chunk.pos.x}, {"y", chunk.pos.y}, {"level", chunk.pos.level}, {"problem", chunk.problem}});
     return {{"damaged", report.isDamaged()},
             {"format", report.format},
             {"seed", report.identity.seed},
@@ -49,14 +51,16 @@ void printText(const std::string& file, const store::CheckReport& report) {
     for (const std::string& name : report.unknownBlocks) fmt::print("unknown block: {}\n", name);
     for (const std::string& problem : report.fileProblems) fmt::print("damage: {}\n", problem);
     for (const store::DamagedChunk& chunk : report.damaged)
-        fmt::print("damage: chunk {},{}: {}\n", chunk.pos.x, chunk.pos.y, chunk.problem);
+        fmt::print("damage: {}: {}\n", store::nameOf(chunk.pos), chunk.problem);
     fmt::print("{}\n", report.isDamaged() ? "damaged" : "good");
 }
 
 base::Result<void> check(CheckOptions& options) {
     const auto blocks = loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
-    const auto report = store::checkSave(options.file, *blocks);
+    const auto path = store::fileOf(store::worldLocation(options.file));
+    if (!path) return tl::unexpected(path.error());
+    const auto report = store::checkSave(*path, *blocks);
     if (!report) return tl::unexpected(report.error());
     options.foundDamage = report->isDamaged();
     if (options.json) {
@@ -74,7 +78,7 @@ CommandEntry addCheck(CLI::App& app) {
     auto options = std::make_shared<CheckOptions>();
     CLI::App* command =
         app.add_subcommand("check", "Look through a save for damage; exit code 1 where there is some");
-    command->add_option("file", options->file, "The save")->type_name("FILE")->required();
+    command->add_option("file", options->file, "The save")->type_name("NAME|FILE")->required();
     command->add_flag("--json", options->json, "Print the report as JSON");
     return {command, [options] { return check(*options); },
             [options] { return options->foundDamage ? 1 : 0; }};

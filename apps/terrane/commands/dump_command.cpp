@@ -4,17 +4,17 @@
 #include <cstring>
 #include <memory>
 
+#include "apps/terrane/area_chunks.h"
 #include "apps/terrane/batch_mesher.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
 #include "apps/terrane/light_solver.h"
+#include "apps/terrane/open_save.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/save_identity.h"
 #include "apps/terrane/world_session.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/npy.h"
-#include "terrane/store/memory_store.h"
 
 namespace terrane::app {
 namespace {
@@ -26,7 +26,7 @@ struct DumpOptions {
     std::optional<Area> area;
     What what = What::Blocks;
     std::string output;
-    std::string save;  // empty: none
+    SaveOptions save;
     Backend backend = Backend::Auto;
     mesh::MeshOptions mesh;
 };
@@ -42,14 +42,13 @@ class LoadedArea {
 
     // From the save, which may be null, else generated.
     base::Result<void> load(store::ChunkStore* save, const gen::Generator& generator, base::JobSystem& jobs) {
-        chunks_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-        return base::parallelFor(jobs, chunks_.size(), [&](std::size_t k) {
-            const world::ChunkPos pos{area_.x0 - 1 + static_cast<int>(k) % width_,
-                                      area_.y0 - 1 + static_cast<int>(k) / width_};
-            if (!world::isInWorld(pos)) return;
-            const store::LoadedChunk stored = save ? save->load(pos) : store::LoadedChunk{};
-            chunks_[k] = stored.chunk ? *stored.chunk : generator.generate(pos);
-        });
+        std::vector<world::ChunkPos> positions;
+        for (int k = 0; k < width_ * height_; ++k)
+            positions.push_back({area_.x0 - 1 + k % width_, area_.y0 - 1 + k / width_});
+        auto chunks = chunksAt(positions, save, generator, jobs);
+        if (!chunks) return tl::unexpected(chunks.error());
+        chunks_ = std::move(*chunks);
+        return {};
     }
 
     // x and y count from the area's first chunk; -1 and the size are there too.
@@ -165,25 +164,14 @@ base::NpyArray dumpQuads(const LoadedArea& area, const DumpOptions& options,
     return array;
 }
 
-// To be read, and left as it is. Null where none was asked for.
-base::Result<std::unique_ptr<store::ChunkStore>> openSave(DumpOptions& options, const CLI::App& command,
-                                                          const world::BlockRegistry& blocks) {
-    if (options.save.empty()) return nullptr;
-    auto file = store::openToRead(options.save, blocks);
-    if (!file) return tl::unexpected(file.error());
-    const auto taken = accessTo({options.save}, options.world, command).decide(file->identity);
-    if (!taken) return tl::unexpected(taken.error());
-    return std::make_unique<store::MemoryStore>(std::move(*file));
-}
-
-base::Result<void> dump(DumpOptions& options, const CLI::App& command) {
+base::Result<void> dump(DumpOptions& options) {
     const Area area = *options.area;
     if (area.chunkCount() > kMaxChunksInFile) {
         return base::fail("--area: {} chunks, at most {} fit one file", area.chunkCount(), kMaxChunksInFile);
     }
     auto blocks = loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
-    auto save = openSave(options, command, *blocks);
+    auto save = openSave(options.world, options.save, store::WorldAccess::ReadOnly, *blocks);
     if (!save) return tl::unexpected(save.error());
     auto generator = makeGenerator(options.world, *blocks);
     if (!generator) return tl::unexpected(generator.error());
@@ -228,8 +216,8 @@ CommandEntry addDump(CLI::App& app) {
     addMeshOptions(*command, options->mesh);
     addOutputOption(*command, options->output, "The .npy file");
     addWorldOptions(*command, options->world);
-    addSaveOption(*command, options->save, "Save to take the chunks from; what it lacks is generated");
-    return {command, [options, command] { return dump(*options, *command); }};
+    addWorldOption(*command, options->save, "World to take the chunks from; what it lacks is generated");
+    return {command, [options] { return dump(*options); }};
 }
 
 }  // namespace terrane::app

@@ -61,11 +61,11 @@ void report(const FlightLog& log) {
         figures.slow, figures.slowByLoadingTime, figures.slowByLoadingProcessor);
 }
 
-base::Result<void> flyAndTell(const FlyOptions& options, const CLI::App& command) {
+base::Result<void> flyAndTell(const FlyOptions& options) {
     if (options.output.empty() && !options.json) return base::fail("fly needs --output or --json");
     auto flight = flightOf(options);
     if (!flight) return tl::unexpected(flight.error());
-    auto world = Offscreen::create(options.world, options.save, options.graphics, command);
+    auto world = Offscreen::create(options.world, options.save, options.graphics);
     if (!world) return tl::unexpected(world.error());
     flight->meshesOnGpu = usesGpu(options.backend);
     const auto log = fly(**world, *flight);
@@ -97,7 +97,7 @@ CommandEntry addFly(CLI::App& app) {
     addBackendOption(*command, options->backend, "Where to make meshes");
     addGraphicsOptions(*command, options->graphics, "auto");
     addSaveGameOptions(*command, options->save);
-    return {command, [options, command] { return flyAndTell(*options, *command); }};
+    return {command, [options] { return flyAndTell(*options); }};
 }
 
 }  // namespace terrane::app

@@ -9,16 +9,15 @@
 #include "apps/terrane/batch_generator.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
+#include "apps/terrane/open_save.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/progress_bar.h"
-#include "apps/terrane/save_identity.h"
 #include "apps/terrane/world_session.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/log.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/glsl_emitter.h"
 #include "terrane/gen/kernels.h"
-#include "terrane/store/sqlite_store.h"
 
 namespace terrane::app {
 namespace {
@@ -30,8 +29,7 @@ struct GenerateOptions {
     bool digest = false;
     bool json = false;
     bool explain = false;
-    std::string save;  // empty: none
-    bool recreate = false;
+    SaveOptions save;
     Backend backend = Backend::Auto;
     std::string simd;
 };
@@ -81,36 +79,31 @@ class AreaGenerator {
 
   private:
     base::Result<void> batch(const std::vector<world::ChunkPos>& positions) {
-        std::vector<world::ChunkPos> wanted;
-        for (const world::ChunkPos pos : positions)
-            if (!isStored(pos)) wanted.push_back(pos);
-        auto chunks = gen::generateAll(generator_, wanted);
+        // A damaged chunk is not stored; loading reports it and puts it aside.
+        std::vector<store::LoadedChunk> stored(positions.size());
+        if (save_) stored = save_->loadMany(positions);
+        std::vector<world::ChunkPos> missing;
+        for (std::size_t k = 0; k < positions.size(); ++k)
+            if (!stored[k].chunk) missing.push_back(positions[k]);
+        auto chunks = gen::generateAll(generator_, missing);
         if (!chunks) return tl::unexpected(chunks.error());
         chunks_ = std::move(*chunks);
-        result_.chunks += wanted.size();
-        result_.skipped += positions.size() - wanted.size();
-        if (wantsDigest_) addBatchToDigest(positions, wanted);
-        return save_ ? saveBatch(wanted) : base::Result<void>();
+        result_.chunks += missing.size();
+        result_.skipped += positions.size() - missing.size();
+        if (wantsDigest_) addBatchToDigest(stored);
+        return save_ ? saveBatch(missing) : base::Result<void>();
     }
 
-    // A damaged chunk is not stored; loading reports it and puts it aside.
-    bool isStored(world::ChunkPos pos) {
-        return save_ && save_->contains(pos) && save_->load(pos).state == store::LoadedChunk::State::Present;
-    }
-
-    void addBatchToDigest(const std::vector<world::ChunkPos>& positions,
-                          const std::vector<world::ChunkPos>& wanted) {
+    void addBatchToDigest(const std::vector<store::LoadedChunk>& stored) {
         std::size_t k = 0;
-        for (const world::ChunkPos pos : positions) {
-            const bool isNew = k < wanted.size() && wanted[k] == pos;
-            addToDigest(digest_, isNew ? *chunks_[k] : *save_->load(pos).chunk);
-            if (isNew) ++k;
-        }
+        for (const store::LoadedChunk& loaded : stored)
+            addToDigest(digest_, loaded.chunk ? *loaded.chunk : *chunks_[k++]);
     }
 
-    base::Result<void> saveBatch(const std::vector<world::ChunkPos>& wanted) {
-        for (std::size_t k = 0; k < wanted.size(); ++k)
-            save_->save(wanted[k], std::move(chunks_[k]), store::Origin::Generated);
+    base::Result<void> saveBatch(const std::vector<world::ChunkPos>& positions) {
+        for (std::size_t k = 0; k < positions.size(); ++k) {
+            save_->save(positions[k], std::move(chunks_[k]), store::Provenance::Generated);
+        }
         return save_->flush();
     }
 
@@ -122,22 +115,9 @@ class AreaGenerator {
     Generated result_;
 };
 
-// Null where none was asked for.
-base::Result<std::unique_ptr<store::ChunkStore>> openSave(GenerateOptions& options, const CLI::App& command,
-                                                          const world::BlockRegistry& blocks) {
-    if (options.save.empty()) return nullptr;
-    // Before a save is made: a generator that does not exist has none.
-    auto known = makeGenerator(options.world, blocks);
-    if (!known) return tl::unexpected(known.error());
-    const store::SaveAccess access = accessTo({options.save, options.recreate}, options.world, command);
-    auto save = store::SqliteStore::open(options.save, blocks, access);
-    if (!save) return tl::unexpected(save.error());
-    return std::move(*save);
-}
-
 // The passes, what they read and write, and their GLSL.
 base::Result<void> explain(const WorldOptions& options, const world::BlockRegistry& blocks) {
-    auto graph = gen::makeGenerator(options.generator, blocks);
+    auto graph = gen::makeGenerator(options.effectiveGenerator(), blocks);
     if (!graph) return tl::unexpected(graph.error());
     for (std::size_t k = 0; k < graph->passes.size(); ++k) {
         const gen::PassGraph& pass = graph->passes[k];
@@ -156,7 +136,8 @@ void report(const GenerateOptions& options, const Generated& result, double seco
             std::string_view backend) {
     const double speed = static_cast<double>(result.chunks) / seconds;
     const unsigned threads = threadCount(options.world);
-    if (result.skipped > 0) base::logInfo("{}: {} chunks were there already", options.save, result.skipped);
+    if (result.skipped > 0)
+        base::logInfo("{}: {} chunks were there already", options.save.world, result.skipped);
     base::logInfo("{} chunks in {:.2f} s, {:.0f} chunks/s, back end {}, threads {}", result.chunks, seconds,
                   speed, backend, threads);
     if (options.json) {
@@ -166,14 +147,14 @@ void report(const GenerateOptions& options, const Generated& result, double seco
                                {"threads", threads},
                                {"backend", backend}};
         if (options.digest) line["digest"] = result.digest;
-        if (!options.save.empty()) line["skipped"] = result.skipped;
+        if (!options.save.world.empty()) line["skipped"] = result.skipped;
         std::cout << line.dump() << '\n';
     } else if (options.digest) {
         std::cout << result.digest << '\n';
     }
 }
 
-base::Result<void> generate(GenerateOptions& options, const CLI::App& command) {
+base::Result<void> generate(GenerateOptions& options) {
     if (!options.area && !options.radius && !options.explain) {
         return base::fail("generate needs --radius, --area or --explain");
     }
@@ -186,7 +167,7 @@ base::Result<void> generate(GenerateOptions& options, const CLI::App& command) {
         return base::fail("--simd: this machine has no {}, but {}", options.simd,
                           fmt::join(gen::simdTargets(), ", "));
     }
-    auto save = openSave(options, command, *blocks);
+    auto save = openSave(options.world, options.save, store::WorldAccess::ReadWrite, *blocks);
     if (!save) return tl::unexpected(save.error());
     auto generator = makeBatchGenerator(options.world, options.backend, *blocks);
     if (!generator) return tl::unexpected(generator.error());
@@ -214,11 +195,10 @@ CommandEntry addGenerate(CLI::App& app) {
     addBackendOption(*command, options->backend, "Where to generate");
     command->add_option("--simd", options->simd, "Instruction set, as info lists them (default: the best)");
     addWorldOptions(*command, options->world);
-    addSaveOption(*command, options->save,
-                  "Save to generate into; made where it is not there. What it has is not generated again");
-    command->add_flag("--recreate", options->recreate, "Copy the save and make it anew; edits are gone")
-        ->needs("--world");
-    return {command, [options, command] { return generate(*options, *command); }};
+    addWorldOption(*command, options->save,
+                   "World to generate into; made where it is not there. What it has is not generated again");
+    addRecreateOption(*command, options->save);
+    return {command, [options] { return generate(*options); }};
 }
 
 }  // namespace terrane::app

@@ -1,9 +1,11 @@
-// terrane map: an area from above, from the generator alone.
+// terrane map: an area from above, as generated, or as it is in a save.
 #include <memory>
 
+#include "apps/terrane/area_chunks.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
 #include "apps/terrane/map_image.h"
+#include "apps/terrane/open_save.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/progress_bar.h"
 #include "apps/terrane/resource_pack.h"
@@ -15,6 +17,7 @@ namespace {
 
 struct MapOptions {
     WorldOptions world;
+    SaveOptions save;
     std::optional<int> radius;
     std::optional<Area> area;
     std::string output, resourcePack;
@@ -23,7 +26,7 @@ struct MapOptions {
 // 16,384² pixels: a picture of 1 GiB in memory.
 constexpr std::int64_t kMaxChunksInMap = 1024 * 1024;
 
-base::Result<void> writeMap(const MapOptions& options) {
+base::Result<void> writeMap(MapOptions& options) {
     if (!options.area && !options.radius) return base::fail("map needs --radius or --area");
     const int r = options.radius.value_or(0);
     const Area area = options.area.value_or(Area{-r, -r, r + 1, r + 1});
@@ -32,6 +35,8 @@ base::Result<void> writeMap(const MapOptions& options) {
     }
     auto blocks = loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
+    auto save = openSave(options.world, options.save, store::WorldAccess::ReadOnly, *blocks);
+    if (!save) return tl::unexpected(save.error());
     auto generator = makeGenerator(options.world, *blocks);
     if (!generator) return tl::unexpected(generator.error());
     auto textures = loadTextures(options.resourcePack, *blocks);
@@ -40,7 +45,11 @@ base::Result<void> writeMap(const MapOptions& options) {
     base::Result<base::Image> image;
     {
         ProgressBar bar("mapping", static_cast<std::size_t>(area.y1 - area.y0));
-        image = drawMap(*generator, *blocks, *textures, area, jobs, [&](std::size_t rows) { bar.set(rows); });
+        image = drawMap({area,
+                         [&](std::span<const world::ChunkPos> row) {
+                             return chunksAt(row, save->get(), *generator, jobs);
+                         }},
+                        *blocks, *textures, jobs, [&](std::size_t rows) { bar.set(rows); });
     }
     if (!image) return tl::unexpected(image.error());
     if (auto written = base::writePng(options.output, *image); !written) return written;
@@ -60,6 +69,7 @@ CommandEntry addMap(CLI::App& app) {
     command->get_option("--area")->excludes(radius);
     addOutputOption(*command, options->output, "The PNG file");
     addWorldOptions(*command, options->world);
+    addWorldOption(*command, options->save, "World to take the chunks from; what it lacks is generated");
     addResourcePackOption(*command, options->resourcePack);
     return {command, [options] { return writeMap(*options); }};
 }

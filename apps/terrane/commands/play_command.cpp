@@ -52,7 +52,7 @@ base::Result<render::Camera> startOf(const PlayOptions& options, const WorldSess
         return (*positions)[number - 1];
     }
     if (session.store) {
-        const auto saved = cameraFrom(session.store->setting(kCameraSetting).value_or(""));
+        const auto saved = cameraFrom(session.store->metadata(kCameraSetting).value_or(""));
         if (saved && world::isInWorld(render::cameraChunk(*saved))) return *saved;
     }
     return findSpawn(*session.generator, session.blocks);
@@ -61,7 +61,7 @@ base::Result<render::Camera> startOf(const PlayOptions& options, const WorldSess
 DayClock dayOf(const PlayOptions& options, const WorldSession& session) {
     DayClock day;
     if (session.store) {
-        const auto saved = session.store->setting(kTimeSetting);
+        const auto saved = session.store->metadata(kTimeSetting);
         const auto time = timeDayFrom(saved.value_or(""));
         if (saved && !time)
             base::logWarning("the save's time of day is no number from 0 to 1: \"{}\"", *saved);
@@ -94,7 +94,7 @@ PlaySettings settingsOf(const PlayOptions& options, bool isSoftwareRenderer) {
 
 base::Result<void> play(PlayOptions& options, CLI::App& command) {
     if (auto read = applySettings(options.settingsFile, command, graphicsSettings()); !read) return read;
-    auto session = WorldSession::create(options.world, options.save, command);
+    auto session = WorldSession::create(options.world, options.save);
     if (!session) return tl::unexpected(session.error());
     auto textures = loadTextures(options.graphics.resourcePack, (*session)->blocks);
     if (!textures) return tl::unexpected(textures.error());

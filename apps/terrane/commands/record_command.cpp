@@ -19,6 +19,7 @@ namespace {
 
 struct RecordOptions {
     WorldOptions world;
+    SaveOptions save;
     GraphicsOptions graphics;
     std::string path, output, framesFolder;
     int framesPerSecond = 30;
@@ -79,7 +80,9 @@ base::Result<void> recordVideo(const RecordOptions& options, const CLI::App& com
     if (!range) return tl::unexpected(range.error());
     const TitlePainter titles(options.graphics.size.y);
 
-    auto world = Offscreen::create(script->world, {}, optionsAt(shotAt(*script, options.from), 0), command);
+    // Edits of the path are not the world's.
+    auto world = Offscreen::create(script->world, options.save, optionsAt(shotAt(*script, options.from), 0),
+                                   store::WorldAccess::ReadOnly);
     if (!world) return tl::unexpected(world.error());
     const StopSignals signals;  // until the file is finished: an unfinished one goes with its sink
     auto sink = openSink(options);
@@ -123,6 +126,7 @@ CommandEntry addRecord(CLI::App& app) {
     command->add_option("--until", options->until, "End at this second of the path")
         ->check(numberFrom(0, 1e6));
     addWorldOptions(*command, options->world);
+    addWorldOption(*command, options->save, "World to record in, left as it is; what it lacks is generated");
     addGraphicsOptions(*command, options->graphics, "high");
     return {command, [options, command] { return recordVideo(*options, *command); }};
 }

@@ -15,7 +15,7 @@
 #include "apps/terrane/world_view.h"
 #include "terrane/base/image.h"
 #include "terrane/base/log.h"
-#include "terrane/store/save_path.h"
+#include "terrane/store/world_location.h"
 
 namespace terrane::app {
 namespace {
@@ -56,8 +56,9 @@ void tell(const PictureOptions& options, const PictureFigures& figures, const Wo
 
 // Of the save's file and of what SQLite has not moved into it yet; 0 without a save.
 std::uintmax_t saveBytes(const SaveOptions& save) {
-    const auto path = store::savePath(save.name, store::savePlaces());
-    if (save.name.empty() || !path) return 0;
+    if (save.world.empty()) return 0;
+    const auto path = store::fileOf(store::worldLocation(save.world));
+    if (!path) return 0;
     std::uintmax_t bytes = 0;
     for (const char* ending : {"", "-wal"}) {
         std::error_code error;
@@ -131,12 +132,12 @@ nlohmann::json pictureJson(const PictureOptions& options, const PictureFigures& 
     return result;
 }
 
-base::Result<void> renderPicture(const PictureOptions& options, const CLI::App& command) {
+base::Result<void> renderPicture(const PictureOptions& options) {
     const auto start = Clock::now();
     if (!options.place.scene && !options.place.at) return base::fail("render needs --scene or --at");
     const auto place = placeOf(options.place, {"", {}, scenes().front().timeDay});
     if (!place) return tl::unexpected(place.error());
-    auto world = Offscreen::create(options.world, options.save, options.graphics, command);
+    auto world = Offscreen::create(options.world, options.save, options.graphics);
     if (!world) return tl::unexpected(world.error());
     WorldSession& session = *(*world)->session;
     render::Renderer& renderer = (*world)->renderer;
@@ -191,7 +192,7 @@ CommandEntry addRender(CLI::App& app) {
     addBackendOption(*command, options->backend, "Where to make meshes");
     addGraphicsOptions(*command, options->graphics, "high");
     addSaveGameOptions(*command, options->save);
-    return {command, [options, command] { return renderPicture(*options, *command); }};
+    return {command, [options] { return renderPicture(*options); }};
 }
 
 }  // namespace terrane::app

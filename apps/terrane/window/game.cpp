@@ -260,8 +260,8 @@ Figures Game::figures() {
 
 base::Result<void> Game::leave() {
     if (store::ChunkStore* store = parts_.session.store.get()) {
-        store->setSetting(kCameraSetting, textOf(player_.camera()));
-        store->setSetting(kTimeSetting, fmt::format("{:.5f}", day_.timeDay));
+        store->setMetadata(kCameraSetting, textOf(player_.camera()));
+        store->setMetadata(kTimeSetting, fmt::format("{:.5f}", day_.timeDay));
     }
     if (auto saved = parts_.session.save(); !saved) return saved;
     return perfLog_ ? perfLog_->finish() : base::Result<void>();

@@ -1,0 +1,20 @@
+// The world that the command line names, opened for a command.
+#pragma once
+
+#include <memory>
+
+#include "apps/terrane/option_values.h"
+#include "terrane/store/open_world.h"
+
+namespace terrane::app {
+
+// Of a world that is made by the options.
+store::WorldIdentity identityOf(const WorldOptions& options);
+
+// Null where no world is named. Else `options` get its seed and generator; the world is refused, and left as
+// it is, where they ask for others. A world that is not there is made, but for ReadOnly.
+base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options, const SaveOptions& save,
+                                                          store::WorldAccess access,
+                                                          const world::BlockRegistry& blocks);
+
+}  // namespace terrane::app

@@ -1,0 +1,53 @@
+#include "terrane/store/metadata.h"
+
+#include <charconv>
+
+namespace terrane::store {
+namespace {
+
+using base::ErrorCode;
+
+constexpr const char *kSeed = "seed", *kGenerator = "generator", *kGeneratorVersion = "generator_version";
+
+// Messages name the table of the file, "settings".
+base::Result<std::string> textOf(const Metadata& metadata, const char* name, const std::string& where) {
+    const auto found = metadata.find(name);
+    if (found != metadata.end()) return found->second;
+    return base::fail(ErrorCode::Damaged, "{}: damaged: the setting {} is missing", where, name);
+}
+
+template <class T>
+base::Result<T> numberOf(const Metadata& metadata, const char* name, const std::string& where) {
+    const auto text = textOf(metadata, name, where);
+    if (!text) return tl::unexpected(text.error());
+    T value{};
+    const char* end = text->data() + text->size();
+    const auto [next, error] = std::from_chars(text->data(), end, value);
+    if (error == std::errc() && next == end) return value;
+    return base::fail(ErrorCode::Damaged, "{}: damaged: the setting {} is \"{}\", expected a number", where,
+                      name, *text);
+}
+
+}  // namespace
+
+bool isPartOfIdentity(std::string_view name) {
+    return name == kSeed || name == kGenerator || name == kGeneratorVersion;
+}
+
+Metadata metadataOf(const WorldIdentity& identity) {
+    return {{kSeed, std::to_string(identity.seed)},
+            {kGenerator, identity.generator},
+            {kGeneratorVersion, std::to_string(identity.generatorVersion)}};
+}
+
+base::Result<WorldIdentity> identityFrom(const Metadata& metadata, const std::string& where) {
+    const auto seed = numberOf<std::uint64_t>(metadata, kSeed, where);
+    if (!seed) return tl::unexpected(seed.error());
+    const auto version = numberOf<int>(metadata, kGeneratorVersion, where);
+    if (!version) return tl::unexpected(version.error());
+    const auto generator = textOf(metadata, kGenerator, where);
+    if (!generator) return tl::unexpected(generator.error());
+    return WorldIdentity{*seed, *generator, *version};
+}
+
+}  // namespace terrane::store

@@ -1,0 +1,37 @@
+// Opens the world at a location with the store that fits: the one function by which programs come to a store.
+// Any thread, usually the one that starts a session.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "terrane/store/chunk_store.h"
+#include "terrane/store/save_queue.h"
+#include "terrane/store/world_location.h"
+#include "terrane/world/block_registry.h"
+
+namespace terrane::store {
+
+enum class WorldAccess {
+    ReadOnly,           // the world must be there, and stays as it is: changes are kept in memory
+    ReadWrite,          // an error where the world cannot be written
+    ReadWriteOrMemory,  // where it cannot be written changes are kept in memory, and a message says so
+};
+
+struct WorldRequest {
+    WorldAccess access = WorldAccess::ReadWrite;
+    // What a world is made with, and its folders, where none is there. Nothing: it must be there.
+    std::optional<WorldIdentity> create;
+    // What a world that is there must be (compareWorld()). One to be regenerated is copied first.
+    WantedWorld wanted;
+    GeneratorVersionOf versionOf;  // what the program has
+    SaveLimits limits;
+};
+
+// Errors: NotFound where there is no world, Busy where another program has it, Incompatible where it is
+// another world or no world, Damaged, Unsupported for a URL.
+[[nodiscard]] base::Result<std::unique_ptr<ChunkStore>> openWorld(const WorldLocation& location,
+                                                                  const world::BlockRegistry& blocks,
+                                                                  const WorldRequest& request);
+
+}  // namespace terrane::store

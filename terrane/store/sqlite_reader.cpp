@@ -1,0 +1,53 @@
+#include "terrane/store/sqlite_reader.h"
+
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/base/profile.h"
+
+namespace terrane::store {
+
+base::Result<std::unique_ptr<SqliteReader>> SqliteReader::open(const std::filesystem::path& path,
+                                                               const world::BlockRegistry& registry) {
+    auto file = openToRead(path, registry);
+    if (!file) return tl::unexpected(file.error());
+    return std::unique_ptr<SqliteReader>(new SqliteReader(std::move(*file)));
+}
+
+SqliteReader::SqliteReader(SaveFile file)
+    : file_(std::move(file)), reader_(file_.database.path(), file_.readers) {}
+
+LoadedChunk SqliteReader::decode(const StoredRow& row, world::ChunkPos pos) const {
+    LoadedChunk loaded = decodeRow(row, file_.ids);
+    if (loaded.state != LoadedChunk::State::Damaged) return loaded;
+    loaded.problem = fmt::format("{}: {}: {}", file_.database.path(), nameOf(pos), loaded.problem);
+    base::logWarning("{}", loaded.problem);
+    return loaded;
+}
+
+LoadedChunk SqliteReader::load(world::ChunkPos pos) {
+    TERRANE_ZONE("load chunk");
+    return decode(reader_.read(pos), pos);
+}
+
+std::vector<LoadedChunk> SqliteReader::loadMany(std::span<const world::ChunkPos> positions) {
+    TERRANE_ZONE("load chunks");
+    const std::vector<StoredRow> rows = reader_.readMany(positions);
+    std::vector<LoadedChunk> loaded;
+    loaded.reserve(positions.size());
+    for (std::size_t k = 0; k < positions.size(); ++k) loaded.push_back(decode(rows[k], positions[k]));
+    return loaded;
+}
+
+bool SqliteReader::contains(world::ChunkPos pos) {
+    const auto found = reader_.contains(pos);
+    return found && *found;
+}
+
+std::optional<std::string> SqliteReader::metadata(std::string_view name) {
+    const auto found = file_.metadata.find(name);
+    if (found == file_.metadata.end()) return std::nullopt;
+    return found->second;
+}
+
+}  // namespace terrane::store

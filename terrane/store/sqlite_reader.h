@@ -1,0 +1,32 @@
+// A world in a SQLite file that is read and left as it is, also where it cannot be written.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "terrane/store/chunk_reader.h"
+#include "terrane/store/save_file.h"
+
+namespace terrane::store {
+
+class SqliteReader : public ReadableStore {
+  public:
+    // As openToRead().
+    [[nodiscard]] static base::Result<std::unique_ptr<SqliteReader>> open(
+        const std::filesystem::path& path, const world::BlockRegistry& registry);
+
+    LoadedChunk load(world::ChunkPos pos) override;
+    std::vector<LoadedChunk> loadMany(std::span<const world::ChunkPos> positions) override;
+    bool contains(world::ChunkPos pos) override;
+    std::optional<std::string> metadata(std::string_view name) override;
+    const WorldIdentity& identity() const override { return file_.identity; }
+
+  private:
+    explicit SqliteReader(SaveFile file);
+    LoadedChunk decode(const StoredRow& row, world::ChunkPos pos) const;
+
+    SaveFile file_;
+    ChunkReader reader_;
+};
+
+}  // namespace terrane::store

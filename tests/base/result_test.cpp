@@ -1,0 +1,55 @@
+#include "terrane/base/result.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+
+namespace terrane::base {
+namespace {
+
+Result<int> half(int n) {
+    if (n % 2 == 0) return n / 2;
+    return fail(ErrorCode::BadInput, "{}: odd", n);
+}
+
+// An error goes on as it is, to results of another type.
+Result<std::string> quarter(int n) {
+    const auto first = half(n);
+    if (!first) return tl::unexpected(first.error());
+    const auto second = half(*first);
+    if (!second) return tl::unexpected(second.error());
+    return std::to_string(*second);
+}
+
+TEST(Result, ValuesAndErrors) {
+    EXPECT_EQ(*quarter(8), "2");
+    const auto odd = quarter(6);
+    ASSERT_FALSE(odd);
+    EXPECT_EQ(odd.error().code, ErrorCode::BadInput);
+    EXPECT_EQ(odd.error().message, "3: odd");
+}
+
+TEST(Result, WithoutACodeItIsAFailure) {
+    const Result<void> failed = fail("{}: cannot be read", "a");
+    ASSERT_FALSE(failed);
+    EXPECT_EQ(failed.error().code, ErrorCode::Failed);
+    EXPECT_TRUE(Result<void>());
+}
+
+// A bool can be made of a result: a copy must not become that.
+TEST(Result, CopiesAreCopies) {
+    Result<bool> no = false;
+    const Result<bool> copy(no);
+    ASSERT_TRUE(copy);
+    EXPECT_FALSE(*copy);
+    Result<std::optional<int>> none = std::nullopt;
+    const Result<std::optional<int>> moved(std::move(none));
+    ASSERT_TRUE(moved);
+    EXPECT_EQ(*moved, std::nullopt);
+    Result<std::unique_ptr<int>> owner = std::make_unique<int>(3);
+    EXPECT_EQ(**owner, 3);
+}
+
+}  // namespace
+}  // namespace terrane::base

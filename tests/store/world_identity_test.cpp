@@ -1,0 +1,65 @@
+#include "terrane/store/world_identity.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/store/store_fixture.h"
+
+namespace terrane::store {
+namespace {
+
+using base::ErrorCode;
+using testing::HasSubstr;
+
+TEST(RequireSame, SaysHowTheyDiffer) {
+    EXPECT_TRUE(requireSame(kIdentity, kIdentity, "a.sqlite"));
+    WorldIdentity other = kIdentity;
+    other.seed = 8;
+    EXPECT_EQ(requireSame(kIdentity, other, "a.sqlite").error().message, "a.sqlite: made with seed 7, not 8");
+    other = kIdentity;
+    other.generator = "overworld";
+    EXPECT_EQ(requireSame(kIdentity, other, "a.sqlite").error().message,
+              "a.sqlite: made by the generator flat, not overworld");
+    other = kIdentity;
+    other.generatorVersion = 4;
+    EXPECT_THAT(requireSame(kIdentity, other, "a.sqlite").error().message, HasSubstr("version 3"));
+}
+
+// A program with flat in a version, and overworld.
+base::Result<std::optional<int>> compare(const WantedWorld& wanted, int flatVersion = 3) {
+    const auto versionOf = [=](std::string_view generator) {
+        return generator == "flat" ? flatVersion : generator == "overworld" ? 1 : 0;
+    };
+    return compareWorld(kIdentity, wanted, versionOf, "a.sqlite");
+}
+
+TEST(CompareWorld, WhatIsNotGivenIsTaken) {
+    for (const WantedWorld& wanted :
+         {WantedWorld{}, {.seed = 7, .generator = {}}, {.seed = {}, .generator = "flat"}}) {
+        const auto version = compare(wanted);
+        ASSERT_TRUE(version) << version.error().message;
+        EXPECT_EQ(*version, std::nullopt) << "taken as it is";
+    }
+}
+
+TEST(CompareWorld, AnotherWorldIsRefused) {
+    for (const bool regenerate : {false, true}) {
+        const auto seed = compare({.seed = 8, .generator = {}, .regenerate = regenerate});
+        ASSERT_FALSE(seed);
+        EXPECT_EQ(seed.error().code, ErrorCode::Incompatible);
+        EXPECT_THAT(seed.error().message, HasSubstr("seed 7, not 8"));
+        EXPECT_THAT(compare({.seed = {}, .generator = "overworld", .regenerate = regenerate}).error().message,
+                    HasSubstr("generator flat, not overworld"));
+    }
+}
+
+TEST(CompareWorld, AnotherVersionIsRefusedUnlessRegenerated) {
+    EXPECT_THAT(compare({}, 5).error().message,
+                HasSubstr("version 3 of the generator flat, this program has version 5"));
+    EXPECT_EQ(*compare({.seed = {}, .generator = {}, .regenerate = true}, 5), 5);
+    EXPECT_EQ(*compare({.seed = {}, .generator = {}, .regenerate = true}), 3) << "the same version again";
+    EXPECT_THAT(compare({}, 0).error().message,
+                HasSubstr("generator flat, which this program does not have"));
+}
+
+}  // namespace
+}  // namespace terrane::store
