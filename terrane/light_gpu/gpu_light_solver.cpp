@@ -76,7 +76,7 @@ struct GpuLightSolver::Impl {
     gpu::Buffer sections, data;                      // of the part at hand
     gpu::Buffer levels, cells, lists, bricks, pool;  // kept
     gpu::Buffer rounds;
-    SectionUpload input;
+    world::PackedSections input;
 };
 
 base::Result<void> GpuLightSolver::Impl::build(const gpu::ShaderLoader& shaders) {
@@ -106,15 +106,15 @@ void GpuLightSolver::Impl::upload(const LightArea& area, const Part& part) {
     input.clear();
     for (int y = 0; y < part.sizeSolved.y; ++y) {
         for (int x = 0; x < part.sizeSolved.x; ++x)
-            input.add(area.chunk(part.firstSolved.x + x, part.firstSolved.y + y), table);
+            appendChunk(input, area.chunk(part.firstSolved.x + x, part.firstSolved.y + y), table);
     }
     sections = gpu::Buffer(std::as_bytes(std::span(input.sections)), 0, "light sections");
     data = gpu::Buffer(std::as_bytes(std::span(input.data)), 0, "light section data");
 }
 
 void GpuLightSolver::Impl::bind() const {
-    sections.bindStorage(shared::kSolverSectionsBinding);
-    data.bindStorage(shared::kSolverDataBinding);
+    sections.bindStorage(shared::kPackedSectionsBinding);
+    data.bindStorage(shared::kPackedDataBinding);
     levels.bindStorage(shared::kSolverLevelsBinding);
     cells.bindStorage(shared::kSolverCellsBinding);
     lists.bindStorage(shared::kSolverListsBinding);

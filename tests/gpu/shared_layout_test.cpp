@@ -14,6 +14,7 @@
 #include "terrane/shared/generation.h"
 #include "terrane/shared/light_solver.h"
 #include "terrane/shared/mesher.h"
+#include "terrane/shared/packed_section.h"
 #include "terrane/shared/quad.h"
 #include "terrane/shared/region.h"
 #include "terrane/shared/shape_face.h"
@@ -111,16 +112,8 @@ std::vector<StructLayout> regionLayouts() {
 }
 
 std::vector<StructLayout> mesherLayouts() {
-    using shared::MeshSection, shared::MeshUnit, shared::MeshType, shared::MeshRegionCounts;
-    return {{"MeshSection",
-             "mesher.h",
-             false,
-             sizeof(MeshSection),
-             {{"bits", offsetof(MeshSection, bits)},
-              {"palette", offsetof(MeshSection, palette)},
-              {"words", offsetof(MeshSection, words)},
-              {"unused", offsetof(MeshSection, unused)}}},
-            {"MeshUnit",
+    using shared::MeshUnit, shared::MeshType, shared::MeshRegionCounts;
+    return {{"MeshUnit",
              "mesher.h",
              false,
              sizeof(MeshUnit),
@@ -148,7 +141,7 @@ std::vector<StructLayout> mesherLayouts() {
 }
 
 std::vector<StructLayout> otherLayouts() {
-    using shared::Quad, shared::ShapeFace, shared::TileJob, shared::SectionInput, shared::SolverRound;
+    using shared::Quad, shared::ShapeFace, shared::TileJob, shared::PackedSection, shared::SolverRound;
     return {{"Quad",
              "quad.h",
              false,
@@ -167,14 +160,14 @@ std::vector<StructLayout> otherLayouts() {
              false,
              sizeof(TileJob),
              {{"origin", offsetof(TileJob, origin)}, {"neighbours", offsetof(TileJob, neighbours)}}},
-            {"SectionInput",
-             "light_solver.h",
+            {"PackedSection",
+             "packed_section.h",
              false,
-             sizeof(SectionInput),
-             {{"bits", offsetof(SectionInput, bits)},
-              {"palette", offsetof(SectionInput, palette)},
-              {"words", offsetof(SectionInput, words)},
-              {"unused", offsetof(SectionInput, unused)}}},
+             sizeof(PackedSection),
+             {{"bits", offsetof(PackedSection, bits)},
+              {"palette", offsetof(PackedSection, palette)},
+              {"words", offsetof(PackedSection, words)},
+              {"unused", offsetof(PackedSection, unused)}}},
             {"SolverRound",
              "light_solver.h",
              false,
