@@ -9,7 +9,7 @@ set(TERRANE_GRAPHICS_REQUIRES "")
 if(TERRANE_GRAPHICS)
   list(APPEND modules gpu gen_gpu light_gpu mesh_gpu render shaders)
   set(TERRANE_GRAPHICS_PKG "epoxy=epoxy")
-  set(TERRANE_GRAPHICS_REQUIRES "epoxy glfw3")
+  set(TERRANE_GRAPHICS_REQUIRES "epoxy")
 endif()
 list(APPEND modules content)
 
@@ -90,7 +90,7 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "A program to make worlds of blocks from
 and to make pictures and videos of them.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libterrane-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libepoxy-dev, libexpected-dev, libfmt-dev, libglfw3-dev, libglm-dev, libhwy-dev, \
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libepoxy-dev, libexpected-dev, libfmt-dev, libglm-dev, libhwy-dev, \
 libpng-dev, libspdlog-dev, libsqlite3-dev, libtomlplusplus-dev, libxxhash-dev, libzstd-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The library that Terrane is made of: generation, saves, light, meshes, drawing.")
 include(CPack)

@@ -35,7 +35,7 @@ void WorldView::follow(const render::Camera& camera, int viewDistance) {
 base::Result<void> WorldView::meshOnGpu(double budgetMilliseconds) {
     auto mesher = mesh_gpu::GpuMesher::create(makeShaderLoader(""), session_.blocks);
     if (!mesher) return tl::unexpected(mesher.error());
-    queue_.emplace(std::move(*mesher), session_.blocks, budgetMilliseconds);
+    queue_.emplace(std::move(*mesher), budgetMilliseconds);
     session_.pipeline->leaveMeshesOut();
     return {};
 }
@@ -71,21 +71,35 @@ void WorldView::hide(world::ChunkPos pos) {
 }
 
 void WorldView::advanceQueue() {
-    const auto place = [&](world::ChunkPos pos, std::span<const mesh::RegionMesh> regions) {
-        std::vector<std::uint32_t> firstQuads;
-        if (!renderer_.reserveChunk(pos, regions)) {
-            warnOfNoRoom(pos);
-            return firstQuads;
+    if (queue_->isCounted()) writeMeshes();
+    countMeshes();
+}
+
+void WorldView::writeMeshes() {
+    std::vector<mesh_gpu::FirstQuads> places;
+    for (const mesh_gpu::CountedChunk& chunk : queue_->takeCounted()) {
+        mesh_gpu::FirstQuads& firstQuads = places.emplace_back();
+        if (!renderer_.reserveChunk(chunk.pos, chunk.regions)) {
+            warnOfNoRoom(chunk.pos);
+            continue;
         }
-        for (const mesh::RegionMesh& region : renderer_.regionsOf(pos)) {
+        for (const mesh::RegionMesh& region : renderer_.regionsOf(chunk.pos)) {
             firstQuads.push_back(mesh::firstQuad(region));
         }
-        return firstQuads;
-    };
+    }
+    queue_->write(places, renderer_.quadBuffer());
+}
+
+void WorldView::countMeshes() {
     const stream::ChunkPipeline& pipeline = *session_.pipeline;
-    queue_->advance(pipeline.meshOptions(),
-                    {[&](world::ChunkPos pos) { return pipeline.meshBlocks(pos); }, place,
-                     [&]() -> const gpu::Buffer& { return renderer_.quadBuffer(); }});
+    std::vector<mesh::MeshBlocks> blocks;
+    for (const world::ChunkPos pos : queue_->takeWaiting()) blocks.push_back(pipeline.meshBlocks(pos));
+    if (blocks.empty()) return;
+    std::vector<mesh::MeshInput> inputs;
+    for (const mesh::MeshBlocks& chunk : blocks) {
+        inputs.push_back(mesh::meshInput(chunk, session_.blocks, pipeline.meshOptions()));
+    }
+    queue_->count(inputs);
 }
 
 // Once: there may be thousands.

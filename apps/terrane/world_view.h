@@ -55,6 +55,8 @@ class WorldView {
     void show(const stream::ChunkChange& change);
     void hide(world::ChunkPos pos);
     void advanceQueue();
+    void writeMeshes();
+    void countMeshes();
     void warnOfNoRoom(world::ChunkPos pos);
 
     WorldSession& session_;

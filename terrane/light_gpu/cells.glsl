@@ -1,15 +1,10 @@
 // The chunks that are solved: their blocks and their levels in cells of 8³.
 #include "terrane/shared/light_solver.h"
 #include "terrane/shared/packed_levels.h"
+#include "terrane/shared/packed_section.glsl"
 
 layout(location = 0) uniform uint chunkCount;
 
-layout(std430, binding = kSolverSectionsBinding) readonly buffer Sections {
-    SectionInput sections[];  // by chunk, sixteen each
-};
-layout(std430, binding = kSolverDataBinding) readonly buffer Data {
-    uint data[];
-};
 layout(std430, binding = kSolverLevelsBinding) buffer Levels {
     uint levels[];  // by cell
 };
@@ -32,11 +27,8 @@ uint wordIndex(uint cell, uvec3 word) {
     return cell * kCellWords + word.x + kCellWordsX * (word.y + kCellSize * word.z);
 }
 
-// Opacity and emission of a block; x and y in the chunk.
+// Opacity and emission of a block; x and y in the chunk, which has sixteen sections..
 uint propertyAt(uint chunk, uvec3 block) {
-    SectionInput section = sections[chunk * kSectionsPerChunk + (block.z >> 4)];
-    if (section.bits == 0u) return data[section.palette];
-    uint bit = (block.x + 16u * block.y + 256u * (block.z & 15u)) * section.bits;
-    uint value = data[section.words + (bit >> 5)] >> (bit & 31u) & ((1u << section.bits) - 1u);
-    return section.bits == 16u ? value : data[section.palette + value];
+    PackedSection section = sections[chunk * kSectionsPerChunk + block.z / kSectionSize];
+    return packedValue(section, block.x + kChunkSize * block.y + kBlocksPerLayer * (block.z % kSectionSize));
 }

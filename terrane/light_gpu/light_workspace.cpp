@@ -50,7 +50,7 @@ base::Result<LightPrograms> LightPrograms::create(const gpu::ShaderLoader& shade
 
 void LightWorkspace::upload(const LightBatch& batch, const light::LightTable& table) {
     input_.clear();
-    for (const world::ChunkPtr& chunk : batch.chunks) input_.add(*chunk, table);
+    for (const world::ChunkPtr& chunk : batch.chunks) appendChunk(input_, *chunk, table);
     sections_ = gpu::Buffer(std::as_bytes(std::span(input_.sections)), 0, "light sections");
     data_ = gpu::Buffer(std::as_bytes(std::span(input_.data)), 0, "light section data");
     neighbours_ = gpu::Buffer(std::as_bytes(std::span(batch.beside)), 0, "light neighbours");
@@ -72,8 +72,8 @@ void LightWorkspace::makeRoom() {
 }
 
 void LightWorkspace::bind() const {
-    sections_.bindStorage(shared::kSolverSectionsBinding);
-    data_.bindStorage(shared::kSolverDataBinding);
+    sections_.bindStorage(shared::kPackedSectionsBinding);
+    data_.bindStorage(shared::kPackedDataBinding);
     levels_.bindStorage(shared::kSolverLevelsBinding);
     cells_.bindStorage(shared::kSolverCellsBinding);
     lists_.bindStorage(shared::kSolverListsBinding);

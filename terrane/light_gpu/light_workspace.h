@@ -44,7 +44,7 @@ class LightWorkspace {
     std::vector<world::ChunkPos> requested_;  // empty: no batch
     std::size_t chunkCount_ = 0;              // that are solved
     shared::uint roundsDone_ = 0;
-    SectionUpload input_;
+    world::PackedSections input_;
     gpu::Buffer sections_, data_, neighbours_;  // of the batch
     gpu::Buffer levels_, cells_, lists_;        // grow to the largest batch
     gpu::Buffer state_;

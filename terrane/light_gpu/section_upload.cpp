@@ -1,5 +1,9 @@
 #include "terrane/light_gpu/section_upload.h"
 
+#include <array>
+
+#include "terrane/shared/light_solver.h"
+
 namespace terrane::light_gpu {
 namespace {
 
@@ -8,42 +12,29 @@ shared::uint propertyOf(world::BlockId id, const light::LightTable& table) {
            static_cast<shared::uint>(light::levelOf(table.opacity(id), light::kRed));
 }
 
-void addDense(std::vector<shared::uint>& data, const world::Section& section,
-              const light::LightTable& table) {
-    for (int k = 0; k < world::kBlocksPerSection; k += 2) {
-        data.push_back(propertyOf(section.get(k), table) | propertyOf(section.get(k + 1), table) << 16);
+// 16 bits a block hold a property too.
+world::Section densePropertiesOf(const world::Section& section, const light::LightTable& table) {
+    constexpr int kValuesPerWord = 4;
+    std::vector<std::uint64_t> words(world::kBlocksPerSection / kValuesPerWord);
+    for (int k = 0; k < world::kBlocksPerSection; ++k) {
+        const std::uint64_t property = propertyOf(section.get(k), table);
+        words[static_cast<std::size_t>(k / kValuesPerWord)] |= property << 16 * (k % kValuesPerWord);
     }
-}
-
-shared::SectionInput addSection(std::vector<shared::uint>& data, const world::Section& section,
-                                const light::LightTable& table) {
-    shared::SectionInput input{};
-    input.bits = static_cast<shared::uint>(section.bits());
-    input.palette = static_cast<shared::uint>(data.size());
-    if (section.isUniform()) data.push_back(propertyOf(section.uniformValue(), table));
-    for (const world::BlockId id : section.palette()) data.push_back(propertyOf(id, table));
-    input.words = static_cast<shared::uint>(data.size());
-    if (section.isDense()) {
-        addDense(data, section, table);
-        return input;
-    }
-    for (const std::uint64_t word : section.words()) {
-        data.push_back(static_cast<shared::uint>(word));
-        data.push_back(static_cast<shared::uint>(word >> 32));
-    }
-    return input;
+    return *world::Section::fromPacked(static_cast<int>(shared::kDenseBits), {}, std::move(words));
 }
 
 }  // namespace
 
-void SectionUpload::clear() {
-    sections.clear();
-    data.clear();
-}
-
-void SectionUpload::add(const world::Chunk& chunk, const light::LightTable& table) {
-    for (int n = 0; n < world::kSectionsPerChunk; ++n)
-        sections.push_back(addSection(data, chunk.section(n), table));
+void appendChunk(world::PackedSections& packed, const world::Chunk& chunk, const light::LightTable& table) {
+    const auto propertyOfId = [&](world::BlockId id) { return propertyOf(id, table); };
+    for (int n = 0; n < world::kSectionsPerChunk; ++n) {
+        const world::Section& section = chunk.section(n);
+        if (section.isDense()) {
+            appendSection(packed, densePropertiesOf(section, table), propertyOfId);
+        } else {
+            appendSection(packed, section, propertyOfId);
+        }
+    }
 }
 
 }  // namespace terrane::light_gpu

@@ -24,7 +24,7 @@ uvec3 cellOf(uint side, uint plane, uint row, uint bit) {
 }
 
 Row readRow(MeshUnit unit, uint local) {
-    MeshSection section = sections[unit.section];
+    PackedSection section = sections[unit.section];
     Row row = Row(0u, 0u, 0u, 0u, 0u);
     for (uint x = 0u; x < 16u; x += 2u) {
         uint pair = 0u;

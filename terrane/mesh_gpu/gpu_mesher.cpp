@@ -91,8 +91,8 @@ struct GpuMesher::Impl {
 };
 
 void GpuMesher::Impl::bind() const {
-    sections.bindStorage(shared::kMeshSectionsBinding);
-    data.bindStorage(shared::kMeshDataBinding);
+    sections.bindStorage(shared::kPackedSectionsBinding);
+    data.bindStorage(shared::kPackedDataBinding);
     types.bindStorage(shared::kMeshTypesBinding);
     growth.bindStorage(shared::kMeshGrowthBinding);
     units.bindStorage(shared::kMeshUnitsBinding);
@@ -140,8 +140,8 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
     m.counts.uploadVector(0, nothing);
     glQueryCounter(m.countTimes[0].id(), GL_TIMESTAMP);
     if (m.unitCount > 0) {
-        m.sections = bufferOf(m.upload.sections(), "mesh sections");
-        m.data = bufferOf(m.upload.data(), "mesh section data");
+        m.sections = bufferOf(std::span(m.upload.packed().sections), "mesh sections");
+        m.data = bufferOf(std::span(m.upload.packed().data), "mesh section data");
         m.units = bufferOf(m.upload.units(), "mesh units");
         m.unitCounts =
             gpu::Buffer(m.unitCount * shared::kMeshUnitWords * sizeof(uint), 0, "mesh unit counts");

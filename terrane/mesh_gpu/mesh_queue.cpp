@@ -1,26 +1,23 @@
 #include "terrane/mesh_gpu/mesh_queue.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cassert>
 
 #include "terrane/base/profile.h"
 
 namespace terrane::mesh_gpu {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::size_t kFirstBatch = 8;  // chunks; from there on by how long they took
 
-double millisecondsSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
 
-MeshQueue::MeshQueue(GpuMesher mesher, const world::BlockRegistry& blocks, double budgetMilliseconds)
+MeshQueue::MeshQueue(GpuMesher mesher, double budgetMilliseconds)
     : mesher_(std::move(mesher)),
-      blocks_(blocks),
       budgetMilliseconds_(budgetMilliseconds),
       batchSize_(budgetMilliseconds > 0 ? kFirstBatch : GpuMesher::kMaxChunks) {}
 
@@ -30,55 +27,58 @@ void MeshQueue::add(world::ChunkPos pos) {
 
 void MeshQueue::remove(world::ChunkPos pos) {
     isWaiting_.erase(pos);
-    if (isCounted(pos)) isRemoved_.insert(pos);
+    if (isOnTheWay(pos)) isRemoved_.insert(pos);
 }
 
-bool MeshQueue::isCounted(world::ChunkPos pos) const {
-    return std::ranges::find(counted_, pos) != counted_.end() && !isRemoved_.contains(pos);
+bool MeshQueue::isOnTheWay(world::ChunkPos pos) const {
+    return std::ranges::find(counting_, pos) != counting_.end() && !isRemoved_.contains(pos);
 }
 
-void MeshQueue::advance(const mesh::MeshOptions& options, const MeshQueueHost& host) {
-    if (!counted_.empty()) {
-        if (!mesher_.isCounted()) return;
-        write(host);
+std::vector<world::ChunkPos> MeshQueue::takeWaiting() {
+    if (!counting_.empty()) return {};
+    start_ = Clock::now();
+    for (; !waiting_.empty() && counting_.size() < batchSize_; waiting_.pop_front()) {
+        if (isWaiting_.erase(waiting_.front()) > 0) counting_.push_back(waiting_.front());
     }
-    if (!isWaiting_.empty()) count(options, host);
+    return counting_;
 }
 
-void MeshQueue::count(const mesh::MeshOptions& options, const MeshQueueHost& host) {
+void MeshQueue::count(std::span<const mesh::MeshInput> chunks) {
     TERRANE_ZONE("mesh queue: count");
-    const auto start = Clock::now();
-    std::vector<mesh::MeshBlocks> chunks;
-    for (; !waiting_.empty() && counted_.size() < batchSize_; waiting_.pop_front()) {
-        if (isWaiting_.erase(waiting_.front()) == 0) continue;
-        counted_.push_back(waiting_.front());
-        chunks.push_back(host.blocks(waiting_.front()));
-    }
-    std::vector<mesh::MeshInput> inputs;
-    for (const mesh::MeshBlocks& chunk : chunks) inputs.push_back(mesh::meshInput(chunk, blocks_, options));
-    mesher_.count(inputs);
-    countMilliseconds_ = millisecondsSince(start);
+    assert(chunks.size() == counting_.size() && "all that takeWaiting() returned");
+    mesher_.count(chunks);
+    countMilliseconds_ = millisecondsSince(start_);
 }
 
-void MeshQueue::write(const MeshQueueHost& host) {
-    TERRANE_ZONE("mesh queue: write");
-    const auto start = Clock::now();
-    const std::vector<mesh::RegionMesh> regions = mesher_.regions();
-    const std::size_t perChunk = regions.size() / counted_.size();
-    std::vector<std::uint32_t> places;
-    for (std::size_t k = 0; k < counted_.size(); ++k) {
-        std::vector<std::uint32_t> firstQuads;
-        if (!isRemoved_.contains(counted_[k])) {
-            firstQuads = host.place(counted_[k], std::span(regions).subspan(k * perChunk, perChunk));
-        }
-        firstQuads.resize(perChunk, kNoPlace);
-        places.insert(places.end(), firstQuads.begin(), firstQuads.end());
+std::vector<CountedChunk> MeshQueue::takeCounted() {
+    assert(isCounted());
+    start_ = Clock::now();
+    regions_ = mesher_.regions();
+    const std::size_t perChunk = regions_.size() / counting_.size();
+    std::vector<CountedChunk> counted;
+    for (std::size_t k = 0; k < counting_.size(); ++k) {
+        if (isRemoved_.contains(counting_[k])) continue;
+        counted.push_back({counting_[k], std::span(regions_).subspan(k * perChunk, perChunk)});
     }
-    mesher_.write(places, host.quads());
+    return counted;
+}
+
+void MeshQueue::write(std::span<const FirstQuads> places, const gpu::Buffer& quads) {
+    TERRANE_ZONE("mesh queue: write");
+    assert(places.size() == counting_.size() - isRemoved_.size() && "one for each of takeCounted()");
+    const std::size_t perChunk = regions_.size() / counting_.size();
+    std::vector<std::uint32_t> firstQuads(regions_.size(), kNoPlace);
+    auto place = places.begin();
+    for (std::size_t k = 0; k < counting_.size(); ++k) {
+        if (isRemoved_.contains(counting_[k])) continue;
+        assert((place->empty() || place->size() == perChunk) && "one for each region");
+        std::ranges::copy(*place++, firstQuads.begin() + static_cast<std::ptrdiff_t>(k * perChunk));
+    }
+    mesher_.write(firstQuads, quads);
     // Writing does on the GPU what counting does.
     const double onGpu = 2 * mesher_.countMilliseconds();
-    adaptBatch(counted_.size(), std::max(onGpu, countMilliseconds_ + millisecondsSince(start)));
-    counted_.clear();
+    adaptBatch(counting_.size(), std::max(onGpu, countMilliseconds_ + millisecondsSince(start_)));
+    counting_.clear();
     isRemoved_.clear();
 }
 

@@ -3,8 +3,8 @@
 // the old quads are drawn. Used on the context's thread.
 #pragma once
 
+#include <chrono>
 #include <deque>
-#include <functional>
 #include <span>
 #include <unordered_set>
 #include <vector>
@@ -13,48 +13,61 @@
 
 namespace terrane::mesh_gpu {
 
-// What the queue takes chunks from and gives their quads to.
-struct MeshQueueHost {
-    // What a chunk is meshed from, as it is now.
-    std::function<mesh::MeshBlocks(world::ChunkPos)> blocks;
-    // Makes room for a chunk's quads and says where those of each region begin; empty where there is no room.
-    std::function<std::vector<std::uint32_t>(world::ChunkPos, std::span<const mesh::RegionMesh>)> place;
-    // The buffer that the places are in.
-    std::function<const gpu::Buffer&()> quads;
+// A chunk whose quads are counted. The regions stay until the batch is written.
+struct CountedChunk {
+    world::ChunkPos pos;
+    std::span<const mesh::RegionMesh> regions;
 };
 
+// Where the quads of each region of a chunk begin in the buffer; empty where there is no room for them.
+using FirstQuads = std::vector<std::uint32_t>;
+
+// A frame calls, in this order:
+//
+//   if (queue.isCounted()) { counted = queue.takeCounted(); make room; queue.write(places, buffer); }
+//   if (chunks = queue.takeWaiting(); !chunks.empty()) queue.count(inputs of these chunks);
 class MeshQueue {
   public:
     // Time of a batch, on the processor or the GPU, whichever takes longer: 0 for as large ones as can be.
-    MeshQueue(GpuMesher mesher, const world::BlockRegistry& blocks, double budgetMilliseconds);
+    MeshQueue(GpuMesher mesher, double budgetMilliseconds);
 
     // The chunk is to be meshed: once more where a batch with it is on the way.
     void add(world::ChunkPos pos);
     // It is not to be shown any more.
     void remove(world::ChunkPos pos);
     // It will be meshed from what it is when its turn comes, or later.
-    bool contains(world::ChunkPos pos) const { return isWaiting_.contains(pos) || isCounted(pos); }
-    std::size_t size() const { return isWaiting_.size() + counted_.size(); }
+    bool contains(world::ChunkPos pos) const { return isWaiting_.contains(pos) || isOnTheWay(pos); }
+    std::size_t size() const { return isWaiting_.size() + counting_.size(); }
 
-    // Writes the quads of the batch on the way, if it is counted, and begins the next one.
-    void advance(const mesh::MeshOptions& options, const MeshQueueHost& host);
+    // A batch is on the way and its counts are back.
+    bool isCounted() const { return !counting_.empty() && mesher_.isCounted(); }
+    // The chunks of that batch, without those removed since it was counted. write() comes next.
+    std::vector<CountedChunk> takeCounted();
+    // Writes the quads of the chunks that takeCounted() returned, in the same order. Ends the batch.
+    void write(std::span<const FirstQuads> places, const gpu::Buffer& quads);
+
+    // The chunks of the next batch; none while one is on the way. count() comes next, for exactly these.
+    std::vector<world::ChunkPos> takeWaiting();
+    // `chunks`: in the order of takeWaiting(), with the same options. Not needed any more afterwards.
+    void count(std::span<const mesh::MeshInput> chunks);
 
   private:
-    bool isCounted(world::ChunkPos pos) const;
-    void write(const MeshQueueHost& host);
-    void count(const mesh::MeshOptions& options, const MeshQueueHost& host);
+    using Clock = std::chrono::steady_clock;
+
+    bool isOnTheWay(world::ChunkPos pos) const;
     void adaptBatch(std::size_t chunks, double milliseconds);
 
     GpuMesher mesher_;
-    const world::BlockRegistry& blocks_;
     double budgetMilliseconds_;
     std::size_t batchSize_;
     std::deque<world::ChunkPos> waiting_;  // in order; some were removed again
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> isWaiting_;
-    // The batch on the way, and those of it that were removed.
-    std::vector<world::ChunkPos> counted_;
+    // The batch on the way, those of it that were removed, and once it is counted the regions of all.
+    std::vector<world::ChunkPos> counting_;
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> isRemoved_;
-    double countMilliseconds_ = 0;  // of it, on the processor
+    std::vector<mesh::RegionMesh> regions_;
+    Clock::time_point start_;       // of counting or writing, whichever is under way
+    double countMilliseconds_ = 0;  // of the batch, on the CPU
 };
 
 }  // namespace terrane::mesh_gpu

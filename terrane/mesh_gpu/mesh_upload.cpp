@@ -27,30 +27,18 @@ bool isZero(const Section& section) {
 
 void MeshUpload::clear() {
     units_.clear();
-    sections_.clear();
-    data_.clear();
+    packed_.clear();
     slots_.clear();
     regions_ = 0;
 }
 
 uint MeshUpload::slotOf(const Section& section, bool holdsBlocks) {
-    const auto [found, isNew] = slots_.try_emplace(&section, static_cast<uint>(sections_.size()));
+    const auto [found, isNew] = slots_.try_emplace(&section, static_cast<uint>(packed_.sections.size()));
     if (!isNew) return found->second;
-    const auto add = [&](std::uint16_t value) {
-        data_.push_back(holdsBlocks ? value | types_.type(value).flags << 16 : value);
+    const auto entryOf = [&](std::uint16_t value) {
+        return holdsBlocks ? value | types_.type(value).flags << 16 : uint{value};
     };
-    shared::MeshSection entry{};
-    entry.bits = static_cast<uint>(section.bits());
-    entry.palette = static_cast<uint>(data_.size());
-    if (section.isUniform()) add(section.uniformValue());
-    for (const std::uint16_t value : section.palette()) add(value);
-    entry.words = static_cast<uint>(data_.size());
-    for (const std::uint64_t word : section.words()) {
-        data_.push_back(static_cast<uint>(word));
-        data_.push_back(static_cast<uint>(word >> 32));
-    }
-    sections_.push_back(entry);
-    return found->second;
+    return world::appendSection(packed_, section, entryOf);
 }
 
 // Not where there is only air, nor where nothing but opaque cubes is within and around: of 16 sections of a

@@ -9,6 +9,7 @@
 #include "terrane/mesh/chunk_mesher.h"
 #include "terrane/mesh_gpu/block_table.h"
 #include "terrane/shared/mesher.h"
+#include "terrane/world/packed_sections.h"
 
 namespace terrane::mesh_gpu {
 
@@ -22,8 +23,7 @@ class MeshUpload {
     void add(const mesh::MeshInput& chunk);
 
     std::span<const shared::MeshUnit> units() const { return units_; }
-    std::span<const shared::MeshSection> sections() const { return sections_; }
-    std::span<const shared::uint> data() const { return data_; }  // about 9 KB an overworld chunk
+    const world::PackedSections& packed() const { return packed_; }
 
   private:
     shared::uint slotOf(const world::Section& section, bool holdsBlocks);
@@ -32,8 +32,7 @@ class MeshUpload {
 
     const BlockTable& types_;
     std::vector<shared::MeshUnit> units_;
-    std::vector<shared::MeshSection> sections_;
-    std::vector<shared::uint> data_;
+    world::PackedSections packed_;
     std::unordered_map<const world::Section*, shared::uint> slots_;
     shared::uint regions_ = 0;  // of the chunks before
 };

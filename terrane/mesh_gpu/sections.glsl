@@ -1,12 +1,7 @@
 // The blocks of a batch: sections in their packed form, the types their ids stand for, and the units to mesh.
 #include "terrane/shared/mesher.h"
+#include "terrane/shared/packed_section.glsl"
 
-layout(std430, binding = kMeshSectionsBinding) readonly buffer Sections {
-    MeshSection sections[];
-};
-layout(std430, binding = kMeshDataBinding) readonly buffer Data {
-    uint data[];
-};
 layout(std430, binding = kMeshTypesBinding) readonly buffer Types {
     MeshType types[];  // by id, the last stands for all ids from there on
 };
@@ -22,28 +17,17 @@ uint typeOf(uint id) {
 }
 
 uint blockIndex(uvec3 cell) {
-    return cell.x + 16u * cell.y + 256u * cell.z;
-}
-
-// Of a palette that is not needed the value itself.
-uint packedAt(MeshSection section, uint block) {
-    uint bit = block * section.bits;
-    return data[section.words + (bit >> 5)] >> (bit & 31u) & ((1u << section.bits) - 1u);
+    return cell.x + kSectionSize * cell.y + kBlocksPerLayer * cell.z;
 }
 
 // Id and, from bit 16 on, flags.
-uint blockAt(MeshSection section, uint block) {
-    if (section.bits == 0u) return data[section.palette];
-    uint value = packedAt(section, block);
-    return section.bits == 16u ? value | types[typeOf(value)].flags << 16 : data[section.palette + value];
+uint blockAt(PackedSection section, uint block) {
+    uint value = packedValue(section, block);
+    return section.bits == kDenseBits ? value | types[typeOf(value)].flags << 16 : value;
 }
 
 uint smallDataAt(uint section, uint block) {
-    if (section == kNoSection) return 0u;
-    MeshSection from = sections[section];
-    if (from.bits == 0u) return data[from.palette];
-    uint value = packedAt(from, block);
-    return from.bits == 16u ? value : data[from.palette + value];
+    return section == kNoSection ? 0u : packedValue(sections[section], block);
 }
 
 uint blockBeyond(uint section, uvec3 cell) {

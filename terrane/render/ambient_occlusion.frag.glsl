@@ -12,10 +12,10 @@ const float kRadius = 0.9;  // blocks
 
 float occlusionAt(vec3 position, float bias) {
     vec4 clip = frame.viewProjection * vec4(position, 1.0);
-    if (clip.w <= frame.viewport.w) return 0.0;
+    if (clip.w <= frame.nearPlane) return 0.0;
     vec2 screen = 0.5 + 0.5 * clip.xy / clip.w;
     if (screen != clamp(screen, 0.0, 1.0)) return 0.0;
-    float seen = blocksOfDepth(depthAt(ivec2(screen * frame.viewport.xy), 0));
+    float seen = blocksOfDepth(depthAt(ivec2(screen * frame.viewportSize), 0));
     float inFront = clip.w - seen;
     // What stands far before the point does not shut it in.
     return inFront > bias ? clamp(1.0 - (inFront - kRadius) / kRadius, 0.0, 1.0) : 0.0;

@@ -19,8 +19,8 @@ float cloudThickness(vec2 at) {
 vec4 clouds(vec3 direction) {
     float up = max(direction.z, 0.02);
     vec3 position = frame.cameraPosition.xyz;
-    vec2 blocks = position.xy + vec2((frame.camera.xy & 255) * 16) + direction.xy * ((kCloudHeight - position.z) / up);
-    vec2 at = (blocks + kWind * frame.lightDirection.w) / kCloudTile;
+    vec2 blocks = position.xy + vec2((frame.cameraChunk & 255) * int(kChunkSize)) + direction.xy * ((kCloudHeight - position.z) / up);
+    vec2 at = (blocks + kWind * frame.timeSeconds) / kCloudTile;
     float here = cloudThickness(at);
     vec2 toLight = frame.lightDirection.xy / max(frame.lightDirection.z, 0.35);
     float there = texture(cloudNoise, at + toLight * 0.006).r;
@@ -35,7 +35,7 @@ vec4 clouds(vec3 direction) {
 
 // The sky turns once a day around an axis toward the north.
 vec3 starDirection(vec3 direction) {
-    float angle = 6.2831853 * frame.sky.x, s = sin(angle), c = cos(angle);
+    float angle = 6.2831853 * frame.starTurn, s = sin(angle), c = cos(angle);
     return vec3(c * direction.x + s * direction.z, direction.y, c * direction.z - s * direction.x);
 }
 
@@ -55,7 +55,7 @@ vec3 stars(vec3 direction, float pixel) {
     float bright = float(h >> 24) / 255.0;
     float radius = max(0.0011, 0.75 * pixel);
     float shape = clamp(1.0 - distance / radius, 0.0, 1.0) * (0.0011 / radius);
-    float twinkle = 0.8 + 0.2 * sin(3.0 * frame.lightDirection.w + 40.0 * bright);
+    float twinkle = 0.8 + 0.2 * sin(3.0 * frame.timeSeconds + 40.0 * bright);
     vec3 tint = mix(vec3(1.0, 0.82, 0.66), vec3(0.72, 0.82, 1.0), float(h >> 4 & 15u) / 15.0);
     return tint * shape * twinkle * (0.12 + 1.3 * bright * bright * bright);
 }

@@ -81,7 +81,7 @@ void main() {
     bool isShadow = list >= kCameraLists;
     uint context = isShadow ? list - kCameraLists : list;
     uint shift = isShadow ? kShadowGroupBits : context >= 4u ? kBlendedGroupBits : kCameraGroupBits;
-    uint all = uint(cull.camera.z), each = (all + kThreads - 1u) / kThreads;
+    uint all = cull.regionCount, each = (all + kThreads - 1u) / kThreads;
     uint begin = min(thread * each, all), end = min(begin + each, all);
     if (thread == 0u) quadSum = regionSum = 0u;
     barrier();
@@ -103,7 +103,7 @@ void main() {
         if (groups != 0u) at = visit(order[k], context, groups, at, true, ignored);
     }
     if (thread == kThreads - 1u) {
-        uint run = uint(cull.camera.w) == kCullSeenNow ? 1u : 0u;
+        uint run = cull.run == kCullSeenNow ? 1u : 0u;
         counts[run].commands[list] = last;
         counts[run].quads[list] = quadSum;
         if (list == 0u) counts[run].regions = regionSum;

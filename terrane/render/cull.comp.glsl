@@ -35,18 +35,18 @@ bool isHidden(vec3 low, vec3 high) {
     for (int corner = 0; corner < 8; ++corner) {
         vec3 at = mix(low, high, vec3(corner & 1, corner >> 1 & 1, corner >> 2));
         vec4 clip = cull.viewProjection * vec4(at, 1.0);
-        if (clip.w <= 2.0 * cull.viewport.z) return false;
+        if (clip.w <= 2.0 * cull.nearPlane) return false;
         vec2 screen = clip.xy / clip.w;
         least = min(least, screen);
         most = max(most, screen);
-        nearest = max(nearest, cull.viewport.z / clip.w);
+        nearest = max(nearest, cull.nearPlane / clip.w);
     }
     // A pixel more on each side: quads grow a little.
-    vec2 from = clamp((0.5 + 0.5 * least) * cull.viewport.xy - 1.0, vec2(0.0), cull.viewport.xy - 1.0);
-    vec2 to = clamp((0.5 + 0.5 * most) * cull.viewport.xy + 1.0, vec2(0.0), cull.viewport.xy - 1.0);
+    vec2 from = clamp((0.5 + 0.5 * least) * cull.viewportSize - 1.0, vec2(0.0), cull.viewportSize - 1.0);
+    vec2 to = clamp((0.5 + 0.5 * most) * cull.viewportSize + 1.0, vec2(0.0), cull.viewportSize - 1.0);
     vec2 size = (to - from) / float(kPyramidTexel);
     // The level where the box covers at most three texels along each side.
-    int level = int(clamp(ceil(log2(max(max(size.x, size.y), 1.0) / 2.0)), 0.0, cull.viewport.w - 1.0));
+    int level = int(clamp(ceil(log2(max(max(size.x, size.y), 1.0) / 2.0)), 0.0, float(cull.pyramidLevels) - 1.0));
     ivec2 first = ivec2(from) / int(kPyramidTexel) >> level, last = ivec2(to) / int(kPyramidTexel) >> level;
     float farthest = 1.0;
     for (int y = first.y; y <= last.y; ++y) {
@@ -63,13 +63,13 @@ uint bitsOf(bvec3 negative, bvec3 positive) {
 
 void main() {
     uint number = gl_GlobalInvocationID.x;
-    if (number >= uint(cull.camera.z)) return;
+    if (number >= cull.regionCount) return;
     uint slot = order[number];
     uint heights = regions[slot].heights;
-    vec2 corner = 16.0 * vec2(regions[slot].chunk - cull.camera.xy);
+    vec2 corner = 16.0 * vec2(regions[slot].chunk - cull.cameraChunk);
     vec3 low = vec3(corner, float(heights & 0xFFFFu)), high = vec3(corner + 16.0, float(heights >> 16));
 
-    bool isSeen = true, isCasting = cull.lightDirection.w > 0.0;
+    bool isSeen = true, isCasting = true;
     vec3 wavingLow = low - kWaving, wavingHigh = high + kWaving;
     for (int k = 0; k < 5; ++k) {
         if (isOutside(cull.cameraPlanes[k], wavingLow, wavingHigh)) isSeen = false;
@@ -79,10 +79,9 @@ void main() {
     vec3 camera = cull.cameraPosition.xyz, light = cull.lightDirection.xyz;
     uint groups = isSeen ? bitsOf(lessThan(camera, high), greaterThan(camera, low)) : 0u;
     uint casting = isCasting ? bitsOf(lessThan(light, vec3(0.0)), greaterThan(light, vec3(0.0))) : 0u;
-    uint run = uint(cull.camera.w);
-    if (run == kCullAll) {
+    if (cull.run == kCullAll) {
         visible[number] = groups << kCameraGroupBits | groups << kBlendedGroupBits | casting << kShadowGroupBits;
-    } else if (run == kCullSeenBefore) {
+    } else if (cull.run == kCullSeenBefore) {
         visible[number] = (seen[slot] == 1u ? groups << kCameraGroupBits : 0u) | casting << kShadowGroupBits;
     } else {
         bool isNew = seen[slot] != 1u, isOpen = isSeen && !isHidden(wavingLow, wavingHigh);

@@ -20,16 +20,23 @@ gpu::Buffer gpuOnly(std::size_t bytes, std::string_view label) {
 static_assert(static_cast<shared::uint>(CullRun::SeenBefore) == shared::kCullSeenBefore &&
               static_cast<shared::uint>(CullRun::SeenNow) == shared::kCullSeenNow);
 
+// Without a shadow map: no point is inside of such a plane.
+constexpr glm::vec4 kNothing(0, 0, 0, -1);
+constexpr Frustum kEmptyVolume{kNothing, kNothing, kNothing, kNothing, kNothing};
+
 shared::CullFrame frameOf(CullRun run, const CullInput& input, std::uint32_t regions) {
     shared::CullFrame frame{};
     std::ranges::copy(input.camera, frame.cameraPlanes);
-    if (input.shadow) std::ranges::copy(*input.shadow, frame.shadowPlanes);
+    std::ranges::copy(input.shadow.value_or(kEmptyVolume), frame.shadowPlanes);
     frame.cameraPosition = glm::vec4(input.cameraPosition, 0);
-    frame.lightDirection = glm::vec4(input.lightDirection, input.shadow ? 1 : 0);
-    frame.camera = {input.cameraChunk.x, input.cameraChunk.y, static_cast<int>(regions),
-                    static_cast<int>(run)};
+    frame.lightDirection = glm::vec4(input.lightDirection, 0);
     frame.viewProjection = input.viewProjection;
-    frame.viewport = {input.size, kNearPlane, static_cast<float>(input.pyramidLevels)};
+    frame.cameraChunk = {input.cameraChunk.x, input.cameraChunk.y};
+    frame.viewportSize = input.size;
+    frame.nearPlane = kNearPlane;
+    frame.pyramidLevels = input.pyramidLevels;
+    frame.regionCount = regions;
+    frame.run = static_cast<shared::uint>(run);
     return frame;
 }
 

@@ -15,11 +15,11 @@ vec3 viewOf(vec4 word, float depth) {
     if (directionOfWord(word) == kDirectionNone) return vec3(0.0);
     Surface s = unpackSurface(word);
     vec3 toPoint = inRay * blocksOfDepth(depth);
-    uint view = uint(frame.horizonColor.w);
+    uint view = frame.view;
     if (view == kViewAggregation) return word.rgb;
     if (view == kViewNormal) return 0.5 + 0.5 * s.normal;
     if (view == kViewLight) return lightView(frame.cameraPosition.xyz + toPoint, s);
-    return vec3(1.0 - clamp(length(toPoint) / frame.cameraPosition.w, 0.0, 1.0));
+    return vec3(1.0 - clamp(length(toPoint) / frame.fogDistance, 0.0, 1.0));
 }
 
 void main() {

@@ -15,7 +15,7 @@ layout(binding = kDepthUnit) uniform sampler2D depths;
 #endif
 
 float farthestIn(ivec2 texel) {
-    ivec2 first = texel * int(kPyramidTexel), end = min(first + int(kPyramidTexel), ivec2(frame.viewport.xy));
+    ivec2 first = texel * int(kPyramidTexel), end = min(first + int(kPyramidTexel), ivec2(frame.viewportSize));
     float farthest = 1.0;
     for (int y = first.y; y < end.y; ++y) {
         for (int x = first.x; x < end.x; ++x) {

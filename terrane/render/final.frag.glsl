@@ -44,7 +44,7 @@ float raysAt(vec2 at) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec2 at = gl_FragCoord.xy / frame.viewport.xy;
+    vec2 at = gl_FragCoord.xy / frame.viewportSize;
 #if RAW_OCCLUSION == 1
     outColor = vec4(texelFetch(occlusion, pixel, 0).rrr, 1.0);
     return;
@@ -60,7 +60,7 @@ void main() {
 #if GOD_RAYS == 1
     color += 0.75 * raysAt(at) * (frame.lightColor.rgb + 0.3 * frame.glowColor.rgb);
 #endif
-    color = encodeSrgb(clamp(compressHighlights(color * frame.zenithColor.w), 0.0, 1.0));
+    color = encodeSrgb(clamp(compressHighlights(color * frame.exposure), 0.0, 1.0));
     uint noise = hash2(uint(pixel.x), uint(pixel.y), 0u);
     outColor = vec4(color + (float(noise >> 16) / 65536.0 - 0.5) / 255.0, 1.0);
 }

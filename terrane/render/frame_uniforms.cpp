@@ -20,50 +20,69 @@ int switchesOf(const RenderOptions& o) {
            (o.shading == Shading::Off ? shared::kSwitchUnlit : 0);
 }
 
-void setEnvironment(shared::Frame& frame, const FrameInput& input) {
-    const world::Environment& e = input.environment;
-    frame.lightDirection = glm::vec4(e.lightDirection, input.timeSeconds);
-    frame.lightColor = glm::vec4(e.lightColor, std::sin(e.discRadius));
-    frame.ambientColor = glm::vec4(e.ambientColor, kAmbientFromBelow);
-    frame.zenithColor = glm::vec4(e.zenithColor, kExposure);
-    frame.horizonColor = glm::vec4(e.horizonColor, static_cast<float>(input.view));
-    frame.glowColor = glm::vec4(e.glowColor, e.lampShare);
-    frame.discColor = glm::vec4(e.discColor, e.starLight);
-    frame.sky = {e.starTurn, e.isMoon ? 1 : 0, 0, 0};
+void setEnvironment(shared::Frame& frame, const world::Environment& e) {
+    frame.lightDirection = glm::vec4(e.lightDirection, 0);
+    frame.lightColor = glm::vec4(e.lightColor, 0);
+    frame.ambientColor = glm::vec4(e.ambientColor, 0);
+    frame.zenithColor = glm::vec4(e.zenithColor, 0);
+    frame.horizonColor = glm::vec4(e.horizonColor, 0);
+    frame.glowColor = glm::vec4(e.glowColor, 0);
+    frame.discColor = glm::vec4(e.discColor, 0);
+    frame.discSine = std::sin(e.discRadius);
+    frame.hiddenLampShare = e.lampShare;
+    frame.starBrightness = e.starLight;
+    frame.starTurn = e.starTurn;
+    frame.isMoon = e.isMoon ? 1 : 0;
 }
 
-// The light on the screen; behind the camera or far outside nothing of its rays is seen.
-glm::vec4 lightOnScreen(const ViewMatrices& view, glm::vec3 direction) {
+void setView(shared::Frame& frame, const ViewMatrices& view) {
+    frame.viewProjection = view.viewProjection;
+    frame.rayAhead = glm::vec4(view.ahead, 0);
+    frame.rayAcross = glm::vec4(view.across, 0);
+    frame.rayUp = glm::vec4(view.up, 0);
+    frame.cameraPosition = glm::vec4(view.cameraPosition, 0);
+    frame.nearPlane = kNearPlane;
+}
+
+// Behind the camera or far outside the image nothing of the light's rays is seen.
+void setLightOnScreen(shared::Frame& frame, const ViewMatrices& view, glm::vec3 direction) {
     const glm::vec4 p = view.viewProjection * glm::vec4(direction, 0);
-    if (p.w <= 0.01f) return glm::vec4(0);
-    const glm::vec2 at = glm::vec2(p) / p.w;
-    const float outside = std::max(std::abs(at.x), std::abs(at.y)) - 1;
-    return {at, 1 - glm::smoothstep(0.0f, 0.6f, outside), 0};
+    if (p.w <= 0.01f) return;
+    frame.lightOnScreen = glm::vec2(p) / p.w;
+    const float outside = std::max(std::abs(frame.lightOnScreen.x), std::abs(frame.lightOnScreen.y)) - 1;
+    frame.lightRayShare = 1 - glm::smoothstep(0.0f, 0.6f, outside);
+}
+
+void setShadows(shared::Frame& frame, const FrameInput& input, const FrameSetup& setup) {
+    frame.shadowReach = kShadowReach;
+    if (setup.shadowSize == 0) return;
+    const ShadowFit fit = fitShadowMap(input.camera, setup.size.x / setup.size.y,
+                                       input.environment.lightDirection, setup.shadowSize);
+    frame.toShadowMap = fit.toMap;
+    frame.shadowStrength = 1;
+    frame.shadowTexelBlocks = fit.texelBlocks;
 }
 
 }  // namespace
 
 shared::Frame frameUniforms(const FrameInput& input, const RenderOptions& options, const FrameSetup& setup) {
     shared::Frame frame{};
-    frame.viewProjection = setup.view.viewProjection;
-    frame.rayAhead = glm::vec4(setup.view.ahead, 0);
-    frame.rayAcross = glm::vec4(setup.view.across, 0);
-    frame.rayUp = glm::vec4(setup.view.up, 0);
-    frame.cameraPosition = glm::vec4(setup.view.cameraPosition, input.fogDistance);
-    setEnvironment(frame, input);
-    const float growth = options.tJunctions == TJunctions::Covered ? setup.crackGrowth : 0.0f;
-    frame.viewport = glm::vec4(setup.size, growth, kNearPlane);
-    frame.shadow.z = kShadowReach;
-    if (setup.shadowSize > 0) {
-        const ShadowFit fit = fitShadowMap(input.camera, setup.size.x / setup.size.y,
-                                           input.environment.lightDirection, setup.shadowSize);
-        frame.toShadowMap = fit.toMap;
-        frame.shadow = {1, fit.texelBlocks, kShadowReach, static_cast<float>(setup.shadowSize)};
-    }
-    frame.light = lightOnScreen(setup.view, input.environment.lightDirection);
-    frame.light.w = input.isUnderWater ? 1.0f : 0.0f;
+    setView(frame, setup.view);
+    setEnvironment(frame, input.environment);
+    setLightOnScreen(frame, setup.view, input.environment.lightDirection);
+    setShadows(frame, input, setup);
+    frame.viewportSize = setup.size;
+    frame.crackGrowth = options.tJunctions == TJunctions::Covered ? setup.crackGrowth : 0.0f;
+    frame.fogDistance = input.fogDistance;
+    frame.timeSeconds = input.timeSeconds;
+    frame.exposure = kExposure;
+    frame.ambientFromBelow = kAmbientFromBelow;
+    frame.isUnderWater = input.isUnderWater ? 1 : 0;
+    frame.view = static_cast<shared::uint>(input.view);
     const world::ChunkPos chunk = cameraChunk(input.camera);
-    frame.camera = {chunk.x, chunk.y, switchesOf(options), options.singleLayer};
+    frame.cameraChunk = {chunk.x, chunk.y};
+    frame.switches = switchesOf(options);
+    frame.singleLayer = options.singleLayer;
     return frame;
 }
 

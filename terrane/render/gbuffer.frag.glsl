@@ -60,6 +60,6 @@ void main() {
     uint direction = directionOfFace(inFace.x);
     if (!gl_FrontFacing && direction < kDirectionPlant) direction ^= 1u;
     vec3 color = texel.rgb;
-    if (uint(frame.horizonColor.w) == kViewAggregation) color = aggregationColor(color, normalOf(direction));
+    if (frame.view == kViewAggregation) color = aggregationColor(color, normalOf(direction));
     outSurface = packSurface(color, direction, glowOf(texel.a));
 }

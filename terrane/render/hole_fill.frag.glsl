@@ -16,7 +16,7 @@ void main() {
 #else
     int number = 0;
 #endif
-    ivec2 pixel = ivec2(gl_FragCoord.xy), last = ivec2(frame.viewport.xy) - 1, from = pixel;
+    ivec2 pixel = ivec2(gl_FragCoord.xy), last = ivec2(frame.viewportSize) - 1, from = pixel;
     float farthest = 2.0;  // depths are reversed
     for (int k = 0; k < 4; ++k) {
         ivec2 at = clamp(pixel + kBeside[k], ivec2(0), last);

@@ -34,7 +34,7 @@ const vec3 kBackground = vec3(0.35);  // of a single layer
 vec4 shadeLayer(Layer layer, float depth, float behind) {
     float blocks = blocksOfDepth(depth);
     vec3 toPoint = inRay * blocks, position = frame.cameraPosition.xyz + toPoint;
-    if ((frame.camera.z & kSwitchUnlit) != 0) return throughAir(layer.surface.albedo, toPoint, 1.0) * layer.alpha;
+    if ((frame.switches & kSwitchUnlit) != 0) return throughAir(layer.surface.albedo, toPoint, 1.0) * layer.alpha;
     float shadow = 1.0;
 #if SHADOW == 1
     shadow = lightShare(position, layer.surface.normal, length(toPoint));
@@ -43,7 +43,7 @@ vec4 shadeLayer(Layer layer, float depth, float behind) {
     vec4 color;
     if (layer.isLiquid) {
         float thickness = (min(blocksOfDepth(behind), 1e4) - blocks) * length(inRay);
-        if (frame.light.w > 0.5) thickness = 0.3;  // seen from within: the water is on this side
+        if (frame.isUnderWater != 0u) thickness = 0.3;  // seen from within: the water is on this side
         color = shadeWater(layer.surface, position, toPoint, thickness, levels, shadow);
     } else {
         color = vec4(shade(layer.surface, levels, shadow, 1.0) * layer.alpha, layer.alpha);
@@ -82,7 +82,7 @@ vec4 shadeLayers(ivec2 pixel, int k) {
     float behind = depthAt(pixel, k);
     for (int n = layersAt(pixel, k) - 1; n >= 0; --n) {
         float depth = layerDepthAt(pixel, k, n);
-        bool isShown = frame.camera.w == 0 || frame.camera.w == n + 1;
+        bool isShown = frame.singleLayer == 0 || frame.singleLayer == n + 1;
         vec4 color = isShown ? shadeLayer(unpackLayer(wordAt(pixel, k, n)), depth, behind) : vec4(0.0);
         sum = color + (1.0 - color.a) * sum;
         behind = depth;
@@ -108,13 +108,13 @@ vec4 shadeSamples(ivec2 pixel) {
     vec4 sum = vec4(0.0);
     for (int k = 0; k < count; ++k) sum += shadeLayers(pixel, k);
     vec4 color = sum / float(count);
-    return frame.camera.w > 0 ? vec4(color.rgb + (1.0 - color.a) * kBackground, 1.0) : color;
+    return frame.singleLayer > 0 ? vec4(color.rgb + (1.0 - color.a) * kBackground, 1.0) : color;
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
 #if QUADS == 1
-    inRay = rayAt(2.0 * gl_FragCoord.xy / frame.viewport.xy - 1.0);
+    inRay = rayAt(2.0 * gl_FragCoord.xy / frame.viewportSize - 1.0);
     outColor = shadeLayers(pixel, 0);
 #else
     outColor = shadeSamples(pixel);

@@ -10,8 +10,8 @@ vec4 unpackLight(uint value) {
 
 // The tile of a block counted from the corner of the camera's chunk, or its one value.
 uint lightEntry(ivec3 block) {
-    ivec2 tile = (block.xy >> 3) + ivec2(frame.lightGrid.xy);
-    int mask = int(frame.lightGrid.z) - 1;
+    ivec2 tile = (block.xy >> 3) + frame.firstLightTile;
+    int mask = frame.lightGridTiles - 1;
     return texelFetch(lightGrid, ivec3(tile & mask, clamp(block.z, 0, 255) >> 3), 0).r;
 }
 

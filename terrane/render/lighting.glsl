@@ -21,9 +21,9 @@ vec4 brightnessOf(vec4 levels) {
 vec3 shade(Surface s, vec4 levels, float shadow, float open) {
     vec4 light = brightnessOf(levels);
     float up = 0.5 + 0.5 * s.normal.z;
-    vec3 sky = frame.ambientColor.rgb * mix(frame.ambientColor.w, 1.0, up);
+    vec3 sky = frame.ambientColor.rgb * mix(frame.ambientFromBelow, 1.0, up);
     float facing = max(dot(s.normal, frame.lightDirection.xyz), 0.0);
-    vec3 lamps = light.rgb * (1.0 - frame.glowColor.w * light.a);
+    vec3 lamps = light.rgb * (1.0 - frame.hiddenLampShare * light.a);
     vec3 around = (lamps + kLeastLight + light.a * sky) * open;
     return s.albedo * (around + s.glow + light.a * frame.lightColor.rgb * facing * shadow);
 }

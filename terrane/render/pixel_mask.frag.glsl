@@ -11,7 +11,7 @@ bool isThere(ivec2 pixel, int k) {
 #if OF == 2
     return texelFetch(layerDepth, pixel, k).r > depthAt(pixel, k);
 #elif OF == 1
-    return blocksOfDepth(depthAt(pixel, k)) >= kFadingBegins * frame.cameraPosition.w;
+    return blocksOfDepth(depthAt(pixel, k)) >= kFadingBegins * frame.fogDistance;
 #else
     return depthAt(pixel, k) > 0.0;
 #endif

@@ -54,13 +54,13 @@ void main() {
     ShapeFace face = shapeFaceOf(quad);
     MaterialRecord material = materialOf(quad);
     vec3 inChunk = shapeFaceCorner(face, cell, corner, extent).xyz;
-    if ((frame.camera.z & kSwitchAnimation) != 0) {
-        inChunk += waveOffset(material.animation, chunk, cell.xyz, inChunk, corner.y, frame.lightDirection.w);
+    if ((frame.switches & kSwitchAnimation) != 0) {
+        inChunk += waveOffset(material.animation, chunk, cell.xyz, inChunk, corner.y, frame.timeSeconds);
     }
 #if PASS == 1
     if (material.animation == kAnimationLiquidSurface) inChunk -= kLiquidInset * normalOfFace(quad);
 #endif
-    vec3 position = inChunk + vec3(16.0 * vec2(chunk - frame.camera.xy), 0.0);
+    vec3 position = inChunk + vec3(16.0 * vec2(chunk - frame.cameraChunk), 0.0);
 #if PASS == 2
     vec3 onMap = (frame.toShadowMap * vec4(position, 1.0)).xyz;
     gl_Position = vec4(2.0 * onMap.xy - 1.0, onMap.z, 1.0);
@@ -72,7 +72,7 @@ void main() {
     vec2 inward = (1.0 - 2.0 * corner) * extent;
     vec4 alongU = frame.viewProjection * vec4(face.axisU.xyz * inward.x, 0.0);
     vec4 alongV = frame.viewProjection * vec4(face.axisV.xyz * inward.y, 0.0);
-    gl_Position = coverCracks(gl_Position, gl_Position + alongU, gl_Position + alongV, frame.viewport.xy, frame.viewport.z);
+    gl_Position = coverCracks(gl_Position, gl_Position + alongU, gl_Position + alongV, frame.viewportSize, frame.crackGrowth);
 #endif
     outTexel = vec2(corner.x, 1.0 - corner.y) * extent;
     uint seed = hash2(uint(chunk.x), uint(chunk.y), quad.word1);

@@ -132,7 +132,9 @@ void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
         {view, glm::vec2(targets_.size), crackGrowth_, hasShadows(input) ? passes_.shadowMap.size() : 0});
     const world::ChunkPos chunk = cameraChunk(input.camera);
     const int mask = light_.gridChunks() - 1;
-    frame.lightGrid = {2 * (chunk.x & mask), 2 * (chunk.y & mask), 2 * light_.gridChunks(), 0};
+    constexpr int kTilesOfChunk = static_cast<int>(shared::kChunkSize / shared::kLightTileSize);
+    frame.firstLightTile = {kTilesOfChunk * (chunk.x & mask), kTilesOfChunk * (chunk.y & mask)};
+    frame.lightGridTiles = kTilesOfChunk * light_.gridChunks();
     const auto slice = ring_.write(std::span<const shared::Frame>(&frame, 1));
     assert(slice && "the ring is empty at the start of a frame");
     ring_.bindUniform(shared::kFrameBinding, *slice);

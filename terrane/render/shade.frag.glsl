@@ -21,7 +21,7 @@ layout(location = 0) out vec4 outColor;
 vec4 shadeAt(Surface s, float depth, float open) {
     vec3 toPoint = inRay * blocksOfDepth(depth);
     vec3 position = frame.cameraPosition.xyz + toPoint;
-    if ((frame.camera.z & kSwitchUnlit) != 0) return throughAir(s.albedo, toPoint, 1.0);
+    if ((frame.switches & kSwitchUnlit) != 0) return throughAir(s.albedo, toPoint, 1.0);
     float shadow = 1.0;
 #if SHADOW == 1
     shadow = lightShare(position, s.normal, length(toPoint));

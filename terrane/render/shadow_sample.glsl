@@ -6,9 +6,9 @@ layout(binding = kShadowUnit) uniform sampler2DShadow shadowMap;
 // ends.
 float lightShare(vec3 position, vec3 normal, float distance) {
     float slope = 1.0 - max(dot(normal, frame.lightDirection.xyz), 0.0);
-    vec3 at = position + normal * (0.02 + 1.5 * frame.shadow.y * slope);
+    vec3 at = position + normal * (0.02 + 1.5 * frame.shadowTexelBlocks * slope);
     vec3 onMap = (frame.toShadowMap * vec4(at, 1.0)).xyz;
     float lit = texture(shadowMap, onMap);
-    float fade = frame.shadow.x * (1.0 - smoothstep(0.8, 1.0, distance / frame.shadow.z));
+    float fade = frame.shadowStrength * (1.0 - smoothstep(0.8, 1.0, distance / frame.shadowReach));
     return mix(1.0, lit, fade);
 }

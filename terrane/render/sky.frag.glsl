@@ -11,7 +11,7 @@ vec3 discColor(vec2 at) {
 #if CLOUDS == 0
     return frame.discColor.rgb;
 #endif
-    float isMoon = frame.sky.y;
+    float isMoon = float(frame.isMoon);
     float pattern = texture(cloudNoise, 0.12 * at + 0.3).r + 0.5 * texture(cloudNoise, 0.3 * at).g;
     float rim = sqrt(max(1.0 - dot(at, at), 0.0));
     return frame.discColor.rgb * mix(1.0, (0.35 + 0.65 * smoothstep(0.5, 1.0, pattern)) * (0.6 + 0.4 * rim), isMoon);
@@ -20,7 +20,7 @@ vec3 discColor(vec2 at) {
 vec4 disc(vec3 direction) {
     vec3 light = frame.lightDirection.xyz;
     vec3 across = normalize(cross(light, vec3(0.0, 0.0, 1.0))), up = cross(across, light);
-    vec2 at = vec2(dot(direction, across), dot(direction, up)) / frame.lightColor.w;  // from the middle, 1 at the rim
+    vec2 at = vec2(dot(direction, across), dot(direction, up)) / frame.discSine;  // from the middle, 1 at the rim
     float pixel = length(fwidth(at));
     float share = dot(direction, light) > 0.0 ? 1.0 - smoothstep(1.0 - pixel, 1.0, length(at)) : 0.0;
     return vec4(discColor(at), share);
@@ -31,7 +31,7 @@ void main() {
     vec4 sun = disc(direction);
     vec3 color = skyColor(direction);
 #if CLOUDS == 1
-    float pixel = length(fwidth(direction)), night = frame.discColor.w;
+    float pixel = length(fwidth(direction)), night = frame.starBrightness;
     color += stars(starDirection(direction), pixel) * night * (1.0 - sun.a) * smoothstep(0.0, 0.2, direction.z);
 #endif
     color = mix(color, max(color, sun.rgb), sun.a);
@@ -40,6 +40,6 @@ void main() {
     color = mix(color, cloud.rgb, cloud.a * 0.92);
 #endif
     // From within water the sky is seen through a round window above, beyond which the surface mirrors what is below.
-    if (frame.light.w > 0.5) color = mix(murk(), color, 0.8 * smoothstep(0.5, 0.8, direction.z));
+    if (frame.isUnderWater != 0u) color = mix(murk(), color, 0.8 * smoothstep(0.5, 0.8, direction.z));
     outColor = vec4(color, 0.0);
 }

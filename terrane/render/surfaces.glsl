@@ -18,7 +18,7 @@ float depthAt(ivec2 pixel, int k) {
 
 // Of a point from the camera, along the view; 0 is the sky's depth.
 float blocksOfDepth(float depth) {
-    return frame.viewport.w / max(depth, 1e-9);
+    return frame.nearPlane / max(depth, 1e-9);
 }
 
 // Equal words are one surface: its texture is read once a pixel. Bits of its samples.

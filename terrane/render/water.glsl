@@ -4,7 +4,7 @@ layout(binding = kSkyNoiseUnit) uniform sampler2D noiseTexture;
 
 // Positions repeat every 64 blocks, so that they are exact anywhere in the world.
 vec2 wavePosition(vec3 position) {
-    return position.xy + vec2((frame.camera.xy & 3) * 16);
+    return position.xy + vec2((frame.cameraChunk & 3) * int(kChunkSize));
 }
 
 // How far it is over level water from one pixel to the next, whose rays differ so: pixels beside may show other things, so
@@ -20,10 +20,10 @@ vec2 turned(vec2 v) {
 
 // Two patterns that move through each other; flatter with distance, where a pixel holds many waves.
 vec3 waveNormal(vec3 position, vec3 toPoint) {
-    float seconds = (frame.camera.z & kSwitchAnimation) != 0 ? frame.lightDirection.w : 0.0;
+    float seconds = (frame.switches & kSwitchAnimation) != 0 ? frame.timeSeconds : 0.0;
     vec2 at = wavePosition(position);
-    vec2 dx = stepOnWater(toPoint, frame.rayAcross.xyz * (2.0 / frame.viewport.x));
-    vec2 dy = stepOnWater(toPoint, frame.rayUp.xyz * (2.0 / frame.viewport.y));
+    vec2 dx = stepOnWater(toPoint, frame.rayAcross.xyz * (2.0 / frame.viewportSize.x));
+    vec2 dy = stepOnWater(toPoint, frame.rayUp.xyz * (2.0 / frame.viewportSize.y));
     vec2 slowAt = at / 32.0 + vec2(0.011, 0.007) * seconds;
     vec2 fastAt = turned(at) / 16.0 - vec2(0.031, -0.023) * seconds;
     vec2 slow = textureGrad(noiseTexture, slowAt, dx / 32.0, dy / 32.0).ba - 0.5;
@@ -52,11 +52,11 @@ vec4 shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 level
     bool isTop = abs(s.normal.z) > 0.5;
     vec3 normal = isTop ? waveNormal(position, toPoint) * sign(s.normal.z) : s.normal;
     vec3 direct = frame.lightColor.rgb * max(frame.lightDirection.z, 0.0) * shadow;
-    vec3 lit = light.a * (frame.ambientColor.rgb + direct) + light.rgb * (1.0 - frame.glowColor.w * light.a) + 0.02;
+    vec3 lit = light.a * (frame.ambientColor.rgb + direct) + light.rgb * (1.0 - frame.hiddenLampShare * light.a) + 0.02;
     vec4 body = waterBody(s.albedo, lit, blocks);
 
     float mirror = isTop ? waterMirror(dot(-view, normal)) : 0.03;
-    if (frame.light.w > 0.5) mirror = 0.0;
+    if (frame.isUnderWater != 0u) mirror = 0.0;
     vec3 reflected = reflect(view, normal);
     reflected.z = abs(reflected.z) + 0.01;
     reflected = normalize(reflected);

@@ -2,35 +2,60 @@
 #ifndef TERRANE_SHARED_FRAME_H
 #define TERRANE_SHARED_FRAME_H
 
+#include "terrane/shared/constants.h"
 #include "terrane/shared/language.h"
 
 SHARED_BEGIN
 
 // Positions on the GPU are in blocks from the corner of the camera's chunk at z = 0, so that they are small
 // and exact wherever in the world the camera is. Colours are linear.
+// Of vec4 positions, directions and colours x, y, z count; w is 0.
 struct Frame {
     mat4 viewProjection;  // to clip space; depth 1 at the near plane, 0 at infinity
     mat4 toShadowMap;     // x, y: 0…1 over the map; z: its depth
-    vec4 rayAhead;        // from the camera to the middle of the picture one block ahead
-    vec4 rayAcross;       // from there to its right edge
-    vec4 rayUp;           // and to its upper edge
-    vec4 cameraPosition;  // w: distance in blocks at which the fog is complete
-    vec4 lightDirection;  // to the sun or moon; w: seconds for animations
-    vec4 lightColor;      // of the sun or moon; w: sine of its disc's radius
-    vec4 ambientColor;    // from the sky, on faces that look up; w: share of it on faces that look down
-    vec4 zenithColor;     // w: exposure
-    vec4 horizonColor;    // w: 0 for the picture, else a kView… value
-    vec4 glowColor;       // around the light at the horizon; w: share of lamp light that full daylight hides
-    vec4 discColor;       // of the sun or moon itself; w: brightness of the stars, 0…1
-    vec4 lightGrid;       // x, y: the camera chunk's first light tile; z: tiles along a side of the grid
-    vec4 viewport;  // width and height in pixels; z: by how many pixels quads grow, see crack_cover.glsl;
-                    // w: distance of the near plane, blocks
-    vec4 shadow;    // x: strength, 0 without a map; y: blocks a texel; z: distance of no shadow; w: texels a
-                    // side
-    vec4
-        light;  // x, y: the light on the screen, -1…1; z: how much of its rays is seen, 0…1; w: 1 under water
-    vec4 sky;      // x: how far the stars have turned, 0…1; y: 1 at night, when the light is the moon
-    ivec4 camera;  // x, y: the camera's chunk; z: kSwitch… bits; w: the one layer shown, 0 for all
+
+    vec4 rayAhead;   // from the camera to the middle of the image one block ahead
+    vec4 rayAcross;  // from there to its right edge
+    vec4 rayUp;      // and to its upper edge
+    vec4 cameraPosition;
+
+    vec4 lightDirection;  // to the sun or moon
+    vec4 lightColor;      // of the sun or moon
+    vec4 ambientColor;    // from the sky, on faces that look up
+    vec4 zenithColor;
+    vec4 horizonColor;
+    vec4 glowColor;  // around the light at the horizon
+    vec4 discColor;  // of the sun or moon itself
+
+    vec2 viewportSize;   // pixels
+    vec2 lightOnScreen;  // the sun or moon, -1…1
+    ivec2 cameraChunk;
+    ivec2 firstLightTile;  // of the camera's chunk, in the light grid
+
+    int lightGridTiles;  // along a side of the grid
+    int switches;        // kSwitch… bits
+    int singleLayer;     // the one transparency layer shown, 0 for all
+    uint view;           // 0 for the image, else a kView… value
+
+    float fogDistance;  // blocks at which the fog is complete
+    float nearPlane;    // blocks
+    float crackGrowth;  // pixels by which quads grow, see crack_cover.glsl
+    float timeSeconds;  // for animations
+
+    float exposure;
+    float ambientFromBelow;  // share of ambientColor on faces that look down
+    float hiddenLampShare;   // share of lamp light that full daylight hides
+    float discSine;          // of the radius of the sun's or moon's disc
+
+    float starBrightness;  // 0…1
+    float starTurn;        // how far the stars have turned, 0…1
+    float lightRayShare;   // how much of the light's rays is seen, 0…1
+    uint isMoon;           // 1 at night, when the light is the moon
+
+    float shadowStrength;     // 0 without a map
+    float shadowTexelBlocks;  // blocks a texel
+    float shadowReach;        // distance in blocks from which there are no shadows
+    uint isUnderWater;        // 1 where the camera is
 };
 
 // Along the view, as the depth has it, surfaces may fade from this share of the distance of the fog on: they
@@ -42,7 +67,7 @@ const uint kViewDepth = 2u;
 const uint kViewAggregation = 3u;  // each quad in a colour of its own
 const uint kViewLight = 4u;
 
-// Frame::camera.z: what costs nothing to switch within a shader.
+// Frame::switches: what costs nothing to switch within a shader.
 const int kSwitchAnimation = 1;
 const int kSwitchAtmosphere = 4;
 const int kSwitchUnlit = 8;  // the colours of the blocks alone
@@ -59,7 +84,7 @@ SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(Frame) == 2 * 64 + 17 * 16, "std140 and std430 agree on mat4 and vec4");
+static_assert(sizeof(Frame) == 2 * 64 + 18 * 16, "members lie in groups of 16 bytes, as in std140");
 static_assert(sizeof(MaterialRecord) == 16);
 }  // namespace terrane::shared
 #endif

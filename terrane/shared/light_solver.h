@@ -7,9 +7,7 @@
 
 SHARED_BEGIN
 
-// Storage buffers
-const uint kSolverSectionsBinding = 0u;
-const uint kSolverDataBinding = 1u;
+// Storage buffers, after those of shared/packed_section.h
 const uint kSolverLevelsBinding = 2u;
 const uint kSolverCellsBinding = 3u;
 const uint kSolverListsBinding = 4u;
@@ -31,16 +29,7 @@ const uint kBrickWords = 2048u;  // 16³ blocks
 // at most 14 borders between cells, on most paths two.
 const uint kSolverRounds = 4u;
 
-// A section of the blocks. bits: of an index into the palette, 0 (one value), 1, 2, 4, 8, or 16: no palette.
-// Palette and words begin at these places of the data.
-struct SectionInput {
-    uint bits;
-    uint palette;
-    uint words;
-    uint unused;
-};
-
-// The palette holds opacity in bits 0–3, emission in 4–15.
+// Blocks by their properties: opacity in bits 0–3, emission in 4–15.
 SHARED_FN uint opacityOf(uint property) {
     return property & 15u;
 }
@@ -87,7 +76,7 @@ SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(SectionInput) == 16 && sizeof(SolverRound) == 16);
+static_assert(sizeof(SolverRound) == 16);
 static_assert(sizeof(SolverState) == (kSolverRounds + 2) * sizeof(SolverRound));
 static_assert(kCellWords == kCellWordsX * kCellSize * kCellSize);
 static_assert(kCellsPerChunk * kCellWords * 2 == kBlocksPerChunk && kBrickWords * 2 == kBlocksPerSection);

@@ -8,9 +8,7 @@
 
 SHARED_BEGIN
 
-// Storage buffers
-const uint kMeshSectionsBinding = 0u;
-const uint kMeshDataBinding = 1u;
+// Storage buffers, after those of shared/packed_section.h
 const uint kMeshTypesBinding = 2u;
 const uint kMeshGrowthBinding = 3u;
 const uint kMeshUnitsBinding = 4u;
@@ -18,15 +16,8 @@ const uint kMeshUnitCountsBinding = 5u;
 const uint kMeshRegionsBinding = 6u;  // counts, or where the next quad goes
 const uint kMeshQuadsBinding = 7u;
 
-// Values of a section. bits: of an index into the palette, 0 (one value), 1, 2, 4, 8, or 16: no palette.
-// Palette and words begin at these places of the data. Palettes of blocks hold the id and, from bit 16 on,
-// the flags of its type; those of small data hold values.
-struct MeshSection {
-    uint bits;
-    uint palette;
-    uint words;
-    uint unused;
-};
+// Palettes of packed sections of blocks hold the id and, from bit 16 on, the flags of its type; those of
+// small data hold values.
 
 // In place of where a region's quads go: they are not written.
 const uint kNoPlace = 0xFFFFFFFFu;
@@ -78,7 +69,7 @@ SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(MeshSection) == 16 && sizeof(MeshUnit) == 48 && sizeof(MeshType) == 32);
+static_assert(sizeof(MeshUnit) == 48 && sizeof(MeshType) == 32);
 static_assert(sizeof(MeshRegionCounts) == 4 * (kRangesOfRegion + 2));
 static_assert(kMeshUnitWords == kRangesOfRegion + 1);
 }  // namespace terrane::shared

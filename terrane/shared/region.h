@@ -77,11 +77,15 @@ struct CullFrame {
     vec4 cameraPlanes[5];
     vec4 shadowPlanes[5];
     vec4 cameraPosition;    // from the corner of its chunk
-    vec4 lightDirection;    // to the light; w: 1 where there is a shadow map
-    ivec4 camera;           // x, y: its chunk; z: number of regions
+    vec4 lightDirection;    // to the light
     uvec4 firstCommand[3];  // of each list, in the buffer of commands
     mat4 viewProjection;
-    vec4 viewport;  // width and height in pixels; distance of the near plane; levels of the pyramid
+    ivec2 cameraChunk;
+    vec2 viewportSize;  // pixels
+    float nearPlane;    // blocks
+    int pyramidLevels;
+    uint regionCount;
+    uint run;  // kCullAll and so on
 };
 
 SHARED_END

@@ -5,8 +5,6 @@
 namespace terrane::app {
 namespace {
 
-using gpu::Gamepad;
-
 TEST(PadReader, TellsWhatHappenedSinceTheFrameBefore) {
     PadReader pad;
     EXPECT_FALSE(pad.isPressed(&Gamepad::north));

@@ -14,6 +14,7 @@
 #include "terrane/shared/generation.h"
 #include "terrane/shared/light_solver.h"
 #include "terrane/shared/mesher.h"
+#include "terrane/shared/packed_section.h"
 #include "terrane/shared/quad.h"
 #include "terrane/shared/region.h"
 #include "terrane/shared/shape_face.h"
@@ -54,12 +55,30 @@ std::vector<StructLayout> frameLayouts() {
               {"horizonColor", offsetof(Frame, horizonColor)},
               {"glowColor", offsetof(Frame, glowColor)},
               {"discColor", offsetof(Frame, discColor)},
-              {"lightGrid", offsetof(Frame, lightGrid)},
-              {"viewport", offsetof(Frame, viewport)},
-              {"shadow", offsetof(Frame, shadow)},
-              {"light", offsetof(Frame, light)},
-              {"sky", offsetof(Frame, sky)},
-              {"camera", offsetof(Frame, camera)}}},
+              {"viewportSize", offsetof(Frame, viewportSize)},
+              {"lightOnScreen", offsetof(Frame, lightOnScreen)},
+              {"cameraChunk", offsetof(Frame, cameraChunk)},
+              {"firstLightTile", offsetof(Frame, firstLightTile)},
+              {"lightGridTiles", offsetof(Frame, lightGridTiles)},
+              {"switches", offsetof(Frame, switches)},
+              {"singleLayer", offsetof(Frame, singleLayer)},
+              {"view", offsetof(Frame, view)},
+              {"fogDistance", offsetof(Frame, fogDistance)},
+              {"nearPlane", offsetof(Frame, nearPlane)},
+              {"crackGrowth", offsetof(Frame, crackGrowth)},
+              {"timeSeconds", offsetof(Frame, timeSeconds)},
+              {"exposure", offsetof(Frame, exposure)},
+              {"ambientFromBelow", offsetof(Frame, ambientFromBelow)},
+              {"hiddenLampShare", offsetof(Frame, hiddenLampShare)},
+              {"discSine", offsetof(Frame, discSine)},
+              {"starBrightness", offsetof(Frame, starBrightness)},
+              {"starTurn", offsetof(Frame, starTurn)},
+              {"lightRayShare", offsetof(Frame, lightRayShare)},
+              {"isMoon", offsetof(Frame, isMoon)},
+              {"shadowStrength", offsetof(Frame, shadowStrength)},
+              {"shadowTexelBlocks", offsetof(Frame, shadowTexelBlocks)},
+              {"shadowReach", offsetof(Frame, shadowReach)},
+              {"isUnderWater", offsetof(Frame, isUnderWater)}}},
             {"MaterialRecord",
              "frame.h",
              false,
@@ -104,23 +123,19 @@ std::vector<StructLayout> regionLayouts() {
               {"shadowPlanes", offsetof(CullFrame, shadowPlanes)},
               {"cameraPosition", offsetof(CullFrame, cameraPosition)},
               {"lightDirection", offsetof(CullFrame, lightDirection)},
-              {"camera", offsetof(CullFrame, camera)},
               {"firstCommand", offsetof(CullFrame, firstCommand)},
               {"viewProjection", offsetof(CullFrame, viewProjection)},
-              {"viewport", offsetof(CullFrame, viewport)}}}};
+              {"cameraChunk", offsetof(CullFrame, cameraChunk)},
+              {"viewportSize", offsetof(CullFrame, viewportSize)},
+              {"nearPlane", offsetof(CullFrame, nearPlane)},
+              {"pyramidLevels", offsetof(CullFrame, pyramidLevels)},
+              {"regionCount", offsetof(CullFrame, regionCount)},
+              {"run", offsetof(CullFrame, run)}}}};
 }
 
 std::vector<StructLayout> mesherLayouts() {
-    using shared::MeshSection, shared::MeshUnit, shared::MeshType, shared::MeshRegionCounts;
-    return {{"MeshSection",
-             "mesher.h",
-             false,
-             sizeof(MeshSection),
-             {{"bits", offsetof(MeshSection, bits)},
-              {"palette", offsetof(MeshSection, palette)},
-              {"words", offsetof(MeshSection, words)},
-              {"unused", offsetof(MeshSection, unused)}}},
-            {"MeshUnit",
+    using shared::MeshUnit, shared::MeshType, shared::MeshRegionCounts;
+    return {{"MeshUnit",
              "mesher.h",
              false,
              sizeof(MeshUnit),
@@ -148,7 +163,7 @@ std::vector<StructLayout> mesherLayouts() {
 }
 
 std::vector<StructLayout> otherLayouts() {
-    using shared::Quad, shared::ShapeFace, shared::TileJob, shared::SectionInput, shared::SolverRound;
+    using shared::Quad, shared::ShapeFace, shared::TileJob, shared::PackedSection, shared::SolverRound;
     return {{"Quad",
              "quad.h",
              false,
@@ -167,14 +182,14 @@ std::vector<StructLayout> otherLayouts() {
              false,
              sizeof(TileJob),
              {{"origin", offsetof(TileJob, origin)}, {"neighbours", offsetof(TileJob, neighbours)}}},
-            {"SectionInput",
-             "light_solver.h",
+            {"PackedSection",
+             "packed_section.h",
              false,
-             sizeof(SectionInput),
-             {{"bits", offsetof(SectionInput, bits)},
-              {"palette", offsetof(SectionInput, palette)},
-              {"words", offsetof(SectionInput, words)},
-              {"unused", offsetof(SectionInput, unused)}}},
+             sizeof(PackedSection),
+             {{"bits", offsetof(PackedSection, bits)},
+              {"palette", offsetof(PackedSection, palette)},
+              {"words", offsetof(PackedSection, words)},
+              {"unused", offsetof(PackedSection, unused)}}},
             {"SolverRound",
              "light_solver.h",
              false,

@@ -4,20 +4,21 @@
 
 #include <set>
 
+#include "terrane/shared/light_solver.h"
 #include "tests/light/test_area.h"
 
 namespace terrane::light_gpu {
 namespace {
 
-// What the shaders read, as they read it (cells.glsl).
-shared::uint propertyAt(const SectionUpload& upload, std::size_t chunk, int index) {
-    const auto at = static_cast<std::size_t>(index);
-    const shared::SectionInput section = upload.sections[chunk * shared::kSectionsPerChunk + at / 4096];
-    if (section.bits == 0) return upload.data[section.palette];
-    const std::size_t bit = at % 4096 * section.bits;
-    const shared::uint value =
-        upload.data[section.words + bit / 32] >> bit % 32 & ((1u << section.bits) - 1u);
-    return section.bits == 16 ? value : upload.data[section.palette + value];
+// What the shaders read, as they read it (packed_section.glsl).
+shared::uint propertyAt(const world::PackedSections& packed, std::size_t chunk, int index) {
+    const auto at = static_cast<shared::uint>(index), block = at % shared::kBlocksPerSection;
+    const shared::PackedSection section =
+        packed.sections[chunk * shared::kSectionsPerChunk + at / shared::kBlocksPerSection];
+    if (section.bits == 0) return packed.data[section.palette];
+    const shared::uint word = packed.data[section.words + shared::packedWordIndex(section, block)];
+    const shared::uint value = shared::packedIndex(section, word, block);
+    return section.bits == shared::kDenseBits ? value : packed.data[section.palette + value];
 }
 
 TEST(SectionUpload, HoldsOpacityAndEmissionOfEveryBlockInEveryForm) {
@@ -27,9 +28,9 @@ TEST(SectionUpload, HoldsOpacityAndEmissionOfEveryBlockInEveryForm) {
         if (z >= 80) return static_cast<world::BlockId>(hash % (1u << (z / 16 - 4)) % 600);
         return light::anyBlock(hash % (1u << (z / 16)));
     });
-    SectionUpload upload;
-    upload.add({}, light::contentTable());
-    upload.add(chunk, light::contentTable());
+    world::PackedSections upload;
+    appendChunk(upload, {}, light::contentTable());
+    appendChunk(upload, chunk, light::contentTable());
     std::set<int> forms;
     for (int n = 0; n < world::kSectionsPerChunk; ++n) forms.insert(chunk.section(n).bits());
     EXPECT_GE(forms.size(), 5u);

@@ -33,7 +33,7 @@ class MeshQueueTest : public gpu::GlTest {
     void makeQueue(double budgetMilliseconds, std::uint32_t maxQuads = 0) {
         auto mesher = GpuMesher::create(render::contentShaders(), mesh::testBlocks());
         ASSERT_TRUE(mesher) << mesher.error().message;
-        queue_.emplace(std::move(*mesher), mesh::testBlocks(), budgetMilliseconds);
+        queue_.emplace(std::move(*mesher), budgetMilliseconds);
         store_.emplace(maxQuads);
     }
 
@@ -58,16 +58,26 @@ class MeshQueueTest : public gpu::GlTest {
     }
 
     void advance() {
-        const auto place = [&](ChunkPos pos, std::span<const mesh::RegionMesh> regions) {
-            std::vector<std::uint32_t> firstQuads;
-            if (!store_->reserve(pos, regions)) return firstQuads;
-            for (const mesh::RegionMesh& region : store_->regionsOf(pos)) {
+        if (queue_->isCounted()) writeMeshes();
+        std::vector<mesh::MeshBlocks> blocks;
+        for (const ChunkPos pos : queue_->takeWaiting()) blocks.push_back(blocksOf(pos));
+        if (blocks.empty()) return;
+        std::vector<mesh::MeshInput> inputs;
+        for (const mesh::MeshBlocks& chunk : blocks) {
+            inputs.push_back(mesh::meshInput(chunk, mesh::testBlocks(), options_));
+        }
+        queue_->count(inputs);
+    }
+    void writeMeshes() {
+        std::vector<FirstQuads> places;
+        for (const CountedChunk& chunk : queue_->takeCounted()) {
+            FirstQuads& firstQuads = places.emplace_back();
+            if (!store_->reserve(chunk.pos, chunk.regions)) continue;
+            for (const mesh::RegionMesh& region : store_->regionsOf(chunk.pos)) {
                 firstQuads.push_back(mesh::firstQuad(region));
             }
-            return firstQuads;
-        };
-        queue_->advance(options_, {[&](ChunkPos pos) { return blocksOf(pos); }, place,
-                                   [&]() -> const gpu::Buffer& { return store_->buffer(); }});
+        }
+        queue_->write(places, store_->buffer());
     }
     void finish() {
         for (int k = 0; queue_->size() > 0; ++k) {

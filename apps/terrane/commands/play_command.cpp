@@ -71,12 +71,12 @@ DayClock dayOf(const PlayOptions& options, const WorldSession& session) {
     return day;
 }
 
-base::Result<gpu::Window> openWindow(const PlayOptions& options) {
-    auto window = gpu::Window::create({.title = "Terrane",
-                                       .width = options.graphics.size.x,
-                                       .height = options.graphics.size.y,
-                                       .fullScreen = options.settings.fullScreen,
-                                       .debug = options.graphics.debugGl});
+base::Result<Window> openWindow(const PlayOptions& options) {
+    auto window = Window::create({.title = "Terrane",
+                                  .width = options.graphics.size.x,
+                                  .height = options.graphics.size.y,
+                                  .fullScreen = options.settings.fullScreen,
+                                  .debug = options.graphics.debugGl});
     if (window) setTerraneIcon(*window);
     return window;
 }

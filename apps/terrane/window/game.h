@@ -14,8 +14,8 @@
 #include "apps/terrane/window/perf_log.h"
 #include "apps/terrane/window/play_settings.h"
 #include "apps/terrane/window/timed_value.h"
+#include "apps/terrane/window/window.h"
 #include "apps/terrane/world_view.h"
-#include "terrane/gpu/window.h"
 #include "terrane/render/background_compiler.h"
 
 namespace terrane::app {
@@ -25,7 +25,7 @@ constexpr std::string_view kCameraSetting = "camera", kTimeSetting = "time";
 
 // What the loop works with; everything outlives it.
 struct GameParts {
-    gpu::Window& window;
+    Window& window;
     WorldSession& session;
     render::Renderer& renderer;
     WorldView& view;
@@ -58,9 +58,9 @@ class Game {
     using WriteTime = std::optional<std::filesystem::file_time_type>;
 
     void handleEvents();
-    void onKey(gpu::Key key);
+    void onKey(Key key);
     void onPad(double seconds);
-    void onButton(gpu::MouseButton button, bool isPress);
+    void onButton(MouseButton button, bool isPress);
     bool openChest();
     void closeChest();
     void capture(bool isCaptured);

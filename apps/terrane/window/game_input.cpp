@@ -27,9 +27,9 @@ std::filesystem::path freeScreenshot() {
 }  // namespace
 
 void Game::handleEvents() {
-    using Type = gpu::InputEvent::Type;
+    using Type = InputEvent::Type;
     const bool wasCaptured = isCaptured_;  // what moved before the cursor was taken turns nobody
-    for (const gpu::InputEvent& event : parts_.window.events()) {
+    for (const InputEvent& event : parts_.window.events()) {
         switch (event.type) {
             case Type::KeyPress:
                 onKey(event.key);
@@ -51,8 +51,7 @@ void Game::handleEvents() {
     }
 }
 
-void Game::onKey(gpu::Key key) {
-    using gpu::Key;
+void Game::onKey(Key key) {
     if (imgui_.takesKeys()) return;  // Escape ends the typing
     switch (key) {
         case Key::Escape:
@@ -112,7 +111,6 @@ void Game::nextMovement() {
 
 // The sticks move and turn, as moveKeys() and this see them; buttons do what keys and the mouse do.
 void Game::onPad(double seconds) {
-    using gpu::Gamepad;
     pad_.read(parts_.window.gamepad());
     player_.turn(double{pad_.now().rightX} * kStickDegrees * seconds,
                  -double{pad_.now().rightY} * kStickDegrees * seconds);
@@ -125,19 +123,19 @@ void Game::onPad(double seconds) {
     if (pad_.isPressed(&Gamepad::down)) day_.shift(-kDayStep);
 }
 
-void Game::onButton(gpu::MouseButton button, bool isPress) {
-    HeldButton* held = button == gpu::MouseButton::Left    ? &hand_.breaking
-                       : button == gpu::MouseButton::Right ? &hand_.building
-                                                           : nullptr;
+void Game::onButton(MouseButton button, bool isPress) {
+    HeldButton* held = button == MouseButton::Left    ? &hand_.breaking
+                       : button == MouseButton::Right ? &hand_.building
+                                                      : nullptr;
     if (!isPress) {
         if (held) held->release();
         return;
     }
-    if (button == gpu::MouseButton::Middle) {
+    if (button == MouseButton::Middle) {
         // The middle button turns mouse look on and off, wherever the cursor is.
         return capture(!isCaptured_);
     }
-    if (isCaptured_ && button == gpu::MouseButton::Right && openChest()) return;
+    if (isCaptured_ && button == MouseButton::Right && openChest()) return;
     if (isCaptured_) return held->press();
     if (!imgui_.takesMouse()) capture(true);
 }
@@ -145,7 +143,7 @@ void Game::onButton(gpu::MouseButton button, bool isPress) {
 // That which is looked at, unless one runs: then one builds against it.
 bool Game::openChest() {
     const auto& target = hand_.target();
-    if (!target || parts_.window.keyDown(gpu::Key::Shift) ||
+    if (!target || parts_.window.keyDown(Key::Shift) ||
         !isChest(parts_.session.world, parts_.session.blocks, target->block)) {
         return false;
     }
@@ -196,8 +194,7 @@ void Game::takeScreenshot() {
 }
 
 MoveKeys Game::moveKeys() const {
-    using gpu::Key;
-    const gpu::Gamepad& pad = pad_.now();
+    const Gamepad& pad = pad_.now();
     const bool isTyping = imgui_.takesKeys(), walks = settings_.movement == Movement::Gravity;
     const auto isDown = [&](Key key) { return !isTyping && parts_.window.keyDown(key); };
     return {.forward = isDown(Key::W) || isDown(Key::Up),

@@ -4,7 +4,7 @@
 
 namespace terrane::app {
 
-void setTerraneIcon(gpu::Window& window) {
+void setTerraneIcon(Window& window) {
     const auto image = builtInTextures()("grass_side");
     if (image) window.setIcon(image->width, image->height, std::as_bytes(std::span(image->rgba)));
 }

@@ -1,10 +1,10 @@
 // The window's icon: a block of grass, painted from the game's own textures.
 #pragma once
 
-#include "terrane/gpu/window.h"
+#include "apps/terrane/window/window.h"
 
 namespace terrane::app {
 
-void setTerraneIcon(gpu::Window& window);
+void setTerraneIcon(Window& window);
 
 }  // namespace terrane::app

@@ -40,7 +40,7 @@ float uiScale() {
     return ImGui::GetFontSize() / kFontPixels;
 }
 
-ImguiLayer::ImguiLayer(const gpu::Window& window) : window_(&window) {
+ImguiLayer::ImguiLayer(const Window& window) : window_(&window) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // where its windows lie is ours to say

@@ -3,14 +3,14 @@
 
 #include <glm/vec2.hpp>
 
-#include "terrane/gpu/window.h"
+#include "apps/terrane/window/window.h"
 
 namespace terrane::app {
 
 class ImguiLayer {
   public:
     // `window` outlives this; made after the window's own callbacks.
-    explicit ImguiLayer(const gpu::Window& window);
+    explicit ImguiLayer(const Window& window);
     ~ImguiLayer();
     ImguiLayer(const ImguiLayer&) = delete;
     ImguiLayer& operator=(const ImguiLayer&) = delete;
@@ -34,7 +34,7 @@ class ImguiLayer {
     };
     void followScale();
 
-    const gpu::Window* window_;
+    const Window* window_;
     Scale scale_;
 };
 

@@ -4,20 +4,20 @@
 #include <optional>
 
 #include "apps/terrane/window/held_button.h"
-#include "terrane/gpu/input.h"
+#include "apps/terrane/window/input.h"
 
 namespace terrane::app {
 
 class PadReader {
   public:
-    using Button = bool gpu::Gamepad::*;
+    using Button = bool Gamepad::*;
 
     // Once a frame. Without a pad nothing is down: what was, is released.
-    void read(const std::optional<gpu::Gamepad>& pad) {
+    void read(const std::optional<Gamepad>& pad) {
         before_ = now_;
-        now_ = pad.value_or(gpu::Gamepad());
+        now_ = pad.value_or(Gamepad());
     }
-    const gpu::Gamepad& now() const { return now_; }
+    const Gamepad& now() const { return now_; }
     bool isPressed(Button button) const { return now_.*button && !(before_.*button); }
     bool isReleased(Button button) const { return !(now_.*button) && before_.*button; }
     // Leaves alone what the mouse does with the same button.
@@ -27,7 +27,7 @@ class PadReader {
     }
 
   private:
-    gpu::Gamepad before_, now_;
+    Gamepad before_, now_;
 };
 
 }  // namespace terrane::app

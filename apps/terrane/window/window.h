@@ -8,13 +8,13 @@
 #include <span>
 #include <string>
 
+#include "apps/terrane/window/input.h"
 #include "terrane/base/result.h"
 #include "terrane/gpu/debug.h"
-#include "terrane/gpu/input.h"
 
 struct GLFWwindow;
 
-namespace terrane::gpu {
+namespace terrane::app {
 
 struct WindowOptions {
     std::string title = "Terrane";
@@ -60,7 +60,7 @@ class Window {
 
     [[nodiscard]] bool valid() const { return state_ != nullptr; }
     // Null without the debug option.
-    [[nodiscard]] DebugLog* debugLog() const;
+    [[nodiscard]] gpu::DebugLog* debugLog() const;
     // For user interface libraries with a GLFW back end of their own.
     [[nodiscard]] GLFWwindow* handle() const;
 
@@ -69,4 +69,4 @@ class Window {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace terrane::gpu
+}  // namespace terrane::app

@@ -1,4 +1,4 @@
-#include "terrane/gpu/window.h"
+#include "apps/terrane/window/window.h"
 
 #include <epoxy/gl.h>
 // epoxy declares OpenGL, so GLFW must not.
@@ -15,7 +15,7 @@
 
 #include "terrane/gpu/device_info.h"
 
-namespace terrane::gpu {
+namespace terrane::app {
 
 namespace {
 
@@ -90,7 +90,7 @@ struct Window::State {
     std::vector<InputEvent> events;
     glm::dvec2 cursor = {0.0, 0.0};
     bool cursorKnown = false;  // false: the next position starts a new motion
-    std::unique_ptr<DebugLog> debugLog;
+    std::unique_ptr<gpu::DebugLog> debugLog;
     glm::ivec4 place{kLeft, kTop, 1280, 720};  // and size of the window, for when it leaves the full screen
 
     State() = default;
@@ -159,8 +159,8 @@ base::Result<Window> Window::create(const WindowOptions& options) {
     if (state.window == nullptr)
         return base::fail("no window with an OpenGL 4.5 core context: {}", lastError());
     glfwMakeContextCurrent(state.window);
-    if (base::Result<void> fit = checkRequirements(); !fit) return tl::unexpected(fit.error());
-    if (options.debug) state.debugLog = enableDebugOutput(options.debugFatal);
+    if (base::Result<void> fit = gpu::checkRequirements(); !fit) return tl::unexpected(fit.error());
+    if (options.debug) state.debugLog = gpu::enableDebugOutput(options.debugFatal);
     glfwSwapInterval(options.vsync ? 1 : 0);
     glfwSetTime(0.0);
     state.installCallbacks();
@@ -281,7 +281,7 @@ double Window::timeSeconds() const {
     return glfwGetTime();
 }
 
-DebugLog* Window::debugLog() const {
+gpu::DebugLog* Window::debugLog() const {
     return state_->debugLog.get();
 }
 
@@ -289,4 +289,4 @@ GLFWwindow* Window::handle() const {
     return state_->window;
 }
 
-}  // namespace terrane::gpu
+}  // namespace terrane::app

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace terrane::gpu {
+namespace terrane::app {
 
 // clang-format off
 // Letters by their place on a US keyboard, so that WASD stays a square on every layout.
@@ -39,4 +39,4 @@ struct Gamepad {
     bool up = false, down = false;
 };
 
-}  // namespace terrane::gpu
+}  // namespace terrane::app
