@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/former_names.h"
 #include "apps/terrane/options.h"
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
@@ -70,7 +71,9 @@ int main(int argc, char** argv) {
         app::addMan(app)};
     std::string trace;
     for (const app::CommandEntry& command : commands) app::addTraceOption(*command.parser, trace);
-    std::vector<const char*> arguments(argv, argv + argc);
+    const std::vector<std::string> named = app::withCurrentNames({argv, static_cast<std::size_t>(argc)});
+    std::vector<const char*> arguments;
+    for (const std::string& argument : named) arguments.push_back(argument.c_str());
     const bool hasCommand = argc > 1 && argv[1][0] != '-';
     const bool asksForHelp =
         argc > 1 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h" ||

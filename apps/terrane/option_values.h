@@ -63,7 +63,7 @@ unsigned threadCount(const WorldOptions& options);
 template <class T>
 using Words = std::span<const std::pair<std::string, T>>;
 
-Words<mesh::Method> aggregationWords();  // --aggregation
+Words<mesh::Method> aggregationWords();  // --merging
 Words<render::View> viewWords();         // --view
 
 }  // namespace terrane::app

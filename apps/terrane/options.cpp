@@ -171,12 +171,12 @@ void addWorldOptions(CLI::App& command, WorldOptions& options) {
 }
 
 void addMeshOptions(CLI::App& command, mesh::MeshOptions& options) {
-    addChoice<mesh::Method>(command, "--aggregation", options.method,
+    addChoice<mesh::Method>(command, "--merging", options.method,
                             {aggregationWords().begin(), aggregationWords().end()},
                             "How equal faces are merged into rectangles");
     command
-        .add_option("--region-height", options.regionHeight,
-                    "Height in blocks of the parts of chunks that are culled")
+        .add_option("--mesh-section-height", options.regionHeight,
+                    "Height in blocks of the mesh sections that are culled and drawn")
         ->check(CLI::IsMember({8, 16, 32, 64, 128}))
         ->capture_default_str();
 }
@@ -267,7 +267,7 @@ Words<render::View> viewWords() {
     static const std::array<std::pair<std::string, View>, 5> words = {{{"color", View::Color},
                                                                        {"normal", View::Normal},
                                                                        {"depth", View::Depth},
-                                                                       {"aggregation", View::Aggregation},
+                                                                       {"merging", View::Aggregation},
                                                                        {"light", View::Light}}};
     return words;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/terrane/former_names.h"
 #include "apps/terrane/option_values.h"
 
 namespace terrane::app {
@@ -14,7 +15,7 @@ namespace terrane::app {
 void addWorldOptions(CLI::App& command, WorldOptions& options);
 // `preset`: where none is asked for.
 void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string preset);
-// --aggregation and --region-height.
+// --merging and --mesh-section-height.
 void addMeshOptions(CLI::App& command, mesh::MeshOptions& options);
 // "X0,Y0,X1,Y1", the end excluded; not empty and inside the world.
 void addAreaOption(CLI::App& command, std::optional<Area>& area);
@@ -49,7 +50,7 @@ void addChoice(CLI::App& command, const std::string& name, T& value,
     }
     const auto take = [name, &value, choices, words](const std::string& text) {
         for (const auto& [word, choice] : choices) {
-            if (word != text) continue;
+            if (word != currentValue(text)) continue;
             value = choice;
             return;
         }

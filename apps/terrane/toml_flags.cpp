@@ -2,6 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <sstream>
+#include <vector>
+
+#include "apps/terrane/former_names.h"
 
 namespace terrane::app {
 namespace {
@@ -29,6 +32,24 @@ base::Result<void> setFromToml(CLI::Option& flag, const toml::node& value) {
         return base::fail("{}", what);
     }
     return {};
+}
+
+void useCurrentNames(toml::table& table) {
+    std::vector<toml::key> former;
+    for (auto&& [key, value] : table) {
+        if (currentFlag(key.str()) != key.str()) former.push_back(key);
+        if (toml::table* inner = value.as_table()) useCurrentNames(*inner);
+        if (toml::array* array = value.as_array()) {
+            for (toml::node& element : *array)
+                if (toml::table* inner = element.as_table()) useCurrentNames(*inner);
+        }
+    }
+    for (const toml::key& key : former) {
+        // Moved, so that errors still name its line.
+        table.insert(toml::key(currentFlag(key.str()), toml::source_region(key.source())),
+                     std::move(*table.get(key.str())));
+        table.erase(key.str());
+    }
 }
 
 }  // namespace terrane::app

@@ -10,7 +10,7 @@ import subprocess
 import support
 from support import Npy, Picture, ProgramTest, run
 
-COMMANDS = ("play", "render", "record", "fly", "generate", "map", "dump", "check", "blocks", "info", "bench", "completion", "man")
+COMMANDS = ("play", "render", "record", "flight-bench", "generate", "map", "dump", "check", "blocks", "info", "bench", "completion", "man")
 FLAT = ("--generator", "flat")
 
 # Name: opacity to light, emission. Of all blocks that the game starts with.
@@ -43,11 +43,33 @@ class Help(ProgramTest):
         self.assertRegex(self.succeed("--version"), r"\A\d+\.\d+\.\d+\n\Z")
 
 
-class Fly(ProgramTest):
+class FormerNames(ProgramTest):
+    FLAGS = ("--for", "--better-texturing", "--atmosphere", "--position", "--aggregation", "--region-height")
+
+    def test_they_work(self):
+        place = (*FLAT, "--size", "64x36", "--view-distance", "2", "--samples", "1")
+        self.succeed("fly", *place, "--for", "0.2", "--json")
+        old, new = self.folder / "old.png", self.folder / "new.png"
+        place = (*place, "--at", "8,8,100")
+        self.succeed("render", *place, "--atmosphere", "off", "--better-texturing=off", "--aggregation", "lines",
+                     "--region-height", "32", "--view", "aggregation", "-o", old)
+        self.succeed("render", *place, "--distance-fog", "off", "--sharp-filtering", "off", "--merging", "lines",
+                     "--mesh-section-height", "32", "--view", "merging", "-o", new)
+        self.assertEqual(old.read_bytes(), new.read_bytes())
+
+    def test_no_help_lists_them(self):
+        texts = [self.succeed("--help"), self.succeed("man").replace("\\-", "-"), self.succeed("completion", "bash")]
+        texts += [self.succeed(command, "--help") for command in COMMANDS]
+        for text in texts:
+            for name in (*self.FLAGS, "fly", "aggregation"):
+                self.assertNotRegex(text, rf"(?m)^ *{name}\b")
+
+
+class FlightBench(ProgramTest):
     def test_every_frame_has_a_line(self):
         table = self.folder / "flight.csv"
-        done = run("fly", *FLAT, "--size", "64x36", "--view-distance", "2", "--samples", "1", "--for", "1", "--look", "0,0",
-                   "--debug-gl", "-o", table)
+        done = run("flight-bench", *FLAT, "--size", "64x36", "--view-distance", "2", "--samples", "1", "--duration", "1",
+                   "--look", "0,0", "--debug-gl", "-o", table)
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = [line.split(",") for line in table.read_text().splitlines()]
         self.assertEqual(rows[0][:5], ["time_s", "frame_ms", "follow_ms", "upload_ms", "draw_ms"])
@@ -62,8 +84,8 @@ class Fly(ProgramTest):
 
     def test_figures_as_json(self):
         for backend in ("cpu", "gpu"):
-            self.check_figures(self.succeed("fly", "--scene", "landscape", "--preset", "low", "--size", "64x36", "--for", "2",
-                                            "--view-distance", "2", "--backend", backend, "--debug-gl", "--json"))
+            self.check_figures(self.succeed("flight-bench", "--scene", "landscape", "--preset", "low", "--size", "64x36",
+                                            "--duration", "2", "--view-distance", "2", "--backend", backend, "--debug-gl", "--json"))
 
     def check_figures(self, text):
         flight = json.loads(text)["flight"]

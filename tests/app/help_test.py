@@ -13,7 +13,7 @@ class HelpTest(ProgramTest):
     def setUp(self):
         super().setUp()
         text = self.succeed("--help")
-        self.commands = re.findall(r"^  (\w+)  +", text[text.index("Subcommands:"):], re.MULTILINE)
+        self.commands = re.findall(r"^  ([\w-]+)  +", text[text.index("Subcommands:"):], re.MULTILINE)
         self.assertGreaterEqual(len(self.commands), 10)
         self.flags = {c: re.findall(r"^  (-[-\w,]+)", self.succeed(c, "--help"), re.MULTILINE) for c in self.commands}
         self.assertIn("-o,--output", self.flags["render"])
@@ -50,9 +50,9 @@ class Bash(HelpTest):
 
     def test_what_is_typed_chooses(self):
         self.assertEqual(self.complete("terrane", "rend"), ["render"])
-        self.assertEqual(self.complete("terrane", "render", "--aggr"), ["--aggregation"])
-        self.assertEqual(self.complete("terrane", "render", "--aggregation", "s"), ["squares", "squares-ext"])
-        self.assertEqual(self.complete("terrane", "--aggregation", "g"), ["greedy"], "play is the default")
+        self.assertEqual(self.complete("terrane", "render", "--mer"), ["--merging"])
+        self.assertEqual(self.complete("terrane", "render", "--merging", "s"), ["squares", "squares-ext"])
+        self.assertEqual(self.complete("terrane", "--merging", "g"), ["greedy"], "play is the default")
         self.assertEqual(self.complete("terrane", "render", "--samples", ""), ["1", "2", "4", "8"])
         self.assertEqual(self.complete("terrane", "render", "--seed", ""), [])
         self.assertEqual(self.complete("terrane", "completion", "z"), ["zsh"])
@@ -78,8 +78,8 @@ class Fish(HelpTest):
             self.assertEqual(set(self.names(command)) - found, set(), command)
 
     def test_what_is_typed_chooses(self):
-        self.assertEqual(self.complete("terrane render --aggregation s"), ["squares", "squares-ext"])
-        self.assertEqual(self.complete("terrane --aggregation g"), ["greedy"])
+        self.assertEqual(self.complete("terrane render --merging s"), ["squares", "squares-ext"])
+        self.assertEqual(self.complete("terrane --merging g"), ["greedy"])
         self.assertEqual(self.complete("terrane completion z"), ["zsh"])
 
 
@@ -119,7 +119,8 @@ class Man(HelpTest):
         file = self.folder / "terrane.1"
         file.write_text(self.succeed("man"))
         page = "\n".join(self.shell("groff", "-man", "-ww", "-Kutf8", "-Tutf8", "-P-cbou", str(file)))
-        for word in ("--aggregation WORD", "EXIT STATUS", "a measurement of terrane bench", "(required)", "(default: 1280x720)"):
+        page = re.sub(r"\s+", " ", page)  # lines are filled with spaces
+        for word in ("--merging WORD", "EXIT STATUS", "a measurement of terrane bench", "(required)", "(default: 1280x720)"):
             self.assertIn(word, page)
 
 

@@ -14,7 +14,7 @@ class Positions : public testing::Test {
     void write(std::string_view text) { std::ofstream(file_) << text; }
 
     base::TempFolder folder_;
-    std::filesystem::path file_ = folder_.path() / "positions.txt";
+    std::filesystem::path file_ = folder_.path() / kPositionsFile;
 };
 
 TEST_F(Positions, ComeBackAsTheyWere) {
@@ -46,6 +46,16 @@ TEST_F(Positions, AreAppendedLineByLine) {
     ASSERT_TRUE(positions) << positions.error().message;
     ASSERT_EQ(positions->size(), 2u);
     EXPECT_EQ((*positions)[1].position, glm::dvec3(2.5, 3, 4));
+}
+
+TEST_F(Positions, TheFileOfTheFormerNameIsRead) {
+    std::ofstream(folder_.path() / kFormerPositionsFile) << "1 2 3 4 5\n";
+    ASSERT_TRUE(appendPosition(file_, {{6, 7, 8}, 9, 10}));
+    const auto positions = readPositions(file_);
+    ASSERT_TRUE(positions) << positions.error().message;
+    ASSERT_EQ(positions->size(), 2u);
+    EXPECT_EQ((*positions)[0].position, glm::dvec3(1, 2, 3))
+        << "it comes first: bookmarks keep their numbers";
 }
 
 TEST_F(Positions, AWrongLineIsNamed) {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "apps/terrane/options.h"
 #include "tests/base/temp_folder.h"
 
 namespace terrane::app {
@@ -78,6 +79,41 @@ TEST_F(Settings, CommentsAndOrderStay) {
     EXPECT_EQ(written(),
               "# mine\n\nresource-pack = \"it's \\\"ü\\\"\"  # näher\n\"movement\" = 'fast' # for now\n"
               "day-minutes = 3\n# the end\nshadows = 'off'\nview-distance = '8'\n");
+}
+
+TEST_F(Settings, AFormerNameBecomesTodaysWhenItsValueChanges) {
+    std::filesystem::create_directories(file_.parent_path());
+    write("aggregation = 'lines' # mine\natmosphere = 'off'\nbetter-texturing = 'off'\n");
+    ASSERT_TRUE(writeChanges(file_,
+                             {{"merging", "lines"}, {"distance-fog", "off"}, {"sharp-filtering", "off"}},
+                             {{"merging", "none"}, {"sharp-filtering", "off"}}, kGraphics));
+    EXPECT_EQ(lines(), (Lines{"merging = 'none' # mine", "better-texturing = 'off'"}));
+}
+
+TEST_F(Settings, FormerNamesAreRead) {
+    std::filesystem::create_directories(file_.parent_path());
+    write("aggregation = 'lines'\nview = 'aggregation'\nregion-height = 32\natmosphere = 'off'\n");
+    CLI::App command;
+    GraphicsOptions options;
+    addGraphicsOptions(command, options, "low");
+    const auto done = applySettings(file_, command, {"preset", "distance-fog"});
+    ASSERT_TRUE(done) << done.error().message;
+    EXPECT_EQ(options.mesh.method, mesh::Method::Lines);
+    EXPECT_EQ(options.mesh.regionHeight, 32);
+    EXPECT_EQ(options.view, render::View::Aggregation);
+    EXPECT_FALSE(renderOptions(options.choices, true).atmosphere);
+}
+
+TEST_F(Settings, AWrongValueOfAFormerNameIsNamedWithItsLine) {
+    std::filesystem::create_directories(file_.parent_path());
+    write("\natmosphere = 'maybe'\n");
+    CLI::App command;
+    GraphicsOptions options;
+    addGraphicsOptions(command, options, "low");
+    const auto done = applySettings(file_, command, {"preset", "distance-fog"});
+    ASSERT_FALSE(done);
+    EXPECT_NE(done.error().message.find("settings.toml:2: distance-fog: "), std::string::npos)
+        << done.error().message;
 }
 
 TEST_F(Settings, AByteOrderMarkIsNoLetter) {

@@ -223,8 +223,8 @@ class Window(ProgramTest):
 
     # Above the flat world, whose ground is grass at z = 80 on earth: one block fills the middle of the picture.
     def look_down(self, display, *arguments):
-        (self.folder / "positions.txt").write_text("8.5 8.5 84 0 -89\n")
-        game = self.play(display, "--position", "1", *arguments, *FLAT)
+        (self.folder / "bookmarks.txt").write_text("8.5 8.5 84 0 -89\n")
+        game = self.play(display, "--bookmark", "1", *arguments, *FLAT)
         game.pause_after("F1")  # no help in the picture
         game.wait_for_ground(is_green)
         game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # takes the mouse
@@ -348,7 +348,7 @@ class Window(ProgramTest):
                 game.click(1, 203, y, pause)
             end = self.close(game)
 
-            self.assertEqual(len((self.folder / "positions.txt").read_text().splitlines()), 1)
+            self.assertEqual(len((self.folder / "bookmarks.txt").read_text().splitlines()), 1)
             picture = Picture(self.folder / "terrane-0001.png")
             self.assertEqual((picture.width, picture.height), size)
             rows = [line.split(",") for line in (self.folder / "perf.csv").read_text().splitlines()]
@@ -358,7 +358,7 @@ class Window(ProgramTest):
             self.assertAlmostEqual(float(rows[-1][0]), sum(float(row[1]) for row in rows[1:]) / 1000, delta=0.1)
             written = settings.read_text()
             self.assertIn("movement = 'medium'", written)  # gravity, then fast
-            switches = re.findall(r"^(atmosphere|god-rays|clouds|animation|better-texturing) = '(?:on|off)'$", written,
+            switches = re.findall(r"^(distance-fog|god-rays|clouds|animation|sharp-filtering) = '(?:on|off)'$", written,
                                   re.MULTILINE)
             self.assertGreaterEqual(len(switches), 3, written)
 

@@ -89,7 +89,7 @@ at = [0, 9, 0]
 TEST(ScriptFile, OptionsHoldUntilTheyChangeAndForOneShot) {
     const auto script = parse("[options]\nview-distance = 5\nssao = \"raw\"\n" +
                               shotOf("[[shot.set]]\ntime = 2\nssao = \"on\"\nview = \"depth\"\n"
-                                     "[[shot.set]]\ntime = 1\naggregation = \"lines\"\n") +
+                                     "[[shot.set]]\ntime = 1\nmerging = \"lines\"\n") +
                               shotOf(""));
     ASSERT_TRUE(script) << script.error().message;
     const auto occlusionAt = [&](std::size_t shot, double time) {
@@ -106,6 +106,18 @@ TEST(ScriptFile, OptionsHoldUntilTheyChangeAndForOneShot) {
     EXPECT_EQ(occlusionAt(0, 3), render::Occlusion::On);
     EXPECT_EQ(occlusionAt(1, 3), render::Occlusion::Raw);
     EXPECT_EQ(optionsAt(script->shots[1], 0).view, render::View::Color);
+}
+
+TEST(ScriptFile, FormerNamesOfOptionsAreRead) {
+    const auto script =
+        parse("[options]\nview = \"aggregation\"\natmosphere = \"off\"\n" +
+              shotOf("[[shot.set]]\ntime = 1\naggregation = \"lines\"\nregion-height = 32\n"));
+    ASSERT_TRUE(script) << script.error().message;
+    const Shot& shot = script->shots[0];
+    EXPECT_EQ(optionsAt(shot, 0).view, render::View::Aggregation);
+    EXPECT_FALSE(renderOptions(optionsAt(shot, 0).choices, true).atmosphere);
+    EXPECT_EQ(optionsAt(shot, 1).mesh.method, mesh::Method::Lines);
+    EXPECT_EQ(optionsAt(shot, 1).mesh.regionHeight, 32);
 }
 
 TEST(ScriptFile, TheCommandLineWins) {

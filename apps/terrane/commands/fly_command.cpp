@@ -1,5 +1,5 @@
-// terrane fly: straight ahead at full speed without a window, in real time, and what each frame took. For
-// plots of frame times (tools/flight_trace.sh) and `terrane bench`.
+// terrane flight-bench: flies straight ahead at full speed without a window, in real time, and records the
+// time of each frame. For plots of frame times (tools/flight_trace.sh) and `terrane bench`.
 #include <fmt/ostream.h>
 
 #include <fstream>
@@ -62,7 +62,7 @@ void report(const FlightLog& log) {
 }
 
 base::Result<void> flyAndTell(const FlyOptions& options) {
-    if (options.output.empty() && !options.json) return base::fail("fly needs --output or --json");
+    if (options.output.empty() && !options.json) return base::fail("flight-bench needs --output or --json");
     auto flight = flightOf(options);
     if (!flight) return tl::unexpected(flight.error());
     auto world = Offscreen::create(options.world, options.save, options.graphics);
@@ -84,10 +84,10 @@ base::Result<void> flyAndTell(const FlyOptions& options) {
 
 CommandEntry addFly(CLI::App& app) {
     auto options = std::make_shared<FlyOptions>();
-    CLI::App* command = app.add_subcommand(
-        "fly", "Fly ahead without a window, from 8,8,120 or a place, and write what frames took");
+    CLI::App* command =
+        app.add_subcommand("flight-bench", "Fly straight ahead without a window and record frame times");
     addPlaceOptions(*command, options->place);
-    command->add_option("--for", options->seconds, "Seconds")
+    command->add_option("--duration", options->seconds, "Seconds of the flight")
         ->check(numberFrom(0.1, 600))
         ->capture_default_str();
     addOutputOption(*command, options->output, "The CSV file, a line a frame");

@@ -23,8 +23,8 @@ constexpr const char* kKeys = R"(Keys:
   M                       how one moves: on foot, fast or slowly through everything, not through walls
   O, P, I                 time of day back, forth; let it pass or stand still
   F1, F2                  help; settings and figures
-  F3, F4                  from above; a map of how far chunks are
-  F5, F6                  save the place in positions.txt, go to the next one there
+  F3, F4                  debug top view; a map of how far chunks are
+  F5, F6                  save a bookmark in bookmarks.txt, go to the next one
   F11, F12, L             full screen; screenshot; light classic or smooth
   Esc                     end typing, close the chest, quit; Ctrl+C in the terminal quits, too)";
 
@@ -47,7 +47,7 @@ base::Result<render::Camera> startOf(const PlayOptions& options, const WorldSess
         if (!positions) return tl::unexpected(positions.error());
         const auto number = static_cast<std::size_t>(*options.position);
         if (number > positions->size()) {
-            return base::fail("--position {}: {} has {}", number, kPositionsFile, positions->size());
+            return base::fail("--bookmark {}: {} has {}", number, kPositionsFile, positions->size());
         }
         return (*positions)[number - 1];
     }
@@ -156,7 +156,7 @@ CommandEntry addPlay(CLI::App& app) {
     CLI::App* command = app.add_subcommand("play", "Open a window to walk, fly and build in (the default)");
     addWorldOptions(*command, options->world);
     addSaveGameOptions(*command, options->save);
-    command->add_option("--position", options->position, "Start at this line of positions.txt")
+    command->add_option("--bookmark", options->position, "Start at this line of bookmarks.txt")
         ->check(numberFrom(1, 1e6))
         ->type_name("X");
     command->add_option("--time", options->time, "Time of day: 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk")

@@ -38,8 +38,8 @@ Settings of the window.
 .I ~/.local/share/terrane/NAME.sqlite
 Saves.
 .TP
-.I positions.txt
-Places saved in the window, in the working directory.
+.I bookmarks.txt
+Bookmarks saved in the window, in the working directory.
 )";
 
 // Plain text for roff: no letter of it is a request, an escape or a hyphen.

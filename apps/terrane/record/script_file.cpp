@@ -8,6 +8,7 @@
 #include "apps/terrane/options.h"
 #include "apps/terrane/record/script_values.h"
 #include "apps/terrane/record/title_painter.h"
+#include "apps/terrane/toml_flags.h"
 
 namespace terrane::app {
 namespace {
@@ -25,7 +26,7 @@ Names with(Names names, std::span<const GraphicsRow> rows) {
 
 // Flags that say how a frame is drawn, a preset before what changes it.
 Names drawingFlags() {
-    return with({"preset", "view-distance", "view", "aggregation", "region-height"}, graphicsTable());
+    return with({"preset", "view-distance", "view", "merging", "mesh-section-height"}, graphicsTable());
 }
 
 // A preset on the command line stands alone, as with settings of the window.
@@ -253,6 +254,7 @@ base::Result<Script> parseScript(std::string_view toml, std::string_view name, c
     } catch (const toml::parse_error& error) {
         return base::fail("{}:{}: {}", name, error.source().begin.line, error.description());
     }
+    useCurrentNames(root);
     return ScriptReader(name, defaults, blocks).read(root);
 }
 

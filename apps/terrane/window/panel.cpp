@@ -78,12 +78,12 @@ void drawView(PlaySettings& s) {
     choice("view", s.view, viewWords());
     ImGui::SliderInt("view distance", &s.viewDistance, 2, 64, "%d", kTyped);
     ImGui::SliderFloat("field of view", &s.fieldOfView, 40, 110, "%.0f", kTyped);
-    choice("aggregation", s.mesh.method, aggregationWords());
+    choice("merging", s.mesh.method, aggregationWords());
     int height = s.mesh.regionHeight;
     int exponent = 0;
     while ((mesh::kMinRegionHeight << exponent) < height) ++exponent;
     const auto heightOf = [](int k) { return std::to_string(mesh::kMinRegionHeight << k); };
-    if (combo("region height", exponent, 5, heightOf))
+    if (combo("mesh section height", exponent, 5, heightOf))
         s.mesh.regionHeight = mesh::kMinRegionHeight << exponent;
 }
 

@@ -40,8 +40,8 @@ SettingValues valuesOf(const PlaySettings& s, bool isSoftwareRenderer) {
         values.emplace(row.name, row.words[static_cast<std::size_t>(word)]);
     }
     values.emplace("view-distance", fmt::format("{}", s.viewDistance));
-    values.emplace("aggregation", wordOf(aggregationWords(), s.mesh.method));
-    values.emplace("region-height", fmt::format("{}", s.mesh.regionHeight));
+    values.emplace("merging", wordOf(aggregationWords(), s.mesh.method));
+    values.emplace("mesh-section-height", fmt::format("{}", s.mesh.regionHeight));
     values.emplace("movement", wordOf(movementWords(), s.movement));
     values.emplace("field-of-view", fmt::format("{:.0f}", s.fieldOfView));
     values.emplace("mouse-sensitivity", fmt::format("{:.2f}", s.mouseSensitivity));

@@ -25,8 +25,9 @@ std::optional<render::Camera> cameraFrom(const std::string& text) {
     return isGood ? std::optional(c) : std::nullopt;
 }
 
-base::Result<std::vector<render::Camera>> readPositions(const std::filesystem::path& file) {
-    std::vector<render::Camera> positions;
+namespace {
+
+base::Result<void> readInto(std::vector<render::Camera>& positions, const std::filesystem::path& file) {
     std::ifstream in(file);
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
@@ -35,6 +36,16 @@ base::Result<std::vector<render::Camera>> readPositions(const std::filesystem::p
         if (!camera)
             return base::fail("{}:{}: expected x y z yaw pitch, got \"{}\"", file.string(), number, line);
         positions.push_back(*camera);
+    }
+    return {};
+}
+
+}  // namespace
+
+base::Result<std::vector<render::Camera>> readPositions(const std::filesystem::path& file) {
+    std::vector<render::Camera> positions;
+    for (const auto& each : {file.parent_path() / kFormerPositionsFile, file}) {
+        if (auto read = readInto(positions, each); !read) return tl::unexpected(read.error());
     }
     return positions;
 }

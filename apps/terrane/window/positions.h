@@ -1,4 +1,4 @@
-// Camera positions that a person keeps in a text file, one a line: x y z yaw pitch.
+// Bookmarks: camera positions that the player keeps in a text file, one a line: x y z yaw pitch.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,14 @@
 
 namespace terrane::app {
 
-constexpr const char* kPositionsFile = "positions.txt";  // in the working directory
+constexpr const char* kPositionsFile = "bookmarks.txt";        // in the working directory
+constexpr const char* kFormerPositionsFile = "positions.txt";  // its name before 0.2
 
 std::string textOf(const render::Camera& camera);                   // "x y z yaw pitch"
 std::optional<render::Camera> cameraFrom(const std::string& text);  // none for anything else
 
-// Those of the file, none where it is not there. An error names the first line that is wrong.
+// Those of the file of the former name in the same folder, then those of the file; none where neither is
+// there. An error names the first line that is wrong.
 base::Result<std::vector<render::Camera>> readPositions(const std::filesystem::path& file);
 base::Result<void> appendPosition(const std::filesystem::path& file, const render::Camera& camera);
 

@@ -48,6 +48,7 @@ base::Result<SettingsText> readSettings(const fs::path& file) {
     if (!text) return tl::unexpected(text.error());
     try {
         toml::table table = toml::parse(*text, file.string());
+        useCurrentNames(table);
         return SettingsText{std::move(*text), std::move(table)};
     } catch (const toml::parse_error& error) {
         return base::fail("{}:{}: {}", file.string(), error.source().begin.line, error.description());
@@ -96,11 +97,20 @@ struct Replacement {
     std::string text;
 };
 
-// Of the value alone, or of its lines where the setting goes.
+// False where the file has the key by a former name.
+bool isWritten(std::string_view text, const toml::key& key) {
+    const std::size_t begin = offsetOf(text, key.source().begin), end = offsetOf(text, key.source().end);
+    return text.substr(begin, end - begin).find(key.str()) != std::string_view::npos;
+}
+
+// Of the value alone, of key and value where the file has a former name, or of the lines where the setting
+// goes.
 Replacement replacementOf(std::string_view text, const toml::key& key, const toml::node& node,
                           const std::optional<std::string>& value) {
     const std::size_t end = offsetOf(text, node.source().end);
-    if (value) return {offsetOf(text, node.source().begin), end, tomlOf(*value)};
+    if (value && isWritten(text, key)) return {offsetOf(text, node.source().begin), end, tomlOf(*value)};
+    if (value)
+        return {offsetOf(text, key.source().begin), end, std::string(key.str()) + " = " + tomlOf(*value)};
     const std::size_t newline = text.find('\n', end);
     return {offsetOf(text, {key.source().begin.line, 1}),
             newline == std::string_view::npos ? text.size() : newline + 1, ""};
