@@ -6,7 +6,6 @@
 
 namespace terrane::embedded {
 std::span<const base::EmbeddedFile> content();
-std::span<const base::EmbeddedFile> shaders();
 }  // namespace terrane::embedded
 
 namespace terrane::app {
@@ -27,17 +26,13 @@ base::Result<world::BlockRegistry> loadBlocks() {
     return world::BlockRegistry::parse(*text, "blocks.toml");
 }
 
-render::TextureSource builtInTextures() {
+world::TextureSource builtInTextures() {
     return [](std::string_view name) -> base::Result<base::Image> {
         const std::string path = fmt::format("textures/{}.png", name);
         const auto data = findContent(path);
         if (!data) return base::fail("{}: not in the program", path);
         return base::decodePng(*data, path);
     };
-}
-
-gpu::ShaderLoader makeShaderLoader(const std::string& shaderRoot) {
-    return gpu::ShaderLoader(embedded::shaders(), shaderRoot);
 }
 
 }  // namespace terrane::app

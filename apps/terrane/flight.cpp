@@ -8,7 +8,8 @@
 #include <map>
 
 #include "apps/terrane/median.h"
-#include "apps/terrane/window/player.h"
+#include "terrane/game/player.h"
+#include "terrane/view/camera_pose.h"
 
 namespace terrane::app {
 namespace {
@@ -29,16 +30,9 @@ double processorMilliseconds() {
 class Pilot {
   public:
     Pilot(Offscreen& world, const Flight& flight)
-        : world_(world),
-          view_(*world.session, world.renderer),
-          flight_(flight),
-          player_(flight.start, Movement::Fast) {}
+        : world_(world), flight_(flight), player_(view::poseOf(flight.start), game::Movement::Fast) {}
 
-    base::Result<FlightLog> run() {
-        if (flight_.meshesOnGpu) {
-            if (auto meshes = view_.meshOnGpu(WorldView::kFrameMilliseconds); !meshes)
-                return tl::unexpected(meshes.error());
-        }
+    FlightLog run() {
         log_.secondsToLoad = standUntilLoaded();
         const auto takeOff = Clock::now();
         log_.takeOff = log_.frames.size();
@@ -51,7 +45,7 @@ class Pilot {
         const FlightFrame& last = log_.frames.back();
         log_.missing = std::min(last.wanted, last.wanted - last.visible + view_.waiting());
         log_.secondsToLoadAgain = standUntilLoaded();
-        log_.camera = player_.camera();
+        log_.camera = camera();
         for (FlightFrame& frame : log_.frames)
             frame.seconds -= std::chrono::duration<double>(takeOff - start_).count();
         return std::move(log_);
@@ -68,24 +62,24 @@ class Pilot {
 
     // Also what the GPU is to mesh.
     bool isAllThere() const {
-        const stream::ChunkPipeline& pipeline = *world_.session->pipeline;
+        const stream::ChunkPipeline& pipeline = world_.session->pipeline();
         return pipeline.progress().complete() && pipeline.waitingChanges() == 0 && view_.waiting() == 0;
     }
 
-    void frame(const MoveKeys& keys) {
+    void frame(const game::MoveKeys& keys) {
         const auto start = Clock::now();
         const double seconds = std::chrono::duration<double>(start - lastFrame_).count();
         lastFrame_ = start;
         FlightFrame frame;
         frame.seconds = secondsSince(start_);
         const double processorStart = processorMilliseconds();
-        player_.move(world_.session->world, world_.session->blocks, keys, seconds);
-        view_.follow(player_.camera(), flight_.viewDistance);
+        player_.move(world_.session->world(), world_.session->blocks(), keys, seconds);
+        view_.follow(camera(), flight_.viewDistance);
         frame.follow = 1000 * secondsSince(start);
         frame.followProcessor = processorMilliseconds() - processorStart;
 
         const auto uploadStart = Clock::now();
-        frame.uploads = view_.upload(uploadBudget(seconds, view_.missing()));
+        frame.uploads = view_.upload(view::uploadBudget(seconds, view_.missing()));
         glFinish();
         frame.upload = 1000 * secondsSince(uploadStart);
         frame.uploadProcessor = processorMilliseconds() - processorStart - frame.followProcessor;
@@ -94,27 +88,29 @@ class Pilot {
         draw(static_cast<float>(frame.seconds));
         frame.draw = 1000 * secondsSince(drawStart);
         frame.all = 1000 * secondsSince(start);
-        const stream::ChunkPipeline& pipeline = *world_.session->pipeline;
+        const stream::ChunkPipeline& pipeline = world_.session->pipeline();
         const stream::Progress progress = pipeline.progress();
         frame.visible = progress.visible;
         frame.wanted = progress.wanted;
-        frame.active = world_.session->world.chunks().size();
+        frame.active = world_.session->world().chunkCount();
         frame.queued = pipeline.queuedCount() + view_.waiting();
         log_.frames.push_back(frame);
     }
 
+    render::Camera camera() const { return view::cameraOf(player_.pose(), flight_.start.fieldOfView); }
+
     void draw(float seconds) {
-        const render::Camera& camera = player_.camera();
-        world_.renderer.draw({camera, world::environmentAt(flight_.timeDay),
-                              fogDistance(flight_.viewDistance), seconds, render::View::Color,
-                              isUnderWater(*world_.session, camera)});
+        const render::Camera from = camera();
+        world_.renderer.draw({from, world::environmentAt(flight_.timeDay),
+                              view::fogDistance(flight_.viewDistance), seconds, render::View::Color,
+                              game::isUnderWater(*world_.session, from.position)});
         glFinish();
     }
 
     Offscreen& world_;
-    WorldView view_;
+    view::WorldView& view_ = *world_.view;
     const Flight& flight_;
-    Player player_;
+    game::Player player_;
     FlightLog log_;
     Clock::time_point start_ = Clock::now(), lastFrame_ = start_;
 };
@@ -138,7 +134,7 @@ nlohmann::json linesBySecond(const FlightLog& log) {
 
 }  // namespace
 
-base::Result<FlightLog> fly(Offscreen& world, const Flight& flight) {
+FlightLog fly(Offscreen& world, const Flight& flight) {
     return Pilot(world, flight).run();
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/terrane/offscreen.h"
-#include "apps/terrane/world_view.h"
+#include "terrane/view/world_view.h"
 
 namespace terrane::app {
 
@@ -16,7 +16,6 @@ struct Flight {
     double seconds = 20;  // of flying
     int viewDistance = 16;
     float timeDay = 0.4f;
-    bool meshesOnGpu = false;
 };
 
 struct FlightFrame {
@@ -40,7 +39,7 @@ struct FlightLog {
     std::size_t missing = 0;  // chunks in view that were not there on landing
 };
 
-base::Result<FlightLog> fly(Offscreen& world, const Flight& flight);
+FlightLog fly(Offscreen& world, const Flight& flight);
 
 // There is at least one.
 std::span<const FlightFrame> framesInFlight(const FlightLog& log);

@@ -61,14 +61,13 @@ int withOutputWritten(int exitCode) {
 int main(int argc, char** argv) {
     using namespace terrane;
     base::setThreadName("main");
-    CLI::App app("Terrane: large voxel worlds. Without a command it plays.", "terrane");
+    const bool plays = app::defaultCommand() != nullptr;
+    CLI::App app(plays ? "Terrane: large voxel worlds. Without a command it plays."
+                       : "Terrane: large voxel worlds. This build has no graphics.",
+                 "terrane");
     app.set_version_flag("--version", TERRANE_VERSION);
-    app.require_subcommand(0, 1);
-    const std::vector<app::CommandEntry> commands = {
-        app::addPlay(app),     app::addRender(app), app::addRecord(app), app::addFly(app),
-        app::addGenerate(app), app::addMap(app),    app::addDump(app),   app::addCheck(app),
-        app::addBlocks(app),   app::addInfo(app),   app::addBench(app),  app::addCompletion(app),
-        app::addMan(app)};
+    app.require_subcommand(plays ? 0 : 1, 1);
+    const std::vector<app::CommandEntry> commands = app::addCommands(app);
     std::string trace;
     for (const app::CommandEntry& command : commands) app::addTraceOption(*command.parser, trace);
     const std::vector<std::string> named = app::withCurrentNames({argv, static_cast<std::size_t>(argc)});
@@ -78,7 +77,9 @@ int main(int argc, char** argv) {
     const bool asksForHelp =
         argc > 1 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h" ||
                      std::string_view(argv[1]) == "--version");
-    if (!hasCommand && !asksForHelp) arguments.insert(arguments.begin() + 1, "play");
+    if (!hasCommand && !asksForHelp && app::defaultCommand()) {
+        arguments.insert(arguments.begin() + 1, app::defaultCommand());
+    }
     try {
         app.parse(static_cast<int>(arguments.size()), arguments.data());
     } catch (const CLI::Success& help) {

@@ -39,7 +39,7 @@ glm::vec3 meanColor(const base::Image& image) {
 }
 
 // Glow maps use alpha for light: there a hole in the coverage is none.
-base::Result<Palette> makePalette(const world::BlockRegistry& blocks, const render::TextureSource& textures) {
+base::Result<Palette> makePalette(const world::BlockRegistry& blocks, const world::TextureSource& textures) {
     Palette palette;
     for (const world::BlockType& type : blocks.types()) {
         if (type.shape == world::Shape::None) {
@@ -90,7 +90,7 @@ glm::vec3 shade(const Column& column, const Column& northWest, const Palette& pa
 }  // namespace
 
 base::Result<base::Image> drawMap(const MapSource& source, const world::BlockRegistry& blocks,
-                                  const render::TextureSource& textures, base::JobSystem& jobs,
+                                  const world::TextureSource& textures, base::JobSystem& jobs,
                                   const std::function<void(std::size_t)>& onRow) {
     const Area& area = source.area;
     auto palette = makePalette(blocks, textures);

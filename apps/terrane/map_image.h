@@ -9,9 +9,9 @@
 #include "apps/terrane/option_values.h"
 #include "terrane/base/image.h"
 #include "terrane/base/job_system.h"
-#include "terrane/render/block_textures.h"
 #include "terrane/world/block_registry.h"
 #include "terrane/world/chunk.h"
+#include "terrane/world/texture_source.h"
 
 namespace terrane::app {
 
@@ -23,7 +23,7 @@ struct MapSource {
 
 // One pixel a block; y points up. `onRow` is called with the number of chunk rows done.
 base::Result<base::Image> drawMap(const MapSource& source, const world::BlockRegistry& blocks,
-                                  const render::TextureSource& textures, base::JobSystem& jobs,
+                                  const world::TextureSource& textures, base::JobSystem& jobs,
                                   const std::function<void(std::size_t)>& onRow);
 
 }  // namespace terrane::app

@@ -2,32 +2,39 @@
 
 #include "apps/terrane/content.h"
 #include "apps/terrane/resource_pack.h"
+#include "apps/terrane/shaders.h"
 
 namespace terrane::app {
 
-base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const WorldOptions& world, const SaveOptions& save,
-                                                           const GraphicsOptions& graphics,
-                                                           store::WorldAccess access) {
-    auto session = WorldSession::create(world, save, access);
-    if (!session) return tl::unexpected(session.error());
-    auto textures = loadTextures(graphics.resourcePack, (*session)->blocks);
+base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const OffscreenOptions& options) {
+    const GraphicsOptions& graphics = options.graphics;
+    WorldOptions world = options.world;
+    auto parts = openSessionParts(world, options.save, options.access);
+    if (!parts) return tl::unexpected(parts.error());
+    auto textures = loadTextures(graphics.resourcePack, parts->blocks);
     if (!textures) return tl::unexpected(textures.error());
     auto context = gpu::HeadlessContext::create({.debug = graphics.debugGl});
     if (!context) return tl::unexpected(context.error());
 
-    std::unique_ptr<Offscreen> made(new Offscreen{std::move(*session),
-                                                  std::move(*context),
-                                                  makeShaderLoader(graphics.shaderRoot),
-                                                  gpu::queryDevice(),
-                                                  {}});
-    auto renderer = render::Renderer::create(made->shaders, made->session->blocks, *textures, made->device);
+    std::unique_ptr<Offscreen> made(new Offscreen{
+        std::move(*context), makeShaderLoader(graphics.shaderRoot), gpu::queryDevice(), {}, {}, {}, {}});
+    auto backEnds = chooseBackEnds(*parts, world, options.backend);
+    if (!backEnds) return tl::unexpected(backEnds.error());
+    made->backEnds = std::move(*backEnds);
+    auto renderer = render::Renderer::create(made->shaders, parts->blocks, *textures, made->device);
     if (!renderer) return tl::unexpected(renderer.error());
     made->renderer = std::move(*renderer);
-    const auto options = renderOptions(graphics.choices, made->device.software);
-    if (auto done = made->renderer.configure(graphics.size, options); !done)
+    const auto quality = renderOptions(graphics.choices, made->device.software);
+    if (auto done = made->renderer.configure(graphics.size, quality); !done)
         return tl::unexpected(done.error());
     made->renderer.setViewDistance(graphics.viewDistance);
-    made->session->pipeline->setMeshOptions(graphics.mesh);
+    made->session = std::make_unique<game::Session>(std::move(*parts));
+    made->session->pipeline().setMeshOptions(graphics.mesh);
+    made->view.emplace(*made->session, made->renderer);
+    if (made->backEnds) {
+        auto meshes = made->view->meshOnGpu(makeShaderLoader(""), options.meshMilliseconds);
+        if (!meshes) return tl::unexpected(meshes.error());
+    }
     return made;
 }
 

@@ -1,32 +1,46 @@
-// A world and what draws it, without a window: what render, record and fly begin with.
+// A world and what draws it, without a window: what render, record and flight-bench begin with.
 #pragma once
 
 #include <memory>
+#include <optional>
 
-#include "apps/terrane/world_session.h"
+#include "apps/terrane/choose_back_ends.h"
+#include "apps/terrane/graphics_options.h"
+#include "apps/terrane/open_session.h"
 #include "terrane/gpu/context.h"
 #include "terrane/gpu/device_info.h"
 #include "terrane/gpu/shader_loader.h"
 #include "terrane/render/renderer.h"
+#include "terrane/view/gpu_back_ends.h"
+#include "terrane/view/world_view.h"
 
 namespace terrane::app {
+
+struct OffscreenOptions {
+    WorldOptions world;
+    SaveOptions save;
+    GraphicsOptions graphics;
+    Backend backend = Backend::Cpu;
+    store::WorldAccess access = store::WorldAccess::ReadWriteOrMemory;
+    double meshMilliseconds = view::WorldView::kNoHurry;  // of a frame, on the GPU
+};
 
 // The parts refer to each other by address: made in place, destroyed in reverse order. Used on the thread
 // that made it.
 struct Offscreen {
     // With the options' size, quality, view distance and mesher set up.
-    static base::Result<std::unique_ptr<Offscreen>> create(
-        const WorldOptions& world, const SaveOptions& save, const GraphicsOptions& graphics,
-        store::WorldAccess access = store::WorldAccess::ReadWriteOrMemory);
+    static base::Result<std::unique_ptr<Offscreen>> create(const OffscreenOptions& options);
 
     // Fails where the graphics driver reported errors.
     base::Result<void> finish() const;
 
-    std::unique_ptr<WorldSession> session;
     gpu::HeadlessContext context;
     gpu::ShaderLoader shaders;
     gpu::DeviceInfo device;
+    std::unique_ptr<view::GpuBackEnds> backEnds;  // null: workers do all
+    std::unique_ptr<game::Session> session;
     render::Renderer renderer;
+    std::optional<view::WorldView> view;
 };
 
 }  // namespace terrane::app

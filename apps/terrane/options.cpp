@@ -13,8 +13,6 @@
 namespace terrane::app {
 namespace {
 
-constexpr int kMaxPictureSide = 16384;
-
 // The parser's own reading takes -1 and what is too large for the largest seed.
 std::uint64_t parseSeed(const std::string& text) {
     std::uint64_t seed = 0;
@@ -81,52 +79,13 @@ CLI::Validator newFile() {
     return CLI::Validator(check, "");
 }
 
-// A folder that is there; empty: none.
+}  // namespace
+
 CLI::Validator existingFolder() {
     const auto check = [](const std::string& text) {
         return text.empty() ? std::string() : CLI::ExistingDirectory(text);
     };
     return CLI::Validator(check, "");
-}
-
-void addGraphicsChoices(CLI::App& command, GraphicsChoices& choices, std::string preset) {
-    choices.preset = std::move(preset);
-    command
-        .add_option("--preset", choices.preset,
-                    "Graphics options together, changed by the flags that follow: " + presetNames())
-        ->check(isPresetName)
-        ->type_name("WORD")
-        ->capture_default_str();
-    for (std::size_t k = 0; k < graphicsTable().size(); ++k) {
-        const GraphicsRow& row = graphicsTable()[k];
-        const std::string flag = "--" + std::string(row.name), words = wordsOf(row);
-        const auto take = [&choices, k, flag, words](const std::string& text) {
-            if (const auto choice = choiceOf(graphicsTable()[k], text)) {
-                choices.changed.emplace_back(k, *choice);
-                return;
-            }
-            throw CLI::ValidationError(flag, fmt::format("expected one of {}, got \"{}\"", words, text));
-        };
-        command.add_option_function<std::string>(flag, take, std::string(row.description) + ": " + words)
-            ->type_name("WORD");
-    }
-}
-
-}  // namespace
-
-glm::ivec2 parseSize(const std::string& text) {
-    int width = 0, height = 0;
-    const char* end = text.data() + text.size();
-    const auto x = std::from_chars(text.data(), end, width);
-    const bool hasCross = x.ec == std::errc() && x.ptr != end && *x.ptr == 'x';
-    const auto y = hasCross ? std::from_chars(x.ptr + 1, end, height) : x;
-    const bool isGood = hasCross && y.ec == std::errc() && y.ptr == end;
-    if (!isGood || width < 1 || height < 1 || width > kMaxPictureSide || height > kMaxPictureSide) {
-        throw CLI::ValidationError(
-            "--size",
-            fmt::format("expected WIDTHxHEIGHT with sides of 1 to {}, got \"{}\"", kMaxPictureSide, text));
-    }
-    return {width, height};
 }
 
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const std::string& form) {
@@ -179,28 +138,6 @@ void addMeshOptions(CLI::App& command, mesh::MeshOptions& options) {
                     "Height in blocks of the mesh sections that are culled and drawn")
         ->check(CLI::IsMember({8, 16, 32, 64, 128}))
         ->capture_default_str();
-}
-
-void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string preset) {
-    command
-        .add_option_function<std::string>(
-            "--size", [&](const std::string& text) { options.size = parseSize(text); },
-            "Picture size in pixels")
-        ->type_name("WxH")
-        ->default_str("1280x720");
-    command.add_option("--view-distance", options.viewDistance, "How far one sees, in chunks")
-        ->check(numberFrom(1, 64))
-        ->capture_default_str();
-    addGraphicsChoices(command, options.choices, std::move(preset));
-    addChoice<render::View>(command, "--view", options.view, {viewWords().begin(), viewWords().end()},
-                            "What to show");
-    addMeshOptions(command, options.mesh);
-    addResourcePackOption(command, options.resourcePack);
-    command
-        .add_option("--shader-root", options.shaderRoot, "Source tree to read shaders from, for development")
-        ->check(existingFolder())
-        ->type_name("DIR");
-    command.add_flag("--debug-gl", options.debugGl, "Report errors of the graphics driver");
 }
 
 void addOutputOption(CLI::App& command, std::string& output, const std::string& description) {
@@ -259,16 +196,6 @@ Words<mesh::Method> aggregationWords() {
                                                                          {"squares", Method::Squares},
                                                                          {"squares-ext", Method::SquaresExt},
                                                                          {"greedy", Method::Greedy}}};
-    return words;
-}
-
-Words<render::View> viewWords() {
-    using render::View;
-    static const std::array<std::pair<std::string, View>, 5> words = {{{"color", View::Color},
-                                                                       {"normal", View::Normal},
-                                                                       {"depth", View::Depth},
-                                                                       {"merging", View::Aggregation},
-                                                                       {"light", View::Light}}};
     return words;
 }
 

@@ -13,8 +13,6 @@
 namespace terrane::app {
 
 void addWorldOptions(CLI::App& command, WorldOptions& options);
-// `preset`: where none is asked for.
-void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string preset);
 // --merging and --mesh-section-height.
 void addMeshOptions(CLI::App& command, mesh::MeshOptions& options);
 // "X0,Y0,X1,Y1", the end excluded; not empty and inside the world.
@@ -38,6 +36,7 @@ void addTraceOption(CLI::App& command, std::string& trace);
 
 // For CLI::Option::check.
 CLI::Validator numberFrom(double low, double high);
+CLI::Validator existingFolder();  // empty: none
 
 // An option that takes one of a few words.
 template <class T>
@@ -60,9 +59,6 @@ void addChoice(CLI::App& command, const std::string& name, T& value,
         ->type_name("WORD")
         ->default_str(defaultWord);
 }
-
-// "1280x720", for --size. Throws CLI::ValidationError.
-glm::ivec2 parseSize(const std::string& text);
 
 // "1,2.5,-3": exactly `count` numbers. Throws CLI::ValidationError.
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const std::string& form);

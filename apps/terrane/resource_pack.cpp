@@ -87,9 +87,9 @@ base::Image scaledUp(const base::Image& image, int side) {
 
 }  // namespace
 
-base::Result<render::TextureSource> loadTextures(const std::string& folder,
-                                                 const world::BlockRegistry& blocks) {
-    const render::TextureSource builtIn = builtInTextures();
+base::Result<world::TextureSource> loadTextures(const std::string& folder,
+                                                const world::BlockRegistry& blocks) {
+    const world::TextureSource builtIn = builtInTextures();
     if (folder.empty()) return builtIn;
     auto images = readPack(folder, blocks.textures());
     if (!images) return tl::unexpected(images.error());

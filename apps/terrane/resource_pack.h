@@ -4,8 +4,8 @@
 #include <string>
 
 #include "terrane/base/result.h"
-#include "terrane/render/block_textures.h"
 #include "terrane/world/block_registry.h"
+#include "terrane/world/texture_source.h"
 
 namespace terrane::app {
 
@@ -15,7 +15,7 @@ constexpr int kMaxTextureSide = 1024;
 // All textures of the blocks, of one size as the renderer needs it: as large as the largest, the others
 // scaled up. `folder`: the pack; empty for none. Files that are not named as a texture are warned of; of
 // those that cannot be used each is named in a line of the log, the last in the result.
-base::Result<render::TextureSource> loadTextures(const std::string& folder,
-                                                 const world::BlockRegistry& blocks);
+base::Result<world::TextureSource> loadTextures(const std::string& folder,
+                                                const world::BlockRegistry& blocks);
 
 }  // namespace terrane::app

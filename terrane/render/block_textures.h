@@ -1,18 +1,14 @@
 // The textures of all block faces as one GPU texture array. Used by the renderer on the context's thread.
 #pragma once
 
-#include <functional>
-#include <string_view>
-
-#include "terrane/base/image.h"
 #include "terrane/base/result.h"
 #include "terrane/gpu/texture.h"
 #include "terrane/world/block_registry.h"
+#include "terrane/world/texture_source.h"
 
 namespace terrane::render {
 
-// Gives the image of a texture by its name in the content file.
-using TextureSource = std::function<base::Result<base::Image>(std::string_view)>;
+using world::TextureSource;
 
 // Layer n is registry.textures()[n]; `maxLayers`: of the graphics driver. Colours stay sRGB bytes, as the
 // G-buffer keeps them: sampling decodes nothing, and software renderers have a fast way for such formats. All

@@ -14,6 +14,7 @@
 #include "apps/terrane/bench/child_process.h"
 #include "apps/terrane/bench/machine.h"
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/graphics_options.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/progress_bar.h"
 #include "terrane/base/digest.h"

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <vector>
 
 #include "terrane/base/result.h"
 
@@ -16,6 +17,11 @@ struct CommandEntry {
     // What the program ends with after a run that did not fail.
     std::function<int()> exitCode = [] { return 0; };
 };
+
+// All commands of this build: all_commands.cpp, or server_commands.cpp in a build without graphics.
+std::vector<CommandEntry> addCommands(CLI::App& app);
+// Run where none is named; null: one must be named.
+const char* defaultCommand();
 
 CommandEntry addPlay(CLI::App& app);
 CommandEntry addRender(CLI::App& app);

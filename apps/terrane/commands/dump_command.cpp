@@ -5,13 +5,11 @@
 #include <memory>
 
 #include "apps/terrane/area_chunks.h"
-#include "apps/terrane/batch_mesher.h"
+#include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
-#include "apps/terrane/light_solver.h"
-#include "apps/terrane/open_save.h"
+#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/world_session.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/npy.h"

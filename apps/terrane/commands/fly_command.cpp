@@ -6,7 +6,7 @@
 #include <iostream>
 #include <memory>
 
-#include "apps/terrane/backend.h"
+#include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/flight.h"
 #include "apps/terrane/options.h"
@@ -32,7 +32,7 @@ base::Result<Flight> flightOf(const FlyOptions& options) {
     if (!place) return tl::unexpected(place.error());
     // A scene looks down on the ground.
     if (!options.place.look) place->camera.pitch = 0;
-    return Flight{place->camera, options.seconds, options.graphics.viewDistance, place->timeDay, false};
+    return Flight{place->camera, options.seconds, options.graphics.viewDistance, place->timeDay};
 }
 
 base::Result<void> writeFrames(const std::string& file, std::span<const FlightFrame> frames) {
@@ -65,18 +65,20 @@ base::Result<void> flyAndTell(const FlyOptions& options) {
     if (options.output.empty() && !options.json) return base::fail("flight-bench needs --output or --json");
     auto flight = flightOf(options);
     if (!flight) return tl::unexpected(flight.error());
-    auto world = Offscreen::create(options.world, options.save, options.graphics);
+    auto world = Offscreen::create({.world = options.world,
+                                    .save = options.save,
+                                    .graphics = options.graphics,
+                                    .backend = options.backend,
+                                    .meshMilliseconds = view::WorldView::kFrameMilliseconds});
     if (!world) return tl::unexpected(world.error());
-    flight->meshesOnGpu = usesGpu(options.backend);
-    const auto log = fly(**world, *flight);
-    if (!log) return tl::unexpected(log.error());
+    const FlightLog log = fly(**world, *flight);
     if (!options.output.empty()) {
-        if (auto written = writeFrames(options.output, framesInFlight(*log)); !written) return written;
+        if (auto written = writeFrames(options.output, framesInFlight(log)); !written) return written;
     }
     if (auto saved = (*world)->session->save(); !saved) return saved;
     if (auto finished = (*world)->finish(); !finished) return finished;
-    report(*log);
-    if (options.json) std::cout << nlohmann::json{{"flight", jsonOf(*log)}}.dump() << '\n';
+    report(log);
+    if (options.json) std::cout << nlohmann::json{{"flight", jsonOf(log)}}.dump() << '\n';
     return {};
 }
 
@@ -94,7 +96,7 @@ CommandEntry addFly(CLI::App& app) {
     command->get_option("--output")->required(false);
     command->add_flag("--json", options->json, "Print figures of the flight as JSON");
     addWorldOptions(*command, options->world);
-    addBackendOption(*command, options->backend, "Where to make meshes");
+    addBackendOption(*command, options->backend, "Where to generate, light and mesh");
     addGraphicsOptions(*command, options->graphics, "auto");
     addSaveGameOptions(*command, options->save);
     return {command, [options] { return flyAndTell(*options); }};

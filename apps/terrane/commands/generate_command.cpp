@@ -6,13 +6,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/terrane/batch_generator.h"
+#include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
-#include "apps/terrane/open_save.h"
+#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/progress_bar.h"
-#include "apps/terrane/world_session.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/log.h"
 #include "terrane/gen/generators/catalogue.h"

@@ -8,37 +8,20 @@
 #include <thread>
 
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/graphics_info.h"
 #include "apps/terrane/options.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/kernels.h"
-#include "terrane/gpu/context.h"
-#include "terrane/gpu/device_info.h"
 
 namespace terrane::app {
 namespace {
-
-nlohmann::json graphicsJson() {
-    const auto context = gpu::HeadlessContext::create({});
-    if (!context) return {{"error", context.error().message}};
-    const gpu::DeviceInfo d = gpu::queryDevice();
-    return {{"vendor", d.vendor},
-            {"renderer", d.renderer},
-            {"version", d.version},
-            {"glsl", d.glsl},
-            {"software", d.software},
-            {"max_samples", d.maxSamples},
-            {"max_storage_block_bytes", d.maxStorageBlockBytes},
-            {"max_texture_size", d.maxTextureSize},
-            {"max_texture_3d_size", d.maxTexture3dSize},
-            {"max_anisotropy", d.maxAnisotropy}};
-}
 
 base::Result<void> printInfo(bool asJson) {
     const nlohmann::json info = {{"version", TERRANE_VERSION},
                                  {"processors", std::thread::hardware_concurrency()},
                                  {"simd", gen::simdTargets()},
                                  {"generators", gen::generatorNames()},
-                                 {"graphics", graphicsJson()}};
+                                 {"graphics", graphicsInfo()}};
     if (asJson) {
         std::cout << info.dump() << '\n';
         return {};

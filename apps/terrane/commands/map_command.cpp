@@ -5,11 +5,10 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
 #include "apps/terrane/map_image.h"
-#include "apps/terrane/open_save.h"
+#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/progress_bar.h"
 #include "apps/terrane/resource_pack.h"
-#include "apps/terrane/world_session.h"
 #include "terrane/base/log.h"
 
 namespace terrane::app {

@@ -1,17 +1,20 @@
 // terrane play: a window to walk, fly and build in.
 #include <memory>
 
-#include "apps/terrane/backend.h"
+#include "apps/terrane/choose_back_ends.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/content.h"
+#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/resource_pack.h"
-#include "apps/terrane/spawn.h"
+#include "apps/terrane/shaders.h"
 #include "apps/terrane/stop_signals.h"
 #include "apps/terrane/window/game.h"
 #include "apps/terrane/window/icon.h"
 #include "apps/terrane/window/positions.h"
 #include "terrane/base/log.h"
+#include "terrane/game/spawn.h"
+#include "terrane/view/camera_pose.h"
 
 namespace terrane::app {
 namespace {
@@ -41,7 +44,7 @@ struct PlayOptions {
 };
 
 // What the person sees first: a place of the positions file, where the save was left, or a pleasant place.
-base::Result<render::Camera> startOf(const PlayOptions& options, const WorldSession& session) {
+base::Result<world::Pose> startOf(const PlayOptions& options, game::Session& session) {
     if (options.position) {
         auto positions = readPositions(kPositionsFile);
         if (!positions) return tl::unexpected(positions.error());
@@ -49,26 +52,19 @@ base::Result<render::Camera> startOf(const PlayOptions& options, const WorldSess
         if (number > positions->size()) {
             return base::fail("--bookmark {}: {} has {}", number, kPositionsFile, positions->size());
         }
-        return (*positions)[number - 1];
+        return view::poseOf((*positions)[number - 1]);
     }
-    if (session.store) {
-        const auto saved = cameraFrom(session.store->metadata(kCameraSetting).value_or(""));
-        if (saved && world::isInWorld(render::cameraChunk(*saved))) return *saved;
-    }
-    return findSpawn(*session.generator, session.blocks);
+    const auto saved = cameraFrom(session.store().metadata(kCameraSetting).value_or(""));
+    if (saved && world::isInWorld(render::cameraChunk(*saved))) return view::poseOf(*saved);
+    return game::findSpawn(session.generator(), session.blocks());
 }
 
-DayClock dayOf(const PlayOptions& options, const WorldSession& session) {
-    DayClock day;
-    if (session.store) {
-        const auto saved = session.store->metadata(kTimeSetting);
-        const auto time = timeDayFrom(saved.value_or(""));
-        if (saved && !time)
-            base::logWarning("the save's time of day is no number from 0 to 1: \"{}\"", *saved);
-        day.timeDay = time.value_or(day.timeDay);
-    }
-    if (options.time) day.timeDay = *options.time;
-    return day;
+void setClock(const PlayOptions& options, game::Session& session) {
+    const auto saved = session.store().metadata(kTimeSetting);
+    const auto time = game::timeDayFrom(saved.value_or(""));
+    if (saved && !time) base::logWarning("the save's time of day is no number from 0 to 1: \"{}\"", *saved);
+    game::DayClock& clock = session.clock;
+    clock.timeDay = options.time ? *options.time : time.value_or(clock.timeDay);
 }
 
 base::Result<Window> openWindow(const PlayOptions& options) {
@@ -94,35 +90,38 @@ PlaySettings settingsOf(const PlayOptions& options, bool isSoftwareRenderer) {
 
 base::Result<void> play(PlayOptions& options, CLI::App& command) {
     if (auto read = applySettings(options.settingsFile, command, graphicsSettings()); !read) return read;
-    auto session = WorldSession::create(options.world, options.save);
-    if (!session) return tl::unexpected(session.error());
-    auto textures = loadTextures(options.graphics.resourcePack, (*session)->blocks);
+    auto parts = openSessionParts(options.world, options.save);
+    if (!parts) return tl::unexpected(parts.error());
+    auto textures = loadTextures(options.graphics.resourcePack, parts->blocks);
     if (!textures) return tl::unexpected(textures.error());
     auto window = openWindow(options);
     if (!window) return tl::unexpected(window.error());
     const gpu::ShaderLoader shaders = makeShaderLoader(options.graphics.shaderRoot);
     const gpu::DeviceInfo device = gpu::queryDevice();
-    auto renderer = render::Renderer::create(shaders, (*session)->blocks, *textures, device);
+    auto renderer = render::Renderer::create(shaders, parts->blocks, *textures, device);
     if (!renderer) return tl::unexpected(renderer.error());
-    auto preview = BlockPreview::create(shaders, (*session)->blocks, *textures, device);
+    auto preview = BlockPreview::create(shaders, parts->blocks, *textures, device);
     if (!preview) return tl::unexpected(preview.error());
-    render::BackgroundCompiler compiler(shaders, (*session)->blocks, builtInTextures());
-    auto start = startOf(options, **session);
+    const auto backEnds = chooseBackEnds(*parts, options.world, options.backend);
+    if (!backEnds) return tl::unexpected(backEnds.error());
+    game::Session session(std::move(*parts));
+    render::BackgroundCompiler compiler(shaders, session.blocks(), builtInTextures());
+    auto start = startOf(options, session);
     if (!start) return tl::unexpected(start.error());
+    setClock(options, session);
 
     GameOptions game;
     game.settings = settingsOf(options, device.software);
     game.start = *start;
-    game.start.fieldOfView = game.settings.fieldOfView;
-    game.day = dayOf(options, **session);
     game.perfData = options.perfData;
     game.isSoftwareRenderer = device.software;
-    WorldView view(**session, *renderer);
-    if (usesGpu(options.backend)) {
-        if (auto meshes = view.meshOnGpu(WorldView::kFrameMilliseconds); !meshes) return meshes;
+    view::WorldView view(session, *renderer);
+    if (*backEnds) {
+        const auto meshes = view.meshOnGpu(makeShaderLoader(""), view::WorldView::kFrameMilliseconds);
+        if (!meshes) return meshes;
     }
     const StopSignals signals;
-    Game loop({*window, **session, *renderer, view, *preview, compiler, shaders, signals}, game);
+    Game loop({*window, session, *renderer, view, *preview, compiler, shaders, signals}, game);
     const auto played = loop.run();
     auto written = writeChanges(options.settingsFile, valuesOf(game.settings, device.software),
                                 valuesOf(loop.settings(), device.software), graphicsSettings());
@@ -135,8 +134,8 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
 }
 
 void addPlaySettings(CLI::App& command, PlaySettings& settings) {
-    addChoice<Movement>(command, "--movement", settings.movement,
-                        {movementWords().begin(), movementWords().end()}, "How one moves");
+    addChoice<game::Movement>(command, "--movement", settings.movement,
+                              {movementWords().begin(), movementWords().end()}, "How one moves");
     command.add_option("--field-of-view", settings.fieldOfView, "Degrees, from below to above")
         ->check(numberFrom(40, 110))
         ->capture_default_str();
@@ -164,7 +163,7 @@ CommandEntry addPlay(CLI::App& app) {
     command->add_option("--collect-perf-data", options->perfData, "Write figures of each frame (CSV)")
         ->type_name("FILE");
     addPlaySettings(*command, options->settings);
-    addBackendOption(*command, options->backend, "Where to make meshes");
+    addBackendOption(*command, options->backend, "Where to generate, light and mesh");
     addGraphicsOptions(*command, options->graphics, "auto");
     command
         ->add_option("--settings", options->settingsFile,

@@ -81,8 +81,10 @@ base::Result<void> recordVideo(const RecordOptions& options, const CLI::App& com
     const TitlePainter titles(options.graphics.size.y);
 
     // Edits of the path are not the world's.
-    auto world = Offscreen::create(script->world, options.save, optionsAt(shotAt(*script, options.from), 0),
-                                   store::WorldAccess::ReadOnly);
+    auto world = Offscreen::create({.world = script->world,
+                                    .save = options.save,
+                                    .graphics = optionsAt(shotAt(*script, options.from), 0),
+                                    .access = store::WorldAccess::ReadOnly});
     if (!world) return tl::unexpected(world.error());
     const StopSignals signals;  // until the file is finished: an unfinished one goes with its sink
     auto sink = openSink(options);

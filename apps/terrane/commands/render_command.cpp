@@ -5,17 +5,17 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/terrane/backend.h"
+#include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/frame_times.h"
 #include "apps/terrane/offscreen.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/place_options.h"
 #include "apps/terrane/process_figures.h"
-#include "apps/terrane/world_view.h"
 #include "terrane/base/image.h"
 #include "terrane/base/log.h"
 #include "terrane/store/world_location.h"
+#include "terrane/view/camera_pose.h"
 
 namespace terrane::app {
 namespace {
@@ -44,10 +44,10 @@ struct PictureFigures {
     FrameTimes frames;
 };
 
-void tell(const PictureOptions& options, const PictureFigures& figures, const WorldSession& session,
+void tell(const PictureOptions& options, const PictureFigures& figures, const game::Session& session,
           const render::FrameStatistics& statistics) {
     base::logInfo("{}: {} chunks in {:.1f} s, {} quads in {} regions", options.output,
-                  session.world.chunks().size(), figures.load / 1000, statistics.quads, statistics.regions);
+                  session.world().chunkCount(), figures.load / 1000, statistics.quads, statistics.regions);
     if (figures.frames.milliseconds.empty()) return;
     const double frame = medianOf(figures.frames);
     base::logInfo("a frame takes {:.1f} ms in the middle of {}, {:.1f} frames/s", frame,
@@ -81,12 +81,12 @@ nlohmann::json shadowsOverTheDay(const render::Renderer& renderer, render::Frame
     return day;
 }
 
-nlohmann::json memoryJson(const PictureOptions& options, const WorldSession& session,
+nlohmann::json memoryJson(const PictureOptions& options, const game::Session& session,
                           const render::Renderer& renderer) {
-    return {{"blocks", session.world.memoryBytes()},
-            {"light", session.pipeline->lightBytes()},
-            {"light_of_stage_1", session.pipeline->localLightBytes()},
-            {"generator_cache", session.generator->cacheBytes()},
+    return {{"blocks", session.world().memoryBytes()},
+            {"light", session.pipeline().lightBytes()},
+            {"light_of_stage_1", session.pipeline().localLightBytes()},
+            {"generator_cache", session.generator().cacheBytes()},
             {"light_gpu", renderer.lightBytes()},
             {"quads_gpu", renderer.quadBytes()},
             {"save", saveBytes(options.save)},
@@ -94,15 +94,15 @@ nlohmann::json memoryJson(const PictureOptions& options, const WorldSession& ses
             {"process_peak", peakResidentBytes()}};
 }
 
-nlohmann::json tasksJson(const WorldSession& session) {
+nlohmann::json tasksJson(const game::Session& session) {
     nlohmann::json tasks = nlohmann::json::object();
-    for (const stream::TaskTime& task : session.pipeline->taskTimes())
+    for (const stream::TaskTime& task : session.pipeline().taskTimes())
         tasks[task.name] = {{"count", task.count}, {"milliseconds", task.microseconds / 1000}};
     return tasks;
 }
 
 nlohmann::json pictureJson(const PictureOptions& options, const PictureFigures& figures,
-                           const WorldSession& session, render::Renderer& renderer,
+                           const game::Session& session, render::Renderer& renderer,
                            const render::FrameInput& input) {
     const render::FrameStatistics statistics = renderer.statistics();
     nlohmann::json result = {{"file", options.output},
@@ -113,8 +113,8 @@ nlohmann::json pictureJson(const PictureOptions& options, const PictureFigures& 
                                {"draw", figures.draw},
                                {"all", figures.all}}},
                              {"tasks", tasksJson(session)},
-                             {"chunks", session.world.chunks().size()},
-                             {"chunks_in_view", session.pipeline->progress().wanted},
+                             {"chunks", session.world().chunkCount()},
+                             {"chunks_in_view", session.pipeline().progress().wanted},
                              {"quads", statistics.quads},
                              {"regions", statistics.regions},
                              {"draw_commands", statistics.drawCommands},
@@ -137,28 +137,28 @@ base::Result<void> renderPicture(const PictureOptions& options) {
     if (!options.place.scene && !options.place.at) return base::fail("render needs --scene or --at");
     const auto place = placeOf(options.place, {"", {}, scenes().front().timeDay});
     if (!place) return tl::unexpected(place.error());
-    auto world = Offscreen::create(options.world, options.save, options.graphics);
+    auto world = Offscreen::create({.world = options.world,
+                                    .save = options.save,
+                                    .graphics = options.graphics,
+                                    .backend = options.backend});
     if (!world) return tl::unexpected(world.error());
-    WorldSession& session = *(*world)->session;
+    game::Session& session = *(*world)->session;
     render::Renderer& renderer = (*world)->renderer;
     PictureFigures figures;
     figures.setUp = millisecondsSince(start);
 
     const auto loadStart = Clock::now();
-    WorldView view(session, renderer);
-    if (usesGpu(options.backend)) {
-        if (auto meshes = view.meshOnGpu(WorldView::kNoHurry); !meshes) return meshes;
-    }
-    figures.upload = loadAll(session, view, place->camera, options.graphics.viewDistance, loadStart);
+    figures.upload =
+        view::loadAll(session, *(*world)->view, place->camera, options.graphics.viewDistance, loadStart);
     figures.load = millisecondsSince(loadStart);
 
     const auto drawStart = Clock::now();
     const render::FrameInput input{place->camera,
                                    world::environmentAt(place->timeDay),
-                                   fogDistance(options.graphics.viewDistance),
+                                   view::fogDistance(options.graphics.viewDistance),
                                    options.seconds,
                                    options.graphics.view,
-                                   isUnderWater(session, place->camera)};
+                                   game::isUnderWater(session, place->camera.position)};
     renderer.draw(input);
     const base::Image image = renderer.readImage();
     figures.draw = millisecondsSince(drawStart);
@@ -189,7 +189,7 @@ CommandEntry addRender(CLI::App& app) {
     addOutputOption(*command, options->output, "The PNG file");
     command->add_flag("--json", options->json, "Print timings and counts as JSON");
     addWorldOptions(*command, options->world);
-    addBackendOption(*command, options->backend, "Where to make meshes");
+    addBackendOption(*command, options->backend, "Where to generate, light and mesh");
     addGraphicsOptions(*command, options->graphics, "high");
     addSaveGameOptions(*command, options->save);
     return {command, [options] { return renderPicture(*options); }};

@@ -10,13 +10,13 @@ EditPlayer::EditPlayer(const Script& script) {
         for (const EditCue& edit : shot.edits) edits_.push_back({&edit, shot.start + edit.time});
 }
 
-void EditPlayer::advanceTo(double seconds, stream::ChunkPipeline& pipeline) {
+void EditPlayer::advanceTo(double seconds, game::Session& session) {
     for (Progress& progress : edits_) {
         const std::int64_t wanted = blocksDone(*progress.edit, seconds - progress.start);
         for (; progress.done < wanted; ++progress.done) {
             const world::BlockPos pos = blockOf(*progress.edit, progress.done);
-            pipeline.chunkAt(world::chunkOf(pos));
-            pipeline.setBlock(pos, progress.edit->block);
+            session.pipeline().chunkAt(world::chunkOf(pos));
+            session.edit({game::kNoPlayer, pos, world::SetBlock{progress.edit->block}, std::nullopt});
         }
     }
 }

@@ -1,11 +1,11 @@
 // Makes the edits of a script in the world, up to a time. The edits at a time are the same whatever frames
-// came before. Used on the thread of the pipeline.
+// came before. Used on the session's thread.
 #pragma once
 
 #include <vector>
 
 #include "apps/terrane/record/script.h"
-#include "terrane/stream/chunk_pipeline.h"
+#include "terrane/game/session.h"
 
 namespace terrane::app {
 
@@ -15,7 +15,7 @@ class EditPlayer {
     explicit EditPlayer(const Script& script);
 
     // `seconds` of the video, not before those of the last call.
-    void advanceTo(double seconds, stream::ChunkPipeline& pipeline);
+    void advanceTo(double seconds, game::Session& session);
 
   private:
     struct Progress {

@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 
 #include "terrane/base/log.h"
+#include "terrane/view/camera_pose.h"
 
 namespace terrane::app {
 namespace {
@@ -26,7 +27,7 @@ float titleStrength(const TitleCue& title, double seconds) {
 
 base::Result<void> Recorder::apply(const GraphicsOptions& graphics) {
     render::Renderer& renderer = parts_.world.renderer;
-    stream::ChunkPipeline& pipeline = *parts_.world.session->pipeline;
+    stream::ChunkPipeline& pipeline = parts_.world.session->pipeline();
     const auto options = renderOptions(graphics.choices, parts_.world.device.software);
     if (parts_.size != renderer.size() || options != renderer.options()) {
         if (auto configured = renderer.configure(parts_.size, options); !configured) return configured;
@@ -35,7 +36,7 @@ base::Result<void> Recorder::apply(const GraphicsOptions& graphics) {
     if (graphics.viewDistance != viewDistance_) {
         viewDistance_ = graphics.viewDistance;
         renderer.setViewDistance(viewDistance_);
-        pipeline.showAgain();
+        pipeline.resendLight();
     }
     return {};
 }
@@ -43,10 +44,10 @@ base::Result<void> Recorder::apply(const GraphicsOptions& graphics) {
 // Once a shot: nobody wants to see the inside of a hill.
 void Recorder::warnOfBlocks(const render::Camera& camera, const Shot& shot, double secondsInShot) {
     const glm::dvec3 at = glm::floor(camera.position);
-    const WorldSession& session = *parts_.world.session;
-    const world::BlockId id = session.world.block(
+    const game::Session& session = *parts_.world.session;
+    const world::BlockId id = session.world().block(
         {static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y), static_cast<std::int32_t>(at.z)});
-    const world::BlockType& type = session.blocks.type(id);
+    const world::BlockType& type = session.blocks().type(id);
     if (type.collision.empty() || warnedOf_ == &shot) return;
     warnedOf_ = &shot;
     base::logWarning("shot \"{}\": after {:.1f} s the camera is inside {}", shot.name, secondsInShot,
@@ -59,21 +60,21 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     const GraphicsOptions& graphics = optionsAt(shot, inShot);
     if (auto applied = apply(graphics); !applied) return tl::unexpected(applied.error());
     const PathPoint point = shot.path.at(inShot);
-    WorldSession& session = *parts_.world.session;
+    game::Session& session = *parts_.world.session;
     // First what is in view: an edit there then changes only what it touches.
-    loadAll(session, view_, point.camera, viewDistance_, timeOf(seconds));
-    edits_.advanceTo(seconds, *session.pipeline);
-    loadAll(session, view_, point.camera, viewDistance_, timeOf(seconds));
+    view::loadAll(session, *parts_.world.view, point.camera, viewDistance_, timeOf(seconds));
+    edits_.advanceTo(seconds, session);
+    view::loadAll(session, *parts_.world.view, point.camera, viewDistance_, timeOf(seconds));
 
     warnOfBlocks(point.camera, shot, inShot);
 
     render::FrameInput input;
     input.camera = point.camera;
     input.environment = world::environmentAt(point.timeDay);
-    input.fogDistance = fogDistance(viewDistance_);
+    input.fogDistance = view::fogDistance(viewDistance_);
     input.timeSeconds = static_cast<float>(seconds);
     input.view = graphics.view;
-    input.isUnderWater = isUnderWater(session, point.camera);
+    input.isUnderWater = game::isUnderWater(session, point.camera.position);
     parts_.world.renderer.draw(input);
     base::Image image = parts_.world.renderer.readImage();
     for (const TitleCue& title : shot.titles) {

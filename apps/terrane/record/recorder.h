@@ -7,7 +7,6 @@
 #include "apps/terrane/record/edit_player.h"
 #include "apps/terrane/record/script.h"
 #include "apps/terrane/record/title_painter.h"
-#include "apps/terrane/world_view.h"
 
 namespace terrane::app {
 
@@ -21,8 +20,7 @@ struct RecorderParts {
 
 class Recorder {
   public:
-    explicit Recorder(const RecorderParts& parts)
-        : parts_(parts), view_(*parts.world.session, parts.world.renderer), edits_(parts.script) {}
+    explicit Recorder(const RecorderParts& parts) : parts_(parts), edits_(parts.script) {}
 
     // The frame at a time of the video, not before that of the last call.
     base::Result<base::Image> frame(double seconds);
@@ -32,7 +30,6 @@ class Recorder {
     void warnOfBlocks(const render::Camera& camera, const Shot& shot, double secondsInShot);
 
     RecorderParts parts_;
-    WorldView view_;
     EditPlayer edits_;
     int viewDistance_ = 0;  // that the renderer has room for
     const Shot* warnedOf_ = nullptr;

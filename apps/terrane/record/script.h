@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/terrane/option_values.h"
+#include "apps/terrane/graphics_options.h"
 #include "apps/terrane/record/camera_path.h"
 #include "terrane/world/block_type.h"
 

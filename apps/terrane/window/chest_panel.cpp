@@ -30,9 +30,9 @@ void drawStack(ImVec2 min, ImVec2 max, const world::ItemStack& stack, unsigned p
 
 }  // namespace
 
-std::optional<SlotClick> drawChest(const Screen& screen, const world::Inventory& items,
-                                   const std::function<unsigned(const std::string&)>& picture) {
-    std::optional<SlotClick> click;
+std::optional<game::SlotClick> drawChest(const Screen& screen, const world::Inventory& items,
+                                         const std::function<unsigned(const std::string&)>& picture) {
+    std::optional<game::SlotClick> click;
     ImGui::SetNextWindowPos({screen.width / 2, screen.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::Begin("Chest", nullptr,
                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);

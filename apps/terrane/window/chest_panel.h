@@ -4,13 +4,13 @@
 #include <functional>
 #include <optional>
 
-#include "apps/terrane/window/chest.h"
 #include "apps/terrane/window/overlay.h"
+#include "terrane/game/container.h"
 
 namespace terrane::app {
 
 // `picture`: the OpenGL texture for an item's name, 0: none.
-std::optional<SlotClick> drawChest(const Screen& screen, const world::Inventory& items,
-                                   const std::function<unsigned(const std::string&)>& picture);
+std::optional<game::SlotClick> drawChest(const Screen& screen, const world::Inventory& items,
+                                         const std::function<unsigned(const std::string&)>& picture);
 
 }  // namespace terrane::app

@@ -11,13 +11,15 @@
 
 #include "apps/terrane/process_figures.h"
 #include "apps/terrane/resource_pack.h"
-#include "apps/terrane/window/chest_panel.h"
+#include "apps/terrane/window/container_panel.h"
 #include "apps/terrane/window/loading_map.h"
 #include "apps/terrane/window/overlay.h"
 #include "apps/terrane/window/panel.h"
 #include "apps/terrane/window/positions.h"
 #include "terrane/base/log.h"
+#include "terrane/game/container.h"
 #include "terrane/gpu/framebuffer.h"
+#include "terrane/view/camera_pose.h"
 
 namespace terrane::app {
 namespace {
@@ -34,11 +36,10 @@ Game::Game(const GameParts& parts, const GameOptions& options)
       isSoftwareRenderer_(options.isSoftwareRenderer),
       imgui_(parts.window),
       player_(options.start, options.settings.movement),
-      hand_(parts.session.blocks),
-      day_(options.day),
+      interaction_(parts.session.blocks()),
       shadersRead_(parts.shaders.newestWrite()),
       perfData_(options.perfData) {
-    parts_.session.pipeline->setMeshOptions(settings_.mesh);
+    parts_.session.pipeline().setMeshOptions(settings_.mesh);
     parts_.renderer.setViewDistance(settings_.viewDistance);
 }
 
@@ -49,7 +50,7 @@ base::Result<void> Game::run() {
         perfLog_ = std::move(*log);
     }
     const auto drawn = drawFrames();
-    const glm::dvec3& p = player_.camera().position;
+    const glm::dvec3& p = player_.pose().position;
     base::logInfo("closed after {} frames at {:.2f},{:.2f},{:.2f}", frames_, p.x, p.y, p.z);
     const auto saved = leave();
     if (!drawn && !saved) base::logError("{}", saved.error().message);
@@ -74,29 +75,28 @@ base::Result<void> Game::drawFrames() {
 }
 
 void Game::advance(double seconds) {
-    WorldSession& session = parts_.session;
+    game::Session& session = parts_.session;
     seconds_ += seconds;
     hintSeconds_ -= seconds;
     messageSeconds_ -= seconds;
-    day_.dayMinutes = settings_.dayMinutes;
-    day_.advance(seconds);
+    session.clock.dayMinutes = settings_.dayMinutes;
     onPad(seconds);
-    player_.move(session.world, session.blocks, moveKeys(), seconds);
-    hand_.act(session.world, session.blocks, *session.pipeline, player_, seconds);
-    session.advance(seconds, render::cameraChunk(player_.camera()));
-    parts_.view.follow(player_.camera(), settings_.viewDistance);
+    player_.move(session.world(), session.blocks(), moveKeys(), seconds);
+    session.setPlayer(game::kLocalPlayer, player_.pose());
+    interaction_.act(session, game::kLocalPlayer, player_, seconds);
+    session.advance(seconds, world::chunkOf(player_.pose().position));
+    parts_.view.follow(camera(), settings_.viewDistance);
 }
 
 // What changed since the last frame; the renderer sees to its own options with the frame's size.
 void Game::applySettings() {
     if (settings_ == applied_) return;
-    if (settings_.mesh != applied_.mesh) parts_.session.pipeline->setMeshOptions(settings_.mesh);
+    if (settings_.mesh != applied_.mesh) parts_.session.pipeline().setMeshOptions(settings_.mesh);
     if (settings_.viewDistance != applied_.viewDistance) {
         parts_.renderer.setViewDistance(settings_.viewDistance);
-        parts_.session.pipeline->showAgain();
+        parts_.session.pipeline().resendLight();
     }
     if (settings_.movement != applied_.movement) player_.setMovement(settings_.movement);
-    if (settings_.fieldOfView != applied_.fieldOfView) player_.setFieldOfView(settings_.fieldOfView);
     if (settings_.fullScreen != applied_.fullScreen) parts_.window.setFullScreen(settings_.fullScreen);
     if (settings_.resourcePack != applied_.resourcePack) {
         const auto changed = useResourcePack(settings_.resourcePack);
@@ -107,9 +107,9 @@ void Game::applySettings() {
 }
 
 base::Result<void> Game::useResourcePack(const std::string& folder) {
-    auto textures = loadTextures(folder, parts_.session.blocks);
+    auto textures = loadTextures(folder, parts_.session.blocks());
     if (!textures) return tl::unexpected(textures.error());
-    if (auto set = parts_.renderer.setTextures(parts_.session.blocks, *textures); !set) return set;
+    if (auto set = parts_.renderer.setTextures(parts_.session.blocks(), *textures); !set) return set;
     return parts_.preview.setTextures(*textures);
 }
 
@@ -155,11 +155,12 @@ base::Result<void> Game::drawFrame(double seconds) {
     if (size.x == 0 || size.y == 0) return {};  // minimised
     if (auto configured = configureRenderer(size); !configured) return configured;
     if (hasWorldPicture()) {
-        parts_.view.upload(uploadBudget(seconds, parts_.view.missing()));
+        parts_.view.upload(view::uploadBudget(seconds, parts_.view.missing()));
         parts_.renderer.draw(frameInput());
         parts_.renderer.presentToWindow(size);
     } else {
-        const glm::vec3 sky = world::environmentAt(static_cast<float>(day_.timeDay)).horizonColor;
+        const glm::vec3 sky =
+            world::environmentAt(static_cast<float>(parts_.session.clock.timeDay)).horizonColor;
         gpu::clearWindow(glm::pow(glm::min(sky, 1.0f), glm::vec3(1 / 2.2f)));
         std::this_thread::sleep_for(kCompilePause);
     }
@@ -169,100 +170,104 @@ base::Result<void> Game::drawFrame(double seconds) {
     return {};
 }
 
+render::Camera Game::camera() const {
+    return view::cameraOf(player_.pose(), settings_.fieldOfView);
+}
+
 render::FrameInput Game::frameInput() const {
     render::FrameInput input;
-    input.camera = player_.camera();
-    input.environment = world::environmentAt(static_cast<float>(day_.timeDay));
-    input.fogDistance = fogDistance(settings_.viewDistance);
+    input.camera = camera();
+    input.environment = world::environmentAt(static_cast<float>(parts_.session.clock.timeDay));
+    input.fogDistance = view::fogDistance(settings_.viewDistance);
     input.timeSeconds = static_cast<float>(seconds_);
     input.view = settings_.view;
-    input.isUnderWater = isUnderWater(parts_.session, player_.camera());
+    input.isUnderWater = game::isUnderWater(parts_.session, player_.pose().position);
     if (isAbove_) {
         input.culledFor = input.camera;
-        input.camera = cameraAbove(player_.camera(), settings_.viewDistance);
-        input.fogDistance = 16 * fogDistance(settings_.viewDistance);
+        input.camera = cameraAbove(camera(), settings_.viewDistance);
+        input.fogDistance = 16 * view::fogDistance(settings_.viewDistance);
         input.isUnderWater = false;
     }
     return input;
 }
 
 void Game::drawInterface() {
-    const WorldSession& session = parts_.session;
-    const stream::Progress progress = session.pipeline->progress();
+    game::Session& session = parts_.session;
+    const stream::Progress progress = session.pipeline().progress();
     imgui_.beginFrame(isCaptured_);
     const Screen screen{imgui_.size().x, imgui_.size().y};
-    const render::Camera& camera = player_.camera();
+    const render::Camera camera = this->camera();
     if (isAbove_) {
         drawViewFromAbove(screen, cameraAbove(camera, settings_.viewDistance), camera,
-                          fogDistance(settings_.viewDistance));
-    } else if (const auto& target = hand_.target()) {
-        drawTarget(screen, player_.camera(), *target, session.world, session.blocks);
+                          view::fogDistance(settings_.viewDistance));
+    } else if (const auto& target = interaction_.target()) {
+        drawTarget(screen, camera(), *target, session.world(), session.blocks());
     }
     if (isCaptured_ && !isAbove_) drawCrosshair(screen);
-    drawHand(screen, session.blocks.type(hand_.block()).name,
-             hasWorldPicture() ? parts_.preview.picture(hand_.block()) : 0);
+    drawHand(screen, session.blocks().type(interaction_.block()).name,
+             hasWorldPicture() ? parts_.preview.picture(interaction_.block()) : 0);
     if (hintSeconds_ > 0) drawHint(screen, static_cast<float>(std::min(hintSeconds_, 1.0)));
     if (messageSeconds_ > 0)
         drawMessage(screen, message_, static_cast<float>(std::min(messageSeconds_, 1.0)));
     if (!progress.complete()) drawProgress(screen, progress);
     if (showsLoading_)
-        drawLoadingMap(screen, *session.pipeline, render::cameraChunk(player_.camera()),
+        drawLoadingMap(screen, session.pipeline(), world::chunkOf(player_.pose().position),
                        settings_.viewDistance);
     if (showsPanel_) drawFigures(figures());
-    if (showsPanel_) drawPanel(settings_, day_, {isSoftwareRenderer_, screen.width, screen.height});
-    if (chest_) drawOpenChest(screen);
+    if (showsPanel_) drawPanel(settings_, session.clock, {isSoftwareRenderer_, screen.width, screen.height});
+    if (container_) drawOpenContainer(screen);
     imgui_.endFrame();
 }
 
 // A chest that is gone or out of reach closes.
-void Game::drawOpenChest(const Screen& screen) {
-    WorldSession& session = parts_.session;
-    const glm::dvec3 middle(chest_->x + 0.5, chest_->y + 0.5, chest_->z + 0.5);
-    const bool isNear = glm::distance(middle, player_.camera().position) <= Hand::kReach + 1;
-    if (!isNear || !isChest(session.world, session.blocks, *chest_)) return closeChest();
-    auto items = itemsOf(session.world, session.blocks, *chest_);
+void Game::drawOpenContainer(const Screen& screen) {
+    game::Session& session = parts_.session;
+    const glm::dvec3 middle(container_->x + 0.5, container_->y + 0.5, container_->z + 0.5);
+    const bool isNear = glm::distance(middle, player_.pose().position) <= game::kReach + 1;
+    if (!isNear || !game::isContainer(session.world(), session.blocks(), *container_))
+        return closeContainer();
+    auto items = game::itemsOf(session.world(), session.blocks(), *container_);
     if (!items) {
         say(items.error().message);
-        return closeChest();
+        return closeContainer();
     }
     const auto picture = [&](const std::string& item) {
-        const world::BlockType* kind = session.blocks.find(item);
+        const world::BlockType* kind = session.blocks().find(item);
         return kind ? parts_.preview.picture(kind->id) : 0;
     };
     const auto click = drawChest(screen, *items, picture);
-    world::BlockId inHand = hand_.block();
-    if (!click || !clickSlot(*items, session.blocks, *click, inHand)) return;
-    hand_.choose(inHand);
-    session.pipeline->setLargeData(*chest_, world::encodeInventory(*items));
+    world::BlockId inHand = interaction_.block();
+    if (!click || !game::clickSlot(*items, session.blocks(), *click, inHand)) return;
+    interaction_.choose(inHand);
+    game::putItems(session, game::kLocalPlayer, *container_, *items);
 }
 
 MemoryFigures Game::memoryFigures() const {
-    return {.blocks = parts_.session.world.memoryBytes(),
-            .light = parts_.session.pipeline->lightBytes(),
+    return {.blocks = parts_.session.world().memoryBytes(),
+            .light = parts_.session.pipeline().lightBytes(),
             .quads = parts_.renderer.quadBytes(),
             .lightOnGpu = parts_.renderer.lightBytes(),
             .resident = residentBytes()};
 }
 
 Figures Game::figures() {
-    const WorldSession& session = parts_.session;
+    const game::Session& session = parts_.session;
     return {.frames = &meter_,
-            .camera = player_.camera(),
-            .timeDay = day_.timeDay,
-            .progress = session.pipeline->progress(),
-            .activeChunks = session.world.chunks().size(),
-            .queuedChunks = session.pipeline->queuedCount() + parts_.view.waiting(),
+            .camera = camera(),
+            .timeDay = parts_.session.clock.timeDay,
+            .progress = session.pipeline().progress(),
+            .activeChunks = session.world().chunkCount(),
+            .queuedChunks = session.pipeline().queuedCount() + parts_.view.waiting(),
             .frame = parts_.renderer.statistics(),
             .memory = memory_.at(seconds_, [&] { return memoryFigures(); }),
-            .tasks = session.pipeline->taskTimes(),
+            .tasks = session.pipeline().taskTimes(),
             .passes = &parts_.renderer.passTimes()};
 }
 
 base::Result<void> Game::leave() {
-    if (store::ChunkStore* store = parts_.session.store.get()) {
-        store->setMetadata(kCameraSetting, textOf(player_.camera()));
-        store->setMetadata(kTimeSetting, fmt::format("{:.5f}", day_.timeDay));
-    }
+    store::ChunkStore& store = parts_.session.store();
+    store.setMetadata(kCameraSetting, textOf(camera()));
+    store.setMetadata(kTimeSetting, fmt::format("{:.5f}", parts_.session.clock.timeDay));
     if (auto saved = parts_.session.save(); !saved) return saved;
     return perfLog_ ? perfLog_->finish() : base::Result<void>();
 }

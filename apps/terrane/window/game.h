@@ -6,17 +6,17 @@
 
 #include "apps/terrane/stop_signals.h"
 #include "apps/terrane/window/block_preview.h"
-#include "apps/terrane/window/day_clock.h"
 #include "apps/terrane/window/frame_meter.h"
-#include "apps/terrane/window/hand.h"
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/pad_reader.h"
 #include "apps/terrane/window/perf_log.h"
 #include "apps/terrane/window/play_settings.h"
 #include "apps/terrane/window/timed_value.h"
 #include "apps/terrane/window/window.h"
-#include "apps/terrane/world_view.h"
+#include "terrane/game/block_interaction.h"
+#include "terrane/game/day_clock.h"
 #include "terrane/render/background_compiler.h"
+#include "terrane/view/world_view.h"
 
 namespace terrane::app {
 
@@ -26,9 +26,9 @@ constexpr std::string_view kCameraSetting = "camera", kTimeSetting = "time";
 // What the loop works with; everything outlives it.
 struct GameParts {
     Window& window;
-    WorldSession& session;
+    game::Session& session;
     render::Renderer& renderer;
-    WorldView& view;
+    view::WorldView& view;
     BlockPreview& preview;
     render::BackgroundCompiler& compiler;
     const gpu::ShaderLoader& shaders;
@@ -37,8 +37,7 @@ struct GameParts {
 
 struct GameOptions {
     PlaySettings settings;
-    render::Camera start;
-    DayClock day;
+    world::Pose start;
     bool isSoftwareRenderer = false;
     std::string perfData;  // file; empty: none
 };
@@ -61,8 +60,8 @@ class Game {
     void onKey(Key key);
     void onPad(double seconds);
     void onButton(MouseButton button, bool isPress);
-    bool openChest();
-    void closeChest();
+    bool openContainer();
+    void closeContainer();
     void capture(bool isCaptured);
     void savePosition();
     void nextPosition();
@@ -70,7 +69,8 @@ class Game {
     void nextMovement();
     void say(std::string message);
 
-    MoveKeys moveKeys() const;
+    game::MoveKeys moveKeys() const;
+    render::Camera camera() const;
     base::Result<void> drawFrames();
     void advance(double seconds);
     void applySettings();
@@ -82,7 +82,7 @@ class Game {
     base::Result<void> drawFrame(double seconds);
     render::FrameInput frameInput() const;
     void drawInterface();
-    void drawOpenChest(const Screen& screen);
+    void drawOpenContainer(const Screen& screen);
     Figures figures();
     MemoryFigures memoryFigures() const;
     base::Result<void> leave();
@@ -91,15 +91,14 @@ class Game {
     PlaySettings settings_, applied_;
     bool isSoftwareRenderer_;
     ImguiLayer imgui_;
-    Player player_;
-    Hand hand_;
-    DayClock day_;
+    game::Player player_;
+    game::BlockInteraction interaction_;
     PadReader pad_;
     FrameMeter meter_;
     TimedValue<MemoryFigures> memory_{kMemoryPause};
     TimedValue<WriteTime> shadersWritten_{kShaderPause};
-    WriteTime shadersRead_;                 // the newest one when they were last read
-    std::optional<world::BlockPos> chest_;  // the open one
+    WriteTime shadersRead_;                     // the newest one when they were last read
+    std::optional<world::BlockPos> container_;  // the open one
     std::string perfData_;
     std::optional<PerfLog> perfLog_;
 

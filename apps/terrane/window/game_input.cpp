@@ -3,10 +3,11 @@
 
 #include <filesystem>
 
-#include "apps/terrane/window/chest.h"
 #include "apps/terrane/window/game.h"
 #include "apps/terrane/window/positions.h"
 #include "terrane/base/image.h"
+#include "terrane/game/container.h"
+#include "terrane/view/camera_pose.h"
 
 namespace terrane::app {
 namespace {
@@ -41,7 +42,7 @@ void Game::handleEvents() {
                 onButton(event.button, event.type == Type::ButtonPress);
                 break;
             case Type::Wheel:
-                if (isCaptured_) hand_.choose(event.y > 0 ? -1 : 1);
+                if (isCaptured_) interaction_.choose(event.y > 0 ? -1 : 1);
                 break;
             case Type::CursorMove:
                 if (!wasCaptured || !isCaptured_) break;
@@ -55,7 +56,7 @@ void Game::onKey(Key key) {
     if (imgui_.takesKeys()) return;  // Escape ends the typing
     switch (key) {
         case Key::Escape:
-            return chest_ ? closeChest() : parts_.window.requestClose();
+            return container_ ? closeContainer() : parts_.window.requestClose();
         case Key::F1:
             hintSeconds_ = hintSeconds_ > 0 ? 0 : 20;
             break;
@@ -79,14 +80,14 @@ void Game::onKey(Key key) {
         case Key::F12:
             return takeScreenshot();
         case Key::O:
-            day_.shift(-kDayStep);
+            parts_.session.clock.shift(-kDayStep);
             break;
         case Key::P:
-            day_.shift(kDayStep);
+            parts_.session.clock.shift(kDayStep);
             break;
         case Key::I:
-            day_.isRunning = !day_.isRunning;
-            say(day_.isRunning ? "time passes" : "time stands still");
+            parts_.session.clock.isRunning = !parts_.session.clock.isRunning;
+            say(parts_.session.clock.isRunning ? "time passes" : "time stands still");
             break;
         case Key::L: {
             using render::LightSampling;
@@ -105,7 +106,7 @@ void Game::onKey(Key key) {
 void Game::nextMovement() {
     const auto words = movementWords();
     const std::size_t next = (static_cast<std::size_t>(settings_.movement) + 1) % words.size();
-    settings_.movement = static_cast<Movement>(next);
+    settings_.movement = static_cast<game::Movement>(next);
     say("movement: " + words[next].first);
 }
 
@@ -114,19 +115,19 @@ void Game::onPad(double seconds) {
     pad_.read(parts_.window.gamepad());
     player_.turn(double{pad_.now().rightX} * kStickDegrees * seconds,
                  -double{pad_.now().rightY} * kStickDegrees * seconds);
-    pad_.drive(hand_.breaking, &Gamepad::rightTrigger);
-    pad_.drive(hand_.building, &Gamepad::leftTrigger);
-    if (pad_.isPressed(&Gamepad::leftBumper)) hand_.choose(-1);
-    if (pad_.isPressed(&Gamepad::rightBumper)) hand_.choose(1);
+    pad_.drive(interaction_.breaking, &Gamepad::rightTrigger);
+    pad_.drive(interaction_.building, &Gamepad::leftTrigger);
+    if (pad_.isPressed(&Gamepad::leftBumper)) interaction_.choose(-1);
+    if (pad_.isPressed(&Gamepad::rightBumper)) interaction_.choose(1);
     if (pad_.isPressed(&Gamepad::north)) nextMovement();
-    if (pad_.isPressed(&Gamepad::up)) day_.shift(kDayStep);
-    if (pad_.isPressed(&Gamepad::down)) day_.shift(-kDayStep);
+    if (pad_.isPressed(&Gamepad::up)) parts_.session.clock.shift(kDayStep);
+    if (pad_.isPressed(&Gamepad::down)) parts_.session.clock.shift(-kDayStep);
 }
 
 void Game::onButton(MouseButton button, bool isPress) {
-    HeldButton* held = button == MouseButton::Left    ? &hand_.breaking
-                       : button == MouseButton::Right ? &hand_.building
-                                                      : nullptr;
+    game::HeldButton* held = button == MouseButton::Left    ? &interaction_.breaking
+                             : button == MouseButton::Right ? &interaction_.building
+                                                            : nullptr;
     if (!isPress) {
         if (held) held->release();
         return;
@@ -135,24 +136,24 @@ void Game::onButton(MouseButton button, bool isPress) {
         // The middle button turns mouse look on and off, wherever the cursor is.
         return capture(!isCaptured_);
     }
-    if (isCaptured_ && button == MouseButton::Right && openChest()) return;
+    if (isCaptured_ && button == MouseButton::Right && openContainer()) return;
     if (isCaptured_) return held->press();
     if (!imgui_.takesMouse()) capture(true);
 }
 
 // That which is looked at, unless one runs: then one builds against it.
-bool Game::openChest() {
-    const auto& target = hand_.target();
+bool Game::openContainer() {
+    const auto& target = interaction_.target();
     if (!target || parts_.window.keyDown(Key::Shift) ||
-        !isChest(parts_.session.world, parts_.session.blocks, target->block)) {
+        !game::isContainer(parts_.session.world(), parts_.session.blocks(), target->block)) {
         return false;
     }
-    chest_ = target->block;
+    container_ = target->block;
     capture(false);
     return true;
 }
 
-void Game::closeChest() {
+void Game::closeContainer() {
     capture(true);
 }
 
@@ -161,10 +162,10 @@ void Game::capture(bool isCaptured) {
     parts_.window.setCursorCaptured(isCaptured);
     if (isCaptured) {
         imgui_.endTyping();
-        chest_.reset();
+        container_.reset();
     }
-    hand_.breaking.cancel();
-    hand_.building.cancel();
+    interaction_.breaking.cancel();
+    interaction_.building.cancel();
 }
 
 void Game::say(std::string message) {
@@ -173,7 +174,7 @@ void Game::say(std::string message) {
 }
 
 void Game::savePosition() {
-    const auto done = appendPosition(kPositionsFile, player_.camera());
+    const auto done = appendPosition(kPositionsFile, camera());
     say(done ? fmt::format("position saved in {}", kPositionsFile) : done.error().message);
 }
 
@@ -181,9 +182,8 @@ void Game::nextPosition() {
     const auto positions = readPositions(kPositionsFile);
     if (!positions) return say(positions.error().message);
     if (positions->empty()) return say("no position is saved yet (F5)");
-    render::Camera camera = (*positions)[nextPosition_++ % positions->size()];
-    camera.fieldOfView = settings_.fieldOfView;
-    player_.placeAt(camera, settings_.movement);
+    const render::Camera& camera = (*positions)[nextPosition_++ % positions->size()];
+    player_.placeAt(view::poseOf(camera), settings_.movement);
 }
 
 void Game::takeScreenshot() {
@@ -193,9 +193,9 @@ void Game::takeScreenshot() {
     say(done ? "screenshot " + file.string() : done.error().message);
 }
 
-MoveKeys Game::moveKeys() const {
+game::MoveKeys Game::moveKeys() const {
     const Gamepad& pad = pad_.now();
-    const bool isTyping = imgui_.takesKeys(), walks = settings_.movement == Movement::Gravity;
+    const bool isTyping = imgui_.takesKeys(), walks = settings_.movement == game::Movement::Gravity;
     const auto isDown = [&](Key key) { return !isTyping && parts_.window.keyDown(key); };
     return {.forward = isDown(Key::W) || isDown(Key::Up),
             .back = isDown(Key::S) || isDown(Key::Down),

@@ -11,9 +11,9 @@ ImU32 colourOf(stream::ChunkStage stage) {
     switch (stage) {
         case stream::ChunkStage::Loading:
             return IM_COL32(200, 60, 50, 220);
-        case stream::ChunkStage::Active:
+        case stream::ChunkStage::Loaded:
             return IM_COL32(220, 160, 40, 220);
-        case stream::ChunkStage::Finishing:
+        case stream::ChunkStage::Lighting:
             return IM_COL32(70, 130, 230, 220);
         case stream::ChunkStage::Visible:
             return IM_COL32(70, 180, 80, 220);

@@ -10,8 +10,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "apps/terrane/process_figures.h"
-#include "apps/terrane/window/hand.h"
 #include "apps/terrane/window/imgui_layer.h"
+#include "terrane/game/block_interaction.h"
 #include "terrane/render/shadow_volume.h"
 
 namespace terrane::app {

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "apps/terrane/window/held_button.h"
 #include "apps/terrane/window/input.h"
+#include "terrane/game/held_button.h"
 
 namespace terrane::app {
 
@@ -21,7 +21,7 @@ class PadReader {
     bool isPressed(Button button) const { return now_.*button && !(before_.*button); }
     bool isReleased(Button button) const { return !(now_.*button) && before_.*button; }
     // Leaves alone what the mouse does with the same button.
-    void drive(HeldButton& held, Button button) const {
+    void drive(game::HeldButton& held, Button button) const {
         if (isPressed(button)) held.press();
         if (isReleased(button)) held.release();
     }

@@ -96,7 +96,7 @@ void drawResourcePack(PlaySettings& s) {
     tooltip("Folder of PNG files named as textures; Enter takes it");
 }
 
-void drawPerson(PlaySettings& s, DayClock& day) {
+void drawPerson(PlaySettings& s, game::DayClock& day) {
     choice("movement", s.movement, movementWords());
     ImGui::SliderFloat("mouse", &s.mouseSensitivity, 0.02f, 0.6f, "%.2f", kTyped);
     ImGui::Checkbox("full screen", &s.fullScreen);
@@ -110,7 +110,7 @@ void drawPerson(PlaySettings& s, DayClock& day) {
 
 }  // namespace
 
-void drawPanel(PlaySettings& settings, DayClock& day, const PanelInput& input) {
+void drawPanel(PlaySettings& settings, game::DayClock& day, const PanelInput& input) {
     const float scale = uiScale(), width = 280 * scale, margin = 10 * scale;
     ImGui::SetNextWindowPos({input.width - width - margin, margin});
     ImGui::SetNextWindowSize({width, 0});

@@ -1,8 +1,8 @@
 // The panel on the right side: every setting, changed while one plays. Immediate mode: draws and changes.
 #pragma once
 
-#include "apps/terrane/window/day_clock.h"
 #include "apps/terrane/window/play_settings.h"
+#include "terrane/game/day_clock.h"
 
 namespace terrane::app {
 
@@ -11,6 +11,6 @@ struct PanelInput {
     float width = 0, height = 0;  // of the window
 };
 
-void drawPanel(PlaySettings& settings, DayClock& day, const PanelInput& input);
+void drawPanel(PlaySettings& settings, game::DayClock& day, const PanelInput& input);
 
 }  // namespace terrane::app

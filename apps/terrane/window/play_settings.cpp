@@ -17,11 +17,12 @@ std::string wordOf(Words<T> words, T value) {
 
 }  // namespace
 
-Words<Movement> movementWords() {
-    static const std::array<std::pair<std::string, Movement>, 4> words = {{{"fast", Movement::Fast},
-                                                                           {"medium", Movement::Medium},
-                                                                           {"walls", Movement::Walls},
-                                                                           {"gravity", Movement::Gravity}}};
+Words<game::Movement> movementWords() {
+    static const std::array<std::pair<std::string, game::Movement>, 4> words = {
+        {{"fast", game::Movement::Fast},
+         {"medium", game::Movement::Medium},
+         {"walls", game::Movement::Walls},
+         {"gravity", game::Movement::Gravity}}};
     return words;
 }
 

@@ -3,10 +3,10 @@
 
 #include <string>
 
+#include "apps/terrane/graphics_options.h"
 #include "apps/terrane/graphics_table.h"
-#include "apps/terrane/option_values.h"
-#include "apps/terrane/window/player.h"
 #include "apps/terrane/window/settings.h"
+#include "terrane/game/player.h"
 #include "terrane/mesh/mesh_options.h"
 #include "terrane/render/frame_input.h"
 
@@ -18,7 +18,7 @@ struct PlaySettings {
     int viewDistance = 16;           // chunks
     mesh::MeshOptions mesh;
     render::View view = render::View::Color;
-    Movement movement = Movement::Gravity;
+    game::Movement movement = game::Movement::Gravity;
     float fieldOfView = 70;          // degrees
     float mouseSensitivity = 0.15f;  // degrees a screen unit
     double dayMinutes = 20;
@@ -28,7 +28,7 @@ struct PlaySettings {
     bool operator==(const PlaySettings&) const = default;
 };
 
-Words<Movement> movementWords();  // of the option --movement
+Words<game::Movement> movementWords();  // of the option --movement
 
 // The options of graphics that a preset stands for, and the preset.
 std::vector<std::string> graphicsSettings();

@@ -1,6 +1,8 @@
-#include "apps/terrane/open_save.h"
+#include "apps/terrane/open_session.h"
 
+#include "apps/terrane/content.h"
 #include "terrane/gen/generators/catalogue.h"
+#include "terrane/store/memory_store.h"
 
 namespace terrane::app {
 
@@ -29,6 +31,25 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
     options.seed = (*opened)->identity().seed;
     options.generator = (*opened)->identity().generator;
     return opened;
+}
+
+base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const world::BlockRegistry& blocks) {
+    auto graph = gen::makeGenerator(options.effectiveGenerator(), blocks);
+    if (!graph) return tl::unexpected(graph.error());
+    return gen::Generator(std::move(*graph), options.effectiveSeed());
+}
+
+base::Result<game::SessionParts> openSessionParts(WorldOptions& options, const SaveOptions& save,
+                                                  store::WorldAccess access) {
+    auto blocks = loadBlocks();
+    if (!blocks) return tl::unexpected(blocks.error());
+    auto opened = openSave(options, save, access, *blocks);
+    if (!opened) return tl::unexpected(opened.error());
+    auto generator = makeGenerator(options, *blocks);
+    if (!generator) return tl::unexpected(generator.error());
+    if (!*opened) *opened = std::make_unique<store::MemoryStore>(identityOf(options));
+    return game::SessionParts{std::move(*blocks), std::move(*generator), std::move(*opened),
+                              threadCount(options)};
 }
 
 }  // namespace terrane::app

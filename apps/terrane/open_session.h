@@ -1,9 +1,10 @@
-// The world that the command line names, opened for a command.
+// The world that the command line names, opened for a command: its store and its generator.
 #pragma once
 
 #include <memory>
 
 #include "apps/terrane/option_values.h"
+#include "terrane/game/session.h"
 #include "terrane/store/open_world.h"
 
 namespace terrane::app {
@@ -16,5 +17,13 @@ store::WorldIdentity identityOf(const WorldOptions& options);
 base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options, const SaveOptions& save,
                                                           store::WorldAccess access,
                                                           const world::BlockRegistry& blocks);
+
+base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const world::BlockRegistry& blocks);
+
+// What a session is made of, with workers for everything. Without a named world edits last until the program
+// ends. `options` get the seed and generator of the world.
+base::Result<game::SessionParts> openSessionParts(
+    WorldOptions& options, const SaveOptions& save,
+    store::WorldAccess access = store::WorldAccess::ReadWriteOrMemory);
 
 }  // namespace terrane::app

@@ -3,14 +3,13 @@
 #pragma once
 
 #include <algorithm>
-
 #include <optional>
 
-#include "apps/terrane/world_session.h"
+#include "terrane/game/session.h"
 #include "terrane/mesh_gpu/mesh_queue.h"
 #include "terrane/render/renderer.h"
 
-namespace terrane::app {
+namespace terrane::view {
 
 // A frame's time for what workers finished, as a share of what the last one took, so that loading makes no
 // frame much longer however fast the machine draws: a sixteenth, and up to a quarter where all of the view is
@@ -34,11 +33,11 @@ class WorldView {
     static constexpr double kFrameMilliseconds = 3, kNoHurry = 0;
 
     // Both outlive this.
-    WorldView(WorldSession& session, render::Renderer& renderer) : session_(session), renderer_(renderer) {}
+    WorldView(game::Session& session, render::Renderer& renderer) : session_(session), renderer_(renderer) {}
 
-    // Meshes of whole chunks are made on the GPU, where they are drawn from; those of edits stay with the
-    // pipeline, so that they are seen in the next frame. Comes before the pipeline's first update.
-    base::Result<void> meshOnGpu(double budgetMilliseconds);
+    // For a session whose pipeline leaves whole chunks to its caller (stream::MeshPolicy): meshes them on the
+    // GPU, where they are drawn from, for so long a frame. Comes before the first upload.
+    base::Result<void> meshOnGpu(const gpu::ShaderLoader& shaders, double budgetMilliseconds);
 
     // Chunks up to `viewDistance` around the camera come, those in front of it first. Takes in what is there.
     void follow(const render::Camera& camera, int viewDistance);
@@ -46,7 +45,7 @@ class WorldView {
     // next frames. The first time that one finds no room there is a warning. How many it handed on.
     std::size_t upload(double budgetSeconds);
     double missing() const {
-        return missingShare(session_.pipeline->progress(), session_.pipeline->waitingChanges());
+        return missingShare(session_.pipeline().progress(), session_.pipeline().waitingChanges());
     }
     // Chunks that were handed on and wait for the GPU to mesh them.
     std::size_t waiting() const { return queue_ ? queue_->size() : 0; }
@@ -59,15 +58,15 @@ class WorldView {
     void countMeshes();
     void warnOfNoRoom(world::ChunkPos pos);
 
-    WorldSession& session_;
+    game::Session& session_;
     render::Renderer& renderer_;
     std::optional<mesh_gpu::MeshQueue> queue_;
     bool hasWarned_ = false;
 };
 
 // Waits until the renderer has everything that the camera may see, as it is now. `now`: the pipeline's time.
-// Milliseconds that uploading took.
-double loadAll(WorldSession& session, WorldView& view, const render::Camera& camera, int viewDistance,
+// Returns the milliseconds that uploading took.
+double loadAll(game::Session& session, WorldView& view, const render::Camera& camera, int viewDistance,
                stream::ChunkPipeline::Time now);
 
-}  // namespace terrane::app
+}  // namespace terrane::view

@@ -1,4 +1,4 @@
-#include "apps/terrane/world_view.h"
+#include "terrane/view/world_view.h"
 
 #include <chrono>
 #include <cmath>
@@ -6,12 +6,11 @@
 #include <limits>
 #include <numbers>
 
-#include "apps/terrane/content.h"
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
 #include "terrane/mesh/region_quads.h"
 
-namespace terrane::app {
+namespace terrane::view {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -28,15 +27,14 @@ glm::vec2 lookSector(const render::Camera& camera) {
 }  // namespace
 
 void WorldView::follow(const render::Camera& camera, int viewDistance) {
-    session_.pipeline->setView(render::cameraChunk(camera), viewDistance, lookSector(camera));
-    session_.pipeline->update();
+    session_.pipeline().setView(render::cameraChunk(camera), viewDistance, lookSector(camera));
+    session_.pipeline().update();
 }
 
-base::Result<void> WorldView::meshOnGpu(double budgetMilliseconds) {
-    auto mesher = mesh_gpu::GpuMesher::create(makeShaderLoader(""), session_.blocks);
+base::Result<void> WorldView::meshOnGpu(const gpu::ShaderLoader& shaders, double budgetMilliseconds) {
+    auto mesher = mesh_gpu::GpuMesher::create(shaders, session_.blocks());
     if (!mesher) return tl::unexpected(mesher.error());
     queue_.emplace(std::move(*mesher), budgetMilliseconds);
-    session_.pipeline->leaveMeshesOut();
     return {};
 }
 
@@ -45,7 +43,7 @@ std::size_t WorldView::upload(double budgetSeconds) {
     const auto start = Clock::now();
     std::size_t count = 0;
     do {
-        const std::vector<stream::ChunkChange> changes = session_.pipeline->takeChanges(1);
+        const std::vector<stream::ChunkChange> changes = session_.pipeline().takeChanges(1);
         if (changes.empty()) break;
         show(changes.front());
         ++count;
@@ -91,13 +89,13 @@ void WorldView::writeMeshes() {
 }
 
 void WorldView::countMeshes() {
-    const stream::ChunkPipeline& pipeline = *session_.pipeline;
+    const stream::ChunkPipeline& pipeline = session_.pipeline();
     std::vector<mesh::MeshBlocks> blocks;
     for (const world::ChunkPos pos : queue_->takeWaiting()) blocks.push_back(pipeline.meshBlocks(pos));
     if (blocks.empty()) return;
     std::vector<mesh::MeshInput> inputs;
     for (const mesh::MeshBlocks& chunk : blocks) {
-        inputs.push_back(mesh::meshInput(chunk, session_.blocks, pipeline.meshOptions()));
+        inputs.push_back(mesh::meshInput(chunk, session_.blocks(), pipeline.meshOptions()));
     }
     queue_->count(inputs);
 }
@@ -112,9 +110,9 @@ void WorldView::warnOfNoRoom(world::ChunkPos pos) {
         pos.x, pos.y);
 }
 
-double loadAll(WorldSession& session, WorldView& view, const render::Camera& camera, int viewDistance,
+double loadAll(game::Session& session, WorldView& view, const render::Camera& camera, int viewDistance,
                stream::ChunkPipeline::Time now) {
-    stream::ChunkPipeline& pipeline = *session.pipeline;
+    stream::ChunkPipeline& pipeline = session.pipeline();
     pipeline.setView(render::cameraChunk(camera), viewDistance);
     double uploads = 0;
     for (;;) {
@@ -122,11 +120,10 @@ double loadAll(WorldSession& session, WorldView& view, const render::Camera& cam
         const auto start = Clock::now();
         const std::size_t changed = view.upload(std::numeric_limits<double>::infinity());
         uploads += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-        // Visible chunks that are meshed anew come a few an update.
-        const bool isLoaded = pipeline.progress().complete();
+        const bool isLoaded = pipeline.progress().isUpToDate();
         if (isLoaded && changed == 0 && view.waiting() == 0) return uploads;
         if (!isLoaded && changed == 0) pipeline.waitForWorkers(std::chrono::milliseconds(100));
     }
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::view

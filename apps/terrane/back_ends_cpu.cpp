@@ -1,0 +1,34 @@
+// A build without graphics: the CPU does everything.
+#include "apps/terrane/back_ends.h"
+#include "apps/terrane/open_session.h"
+
+namespace terrane::app {
+namespace {
+
+template <class Worker>
+base::Result<OnBackend<Worker>> onCpu(Backend backend, std::unique_ptr<Worker> worker) {
+    if (backend == Backend::Gpu) {
+        return base::fail(base::ErrorCode::Unsupported,
+                          "--backend gpu: this program was built without graphics");
+    }
+    return OnBackend<Worker>{nullptr, std::move(worker)};
+}
+
+}  // namespace
+
+base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const WorldOptions& options, Backend backend,
+                                                                const world::BlockRegistry& blocks) {
+    auto generator = makeGenerator(options, blocks);
+    if (!generator) return tl::unexpected(generator.error());
+    return onCpu(backend, gen::makeCpuGenerator(std::move(*generator), threadCount(options)));
+}
+
+base::Result<OnBackend<light::AreaSolver>> makeLightSolver(Backend backend, const light::LightTable& table) {
+    return onCpu(backend, light::makeCpuSolver(table));
+}
+
+base::Result<OnBackend<mesh::BatchMesher>> makeBatchMesher(Backend backend, const world::BlockRegistry&) {
+    return onCpu(backend, mesh::makeCpuMesher());
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,97 @@
+#include "apps/terrane/back_ends.h"
+#include "apps/terrane/choose_back_ends.h"
+#include "apps/terrane/content.h"
+#include "apps/terrane/open_session.h"
+#include "apps/terrane/shaders.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/gen_gpu/gpu_generator.h"
+#include "terrane/gpu/context.h"
+#include "terrane/gpu/device_info.h"
+#include "terrane/light_gpu/gpu_light_solver.h"
+#include "terrane/mesh_gpu/gpu_batch_mesher.h"
+
+namespace terrane::app {
+namespace {
+
+using Context = std::shared_ptr<gpu::HeadlessContext>;
+
+// A context to work in, or null where the CPU is to do it.
+base::Result<Context> openContext(Backend backend) {
+    if (backend == Backend::Cpu) return nullptr;
+    auto context = gpu::HeadlessContext::create({});
+    if (context && usesGpu(backend)) return std::make_shared<gpu::HeadlessContext>(std::move(*context));
+    if (!context && backend == Backend::Gpu) return tl::unexpected(context.error());
+    return nullptr;
+}
+
+// `makeCpu` returns a Result<unique_ptr<Worker>>, `makeGpu` a Result of what implements Worker in the
+// context.
+template <class Worker, class MakeCpu, class MakeGpu>
+base::Result<OnBackend<Worker>> makeOnBackend(Backend backend, const MakeCpu& makeCpu,
+                                              const MakeGpu& makeGpu) {
+    auto context = openContext(backend);
+    if (!context) return tl::unexpected(context.error());
+    if (!*context) {
+        base::Result<std::unique_ptr<Worker>> worker = makeCpu();
+        if (!worker) return tl::unexpected(worker.error());
+        return OnBackend<Worker>{nullptr, std::move(*worker)};
+    }
+    auto worker = makeGpu();
+    if (!worker) return tl::unexpected(worker.error());
+    using GpuWorker = typename decltype(worker)::value_type;
+    return OnBackend<Worker>{std::move(*context), std::make_unique<GpuWorker>(std::move(*worker))};
+}
+
+}  // namespace
+
+bool usesGpu(Backend backend) {
+    return backend == Backend::Gpu || (backend == Backend::Auto && !gpu::queryDevice().software);
+}
+
+base::Result<std::unique_ptr<view::GpuBackEnds>> chooseBackEnds(game::SessionParts& parts,
+                                                                const WorldOptions& world, Backend backend) {
+    if (!usesGpu(backend)) return nullptr;
+    auto graph = gen::makeGenerator(world.effectiveGenerator(), parts.blocks);
+    if (!graph) return tl::unexpected(graph.error());
+    auto made = view::makeGpuBackEnds(makeShaderLoader(""), *graph, world.effectiveSeed(), parts.blocks);
+    if (made) view::useBackEnds(parts, **made);
+    return made;
+}
+
+base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const WorldOptions& options, Backend backend,
+                                                                const world::BlockRegistry& blocks) {
+    const auto makeCpu = [&]() -> base::Result<std::unique_ptr<gen::BatchGenerator>> {
+        auto generator = makeGenerator(options, blocks);
+        if (!generator) return tl::unexpected(generator.error());
+        return gen::makeCpuGenerator(std::move(*generator), threadCount(options));
+    };
+    const auto makeGpu = [&]() -> base::Result<gen_gpu::GpuGenerator> {
+        auto graph = gen::makeGenerator(options.effectiveGenerator(), blocks);
+        if (!graph) return tl::unexpected(graph.error());
+        return gen_gpu::GpuGenerator::create(makeShaderLoader(""), *graph, options.effectiveSeed());
+    };
+    return makeOnBackend<gen::BatchGenerator>(backend, makeCpu, makeGpu);
+}
+
+base::Result<OnBackend<light::AreaSolver>> makeLightSolver(Backend backend, const light::LightTable& table) {
+    const auto makeCpu = [&]() -> base::Result<std::unique_ptr<light::AreaSolver>> {
+        return light::makeCpuSolver(table);
+    };
+    const auto makeGpu = [&] { return light_gpu::GpuLightSolver::create(makeShaderLoader(""), table); };
+    return makeOnBackend<light::AreaSolver>(backend, makeCpu, makeGpu);
+}
+
+base::Result<OnBackend<mesh::BatchMesher>> makeBatchMesher(Backend backend,
+                                                           const world::BlockRegistry& blocks) {
+    const auto makeCpu = []() -> base::Result<std::unique_ptr<mesh::BatchMesher>> {
+        return mesh::makeCpuMesher();
+    };
+    const auto makeGpu = [&]() -> base::Result<mesh_gpu::GpuBatchMesher> {
+        auto mesher = mesh_gpu::GpuMesher::create(makeShaderLoader(""), blocks);
+        if (!mesher) return tl::unexpected(mesher.error());
+        return mesh_gpu::GpuBatchMesher(std::move(*mesher));
+    };
+    return makeOnBackend<mesh::BatchMesher>(backend, makeCpu, makeGpu);
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,16 @@
+// --backend of commands that draw: who generates, lights and meshes the world on screen.
+#pragma once
+
+#include "apps/terrane/back_ends.h"
+#include "terrane/view/gpu_back_ends.h"
+
+namespace terrane::app {
+
+// Of the current context: whether it is to do the work.
+bool usesGpu(Backend backend);
+
+// Null where workers are to do all. Else `parts` use the back ends from here on. The context is current.
+base::Result<std::unique_ptr<view::GpuBackEnds>> chooseBackEnds(game::SessionParts& parts,
+                                                                const WorldOptions& world, Backend backend);
+
+}  // namespace terrane::app

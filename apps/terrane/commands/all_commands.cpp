@@ -1,0 +1,15 @@
+#include "apps/terrane/commands/commands.h"
+
+namespace terrane::app {
+
+std::vector<CommandEntry> addCommands(CLI::App& app) {
+    return {addPlay(app),  addRender(app),     addRecord(app), addFly(app),    addGenerate(app),
+            addMap(app),   addDump(app),       addCheck(app),  addBlocks(app), addInfo(app),
+            addBench(app), addCompletion(app), addMan(app)};
+}
+
+const char* defaultCommand() {
+    return "play";
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,15 @@
+// The commands of a build without graphics.
+#include "apps/terrane/commands/commands.h"
+
+namespace terrane::app {
+
+std::vector<CommandEntry> addCommands(CLI::App& app) {
+    return {addGenerate(app), addMap(app),  addDump(app),       addCheck(app),
+            addBlocks(app),   addInfo(app), addCompletion(app), addMan(app)};
+}
+
+const char* defaultCommand() {
+    return nullptr;
+}
+
+}  // namespace terrane::app

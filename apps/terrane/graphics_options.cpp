@@ -1,0 +1,85 @@
+#include "apps/terrane/graphics_options.h"
+
+#include <array>
+#include <charconv>
+
+#include "apps/terrane/options.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr int kMaxPictureSide = 16384;
+
+void addGraphicsChoices(CLI::App& command, GraphicsChoices& choices, std::string preset) {
+    choices.preset = std::move(preset);
+    command
+        .add_option("--preset", choices.preset,
+                    "Graphics options together, changed by the flags that follow: " + presetNames())
+        ->check(isPresetName)
+        ->type_name("WORD")
+        ->capture_default_str();
+    for (std::size_t k = 0; k < graphicsTable().size(); ++k) {
+        const GraphicsRow& row = graphicsTable()[k];
+        const std::string flag = "--" + std::string(row.name), words = wordsOf(row);
+        const auto take = [&choices, k, flag, words](const std::string& text) {
+            if (const auto choice = choiceOf(graphicsTable()[k], text)) {
+                choices.changed.emplace_back(k, *choice);
+                return;
+            }
+            throw CLI::ValidationError(flag, fmt::format("expected one of {}, got \"{}\"", words, text));
+        };
+        command.add_option_function<std::string>(flag, take, std::string(row.description) + ": " + words)
+            ->type_name("WORD");
+    }
+}
+
+}  // namespace
+
+glm::ivec2 parseSize(const std::string& text) {
+    int width = 0, height = 0;
+    const char* end = text.data() + text.size();
+    const auto x = std::from_chars(text.data(), end, width);
+    const bool hasCross = x.ec == std::errc() && x.ptr != end && *x.ptr == 'x';
+    const auto y = hasCross ? std::from_chars(x.ptr + 1, end, height) : x;
+    const bool isGood = hasCross && y.ec == std::errc() && y.ptr == end;
+    if (!isGood || width < 1 || height < 1 || width > kMaxPictureSide || height > kMaxPictureSide) {
+        throw CLI::ValidationError(
+            "--size",
+            fmt::format("expected WIDTHxHEIGHT with sides of 1 to {}, got \"{}\"", kMaxPictureSide, text));
+    }
+    return {width, height};
+}
+
+void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string preset) {
+    command
+        .add_option_function<std::string>(
+            "--size", [&](const std::string& text) { options.size = parseSize(text); },
+            "Picture size in pixels")
+        ->type_name("WxH")
+        ->default_str("1280x720");
+    command.add_option("--view-distance", options.viewDistance, "How far one sees, in chunks")
+        ->check(numberFrom(1, 64))
+        ->capture_default_str();
+    addGraphicsChoices(command, options.choices, std::move(preset));
+    addChoice<render::View>(command, "--view", options.view, {viewWords().begin(), viewWords().end()},
+                            "What to show");
+    addMeshOptions(command, options.mesh);
+    addResourcePackOption(command, options.resourcePack);
+    command
+        .add_option("--shader-root", options.shaderRoot, "Source tree to read shaders from, for development")
+        ->check(existingFolder())
+        ->type_name("DIR");
+    command.add_flag("--debug-gl", options.debugGl, "Report errors of the graphics driver");
+}
+
+Words<render::View> viewWords() {
+    using render::View;
+    static const std::array<std::pair<std::string, View>, 5> words = {{{"color", View::Color},
+                                                                       {"normal", View::Normal},
+                                                                       {"depth", View::Depth},
+                                                                       {"merging", View::Aggregation},
+                                                                       {"light", View::Light}}};
+    return words;
+}
+
+}  // namespace terrane::app

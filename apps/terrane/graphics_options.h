@@ -1,0 +1,32 @@
+// Options of commands that draw.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <string>
+
+#include "apps/terrane/graphics_table.h"
+#include "apps/terrane/option_values.h"
+#include "terrane/render/frame_input.h"
+
+namespace terrane::app {
+
+struct GraphicsOptions {
+    glm::ivec2 size{1280, 720};  // pixels
+    int viewDistance = 16;       // chunks
+    GraphicsChoices choices;
+    render::View view = render::View::Color;
+    mesh::MeshOptions mesh;
+    std::string resourcePack;  // folder; empty: none
+    std::string shaderRoot;
+    bool debugGl = false;
+};
+
+// `preset`: where none is asked for.
+void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string preset);
+
+// "1280x720", for --size. Throws CLI::ValidationError.
+glm::ivec2 parseSize(const std::string& text);
+
+Words<render::View> viewWords();  // --view
+
+}  // namespace terrane::app

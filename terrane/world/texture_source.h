@@ -1,0 +1,15 @@
+// Where textures of blocks come from: content, resource packs, tests.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "terrane/base/image.h"
+#include "terrane/base/result.h"
+
+namespace terrane::world {
+
+// The image of a texture by its name in the block types. An error says what is missing.
+using TextureSource = std::function<base::Result<base::Image>(std::string_view)>;
+
+}  // namespace terrane::world
