@@ -167,7 +167,8 @@ class Bench(ProgramTest):
     def test_results_can_be_compared(self):
         self.assertEqual(self.bench("--only", "disk").returncode, 0)
         results = self.output / "results.jsonl"
-        done = subprocess.run(["python3", "-B", TOOLS / "compare_benchmarks.py", results, results], capture_output=True, text=True, check=False)
+        done = subprocess.run(["python3", "-B", TOOLS / "compare_benchmarks.py", results, results],
+                              capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"\n?[1-9]\d* times compared, 0 slower, 0 faster")
 

@@ -28,8 +28,9 @@ def settings_of(results):
     try:
         is_quick, view_distance = bool(about["quick"]), int(about["view_distance"])
         is_software = about.get("software_renderer", "llvmpipe" in str(about.get("renderer")))
+        farthest = 64 if view_distance == 32 and not is_quick else view_distance  # as older programs had it
         return Settings(is_quick, str(about["picture"]), view_distance,
-                        int(about.get("farthest_view_distance", view_distance if is_quick else 64)),
+                        int(about.get("farthest_view_distance", farthest)),
                         int(about["frames_of_a_run"]), int(about.get("most_samples", 4 if is_software else 8)),
                         bool(is_software), float(about.get("seconds_of_a_flight", 4 if is_quick else 20)))
     except (KeyError, TypeError, ValueError) as error:

@@ -19,8 +19,8 @@ def post_processing(s):
     for scene in SCENES:
         cell = frame(s, scene, ssao="on")
         passes = ("ambient occlusion", "god rays", "depth of field", "final")
-        rows.append([scene, value(cell, FRAMES_PER_SECOND), *(value(cell, Value(f"/passes/{name}")) for name in passes),
-                     POST_PROCESSING[scene]])
+        rows.append([scene, value(cell, FRAMES_PER_SECOND),
+                     *(value(cell, Value(f"/passes/{name}")) for name in passes), POST_PROCESSING[scene]])
     return Table(
         "post-processing", "Effects after shading, in place of work groups (tables 6.6 and 6.7)",
         "The thesis computes effects in compute shaders and varies their work groups (2² to 32²; about the same from "
@@ -129,7 +129,8 @@ def shadow_maps(s):
 
 
 # Table 6.13: frames a second with 0 to 3 layers.
-LAYERS = {"ocean": (81, 64, 61, 57), "desert": (68, 61, 59, 56), "landscape": (54, 50, 47, 45), "cave": (100, 86, 80, 75)}
+LAYERS = {"ocean": (81, 64, 61, 57), "desert": (68, 61, 59, 56), "landscape": (54, 50, 47, 45),
+          "cave": (100, 86, 80, 75)}
 
 
 def layers(s):

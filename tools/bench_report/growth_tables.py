@@ -78,9 +78,9 @@ def effect_costs(s):
                      difference(on, off, PROCESSOR_MS)])
     return Table(
         "effect-costs", "What each effect costs",
-        f"Landscape, {s.size}, V={s.view_distance}: milliseconds of a frame with `--preset low`, the effect switched on "
-        "and off and all else as it is. Under about a tenth of the frame a difference is noise; processor time, of all "
-        "cores, is steadier where other programs run.",
+        f"Landscape, {s.size}, V={s.view_distance}: milliseconds of a frame with `--preset low`, the effect switched "
+        "on and off and all else as it is. Under about a tenth of the frame a difference is noise; processor time, of "
+        "all cores, is steadier where other programs run.",
         "view distance, size", ["effect", "off, ms", "on, ms", "difference, ms", "difference, processor ms"], rows,
         [Plot("effect", "milliseconds it adds", [3, 4])])
 
