@@ -171,9 +171,14 @@ void addRecreateOption(CLI::App& command, SaveOptions& save) {
 
 void addSaveGameOptions(CLI::App& command, SaveOptions& save) {
     addWorldOption(command, save, "World to play in; made where it is not there");
-    command.add_option("--save-game", save.world)
+    // After --world: options are read in this order. excludes() would show in the help of --world.
+    const auto take = [&save](const std::string& text) {
+        if (!save.world.empty())
+            throw CLI::ValidationError("--save-game", "the old name of --world: only one of them");
+        save.world = text;
+    };
+    command.add_option_function<std::string>("--save-game", take)
         ->check(CLI::Validator(isALocation, ""))
-        ->excludes("--world")
         ->group("");
     addRecreateOption(command, save);
 }

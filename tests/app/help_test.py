@@ -64,6 +64,7 @@ class Bash(HelpTest):
         for command, flag in (("record", "--frames-dir"), ("render", "--shader-root"), ("bench", "--output"), ("bench", "-o")):
             self.assertEqual(self.complete("terrane", command, flag, "a"), ["a folder"], command)
         self.assertEqual(sorted(self.complete("terrane", "check", "a ")), ["a folder", "a picture.png"])
+        self.assertEqual(sorted(self.complete("terrane", "play", "--world", "a ")), ["a folder", "a picture.png"])
 
 
 class Fish(HelpTest):

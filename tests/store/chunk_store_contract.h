@@ -1,5 +1,5 @@
-// What every ChunkStore does. A kind of store takes part with one line: its fixture in
-// chunk_store_contract_test.cpp.
+// What every ChunkStore does is in chunk_store_contract_test.cpp. A kind of store takes part by a fixture
+// and a line in store_kinds_test.cpp.
 #pragma once
 
 #include <functional>

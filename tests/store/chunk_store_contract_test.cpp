@@ -4,71 +4,11 @@
 
 #include <thread>
 
-#include "terrane/store/memory_store.h"
-#include "terrane/store/overlay_store.h"
-#include "terrane/store/sqlite_reader.h"
-#include "terrane/store/sqlite_store.h"
-
 namespace terrane::store {
 namespace {
 
 using State = LoadedChunk::State;
 using world::ChunkPos;
-
-class SqliteWorld : public ContractWorld {
-  public:
-    std::unique_ptr<ChunkStore> open() override {
-        auto store = SqliteStore::open(path_, registry_, {.create = kIdentity, .decide = {}}, kNever);
-        if (!store) throw std::runtime_error(store.error().message);
-        return std::move(*store);
-    }
-
-  private:
-    base::TempFolder folder_;
-    std::filesystem::path path_ = folder_ / "a.sqlite";
-    world::BlockRegistry registry_ = testRegistry();
-};
-
-class MemoryWorld : public ContractWorld {
-  public:
-    std::unique_ptr<ChunkStore> open() override { return std::make_unique<MemoryStore>(kIdentity); }
-};
-
-class OverlayWorld : public ContractWorld {
-  public:
-    std::unique_ptr<ChunkStore> open() override {
-        return std::make_unique<OverlayStore>(std::make_unique<MemoryStore>(kIdentity));
-    }
-};
-
-// Over a file that is read alone.
-class OverlayOfSqliteWorld : public ContractWorld {
-  public:
-    std::unique_ptr<ChunkStore> open() override {
-        if (!std::filesystem::exists(path_) &&
-            !SqliteStore::open(path_, registry_, {.create = kIdentity, .decide = {}}))
-            throw std::runtime_error("no save");
-        auto below = SqliteReader::open(path_, registry_);
-        if (!below) throw std::runtime_error(below.error().message);
-        return std::make_unique<OverlayStore>(std::move(*below));
-    }
-
-  private:
-    base::TempFolder folder_;
-    std::filesystem::path path_ = folder_ / "a.sqlite";
-    world::BlockRegistry registry_ = testRegistry();
-};
-
-template <class World>
-StoreKind kindOf(const char* name) {
-    return {name, [] { return std::make_unique<World>(); }};
-}
-
-INSTANTIATE_TEST_SUITE_P(Stores, ChunkStoreContract,
-                         testing::Values(kindOf<SqliteWorld>("Sqlite"), kindOf<MemoryWorld>("Memory"),
-                                         kindOf<OverlayWorld>("Overlay"),
-                                         kindOf<OverlayOfSqliteWorld>("OverlayOfSqlite")),
-                         [](const auto& kind) { return kind.param.name; });
 
 TEST_P(ChunkStoreContract, ANewWorldIsEmpty) {
     const auto store = world_->open();

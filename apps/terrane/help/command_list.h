@@ -14,7 +14,8 @@ struct FlagEntry {
     std::vector<std::string> words;  // what the value can be; empty: anything
     std::string description, defaultText;
     bool isRequired = false;
-    bool takesFile() const { return value == "FILE"; }
+    // Also "NAME|FILE|URL".
+    bool takesFile() const { return value.find("FILE") != std::string::npos; }
     bool takesFolder() const { return value == "DIR"; }
 };
 
