@@ -23,7 +23,7 @@ uint wordAround(ivec3 cell, uint place) {
 
 uint lossHere(uvec3 cell, uvec3 word) {
     uint chunk = cell.x / 2u + areaChunks.x * (cell.y / 2u);
-    uvec3 block = (cell * kCellSize + uvec3(2u * word.x, word.yz)) & uvec3(15u, 15u, 255u);
+    uvec3 block = (cell * kCellSize + uvec3(2u * word.x, word.yz)) % uvec3(kChunkSize, kChunkSize, kChunkHeight);
     uint low = lossOfOpacity(opacityOf(propertyAt(chunk, block)));
     uint high = lossOfOpacity(opacityOf(propertyAt(chunk, block + uvec3(1u, 0u, 0u))));
     return low * 0x0101u | high * 0x01010000u;
