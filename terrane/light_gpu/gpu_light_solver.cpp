@@ -12,7 +12,7 @@
 #include "terrane/gpu/buffer.h"
 #include "terrane/gpu/debug.h"
 #include "terrane/gpu/program.h"
-#include "terrane/light_gpu/section_upload.h"
+#include "terrane/light_gpu/section_upload_internal.h"
 #include "terrane/shared/light_solver.h"
 
 namespace terrane::light_gpu {
