@@ -33,8 +33,9 @@ list(TRANSFORM modules PREPEND terrane_ OUTPUT_VARIABLE targets)
 install(TARGETS ${targets} terrane_flags terrane_all EXPORT terraneTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(EXPORT terraneTargets NAMESPACE terrane:: DESTINATION ${package_folder} COMPONENT development)
+# Headers of a module's own sources are named *_internal.h, those of its SIMD targets *-inl.h.
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/terrane DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
-  FILES_MATCHING PATTERN "*.h" PATTERN "*-inl.h" EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" PATTERN "*-inl.h" EXCLUDE PATTERN "*_internal.h" EXCLUDE)
 configure_package_config_file(packaging/terraneConfig.cmake.in ${CMAKE_BINARY_DIR}/package/terraneConfig.cmake
   INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/package/terraneConfigVersion.cmake COMPATIBILITY SameMinorVersion)

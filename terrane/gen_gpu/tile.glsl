@@ -6,7 +6,7 @@
 #include "terrane/shared/constants.h"
 #include "terrane/shared/generation.h"
 
-layout(local_size_x = 16, local_size_y = 16) in;
+layout(local_size_x = kChunkSize, local_size_y = kChunkSize) in;
 
 layout(std430, binding = kTileJobsBinding) readonly buffer TileJobs {
     TileJob jobs[];
@@ -36,7 +36,7 @@ uint evenLayerBlock;  // waits for its odd neighbour
 
 void beginTile() {
     TileJob job = jobs[gl_WorkGroupID.x];
-    column = gl_LocalInvocationID.x + 16u * gl_LocalInvocationID.y;
+    column = gl_LocalInvocationID.x + kChunkSize * gl_LocalInvocationID.y;
     columnX = job.origin.x + int(gl_LocalInvocationID.x);
     columnY = job.origin.y + int(gl_LocalInvocationID.y);
     slot = uint(job.origin.z);
@@ -64,10 +64,11 @@ struct Place {
 };
 
 Place placeAt(int dx, int dy) {
-    int x = int(gl_LocalInvocationID.x) + clamp(dx, -kMaxReadOffset, kMaxReadOffset) + 16;
-    int y = int(gl_LocalInvocationID.y) + clamp(dy, -kMaxReadOffset, kMaxReadOffset) + 16;
-    uint neighbour = uint((y >> 4) * 3 + (x >> 4));
-    return Place(jobs[gl_WorkGroupID.x].neighbours[neighbour >> 2][neighbour & 3u], uint((x & 15) + 16 * (y & 15)));
+    uint x = gl_LocalInvocationID.x + kChunkSize + uint(clamp(dx, -kMaxReadOffset, kMaxReadOffset));
+    uint y = gl_LocalInvocationID.y + kChunkSize + uint(clamp(dy, -kMaxReadOffset, kMaxReadOffset));
+    uint neighbour = y / kChunkSize * 3u + x / kChunkSize;
+    return Place(jobs[gl_WorkGroupID.x].neighbours[neighbour >> 2][neighbour & 3u],
+                 x % kChunkSize + kChunkSize * (y % kChunkSize));
 }
 
 uint readFieldAt(uint field, int dx, int dy) {

@@ -23,11 +23,11 @@ class VertexArray {
     // Indices for glDrawElements*; the buffer must outlive the vertex array.
     void setElementBuffer(const Buffer& indices) { glVertexArrayElementBuffer(id(), indices.id()); }
 
-    // Two integers for each instance at the start of every `strideBytes` of the buffer, which must outlive
-    // its use; may be called again.
-    void setInstanceIntegers(GLuint location, const Buffer& buffer, std::size_t strideBytes) {
+    // `count` integers (1…4) for each instance at the start of every `strideBytes` of the buffer, which must
+    // outlive its use; may be called again.
+    void setInstanceIntegers(GLuint location, const Buffer& buffer, GLint count, std::size_t strideBytes) {
         glVertexArrayVertexBuffer(id(), location, buffer.id(), 0, static_cast<GLsizei>(strideBytes));
-        glVertexArrayAttribIFormat(id(), location, 2, GL_INT, 0);
+        glVertexArrayAttribIFormat(id(), location, count, GL_INT, 0);
         glVertexArrayAttribBinding(id(), location, location);
         glVertexArrayBindingDivisor(id(), location, 1);
         glEnableVertexArrayAttrib(id(), location);

@@ -1,5 +1,6 @@
 // Unpacked bricks to compute with: 16³ values of 16 bits, light or opacities (the same number in all four
-// nibbles). Index: x + 16 y + 256 z, so that 16 values along x, a row, are 32 bytes. Inside the module.
+// nibbles). Index: x + 16 y + 256 z, so that 16 values along x, a row, are 32 bytes. Part of LocalLight
+// (light_chunk.h).
 #pragma once
 
 #include <array>

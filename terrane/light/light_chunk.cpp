@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "terrane/base/profile.h"
-#include "terrane/light/kernels.h"
+#include "terrane/light/kernels_internal.h"
 
 namespace terrane::light {
 namespace {

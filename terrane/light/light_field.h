@@ -1,5 +1,5 @@
 // The working area of the solver: 3×3 chunks of bricks with darkness around them, and the rows that are to be
-// looked at. Inside the module; one thread at a time.
+// looked at. Part of LightScratch (light_chunk.h); one thread at a time.
 #pragma once
 
 #include <array>

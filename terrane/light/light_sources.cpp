@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "terrane/light/kernels.h"
+#include "terrane/light/kernels_internal.h"
 
 namespace terrane::light {
 namespace {

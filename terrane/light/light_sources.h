@@ -1,5 +1,5 @@
 // What of a chunk's light its own blocks tell without spreading: opacities, emission and the daylight of its
-// columns. Inside the module; any thread.
+// columns. Part of LocalLight (light_chunk.h); any thread.
 #pragma once
 
 #include <array>

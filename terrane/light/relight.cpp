@@ -6,8 +6,8 @@
 #include <map>
 
 #include "terrane/base/profile.h"
-#include "terrane/light/kernels.h"
-#include "terrane/light/source_change.h"
+#include "terrane/light/kernels_internal.h"
+#include "terrane/light/source_change_internal.h"
 
 namespace terrane::light {
 namespace {

@@ -1,4 +1,4 @@
-#include "terrane/light/source_change.h"
+#include "terrane/light/source_change_internal.h"
 
 #include <algorithm>
 #include <functional>

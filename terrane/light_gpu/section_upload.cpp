@@ -1,4 +1,4 @@
-#include "terrane/light_gpu/section_upload.h"
+#include "terrane/light_gpu/section_upload_internal.h"
 
 #include <array>
 

@@ -2,7 +2,7 @@
 // columns of a word.
 #include "terrane/light_gpu/cells.glsl"
 
-layout(local_size_x = 8, local_size_y = 16) in;
+layout(local_size_x = 8, local_size_y = kChunkSize) in;
 
 layout(std430, binding = kSolverCellsBinding) writeonly buffer Cells {
     uint cells[];  // what kCellIs… says

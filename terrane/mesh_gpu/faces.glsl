@@ -2,10 +2,13 @@
 // blocks y, z = its index; planes are filled from rows.
 #include "terrane/mesh_gpu/sections.glsl"
 
-shared uint ids[2048];         // of the section's blocks, two a word
-shared uint opaqueRows[324];   // by y + 1 + 18·(z + 1), bit x + 1: opaque cubes, with one block around
-shared uint faces[6 * 256];    // seen, by side, then row·16 + plane: bits along u (y on the sides of x, else x)
-shared uint surface[256];      // by y + 16 z, bits along x: liquid blocks whose top is seen
+const uint kLast = kSectionSize - 1u;
+const uint kPaddedSize = kSectionSize + 2u;  // with one block around
+
+shared uint ids[kBlocksPerSection / 2u];            // of the section's blocks, two a word
+shared uint opaqueRows[kPaddedSize * kPaddedSize];  // by y + 1 + 18·(z + 1), bit x + 1: opaque cubes
+shared uint faces[6u * kBlocksPerLayer];  // seen, by side, then row·16 + plane: bits along u (y on the sides of x, else x)
+shared uint surface[kBlocksPerLayer];     // by y + 16 z, bits along x: liquid blocks whose top is seen
 
 // Of an invocation's row.
 struct Row {
@@ -26,10 +29,10 @@ uvec3 cellOf(uint side, uint plane, uint row, uint bit) {
 Row readRow(MeshUnit unit, uint local) {
     PackedSection section = sections[unit.section];
     Row row = Row(0u, 0u, 0u, 0u, 0u);
-    for (uint x = 0u; x < 16u; x += 2u) {
+    for (uint x = 0u; x < kSectionSize; x += 2u) {
         uint pair = 0u;
         for (uint k = 0u; k < 2u; ++k) {
-            uint block = blockAt(section, 16u * local + x + k), flags = block >> 16, bit = 1u << (x + k);
+            uint block = blockAt(section, kSectionSize * local + x + k), flags = block >> 16, bit = 1u << (x + k);
             uint shape = flags & kMeshShapeMask;
             pair |= (block & 0xFFFFu) << (16u * k);
             if ((flags & kMeshOpaqueBit) != 0u) row.opaque |= bit;
@@ -38,7 +41,7 @@ Row readRow(MeshUnit unit, uint local) {
             if (shape == kMeshShapeInset) row.inset |= bit;
             if (shape >= kMeshShapeCross) row.planes |= bit;
         }
-        ids[8u * local + (x >> 1)] = pair;
+        ids[kSectionSize / 2u * local + (x >> 1)] = pair;
     }
     return row;
 }
@@ -49,16 +52,16 @@ bool isOpaqueBeyond(MeshUnit unit, uint side, uvec3 cell) {
 
 // The rows with what lies around the section. Those outside it are zero before.
 void shareOpaque(MeshUnit unit, Row row, uint local) {
-    uint a = local & 15u, b = local >> 4;
+    uint a = local % kSectionSize, b = local / kSectionSize;
     uint bits = row.opaque << 1;
-    if (isOpaqueBeyond(unit, 0u, uvec3(15u, a, b))) bits |= 1u;
-    if (isOpaqueBeyond(unit, 1u, uvec3(0u, a, b))) bits |= 1u << 17;
-    opaqueRows[a + 1u + 18u * (b + 1u)] = bits;
+    if (isOpaqueBeyond(unit, 0u, uvec3(kLast, a, b))) bits |= 1u;
+    if (isOpaqueBeyond(unit, 1u, uvec3(0u, a, b))) bits |= 1u << (kSectionSize + 1u);
+    opaqueRows[a + 1u + kPaddedSize * (b + 1u)] = bits;
     uint bit = 2u << a;
-    if (isOpaqueBeyond(unit, 2u, uvec3(a, 15u, b))) atomicOr(opaqueRows[18u * (b + 1u)], bit);
-    if (isOpaqueBeyond(unit, 3u, uvec3(a, 0u, b))) atomicOr(opaqueRows[17u + 18u * (b + 1u)], bit);
-    if (isOpaqueBeyond(unit, 4u, uvec3(a, b, 15u))) atomicOr(opaqueRows[b + 1u], bit);
-    if (isOpaqueBeyond(unit, 5u, uvec3(a, b, 0u))) atomicOr(opaqueRows[b + 1u + 306u], bit);
+    if (isOpaqueBeyond(unit, 2u, uvec3(a, kLast, b))) atomicOr(opaqueRows[kPaddedSize * (b + 1u)], bit);
+    if (isOpaqueBeyond(unit, 3u, uvec3(a, 0u, b))) atomicOr(opaqueRows[kSectionSize + 1u + kPaddedSize * (b + 1u)], bit);
+    if (isOpaqueBeyond(unit, 4u, uvec3(a, b, kLast))) atomicOr(opaqueRows[b + 1u], bit);
+    if (isOpaqueBeyond(unit, 5u, uvec3(a, b, 0u))) atomicOr(opaqueRows[b + 1u + kPaddedSize * (kSectionSize + 1u)], bit);
 }
 
 const ivec3 kToward[6] = ivec3[](ivec3(-1, 0, 0), ivec3(1, 0, 0), ivec3(0, -1, 0), ivec3(0, 1, 0), ivec3(0, 0, -1),
@@ -66,39 +69,39 @@ const ivec3 kToward[6] = ivec3[](ivec3(-1, 0, 0), ivec3(1, 0, 0), ivec3(0, -1, 0
 
 uint idBeside(MeshUnit unit, uvec3 cell, uint side) {
     ivec3 at = ivec3(cell) + kToward[side];
-    uvec3 inside = uvec3(at & 15);
+    uvec3 inside = uvec3(at & int(kLast));
     if (all(equal(ivec3(inside), at))) return idAt(inside);
     return blockBeyond(unit.neighbours[side], inside) & 0xFFFFu;
 }
 
 // Faces of a row toward a block that is no opaque cube, nor of their own type where that hides them.
 void findSeen(MeshUnit unit, Row row, uint local, out uint seen[6]) {
-    uint at = (local & 15u) + 1u + 18u * ((local >> 4) + 1u), own = opaqueRows[at];
+    uint at = local % kSectionSize + 1u + kPaddedSize * (local / kSectionSize + 1u), own = opaqueRows[at];
     uint beyond[6] = uint[](own, own >> 2, opaqueRows[at - 1u] >> 1, opaqueRows[at + 1u] >> 1,
-                            opaqueRows[at - 18u] >> 1, opaqueRows[at + 18u] >> 1);
+                            opaqueRows[at - kPaddedSize] >> 1, opaqueRows[at + kPaddedSize] >> 1);
     uint any = 0u;
     for (uint side = 0u; side < 6u; ++side) {
         seen[side] = (side < 4u ? row.sides : row.sides | row.inset) & ~beyond[side];
         any |= seen[side];
     }
     for (uint left = any & ~row.opaque; left != 0u; left &= left - 1u) {
-        uint x = uint(findLSB(left)), id = idAt(uvec3(x, local & 15u, local >> 4));
+        uint x = uint(findLSB(left)), id = idAt(uvec3(x, local % kSectionSize, local / kSectionSize));
         uint hides = types[typeOf(id)].flags >> kMeshHidesShift;
         for (uint side = 0u; side < 6u; ++side) {
             if ((hides >> side & 1u) == 0u || (seen[side] >> x & 1u) == 0u) continue;
-            if (idBeside(unit, uvec3(x, local & 15u, local >> 4), side) == id) seen[side] &= ~(1u << x);
+            if (idBeside(unit, uvec3(x, local % kSectionSize, local / kSectionSize), side) == id) seen[side] &= ~(1u << x);
         }
     }
 }
 
 // Into planes. The bits of a row along x are one of 16 rows along y: as few as are seen, set one by one.
 void shareSeen(uint seen[6], uint local) {
-    uint y = local & 15u, z = local >> 4;
+    uint y = local % kSectionSize, z = local / kSectionSize;
     for (uint side = 0u; side < 2u; ++side) {
         for (uint left = seen[side]; left != 0u; left &= left - 1u) {
-            atomicOr(faces[256u * side + 16u * z + uint(findLSB(left))], 1u << y);
+            atomicOr(faces[kBlocksPerLayer * side + kSectionSize * z + uint(findLSB(left))], 1u << y);
         }
     }
-    for (uint side = 2u; side < 4u; ++side) faces[256u * side + 16u * z + y] = seen[side];
-    for (uint side = 4u; side < 6u; ++side) faces[256u * side + 16u * y + z] = seen[side];
+    for (uint side = 2u; side < 4u; ++side) faces[kBlocksPerLayer * side + kSectionSize * z + y] = seen[side];
+    for (uint side = 4u; side < 6u; ++side) faces[kBlocksPerLayer * side + kSectionSize * y + z] = seen[side];
 }

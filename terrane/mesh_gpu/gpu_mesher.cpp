@@ -12,7 +12,7 @@
 #include "terrane/gpu/readback_buffer.h"
 #include "terrane/mesh/region_quads.h"
 #include "terrane/mesh_gpu/block_table.h"
-#include "terrane/mesh_gpu/mesh_upload.h"
+#include "terrane/mesh_gpu/mesh_upload_internal.h"
 
 namespace terrane::mesh_gpu {
 namespace {

@@ -6,38 +6,39 @@
 layout(location = 0) uniform uint method;  // kMerge…
 
 // By side, then row·16 + plane: faces of the kind of the one before them in their row, << 16: in the row before.
-shared uint sameKind[6 * 256];
+shared uint sameKind[6u * kBlocksPerLayer];
 // The same for faces that are in one rectangle already, while rectangles are joined.
-shared uint joined[6 * 256];
+shared uint joined[6u * kBlocksPerLayer];
 
 // Faces of one kind have the same block type, and of a liquid lie both under its surface or in it.
 uint kindOf(uint side, uvec3 cell) {
-    uint isSurface = side < 4u ? surface[cell.y + 16u * cell.z] >> cell.x & 1u : 0u;
+    uint isSurface = side < 4u ? surface[cell.y + kSectionSize * cell.z] >> cell.x & 1u : 0u;
     return idAt(cell) | isSurface << 16;
 }
 
 // local: row·16 + plane
 void compareKinds(uint side, uint local) {
-    uint seen = faces[256u * side + local], before = local < 16u ? 0u : faces[256u * side + local - 16u];
+    uint at = kBlocksPerLayer * side + local;
+    uint seen = faces[at], before = local < kSectionSize ? 0u : faces[at - kSectionSize];
     uint same = 0u, kindBefore = 0u;
     for (uint left = seen; left != 0u; left &= left - 1u) {
-        uint bit = uint(findLSB(left)), kind = kindOf(side, cellOf(side, local & 15u, local >> 4, bit));
+        uint bit = uint(findLSB(left)), kind = kindOf(side, cellOf(side, local % kSectionSize, local / kSectionSize, bit));
         bool doesMerge = (types[typeOf(kind & 0xFFFFu)].flags >> (kMeshMergesShift + side) & 1u) != 0u;
         if (doesMerge && (seen << 1 >> bit & 1u) != 0u && kind == kindBefore) same |= 1u << bit;
         if (doesMerge && (before >> bit & 1u) != 0u &&
-            kind == kindOf(side, cellOf(side, local & 15u, (local >> 4) - 1u, bit))) {
+            kind == kindOf(side, cellOf(side, local % kSectionSize, local / kSectionSize - 1u, bit))) {
             same |= 0x10000u << bit;
         }
         kindBefore = kind;
     }
-    sameKind[256u * side + local] = same;
+    sameKind[at] = same;
 }
 
 // Greedy. How many rows have a run of faces, all of the kind of its row: `first` is its place. A row in which that kind
 // goes on beside both ends of the run is left out, since it would be cut in three. Rows behind the first lose the run.
 uint takeRows(uint first, uint row, uint run) {
     uint rows = 1u, lowest = run & (0u - run), after = run + lowest;
-    for (uint at = first + 16u; row + rows < 16u; at += 16u, ++rows) {
+    for (uint at = first + kSectionSize; row + rows < kSectionSize; at += kSectionSize, ++rows) {
         uint seen = faces[at], same = sameKind[at];
         if ((seen & run) != run || (same >> 16 & run) != run) break;
         bool goesOnBefore = (same & lowest) != 0u && (seen & lowest >> 1) != 0u;
@@ -48,8 +49,8 @@ uint takeRows(uint first, uint row, uint run) {
 }
 
 void mergeGreedily(MeshUnit unit, uint side, uint plane) {
-    for (uint row = 0u; row < 16u; ++row) {
-        uint at = 256u * side + 16u * row + plane, left = faces[at], same = sameKind[at] & 0xFFFFu;
+    for (uint row = 0u; row < kSectionSize; ++row) {
+        uint at = kBlocksPerLayer * side + kSectionSize * row + plane, left = faces[at], same = sameKind[at] & 0xFFFFu;
         while (left != 0u) {
             uint lowest = left & (0u - left), bit = uint(findLSB(left));
             // Adding the lowest face to those that go on from one to the next carries through the run.
@@ -71,7 +72,8 @@ uint bitsOf(uint at, uint bit) {
 }
 uint rowsOf(uint at, uint bit) {
     uint rows = 1u;
-    while (at % 256u / 16u + rows < 16u && (joined[at + 16u * rows] >> bit >> 16 & 1u) != 0u) ++rows;
+    uint row = at % kBlocksPerLayer / kSectionSize;
+    while (row + rows < kSectionSize && (joined[at + kSectionSize * rows] >> bit >> 16 & 1u) != 0u) ++rows;
     return rows;
 }
 
@@ -84,11 +86,11 @@ bool mayJoin(uint step, uint end, uint length, uint nextLength) {
 void joinAlongRow(uint step, uint at) {
     for (uint left = lowestFaces(at); left != 0u; left &= left - 1u) {
         uint bit = uint(findLSB(left)), bits = bitsOf(at, bit), rows = rowsOf(at, bit);
-        for (uint end = bit + bits; end < 16u; end = bit + bits) {
+        for (uint end = bit + bits; end < kSectionSize; end = bit + bits) {
             if ((sameKind[at] & lowestFaces(at) & 1u << end) == 0u || rowsOf(at, end) != rows) break;
             uint nextBits = bitsOf(at, end);
             if (!mayJoin(step, end, bits, nextBits)) break;
-            for (uint k = 0u; k < rows; ++k) atomicOr(joined[at + 16u * k], 1u << end);
+            for (uint k = 0u; k < rows; ++k) atomicOr(joined[at + kSectionSize * k], 1u << end);
             left &= ~(1u << end);
             bits += nextBits;
         }
@@ -97,15 +99,15 @@ void joinAlongRow(uint step, uint at) {
 
 // The same of one column: `first` is the place of the plane's first row.
 void joinAcrossRows(uint step, uint first, uint bit) {
-    for (uint row = 0u; row < 16u;) {
-        uint at = first + 16u * row;
+    for (uint row = 0u; row < kSectionSize;) {
+        uint at = first + kSectionSize * row;
         if ((lowestFaces(at) >> bit & 1u) == 0u) {
             ++row;
             continue;
         }
         uint bits = bitsOf(at, bit), rows = rowsOf(at, bit);
-        while (row + rows < 16u) {
-            uint next = at + 16u * rows;
+        while (row + rows < kSectionSize) {
+            uint next = at + kSectionSize * rows;
             if ((sameKind[next] >> 16 & lowestFaces(next) & 1u << bit) == 0u || bitsOf(next, bit) != bits) break;
             uint nextRows = rowsOf(next, bit);
             if (!mayJoin(step, row + rows, rows, nextRows)) break;
@@ -118,23 +120,23 @@ void joinAcrossRows(uint step, uint first, uint bit) {
 
 // By the whole work group; each row and each column of each plane is an invocation's own.
 void mergeInSteps(MeshUnit unit, uint local) {
-    for (uint side = 0u; side < 6u; ++side) joined[256u * side + local] = 0u;
+    for (uint side = 0u; side < 6u; ++side) joined[kBlocksPerLayer * side + local] = 0u;
     barrier();
     for (uint step = firstJoinStep(method); step < endOfJoinSteps(method); ++step) {
         for (uint side = 0u; side < 6u; ++side) {
             if (step % 2u == 0u) {
-                joinAlongRow(step, 256u * side + local);
+                joinAlongRow(step, kBlocksPerLayer * side + local);
             } else {
-                joinAcrossRows(step, 256u * side + (local & 15u), local >> 4);
+                joinAcrossRows(step, kBlocksPerLayer * side + local % kSectionSize, local / kSectionSize);
             }
         }
         barrier();
     }
     for (uint side = 0u; side < 6u; ++side) {
-        uint at = 256u * side + local;
+        uint at = kBlocksPerLayer * side + local;
         for (uint left = lowestFaces(at); left != 0u; left &= left - 1u) {
             uint bit = uint(findLSB(left));
-            uvec3 cell = cellOf(side, local & 15u, local >> 4, bit);
+            uvec3 cell = cellOf(side, local % kSectionSize, local / kSectionSize, bit);
             addFaces(unit, side, cell, uvec2(bitsOf(at, bit), rowsOf(at, bit)));
         }
     }

@@ -9,7 +9,7 @@ uint shareRow(MeshUnit unit, uint local) {
     Row row = readRow(unit, local);
     shareOpaque(unit, row, local);
     barrier();
-    uint z = local >> 4, seen[6];
+    uint z = local / kSectionSize, seen[6];
     findSeen(unit, row, local, seen);
     surface[local] = seen[5] & row.liquid;
     bool isInRegion = z >= (unit.layers & 0xFFFFu) && z < unit.layers >> 16;
@@ -25,8 +25,8 @@ uint shareRow(MeshUnit unit, uint local) {
 }
 
 void begin(MeshUnit unit, uint unitIndex, uint local) {
-    for (uint k = local; k < 324u; k += 256u) opaqueRows[k] = 0u;
-    for (uint k = local; k < 6u * 256u; k += 256u) faces[k] = 0u;
+    for (uint k = local; k < kPaddedSize * kPaddedSize; k += kBlocksPerLayer) opaqueRows[k] = 0u;
+    for (uint k = local; k < 6u * kBlocksPerLayer; k += kBlocksPerLayer) faces[k] = 0u;
 #if WRITES_QUADS
     if (local < kRangesOfRegion) {
         uint count = unitCounts[kMeshUnitWords * unitIndex + local];
@@ -35,7 +35,7 @@ void begin(MeshUnit unit, uint unitIndex, uint local) {
 #else
     if (local < kRangesOfRegion) counters[local] = 0u;
     if (local == 0u) {
-        lowest = 16u;
+        lowest = kSectionSize;
         highest = 0u;
     }
 #endif
@@ -73,7 +73,7 @@ void main() {
     if (method != kMergeGreedy) {
         mergeInSteps(unit, local);
     } else if (local < 96u) {
-        mergeGreedily(unit, local >> 4, local & 15u);
+        mergeGreedily(unit, local / kSectionSize, local % kSectionSize);
     }
 #if !WRITES_QUADS
     reportCounts(unit, unitIndex, local);

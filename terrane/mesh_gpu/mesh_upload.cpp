@@ -1,4 +1,4 @@
-#include "terrane/mesh_gpu/mesh_upload.h"
+#include "terrane/mesh_gpu/mesh_upload_internal.h"
 
 #include <algorithm>
 #include <cassert>

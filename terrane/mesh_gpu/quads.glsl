@@ -35,7 +35,7 @@ void addQuad(uint word0, uint face, uint group) {
 // One a block and plane. Their group is the side they look to; none for those of a cross.
 void addPlanes(MeshUnit unit, uint planes, uint local) {
     for (uint left = planes; left != 0u; left &= left - 1u) {
-        uvec3 cell = uvec3(findLSB(left), local & 15u, local >> 4);
+        uvec3 cell = uvec3(findLSB(left), local % kSectionSize, local / kSectionSize);
         MeshType type = types[typeOf(idAt(cell))];
         uint shape = type.flags & kMeshShapeMask, stages = type.growth >> 16, stage = 0u;
         if (stages > 0u) stage = min(smallDataAt(unit.smallData, blockIndex(cell)), stages);
@@ -55,7 +55,7 @@ void addFaces(MeshUnit unit, uint side, uvec3 cell, uvec2 extent) {
     MeshType type = types[typeOf(idAt(cell))];
     uint shapeFace = kShapeFaceCube + side;
     if ((type.flags & kMeshShapeMask) == kMeshShapeLiquid) {
-        bool isSurface = (surface[cell.y + 16u * cell.z] >> cell.x & 1u) != 0u;
+        bool isSurface = (surface[cell.y + kSectionSize * cell.z] >> cell.x & 1u) != 0u;
         if (side == 5u) shapeFace = kShapeFaceLiquidTop;
         if (side < 4u && isSurface) shapeFace = kShapeFaceLiquidSide + side;
     }

@@ -33,17 +33,16 @@ base::Result<void> AmbientOcclusion::configure(const FrameTargets& targets, bool
     return {};
 }
 
-void AmbientOcclusion::draw() const {
-    glDisable(GL_DEPTH_TEST);
+void AmbientOcclusion::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
+    targets.bindSurfaces();
     open_.framebuffer.bind();
-    find_.draw();
+    find_.draw(pipeline, {});
     between_.framebuffer.bind();
     open_.texture.bind(shared::kOcclusionUnit);
-    alongX_.draw();
+    alongX_.draw(pipeline, {});
     open_.framebuffer.bind();
     between_.texture.bind(shared::kOcclusionUnit);
-    alongY_.draw();
-    open_.texture.bind(shared::kOcclusionUnit);
+    alongY_.draw(pipeline, {});
 }
 
 }  // namespace terrane::render

@@ -13,8 +13,9 @@ class AmbientOcclusion {
     explicit AmbientOcclusion(const gpu::ShaderLoader& shaders);
 
     base::Result<void> configure(const FrameTargets& targets, bool isOn);
-    // From the bound G-buffer; bound for shading.
-    void draw() const;
+    void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
+    bool isOn() const { return size_.x > 0; }
+    const gpu::Texture2D& result() const { return open_.texture; }  // 1 where nothing shuts a surface in
 
   private:
     FullscreenPass find_, alongX_, alongY_;

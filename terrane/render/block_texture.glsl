@@ -7,14 +7,8 @@ uint textureOf(uint face) {
 uint alphaModeOf(uint face) {
     return face >> 12 & 7u;
 }
-uint directionOfFace(uint face) {
-    return face >> 15 & 7u;
-}
 bool isLiquid(uint face) {
     return (face >> 18 & 1u) != 0u;
-}
-vec2 extentOf(uint face) {
-    return vec2((face >> 19 & 31u) + 1u, (face >> 24 & 31u) + 1u);
 }
 
 // Magnified textures are constant inside a texel and blend linearly over one pixel at its edges: neither blocks that

@@ -19,7 +19,8 @@ float cloudThickness(vec2 at) {
 vec4 clouds(vec3 direction) {
     float up = max(direction.z, 0.02);
     vec3 position = frame.cameraPosition.xyz;
-    vec2 blocks = position.xy + vec2((frame.cameraChunk & 255) * int(kChunkSize)) + direction.xy * ((kCloudHeight - position.z) / up);
+    vec2 camera = position.xy + vec2((frame.cameraChunk & 255) * int(kChunkSize));
+    vec2 blocks = camera + direction.xy * ((kCloudHeight - position.z) / up);
     vec2 at = (blocks + kWind * frame.timeSeconds) / kCloudTile;
     float here = cloudThickness(at);
     vec2 toLight = frame.lightDirection.xy / max(frame.lightDirection.z, 0.35);

@@ -66,8 +66,10 @@ void main() {
     if (number >= cull.regionCount) return;
     uint slot = order[number];
     uint heights = regions[slot].heights;
-    vec2 corner = 16.0 * vec2(regions[slot].chunk - cull.cameraChunk);
-    vec3 low = vec3(corner, float(heights & 0xFFFFu)), high = vec3(corner + 16.0, float(heights >> 16));
+    uint level = regions[slot].level;
+    vec2 corner = chunkCorner(regions[slot].chunk, level, cull.cameraChunk);
+    float width = float(kChunkSize) * columnBlocks(level);
+    vec3 low = vec3(corner, float(heights & 0xFFFFu)), high = vec3(corner + width, float(heights >> 16));
 
     bool isSeen = true, isCasting = true;
     vec3 wavingLow = low - kWaving, wavingHigh = high + kWaving;

@@ -34,7 +34,7 @@ shared::CullFrame frameOf(CullRun run, const CullInput& input, std::uint32_t reg
     frame.cameraChunk = {input.cameraChunk.x, input.cameraChunk.y};
     frame.viewportSize = input.size;
     frame.nearPlane = kNearPlane;
-    frame.pyramidLevels = input.pyramidLevels;
+    frame.pyramidLevels = input.pyramid ? input.pyramid->levels() : 0;
     frame.regionCount = regions;
     frame.run = static_cast<shared::uint>(run);
     return frame;
@@ -98,6 +98,7 @@ void CullPass::dispatch(const CullInput& input, const RegionTable& regions, gpu:
     const auto slice = ring.write(std::span<const shared::CullFrame>(&frame, 1));
     assert(slice && "the ring holds a frame's uniforms");
     ring.buffer().bindUniform(shared::kCullBinding, slice->offsetBytes, sizeof(frame));
+    if (input.pyramid) input.pyramid->bind();
     regions.bindRecords();
     regions.bindOrder();
     visible_.bindStorage(shared::kVisibleBinding);
@@ -143,13 +144,14 @@ void CullPass::drawList(shared::uint list) const {
     }
 }
 
-void CullPass::drawContexts(mesh::AlphaClass alphaClass, bool forShadows) const {
+void CullPass::drawContexts(gpu::Pipeline& pipeline, gpu::PipelineState state, mesh::AlphaClass alphaClass,
+                            bool forShadows) const {
     for (const bool isTwoSided : {false, true}) {
-        (isTwoSided ? glDisable : glEnable)(GL_CULL_FACE);
+        state.cullsBackFaces = !isTwoSided;
+        pipeline.set(state);
         const auto context = static_cast<shared::uint>(mesh::faceContext(alphaClass, isTwoSided));
         drawList(forShadows ? shared::kCameraLists + context : context);
     }
-    glDisable(GL_CULL_FACE);
 }
 
 // Not where the GPU is as many frames behind as there are buffers.

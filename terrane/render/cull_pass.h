@@ -9,8 +9,10 @@
 #include "terrane/gpu/device_info.h"
 #include "terrane/gpu/fence.h"
 #include "terrane/gpu/mapped_ring.h"
+#include "terrane/gpu/pipeline_state.h"
 #include "terrane/gpu/program.h"
 #include "terrane/gpu/readback_buffer.h"
+#include "terrane/render/depth_pyramid.h"
 #include "terrane/render/region_table.h"
 
 namespace terrane::render {
@@ -22,8 +24,8 @@ struct CullInput {
     glm::vec3 lightDirection;
     std::optional<Frustum> shadow;  // none: no shadow map
     glm::mat4 viewProjection{1};
-    glm::vec2 size{1};      // of the picture in pixels
-    int pyramidLevels = 0;  // of the bound DepthPyramid; for the second run
+    glm::vec2 size{1};                      // of the picture in pixels
+    const DepthPyramid* pyramid = nullptr;  // for the second run
 };
 
 // All in view at once, or in two runs: what was seen in the frame before, then what its depth does not hide.
@@ -36,8 +38,10 @@ class CullPass {
     // `regions` is up to date.
     // Runs of one frame follow each other, drawing between them.
     void run(CullRun run, const CullInput& input, const RegionTable& regions, gpu::MappedRing& ring);
-    // Draws what the last run chose, with everything else bound.
-    void drawContexts(mesh::AlphaClass alphaClass, bool forShadows) const;
+    // Draws what the last run chose, with the shader and what it reads bound. Culls the back faces of what
+    // has such.
+    void drawContexts(gpu::Pipeline& pipeline, gpu::PipelineState state, mesh::AlphaClass alphaClass,
+                      bool forShadows) const;
 
     // Of the newest frame that the GPU has finished, all runs together; does not wait. Ends the frame.
     void queueCounts();

@@ -50,10 +50,11 @@ base::Result<void> DepthPyramid::configure(const FrameTargets& targets, bool isO
     return {};
 }
 
-void DepthPyramid::build() const {
+void DepthPyramid::build(const FrameTargets& targets) const {
     const gpu::DebugGroup group("depth pyramid");
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);  // the frame before may still read it
     glBindImageTexture(shared::kPyramidToImage, texture_.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
+    targets.depth.bind(shared::kDepthUnit);
     finest_.use();
     dispatch(texture_.size());
     next_.use();
@@ -66,7 +67,6 @@ void DepthPyramid::build() const {
         dispatch(gpu::levelSize(texture_.size(), level));
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-    bind();
 }
 
 }  // namespace terrane::render

@@ -17,8 +17,7 @@ class DepthPyramid {
     bool isOn() const { return texture_.id() != 0; }
     int levels() const { return texture_.levels(); }
 
-    // From the bound depth; bound for culling.
-    void build() const;
+    void build(const FrameTargets& targets) const;
     void bind() const { texture_.bind(shared::kPyramidUnit); }
 
   private:

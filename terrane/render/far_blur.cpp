@@ -29,15 +29,20 @@ base::Result<void> FarBlur::configure(const FrameTargets& targets, bool isOn) {
     return {};
 }
 
-void FarBlur::draw(const FrameTargets& targets) const {
+void FarBlur::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
+    targets.bindSurfaces();
     targets.sceneColor.bind(shared::kSceneUnit);
     between_.framebuffer.bind();
-    alongX_.draw();
+    alongX_.draw(pipeline, {});
     between_.texture.bind(shared::kBlurUnit);
     smooth_.bind(shared::kBlurUnit);
     result_.framebuffer.bind();
-    alongY_.draw();
+    alongY_.draw(pipeline, {});
+}
+
+void FarBlur::bindResult() const {
     result_.texture.bind(shared::kBlurUnit);
+    smooth_.bind(shared::kBlurUnit);
 }
 
 }  // namespace terrane::render

@@ -14,8 +14,10 @@ class FarBlur {
 
     // Makes room for the blurred picture at half the size, or none.
     base::Result<void> configure(const FrameTargets& targets, bool isOn);
-    // From the scene and the bound depth; bound for the final pass.
-    void draw(const FrameTargets& targets) const;
+    // From the scene and its depth.
+    void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
+    bool isOn() const { return size_.x > 0; }
+    void bindResult() const;
 
   private:
     FullscreenPass alongX_, alongY_;

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "terrane/shared/bindings.h"
+
 namespace terrane::render {
 
 // Not a multisampled texture of one sample: drivers may take the next number they have, Mesa's software
@@ -54,6 +56,11 @@ base::Result<FrameTargets> FrameTargets::create(glm::ivec2 size, int samples) {
     t.scene = std::move(*scene);
     t.picture = std::move(*picture);
     return t;
+}
+
+void FrameTargets::bindSurfaces() const {
+    surface.bind(shared::kSurfaceUnit);
+    depth.bind(shared::kDepthUnit);
 }
 
 }  // namespace terrane::render

@@ -38,6 +38,9 @@ struct ColorTarget {
 struct FrameTargets {
     static base::Result<FrameTargets> create(glm::ivec2 size, int samples);
 
+    // The G-buffer, for shaders that read it.
+    void bindSurfaces() const;
+
     glm::ivec2 size{0};
     int wantedSamples = 0, samples = 0;  // a pixel; what the driver gives
     SampledTexture surface, depth;       // see surface_word.glsl; reversed depth

@@ -11,8 +11,9 @@ FullscreenPass::FullscreenPass(const gpu::ShaderLoader& shaders, std::string_vie
                 fmt::format("terrane/render/{}.frag.glsl", name), std::string(name)),
       vertexArray_(name) {}
 
-void FullscreenPass::draw() const {
+void FullscreenPass::draw(gpu::Pipeline& pipeline, const gpu::PipelineState& state) const {
     const gpu::DebugGroup group(variants_.label());
+    pipeline.set(state);
     variants_.use();
     vertexArray_.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "terrane/gpu/pipeline_state.h"
 #include "terrane/gpu/vertex_array.h"
 #include "terrane/render/shader_variants.h"
 
@@ -16,8 +17,8 @@ class FullscreenPass {
     FullscreenPass(const gpu::ShaderLoader& shaders, std::string_view name);
 
     base::Result<void> select(const gpu::ShaderDefines& defines) { return variants_.select(defines); }
-    // Into the bound framebuffer, at depth 0 (farthest); the depth test is the caller's.
-    void draw() const;
+    // Into the bound framebuffer, at depth 0 (farthest), with what the shader reads bound.
+    void draw(gpu::Pipeline& pipeline, const gpu::PipelineState& state) const;
 
   private:
     ShaderVariants variants_;

@@ -3,6 +3,12 @@
 #include "terrane/gpu/debug.h"
 
 namespace terrane::render {
+namespace {
+
+constexpr gpu::PipelineState kNearest{.depthTest = gpu::DepthTest::Greater};
+
+}  // namespace
+
 GBufferPass::GBufferPass(const gpu::ShaderLoader& shaders)
     : opaque_(quadShaders(shaders, "gbuffer", "opaque quads")),
       tested_(quadShaders(shaders, "gbuffer", "tested quads")) {}
@@ -15,15 +21,20 @@ base::Result<void> GBufferPass::select(int alphaSamples, bool isSmooth) {
         defined({{"PASS", 0}, {"ALPHA_CLASS", 1}, {"SAMPLES", alphaSamples}, {"SMOOTH", isSmooth}}));
 }
 
-void GBufferPass::draw(const CullPass& culled) const {
+void GBufferPass::clear(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
+    pipeline.set(kNearest);
+    targets.surfaces.clearColor(0, glm::vec4(1));
+    targets.surfaces.clearDepth(0.0f);
+}
+
+void GBufferPass::draw(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads) const {
     const gpu::DebugGroup group("G-buffer");
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glDepthFunc(GL_GREATER);
+    targets.surfaces.bind();
+    quads.bind();
     opaque_.use();
-    culled.drawContexts(mesh::AlphaClass::Opaque, false);
+    quads.culled.drawContexts(pipeline, kNearest, mesh::AlphaClass::Opaque, false);
     tested_.use();
-    culled.drawContexts(mesh::AlphaClass::Tested, false);
+    quads.culled.drawContexts(pipeline, kNearest, mesh::AlphaClass::Tested, false);
 }
 
 }  // namespace terrane::render

@@ -1,7 +1,8 @@
 // Draws opaque and alpha-tested quads into the G-buffer. Used by the renderer on the context's thread.
 #pragma once
 
-#include "terrane/render/cull_pass.h"
+#include "terrane/render/frame_targets.h"
+#include "terrane/render/quad_draw.h"
 #include "terrane/render/shader_variants.h"
 
 namespace terrane::render {
@@ -14,8 +15,10 @@ class GBufferPass {
     // alphaSamples: at how many places of a pixel holes are tested; 1: in its middle.
     // isSmooth: textures are filtered.
     base::Result<void> select(int alphaSamples, bool isSmooth);
-    // Into the bound framebuffer, with the quads and the frame's uniforms bound.
-    void draw(const CullPass& culled) const;
+    // Empties the G-buffer.
+    void clear(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
+    // Adds to the G-buffer, with the frame's uniforms bound.
+    void draw(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads) const;
 
   private:
     ShaderVariants opaque_, tested_;

@@ -20,11 +20,14 @@ base::Result<void> GodRays::configure(glm::ivec2 size, bool isOn) {
     return {};
 }
 
-void GodRays::draw(const FrameTargets& targets) const {
+void GodRays::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
     rays_.framebuffer.bind();
     targets.sceneColor.bind(shared::kSceneUnit);
     smooth_.bind(shared::kSceneUnit);
-    pass_.draw();
+    pass_.draw(pipeline, {});
+}
+
+void GodRays::bindResult() const {
     rays_.texture.bind(shared::kGodRaysUnit);
     smooth_.bind(shared::kGodRaysUnit);
 }

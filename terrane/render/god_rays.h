@@ -15,8 +15,10 @@ class GodRays {
 
     // Makes room for rays at half the size, or none.
     base::Result<void> configure(glm::ivec2 size, bool isOn);
-    // From the scene's coverage; bound for the final pass.
-    void draw(const FrameTargets& targets) const;
+    // From the scene's coverage.
+    void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
+    bool isOn() const { return size_.x > 0; }
+    void bindResult() const;
 
   private:
     FullscreenPass pass_;

@@ -28,18 +28,13 @@ base::Result<void> HoleFill::configure(const FrameTargets& targets, bool isOn) {
     return {};
 }
 
-void HoleFill::draw(const FrameTargets& targets) const {
+void HoleFill::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
     copy(targets.surface, surface_, size_);
     copy(targets.depth, depth_, size_);
     surface_.bind(shared::kSurfaceUnit);
     depth_.bind(shared::kDepthUnit);
     targets.surfaces.bind();
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glDepthFunc(GL_ALWAYS);
-    fill_.draw();
-    targets.surface.bind(shared::kSurfaceUnit);
-    targets.depth.bind(shared::kDepthUnit);
+    fill_.draw(pipeline, {.depthTest = gpu::DepthTest::Always});
 }
 
 }  // namespace terrane::render

@@ -17,8 +17,8 @@ class HoleFill {
     // sample.
     base::Result<void> configure(const FrameTargets& targets, bool isOn);
     bool isOn() const { return surface_.id() != 0; }
-    // In the G-buffer, which is bound afterwards for reading.
-    void draw(const FrameTargets& targets) const;
+    // In the G-buffer.
+    void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
 
   private:
     FullscreenPass fill_;

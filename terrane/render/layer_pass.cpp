@@ -93,7 +93,8 @@ base::Result<void> LayerPass::configure(const FrameTargets& targets, const Rende
 
 // A layer starts with the depth of what is opaque: faces behind that fail the depth test, and where none is
 // drawn the depth tells so.
-void LayerPass::drawLayer(const FrameTargets& targets, const CullPass& culled, int number) {
+void LayerPass::drawLayer(gpu::Pipeline& pipeline, const FrameTargets& targets, const CullPass& culled,
+                          int number) {
     const auto index = static_cast<std::size_t>(number);
     Target& target = targets_[index];
     const GLenum kind = targetOf(samples_);
@@ -107,17 +108,18 @@ void LayerPass::drawLayer(const FrameTargets& targets, const CullPass& culled, i
     }
     glBeginQuery(GL_ANY_SAMPLES_PASSED, anyDrawn_[index].id());
     (number == 0 ? first_ : next_).use();
-    culled.drawContexts(mesh::AlphaClass::Blended, false);
+    culled.drawContexts(pipeline, {.depthTest = gpu::DepthTest::Greater}, mesh::AlphaClass::Blended, false);
     glEndQuery(GL_ANY_SAMPLES_PASSED);
     if (number > 0) glEndConditionalRender();
 }
 
-void LayerPass::peel(const FrameTargets& targets, const CullPass& culled) {
+void LayerPass::peel(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads) {
     const gpu::DebugGroup group("layers");
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glDepthFunc(GL_GREATER);
-    for (int number = 0; number < layers_; ++number) drawLayer(targets, culled, number);
+    quads.bind();
+    for (int number = 0; number < layers_; ++number) drawLayer(pipeline, targets, quads.culled, number);
+}
+
+void LayerPass::bindLayers() const {
     for (int k = 0; k < layers_; ++k) {
         const Target& target = targets_[static_cast<std::size_t>(k)];
         target.color.bind(shared::kLayerColorUnit + static_cast<GLuint>(k));
@@ -125,27 +127,25 @@ void LayerPass::peel(const FrameTargets& targets, const CullPass& culled) {
     }
 }
 
-void LayerPass::shade(const FrameTargets& targets, const CullPass& culled) const {
+void LayerPass::shade(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
+                      const ShadingInputs& inputs) const {
+    gpu::PipelineState state{.writesDepth = false, .blending = gpu::Blending::Over};
     glBeginConditionalRender(anyDrawn_[0].id(), GL_QUERY_WAIT);
-    if (isMasked_) mask_.draw(targets);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    glDepthMask(GL_FALSE);
+    bindLayers();
+    if (isMasked_) mask_.draw(pipeline, targets);
+    targets.bindSurfaces();
+    inputs.bind();
     if (shadesQuads_) {
         overQuads_.bind();
-        glEnable(GL_DEPTH_TEST);
-        glDepthFunc(GL_EQUAL);
+        quads.bind();
         shadeQuads_.use();
-        culled.drawContexts(mesh::AlphaClass::Blended, false);
+        state.depthTest = gpu::DepthTest::Equal;
+        quads.culled.drawContexts(pipeline, state, mesh::AlphaClass::Blended, false);
     } else {
         targets.scene.bind();
-        (isMasked_ ? glEnable : glDisable)(GL_DEPTH_TEST);
-        glDepthFunc(GL_LESS);
-        shade_.draw();
+        if (isMasked_) state.depthTest = gpu::DepthTest::Less;
+        shade_.draw(pipeline, state);
     }
-    glDisable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glDisable(GL_BLEND);
     glEndConditionalRender();
 }
 

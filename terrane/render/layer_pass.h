@@ -4,11 +4,12 @@
 
 #include <array>
 
-#include "terrane/render/cull_pass.h"
 #include "terrane/render/frame_targets.h"
 #include "terrane/render/fullscreen_pass.h"
 #include "terrane/render/pixel_mask.h"
+#include "terrane/render/quad_draw.h"
 #include "terrane/render/render_options.h"
+#include "terrane/render/shading_inputs.h"
 
 namespace terrane::render {
 
@@ -22,10 +23,11 @@ class LayerPass {
     // Makes room for the layers. Comes again whenever the targets are others.
     base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options, bool hasShadows);
 
-    // Into textures of its own, behind nothing of the depth in `targets`. With the quads bound.
-    void peel(const FrameTargets& targets, const CullPass& culled);
-    // Over the scene, where peel found anything.
-    void shade(const FrameTargets& targets, const CullPass& culled) const;
+    // Into textures of its own, behind nothing of the depth in `targets`.
+    void peel(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads);
+    // Over the scene, where peel found anything. Of the same quads.
+    void shade(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
+               const ShadingInputs& inputs) const;
 
   private:
     struct Target {
@@ -33,7 +35,8 @@ class LayerPass {
         gpu::Framebuffer framebuffer;
     };
     static base::Result<Target> makeTarget(const FrameTargets& targets);
-    void drawLayer(const FrameTargets& targets, const CullPass& culled, int number);
+    void drawLayer(gpu::Pipeline& pipeline, const FrameTargets& targets, const CullPass& culled, int number);
+    void bindLayers() const;
 
     base::Result<void> selectVariants(int samples, const RenderOptions& options, bool hasShadows);
 

@@ -155,6 +155,7 @@ void LightStore::setBrick(std::span<std::uint32_t, kTilesPerBrick> entries, cons
 
 void LightStore::set(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks) {
     TERRANE_ZONE("upload light");
+    assert(pos.level == 0 && "the grid has tiles of blocks");
     const auto [it, isNew] = chunks_.try_emplace(pos, filled(shared::kLightUnknown));
     const std::span entries(it->second);
     for (int n = 0; n < world::kSectionsPerChunk; ++n) {

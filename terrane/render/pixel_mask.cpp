@@ -6,15 +6,13 @@ base::Result<void> PixelMask::select(int samples) {
     return pass_.select(defined({{"SAMPLES", samples}, {"OF", static_cast<int>(of_)}}));
 }
 
-void PixelMask::draw(const FrameTargets& targets) const {
+void PixelMask::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
+    const gpu::PipelineState nearest{.depthTest = gpu::DepthTest::Always, .depthRange = {1, 1}};
+    pipeline.set(nearest);
+    targets.bindSurfaces();
     targets.mask.bind();
     targets.mask.clearDepth(0.0f);
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glDepthFunc(GL_ALWAYS);
-    glDepthRangef(1.0f, 1.0f);
-    pass_.draw();
-    glDepthRangef(0.0f, 1.0f);
+    pass_.draw(pipeline, nearest);
 }
 
 }  // namespace terrane::render

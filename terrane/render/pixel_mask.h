@@ -17,9 +17,9 @@ class PixelMask {
     PixelMask(const gpu::ShaderLoader& shaders, Of of) : pass_(shaders, "pixel_mask"), of_(of) {}
 
     base::Result<void> select(int samples);
-    // With the G-buffer's textures bound, and those of the layers. Then the scene has depth 1 in these pixels
-    // and 0 in others.
-    void draw(const FrameTargets& targets) const;
+    // With the textures of layers bound, where it is of these. Then the scene has depth 1 in these pixels and
+    // 0 in others.
+    void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
 
   private:
     FullscreenPass pass_;

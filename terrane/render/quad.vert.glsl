@@ -6,13 +6,14 @@
 #include "terrane/render/waves.glsl"
 #include "terrane/shared/hash.h"
 #include "terrane/shared/quad.h"
+#include "terrane/shared/region.h"
 #include "terrane/shared/shape_face.h"
 
 layout(binding = kQuadsUnit) uniform usamplerBuffer quads;
 layout(binding = kShapeFacesUnit) uniform samplerBuffer shapeFaces;  // four texels a face
 layout(binding = kMaterialsUnit) uniform usamplerBuffer materials;
 
-layout(location = kRegionChunkAttribute) in ivec2 chunk;  // of the draw's region
+layout(location = kRegionChunkAttribute) in ivec3 regionChunk;  // of the draw's region; z: its level
 
 // Layers are peeled by comparing depths of two programs.
 invariant gl_Position;
@@ -53,14 +54,17 @@ void main() {
     vec4 cell = vec4(quadX(quad), quadY(quad), quadZ(quad), 0.0);
     ShapeFace face = shapeFaceOf(quad);
     MaterialRecord material = materialOf(quad);
-    vec3 inChunk = shapeFaceCorner(face, cell, corner, extent).xyz;
-    if ((frame.switches & kSwitchAnimation) != 0) {
+    ivec2 chunk = regionChunk.xy;
+    uint level = uint(regionChunk.z);
+    vec3 cellBlocks = vec3(vec2(columnBlocks(level)), 1.0);
+    vec3 inChunk = cellBlocks * shapeFaceCorner(face, cell, corner, extent).xyz;
+    if ((frame.switches & kSwitchAnimation) != 0 && level == 0u) {
         inChunk += waveOffset(material.animation, chunk, cell.xyz, inChunk, corner.y, frame.timeSeconds);
     }
 #if PASS == 1
     if (material.animation == kAnimationLiquidSurface) inChunk -= kLiquidInset * normalOfFace(quad);
 #endif
-    vec3 position = inChunk + vec3(16.0 * vec2(chunk - frame.cameraChunk), 0.0);
+    vec3 position = inChunk + vec3(chunkCorner(chunk, level, frame.cameraChunk), 0.0);
 #if PASS == 2
     vec3 onMap = (frame.toShadowMap * vec4(position, 1.0)).xyz;
     gl_Position = vec4(2.0 * onMap.xy - 1.0, onMap.z, 1.0);
@@ -70,11 +74,12 @@ void main() {
 #if PASS == 0
     // Blended quads would show their overlap.
     vec2 inward = (1.0 - 2.0 * corner) * extent;
-    vec4 alongU = frame.viewProjection * vec4(face.axisU.xyz * inward.x, 0.0);
-    vec4 alongV = frame.viewProjection * vec4(face.axisV.xyz * inward.y, 0.0);
-    gl_Position = coverCracks(gl_Position, gl_Position + alongU, gl_Position + alongV, frame.viewportSize, frame.crackGrowth);
+    vec4 alongU = frame.viewProjection * vec4(cellBlocks * face.axisU.xyz * inward.x, 0.0);
+    vec4 alongV = frame.viewProjection * vec4(cellBlocks * face.axisV.xyz * inward.y, 0.0);
+    gl_Position = coverCracks(gl_Position, gl_Position + alongU, gl_Position + alongV, frame.viewportSize,
+                              frame.crackGrowth);
 #endif
-    outTexel = vec2(corner.x, 1.0 - corner.y) * extent;
     uint seed = hash2(uint(chunk.x), uint(chunk.y), quad.word1);
-    outFace = uvec2(faceWord(quad, material), quad.word0 ^ seed);
+    outFace = uvec2(faceWord(quad, material, level), quad.word0 ^ seed);
+    outTexel = vec2(corner.x, 1.0 - corner.y) * extentOf(outFace.x);
 }

@@ -1,5 +1,6 @@
 #include "terrane/render/quad_resources.h"
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -64,7 +65,9 @@ void QuadResources::bind(const QuadStore& quads, const RegionTable& regions, boo
     quads.texels().bind(shared::kQuadsUnit);
     shapeFaceTexels_.bind(shared::kShapeFacesUnit);
     materialTexels_.bind(shared::kMaterialsUnit);
-    vertexArray_.setInstanceIntegers(shared::kRegionChunkAttribute, regions.records(),
+    constexpr GLint kChunkAndLevel = 3;
+    static_assert(offsetof(shared::RegionRecord, level) == 2 * sizeof(GLint));
+    vertexArray_.setInstanceIntegers(shared::kRegionChunkAttribute, regions.records(), kChunkAndLevel,
                                      sizeof(shared::RegionRecord));
     textures_.bind(shared::kBlockTexturesUnit);
     (isSmooth ? smooth_ : nearest_).bind(shared::kBlockTexturesUnit);

@@ -4,12 +4,21 @@
 #include <cassert>
 
 namespace terrane::render {
+namespace {
+
+// Along one axis, from a chunk of level 0 to the nearest one of those that a chunk of the level covers.
+std::int64_t chunksBetween(std::int32_t from, std::int32_t to, std::uint8_t level) {
+    const std::int64_t first = std::int64_t{to} << level, last = first + world::columnWidth(level) - 1;
+    return std::clamp<std::int64_t>(from, first, last) - from;
+}
+
+}  // namespace
 
 void RegionOrder::add(std::uint32_t slot, world::ChunkPos pos, std::uint32_t heights) {
     if (slot >= numbers_.size()) numbers_.resize(slot + 1);
     assert(numbers_[slot] == 0 && "a slot has one region");
     numbers_[slot] = ++lastNumber_;
-    added_.push_back({0, pos.x, pos.y, heights, slot, lastNumber_});
+    added_.push_back({0, pos.x, pos.y, pos.level, heights, slot, lastNumber_});
 }
 
 // The entry stays until the next update.
@@ -21,7 +30,8 @@ void RegionOrder::remove(std::uint32_t slot) {
 
 void RegionOrder::measure(std::vector<Entry>& entries) const {
     for (Entry& entry : entries) {
-        const std::int64_t x = std::int64_t{entry.x} - centre_.x, y = std::int64_t{entry.y} - centre_.y;
+        const std::int64_t x = chunksBetween(centre_.x, entry.x, entry.level);
+        const std::int64_t y = chunksBetween(centre_.y, entry.y, entry.level);
         entry.distance = static_cast<std::uint32_t>(std::min<std::int64_t>(x * x + y * y, UINT32_MAX));
     }
 }

@@ -16,16 +16,18 @@ class RegionOrder {
     void add(std::uint32_t slot, world::ChunkPos pos, std::uint32_t heights);
     void remove(std::uint32_t slot);
 
-    // Slots by their region's distance from the chunk, nearest first. Where distances are equal the place in
-    // the world decides: slots depend on the order in which chunks came. False where all is as before.
+    // Slots by their region's distance from the chunk, which is of level 0, nearest first. Where distances
+    // are equal the place in the world decides: slots depend on the order in which chunks came. False where
+    // all is as before.
     bool update(world::ChunkPos centre);
     const std::vector<std::uint32_t>& slots() const { return slots_; }  // as update() left them
 
   private:
     // Compared member by member.
     struct Entry {
-        std::uint32_t distance;  // squared chunks over the ground
+        std::uint32_t distance;  // squared chunks of level 0 over the ground
         std::int32_t x, y;
+        std::uint8_t level;
         std::uint32_t heights, slot, number;
         auto operator<=>(const Entry&) const = default;
     };

@@ -19,10 +19,15 @@ constexpr std::uint32_t kBlendedRanges =
 shared::RegionRecord recordOf(world::ChunkPos pos, const mesh::RegionMesh& region) {
     shared::RegionRecord record{};
     record.chunk = {pos.x, pos.y};
+    record.level = pos.level;
     record.heights = static_cast<std::uint32_t>(region.minZ | region.maxZ << 16);
     std::ranges::transform(mesh::rangesOf(region), record.ranges,
                            [](mesh::QuadRange quads) { return glm::uvec2(quads.first, quads.count); });
     return record;
+}
+
+world::ChunkPos posOf(const shared::RegionRecord& record) {
+    return {record.chunk.x, record.chunk.y, static_cast<std::uint8_t>(record.level)};
 }
 
 bool isEmpty(const shared::RegionRecord& record) {
@@ -32,10 +37,6 @@ bool isEmpty(const shared::RegionRecord& record) {
 bool hasBlendedQuads(const shared::RegionRecord& record) {
     return std::ranges::any_of(std::span(record.ranges).subspan(kBlendedRanges),
                                [](glm::uvec2 range) { return range.y > 0; });
-}
-
-float blocksBetween(std::int32_t fromChunk, std::int32_t toChunk) {
-    return static_cast<float>(toChunk - fromChunk) * static_cast<float>(world::kChunkSize);
 }
 
 }  // namespace
@@ -99,7 +100,7 @@ void RegionTable::setRegion(std::uint32_t& slot, const shared::RegionRecord& rec
     }
     if (!hadSlot && needsSlot) {
         slot = allocateSlot();
-        order_.add(slot, {record.chunk.x, record.chunk.y}, record.heights);
+        order_.add(slot, posOf(record), record.heights);
         ++count_;
     }
     if (!needsSlot) return;
@@ -147,9 +148,9 @@ void RegionTable::update(world::ChunkPos centre) {
 bool RegionTable::hasBlended(world::ChunkPos centre, std::span<const glm::vec4> planes) const {
     return std::ranges::any_of(blended_, [&](std::uint32_t slot) {
         const shared::RegionRecord& r = cpuRecords_[slot];
-        const glm::vec3 corner(blocksBetween(centre.x, r.chunk.x), blocksBetween(centre.y, r.chunk.y), 0);
-        const glm::vec3 min = corner + glm::vec3(0, 0, r.heights & 0xFFFF);
-        const glm::vec3 max = corner + glm::vec3(world::kChunkSize, world::kChunkSize, r.heights >> 16);
+        const glm::vec2 corner = shared::chunkCorner(r.chunk, r.level, {centre.x, centre.y});
+        const glm::vec3 min(corner, r.heights & 0xFFFF);
+        const glm::vec3 max(corner + world::kChunkSize * shared::columnBlocks(r.level), r.heights >> 16);
         return mayBeVisible(planes, min - shared::kWaving, max + shared::kWaving);  // as in cull.comp.glsl
     });
 }

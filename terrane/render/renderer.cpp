@@ -162,43 +162,45 @@ void Renderer::cull(CullRun run, const CullInput& input) {
     passes_.cull.run(run, input, regions_, ring_);
 }
 
+QuadDraw Renderer::quadDraw() {
+    return {resources_, quads_, regions_, passes_.cull, options_.betterTexturing};
+}
+
+ShadingInputs Renderer::shadingInputs() const {
+    return {light_, passes_.shadowMap, noise_};
+}
+
 void Renderer::drawShadows() {
     const TimerZone zone(timer_, "shadow map");
-    passes_.shadowMap.draw(passes_.cull);
+    passes_.shadowMap.draw(pipeline_, quadDraw());
 }
 
 void Renderer::drawSurfaces() {
     const TimerZone zone(timer_, "surfaces");
-    targets_.surfaces.bind();
-    targets_.surfaces.clearColor(0, glm::vec4(1));
-    targets_.surfaces.clearDepth(0.0f);
-    passes_.gbuffer.draw(passes_.cull);
-    targets_.surface.bind(shared::kSurfaceUnit);
-    targets_.depth.bind(shared::kDepthUnit);
+    passes_.gbuffer.clear(pipeline_, targets_);
+    passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
 }
 
 // What was hidden in the frame before and is not now.
 void Renderer::drawHiddenBefore(const CullInput& cullInput) {
     {
         const TimerZone zone(timer_, "depth pyramid");
-        passes_.pyramid.build();
+        passes_.pyramid.build(targets_);
     }
     CullInput again = cullInput;
     again.shadow.reset();
-    again.pyramidLevels = passes_.pyramid.levels();
     cull(CullRun::SeenNow, again);
     const TimerZone zone(timer_, "surfaces again");
-    targets_.surfaces.bind();
-    passes_.gbuffer.draw(passes_.cull);
+    passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
 }
 
 void Renderer::shadeSurfaces(float fogDistance) {
     {
         const TimerZone zone(timer_, "sky");
-        passes_.shading.drawSky(targets_, fogDistance);
+        passes_.shading.drawSky(pipeline_, targets_, shadingInputs(), fogDistance);
     }
     const TimerZone zone(timer_, "shade");
-    passes_.shading.drawSurfaces(targets_);
+    passes_.shading.drawSurfaces(pipeline_, targets_, shadingInputs(), passes_.occlusion);
 }
 
 // Costs nothing where no region in view has blended faces.
@@ -208,32 +210,46 @@ void Renderer::drawLayers(const FrameInput& input) {
     if (options_.layers == 0 || !regions_.hasBlended(cameraChunk(input.camera), frustum)) return;
     {
         const TimerZone zone(timer_, "peel");
-        resources_.bind(quads_, regions_, options_.betterTexturing);
-        passes_.layers.peel(targets_, passes_.cull);
+        passes_.layers.peel(pipeline_, targets_, quadDraw());
     }
     const TimerZone zone(timer_, "shade layers");
-    passes_.layers.shade(targets_, passes_.cull);
+    passes_.layers.shade(pipeline_, targets_, quadDraw(), shadingInputs());
+}
+
+void Renderer::drawFinal() {
+    const TimerZone zone(timer_, "final");
+    targets_.bindSurfaces();
+    targets_.sceneColor.bind(shared::kSceneUnit);
+    if (passes_.occlusion.isOn()) passes_.occlusion.result().bind(shared::kOcclusionUnit);
+    if (passes_.godRays.isOn()) passes_.godRays.bindResult();
+    if (passes_.farBlur.isOn()) passes_.farBlur.bindResult();
+    targets_.picture.bind();
+    passes_.finalPass.draw(pipeline_, {});
 }
 
 void Renderer::drawPicture(const FrameInput& input) {
-    if (options_.occlusion != Occlusion::Off) {
+    if (passes_.occlusion.isOn()) {
         const TimerZone zone(timer_, "ambient occlusion");
-        passes_.occlusion.draw();
+        passes_.occlusion.draw(pipeline_, targets_);
     }
     shadeSurfaces(input.fogDistance);
     drawLayers(input);
-    if (options_.godRays) {
+    if (passes_.godRays.isOn()) {
         const TimerZone zone(timer_, "god rays");
-        passes_.godRays.draw(targets_);
+        passes_.godRays.draw(pipeline_, targets_);
     }
-    if (options_.depthOfField) {
+    if (passes_.farBlur.isOn()) {
         const TimerZone zone(timer_, "depth of field");
-        passes_.farBlur.draw(targets_);
+        passes_.farBlur.draw(pipeline_, targets_);
     }
-    const TimerZone zone(timer_, "final");
+    drawFinal();
+}
+
+void Renderer::drawDebugView() {
+    targets_.bindSurfaces();
+    light_.bind();
     targets_.picture.bind();
-    targets_.sceneColor.bind(shared::kSceneUnit);
-    passes_.finalPass.draw();
+    passes_.debugView.draw(pipeline_, {});
 }
 
 void Renderer::draw(const FrameInput& input) {
@@ -242,31 +258,22 @@ void Renderer::draw(const FrameInput& input) {
     const ViewMatrices view = viewMatrices(input.camera, aspectOf(targets_.size));
     timer_.nextFrame();
     ring_.beginFrame();
+    pipeline_.forget();
     bindFrame(input, view);
-    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    const CullInput culling = cullInput(input, view);
+    CullInput culling = cullInput(input, view);
     regions_.update(culling.cameraChunk);
     const bool leavesOutHidden = passes_.pyramid.isOn() && !input.culledFor;
-    if (leavesOutHidden) passes_.pyramid.bind();
+    if (leavesOutHidden) culling.pyramid = &passes_.pyramid;
     cull(leavesOutHidden ? CullRun::SeenBefore : CullRun::All, culling);
-    resources_.bind(quads_, regions_, options_.betterTexturing);
-    noise_.bind();
     if (hasShadows(input)) drawShadows();
     drawSurfaces();
     if (leavesOutHidden) drawHiddenBefore(culling);
     if (passes_.holeFill.isOn()) {
         const TimerZone zone(timer_, "fill holes");
-        passes_.holeFill.draw(targets_);
+        passes_.holeFill.draw(pipeline_, targets_);
     }
-    light_.bind();
-    if (passes_.shadowMap.size() > 0) passes_.shadowMap.bind();
-    if (input.view == View::Color) {
-        drawPicture(input);
-    } else {
-        glDisable(GL_DEPTH_TEST);
-        targets_.picture.bind();
-        passes_.debugView.draw();
-    }
+    input.view == View::Color ? drawPicture(input) : drawDebugView();
+    pipeline_.set({});  // others clear depths
     passes_.cull.queueCounts();
     ring_.endFrame();
 }

@@ -12,8 +12,8 @@
 #include "terrane/render/frame_passes.h"
 #include "terrane/render/frame_statistics.h"
 #include "terrane/render/light_store.h"
-#include "terrane/render/quad_resources.h"
-#include "terrane/render/sky_noise.h"
+#include "terrane/render/quad_draw.h"
+#include "terrane/render/shading_inputs.h"
 
 namespace terrane::render {
 
@@ -42,8 +42,8 @@ class Renderer {
     bool reserveChunk(world::ChunkPos pos, std::span<const mesh::RegionMesh> meshes);
     std::span<const mesh::RegionMesh> regionsOf(world::ChunkPos pos) const { return quads_.regionsOf(pos); }
     const gpu::Buffer& quadBuffer() const { return quads_.buffer(); }  // until the next change
-    // Chunks without light are drawn as under the open sky. `viewDistance` of setViewDistance is the farthest
-    // that light is kept for. `bricks`: see LightStore.
+    // Of chunks of level 0. Chunks without light are drawn as under the open sky. `viewDistance` of
+    // setViewDistance is the farthest that light is kept for. `bricks`: see LightStore.
     void setLight(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF) {
         light_.set(pos, light, bricks);
     }
@@ -78,6 +78,10 @@ class Renderer {
     void shadeSurfaces(float fogDistance);
     void drawLayers(const FrameInput& input);
     void drawPicture(const FrameInput& input);
+    void drawFinal();
+    void drawDebugView();
+    QuadDraw quadDraw();
+    ShadingInputs shadingInputs() const;
     bool hasShadows(const FrameInput& input) const;
 
     RenderOptions options_;
@@ -88,6 +92,7 @@ class Renderer {
     QuadResources resources_;
     gpu::MappedRing ring_;
     gpu::GpuTimer timer_;
+    gpu::Pipeline pipeline_;
 
     FramePasses passes_;
     SkyNoise noise_;

@@ -2,6 +2,7 @@
 
 #include "terrane/render/camera.h"
 #include "terrane/render/shader_variants.h"
+#include "terrane/shared/bindings.h"
 #include "terrane/shared/frame.h"
 
 namespace terrane::render {
@@ -33,37 +34,33 @@ base::Result<void> ShadingPass::select(const RenderOptions& options, int samples
 }
 
 // By the depth test: of the mask, or of surfaces, where the triangle lies where they begin to fade.
-void ShadingPass::drawSky(const FrameTargets& targets, float fogDistance) const {
-    if (targets.samples > 1) skyMask_.draw(targets);
-    targets.scene.bind();
-    glDepthMask(GL_FALSE);
-    glEnable(GL_DEPTH_TEST);
+void ShadingPass::drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
+                          float fogDistance) const {
+    gpu::PipelineState state{.depthTest = gpu::DepthTest::Less, .writesDepth = false};
     if (targets.samples > 1) {
-        glDepthFunc(GL_LESS);
+        skyMask_.draw(pipeline, targets);
     } else {
-        const bool isBehind = fadesOverSky_ && hasAtmosphere_;
-        glDepthRangef(kNearPlane / (isBehind ? shared::kFadingBegins * fogDistance : kSkyDistance), 1.0f);
-        glDepthFunc(GL_GREATER);
+        const float distance =
+            fadesOverSky_ && hasAtmosphere_ ? shared::kFadingBegins * fogDistance : kSkyDistance;
+        state.depthRange.x = kNearPlane / distance;
+        state.depthTest = gpu::DepthTest::Greater;
     }
-    sky_.draw();
-    glDepthRangef(0.0f, 1.0f);
-    glDisable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
+    inputs.bind();
+    targets.scene.bind();
+    sky_.draw(pipeline, state);
 }
 
 // The triangle lies at the far end: surfaces are all nearer, and so is the mask.
-void ShadingPass::drawSurfaces(const FrameTargets& targets) const {
-    if (targets.samples > 1) surfaceMask_.draw(targets);
+void ShadingPass::drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targets,
+                               const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const {
+    if (targets.samples > 1) surfaceMask_.draw(pipeline, targets);
+    targets.bindSurfaces();
+    inputs.bind();
+    if (occlusion.isOn()) occlusion.result().bind(shared::kOcclusionUnit);
     targets.scene.bind();
-    glDepthMask(GL_FALSE);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
-    (fadesOverSky_ ? glEnable : glDisable)(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    shade_.draw();
-    glDisable(GL_BLEND);
-    glDisable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
+    shade_.draw(pipeline, {.depthTest = gpu::DepthTest::Less,
+                           .writesDepth = false,
+                           .blending = fadesOverSky_ ? gpu::Blending::Over : gpu::Blending::Off});
 }
 
 }  // namespace terrane::render

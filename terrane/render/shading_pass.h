@@ -3,10 +3,12 @@
 #pragma once
 
 #include "terrane/base/result.h"
+#include "terrane/render/ambient_occlusion.h"
 #include "terrane/render/frame_targets.h"
 #include "terrane/render/fullscreen_pass.h"
 #include "terrane/render/pixel_mask.h"
 #include "terrane/render/render_options.h"
+#include "terrane/render/shading_inputs.h"
 
 namespace terrane::render {
 
@@ -17,9 +19,11 @@ class ShadingPass {
 
     base::Result<void> select(const RenderOptions& options, int samples, bool hasShadows);
     // The part of the sky that can be seen, or that surfaces fade into. `fogDistance`: blocks.
-    void drawSky(const FrameTargets& targets, float fogDistance) const;
-    // After the sky.
-    void drawSurfaces(const FrameTargets& targets) const;
+    void drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
+                 float fogDistance) const;
+    // After the sky. `occlusion` is read where select() was told so.
+    void drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
+                      const AmbientOcclusion& occlusion) const;
 
   private:
     FullscreenPass sky_, shade_;

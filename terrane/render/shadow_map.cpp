@@ -34,19 +34,17 @@ base::Result<void> ShadowMap::resize(int size) {
 }
 
 // Depth grows toward the light. What stands nearer to it than the map begins casts too: its depth is clamped.
-void ShadowMap::draw(const CullPass& culled) const {
+void ShadowMap::draw(gpu::Pipeline& pipeline, const QuadDraw& quads) const {
     const gpu::DebugGroup group("shadow map");
+    constexpr gpu::PipelineState kNearestToLight{.depthTest = gpu::DepthTest::Greater, .clampsDepth = true};
+    pipeline.set(kNearestToLight);
     framebuffer_.bind();
     framebuffer_.clearDepth(0.0f);
-    glEnable(GL_DEPTH_TEST);
-    glEnable(GL_DEPTH_CLAMP);
-    glDepthMask(GL_TRUE);
-    glDepthFunc(GL_GREATER);
+    quads.bind();
     opaque_.use();
-    culled.drawContexts(mesh::AlphaClass::Opaque, true);
+    quads.culled.drawContexts(pipeline, kNearestToLight, mesh::AlphaClass::Opaque, true);
     tested_.use();
-    culled.drawContexts(mesh::AlphaClass::Tested, true);
-    glDisable(GL_DEPTH_CLAMP);
+    quads.culled.drawContexts(pipeline, kNearestToLight, mesh::AlphaClass::Tested, true);
 }
 
 void ShadowMap::bind() const {

@@ -4,7 +4,7 @@
 
 #include "terrane/gpu/framebuffer.h"
 #include "terrane/gpu/sampler.h"
-#include "terrane/render/cull_pass.h"
+#include "terrane/render/quad_draw.h"
 #include "terrane/render/shader_variants.h"
 
 namespace terrane::render {
@@ -17,8 +17,8 @@ class ShadowMap {
     // Texels a side; 0: none.
     base::Result<void> resize(int size);
     int size() const { return depth_.size().x; }
-    // Draws what is culled for shadows, with the quads and the frame's uniforms bound.
-    void draw(const CullPass& culled) const;
+    // Draws what is culled for shadows, with the frame's uniforms bound.
+    void draw(gpu::Pipeline& pipeline, const QuadDraw& quads) const;
     void bind() const;
 
   private:

@@ -109,11 +109,10 @@ std::size_t countShadowTriangles(const QuadStore& quads, const Camera& camera, c
     const world::ChunkPos centre = cameraChunk(camera);
     std::size_t count = 0;
     for (const auto& [pos, chunk] : quads.chunks()) {
-        const glm::vec3 origin(static_cast<float>(std::int64_t{pos.x} - centre.x) * world::kChunkSize,
-                               static_cast<float>(std::int64_t{pos.y} - centre.y) * world::kChunkSize, 0);
+        const glm::vec2 corner = shared::chunkCorner({pos.x, pos.y}, pos.level, {centre.x, centre.y});
+        const float width = world::kChunkSize * shared::columnBlocks(pos.level);
         for (const mesh::RegionMesh& region : chunk) {
-            const glm::vec3 min = origin + glm::vec3(0, 0, region.minZ);
-            const glm::vec3 max = origin + glm::vec3(world::kChunkSize, world::kChunkSize, region.maxZ);
+            const glm::vec3 min(corner, region.minZ), max(corner + width, region.maxZ);
             if (mayBeInVolume(volume, min - shared::kWaving, max + shared::kWaving))
                 count += 2 * castingQuads(region, lightDirection);
         }

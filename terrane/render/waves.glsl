@@ -13,7 +13,7 @@ float nodeWave(ivec2 chunk, float seconds) {
 
 // Straight along x and y between the corners of chunks: quads of any size that lie in one chunk meet at their edges.
 float liquidWave(ivec2 chunk, vec2 inChunk, float seconds) {
-    vec2 f = inChunk / 16.0;
+    vec2 f = inChunk / float(kChunkSize);
     float low = mix(nodeWave(chunk, seconds), nodeWave(chunk + ivec2(1, 0), seconds), f.x);
     float high = mix(nodeWave(chunk + ivec2(0, 1), seconds), nodeWave(chunk + 1, seconds), f.x);
     return mix(low, high, f.y);
@@ -23,7 +23,7 @@ float liquidWave(ivec2 chunk, vec2 inChunk, float seconds) {
 // quad.vert.glsl): opaque faces stand still, only blended ones are liquid.
 vec3 waveOffset(uint animation, ivec2 chunk, vec3 cell, vec3 inChunk, float top, float seconds) {
 #if ALPHA_CLASS == 1
-    vec2 base = vec2((chunk & 4095) * 16);
+    vec2 base = vec2((chunk & 4095) * int(kChunkSize));
     if (animation == kAnimationTopWaves) {
         vec2 at = base + cell.xy;
         float sway = sin(kTurn * fract(0.3 * seconds + (at.x + at.y) / 8.0));

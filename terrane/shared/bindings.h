@@ -38,7 +38,7 @@ const uint kShapeFacesUnit = 19u;
 const uint kMaterialsUnit = 20u;
 
 // Vertex attributes
-const uint kRegionChunkAttribute = 0u;  // of a draw's region, by the base instance
+const uint kRegionChunkAttribute = 0u;  // chunk and level of a draw's region, by the base instance
 
 // Image units
 const uint kPyramidFromImage = 0u;

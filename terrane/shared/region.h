@@ -2,6 +2,7 @@
 #ifndef TERRANE_SHARED_REGION_H
 #define TERRANE_SHARED_REGION_H
 
+#include "terrane/shared/constants.h"
 #include "terrane/shared/language.h"
 
 SHARED_BEGIN
@@ -19,11 +20,22 @@ SHARED_FN uint firstRange(uint context) {
 }
 
 struct RegionRecord {
-    ivec2 chunk;
-    uint heights;  // lowest block, and the block above the highest << 16
-    uint unused;
+    ivec2 chunk;                    // in chunks of the level
+    uint level;                     // see world::ChunkPos
+    uint heights;                   // lowest block, and the block above the highest << 16
     uvec2 ranges[kRangesOfRegion];  // first quad in the buffer, count
 };
+
+// Width of a column of a level, in blocks.
+SHARED_FN float columnBlocks(uint level) {
+    return float(1u << level);
+}
+
+// The lowest corner of a chunk, in blocks from the corner of the camera's chunk of level 0: exact near the
+// camera, wherever in the world that is.
+SHARED_FN vec2 chunkCorner(ivec2 chunk, uint level, ivec2 cameraChunk) {
+    return float(kChunkSize) * vec2((chunk << int(level)) - cameraChunk);
+}
 
 // As glMultiDrawElementsIndirect reads it.
 struct DrawCommand {

@@ -1,4 +1,4 @@
-#include "terrane/light/kernels.h"
+#include "terrane/light/kernels_internal.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

@@ -3,6 +3,7 @@
 import gzip
 import os
 import pathlib
+import re
 import shlex
 import shutil
 import subprocess
@@ -58,6 +59,20 @@ class Install(unittest.TestCase):
         for file in self.prefix.rglob("*"):
             if file.suffix in (".h", ".cmake", ".pc"):
                 self.assertNotIn(str(SOURCE), file.read_text(), file)
+
+    def test_internal_headers_stay_behind(self):
+        include = self.prefix / "include"
+        self.assertGreater(len(list((SOURCE / "terrane").rglob("*_internal.h"))), 3)
+        for file in include.rglob("*.h"):
+            self.assertFalse(file.name.endswith(("_internal.h", "-inl.h")), file)
+            text = file.read_text()
+            self.assertNotIn("nside the module", text, file)
+            for name in re.findall(r'#include "(terrane/[^"]+)"', text):
+                self.assertTrue((include / name).is_file(), f"{file}: {name} is not installed")
+
+    def test_the_library_needs_no_window_library(self):
+        for name in ("terrane.pc", "terraneConfig.cmake", "terraneTargets.cmake"):
+            self.assertNotIn("glfw", self.find(name).read_text(), name)
 
     def build_and_run(self, program):
         first, second = run(program, "3"), run(program, "4")

@@ -312,6 +312,28 @@ TEST_F(CullPassTest, ManyRegionsAreCulledAsOneIs) {
     }
 }
 
+// Four times as wide, as high as all.
+TEST_F(CullPassTest, BoxesOfHigherLevelsAreWider) {
+    for (int y = -8; y <= 8; ++y) {
+        for (int x = -8; x <= 8; ++x) set({x, y, 2}, meshOfParts({{1, kOpaque, mesh::kGroupAlways, 1}}));
+    }
+    const glm::dvec3 far(-1e9, 3e8, 0);
+    for (const Camera& camera :
+         {Camera{{3, 5, 240}, 30, -30}, Camera{{100, -70, 10}, 200, 10}, Camera{far, 0, 0}}) {
+        const Frustum frustum = frustumOf(viewMatrices(camera, 1).viewProjection);
+        const world::ChunkPos centre = cameraChunk(camera);
+        std::size_t expected = 0;
+        for (int y = -8; y <= 8; ++y) {
+            for (int x = -8; x <= 8; ++x) {
+                const glm::vec3 low(16 * (4 * x - centre.x), 16 * (4 * y - centre.y), 64);
+                expected += mayBeVisible(frustum, low - shared::kWaving,
+                                         low + glm::vec3(64, 64, 64) + shared::kWaving);
+            }
+        }
+        EXPECT_EQ(build(camera).regionCount, expected);
+    }
+}
+
 TEST_F(CullPassTest, ShadowsAreCastByWhatFacesTheLight) {
     std::vector<Part> parts;
     for (int group = 0; group < mesh::kGroupCount; ++group) parts.push_back({1, kOpaque, group, 10});

@@ -45,6 +45,18 @@ TEST(RegionOrder, NothingHasNoOrder) {
     EXPECT_TRUE(order.slots().empty());
 }
 
+// A chunk of level 2 covers 4 × 4 of level 0: the nearest of these counts.
+TEST(RegionOrder, ChunksOfAllLevelsAreOrderedByBlocks) {
+    RegionOrder order;
+    order.add(0, {2, 0}, 16);     // 2 away
+    order.add(1, {1, 0, 2}, 16);  // 4 to 7
+    order.add(2, {0, 0, 2}, 16);  // 0 to 3: the camera is within
+    order.add(3, {5, 0}, 16);
+    order.add(4, {-1, 0, 2}, 16);  // -4 to -1
+    order.update({});
+    EXPECT_EQ(order.slots(), (std::vector<std::uint32_t>{2, 4, 0, 1, 3}));
+}
+
 TEST(RegionOrder, SaysWhetherItChanged) {
     RegionOrder order;
     order.add(3, {1, 1}, 16);

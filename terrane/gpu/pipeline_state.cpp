@@ -1,0 +1,50 @@
+#include "terrane/gpu/pipeline_state.h"
+
+#include <epoxy/gl.h>
+
+namespace terrane::gpu {
+namespace {
+
+void enable(GLenum capability, bool isOn) {
+    (isOn ? glEnable : glDisable)(capability);
+}
+
+GLenum functionOf(DepthTest test) {
+    switch (test) {
+        case DepthTest::Less:
+            return GL_LESS;
+        case DepthTest::Equal:
+            return GL_EQUAL;
+        case DepthTest::Greater:
+            return GL_GREATER;
+        case DepthTest::Off:
+        case DepthTest::Always:
+            break;
+    }
+    return GL_ALWAYS;
+}
+
+}  // namespace
+
+void Pipeline::set(const PipelineState& state) {
+    if (isKnown_ && state == current_) return;
+    const auto differs = [&](auto member) { return !isKnown_ || state.*member != current_.*member; };
+    // Depths are 0…1, as they lie in targets.
+    if (!isKnown_) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    if (differs(&PipelineState::depthTest)) {
+        enable(GL_DEPTH_TEST, state.depthTest != DepthTest::Off);
+        glDepthFunc(functionOf(state.depthTest));
+    }
+    if (differs(&PipelineState::writesDepth)) glDepthMask(state.writesDepth ? GL_TRUE : GL_FALSE);
+    if (differs(&PipelineState::clampsDepth)) enable(GL_DEPTH_CLAMP, state.clampsDepth);
+    if (differs(&PipelineState::depthRange)) glDepthRangef(state.depthRange.x, state.depthRange.y);
+    if (differs(&PipelineState::blending)) {
+        enable(GL_BLEND, state.blending != Blending::Off);
+        glBlendFunc(GL_ONE, state.blending == Blending::Over ? GL_ONE_MINUS_SRC_ALPHA : GL_ZERO);
+    }
+    if (differs(&PipelineState::cullsBackFaces)) enable(GL_CULL_FACE, state.cullsBackFaces);
+    current_ = state;
+    isKnown_ = true;
+}
+
+}  // namespace terrane::gpu

@@ -1,0 +1,38 @@
+// The fixed-function state of a draw. Each draw states all of it, so that no pass depends on what the one
+// before it left behind. Used on the thread of the context.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+
+namespace terrane::gpu {
+
+// Passes where the new depth compares so with that of the target. Off also writes no depth.
+enum class DepthTest : std::uint8_t { Off, Always, Less, Equal, Greater };
+// Over: colour that is multiplied by its alpha, over what is there.
+enum class Blending : std::uint8_t { Off, Over };
+
+struct PipelineState {
+    DepthTest depthTest = DepthTest::Off;
+    bool writesDepth = true;   // clears of a target's depth need it too
+    bool clampsDepth = false;  // instead of clipping at the near and far plane
+    glm::vec2 depthRange{0, 1};
+    Blending blending = Blending::Off;
+    bool cullsBackFaces = false;
+
+    bool operator==(const PipelineState&) const = default;
+};
+
+// Sets the state of its context, and only what differs from the state before. One for each that draws there.
+class Pipeline {
+  public:
+    void set(const PipelineState& state);
+    // Others may have changed the state: the next set() sets all of it.
+    void forget() { isKnown_ = false; }
+
+  private:
+    PipelineState current_;
+    bool isKnown_ = false;
+};
+
+}  // namespace terrane::gpu

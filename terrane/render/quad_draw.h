@@ -1,0 +1,20 @@
+// What a pass that draws quads takes: those that culling chose, and what shaders read of them. Used by the
+// renderer on the context's thread.
+#pragma once
+
+#include "terrane/render/cull_pass.h"
+#include "terrane/render/quad_resources.h"
+
+namespace terrane::render {
+
+struct QuadDraw {
+    QuadResources& resources;
+    const QuadStore& quads;
+    const RegionTable& regions;
+    const CullPass& culled;  // draws what its last run chose
+    bool isSmooth = false;   // textures are filtered
+
+    void bind() const { resources.bind(quads, regions, isSmooth); }
+};
+
+}  // namespace terrane::render

@@ -1,0 +1,23 @@
+// What shaders that light surfaces and layers read besides the G-buffer and the frame's uniforms. Used by the
+// renderer on the context's thread.
+#pragma once
+
+#include "terrane/render/light_store.h"
+#include "terrane/render/shadow_map.h"
+#include "terrane/render/sky_noise.h"
+
+namespace terrane::render {
+
+struct ShadingInputs {
+    const LightStore& light;
+    const ShadowMap& shadowMap;  // of size 0 where there are no shadows
+    const SkyNoise& noise;
+
+    void bind() const {
+        light.bind();
+        if (shadowMap.size() > 0) shadowMap.bind();
+        noise.bind();
+    }
+};
+
+}  // namespace terrane::render
