@@ -4,7 +4,7 @@
 #include <array>
 #include <deque>
 
-#include "terrane/light_gpu/light_workspace.h"
+#include "terrane/light_gpu/light_workspace_internal.h"
 
 namespace terrane::light_gpu {
 namespace {

@@ -1,4 +1,4 @@
-#include "terrane/light_gpu/light_batch.h"
+#include "terrane/light_gpu/light_batch_internal.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "terrane/light_gpu/light_workspace.h"
+#include "terrane/light_gpu/light_workspace_internal.h"
 
 #include <array>
 #include <bit>
@@ -25,9 +25,15 @@ std::size_t roundedUp(std::size_t chunks) {
     return (chunks + 63) / 64 * 64;
 }
 
+// solver_state.glsl
+struct SolverState {
+    std::array<shared::SolverRound, shared::kSolverRounds + 1> rounds;
+    shared::uint brickCount;
+};
+
 // Before the first of the rounds that are given at once.
-std::vector<shared::SolverState> stateWith(shared::uint cellsListed) {
-    shared::SolverState state{};
+std::vector<SolverState> stateWith(shared::uint cellsListed) {
+    SolverState state{};
     for (shared::SolverRound& round : state.rounds) round = {0, 1, 1, 0};
     state.rounds[0].groupsX = cellsListed;
     return {state};
@@ -68,7 +74,7 @@ void LightWorkspace::makeRoom() {
         std::size_t{shared::resultWords(results, results * shared::kSectionsPerChunk)} * kWordBytes;
     if (result_.data().size() < resultBytes) result_ = gpu::ReadbackBuffer(resultBytes, "light result");
     if (state_.sizeBytes() == 0)
-        state_ = gpu::Buffer(sizeof(shared::SolverState), GL_DYNAMIC_STORAGE_BIT, "light state");
+        state_ = gpu::Buffer(sizeof(SolverState), GL_DYNAMIC_STORAGE_BIT, "light state");
 }
 
 void LightWorkspace::bind() const {

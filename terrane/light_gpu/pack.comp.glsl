@@ -34,7 +34,7 @@ void packBrick(uint local) {
     barrier();
     bool isUniform = allLight == anyLight && (allLight & 0xFFFFu) == allLight >> 16;
     if (local == 0u) {
-        brick = isUniform ? kBrickUniformBit | (allLight & 0xFFFFu) : atomicAdd(state.brickCount, 1u);
+        brick = isUniform ? kBrickUniformBit | (allLight & 0xFFFFu) : atomicAdd(brickCount, 1u);
         result[resultEntry(gl_WorkGroupID.x, gl_WorkGroupID.y)] = brick;
     }
     barrier();
@@ -44,7 +44,7 @@ void packBrick(uint local) {
 }
 
 void main() {
-    uint local = gl_LocalInvocationIndex, cellsLeft = state.rounds[kSolverRounds].groupsX;
+    uint local = gl_LocalInvocationIndex, cellsLeft = rounds[kSolverRounds].groupsX;
     if (local == 0u && gl_WorkGroupID.x == 0u && gl_WorkGroupID.y == 0u) result[0] = cellsLeft;
     if (cellsLeft == 0u) packBrick(local);
 }

@@ -33,7 +33,7 @@ uint cellOfList(uint list, uint entry) {
 }
 
 void addToList(uint list, uint cell) {
-    lists[(list & 1u) * cellCount() + atomicAdd(state.rounds[list].groupsX, 1u)] = cell;
+    lists[(list & 1u) * cellCount() + atomicAdd(rounds[list].groupsX, 1u)] = cell;
 }
 
 // Whether light of `from` could raise that of `to`, a block of the least opacity beside it.

@@ -48,16 +48,6 @@ struct SolverRound {
     uint unused;
 };
 
-// The last round is the first one of the rounds that are given next: where its list is empty the light is
-// found.
-struct SolverState {
-    SolverRound rounds[kSolverRounds + 1u];
-    uint brickCount;  // in the result
-    uint unused0;
-    uint unused1;
-    uint unused2;
-};
-
 // Of a cell before light spreads: all its light or'ed, and
 const uint kCellIsUniform = 0x10000u;
 const uint kCellIsOpaque = 0x20000u;  // no light gets in
@@ -77,7 +67,6 @@ SHARED_END
 #ifdef __cplusplus
 namespace terrane::shared {
 static_assert(sizeof(SolverRound) == 16);
-static_assert(sizeof(SolverState) == (kSolverRounds + 2) * sizeof(SolverRound));
 static_assert(kCellWords == kCellWordsX * kCellSize * kCellSize);
 static_assert(kCellsPerChunk * kCellWords * 2 == kBlocksPerChunk && kBrickWords * 2 == kBlocksPerSection);
 }  // namespace terrane::shared

@@ -10,8 +10,8 @@
 #include "terrane/gpu/program.h"
 #include "terrane/gpu/readback_buffer.h"
 #include "terrane/gpu/shader_loader.h"
-#include "terrane/light_gpu/light_batch.h"
-#include "terrane/light_gpu/section_upload.h"
+#include "terrane/light_gpu/light_batch_internal.h"
+#include "terrane/light_gpu/section_upload_internal.h"
 
 namespace terrane::light_gpu {
 
