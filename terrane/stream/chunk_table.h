@@ -34,8 +34,8 @@ enum class ChunkStage : std::uint8_t {
     Loaded,    // its blocks are there
     Lighting,  // it is lit and meshed for the first time
     Visible,   // light and mesh are there
-    Count,
 };
+constexpr std::size_t kChunkStageCount = 4;
 
 struct ChunkRecord {
     // Residency.
@@ -59,7 +59,7 @@ struct ChunkRecord {
 struct ChunkTable {
     ViewOrder view;
     std::unordered_map<world::ChunkPos, ChunkRecord, world::ChunkPosHash> records;
-    std::array<std::size_t, static_cast<std::size_t>(ChunkStage::Count)> stageCounts{};
+    std::array<std::size_t, kChunkStageCount> stageCounts{};
     std::size_t chunksInView = 0;   // within the view distance and the world
     std::size_t visibleInView = 0;  // of these
 

@@ -201,7 +201,7 @@ void Game::drawInterface() {
         drawViewFromAbove(screen, cameraAbove(camera, settings_.viewDistance), camera,
                           view::fogDistance(settings_.viewDistance));
     } else if (const auto& target = interaction_.target()) {
-        drawTarget(screen, camera(), *target, session.world(), session.blocks());
+        drawTarget(screen, camera, *target, session.world(), session.blocks());
     }
     if (isCaptured_ && !isAbove_) drawCrosshair(screen);
     drawHand(screen, session.blocks().type(interaction_.block()).name,
@@ -235,7 +235,7 @@ void Game::drawOpenContainer(const Screen& screen) {
         const world::BlockType* kind = session.blocks().find(item);
         return kind ? parts_.preview.picture(kind->id) : 0;
     };
-    const auto click = drawChest(screen, *items, picture);
+    const auto click = drawContainer(screen, *items, picture);
     world::BlockId inHand = interaction_.block();
     if (!click || !game::clickSlot(*items, session.blocks(), *click, inHand)) return;
     interaction_.choose(inHand);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/terrane/window/frame_meter.h"
-#include "terrane/game/player.h"
+#include "terrane/game/block_interaction.h"
 #include "terrane/gpu/timer.h"
 #include "terrane/render/renderer.h"
 #include "terrane/stream/chunk_pipeline.h"

@@ -1,4 +1,4 @@
-#include "apps/terrane/window/chest_panel.h"
+#include "apps/terrane/window/container_panel.h"
 
 #include <imgui.h>
 
@@ -30,7 +30,7 @@ void drawStack(ImVec2 min, ImVec2 max, const world::ItemStack& stack, unsigned p
 
 }  // namespace
 
-std::optional<game::SlotClick> drawChest(const Screen& screen, const world::Inventory& items,
+std::optional<game::SlotClick> drawContainer(const Screen& screen, const world::Inventory& items,
                                          const std::function<unsigned(const std::string&)>& picture) {
     std::optional<game::SlotClick> click;
     ImGui::SetNextWindowPos({screen.width / 2, screen.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});

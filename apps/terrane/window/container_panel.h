@@ -10,7 +10,7 @@
 namespace terrane::app {
 
 // `picture`: the OpenGL texture for an item's name, 0: none.
-std::optional<game::SlotClick> drawChest(const Screen& screen, const world::Inventory& items,
+std::optional<game::SlotClick> drawContainer(const Screen& screen, const world::Inventory& items,
                                          const std::function<unsigned(const std::string&)>& picture);
 
 }  // namespace terrane::app
