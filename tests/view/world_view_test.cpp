@@ -1,8 +1,8 @@
-#include "apps/terrane/world_view.h"
+#include "terrane/view/world_view.h"
 
 #include <gtest/gtest.h>
 
-namespace terrane::app {
+namespace terrane::view {
 namespace {
 
 constexpr double kNothingYet = 1, kNextToAll = 0.05;  // what is missing
@@ -40,4 +40,4 @@ TEST(MissingShare, CountsWhatIsNotVisibleAndWhatWaits) {
 }
 
 }  // namespace
-}  // namespace terrane::app
+}  // namespace terrane::view
