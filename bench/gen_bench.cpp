@@ -67,7 +67,7 @@ BENCHMARK_CAPTURE(generateArea, overworld, "overworld")->Unit(benchmark::kMillis
 BENCHMARK_CAPTURE(generateArea, flat, "flat")->Unit(benchmark::kMillisecond);
 
 // All passes of a generator over a square of chunks, pass after pass, with everything kept. At the edge of
-// the square the chunk itself stands for neighbours that are missing.
+// the square the chunk itself stands for neighbors that are missing.
 class PassArea {
   public:
     static constexpr int kSide = 10;

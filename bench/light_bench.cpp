@@ -46,7 +46,7 @@ std::vector<ChunkLight> lightAll(const std::vector<LocalLight>& locals, light::L
     std::vector<ChunkLight> lights;
     for (int y = 1; y < kSide - 1; ++y) {
         for (int x = 1; x < kSide - 1; ++x) {
-            light::LocalNeighbourhood around;
+            light::LocalLightNeighborhood around;
             for (int k = 0; k < 9; ++k) {
                 around[static_cast<std::size_t>(k)] =
                     &locals[static_cast<std::size_t>(x + k % 3 - 1 + kSide * (y + k / 3 - 1))];
@@ -77,7 +77,7 @@ void local(benchmark::State& state) {
     state.counters["bytes"] = static_cast<double>(bytes) / static_cast<double>(landscape().size());
 }
 
-void neighbours(benchmark::State& state) {
+void neighbors(benchmark::State& state) {
     light::LightScratch scratch;
     const std::vector<LocalLight> locals = solveAll(landscape(), scratch);
     std::vector<ChunkLight> lights;
@@ -116,7 +116,7 @@ void caveScene(benchmark::State& state) {
     lightScene(state, bench::sceneChunks("cave"));
 }
 
-// Lamps of four colours on the ground or on what grows there, at random places.
+// Lamps of four colors on the ground or on what grows there, at random places.
 void tenThousandLamps(benchmark::State& state) {
     std::vector<world::Chunk> chunks = landscape();
     const std::array lamps = {blockId("lamp_white"), blockId("lamp_red"), blockId("lamp_green"),
@@ -235,7 +235,7 @@ BENCHMARK(oceanScene)->Unit(benchmark::kMillisecond);
 BENCHMARK(caveScene)->Unit(benchmark::kMillisecond);
 BENCHMARK(tenThousandLamps)->Unit(benchmark::kMillisecond);
 BENCHMARK(local)->Unit(benchmark::kMillisecond);
-BENCHMARK(neighbours)->Unit(benchmark::kMillisecond);
+BENCHMARK(neighbors)->Unit(benchmark::kMillisecond);
 BENCHMARK(lampRemoved)->Unit(benchmark::kMicrosecond);
 BENCHMARK(lampPlaced)->Unit(benchmark::kMicrosecond);
 BENCHMARK(lampRemovedInCorner)->Unit(benchmark::kMicrosecond);

@@ -21,7 +21,7 @@ const bench::MeshWorld& worldOf(const bench::NamedInput& input) {
 }
 
 // One iteration is one chunk.
-void meshChunks(benchmark::State& state, const bench::NamedInput& input, mesh::Method method) {
+void meshChunks(benchmark::State& state, const bench::NamedInput& input, mesh::MergeMethod method) {
     const std::vector<mesh::MeshInput> inputs = worldOf(input).inputs({.method = method});
     mesh::MeshScratch scratch;
     base::Digest digest;
@@ -43,13 +43,14 @@ void meshChunks(benchmark::State& state, const bench::NamedInput& input, mesh::M
 }
 
 void addBenchmarks() {
-    constexpr std::pair<const char*, mesh::Method> kMethods[] = {{"greedy", mesh::Method::Greedy},
-                                                                 {"none", mesh::Method::None},
-                                                                 {"lines", mesh::Method::Lines},
-                                                                 {"squares", mesh::Method::Squares},
-                                                                 {"squares-ext", mesh::Method::SquaresExt}};
+    constexpr std::pair<const char*, mesh::MergeMethod> kMergeMethods[] = {
+        {"greedy", mesh::MergeMethod::Greedy},
+        {"none", mesh::MergeMethod::None},
+        {"lines", mesh::MergeMethod::Lines},
+        {"squares", mesh::MergeMethod::Squares},
+        {"squares-ext", mesh::MergeMethod::SquaresExt}};
     for (const bench::NamedInput& input : bench::meshInputs()) {
-        for (const auto& [name, method] : kMethods) {
+        for (const auto& [name, method] : kMergeMethods) {
             const std::string full = std::string("mesh/") + input.name + '/' + name;
             benchmark::RegisterBenchmark(full.c_str(), meshChunks, input, method)
                 ->Unit(benchmark::kMicrosecond);

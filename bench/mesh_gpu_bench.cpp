@@ -9,7 +9,7 @@
 #include "bench/mesh_inputs.h"
 #include "terrane/base/digest.h"
 #include "terrane/gpu/context.h"
-#include "terrane/mesh/region_quads.h"
+#include "terrane/mesh/mesh_section_quads.h"
 #include "terrane/mesh_gpu/gpu_batch_mesher.h"
 
 namespace terrane::embedded {
@@ -59,9 +59,9 @@ void onGpu(benchmark::State& state, const bench::MeshWorld& world) {
         mesher.count(inputs);
         std::vector<std::uint32_t> firstQuads;
         std::uint32_t total = 0;
-        for (const mesh::RegionMesh& region : mesher.regions()) {
+        for (const mesh::MeshSection& meshSection : mesher.meshSections()) {
             firstQuads.push_back(total);
-            total += mesh::quadCount(region);
+            total += mesh::quadCount(meshSection);
         }
         mesher.write(firstQuads, quads);
         glFinish();

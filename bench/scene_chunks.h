@@ -22,14 +22,14 @@ constexpr int kSide = 2 * kViewDistance + 3;  // chunks along x and y, one aroun
 // Chunks of the scene with one around them, x fastest.
 inline std::vector<world::Chunk> sceneChunks(std::string_view name) {
     const glm::dvec3 at = app::findScene(name)->camera.position;
-    const world::ChunkPos centre =
+    const world::ChunkPos center =
         world::chunkOf({static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y), 0});
     const gen::Generator generator(orExit(gen::makeGenerator("overworld", blocks())), 1);
     std::vector<world::Chunk> chunks(kSide * kSide);
     base::JobSystem jobs(2);
     const auto done = base::parallelFor(jobs, chunks.size(), [&](std::size_t k) {
-        chunks[k] = generator.generate({centre.x - kViewDistance - 1 + static_cast<int>(k) % kSide,
-                                        centre.y - kViewDistance - 1 + static_cast<int>(k) / kSide});
+        chunks[k] = generator.generate({center.x - kViewDistance - 1 + static_cast<int>(k) % kSide,
+                                        center.y - kViewDistance - 1 + static_cast<int>(k) / kSide});
     });
     if (!done) std::exit(1);
     return chunks;

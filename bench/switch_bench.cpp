@@ -39,7 +39,7 @@ void load(render::Renderer& renderer, const render::Camera& camera) {
         pipeline.waitForWorkers(std::chrono::milliseconds(100));
     }
     for (const stream::ChunkChange& change : pipeline.takeChanges(std::numeric_limits<std::size_t>::max())) {
-        if (change.mesh) renderer.setChunk(change.pos, *change.mesh, change.regions);
+        if (change.mesh) renderer.setChunk(change.pos, *change.mesh, change.meshSections);
         if (change.light) renderer.setLight(change.pos, *change.light);
     }
 }

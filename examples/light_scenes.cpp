@@ -40,7 +40,7 @@ void buildGround(World& world, const BlockRegistry& blocks, std::string_view top
     fill(world, blocks, {kFirst, kFirst, kGround - 1}, {kEnd, kEnd, kGround}, idOf(blocks, top));
 }
 
-// A hollow with uneven walls in solid stone, a lamp of each colour on its floor.
+// A hollow with uneven walls in solid stone, a lamp of each color on its floor.
 void buildCave(World& world, const BlockRegistry& blocks) {
     fill(world, blocks, {kFirst, kFirst, 60}, {kEnd, kEnd, 110}, idOf(blocks, "stone"));
     for (int z = 70; z < 100; ++z) {

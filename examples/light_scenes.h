@@ -1,4 +1,4 @@
-// Small worlds that show what light does. Used by light_pictures.cpp.
+// Small worlds that show what light does. Used by light_images.cpp.
 #pragma once
 
 #include <string_view>
@@ -24,7 +24,7 @@ constexpr int kSceneRadius = 3;
 // above.
 const std::vector<LightScene>& lightScenes();
 
-// Blocks at so many random places of open ground, the first ones lamps of four colours, the others stone. One
+// Blocks at so many random places of open ground, the first ones lamps of four colors, the others stone. One
 // lamp stands in the middle.
 struct LampCount {
     int lamps, places;

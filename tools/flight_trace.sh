@@ -16,7 +16,7 @@ fly() {
     local name=$1 distance=$2
     shift 2
     echo "$name" >&2
-    "$program" fly --size 320x180 --preset low --view-distance "$distance" --trace "$name.json" -o "$name.csv" "$@"
+    "$program" flight-bench --size 320x180 --preset low --view-distance "$distance" --trace "$name.json" -o "$name.csv" "$@"
 }
 
 # What the land alone takes to draw where the flight is after 0, 2, … 20 s.
@@ -35,7 +35,7 @@ for distance in 16 32; do
     stand "$distance"
     fly "generating_$distance" "$distance"
     # The first flight fills the save; the second one reads the same chunks.
-    fly "filling_$distance" "$distance" --world "flight_$distance" --recreate --for 25
+    fly "filling_$distance" "$distance" --world "flight_$distance" --recreate --duration 25
     fly "from_disk_$distance" "$distance" --world "flight_$distance"
 done
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Feeds the reader of chunks with bytes that libFuzzer thinks up, under the address and undefined-behaviour
+# Feeds the reader of chunks with bytes that libFuzzer thinks up, under the address and undefined-behavior
 # sanitizers. What it finds interesting stays in build-fuzz/ for the next time.
 #
 #   tools/fuzz.sh [SECONDS]    10 seconds unless told otherwise; exits with an error when it finds a fault

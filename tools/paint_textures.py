@@ -3,7 +3,7 @@
 
 Usage: paint_textures.py OUT_DIR            paints every texture into OUT_DIR
        paint_textures.py --list             prints the file names and paints nothing
-       paint_textures.py --sheet FILE.png   paints one picture of them all (8x, wrapping ones tiled 3x3)
+       paint_textures.py --sheet FILE.png   paints one image of them all (8x, wrapping ones tiled 3x3)
 
 This script and the textures it paints are CC0: everything is drawn here from scratch. The same script
 always gives the same pixels, because the only source of variety is hash01(); the seeds are picked by eye,
@@ -23,10 +23,10 @@ ALL = [(x, y) for y in range(SIZE) for x in range(SIZE)]  # every texel; row 0 i
 NO_GLOW = 128  # alpha of a solid texel without glow in test+glow textures
 
 
-# --- Small tools: hash, colour ramps, images ---------------------------------------------------------------
+# --- Small tools: hash, color ramps, images ---------------------------------------------------------------
 
 def hash01(seed: int, x: int, y: int = 0) -> float:
-    """An even share in [0, 1) for each (seed, x, y); the mixing steps are MurmurHash3's finaliser."""
+    """An even share in [0, 1) for each (seed, x, y); the mixing steps are MurmurHash3's finalizer."""
     h = (seed * 0x9E3779B1 ^ x * 0x85EBCA77 ^ y * 0xC2B2AE3D) & 0xFFFFFFFF
     h = (h ^ h >> 16) * 0x85EBCA6B & 0xFFFFFFFF
     h = (h ^ h >> 13) * 0xC2B2AE35 & 0xFFFFFFFF
@@ -43,7 +43,7 @@ def smooth(seed: int, x: float, y: float, columns: int, rows: int) -> float:
 
 
 def ramp(text: str) -> list:
-    """Colours from shadow to light; shadows lean to cool, lights to warm, so that shading stays lively."""
+    """Colors from shadow to light; shadows lean to cool, lights to warm, so that shading stays lively."""
     return [tuple(bytes.fromhex(word)) for word in text.split()]
 
 
@@ -65,9 +65,9 @@ CREAM = ramp("8d7a62 a89678 c4b390 d8caa8 e9dfc2 f6f0dc")
 IRON = ramp("28242a 343037")
 
 
-def tone(colours: list, value: float) -> tuple:
-    """The ramp's colour for a value in 0 … 1 (0.5 is the ramp's middle; values beyond are held)."""
-    return colours[max(0, min(len(colours) - 1, int(value * len(colours) // 1)))]
+def tone(colors: list, value: float) -> tuple:
+    """The ramp's color for a value in 0 … 1 (0.5 is the ramp's middle; values beyond are held)."""
+    return colors[max(0, min(len(colors) - 1, int(value * len(colors) // 1)))]
 
 
 def mix(a: tuple, b: tuple, share: float) -> tuple:
@@ -85,8 +85,8 @@ class Image:
     def __getitem__(self, at):
         return self.texels[at[0] % SIZE, at[1] % SIZE]
 
-    def __setitem__(self, at, colour):
-        rgba = (0, 0, 0, 0) if colour is None else (*colour, 255)[:4]
+    def __setitem__(self, at, color):
+        rgba = (0, 0, 0, 0) if color is None else (*color, 255)[:4]
         self.texels[at[0] % SIZE, at[1] % SIZE] = rgba
 
     def stamp(self, left: int, top: int, rows: str, key: dict) -> "Image":
@@ -99,34 +99,34 @@ class Image:
 
 
 def settled(image: Image, mean: tuple, level=0.7) -> Image:
-    """Shifts all colours so that the average is as asked: from afar only the average is seen.
+    """Shifts all colors so that the average is as asked: from afar only the average is seen.
 
     First it takes away a share (level) of what is light or dark over a wide area (9x9 texels): such areas
     would show as a pattern where a texture repeats.
     """
-    def average(colours):
-        return [sum(channel) / len(colours) for channel in zip(*colours)]
+    def average(colors):
+        return [sum(channel) / len(colors) for channel in zip(*colors)]
     near, whole = range(-4, 5), average([image[at] for at in ALL])
 
     def shade(x, y):
         wide = average([image[x + i, y + j] for i in near for j in near])
-        colour = (image[x, y][c] - level * (wide[c] - whole[c]) + mean[c] - whole[c] for c in range(3))
-        return (*(max(0, min(255, round(value))) for value in colour), image[x, y][3])
+        color = (image[x, y][c] - level * (wide[c] - whole[c]) + mean[c] - whole[c] for c in range(3))
+        return (*(max(0, min(255, round(value))) for value in color), image[x, y][3])
     return Image(shade)
 
 
 def bled(image: Image) -> Image:
-    """Gives holes the colours around them, ring by ring: mip-maps then get no dark fringes."""
-    colours = {at: image[at][:3] for at in ALL if image[at][3]}
-    while colours and len(colours) < len(ALL):
+    """Gives holes the colors around them, ring by ring: mip-maps then get no dark fringes."""
+    colors = {at: image[at][:3] for at in ALL if image[at][3]}
+    while colors and len(colors) < len(ALL):
         ring = {}
-        for x, y in (at for at in ALL if at not in colours):
+        for x, y in (at for at in ALL if at not in colors):
             around = [((x + i) % SIZE, (y + j) % SIZE) for i in (-1, 0, 1) for j in (-1, 0, 1)]
-            near = [colours[at] for at in around if at in colours]
+            near = [colors[at] for at in around if at in colors]
             if near:
                 ring[x, y] = tuple(round(sum(channel) / len(near)) for channel in zip(*near))
-        colours.update(ring)
-    return Image(lambda x, y: (*colours[x, y], image[x, y][3]))
+        colors.update(ring)
+    return Image(lambda x, y: (*colors[x, y], image[x, y][3]))
 
 
 # --- Patches: the irregular stones that soil, grass, rock and bark are laid from ---------------------------
@@ -177,12 +177,12 @@ class Patches:
         return not (self.same(x, y, -1, 0) and self.same(x, y, 0, -1))
 
 
-def cobbles(patches: Patches, colours: list, spread: float, gap: float, lit=0.12) -> Image:
+def cobbles(patches: Patches, colors: list, spread: float, gap: float, lit=0.12) -> Image:
     """Soft rounded stones: each has its own tone, a lit rim, a darker gap and a little grain."""
     def shade(x, y):
         value = 0.52 + spread * (hash01(patches.seed + 3, patches.cell[x, y]) - 0.5)
         value += 0.12 * (hash01(patches.seed + 4, x, y) - 0.5)
-        return tone(colours, value + (-gap if patches.gap(x, y) else lit if patches.lit(x, y) else 0))
+        return tone(colors, value + (-gap if patches.gap(x, y) else lit if patches.lit(x, y) else 0))
     return Image(shade)
 
 
@@ -226,7 +226,7 @@ def snow():
 
 
 def grass_side() -> Image:
-    """Dirt over which the grass hangs as a ragged fringe. Deep, so that a hillside keeps the colour of its ground."""
+    """Dirt over which the grass hangs as a ragged fringe. Deep, so that a hillside keeps the color of its ground."""
     soil, cover, depth = dirt(), grass_top(), [9 + int(4 * smooth(61, x, 0, 16, 1)) for x in range(SIZE)]
 
     def shade(x, y):
@@ -342,11 +342,11 @@ def cactus_bottom():
 
 # --- Plants ------------------------------------------------------------------------------------------------
 
-def blade(image: Image, x: int, height: int, colours: list, lean: int = 0) -> None:
+def blade(image: Image, x: int, height: int, colors: list, lean: int = 0) -> None:
     """One upright blade from the bottom row, lighter to its tip, which lean moves aside by a texel."""
     for step in range(height):
         share = step / max(1, height - 1)
-        image[x + (lean if share > 0.6 else 0), SIZE - 1 - step] = tone(colours, 0.15 + 0.8 * share)
+        image[x + (lean if share > 0.6 else 0), SIZE - 1 - step] = tone(colors, 0.15 + 0.8 * share)
 
 
 def grass_tuft():
@@ -392,13 +392,13 @@ def wheat(stage: int):
     """Four stalks with shorter leaves beside them; from the third stage (2) on they carry ears."""
     image, grain = Image(), ".y. ygo .g. ygo .g. ygo .o."
     height, leaf, ear = ((5, 4, ""), (9, 6, ""), (12, 6, grain[:19]), (15, 6, grain))[stage]
-    colours = STEM if stage < 2 else [mix(a, b, (stage - 1) / 2) for a, b in zip(STEM, GOLD)]
-    key = {"y": colours[5], "g": colours[4], "o": colours[2]}
+    colors = STEM if stage < 2 else [mix(a, b, (stage - 1) / 2) for a, b in zip(STEM, GOLD)]
+    key = {"y": colors[5], "g": colors[4], "o": colors[2]}
     for x, lower in ((2, 2), (6, 0), (9, 3), (13, 1)):
         lower = min(lower, stage + 1)
-        blade(image, x - 1, leaf - lower, colours[:-1])
-        blade(image, x + 1, leaf - 2 + lower // 2, colours[:-1])
-        blade(image, x, height - lower, colours[:-1])
+        blade(image, x - 1, leaf - lower, colors[:-1])
+        blade(image, x + 1, leaf - 2 + lower // 2, colors[:-1])
+        blade(image, x, height - lower, colors[:-1])
         image.stamp(x - 1, SIZE - height + lower, ear, key)
     return bled(image)
 
@@ -406,7 +406,7 @@ def wheat(stage: int):
 def mushroom(rows: str, cap: list, stem=(CREAM[2], CREAM[4]), stem_alpha=255):
     """Letters: r s t u = cap from shadow to light, p q = stem's shadow and light, w = pale spot."""
     key = dict(zip("rstuw", [*cap, CREAM[5]]))
-    key.update({letter: (*colour, stem_alpha) for letter, colour in zip("pq", stem)})
+    key.update({letter: (*color, stem_alpha) for letter, color in zip("pq", stem)})
     lines = rows.split()
     return bled(Image().stamp((SIZE - len(lines[0])) // 2, SIZE - len(lines), rows, key))
 
@@ -512,7 +512,7 @@ def png(width: int, height: int, rgba: bytes) -> bytes:
     def chunk(tag: bytes, body: bytes) -> bytes:
         return struct.pack(">I", len(body)) + tag + body + struct.pack(">I", zlib.crc32(tag + body))
     rows = b"".join(b"\0" + rgba[4 * width * y:4 * width * (y + 1)] for y in range(height))
-    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)  # 8 bits a channel, colour type 6: RGBA
+    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)  # 8 bits a channel, color type 6: RGBA
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9))
             + chunk(b"IEND", b""))
 

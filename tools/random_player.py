@@ -125,13 +125,13 @@ class Player:
         return [line for line in lines if BAD.search(line)]
 
 
-def growth(figures):
-    """What is wrong with the memory, from the program's own figures of each frame; None where nothing is.
+def growth(statistics):
+    """What is wrong with the memory, from the program's own statistics of each frame; None where nothing is.
 
     Compares the most in the last quarter of the time with the most in the second one."""
-    rows = list(csv.DictReader(figures.read_text(encoding="ascii").splitlines()))
+    rows = list(csv.DictReader(statistics.read_text(encoding="ascii").splitlines()))
     if not rows:
-        return "no figures were written"
+        return "no statistics were written"
     end = float(rows[-1]["time_s"])
     def most(column, quarter):
         return max((float(row[column]) for row in rows if quarter <= 4 * float(row["time_s"]) / end <= quarter + 1), default=0)
@@ -160,7 +160,7 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("minutes", type=float, nargs="?", default=1)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--folder", type=pathlib.Path, help="keep the log, the save and the figures here")
+    parser.add_argument("--folder", type=pathlib.Path, help="keep the log, the save and the statistics here")
     options = parser.parse_args()
     if not shutil.which("Xvfb") or not shutil.which("xdotool"):
         print("skipped: Xvfb or xdotool is not installed (Debian: xvfb, xdotool)")

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the program with address and undefined-behaviour sanitizers and lets a random player at it.
+# Builds the program with address and undefined-behavior sanitizers and lets a random player at it.
 # Usage: tools/random_player.sh [MINUTES [SEED]]   (15 minutes, seed 1)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -20,7 +20,7 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-double processorMilliseconds() {
+double cpuMilliseconds() {
     timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
     return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) / 1e6;
@@ -72,17 +72,17 @@ class Pilot {
         lastFrame_ = start;
         FlightFrame frame;
         frame.seconds = secondsSince(start_);
-        const double processorStart = processorMilliseconds();
+        const double cpuStart = cpuMilliseconds();
         player_.move(world_.session->world(), world_.session->blocks(), keys, seconds);
         view_.follow(camera(), flight_.viewDistance);
         frame.follow = 1000 * secondsSince(start);
-        frame.followProcessor = processorMilliseconds() - processorStart;
+        frame.followCpu = cpuMilliseconds() - cpuStart;
 
         const auto uploadStart = Clock::now();
         frame.uploads = view_.upload(view::uploadBudget(seconds, view_.missing()));
         glFinish();
         frame.upload = 1000 * secondsSince(uploadStart);
-        frame.uploadProcessor = processorMilliseconds() - processorStart - frame.followProcessor;
+        frame.uploadCpu = cpuMilliseconds() - cpuStart - frame.followCpu;
 
         const auto drawStart = Clock::now();
         draw(static_cast<float>(frame.seconds));
@@ -142,33 +142,33 @@ std::span<const FlightFrame> framesInFlight(const FlightLog& log) {
     return std::span(log.frames).subspan(log.takeOff, log.landing - log.takeOff);
 }
 
-FlightFigures figuresOf(const FlightLog& log) {
+FlightStatistics statisticsOf(const FlightLog& log) {
     const std::span<const FlightFrame> frames = framesInFlight(log);
     std::vector<double> all;
     for (const FlightFrame& frame : frames) all.push_back(frame.all);
-    FlightFigures figures{.median = medianOf(all), .longest = *std::ranges::max_element(all)};
+    FlightStatistics statistics{.median = medianOf(all), .longest = *std::ranges::max_element(all)};
     for (const FlightFrame& frame : frames) {
-        figures.mostLoading = std::max(figures.mostLoading, frame.loadingProcessor());
-        if (frame.all <= 2 * figures.median) continue;
-        ++figures.slow;
-        if (frame.all - frame.follow - frame.upload <= 2 * figures.median) ++figures.slowByLoadingTime;
-        if (frame.all - frame.loadingProcessor() <= 2 * figures.median) ++figures.slowByLoadingProcessor;
+        statistics.maxLoading = std::max(statistics.maxLoading, frame.loadingCpu());
+        if (frame.all <= 2 * statistics.median) continue;
+        ++statistics.slow;
+        if (frame.all - frame.follow - frame.upload <= 2 * statistics.median) ++statistics.slowByLoadingTime;
+        if (frame.all - frame.loadingCpu() <= 2 * statistics.median) ++statistics.slowByLoadingCpu;
     }
-    return figures;
+    return statistics;
 }
 
 nlohmann::json jsonOf(const FlightLog& log) {
-    const FlightFigures figures = figuresOf(log);
+    const FlightStatistics statistics = statisticsOf(log);
     return {{"seconds_to_load", log.secondsToLoad},
             {"seconds_of_flight", log.secondsOfFlight},
             {"seconds_to_load_again", log.secondsToLoadAgain},
             {"chunks_missing_on_landing", log.missing},
             {"frames", framesInFlight(log).size()},
-            {"frame_ms", figures.median},
-            {"slowest_frame_ms", figures.longest},
-            {"most_loading_ms", figures.mostLoading},
-            {"frames_over_twice_the_median", figures.slow},
-            {"of_these_by_loading", figures.slowByLoadingProcessor},
+            {"frame_ms", statistics.median},
+            {"slowest_frame_ms", statistics.longest},
+            {"most_loading_ms", statistics.maxLoading},
+            {"frames_over_twice_the_median", statistics.slow},
+            {"of_these_by_loading", statistics.slowByLoadingCpu},
             {"by_second", linesBySecond(log)}};
 }
 

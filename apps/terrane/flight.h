@@ -22,12 +22,12 @@ struct FlightFrame {
     double seconds = 0;  // of its beginning, since take-off
     // Milliseconds, and what they were spent on; each with what the GPU does for it.
     double all = 0, follow = 0, upload = 0, draw = 0;
-    // Of these the processor time of this thread: where other programs use the machine as well, any part of a
+    // Of these the CPU time of this thread: where other programs use the machine as well, any part of a
     // frame may have to wait for them.
-    double followProcessor = 0, uploadProcessor = 0;
+    double followCpu = 0, uploadCpu = 0;
     std::size_t uploads = 0, visible = 0, wanted = 0, active = 0, queued = 0;  // chunks
 
-    double loadingProcessor() const { return followProcessor + uploadProcessor; }
+    double loadingCpu() const { return followCpu + uploadCpu; }
 };
 
 // The camera stands until all in view is there, flies, and stands again until all is there.
@@ -45,15 +45,15 @@ FlightLog fly(Offscreen& world, const Flight& flight);
 std::span<const FlightFrame> framesInFlight(const FlightLog& log);
 
 // Of the frames in flight; milliseconds.
-struct FlightFigures {
-    double median = 0, longest = 0, mostLoading = 0;  // the last of processor time
+struct FlightStatistics {
+    double median = 0, longest = 0, maxLoading = 0;  // the last of CPU time
     // Frames over twice the median, and those of them that would not be without the time that loading took by
-    // the clock, or without its processor time.
-    std::size_t slow = 0, slowByLoadingTime = 0, slowByLoadingProcessor = 0;
+    // the clock, or without its CPU time.
+    std::size_t slow = 0, slowByLoadingTime = 0, slowByLoadingCpu = 0;
 };
-FlightFigures figuresOf(const FlightLog& log);
+FlightStatistics statisticsOf(const FlightLog& log);
 
-// The figures, and a line of them for each second.
+// The statistics, and a line of them for each second.
 nlohmann::json jsonOf(const FlightLog& log);
 
 }  // namespace terrane::app

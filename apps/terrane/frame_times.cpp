@@ -3,14 +3,14 @@
 #include <chrono>
 
 #include "apps/terrane/median.h"
-#include "apps/terrane/process_figures.h"
+#include "apps/terrane/process_statistics.h"
 
 namespace terrane::app {
 
 FrameTimes measureFrames(render::Renderer& renderer, const render::FrameInput& input, int count) {
     using Clock = std::chrono::steady_clock;
     FrameTimes times;
-    const double processorBefore = processorSeconds();
+    const double cpuBefore = cpuSeconds();
     for (int k = 0; k < count; ++k) {
         const auto start = Clock::now();
         renderer.draw(input);
@@ -21,7 +21,7 @@ FrameTimes measureFrames(render::Renderer& renderer, const render::FrameInput& i
         for (const gpu::GpuTiming& pass : renderer.passTimes())
             times.passes[pass.name].push_back(pass.milliseconds);
     }
-    if (count > 0) times.processorMilliseconds = 1000 * (processorSeconds() - processorBefore) / count;
+    if (count > 0) times.cpuMilliseconds = 1000 * (cpuSeconds() - cpuBefore) / count;
     return times;
 }
 

@@ -1,4 +1,4 @@
-// How long frames take that show the same picture again and again.
+// How long frames take that show the same image again and again.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@ namespace terrane::app {
 
 struct FrameTimes {
     std::vector<double> milliseconds;                   // of each frame, until the GPU has drawn it
-    double processorMilliseconds = 0;                   // a frame, of all threads, as a mean
+    double cpuMilliseconds = 0;                         // a frame, of all threads, as a mean
     std::map<std::string, std::vector<double>> passes;  // GPU milliseconds of frames, by name
 };
 

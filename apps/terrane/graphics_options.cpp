@@ -8,7 +8,7 @@
 namespace terrane::app {
 namespace {
 
-constexpr int kMaxPictureSide = 16384;
+constexpr int kMaxImageSide = 16384;
 
 void addGraphicsChoices(CLI::App& command, GraphicsChoices& choices, std::string preset) {
     choices.preset = std::move(preset);
@@ -16,11 +16,11 @@ void addGraphicsChoices(CLI::App& command, GraphicsChoices& choices, std::string
         .add_option("--preset", choices.preset,
                     "Graphics options together, changed by the flags that follow: " + presetNames())
         ->check(isPresetName)
-        ->type_name("WORD")
+        ->type_name("CHOICE")
         ->capture_default_str();
     for (std::size_t k = 0; k < graphicsTable().size(); ++k) {
         const GraphicsRow& row = graphicsTable()[k];
-        const std::string flag = "--" + std::string(row.name), words = wordsOf(row);
+        const std::string flag = "--" + std::string(row.name), words = valueNamesOf(row);
         const auto take = [&choices, k, flag, words](const std::string& text) {
             if (const auto choice = choiceOf(graphicsTable()[k], text)) {
                 choices.changed.emplace_back(k, *choice);
@@ -29,7 +29,7 @@ void addGraphicsChoices(CLI::App& command, GraphicsChoices& choices, std::string
             throw CLI::ValidationError(flag, fmt::format("expected one of {}, got \"{}\"", words, text));
         };
         command.add_option_function<std::string>(flag, take, std::string(row.description) + ": " + words)
-            ->type_name("WORD");
+            ->type_name("CHOICE");
     }
 }
 
@@ -42,10 +42,10 @@ glm::ivec2 parseSize(const std::string& text) {
     const bool hasCross = x.ec == std::errc() && x.ptr != end && *x.ptr == 'x';
     const auto y = hasCross ? std::from_chars(x.ptr + 1, end, height) : x;
     const bool isGood = hasCross && y.ec == std::errc() && y.ptr == end;
-    if (!isGood || width < 1 || height < 1 || width > kMaxPictureSide || height > kMaxPictureSide) {
+    if (!isGood || width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide) {
         throw CLI::ValidationError(
             "--size",
-            fmt::format("expected WIDTHxHEIGHT with sides of 1 to {}, got \"{}\"", kMaxPictureSide, text));
+            fmt::format("expected WIDTHxHEIGHT with sides of 1 to {}, got \"{}\"", kMaxImageSide, text));
     }
     return {width, height};
 }
@@ -54,14 +54,14 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string
     command
         .add_option_function<std::string>(
             "--size", [&](const std::string& text) { options.size = parseSize(text); },
-            "Picture size in pixels")
+            "Image size in pixels")
         ->type_name("WxH")
         ->default_str("1280x720");
     command.add_option("--view-distance", options.viewDistance, "How far one sees, in chunks")
         ->check(numberFrom(1, 64))
         ->capture_default_str();
     addGraphicsChoices(command, options.choices, std::move(preset));
-    addChoice<render::View>(command, "--view", options.view, {viewWords().begin(), viewWords().end()},
+    addChoice<render::View>(command, "--view", options.view, {viewNames().begin(), viewNames().end()},
                             "What to show");
     addMeshOptions(command, options.mesh);
     addResourcePackOption(command, options.resourcePack);
@@ -72,12 +72,12 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string
     command.add_flag("--debug-gl", options.debugGl, "Report errors of the graphics driver");
 }
 
-Words<render::View> viewWords() {
+EnumNames<render::View> viewNames() {
     using render::View;
     static const std::array<std::pair<std::string, View>, 5> words = {{{"color", View::Color},
                                                                        {"normal", View::Normal},
                                                                        {"depth", View::Depth},
-                                                                       {"merging", View::Aggregation},
+                                                                       {"merging", View::Merging},
                                                                        {"light", View::Light}}};
     return words;
 }

@@ -27,6 +27,6 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string
 // "1280x720", for --size. Throws CLI::ValidationError.
 glm::ivec2 parseSize(const std::string& text);
 
-Words<render::View> viewWords();  // --view
+EnumNames<render::View> viewNames();  // --view
 
 }  // namespace terrane::app

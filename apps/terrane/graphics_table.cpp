@@ -24,15 +24,15 @@ GraphicsRow switchRow(std::string_view name, std::string_view description, int (
     return {name, description, {"off", "on"}, get, set};
 }
 
-// A row for a member that a word's number can be cast to.
+// A row for a member that a value's index can be cast to.
 template <auto kMember>
 int getMember(const RenderOptions& o) {
     return static_cast<int>(o.*kMember);
 }
 template <auto kMember>
-void setMember(RenderOptions& o, int word) {
+void setMember(RenderOptions& o, int value) {
     using Value = std::remove_reference_t<decltype(o.*kMember)>;
-    o.*kMember = static_cast<Value>(word);
+    o.*kMember = static_cast<Value>(value);
 }
 template <auto kMember>
 GraphicsRow switchOf(std::string_view name, std::string_view description) {
@@ -42,12 +42,12 @@ GraphicsRow switchOf(std::string_view name, std::string_view description) {
 std::vector<GraphicsRow> makeTable() {
     return {
         {"samples",
-         "Anti-aliasing: samples a pixel",
+         "Anti-aliasing: MSAA samples a pixel",
          {"1", "2", "4", "8"},
-         [](const RenderOptions& o) { return indexOf(kSamples, o.samples); },
-         [](RenderOptions& o, int word) { o.samples = kSamples[static_cast<std::size_t>(word)]; }},
+         [](const RenderOptions& o) { return indexOf(kSamples, o.msaaSamples); },
+         [](RenderOptions& o, int value) { o.msaaSamples = kSamples[static_cast<std::size_t>(value)]; }},
         {"shading",
-         "Light, of each sample or once a pixel",
+         "Shading, of each MSAA sample or once a pixel",
          {"off", "sample", "pixel"},
          getMember<&RenderOptions::shading>,
          setMember<&RenderOptions::shading>},
@@ -60,38 +60,38 @@ std::vector<GraphicsRow> makeTable() {
          "Shadows of the sun and moon: texels along a side of the shadow map",
          {"off", "1024", "2048", "4096"},
          [](const RenderOptions& o) { return indexOf(kShadowSizes, o.shadowSize); },
-         [](RenderOptions& o, int word) { o.shadowSize = kShadowSizes[static_cast<std::size_t>(word)]; }},
+         [](RenderOptions& o, int value) { o.shadowSize = kShadowSizes[static_cast<std::size_t>(value)]; }},
         {"ssao",
          "Ambient occlusion in screen space",
          {"off", "on", "raw"},
          getMember<&RenderOptions::occlusion>,
          setMember<&RenderOptions::occlusion>},
-        switchOf<&RenderOptions::depthOfField>("depth-of-field", "Blurs what is far away"),
-        switchOf<&RenderOptions::atmosphere>("distance-fog", "Fades what is far away into the sky"),
+        switchOf<&RenderOptions::depthOfField>("depth-of-field", "Depth of field: blurs what is far away"),
+        switchOf<&RenderOptions::distanceFog>("distance-fog", "Distance fog: far terrain fades into the sky"),
         switchOf<&RenderOptions::godRays>("god-rays", "Rays of the sun between what stands before it"),
         switchOf<&RenderOptions::clouds>("clouds", "Clouds"),
         switchOf<&RenderOptions::animation>("animation", "Plants, leaves and water move"),
-        switchOf<&RenderOptions::betterTexturing>("sharp-filtering",
-                                                  "Near textures with sharp and smooth edges"),
-        switchOf<&RenderOptions::sampledAlphaTest>("msaa-alpha-test",
-                                                   "Anti-aliasing of holes in leaves and plants"),
+        switchOf<&RenderOptions::sharpFiltering>("sharp-filtering",
+                                                 "Sharp texels with smooth edges in near textures"),
+        switchOf<&RenderOptions::msaaAlphaTest>("msaa-alpha-test",
+                                                "Anti-aliasing of holes in leaves and plants"),
         {"layers",
-         "Layers of water and glass behind each other",
+         "Transparency layers (depth peeling) of water and glass",
          {"0", "1", "2", "3"},
-         getMember<&RenderOptions::layers>,
-         setMember<&RenderOptions::layers>},
+         getMember<&RenderOptions::transparencyLayers>,
+         setMember<&RenderOptions::transparencyLayers>},
         {"single-layer",
-         "Shows one of these layers alone",
+         "Show one transparency layer alone",
          {"all", "1", "2", "3"},
-         getMember<&RenderOptions::singleLayer>,
-         setMember<&RenderOptions::singleLayer>},
+         getMember<&RenderOptions::singleTransparencyLayer>,
+         setMember<&RenderOptions::singleTransparencyLayer>},
         {"t-junctions",
          "Cracks where rectangles of different sizes meet",
          {"open", "filled", "covered"},
          getMember<&RenderOptions::tJunctions>,
          setMember<&RenderOptions::tJunctions>},
-        switchOf<&RenderOptions::hiddenRegionCulling>("occlusion-culling",
-                                                      "Leaves out what lies behind other terrain"),
+        switchOf<&RenderOptions::occlusionCulling>("occlusion-culling",
+                                                   "Leaves out what lies behind other terrain"),
     };
 }
 
@@ -102,14 +102,14 @@ std::span<const GraphicsRow> graphicsTable() {
     return table;
 }
 
-std::string wordsOf(const GraphicsRow& row) {
-    return fmt::format("{}", fmt::join(row.words, ", "));
+std::string valueNamesOf(const GraphicsRow& row) {
+    return fmt::format("{}", fmt::join(row.valueNames, ", "));
 }
 
-std::optional<int> choiceOf(const GraphicsRow& row, std::string_view word) {
-    const auto found = std::ranges::find(row.words, word);
-    if (found == row.words.end()) return std::nullopt;
-    return static_cast<int>(found - row.words.begin());
+std::optional<int> choiceOf(const GraphicsRow& row, std::string_view name) {
+    const auto found = std::ranges::find(row.valueNames, name);
+    if (found == row.valueNames.end()) return std::nullopt;
+    return static_cast<int>(found - row.valueNames.begin());
 }
 
 std::string presetNames() {
@@ -127,7 +127,7 @@ render::RenderOptions renderOptions(const GraphicsChoices& choices, bool isSoftw
     const auto preset = render::findPreset(choices.preset, isSoftwareRenderer);
     assert(preset && "the command line has checked the name");
     RenderOptions options = *preset;
-    for (const auto& [row, word] : choices.changed) graphicsTable()[row].set(options, word);
+    for (const auto& [row, value] : choices.changed) graphicsTable()[row].set(options, value);
     return options;
 }
 

@@ -16,19 +16,19 @@ namespace terrane::app {
 struct GraphicsRow {
     std::string_view name;  // of the flag, without dashes, and of the setting
     std::string_view description;
-    std::vector<std::string_view> words;       // what it can be
-    int (*get)(const render::RenderOptions&);  // which of the words
-    void (*set)(render::RenderOptions&, int word);
+    std::vector<std::string_view> valueNames;  // of its values, in order
+    int (*get)(const render::RenderOptions&);  // the value's index
+    void (*set)(render::RenderOptions&, int value);
 };
 
 std::span<const GraphicsRow> graphicsTable();
-std::string wordsOf(const GraphicsRow& row);  // "off, on"
-std::optional<int> choiceOf(const GraphicsRow& row, std::string_view word);
+std::string valueNamesOf(const GraphicsRow& row);  // "off, on"
+std::optional<int> choiceOf(const GraphicsRow& row, std::string_view name);
 
-// What a person asked for: a preset, then single rows.
+// What a user asked for: a preset, then single rows.
 struct GraphicsChoices {
     std::string preset;
-    std::vector<std::pair<std::size_t, int>> changed;  // row, word
+    std::vector<std::pair<std::size_t, int>> changed;  // row, value
 };
 
 std::string presetNames();                            // "auto, low, …"

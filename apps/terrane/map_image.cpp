@@ -17,7 +17,7 @@ constexpr float kWaterFade = 14.0f;       // blocks of water after which the gro
 // Of a row, about 10 KB each in memory.
 constexpr std::size_t kChunksAtOnce = 512;
 
-using Palette = std::vector<glm::vec3>;  // by block id: mean colour of the top face, 0…255
+using Palette = std::vector<glm::vec3>;  // by block id: mean color of the top face, 0…255
 
 // What a map shows of a column.
 struct Column {

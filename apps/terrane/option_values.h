@@ -45,10 +45,10 @@ struct Area {
 
 unsigned threadCount(const WorldOptions& options);
 
-// What an option can be, and what each word means.
+// The values of an option by name.
 template <class T>
-using Words = std::span<const std::pair<std::string, T>>;
+using EnumNames = std::span<const std::pair<std::string, T>>;
 
-Words<mesh::Method> aggregationWords();  // --merging
+EnumNames<mesh::MergeMethod> mergeMethodNames();  // --merging
 
 }  // namespace terrane::app

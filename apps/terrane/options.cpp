@@ -125,16 +125,16 @@ void addWorldOptions(CLI::App& command, WorldOptions& options) {
         .add_option("--generator", options.generator,
                     fmt::format("Generator of the world: {}", fmt::join(gen::generatorNames(), ", ")))
         ->default_str(WorldOptions::kDefaultGenerator);
-    command.add_option("--threads", options.threads, "Worker threads (default: one for each processor)")
+    command.add_option("--threads", options.threads, "Worker threads (default: one for each CPU core)")
         ->check(numberFrom(1, 256));
 }
 
 void addMeshOptions(CLI::App& command, mesh::MeshOptions& options) {
-    addChoice<mesh::Method>(command, "--merging", options.method,
-                            {aggregationWords().begin(), aggregationWords().end()},
-                            "How equal faces are merged into rectangles");
+    addChoice<mesh::MergeMethod>(command, "--merging", options.method,
+                                 {mergeMethodNames().begin(), mergeMethodNames().end()},
+                                 "How equal faces are merged into rectangles");
     command
-        .add_option("--mesh-section-height", options.regionHeight,
+        .add_option("--mesh-section-height", options.meshSectionHeight,
                     "Height in blocks of the mesh sections that are culled and drawn")
         ->check(CLI::IsMember({8, 16, 32, 64, 128}))
         ->capture_default_str();
@@ -194,14 +194,15 @@ unsigned threadCount(const WorldOptions& options) {
     return options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
 }
 
-Words<mesh::Method> aggregationWords() {
-    using mesh::Method;
-    static const std::array<std::pair<std::string, Method>, 5> words = {{{"none", Method::None},
-                                                                         {"lines", Method::Lines},
-                                                                         {"squares", Method::Squares},
-                                                                         {"squares-ext", Method::SquaresExt},
-                                                                         {"greedy", Method::Greedy}}};
-    return words;
+EnumNames<mesh::MergeMethod> mergeMethodNames() {
+    using mesh::MergeMethod;
+    static const std::array<std::pair<std::string, MergeMethod>, 5> valueNames = {
+        {{"none", MergeMethod::None},
+         {"lines", MergeMethod::Lines},
+         {"squares", MergeMethod::Squares},
+         {"squares-ext", MergeMethod::SquaresExt},
+         {"greedy", MergeMethod::Greedy}}};
+    return valueNames;
 }
 
 }  // namespace terrane::app

@@ -38,26 +38,26 @@ void addTraceOption(CLI::App& command, std::string& trace);
 CLI::Validator numberFrom(double low, double high);
 CLI::Validator existingFolder();  // empty: none
 
-// An option that takes one of a few words.
+// An option that takes one of a few named values.
 template <class T>
 void addChoice(CLI::App& command, const std::string& name, T& value,
                const std::vector<std::pair<std::string, T>>& choices, const std::string& description) {
-    std::string words, defaultWord;
-    for (const auto& [word, choice] : choices) {
-        words += (words.empty() ? "" : ", ") + word;
-        if (choice == value) defaultWord = word;
+    std::string valueNames, defaultValue;
+    for (const auto& [valueName, choice] : choices) {
+        valueNames += (valueNames.empty() ? "" : ", ") + valueName;
+        if (choice == value) defaultValue = valueName;
     }
-    const auto take = [name, &value, choices, words](const std::string& text) {
-        for (const auto& [word, choice] : choices) {
-            if (word != currentValue(text)) continue;
+    const auto take = [name, &value, choices, valueNames](const std::string& text) {
+        for (const auto& [valueName, choice] : choices) {
+            if (valueName != currentValue(text)) continue;
             value = choice;
             return;
         }
-        throw CLI::ValidationError(name, fmt::format("expected one of {}, got \"{}\"", words, text));
+        throw CLI::ValidationError(name, fmt::format("expected one of {}, got \"{}\"", valueNames, text));
     };
-    command.add_option_function<std::string>(name, take, description + ": " + words)
-        ->type_name("WORD")
-        ->default_str(defaultWord);
+    command.add_option_function<std::string>(name, take, description + ": " + valueNames)
+        ->type_name("CHOICE")
+        ->default_str(defaultValue);
 }
 
 // "1,2.5,-3": exactly `count` numbers. Throws CLI::ValidationError.

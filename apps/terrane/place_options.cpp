@@ -27,7 +27,7 @@ void addPlaceOptions(CLI::App& command, PlaceOptions& options) {
             .add_option_function<std::string>(
                 "--scene", [&options](const std::string& name) { options.scene = sceneNamed(name); },
                 "A reference scene: " + sceneNames())
-            ->type_name("WORD");
+            ->type_name("CHOICE");
     const auto addNumbers = [&](const std::string& name, auto& numbers, std::size_t count,
                                 const std::string& form, const std::string& unit, const std::string& help) {
         const auto take = [=, &numbers](const std::string& text) {

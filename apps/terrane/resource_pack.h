@@ -1,4 +1,4 @@
-// Textures of a person's own in place of the built-in ones: a folder of PNG files (docs/resource-packs.md).
+// Textures of a user's own in place of the built-in ones: a folder of PNG files (docs/resource-packs.md).
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The reference scenes: fixed places in the world of seed 1 with the character that measurements and pictures
+// The reference scenes: fixed places in the world of seed 1 with the character that measurements and images
 // need.
 #pragma once
 

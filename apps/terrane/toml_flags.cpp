@@ -10,7 +10,7 @@ namespace terrane::app {
 namespace {
 
 // As it would be written on the command line.
-std::string wordOf(const toml::node& value) {
+std::string textOf(const toml::node& value) {
     if (const auto text = value.value_exact<std::string>()) return *text;
     std::ostringstream out;
     value.visit([&](const auto& v) {
@@ -23,7 +23,7 @@ std::string wordOf(const toml::node& value) {
 
 base::Result<void> setFromToml(CLI::Option& flag, const toml::node& value) {
     try {
-        flag.add_result(wordOf(value));
+        flag.add_result(textOf(value));
         flag.run_callback();
     } catch (const CLI::ParseError& error) {
         std::string what = error.what();

@@ -57,9 +57,9 @@ int writeAndClose(File file, std::string_view bytes) {
 
 // Also to what is not there yet. A link still, where they lead in a circle.
 std::filesystem::path behindLinks(std::filesystem::path file) {
-    constexpr int kMostLinks = 40;  // as the system follows
+    constexpr int kMaxLinks = 40;  // as the system follows
     std::error_code ignored;
-    for (int k = 0; k < kMostLinks && std::filesystem::is_symlink(file, ignored); ++k) {
+    for (int k = 0; k < kMaxLinks && std::filesystem::is_symlink(file, ignored); ++k) {
         file = file.parent_path() / std::filesystem::read_symlink(file, ignored);
     }
     return file;

@@ -1,4 +1,4 @@
-// Messages to the person who runs the program, one line each on standard error (standard output belongs to
+// Messages to the user who runs the program, one line each on standard error (standard output belongs to
 // results). Any thread may call.
 #pragma once
 

@@ -32,8 +32,8 @@ void setThreadName(std::string name);
 
 namespace detail {
 
-// Number of the running trace, 0 when none runs. In a function so that no initialisation order matters;
-// constant initialisation keeps it free of a guard.
+// Number of the running trace, 0 when none runs. In a function so that no initialization order matters;
+// constant initialization keeps it free of a guard.
 inline std::atomic<std::uint32_t>& activeTrace() {
     static constinit std::atomic<std::uint32_t> number{0};
     return number;

@@ -11,7 +11,7 @@ bool isContainer(const world::World& world, const world::BlockRegistry& blocks, 
 base::Result<world::Inventory> itemsOf(const world::World& world, const world::BlockRegistry& blocks,
                                        world::BlockPos pos) {
     const int slots = blocks.type(world.block(pos)).slots;
-    const world::LargeData* data = world.largeData(pos);
+    const world::BlockEntityData* data = world.blockEntityData(pos);
     if (!data) return world::Inventory(static_cast<std::size_t>(slots));
     auto items = world::decodeInventory(*data, slots);
     if (!items) return base::fail("the chest at {},{},{}: {}", pos.x, pos.y, pos.z, items.error().message);

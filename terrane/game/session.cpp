@@ -75,7 +75,7 @@ void Session::advance(double seconds, world::ChunkPos center) {
     for (; untilTick_ >= tickSeconds; untilTick_ -= tickSeconds) {
         std::vector<EditCommand> growth;
         for (const world::BlockPos pos : world::plantsThatGrow(world_, blocks_, {ticks_++, center})) {
-            const auto stagesLeft = static_cast<std::uint16_t>(world_.smallData(pos) - 1);
+            const auto stagesLeft = static_cast<std::uint16_t>(world_.blockState(pos) - 1);
             growth.push_back({kNoPlayer, pos, world::SetState{stagesLeft}, std::nullopt});
         }
         edit(growth);

@@ -13,7 +13,7 @@
 namespace terrane::gen {
 
 struct Generator::Impl {
-    // A thread's own: the scratch memory of passes, and the results that no neighbour needs.
+    // A thread's own: the scratch memory of passes, and the results that no neighbor needs.
     struct Worker {
         Worker(const GeneratorGraph& graph, const Seeds& seeds)
             : executor(graph.noises, seeds), fields(graph.fields.size()) {
@@ -29,7 +29,7 @@ struct Generator::Impl {
         : graph(std::move(g)),
           seeds(makeSeeds(graph, seed)),
           shared(sharedPasses(graph)),
-          cache(std::max(size.leastChunks, size.bytes / workBytes()), graph.fields.size(),
+          cache(std::max(size.minChunks, size.bytes / workBytes()), graph.fields.size(),
                 static_cast<std::size_t>(shared)) {
         for (const PassGraph& pass : graph.passes) {
             programs.push_back(compile(pass, graph.noises));
@@ -60,13 +60,13 @@ struct Generator::Impl {
     using Works = std::array<std::shared_ptr<ChunkWork>, 9>;
     static constexpr std::size_t kOwn = 4;  // the chunk itself among the nine
 
-    // Runs the first `passes` passes of a chunk, which are shared ones, and of its neighbours what they need.
+    // Runs the first `passes` passes of a chunk, which are shared ones, and of its neighbors what they need.
     // Who runs a pass waits only for lower passes of other chunks, so that threads never wait in a circle.
     void advance(world::ChunkPos pos, ChunkWork& work, int passes, Worker& worker);
     void runPass(world::ChunkPos pos, ChunkWork& work, int pass, Worker& worker);
-    // The pass's inputs; `works` keeps the neighbours alive.
+    // The pass's inputs; `works` keeps the neighbors alive.
     PassInputs inputsOf(world::ChunkPos pos, ChunkWork& work, int pass, const Works& works, Worker& worker);
-    void advanceNeighbours(world::ChunkPos pos, int pass, Works& works, Worker& worker);
+    void advanceNeighbors(world::ChunkPos pos, int pass, Works& works, Worker& worker);
     // Where the chunk that `worker` is at has its results.
     ColumnValues& fieldOf(std::size_t field, ChunkWork& work, Worker& worker) const;
     BlockArray& blocksOf(int pass, ChunkWork& work, Worker& worker) const;
@@ -95,7 +95,7 @@ BlockArray& Generator::Impl::blocksOf(int pass, ChunkWork& work, Worker& worker)
     return *work.blocks[number];
 }
 
-void Generator::Impl::advanceNeighbours(world::ChunkPos pos, int pass, Works& works, Worker& worker) {
+void Generator::Impl::advanceNeighbors(world::ChunkPos pos, int pass, Works& works, Worker& worker) {
     const int needed = passesNeededAround(graph, pass);
     if (needed == 0) return;
     const auto around = chunksAround(pos);
@@ -129,7 +129,7 @@ PassInputs Generator::Impl::inputsOf(world::ChunkPos pos, ChunkWork& work, int p
 
 void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Worker& worker) {
     Works works;
-    advanceNeighbours(pos, pass, works, worker);
+    advanceNeighbors(pos, pass, works, worker);
     TERRANE_ZONE("generator pass");
     const PassInputs inputs = inputsOf(pos, work, pass, works, worker);
     const Program& program = programs[static_cast<std::size_t>(pass)];

@@ -1,7 +1,7 @@
 // A generator ready to run for one world seed: position in, chunk out. The blocks depend on nothing but the
 // generator, the seed and the position: not on threads, order of requests or instruction set.
 //
-// What neighbours may need of a chunk is computed once and kept, in a cache of bounded size; what they do not
+// What neighbors may need of a chunk is computed once and kept, in a cache of bounded size; what they do not
 // is computed with the chunk itself.
 #pragma once
 
@@ -16,13 +16,13 @@
 
 namespace terrane::gen {
 
-// Room for what chunks' neighbours need of them: 1 KiB a field and, where they read blocks, 128 KiB a 3D
+// Room for what chunks' neighbors need of them: 1 KiB a field and, where they read blocks, 128 KiB a 3D
 // pass. Overworld: 15 KiB a chunk, so that the default holds 4,350 chunks.
 struct CacheSize {
     std::size_t bytes = std::size_t{64} << 20;
     // Kept even where they need more bytes: with less than some rows of a wide area nearly everything would
     // be computed again.
-    std::size_t leastChunks = 256;
+    std::size_t minChunks = 256;
 };
 
 // Whether generators make the chunk: level 0, in the world. Higher levels have keys, but no blocks yet, and

@@ -56,7 +56,7 @@ int newest3DBefore(const GeneratorGraph& generator, int pass);
 // How many passes the chunks around one must have done before it runs `pass`; 0 where it reads nothing of
 // theirs.
 int passesNeededAround(const GeneratorGraph& generator, int pass);
-// How many of the first passes some chunk's neighbours may need.
+// How many of the first passes some chunk's neighbors may need.
 int sharedPasses(const GeneratorGraph& generator);
 
 }  // namespace terrane::gen

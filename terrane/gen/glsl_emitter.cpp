@@ -109,11 +109,11 @@ class Emitter {
     void emitList(const std::vector<NodeId>& roots) {
         const std::vector<bool> inputs = known_;
         schedule_ = schedule(graph_, roots, [&](NodeId id) { return static_cast<bool>(inputs[id]); });
-        emitRegion(0);
+        emitBasicBlock(0);
     }
 
-    void emitRegion(int region) {
-        const std::vector<NodeId>& nodes = schedule_.regions[static_cast<std::size_t>(region)].nodes;
+    void emitBasicBlock(int basicBlock) {
+        const std::vector<NodeId>& nodes = schedule_.basicBlocks[static_cast<std::size_t>(basicBlock)].nodes;
         for (const NodeId id : nodes) {
             const Op op = graph_.node(id).op;
             if (const Schedule::If* branch = schedule_.ifAt(graph_, id)) {
@@ -196,16 +196,16 @@ class Emitter {
             line(fmt::format("{} v{};", typeName(graph_.node(phi).type), phi));
         }
         line(fmt::format("if ({}) {{", names_[graph_.node(branch.phis.front()).args[0]]));
-        emitSide(branch.thenRegion, branch.phis, 1);
+        emitSide(branch.thenBlock, branch.phis, 1);
         line("} else {");
-        emitSide(branch.elseRegion, branch.phis, 2);
+        emitSide(branch.elseBlock, branch.phis, 2);
         line("}");
         for (const NodeId phi : branch.phis) name(phi, fmt::format("v{}", phi));
     }
 
-    void emitSide(int region, const std::vector<NodeId>& phis, std::size_t side) {
+    void emitSide(int basicBlock, const std::vector<NodeId>& phis, std::size_t side) {
         ++depth_;
-        emitRegion(region);
+        emitBasicBlock(basicBlock);
         for (const NodeId phi : phis)
             line(fmt::format("v{} = {};", phi, names_[graph_.node(phi).args[side]]));
         --depth_;
@@ -223,9 +223,9 @@ class Emitter {
         const NodeId condition = graph_.loops()[static_cast<std::size_t>(number)].condition;
         line(fmt::format("for (int round{0} = 0; round{0} < kMaxLoopRounds; ++round{0}) {{", number));
         ++depth_;
-        emitRegion(loop.head);
+        emitBasicBlock(loop.head);
         line(fmt::format("if (!({})) break;", names_[condition]));
-        emitRegion(loop.body);
+        emitBasicBlock(loop.body);
         // All change at once: a next value may be another variable's.
         for (const std::uint32_t v : loop.variables) {
             const LoopVariable& variable = graph_.loopVariable(v);

@@ -126,9 +126,9 @@ Voronoi3D Pass::voronoi3D(std::string_view name, int size, int maxPoints, int ex
     const auto blocks = [&](Voronoi3DResult r) { return Int(noise(call, r, Type::Int)); };
     const Float nearest = root(kVoronoi3DNearest), second = root(kVoronoi3DSecond);
     // Two points may lie in one block.
-    constexpr float kLeast = 1e-6f;
+    constexpr float kMin = 1e-6f;
     return {nearest * static_cast<float>(call.size),
-            nearest / max(second, Float(kLeast)),
+            nearest / max(second, Float(kMin)),
             {blocks(kVoronoi3DOffsetX), blocks(kVoronoi3DOffsetY), blocks(kVoronoi3DOffsetZ)}};
 }
 

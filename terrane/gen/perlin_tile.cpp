@@ -48,7 +48,7 @@ float lerp(float a, float b, float t) {
     return a + t * (b - a);
 }
 
-// Cells and fractions of 16 neighbouring coordinates.
+// Cells and fractions of 16 neighboring coordinates.
 struct AxisCells {
     std::array<uint, kTileSize> cell;
     TileRow offset, fadeOf;

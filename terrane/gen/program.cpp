@@ -93,17 +93,17 @@ class Compiler {
         findLastUses(0);
         for (const NodeId root : roots) lastUse_[root] = kNeverFreed;
         position_ = 0;
-        return emitRegion(0);
+        return emitBasicBlock(0);
     }
 
     // Walks in the order of emission; a node's position is the count of nodes before it.
-    void findLastUses(int region) {
-        const std::vector<NodeId>& nodes = schedule_.regions[static_cast<std::size_t>(region)].nodes;
+    void findLastUses(int basicBlock) {
+        const std::vector<NodeId>& nodes = schedule_.basicBlocks[static_cast<std::size_t>(basicBlock)].nodes;
         for (const NodeId id : nodes) {
             const Op op = graph_.node(id).op;
             if (const Schedule::If* branch = schedule_.ifAt(graph_, id)) {
-                findLastUses(branch->thenRegion);
-                findLastUses(branch->elseRegion);
+                findLastUses(branch->thenBlock);
+                findLastUses(branch->elseBlock);
                 for (const NodeId phi : branch->phis) noteUses(phi);
             } else if (const Schedule::Loop* loop = schedule_.loopAt(graph_, id)) {
                 findLastUses(loop->head);
@@ -144,13 +144,13 @@ class Compiler {
     }
 
     std::int32_t loopAround(NodeId id) const {
-        const int region = schedule_.regionOf[id];
-        return region < 0 ? kNoLoop : schedule_.regions[static_cast<std::size_t>(region)].loop;
+        const int basicBlock = schedule_.basicBlockOf[id];
+        return basicBlock < 0 ? kNoLoop : schedule_.basicBlocks[static_cast<std::size_t>(basicBlock)].loop;
     }
 
-    InstructionList emitRegion(int region) {
+    InstructionList emitBasicBlock(int basicBlock) {
         InstructionList list;
-        const std::vector<NodeId>& nodes = schedule_.regions[static_cast<std::size_t>(region)].nodes;
+        const std::vector<NodeId>& nodes = schedule_.basicBlocks[static_cast<std::size_t>(basicBlock)].nodes;
         for (const NodeId id : nodes) {
             const Op op = graph_.node(id).op;
             if (const Schedule::If* branch = schedule_.ifAt(graph_, id)) {
@@ -172,10 +172,10 @@ class Compiler {
             setOperand(variable.out, operands_[variable.in]);
             result.variables.push_back({operands_[variable.in], operands_[variable.initial], {}, {}});
         }
-        result.head = emitRegion(loop.head);
+        result.head = emitBasicBlock(loop.head);
         const std::int32_t number = graph_.loopVariable(loop.variables.front()).loop;
         result.condition = operands_[graph_.loops()[static_cast<std::size_t>(number)].condition];
-        result.body = emitRegion(loop.body);
+        result.body = emitBasicBlock(loop.body);
         for (std::size_t k = 0; k < loop.variables.size(); ++k) {
             result.variables[k].next = operands_[graph_.loopVariable(loop.variables[k]).next];
             result.variables[k].changed = rows_.allocate(true);
@@ -235,8 +235,8 @@ class Compiler {
     void emitIf(const Schedule::If& branch, InstructionList& list) {
         Branch result;
         result.condition = operands_[graph_.node(branch.phis.front()).args[0]];
-        result.then = emitRegion(branch.thenRegion);
-        result.otherwise = emitRegion(branch.elseRegion);
+        result.then = emitBasicBlock(branch.thenBlock);
+        result.otherwise = emitBasicBlock(branch.elseBlock);
         const bool noBranch = result.then.empty() && result.otherwise.empty();
         for (const NodeId phi : branch.phis) {
             ++position_;

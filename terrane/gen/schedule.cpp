@@ -12,8 +12,8 @@ class Scheduler {
   public:
     Scheduler(const Graph& graph, const std::function<bool(NodeId)>& isInput)
         : graph_(graph), isInput_(isInput), live_(graph.size(), false) {
-        result_.regions.push_back({});
-        result_.regionOf.assign(graph.size(), kNowhere);
+        result_.basicBlocks.push_back({});
+        result_.basicBlockOf.assign(graph.size(), kNowhere);
         result_.ifOf.assign(graph.size(), 0);
         result_.ifs.resize(graph.ifCount());
         result_.loops.resize(graph.loops().size());
@@ -31,13 +31,13 @@ class Scheduler {
             if (live_[id]) placeArguments(id);
         }
         for (NodeId id = 0; id < graph_.size(); ++id) {
-            if (live_[id]) region(result_.regionOf[id]).nodes.push_back(id);
+            if (live_[id]) basicBlock(result_.basicBlockOf[id]).nodes.push_back(id);
         }
         return std::move(result_);
     }
 
   private:
-    Region& region(int number) { return result_.regions[static_cast<std::size_t>(number)]; }
+    BasicBlock& basicBlock(int number) { return result_.basicBlocks[static_cast<std::size_t>(number)]; }
     const Loop& loop(std::int32_t number) const { return graph_.loops()[static_cast<std::size_t>(number)]; }
 
     void markLive(NodeId root) {
@@ -90,29 +90,29 @@ class Scheduler {
 
     void placeArguments(NodeId id) {
         const Node& n = graph_.node(id);
-        const int here = result_.regionOf[id];
+        const int here = result_.basicBlockOf[id];
         if (n.op == Op::Phi) {
             const Schedule::If& branch = openIf(result_.ifOf[id]);
-            use(n.args[0], result_.regionOf[id]);
-            use(n.args[1], branch.thenRegion);
-            use(n.args[2], branch.elseRegion);
+            use(n.args[0], result_.basicBlockOf[id]);
+            use(n.args[1], branch.thenBlock);
+            use(n.args[2], branch.elseBlock);
         } else if (n.op == Op::LoopOut) {
             openLoop(graph_.loopVariable(n.imm).loop);
         } else if (n.op == Op::LoopIn) {
-            use(n.args[0], region(here).parent);
+            use(n.args[0], basicBlock(here).parent);
         } else {
             for (const NodeId arg : n.arguments()) use(arg, here);
         }
     }
 
-    // All phis of an if stand in one region: the innermost that holds the uses of all of them. Its phis were
-    // made one after the other, before any use of one, so at the last of them the uses of all are known.
+    // All phis of an if stand in one basic block: the innermost that holds the uses of all of them. Its phis
+    // were made one after the other, before any use of one, so at the last of them the uses of all are known.
     const Schedule::If& openIf(std::uint32_t number) {
         Schedule::If& branch = result_.ifs[number];
-        if (branch.thenRegion != kNowhere) return branch;
+        if (branch.thenBlock != kNowhere) return branch;
         const int around = gather(branch.phis);
-        branch.thenRegion = newRegion(around, region(around).loop);
-        branch.elseRegion = newRegion(around, region(around).loop);
+        branch.thenBlock = newBasicBlock(around, basicBlock(around).loop);
+        branch.elseBlock = newBasicBlock(around, basicBlock(around).loop);
         return branch;
     }
 
@@ -120,48 +120,48 @@ class Scheduler {
     void openLoop(std::int32_t number) {
         Schedule::Loop& result = result_.loops[static_cast<std::size_t>(number)];
         if (result.head != kNowhere) return;
-        result.head = newRegion(gather(result.outs), number);
-        result.body = newRegion(result.head, number);
+        result.head = newBasicBlock(gather(result.outs), number);
+        result.body = newBasicBlock(result.head, number);
         for (const std::uint32_t v : result.variables) {
             const LoopVariable& variable = graph_.loopVariable(v);
-            result_.regionOf[variable.in] = result.head;
+            result_.basicBlockOf[variable.in] = result.head;
             use(variable.next, result.body);
         }
         use(loop(number).condition, result.head);
     }
 
-    // Puts nodes into the innermost region that holds the uses of all of them.
+    // Puts nodes into the innermost basic block that holds the uses of all of them.
     int gather(const std::vector<NodeId>& nodes) {
         int common = kNowhere;
-        for (const NodeId id : nodes) common = commonRegion(common, result_.regionOf[id]);
-        for (const NodeId id : nodes) result_.regionOf[id] = common;
+        for (const NodeId id : nodes) common = commonBasicBlock(common, result_.basicBlockOf[id]);
+        for (const NodeId id : nodes) result_.basicBlockOf[id] = common;
         return common;
     }
 
-    int newRegion(int parent, std::int32_t loop) {
-        result_.regions.push_back({parent, region(parent).depth + 1, loop, {}});
-        return static_cast<int>(result_.regions.size()) - 1;
+    int newBasicBlock(int parent, std::int32_t loop) {
+        result_.basicBlocks.push_back({parent, basicBlock(parent).depth + 1, loop, {}});
+        return static_cast<int>(result_.basicBlocks.size()) - 1;
     }
 
     void use(NodeId id, int user) {
         assert(user != kNowhere && "a user is placed before its arguments");
         if (!live_[id]) return;
         // What does not change in a loop stands before it.
-        while (region(user).loop != graph_.node(id).loop) {
-            assert(region(user).loop != kNoLoop && "values leave a loop through its variables");
-            user = region(result_.loops[static_cast<std::size_t>(region(user).loop)].head).parent;
+        while (basicBlock(user).loop != graph_.node(id).loop) {
+            assert(basicBlock(user).loop != kNoLoop && "values leave a loop through its variables");
+            user = basicBlock(result_.loops[static_cast<std::size_t>(basicBlock(user).loop)].head).parent;
         }
-        result_.regionOf[id] = commonRegion(result_.regionOf[id], user);
+        result_.basicBlockOf[id] = commonBasicBlock(result_.basicBlockOf[id], user);
     }
 
-    int commonRegion(int a, int b) {
+    int commonBasicBlock(int a, int b) {
         if (a == kNowhere) return b;
         if (b == kNowhere) return a;
         while (a != b) {
-            if (region(a).depth >= region(b).depth) {
-                a = region(a).parent;
+            if (basicBlock(a).depth >= basicBlock(b).depth) {
+                a = basicBlock(a).parent;
             } else {
-                b = region(b).parent;
+                b = basicBlock(b).parent;
             }
         }
         return a;

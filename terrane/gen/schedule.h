@@ -12,7 +12,7 @@ namespace terrane::gen {
 
 // A sequence of nodes. A phi stands for its whole if at the place of the if's first phi, a LoopOut for its
 // loop in the same way.
-struct Region {
+struct BasicBlock {
     int parent = -1;
     int depth = 0;
     std::int32_t loop = kNoLoop;  // innermost one around it
@@ -21,7 +21,7 @@ struct Region {
 
 struct Schedule {
     struct If {
-        int thenRegion = -1, elseRegion = -1;
+        int thenBlock = -1, elseBlock = -1;
         std::vector<NodeId> phis;  // in order
     };
     // Each round runs the head, which gives the condition, and where that holds the body.
@@ -30,8 +30,8 @@ struct Schedule {
         std::vector<std::uint32_t> variables;  // those that are needed
         std::vector<NodeId> outs;              // in order
     };
-    std::vector<Region> regions;  // 0 is the root
-    std::vector<int> regionOf;    // by node; -1 where it is not needed
+    std::vector<BasicBlock> basicBlocks;  // 0 is the root
+    std::vector<int> basicBlockOf;        // by node; -1 where it is not needed
     // By number of the if, without phis where it is not needed. An if of which some phis belong to a loop and
     // others do not is two ifs; the second one stands behind all numbers.
     std::vector<If> ifs;

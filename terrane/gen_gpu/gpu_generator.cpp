@@ -146,7 +146,7 @@ gpu::Buffer GpuGenerator::Impl::tileJobs(const std::vector<ChunkPos>& chunks) co
         const auto around = gen::chunksAround(pos);
         for (int n = 0; n < 9; ++n) {
             const auto slot = slots.find(around[static_cast<std::size_t>(n)]);
-            job.neighbours[n / 4][n % 4] = slot.value_or(0);  // read only where the plan asked for it
+            job.neighbors[n / 4][n % 4] = slot.value_or(0);  // read only where the plan asked for it
         }
         jobs.push_back(job);
     }

@@ -1,7 +1,7 @@
 // Runs a generator's passes as compute shaders: the same blocks as gen::Generator, to the bit.
 //
 // Results come some frames later through a copy that nothing waits for. Intermediate results stay on the GPU
-// in slots, one a chunk, so that neighbouring batches share them. Used on the context's thread.
+// in slots, one a chunk, so that neighboring batches share them. Used on the context's thread.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace terrane::gen_gpu {
 
-// A batch of 8×8 neighbouring overworld chunks needs four rings around it: (8 + 2 × 4)² = 256 slots. The
-// slots hold 640 / 256 = 2.5 such batches, so that neighbouring ones share their rings.
+// A batch of 8×8 neighboring overworld chunks needs four rings around it: (8 + 2 × 4)² = 256 slots. The
+// slots hold 640 / 256 = 2.5 such batches, so that neighboring ones share their rings.
 constexpr std::size_t kMaxBatch = 64;
 constexpr std::size_t kSlots = 640;
 

@@ -9,7 +9,7 @@ PassCounts neededPasses(const gen::GeneratorGraph& generator, const std::vector<
     const int passCount = static_cast<int>(generator.passes.size());
     PassCounts counts;
     for (const world::ChunkPos pos : wanted) counts[pos] = passCount;
-    // A pass asks its neighbours only for lower ones: from the last pass down each count is final when it is
+    // A pass asks its neighbors only for lower ones: from the last pass down each count is final when it is
     // used.
     for (int pass = passCount; pass-- > 0;) {
         const int needed = gen::passesNeededAround(generator, pass);

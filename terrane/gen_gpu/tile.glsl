@@ -32,7 +32,7 @@ const uint kWordsPerColumn = kChunkHeight / 2u;
 int columnX, columnY;
 uint column;  // in the tile: x + 16 y
 uint slot;
-uint evenLayerBlock;  // waits for its odd neighbour
+uint evenLayerBlock;  // waits for its odd neighbor
 
 void beginTile() {
     TileJob job = jobs[gl_WorkGroupID.x];
@@ -66,8 +66,8 @@ struct Place {
 Place placeAt(int dx, int dy) {
     uint x = gl_LocalInvocationID.x + kChunkSize + uint(clamp(dx, -kMaxReadOffset, kMaxReadOffset));
     uint y = gl_LocalInvocationID.y + kChunkSize + uint(clamp(dy, -kMaxReadOffset, kMaxReadOffset));
-    uint neighbour = y / kChunkSize * 3u + x / kChunkSize;
-    return Place(jobs[gl_WorkGroupID.x].neighbours[neighbour >> 2][neighbour & 3u],
+    uint neighbor = y / kChunkSize * 3u + x / kChunkSize;
+    return Place(jobs[gl_WorkGroupID.x].neighbors[neighbor >> 2][neighbor & 3u],
                  x % kChunkSize + kChunkSize * (y % kChunkSize));
 }
 

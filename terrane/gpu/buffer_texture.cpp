@@ -18,7 +18,7 @@ void BufferTexture::bind(GLuint unit) const {
     glBindTextureUnit(unit, id());
 }
 
-std::size_t BufferTexture::mostElements() {
+std::size_t BufferTexture::maxElements() {
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
     return static_cast<std::size_t>(most);

@@ -20,7 +20,7 @@ class BufferTexture {
     void bind(GLuint unit) const;
 
     // Elements that any buffer texture can have.
-    [[nodiscard]] static std::size_t mostElements();
+    [[nodiscard]] static std::size_t maxElements();
 
   private:
     Handle<ObjectKind::Texture> handle_;

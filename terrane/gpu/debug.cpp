@@ -36,7 +36,7 @@ std::string_view typeName(GLenum type) {
         case GL_DEBUG_TYPE_DEPRECATED_BEHAVIOR:
             return "deprecated";
         case GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR:
-            return "undefined behaviour";
+            return "undefined behavior";
         case GL_DEBUG_TYPE_PORTABILITY:
             return "portability";
         case GL_DEBUG_TYPE_PERFORMANCE:

@@ -24,7 +24,7 @@ class DebugLog {
 };
 
 // Sends the current context's messages to the log returned, which must outlive the context. Counted are
-// errors, undefined behaviour and messages of high severity; other messages are only logged, notifications
+// errors, undefined behavior and messages of high severity; other messages are only logged, notifications
 // dropped. Messages of the shader compiler are left to Program, which returns them.
 [[nodiscard]] std::unique_ptr<DebugLog> enableDebugOutput(bool fatal);
 

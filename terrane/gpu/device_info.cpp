@@ -60,9 +60,9 @@ DeviceInfo queryDevice() {
 }
 
 base::Result<void> checkRequirements() {
-    constexpr int kLeastVersion = 45;
+    constexpr int kMinVersion = 45;
     const int version = epoxy_gl_version();
-    if (version < kLeastVersion)
+    if (version < kMinVersion)
         return base::fail("OpenGL 4.5 is needed; {} offers {}.{}", glText(GL_RENDERER), version / 10,
                           version % 10);
     if (version < 46 && !epoxy_has_gl_extension("GL_ARB_shader_draw_parameters"))

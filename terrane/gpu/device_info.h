@@ -13,9 +13,9 @@ struct DeviceInfo {
     std::string renderer;
     std::string version;
     std::string glsl;
-    bool software = false;       // drawn by the processor: the CPU back ends are faster then
+    bool software = false;       // drawn by the CPU: the CPU back ends are faster then
     bool indirectCount = false;  // glMultiDraw*IndirectCount: draw counts written by the GPU
-    int maxSamples = 0;          // of textures that are drawn into, colours and depth
+    int maxSamples = 0;          // of textures that are drawn into, colors and depth
     int maxTextureSize = 0;
     int maxTexture3dSize = 0;
     int maxArrayLayers = 0;

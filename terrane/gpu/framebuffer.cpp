@@ -20,7 +20,7 @@ void attach(GLuint framebuffer, GLenum point, const Attachment& attachment) {
     glNamedFramebufferTexture(framebuffer, point, attachment.texture, 0);
 }
 
-// Draws write all colours, in the order of their attachments.
+// Draws write all colors, in the order of their attachments.
 void setDrawBuffers(GLuint framebuffer, int colorCount) {
     std::vector<GLenum> points;
     for (int i = 0; i < colorCount; ++i) points.push_back(colorPoint(i));
@@ -92,7 +92,7 @@ void Framebuffer::bind() const {
 }
 
 void Framebuffer::clearColor(int index, glm::vec4 color) const {
-    assert(index >= 0 && index < colorCount_ && "the colour attachment exists");
+    assert(index >= 0 && index < colorCount_ && "the color attachment exists");
     glClearNamedFramebufferfv(id(), GL_COLOR, index, &color.x);
 }
 
@@ -102,7 +102,7 @@ void Framebuffer::clearDepth(float depth) const {
 }
 
 void blitToWindow(const Framebuffer& from, int colorIndex, glm::ivec2 windowSize, GLenum filter) {
-    assert(colorIndex >= 0 && colorIndex < from.colorCount() && "the colour attachment exists");
+    assert(colorIndex >= 0 && colorIndex < from.colorCount() && "the color attachment exists");
     glNamedFramebufferReadBuffer(from.id(), colorPoint(colorIndex));
     const glm::ivec2 size = from.size();
     glBlitNamedFramebuffer(from.id(), 0, 0, 0, size.x, size.y, 0, 0, windowSize.x, windowSize.y,
@@ -117,7 +117,7 @@ void clearWindow(glm::vec3 color) {
 
 base::Image readPixels(const Framebuffer& from, int colorIndex) {
     assert(from.samples() == 0 && "samples are resolved before they are read");
-    assert(colorIndex >= 0 && colorIndex < from.colorCount() && "the colour attachment exists");
+    assert(colorIndex >= 0 && colorIndex < from.colorCount() && "the color attachment exists");
     const glm::ivec2 size = from.size();
     const std::size_t rowBytes = static_cast<std::size_t>(size.x) * 4;
     const auto rows = static_cast<std::size_t>(size.y);

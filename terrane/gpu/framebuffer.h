@@ -56,11 +56,11 @@ class Framebuffer {
     int samples_ = 0;  // 0: not multisampled
 };
 
-// One colour attachment, scaled to the whole of the window.
+// One color attachment, scaled to the whole of the window.
 void blitToWindow(const Framebuffer& from, int colorIndex, glm::ivec2 windowSize, GLenum filter);
 void clearWindow(glm::vec3 color);  // as the screen has it
 
-// The colours as 8 bits a channel, the top row first. Waits for the GPU. Not from multisampled framebuffers.
+// The colors as 8 bits a channel, the top row first. Waits for the GPU. Not from multisampled framebuffers.
 [[nodiscard]] base::Image readPixels(const Framebuffer& from, int colorIndex = 0);
 
 }  // namespace terrane::gpu

@@ -23,11 +23,11 @@ std::size_t roundUp(std::size_t value, std::size_t step) {
 
 }  // namespace
 
-MappedRing::MappedRing(std::size_t regionBytes, std::string_view label)
+MappedRing::MappedRing(std::size_t frameSliceBytes, std::string_view label)
     : alignmentBytes_(bindingAlignment()) {
-    assert(regionBytes > 0 && "a ring without room is of no use");
-    regionBytes_ = roundUp(regionBytes, alignmentBytes_);
-    const std::size_t allBytes = regionBytes_ * kRegions;
+    assert(frameSliceBytes > 0 && "a ring without room is of no use");
+    frameSliceBytes_ = roundUp(frameSliceBytes, alignmentBytes_);
+    const std::size_t allBytes = frameSliceBytes_ * kFrameSlices;
     buffer_ = Buffer(allBytes, kMapFlags, label);
     mapped_ = static_cast<std::byte*>(
         glMapNamedBufferRange(buffer_.id(), 0, static_cast<GLsizeiptr>(allBytes), kMapFlags));
@@ -37,29 +37,29 @@ MappedRing::MappedRing(std::size_t regionBytes, std::string_view label)
 void MappedRing::beginFrame() {
     assert(id() != 0 && "an empty ring has no frames");
     assert(!inFrame_ && "endFrame ends every frame");
-    region_ = (region_ + 1) % kRegions;
-    fences_[region_].wait();
-    fences_[region_] = Fence();
+    frameSlice_ = (frameSlice_ + 1) % kFrameSlices;
+    fences_[frameSlice_].wait();
+    fences_[frameSlice_] = Fence();
     usedBytes_ = 0;
     inFrame_ = true;
 }
 
 void MappedRing::endFrame() {
     assert(inFrame_ && "beginFrame starts every frame");
-    fences_[region_] = Fence::insert();
+    fences_[frameSlice_] = Fence::insert();
     inFrame_ = false;
 }
 
-std::optional<MappedRing::Slice> MappedRing::allocate(std::size_t sizeBytes) {
-    assert(inFrame_ && "slices live between beginFrame and endFrame");
-    if (mapped_ == nullptr || sizeBytes > regionBytes_ - usedBytes_) return std::nullopt;
-    const std::size_t offset = region_ * regionBytes_ + usedBytes_;
-    usedBytes_ = std::min(roundUp(usedBytes_ + sizeBytes, alignmentBytes_), regionBytes_);
-    return Slice{{mapped_ + offset, sizeBytes}, offset};
+std::optional<MappedRing::Allocation> MappedRing::allocate(std::size_t sizeBytes) {
+    assert(inFrame_ && "allocations live between beginFrame and endFrame");
+    if (mapped_ == nullptr || sizeBytes > frameSliceBytes_ - usedBytes_) return std::nullopt;
+    const std::size_t offset = frameSlice_ * frameSliceBytes_ + usedBytes_;
+    usedBytes_ = std::min(roundUp(usedBytes_ + sizeBytes, alignmentBytes_), frameSliceBytes_);
+    return Allocation{{mapped_ + offset, sizeBytes}, offset};
 }
 
-void MappedRing::bindUniform(GLuint index, const Slice& slice) const {
-    buffer_.bindUniform(index, slice.offsetBytes, slice.data.size());
+void MappedRing::bindUniform(GLuint index, const Allocation& allocation) const {
+    buffer_.bindUniform(index, allocation.offsetBytes, allocation.data.size());
 }
 
 }  // namespace terrane::gpu

@@ -1,6 +1,6 @@
 // Memory that the CPU writes and the GPU reads in the same frame, without copies or waiting: one mapped
-// buffer cut into regions, one per frame in flight. Used by the renderer on the context's thread, between
-// beginFrame and endFrame.
+// buffer cut into frame slices, one per frame in flight. Used by the renderer on the context's thread,
+// between beginFrame and endFrame.
 #pragma once
 
 #include <array>
@@ -17,47 +17,47 @@ namespace terrane::gpu {
 
 class MappedRing {
   public:
-    static constexpr std::size_t kRegions = 3;  // one being written, two the GPU may still read
+    static constexpr std::size_t kFrameSlices = 3;  // one being written, two the GPU may still read
 
-    struct Slice {
+    struct Allocation {
         std::span<std::byte> data;    // write only: reading mapped memory may be very slow
         std::size_t offsetBytes = 0;  // in buffer()
     };
 
     MappedRing() = default;
-    // regionBytes is what one frame may take, rounded up to the alignment that bindings need. Takes three
+    // frameSliceBytes is what one frame may take, rounded up to the alignment that bindings need. Takes three
     // times that.
-    MappedRing(std::size_t regionBytes, std::string_view label);
+    MappedRing(std::size_t frameSliceBytes, std::string_view label);
 
-    // Waits only if the GPU still reads what was written kRegions frames ago.
+    // Waits only if the GPU still reads what was written kFrameSlices frames ago.
     void beginFrame();
-    // After the last GL command that reads this frame's slices.
+    // After the last GL command that reads this frame's allocations.
     void endFrame();
 
-    // Memory of this frame, aligned for every binding. None when the region is full.
-    [[nodiscard]] std::optional<Slice> allocate(std::size_t sizeBytes);
+    // Memory of this frame, aligned for every binding. None when the frame slice is full.
+    [[nodiscard]] std::optional<Allocation> allocate(std::size_t sizeBytes);
     template <class T>
-    [[nodiscard]] std::optional<Slice> write(std::span<const T> values) {
-        const std::optional<Slice> slice = allocate(values.size_bytes());
-        if (slice) std::memcpy(slice->data.data(), values.data(), values.size_bytes());
-        return slice;
+    [[nodiscard]] std::optional<Allocation> write(std::span<const T> values) {
+        const std::optional<Allocation> allocation = allocate(values.size_bytes());
+        if (allocation) std::memcpy(allocation->data.data(), values.data(), values.size_bytes());
+        return allocation;
     }
 
-    void bindUniform(GLuint index, const Slice& slice) const;
+    void bindUniform(GLuint index, const Allocation& allocation) const;
 
     [[nodiscard]] const Buffer& buffer() const { return buffer_; }
     [[nodiscard]] GLuint id() const { return buffer_.id(); }
-    [[nodiscard]] std::size_t regionBytes() const { return regionBytes_; }
+    [[nodiscard]] std::size_t frameSliceBytes() const { return frameSliceBytes_; }
 
   private:
     Buffer buffer_;
     std::byte* mapped_ = nullptr;  // valid as long as buffer_
-    std::size_t regionBytes_ = 0;
+    std::size_t frameSliceBytes_ = 0;
     std::size_t alignmentBytes_ = 1;
-    std::size_t region_ = 0;
-    std::size_t usedBytes_ = 0;  // of the present region
+    std::size_t frameSlice_ = 0;
+    std::size_t usedBytes_ = 0;  // of the present frame slice
     bool inFrame_ = false;
-    std::array<Fence, kRegions> fences_;
+    std::array<Fence, kFrameSlices> fences_;
 };
 
 }  // namespace terrane::gpu

@@ -9,7 +9,7 @@ namespace terrane::gpu {
 
 // Passes where the new depth compares so with that of the target. Off also writes no depth.
 enum class DepthTest : std::uint8_t { Off, Always, Less, Equal, Greater };
-// Over: colour that is multiplied by its alpha, over what is there.
+// Over: color that is multiplied by its alpha, over what is there.
 enum class Blending : std::uint8_t { Off, Over };
 
 struct PipelineState {

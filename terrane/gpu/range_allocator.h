@@ -1,4 +1,4 @@
-// Hands out ranges of one large buffer: best fit, neighbours merged when freed. Units are the caller's
+// Hands out ranges of one large buffer: best fit, neighbors merged when freed. Units are the caller's
 // (bytes, quads). Plain bookkeeping without OpenGL; not synchronised: one thread at a time.
 #pragma once
 

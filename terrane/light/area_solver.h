@@ -1,4 +1,4 @@
-// Light of areas from scratch, by whichever back end: the processor here, compute shaders in
+// Light of areas from scratch, by whichever back end: the CPU here, compute shaders in
 // terrane/light_gpu. They give the same light, to the bit.
 #pragma once
 

@@ -32,7 +32,7 @@ class CpuLighter : public BatchLighter {
         std::unordered_map<const world::Chunk*, LocalLight> locals;
         std::vector<LightResult> results;
         for (const LightRequest& request : inFlight_.front()) {
-            LocalNeighbourhood around{};
+            LocalLightNeighborhood around{};
             for (std::size_t n = 0; n < around.size(); ++n) {
                 if (request.chunks[n]) around[n] = &localOf(*request.chunks[n], locals);
             }

@@ -32,7 +32,7 @@ class BatchLighter {
 
     // Starts a batch from the front of `requests` and returns how many it took. 0 when as many batches are in
     // flight as there is room for: take one first. Does not wait, and keeps what it needs of the chunks. A
-    // batch is cheapest where its chunks lie together, since neighbours share their blocks. Throws
+    // batch is cheapest where its chunks lie together, since neighbors share their blocks. Throws
     // std::invalid_argument, and takes none, where a chunk of the batch is not of level 0.
     [[nodiscard]] virtual std::size_t submit(std::span<const LightRequest> requests) = 0;
 

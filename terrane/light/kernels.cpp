@@ -13,12 +13,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "terrane/light/levels-inl.h"
+#include "terrane/light/light_levels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace terrane::light {
 namespace HWY_NAMESPACE {
-// A row and where its neighbours are.
+// A row and where its neighbors are.
 struct RowPlace {
     const LightValue *self, *west, *east, *south, *north, *below, *above;
 };
@@ -35,20 +35,20 @@ HWY_INLINE RowPlace placeOf(const FieldBrick* brick, int row) {
             z < 15 ? light(0) + at + 256 : light(LightField::kStepZ) + at - 3840};
 }
 
-// Voxels become as bright as their neighbours make them.
+// Voxels become as bright as their neighbors make them.
 struct Raise {
-    HWY_INLINE Levels operator()(const Levels& offered, const Levels& old, const FieldBrick& brick,
-                                 int row) const {
+    HWY_INLINE LightLevels operator()(const LightLevels& offered, const LightLevels& old,
+                                      const FieldBrick& brick, int row) const {
         return maxOf(old, whereAbove(offered, loadRow(brick.reach + 16 * (row & 15))));
     }
 };
 
-// Levels that a suspect gave, and that have no source of their own, become suspects.
-struct Suspect {
-    HWY_INLINE Levels operator()(const Levels& offered, const Levels& old, const FieldBrick& brick,
-                                 int row) const {
-        const Levels before = loadRow(brick.before + 16 * row);
-        const Levels lit = whereAbove(before, loadRow(brick.source + 16 * row));
+// Levels that a removed level gave, and that have no source of their own, are removed, too.
+struct Decrease {
+    HWY_INLINE LightLevels operator()(const LightLevels& offered, const LightLevels& old,
+                                      const FieldBrick& brick, int row) const {
+        const LightLevels before = loadRow(brick.before + 16 * row);
+        const LightLevels lit = whereAbove(before, loadRow(brick.source + 16 * row));
         const auto given = [](Bytes level, Bytes offer) HWY_ATTR {
             return hn::IfThenElseZero(hn::Eq(hn::Max(level, offer), offer), level);
         };
@@ -65,16 +65,16 @@ struct RowChange {
 template <class Rule>
 HWY_INLINE RowChange updateRow(LightField& field, FieldBrick& brick, int row, Rule rule) {
     const RowPlace at = placeOf(&brick, row);
-    const Levels old = loadRow(at.self), loss = lossOf(brick.opacity + 16 * row);
+    const LightLevels old = loadRow(at.self), loss = lossOf(brick.opacity + 16 * row);
     const Half west = loadHalf(at.west), east = loadHalf(at.east);
-    const Levels aroundZ = maxOf(loadRow(at.below), loadRow(at.above));
-    const Levels aroundYZ = maxOf(aroundZ, maxOf(loadRow(at.south), loadRow(at.north)));
-    const Levels around = maxOf(aroundYZ, brighterBeside(west, old, east));
+    const LightLevels aroundZ = maxOf(loadRow(at.below), loadRow(at.above));
+    const LightLevels aroundYZ = maxOf(aroundZ, maxOf(loadRow(at.south), loadRow(at.north)));
+    const LightLevels around = maxOf(aroundYZ, brighterBeside(west, old, east));
 
-    Levels now = rule(minus(around, loss), old, brick, row);
+    LightLevels now = rule(minus(around, loss), old, brick, row);
     if (isSame(old, now)) return {};
     for (;;) {
-        const Levels before = now;
+        const LightLevels before = now;
         now = rule(minus(brighterBeside(west, now, east), loss), now, brick, row);
         if (isSame(before, now)) break;
     }
@@ -138,12 +138,12 @@ void raise(LightField& field) {
     settle(field, Raise());
 }
 
-void suspect(LightField& field) {
-    settle(field, Suspect());
+void decrease(LightField& field) {
+    settle(field, Decrease());
 }
 
-void shine(const LightValue* opacity, const LightValue* emission, DaylightColumns& columns,
-           LightValue* light) {
+void sunlight(const LightValue* opacity, const LightValue* emission, DaylightColumns& columns,
+              LightValue* light) {
     const hn::CappedTag<LightValue, 16> d;
     const auto daylight = hn::Set(d, kFullDaylight);
     for (int z = world::kSectionSize - 1; z >= 0; --z) {
@@ -157,16 +157,14 @@ void shine(const LightValue* opacity, const LightValue* emission, DaylightColumn
     }
 }
 
-void replace(const LightValue* suspects, const LightValue* source, const LightValue* before,
+void replace(const LightValue* decreased, const LightValue* source, const LightValue* before,
              LightValue* light) {
-    const auto where = [](Bytes suspected, Bytes value) HWY_ATTR {
-        return hn::IfThenZeroElse(hn::Eq(suspected, hn::Zero(kBytes)), value);
-    };
-    const auto whereNot = [](Bytes suspected, Bytes value) HWY_ATTR {
-        return hn::IfThenElseZero(hn::Eq(suspected, hn::Zero(kBytes)), value);
-    };
+    const auto where = [](Bytes level, Bytes value)
+                           HWY_ATTR { return hn::IfThenZeroElse(hn::Eq(level, hn::Zero(kBytes)), value); };
+    const auto whereNot = [](Bytes level, Bytes value)
+                              HWY_ATTR { return hn::IfThenElseZero(hn::Eq(level, hn::Zero(kBytes)), value); };
     for (int at = 0; at < world::kBlocksPerSection; at += 16) {
-        const Levels s = loadRow(suspects + at);
+        const LightLevels s = loadRow(decreased + at);
         storeRow(maxOf(each(where, s, loadRow(source + at)), each(whereNot, s, loadRow(before + at))),
                  light + at);
     }
@@ -179,27 +177,27 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace terrane::light {
 
-HWY_EXPORT(shine);
+HWY_EXPORT(sunlight);
 HWY_EXPORT(raise);
-HWY_EXPORT(suspect);
+HWY_EXPORT(decrease);
 HWY_EXPORT(replace);
 
-void shineDown(const LightValue* opacity, const LightValue* emission, DaylightColumns& columns,
-               LightValue* light) {
-    HWY_DYNAMIC_DISPATCH(shine)(opacity, emission, columns, light);
+void propagateSunlight(const LightValue* opacity, const LightValue* emission, DaylightColumns& columns,
+                       LightValue* light) {
+    HWY_DYNAMIC_DISPATCH(sunlight)(opacity, emission, columns, light);
 }
 
 void raiseLight(LightField& field) {
     HWY_DYNAMIC_DISPATCH(raise)(field);
 }
 
-void spreadSuspects(LightField& field) {
-    HWY_DYNAMIC_DISPATCH(suspect)(field);
+void propagateDecreases(LightField& field) {
+    HWY_DYNAMIC_DISPATCH(decrease)(field);
 }
 
-void replaceSuspects(const LightValue* suspects, const LightValue* source, const LightValue* before,
-                     LightValue* light) {
-    HWY_DYNAMIC_DISPATCH(replace)(suspects, source, before, light);
+void replaceDecreased(const LightValue* decreased, const LightValue* source, const LightValue* before,
+                      LightValue* light) {
+    HWY_DYNAMIC_DISPATCH(replace)(decreased, source, before, light);
 }
 
 }  // namespace terrane::light

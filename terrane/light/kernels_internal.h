@@ -14,19 +14,19 @@ using DaylightColumns = std::array<LightValue, world::kChunkSize * world::kChunk
 
 // Takes daylight down through a brick: writes columns | emission to `light` for each voxel, where `emission`
 // is a brick too (it may be `light` itself). `columns` leave as they enter the brick below.
-void shineDown(const LightValue* opacity, const LightValue* emission, DaylightColumns& columns,
-               LightValue* light);
+void propagateSunlight(const LightValue* opacity, const LightValue* emission, DaylightColumns& columns,
+                       LightValue* light);
 
-// Raises the marked rows, and what follows from them, until every voxel is at least each neighbour less
+// Raises the marked rows, and what follows from them, until every voxel is at least each neighbor less
 // 1 + its opacity.
 void raiseLight(LightField& field);
 
-// Finds what may have come from suspects, the non-zero levels of `light`: a level of `before` that exceeds
-// its source and equals what a suspect neighbour gives becomes one too. Starts from the marked rows.
-void spreadSuspects(LightField& field);
+// Runs the decrease queue: `light` holds the levels to remove. A level of `before` that exceeds its source
+// and equals what a removed neighbor gave is removed, too. Starts from the marked rows.
+void propagateDecreases(LightField& field);
 
-// light = source where suspects are not 0, else before: whole bricks.
-void replaceSuspects(const LightValue* suspects, const LightValue* source, const LightValue* before,
-                     LightValue* light);
+// light = source where `decreased` is not 0, else before: whole bricks.
+void replaceDecreased(const LightValue* decreaseQueue, const LightValue* source, const LightValue* before,
+                      LightValue* light);
 
 }  // namespace terrane::light

@@ -19,8 +19,8 @@ class LocalRows {
         for (int x = 0; x < area_.chunksX; ++x)
             row.push_back(solveLocal(area_.chunk(x, y), table_, scratch_));
     }
-    LocalNeighbourhood around(int x, int y) const {
-        LocalNeighbourhood result{};
+    LocalLightNeighborhood around(int x, int y) const {
+        LocalLightNeighborhood result{};
         for (int k = 0; k < kFieldChunks; ++k) {
             const int cx = x + k % kFieldSide - 1, cy = y + k / kFieldSide - 1;
             if (cx < 0 || cy < 0 || cx >= area_.chunksX || cy >= area_.chunksY) continue;

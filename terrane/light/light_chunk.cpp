@@ -29,7 +29,7 @@ void markUnsettled(LightField& field, const ChunkBricks& bricks) {
         const auto k = static_cast<std::size_t>(number);
         const BrickView opacity = bricks.opacity[k];
         if (opacity.isUniform && opacity.uniformValue() == kOpaque) continue;
-        const int index = LightField::indexOf(kCentreChunk, number);
+        const int index = LightField::indexOf(kCenterChunk, number);
         if (!bricks.light[k].isUniform) {
             field.markAll(index);
             continue;
@@ -66,7 +66,7 @@ const LightValue* reachOf(int chunk) {
     return reaches[static_cast<std::size_t>(chunk)].data();
 }
 
-// Whether light passes from one voxel to its neighbour so that it matters there. Four levels at once: two to
+// Whether light passes from one voxel to its neighbor so that it matters there. Four levels at once: two to
 // a number, in bytes whose highest bit tells that the difference is not negative.
 bool flows(LightValue from, LightValue to, LightValue opacity, LightValue reach) {
     const auto reaches = [&](int shift) {
@@ -123,7 +123,7 @@ void addSides(LocalLight& local) {
     }
 }
 
-void markBorders(LightField& field, const LocalNeighbourhood& chunks) {
+void markBorders(LightField& field, const LocalLightNeighborhood& chunks) {
     for (int chunk = 0; chunk < kFieldChunks; ++chunk) {
         const auto isThere = [&](int other) { return chunks[static_cast<std::size_t>(other)] != nullptr; };
         if (!isThere(chunk)) continue;
@@ -149,12 +149,12 @@ LocalLight solveLocal(const world::Chunk& chunk, const LightTable& table, LightS
     field.reset();
     LocalLight result;
     result.bricks = findSources(chunk, table, field.pool());
-    addChunk(field, kCentreChunk, result.bricks);
+    addChunk(field, kCenterChunk, result.bricks);
     markUnsettled(field, result.bricks);
     raiseLight(field);
     for (int number = 0; number < kBricks; ++number) {
         BrickView& light = result.bricks.light[static_cast<std::size_t>(number)];
-        light = field.brick(kCentreChunk, number).light;
+        light = field.brick(kCenterChunk, number).light;
         light.writable = nullptr;
         result.bricks.opacity[static_cast<std::size_t>(number)].writable = nullptr;
     }
@@ -163,9 +163,9 @@ LocalLight solveLocal(const world::Chunk& chunk, const LightTable& table, LightS
     return result;
 }
 
-ChunkLight lightChunk(const LocalNeighbourhood& chunks, LightScratch& scratch) {
+ChunkLight lightChunk(const LocalLightNeighborhood& chunks, LightScratch& scratch) {
     TERRANE_ZONE("light chunk");
-    assert(chunks[kCentreChunk] && "the chunk to light is the one in the middle");
+    assert(chunks[kCenterChunk] && "the chunk to light is the one in the middle");
     LightField& field = scratch.field;
     field.reset();
     for (int chunk = 0; chunk < kFieldChunks; ++chunk) {
@@ -179,7 +179,7 @@ ChunkLight lightChunk(const LocalNeighbourhood& chunks, LightScratch& scratch) {
     raiseLight(field);
     ChunkLight result;
     for (int number = 0; number < kBricks; ++number) {
-        result.setBrick(number, packBrick(field.brick(kCentreChunk, number).light));
+        result.setBrick(number, packBrick(field.brick(kCenterChunk, number).light));
     }
     return result;
 }

@@ -1,7 +1,7 @@
 // Light of chunks from scratch, in two stages that may each run on any thread:
 //
 //   1. solveLocal: what a chunk's own blocks give, as if nothing but darkness lay around it.
-//   2. lightChunk: the light of a chunk, from what stage 1 found for it and its eight neighbours.
+//   2. lightChunk: the light of a chunk, from what stage 1 found for it and its eight neighbors.
 //
 // Light travels at most 15 blocks, so that nothing farther away matters: the result is that of the whole
 // world. docs/light.md has the model and the proofs.
@@ -18,7 +18,7 @@
 namespace terrane::light {
 
 // Result of stage 1; immutable, shared between threads. Unpacked, 17 KiB a brick that is not uniform: about
-// 110 KB in the overworld. No longer needed once the chunk and its eight neighbours are lit.
+// 110 KB in the overworld. No longer needed once the chunk and its eight neighbors are lit.
 struct LocalLight {
     // Light at x = 0 or x = 15, index y + 16 z.
     using Side = std::array<LightValue, world::kSectionSize * world::kSectionSize>;
@@ -36,15 +36,15 @@ struct LocalLight {
 // Memory that a worker keeps from chunk to chunk; holds nothing between calls.
 struct LightScratch {
     LightField field;
-    LightField suspects;  // for relight.h
+    LightField decreaseQueue;  // for relight.h
 };
 
 LocalLight solveLocal(const world::Chunk& chunk, const LightTable& table, LightScratch& scratch);
 
 // Index x + 3 y, the chunk itself in the middle (4). Null: nothing is known there, and it counts as dark and
 // opaque; the result is then that of a world that ends there.
-using LocalNeighbourhood = std::array<const LocalLight*, kFieldChunks>;
+using LocalLightNeighborhood = std::array<const LocalLight*, kFieldChunks>;
 
-ChunkLight lightChunk(const LocalNeighbourhood& chunks, LightScratch& scratch);
+ChunkLight lightChunk(const LocalLightNeighborhood& chunks, LightScratch& scratch);
 
 }  // namespace terrane::light

@@ -11,7 +11,7 @@
 namespace terrane::light {
 
 constexpr int kFieldSide = 3;    // chunks along x and y
-constexpr int kCentreChunk = 4;  // index of a chunk: x + 3 y
+constexpr int kCenterChunk = 4;  // index of a chunk: x + 3 y
 constexpr int kFieldChunks = kFieldSide * kFieldSide;
 constexpr int kRowsPerBrick = 256;  // index of a row: y + 16 z
 
@@ -21,8 +21,8 @@ struct FieldBrick {
     const LightValue* opacity = nullptr;
     // Levels that do not exceed this (16 × 16, the same for all z) are of no interest and may be dropped.
     const LightValue* reach = nullptr;
-    // While suspects are looked for (relight.cpp), `light` holds them; these are the light they come from,
-    // and the sources of the changed world.
+    // In the decrease queue (relight.cpp) `light` holds the levels to remove. These are the light before the
+    // change, and the sources of the changed world.
     const LightValue* before = nullptr;
     const LightValue* source = nullptr;
     std::array<std::uint64_t, kRowsPerBrick / 64> dirty{};  // rows to look at, a bit each
@@ -32,7 +32,7 @@ struct FieldBrick {
 
 class LightField {
   public:
-    // Steps between neighbours in the array of bricks.
+    // Steps between neighbors in the array of bricks.
     static constexpr int kStepX = 1, kStepY = kFieldSide + 2, kStepZ = kStepY * kStepY;
 
     LightField() { reset(); }
@@ -54,7 +54,7 @@ class LightField {
     void markAll(int index);
     // The rows of the lowest (z = 0) or highest (z = 15) layer.
     void markLayer(int index, int z);
-    // The rows of a voxel and its six neighbours.
+    // The rows of a voxel and its six neighbors.
     void markAround(int index, int voxel);
 
     // The brick's values to write to: a copy where somebody else keeps them.

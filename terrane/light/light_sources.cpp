@@ -48,7 +48,7 @@ BrickView sourcesOf(BrickView emission, BrickView opacity, DaylightColumns& colu
         return emission;
     }
     LightValue* light = emission.writable ? emission.writable : pool.acquire()->values.data();
-    shineDown(opacity.values, emission.values, columns, light);
+    propagateSunlight(opacity.values, emission.values, columns, light);
     return {light, light, false};
 }
 

@@ -45,67 +45,68 @@ void forEachBrick(const LightWindow& window, const Range& range, Function f) {
     }
 }
 
-// `suspects` gets the old light, the new sources and no suspect yet.
-void load(const LightWindow& window, const Range& range, const LightTable& table, LightField& suspects) {
+// `decreaseQueue` gets the old light, the new sources and no decreases yet.
+void load(const LightWindow& window, const Range& range, const LightTable& table, LightField& decreaseQueue) {
     std::array<ChunkBricks, kFieldChunks> sources;
     forEachBrick(window, range, [&](int chunk, int number) {
         const auto c = static_cast<std::size_t>(chunk), n = static_cast<std::size_t>(number);
         if (number == range.lowest)
-            sources[c] = findSources(*window.chunks[c], table, suspects.pool(), range.lowest);
-        FieldBrick& brick = suspects.brick(chunk, number);
+            sources[c] = findSources(*window.chunks[c], table, decreaseQueue.pool(), range.lowest);
+        FieldBrick& brick = decreaseQueue.brick(chunk, number);
         brick.opacity = sources[c].opacity[n].values;
         brick.source = sources[c].light[n].values;
-        brick.before = suspects.pool().unpack(window.lights[c]->brick(number)).values;
+        brick.before = decreaseQueue.pool().unpack(window.lights[c]->brick(number)).values;
         brick.isInside = true;
     });
 }
 
-// What lost its source, or stands where less light passes now.
-LightValue suspectsOf(const SourceChange& change, LightValue before) {
-    LightValue suspects = 0;
+// Levels that lost their source, or stand where less light passes now.
+LightValue decreasedLevels(const SourceChange& change, LightValue before) {
+    LightValue decreased = 0;
     for (int c = 0; c < kComponentCount; ++c) {
         const int level = levelOf(before, c), source = levelOf(change.sourceAfter, c);
         const bool lostSource = source < levelOf(change.sourceBefore, c);
-        if (level > source && (lostSource || change.moreOpaque)) suspects = withLevel(suspects, c, level);
+        if (level > source && (lostSource || change.moreOpaque)) decreased = withLevel(decreased, c, level);
     }
-    return suspects;
+    return decreased;
 }
 
 int fieldIndexOf(const SourceChange& change) {
-    return LightField::indexOf(kCentreChunk, change.index >> 12);
+    return LightField::indexOf(kCenterChunk, change.index >> 12);
 }
 
-void findSuspects(std::span<const SourceChange> changes, LightField& suspects) {
+void findDecreases(std::span<const SourceChange> changes, LightField& decreaseQueue) {
     for (const SourceChange& change : changes) {
         const int index = fieldIndexOf(change), voxel = change.index & 4095;
-        FieldBrick& brick = suspects.brick(index);
-        const LightValue found = suspectsOf(change, brick.before[voxel]);
+        FieldBrick& brick = decreaseQueue.brick(index);
+        const LightValue found = decreasedLevels(change, brick.before[voxel]);
         if (found == 0) continue;
-        suspects.writable(brick)[voxel] = found;
-        suspects.markAround(index, voxel);
+        decreaseQueue.writable(brick)[voxel] = found;
+        decreaseQueue.markAround(index, voxel);
     }
-    spreadSuspects(suspects);
+    propagateDecreases(decreaseQueue);
 }
 
-void markRows(const LightValue* suspects, int index, LightField& field) {
+void markRows(const LightValue* decreased, int index, LightField& field) {
     for (int row = 0; row < kRowsPerBrick; ++row) {
-        const LightValue* values = suspects + 16 * row;
+        const LightValue* values = decreased + 16 * row;
         if (std::any_of(values, values + 16, [](LightValue v) { return v != 0; })) field.markRow(index, row);
     }
 }
 
-// The light that is certain: the old one without suspects, with the new sources.
-void keepCertain(const LightWindow& window, const Range& range, LightField& suspects, LightField& field) {
+// The light that stays: the old one without the decreased levels, with the new sources.
+void keepCertain(const LightWindow& window, const Range& range, LightField& decreaseQueue,
+                 LightField& field) {
     forEachBrick(window, range, [&](int chunk, int number) {
         const int index = LightField::indexOf(chunk, number);
-        const FieldBrick& from = suspects.brick(index);
+        const FieldBrick& from = decreaseQueue.brick(index);
         FieldBrick& to = field.brick(index);
         to.opacity = from.opacity;
         to.isInside = true;
         to.light = {from.before, nullptr, false};
         if (!from.light.writable) return;
         LightValue* light = field.pool().acquire()->values.data();
-        replaceSuspects(from.light.values, from.source, from.before, light);
+        replaceDecreased(from.light.values, from.source, from.before, light);
         to.light = {light, light, false};
         markRows(from.light.values, index, field);
     });
@@ -128,13 +129,13 @@ void raiseSources(std::span<const SourceChange> changes, LightField& field) {
     raiseLight(field);
 }
 
-ChangedBricks store(LightWindow& window, const Range& range, LightField& suspects, LightField& field) {
+ChangedBricks store(LightWindow& window, const Range& range, LightField& decreaseQueue, LightField& field) {
     ChangedBricks changed{};
     std::array<std::shared_ptr<ChunkLight>, kFieldChunks> copies;
     forEachBrick(window, range, [&](int chunk, int number) {
         const int index = LightField::indexOf(chunk, number);
         const LightValue* light = field.brick(index).light.values;
-        const LightValue* before = suspects.brick(index).before;
+        const LightValue* before = decreaseQueue.brick(index).before;
         if (light == before || std::memcmp(light, before, sizeof(Brick)) == 0) return;
         const auto c = static_cast<std::size_t>(chunk);
         if (!copies[c]) copies[c] = std::make_shared<ChunkLight>(*window.lights[c]);
@@ -152,20 +153,20 @@ ChangedBricks store(LightWindow& window, const Range& range, LightField& suspect
 ChangedBricks relight(LightWindow& window, std::span<const BlockChange> changes, const LightTable& table,
                       LightScratch& scratch) {
     TERRANE_ZONE("relight");
-    assert(window.chunks[kCentreChunk] && window.lights[kCentreChunk] && "what changes is known");
-    const std::vector<SourceChange> sources = findSourceChanges(*window.chunks[kCentreChunk], changes, table);
+    assert(window.chunks[kCenterChunk] && window.lights[kCenterChunk] && "what changes is known");
+    const std::vector<SourceChange> sources = findSourceChanges(*window.chunks[kCenterChunk], changes, table);
     const Range range = rangeOf(sources);
     scratch.field.reset();
-    scratch.suspects.reset();
-    load(window, range, table, scratch.suspects);
-    findSuspects(sources, scratch.suspects);
-    keepCertain(window, range, scratch.suspects, scratch.field);
+    scratch.decreaseQueue.reset();
+    load(window, range, table, scratch.decreaseQueue);
+    findDecreases(sources, scratch.decreaseQueue);
+    keepCertain(window, range, scratch.decreaseQueue, scratch.field);
     raiseSources(sources, scratch.field);
-    return store(window, range, scratch.suspects, scratch.field);
+    return store(window, range, scratch.decreaseQueue, scratch.field);
 }
 
-std::vector<LightChange> relight(LitChunks& chunks, std::span<const world::BlockEdit> edits, const LightTable& table,
-                                 LightScratch& scratch) {
+std::vector<LightChange> relight(LitChunks& chunks, std::span<const world::BlockEdit> edits,
+                                 const LightTable& table, LightScratch& scratch) {
     std::map<world::ChunkPos, std::vector<BlockChange>> byChunk;
     for (const world::BlockEdit& edit : edits)
         byChunk[world::chunkOf(edit.pos)].push_back({world::blockIndex(edit.pos), edit.before});
@@ -174,8 +175,8 @@ std::vector<LightChange> relight(LitChunks& chunks, std::span<const world::Block
     for (const auto& [pos, changes] : byChunk) {
         LightWindow window;
         std::array<LitChunk*, kFieldChunks> around{};
-        const auto offset = [&, centre = pos](std::size_t k) {
-            return world::offsetBy(centre, static_cast<int>(k) % kFieldSide - 1,
+        const auto offset = [&, center = pos](std::size_t k) {
+            return world::offsetBy(center, static_cast<int>(k) % kFieldSide - 1,
                                    static_cast<int>(k) / kFieldSide - 1);
         };
         for (std::size_t k = 0; k < around.size(); ++k) {
@@ -185,7 +186,7 @@ std::vector<LightChange> relight(LitChunks& chunks, std::span<const world::Block
             window.chunks[k] = found->second.chunk.get();
             window.lights[k] = found->second.light;
         }
-        if (!window.chunks[kCentreChunk] || !window.lights[kCentreChunk]) continue;
+        if (!window.chunks[kCenterChunk] || !window.lights[kCenterChunk]) continue;
         const ChangedBricks bricks = relight(window, changes, table, scratch);
         for (std::size_t k = 0; k < around.size(); ++k) {
             if (bricks[k] == 0) continue;

@@ -50,7 +50,7 @@ struct LightChange {
 
 // `chunks` hold the new blocks of all edits; their lights are brought up to date. Edits in chunks that are
 // not there, or have no light, are left out. Returns each changed chunk once, sorted by position.
-std::vector<LightChange> relight(LitChunks& chunks, std::span<const world::BlockEdit> edits, const LightTable& table,
-                                 LightScratch& scratch);
+std::vector<LightChange> relight(LitChunks& chunks, std::span<const world::BlockEdit> edits,
+                                 const LightTable& table, LightScratch& scratch);
 
 }  // namespace terrane::light

@@ -11,7 +11,7 @@ using light::LightRequest;
 using world::ChunkPos;
 using world::ChunkPtr;
 
-ChunkPos neighbourOf(ChunkPos pos, int n) {
+ChunkPos neighborOf(ChunkPos pos, int n) {
     return world::offsetBy(pos, n % light::kFieldSide - 1, n / light::kFieldSide - 1);
 }
 
@@ -24,11 +24,11 @@ class KnownChunks {
         std::size_t fresh = 0;
         for (int n = 0; n < light::kFieldChunks; ++n) {
             const ChunkPtr& chunk = request.chunks[static_cast<std::size_t>(n)];
-            const auto found = chunks_.find(neighbourOf(request.pos, n));
+            const auto found = chunks_.find(neighborOf(request.pos, n));
             if (found == chunks_.end()) {
                 fresh += chunk ? 1 : 0;
             } else if (found->second.chunk != chunk ||
-                       (n == light::kCentreChunk && found->second.isRequested)) {
+                       (n == light::kCenterChunk && found->second.isRequested)) {
                 return false;
             }
         }
@@ -50,7 +50,7 @@ class KnownChunks {
 
     void insert(const LightRequest& request) {
         for (int n = 0; n < light::kFieldChunks; ++n) {
-            const ChunkPos pos = neighbourOf(request.pos, n);
+            const ChunkPos pos = neighborOf(request.pos, n);
             const ChunkPtr& chunk = request.chunks[static_cast<std::size_t>(n)];
             if (chunks_.try_emplace(pos, Known{chunk}).second && chunk) order_.push_back(pos);
         }
@@ -68,7 +68,7 @@ LightBatch gatherBatch(std::span<const LightRequest> requests) {
     KnownChunks known;
     LightBatch batch;
     for (const LightRequest& request : requests) {
-        assert(request.chunks[light::kCentreChunk] && "the chunk to light is there");
+        assert(request.chunks[light::kCenterChunk] && "the chunk to light is there");
         if (!known.add(request)) break;
         batch.requested.push_back(request.pos);
     }

@@ -10,13 +10,13 @@
 
 namespace terrane::light_gpu {
 
-// 16×16 neighbouring chunks with one chunk around them, because light travels 15 blocks.
+// 16×16 neighboring chunks with one chunk around them, because light travels 15 blocks.
 constexpr std::size_t kMaxRequests = 16 * 16;
 constexpr std::size_t kMaxSolved = 18 * 18;
 
 struct LightBatch {
     std::vector<world::ChunkPos> requested;
-    std::vector<world::ChunkPtr> chunks;  // those that are requested, in their order, then their neighbours
+    std::vector<world::ChunkPtr> chunks;  // those that are requested, in their order, then their neighbors
     std::vector<shared::uvec4> beside;    // by chunk: the numbers of those at −x, +x, −y, +y, or kNoChunk
 };
 

@@ -16,8 +16,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "words of two levels are read back as they are");
 
 constexpr std::size_t kWordBytes = sizeof(shared::uint);
-constexpr std::size_t kLevelBytes = world::kBlocksPerChunk * sizeof(light::LightValue);  // a chunk
-static_assert(kMaxSolved * shared::kCellsPerChunk < 65536,
+constexpr std::size_t kLightLevelBytes = world::kBlocksPerChunk * sizeof(light::LightValue);  // a chunk
+static_assert(kMaxSolved * shared::kLightTilesPerChunk < 65536,
               "OpenGL has as many work groups along an axis at least");
 
 // The next multiple of the chunks of a small batch, so that buffers grow a few times only.
@@ -44,7 +44,7 @@ std::vector<SolverState> stateWith(shared::uint cellsListed) {
 base::Result<LightPrograms> LightPrograms::create(const gpu::ShaderLoader& shaders) {
     LightPrograms programs;
     for (const auto& [program, name] :
-         {std::pair(&programs.sources, "sources"), std::pair(&programs.firstCells, "first_cells"),
+         {std::pair(&programs.sources, "sources"), std::pair(&programs.firstTiles, "first_tiles"),
           std::pair(&programs.spread, "spread"), std::pair(&programs.pack, "pack")}) {
         auto made = gpu::Program::compute(shaders, fmt::format("terrane/light_gpu/{}.comp.glsl", name), {},
                                           fmt::format("light {}", name));
@@ -59,15 +59,15 @@ void LightWorkspace::upload(const LightBatch& batch, const light::LightTable& ta
     for (const world::ChunkPtr& chunk : batch.chunks) appendChunk(input_, *chunk, table);
     sections_ = gpu::Buffer(std::as_bytes(std::span(input_.sections)), 0, "light sections");
     data_ = gpu::Buffer(std::as_bytes(std::span(input_.data)), 0, "light section data");
-    neighbours_ = gpu::Buffer(std::as_bytes(std::span(batch.beside)), 0, "light neighbours");
+    neighbors_ = gpu::Buffer(std::as_bytes(std::span(batch.beside)), 0, "light neighbors");
 }
 
 void LightWorkspace::makeRoom() {
-    const std::size_t chunks = roundedUp(chunkCount_), cells = chunks * shared::kCellsPerChunk;
-    if (levels_.sizeBytes() < chunks * kLevelBytes) {
-        levels_ = gpu::Buffer(chunks * kLevelBytes, 0, "light levels");
-        cells_ = gpu::Buffer(cells * kWordBytes, 0, "light cells");
-        lists_ = gpu::Buffer(3 * cells * kWordBytes, 0, "light work lists");
+    const std::size_t chunks = roundedUp(chunkCount_), tiles = chunks * shared::kLightTilesPerChunk;
+    if (levels_.sizeBytes() < chunks * kLightLevelBytes) {
+        levels_ = gpu::Buffer(chunks * kLightLevelBytes, 0, "light levels");
+        cells_ = gpu::Buffer(tiles * kWordBytes, 0, "light tiles");
+        lists_ = gpu::Buffer(3 * tiles * kWordBytes, 0, "light work lists");
     }
     const auto results = static_cast<shared::uint>(roundedUp(requested_.size()));
     const std::size_t resultBytes =
@@ -80,25 +80,25 @@ void LightWorkspace::makeRoom() {
 void LightWorkspace::bind() const {
     sections_.bindStorage(shared::kPackedSectionsBinding);
     data_.bindStorage(shared::kPackedDataBinding);
-    levels_.bindStorage(shared::kSolverLevelsBinding);
-    cells_.bindStorage(shared::kSolverCellsBinding);
+    levels_.bindStorage(shared::kSolverLightLevelsBinding);
+    cells_.bindStorage(shared::kSolverTilesBinding);
     lists_.bindStorage(shared::kSolverListsBinding);
     state_.bindStorage(shared::kSolverStateBinding);
-    neighbours_.bindStorage(shared::kSolverNeighboursBinding);
+    neighbors_.bindStorage(shared::kSolverNeighborsBinding);
     result_.bindStorage(shared::kSolverResultBinding);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, state_.id());
 }
 
-// Emission, daylight down the columns, and which cells the first round looks at.
+// Emission, daylight down the columns, and which light tiles the first round looks at.
 void LightWorkspace::setSources(const LightPrograms& programs) {
     const auto chunks = static_cast<GLuint>(chunkCount_);
     programs.sources.use();
     programs.sources.set(0, chunks);
     glDispatchCompute(chunks, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    programs.firstCells.use();
-    programs.firstCells.set(0, chunks);
-    glDispatchCompute(chunks * shared::kCellsPerChunk / 64, 1, 1);
+    programs.firstTiles.use();
+    programs.firstTiles.set(0, chunks);
+    glDispatchCompute(chunks * shared::kLightTilesPerChunk / 64, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 

@@ -18,7 +18,7 @@ namespace terrane::light_gpu {
 struct LightPrograms {
     static base::Result<LightPrograms> create(const gpu::ShaderLoader& shaders);
 
-    gpu::Program sources, firstCells, spread, pack;
+    gpu::Program sources, firstTiles, spread, pack;
 };
 
 class LightWorkspace {
@@ -45,8 +45,8 @@ class LightWorkspace {
     std::size_t chunkCount_ = 0;              // that are solved
     shared::uint roundsDone_ = 0;
     world::PackedSections input_;
-    gpu::Buffer sections_, data_, neighbours_;  // of the batch
-    gpu::Buffer levels_, cells_, lists_;        // grow to the largest batch
+    gpu::Buffer sections_, data_, neighbors_;  // of the batch
+    gpu::Buffer levels_, cells_, lists_;       // grow to the largest batch
     gpu::Buffer state_;
     gpu::ReadbackBuffer result_;  // grows too
     gpu::Fence fence_;

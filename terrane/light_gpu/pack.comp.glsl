@@ -1,6 +1,6 @@
 // The result: bricks of 16³ in the order of a section's blocks, without those of one value. A work group is a brick of one
-// of the first chunks. Nothing is written but their number while cells are left that could change.
-#include "terrane/light_gpu/cells.glsl"
+// of the first chunks. Nothing is written but their number while light tiles are left that could change.
+#include "terrane/light_gpu/light_tiles.glsl"
 #include "terrane/light_gpu/solver_state.glsl"
 
 layout(local_size_x = 256) in;
@@ -14,7 +14,7 @@ shared uint allLight, anyLight, brick;
 uint wordOfBrick(uint k) {
     uvec3 word = uvec3(k & 7u, k >> 3 & 15u, k >> 7);
     uvec3 place = uvec3(word.x >> 2, word.y >> 3, 2u * gl_WorkGroupID.y + (word.z >> 3));
-    return levels[wordIndex(cellIndex(gl_WorkGroupID.x, place), word & uvec3(3u, 7u, 7u))];
+    return levels[wordIndex(tileIndex(gl_WorkGroupID.x, place), word & uvec3(3u, 7u, 7u))];
 }
 
 void packBrick(uint local) {

@@ -1,25 +1,25 @@
-// A round: each cell of the list is raised, with the levels around it as they are, until it is stable. Neighbours that it
-// could raise then go to the next round's list. Levels only grow and each is some neighbour's less the loss, so that neither
-// the order of work groups nor neighbours read before or after they changed matter: who changed late puts its neighbour down.
-#include "terrane/light_gpu/cells.glsl"
+// A round: each light tile of the list is raised, with the levels around it as they are, until it is stable. Neighbors that it
+// could raise then go to the next round's list. Levels only grow and each is some neighbor's less the loss, so that neither
+// the order of work groups nor neighbors read before or after they changed matter: who changed late puts its neighbor down.
+#include "terrane/light_gpu/light_tiles.glsl"
 #include "terrane/light_gpu/work_list.glsl"
 
 layout(local_size_x = 256) in;
 
 layout(location = 1) uniform uint thisRound;  // counted on over all that the host gives at once
 
-// The cell and one word around it: x fastest, 6 × 10 × 10 words.
-const uint kRow = 6u, kLayer = 60u, kTile = 600u;
-shared uint tile[kTile];
+// The tile with a halo of one word: x fastest, 6 × 10 × 10 words.
+const uint kHaloRow = 6u, kHaloLayer = 60u, kHaloWords = 600u;
+shared uint tileWithHalo[kHaloWords];
 shared uint cellsBeside[6];  // by side
 shared uint changed[3];  // by iteration, in turn
 shared uint raisedSides;
 
-uint wordAround(uint cell, uint place) {
-    ivec3 word = ivec3(place % kRow, place / kRow % 10u, place / kLayer) - 1;
+uint wordAround(uint tile, uint place) {
+    ivec3 word = ivec3(place % kHaloRow, place / kHaloRow % 10u, place / kHaloLayer) - 1;
     ivec3 away = ivec3(word.x >> 2, word.y >> 3, word.z >> 3), axes = abs(away);
     if (axes.x + axes.y + axes.z > 1) return 0u;  // nobody looks at edges and corners
-    uint from = cell;
+    uint from = tile;
     if (axes != ivec3(0)) {
         uint side = uint(2 * axes.y + 4 * axes.z) + (away.x + away.y + away.z > 0 ? 1u : 0u);
         from = cellsBeside[side];
@@ -28,56 +28,56 @@ uint wordAround(uint cell, uint place) {
     return levels[wordIndex(from, uvec3(word & ivec3(3, 7, 7)))];
 }
 
-uint lossHere(uint cell, uvec3 word) {
-    uint chunk = cell / kCellsPerChunk;
-    uvec3 block = cellCorner(cell) + uvec3(2u * word.x, word.yz);
+uint lossHere(uint tile, uvec3 word) {
+    uint chunk = tile / kLightTilesPerChunk;
+    uvec3 block = cellCorner(tile) + uvec3(2u * word.x, word.yz);
     uint low = lossOfOpacity(opacityOf(propertyAt(chunk, block)));
     uint high = lossOfOpacity(opacityOf(propertyAt(chunk, block + uvec3(1u, 0u, 0u))));
     return low * 0x0101u | high * 0x01010000u;
 }
 
 uint raised(uint now, uint at, uint loss) {
-    uint west = now << 16 | tile[at - 1u] >> 16, east = now >> 16 | tile[at + 1u] << 16;
-    uint brightest = maxLevels(maxLevels(west, east), maxLevels(tile[at - kRow], tile[at + kRow]));
-    brightest = maxLevels(brightest, maxLevels(tile[at - kLayer], tile[at + kLayer]));
+    uint west = now << 16 | tileWithHalo[at - 1u] >> 16, east = now >> 16 | tileWithHalo[at + 1u] << 16;
+    uint brightest = maxLevels(maxLevels(west, east), maxLevels(tileWithHalo[at - kHaloRow], tileWithHalo[at + kHaloRow]));
+    brightest = maxLevels(brightest, maxLevels(tileWithHalo[at - kHaloLayer], tileWithHalo[at + kHaloLayer]));
     return maxLevels(now, lessLevels(brightest, loss));
 }
 
-// Bit k: side k of the cell has this word, and it could raise the one beyond.
+// Bit k: side k of the light tile has this word, and it could raise the one beyond.
 uint sidesRaised(uint now, uint at, uvec3 word) {
     uint sides = 0u;
-    if (word.x == 0u && couldRaise(now & 0xFFFFu, tile[at - 1u] >> 16)) sides |= 1u;
-    if (word.x == 3u && couldRaise(now >> 16, tile[at + 1u] & 0xFFFFu)) sides |= 2u;
-    if (word.y == 0u && couldRaise(now, tile[at - kRow])) sides |= 4u;
-    if (word.y == 7u && couldRaise(now, tile[at + kRow])) sides |= 8u;
-    if (word.z == 0u && couldRaise(now, tile[at - kLayer])) sides |= 16u;
-    if (word.z == 7u && couldRaise(now, tile[at + kLayer])) sides |= 32u;
+    if (word.x == 0u && couldRaise(now & 0xFFFFu, tileWithHalo[at - 1u] >> 16)) sides |= 1u;
+    if (word.x == 3u && couldRaise(now >> 16, tileWithHalo[at + 1u] & 0xFFFFu)) sides |= 2u;
+    if (word.y == 0u && couldRaise(now, tileWithHalo[at - kHaloRow])) sides |= 4u;
+    if (word.y == 7u && couldRaise(now, tileWithHalo[at + kHaloRow])) sides |= 8u;
+    if (word.z == 0u && couldRaise(now, tileWithHalo[at - kHaloLayer])) sides |= 16u;
+    if (word.z == 7u && couldRaise(now, tileWithHalo[at + kHaloLayer])) sides |= 32u;
     return sides;
 }
 
-void putDown(uint cell) {
-    if (cell == kNoCell || (cells[cell] & kCellIsOpaque) != 0u) return;
-    bool isThere = atomicExchange(lists[2u * cellCount() + cell], thisRound + 1u) == thisRound + 1u;
-    if (!isThere) addToList(thisRound % kSolverRounds + 1u, cell);
+void putDown(uint tile) {
+    if (tile == kNoCell || (tiles[tile] & kTileIsOpaque) != 0u) return;
+    bool isThere = atomicExchange(lists[2u * tileCount() + tile], thisRound + 1u) == thisRound + 1u;
+    if (!isThere) addToList(thisRound % kSolverRounds + 1u, tile);
 }
 
 void main() {
-    uint local = gl_LocalInvocationIndex, cell = cellOfList(thisRound % kSolverRounds, gl_WorkGroupID.x);
+    uint local = gl_LocalInvocationIndex, tile = tileOfList(thisRound % kSolverRounds, gl_WorkGroupID.x);
     uvec3 word = uvec3(local & 3u, local >> 2 & 7u, local >> 5);
-    if (local < 6u) cellsBeside[local] = cellBeside(cell, local);
+    if (local < 6u) cellsBeside[local] = cellBeside(tile, local);
     if (local < 3u) changed[local] = 0u;
     if (local == 3u) raisedSides = 0u;
     barrier();
-    for (uint k = local; k < kTile; k += kCellWords) tile[k] = wordAround(cell, k);
+    for (uint k = local; k < kHaloWords; k += kLightTileWords) tileWithHalo[k] = wordAround(tile, k);
     barrier();
 
-    uint at = word.x + 1u + kRow * (word.y + 1u) + kLayer * (word.z + 1u);
-    uint loss = lossHere(cell, word), first = tile[at], now = first;
+    uint at = word.x + 1u + kHaloRow * (word.y + 1u) + kHaloLayer * (word.z + 1u);
+    uint loss = lossHere(tile, word), first = tileWithHalo[at], now = first;
     for (uint turn = 0u;; turn = (turn + 1u) % 3u) {
         uint next = raised(now, at, loss);
         barrier();  // all have read
         if (next != now) {
-            tile[at] = now = next;
+            tileWithHalo[at] = now = next;
             changed[turn] = 1u;
         }
         if (local == 0u) changed[(turn + 1u) % 3u] = 0u;
@@ -85,10 +85,10 @@ void main() {
         if (changed[turn] == 0u) break;
     }
 
-    // In the first round sources count as changes, which nobody has put neighbours down for yet; those that they could
+    // In the first round sources count as changes, which nobody has put neighbors down for yet; those that they could
     // raise are in the list already.
     if (now != first) {
-        levels[wordIndex(cell, word)] = now;
+        levels[wordIndex(tile, word)] = now;
         atomicOr(raisedSides, sidesRaised(now, at, word));
     }
     barrier();

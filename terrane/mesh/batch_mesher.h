@@ -1,4 +1,4 @@
-// Meshes of many chunks, by whichever back end: the processor here, compute shaders in terrane/mesh_gpu. They
+// Meshes of many chunks, by whichever back end: the CPU here, compute shaders in terrane/mesh_gpu. They
 // give the same quads and ranges; the order of quads within a range is each back end's own.
 #pragma once
 

@@ -40,7 +40,7 @@ Word fourRows(const BitSlice& slice, std::size_t first) {
            Word{slice[first + 3]} << 48;
 }
 
-BitCube neighbourLayers(const BitCube& cube, bool positive, const BitSlice& border, LayerRange range) {
+BitCube neighborLayers(const BitCube& cube, bool positive, const BitSlice& border, LayerRange range) {
     BitCube out;
     for (std::size_t layer = range.first; layer < range.end; ++layer) {
         Word* o = &out[4 * layer];
@@ -53,7 +53,7 @@ BitCube neighbourLayers(const BitCube& cube, bool positive, const BitSlice& bord
     return out;
 }
 
-BitCube neighbourRows(const BitCube& cube, bool positive, const BitSlice& border, LayerRange range) {
+BitCube neighborRows(const BitCube& cube, bool positive, const BitSlice& border, LayerRange range) {
     BitCube out;
     for (std::size_t layer = range.first; layer < range.end; ++layer) {
         const Word* w = &cube[4 * layer];
@@ -91,11 +91,11 @@ BitCube transposed(const BitCube& cube, LayerRange range) {
     return out;
 }
 
-BitCube neighbourBits(const BitCube& cube, world::Face side, const BitSlice& border, LayerRange range) {
+BitCube neighborBits(const BitCube& cube, world::Face side, const BitSlice& border, LayerRange range) {
     assert(side < world::kFaceCount && "one of six sides");
     const bool positive = side % 2 == 1;
-    return isAlongZ(side) ? neighbourLayers(cube, positive, border, range)
-                          : neighbourRows(cube, positive, border, range);
+    return isAlongZ(side) ? neighborLayers(cube, positive, border, range)
+                          : neighborRows(cube, positive, border, range);
 }
 
 }  // namespace terrane::mesh

@@ -60,9 +60,9 @@ inline BitCube without(const BitCube& a, const BitCube& b, LayerRange range) {
 // Exchanges bits and rows of each layer: from rows along x to rows along y and back.
 BitCube transposed(const BitCube& cube, LayerRange range = {});
 
-// For each block the bit of its neighbour on a side. For the sides of x the cube has rows along y, else rows
+// For each block the bit of its neighbor on a side. For the sides of x the cube has rows along y, else rows
 // along x. `border` is the layer of blocks beyond that side of the section. Across z also the layers next to
 // the range are read.
-BitCube neighbourBits(const BitCube& cube, world::Face side, const BitSlice& border, LayerRange range = {});
+BitCube neighborBits(const BitCube& cube, world::Face side, const BitSlice& border, LayerRange range = {});
 
 }  // namespace terrane::mesh

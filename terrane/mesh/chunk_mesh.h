@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "terrane/mesh/face_context.h"
+#include "terrane/mesh/draw_bucket.h"
 #include "terrane/shared/quad.h"
 
 namespace terrane::mesh {
@@ -16,17 +16,17 @@ struct QuadRange {
     bool operator==(const QuadRange&) const = default;
 };
 
-// The vertical unit of culling and drawing. Its quads are contiguous: by context, then group.
-struct RegionMesh {
-    QuadRange groups[kContextCount][kGroupCount];
+// The vertical unit of culling and drawing. Its quads are contiguous: by draw bucket, then face direction.
+struct MeshSection {
+    QuadRange ranges[kDrawBucketCount][kFaceDirectionCount];
     int minZ = 0, maxZ = 0;  // the quads lie in blocks minZ … maxZ − 1; both 0 where there are none
 
-    bool operator==(const RegionMesh&) const = default;
+    bool operator==(const MeshSection&) const = default;
 };
 
 struct ChunkMesh {
     std::vector<shared::Quad> quads;
-    std::vector<RegionMesh> regions;  // lowest first, kChunkHeight / regionHeight of them
+    std::vector<MeshSection> meshSections;  // lowest first, kChunkHeight / meshSectionHeight of them
 
     bool operator==(const ChunkMesh&) const = default;
 };

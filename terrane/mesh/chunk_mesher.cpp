@@ -10,15 +10,15 @@ namespace {
 
 SectionView viewSection(const MeshInput& input, int number) {
     SectionView view;
-    view.centre = &input.centre->section(number);
-    for (std::size_t side = 0; side < input.neighbours.size(); ++side) {
-        view.neighbours[side] = &input.neighbours[side]->section(number);
+    view.center = &input.center->section(number);
+    for (std::size_t side = 0; side < input.neighbors.size(); ++side) {
+        view.neighbors[side] = &input.neighbors[side]->section(number);
     }
-    if (number > 0) view.neighbours[world::kFaceNegZ] = &input.centre->section(number - 1);
+    if (number > 0) view.neighbors[world::kFaceNegZ] = &input.center->section(number - 1);
     if (number + 1 < world::kSectionsPerChunk) {
-        view.neighbours[world::kFacePosZ] = &input.centre->section(number + 1);
+        view.neighbors[world::kFacePosZ] = &input.center->section(number + 1);
     }
-    view.smallData = &input.centre->smallDataSection(number);
+    view.blockState = &input.center->blockStates(number);
     view.blocks = input.blocks;
     view.target.baseZ = number * world::kSectionSize;
     view.target.method = input.options.method;
@@ -26,10 +26,10 @@ SectionView viewSection(const MeshInput& input, int number) {
 }
 
 void checkInput([[maybe_unused]] const MeshInput& input) {
-    assert(input.centre && input.blocks && "a chunk and what its ids mean");
-    assert(std::find(input.neighbours.begin(), input.neighbours.end(), nullptr) == input.neighbours.end() &&
-           "a chunk is meshed when its neighbours are known");
-    assert(isRegionHeight(input.options.regionHeight) && "a power of two, 8 to 128");
+    assert(input.center && input.blocks && "a chunk and what its ids mean");
+    assert(std::find(input.neighbors.begin(), input.neighbors.end(), nullptr) == input.neighbors.end() &&
+           "a chunk is meshed when its neighbors are known");
+    assert(isMeshSectionHeight(input.options.meshSectionHeight) && "a power of two, 8 to 128");
 }
 
 }  // namespace
@@ -41,27 +41,28 @@ MeshInput meshInput(const MeshBlocks& chunks, const world::BlockRegistry& blocks
     return {at(0), {at(1), at(2), at(3), at(4)}, &blocks, options};
 }
 
-RegionMesh meshRegion(const MeshInput& input, int region, MeshScratch& scratch,
-                      std::vector<shared::Quad>& quads) {
+MeshSection buildMeshSection(const MeshInput& input, int meshSection, MeshScratch& scratch,
+                             std::vector<shared::Quad>& quads) {
     checkInput(input);
-    const int height = input.options.regionHeight;
-    assert(region >= 0 && region < world::kChunkHeight / height && "number of a region");
+    const int height = input.options.meshSectionHeight;
+    assert(meshSection >= 0 && meshSection < world::kChunkHeight / height && "number of a mesh section");
     const int step = std::min(height, world::kSectionSize);  // a section, or half of one
-    for (int z = region * height; z < (region + 1) * height; z += step) {
+    for (int z = meshSection * height; z < (meshSection + 1) * height; z += step) {
         SectionView view = viewSection(input, z / world::kSectionSize);
         const auto layer = static_cast<std::size_t>(z % world::kSectionSize);
         view.target.layers = {layer, layer + static_cast<std::size_t>(step)};
         addSectionFaces(view, scratch.buckets);
     }
-    return scratch.buckets.finishRegion(quads);
+    return scratch.buckets.finishMeshSection(quads);
 }
 
 ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch) {
     checkInput(input);
     ChunkMesh mesh;
     scratch.quads.clear();
-    for (int region = 0; region < world::kChunkHeight / input.options.regionHeight; ++region) {
-        mesh.regions.push_back(meshRegion(input, region, scratch, scratch.quads));
+    for (int meshSection = 0; meshSection < world::kChunkHeight / input.options.meshSectionHeight;
+         ++meshSection) {
+        mesh.meshSections.push_back(buildMeshSection(input, meshSection, scratch, scratch.quads));
     }
     mesh.quads.assign(scratch.quads.begin(), scratch.quads.end());  // no larger than needed
     return mesh;

@@ -1,4 +1,4 @@
-// Makes the mesh of a chunk: hidden faces dropped, equal neighbouring faces merged, quads sorted for drawing.
+// Makes the mesh of a chunk: hidden faces dropped, equal neighboring faces merged, quads sorted for drawing.
 // Called by the streaming workers, each with a scratch of its own; the result depends on the input only.
 #pragma once
 
@@ -7,15 +7,15 @@
 
 #include "terrane/mesh/chunk_mesh.h"
 #include "terrane/mesh/mesh_options.h"
-#include "terrane/mesh/quad_buckets.h"
+#include "terrane/mesh/quad_collector.h"
 #include "terrane/world/block_registry.h"
 #include "terrane/world/chunk.h"
 
 namespace terrane::mesh {
 
 struct MeshInput {
-    const world::Chunk* centre = nullptr;
-    std::array<const world::Chunk*, 4> neighbours{};  // -x, +x, -y, +y; none is null
+    const world::Chunk* center = nullptr;
+    std::array<const world::Chunk*, 4> neighbors{};  // -x, +x, -y, +y; none is null
     const world::BlockRegistry* blocks = nullptr;
     MeshOptions options;
 };
@@ -29,18 +29,18 @@ MeshInput meshInput(const MeshBlocks& chunks, const world::BlockRegistry& blocks
 
 // Memory that is kept from chunk to chunk; holds nothing between calls.
 struct MeshScratch {
-    QuadBuckets buckets;
+    QuadCollector buckets;
     std::vector<shared::Quad> quads;
 };
 
-// Quads stay inside one section and region, so they are at most 16 blocks wide and high.
+// Quads stay inside one section and mesh section, so they are at most 16 blocks wide and high.
 ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch);
 
 // Of a chunk with air all around.
 ChunkMesh meshAlone(const world::Chunk& chunk, const world::BlockRegistry& blocks);
 
-// One region of it, the lowest is 0: appends its quads to `quads`, in which its ranges count.
-RegionMesh meshRegion(const MeshInput& input, int region, MeshScratch& scratch,
-                      std::vector<shared::Quad>& quads);
+// One mesh section of it, the lowest is 0: appends its quads to `quads`, in which its ranges count.
+MeshSection buildMeshSection(const MeshInput& input, int meshSection, MeshScratch& scratch,
+                             std::vector<shared::Quad>& quads);
 
 }  // namespace terrane::mesh

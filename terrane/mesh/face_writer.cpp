@@ -38,7 +38,7 @@ void FaceWriter::write(const BitCube& faces, const FaceKind& kind, LayerRange la
     usedRows(faces, layers, used_);
     if (used_ == BitSlice{}) return;
     const world::Material& material = materials_[kind.material];
-    bucket_ = &out_.bucket(faceContext(material), faceGroup(kind.shapeFace, material));
+    bucket_ = &out_.quadsOf(drawBucket(material), faceDirection(kind.shapeFace, material));
     std::memcpy(&rows_[16 * layers.first], &faces[4 * layers.first], 32 * (layers.end - layers.first));
     isAlongZ(kind.plane) ? writeLevel(kind, layers) : writeUpright(kind, layers);
 }

@@ -8,7 +8,7 @@
 
 #include "terrane/mesh/bit_cube.h"
 #include "terrane/mesh/merge.h"
-#include "terrane/mesh/quad_buckets.h"
+#include "terrane/mesh/quad_collector.h"
 #include "terrane/world/block_type.h"
 
 namespace terrane::mesh {
@@ -26,12 +26,12 @@ struct FaceKind {
 struct FaceTarget {
     int baseZ = 0;      // height of the section's lowest layer
     LayerRange layers;  // of the section; faces in other layers are passed over
-    Method method = Method::Greedy;
+    MergeMethod method = MergeMethod::Greedy;
 };
 
 class FaceWriter {
   public:
-    FaceWriter(std::span<const world::Material> materials, const FaceTarget& target, QuadBuckets& out)
+    FaceWriter(std::span<const world::Material> materials, const FaceTarget& target, QuadCollector& out)
         : materials_(materials), target_(target), merge_(mergeFunction(target.method)), out_(out) {}
 
     // The faces in `layers`, which lie in the target's. `faces` has rows along y where kind.plane is -x or
@@ -40,7 +40,7 @@ class FaceWriter {
 
   private:
     MergeFunction mergeOf(const FaceKind& kind) const {
-        return kind.merges ? merge_ : mergeFunction(Method::None);
+        return kind.merges ? merge_ : mergeFunction(MergeMethod::None);
     }
     void writeUpright(const FaceKind& kind, LayerRange layers);
     void writeLevel(const FaceKind& kind, LayerRange layers);
@@ -48,9 +48,9 @@ class FaceWriter {
     std::span<const world::Material> materials_;
     FaceTarget target_;
     MergeFunction merge_;
-    QuadBuckets& out_;
+    QuadCollector& out_;
     // Of the faces being written:
-    QuadBucket* bucket_ = nullptr;
+    QuadArray* bucket_ = nullptr;
     std::array<std::uint16_t, 256> rows_;  // row r of layer l is 16·l + r
     BitSlice used_;                        // rows of each layer that have bits
 };

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cassert>
 
-#include "terrane/shared/join_steps.h"
+#include "terrane/shared/merge_passes.h"
 
 namespace terrane::mesh {
 namespace {
@@ -77,15 +77,15 @@ std::size_t mergeNothing(const PlaneRows& plane, const QuadPattern& pattern, Qua
     return static_cast<std::size_t>(out - begin);
 }
 
-// The methods of the thesis start from one rectangle a bit and join neighbours, step by step.
+// The methods of the thesis start from one rectangle a bit and merge neighbors, pass by pass.
 enum Axis : std::uint8_t { kAlongRow, kAcrossRows };
 
 // Sizes of the rectangles by the cell of their lowest corner, bit + 16 row; 0 where none begins.
 using Sizes = std::array<std::array<std::uint8_t, 256>, 2>;
 
-void join(Sizes& sizes, uint step) {
-    const auto axis = static_cast<Axis>(step % 2);
-    const uint lines = shared::joinLines(step), length = shared::joinLength(step);
+void join(Sizes& sizes, uint pass) {
+    const auto axis = static_cast<Axis>(pass % 2);
+    const uint lines = shared::mergeLines(pass), length = shared::mergeLength(pass);
     auto& along = sizes[axis];
     auto& across = sizes[1 - axis];
     const unsigned stride = axis == kAlongRow ? 1 : 16;
@@ -102,8 +102,8 @@ void join(Sizes& sizes, uint step) {
     }
 }
 
-template <Method kMethod>
-std::size_t mergeInSteps(const PlaneRows& plane, const QuadPattern& pattern, Quad* out) {
+template <MergeMethod kMethod>
+std::size_t mergeInPasses(const PlaneRows& plane, const QuadPattern& pattern, Quad* out) {
     Sizes sizes{};
     for (unsigned cell = 0; cell < 256; ++cell) {
         if ((plane.used >> cell / 16 & 1) == 0) continue;
@@ -111,8 +111,8 @@ std::size_t mergeInSteps(const PlaneRows& plane, const QuadPattern& pattern, Qua
             static_cast<std::uint8_t>(plane.rows[cell / 16 * plane.step] >> cell % 16 & 1);
     }
     constexpr auto kNumber = static_cast<uint>(kMethod);
-    for (uint step = shared::firstJoinStep(kNumber); step < shared::endOfJoinSteps(kNumber); ++step) {
-        join(sizes, step);
+    for (uint pass = shared::firstMergePass(kNumber); pass < shared::endOfMergePasses(kNumber); ++pass) {
+        join(sizes, pass);
     }
     const Quad* begin = out;
     for (unsigned cell = 0; cell < 256; ++cell) {
@@ -122,20 +122,20 @@ std::size_t mergeInSteps(const PlaneRows& plane, const QuadPattern& pattern, Qua
     return static_cast<std::size_t>(out - begin);
 }
 
-static_assert(static_cast<uint>(Method::None) == shared::kMergeNone &&
-              static_cast<uint>(Method::Lines) == shared::kMergeLines &&
-              static_cast<uint>(Method::Squares) == shared::kMergeSquares &&
-              static_cast<uint>(Method::SquaresExt) == shared::kMergeSquaresExt &&
-              static_cast<uint>(Method::Greedy) == shared::kMergeGreedy);
+static_assert(static_cast<uint>(MergeMethod::None) == shared::kMergeNone &&
+              static_cast<uint>(MergeMethod::Lines) == shared::kMergeLines &&
+              static_cast<uint>(MergeMethod::Squares) == shared::kMergeSquares &&
+              static_cast<uint>(MergeMethod::SquaresExt) == shared::kMergeSquaresExt &&
+              static_cast<uint>(MergeMethod::Greedy) == shared::kMergeGreedy);
 
-constexpr std::array<MergeFunction, static_cast<std::size_t>(Method::Count)> kFunctions{
-    mergeNothing, mergeInSteps<Method::Lines>, mergeInSteps<Method::Squares>,
-    mergeInSteps<Method::SquaresExt>, mergeGreedy};
+constexpr std::array<MergeFunction, static_cast<std::size_t>(MergeMethod::Count)> kFunctions{
+    mergeNothing, mergeInPasses<MergeMethod::Lines>, mergeInPasses<MergeMethod::Squares>,
+    mergeInPasses<MergeMethod::SquaresExt>, mergeGreedy};
 
 }  // namespace
 
-MergeFunction mergeFunction(Method method) {
-    assert(method < Method::Count && "one of the methods");
+MergeFunction mergeFunction(MergeMethod method) {
+    assert(method < MergeMethod::Count && "one of the methods");
     return kFunctions[static_cast<std::size_t>(method)];
 }
 

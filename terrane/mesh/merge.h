@@ -30,6 +30,6 @@ constexpr std::size_t kMaxQuadsPerPlane = 256;  // one a bit: there can be no mo
 // ordered by row, then bit, and returns how many. What the plane holds afterwards is not defined.
 using MergeFunction = std::size_t (*)(const PlaneRows& plane, const QuadPattern& pattern, shared::Quad* out);
 
-MergeFunction mergeFunction(Method method);
+MergeFunction mergeFunction(MergeMethod method);
 
 }  // namespace terrane::mesh

@@ -9,7 +9,7 @@ namespace terrane::mesh {
 
 // How equal faces that touch in one plane become one quad. All but Greedy are the methods of D. Čejchan's
 // thesis (2019), whose work groups limit quads to cells of 8×8 blocks.
-enum class Method : std::uint8_t {
+enum class MergeMethod : std::uint8_t {
     None,        // one quad a face
     Lines,       // along rows as far as possible, then equal lengths of successive rows
     Squares,     // halves of the cells of a grid that doubles each time, alternately in both directions
@@ -18,17 +18,17 @@ enum class Method : std::uint8_t {
     Count,
 };
 
-// A chunk is culled and drawn in regions: its columns, this many blocks high.
-constexpr int kMinRegionHeight = 8, kMaxRegionHeight = 128;
-constexpr int kDefaultRegionHeight = 16;
+// A chunk is culled and drawn in mesh sections: its columns, this many blocks high.
+constexpr int kMinMeshSectionHeight = 8, kMaxMeshSectionHeight = 128;
+constexpr int kDefaultMeshSectionHeight = 16;
 
-constexpr bool isRegionHeight(int height) {
-    return height >= kMinRegionHeight && height <= kMaxRegionHeight && (height & (height - 1)) == 0;
+constexpr bool isMeshSectionHeight(int height) {
+    return height >= kMinMeshSectionHeight && height <= kMaxMeshSectionHeight && (height & (height - 1)) == 0;
 }
 
 struct MeshOptions {
-    Method method = Method::Greedy;
-    int regionHeight = kDefaultRegionHeight;  // blocks: 8, 16, 32, 64 or 128
+    MergeMethod method = MergeMethod::Greedy;
+    int meshSectionHeight = kDefaultMeshSectionHeight;  // blocks: 8, 16, 32, 64 or 128
 
     bool operator==(const MeshOptions&) const = default;
 };

@@ -3,24 +3,24 @@
 #include <cassert>
 #include <cstddef>
 
-#include "terrane/mesh/region_quads.h"
+#include "terrane/mesh/mesh_section_quads.h"
 
 namespace terrane::mesh {
 namespace {
 
-RegionSet regionAt(int z, int regionHeight) {
-    return world::isInHeight(z) ? RegionSet{1} << (z / regionHeight) : RegionSet{0};
+MeshSectionSet meshSectionAt(int z, int meshSectionHeight) {
+    return world::isInHeight(z) ? MeshSectionSet{1} << (z / meshSectionHeight) : MeshSectionSet{0};
 }
 
 }  // namespace
 
-std::vector<TouchedChunk> regionsTouchedBy(world::BlockPos pos, int regionHeight) {
+std::vector<TouchedChunk> meshSectionsTouchedBy(world::BlockPos pos, int meshSectionHeight) {
     assert(world::isInHeight(pos.z) && "a block of the world");
-    assert(isRegionHeight(regionHeight) && "a power of two, 8 to 128");
-    const RegionSet own = regionAt(pos.z, regionHeight);
+    assert(isMeshSectionHeight(meshSectionHeight) && "a power of two, 8 to 128");
+    const MeshSectionSet own = meshSectionAt(pos.z, meshSectionHeight);
     const world::ChunkPos chunk = world::chunkOf(pos);
-    std::vector<TouchedChunk> touched{
-        {chunk, own | regionAt(pos.z - 1, regionHeight) | regionAt(pos.z + 1, regionHeight)}};
+    std::vector<TouchedChunk> touched{{chunk, own | meshSectionAt(pos.z - 1, meshSectionHeight) |
+                                                  meshSectionAt(pos.z + 1, meshSectionHeight)}};
     const auto addBeside = [&](int dx, int dy) {
         const world::ChunkPos beside = world::offsetBy(chunk, dx, dy);
         if (world::isInWorld(beside)) touched.push_back({beside, own});
@@ -33,28 +33,29 @@ std::vector<TouchedChunk> regionsTouchedBy(world::BlockPos pos, int regionHeight
     return touched;
 }
 
-ChunkMesh meshRegions(const MeshInput& input, RegionSet regions, MeshScratch& scratch) {
-    if (regions == kAllRegions) return meshChunk(input, scratch);
+ChunkMesh buildMeshSections(const MeshInput& input, MeshSectionSet meshSections, MeshScratch& scratch) {
+    if (meshSections == kAllMeshSections) return meshChunk(input, scratch);
     ChunkMesh mesh;
-    const auto count = static_cast<std::size_t>(world::kChunkHeight / input.options.regionHeight);
+    const auto count = static_cast<std::size_t>(world::kChunkHeight / input.options.meshSectionHeight);
     for (std::size_t r = 0; r < count; ++r) {
-        const RegionMesh empty = movedTo(static_cast<std::uint32_t>(mesh.quads.size()), {});
-        mesh.regions.push_back(
-            hasRegion(regions, r) ? meshRegion(input, static_cast<int>(r), scratch, mesh.quads) : empty);
+        const MeshSection empty = movedTo(static_cast<std::uint32_t>(mesh.quads.size()), {});
+        mesh.meshSections.push_back(hasMeshSection(meshSections, r)
+                                        ? buildMeshSection(input, static_cast<int>(r), scratch, mesh.quads)
+                                        : empty);
     }
     return mesh;
 }
 
-ChunkMesh withRegions(const ChunkMesh& old, const ChunkMesh& newer, RegionSet regions) {
-    assert(old.regions.size() == newer.regions.size() && "made with the same options");
+ChunkMesh withMeshSections(const ChunkMesh& old, const ChunkMesh& newer, MeshSectionSet meshSections) {
+    assert(old.meshSections.size() == newer.meshSections.size() && "made with the same options");
     ChunkMesh mesh;
     mesh.quads.reserve(old.quads.size() + newer.quads.size());
-    for (std::size_t r = 0; r < old.regions.size(); ++r) {
-        const ChunkMesh& from = hasRegion(regions, r) ? newer : old;
-        const RegionMesh& region = from.regions[r];
-        mesh.regions.push_back(movedTo(static_cast<std::uint32_t>(mesh.quads.size()), region));
-        const auto first = from.quads.begin() + firstQuad(region);
-        mesh.quads.insert(mesh.quads.end(), first, first + quadCount(region));
+    for (std::size_t r = 0; r < old.meshSections.size(); ++r) {
+        const ChunkMesh& from = hasMeshSection(meshSections, r) ? newer : old;
+        const MeshSection& meshSection = from.meshSections[r];
+        mesh.meshSections.push_back(movedTo(static_cast<std::uint32_t>(mesh.quads.size()), meshSection));
+        const auto first = from.quads.begin() + firstQuad(meshSection);
+        mesh.quads.insert(mesh.quads.end(), first, first + quadCount(meshSection));
     }
     return mesh;
 }

@@ -1,4 +1,4 @@
-// What an edit costs: which regions' meshes change with a block, and the mesh of only these. Called by
+// What an edit costs: which mesh sections' meshes change with a block, and the mesh of only these. Called by
 // whoever owns the world; pure functions, any thread.
 #pragma once
 
@@ -10,31 +10,31 @@
 
 namespace terrane::mesh {
 
-// One bit a region, the lowest region in bit 0.
-using RegionSet = std::uint32_t;
-constexpr RegionSet kAllRegions = ~RegionSet{0};
-static_assert(world::kChunkHeight / kMinRegionHeight <= 32);
+// One bit a mesh section, the lowest mesh section in bit 0.
+using MeshSectionSet = std::uint32_t;
+constexpr MeshSectionSet kAllMeshSections = ~MeshSectionSet{0};
+static_assert(world::kChunkHeight / kMinMeshSectionHeight <= 32);
 
-constexpr bool hasRegion(RegionSet regions, std::size_t region) {
-    return (regions >> region & 1) != 0;
+constexpr bool hasMeshSection(MeshSectionSet meshSections, std::size_t meshSection) {
+    return (meshSections >> meshSection & 1) != 0;
 }
 
 struct TouchedChunk {
     world::ChunkPos pos;
-    RegionSet regions = 0;
+    MeshSectionSet meshSections = 0;
 
     bool operator==(const TouchedChunk&) const = default;
 };
 
-// The regions in which a face may change when the block at `pos` (z 0…255) does: its own, and those of the
-// six blocks beside it. At most three chunks, the block's own first; none outside the world.
-std::vector<TouchedChunk> regionsTouchedBy(world::BlockPos pos, int regionHeight);
+// The mesh sections in which a face may change when the block at `pos` (z 0…255) does: its own, and those of
+// the six blocks beside it. At most three chunks, the block's own first; none outside the world.
+std::vector<TouchedChunk> meshSectionsTouchedBy(world::BlockPos pos, int meshSectionHeight);
 
-// What meshChunk makes of these regions; the others have no quads. Bits beyond the highest region are passed
-// over.
-ChunkMesh meshRegions(const MeshInput& input, RegionSet regions, MeshScratch& scratch);
+// What meshChunk makes of these mesh sections; the others have no quads. Bits beyond the highest mesh section
+// are passed over.
+ChunkMesh buildMeshSections(const MeshInput& input, MeshSectionSet meshSections, MeshScratch& scratch);
 
-// `old` with `regions` as `newer` has them: both were made with the same options.
-ChunkMesh withRegions(const ChunkMesh& old, const ChunkMesh& newer, RegionSet regions);
+// `old` with `meshSections` as `newer` has them: both were made with the same options.
+ChunkMesh withMeshSections(const ChunkMesh& old, const ChunkMesh& newer, MeshSectionSet meshSections);
 
 }  // namespace terrane::mesh

@@ -24,7 +24,7 @@ constexpr std::array<Face, world::kFaceCount> kSides{world::kFaceNegX, world::kF
 constexpr std::size_t kUprightSides = 4;  // the first ones
 
 bool isHidden(const SectionView& view) {
-    const world::Section& section = *view.centre;
+    const world::Section& section = *view.center;
     const auto invisible = [&](world::BlockId id) { return view.blocks->type(id).shape == Shape::None; };
     if (section.isUniform()) return invisible(section.uniformValue());
     return !section.isDense() && std::all_of(section.palette().begin(), section.palette().end(), invisible);
@@ -61,7 +61,7 @@ struct Surroundings {
 
 Surroundings::Surroundings(const SectionView& view) {
     for (const Face side : kSides) {
-        const world::Section* next = view.neighbours[side];
+        const world::Section* next = view.neighbors[side];
         if (next) opaque[side] = sides[side].emplace(*next, oppositeSide(side)).opaqueCubes(*view.blocks);
     }
     if (!sides[world::kFaceNegZ]) opaque[world::kFaceNegZ] = filledSlice();
@@ -80,10 +80,10 @@ struct TypeBlocks {
 
 class SectionFaces {
   public:
-    SectionFaces(const SectionView& view, const Surroundings& around, QuadBuckets& out)
+    SectionFaces(const SectionView& view, const Surroundings& around, QuadCollector& out)
         : view_(view),
           around_(around),
-          bits_(*view.centre),
+          bits_(*view.center),
           writer_(view.blocks->materials(), view.target, out) {
         findUncovered();
     }
@@ -107,7 +107,7 @@ class SectionFaces {
     const Surroundings& around_;
     SectionBits bits_;
     FaceWriter writer_;
-    std::array<BitCube, world::kFaceCount> uncovered_;  // blocks whose neighbour on a side is no opaque cube
+    std::array<BitCube, world::kFaceCount> uncovered_;  // blocks whose neighbor on a side is no opaque cube
     BitCube uncoveredAnywhere_;                         // on some side; rows along x
 };
 
@@ -121,7 +121,7 @@ void SectionFaces::findUncovered() {
     const BitCube opaqueAlongY = transposed(opaque);
     for (const Face side : kSides) {
         const BitCube& cube = isAlongX(side) ? opaqueAlongY : opaque;
-        uncovered_[side] = neighbourBits(cube, side, around_.opaque[side]);
+        uncovered_[side] = neighborBits(cube, side, around_.opaque[side]);
         for (std::uint64_t& word : uncovered_[side]) word = ~word;
     }
     BitCube uncoveredX;
@@ -135,7 +135,7 @@ void SectionFaces::findUncovered() {
     }
 }
 
-// Planes inside the cell are drawn also where all neighbours are opaque; of other shapes nothing is seen
+// Planes inside the cell are drawn also where all neighbors are opaque; of other shapes nothing is seen
 // then.
 LayerRange SectionFaces::visibleLayers(const BlockType& type, const BitCube& blocks) const {
     const bool hasPlanes = type.shape != Shape::Cube && type.shape != Shape::Liquid;
@@ -178,7 +178,7 @@ BitCube SectionFaces::visible(const TypeBlocks& blocks, Face side) const {
     if (blocks.type.opaqueCube || !hidesOwnKind(blocks.type, side, *view_.blocks)) return faces;
     const auto& next = around_.sides[side];
     const BitSlice border = next ? next->blocks(blocks.id) : BitSlice{};
-    return without(faces, neighbourBits(blocks.facing(side), side, border, layers), layers);
+    return without(faces, neighborBits(blocks.facing(side), side, border, layers), layers);
 }
 
 void SectionFaces::addSide(const TypeBlocks& blocks, Face side) {
@@ -219,8 +219,8 @@ void SectionFaces::addLiquid(const TypeBlocks& blocks) {
 
 // Plane k has the material of side k.
 void SectionFaces::addPlanes(const TypeBlocks& blocks, uint firstFace, uint count) {
-    const world::Section& smallData = *view_.smallData;
-    const bool isGrown = smallData.isUniform() && smallData.uniformValue() == 0;
+    const world::Section& blockState = *view_.blockState;
+    const bool isGrown = blockState.isUniform() && blockState.uniformValue() == 0;
     if (!blocks.type.growth.empty() && !isGrown) return addGrowingPlanes(blocks, firstFace, count);
     for (uint k = 0; k < count; ++k) {
         writer_.write(blocks.alongX, {firstFace + k, blocks.type.material[k], false, world::kFacePosZ},
@@ -228,12 +228,12 @@ void SectionFaces::addPlanes(const TypeBlocks& blocks, uint firstFace, uint coun
     }
 }
 
-// The blocks of each stage by themselves; small data that stands for none counts as the youngest.
+// The blocks of each stage by themselves; block state that stands for none counts as the youngest.
 void SectionFaces::addGrowingPlanes(const TypeBlocks& blocks, uint firstFace, uint count) {
     const std::vector<std::uint16_t>& growth = blocks.type.growth;
     for (std::size_t left = 0; left <= growth.size(); ++left) {
         const BitCube stage = blocksWhere(blocks.alongX, blocks.layers, [&](std::size_t block) {
-            return std::min<std::size_t>(view_.smallData->get(static_cast<int>(block)), growth.size()) ==
+            return std::min<std::size_t>(view_.blockState->get(static_cast<int>(block)), growth.size()) ==
                    left;
         });
         for (uint k = 0; k < count; ++k) {
@@ -245,13 +245,13 @@ void SectionFaces::addGrowingPlanes(const TypeBlocks& blocks, uint firstFace, ui
 
 }  // namespace
 
-void addSectionFaces(const SectionView& view, QuadBuckets& out) {
-    assert(view.centre && view.blocks && "a section and what its ids mean");
+void addSectionFaces(const SectionView& view, QuadCollector& out) {
+    assert(view.center && view.blocks && "a section and what its ids mean");
     assert(view.target.baseZ % world::kSectionSize == 0 && world::isInHeight(view.target.baseZ) &&
            "height of a section");
     if (isHidden(view)) return;
     const Surroundings around(view);
-    if (around.isEnclosed() && isAllOpaque(*view.centre, *view.blocks)) return;
+    if (around.isEnclosed() && isAllOpaque(*view.center, *view.blocks)) return;
     SectionFaces(view, around, out).addAll();
 }
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "terrane/mesh/face_writer.h"
-#include "terrane/mesh/quad_buckets.h"
+#include "terrane/mesh/quad_collector.h"
 #include "terrane/world/block_registry.h"
 #include "terrane/world/section.h"
 
@@ -13,14 +13,14 @@ namespace terrane::mesh {
 
 // A section and what surrounds it.
 struct SectionView {
-    const world::Section* centre = nullptr;
+    const world::Section* center = nullptr;
     // By side; null above the world, where there is air, and below it, from where nothing is seen.
-    std::array<const world::Section*, world::kFaceCount> neighbours{};
-    const world::Section* smallData = nullptr;  // of the section's blocks
+    std::array<const world::Section*, world::kFaceCount> neighbors{};
+    const world::Section* blockState = nullptr;  // of the section's blocks
     const world::BlockRegistry* blocks = nullptr;
     FaceTarget target;
 };
 
-void addSectionFaces(const SectionView& view, QuadBuckets& out);
+void addSectionFaces(const SectionView& view, QuadCollector& out);
 
 }  // namespace terrane::mesh

@@ -1,5 +1,5 @@
 // The outermost layer of a section as bits: what the section next to it needs to know. Used by
-// section_faces.cpp for the six neighbours of a section; any thread.
+// section_faces.cpp for the six neighbors of a section; any thread.
 #pragma once
 
 #include <array>

@@ -36,7 +36,7 @@ constexpr ShapeFace topFace(float height) {
 }
 constexpr ShapeFace kBottomFace{{0, 0, 0, 0}, kPosX, kNegY, kNegZ};
 
-// A plane of width 1 on a diagonal of the cell spans 1/√2 along x and y; centred, it starts at (1 − 1/√2)/2.
+// A plane of width 1 on a diagonal of the cell spans 1/√2 along x and y; centered, it starts at (1 − 1/√2)/2.
 constexpr float kDiagonalSpan = 0.70710678f;
 constexpr float kDiagonalStart = (1.0f - kDiagonalSpan) / 2;
 

@@ -1,6 +1,6 @@
 #include "terrane/mesh_gpu/block_table.h"
 
-#include "terrane/mesh/face_context.h"
+#include "terrane/mesh/draw_bucket.h"
 #include "terrane/mesh/face_rules.h"
 
 namespace terrane::mesh_gpu {
@@ -18,7 +18,7 @@ static_assert(static_cast<uint>(Shape::Cube) == shared::kMeshShapeCube &&
               static_cast<uint>(Shape::Inset) == shared::kMeshShapeInset);
 
 uint faceOf(std::uint16_t material, const world::BlockRegistry& blocks) {
-    return material | static_cast<uint>(mesh::faceContext(blocks.materials()[material])) << 16;
+    return material | static_cast<uint>(mesh::drawBucket(blocks.materials()[material])) << 16;
 }
 
 uint flagsOf(const BlockType& type, const world::BlockRegistry& blocks) {

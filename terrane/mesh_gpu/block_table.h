@@ -1,5 +1,5 @@
 // Block types as the meshing shaders read them: rules of visibility and merging as bits, materials with their
-// face contexts. Pure bookkeeping without OpenGL.
+// draw buckets. Pure bookkeeping without OpenGL.
 #pragma once
 
 #include <vector>

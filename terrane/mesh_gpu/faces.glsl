@@ -1,4 +1,4 @@
-// Which faces of a unit are seen: rows of bits, as the mesher on the processor has them. An invocation has the row of
+// Which faces of a unit are seen: rows of bits, as the mesher on the CPU has them. An invocation has the row of
 // blocks y, z = its index; planes are filled from rows.
 #include "terrane/mesh_gpu/sections.glsl"
 
@@ -47,7 +47,7 @@ Row readRow(MeshUnit unit, uint local) {
 }
 
 bool isOpaqueBeyond(MeshUnit unit, uint side, uvec3 cell) {
-    return (blockBeyond(unit.neighbours[side], cell) & kMeshOpaqueBit << 16) != 0u;
+    return (blockBeyond(unit.neighbors[side], cell) & kMeshOpaqueBit << 16) != 0u;
 }
 
 // The rows with what lies around the section. Those outside it are zero before.
@@ -71,7 +71,7 @@ uint idBeside(MeshUnit unit, uvec3 cell, uint side) {
     ivec3 at = ivec3(cell) + kToward[side];
     uvec3 inside = uvec3(at & int(kLast));
     if (all(equal(ivec3(inside), at))) return idAt(inside);
-    return blockBeyond(unit.neighbours[side], inside) & 0xFFFFu;
+    return blockBeyond(unit.neighbors[side], inside) & 0xFFFFu;
 }
 
 // Faces of a row toward a block that is no opaque cube, nor of their own type where that hides them.

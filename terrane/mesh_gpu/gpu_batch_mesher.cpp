@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "terrane/mesh/region_quads.h"
+#include "terrane/mesh/mesh_section_quads.h"
 
 namespace terrane::mesh_gpu {
 std::vector<mesh::ChunkMesh> GpuBatchMesher::mesh(std::span<const mesh::MeshInput> chunks) {
@@ -18,12 +18,12 @@ std::vector<mesh::ChunkMesh> GpuBatchMesher::mesh(std::span<const mesh::MeshInpu
 
 void GpuBatchMesher::meshPart(std::span<const mesh::MeshInput> chunks, std::vector<mesh::ChunkMesh>& meshes) {
     mesher_.count(chunks);
-    const std::vector<mesh::RegionMesh> regions = mesher_.regions();
+    const std::vector<mesh::MeshSection> meshSections = mesher_.meshSections();
     std::vector<std::uint32_t> firstQuads;
     std::uint32_t total = 0;
-    for (const mesh::RegionMesh& region : regions) {
+    for (const mesh::MeshSection& meshSection : meshSections) {
         firstQuads.push_back(total);
-        total += mesh::quadCount(region);
+        total += mesh::quadCount(meshSection);
     }
     std::vector<shared::Quad> quads(total);
     if (total > 0) {
@@ -32,14 +32,14 @@ void GpuBatchMesher::meshPart(std::span<const mesh::MeshInput> chunks, std::vect
         mesher_.write(firstQuads, quads_);
         quads_.download(0, std::as_writable_bytes(std::span(quads)));
     }
-    const std::size_t regionsPerChunk = regions.size() / chunks.size();
+    const std::size_t meshSectionsPerChunk = meshSections.size() / chunks.size();
     auto from = quads.begin();
-    for (std::size_t k = 0; k < regions.size(); k += regionsPerChunk) {
+    for (std::size_t k = 0; k < meshSections.size(); k += meshSectionsPerChunk) {
         mesh::ChunkMesh& chunk = meshes.emplace_back();
         std::uint32_t first = 0;
-        for (std::size_t r = k; r < k + regionsPerChunk; ++r) {
-            chunk.regions.push_back(mesh::movedTo(first, regions[r]));
-            first += mesh::quadCount(regions[r]);
+        for (std::size_t r = k; r < k + meshSectionsPerChunk; ++r) {
+            chunk.meshSections.push_back(mesh::movedTo(first, meshSections[r]));
+            first += mesh::quadCount(meshSections[r]);
         }
         chunk.quads.assign(from, from + first);
         from += first;

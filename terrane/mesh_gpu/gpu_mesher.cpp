@@ -10,7 +10,7 @@
 #include "terrane/gpu/fence.h"
 #include "terrane/gpu/program.h"
 #include "terrane/gpu/readback_buffer.h"
-#include "terrane/mesh/region_quads.h"
+#include "terrane/mesh/mesh_section_quads.h"
 #include "terrane/mesh_gpu/block_table.h"
 #include "terrane/mesh_gpu/mesh_upload_internal.h"
 
@@ -19,8 +19,9 @@ namespace {
 
 using shared::uint;
 
-constexpr std::size_t kMaxRegions = GpuMesher::kMaxChunks * (world::kChunkHeight / mesh::kMinRegionHeight);
-constexpr shared::MeshRegionCounts kNothing{{}, world::kChunkHeight, 0};
+constexpr std::size_t kMaxMeshSections =
+    GpuMesher::kMaxChunks * (world::kChunkHeight / mesh::kMinMeshSectionHeight);
+constexpr shared::MeshSectionCounts kNothing{{}, world::kChunkHeight, 0};
 static_assert(GpuMesher::kMaxChunks * 2 * world::kSectionsPerChunk < 65536,
               "OpenGL has as many work groups along an axis at least");
 
@@ -42,23 +43,23 @@ gpu::Handle<gpu::ObjectKind::Query> timestampQuery() {
 }
 
 // Counts are in the order of mesh::rangesOf().
-mesh::RegionMesh regionOf(const shared::MeshRegionCounts& counts) {
-    mesh::RegionMesh region;
+mesh::MeshSection meshSectionOf(const shared::MeshSectionCounts& counts) {
+    mesh::MeshSection meshSection;
     uint first = 0;
     std::size_t next = 0;
-    for (int context = 0; context < mesh::kContextCount; ++context) {
-        for (int group = 0; group < mesh::kGroupCount; ++group) {
-            const bool hasRange = !mesh::contextTwoSided(context) || group == mesh::kGroupAlways;
+    for (int bucket = 0; bucket < mesh::kDrawBucketCount; ++bucket) {
+        for (int direction = 0; direction < mesh::kFaceDirectionCount; ++direction) {
+            const bool hasRange = !mesh::bucketTwoSided(bucket) || direction == mesh::kAnyDirection;
             const uint count = hasRange ? counts.quads[next++] : 0;
-            region.groups[context][group] = {first, count};
+            meshSection.ranges[bucket][direction] = {first, count};
             first += count;
         }
     }
     if (counts.minZ < counts.maxZ) {
-        region.minZ = static_cast<int>(counts.minZ);
-        region.maxZ = static_cast<int>(counts.maxZ);
+        meshSection.minZ = static_cast<int>(counts.minZ);
+        meshSection.maxZ = static_cast<int>(counts.maxZ);
     }
-    return region;
+    return meshSection;
 }
 
 }  // namespace
@@ -69,8 +70,9 @@ struct GpuMesher::Impl {
           upload(table),
           types(bufferOf(std::span<const shared::MeshType>(table.types), "mesh types")),
           growth(bufferOf(std::span<const uint>(table.growth), "mesh growth")),
-          counts(kMaxRegions * sizeof(shared::MeshRegionCounts), GL_DYNAMIC_STORAGE_BIT, "mesh counts"),
-          places(kMaxRegions * shared::kRangesOfRegion * sizeof(uint), GL_DYNAMIC_STORAGE_BIT, "mesh places"),
+          counts(kMaxMeshSections * sizeof(shared::MeshSectionCounts), GL_DYNAMIC_STORAGE_BIT, "mesh counts"),
+          places(kMaxMeshSections * shared::kRangesPerMeshSection * sizeof(uint), GL_DYNAMIC_STORAGE_BIT,
+                 "mesh places"),
           readback(counts.sizeBytes(), "mesh counts read back") {}
 
     void bind() const;
@@ -78,13 +80,13 @@ struct GpuMesher::Impl {
 
     BlockTable table;
     MeshUpload upload;  // of the batch at hand, as are these
-    std::size_t unitCount = 0, regionCount = 0;
-    mesh::Method method = mesh::Method::Greedy;
+    std::size_t unitCount = 0, meshSectionCount = 0;
+    mesh::MergeMethod method = mesh::MergeMethod::Greedy;
     gpu::Buffer sections, data, units, unitCounts;
 
     gpu::Program countProgram, writeProgram;
     gpu::Buffer types, growth;   // kept
-    gpu::Buffer counts, places;  // by region
+    gpu::Buffer counts, places;  // by mesh section
     gpu::ReadbackBuffer readback;
     gpu::Fence counted;
     std::array<gpu::Handle<gpu::ObjectKind::Query>, 2> countTimes = {timestampQuery(), timestampQuery()};
@@ -125,8 +127,8 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
     TERRANE_ZONE("count quads on the GPU");
     assert(!chunks.empty() && chunks.size() <= kMaxChunks && "a batch");
     const mesh::MeshOptions options = chunks.front().options;
-    assert(mesh::isRegionHeight(options.regionHeight) && "a power of two, 8 to 128");
-    const gpu::DebugGroup group("count quads");
+    assert(mesh::isMeshSectionHeight(options.meshSectionHeight) && "a power of two, 8 to 128");
+    const gpu::DebugGroup direction("count quads");
     Impl& m = *impl_;
     m.upload.clear();
     for (const mesh::MeshInput& chunk : chunks) {
@@ -135,8 +137,9 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
     }
     m.method = options.method;
     m.unitCount = m.upload.units().size();
-    m.regionCount = chunks.size() * static_cast<std::size_t>(world::kChunkHeight / options.regionHeight);
-    const std::vector<shared::MeshRegionCounts> nothing(m.regionCount, kNothing);
+    m.meshSectionCount =
+        chunks.size() * static_cast<std::size_t>(world::kChunkHeight / options.meshSectionHeight);
+    const std::vector<shared::MeshSectionCounts> nothing(m.meshSectionCount, kNothing);
     m.counts.uploadVector(0, nothing);
     glQueryCounter(m.countTimes[0].id(), GL_TIMESTAMP);
     if (m.unitCount > 0) {
@@ -146,13 +149,13 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
         m.unitCounts =
             gpu::Buffer(m.unitCount * shared::kMeshUnitWords * sizeof(uint), 0, "mesh unit counts");
         m.bind();
-        m.counts.bindStorage(shared::kMeshRegionsBinding);
+        m.counts.bindStorage(shared::kMeshSectionCountsBinding);
         m.run(m.countProgram);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
                         GL_TEXTURE_FETCH_BARRIER_BIT);
     }
     m.upload.clear();
-    m.readback.copyFrom(m.counts, m.regionCount * sizeof(shared::MeshRegionCounts));
+    m.readback.copyFrom(m.counts, m.meshSectionCount * sizeof(shared::MeshSectionCounts));
     glQueryCounter(m.countTimes[1].id(), GL_TIMESTAMP);
     m.counted = gpu::Fence::insert();
 }
@@ -169,29 +172,29 @@ double GpuMesher::countMilliseconds() const {
     return static_cast<double>(nanoseconds[1] - nanoseconds[0]) / 1e6;
 }
 
-std::vector<mesh::RegionMesh> GpuMesher::regions() const {
+std::vector<mesh::MeshSection> GpuMesher::meshSections() const {
     const Impl& m = *impl_;
     assert(m.counted.valid() && "after count()");
     m.counted.wait();
-    std::vector<shared::MeshRegionCounts> counts(m.regionCount);
+    std::vector<shared::MeshSectionCounts> counts(m.meshSectionCount);
     std::memcpy(counts.data(), m.readback.data().data(), counts.size() * sizeof(counts[0]));
-    std::vector<mesh::RegionMesh> regions(counts.size());
-    std::ranges::transform(counts, regions.begin(), regionOf);
-    return regions;
+    std::vector<mesh::MeshSection> meshSections(counts.size());
+    std::ranges::transform(counts, meshSections.begin(), meshSectionOf);
+    return meshSections;
 }
 
 void GpuMesher::write(std::span<const std::uint32_t> firstQuads, const gpu::Buffer& quads) {
     TERRANE_ZONE("write quads on the GPU");
     Impl& m = *impl_;
-    const std::vector<mesh::RegionMesh> counted = regions();
-    assert(firstQuads.size() == counted.size() && "a place for each region");
+    const std::vector<mesh::MeshSection> counted = meshSections();
+    assert(firstQuads.size() == counted.size() && "a place for each mesh section");
     if (m.unitCount == 0) return;
-    const gpu::DebugGroup group("write quads");
+    const gpu::DebugGroup direction("write quads");
     std::vector<uint> places;
-    places.reserve(counted.size() * shared::kRangesOfRegion);
+    places.reserve(counted.size() * shared::kRangesPerMeshSection);
     for (std::size_t k = 0; k < counted.size(); ++k) {
         if (firstQuads[k] == kNoPlace) {
-            places.insert(places.end(), shared::kRangesOfRegion, kNoPlace);
+            places.insert(places.end(), shared::kRangesPerMeshSection, kNoPlace);
             continue;
         }
         for (const mesh::QuadRange range : mesh::rangesOf(counted[k])) {
@@ -204,7 +207,7 @@ void GpuMesher::write(std::span<const std::uint32_t> firstQuads, const gpu::Buff
     }
     m.places.uploadVector(0, places);
     m.bind();
-    m.places.bindStorage(shared::kMeshRegionsBinding);
+    m.places.bindStorage(shared::kMeshSectionCountsBinding);
     quads.bindStorage(shared::kMeshQuadsBinding);
     m.run(m.writeProgram);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |

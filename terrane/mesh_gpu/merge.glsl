@@ -1,14 +1,14 @@
-// Merges the faces of 96 planes, 16 of each side, into rectangles. Which faces may become one with their neighbour is found
+// Merges the faces of 96 planes, 16 of each side, into rectangles. Which faces may become one with their neighbor is found
 // out before, for all planes at once: from there on bits decide.
 #include "terrane/mesh_gpu/quads.glsl"
-#include "terrane/shared/join_steps.h"
+#include "terrane/shared/merge_passes.h"
 
 layout(location = 0) uniform uint method;  // kMerge…
 
 // By side, then row·16 + plane: faces of the kind of the one before them in their row, << 16: in the row before.
 shared uint sameKind[6u * kBlocksPerLayer];
-// The same for faces that are in one rectangle already, while rectangles are joined.
-shared uint joined[6u * kBlocksPerLayer];
+// The same for faces that are in one rectangle already, while rectangles are merged.
+shared uint merged[6u * kBlocksPerLayer];
 
 // Faces of one kind have the same block type, and of a liquid lie both under its surface or in it.
 uint kindOf(uint side, uvec3 cell) {
@@ -63,34 +63,34 @@ void mergeGreedily(MeshUnit unit, uint side, uint plane) {
     }
 }
 
-// The other methods. `at` is the place of a row, as of `joined`; a rectangle has the name of its lowest face.
+// The other methods. `at` is the place of a row, as of `merged`; a rectangle has the name of its lowest face.
 uint lowestFaces(uint at) {
-    return faces[at] & ~(joined[at] | joined[at] >> 16);
+    return faces[at] & ~(merged[at] | merged[at] >> 16);
 }
 uint bitsOf(uint at, uint bit) {
-    return 1u + uint(findLSB(~(joined[at] & 0xFFFFu) >> bit >> 1));
+    return 1u + uint(findLSB(~(merged[at] & 0xFFFFu) >> bit >> 1));
 }
 uint rowsOf(uint at, uint bit) {
     uint rows = 1u;
     uint row = at % kBlocksPerLayer / kSectionSize;
-    while (row + rows < kSectionSize && (joined[at + kSectionSize * rows] >> bit >> 16 & 1u) != 0u) ++rows;
+    while (row + rows < kSectionSize && (merged[at + kSectionSize * rows] >> bit >> 16 & 1u) != 0u) ++rows;
     return rows;
 }
 
-bool mayJoin(uint step, uint end, uint length, uint nextLength) {
-    bool isAtLine = (joinLines(step) >> end & 1u) != 0u;
-    return isAtLine && (joinLength(step) == 0u || length == joinLength(step) && nextLength == length);
+bool mayMerge(uint pass, uint end, uint length, uint nextLength) {
+    bool isAtLine = (mergeLines(pass) >> end & 1u) != 0u;
+    return isAtLine && (mergeLength(pass) == 0u || length == mergeLength(pass) && nextLength == length);
 }
 
 // Rectangles that begin in one row, in the order of their bits: no other invocation touches them.
-void joinAlongRow(uint step, uint at) {
+void mergeAlongRow(uint pass, uint at) {
     for (uint left = lowestFaces(at); left != 0u; left &= left - 1u) {
         uint bit = uint(findLSB(left)), bits = bitsOf(at, bit), rows = rowsOf(at, bit);
         for (uint end = bit + bits; end < kSectionSize; end = bit + bits) {
             if ((sameKind[at] & lowestFaces(at) & 1u << end) == 0u || rowsOf(at, end) != rows) break;
             uint nextBits = bitsOf(at, end);
-            if (!mayJoin(step, end, bits, nextBits)) break;
-            for (uint k = 0u; k < rows; ++k) atomicOr(joined[at + kSectionSize * k], 1u << end);
+            if (!mayMerge(pass, end, bits, nextBits)) break;
+            for (uint k = 0u; k < rows; ++k) atomicOr(merged[at + kSectionSize * k], 1u << end);
             left &= ~(1u << end);
             bits += nextBits;
         }
@@ -98,7 +98,7 @@ void joinAlongRow(uint step, uint at) {
 }
 
 // The same of one column: `first` is the place of the plane's first row.
-void joinAcrossRows(uint step, uint first, uint bit) {
+void mergeAcrossRows(uint pass, uint first, uint bit) {
     for (uint row = 0u; row < kSectionSize;) {
         uint at = first + kSectionSize * row;
         if ((lowestFaces(at) >> bit & 1u) == 0u) {
@@ -110,8 +110,8 @@ void joinAcrossRows(uint step, uint first, uint bit) {
             uint next = at + kSectionSize * rows;
             if ((sameKind[next] >> 16 & lowestFaces(next) & 1u << bit) == 0u || bitsOf(next, bit) != bits) break;
             uint nextRows = rowsOf(next, bit);
-            if (!mayJoin(step, row + rows, rows, nextRows)) break;
-            atomicOr(joined[next], ((1u << bits) - 1u) << bit << 16);
+            if (!mayMerge(pass, row + rows, rows, nextRows)) break;
+            atomicOr(merged[next], ((1u << bits) - 1u) << bit << 16);
             rows += nextRows;
         }
         row += rows;
@@ -119,15 +119,15 @@ void joinAcrossRows(uint step, uint first, uint bit) {
 }
 
 // By the whole work group; each row and each column of each plane is an invocation's own.
-void mergeInSteps(MeshUnit unit, uint local) {
-    for (uint side = 0u; side < 6u; ++side) joined[kBlocksPerLayer * side + local] = 0u;
+void mergeInPasses(MeshUnit unit, uint local) {
+    for (uint side = 0u; side < 6u; ++side) merged[kBlocksPerLayer * side + local] = 0u;
     barrier();
-    for (uint step = firstJoinStep(method); step < endOfJoinSteps(method); ++step) {
+    for (uint pass = firstMergePass(method); pass < endOfMergePasses(method); ++pass) {
         for (uint side = 0u; side < 6u; ++side) {
-            if (step % 2u == 0u) {
-                joinAlongRow(step, kBlocksPerLayer * side + local);
+            if (pass % 2u == 0u) {
+                mergeAlongRow(pass, kBlocksPerLayer * side + local);
             } else {
-                joinAcrossRows(step, kBlocksPerLayer * side + local % kSectionSize, local / kSectionSize);
+                mergeAcrossRows(pass, kBlocksPerLayer * side + local % kSectionSize, local / kSectionSize);
             }
         }
         barrier();

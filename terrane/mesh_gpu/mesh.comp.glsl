@@ -1,4 +1,4 @@
-// Meshes a unit: a section, or as much of it as lies in one region. A work group is a unit. Rows of blocks, an invocation
+// Meshes a unit: a section, or as much of it as lies in one mesh section. A work group is a unit. Rows of blocks, an invocation
 // each, find the faces that are seen; then 96 planes of them are merged, by reading and changing bits only.
 #include "terrane/mesh_gpu/merge.glsl"
 
@@ -12,8 +12,8 @@ uint shareRow(MeshUnit unit, uint local) {
     uint z = local / kSectionSize, seen[6];
     findSeen(unit, row, local, seen);
     surface[local] = seen[5] & row.liquid;
-    bool isInRegion = z >= (unit.layers & 0xFFFFu) && z < unit.layers >> 16;
-    if (!isInRegion) return 0u;
+    bool isInMeshSection = z >= (unit.layers & 0xFFFFu) && z < unit.layers >> 16;
+    if (!isInMeshSection) return 0u;
     shareSeen(seen, local);
 #if !WRITES_QUADS
     if ((row.planes | seen[0] | seen[1] | seen[2] | seen[3] | seen[4] | seen[5]) != 0u) {
@@ -28,12 +28,12 @@ void begin(MeshUnit unit, uint unitIndex, uint local) {
     for (uint k = local; k < kPaddedSize * kPaddedSize; k += kBlocksPerLayer) opaqueRows[k] = 0u;
     for (uint k = local; k < 6u * kBlocksPerLayer; k += kBlocksPerLayer) faces[k] = 0u;
 #if WRITES_QUADS
-    if (local < kRangesOfRegion) {
+    if (local < kRangesPerMeshSection) {
         uint count = unitCounts[kMeshUnitWords * unitIndex + local];
-        if (count > 0u) counters[local] = atomicAdd(places[kRangesOfRegion * unit.region + local], count);
+        if (count > 0u) counters[local] = atomicAdd(places[kRangesPerMeshSection * unit.meshSection + local], count);
     }
 #else
-    if (local < kRangesOfRegion) counters[local] = 0u;
+    if (local < kRangesPerMeshSection) counters[local] = 0u;
     if (local == 0u) {
         lowest = kSectionSize;
         highest = 0u;
@@ -45,15 +45,15 @@ void begin(MeshUnit unit, uint unitIndex, uint local) {
 #if !WRITES_QUADS
 void reportCounts(MeshUnit unit, uint unitIndex, uint local) {
     barrier();
-    if (local < kRangesOfRegion) {
+    if (local < kRangesPerMeshSection) {
         unitCounts[kMeshUnitWords * unitIndex + local] = counters[local];
-        if (counters[local] > 0u) atomicAdd(regions[unit.region].quads[local], counters[local]);
+        if (counters[local] > 0u) atomicAdd(meshSections[unit.meshSection].quads[local], counters[local]);
     }
     if (local != 0u) return;
-    unitCounts[kMeshUnitWords * unitIndex + kRangesOfRegion] = highest;
+    unitCounts[kMeshUnitWords * unitIndex + kRangesPerMeshSection] = highest;
     if (highest == 0u) return;
-    atomicMin(regions[unit.region].minZ, unit.baseZ + lowest);
-    atomicMax(regions[unit.region].maxZ, unit.baseZ + highest);
+    atomicMin(meshSections[unit.meshSection].minZ, unit.baseZ + lowest);
+    atomicMax(meshSections[unit.meshSection].maxZ, unit.baseZ + highest);
 }
 #endif
 
@@ -61,8 +61,8 @@ void main() {
     uint local = gl_LocalInvocationIndex, unitIndex = gl_WorkGroupID.x;
     MeshUnit unit = units[unitIndex];
 #if WRITES_QUADS
-    if (unitCounts[kMeshUnitWords * unitIndex + kRangesOfRegion] == 0u) return;  // nothing to be seen
-    if (places[kRangesOfRegion * unit.region] == kNoPlace) return;
+    if (unitCounts[kMeshUnitWords * unitIndex + kRangesPerMeshSection] == 0u) return;  // nothing to be seen
+    if (places[kRangesPerMeshSection * unit.meshSection] == kNoPlace) return;
 #endif
     begin(unit, unitIndex, local);
     uint planes = shareRow(unit, local);
@@ -71,7 +71,7 @@ void main() {
     barrier();
     addPlanes(unit, planes, local);
     if (method != kMergeGreedy) {
-        mergeInSteps(unit, local);
+        mergeInPasses(unit, local);
     } else if (local < 96u) {
         mergeGreedily(unit, local / kSectionSize, local % kSectionSize);
     }

@@ -53,12 +53,12 @@ void MeshQueue::count(std::span<const mesh::MeshInput> chunks) {
 std::vector<CountedChunk> MeshQueue::takeCounted() {
     assert(isCounted());
     start_ = Clock::now();
-    regions_ = mesher_.regions();
-    const std::size_t perChunk = regions_.size() / counting_.size();
+    meshSections_ = mesher_.meshSections();
+    const std::size_t perChunk = meshSections_.size() / counting_.size();
     std::vector<CountedChunk> counted;
     for (std::size_t k = 0; k < counting_.size(); ++k) {
         if (isRemoved_.contains(counting_[k])) continue;
-        counted.push_back({counting_[k], std::span(regions_).subspan(k * perChunk, perChunk)});
+        counted.push_back({counting_[k], std::span(meshSections_).subspan(k * perChunk, perChunk)});
     }
     return counted;
 }
@@ -66,12 +66,12 @@ std::vector<CountedChunk> MeshQueue::takeCounted() {
 void MeshQueue::write(std::span<const FirstQuads> places, const gpu::Buffer& quads) {
     TERRANE_ZONE("mesh queue: write");
     assert(places.size() == counting_.size() - isRemoved_.size() && "one for each of takeCounted()");
-    const std::size_t perChunk = regions_.size() / counting_.size();
-    std::vector<std::uint32_t> firstQuads(regions_.size(), kNoPlace);
+    const std::size_t perChunk = meshSections_.size() / counting_.size();
+    std::vector<std::uint32_t> firstQuads(meshSections_.size(), kNoPlace);
     auto place = places.begin();
     for (std::size_t k = 0; k < counting_.size(); ++k) {
         if (isRemoved_.contains(counting_[k])) continue;
-        assert((place->empty() || place->size() == perChunk) && "one for each region");
+        assert((place->empty() || place->size() == perChunk) && "one for each mesh section");
         std::ranges::copy(*place++, firstQuads.begin() + static_cast<std::ptrdiff_t>(k * perChunk));
     }
     mesher_.write(firstQuads, quads);

@@ -13,13 +13,13 @@
 
 namespace terrane::mesh_gpu {
 
-// A chunk whose quads are counted. The regions stay until the batch is written.
+// A chunk whose quads are counted. The mesh sections stay until the batch is written.
 struct CountedChunk {
     world::ChunkPos pos;
-    std::span<const mesh::RegionMesh> regions;
+    std::span<const mesh::MeshSection> meshSections;
 };
 
-// Where the quads of each region of a chunk begin in the buffer; empty where there is no room for them.
+// Where the quads of each mesh section of a chunk begin in the buffer; empty where there is no room for them.
 using FirstQuads = std::vector<std::uint32_t>;
 
 // A frame calls, in this order:
@@ -28,7 +28,7 @@ using FirstQuads = std::vector<std::uint32_t>;
 //   if (chunks = queue.takeWaiting(); !chunks.empty()) queue.count(inputs of these chunks);
 class MeshQueue {
   public:
-    // Time of a batch, on the processor or the GPU, whichever takes longer: 0 for as large ones as can be.
+    // Time of a batch, on the CPU or the GPU, whichever takes longer: 0 for as large ones as can be.
     MeshQueue(GpuMesher mesher, double budgetMilliseconds);
 
     // The chunk is to be meshed: once more where a batch with it is on the way.
@@ -62,10 +62,10 @@ class MeshQueue {
     std::size_t batchSize_;
     std::deque<world::ChunkPos> waiting_;  // in order; some were removed again
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> isWaiting_;
-    // The batch on the way, those of it that were removed, and once it is counted the regions of all.
+    // The batch on the way, those of it that were removed, and once it is counted the mesh sections of all.
     std::vector<world::ChunkPos> counting_;
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> isRemoved_;
-    std::vector<mesh::RegionMesh> regions_;
+    std::vector<mesh::MeshSection> meshSections_;
     Clock::time_point start_;       // of counting or writing, whichever is under way
     double countMilliseconds_ = 0;  // of the batch, on the CPU
 };

@@ -13,10 +13,10 @@ using world::Section;
 
 // The section beyond a side; null above and below the world.
 const Section* beside(const mesh::MeshInput& chunk, int number, uint side) {
-    if (side < 4) return &chunk.neighbours[side]->section(number);
+    if (side < 4) return &chunk.neighbors[side]->section(number);
     const int other = side == world::kFaceNegZ ? number - 1 : number + 1;
     const bool isInside = other >= 0 && other < world::kSectionsPerChunk;
-    return isInside ? &chunk.centre->section(other) : nullptr;
+    return isInside ? &chunk.center->section(other) : nullptr;
 }
 
 bool isZero(const Section& section) {
@@ -29,7 +29,7 @@ void MeshUpload::clear() {
     units_.clear();
     packed_.clear();
     slots_.clear();
-    regions_ = 0;
+    meshSections_ = 0;
 }
 
 uint MeshUpload::slotOf(const Section& section, bool holdsBlocks) {
@@ -44,7 +44,7 @@ uint MeshUpload::slotOf(const Section& section, bool holdsBlocks) {
 // Not where there is only air, nor where nothing but opaque cubes is within and around: of 16 sections of a
 // landscape chunk 4 or 5 are left.
 bool MeshUpload::mayBeSeen(const mesh::MeshInput& chunk, int number) const {
-    const Section& section = chunk.centre->section(number);
+    const Section& section = chunk.center->section(number);
     const auto isInvisible = [&](std::uint16_t id) {
         return (types_.type(id).flags & shared::kMeshShapeMask) == 0;
     };
@@ -61,34 +61,34 @@ bool MeshUpload::mayBeSeen(const mesh::MeshInput& chunk, int number) const {
     return false;
 }
 
-// One, or two where a region is half as high as a section.
+// One, or two where a mesh section is half as high as a section.
 void MeshUpload::addUnits(const mesh::MeshInput& chunk, int number) {
     shared::MeshUnit unit{};
-    unit.section = slotOf(chunk.centre->section(number), true);
-    const Section& smallData = chunk.centre->smallDataSection(number);
-    unit.smallData = isZero(smallData) ? shared::kNoSection : slotOf(smallData, false);
+    unit.section = slotOf(chunk.center->section(number), true);
+    const Section& blockState = chunk.center->blockStates(number);
+    unit.blockState = isZero(blockState) ? shared::kNoSection : slotOf(blockState, false);
     for (uint side = 0; side < world::kFaceCount; ++side) {
         const Section* next = beside(chunk, number, side);
         const uint none = side == world::kFaceNegZ ? shared::kOpaqueSection : shared::kNoSection;
-        unit.neighbours[side] = next ? slotOf(*next, true) : none;
+        unit.neighbors[side] = next ? slotOf(*next, true) : none;
     }
     unit.baseZ = static_cast<uint>(number * world::kSectionSize);
-    const auto height = static_cast<uint>(chunk.options.regionHeight);
+    const auto height = static_cast<uint>(chunk.options.meshSectionHeight);
     const uint step = std::min(height, shared::kSectionSize);
     for (uint layer = 0; layer < shared::kSectionSize; layer += step) {
-        unit.region = regions_ + (unit.baseZ + layer) / height;
+        unit.meshSection = meshSections_ + (unit.baseZ + layer) / height;
         unit.layers = layer | (layer + step) << 16;
         units_.push_back(unit);
     }
 }
 
 void MeshUpload::add(const mesh::MeshInput& chunk) {
-    assert(chunk.centre && std::ranges::count(chunk.neighbours, nullptr) == 0 &&
-           "a chunk is meshed when its neighbours are known");
+    assert(chunk.center && std::ranges::count(chunk.neighbors, nullptr) == 0 &&
+           "a chunk is meshed when its neighbors are known");
     for (int number = 0; number < world::kSectionsPerChunk; ++number) {
         if (mayBeSeen(chunk, number)) addUnits(chunk, number);
     }
-    regions_ += static_cast<uint>(world::kChunkHeight / chunk.options.regionHeight);
+    meshSections_ += static_cast<uint>(world::kChunkHeight / chunk.options.meshSectionHeight);
 }
 
 }  // namespace terrane::mesh_gpu

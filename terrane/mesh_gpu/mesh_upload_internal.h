@@ -34,7 +34,7 @@ class MeshUpload {
     std::vector<shared::MeshUnit> units_;
     world::PackedSections packed_;
     std::unordered_map<const world::Section*, shared::uint> slots_;
-    shared::uint regions_ = 0;  // of the chunks before
+    shared::uint meshSections_ = 0;  // of the chunks before
 };
 
 }  // namespace terrane::mesh_gpu

@@ -1,51 +1,51 @@
-// What becomes of a quad. First quads are counted, by region and range; then, when the host has made room, they are
+// What becomes of a quad. First quads are counted, by mesh section and range; then, when the host has made room, they are
 // written to their places in the buffer that is drawn from. WRITES_QUADS tells which of both.
 #include "terrane/mesh_gpu/faces.glsl"
 #include "terrane/shared/shape_face.h"
 
-shared uint counters[kRangesOfRegion];  // quads so far, or where the next one goes
+shared uint counters[kRangesPerMeshSection];  // quads so far, or where the next one goes
 
 layout(std430, binding = kMeshUnitCountsBinding) buffer UnitCounts {
     uint unitCounts[];  // kMeshUnitWords a unit
 };
 #if WRITES_QUADS
-layout(std430, binding = kMeshRegionsBinding) buffer Places {
-    uint places[];  // by region and range: where the next unit's quads go
+layout(std430, binding = kMeshSectionCountsBinding) buffer Places {
+    uint places[];  // by mesh section and range: where the next unit's quads go
 };
 layout(std430, binding = kMeshQuadsBinding) writeonly buffer Quads {
     uvec2 quads[];
 };
 #else
-layout(std430, binding = kMeshRegionsBinding) buffer Regions {
-    MeshRegionCounts regions[];
+layout(std430, binding = kMeshSectionCountsBinding) buffer MeshSections {
+    MeshSectionCounts meshSections[];
 };
 shared uint lowest, highest;  // layers with faces
 #endif
 
-// face: material and context. group: as in mesh/face_context.h, of a one-sided face.
-void addQuad(uint word0, uint face, uint group) {
-    uint context = face >> 16;
-    uint range = firstRange(context) + ((context & 1u) != 0u ? 0u : group);
+// face: material and draw bucket. direction: as in mesh/draw_bucket.h, of a one-sided face.
+void addQuad(uint word0, uint face, uint direction) {
+    uint bucket = face >> 16;
+    uint range = firstRange(bucket) + ((bucket & 1u) != 0u ? 0u : direction);
     uint at = atomicAdd(counters[range], 1u);
 #if WRITES_QUADS
     quads[at] = uvec2(word0, face & 0xFFFFu);
 #endif
 }
 
-// One a block and plane. Their group is the side they look to; none for those of a cross.
+// One a block and plane. Their direction is the side they look to; none for those of a cross.
 void addPlanes(MeshUnit unit, uint planes, uint local) {
     for (uint left = planes; left != 0u; left &= left - 1u) {
         uvec3 cell = uvec3(findLSB(left), local % kSectionSize, local / kSectionSize);
         MeshType type = types[typeOf(idAt(cell))];
         uint shape = type.flags & kMeshShapeMask, stages = type.growth >> 16, stage = 0u;
-        if (stages > 0u) stage = min(smallDataAt(unit.smallData, blockIndex(cell)), stages);
+        if (stages > 0u) stage = min(blockStateAt(unit.blockState, blockIndex(cell)), stages);
         uint firstFace = shape == kMeshShapeCross  ? kShapeFaceCross
                          : shape == kMeshShapeHash ? kShapeFaceHash
                                                    : kShapeFaceInset;
         for (uint k = 0u; k < (shape == kMeshShapeCross ? 2u : 4u); ++k) {
             uint face = stage == 0u ? type.faces[k] : growth[(type.growth & 0xFFFFu) + stage - 1u];
             uint word0 = cell.x | cell.y << 4 | (unit.baseZ + cell.z) << 8 | (firstFace + k) << 16;
-            addQuad(word0, face, shape == kMeshShapeCross ? kFaceGroups - 1u : k);
+            addQuad(word0, face, shape == kMeshShapeCross ? kFaceDirections - 1u : k);
         }
     }
 }

@@ -26,7 +26,7 @@ uint blockAt(PackedSection section, uint block) {
     return section.bits == kDenseBits ? value | types[typeOf(value)].flags << 16 : value;
 }
 
-uint smallDataAt(uint section, uint block) {
+uint blockStateAt(uint section, uint block) {
     return section == kNoSection ? 0u : packedValue(sections[section], block);
 }
 

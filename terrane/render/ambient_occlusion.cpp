@@ -11,23 +11,23 @@ AmbientOcclusion::AmbientOcclusion(const gpu::ShaderLoader& shaders)
 
 base::Result<void> AmbientOcclusion::configure(const FrameTargets& targets, bool isOn) {
     if (isOn) {
-        const std::string samples = std::to_string(targets.samples);
-        auto selected = find_.select({{"SAMPLES", samples}});
-        if (selected) selected = alongX_.select({{"AXIS", "0"}, {"SAMPLES", samples}});
-        if (selected) selected = alongY_.select({{"AXIS", "1"}, {"SAMPLES", samples}});
+        const std::string samples = std::to_string(targets.msaaSamples);
+        auto selected = find_.select({{"MSAA_SAMPLES", samples}});
+        if (selected) selected = alongX_.select({{"AXIS", "0"}, {"MSAA_SAMPLES", samples}});
+        if (selected) selected = alongY_.select({{"AXIS", "1"}, {"MSAA_SAMPLES", samples}});
         if (!selected) return selected;
     }
     const glm::ivec2 wanted = isOn ? targets.size : glm::ivec2(0);
     if (wanted == size_) return {};
-    open_ = {};
+    visibility_ = {};
     between_ = {};
     size_ = {0, 0};
     if (!isOn) return {};
-    auto open = ColorTarget::create(wanted, GL_R8, "ambient occlusion");
-    if (!open) return tl::unexpected(open.error());
+    auto visibility = ColorTarget::create(wanted, GL_R8, "ambient occlusion");
+    if (!visibility) return tl::unexpected(visibility.error());
     auto between = ColorTarget::create(wanted, GL_R8, "occlusion between");
     if (!between) return tl::unexpected(between.error());
-    open_ = std::move(*open);
+    visibility_ = std::move(*visibility);
     between_ = std::move(*between);
     size_ = wanted;
     return {};
@@ -35,12 +35,12 @@ base::Result<void> AmbientOcclusion::configure(const FrameTargets& targets, bool
 
 void AmbientOcclusion::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
     targets.bindSurfaces();
-    open_.framebuffer.bind();
+    visibility_.framebuffer.bind();
     find_.draw(pipeline, {});
     between_.framebuffer.bind();
-    open_.texture.bind(shared::kOcclusionUnit);
+    visibility_.texture.bind(shared::kOcclusionUnit);
     alongX_.draw(pipeline, {});
-    open_.framebuffer.bind();
+    visibility_.framebuffer.bind();
     between_.texture.bind(shared::kOcclusionUnit);
     alongY_.draw(pipeline, {});
 }

@@ -1,12 +1,12 @@
-// How open the surroundings of a surface are, from the depth on the screen: 1 open, 0 shut in. Two to eight points on a
+// Ambient visibility of a surface from the depth on the screen: 1 open, 0 occluded. Two to eight points on a
 // spiral in the hemisphere over the surface, fewer with distance, turned differently in each of 4 × 4 pixels.
-// SAMPLES: of the G-buffer, of which the first is taken.
+// MSAA_SAMPLES: of the G-buffer, of which the first is taken.
 #include "terrane/render/frame_uniforms.glsl"
-#include "terrane/render/surfaces.glsl"
+#include "terrane/render/gbuffer_read.glsl"
 #include "terrane/shared/hash.h"
 
 layout(location = 1) in vec3 inRay;
-layout(location = 0) out vec4 outOpen;
+layout(location = 0) out vec4 outVisibility;
 
 const float kRadius = 0.9;  // blocks
 
@@ -17,26 +17,26 @@ float occlusionAt(vec3 position, float bias) {
     if (screen != clamp(screen, 0.0, 1.0)) return 0.0;
     float seen = blocksOfDepth(depthAt(ivec2(screen * frame.viewportSize), 0));
     float inFront = clip.w - seen;
-    // What stands far before the point does not shut it in.
+    // What stands far before the point does not occlude it.
     return inFront > bias ? clamp(1.0 - (inFront - kRadius) / kRadius, 0.0, 1.0) : 0.0;
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec4 word = surfaceAt(pixel, 0);
+    vec4 packedSurface = packedSurfaceAt(pixel, 0);
     float blocks = blocksOfDepth(depthAt(pixel, 0));
-    outOpen = vec4(1.0);
-    if (directionOfWord(word) == kDirectionNone || blocks > 96.0) return;
-    vec3 normal = unpackSurface(word).normal;
+    outVisibility = vec4(1.0);
+    if (packedDirection(packedSurface) == kDirectionNone || blocks > 96.0) return;
+    vec3 normal = unpackSurface(packedSurface).normal;
     vec3 position = frame.cameraPosition.xyz + inRay * blocks;
     vec3 tangent = abs(normal.z) > 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 0.0, 1.0), side = cross(normal, tangent);
     float turn = float(hash2(uint(pixel.x) & 3u, uint(pixel.y) & 3u, 3u) >> 8) / 16777216.0;
     int count = int(clamp(8.0 - 6.0 * blocks / 64.0, 2.0, 8.0));
-    float bias = 0.02 + 0.004 * blocks, shut = 0.0;
+    float bias = 0.02 + 0.004 * blocks, occluded = 0.0;
     for (int k = 0; k < count; ++k) {
         float way = (float(k) + 0.5) / float(count), angle = 6.2831853 * (turn + 2.0 * way);
         vec3 offset = normalize(normal * (0.35 + 0.5 * way) + cos(angle) * tangent + sin(angle) * side);
-        shut += occlusionAt(position + offset * kRadius * (0.25 + 0.75 * way), bias);
+        occluded += occlusionAt(position + offset * kRadius * (0.25 + 0.75 * way), bias);
     }
-    outOpen = vec4(1.0 - 0.85 * shut / float(count));
+    outVisibility = vec4(1.0 - 0.85 * occluded / float(count));
 }

@@ -15,11 +15,13 @@ class AmbientOcclusion {
     base::Result<void> configure(const FrameTargets& targets, bool isOn);
     void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
     bool isOn() const { return size_.x > 0; }
-    const gpu::Texture2D& result() const { return open_.texture; }  // 1 where nothing shuts a surface in
+    const gpu::Texture2D& result() const {
+        return visibility_.texture;
+    }  // 1 where nothing shuts a surface in
 
   private:
     FullscreenPass find_, alongX_, alongY_;
-    ColorTarget open_, between_;
+    ColorTarget visibility_, between_;
     glm::ivec2 size_{0};
 };
 

@@ -51,7 +51,7 @@ FrameInput sampleInput() {
 
 struct BackgroundCompiler::State {
     struct Wanted {
-        glm::ivec2 size;  // of the small picture
+        glm::ivec2 size;  // of the small image
         RenderOptions options;
 
         bool operator==(const Wanted&) const = default;
@@ -151,7 +151,7 @@ bool BackgroundCompiler::isReady(glm::ivec2 size, const RenderOptions& options) 
     if (state_->isReady(wanted)) return true;
     if (state_->current == wanted) return false;
     state_->next = wanted;
-    // A person who never changes an option needs no thread.
+    // A user who never changes an option needs no thread.
     if (!state_->thread.joinable()) state_->thread = std::thread([state = state_.get()] { state->run(); });
     state_->changed.notify_one();
     return false;

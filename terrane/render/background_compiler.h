@@ -1,4 +1,4 @@
-// Has the shaders of other options compiled while frames go on. A small picture is drawn with them on a
+// Has the shaders of other options compiled while frames go on. A small image is drawn with them on a
 // thread and in an OpenGL context of its own; drivers keep what they compiled (Mesa and NVIDIA do, on disk)
 // and give it to the renderer when it asks for the same. Where a driver keeps nothing, or EGL cannot draw
 // without a window, the renderer compiles itself, and its frame waits.
@@ -18,7 +18,7 @@ class BackgroundCompiler {
     // Loader and registry outlive this; `textures` is called on the other thread.
     BackgroundCompiler(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
                        TextureSource textures);
-    ~BackgroundCompiler();  // waits until the thread ends the picture it is at
+    ~BackgroundCompiler();  // waits until the thread ends the image it is at
     BackgroundCompiler(const BackgroundCompiler&) = delete;
     BackgroundCompiler& operator=(const BackgroundCompiler&) = delete;
 

@@ -1,4 +1,4 @@
-// The texture of a face at a point. Needs face words (face_word.glsl) and frame_uniforms.glsl.
+// The texture of a face at a point. Needs packed faces (packed_face.glsl) and frame_uniforms.glsl.
 layout(binding = kBlockTexturesUnit) uniform sampler2DArray blockTextures;
 
 uint textureOf(uint face) {
@@ -17,7 +17,7 @@ bool isLiquid(uint face) {
 // a texel of the mipmap stays between.
 // dx, dy: of the coordinates, before the margin bends them.
 vec4 blockTexture(uint face, vec2 inTextures, vec2 dx, vec2 dy) {
-#if SMOOTH == 0 && SAMPLES <= 1
+#if SMOOTH == 0 && MSAA_SAMPLES <= 1
     // Cheaper, and the same where no pixel beside has ended and the coordinates are those of the face.
     return texture(blockTextures, vec3(inTextures, textureOf(face)));
 #elif SMOOTH == 0
@@ -48,6 +48,6 @@ vec4 nearestTexel(uint face, vec2 inTextures, int level) {
     return texelFetch(blockTextures, ivec3(texel, textureOf(face)), level);
 }
 
-float leastAlpha(uint face) {
+float minAlpha(uint face) {
     return alphaModeOf(face) == kAlphaTestGlow ? 0.25 : 0.5;
 }

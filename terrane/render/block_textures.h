@@ -10,7 +10,7 @@ namespace terrane::render {
 
 using world::TextureSource;
 
-// Layer n is registry.textures()[n]; `maxLayers`: of the graphics driver. Colours stay sRGB bytes, as the
+// Layer n is registry.textures()[n]; `maxLayers`: of the graphics driver. Colors stay sRGB bytes, as the
 // G-buffer keeps them: sampling decodes nothing, and software renderers have a fast way for such formats. All
 // images must be square, of one size, a power of two; errors name the texture.
 base::Result<gpu::Texture2DArray> loadBlockTextures(const world::BlockRegistry& registry,

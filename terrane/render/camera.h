@@ -28,7 +28,7 @@ constexpr float kNearPlane = 0.05f;  // blocks
 struct ViewMatrices {
     glm::vec3 cameraPosition;
     glm::mat4 viewProjection;  // reversed depth without far plane: 1 at the near plane, 0 at infinity
-    // From the camera to the middle of the picture one block ahead, and from there to its right and upper
+    // From the camera to the middle of the image one block ahead, and from there to its right and upper
     // edge.
     glm::vec3 ahead, across, up;
 };

@@ -15,7 +15,7 @@ float cloudThickness(vec2 at) {
     return smoothstep(0.50, 0.80, shape);
 }
 
-// Colour and coverage. Toward the sun a cloud is thinner or thicker than here: its lit and its shaded side.
+// Color and coverage. Toward the sun a cloud is thinner or thicker than here: its lit and its shaded side.
 vec4 clouds(vec3 direction) {
     float up = max(direction.z, 0.02);
     vec3 position = frame.cameraPosition.xyz;
@@ -40,12 +40,12 @@ vec3 starDirection(vec3 direction) {
     return vec3(c * direction.x + s * direction.z, direction.y, c * direction.z - s * direction.x);
 }
 
-// At most one star in each cell of a grid on the faces of a cube, here and there, of different brightness and colour.
+// At most one star in each cell of a grid on the faces of a cube, here and there, of different brightness and color.
 vec3 stars(vec3 direction, float pixel) {
     vec3 size = abs(direction);
-    float most = max(size.x, max(size.y, size.z));
-    uint face = most == size.x ? 0u : most == size.y ? 1u : 2u;
-    vec3 d = direction / most;
+    float longest = max(size.x, max(size.y, size.z));
+    uint face = longest == size.x ? 0u : longest == size.y ? 1u : 2u;
+    vec3 d = direction / longest;
     vec2 on = (face == 0u ? d.yz : face == 1u ? d.zx : d.xy) * 48.0;
     uint side = face * 2u + uint((face == 0u ? d.x : face == 1u ? d.y : d.z) > 0.0);
     ivec2 cell = ivec2(floor(on));

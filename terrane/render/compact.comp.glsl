@@ -1,8 +1,8 @@
-// Writes the draw commands of each list, a work group a list, in the order of the regions. Each thread takes as many
-// neighbouring regions as there are for it: counts their commands, learns from the sum over the threads before where its
+// Writes the draw commands of each list, a work group a list, in the order of the mesh sections. Each thread takes as many
+// neighboring mesh sections as there are for it: counts their commands, learns from the sum over the threads before where its
 // own begin, and writes them.
 #include "terrane/shared/bindings.h"
-#include "terrane/shared/region.h"
+#include "terrane/shared/mesh_section.h"
 
 const uint kThreads = 512u;
 layout(local_size_x = kThreads) in;
@@ -10,10 +10,10 @@ layout(local_size_x = kThreads) in;
 layout(std140, binding = kCullBinding) uniform CullBlock {
     CullFrame cull;
 };
-layout(std430, binding = kRegionsBinding) readonly buffer Regions {
-    RegionRecord regions[];
+layout(std430, binding = kMeshSectionsBinding) readonly buffer MeshSections {
+    MeshSectionRecord meshSections[];
 };
-layout(std430, binding = kRegionOrderBinding) readonly buffer Order {
+layout(std430, binding = kMeshSectionOrderBinding) readonly buffer Order {
     uint order[];
 };
 layout(std430, binding = kVisibleBinding) readonly buffer Visible {
@@ -23,11 +23,11 @@ layout(std430, binding = kCommandsBinding) writeonly buffer Commands {
     DrawCommand commands[];
 };
 layout(std430, binding = kCountsBinding) writeonly buffer Counts {
-    DrawCounts counts[2];  // of the two runs
+    DrawCounts counts[2];  // of the early and the late pass
 };
 
 shared uint sums[kThreads];
-shared uint quadSum, regionSum;
+shared uint quadSum, meshSectionSum;
 
 uint commandsFor(uint quads) {
     return (quads + kMaxQuadsPerCommand - 1u) / kMaxQuadsPerCommand;
@@ -42,16 +42,16 @@ uint writeCommands(uvec2 quads, uint slot, uint at) {
     return at;
 }
 
-// Commands for the groups of a region, neighbouring ones together; written from `at` on where `isWriting`. Returns the
-// place behind them. Adds the quads to `quads`.
-uint visit(uint slot, uint context, uint groups, uint at, bool isWriting, inout uint quads) {
-    uint isTwoSided = context & 1u;
+// Commands for the face directions of a mesh section, neighboring ones together; written from `at` on where `isWriting`.
+// Returns the place behind them. Adds the quads to `quads`.
+uint visit(uint slot, uint bucket, uint directions, uint at, bool isWriting, inout uint quads) {
+    uint isTwoSided = bucket & 1u;
     uvec2 pending = uvec2(0u);
-    for (uint k = 0u; k < kFaceGroups; ++k) {
+    for (uint k = 0u; k < kFaceDirections; ++k) {
         if (isTwoSided == 1u && k > 0u) break;
-        uint group = isTwoSided == 1u ? kFaceGroups - 1u : k;
-        uvec2 range = regions[slot].ranges[firstRange(context) + k];
-        if ((groups >> group & 1u) == 0u || range.y == 0u) continue;
+        uint direction = isTwoSided == 1u ? kFaceDirections - 1u : k;
+        uvec2 range = meshSections[slot].ranges[firstRange(bucket) + k];
+        if ((directions >> direction & 1u) == 0u || range.y == 0u) continue;
         quads += range.y;
         if (pending.x + pending.y == range.x && pending.y > 0u) {
             pending.y += range.y;
@@ -79,33 +79,33 @@ uint scan(uint thread, uint value) {
 void main() {
     uint thread = gl_LocalInvocationID.x, list = gl_WorkGroupID.x;
     bool isShadow = list >= kCameraLists;
-    uint context = isShadow ? list - kCameraLists : list;
-    uint shift = isShadow ? kShadowGroupBits : context >= 4u ? kBlendedGroupBits : kCameraGroupBits;
-    uint all = cull.regionCount, each = (all + kThreads - 1u) / kThreads;
+    uint bucket = isShadow ? list - kCameraLists : list;
+    uint shift = isShadow ? kShadowDirectionBits : bucket >= 4u ? kBlendedDirectionBits : kCameraDirectionBits;
+    uint all = cull.meshSectionCount, each = (all + kThreads - 1u) / kThreads;
     uint begin = min(thread * each, all), end = min(begin + each, all);
-    if (thread == 0u) quadSum = regionSum = 0u;
+    if (thread == 0u) quadSum = meshSectionSum = 0u;
     barrier();
 
-    uint quads = 0u, own = 0u, regionCount = 0u;
+    uint quads = 0u, own = 0u, meshSectionCount = 0u;
     for (uint k = begin; k < end; ++k) {
-        uint groups = visible[k] >> shift & 127u;
-        if (groups == 0u) continue;
-        ++regionCount;
-        own = visit(order[k], context, groups, own, false, quads);
+        uint directions = visible[k] >> shift & 127u;
+        if (directions == 0u) continue;
+        ++meshSectionCount;
+        own = visit(order[k], bucket, directions, own, false, quads);
     }
     atomicAdd(quadSum, quads);
-    atomicAdd(regionSum, regionCount);
+    atomicAdd(meshSectionSum, meshSectionCount);
     uint last = scan(thread, own);
     uint at = cull.firstCommand[list >> 2][list & 3u] + last - own;
     uint ignored = 0u;
     for (uint k = begin; k < end; ++k) {
-        uint groups = visible[k] >> shift & 127u;
-        if (groups != 0u) at = visit(order[k], context, groups, at, true, ignored);
+        uint directions = visible[k] >> shift & 127u;
+        if (directions != 0u) at = visit(order[k], bucket, directions, at, true, ignored);
     }
     if (thread == kThreads - 1u) {
-        uint run = cull.run == kCullSeenNow ? 1u : 0u;
-        counts[run].commands[list] = last;
-        counts[run].quads[list] = quadSum;
-        if (list == 0u) counts[run].regions = regionSum;
+        uint phase = cull.phase == kCullLate ? 1u : 0u;
+        counts[phase].commands[list] = last;
+        counts[phase].quads[list] = quadSum;
+        if (list == 0u) counts[phase].meshSections = meshSectionSum;
     }
 }

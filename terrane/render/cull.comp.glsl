@@ -1,25 +1,25 @@
-// Which groups of faces of each region the camera may see, and which of them may throw a shadow.
+// Which face directions of each mesh section the camera may see, and which of them may throw a shadow.
 #include "terrane/shared/bindings.h"
-#include "terrane/shared/region.h"
+#include "terrane/shared/mesh_section.h"
 
 layout(local_size_x = kCullThreads) in;
 
-layout(binding = kPyramidUnit) uniform sampler2D pyramid;  // the farthest depths of squares of pixels
+layout(binding = kHiZUnit) uniform sampler2D hiZ;  // the farthest depths of squares of pixels
 
 layout(std140, binding = kCullBinding) uniform CullBlock {
     CullFrame cull;
 };
-layout(std430, binding = kRegionsBinding) readonly buffer Regions {
-    RegionRecord regions[];
+layout(std430, binding = kMeshSectionsBinding) readonly buffer MeshSections {
+    MeshSectionRecord meshSections[];
 };
-layout(std430, binding = kRegionOrderBinding) readonly buffer Order {
+layout(std430, binding = kMeshSectionOrderBinding) readonly buffer Order {
     uint order[];
 };
-layout(std430, binding = kSeenBinding) buffer Seen {
-    uint seen[];  // by slot: 1 where the region was not hidden by others
+layout(std430, binding = kVisibleLastFrameBinding) buffer VisibleLastFrame {
+    uint visibleLastFrame[];  // by slot: 1 where the mesh section was not hidden by others
 };
 layout(std430, binding = kVisibleBinding) writeonly buffer Visible {
-    uint visible[];  // in the order of regions
+    uint visible[];  // in the order of mesh sections
 };
 
 bool isOutside(vec4 plane, vec3 low, vec3 high) {
@@ -30,32 +30,32 @@ bool isOutside(vec4 plane, vec3 low, vec3 high) {
 // Whether what was drawn so far hides the box, with what waves: it lies behind the farthest depth of all pixels that it
 // covers.
 bool isHidden(vec3 low, vec3 high) {
-    vec2 least = vec2(1.0), most = vec2(-1.0);
+    vec2 screenMin = vec2(1.0), screenMax = vec2(-1.0);
     float nearest = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
         vec3 at = mix(low, high, vec3(corner & 1, corner >> 1 & 1, corner >> 2));
         vec4 clip = cull.viewProjection * vec4(at, 1.0);
         if (clip.w <= 2.0 * cull.nearPlane) return false;
         vec2 screen = clip.xy / clip.w;
-        least = min(least, screen);
-        most = max(most, screen);
+        screenMin = min(screenMin, screen);
+        screenMax = max(screenMax, screen);
         nearest = max(nearest, cull.nearPlane / clip.w);
     }
     // A pixel more on each side: quads grow a little.
-    vec2 from = clamp((0.5 + 0.5 * least) * cull.viewportSize - 1.0, vec2(0.0), cull.viewportSize - 1.0);
-    vec2 to = clamp((0.5 + 0.5 * most) * cull.viewportSize + 1.0, vec2(0.0), cull.viewportSize - 1.0);
-    vec2 size = (to - from) / float(kPyramidTexel);
+    vec2 from = clamp((0.5 + 0.5 * screenMin) * cull.viewportSize - 1.0, vec2(0.0), cull.viewportSize - 1.0);
+    vec2 to = clamp((0.5 + 0.5 * screenMax) * cull.viewportSize + 1.0, vec2(0.0), cull.viewportSize - 1.0);
+    vec2 size = (to - from) / float(kHiZTexelPixels);
     // The level where the box covers at most three texels along each side.
-    int level = int(clamp(ceil(log2(max(max(size.x, size.y), 1.0) / 2.0)), 0.0, float(cull.pyramidLevels) - 1.0));
-    ivec2 first = ivec2(from) / int(kPyramidTexel) >> level, last = ivec2(to) / int(kPyramidTexel) >> level;
+    int level = int(clamp(ceil(log2(max(max(size.x, size.y), 1.0) / 2.0)), 0.0, float(cull.hiZLevels) - 1.0));
+    ivec2 first = ivec2(from) / int(kHiZTexelPixels) >> level, last = ivec2(to) / int(kHiZTexelPixels) >> level;
     float farthest = 1.0;
     for (int y = first.y; y <= last.y; ++y) {
-        for (int x = first.x; x <= last.x; ++x) farthest = min(farthest, texelFetch(pyramid, ivec2(x, y), level).r);
+        for (int x = first.x; x <= last.x; ++x) farthest = min(farthest, texelFetch(hiZ, ivec2(x, y), level).r);
     }
     return nearest < farthest;
 }
 
-// The last group is that of faces which may look anywhere.
+// The last direction is that of faces which may look anywhere.
 uint bitsOf(bvec3 negative, bvec3 positive) {
     return uint(negative.x) | uint(positive.x) << 1 | uint(negative.y) << 2 | uint(positive.y) << 3 |
            uint(negative.z) << 4 | uint(positive.z) << 5 | 1u << 6;
@@ -63,32 +63,34 @@ uint bitsOf(bvec3 negative, bvec3 positive) {
 
 void main() {
     uint number = gl_GlobalInvocationID.x;
-    if (number >= cull.regionCount) return;
+    if (number >= cull.meshSectionCount) return;
     uint slot = order[number];
-    uint heights = regions[slot].heights;
-    uint level = regions[slot].level;
-    vec2 corner = chunkCorner(regions[slot].chunk, level, cull.cameraChunk);
+    uint heights = meshSections[slot].heights;
+    uint level = meshSections[slot].level;
+    vec2 corner = chunkCorner(meshSections[slot].chunk, level, cull.cameraChunk);
     float width = float(kChunkSize) * columnBlocks(level);
     vec3 low = vec3(corner, float(heights & 0xFFFFu)), high = vec3(corner + width, float(heights >> 16));
 
-    bool isSeen = true, isCasting = true;
+    bool isInView = true, isCasting = true;
     vec3 wavingLow = low - kWaving, wavingHigh = high + kWaving;
     for (int k = 0; k < 5; ++k) {
-        if (isOutside(cull.cameraPlanes[k], wavingLow, wavingHigh)) isSeen = false;
+        if (isOutside(cull.cameraPlanes[k], wavingLow, wavingHigh)) isInView = false;
         if (isOutside(cull.shadowPlanes[k], wavingLow, wavingHigh)) isCasting = false;
     }
     // Every face that looks to -x is seen from behind where the camera is beyond the last of them, and so on.
     vec3 camera = cull.cameraPosition.xyz, light = cull.lightDirection.xyz;
-    uint groups = isSeen ? bitsOf(lessThan(camera, high), greaterThan(camera, low)) : 0u;
+    uint directions = isInView ? bitsOf(lessThan(camera, high), greaterThan(camera, low)) : 0u;
     uint casting = isCasting ? bitsOf(lessThan(light, vec3(0.0)), greaterThan(light, vec3(0.0))) : 0u;
-    if (cull.run == kCullAll) {
-        visible[number] = groups << kCameraGroupBits | groups << kBlendedGroupBits | casting << kShadowGroupBits;
-    } else if (cull.run == kCullSeenBefore) {
-        visible[number] = (seen[slot] == 1u ? groups << kCameraGroupBits : 0u) | casting << kShadowGroupBits;
+    if (cull.phase == kCullAll) {
+        visible[number] = directions << kCameraDirectionBits | directions << kBlendedDirectionBits |
+                          casting << kShadowDirectionBits;
+    } else if (cull.phase == kCullEarly) {
+        visible[number] = (visibleLastFrame[slot] == 1u ? directions << kCameraDirectionBits : 0u) |
+                          casting << kShadowDirectionBits;
     } else {
-        bool isNew = seen[slot] != 1u, isOpen = isSeen && !isHidden(wavingLow, wavingHigh);
-        if (!isOpen) groups = 0u;
-        visible[number] = (isNew ? groups << kCameraGroupBits : 0u) | groups << kBlendedGroupBits;
-        seen[slot] = isOpen ? 1u : 0u;
+        bool isNew = visibleLastFrame[slot] != 1u, isVisible = isInView && !isHidden(wavingLow, wavingHigh);
+        if (!isVisible) directions = 0u;
+        visible[number] = (isNew ? directions << kCameraDirectionBits : 0u) | directions << kBlendedDirectionBits;
+        visibleLastFrame[slot] = isVisible ? 1u : 0u;
     }
 }

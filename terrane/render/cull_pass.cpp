@@ -11,20 +11,20 @@
 namespace terrane::render {
 namespace {
 
-using TwoCounts = std::array<shared::DrawCounts, 2>;  // of two runs
+using TwoCounts = std::array<shared::DrawCounts, 2>;  // of the early and the late pass
 
 gpu::Buffer gpuOnly(std::size_t bytes, std::string_view label) {
     return gpu::Buffer(bytes, 0, label);
 }
 
-static_assert(static_cast<shared::uint>(CullRun::SeenBefore) == shared::kCullSeenBefore &&
-              static_cast<shared::uint>(CullRun::SeenNow) == shared::kCullSeenNow);
+static_assert(static_cast<shared::uint>(CullPhase::Early) == shared::kCullEarly &&
+              static_cast<shared::uint>(CullPhase::Late) == shared::kCullLate);
 
 // Without a shadow map: no point is inside of such a plane.
 constexpr glm::vec4 kNothing(0, 0, 0, -1);
 constexpr Frustum kEmptyVolume{kNothing, kNothing, kNothing, kNothing, kNothing};
 
-shared::CullFrame frameOf(CullRun run, const CullInput& input, std::uint32_t regions) {
+shared::CullFrame frameOf(CullPhase phase, const CullInput& input, std::uint32_t meshSections) {
     shared::CullFrame frame{};
     std::ranges::copy(input.camera, frame.cameraPlanes);
     std::ranges::copy(input.shadow.value_or(kEmptyVolume), frame.shadowPlanes);
@@ -34,9 +34,9 @@ shared::CullFrame frameOf(CullRun run, const CullInput& input, std::uint32_t reg
     frame.cameraChunk = {input.cameraChunk.x, input.cameraChunk.y};
     frame.viewportSize = input.size;
     frame.nearPlane = kNearPlane;
-    frame.pyramidLevels = input.pyramid ? input.pyramid->levels() : 0;
-    frame.regionCount = regions;
-    frame.run = static_cast<shared::uint>(run);
+    frame.hiZLevels = input.hiZ ? input.hiZ->levels() : 0;
+    frame.meshSectionCount = meshSections;
+    frame.phase = static_cast<shared::uint>(phase);
     return frame;
 }
 
@@ -46,7 +46,7 @@ shared::DrawCounts sumOf(const TwoCounts& both) {
         sum.commands[list] += both[1].commands[list];
         sum.quads[list] += both[1].quads[list];
     }
-    sum.regions += both[1].regions;
+    sum.meshSections += both[1].meshSections;
     return sum;
 }
 
@@ -69,88 +69,90 @@ base::Result<CullPass> CullPass::create(const gpu::ShaderLoader& shaders, const 
     return pass;
 }
 
-// Each list has room for all faces of its context, so that none can overflow.
-void CullPass::reserve(const RegionTable& regions) {
+// Each list has room for all faces of its draw bucket, so that none can overflow.
+void CullPass::reserve(const MeshSectionTable& meshSections) {
     std::uint32_t sum = 0;
     for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
         firstCommand_[list] = sum;
-        const std::uint32_t context = list < shared::kCameraLists ? list : list - shared::kCameraLists;
-        mostCommands_[list] = regions.mostCommands()[context];
-        sum += mostCommands_[list];
+        const std::uint32_t bucket = list < shared::kCameraLists ? list : list - shared::kCameraLists;
+        maxCommands_[list] = meshSections.maxCommands()[bucket];
+        sum += maxCommands_[list];
     }
     const std::size_t commandBytes = std::max(sum, 1u) * sizeof(shared::DrawCommand);
     if (commandBytes > commands_.sizeBytes()) commands_ = gpuOnly(2 * commandBytes, "draw commands");
-    const std::size_t wordBytes = regions.count() * sizeof(std::uint32_t);
-    if (wordBytes > visible_.sizeBytes()) visible_ = gpuOnly(2 * wordBytes, "visible regions");
-    const std::size_t seenBytes = regions.slots() * sizeof(std::uint32_t);
-    if (seenBytes <= seen_.sizeBytes()) return;
-    seen_ = gpuOnly(2 * seenBytes, "seen regions");
+    const std::size_t wordBytes = meshSections.count() * sizeof(std::uint32_t);
+    if (wordBytes > visible_.sizeBytes()) visible_ = gpuOnly(2 * wordBytes, "visible mesh sections");
+    const std::size_t visibleLastFrameBytes = meshSections.slots() * sizeof(std::uint32_t);
+    if (visibleLastFrameBytes <= visibleLastFrame_.sizeBytes()) return;
+    visibleLastFrame_ = gpuOnly(2 * visibleLastFrameBytes, "mesh sections visible last frame");
     const GLuint zero = 0;
-    glClearNamedBufferData(seen_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    glClearNamedBufferData(visibleLastFrame_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
 }
 
-// Regions that were never tested count as hidden: the second run draws them.
-void CullPass::dispatch(const CullInput& input, const RegionTable& regions, gpu::MappedRing& ring) {
-    shared::CullFrame frame = frameOf(run_, input, regions.count());
+// Mesh sections that were never tested count as hidden: the late pass draws them.
+void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSections, gpu::MappedRing& ring) {
+    shared::CullFrame frame = frameOf(phase_, input, meshSections.count());
     for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
         frame.firstCommand[list / 4][static_cast<int>(list % 4)] = firstCommand_[list];
     }
     const auto slice = ring.write(std::span<const shared::CullFrame>(&frame, 1));
     assert(slice && "the ring holds a frame's uniforms");
     ring.buffer().bindUniform(shared::kCullBinding, slice->offsetBytes, sizeof(frame));
-    if (input.pyramid) input.pyramid->bind();
-    regions.bindRecords();
-    regions.bindOrder();
+    if (input.hiZ) input.hiZ->bind();
+    meshSections.bindRecords();
+    meshSections.bindOrder();
     visible_.bindStorage(shared::kVisibleBinding);
-    seen_.bindStorage(shared::kSeenBinding);
+    visibleLastFrame_.bindStorage(shared::kVisibleLastFrameBinding);
     commands_.bindStorage(shared::kCommandsBinding);
     countBuffer_.bindStorage(shared::kCountsBinding);
     cull_.use();
-    glDispatchCompute((regions.count() + shared::kCullThreads - 1) / shared::kCullThreads, 1, 1);
+    glDispatchCompute((meshSections.count() + shared::kCullThreads - 1) / shared::kCullThreads, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     compact_.use();
     glDispatchCompute(input.shadow ? shared::kDrawLists : shared::kCameraLists, 1, 1);
-    // The second run writes anew what this one read.
+    // The late pass overwrites what the early one read.
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void CullPass::run(CullRun run, const CullInput& input, const RegionTable& regions, gpu::MappedRing& ring) {
+void CullPass::run(CullPhase phase, const CullInput& input, const MeshSectionTable& meshSections,
+                   gpu::MappedRing& ring) {
     const gpu::DebugGroup group("cull");
-    run_ = run;
+    phase_ = phase;
     const GLuint zero = 0;
-    if (run != CullRun::SeenNow) {
-        reserve(regions);
+    if (phase != CullPhase::Late) {
+        reserve(meshSections);
         glClearNamedBufferData(countBuffer_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     }
-    if (regions.count() == 0) return;
+    if (meshSections.count() == 0) return;
     if (!hasIndirectCount_) {
         glClearNamedBufferData(commands_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     }
-    dispatch(input, regions, ring);
+    dispatch(input, meshSections, ring);
 }
 
 void CullPass::drawList(shared::uint list) const {
-    if (mostCommands_[list] == 0) return;
+    if (maxCommands_[list] == 0) return;
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
     const auto offset =
         reinterpret_cast<const void*>(std::size_t{firstCommand_[list]} * sizeof(shared::DrawCommand));
-    const auto most = static_cast<GLsizei>(mostCommands_[list]);
+    const auto maxCommands = static_cast<GLsizei>(maxCommands_[list]);
     if (hasIndirectCount_) {
         glBindBuffer(GL_PARAMETER_BUFFER_ARB, countBuffer_.id());
         const auto countOffset = static_cast<GLintptr>(countsOffset() + list * sizeof(shared::uint));
-        glMultiDrawElementsIndirectCountARB(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset, countOffset, most, 0);
+        glMultiDrawElementsIndirectCountARB(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset, countOffset, maxCommands,
+                                            0);
     } else {
-        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset, most, 0);
+        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset, maxCommands, 0);
     }
 }
 
-void CullPass::drawContexts(gpu::Pipeline& pipeline, gpu::PipelineState state, mesh::AlphaClass alphaClass,
-                            bool forShadows) const {
+void CullPass::drawBuckets(gpu::Pipeline& pipeline, gpu::PipelineState state, mesh::AlphaClass alphaClass,
+                           bool forShadows) const {
     for (const bool isTwoSided : {false, true}) {
         state.cullsBackFaces = !isTwoSided;
         pipeline.set(state);
-        const auto context = static_cast<shared::uint>(mesh::faceContext(alphaClass, isTwoSided));
-        drawList(forShadows ? shared::kCameraLists + context : context);
+        const auto bucket = static_cast<shared::uint>(mesh::drawBucket(alphaClass, isTwoSided));
+        drawList(forShadows ? shared::kCameraLists + bucket : bucket);
     }
 }
 
@@ -181,7 +183,7 @@ std::vector<shared::DrawCommand> CullPass::readCommands(shared::uint list) const
     shared::DrawCounts counts{};
     countBuffer_.download(countsOffset(), std::as_writable_bytes(std::span(&counts, 1)));
     std::vector<shared::DrawCommand> commands(counts.commands[list]);
-    assert(commands.size() <= mostCommands_[list] && "each list has room for all commands");
+    assert(commands.size() <= maxCommands_[list] && "each list has room for all commands");
     if (!commands.empty()) {
         commands_.download(firstCommand_[list] * sizeof(shared::DrawCommand),
                            std::as_writable_bytes(std::span(commands)));

@@ -1,7 +1,7 @@
-// What the G-buffer holds, instead of the picture. SAMPLES: of the G-buffer.
+// What the G-buffer holds, instead of the image. MSAA_SAMPLES: of the G-buffer.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
-#include "terrane/render/surfaces.glsl"
+#include "terrane/render/gbuffer_read.glsl"
 
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
@@ -11,12 +11,12 @@ vec3 lightView(vec3 position, Surface s) {
     return max(levels.rgb, levels.a * vec3(0.85, 0.8, 0.65));
 }
 
-vec3 viewOf(vec4 word, float depth) {
-    if (directionOfWord(word) == kDirectionNone) return vec3(0.0);
-    Surface s = unpackSurface(word);
+vec3 viewOf(vec4 packedSurface, float depth) {
+    if (packedDirection(packedSurface) == kDirectionNone) return vec3(0.0);
+    Surface s = unpackSurface(packedSurface);
     vec3 toPoint = inRay * blocksOfDepth(depth);
     uint view = frame.view;
-    if (view == kViewAggregation) return word.rgb;
+    if (view == kViewMerging) return packedSurface.rgb;
     if (view == kViewNormal) return 0.5 + 0.5 * s.normal;
     if (view == kViewLight) return lightView(frame.cameraPosition.xyz + toPoint, s);
     return vec3(1.0 - clamp(length(toPoint) / frame.fogDistance, 0.0, 1.0));
@@ -25,6 +25,6 @@ vec3 viewOf(vec4 word, float depth) {
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec3 sum = vec3(0.0);
-    for (int k = 0; k < SAMPLES; ++k) sum += viewOf(surfaceAt(pixel, k), depthAt(pixel, k));
-    outColor = vec4(sum / float(SAMPLES), 1.0);
+    for (int k = 0; k < MSAA_SAMPLES; ++k) sum += viewOf(packedSurfaceAt(pixel, k), depthAt(pixel, k));
+    outColor = vec4(sum / float(MSAA_SAMPLES), 1.0);
 }

@@ -1,13 +1,13 @@
 // From light to the screen: blur of what is far, rays of the sun, exposure, a filmic curve, sRGB, and noise of one step
-// against bands in the sky. FAR_BLUR, GOD_RAYS: 1 adds them. RAW_OCCLUSION: 1 shows the ambient occlusion instead.
-// SAMPLES: of the depth.
+// against bands in the sky. DEPTH_OF_FIELD, GOD_RAYS: 1 adds them. RAW_OCCLUSION: 1 shows the ambient occlusion instead.
+// MSAA_SAMPLES: of the depth.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/shared/hash.h"
 
 layout(binding = kSceneUnit) uniform sampler2D scene;
-#if FAR_BLUR == 1
-#include "terrane/render/surfaces.glsl"
-layout(binding = kBlurUnit) uniform sampler2D blurred;
+#if DEPTH_OF_FIELD == 1
+#include "terrane/render/gbuffer_read.glsl"
+layout(binding = kDepthOfFieldUnit) uniform sampler2D blurred;
 #endif
 #if GOD_RAYS == 1
 layout(binding = kGodRaysUnit) uniform sampler2D godRays;
@@ -50,7 +50,7 @@ void main() {
     return;
 #endif
     vec3 color = texelFetch(scene, pixel, 0).rgb;
-#if FAR_BLUR == 1
+#if DEPTH_OF_FIELD == 1
     float depth = depthAt(pixel, 0);
     float blocks = blocksOfDepth(depth) * length(inRay);
     // The sky keeps its stars.

@@ -8,7 +8,7 @@
 
 namespace terrane::render {
 
-enum class View : std::uint8_t { Color, Normal, Depth, Aggregation, Light };
+enum class View : std::uint8_t { Color, Normal, Depth, Merging, Light };
 
 struct FrameInput {
     Camera camera;

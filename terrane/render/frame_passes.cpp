@@ -7,39 +7,39 @@ base::Result<FramePasses> FramePasses::create(const gpu::ShaderLoader& shaders,
     auto cull = CullPass::create(shaders, device);
     if (!cull) return tl::unexpected(cull.error());
     return FramePasses{.cull = std::move(*cull),
-                       .pyramid = DepthPyramid(shaders),
+                       .hiZ = HiZ(shaders),
                        .shadowMap = ShadowMap(shaders),
                        .gbuffer = GBufferPass(shaders),
                        .holeFill = HoleFill(shaders),
-                       .layers = LayerPass(shaders),
+                       .transparency = TransparencyPass(shaders),
                        .occlusion = AmbientOcclusion(shaders),
                        .godRays = GodRays(shaders),
-                       .farBlur = FarBlur(shaders),
+                       .depthOfField = DepthOfField(shaders),
                        .shading = ShadingPass(shaders),
                        .debugView = FullscreenPass(shaders, "debug_view"),
                        .finalPass = FullscreenPass(shaders, "final")};
 }
 
 base::Result<void> FramePasses::configure(const FrameTargets& targets, const RenderOptions& options) {
-    const int samples = targets.samples, light = static_cast<int>(options.light);
+    const int samples = targets.msaaSamples, light = static_cast<int>(options.light);
     auto done = shadowMap.resize(options.shading == Shading::Off ? 0 : options.shadowSize);
     const bool hasShadows = shadowMap.size() > 0;
-    if (done) done = gbuffer.select(options.sampledAlphaTest ? samples : 1, options.betterTexturing);
+    if (done) done = gbuffer.select(options.msaaAlphaTest ? samples : 1, options.sharpFiltering);
     if (done) done = holeFill.configure(targets, options.tJunctions == TJunctions::Filled);
     if (done) done = shading.select(options, samples, hasShadows);
-    if (done) done = layers.configure(targets, options, hasShadows);
-    if (done) done = debugView.select(defined({{"SAMPLES", samples}, {"LIGHT_SMOOTH", light}}));
+    if (done) done = transparency.configure(targets, options, hasShadows);
+    if (done) done = debugView.select(defined({{"MSAA_SAMPLES", samples}, {"LIGHT_SMOOTH", light}}));
     if (done) done = occlusion.configure(targets, options.occlusion != Occlusion::Off);
     if (done) done = godRays.configure(targets.size, options.godRays);
-    if (done) done = farBlur.configure(targets, options.depthOfField);
+    if (done) done = depthOfField.configure(targets, options.depthOfField);
     if (done) {
-        done = finalPass.select(defined({{"SAMPLES", samples},
-                                         {"FAR_BLUR", options.depthOfField ? 1 : 0},
+        done = finalPass.select(defined({{"MSAA_SAMPLES", samples},
+                                         {"DEPTH_OF_FIELD", options.depthOfField ? 1 : 0},
                                          {"GOD_RAYS", options.godRays ? 1 : 0},
                                          {"RAW_OCCLUSION", options.occlusion == Occlusion::Raw ? 1 : 0}}));
     }
     // The last one, since it keeps no programs of other options: after a failure before it it is as it was.
-    if (done) done = pyramid.configure(targets, options.hiddenRegionCulling);
+    if (done) done = hiZ.configure(targets, options.occlusionCulling);
     return done;
 }
 

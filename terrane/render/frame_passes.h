@@ -1,19 +1,19 @@
-// The passes of a frame that have shaders. They are made together, so that they can all be made anew when
-// files of shaders were written. Used by the renderer on the context's thread.
+// The passes of a frame that have shaders. They are made together, so that they can all be rebuilt when
+// shader files were written. Used by the renderer on the context's thread.
 #pragma once
 
 #include "terrane/render/ambient_occlusion.h"
 #include "terrane/render/cull_pass.h"
-#include "terrane/render/depth_pyramid.h"
-#include "terrane/render/far_blur.h"
+#include "terrane/render/depth_of_field.h"
 #include "terrane/render/fullscreen_pass.h"
 #include "terrane/render/gbuffer_pass.h"
 #include "terrane/render/god_rays.h"
+#include "terrane/render/hi_z.h"
 #include "terrane/render/hole_fill.h"
-#include "terrane/render/layer_pass.h"
 #include "terrane/render/render_options.h"
 #include "terrane/render/shading_pass.h"
 #include "terrane/render/shadow_map.h"
+#include "terrane/render/transparency_pass.h"
 
 namespace terrane::render {
 
@@ -26,14 +26,14 @@ struct FramePasses {
     base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options);
 
     CullPass cull;
-    DepthPyramid pyramid;
+    HiZ hiZ;
     ShadowMap shadowMap;
     GBufferPass gbuffer;
     HoleFill holeFill;
-    LayerPass layers;
+    TransparencyPass transparency;
     AmbientOcclusion occlusion;
     GodRays godRays;
-    FarBlur farBlur;
+    DepthOfField depthOfField;
     ShadingPass shading;
     FullscreenPass debugView, finalPass;
 };

@@ -3,12 +3,12 @@
 
 #include <cstddef>
 
-#include "terrane/shared/region.h"
+#include "terrane/shared/mesh_section.h"
 
 namespace terrane::render {
 
 struct FrameStatistics {
-    std::size_t regions = 0, quads = 0, drawCommands = 0;
+    std::size_t meshSections = 0, quads = 0, drawCommands = 0;
     std::size_t opaqueTriangles = 0, transparentTriangles = 0;  // of these, alpha-tested ones are opaque
 };
 

@@ -8,7 +8,7 @@ namespace terrane::render {
 
 // Not a multisampled texture of one sample: drivers may take the next number they have, Mesa's software
 // renderer four.
-SampledTexture::SampledTexture(glm::ivec2 size, GLenum format, int samples, std::string_view label) {
+MsaaTexture::MsaaTexture(glm::ivec2 size, GLenum format, int samples, std::string_view label) {
     if (samples == 1) {
         plain_ = gpu::Texture2D(size, format, 1, label);
     } else {
@@ -26,19 +26,20 @@ base::Result<ColorTarget> ColorTarget::create(glm::ivec2 size, GLenum format, st
 }
 
 base::Result<FrameTargets> FrameTargets::create(glm::ivec2 size, int samples) {
-    assert(size.x > 0 && size.y > 0 && "a picture has pixels");
+    assert(size.x > 0 && size.y > 0 && "an image has pixels");
     FrameTargets t;
     t.size = size;
-    t.wantedSamples = samples;
-    t.surface = SampledTexture(size, GL_RGBA8, samples, "surfaces");
-    t.depth = SampledTexture(size, GL_DEPTH_COMPONENT32F, samples, "depth");
-    t.samples = t.surface.samples();
+    t.requestedMsaaSamples = samples;
+    t.gbufferColor = MsaaTexture(size, GL_RGBA8, samples, "surfaces");
+    t.depth = MsaaTexture(size, GL_DEPTH_COMPONENT32F, samples, "depth");
+    t.msaaSamples = t.gbufferColor.samples();
     t.sceneColor = gpu::Texture2D(size, GL_RGBA16F, 1, "scene");
-    t.pictureColor = gpu::Texture2D(size, GL_RGBA8, 1, "picture");
-    auto surfaces = gpu::Framebuffer::create({{t.surface.attachment()}, t.depth.attachment()}, "surfaces");
+    t.ldrColor = gpu::Texture2D(size, GL_RGBA8, 1, "LDR");
+    auto surfaces =
+        gpu::Framebuffer::create({{t.gbufferColor.attachment()}, t.depth.attachment()}, "surfaces");
     if (!surfaces) return tl::unexpected(surfaces.error());
     gpu::FramebufferOptions sceneOptions{{t.sceneColor}, t.depth.attachment()};
-    if (t.samples > 1) {
+    if (t.msaaSamples > 1) {
         t.maskDepth = gpu::Texture2D(size, GL_DEPTH_COMPONENT16, 1, "mask");
         auto mask = gpu::Framebuffer::create({{}, t.maskDepth}, "mask");
         if (!mask) return tl::unexpected(mask.error());
@@ -47,19 +48,19 @@ base::Result<FrameTargets> FrameTargets::create(glm::ivec2 size, int samples) {
     }
     auto scene = gpu::Framebuffer::create(sceneOptions, "scene");
     if (!scene) return tl::unexpected(scene.error());
-    auto picture = gpu::Framebuffer::create({{t.pictureColor}, {}}, "picture");
-    if (!picture) return tl::unexpected(picture.error());
+    auto ldr = gpu::Framebuffer::create({{t.ldrColor}, {}}, "LDR");
+    if (!ldr) return tl::unexpected(ldr.error());
     // No sky is drawn behind what is near; there the scene is blended with a share of 0 of what was before,
     // which must be a number.
     scene->clearColor(0, glm::vec4(0));
-    t.surfaces = std::move(*surfaces);
+    t.gbuffer = std::move(*surfaces);
     t.scene = std::move(*scene);
-    t.picture = std::move(*picture);
+    t.ldr = std::move(*ldr);
     return t;
 }
 
 void FrameTargets::bindSurfaces() const {
-    surface.bind(shared::kSurfaceUnit);
+    surface.bind(shared::kGBufferUnit);
     depth.bind(shared::kDepthUnit);
 }
 

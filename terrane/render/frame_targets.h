@@ -9,11 +9,11 @@
 namespace terrane::render {
 
 // One or several samples a pixel: one of the two textures exists.
-class SampledTexture {
+class MsaaTexture {
   public:
-    SampledTexture() = default;
+    MsaaTexture() = default;
     // Drivers may take more samples than asked for; one sample is a plain texture.
-    SampledTexture(glm::ivec2 size, GLenum format, int samples, std::string_view label);
+    MsaaTexture(glm::ivec2 size, GLenum format, int samples, std::string_view label);
 
     void bind(GLuint unit) const { plain_.id() != 0 ? plain_.bind(unit) : sampled_.bind(unit); }
     gpu::Attachment attachment() const {
@@ -42,13 +42,13 @@ struct FrameTargets {
     void bindSurfaces() const;
 
     glm::ivec2 size{0};
-    int wantedSamples = 0, samples = 0;  // a pixel; what the driver gives
-    SampledTexture surface, depth;       // see surface_word.glsl; reversed depth
-    gpu::Texture2D sceneColor, pictureColor, maskDepth;
-    gpu::Framebuffer surfaces;  // the G-buffer
-    gpu::Framebuffer scene;     // light, and coverage in alpha; depth: that of the one sample, or the mask
-    gpu::Framebuffer mask;      // where a pixel has several samples: see pixel_mask.h
-    gpu::Framebuffer picture;   // as the screen shows it
+    int requestedMsaaSamples = 0, msaaSamples = 0;  // a pixel; what the driver gives
+    MsaaTexture gbufferColor, depth;                // see packed_gbuffer.glsl; reversed depth
+    gpu::Texture2D sceneColor, ldrColor, maskDepth;
+    gpu::Framebuffer gbuffer;  // the G-buffer
+    gpu::Framebuffer scene;    // light, and coverage in alpha; depth: that of the one sample, or the mask
+    gpu::Framebuffer mask;     // where a pixel has several samples: see pixel_mask.h
+    gpu::Framebuffer ldr;      // LDR target: as the screen shows it
 };
 
 }  // namespace terrane::render

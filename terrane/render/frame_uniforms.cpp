@@ -12,11 +12,11 @@ constexpr float kExposure = 0.92f;
 
 static_assert(static_cast<shared::uint>(View::Normal) == shared::kViewNormal &&
               static_cast<shared::uint>(View::Depth) == shared::kViewDepth &&
-              static_cast<shared::uint>(View::Aggregation) == shared::kViewAggregation &&
+              static_cast<shared::uint>(View::Merging) == shared::kViewMerging &&
               static_cast<shared::uint>(View::Light) == shared::kViewLight);
 
 int switchesOf(const RenderOptions& o) {
-    return (o.animation ? shared::kSwitchAnimation : 0) | (o.atmosphere ? shared::kSwitchAtmosphere : 0) |
+    return (o.animation ? shared::kSwitchAnimation : 0) | (o.distanceFog ? shared::kSwitchDistanceFog : 0) |
            (o.shading == Shading::Off ? shared::kSwitchUnlit : 0);
 }
 
@@ -72,7 +72,7 @@ shared::Frame frameUniforms(const FrameInput& input, const RenderOptions& option
     setLightOnScreen(frame, setup.view, input.environment.lightDirection);
     setShadows(frame, input, setup);
     frame.viewportSize = setup.size;
-    frame.crackGrowth = options.tJunctions == TJunctions::Covered ? setup.crackGrowth : 0.0f;
+    frame.edgeExpansion = options.tJunctions == TJunctions::Covered ? setup.edgeExpansion : 0.0f;
     frame.fogDistance = input.fogDistance;
     frame.timeSeconds = input.timeSeconds;
     frame.exposure = kExposure;
@@ -82,7 +82,7 @@ shared::Frame frameUniforms(const FrameInput& input, const RenderOptions& option
     const world::ChunkPos chunk = cameraChunk(input.camera);
     frame.cameraChunk = {chunk.x, chunk.y};
     frame.switches = switchesOf(options);
-    frame.singleLayer = options.singleLayer;
+    frame.singleTransparencyLayer = options.singleTransparencyLayer;
     return frame;
 }
 

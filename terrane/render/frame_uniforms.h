@@ -9,9 +9,9 @@ namespace terrane::render {
 
 struct FrameSetup {
     ViewMatrices view;
-    glm::vec2 size;         // pixels
-    float crackGrowth = 0;  // pixels
-    int shadowSize = 0;     // texels; 0: no shadows
+    glm::vec2 size;           // pixels
+    float edgeExpansion = 0;  // pixels
+    int shadowSize = 0;       // texels; 0: no shadows
 };
 
 // All but the place in the light grid.

@@ -1,4 +1,4 @@
-// A pass that covers the screen with one triangle: the sky, shading, the final picture. Used by the renderer
+// A pass that covers the screen with one triangle: the sky, shading, the final image. Used by the renderer
 // on the context's thread.
 #pragma once
 

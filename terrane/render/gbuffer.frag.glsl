@@ -1,27 +1,27 @@
-// ALPHA_CLASS: 0 opaque, 1 tested. SAMPLES: above 1, holes are tested at each sample. SMOOTH: see block_texture.glsl.
+// ALPHA_CLASS: 0 opaque, 1 tested. MSAA_SAMPLES: above 1, holes are tested at each sample. SMOOTH: see block_texture.glsl.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/shared/hash.h"
 #include "terrane/shared/quad.h"
 #include "terrane/shared/shape_face.h"
-#include "terrane/render/face_word.glsl"
+#include "terrane/render/packed_face.glsl"
 #include "terrane/render/block_texture.glsl"
 
 layout(location = 0) in vec2 inTexel;
 layout(location = 1) flat in uvec2 inFace;
 layout(location = 0) out vec4 outSurface;
 
-#if ALPHA_CLASS == 1 && SAMPLES > 1
+#if ALPHA_CLASS == 1 && MSAA_SAMPLES > 1
 // Without a gl_SampleMask all samples that the triangle covers would be drawn. Of a sample only the side of the edge counts
 // that it lies on: one texel tells, where a filter would read eight.
 bool isHole(vec2 texel, int level) {
-    return nearestTexel(inFace.x, texel, level).a < leastAlpha(inFace.x);
+    return nearestTexel(inFace.x, texel, level).a < minAlpha(inFace.x);
 }
 
-// `seen`: where the colour is to be taken, the middle of the pixel unless it lies in a hole, which has no colour of its own.
+// `seen`: where the color is to be taken, the middle of the pixel unless it lies in a hole, which has no color of its own.
 int samplesWithoutHole(int level, out vec2 seen) {
     int mask = 0;
     seen = inTexel;
-    for (int k = 0; k < SAMPLES; ++k) {
+    for (int k = 0; k < MSAA_SAMPLES; ++k) {
         vec2 texel = interpolateAtSample(inTexel, k);
         if (isHole(texel, level)) continue;
         mask |= 1 << k;
@@ -33,7 +33,7 @@ int samplesWithoutHole(int level, out vec2 seen) {
 #endif
 
 // The texture stays visible and sides differ, so that one sees where one is.
-vec3 aggregationColor(vec3 color, vec3 normal) {
+vec3 mergingColor(vec3 color, vec3 normal) {
     uint number = mixBits(inFace.y);
     vec3 own = 0.25 + 0.75 * vec3(number & 255u, number >> 8 & 255u, number >> 16 & 255u) / 255.0;
     float pattern = dot(color, vec3(0.3, 0.6, 0.1));
@@ -48,18 +48,18 @@ float glowOf(float alpha) {
 
 void main() {
     vec2 dx = dFdx(inTexel), dy = dFdy(inTexel), at = inTexel;
-#if ALPHA_CLASS == 1 && SAMPLES > 1
+#if ALPHA_CLASS == 1 && MSAA_SAMPLES > 1
     int mask = samplesWithoutHole(nearestLevel(dx, dy), at);
     if (mask == 0) discard;
     gl_SampleMask[0] = mask;
 #endif
     vec4 texel = blockTexture(inFace.x, at, dx, dy);
-#if ALPHA_CLASS == 1 && SAMPLES == 1
-    if (texel.a < leastAlpha(inFace.x)) discard;
+#if ALPHA_CLASS == 1 && MSAA_SAMPLES == 1
+    if (texel.a < minAlpha(inFace.x)) discard;
 #endif
     uint direction = directionOfFace(inFace.x);
     if (!gl_FrontFacing && direction < kDirectionPlant) direction ^= 1u;
     vec3 color = texel.rgb;
-    if (frame.view == kViewAggregation) color = aggregationColor(color, normalOf(direction));
+    if (frame.view == kViewMerging) color = mergingColor(color, normalOf(direction));
     outSurface = packSurface(color, direction, glowOf(texel.a));
 }

@@ -15,26 +15,26 @@ GBufferPass::GBufferPass(const gpu::ShaderLoader& shaders)
 
 base::Result<void> GBufferPass::select(int alphaSamples, bool isSmooth) {
     auto selected =
-        opaque_.select(defined({{"PASS", 0}, {"ALPHA_CLASS", 0}, {"SAMPLES", 1}, {"SMOOTH", isSmooth}}));
+        opaque_.select(defined({{"PASS", 0}, {"ALPHA_CLASS", 0}, {"MSAA_SAMPLES", 1}, {"SMOOTH", isSmooth}}));
     if (!selected) return selected;
     return tested_.select(
-        defined({{"PASS", 0}, {"ALPHA_CLASS", 1}, {"SAMPLES", alphaSamples}, {"SMOOTH", isSmooth}}));
+        defined({{"PASS", 0}, {"ALPHA_CLASS", 1}, {"MSAA_SAMPLES", alphaSamples}, {"SMOOTH", isSmooth}}));
 }
 
 void GBufferPass::clear(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
     pipeline.set(kNearest);
-    targets.surfaces.clearColor(0, glm::vec4(1));
-    targets.surfaces.clearDepth(0.0f);
+    targets.gbuffer.clearColor(0, glm::vec4(1));
+    targets.gbuffer.clearDepth(0.0f);
 }
 
 void GBufferPass::draw(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads) const {
     const gpu::DebugGroup group("G-buffer");
-    targets.surfaces.bind();
+    targets.gbuffer.bind();
     quads.bind();
     opaque_.use();
-    quads.culled.drawContexts(pipeline, kNearest, mesh::AlphaClass::Opaque, false);
+    quads.culled.drawBuckets(pipeline, kNearest, mesh::AlphaClass::Opaque, false);
     tested_.use();
-    quads.culled.drawContexts(pipeline, kNearest, mesh::AlphaClass::Tested, false);
+    quads.culled.drawBuckets(pipeline, kNearest, mesh::AlphaClass::Tested, false);
 }
 
 }  // namespace terrane::render

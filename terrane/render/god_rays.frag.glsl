@@ -13,15 +13,15 @@ const int kSteps = 16;
 void main() {
     vec2 aspect = vec2(frame.viewportSize.x / frame.viewportSize.y, 1.0);
     vec2 toLight = frame.lightOnScreen - inScreen;
-    // Steps of neighbouring pixels lie between each other's; the blur of the larger picture joins them.
+    // Steps of neighboring pixels lie between each other's; the blur of the larger image joins them.
     float offset = float(hash2(uint(gl_FragCoord.x) & 3u, uint(gl_FragCoord.y) & 3u, 9u) >> 8) / 16777216.0;
     float sum = 0.0;
     for (int k = 0; k < kSteps; ++k) {
         vec2 at = inScreen + toLight * ((float(k) + offset) / float(kSteps));
         float near = exp(-4.0 * length((frame.lightOnScreen - at) * aspect));
         vec2 inside = step(abs(at), vec2(1.0));
-        float open = 1.0 - textureLod(scene, 0.5 + 0.5 * clamp(at, -1.0, 1.0), 0.0).a;
-        sum += near * open * inside.x * inside.y;
+        float visibility = 1.0 - textureLod(scene, 0.5 + 0.5 * clamp(at, -1.0, 1.0), 0.0).a;
+        sum += near * visibility * inside.x * inside.y;
     }
     float falloff = 1.0 / (1.0 + 1.5 * length(toLight * aspect));
     outRays = vec4(sum / float(kSteps) * falloff * frame.lightRayShare);

@@ -5,7 +5,7 @@
 namespace terrane::render {
 namespace {
 
-void copy(const SampledTexture& from, const SampledTexture& to, glm::ivec2 size) {
+void copy(const MsaaTexture& from, const MsaaTexture& to, glm::ivec2 size) {
     const GLenum target = from.samples() > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
     glCopyImageSubData(from.id(), target, 0, 0, 0, 0, to.id(), target, 0, 0, 0, 0, size.x, size.y, 1);
 }
@@ -20,20 +20,21 @@ base::Result<void> HoleFill::configure(const FrameTargets& targets, bool isOn) {
         depth_ = {};
         return {};
     }
-    if (auto selected = fill_.select(defined({{"SAMPLES", targets.samples}})); !selected) return selected;
-    if (this->isOn() && size_ == targets.size && surface_.samples() == targets.samples) return {};
-    surface_ = SampledTexture(targets.size, GL_RGBA8, targets.samples, "surfaces with holes");
-    depth_ = SampledTexture(targets.size, GL_DEPTH_COMPONENT32F, targets.samples, "depth with holes");
+    if (auto selected = fill_.select(defined({{"MSAA_SAMPLES", targets.msaaSamples}})); !selected)
+        return selected;
+    if (this->isOn() && size_ == targets.size && surface_.samples() == targets.msaaSamples) return {};
+    surface_ = MsaaTexture(targets.size, GL_RGBA8, targets.msaaSamples, "surfaces with holes");
+    depth_ = MsaaTexture(targets.size, GL_DEPTH_COMPONENT32F, targets.msaaSamples, "depth with holes");
     size_ = targets.size;
     return {};
 }
 
 void HoleFill::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
-    copy(targets.surface, surface_, size_);
+    copy(targets.gbufferColor, surface_, size_);
     copy(targets.depth, depth_, size_);
-    surface_.bind(shared::kSurfaceUnit);
+    surface_.bind(shared::kGBufferUnit);
     depth_.bind(shared::kDepthUnit);
-    targets.surfaces.bind();
+    targets.gbuffer.bind();
     fill_.draw(pipeline, {.depthTest = gpu::DepthTest::Always});
 }
 

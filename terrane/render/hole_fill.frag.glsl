@@ -1,7 +1,7 @@
 // A sample of the G-buffer that lies farther away than all four beside it is a hole between quads: it becomes
-// the farthest of these, which reaches over the least. SAMPLES: of the G-buffer; each fills its own holes.
+// the farthest of these, which reaches over the least. MSAA_SAMPLES: of the G-buffer; each fills its own holes.
 #include "terrane/render/frame_uniforms.glsl"
-#include "terrane/render/surfaces.glsl"
+#include "terrane/render/gbuffer_read.glsl"
 
 layout(location = 0) out vec4 outSurface;
 
@@ -11,7 +11,7 @@ const float kFarther = 0.99;
 const ivec2 kBeside[4] = ivec2[](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
 
 void main() {
-#if SAMPLES > 1
+#if MSAA_SAMPLES > 1
     int number = gl_SampleID;
 #else
     int number = 0;
@@ -26,6 +26,6 @@ void main() {
         from = at;
     }
     if (depthAt(pixel, number) >= kFarther * farthest) discard;
-    outSurface = surfaceAt(from, number);
+    outSurface = packedSurfaceAt(from, number);
     gl_FragDepth = farthest;
 }

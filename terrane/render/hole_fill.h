@@ -1,6 +1,6 @@
 // Fills what T-junctions leave open: holes of one sample in the G-buffer, between quads of different sizes,
-// through which one sees something farther. The way of D. Čejchan's thesis; crack_cover.glsl leaves no hole
-// in the first place. Used by the renderer on the context's thread.
+// through which one sees something farther. The way of D. Čejchan's thesis; edge_expansion.glsl leaves no
+// hole in the first place. Used by the renderer on the context's thread.
 #pragma once
 
 #include "terrane/render/frame_targets.h"
@@ -22,7 +22,7 @@ class HoleFill {
 
   private:
     FullscreenPass fill_;
-    SampledTexture surface_, depth_;
+    MsaaTexture surface_, depth_;
     glm::ivec2 size_{0};
 };
 

@@ -8,7 +8,7 @@ vec4 unpackLight(uint value) {
     return vec4(uvec4(value, value >> 4, value >> 8, value >> 12) & 15u) / 15.0;
 }
 
-// The tile of a block counted from the corner of the camera's chunk, or its one value.
+// The light tile of a block counted from the corner of the camera's chunk, or its one value.
 uint lightEntry(ivec3 block) {
     ivec2 tile = (block.xy >> 3) + frame.firstLightTile;
     int mask = frame.lightGridTiles - 1;
@@ -28,7 +28,7 @@ vec4 lightOfEntry(uint entry, ivec3 block) {
     return texelFetch(lightPool, poolCorner(entry) + ivec3(block.xy & 7, max(block.z, 0) & 7), 0);
 }
 
-// Between a node and the next ones of its tile: `f` on the way, 0…1 along each axis.
+// Between a node and the next ones of its light tile: `f` on the way, 0…1 along each axis.
 vec4 lightBetween(ivec3 block, vec3 f) {
     uint entry = lightEntry(block);
     bool isUniform = (entry & kLightUniformBit) != 0u;

@@ -1,18 +1,18 @@
-// Light at a point of a surface, from the tiles of LightStore. Needs frame_uniforms.glsl. LIGHT_SMOOTH chooses between
+// Light at a point of a surface, from the light tiles of LightStore. Needs frame_uniforms.glsl. LIGHT_SMOOTH chooses between
 // two ways of sampling, which docs/light.md compares: 0 classic, 1 smooth.
 #include "terrane/render/light_nodes.glsl"
 #if LIGHT_SMOOTH
 #include "terrane/render/light_smooth.glsl"
 #endif
 
-// Nodes lie in the middles of blocks. Half a block along the normal from the surface the sample lies in the layer
-// of nodes in front of it: solid blocks, which are dark, then do not count, but where they stand on that layer,
-// which darkens inner corners.
-// The eight nodes lie in one tile, or along each axis in two: a tile's part is one entry and one filtered fetch. The loop goes
-// through the subsets of the axes on which a second tile begins; for most samples that is the empty one.
+// Nodes lie in the middles of blocks. Half a block along the normal from the surface the sample lies in the layer of nodes in
+// front of it: solid blocks, which are dark, then do not count, but where they stand on that layer, which darkens inner
+// corners. The eight nodes lie in one light tile, or along each axis in two: a light tile's part is one entry and one filtered
+// fetch. The loop goes through the subsets of the axes on which a second light tile begins; for most samples that is the empty
+// one.
 vec4 sampleClassic(vec3 at) {
     const float kOnNode = 1.0 / 64.0;  // so near a node the next one does not count
-    const float kSteps = 256.0;        // exact sums wherever a tile lies in its pool: its place must not be seen
+    const float kSteps = 256.0;        // exact sums wherever a light tile lies in its pool: its place must not be seen
     at.z = max(at.z, 0.0);
     ivec3 block = ivec3(floor(at));
     vec3 f = floor(kSteps * (at - vec3(block)) + 0.5) / kSteps;

@@ -4,13 +4,13 @@
 const float kColorExponent = 2.1;  // beside that of the shading
 const float kColorGain = 1.5;      // so that it is as bright in the middle of its reach
 
-// The layer of nodes in front of the surface: two steps, the lowest node, and the entries of the four tiles by u, then v.
+// The layer of nodes in front of the surface: two steps, the lowest node, and the entries of the four light tiles by u, then v.
 struct NodeLayer {
     ivec3 lowest, stepU, stepV;
     uvec4 entries;
 };
 
-const int kSpan = 6;  // from the lowest node to the highest; two tiles at most
+const int kSpan = 6;  // from the lowest node to the highest; two light tiles at most
 
 ivec3 blockAt(NodeLayer layer, ivec2 node) {
     return layer.lowest + node.x * layer.stepU + node.y * layer.stepV;
@@ -23,7 +23,7 @@ vec4 lightAt(NodeLayer layer, ivec2 node) {
 }
 
 // Opaque blocks are those without any light. Air in the dark has none to give either.
-float openness(vec4 light) {
+float visibility(vec4 light) {
     return light == vec4(0.0) ? 0.0 : 1.0;
 }
 
@@ -34,7 +34,7 @@ float link(vec4 a, vec4 b, float steps) {
     return clamp(steps + 1.5 - 15.0 * max(max(d.r, d.g), max(d.b, d.a)), 0.0, 1.0);
 }
 
-// The last levels of a lamp fade into the dark: a straight line would end in an edge, and in the one colour that
+// The last levels of a lamp fade into the dark: a straight line would end in an edge, and in the one color that
 // reaches farthest.
 vec4 toned(vec4 light) {
     return vec4(kColorGain * pow(light.rgb, vec3(kColorExponent)), light.a);
@@ -44,7 +44,7 @@ vec4 toned(vec4 light) {
 // blocks.
 struct Close {
     vec4 light;  // of those that are open
-    float open;  // their share, by weight
+    float visibility;  // their share, by weight
 };
 
 Close closeNodes(NodeLayer layer, vec2 at) {
@@ -55,10 +55,10 @@ Close closeNodes(NodeLayer layer, vec2 at) {
     vec4 nearest = lightAt(layer, middle);
     Close c;
     vec4 weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    vec2 open = vec2(openness(besideU), openness(besideV));
-    weights *= vec4(openness(nearest), open, max(open.x, open.y) * openness(across));
-    c.open = dot(weights, vec4(1.0));
-    c.light = (weights.x * nearest + weights.y * besideU + weights.z * besideV + weights.w * across) / max(c.open, 1e-4);
+    vec2 open = vec2(visibility(besideU), visibility(besideV));
+    weights *= vec4(visibility(nearest), open, max(open.x, open.y) * visibility(across));
+    c.visibility = dot(weights, vec4(1.0));
+    c.light = (weights.x * nearest + weights.y * besideU + weights.z * besideV + weights.w * across) / max(c.visibility, 1e-4);
     return c;
 }
 
@@ -74,7 +74,7 @@ vec4 farNodes(NodeLayer layer, vec2 at, Close close) {
         ivec2 node = ivec2(k & 3, k >> 2);
         vec4 light = lightAt(layer, 2 * node);
         vec2 away = abs(at - vec2(2 * node));
-        float weight = weightsU[node.x] * weightsV[node.y] * openness(light) * link(light, close.light, away.x + away.y);
+        float weight = weightsU[node.x] * weightsV[node.y] * visibility(light) * link(light, close.light, away.x + away.y);
         sum += weight * light;
         weights += weight;
     }
@@ -97,5 +97,5 @@ vec4 sampleSmooth(vec3 at, vec3 normal) {
     vec3 rest = at - vec3(layer.lowest);
     vec2 inLayer = vec2(dot(rest, vec3(layer.stepU)), dot(rest, vec3(layer.stepV)));
     Close close = closeNodes(layer, inLayer);
-    return close.open * toned(farNodes(layer, inLayer, close));
+    return close.visibility * toned(farNodes(layer, inLayer, close));
 }

@@ -46,7 +46,7 @@ int slabsOfDriver() {
     return texels / kTile;
 }
 
-// Tile (x, y, z), 0 or 1 each, of an unpacked brick of 16³.
+// Light tile (x, y, z), 0 or 1 each, of an unpacked brick of 16³.
 TileValues tileOf(const std::array<std::uint16_t, world::kBlocksPerSection>& brick, int x, int y, int z) {
     TileValues tile;
     auto* to = tile.data();
@@ -57,7 +57,7 @@ TileValues tileOf(const std::array<std::uint16_t, world::kBlocksPerSection>& bri
     return tile;
 }
 
-// Of a whole chunk. Tiles lie by x, y, z: a brick's eight are neighbours.
+// Of a whole chunk. Light tiles lie by x, y, z: a brick's eight are neighbors.
 constexpr auto filled(std::uint32_t entry) {
     std::array<std::uint32_t, shared::kLightTilesPerChunk> entries{};
     entries.fill(entry);
@@ -155,7 +155,7 @@ void LightStore::setBrick(std::span<std::uint32_t, kTilesPerBrick> entries, cons
 
 void LightStore::set(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks) {
     TERRANE_ZONE("upload light");
-    assert(pos.level == 0 && "the grid has tiles of blocks");
+    assert(pos.level == 0 && "the grid has light tiles of blocks");
     const auto [it, isNew] = chunks_.try_emplace(pos, filled(shared::kLightUnknown));
     const std::span entries(it->second);
     for (int n = 0; n < world::kSectionsPerChunk; ++n) {

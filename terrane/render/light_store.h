@@ -1,9 +1,9 @@
 // The light of the visible chunks on the GPU, for shaders to sample (light_sample.glsl). Used on the thread
 // of the current OpenGL context.
 //
-// Light is kept in tiles of 8³ blocks; tiles of one value take an entry of the grid and nothing else. Grid: a
-// 3D texture of 32-bit entries, two by two tiles a chunk, wrapping around the camera. Pool: a 3D texture with
-// four bits a component that grows by doubling.
+// Light is kept in light tiles of 8³ blocks; light tiles of one value take an entry of the grid and nothing
+// else. Grid: a 3D texture of 32-bit entries, two by two light tiles a chunk, wrapping around the camera.
+// Pool: a 3D texture with four bits a component that grows by doubling.
 #pragma once
 
 #include <array>
@@ -22,8 +22,9 @@ namespace terrane::render {
 class LightStore {
   public:
     LightStore() = default;
-    // Room for chunks up to `viewDistance` + 1 around the camera. `maxSlabs`: of 4,096 tiles each, as many as
-    // the driver allows where it is 0. Tiles for which there is no room have the light of their middle.
+    // Room for chunks up to `viewDistance` + 1 around the camera. `maxSlabs`: of 4,096 light tiles each, as
+    // many as the driver allows where it is 0. Light tiles for which there is no room have the light of their
+    // middle.
     explicit LightStore(int viewDistance, int maxSlabs = 0);
 
     // `bricks`: which of the sixteen may differ from what was set before, a bit each; of a new chunk all

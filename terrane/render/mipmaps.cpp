@@ -11,7 +11,7 @@
 namespace terrane::render {
 namespace {
 
-// Linear colours, alpha as stored.
+// Linear colors, alpha as stored.
 struct LinearImage {
     int size = 0;
     std::vector<glm::vec4> texels;
@@ -62,7 +62,7 @@ LinearImage half(const LinearImage& from, bool alphaIsCoverage) {
                 plain += t;
                 weight += w;
             }
-            // Texels hidden on all sides keep their colour: filters reach them.
+            // Texels hidden on all sides keep their color: filters reach them.
             glm::vec4 mean = weight > 0.0f ? sum / weight : plain * 0.25f;
             mean.a = plain.a * 0.25f;
             to.texels.push_back(mean);
@@ -127,7 +127,7 @@ std::array<std::size_t, 9> texelsAround(const base::Image& image, std::size_t at
     return texels;
 }
 
-// Gives a texel the mean of the known colours around it, alpha 0. There is one at least.
+// Gives a texel the mean of the known colors around it, alpha 0. There is one at least.
 void takeColorAround(base::Image& image, const std::vector<bool>& known, std::size_t at) {
     std::array<int, 3> sum{};
     int count = 0;
@@ -140,7 +140,7 @@ void takeColorAround(base::Image& image, const std::vector<bool>& known, std::si
     image.rgba[4 * at + 3] = 0;
 }
 
-// Hidden texels take the colour of what is next to them, ring by ring: filters mix it into the edges.
+// Hidden texels take the color of what is next to them, ring by ring: filters mix it into the edges.
 void colorHiddenTexels(base::Image& image) {
     std::vector<bool> known;
     for (std::size_t k = 3; k < image.rgba.size(); k += 4) known.push_back(image.rgba[k] > 0);

@@ -8,10 +8,10 @@
 
 namespace terrane::render {
 
-// Level 0 is the image, but that texels hidden by a tested alpha take the colours around them; each next one
+// Level 0 is the image, but that texels hidden by a tested alpha take the colors around them; each next one
 // half as large, down to 1×1. The image is square, its side a power of two.
 //
-// Colours are averaged as light (sRGB is decoded), weighted by alpha where alpha is coverage. Where alpha
+// Colors are averaged as light (sRGB is decoded), weighted by alpha where alpha is coverage. Where alpha
 // decides holes, each level is scaled so that the share of the surface that passes the test stays that of
 // level 0: else leaves and grass would thin out with distance (I. Castaño, Computing Alpha Mipmaps, 2010).
 std::vector<base::Image> mipmaps(const base::Image& image, world::AlphaMode alpha);

@@ -1,11 +1,11 @@
 // Smooths the ambient occlusion along one axis: Gaussian of 9 taps, σ = 3, over what lies at a like distance.
-// AXIS: 0 x, 1 y. SAMPLES: of the depth.
+// AXIS: 0 x, 1 y. MSAA_SAMPLES: of the depth.
 #include "terrane/render/frame_uniforms.glsl"
-#include "terrane/render/surfaces.glsl"
+#include "terrane/render/gbuffer_read.glsl"
 
 layout(binding = kOcclusionUnit) uniform sampler2D source;
 
-layout(location = 0) out vec4 outOpen;
+layout(location = 0) out vec4 outVisibility;
 
 const float kWeights[5] = float[](0.1509, 0.1427, 0.1208, 0.0915, 0.0620);
 
@@ -20,5 +20,5 @@ void main() {
         sum += weight * texelFetch(source, at, 0).r;
         weights += weight;
     }
-    outOpen = vec4(sum / weights);
+    outVisibility = vec4(sum / weights);
 }

@@ -3,7 +3,7 @@
 namespace terrane::render {
 
 base::Result<void> PixelMask::select(int samples) {
-    return pass_.select(defined({{"SAMPLES", samples}, {"OF", static_cast<int>(of_)}}));
+    return pass_.select(defined({{"MSAA_SAMPLES", samples}, {"OF", static_cast<int>(of_)}}));
 }
 
 void PixelMask::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {

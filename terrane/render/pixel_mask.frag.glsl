@@ -1,10 +1,10 @@
 // Leaves out pixels of which no sample has what OF asks for: 0 a surface, 1 the sky or a surface that may fade into it,
-// 2 a layer of blended faces. SAMPLES: more than one.
+// 2 a layer of blended faces. MSAA_SAMPLES: more than one.
 #include "terrane/render/frame_uniforms.glsl"
-#include "terrane/render/surfaces.glsl"
+#include "terrane/render/gbuffer_read.glsl"
 
 #if OF == 2
-layout(binding = kLayerDepthUnit) uniform sampler2DMS layerDepth;
+layout(binding = kTransparencyDepthUnit) uniform sampler2DMS layerDepth;
 #endif
 
 bool isThere(ivec2 pixel, int k) {
@@ -20,6 +20,6 @@ bool isThere(ivec2 pixel, int k) {
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     bool isAnyThere = false;
-    for (int k = 0; k < SAMPLES; ++k) isAnyThere = isAnyThere || isThere(pixel, k);
+    for (int k = 0; k < MSAA_SAMPLES; ++k) isAnyThere = isAnyThere || isThere(pixel, k);
     if (!isAnyThere) discard;
 }

@@ -1,19 +1,19 @@
 // PASS: 0 G-buffer, 1 blended layer, 2 shadow map. ALPHA_CLASS: 0 opaque, 1 tested, 2 blended.
 // Pulls a quad's corner from the quad buffer. Four vertices a quad; the base vertex of a draw is four times its first
-// quad, its base instance the number of its region.
-#include "terrane/render/crack_cover.glsl"
+// quad, its base instance the number of its mesh section.
+#include "terrane/render/edge_expansion.glsl"
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/waves.glsl"
 #include "terrane/shared/hash.h"
 #include "terrane/shared/quad.h"
-#include "terrane/shared/region.h"
+#include "terrane/shared/mesh_section.h"
 #include "terrane/shared/shape_face.h"
 
 layout(binding = kQuadsUnit) uniform usamplerBuffer quads;
 layout(binding = kShapeFacesUnit) uniform samplerBuffer shapeFaces;  // four texels a face
 layout(binding = kMaterialsUnit) uniform usamplerBuffer materials;
 
-layout(location = kRegionChunkAttribute) in ivec3 regionChunk;  // of the draw's region; z: its level
+layout(location = kMeshSectionChunkAttribute) in ivec3 meshSectionChunk;  // of the draw's mesh section; z: its level
 
 // Layers are peeled by comparing depths of two programs.
 invariant gl_Position;
@@ -23,8 +23,8 @@ invariant gl_Position;
 const float kLiquidInset = 1.0 / 1024.0;
 
 layout(location = 0) out vec2 outTexel;        // in textures; row 0 of the image is at integer v
-layout(location = 1) flat out uvec2 outFace;   // see face_word.glsl; a number of the quad's own
-#include "terrane/render/face_word.glsl"
+layout(location = 1) flat out uvec2 outFace;   // see packed_face.glsl; a number of the quad's own
+#include "terrane/render/packed_face.glsl"
 
 Quad quadOf(int vertex) {
     uvec2 words = texelFetch(quads, vertex >> 2).rg;
@@ -54,8 +54,8 @@ void main() {
     vec4 cell = vec4(quadX(quad), quadY(quad), quadZ(quad), 0.0);
     ShapeFace face = shapeFaceOf(quad);
     MaterialRecord material = materialOf(quad);
-    ivec2 chunk = regionChunk.xy;
-    uint level = uint(regionChunk.z);
+    ivec2 chunk = meshSectionChunk.xy;
+    uint level = uint(meshSectionChunk.z);
     vec3 cellBlocks = vec3(vec2(columnBlocks(level)), 1.0);
     vec3 inChunk = cellBlocks * shapeFaceCorner(face, cell, corner, extent).xyz;
     if ((frame.switches & kSwitchAnimation) != 0 && level == 0u) {
@@ -76,10 +76,10 @@ void main() {
     vec2 inward = (1.0 - 2.0 * corner) * extent;
     vec4 alongU = frame.viewProjection * vec4(cellBlocks * face.axisU.xyz * inward.x, 0.0);
     vec4 alongV = frame.viewProjection * vec4(cellBlocks * face.axisV.xyz * inward.y, 0.0);
-    gl_Position = coverCracks(gl_Position, gl_Position + alongU, gl_Position + alongV, frame.viewportSize,
-                              frame.crackGrowth);
+    gl_Position = expandEdges(gl_Position, gl_Position + alongU, gl_Position + alongV, frame.viewportSize,
+                              frame.edgeExpansion);
 #endif
     uint seed = hash2(uint(chunk.x), uint(chunk.y), quad.word1);
-    outFace = uvec2(faceWord(quad, material, level), quad.word0 ^ seed);
+    outFace = uvec2(packFace(quad, material, level), quad.word0 ^ seed);
     outTexel = vec2(corner.x, 1.0 - corner.y) * extentOf(outFace.x);
 }

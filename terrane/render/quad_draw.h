@@ -10,11 +10,11 @@ namespace terrane::render {
 struct QuadDraw {
     QuadResources& resources;
     const QuadStore& quads;
-    const RegionTable& regions;
+    const MeshSectionTable& meshSections;
     const CullPass& culled;  // draws what its last run chose
     bool isSmooth = false;   // textures are filtered
 
-    void bind() const { resources.bind(quads, regions, isSmooth); }
+    void bind() const { resources.bind(quads, meshSections, isSmooth); }
 };
 
 }  // namespace terrane::render

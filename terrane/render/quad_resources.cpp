@@ -8,7 +8,7 @@
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/frame.h"
 #include "terrane/shared/material.h"
-#include "terrane/shared/region.h"
+#include "terrane/shared/mesh_section.h"
 
 namespace terrane::render {
 namespace {
@@ -61,14 +61,14 @@ QuadResources::QuadResources(const world::BlockRegistry& blocks, gpu::Texture2DA
     vertexArray_.setElementBuffer(indices_);
 }
 
-void QuadResources::bind(const QuadStore& quads, const RegionTable& regions, bool isSmooth) {
+void QuadResources::bind(const QuadStore& quads, const MeshSectionTable& meshSections, bool isSmooth) {
     quads.texels().bind(shared::kQuadsUnit);
     shapeFaceTexels_.bind(shared::kShapeFacesUnit);
     materialTexels_.bind(shared::kMaterialsUnit);
     constexpr GLint kChunkAndLevel = 3;
-    static_assert(offsetof(shared::RegionRecord, level) == 2 * sizeof(GLint));
-    vertexArray_.setInstanceIntegers(shared::kRegionChunkAttribute, regions.records(), kChunkAndLevel,
-                                     sizeof(shared::RegionRecord));
+    static_assert(offsetof(shared::MeshSectionRecord, level) == 2 * sizeof(GLint));
+    vertexArray_.setInstanceIntegers(shared::kMeshSectionChunkAttribute, meshSections.records(),
+                                     kChunkAndLevel, sizeof(shared::MeshSectionRecord));
     textures_.bind(shared::kBlockTexturesUnit);
     (isSmooth ? smooth_ : nearest_).bind(shared::kBlockTexturesUnit);
     vertexArray_.bind();

@@ -7,8 +7,8 @@
 #include "terrane/gpu/sampler.h"
 #include "terrane/gpu/texture.h"
 #include "terrane/gpu/vertex_array.h"
+#include "terrane/render/mesh_section_table.h"
 #include "terrane/render/quad_store.h"
-#include "terrane/render/region_table.h"
 #include "terrane/world/block_registry.h"
 
 namespace terrane::render {
@@ -22,7 +22,7 @@ class QuadResources {
     void setTextures(gpu::Texture2DArray textures) { textures_ = std::move(textures); }
 
     // isSmooth: textures are filtered.
-    void bind(const QuadStore& quads, const RegionTable& regions, bool isSmooth);
+    void bind(const QuadStore& quads, const MeshSectionTable& meshSections, bool isSmooth);
 
   private:
     gpu::Texture2DArray textures_;

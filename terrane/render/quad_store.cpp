@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "terrane/mesh/region_quads.h"
+#include "terrane/mesh/mesh_section_quads.h"
 
 namespace terrane::render {
 namespace {
@@ -23,14 +23,14 @@ gpu::Buffer quadBuffer(std::uint32_t quads) {
 std::uint32_t reachableQuads() {
     GLint64 blockBytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &blockBytes);
-    constexpr std::int64_t kMostBytes = std::int64_t{1} << 30;
-    const auto quads = static_cast<std::size_t>(std::min(blockBytes, kMostBytes)) / shared::kQuadBytes;
-    return static_cast<std::uint32_t>(std::min(quads, gpu::BufferTexture::mostElements()));
+    constexpr std::int64_t kMaxBytes = std::int64_t{1} << 30;
+    const auto quads = static_cast<std::size_t>(std::min(blockBytes, kMaxBytes)) / shared::kQuadBytes;
+    return static_cast<std::uint32_t>(std::min(quads, gpu::BufferTexture::maxElements()));
 }
 
-std::uint32_t quadsOf(std::span<const mesh::RegionMesh> regions) {
+std::uint32_t quadsOf(std::span<const mesh::MeshSection> meshSections) {
     std::uint32_t count = 0;
-    for (const mesh::RegionMesh& region : regions) count += mesh::quadCount(region);
+    for (const mesh::MeshSection& meshSection : meshSections) count += mesh::quadCount(meshSection);
     return count;
 }
 
@@ -42,36 +42,39 @@ QuadStore::QuadStore(std::uint32_t maxQuads)
       texels_(texelsOf(buffer_)),
       ranges_(std::min(kFirstCapacity, maxQuads_)) {}
 
-bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::RegionSet regions) {
-    if (!reserve(pos, mesh.regions, regions)) return false;
+bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::MeshSectionSet meshSections) {
+    if (!reserve(pos, mesh.meshSections, meshSections)) return false;
     if (mesh.quads.empty()) return true;
-    const std::span<const mesh::RegionMesh> stored = regionsOf(pos);
-    assert(quadsOf(mesh.regions) == mesh.quads.size() && "ranges name each quad once");
+    const std::span<const mesh::MeshSection> stored = meshSectionsOf(pos);
+    assert(quadsOf(mesh.meshSections) == mesh.quads.size() && "ranges name each quad once");
     std::size_t lowest = 0;
-    while (!mesh::hasRegion(regions, lowest)) ++lowest;
+    while (!mesh::hasMeshSection(meshSections, lowest)) ++lowest;
     buffer_.uploadVector(std::size_t{mesh::firstQuad(stored[lowest])} * shared::kQuadBytes, mesh.quads);
     uploadedBytes_ += mesh.quads.size() * shared::kQuadBytes;
     return true;
 }
 
-bool QuadStore::reserve(world::ChunkPos pos, std::span<const mesh::RegionMesh> meshes,
-                        mesh::RegionSet regions) {
-    ChunkRegions& chunk = chunks_[pos];
+bool QuadStore::reserve(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes,
+                        mesh::MeshSectionSet meshSections) {
+    ChunkMeshSections& chunk = chunks_[pos];
     if (chunk.size() != meshes.size()) {
-        free(chunk, mesh::kAllRegions);
+        free(chunk, mesh::kAllMeshSections);
         chunk.assign(meshes.size(), {});
     }
-    free(chunk, regions);
+    free(chunk, meshSections);
     const std::uint32_t count = quadsOf(meshes);
     const std::optional<std::uint32_t> first = count > 0 ? allocate(count) : 0;
     std::uint32_t next = first.value_or(0);
     for (std::size_t r = 0; first && r < meshes.size(); ++r) {
-        assert((mesh::hasRegion(regions, r) || mesh::quadCount(meshes[r]) == 0) && "nothing for the others");
-        if (!mesh::hasRegion(regions, r)) continue;
+        assert((mesh::hasMeshSection(meshSections, r) || mesh::quadCount(meshes[r]) == 0) &&
+               "nothing for the others");
+        if (!mesh::hasMeshSection(meshSections, r)) continue;
         chunk[r] = mesh::movedTo(next, meshes[r]);
         next += mesh::quadCount(meshes[r]);
     }
-    const auto isEmpty = [](const mesh::RegionMesh& region) { return mesh::quadCount(region) == 0; };
+    const auto isEmpty = [](const mesh::MeshSection& meshSection) {
+        return mesh::quadCount(meshSection) == 0;
+    };
     if (std::ranges::all_of(chunk, isEmpty)) chunks_.erase(pos);
     return first.has_value();
 }
@@ -79,22 +82,22 @@ bool QuadStore::reserve(world::ChunkPos pos, std::span<const mesh::RegionMesh> m
 void QuadStore::remove(world::ChunkPos pos) {
     const auto it = chunks_.find(pos);
     if (it == chunks_.end()) return;
-    free(it->second, mesh::kAllRegions);
+    free(it->second, mesh::kAllMeshSections);
     chunks_.erase(it);
 }
 
-void QuadStore::free(ChunkRegions& chunk, mesh::RegionSet regions) {
+void QuadStore::free(ChunkMeshSections& chunk, mesh::MeshSectionSet meshSections) {
     for (std::size_t r = 0; r < chunk.size(); ++r) {
-        if (!mesh::hasRegion(regions, r)) continue;
+        if (!mesh::hasMeshSection(meshSections, r)) continue;
         const std::uint32_t count = mesh::quadCount(chunk[r]);
         if (count > 0) ranges_.free(mesh::firstQuad(chunk[r]), count);
         chunk[r] = {};
     }
 }
 
-std::span<const mesh::RegionMesh> QuadStore::regionsOf(world::ChunkPos pos) const {
+std::span<const mesh::MeshSection> QuadStore::meshSectionsOf(world::ChunkPos pos) const {
     const auto it = chunks_.find(pos);
-    return it == chunks_.end() ? std::span<const mesh::RegionMesh>() : it->second;
+    return it == chunks_.end() ? std::span<const mesh::MeshSection>() : it->second;
 }
 
 std::optional<std::uint32_t> QuadStore::allocate(std::uint32_t count) {

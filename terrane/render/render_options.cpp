@@ -3,29 +3,29 @@
 namespace terrane::render {
 namespace {
 
-// Next to nothing besides the picture: for drawing without a graphics card.
+// Next to nothing besides the image: for drawing without a graphics card.
 constexpr RenderOptions low() {
     RenderOptions o;
-    o.samples = 1;
+    o.msaaSamples = 1;
     o.shadowSize = 0;
-    o.depthOfField = o.godRays = o.sampledAlphaTest = o.betterTexturing = o.clouds = false;
-    o.layers = 1;
+    o.depthOfField = o.godRays = o.msaaAlphaTest = o.sharpFiltering = o.clouds = false;
+    o.transparencyLayers = 1;
     return o;
 }
 
 constexpr RenderOptions medium() {
     RenderOptions o;
-    o.samples = 2;
+    o.msaaSamples = 2;
     o.light = LightSampling::Smooth;
     o.shadowSize = 2048;
     o.depthOfField = false;
-    o.layers = 2;
+    o.transparencyLayers = 2;
     return o;
 }
 
 constexpr RenderOptions high() {
     RenderOptions o;
-    o.samples = 4;
+    o.msaaSamples = 4;
     o.light = LightSampling::Smooth;
     o.shadowSize = 4096;
     o.occlusion = Occlusion::On;

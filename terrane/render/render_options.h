@@ -1,4 +1,4 @@
-// How a frame is drawn: every choice that a person has, as one plain value, and named sets of them. Any
+// How a frame is drawn: every choice that a user has, as one plain value, and named sets of them. Any
 // thread.
 #pragma once
 
@@ -10,40 +10,40 @@
 namespace terrane::render {
 
 enum class Shading : std::uint8_t {
-    Off,     // the colours of the blocks alone
+    Off,     // the colors of the blocks alone
     Sample,  // each sample of a pixel by itself
-    Pixel,   // once a pixel: the nearest depth, the mean of colours and normals
+    Pixel,   // once a pixel: the nearest depth, the mean of colors and normals
 };
 
 // How light is sampled between blocks: docs/light.md.
 enum class LightSampling : std::uint8_t { Classic, Smooth };
 
-enum class Occlusion : std::uint8_t { Off, On, Raw };  // Raw shows it instead of the picture
+enum class Occlusion : std::uint8_t { Off, On, Raw };  // Raw shows it instead of the image
 
 // What is done about the cracks between quads of different sizes.
 enum class TJunctions : std::uint8_t {
     Open,     // nothing
     Filled,   // holes of one sample take on what is beside them: hole_fill.h
-    Covered,  // quads overlap by a little, so that there are none: crack_cover.glsl
+    Covered,  // quads overlap by a little, so that there are none: edge_expansion.glsl
 };
 
 struct RenderOptions {
-    int samples = 2;  // a pixel: 1, 2, 4, 8; the driver may take the next number it has
+    int msaaSamples = 2;  // a pixel: 1, 2, 4, 8; the driver may take the next number it has
     Shading shading = Shading::Sample;
     LightSampling light = LightSampling::Classic;
     int shadowSize = 2048;  // texels a side of the shadow map: 1024, 2048, 4096; 0: no shadows
     Occlusion occlusion = Occlusion::Off;
     bool depthOfField = true;
-    bool atmosphere = true;
+    bool distanceFog = true;
     bool godRays = true;
     bool clouds = true;
     bool animation = true;
-    bool betterTexturing = true;   // magnified texels with sharp and smooth edges
-    bool sampledAlphaTest = true;  // holes in leaves and plants are found for each sample
-    int layers = 3;                // of blended faces, 0 to 3
-    int singleLayer = 0;           // shows this one alone, 1 to 3; 0: all
+    bool sharpFiltering = true;       // magnified texels with sharp and smooth edges
+    bool msaaAlphaTest = true;        // holes in leaves and plants are found for each sample
+    int transparencyLayers = 3;       // of blended faces, 0 to 3
+    int singleTransparencyLayer = 0;  // shows this one alone, 1 to 3; 0: all
     TJunctions tJunctions = TJunctions::Covered;
-    bool hiddenRegionCulling = true;  // of regions behind others
+    bool occlusionCulling = true;  // of mesh sections behind others
 
     bool operator==(const RenderOptions&) const = default;
 };

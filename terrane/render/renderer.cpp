@@ -19,17 +19,17 @@ constexpr int kLightViewDistance = 16;    // chunks, until setViewDistance
 constexpr float kMaxAnisotropy = 8.0f;
 
 // Between sun and moon it is dark: light that cannot be seen casts no shadows. Linear.
-constexpr float kLeastShadowedLight = 0.002f;
+constexpr float kMinShadowedLight = 0.002f;
 
-// A corner and an edge's ends are each off by up to √½ steps of the rasteriser's grid: two quads that both
+// A corner and an edge's ends are each off by up to √½ steps of the rasterizer's grid: two quads that both
 // grow by √½ steps meet. Corners of folded quads grow less, so more is taken; with 2 steps of 1/256 pixel one
 // in a hundred samples along an edge changes.
-constexpr float kCrackSteps = 2;
+constexpr float kExpansionSteps = 2;
 
-float crackGrowth() {
+float edgeExpansion() {
     GLint subpixelBits = 4;  // the least that OpenGL allows
     glGetIntegerv(GL_SUBPIXEL_BITS, &subpixelBits);
-    return kCrackSteps / static_cast<float>(1 << subpixelBits);
+    return kExpansionSteps / static_cast<float>(1 << subpixelBits);
 }
 
 float aspectOf(glm::ivec2 size) {
@@ -55,7 +55,7 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     renderer.light_ = LightStore(kLightViewDistance);
     renderer.shaders_ = &shaders;
     renderer.device_ = device;
-    renderer.crackGrowth_ = crackGrowth();
+    renderer.edgeExpansion_ = edgeExpansion();
     return renderer;
 }
 
@@ -67,8 +67,8 @@ base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, con
 }
 
 base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& options) {
-    if (options.samples > device_.maxSamples) {
-        return base::fail("{} samples a pixel: the graphics driver has at most {}", options.samples,
+    if (options.msaaSamples > device_.maxSamples) {
+        return base::fail("{} samples a pixel: the graphics driver has at most {}", options.msaaSamples,
                           device_.maxSamples);
     }
     if (std::max(size.x, size.y) > device_.maxTextureSize) {
@@ -76,8 +76,8 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
                           device_.maxTextureSize);
     }
     std::optional<FrameTargets> made;
-    if (size != targets_.size || options.samples != targets_.wantedSamples) {
-        auto targets = FrameTargets::create(size, options.samples);
+    if (size != targets_.size || options.msaaSamples != targets_.requestedMsaaSamples) {
+        auto targets = FrameTargets::create(size, options.msaaSamples);
         if (!targets) return tl::unexpected(targets.error());
         made = std::move(*targets);
     }
@@ -102,34 +102,34 @@ base::Result<void> Renderer::reloadShaders() {
     return {};
 }
 
-bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::RegionSet regions) {
-    const bool hasRoom = quads_.set(pos, mesh, regions);
-    regions_.set(pos, quads_.regionsOf(pos), regions);
+bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::MeshSectionSet meshSections) {
+    const bool hasRoom = quads_.set(pos, mesh, meshSections);
+    meshSections_.set(pos, quads_.meshSectionsOf(pos), meshSections);
     return hasRoom;
 }
 
-bool Renderer::reserveChunk(world::ChunkPos pos, std::span<const mesh::RegionMesh> meshes) {
+bool Renderer::reserveChunk(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes) {
     const bool hasRoom = quads_.reserve(pos, meshes);
-    regions_.set(pos, quads_.regionsOf(pos));
+    meshSections_.set(pos, quads_.meshSectionsOf(pos));
     return hasRoom;
 }
 
 void Renderer::removeChunk(world::ChunkPos pos) {
-    regions_.remove(pos);
+    meshSections_.remove(pos);
     quads_.remove(pos);
     light_.remove(pos);
 }
 
 bool Renderer::hasShadows(const FrameInput& input) const {
     const glm::vec3 light = input.environment.lightColor;
-    const bool isLit = std::max({light.x, light.y, light.z}) > kLeastShadowedLight;
+    const bool isLit = std::max({light.x, light.y, light.z}) > kMinShadowedLight;
     return passes_.shadowMap.size() > 0 && input.view == View::Color && isLit;
 }
 
 void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
     shared::Frame frame = frameUniforms(
         input, options_,
-        {view, glm::vec2(targets_.size), crackGrowth_, hasShadows(input) ? passes_.shadowMap.size() : 0});
+        {view, glm::vec2(targets_.size), edgeExpansion_, hasShadows(input) ? passes_.shadowMap.size() : 0});
     const world::ChunkPos chunk = cameraChunk(input.camera);
     const int mask = light_.gridChunks() - 1;
     constexpr int kTilesOfChunk = static_cast<int>(shared::kChunkSize / shared::kLightTileSize);
@@ -157,13 +157,13 @@ CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view)
     return cull;
 }
 
-void Renderer::cull(CullRun run, const CullInput& input) {
-    const TimerZone zone(timer_, run == CullRun::SeenNow ? "cull again" : "cull");
-    passes_.cull.run(run, input, regions_, ring_);
+void Renderer::cull(CullPhase phase, const CullInput& input) {
+    const TimerZone zone(timer_, phase == CullPhase::Late ? "cull again" : "cull");
+    passes_.cull.run(phase, input, meshSections_, ring_);
 }
 
 QuadDraw Renderer::quadDraw() {
-    return {resources_, quads_, regions_, passes_.cull, options_.betterTexturing};
+    return {resources_, quads_, meshSections_, passes_.cull, options_.sharpFiltering};
 }
 
 ShadingInputs Renderer::shadingInputs() const {
@@ -182,14 +182,14 @@ void Renderer::drawSurfaces() {
 }
 
 // What was hidden in the frame before and is not now.
-void Renderer::drawHiddenBefore(const CullInput& cullInput) {
+void Renderer::drawLate(const CullInput& cullInput) {
     {
         const TimerZone zone(timer_, "depth pyramid");
-        passes_.pyramid.build(targets_);
+        passes_.hiZ.build(targets_);
     }
     CullInput again = cullInput;
     again.shadow.reset();
-    cull(CullRun::SeenNow, again);
+    cull(CullPhase::Late, again);
     const TimerZone zone(timer_, "surfaces again");
     passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
 }
@@ -203,17 +203,18 @@ void Renderer::shadeSurfaces(float fogDistance) {
     passes_.shading.drawSurfaces(pipeline_, targets_, shadingInputs(), passes_.occlusion);
 }
 
-// Costs nothing where no region in view has blended faces.
-void Renderer::drawLayers(const FrameInput& input) {
+// Costs nothing where no mesh section in view has blended faces.
+void Renderer::drawTransparency(const FrameInput& input) {
     const ViewMatrices view = viewMatrices(input.camera, aspectOf(targets_.size));
     const Frustum frustum = frustumOf(view.viewProjection);
-    if (options_.layers == 0 || !regions_.hasBlended(cameraChunk(input.camera), frustum)) return;
+    if (options_.transparencyLayers == 0 || !meshSections_.hasBlended(cameraChunk(input.camera), frustum))
+        return;
     {
         const TimerZone zone(timer_, "peel");
-        passes_.layers.peel(pipeline_, targets_, quadDraw());
+        passes_.transparency.peelLayers(pipeline_, targets_, quadDraw());
     }
     const TimerZone zone(timer_, "shade layers");
-    passes_.layers.shade(pipeline_, targets_, quadDraw(), shadingInputs());
+    passes_.transparency.shade(pipeline_, targets_, quadDraw(), shadingInputs());
 }
 
 void Renderer::drawFinal() {
@@ -222,25 +223,25 @@ void Renderer::drawFinal() {
     targets_.sceneColor.bind(shared::kSceneUnit);
     if (passes_.occlusion.isOn()) passes_.occlusion.result().bind(shared::kOcclusionUnit);
     if (passes_.godRays.isOn()) passes_.godRays.bindResult();
-    if (passes_.farBlur.isOn()) passes_.farBlur.bindResult();
-    targets_.picture.bind();
+    if (passes_.depthOfField.isOn()) passes_.depthOfField.bindResult();
+    targets_.ldr.bind();
     passes_.finalPass.draw(pipeline_, {});
 }
 
-void Renderer::drawPicture(const FrameInput& input) {
+void Renderer::drawImage(const FrameInput& input) {
     if (passes_.occlusion.isOn()) {
         const TimerZone zone(timer_, "ambient occlusion");
         passes_.occlusion.draw(pipeline_, targets_);
     }
     shadeSurfaces(input.fogDistance);
-    drawLayers(input);
+    drawTransparency(input);
     if (passes_.godRays.isOn()) {
         const TimerZone zone(timer_, "god rays");
         passes_.godRays.draw(pipeline_, targets_);
     }
-    if (passes_.farBlur.isOn()) {
+    if (passes_.depthOfField.isOn()) {
         const TimerZone zone(timer_, "depth of field");
-        passes_.farBlur.draw(pipeline_, targets_);
+        passes_.depthOfField.draw(pipeline_, targets_);
     }
     drawFinal();
 }
@@ -248,7 +249,7 @@ void Renderer::drawPicture(const FrameInput& input) {
 void Renderer::drawDebugView() {
     targets_.bindSurfaces();
     light_.bind();
-    targets_.picture.bind();
+    targets_.ldr.bind();
     passes_.debugView.draw(pipeline_, {});
 }
 
@@ -261,18 +262,18 @@ void Renderer::draw(const FrameInput& input) {
     pipeline_.forget();
     bindFrame(input, view);
     CullInput culling = cullInput(input, view);
-    regions_.update(culling.cameraChunk);
-    const bool leavesOutHidden = passes_.pyramid.isOn() && !input.culledFor;
-    if (leavesOutHidden) culling.pyramid = &passes_.pyramid;
-    cull(leavesOutHidden ? CullRun::SeenBefore : CullRun::All, culling);
+    meshSections_.update(culling.cameraChunk);
+    const bool leavesOutHidden = passes_.hiZ.isOn() && !input.culledFor;
+    if (leavesOutHidden) culling.hiZ = &passes_.hiZ;
+    cull(leavesOutHidden ? CullPhase::Early : CullPhase::All, culling);
     if (hasShadows(input)) drawShadows();
     drawSurfaces();
-    if (leavesOutHidden) drawHiddenBefore(culling);
+    if (leavesOutHidden) drawLate(culling);
     if (passes_.holeFill.isOn()) {
         const TimerZone zone(timer_, "fill holes");
         passes_.holeFill.draw(pipeline_, targets_);
     }
-    input.view == View::Color ? drawPicture(input) : drawDebugView();
+    input.view == View::Color ? drawImage(input) : drawDebugView();
     pipeline_.set({});  // others clear depths
     passes_.cull.queueCounts();
     ring_.endFrame();
@@ -284,7 +285,7 @@ std::size_t Renderer::shadowTriangles(const FrameInput& input) const {
 }
 
 void Renderer::presentToWindow(glm::ivec2 windowSize) const {
-    gpu::blitToWindow(targets_.picture, 0, windowSize, GL_NEAREST);
+    gpu::blitToWindow(targets_.ldr, 0, windowSize, GL_NEAREST);
 }
 
 }  // namespace terrane::render

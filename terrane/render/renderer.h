@@ -26,21 +26,23 @@ class Renderer {
     // Other textures for the same blocks, from the next frame on. Where one is wrong those before stay.
     base::Result<void> setTextures(const world::BlockRegistry& blocks, const TextureSource& textures);
 
-    // Size of the picture in pixels and how it is drawn. Comes before the first frame and whenever something
+    // Size of the image in pixels and how it is drawn. Comes before the first frame and whenever something
     // changes. Fails where the driver cannot; what was before then stays.
     base::Result<void> configure(glm::ivec2 size, const RenderOptions& options);
     const RenderOptions& options() const { return options_; }
     // Shaders as the loader gives them now, from the next frame on. Where one is wrong those before stay.
     base::Result<void> reloadShaders();
 
-    // The next frame shows these regions of the chunk so; of others `mesh` has no quads. False where the GPU
-    // has no room: the regions are not shown then.
+    // The next frame shows these mesh sections of the chunk so; of others `mesh` has no quads. False where
+    // the GPU has no room: the mesh sections are not shown then.
     bool setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
-                  mesh::RegionSet regions = mesh::kAllRegions);
+                  mesh::MeshSectionSet meshSections = mesh::kAllMeshSections);
     // The same of the whole chunk, but for the quads: before the next frame a shader writes them into
-    // quadBuffer(), to where regionsOf() says.
-    bool reserveChunk(world::ChunkPos pos, std::span<const mesh::RegionMesh> meshes);
-    std::span<const mesh::RegionMesh> regionsOf(world::ChunkPos pos) const { return quads_.regionsOf(pos); }
+    // quadBuffer(), to where meshSectionsOf() says.
+    bool reserveChunk(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes);
+    std::span<const mesh::MeshSection> meshSectionsOf(world::ChunkPos pos) const {
+        return quads_.meshSectionsOf(pos);
+    }
     const gpu::Buffer& quadBuffer() const { return quads_.buffer(); }  // until the next change
     // Of chunks of level 0. Chunks without light are drawn as under the open sky. `viewDistance` of
     // setViewDistance is the farthest that light is kept for. `bricks`: see LightStore.
@@ -51,12 +53,12 @@ class Renderer {
     // Makes room for light; what was set is forgotten.
     void setViewDistance(int chunks) { light_ = LightStore(chunks); }
 
-    // Draws into the renderer's own picture.
+    // Draws into the renderer's own image.
     void draw(const FrameInput& input);
 
-    base::Image readImage() const { return gpu::readPixels(targets_.picture); }  // waits for the GPU
+    base::Image readImage() const { return gpu::readPixels(targets_.ldr); }  // waits for the GPU
     void presentToWindow(glm::ivec2 windowSize) const;
-    const gpu::Texture2D& pictureTexture() const { return targets_.pictureColor; }
+    const gpu::Texture2D& ldrTexture() const { return targets_.ldrColor; }
 
     // Of the newest frame that the GPU has finished.
     FrameStatistics statistics() { return statisticsOf(passes_.cull.counts()); }
@@ -71,13 +73,13 @@ class Renderer {
   private:
     void bindFrame(const FrameInput& input, const ViewMatrices& view);
     CullInput cullInput(const FrameInput& input, const ViewMatrices& view) const;
-    void cull(CullRun run, const CullInput& input);
+    void cull(CullPhase phase, const CullInput& input);
     void drawShadows();
     void drawSurfaces();
-    void drawHiddenBefore(const CullInput& cullInput);
+    void drawLate(const CullInput& cullInput);
     void shadeSurfaces(float fogDistance);
-    void drawLayers(const FrameInput& input);
-    void drawPicture(const FrameInput& input);
+    void drawTransparency(const FrameInput& input);
+    void drawImage(const FrameInput& input);
     void drawFinal();
     void drawDebugView();
     QuadDraw quadDraw();
@@ -87,7 +89,7 @@ class Renderer {
     RenderOptions options_;
     FrameTargets targets_;
     QuadStore quads_;
-    RegionTable regions_;
+    MeshSectionTable meshSections_;
     LightStore light_;
     QuadResources resources_;
     gpu::MappedRing ring_;
@@ -99,7 +101,7 @@ class Renderer {
 
     const gpu::ShaderLoader* shaders_ = nullptr;
     gpu::DeviceInfo device_;
-    float crackGrowth_ = 0;  // pixels
+    float edgeExpansion_ = 0;  // pixels
 };
 
 }  // namespace terrane::render

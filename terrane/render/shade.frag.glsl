@@ -1,12 +1,12 @@
-// From the G-buffer to the light that reaches the camera: colour times coverage, and coverage, over the sky.
-// SAMPLES: of the G-buffer. PER_SAMPLE: 1 shades each sample of a pixel with several surfaces, 0 their mean.
+// From the G-buffer to the light that reaches the camera: color times coverage, and coverage, over the sky.
+// MSAA_SAMPLES: of the G-buffer. PER_SAMPLE: 1 shades each sample of a pixel with several surfaces, 0 their mean.
 // SHADOW, OCCLUSION: 1 where there is a shadow map, ambient occlusion. OVER_SKY: 1 blends what fades with the sky that was
-// drawn behind it, 0 does so here: without clouds the sky's colour is known, and nothing behind need be drawn or read.
+// drawn behind it, 0 does so here: without clouds the sky's color is known, and nothing behind need be drawn or read.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
 #include "terrane/render/sky_color.glsl"
-#include "terrane/render/surfaces.glsl"
-#include "terrane/render/atmosphere.glsl"
+#include "terrane/render/gbuffer_read.glsl"
+#include "terrane/render/distance_fog.glsl"
 #include "terrane/render/lighting.glsl"
 #if SHADOW == 1
 #include "terrane/render/shadow_sample.glsl"
@@ -18,7 +18,7 @@ layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
 
-vec4 shadeAt(Surface s, float depth, float open) {
+vec4 shadeAt(Surface s, float depth, float visibility) {
     vec3 toPoint = inRay * blocksOfDepth(depth);
     vec3 position = frame.cameraPosition.xyz + toPoint;
     if ((frame.switches & kSwitchUnlit) != 0) return throughAir(s.albedo, toPoint, 1.0);
@@ -27,33 +27,33 @@ vec4 shadeAt(Surface s, float depth, float open) {
     shadow = lightShare(position, s.normal, length(toPoint));
 #endif
     vec4 levels = levelsAt(position, s);
-    return throughAir(shade(s, levels, shadow, open), toPoint, levels.a);
+    return throughAir(shade(s, levels, shadow, visibility), toPoint, levels.a);
 }
 
-#if SAMPLES > 1 && PER_SAMPLE == 1
+#if MSAA_SAMPLES > 1 && PER_SAMPLE == 1
 // Each surface once, with the share of its samples: at most edges there are two.
-vec4 shadePixel(ivec2 pixel, float open) {
+vec4 shadePixel(ivec2 pixel, float visibility) {
     vec4 sum = vec4(0.0);
-    int left = (1 << SAMPLES) - 1;
+    int left = (1 << MSAA_SAMPLES) - 1;
     do {
         int first = findLSB(left);
-        vec4 word = surfaceAt(pixel, first);
-        int same = samplesOf(pixel, word);
-        vec4 color = shadeAt(unpackSurface(word), depthAt(pixel, first), open);
-        if (directionOfWord(word) != kDirectionNone) sum += color * float(bitCount(same));
+        vec4 packedSurface = packedSurfaceAt(pixel, first);
+        int same = samplesOf(pixel, packedSurface);
+        vec4 color = shadeAt(unpackSurface(packedSurface), depthAt(pixel, first), visibility);
+        if (packedDirection(packedSurface) != kDirectionNone) sum += color * float(bitCount(same));
         left &= ~same;
     } while (left != 0);
-    return sum / float(SAMPLES);
+    return sum / float(MSAA_SAMPLES);
 }
-#elif SAMPLES > 1
-vec4 shadePixel(ivec2 pixel, float open) {
+#elif MSAA_SAMPLES > 1
+vec4 shadePixel(ivec2 pixel, float visibility) {
     Surface mean = Surface(vec3(0.0), vec3(0.0), 0.0, kDirectionNone);
     float nearest = 0.0;
     int covered = 0;
-    for (int k = 0; k < SAMPLES; ++k) {
-        vec4 word = surfaceAt(pixel, k);
-        if (directionOfWord(word) == kDirectionNone) continue;
-        Surface s = unpackSurface(word);
+    for (int k = 0; k < MSAA_SAMPLES; ++k) {
+        vec4 packedSurface = packedSurfaceAt(pixel, k);
+        if (packedDirection(packedSurface) == kDirectionNone) continue;
+        Surface s = unpackSurface(packedSurface);
         float depth = depthAt(pixel, k);
         mean.albedo += s.albedo;
         mean.normal += s.normal;
@@ -64,22 +64,22 @@ vec4 shadePixel(ivec2 pixel, float open) {
     }
     float share = 1.0 / float(covered);
     mean = Surface(mean.albedo * share, normalize(mean.normal + 1e-4), mean.glow * share, mean.direction);
-    return shadeAt(mean, nearest, open) * float(covered) / float(SAMPLES);
+    return shadeAt(mean, nearest, visibility) * float(covered) / float(MSAA_SAMPLES);
 }
 #else
 // The depth test has left out the sky.
-vec4 shadePixel(ivec2 pixel, float open) {
-    return shadeAt(unpackSurface(surfaceAt(pixel, 0)), depthAt(pixel, 0), open);
+vec4 shadePixel(ivec2 pixel, float visibility) {
+    return shadeAt(unpackSurface(packedSurfaceAt(pixel, 0)), depthAt(pixel, 0), visibility);
 }
 #endif
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float open = 1.0;
+    float visibility = 1.0;
 #if OCCLUSION == 1
-    open = texelFetch(occlusion, pixel, 0).r;
+    visibility = texelFetch(occlusion, pixel, 0).r;
 #endif
-    outColor = shadePixel(pixel, open);
+    outColor = shadePixel(pixel, visibility);
 #if OVER_SKY == 0
     outColor.rgb += (1.0 - outColor.a) * skyColor(normalize(inRay));
 #endif

@@ -20,12 +20,12 @@ ShadingPass::ShadingPass(const gpu::ShaderLoader& shaders)
 
 base::Result<void> ShadingPass::select(const RenderOptions& options, int samples, bool hasShadows) {
     fadesOverSky_ = samples > 1 || options.clouds;
-    hasAtmosphere_ = options.atmosphere;
+    hasDistanceFog_ = options.distanceFog;
     auto selected = sky_.select(defined({{"CLOUDS", options.clouds}}));
     if (selected && samples > 1) selected = skyMask_.select(samples);
     if (selected && samples > 1) selected = surfaceMask_.select(samples);
     if (!selected) return selected;
-    return shade_.select(defined({{"SAMPLES", samples},
+    return shade_.select(defined({{"MSAA_SAMPLES", samples},
                                   {"PER_SAMPLE", options.shading != Shading::Pixel},
                                   {"LIGHT_SMOOTH", static_cast<int>(options.light)},
                                   {"SHADOW", hasShadows},
@@ -37,11 +37,11 @@ base::Result<void> ShadingPass::select(const RenderOptions& options, int samples
 void ShadingPass::drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
                           float fogDistance) const {
     gpu::PipelineState state{.depthTest = gpu::DepthTest::Less, .writesDepth = false};
-    if (targets.samples > 1) {
+    if (targets.msaaSamples > 1) {
         skyMask_.draw(pipeline, targets);
     } else {
         const float distance =
-            fadesOverSky_ && hasAtmosphere_ ? shared::kFadingBegins * fogDistance : kSkyDistance;
+            fadesOverSky_ && hasDistanceFog_ ? shared::kFadingBegins * fogDistance : kSkyDistance;
         state.depthRange.x = kNearPlane / distance;
         state.depthTest = gpu::DepthTest::Greater;
     }
@@ -53,7 +53,7 @@ void ShadingPass::drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, 
 // The triangle lies at the far end: surfaces are all nearer, and so is the mask.
 void ShadingPass::drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targets,
                                const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const {
-    if (targets.samples > 1) surfaceMask_.draw(pipeline, targets);
+    if (targets.msaaSamples > 1) surfaceMask_.draw(pipeline, targets);
     targets.bindSurfaces();
     inputs.bind();
     if (occlusion.isOn()) occlusion.result().bind(shared::kOcclusionUnit);

@@ -28,7 +28,7 @@ class ShadingPass {
   private:
     FullscreenPass sky_, shade_;
     PixelMask skyMask_, surfaceMask_;
-    bool fadesOverSky_ = false, hasAtmosphere_ = false;
+    bool fadesOverSky_ = false, hasDistanceFog_ = false;
 };
 
 }  // namespace terrane::render

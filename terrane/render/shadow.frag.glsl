@@ -2,9 +2,9 @@
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/shared/quad.h"
 #include "terrane/shared/shape_face.h"
-#include "terrane/render/face_word.glsl"
+#include "terrane/render/packed_face.glsl"
 #define SMOOTH 0
-#define SAMPLES 1
+#define MSAA_SAMPLES 1
 #include "terrane/render/block_texture.glsl"
 
 layout(location = 0) in vec2 inTexel;
@@ -13,6 +13,6 @@ layout(location = 1) flat in uvec2 inFace;
 void main() {
 #if ALPHA_CLASS == 1
     float alpha = nearestTexel(inFace.x, inTexel, nearestLevel(dFdx(inTexel), dFdy(inTexel))).a;
-    if (alpha < leastAlpha(inFace.x)) discard;
+    if (alpha < minAlpha(inFace.x)) discard;
 #endif
 }

@@ -7,8 +7,8 @@
 #include <glm/vec4.hpp>
 #include <limits>
 
-#include "terrane/mesh/face_context.h"
-#include "terrane/shared/region.h"
+#include "terrane/mesh/draw_bucket.h"
+#include "terrane/shared/mesh_section.h"
 
 namespace terrane::render {
 namespace {
@@ -19,18 +19,18 @@ glm::mat3 lightAxes(glm::vec3 toward) {
     return glm::transpose(glm::mat3(across, glm::cross(toward, across), toward));
 }
 
-bool facesLight(int group, glm::vec3 light) {
-    if (group == mesh::kGroupAlways) return true;
-    const float along = light[group / 2];
-    return group % 2 == 0 ? along < 0 : along > 0;
+bool facesLight(int direction, glm::vec3 light) {
+    if (direction == mesh::kAnyDirection) return true;
+    const float along = light[direction / 2];
+    return direction % 2 == 0 ? along < 0 : along > 0;
 }
 
-std::size_t castingQuads(const mesh::RegionMesh& region, glm::vec3 light) {
+std::size_t castingQuads(const mesh::MeshSection& meshSection, glm::vec3 light) {
     std::size_t count = 0;
-    for (int context = 0; context < mesh::kContextCount; ++context) {
-        if (mesh::contextAlphaClass(context) == mesh::AlphaClass::Blended) continue;
-        for (int group = 0; group < mesh::kGroupCount; ++group) {
-            if (facesLight(group, light)) count += region.groups[context][group].count;
+    for (int bucket = 0; bucket < mesh::kDrawBucketCount; ++bucket) {
+        if (mesh::bucketAlphaClass(bucket) == mesh::AlphaClass::Blended) continue;
+        for (int direction = 0; direction < mesh::kFaceDirectionCount; ++direction) {
+            if (facesLight(direction, light)) count += meshSection.ranges[bucket][direction].count;
         }
     }
     return count;
@@ -106,15 +106,15 @@ ShadowFit fitShadowMap(const Camera& camera, float aspect, glm::vec3 lightDirect
 std::size_t countShadowTriangles(const QuadStore& quads, const Camera& camera, const ViewMatrices& view,
                                  glm::vec3 lightDirection) {
     const ShadowVolume volume = shadowVolume(view, lightDirection, kShadowReach);
-    const world::ChunkPos centre = cameraChunk(camera);
+    const world::ChunkPos center = cameraChunk(camera);
     std::size_t count = 0;
     for (const auto& [pos, chunk] : quads.chunks()) {
-        const glm::vec2 corner = shared::chunkCorner({pos.x, pos.y}, pos.level, {centre.x, centre.y});
+        const glm::vec2 corner = shared::chunkCorner({pos.x, pos.y}, pos.level, {center.x, center.y});
         const float width = world::kChunkSize * shared::columnBlocks(pos.level);
-        for (const mesh::RegionMesh& region : chunk) {
-            const glm::vec3 min(corner, region.minZ), max(corner + width, region.maxZ);
+        for (const mesh::MeshSection& meshSection : chunk) {
+            const glm::vec3 min(corner, meshSection.minZ), max(corner + width, meshSection.maxZ);
             if (mayBeInVolume(volume, min - shared::kWaving, max + shared::kWaving))
-                count += 2 * castingQuads(region, lightDirection);
+                count += 2 * castingQuads(meshSection, lightDirection);
         }
     }
     return count;

@@ -36,8 +36,8 @@ struct ShadowFit {
 };
 ShadowFit fitShadowMap(const Camera& camera, float aspect, glm::vec3 lightDirection, int texels);
 
-// Triangles of a shadow map of these chunks: regions in the volume, without blended quads and without the
-// groups that look away from the light.
+// Triangles of a shadow map of these chunks: mesh sections in the volume, without blended quads and without
+// the face directions that look away from the light.
 std::size_t countShadowTriangles(const QuadStore& quads, const Camera& camera, const ViewMatrices& view,
                                  glm::vec3 lightDirection);
 

@@ -1,4 +1,4 @@
-// The colour of the sky in a direction (unit length), without the disc of the sun or moon, clouds and stars. Also what
+// The color of the sky in a direction (unit length), without the disc of the sun or moon, clouds and stars. Also what
 // distance fades to and what water mirrors.
 vec3 skyColor(vec3 direction) {
     float height = max(direction.z, 0.0);

@@ -9,7 +9,7 @@ namespace terrane::render {
 class SkyNoise {
   public:
     SkyNoise() = default;
-    // 256 × 256 texels of four channels with all mipmaps, 350 KB, made by the processor in 5 ms. Red: five
+    // 256 × 256 texels of four channels with all mipmaps, 350 KB, made by the CPU in 5 ms. Red: five
     // octaves; green: others; blue and alpha: slope of smooth bumps along x and y, 0.5 is level.
     static SkyNoise create();
 

@@ -32,7 +32,7 @@ vec3 waveNormal(vec3 position, vec3 toPoint) {
     return normalize(vec3(strength * (slow + 0.6 * fast), 1.0));
 }
 
-// Light that comes back from within a thickness of water of a colour, and the share of what lies behind it that is seen.
+// Light that comes back from within a thickness of water of a color, and the share of what lies behind it that is seen.
 vec4 waterBody(vec3 color, vec3 lit, float blocks) {
     vec3 shallow = color * vec3(0.9, 1.1, 0.95) + vec3(0.0, 0.05, 0.03), deep = color * vec3(0.10, 0.28, 0.42);
     vec3 body = mix(shallow, deep, 1.0 - exp(-0.10 * blocks));
@@ -44,7 +44,7 @@ float waterMirror(float facing) {
     return 0.02 + 0.98 * pow(1.0 - clamp(facing, 0.0, 1.0), 5.0);
 }
 
-// Colour times coverage, and coverage, of a surface of water before `blocks` of it. `levels`: of light; `shadow`: the
+// Color times coverage, and coverage, of a surface of water before `blocks` of it. `levels`: of light; `shadow`: the
 // share of direct light.
 vec4 shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 levels, float shadow) {
     vec4 light = brightnessOf(levels);

@@ -1,4 +1,4 @@
-// How plants, leaves and water move. Everything repeats after 4,096 chunks, so that numbers stay small and pictures do
+// How plants, leaves and water move. Everything repeats after 4,096 chunks, so that numbers stay small and images do
 // not depend on where in the world they are. Needs hash.h.
 #include "terrane/shared/hash.h"
 #include "terrane/shared/material.h"

@@ -8,8 +8,8 @@
 SHARED_BEGIN
 
 // Positions on the GPU are in blocks from the corner of the camera's chunk at z = 0, so that they are small
-// and exact wherever in the world the camera is. Colours are linear.
-// Of vec4 positions, directions and colours x, y, z count; w is 0.
+// and exact wherever in the world the camera is. Colors are linear.
+// Of vec4 positions, directions and colors x, y, z count; w is 0.
 struct Frame {
     mat4 viewProjection;  // to clip space; depth 1 at the near plane, 0 at infinity
     mat4 toShadowMap;     // x, y: 0…1 over the map; z: its depth
@@ -32,15 +32,15 @@ struct Frame {
     ivec2 cameraChunk;
     ivec2 firstLightTile;  // of the camera's chunk, in the light grid
 
-    int lightGridTiles;  // along a side of the grid
-    int switches;        // kSwitch… bits
-    int singleLayer;     // the one transparency layer shown, 0 for all
-    uint view;           // 0 for the image, else a kView… value
+    int lightGridTiles;           // along a side of the grid
+    int switches;                 // kSwitch… bits
+    int singleTransparencyLayer;  // the one transparency layer shown, 0 for all
+    uint view;                    // 0 for the image, else a kView… value
 
-    float fogDistance;  // blocks at which the fog is complete
-    float nearPlane;    // blocks
-    float crackGrowth;  // pixels by which quads grow, see crack_cover.glsl
-    float timeSeconds;  // for animations
+    float fogDistance;    // blocks at which the fog is complete
+    float nearPlane;      // blocks
+    float edgeExpansion;  // pixels by which quads grow, see edge_expansion.glsl
+    float timeSeconds;    // for animations
 
     float exposure;
     float ambientFromBelow;  // share of ambientColor on faces that look down
@@ -59,18 +59,18 @@ struct Frame {
 };
 
 // Along the view, as the depth has it, surfaces may fade from this share of the distance of the fog on: they
-// do from 5/6 over the ground, and more at the sides of a wide picture.
+// do from 5/6 over the ground, and more at the sides of a wide image.
 const float kFadingBegins = 0.4f;
 
 const uint kViewNormal = 1u;
 const uint kViewDepth = 2u;
-const uint kViewAggregation = 3u;  // each quad in a colour of its own
+const uint kViewMerging = 3u;  // each quad in a color of its own
 const uint kViewLight = 4u;
 
 // Frame::switches: what costs nothing to switch within a shader.
 const int kSwitchAnimation = 1;
-const int kSwitchAtmosphere = 4;
-const int kSwitchUnlit = 8;  // the colours of the blocks alone
+const int kSwitchDistanceFog = 4;
+const int kSwitchUnlit = 8;  // the colors of the blocks alone
 
 // Alpha modes and animations are the values of world::AlphaMode and world::Animation.
 struct MaterialRecord {

@@ -8,12 +8,12 @@
 SHARED_BEGIN
 
 // Odd multipliers that spread one coordinate over 32 bits each: 2^32 divided by the golden ratio's
-// generalisations to three dimensions (roots of g^4 = g + 1), rounded to odd.
+// generalizations to three dimensions (roots of g^4 = g + 1), rounded to odd.
 const uint kHashX = 0xD1B54A33u;
 const uint kHashY = 0xABC98389u;
 const uint kHashZ = 0x8CB92BA7u;
 
-// Finaliser of 32 bits with two multiplications; constants from the "lowbias32" search (C. Wellons,
+// Finalizer of 32 bits with two multiplications; constants from the "lowbias32" search (C. Wellons,
 // Prospecting for Hash Functions, 2018), avalanche bias 0.17.
 SHARED_FN uint mixBits(uint h) {
     h ^= h >> 16;
@@ -24,7 +24,7 @@ SHARED_FN uint mixBits(uint h) {
     return h;
 }
 
-// Half a finaliser between two coordinates: with nothing but XOR between the products, hash2(x, y) would
+// Half a finalizer between two coordinates: with nothing but XOR between the products, hash2(x, y) would
 // equal hash2(-x, -y) wherever x and y end in as many zero bits, a third of all positions.
 SHARED_FN uint mixHalf(uint h) {
     h ^= h >> 15;

@@ -6,7 +6,7 @@
 
 SHARED_BEGIN
 
-const uint kMaxBlockTextures = 4096u;  // face_word.glsl has 12 bits for the texture
+const uint kMaxBlockTextures = 4096u;  // packed_face.glsl has 12 bits for the texture
 
 const uint kAlphaUnused = 0u;
 const uint kAlphaTest = 1u;

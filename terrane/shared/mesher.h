@@ -4,7 +4,7 @@
 
 #include "terrane/shared/constants.h"
 #include "terrane/shared/language.h"
-#include "terrane/shared/region.h"
+#include "terrane/shared/mesh_section.h"
 
 SHARED_BEGIN
 
@@ -13,31 +13,31 @@ const uint kMeshTypesBinding = 2u;
 const uint kMeshGrowthBinding = 3u;
 const uint kMeshUnitsBinding = 4u;
 const uint kMeshUnitCountsBinding = 5u;
-const uint kMeshRegionsBinding = 6u;  // counts, or where the next quad goes
+const uint kMeshSectionCountsBinding = 6u;  // counts, or where the next quad goes
 const uint kMeshQuadsBinding = 7u;
 
 // Palettes of packed sections of blocks hold the id and, from bit 16 on, the flags of its type; those of
-// small data hold values.
+// block state hold values.
 
-// In place of where a region's quads go: they are not written.
+// In place of where a mesh section's quads go: they are not written.
 const uint kNoPlace = 0xFFFFFFFFu;
 
 // In place of a section's number
-const uint kNoSection = 0xFFFFFFFFu;      // air, or no small data
+const uint kNoSection = 0xFFFFFFFFu;      // air, or no block state
 const uint kOpaqueSection = 0xFFFFFFFEu;  // below the world
 
-// What a work group meshes: the part of a section that lies in one region.
+// What a work group meshes: the part of a section that lies in one mesh section.
 struct MeshUnit {
     uint section;
-    uint smallData;
-    uint region;  // of all regions of the batch
-    uint layers;  // of the section: the first, and the one behind the last << 16
-    uint neighbours[6];
+    uint blockState;
+    uint meshSection;  // of all mesh sections of the batch
+    uint layers;       // of the section: the first, and the one behind the last << 16
+    uint neighbors[6];
     uint baseZ;  // of the section
     uint unused;
 };
 
-// A block type: its flags, and for each side the material and, from bit 16 on, its face context. Of plants
+// A block type: its flags, and for each side the material and, from bit 16 on, its draw bucket. Of plants
 // that grow the same for each stage, `count` << 16 of them from `first` on in the list of growth.
 struct MeshType {
     uint flags;
@@ -59,9 +59,9 @@ const uint kMeshShapeInset = 5u;
 // Quads of a unit by range, and 0 where there are none.
 const uint kMeshUnitWords = 25u;
 
-struct MeshRegionCounts {
-    uint quads[kRangesOfRegion];
-    uint minZ;  // as in mesh::RegionMesh; above maxZ where there are no quads
+struct MeshSectionCounts {
+    uint quads[kRangesPerMeshSection];
+    uint minZ;  // as in mesh::MeshSection; above maxZ where there are no quads
     uint maxZ;
 };
 
@@ -70,8 +70,8 @@ SHARED_END
 #ifdef __cplusplus
 namespace terrane::shared {
 static_assert(sizeof(MeshUnit) == 48 && sizeof(MeshType) == 32);
-static_assert(sizeof(MeshRegionCounts) == 4 * (kRangesOfRegion + 2));
-static_assert(kMeshUnitWords == kRangesOfRegion + 1);
+static_assert(sizeof(MeshSectionCounts) == 4 * (kRangesPerMeshSection + 2));
+static_assert(kMeshUnitWords == kRangesPerMeshSection + 1);
 }  // namespace terrane::shared
 #endif
 #endif

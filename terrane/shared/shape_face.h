@@ -26,7 +26,7 @@ struct ShapeFace {
     vec4 base;    // lowest corner of the face in the cell
     vec4 axisU;   // along the texture's width for one block
     vec4 axisV;   // along the texture's height for one block, upward on upright faces
-    vec4 normal;  // outward, axisU × axisV normalised; all w are 0
+    vec4 normal;  // outward, axisU × axisV normalized; all w are 0
 };
 
 // The part of an axis that points toward negative coordinates.

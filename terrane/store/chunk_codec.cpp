@@ -75,51 +75,51 @@ class SectionWriter {
 
 constexpr auto kSameValue = [](Value v) { return std::uint32_t{v}; };
 
-// Small data without the numbers of slots, which large data brings back.
-Section smallDataAlone(const world::Chunk& chunk, int number, std::span<const world::BlockIndex> large) {
-    Section section = chunk.smallDataSection(number);
+// Block state without the numbers of slots, which block entity data brings back.
+Section blockStateAlone(const world::Chunk& chunk, int number, std::span<const world::BlockIndex> large) {
+    Section section = chunk.blockStates(number);
     for (const world::BlockIndex i : large)
         if (i >> 12 == number) section.set(i & 4095, 0);
     section.compact();
     return section;
 }
 
-base::Result<void> appendLargeData(Bytes& out, const world::Chunk& chunk,
-                                   std::span<const world::BlockIndex> large) {
+base::Result<void> appendBlockEntityData(Bytes& out, const world::Chunk& chunk,
+                                         std::span<const world::BlockIndex> large) {
     std::size_t totalBytes = 0;
-    for (const world::BlockIndex i : large) totalBytes += chunk.largeData(i)->size();
+    for (const world::BlockIndex i : large) totalBytes += chunk.blockEntityData(i)->size();
     constexpr std::size_t kMaxBytes = kMaxChunkBytes - (2u << 20);  // sections and lengths take the rest
     if (totalBytes > kMaxBytes)
-        return base::fail("the chunk has {} bytes of large data, a save keeps at most {}", totalBytes,
+        return base::fail("the chunk has {} bytes of block entity data, a save keeps at most {}", totalBytes,
                           kMaxBytes);
     appendNumber(out, static_cast<std::uint32_t>(large.size()));
     for (const world::BlockIndex i : large) {
         appendNumber(out, i);
-        appendNumber(out, static_cast<std::uint32_t>(chunk.largeData(i)->size()));
+        appendNumber(out, static_cast<std::uint32_t>(chunk.blockEntityData(i)->size()));
     }
-    for (const world::BlockIndex i : large) append(out, *chunk.largeData(i));
+    for (const world::BlockIndex i : large) append(out, *chunk.blockEntityData(i));
     return {};
 }
 
 base::Result<void> appendPlain(Bytes& out, const world::Chunk& chunk, const BlockIdMap& ids) {
-    const std::vector<world::BlockIndex> large = chunk.blocksWithLargeData();
-    std::array<Section, world::kSectionsPerChunk> blocks, smallData;
+    const std::vector<world::BlockIndex> large = chunk.blocksWithBlockEntityData();
+    std::array<Section, world::kSectionsPerChunk> blocks, blockState;
     for (int n = 0; n < world::kSectionsPerChunk; ++n) {
         const auto k = static_cast<std::size_t>(n);
         blocks[k] = chunk.section(n);
         blocks[k].compact();
-        smallData[k] = smallDataAlone(chunk, n, large);
+        blockState[k] = blockStateAlone(chunk, n, large);
     }
     SectionWriter blockWriter(out, [&](Value id) { return ids.toSaved(id); });
     SectionWriter dataWriter(out, kSameValue);
     // Heads first, then the words: 2 % smaller than section by section.
     for (const Section& section : blocks) blockWriter.head(section);
-    for (const Section& section : smallData) dataWriter.head(section);
+    for (const Section& section : blockState) dataWriter.head(section);
     for (const Section& section : blocks) blockWriter.words(section);
-    for (const Section& section : smallData) dataWriter.words(section);
+    for (const Section& section : blockState) dataWriter.words(section);
     if (blockWriter.unmapped())
         return base::fail("block id {} stands for no block type", *blockWriter.unmapped());
-    return appendLargeData(out, chunk, large);
+    return appendBlockEntityData(out, chunk, large);
 }
 
 struct SectionHead {
@@ -187,20 +187,20 @@ base::Result<Section> readBlocks(ByteReader& reader, SectionHead head, const Blo
     return section;
 }
 
-base::Result<void> readLargeData(ByteReader& reader, world::Chunk& chunk) {
+base::Result<void> readBlockEntityData(ByteReader& reader, world::Chunk& chunk) {
     const auto count = reader.number<std::uint32_t>();
     if (count > world::kBlocksPerChunk)
-        return base::fail(base::ErrorCode::Damaged, "{} blocks have large data", count);
+        return base::fail(base::ErrorCode::Damaged, "{} blocks have block entity data", count);
     constexpr std::size_t kEntryBytes = sizeof(world::BlockIndex) + sizeof(std::uint32_t);
     ByteReader entries(reader.take(count * kEntryBytes));
     int last = -1;
     for (std::uint32_t n = 0; n < count && !reader.isPastEnd(); ++n) {
         const auto index = entries.number<world::BlockIndex>();
         if (index <= last)
-            return base::fail(base::ErrorCode::Damaged, "large data of blocks is out of order");
+            return base::fail(base::ErrorCode::Damaged, "block entity data of blocks is out of order");
         last = index;
         const ByteView data = reader.take(entries.number<std::uint32_t>());
-        chunk.setLargeData(index, world::LargeData(data.begin(), data.end()));
+        chunk.setBlockEntityData(index, world::BlockEntityData(data.begin(), data.end()));
     }
     return {};
 }
@@ -223,10 +223,10 @@ base::Result<world::Chunk> readPlain(ByteView bytes, const BlockIdMap& ids) {
         if (isBlocks) {
             chunk.setSection(n, std::move(*section));
         } else {
-            chunk.setSmallDataSection(n - world::kSectionsPerChunk, std::move(*section));
+            chunk.setBlockStateSection(n - world::kSectionsPerChunk, std::move(*section));
         }
     }
-    if (auto read = readLargeData(reader, chunk); !read) return tl::unexpected(read.error());
+    if (auto read = readBlockEntityData(reader, chunk); !read) return tl::unexpected(read.error());
     if (reader.isPastEnd()) return base::fail(base::ErrorCode::Damaged, "the chunk ends too early");
     if (!reader.rest().empty())
         return base::fail(base::ErrorCode::Damaged, "{} bytes too many", reader.rest().size());
@@ -238,7 +238,7 @@ base::Result<world::Chunk> readPlain(ByteView bytes, const BlockIdMap& ids) {
 base::Result<Bytes> encodeChunk(const world::Chunk& chunk, const BlockIdMap& ids) {
     Bytes& plain = scratch();
     if (auto done = appendPlain(plain, chunk, ids); !done) return tl::unexpected(done.error());
-    assert(plain.size() <= kMaxChunkBytes && "large data is limited");
+    assert(plain.size() <= kMaxChunkBytes && "block entity data is limited");
 
     Bytes out;
     out.reserve(plain.size() + kHeaderBytes);

@@ -13,10 +13,10 @@ namespace terrane::store {
 
 constexpr std::uint8_t kChunkVersion = 1;
 
-// What a chunk may take before compression: its sections 0.5 MiB at most, the rest is large data.
+// What a chunk may take before compression: its sections 0.5 MiB at most, the rest is block entity data.
 constexpr std::size_t kMaxChunkBytes = 64u << 20;
 
-// An error where the chunk's large data is more than a save keeps, or a block's id stands for nothing.
+// An error where the chunk's block entity data is more than a save keeps, or a block's id stands for nothing.
 [[nodiscard]] base::Result<Bytes> encodeChunk(const world::Chunk& chunk, const BlockIdMap& ids);
 
 // Any bytes may be given: what is no chunk is an error that says why, without a position.

@@ -11,7 +11,7 @@ namespace {
 // what can still be in the way after this time is a program that does not know it, such as sqlite3.
 constexpr int kBusyMilliseconds = 10000;
 
-// What a person can do something about, in plain words; SQLite's own words for the rest.
+// What a user can do something about, in plain words; SQLite's own words for the rest.
 std::string describe(int code, const char* message) {
     switch (code & 0xFF) {
         case SQLITE_FULL:

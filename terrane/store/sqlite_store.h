@@ -23,7 +23,7 @@ class SqliteStore : public ChunkStore {
     LoadedChunk load(world::ChunkPos pos) override;
     std::vector<LoadedChunk> loadMany(std::span<const world::ChunkPos> positions) override;
     bool contains(world::ChunkPos pos) override;
-    // A chunk with more large data than a save keeps (62 MiB) is reported and left out.
+    // A chunk with more block entity data than a save keeps (62 MiB) is reported and left out.
     SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) override;
     std::optional<std::string> metadata(std::string_view name) override;
     SaveNumber setMetadata(std::string_view name, std::string value) override;

@@ -20,19 +20,20 @@ void ChangeQueue::setLight(ChunkPos pos, light::ChunkLightPtr light, std::uint16
     changed.bricks |= bricks;
 }
 
-void ChangeQueue::setMesh(ChunkPos pos, MeshPtr mesh, mesh::RegionSet regions) {
+void ChangeQueue::setMesh(ChunkPos pos, MeshPtr mesh, mesh::MeshSectionSet meshSections) {
     ChunkChange& changed = change(pos);
-    if (changed.mesh && regions != mesh::kAllRegions) {
-        mesh = std::make_shared<const mesh::ChunkMesh>(mesh::withRegions(*changed.mesh, *mesh, regions));
+    if (changed.mesh && meshSections != mesh::kAllMeshSections) {
+        mesh = std::make_shared<const mesh::ChunkMesh>(
+            mesh::withMeshSections(*changed.mesh, *mesh, meshSections));
     }
     changed.mesh = std::move(mesh);
-    changed.regions |= regions;
+    changed.meshSections |= meshSections;
 }
 
 void ChangeQueue::askForMesh(ChunkPos pos) {
     ChunkChange& changed = change(pos);
     changed.mesh = nullptr;
-    changed.regions = 0;
+    changed.meshSections = 0;
     changed.needsMesh = true;
 }
 

@@ -15,8 +15,8 @@ class ChangeQueue {
   public:
     // New light of a chunk, in `bricks`.
     void setLight(world::ChunkPos pos, light::ChunkLightPtr light, std::uint16_t bricks);
-    // New quads in `regions`. What waits stays, but for the regions that are newer now.
-    void setMesh(world::ChunkPos pos, MeshPtr mesh, mesh::RegionSet regions);
+    // New quads in `meshSections`. What waits stays, but for the mesh sections that are newer now.
+    void setMesh(world::ChunkPos pos, MeshPtr mesh, mesh::MeshSectionSet meshSections);
     // Whoever takes the change makes the mesh.
     void askForMesh(world::ChunkPos pos);
     bool asksForMesh(world::ChunkPos pos) const;

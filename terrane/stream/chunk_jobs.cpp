@@ -17,8 +17,7 @@ std::shared_ptr<world::Chunk> loadChunk(const ChunkSource& source, world::ChunkP
     if (source.store) {
         TERRANE_ZONE("load chunk");
         store::LoadedChunk stored = source.store->load(pos);
-        if (stored.state == store::LoadedChunk::State::Present)
-            return stored.chunk;
+        if (stored.state == store::LoadedChunk::State::Present) return stored.chunk;
     }
     if (!source.generator) return nullptr;
     const auto chunk = std::make_shared<world::Chunk>(source.generator->generate(pos));
@@ -41,18 +40,18 @@ light::ChunkLightPtr lightOf(const ChunkNeighborhood& around, const light::Light
         if (!locals[n] && around.chunks[n]) locals[n] = localLight(*around.chunks[n], table);
     }
     TERRANE_ZONE("light chunk");
-    light::LocalNeighbourhood neighbourhood{};
-    for (std::size_t n = 0; n < locals.size(); ++n) neighbourhood[n] = locals[n].get();
-    return std::make_shared<const light::ChunkLight>(light::lightChunk(neighbourhood, lightScratch()));
+    light::LocalLightNeighborhood neighborhood{};
+    for (std::size_t n = 0; n < locals.size(); ++n) neighborhood[n] = locals[n].get();
+    return std::make_shared<const light::ChunkLight>(light::lightChunk(neighborhood, lightScratch()));
 }
 
 MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockRegistry& blocks,
-               const mesh::MeshOptions& options, mesh::RegionSet regions) {
+               const mesh::MeshOptions& options, mesh::MeshSectionSet meshSections) {
     TERRANE_ZONE("mesh chunk");
     thread_local mesh::MeshScratch scratch;
     const mesh::MeshBlocks around = meshBlocksOf(chunks);
     const mesh::MeshInput input = mesh::meshInput(around, blocks, options);
-    return std::make_shared<const mesh::ChunkMesh>(mesh::meshRegions(input, regions, scratch));
+    return std::make_shared<const mesh::ChunkMesh>(mesh::buildMeshSections(input, meshSections, scratch));
 }
 
 }  // namespace terrane::stream

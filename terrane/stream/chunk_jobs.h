@@ -44,6 +44,6 @@ inline mesh::MeshBlocks meshBlocksOf(const std::array<world::ChunkPtr, 9>& chunk
     return {chunks[4], chunks[3], chunks[5], chunks[1], chunks[7]};
 }
 MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockRegistry& blocks,
-               const mesh::MeshOptions& options, mesh::RegionSet regions = mesh::kAllRegions);
+               const mesh::MeshOptions& options, mesh::MeshSectionSet meshSections = mesh::kAllMeshSections);
 
 }  // namespace terrane::stream

@@ -101,7 +101,7 @@ void ChunkPipeline::takeResults() {
     for (const WorkerResults::Lit& lit : done.lit) onLit(lit.pos, lit.light, lit.mesh);
     for (const WorkerResults::Meshed& meshed : done.meshed) {
         if (finishMeshJob(table_, meshed.job)) {
-            changes_.setMesh(meshed.job.pos, meshed.mesh, mesh::kAllRegions);
+            changes_.setMesh(meshed.job.pos, meshed.mesh, mesh::kAllMeshSections);
         }
     }
 }
@@ -119,7 +119,7 @@ void ChunkPipeline::onLit(ChunkPos pos, light::ChunkLightPtr light, MeshPtr mesh
     findRecord(table_, pos)->light = light;
     changes_.setLight(pos, std::move(light), kAllBricks);
     if (mesh) {
-        changes_.setMesh(pos, std::move(mesh), mesh::kAllRegions);
+        changes_.setMesh(pos, std::move(mesh), mesh::kAllMeshSections);
     } else {
         changes_.askForMesh(pos);
     }
@@ -237,7 +237,8 @@ void ChunkPipeline::onEdits(std::span<const world::BlockEdit> edits) {
             outdateLighting(table_, chunk);
         }
         if (edit.before == edit.after) {  // its data only
-            requestEditedMesh(table_, chunk, mesh::RegionSet{1} << (edit.pos.z / meshOptions_.regionHeight));
+            requestEditedMesh(table_, chunk,
+                              mesh::MeshSectionSet{1} << (edit.pos.z / meshOptions_.meshSectionHeight));
         } else {
             record->localLight = nullptr;
             toRelight_.try_emplace(edit.pos, edit);
@@ -249,15 +250,16 @@ void ChunkPipeline::relight() {
     if (toRelight_.empty()) return;
     TERRANE_ZONE("edits");
     std::vector<world::BlockEdit> edits;
-    std::map<ChunkPos, mesh::RegionSet> touched;
+    std::map<ChunkPos, mesh::MeshSectionSet> touched;
     for (const auto& [pos, edit] : toRelight_) {
         edits.push_back(edit);
-        for (const auto& [chunk, regions] : mesh::regionsTouchedBy(pos, meshOptions_.regionHeight)) {
-            touched[chunk] |= regions;
+        for (const auto& [chunk, meshSections] :
+             mesh::meshSectionsTouchedBy(pos, meshOptions_.meshSectionHeight)) {
+            touched[chunk] |= meshSections;
         }
     }
     toRelight_.clear();
-    for (const auto& [chunk, regions] : touched) requestEditedMesh(table_, chunk, regions);
+    for (const auto& [chunk, meshSections] : touched) requestEditedMesh(table_, chunk, meshSections);
     for (const light::LightChange& change : relightEdits(table_, parts_.world, edits, parts_.lights)) {
         changes_.setLight(change.pos, findRecord(table_, change.pos)->light, change.bricks);
         changes_.putFirst(change.pos);
@@ -267,17 +269,18 @@ void ChunkPipeline::relight() {
 void ChunkPipeline::meshEdits() {
     for (const MeshRequest& request : popEditedMeshes(table_, kEditedMeshesPerUpdate)) {
         changes_.putFirst(request.pos);
-        showMesh(request.pos, request.regions);
+        showMesh(request.pos, request.meshSections);
     }
 }
 
 // Whole chunks, and those that the caller is to mesh anyway, are the caller's where it makes the meshes.
-void ChunkPipeline::showMesh(ChunkPos pos, mesh::RegionSet regions) {
-    if (parts_.meshing == MeshPolicy::Caller && (regions == mesh::kAllRegions || changes_.asksForMesh(pos))) {
+void ChunkPipeline::showMesh(ChunkPos pos, mesh::MeshSectionSet meshSections) {
+    if (parts_.meshing == MeshPolicy::Caller &&
+        (meshSections == mesh::kAllMeshSections || changes_.asksForMesh(pos))) {
         return changes_.askForMesh(pos);
     }
     const std::array<ChunkPtr, 9> chunks = neighborhoodOf(table_, parts_.world, pos).chunks;
-    changes_.setMesh(pos, meshOf(chunks, parts_.blocks, meshOptions_, regions), regions);
+    changes_.setMesh(pos, meshOf(chunks, parts_.blocks, meshOptions_, meshSections), meshSections);
 }
 
 // Saves what was edited some time ago, unloads what nobody needs.

@@ -83,7 +83,7 @@ class ChunkPipeline {
 
     void relight();
     void meshEdits();
-    void showMesh(world::ChunkPos pos, mesh::RegionSet regions);
+    void showMesh(world::ChunkPos pos, mesh::MeshSectionSet meshSections);
 
     void cancelLoads();
     void keepHouse();

@@ -16,11 +16,11 @@ ChunkRecord* waitingRecord(ChunkTable& table, ChunkPos pos) {
 
 }  // namespace
 
-void requestEditedMesh(ChunkTable& table, ChunkPos pos, mesh::RegionSet regions) {
+void requestEditedMesh(ChunkTable& table, ChunkPos pos, mesh::MeshSectionSet meshSections) {
     ChunkRecord* record = findRecord(table, pos);
     if (!record || record->stage != ChunkStage::Visible) return;
     const bool isInJob = std::exchange(record->meshJob, 0) != 0;
-    record->toMesh |= isInJob ? mesh::kAllRegions : regions;
+    record->toMesh |= isInJob ? mesh::kAllMeshSections : meshSections;
     // A run of edits in one chunk asks once.
     if (table.editedMeshes.empty() || table.editedMeshes.back() != pos) table.editedMeshes.push_back(pos);
 }
@@ -29,7 +29,7 @@ void requestWholeMesh(ChunkTable& table, ChunkPos pos) {
     ChunkRecord* record = findRecord(table, pos);
     if (!record || record->stage != ChunkStage::Visible) return;
     record->meshJob = 0;
-    record->toMesh = mesh::kAllRegions;
+    record->toMesh = mesh::kAllMeshSections;
     table.otherMeshes.push_back(pos);
 }
 
@@ -50,7 +50,7 @@ std::vector<MeshJob> popMeshJobs(ChunkTable& table, std::size_t limit) {
         const ChunkPos pos = table.otherMeshes.front();
         ChunkRecord* record = waitingRecord(table, pos);
         // What an edit touched in part waits among the edited ones.
-        if (!record || record->toMesh != mesh::kAllRegions) continue;
+        if (!record || record->toMesh != mesh::kAllMeshSections) continue;
         record->toMesh = 0;
         record->meshJob = ++table.lastMeshJob;
         popped.push_back({pos, record->meshJob});

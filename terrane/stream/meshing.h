@@ -12,12 +12,12 @@
 namespace terrane::stream {
 
 // Chunks that are not Visible are passed over: they are meshed when they are lit.
-void requestEditedMesh(ChunkTable& table, world::ChunkPos pos, mesh::RegionSet regions);
+void requestEditedMesh(ChunkTable& table, world::ChunkPos pos, mesh::MeshSectionSet meshSections);
 void requestWholeMesh(ChunkTable& table, world::ChunkPos pos);
 
 struct MeshRequest {
     world::ChunkPos pos;
-    mesh::RegionSet regions = 0;  // all where a job was to mesh the chunk, or does
+    mesh::MeshSectionSet meshSections = 0;  // all where a job was to mesh the chunk, or does
 };
 // Up to `limit` chunks that edits touched; their mesh is up to date then.
 std::vector<MeshRequest> popEditedMeshes(ChunkTable& table, std::size_t limit);

@@ -15,8 +15,8 @@ namespace terrane::stream {
 struct ChunkChange {
     world::ChunkPos pos;
     MeshPtr mesh;
-    mesh::RegionSet regions = 0;  // of the mesh that changed; the others have no quads in it
-    bool needsMesh = false;       // whoever takes the change makes the mesh: see MeshPolicy
+    mesh::MeshSectionSet meshSections = 0;  // of the mesh that changed; the others have no quads in it
+    bool needsMesh = false;                 // whoever takes the change makes the mesh: see MeshPolicy
     light::ChunkLightPtr light;
     std::uint16_t bricks = 0;  // of the light that changed, a bit each
     bool isHidden = false;     // it is no longer on screen

@@ -8,7 +8,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
-#include "terrane/mesh/region_quads.h"
+#include "terrane/mesh/mesh_section_quads.h"
 
 namespace terrane::view {
 namespace {
@@ -58,7 +58,7 @@ void WorldView::show(const stream::ChunkChange& change) {
     // An edit of a chunk that is on the way is meshed with the rest of it.
     if (change.needsMesh || (change.mesh && queue_ && queue_->contains(change.pos))) {
         queue_->add(change.pos);
-    } else if (change.mesh && !renderer_.setChunk(change.pos, *change.mesh, change.regions)) {
+    } else if (change.mesh && !renderer_.setChunk(change.pos, *change.mesh, change.meshSections)) {
         warnOfNoRoom(change.pos);
     }
 }
@@ -77,12 +77,12 @@ void WorldView::writeMeshes() {
     std::vector<mesh_gpu::FirstQuads> places;
     for (const mesh_gpu::CountedChunk& chunk : queue_->takeCounted()) {
         mesh_gpu::FirstQuads& firstQuads = places.emplace_back();
-        if (!renderer_.reserveChunk(chunk.pos, chunk.regions)) {
+        if (!renderer_.reserveChunk(chunk.pos, chunk.meshSections)) {
             warnOfNoRoom(chunk.pos);
             continue;
         }
-        for (const mesh::RegionMesh& region : renderer_.regionsOf(chunk.pos)) {
-            firstQuads.push_back(mesh::firstQuad(region));
+        for (const mesh::MeshSection& section : renderer_.meshSectionsOf(chunk.pos)) {
+            firstQuads.push_back(mesh::firstQuad(section));
         }
     }
     queue_->write(places, renderer_.quadBuffer());

@@ -43,20 +43,20 @@ struct BlockWriter {
         chunk->setBlock(blockIndex(pos), change.id);
         edits.push_back({pos, before, change.id});
         const std::size_t stages = registry.type(change.id).growth.size();
-        if (stages > 0) chunk->setSmallData(blockIndex(pos), static_cast<std::uint16_t>(stages));
+        if (stages > 0) chunk->setBlockState(blockIndex(pos), static_cast<std::uint16_t>(stages));
         dropPlants(*chunk, registry, pos, edits);
     }
 
     void operator()(const SetState& change) const {
         if (Chunk* chunk = world.findWritable(pos)) {
-            chunk->setSmallData(blockIndex(pos), change.value);
+            chunk->setBlockState(blockIndex(pos), change.value);
             addDataEdit(*chunk);
         }
     }
 
     void operator()(const SetEntityData& change) const {
         if (Chunk* chunk = world.findWritable(pos)) {
-            chunk->setLargeData(blockIndex(pos), change.data);
+            chunk->setBlockEntityData(blockIndex(pos), change.data);
             addDataEdit(*chunk);
         }
     }

@@ -15,11 +15,11 @@ namespace terrane::world {
 struct SetBlock {
     BlockId id = kAir;
 };
-struct SetState {  // its 16 bits of small data
+struct SetState {  // its 16 bits of block state
     std::uint16_t value = 0;
 };
 struct SetEntityData {  // the bytes it keeps beyond them
-    LargeData data;
+    BlockEntityData data;
 };
 using BlockChange = std::variant<SetBlock, SetState, SetEntityData>;
 

@@ -21,22 +21,22 @@ constexpr std::array<Group, kFaceCount> kGroupOfFace{kSide, kSide, kSide, kSide,
 template <class T>
 using Groups = std::array<T, kGroupCount>;
 
-constexpr std::array<Word<Shape>, 5> kShapes{{{"cube", Shape::Cube},
-                                              {"liquid", Shape::Liquid},
-                                              {"cross", Shape::Cross},
-                                              {"hash", Shape::Hash},
-                                              {"inset", Shape::Inset}}};
+constexpr std::array<EnumName<Shape>, 5> kShapes{{{"cube", Shape::Cube},
+                                                  {"liquid", Shape::Liquid},
+                                                  {"cross", Shape::Cross},
+                                                  {"hash", Shape::Hash},
+                                                  {"inset", Shape::Inset}}};
 
-constexpr std::array<Word<AlphaMode>, 5> kAlphaModes{{{"unused", AlphaMode::Unused},
-                                                      {"test", AlphaMode::Test},
-                                                      {"blend", AlphaMode::Blend},
-                                                      {"glow", AlphaMode::Glow},
-                                                      {"test_glow", AlphaMode::TestGlow}}};
+constexpr std::array<EnumName<AlphaMode>, 5> kAlphaModes{{{"unused", AlphaMode::Unused},
+                                                          {"test", AlphaMode::Test},
+                                                          {"blend", AlphaMode::Blend},
+                                                          {"glow", AlphaMode::Glow},
+                                                          {"test_glow", AlphaMode::TestGlow}}};
 
-constexpr std::array<Word<Animation>, 4> kAnimations{{{"none", Animation::None},
-                                                      {"top_waves", Animation::TopWaves},
-                                                      {"whole_waves", Animation::WholeWaves},
-                                                      {"liquid_surface", Animation::LiquidSurface}}};
+constexpr std::array<EnumName<Animation>, 4> kAnimations{{{"none", Animation::None},
+                                                          {"top_waves", Animation::TopWaves},
+                                                          {"whole_waves", Animation::WholeWaves},
+                                                          {"liquid_surface", Animation::LiquidSurface}}};
 
 constexpr std::array<std::string_view, 17> kBlockKeys{
     "name",       "shape",        "texture",   "textures", "alpha",    "animation",
@@ -65,7 +65,7 @@ void readFaces(ContentTable& table, BlockDescription& block) {
     const Groups<std::string> textures = readTextures(table);
     const auto alpha = table.valueEach<AlphaMode>(
         "alpha", kGroupNames, AlphaMode::Unused,
-        [&](const toml::node& value, auto key) { return table.wordOf(value, key, kAlphaModes); });
+        [&](const toml::node& value, auto key) { return table.enumOf(value, key, kAlphaModes); });
     const auto twoSided =
         table.valueEach<bool>("two_sided", kGroupNames, false,
                               [&](const toml::node& value, auto key) { return table.booleanOf(value, key); });
@@ -74,7 +74,7 @@ void readFaces(ContentTable& table, BlockDescription& block) {
         block.faces[face] = {.texture = textures[g], .alpha = alpha[g], .twoSided = twoSided[g]};
     }
     if (const toml::node* value = table.node("animation"))
-        block.animation = table.wordOf(*value, "animation", kAnimations);
+        block.animation = table.enumOf(*value, "animation", kAnimations);
     block.type.innerFaces = table.boolean("inner_faces", false);
     const Shape shape = block.type.shape;
     const bool isPlant = shape == Shape::Cross || shape == Shape::Hash || shape == Shape::Inset;
@@ -150,7 +150,7 @@ BlockDescription readBlock(ContentTable& table) {
     else
         table.missing("name");
     if (const toml::node* shape = table.node("shape"))
-        block.type.shape = table.wordOf(*shape, "shape", kShapes);
+        block.type.shape = table.enumOf(*shape, "shape", kShapes);
     else
         table.missing("shape");
 

@@ -14,7 +14,7 @@ namespace terrane::world {
 
 enum class Shape : std::uint8_t {
     None,    // nothing to draw (air)
-    Cube,    // six faces; merges with its neighbours
+    Cube,    // six faces; merges with its neighbors
     Liquid,  // like a cube; the surface under anything but the same liquid lies lower
     Cross,   // X: two upright planes through the middle
     Hash,    // #: four upright planes, a quarter inside the cell
@@ -66,7 +66,7 @@ struct BlockType {
     bool selectable = true;                  // false: rays pass (air, water)
     bool needsGround = false;                // falls when the block below goes (plants)
     bool generated = true;                   // appears in generated terrain (else placed only)
-    int slots = 0;                           // stacks of items it holds, as large data (inventory.h)
+    int slots = 0;                           // stacks of items it holds, as block entity data (inventory.h)
 };
 
 }  // namespace terrane::world

@@ -1,5 +1,5 @@
-// A person who walks, jumps, swims and falls. Called at a fixed rate by whoever runs the game, on the thread
-// that owns the world; between two steps the picture interpolates (characterEye).
+// A player who walks, jumps, swims and falls. Called at a fixed rate by whoever runs the game, on the thread
+// that owns the world; between two steps the image interpolates (characterEye).
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -23,7 +23,7 @@ struct Character {
     bool isSwimming = false;
 };
 
-// What the person wants. `direction`: over the ground, of length 0…1.
+// What the player wants. `direction`: over the ground, of length 0…1.
 struct CharacterInput {
     glm::dvec2 direction{0};
     bool runs = false, jumps = false, dives = false;

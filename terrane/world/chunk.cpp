@@ -7,51 +7,53 @@
 namespace terrane::world {
 
 void Chunk::setBlock(BlockIndex i, BlockId id) {
-    setSmallData(i, 0);
+    setBlockState(i, 0);
     blocks_[i >> 12].set(i & 4095, id);
 }
 
-void Chunk::setSmallData(BlockIndex i, std::uint16_t value) {
-    freeLargeData(i);
-    smallData_[i >> 12].set(i & 4095, value);
+void Chunk::setBlockState(BlockIndex i, std::uint16_t value) {
+    freeBlockEntityData(i);
+    blockState_[i >> 12].set(i & 4095, value);
 }
 
-// A number in a block's small data is a slot only where that slot names the block as its owner.
-const LargeData* Chunk::largeData(BlockIndex i) const {
-    if (large_.empty()) return nullptr;
-    const std::size_t slot = smallData(i);
-    if (slot >= large_.size() || !large_[slot].used || large_[slot].owner != i) return nullptr;
-    return &large_[slot].data;
+// A number in a block's block state is a slot only where that slot names the block as its owner.
+const BlockEntityData* Chunk::blockEntityData(BlockIndex i) const {
+    if (entitySlots_.empty()) return nullptr;
+    const std::size_t slot = blockState(i);
+    if (slot >= entitySlots_.size() || !entitySlots_[slot].used || entitySlots_[slot].owner != i)
+        return nullptr;
+    return &entitySlots_[slot].data;
 }
 
-void Chunk::setLargeData(BlockIndex i, LargeData data) {
-    if (largeData(i)) {
-        large_[smallData(i)].data = std::move(data);
+void Chunk::setBlockEntityData(BlockIndex i, BlockEntityData data) {
+    if (blockEntityData(i)) {
+        entitySlots_[blockState(i)].data = std::move(data);
         return;
     }
     // Without holes nothing is searched: a chunk read from a save may have data in each of its blocks.
-    auto slot = large_.end();
-    if (usedSlots_ < large_.size()) {
-        slot = std::find_if(large_.begin(), large_.end(), [](const LargeSlot& s) { return !s.used; });
+    auto slot = entitySlots_.end();
+    if (usedSlots_ < entitySlots_.size()) {
+        slot = std::find_if(entitySlots_.begin(), entitySlots_.end(),
+                            [](const LargeSlot& s) { return !s.used; });
     } else {
-        slot = large_.insert(slot, LargeSlot{});
+        slot = entitySlots_.insert(slot, LargeSlot{});
     }
     ++usedSlots_;
     *slot = {.data = std::move(data), .owner = i, .used = true};
 
-    const auto number = static_cast<std::size_t>(slot - large_.begin());
+    const auto number = static_cast<std::size_t>(slot - entitySlots_.begin());
     assert(number < kBlocksPerChunk && "a chunk has one slot a block at most");
-    smallData_[i >> 12].set(i & 4095, static_cast<std::uint16_t>(number));
+    blockState_[i >> 12].set(i & 4095, static_cast<std::uint16_t>(number));
 }
 
-void Chunk::clearLargeData(BlockIndex i) {
-    if (largeData(i)) setSmallData(i, 0);
+void Chunk::clearBlockEntityData(BlockIndex i) {
+    if (blockEntityData(i)) setBlockState(i, 0);
 }
 
-std::vector<BlockIndex> Chunk::blocksWithLargeData() const {
+std::vector<BlockIndex> Chunk::blocksWithBlockEntityData() const {
     std::vector<BlockIndex> blocks;
     blocks.reserve(usedSlots_);
-    for (const LargeSlot& slot : large_)
+    for (const LargeSlot& slot : entitySlots_)
         if (slot.used) blocks.push_back(slot.owner);
     std::sort(blocks.begin(), blocks.end());
     return blocks;
@@ -59,50 +61,50 @@ std::vector<BlockIndex> Chunk::blocksWithLargeData() const {
 
 void Chunk::setSection(int number, Section section) {
     assert(number >= 0 && number < kSectionsPerChunk && "number of a section in a chunk");
-    freeLargeDataOfSection(number);
+    freeBlockEntityDataOfSection(number);
     blocks_[static_cast<std::size_t>(number)] = std::move(section);
-    smallData_[static_cast<std::size_t>(number)] = Section();
+    blockState_[static_cast<std::size_t>(number)] = Section();
 }
 
-void Chunk::setSmallDataSection(int number, Section section) {
+void Chunk::setBlockStateSection(int number, Section section) {
     assert(number >= 0 && number < kSectionsPerChunk && "number of a section in a chunk");
-    freeLargeDataOfSection(number);
-    smallData_[static_cast<std::size_t>(number)] = std::move(section);
+    freeBlockEntityDataOfSection(number);
+    blockState_[static_cast<std::size_t>(number)] = std::move(section);
 }
 
 bool operator==(const Chunk& a, const Chunk& b) {
-    const std::vector<BlockIndex> large = a.blocksWithLargeData();
-    if (a.blocks_ != b.blocks_ || large != b.blocksWithLargeData()) return false;
-    if (large.empty()) return a.smallData_ == b.smallData_;
+    const std::vector<BlockIndex> large = a.blocksWithBlockEntityData();
+    if (a.blocks_ != b.blocks_ || large != b.blocksWithBlockEntityData()) return false;
+    if (large.empty()) return a.blockState_ == b.blockState_;
     for (const BlockIndex i : large)
-        if (*a.largeData(i) != *b.largeData(i)) return false;
-    // Small data that leads to large data is a number of a slot.
-    auto smallA = a.smallData_, smallB = b.smallData_;
+        if (*a.blockEntityData(i) != *b.blockEntityData(i)) return false;
+    // Block state that leads to block entity data is a number of a slot.
+    auto statesA = a.blockState_, statesB = b.blockState_;
     for (const BlockIndex i : large) {
-        smallA[i >> 12].set(i & 4095, 0);
-        smallB[i >> 12].set(i & 4095, 0);
+        statesA[i >> 12].set(i & 4095, 0);
+        statesB[i >> 12].set(i & 4095, 0);
     }
-    return smallA == smallB;
+    return statesA == statesB;
 }
 
 std::size_t Chunk::memoryBytes() const {
-    std::size_t bytes = sizeof(Chunk) - sizeof(blocks_) - sizeof(smallData_);
+    std::size_t bytes = sizeof(Chunk) - sizeof(blocks_) - sizeof(blockState_);
     for (const Section& section : blocks_) bytes += section.memoryBytes();
-    for (const Section& section : smallData_) bytes += section.memoryBytes();
-    bytes += large_.capacity() * sizeof(LargeSlot);
-    for (const LargeSlot& slot : large_) bytes += slot.data.capacity();
+    for (const Section& section : blockState_) bytes += section.memoryBytes();
+    bytes += entitySlots_.capacity() * sizeof(LargeSlot);
+    for (const LargeSlot& slot : entitySlots_) bytes += slot.data.capacity();
     return bytes;
 }
 
-void Chunk::freeLargeData(BlockIndex i) {
-    if (!largeData(i)) return;
-    large_[smallData(i)] = {};
+void Chunk::freeBlockEntityData(BlockIndex i) {
+    if (!blockEntityData(i)) return;
+    entitySlots_[blockState(i)] = {};
     --usedSlots_;
     dropUnusedSlots();
 }
 
-void Chunk::freeLargeDataOfSection(int number) {
-    for (LargeSlot& slot : large_) {
+void Chunk::freeBlockEntityDataOfSection(int number) {
+    for (LargeSlot& slot : entitySlots_) {
         if (!slot.used || slot.owner >> 12 != number) continue;
         slot = {};
         --usedSlots_;
@@ -111,7 +113,7 @@ void Chunk::freeLargeDataOfSection(int number) {
 }
 
 void Chunk::dropUnusedSlots() {
-    while (!large_.empty() && !large_.back().used) large_.pop_back();
+    while (!entitySlots_.empty() && !entitySlots_.back().used) entitySlots_.pop_back();
 }
 
 }  // namespace terrane::world

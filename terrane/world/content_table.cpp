@@ -46,11 +46,11 @@ bool ContentTable::booleanOf(const toml::node& value, std::string_view key) {
     return value.value_or(false);
 }
 
-int ContentTable::numberOf(const toml::node& value, std::string_view key, int least, int most) {
+int ContentTable::numberOf(const toml::node& value, std::string_view key, int min, int max) {
     const auto number = value.value_exact<std::int64_t>();
-    if (number && *number >= least && *number <= most) return static_cast<int>(*number);
-    expected(value, key, fmt::format("{} to {}", least, most));
-    return least;
+    if (number && *number >= min && *number <= max) return static_cast<int>(*number);
+    expected(value, key, fmt::format("{} to {}", min, max));
+    return min;
 }
 
 std::string ContentTable::nameOf(const toml::node& value, std::string_view key) {

@@ -13,19 +13,19 @@
 
 namespace terrane::world {
 
-// A word of the file and what it stands for.
+// The name of an enum value in the file.
 template <class T>
-struct Word {
+struct EnumName {
     std::string_view name;
     T value;
 };
 
-template <class Words>
-std::string listed(const Words& words) {
+template <class Names>
+std::string listed(const Names& names) {
     std::string text;
-    for (const auto& word : words) {
+    for (const auto& entry : names) {
         if (!text.empty()) text += ", ";
-        text += word.name;
+        text += entry.name;
     }
     return text;
 }
@@ -59,17 +59,17 @@ class ContentTable {
 
     bool boolean(std::string_view key, bool fallback);
     bool booleanOf(const toml::node& value, std::string_view key);
-    // From `least` to `most`.
-    int numberOf(const toml::node& value, std::string_view key, int least, int most);
+    // From `min` to `max`.
+    int numberOf(const toml::node& value, std::string_view key, int min, int max);
     std::string nameOf(const toml::node& value, std::string_view key);
 
     template <class T, std::size_t N>
-    T wordOf(const toml::node& value, std::string_view key, const std::array<Word<T>, N>& words) {
+    T enumOf(const toml::node& value, std::string_view key, const std::array<EnumName<T>, N>& names) {
         const auto text = value.value_exact<std::string>();
-        for (const Word<T>& word : words)
-            if (text && *text == word.name) return word.value;
-        expected(value, key, fmt::format("one of {}", listed(words)));
-        return words[0].value;
+        for (const EnumName<T>& entry : names)
+            if (text && *text == entry.name) return entry.value;
+        expected(value, key, fmt::format("one of {}", listed(names)));
+        return names[0].value;
     }
 
     // A value for all, or a table with one for each of `names`; absent ones get `fallback`.

@@ -95,7 +95,7 @@ struct ChunkPosHash {
                                   (static_cast<std::uint32_t>(c.x) & mask) << 28 |
                                   (static_cast<std::uint32_t>(c.y) & mask);
         const std::uint64_t spread =
-            key * 0x9E3779B97F4A7C15u;  // 2^64 / golden ratio, which spreads neighbours evenly
+            key * 0x9E3779B97F4A7C15u;  // 2^64 / golden ratio, which spreads neighbors evenly
         return spread ^ spread >> 32;
     }
 };

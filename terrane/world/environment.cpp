@@ -18,7 +18,7 @@ struct ColorKey {
     glm::vec3 color;
 };
 
-// Colours as seen on a screen (sRGB, 0…255), by time of day; linear in between, around midnight too.
+// Colors as seen on a screen (sRGB, 0…255), by time of day; linear in between, around midnight too.
 constexpr std::array kLight = {
     ColorKey{.12f, {72, 90, 126}},   ColorKey{.15f, {0, 0, 0}},       ColorKey{.2f, {255, 160, 90}},
     ColorKey{.27f, {255, 236, 200}}, ColorKey{.73f, {255, 240, 208}}, ColorKey{.8f, {255, 140, 80}},

@@ -5,7 +5,7 @@
 
 namespace terrane::world {
 
-// Colours are linear; 1 is a white surface in full sunlight at noon, roughly.
+// Colors are linear; 1 is a white surface in full sunlight at noon, roughly.
 struct Environment {
     glm::vec3 lightDirection;  // to the sun by day, to the moon at night; unit length
     glm::vec3 lightColor;

@@ -10,7 +10,7 @@ namespace {
 constexpr std::byte kVersion{1};
 constexpr std::size_t kHeaderBytes = 3, kSlotBytes = 3;
 
-void append16(LargeData& out, std::size_t value) {
+void append16(BlockEntityData& out, std::size_t value) {
     out.push_back(static_cast<std::byte>(value & 255));
     out.push_back(static_cast<std::byte>(value >> 8));
 }
@@ -61,9 +61,9 @@ int countItems(const Inventory& inventory, std::string_view item) {
     return count;
 }
 
-LargeData encodeInventory(const Inventory& inventory) {
+BlockEntityData encodeInventory(const Inventory& inventory) {
     assert(inventory.size() <= 0xFFFF && "the number of slots has 16 bits");
-    LargeData out{kVersion};
+    BlockEntityData out{kVersion};
     append16(out, inventory.size());
     for (const ItemStack& stack : inventory) {
         assert(stack.item.size() <= kMaxItemName && "the length of a name has 8 bits");
@@ -75,7 +75,7 @@ LargeData encodeInventory(const Inventory& inventory) {
     return out;
 }
 
-base::Result<Inventory> decodeInventory(const LargeData& data, int slots) {
+base::Result<Inventory> decodeInventory(const BlockEntityData& data, int slots) {
     if (data.size() < kHeaderBytes || data[0] != kVersion) return base::fail("not an inventory of version 1");
     std::span<const std::byte> rest(data);
     const std::size_t slotCount = read16(rest.subspan(1));

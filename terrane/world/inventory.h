@@ -1,5 +1,6 @@
-// What a block with slots (a chest) holds: stacks of items, kept as the block's large data. Games read,
-// change and write it back: chunk pipeline's setLargeData saves it with the chunk. Plain values, any thread.
+// What a block with slots (a chest) holds: stacks of items, kept as the block's block entity data. Games
+// read, change and write it back: chunk pipeline's setBlockEntityData saves it with the chunk. Plain values,
+// any thread.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +39,8 @@ int countItems(const Inventory& inventory, std::string_view item);
 
 // Bytes: version 1, number of slots (16 bits), then of each slot the count (16 bits; little-endian both), the
 // length of the name (8 bits) and the name. Names are at most kMaxItemName bytes.
-LargeData encodeInventory(const Inventory& inventory);
+BlockEntityData encodeInventory(const Inventory& inventory);
 // An error where the bytes are no such inventory. `slots`: the block's; what lies beyond is kept.
-[[nodiscard]] base::Result<Inventory> decodeInventory(const LargeData& data, int slots);
+[[nodiscard]] base::Result<Inventory> decodeInventory(const BlockEntityData& data, int slots);
 
 }  // namespace terrane::world

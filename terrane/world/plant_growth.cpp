@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::uint32_t kSeed = 0x67726f77;  // "grow"
 
-bool hasSmallData(const Section& smallData) {
-    return !smallData.isUniform() || smallData.uniformValue() != 0;
+bool hasBlockState(const Section& blockState) {
+    return !blockState.isUniform() || blockState.uniformValue() != 0;
 }
 
 void addFromSection(const Chunk& chunk, ChunkPos pos, int number, const BlockRegistry& blocks,
@@ -25,7 +25,7 @@ void addFromSection(const Chunk& chunk, ChunkPos pos, int number, const BlockReg
             static_cast<int>((place ^ when) % static_cast<std::uint32_t>(kBlocksPerSection));
         const auto index = static_cast<BlockIndex>(number * kBlocksPerSection + inSection);
         const BlockType& type = blocks.type(chunk.block(index));
-        if (type.growth.empty() || chunk.smallData(index) == 0) continue;
+        if (type.growth.empty() || chunk.blockState(index) == 0) continue;
         const BlockPos at = blockPos(pos, index);
         if (std::find(growing.begin(), growing.end(), at) == growing.end()) growing.push_back(at);
     }
@@ -38,11 +38,11 @@ std::vector<BlockPos> plantsThatGrow(const World& world, const BlockRegistry& bl
     std::vector<BlockPos> growing;
     for (int dy = -tick.radius; dy <= tick.radius; ++dy) {
         for (int dx = -tick.radius; dx <= tick.radius; ++dx) {
-            const ChunkPos pos{tick.centre.x + dx, tick.centre.y + dy};
+            const ChunkPos pos{tick.center.x + dx, tick.center.y + dy};
             const ChunkPtr chunk = world.maybeChunkAt(pos);
             if (!chunk) continue;
             for (int number = 0; number < kSectionsPerChunk; ++number) {
-                if (!hasSmallData(chunk->smallDataSection(number))) continue;
+                if (!hasBlockState(chunk->blockStates(number))) continue;
                 addFromSection(*chunk, pos, number, blocks, tick.number, growing);
             }
         }

@@ -1,5 +1,5 @@
-// Plants that grow: a block type with growth stages counts in its small data the stages that are left. Called
-// by whoever runs the game, at a fixed rate.
+// Plants that grow: a block type with growth stages counts in its block state the stages that are left.
+// Called by whoever runs the game, at a fixed rate.
 #pragma once
 
 #include <chrono>
@@ -18,12 +18,12 @@ constexpr int kGrowthPicks = 3;
 
 struct GrowthTick {
     std::uint64_t number = 0;  // of ticks before; the same world and number grow the same plants
-    ChunkPos centre;
+    ChunkPos center;
     int radius = 8;  // chunks, Chebyshev
 };
 
-// The blocks that go on to their next stage in this tick: their small data is to be reduced by 1. Looks only
-// into sections where some block has small data. On the world's thread.
+// The blocks that go on to their next stage in this tick: their block state is to be reduced by 1. Looks only
+// into sections where some block has block state. On the world's thread.
 std::vector<BlockPos> plantsThatGrow(const World& world, const BlockRegistry& blocks, const GrowthTick& tick);
 
 }  // namespace terrane::world

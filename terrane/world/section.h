@@ -1,4 +1,4 @@
-// A section: 16³ values of 16 bits (block ids or small data), stored as small as they allow.
+// A section: 16³ values of 16 bits (block ids or block state), stored as small as they allow.
 #pragma once
 
 #include <cassert>

@@ -50,14 +50,14 @@ BlockId World::block(BlockPos pos) const {
     return chunk ? chunk->block(blockIndex(pos)) : kAir;
 }
 
-std::uint16_t World::smallData(BlockPos pos) const {
+std::uint16_t World::blockState(BlockPos pos) const {
     const Chunk* chunk = findChunk(pos);
-    return chunk ? chunk->smallData(blockIndex(pos)) : std::uint16_t{0};
+    return chunk ? chunk->blockState(blockIndex(pos)) : std::uint16_t{0};
 }
 
-const LargeData* World::largeData(BlockPos pos) const {
+const BlockEntityData* World::blockEntityData(BlockPos pos) const {
     const Chunk* chunk = findChunk(pos);
-    return chunk ? chunk->largeData(blockIndex(pos)) : nullptr;
+    return chunk ? chunk->blockEntityData(blockIndex(pos)) : nullptr;
 }
 
 std::size_t World::memoryBytes() const {

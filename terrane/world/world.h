@@ -24,10 +24,10 @@ class World {
     // Air above and below the world and where no chunk is loaded.
     BlockId block(BlockPos pos) const;
 
-    // A block's 16 bits of small data, and the bytes it keeps beyond them. Where no chunk is loaded there are
-    // none. A pointer holds until the chunk changes or goes.
-    std::uint16_t smallData(BlockPos pos) const;
-    const LargeData* largeData(BlockPos pos) const;  // null where the block has none
+    // A block's 16 bits of block state, and the bytes it keeps beyond them. Where no chunk is loaded there
+    // are none. A pointer holds until the chunk changes or goes.
+    std::uint16_t blockState(BlockPos pos) const;
+    const BlockEntityData* blockEntityData(BlockPos pos) const;  // null where the block has none
 
     std::size_t chunkCount() const { return chunks_.size(); }
     std::size_t memoryBytes() const;  // of all chunks

@@ -61,11 +61,11 @@ CASES = [
     (("bench", "-o", "{folder}/bench", "--runs", "0"), '"0"'),
     (("bench", "-o", "{folder}/bench", "--frames", "none"), '"none"'),
     (("bench", "-o", "{folder}/bench", "--view-distance", "65"), '"65"'),
-    (("fly",), "--json"),
-    (("fly", "--scene", "nowhere", "--json"), '"nowhere"'),
-    (("fly", "--at", "3e9,0,80", "-o", "{out}"), "outside the world"),
-    (("fly", "--for", "0", "-o", "{out}"), '"0"'),
-    # Pictures
+    (("flight-bench",), "--json"),
+    (("flight-bench", "--scene", "nowhere", "--json"), '"nowhere"'),
+    (("flight-bench", "--at", "3e9,0,80", "-o", "{out}"), "outside the world"),
+    (("flight-bench", "--duration", "0", "-o", "{out}"), '"0"'),
+    # Images
     ((*RENDER, "--resource-pack", "{folder}/none"), "none"),
     ((*RENDER, "--size", "0x0"), '"0x0"'),
     ((*RENDER, "--size", "abc"), '"abc"'),

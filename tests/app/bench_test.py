@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""terrane bench, end to end, with pictures of a few pixels. Usage: bench_test.py PROGRAM"""
+"""terrane bench, end to end, with images of a few pixels. Usage: bench_test.py PROGRAM"""
 import json
 import os
 import pathlib
@@ -111,7 +111,7 @@ class Bench(ProgramTest):
         self.assertEqual(table["table"], "disk")
         self.assertEqual(len(table["cells"]), 4)
 
-    def test_a_persons_own_files_stay(self):
+    def test_a_users_own_files_stay(self):
         (self.output / "work").mkdir(parents=True)
         for name in ("work/thesis.txt", "info.txt", "messages.txt"):
             (self.output / name).write_text("mine")

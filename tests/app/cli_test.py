@@ -8,7 +8,7 @@ import struct
 import subprocess
 
 import support
-from support import Npy, Picture, ProgramTest, run
+from support import Npy, Image, ProgramTest, run
 
 COMMANDS = ("play", "render", "record", "flight-bench", "generate", "map", "dump", "check", "blocks", "info", "bench", "completion", "man")
 FLAT = ("--generator", "flat")
@@ -82,12 +82,12 @@ class FlightBench(ProgramTest):
         self.assertEqual(int(frames), len(rows) - 1)
         self.assertGreater(int(x), 20)  # 60 blocks a second, but long frames move no farther than a quarter of one
 
-    def test_figures_as_json(self):
+    def test_statistics_as_json(self):
         for backend in ("cpu", "gpu"):
-            self.check_figures(self.succeed("flight-bench", "--scene", "landscape", "--preset", "low", "--size", "64x36",
+            self.check_statistics(self.succeed("flight-bench", "--scene", "landscape", "--preset", "low", "--size", "64x36",
                                             "--duration", "2", "--view-distance", "2", "--backend", backend, "--debug-gl", "--json"))
 
-    def check_figures(self, text):
+    def check_statistics(self, text):
         flight = json.loads(text)["flight"]
         self.assertGreaterEqual(flight["seconds_of_flight"], 2)
         self.assertGreater(flight["seconds_to_load"], 0)
@@ -106,14 +106,14 @@ class Render(ProgramTest):
     def render(self, name, *arguments):
         path = self.folder / name
         text = self.succeed("render", *arguments, *self.SMALL, "-o", path)
-        picture = Picture(path)
-        self.assertEqual((picture.width, picture.height), (64, 36))
-        return picture, text
+        image = Image(path)
+        self.assertEqual((image.width, image.height), (64, 36))
+        return image, text
 
     def test_scenes_are_drawn(self):
         for scene in ("ocean", "desert", "landscape", "cave"):
-            picture, text = self.render("scene.png", "--scene", scene, "--debug-gl")
-            self.assertGreater(len(picture.colors()), 20, scene)
+            image, text = self.render("scene.png", "--scene", scene, "--debug-gl")
+            self.assertGreater(len(image.colors()), 20, scene)
             self.assertEqual(text, "")
 
     def test_json_tells_counts_and_times(self):
@@ -140,45 +140,45 @@ class Render(ProgramTest):
         self.assertEqual(len(day["time"]), len(day["triangles"]))
         self.assertGreater(len(set(day["triangles"])), 3)
 
-    def test_the_picture_does_not_depend_on_threads(self):
+    def test_the_image_does_not_depend_on_threads(self):
         one, _ = self.render("one.png", "--scene", "desert", "--threads", "1")
         two, _ = self.render("two.png", "--scene", "desert", "--threads", "2")
         self.assertEqual(one.rows, two.rows)
 
-    def test_aggregation_changes_the_count_of_triangles_only(self):
+    def test_merging_changes_the_count_of_triangles_only(self):
         scene = ("--scene", "landscape", "--json")
         quads = {}
         for method in ("none", "lines", "squares", "squares-ext", "greedy"):
-            _, text = self.render("m.png", *scene, "--aggregation", method)
+            _, text = self.render("m.png", *scene, "--merging", method)
             quads[method] = json.loads(text)["quads"]
         self.assertLess(quads["greedy"], 0.92 * quads["squares-ext"])
         self.assertLess(quads["squares-ext"], quads["squares"])
         self.assertLess(max(quads["squares"], quads["lines"]), quads["none"])
-        regions = [json.loads(self.render("r.png", *scene, "--region-height", height)[1])["regions"]
+        meshSections = [json.loads(self.render("r.png", *scene, "--mesh-section-height", height)[1])["regions"]
                    for height in ("8", "128")]
-        self.assertGreater(regions[0], regions[1])
+        self.assertGreater(meshSections[0], meshSections[1])
 
-    def test_the_picture_does_not_depend_on_the_back_end(self):
+    def test_the_image_does_not_depend_on_the_back_end(self):
         for scene, samples in (("landscape", "1"), ("ocean", "4")):
             arguments = ("--scene", scene, "--size", "160x90", "--view-distance", "4", "--preset", "medium", "--samples",
                          samples, "--debug-gl")
             for backend in ("cpu", "gpu"):
                 self.succeed("render", *arguments, "--backend", backend, "-o", self.folder / (backend + ".png"))
-            self.assertEqual(Picture(self.folder / "cpu.png").rows, Picture(self.folder / "gpu.png").rows, scene)
+            self.assertEqual(Image(self.folder / "cpu.png").rows, Image(self.folder / "gpu.png").rows, scene)
 
     def test_views_show_something_else(self):
-        pictures = [self.render("v.png", "--scene", "landscape", "--view", view)[0].rows
-                    for view in ("color", "normal", "depth", "aggregation", "light")]
-        for k, picture in enumerate(pictures):
-            self.assertNotIn(picture, pictures[:k])
-        self.assertTrue(all(r == g == b for row in pictures[2] for r, g, b in row), "depth is grey")
+        images = [self.render("v.png", "--scene", "landscape", "--view", view)[0].rows
+                    for view in ("color", "normal", "depth", "merging", "light")]
+        for k, image in enumerate(images):
+            self.assertNotIn(image, images[:k])
+        self.assertTrue(all(r == g == b for row in images[2] for r, g, b in row), "depth is grey")
 
     def test_presets_and_the_flags_that_change_them(self):
         scene = ("--scene", "landscape")
         low, _ = self.render("low.png", *scene, "--preset", "low")
         self.assertTrue(self.render("thesis.png", *scene, "--preset", "thesis")[0].rows != low.rows)
         self.assertEqual(self.render("a.png", *scene, "--preset", "low", "--shadows", "off")[0].rows, low.rows)
-        for flag, word, look in (("--shading", "off", "136,-6"), ("--atmosphere", "off", "136,-6"),
+        for flag, word, look in (("--shading", "off", "136,-6"), ("--distance-fog", "off", "136,-6"),
                                  ("--god-rays", "on", "40,45"), ("--ssao", "raw", "136,-6"), ("--clouds", "on", "40,45")):
             plain, _ = self.render("b.png", *scene, "--preset", "low", "--look", look)
             changed, _ = self.render("c.png", *scene, "--preset", "low", "--look", look, flag, word)
@@ -204,7 +204,7 @@ class Render(ProgramTest):
 
     def test_a_resource_pack_changes_the_faces_it_has(self):
         # Down on the flat world: nothing but the tops of grass is seen.
-        view = (*FLAT, "--at", "8.5,8.5,100", "--look", "0,-90", "--time", "0.5", "--atmosphere", "off")
+        view = (*FLAT, "--at", "8.5,8.5,100", "--look", "0,-90", "--time", "0.5", "--distance-fog", "off")
         before, _ = self.render("before.png", *view)
         pack = self.folder / "pack"
         pack.mkdir()
@@ -218,7 +218,7 @@ class Render(ProgramTest):
         self.assertEqual(same.rows, before.rows)
         map_file = self.folder / "map.png"
         self.succeed("map", *FLAT, "--radius", "0", "--resource-pack", pack, "-o", map_file)
-        self.assertTrue(all(r > 2 * g for r, g, _ in Picture(map_file).colors()))
+        self.assertTrue(all(r > 2 * g for r, g, _ in Image(map_file).colors()))
 
     def test_a_wrong_resource_pack_is_refused(self):
         support.write_png(self.folder / "stone.png", 16, 24, (255, 0, 0, 255))
@@ -230,7 +230,7 @@ class Render(ProgramTest):
     def test_more_samples(self):
         path = self.folder / "a.png"
         self.succeed("render", "--scene", "cave", "--size", "40x30", "--view-distance", "1", "--samples", "4", "-o", path)
-        self.assertEqual(Picture(path).width, 40)
+        self.assertEqual(Image(path).width, 40)
 
 
 class Generate(ProgramTest):
@@ -282,9 +282,9 @@ class Map(ProgramTest):
     def test_one_pixel_a_block(self):
         path = self.folder / "map.png"
         self.succeed("map", "--radius", "1", "-o", path)
-        picture = Picture(path)
-        self.assertEqual((picture.width, picture.height), (48, 48))
-        self.assertGreater(len(picture.colors()), 1)
+        image = Image(path)
+        self.assertEqual((image.width, image.height), (48, 48))
+        self.assertGreater(len(image.colors()), 1)
 
 
 class Dump(ProgramTest):
@@ -365,10 +365,10 @@ class Dump(ProgramTest):
         gpu = self.dump("quads", "7,-3,10,-1", "--backend", "gpu")
         self.assertEqual(cpu.data, gpu.data)
 
-    def test_every_aggregation_has_the_same_quads_on_both_back_ends(self):
+    def test_every_merge_method_has_the_same_quads_on_both_back_ends(self):
         counts = {}
         for method in ("none", "lines", "squares", "squares-ext", "greedy"):
-            arguments = ("7,-3,9,-2", "--aggregation", method, "--region-height", "16")
+            arguments = ("7,-3,9,-2", "--merging", method, "--mesh-section-height", "16")
             cpu = self.dump("quads", *arguments, "--backend", "cpu")
             gpu = self.dump("quads", *arguments, "--backend", "gpu")
             self.assertEqual(cpu.data, gpu.data, method)
@@ -492,7 +492,7 @@ class Saves(ProgramTest):
         out = self.folder / "out.png"
         for command in (("generate", "--radius", "0"), ("map", "--radius", "0", "-o", out),
                         ("dump", "--area", "0,0,1,1", "-o", out), ("render", "--scene", "landscape", "-o", out),
-                        ("fly", "--json")):
+                        ("flight-bench", "--json")):
             done = run(*command, "--world", url)
             self.assertRefused(done, command)
             self.assertIn("not supported by this build", done.stderr)

@@ -10,8 +10,8 @@ namespace {
 TEST(FrameMeter, NothingIsZero) {
     const FrameMeter meter;
     EXPECT_EQ(meter.now(), 0);
-    EXPECT_EQ(meter.least(), 0);
-    EXPECT_EQ(meter.most(), 0);
+    EXPECT_EQ(meter.min(), 0);
+    EXPECT_EQ(meter.max(), 0);
 }
 
 TEST(FrameMeter, TellsTheRangeOfTheLastSecond) {
@@ -19,11 +19,11 @@ TEST(FrameMeter, TellsTheRangeOfTheLastSecond) {
     meter.add(0.5);
     for (int k = 0; k < 50; ++k) meter.add(0.01);
     EXPECT_NEAR(meter.now(), 51, 1e-6);
-    EXPECT_NEAR(meter.least(), 2, 1e-6);
-    EXPECT_NEAR(meter.most(), 100, 1e-6);
+    EXPECT_NEAR(meter.min(), 2, 1e-6);
+    EXPECT_NEAR(meter.max(), 100, 1e-6);
     for (int k = 0; k < 60; ++k) meter.add(0.01);  // the long frame is more than a second ago
     EXPECT_NEAR(meter.now(), 100, 1e-6);
-    EXPECT_NEAR(meter.least(), 100, 1e-6);
+    EXPECT_NEAR(meter.min(), 100, 1e-6);
 }
 
 TEST(FrameMeter, AFrameLongerThanASecondCounts) {
@@ -31,14 +31,14 @@ TEST(FrameMeter, AFrameLongerThanASecondCounts) {
     meter.add(0.01);
     meter.add(4);
     EXPECT_NEAR(meter.now(), 0.25, 1e-9);
-    EXPECT_NEAR(meter.least(), 0.25, 1e-9);
+    EXPECT_NEAR(meter.min(), 0.25, 1e-9);
 }
 
 TEST(FrameMeter, FramesOfNoLengthAreNoDivisionByZero) {
     FrameMeter meter;
     meter.add(0);
     EXPECT_EQ(meter.now(), 0);
-    EXPECT_TRUE(std::isfinite(meter.most()));
+    EXPECT_TRUE(std::isfinite(meter.max()));
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ class Zsh(HelpTest):
             part = re.search(rf"^ +{command}\) _arguments(.*?) ;;$", text, re.MULTILINE | re.DOTALL)[1]
             for name in self.names(command):
                 self.assertIn(f"'{name}[", part, command)
-        self.assertIn(":WORD:(none lines squares squares-ext greedy)'", text)
+        self.assertIn(":CHOICE:(none lines squares squares-ext greedy)'", text)
 
     # The shell's own check of specifications, without a terminal: it reports wrong ones.
     def test_specifications_are_understood(self):
@@ -121,7 +121,7 @@ class Man(HelpTest):
         file.write_text(self.succeed("man"))
         page = "\n".join(self.shell("groff", "-man", "-ww", "-Kutf8", "-Tutf8", "-P-cbou", str(file)))
         page = re.sub(r"\s+", " ", page)  # lines are filled with spaces
-        for word in ("--merging WORD", "EXIT STATUS", "a measurement of terrane bench", "(required)", "(default: 1280x720)"):
+        for word in ("--merging CHOICE", "EXIT STATUS", "a measurement of terrane bench", "(required)", "(default: 1280x720)"):
             self.assertIn(word, page)
 
 

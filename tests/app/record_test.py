@@ -7,7 +7,7 @@ import subprocess
 import time
 
 import support
-from support import Picture, ProgramTest, run
+from support import Image, ProgramTest, run
 
 SMALL = ("--size", "160x90", "--view-distance", "2", "--preset", "low")
 # Level ground of grass at z = 80, which every camera here looks down on.
@@ -30,10 +30,10 @@ class RecordTest(ProgramTest):
         self.succeed("record", "--path", self.path(text), "--frames-dir", folder, *SMALL, *arguments)
         files = sorted(folder.iterdir())
         self.assertEqual([f.name for f in files], [f"frame_{k:05}.png" for k in range(len(files))])
-        pictures = [Picture(f) for f in files]
+        images = [Image(f) for f in files]
         for file in files:
             file.unlink()
-        return pictures
+        return images
 
 
 class Video(RecordTest):
@@ -68,19 +68,19 @@ class Video(RecordTest):
                      "--until", "1.25")
         self.assertEqual(int(self.probe(video)[0]["nb_read_frames"]), 6)
 
-    # The colours that go in come out: neither swapped nor upside down.
-    def test_colours(self):
+    # The colors that go in come out: neither swapped nor upside down.
+    def test_colors(self):
         lamp = shot(1, "[[shot.edit]]\nfrom = [0, 0, 80]\nto = [16, 8, 80]\nblock = \"lamp_red\"\n")
-        picture = self.frames(HEAD + lamp, "--fps", "1", "--light", "classic")[0]
+        image = self.frames(HEAD + lamp, "--fps", "1", "--light", "classic")[0]
         video, back = self.folder / "a.mp4", self.folder / "back.png"
         self.succeed("record", "--path", self.path(HEAD + lamp), "-o", video, *SMALL, "--fps", "1", "--light", "classic")
         subprocess.run(["ffmpeg", "-v", "error", "-i", str(video), "-frames:v", "1", str(back)], check=True,
                        timeout=support.HANG_SECONDS)
-        decoded = Picture(back)
+        decoded = Image(back)
         for x, y in ((8, 8), (150, 8), (8, 80), (150, 80), (80, 45)):
             around = [(u, v) for u in range(x - 5, x + 6) for v in range(y - 5, y + 6)]
             for channel in range(3):
-                means = [sum(p.rows[v][u][channel] for u, v in around) / len(around) for p in (picture, decoded)]
+                means = [sum(p.rows[v][u][channel] for u, v in around) / len(around) for p in (image, decoded)]
                 self.assertAlmostEqual(*means, delta=12, msg=f"{x},{y} channel {channel}")
 
     def test_without_ffmpeg(self):

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 class ResourcePack : public testing::Test {
   protected:
-    // Left half of one colour, right half of another.
+    // Left half of one color, right half of another.
     static base::Image halves(int side) {
         base::Image image{side, side, {}};
         for (int k = 0; k < side * side; ++k) {
@@ -78,7 +78,7 @@ TEST_F(ResourcePack, FilesThatCannotBeUsedAreNamed) {
     EXPECT_THAT(error(), HasSubstr("stone.png: 16 × 4 pixels"));
     add("stone.png", halves(2048));
     EXPECT_THAT(error(), HasSubstr("from 1 to 1024"));
-    std::ofstream(folder_.path() / "stone.png") << "no picture";
+    std::ofstream(folder_.path() / "stone.png") << "no image";
     EXPECT_THAT(error(), HasSubstr("stone.png: cannot be read as PNG"));
 }
 

@@ -98,9 +98,9 @@ TEST_F(Settings, FormerNamesAreRead) {
     addGraphicsOptions(command, options, "low");
     const auto done = applySettings(file_, command, {"preset", "distance-fog"});
     ASSERT_TRUE(done) << done.error().message;
-    EXPECT_EQ(options.mesh.method, mesh::Method::Lines);
-    EXPECT_EQ(options.mesh.regionHeight, 32);
-    EXPECT_EQ(options.view, render::View::Aggregation);
+    EXPECT_EQ(options.mesh.method, mesh::MergeMethod::Lines);
+    EXPECT_EQ(options.mesh.meshSectionHeight, 32);
+    EXPECT_EQ(options.view, render::View::Merging);
     EXPECT_FALSE(renderOptions(options.choices, true).atmosphere);
 }
 

@@ -83,7 +83,7 @@ def _unfilter(kind, row, above, step):
     return row
 
 
-class Picture:
+class Image:
     """A PNG of 8 bits a channel; rows of (red, green, blue)."""
 
     def __init__(self, path):
@@ -117,7 +117,7 @@ class Picture:
 
 
 def write_png(path, width, height, color):
-    """One colour everywhere: (red, green, blue, alpha)."""
+    """One color everywhere: (red, green, blue, alpha)."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     rows = (b"\0" + bytes(color) * width) * height

@@ -19,7 +19,7 @@ import unittest
 import unittest.mock
 
 import support
-from support import HANG_SECONDS, Npy, Picture, ProgramTest
+from support import HANG_SECONDS, Npy, Image, ProgramTest
 
 sys.path.append(str(pathlib.Path(__file__).parents[2] / "tools"))
 import virtual_display  # noqa: E402
@@ -50,7 +50,7 @@ class Screenshot:
         self.step = self.stride // self.width  # bytes a pixel; for some visuals the header counts the bits used
         if version != 7 or depth < 24:
             raise ValueError(f"unexpected window dump: version {version}, depth {depth}")
-        self.pixels = data[header_bytes + 12 * header[19]:]  # behind the colour map
+        self.pixels = data[header_bytes + 12 * header[19]:]  # behind the color map
 
     def color(self, x, y):
         """Red, green, blue."""
@@ -59,7 +59,7 @@ class Screenshot:
         return red, green, blue
 
     def colors(self, x0=0, y0=0):
-        """All colours to the right of x0 and below y0."""
+        """All colors to the right of x0 and below y0."""
         found = set()
         for y in range(y0, self.height):
             row = self.pixels[y * self.stride + x0 * self.step:y * self.stride + self.width * self.step]
@@ -67,7 +67,7 @@ class Screenshot:
         return found
 
 
-# What kind of ground a colour is of: grass, earth, stone.
+# What kind of ground a color is of: grass, earth, stone.
 def is_green(red, green, blue):
     return green > 1.1 * max(red, blue)
 
@@ -110,22 +110,22 @@ class Game:
             time.sleep(0.05)
         raise RuntimeError(f"nothing happens: {self.output()}")
 
-    def wait_for_picture(self, size, x0=0, y0=0):
-        """Waits for a window of this size with a picture: a world has many colours, an undrawn window one."""
+    def wait_for_image(self, size, x0=0, y0=0):
+        """Waits for a window of this size with an image: a world has many colors, an undrawn window one."""
         def is_drawn():
-            picture = self.display.screenshot(self.window)
-            return (picture.width, picture.height) == size and len(picture.colors(x0, y0)) > 30
+            image = self.display.screenshot(self.window)
+            return (image.width, image.height) == size and len(image.colors(x0, y0)) > 30
         self.wait_for(is_drawn)
 
     def wait_for_ground(self, is_it):
-        """Waits for a colour (red, green, blue) of the block that one looks down on, beside the crosshair."""
+        """Waits for a color (red, green, blue) of the block that one looks down on, beside the crosshair."""
         self.wait_for(lambda: is_it(*self.display.screenshot(self.window).color(SIZE[0] // 2 + 8, SIZE[1] // 2 + 8)))
 
     def press(self, key):
         self.display.xdotool("key", key)
 
     def pause_after(self, key):
-        """Presses a key that changes the picture. What is waited for is two frames or so: on a busy machine they take
+        """Presses a key that changes the image. What is waited for is two frames or so: on a busy machine they take
         long, and so must pauses."""
         before, start = self.display.screenshot(self.window).pixels, time.monotonic()
         self.press(key)
@@ -178,7 +178,7 @@ class Window(ProgramTest):
         self.addCleanup(game.log.close)
         self.addCleanup(game.process.kill)  # nothing where it has ended
         game.open()
-        game.wait_for_picture(size)
+        game.wait_for_image(size)
         return game
 
     def close(self, game):
@@ -198,15 +198,15 @@ class Window(ProgramTest):
             display.xdotool("keydown", "w")
             time.sleep(1)
             display.xdotool("keyup", "w")
-            game.wait_for_picture(SIZE)
+            game.wait_for_image(SIZE)
             display.xdotool("windowsize", game.window, *LARGER)
-            game.wait_for_picture(LARGER, x0=SIZE[0])
-            game.wait_for_picture(LARGER, y0=SIZE[1])
+            game.wait_for_image(LARGER, x0=SIZE[0])
+            game.wait_for_image(LARGER, y0=SIZE[1])
             end = self.close(game)
             distance = sum((a - b) ** 2 for a, b in zip(start, end)) ** 0.5
             self.assertGreater(distance, 5, f"the camera stayed at {end}")  # farther than one falls or walks
 
-    def test_keys_are_taken_before_there_is_a_picture(self):
+    def test_keys_are_taken_before_there_is_an_image(self):
         cache = self.folder / "no shaders yet"
         with Display() as display, unittest.mock.patch.dict(os.environ, {"MESA_SHADER_CACHE_DIR": str(cache)}):
             game = Game(display, self.folder, ("--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "3"))
@@ -215,17 +215,17 @@ class Window(ProgramTest):
             game.open()
             for key in ("F12", "F3", "F4", "F2", "m", "l", "F12"):
                 game.press(key)
-            game.wait_for_picture(SIZE)
+            game.wait_for_image(SIZE)
             self.assertEqual(self.screenshots(), [])  # of what was not there yet
-            # Again and again: the panel's picture comes before the world's.
+            # Again and again: the panel's image comes before the world's.
             game.wait_for(lambda: game.press("F12") or self.screenshots())
             self.close(game)
 
-    # Above the flat world, whose ground is grass at z = 80 on earth: one block fills the middle of the picture.
+    # Above the flat world, whose ground is grass at z = 80 on earth: one block fills the middle of the image.
     def look_down(self, display, *arguments):
         (self.folder / "bookmarks.txt").write_text("8.5 8.5 84 0 -89\n")
         game = self.play(display, "--bookmark", "1", *arguments, *FLAT)
-        game.pause_after("F1")  # no help in the picture
+        game.pause_after("F1")  # no help in the image
         game.wait_for_ground(is_green)
         game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # takes the mouse
         return game
@@ -330,7 +330,7 @@ class Window(ProgramTest):
             names = [line.split()[1] for line in self.succeed("blocks").splitlines()[1:]]
             self.assertEqual(names[Npy(self.folder / "blocks.npy").column(8, 8)[top]], "chest")
 
-    def test_a_person_tries_everything_and_finds_it_again(self):
+    def test_a_player_tries_everything_and_finds_it_again(self):
         size, settings = (480, 720), self.folder / "terrane" / "settings.toml"
         options = ("--save-game", "home", *FLAT)
         with Display(size) as display:
@@ -349,8 +349,8 @@ class Window(ProgramTest):
             end = self.close(game)
 
             self.assertEqual(len((self.folder / "bookmarks.txt").read_text().splitlines()), 1)
-            picture = Picture(self.folder / "terrane-0001.png")
-            self.assertEqual((picture.width, picture.height), size)
+            image = Image(self.folder / "terrane-0001.png")
+            self.assertEqual((image.width, image.height), size)
             rows = [line.split(",") for line in (self.folder / "perf.csv").read_text().splitlines()]
             self.assertEqual(rows[0][:3], ["time_s", "frame_ms", "fps"])
             self.assertGreater(len(rows), 10)
@@ -370,7 +370,7 @@ class Window(ProgramTest):
         path = self.folder / "terrane" / "settings.toml"
         return [line for line in path.read_text().splitlines() if line and not line.startswith("#")]
 
-    def test_only_what_a_person_changed_is_kept(self):
+    def test_only_what_a_player_changed_is_kept(self):
         (self.folder / "terrane").mkdir()
         (self.folder / "terrane" / "settings.toml").write_text("day-minutes = 3\n")
         with Display() as display:
@@ -389,7 +389,7 @@ class Window(ProgramTest):
             self.addCleanup(game.log.close)
             self.addCleanup(game.process.kill)
             game.open()
-            game.wait_for_picture(SCREEN)
+            game.wait_for_image(SCREEN)
             game.press("F11")
             game.wait_for(lambda: display.screenshot(game.window).width != SCREEN[0])
             self.close(game)
@@ -480,7 +480,7 @@ class Window(ProgramTest):
             self.addCleanup(game.log.close)
             self.addCleanup(game.process.kill)
             game.open()
-            game.wait_for_picture(twice)
+            game.wait_for_image(twice)
             pause = game.pause_after("F2")
             # The slider of the view distance lies twice as far from the panel's corner as on other screens.
             game.click(1, 120, 186, pause)

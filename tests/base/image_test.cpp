@@ -12,7 +12,7 @@ namespace {
 using testing::ElementsAre;
 using testing::StartsWith;
 
-// Every byte differs from its neighbours; alpha takes all values, 0 with a colour included.
+// Every byte differs from its neighbors; alpha takes all values, 0 with a color included.
 Image someImage(int width, int height) {
     Image image{width, height, {}};
     for (int i = 0; i < width * height * 4; ++i)

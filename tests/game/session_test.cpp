@@ -80,13 +80,13 @@ TEST_F(SessionTest, TimeLetsPlantsGrow) {
     session_.edit(put(kOnGround, "dirt"));
     const world::BlockPos plant{5, 5, kGroundHeight + 1};
     session_.edit(put(plant, "wheat"));
-    const std::uint16_t young = session_.world().smallData(plant);
+    const std::uint16_t young = session_.world().blockState(plant);
     ASSERT_GT(young, 0);
     const double before = session_.clock.timeDay;
-    for (int second = 0; second < 3600 && session_.world().smallData(plant) > 0; ++second) {
+    for (int second = 0; second < 3600 && session_.world().blockState(plant) > 0; ++second) {
         session_.advance(1, {0, 0});
     }
-    EXPECT_EQ(session_.world().smallData(plant), 0) << "grown within an hour";
+    EXPECT_EQ(session_.world().blockState(plant), 0) << "grown within an hour";
     EXPECT_NE(session_.clock.timeDay, before);
 }
 

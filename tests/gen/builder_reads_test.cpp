@@ -188,7 +188,7 @@ TEST(BuilderReads, BlocksOfOtherColumns) {
         });
 }
 
-// What a 3D pass found at one height of each column, also of neighbouring chunks, is there for later passes.
+// What a 3D pass found at one height of each column, also of neighboring chunks, is there for later passes.
 TEST(BuilderReads, FieldsWrittenBy3DPasses) {
     expectBlocks(
         [](GeneratorBuilder& g) {

@@ -105,7 +105,7 @@ inline void expectChunk(const Generator& generator, ChunkPos pos, const Expected
 
 constexpr std::uint64_t kTestSeed = 42;
 
-// Builds with assertions run without optimisation, mostly under sanitizers, and take fifty times as long.
+// Builds with assertions run without optimization, mostly under sanitizers, and take fifty times as long.
 #ifdef NDEBUG
 constexpr std::uint32_t kRandomCases = 200;
 #else
@@ -139,7 +139,7 @@ void onEachTarget(Function f) {
     EXPECT_TRUE(chooseSimdTarget(""));
 }
 
-// Arithmetic modulo 2^32, which is no undefined behaviour like that of `int`.
+// Arithmetic modulo 2^32, which is no undefined behavior like that of `int`.
 constexpr std::int32_t wrapped(std::int64_t v) {
     return static_cast<std::int32_t>(static_cast<std::uint64_t>(v));
 }

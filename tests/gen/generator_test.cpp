@@ -86,7 +86,7 @@ std::vector<std::size_t> inOrder(std::size_t count) {
 
 // A cache of so many chunks, however much memory they need.
 CacheSize chunks(std::size_t count) {
-    return {.bytes = 0, .leastChunks = count};
+    return {.bytes = 0, .minChunks = count};
 }
 
 // Fails unless the cache of a generator that made these chunks had to let some of what they need go.
@@ -198,7 +198,7 @@ TEST_F(GeneratorTest, SeedsMakeDifferentWorlds) {
     EXPECT_EQ(differingUpper, positions_.size()) << "all 64 bits of the seed count";
 }
 
-// Chunks that share neighbours, at a corner of the world where these lie on the other side of it.
+// Chunks that share neighbors, at a corner of the world where these lie on the other side of it.
 TEST_F(GeneratorTest, AtTheCornersOfTheWorld) {
     const std::vector<ChunkPos> corners = {{world::kMinChunk, world::kMinChunk},
                                            {world::kMaxChunk, world::kMaxChunk},
@@ -213,8 +213,8 @@ TEST_F(GeneratorTest, AtTheCornersOfTheWorld) {
     }
 }
 
-// All threads want all chunks, and each chunk several of its neighbours' passes.
-TEST_F(GeneratorTest, ManyThreadsOnNeighboursDoNotLockUp) {
+// All threads want all chunks, and each chunk several of its neighbors' passes.
+TEST_F(GeneratorTest, ManyThreadsOnNeighborsDoNotLockUp) {
     const Chunks& want = expected();
     for (const std::size_t capacity : {512u, 24u}) {
         for (std::uint32_t round = 0; round < 2; ++round) {

@@ -12,7 +12,7 @@
 namespace terrane::gen {
 namespace {
 
-// Sanitizers run without optimisation.
+// Sanitizers run without optimization.
 #ifdef NDEBUG
 constexpr int kSampleSide = 18;
 #else

@@ -158,8 +158,8 @@ TEST_P(Overworld, TrunksStandOnGroundOrTrunks) {
     });
 }
 
-bool isNear(const Area& a, std::array<int, 3> centre, BlockId wanted, int reach) {
-    const auto [x, y, z] = centre;
+bool isNear(const Area& a, std::array<int, 3> center, BlockId wanted, int reach) {
+    const auto [x, y, z] = center;
     for (int dz = -reach; dz <= reach; ++dz) {
         if (z + dz < 0 || z + dz >= world::kChunkHeight) continue;
         for (int dy = -reach; dy <= reach; ++dy) {

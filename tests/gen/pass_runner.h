@@ -64,7 +64,7 @@ class PassRunner {
     std::vector<ColumnValues> writtenFields;          // by the 3D pass run last
     std::vector<std::array<ColumnValues, 9>> around;  // by field, where the test sets it: all nine chunks
     std::unique_ptr<BlockArray> blocks;               // of the earlier 3D pass
-    std::array<std::unique_ptr<BlockArray>, 9> blocksAround;  // of its neighbours, where the test sets them
+    std::array<std::unique_ptr<BlockArray>, 9> blocksAround;  // of its neighbors, where the test sets them
 
   private:
     Executor& executor() {

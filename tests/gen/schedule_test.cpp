@@ -35,16 +35,16 @@ class ScheduleTest : public testing::Test {
         schedule_ = schedule(graph_, std::vector<NodeId>(roots), isInput);
     }
 
-    // The region that holds a node, or -1.
-    int regionOf(NodeId id) const {
-        for (std::size_t r = 0; r < schedule_.regions.size(); ++r) {
-            const auto& nodes = schedule_.regions[r].nodes;
+    // The basic block that holds a node, or -1.
+    int basicBlockOf(NodeId id) const {
+        for (std::size_t r = 0; r < schedule_.basicBlocks.size(); ++r) {
+            const auto& nodes = schedule_.basicBlocks[r].nodes;
             if (std::find(nodes.begin(), nodes.end(), id) != nodes.end()) return static_cast<int>(r);
         }
         return -1;
     }
-    int thenOf(std::uint32_t number) const { return schedule_.ifs[number].thenRegion; }
-    int elseOf(std::uint32_t number) const { return schedule_.ifs[number].elseRegion; }
+    int thenOf(std::uint32_t number) const { return schedule_.ifs[number].thenBlock; }
+    int elseOf(std::uint32_t number) const { return schedule_.ifs[number].elseBlock; }
 
     Graph graph_;
     Schedule schedule_;
@@ -53,51 +53,51 @@ class ScheduleTest : public testing::Test {
 TEST_F(ScheduleTest, StraightCodeStandsInTheRootInOrder) {
     const NodeId first = x(), second = y(), sum = plus(first, second), product = times(sum, first);
     run({product});
-    ASSERT_EQ(schedule_.regions.size(), 1u);
+    ASSERT_EQ(schedule_.basicBlocks.size(), 1u);
     const std::vector<NodeId> order = {first, second, sum, product};
-    EXPECT_EQ(schedule_.regions[0].nodes, order);
+    EXPECT_EQ(schedule_.basicBlocks[0].nodes, order);
 }
 
 TEST_F(ScheduleTest, WhatNobodyNeedsIsLeftOut) {
     const NodeId unused = times(x(), x()), sum = plus(x(), y());
     run({sum});
-    EXPECT_EQ(regionOf(unused), -1);
-    EXPECT_EQ(regionOf(sum), 0);
+    EXPECT_EQ(basicBlockOf(unused), -1);
+    EXPECT_EQ(basicBlockOf(sum), 0);
 }
 
 TEST_F(ScheduleTest, InputsEndTheSearch) {
     const NodeId sum = plus(x(), y()), product = times(sum, x());
     run({product}, {sum, x()});
-    EXPECT_EQ(regionOf(sum), -1);
-    EXPECT_EQ(regionOf(y()), -1);
-    EXPECT_EQ(regionOf(product), 0);
+    EXPECT_EQ(basicBlockOf(sum), -1);
+    EXPECT_EQ(basicBlockOf(y()), -1);
+    EXPECT_EQ(basicBlockOf(product), 0);
 }
 
 TEST_F(ScheduleTest, ARootThatIsAnInputNeedsNothing) {
     const NodeId sum = plus(x(), y());
     run({sum}, {sum});
-    EXPECT_TRUE(schedule_.regions[0].nodes.empty());
+    EXPECT_TRUE(schedule_.basicBlocks[0].nodes.empty());
 }
 
 TEST_F(ScheduleTest, WhatOneSideNeedsStandsInIt) {
     const NodeId left = times(x(), y()), right = plus(x(), y());
     const NodeId result = phi(graph_.newIf(), condition(0), left, right);
     run({result});
-    EXPECT_EQ(regionOf(left), thenOf(0));
-    EXPECT_EQ(regionOf(right), elseOf(0));
-    EXPECT_EQ(regionOf(result), 0);
-    EXPECT_EQ(regionOf(condition(0)), 0);
-    EXPECT_EQ(regionOf(x()), 0) << "both sides need it";
-    EXPECT_EQ(schedule_.regions[static_cast<std::size_t>(thenOf(0))].parent, 0);
-    EXPECT_EQ(schedule_.regions[static_cast<std::size_t>(thenOf(0))].depth, 1);
+    EXPECT_EQ(basicBlockOf(left), thenOf(0));
+    EXPECT_EQ(basicBlockOf(right), elseOf(0));
+    EXPECT_EQ(basicBlockOf(result), 0);
+    EXPECT_EQ(basicBlockOf(condition(0)), 0);
+    EXPECT_EQ(basicBlockOf(x()), 0) << "both sides need it";
+    EXPECT_EQ(schedule_.basicBlocks[static_cast<std::size_t>(thenOf(0))].parent, 0);
+    EXPECT_EQ(schedule_.basicBlocks[static_cast<std::size_t>(thenOf(0))].depth, 1);
 }
 
 TEST_F(ScheduleTest, WhatBothSidesOrTheOutsideNeedStandsBeforeTheIf) {
     const NodeId shared = times(x(), y()), after = times(x(), x());
     const NodeId result = phi(graph_.newIf(), condition(0), plus(shared, x()), plus(shared, after));
     run({plus(result, after)});
-    EXPECT_EQ(regionOf(shared), 0);
-    EXPECT_EQ(regionOf(after), 0);
+    EXPECT_EQ(basicBlockOf(shared), 0);
+    EXPECT_EQ(basicBlockOf(after), 0);
 }
 
 TEST_F(ScheduleTest, IfsNestByWhoNeedsThem) {
@@ -106,11 +106,11 @@ TEST_F(ScheduleTest, IfsNestByWhoNeedsThem) {
     const NodeId innerPhi = phi(inner, condition(0), deep, x());
     const NodeId result = phi(outer, condition(1), plus(innerPhi, y()), y());
     run({result});
-    EXPECT_EQ(regionOf(innerPhi), thenOf(outer));
-    EXPECT_EQ(regionOf(condition(0)), thenOf(outer)) << "the inner condition is needed only there";
-    EXPECT_EQ(regionOf(deep), thenOf(inner));
-    EXPECT_EQ(schedule_.regions[static_cast<std::size_t>(thenOf(inner))].parent, thenOf(outer));
-    EXPECT_EQ(schedule_.regions[static_cast<std::size_t>(thenOf(inner))].depth, 2);
+    EXPECT_EQ(basicBlockOf(innerPhi), thenOf(outer));
+    EXPECT_EQ(basicBlockOf(condition(0)), thenOf(outer)) << "the inner condition is needed only there";
+    EXPECT_EQ(basicBlockOf(deep), thenOf(inner));
+    EXPECT_EQ(schedule_.basicBlocks[static_cast<std::size_t>(thenOf(inner))].parent, thenOf(outer));
+    EXPECT_EQ(schedule_.basicBlocks[static_cast<std::size_t>(thenOf(inner))].depth, 2);
 }
 
 TEST_F(ScheduleTest, ValuesOfSiblingsMeetAtTheirParent) {
@@ -119,7 +119,7 @@ TEST_F(ScheduleTest, ValuesOfSiblingsMeetAtTheirParent) {
     const NodeId a = phi(first, condition(0), plus(shared, x()), x());
     const NodeId b = phi(second, condition(1), plus(shared, y()), x());
     run({phi(outer, condition(2), plus(a, b), y())});
-    EXPECT_EQ(regionOf(shared), thenOf(outer));
+    EXPECT_EQ(basicBlockOf(shared), thenOf(outer));
 }
 
 // One if may join several values: it runs where all of them are wanted, though some are wanted deeper.
@@ -129,10 +129,10 @@ TEST_F(ScheduleTest, PhisOfAnIfStayTogether) {
     const NodeId a = phi(inner, condition(0), deep, x()), b = phi(inner, condition(0), other, y());
     const NodeId result = phi(outer, condition(1), plus(a, x()), y());
     run({result, b});
-    EXPECT_EQ(regionOf(a), 0) << "b is wanted outside, so the whole if stands there";
-    EXPECT_EQ(regionOf(b), 0);
-    EXPECT_EQ(regionOf(deep), thenOf(inner));
-    EXPECT_EQ(regionOf(other), thenOf(inner));
+    EXPECT_EQ(basicBlockOf(a), 0) << "b is wanted outside, so the whole if stands there";
+    EXPECT_EQ(basicBlockOf(b), 0);
+    EXPECT_EQ(basicBlockOf(deep), thenOf(inner));
+    EXPECT_EQ(basicBlockOf(other), thenOf(inner));
     const std::vector<NodeId> both = {a, b};
     EXPECT_EQ(schedule_.ifs[inner].phis, both);
 }
@@ -142,8 +142,8 @@ TEST_F(ScheduleTest, AnUnusedPhiDoesNotHoldItsIfOutside) {
     const NodeId a = phi(inner, condition(0), times(x(), y()), x());
     const NodeId unused = phi(inner, condition(0), plus(x(), y()), y());
     run({phi(outer, condition(1), plus(a, x()), y())});
-    EXPECT_EQ(regionOf(a), thenOf(outer));
-    EXPECT_EQ(regionOf(unused), -1);
+    EXPECT_EQ(basicBlockOf(a), thenOf(outer));
+    EXPECT_EQ(basicBlockOf(unused), -1);
     EXPECT_EQ(schedule_.ifs[inner].phis, std::vector<NodeId>{a});
 }
 
@@ -152,9 +152,9 @@ class Walk {
   public:
     Walk(const Graph& graph, const Schedule& s) : graph_(graph), schedule_(s), seen_(graph.size()) {}
 
-    // `available`: by node, what can be read in this region.
-    void region(int number, std::vector<bool>& available) {
-        for (const NodeId id : schedule_.regions[static_cast<std::size_t>(number)].nodes) {
+    // `available`: by node, what can be read in this basic block.
+    void basicBlock(int number, std::vector<bool>& available) {
+        for (const NodeId id : schedule_.basicBlocks[static_cast<std::size_t>(number)].nodes) {
             ASSERT_FALSE(seen_[id]) << "node " << id << " stands twice";
             seen_[id] = true;
             const Node& n = graph_.node(id);
@@ -176,8 +176,8 @@ class Walk {
   private:
     void branches(const Schedule::If& branch, std::vector<bool>& available) {
         std::vector<bool> then = available, otherwise = available;
-        ASSERT_NO_FATAL_FAILURE(region(branch.thenRegion, then));
-        ASSERT_NO_FATAL_FAILURE(region(branch.elseRegion, otherwise));
+        ASSERT_NO_FATAL_FAILURE(basicBlock(branch.thenBlock, then));
+        ASSERT_NO_FATAL_FAILURE(basicBlock(branch.elseBlock, otherwise));
         for (const NodeId phi : branch.phis) {
             const Node& n = graph_.node(phi);
             ASSERT_TRUE(available[n.args[0]]);
@@ -193,10 +193,10 @@ class Walk {
             ASSERT_TRUE(available[graph_.loopVariable(v).initial]);
             inside[graph_.loopVariable(v).in] = true;
         }
-        ASSERT_NO_FATAL_FAILURE(region(loop.head, inside));
+        ASSERT_NO_FATAL_FAILURE(basicBlock(loop.head, inside));
         const std::int32_t number = graph_.loopVariable(loop.variables.front()).loop;
         ASSERT_TRUE(inside[graph_.loops()[static_cast<std::size_t>(number)].condition]);
-        ASSERT_NO_FATAL_FAILURE(region(loop.body, inside));
+        ASSERT_NO_FATAL_FAILURE(basicBlock(loop.body, inside));
         for (const std::uint32_t v : loop.variables) ASSERT_TRUE(inside[graph_.loopVariable(v).next]);
         for (const NodeId out : loop.outs) available[out] = true;
     }
@@ -231,15 +231,15 @@ TEST(ScheduleRandom, EveryNeededNodeStandsOnceAndAfterItsArguments) {
         const Schedule s = schedule(graph, roots, [](NodeId) { return false; });
         Walk walk(graph, s);
         std::vector<bool> available(graph.size());
-        ASSERT_NO_FATAL_FAILURE(walk.region(0, available));
+        ASSERT_NO_FATAL_FAILURE(walk.basicBlock(0, available));
         const std::vector<bool> needed = neededBy(graph, roots);
         for (NodeId id = 0; id < graph.size(); ++id) ASSERT_EQ(walk.hasSeen(id), needed[id]) << id;
         for (const NodeId root : roots) ASSERT_TRUE(available[root]);
     }
 }
 
-int commonRegion(const Schedule& s, int a, int b) {
-    const auto at = [&](int r) -> const Region& { return s.regions[static_cast<std::size_t>(r)]; };
+int commonBasicBlock(const Schedule& s, int a, int b) {
+    const auto at = [&](int r) -> const BasicBlock& { return s.basicBlocks[static_cast<std::size_t>(r)]; };
     while (a != b) {
         if (at(a).depth >= at(b).depth) {
             a = at(a).parent;
@@ -250,20 +250,20 @@ int commonRegion(const Schedule& s, int a, int b) {
     return a;
 }
 
-// By node: the innermost region that holds the places of all who use it.
-std::vector<int> deepestRegions(const Graph& graph, const Schedule& s, const std::vector<NodeId>& roots) {
+// By node: the innermost basic block that holds the places of all who use it.
+std::vector<int> deepestBasicBlocks(const Graph& graph, const Schedule& s, const std::vector<NodeId>& roots) {
     std::vector<int> deepest(graph.size(), -1);
-    const auto use = [&](NodeId id, int region) {
-        deepest[id] = deepest[id] < 0 ? region : commonRegion(s, deepest[id], region);
+    const auto use = [&](NodeId id, int basicBlock) {
+        deepest[id] = deepest[id] < 0 ? basicBlock : commonBasicBlock(s, deepest[id], basicBlock);
     };
     for (const NodeId root : roots) use(root, 0);
-    for (std::size_t r = 0; r < s.regions.size(); ++r) {
-        for (const NodeId id : s.regions[r].nodes) {
+    for (std::size_t r = 0; r < s.basicBlocks.size(); ++r) {
+        for (const NodeId id : s.basicBlocks[r].nodes) {
             const Node& n = graph.node(id);
             if (n.op == Op::Phi) {
                 use(n.args[0], static_cast<int>(r));
-                use(n.args[1], s.ifs[n.imm].thenRegion);
-                use(n.args[2], s.ifs[n.imm].elseRegion);
+                use(n.args[1], s.ifs[n.imm].thenBlock);
+                use(n.args[2], s.ifs[n.imm].elseBlock);
             } else {
                 for (const NodeId arg : n.arguments()) use(arg, static_cast<int>(r));
             }
@@ -279,9 +279,9 @@ TEST(ScheduleRandom, EveryNodeStandsAsDeepAsItsUsesAllow) {
         const std::vector<NodeId> roots = random.someNodes();
         const Graph& graph = random.graph();
         const Schedule s = schedule(graph, roots, [](NodeId) { return false; });
-        const std::vector<int> deepest = deepestRegions(graph, s, roots);
-        for (std::size_t r = 0; r < s.regions.size(); ++r) {
-            for (const NodeId id : s.regions[r].nodes) {
+        const std::vector<int> deepest = deepestBasicBlocks(graph, s, roots);
+        for (std::size_t r = 0; r < s.basicBlocks.size(); ++r) {
+            for (const NodeId id : s.basicBlocks[r].nodes) {
                 if (graph.node(id).op == Op::Phi) continue;  // phis of an if wait for each other
                 ASSERT_EQ(deepest[id], static_cast<int>(r)) << id;
             }
@@ -315,24 +315,24 @@ TEST_F(LoopScheduleTest, WhatDoesNotChangeStandsBeforeTheLoop) {
     NodeId changing = 0;
     const NodeId out = count([&](NodeId in) { return plus(fixed, changing = times(in, in)); });
     run({out});
-    EXPECT_EQ(regionOf(out), 0);
-    EXPECT_EQ(regionOf(fixed), 0);
-    EXPECT_EQ(regionOf(condition_), loop().head);
-    EXPECT_EQ(regionOf(in_), loop().head);
-    EXPECT_EQ(regionOf(changing), loop().body);
+    EXPECT_EQ(basicBlockOf(out), 0);
+    EXPECT_EQ(basicBlockOf(fixed), 0);
+    EXPECT_EQ(basicBlockOf(condition_), loop().head);
+    EXPECT_EQ(basicBlockOf(in_), loop().head);
+    EXPECT_EQ(basicBlockOf(changing), loop().body);
 }
 
 TEST_F(LoopScheduleTest, ALoopThatOneSideNeedsStandsInIt) {
     const NodeId out = count([&](NodeId) { return y(); });
     run({phi(graph_.newIf(), condition(0), out, x())});
-    EXPECT_EQ(regionOf(out), thenOf(0));
-    EXPECT_EQ(schedule_.regions[static_cast<std::size_t>(loop().head)].parent, thenOf(0));
+    EXPECT_EQ(basicBlockOf(out), thenOf(0));
+    EXPECT_EQ(schedule_.basicBlocks[static_cast<std::size_t>(loop().head)].parent, thenOf(0));
 }
 
 TEST_F(LoopScheduleTest, AnUnusedLoopIsLeftOut) {
     const NodeId out = count([&](NodeId) { return y(); });
     run({x()});
-    EXPECT_EQ(regionOf(out), -1);
+    EXPECT_EQ(basicBlockOf(out), -1);
     EXPECT_TRUE(loop().outs.empty());
 }
 
@@ -346,8 +346,8 @@ TEST_F(LoopScheduleTest, AnIfOfWhichOnePartChangesIsTwoIfs) {
         return plus(steady, changing);
     });
     run({out});
-    EXPECT_EQ(regionOf(steady), 0);
-    EXPECT_EQ(regionOf(changing), loop().body);
+    EXPECT_EQ(basicBlockOf(steady), 0);
+    EXPECT_EQ(basicBlockOf(changing), loop().body);
     EXPECT_EQ(schedule_.ifs.size(), 2u);
 }
 

@@ -16,7 +16,7 @@ using gen::Float;
 using gen::Pass;
 using world::ChunkPos;
 
-// Two fields, each made from the one before and its neighbours, then blocks from the last field's neighbours.
+// Two fields, each made from the one before and its neighbors, then blocks from the last field's neighbors.
 gen::GeneratorGraph chainOfReads() {
     static const world::BlockRegistry blocks;
     gen::GeneratorBuilder g("chain", blocks);
@@ -37,7 +37,7 @@ TEST(PassPlan, ReadsWidenTheAreaRingByRing) {
     EXPECT_EQ(counts.at({2, 2}), 1) << "which reads the first one around";
 }
 
-TEST(PassPlan, NeighboursShareTheirRings) {
+TEST(PassPlan, NeighborsShareTheirRings) {
     EXPECT_EQ(neededPasses(chainOfReads(), {{0, 0}, {1, 0}}).size(), 30u);
 }
 
@@ -50,7 +50,7 @@ TEST(PassPlan, WithoutReadsNothingButTheChunkIsNeeded) {
     EXPECT_EQ(counts.at({5, 5}), 1);
 }
 
-TEST(PassPlan, NeighboursAreOfTheSameLevel) {
+TEST(PassPlan, NeighborsAreOfTheSameLevel) {
     const PassCounts counts = neededPasses(chainOfReads(), {{0, 0, 3}, {0, 0, 1}});
     EXPECT_EQ(counts.size(), 50u);
     EXPECT_EQ(counts.at({2, 2, 3}), 1);

@@ -58,10 +58,10 @@ constexpr int kCubeX = 6, kCubeY = 7, kCubeZ = 100;  // lowest block
 inline mesh::ChunkMesh cubeMesh() {
     constexpr std::array<unsigned, 3> kSize = {3, 2, 1};
     mesh::ChunkMesh mesh;
-    mesh.regions.resize(256 / mesh::kDefaultRegionHeight);
-    mesh::RegionMesh& region = mesh.regions[kCubeZ / mesh::kDefaultRegionHeight];
-    region.minZ = kCubeZ;
-    region.maxZ = kCubeZ + 1;
+    mesh.meshSections.resize(256 / mesh::kDefaultMeshSectionHeight);
+    mesh::MeshSection& meshSection = mesh.meshSections[kCubeZ / mesh::kDefaultMeshSectionHeight];
+    meshSection.minZ = kCubeZ;
+    meshSection.maxZ = kCubeZ + 1;
     for (unsigned side = 0; side < 6; ++side) {
         const bool isPositive = side % 2 == 1;
         shared::QuadFields quad{.x = kCubeX, .y = kCubeY, .z = kCubeZ, .shapeFace = side};
@@ -70,7 +70,7 @@ inline mesh::ChunkMesh cubeMesh() {
         quad.extentU = side / 2 == 0 ? kSize[1] : kSize[0];
         quad.extentV = side / 2 == 2 ? kSize[1] : kSize[2];
         quad.material = cubeBlocks().find(kSideNames[side])->material[side];
-        region.groups[0][side] = {static_cast<std::uint32_t>(mesh.quads.size()), 1};
+        meshSection.ranges[0][side] = {static_cast<std::uint32_t>(mesh.quads.size()), 1};
         mesh.quads.push_back(packQuad(quad));
     }
     return mesh;

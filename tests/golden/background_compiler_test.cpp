@@ -43,11 +43,11 @@ class BackgroundCompilerTest : public GoldenTest {
     }
 
     static void waitFor(render::BackgroundCompiler& compiler, const RenderOptions& options) {
-        while (!compiler.isReady(kPictureSize, options)) std::this_thread::sleep_for(5ms);
+        while (!compiler.isReady(kImageSize, options)) std::this_thread::sleep_for(5ms);
     }
 
     static void configure(render::Renderer& renderer, const RenderOptions& options) {
-        const auto configured = renderer.configure(kPictureSize, options);
+        const auto configured = renderer.configure(kImageSize, options);
         ASSERT_TRUE(configured) << (configured ? "" : configured.error().message);
     }
 
@@ -93,13 +93,13 @@ TEST_F(BackgroundCompilerTest, FramesThatFollowCompileNextToNothing) {
 TEST_F(BackgroundCompilerTest, TheLastWishIsMet) {
     RenderOptions options = *render::findPreset("low", true);
     for (const int layers : {0, 1, 2, 3}) {
-        options.layers = layers;
-        EXPECT_FALSE(compiler_.isReady(kPictureSize, options));
+        options.transparencyLayers = layers;
+        EXPECT_FALSE(compiler_.isReady(kImageSize, options));
     }
     waitFor(compiler_, options);
     EXPECT_TRUE(compiler_.isReady({1280, 720}, options)) << "programs do not depend on the size";
-    options.layers = 2;
-    EXPECT_FALSE(compiler_.isReady(kPictureSize, options)) << "nobody waited for it";
+    options.transparencyLayers = 2;
+    EXPECT_FALSE(compiler_.isReady(kImageSize, options)) << "nobody waited for it";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How far two pictures differ, and what a golden picture forgives.
+// How far two images differ, and what a golden image forgives.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ inline double tileMean(const base::Image& image, int tileX, int tileY, int chann
     return static_cast<double>(sum) / count;
 }
 
-// Both pictures have one size.
+// Both images have one size.
 inline Difference difference(const base::Image& a, const base::Image& b) {
     Difference worst;
     for (int channel = 0; channel < 3; ++channel) {

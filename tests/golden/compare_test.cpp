@@ -1,4 +1,4 @@
-// The comparison itself, on pictures made by hand.
+// The comparison itself, on images made by hand.
 #include "tests/golden/compare.h"
 
 #include "tests/base/temp_folder.h"
@@ -31,7 +31,7 @@ base::Image brightened(base::Image image, int x0, int y0, int size, int by) {
     return image;
 }
 
-TEST(Compare, EqualPicturesDoNotDiffer) {
+TEST(Compare, EqualImagesDoNotDiffer) {
     const base::Image image = patterned(40, 30);
     const Difference d = difference(image, image);
     EXPECT_EQ(d.max, 0);
@@ -69,11 +69,11 @@ TEST(Compare, OtherSizesDiffer) {
     EXPECT_FALSE(isSame(patterned(40, 30), patterned(30, 40)));
 }
 
-TEST(Compare, FlatPicturesAreFound) {
+TEST(Compare, FlatImagesAreFound) {
     base::Image flat{16, 16, std::vector<std::uint8_t>(16 * 16 * 4, 77)};
     EXPECT_TRUE(isFlat(flat));
     flat.rgba[400] = 80;
-    EXPECT_TRUE(isFlat(flat)) << "noise is no picture";
+    EXPECT_TRUE(isFlat(flat)) << "noise is no image";
     EXPECT_FALSE(isFlat(patterned(16, 16)));
     EXPECT_FALSE(isFlat(brightened(flat, 3, 3, 5, 60)));
 }
@@ -94,15 +94,15 @@ TEST_F(MatchesGolden, AMissingGoldenFails) {
     const auto result = match(patterned(40, 30));
     EXPECT_FALSE(result);
     EXPECT_NE(std::string(result.message()).find("TERRANE_UPDATE_GOLDEN=1"), std::string::npos);
-    EXPECT_TRUE(exists("picture.actual.png"));
+    EXPECT_TRUE(exists("image.actual.png"));
 }
 
 TEST_F(MatchesGolden, AnUpdateWritesWhatIsComparedAfterwards) {
     EXPECT_TRUE(match(patterned(40, 30), true));
     EXPECT_TRUE(match(patterned(40, 30)));
     EXPECT_FALSE(match(brightened(patterned(40, 30), 8, 8, 8, 60)));
-    EXPECT_TRUE(exists("picture.actual.png"));
-    EXPECT_TRUE(exists("picture.difference.png"));
+    EXPECT_TRUE(exists("image.actual.png"));
+    EXPECT_TRUE(exists("image.difference.png"));
 }
 
 TEST_F(MatchesGolden, AnotherSizeFails) {

@@ -1,4 +1,4 @@
-// Where the golden pictures of the effects are taken: a glade of the overworld and its neighbourhood, seen
+// Where the golden images of the effects are taken: a glade of the overworld and its neighborhood, seen
 // with all that a preset has, but for one thing.
 #pragma once
 
@@ -26,7 +26,7 @@ inline void loadOverworld(render::Renderer& renderer, const render::Camera& came
         pipeline.waitForWorkers(std::chrono::milliseconds(100));
     }
     for (const stream::ChunkChange& change : pipeline.takeChanges(std::numeric_limits<std::size_t>::max())) {
-        if (change.mesh) renderer.setChunk(change.pos, *change.mesh, change.regions);
+        if (change.mesh) renderer.setChunk(change.pos, *change.mesh, change.meshSections);
         if (change.light) renderer.setLight(change.pos, *change.light);
     }
 }

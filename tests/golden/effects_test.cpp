@@ -1,4 +1,4 @@
-// Each effect on and off: both as their golden pictures show, and so different that one cannot pass for the
+// Each effect on and off: both as their golden images show, and so different that one cannot pass for the
 // other.
 #include <map>
 
@@ -26,17 +26,17 @@ class Effects : public GoldenTest {
 
     // Everything but what `change` says.
     template <class Change>
-    base::Image picture(const render::FrameInput& input, Change change) {
+    base::Image imageOf(const render::FrameInput& input, Change change) {
         RenderOptions options = render::plainOptions(samples_);
         change(options);
-        const auto configured = renderer_->configure(kPictureSize, options);
+        const auto configured = renderer_->configure(kImageSize, options);
         EXPECT_TRUE(configured) << (configured ? "" : configured.error().message);
         return draw(*renderer_, input);
     }
 
     template <class Change>
     void expectEffect(const std::string& name, const render::FrameInput& input, Change change) {
-        const base::Image off = picture(input, [](RenderOptions&) {}), on = picture(input, change);
+        const base::Image off = imageOf(input, [](RenderOptions&) {}), on = imageOf(input, change);
         EXPECT_TRUE(matchesGolden(name, on));
         EXPECT_FALSE(isSame(on, off)) << name << " changes nothing";
     }
@@ -48,18 +48,18 @@ class Effects : public GoldenTest {
 TEST_F(Effects, InTheGlade) {
     loadOverworld(*renderer_, kGlade, kGladeDistance);
     const render::FrameInput afternoon = gladeFrame(kGlade, 0.62f), night = gladeFrame(kGlade, 0.97f);
-    EXPECT_TRUE(matchesGolden("glade", picture(afternoon, [](RenderOptions&) {})));
+    EXPECT_TRUE(matchesGolden("glade", imageOf(afternoon, [](RenderOptions&) {})));
     expectEffect("glade_shadows", afternoon, [](RenderOptions& o) { o.shadowSize = 1024; });
     expectEffect("glade_moon_shadows", night, [](RenderOptions& o) { o.shadowSize = 2048; });
     expectEffect("glade_ssao", afternoon, [](RenderOptions& o) { o.occlusion = Occlusion::On; });
     expectEffect("glade_ssao_raw", afternoon, [](RenderOptions& o) { o.occlusion = Occlusion::Raw; });
-    expectEffect("glade_no_atmosphere", afternoon, [](RenderOptions& o) { o.atmosphere = false; });
+    expectEffect("glade_no_atmosphere", afternoon, [](RenderOptions& o) { o.distanceFog = false; });
     expectEffect("glade_unlit", afternoon, [](RenderOptions& o) { o.shading = Shading::Off; });
     expectEffect("glade_animation", afternoon, [](RenderOptions& o) { o.animation = true; });
     // What is a hundred blocks away blurs a little: less than the tolerance between drivers, but never
     // nothing.
-    const base::Image plain = picture(afternoon, [](RenderOptions&) {});
-    const base::Image blurred = picture(afternoon, [](RenderOptions& o) { o.depthOfField = true; });
+    const base::Image plain = imageOf(afternoon, [](RenderOptions&) {});
+    const base::Image blurred = imageOf(afternoon, [](RenderOptions& o) { o.depthOfField = true; });
     EXPECT_TRUE(matchesGolden("glade_far_blur", blurred));
     EXPECT_GT(difference(plain, blurred).mean, 0.05) << "the blur changes nothing";
 }
@@ -78,12 +78,12 @@ TEST_F(Effects, OfTheSky) {
 TEST_F(Effects, OfSamples) {
     loadOverworld(*renderer_, kGlade, kGladeDistance);
     const render::FrameInput input = gladeFrame({{-1020, -60, 91}, 200, -14, 25}, 0.62f);
-    expectEffect("samples_one", input, [](RenderOptions& o) { o.samples = 1; });
-    expectEffect("samples_plain_texturing", input, [](RenderOptions& o) { o.betterTexturing = false; });
+    expectEffect("samples_one", input, [](RenderOptions& o) { o.msaaSamples = 1; });
+    expectEffect("samples_plain_texturing", input, [](RenderOptions& o) { o.sharpFiltering = false; });
     // A few pixels along edges: less than the tolerance between drivers, but never nothing.
-    const base::Image plain = picture(input, [](RenderOptions&) {});
-    const base::Image tested = picture(input, [](RenderOptions& o) { o.sampledAlphaTest = true; });
-    const base::Image once = picture(input, [](RenderOptions& o) { o.shading = Shading::Pixel; });
+    const base::Image plain = imageOf(input, [](RenderOptions&) {});
+    const base::Image tested = imageOf(input, [](RenderOptions& o) { o.msaaAlphaTest = true; });
+    const base::Image once = imageOf(input, [](RenderOptions& o) { o.shading = Shading::Pixel; });
     EXPECT_TRUE(matchesGolden("samples_alpha_test", tested));
     EXPECT_TRUE(matchesGolden("samples_shaded_once", once));
     EXPECT_GT(difference(plain, tested).max, 8) << "the alpha test of samples changes nothing";
@@ -94,7 +94,8 @@ TEST_F(Effects, OfSamples) {
 TEST_F(Effects, OfLayers) {
     world::World world = flatWorld(3);
     for (int row = 0; row < 4; ++row) {
-        for (int x = 0; x < 4 + row; ++x) world::putBlock(world, {x, 3 * row, kGalleryZ}, contentBlock("cyan_glass"));
+        for (int x = 0; x < 4 + row; ++x)
+            world::putBlock(world, {x, 3 * row, kGalleryZ}, contentBlock("cyan_glass"));
     }
     for (int x = 0; x < 4; ++x) world::putBlock(world, {x, 4, kGalleryZ}, contentBlock("water"));
     for (const auto& [pos, mesh] : meshWorld(world)) renderer_->setChunk(pos, mesh);
@@ -102,11 +103,11 @@ TEST_F(Effects, OfLayers) {
         {{2.0, -4.5, 83}, 88, -14, 50}, world::environmentAt(0.4f), 400, 0, render::View::Color};
     std::map<int, base::Image> byLayers, single;
     for (int layers = 0; layers <= 3; ++layers) {
-        byLayers[layers] = picture(input, [&](RenderOptions& o) { o.layers = layers; });
+        byLayers[layers] = imageOf(input, [&](RenderOptions& o) { o.transparencyLayers = layers; });
         EXPECT_TRUE(matchesGolden("layers_" + std::to_string(layers), byLayers[layers]));
         if (layers == 0) continue;
         EXPECT_FALSE(isSame(byLayers[layers], byLayers[layers - 1])) << layers;
-        single[layers] = picture(input, [&](RenderOptions& o) { o.singleLayer = layers; });
+        single[layers] = imageOf(input, [&](RenderOptions& o) { o.singleTransparencyLayer = layers; });
         EXPECT_TRUE(matchesGolden("layer_alone_" + std::to_string(layers), single[layers]));
         if (layers > 1) {
             EXPECT_FALSE(isSame(single[layers], single[layers - 1])) << layers;
@@ -114,16 +115,16 @@ TEST_F(Effects, OfLayers) {
     }
 }
 
-// With one sample the quads are drawn twice instead of the screen: another way to the same picture.
+// With one sample the quads are drawn twice instead of the screen: another way to the same image.
 TEST_F(Effects, WaterIsTheSameBothWays) {
     world::World world = flatWorld(3);
     placePool(world);
     for (const auto& [pos, mesh] : meshWorld(world)) renderer_->setChunk(pos, mesh);
     const render::FrameInput input{
         {{-1.5, -4, 82.8}, 50, -9, 55}, world::environmentAt(0.34f), 400, 0, render::View::Color};
-    const base::Image one = picture(input, [](RenderOptions& o) { o.samples = 1; });
+    const base::Image one = imageOf(input, [](RenderOptions& o) { o.msaaSamples = 1; });
     EXPECT_TRUE(matchesGolden("pool_one_sample", one));
-    const Difference d = difference(one, picture(input, [](RenderOptions&) {}));
+    const Difference d = difference(one, imageOf(input, [](RenderOptions&) {}));
     EXPECT_LT(d.mean, 1.5) << "edges alone";
 }
 
@@ -134,10 +135,10 @@ TEST_F(Effects, GlassInWaterDoesNotFlicker) {
     for (const auto& [pos, mesh] : meshWorld(world)) renderer_->setChunk(pos, mesh);
     render::FrameInput input{
         {{-1.5, -4, 82.8}, 50, -9, 55}, world::environmentAt(0.34f), 400, 0, render::View::Color};
-    const auto oneSample = [](RenderOptions& o) { o.samples = 1; };
-    const base::Image before = picture(input, oneSample);
+    const auto oneSample = [](RenderOptions& o) { o.msaaSamples = 1; };
+    const base::Image before = imageOf(input, oneSample);
     input.camera.position.x += 1e-4;
-    EXPECT_LT(difference(before, picture(input, oneSample)).mean, 0.01);
+    EXPECT_LT(difference(before, imageOf(input, oneSample)).mean, 0.01);
 }
 
 }  // namespace

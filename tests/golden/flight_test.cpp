@@ -1,4 +1,4 @@
-// Pictures that must not depend on what they do not show: hidden regions, the place in the world.
+// Images that must not depend on what they do not show: hidden mesh sections, the place in the world.
 #include "apps/terrane/scenes.h"
 #include "tests/golden/effect_scenes.h"
 
@@ -20,18 +20,18 @@ render::Camera cameraOfFrame(int frame) {
 class Flight : public GoldenTest {
   protected:
     static void configure(render::Renderer& renderer, const RenderOptions& options) {
-        const auto configured = renderer.configure(kPictureSize, options);
+        const auto configured = renderer.configure(kImageSize, options);
         ASSERT_TRUE(configured) << (configured ? "" : configured.error().message);
     }
 
-    // Regions that come into view after being hidden are in the very next picture. `mostPixels`: that may
+    // Mesh sections that come into view after being hidden are in the very next image. `maxPixels`: that may
     // differ.
-    void expectNothingMissed(RenderOptions visible, int frames, int mostPixels) {
+    void expectNothingMissed(RenderOptions visible, int frames, int maxPixels) {
         constexpr int kViewDistance = 10;
         render::Renderer renderer = makeRenderer();
         loadOverworld(renderer, cameraOfFrame(0), kViewDistance);
         RenderOptions all = visible;
-        all.hiddenRegionCulling = false;
+        all.occlusionCulling = false;
         std::size_t quadsOfAll = 0, quadsOfVisible = 0;
         for (int frame = 0; frame < frames; ++frame) {
             const render::FrameInput input{cameraOfFrame(frame), world::environmentAt(0.4f),
@@ -45,13 +45,13 @@ class Flight : public GoldenTest {
             int different = 0;
             for (std::size_t at = 0; at < seen.rgba.size(); at += 4)
                 different += !std::equal(&seen.rgba[at], &seen.rgba[at] + 4, &whole.rgba[at]);
-            ASSERT_LE(different, mostPixels) << "frame " << frame;
+            ASSERT_LE(different, maxPixels) << "frame " << frame;
         }
         EXPECT_LT(quadsOfVisible, quadsOfAll * 9 / 10) << "something is hidden";
     }
 };
 
-TEST_F(Flight, HiddenRegionsAreNeverMissed) {
+TEST_F(Flight, HiddenMeshSectionsAreNeverMissed) {
     RenderOptions options = render::plainOptions(1);
     options.tJunctions = render::TJunctions::Open;
     expectNothingMissed(options, 60, 0);
@@ -59,7 +59,7 @@ TEST_F(Flight, HiddenRegionsAreNeverMissed) {
 
 // Covering quads overlap: where their depths are equal the one drawn first stays, and culling changes the
 // order.
-TEST_F(Flight, HiddenRegionsAreNeverMissedBetweenCoveringQuads) {
+TEST_F(Flight, HiddenMeshSectionsAreNeverMissedBetweenCoveringQuads) {
     RenderOptions options = render::plainOptions(1);
     options.tJunctions = render::TJunctions::Covered;
     expectNothingMissed(options, 30, 2);
@@ -73,8 +73,8 @@ TEST_F(Flight, TheWorldIsTheSameFarAway) {
     placePool(world);
     const Meshes meshes = meshWorld(world);
     RenderOptions options;
-    options.samples = 1;
-    const auto pictureAt = [&](int chunkX, int chunkY) {
+    options.msaaSamples = 1;
+    const auto imageAt = [&](int chunkX, int chunkY) {
         render::Renderer renderer = makeRenderer();
         configure(renderer, options);
         for (const auto& [pos, mesh] : meshes) renderer.setChunk({pos.x + chunkX, pos.y + chunkY}, mesh);
@@ -83,9 +83,9 @@ TEST_F(Flight, TheWorldIsTheSameFarAway) {
         camera.position += glm::dvec3(16.0 * chunkX, 16.0 * chunkY, 0);
         return draw(renderer, {camera, world::environmentAt(0.34f), 400, 7.5f, render::View::Color});
     };
-    const base::Image near = pictureAt(0, 0);
+    const base::Image near = imageAt(0, 0);
     for (const int far : {1 << 26, -(1 << 26)}) {
-        const base::Image there = pictureAt(far, -far);
+        const base::Image there = imageAt(far, -far);
         for (std::size_t k = 0; k < near.rgba.size(); ++k) ASSERT_NEAR(near.rgba[k], there.rgba[k], 2) << far;
     }
 }

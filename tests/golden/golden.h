@@ -1,4 +1,4 @@
-// Compares a picture with the one in tests/golden, or rewrites that one when TERRANE_UPDATE_GOLDEN is 1.
+// Compares an image with the one in tests/golden, or rewrites that one when TERRANE_UPDATE_GOLDEN is 1.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ inline bool wantsUpdate() {
     return value && std::string_view(value) == "1";
 }
 
-// Where the pictures of a failure lie, for its message.
+// Where the images of a failure lie, for its message.
 inline std::string writeFailure(const Folders& folders, const std::string& name, const base::Image& actual,
                                 const base::Image* expected) {
     std::filesystem::create_directories(folders.failures);
@@ -54,7 +54,7 @@ inline testing::AssertionResult matchesGolden(const std::string& name, const bas
     };
     if (actual.rgba.empty())
         return testing::AssertionFailure() << "golden " << name << ": nothing was rendered";
-    if (isFlat(actual)) return failure(nullptr) << "the picture is flat: nothing was drawn";
+    if (isFlat(actual)) return failure(nullptr) << "the image is flat: nothing was drawn";
     if (update) return rewriteGolden(folders, name, actual);
     const auto expected = base::readPng(folders.golden / (name + ".png"));
     if (!expected) {
@@ -62,7 +62,7 @@ inline testing::AssertionResult matchesGolden(const std::string& name, const bas
                                 << "\nTERRANE_UPDATE_GOLDEN=1 makes it, see README.md";
     }
     if (actual.width != expected->width || actual.height != expected->height) {
-        return failure(nullptr) << "the picture is " << actual.width << " × " << actual.height
+        return failure(nullptr) << "the image is " << actual.width << " × " << actual.height
                                 << ", the golden is " << expected->width << " × " << expected->height;
     }
     const Difference d = difference(actual, *expected);

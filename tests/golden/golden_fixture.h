@@ -1,4 +1,4 @@
-// Renders the golden pictures: the same scenes for the comparison and for the proof that it notices mistakes.
+// Renders the golden images: the same scenes for the comparison and for the proof that it notices mistakes.
 #pragma once
 
 #include "terrane/render/renderer.h"
@@ -9,7 +9,7 @@
 
 namespace terrane::golden {
 
-constexpr glm::ivec2 kPictureSize{320, 180};
+constexpr glm::ivec2 kImageSize{320, 180};
 constexpr int kSamples = 4;
 
 // From above the gallery shows the sides -x, -y and +z, from below the others.
@@ -25,7 +25,7 @@ class GoldenTest : public gpu::GlTest {
         auto made = render::Renderer::create(render::contentShaders(), blocks, textures, device);
         if (!made) throw std::runtime_error(made.error().message);
         const auto configured =
-            made->configure(kPictureSize, render::plainOptions(std::min(kSamples, device.maxSamples)));
+            made->configure(kImageSize, render::plainOptions(std::min(kSamples, device.maxSamples)));
         if (!configured) throw std::runtime_error(configured.error().message);
         return *std::move(made);
     }

@@ -1,4 +1,4 @@
-// Proof that the golden pictures notice mistakes: each is made on purpose, and the comparison must fail.
+// Proof that the golden images notice mistakes: each is made on purpose, and the comparison must fail.
 #include "tests/golden/axes_cube.h"
 #include "tests/golden/golden_fixture.h"
 
@@ -69,15 +69,15 @@ TEST_F(GoldenProof, SwappedSidesAreNoticed) {
     }
 }
 
-void dropGroup(mesh::ChunkMesh& mesh, int context, int group) {
+void dropDirection(mesh::ChunkMesh& mesh, int bucket, int direction) {
     mesh::ChunkMesh rest;
-    for (const mesh::RegionMesh& region : mesh.regions) {
-        mesh::RegionMesh& kept = rest.regions.emplace_back(region);
-        for (int c = 0; c < mesh::kContextCount; ++c) {
-            for (int g = 0; g < mesh::kGroupCount; ++g) {
-                const mesh::QuadRange from = region.groups[c][g];
-                const std::uint32_t count = c == context && g == group ? 0 : from.count;
-                kept.groups[c][g] = {static_cast<std::uint32_t>(rest.quads.size()), count};
+    for (const mesh::MeshSection& meshSection : mesh.meshSections) {
+        mesh::MeshSection& kept = rest.meshSections.emplace_back(meshSection);
+        for (int c = 0; c < mesh::kDrawBucketCount; ++c) {
+            for (int g = 0; g < mesh::kFaceDirectionCount; ++g) {
+                const mesh::QuadRange from = meshSection.ranges[c][g];
+                const std::uint32_t count = c == bucket && g == direction ? 0 : from.count;
+                kept.ranges[c][g] = {static_cast<std::uint32_t>(rest.quads.size()), count};
                 const auto first = mesh.quads.begin() + from.first;
                 rest.quads.insert(rest.quads.end(), first, first + count);
             }
@@ -86,29 +86,29 @@ void dropGroup(mesh::ChunkMesh& mesh, int context, int group) {
     mesh = std::move(rest);
 }
 
-bool hasGroup(const Meshes& meshes, int context, int group) {
+bool hasDirection(const Meshes& meshes, int bucket, int direction) {
     return std::ranges::any_of(meshes, [&](const auto& entry) {
-        return std::ranges::any_of(entry.second.regions, [&](const mesh::RegionMesh& region) {
-            return region.groups[context][group].count > 0;
+        return std::ranges::any_of(entry.second.meshSections, [&](const mesh::MeshSection& meshSection) {
+            return meshSection.ranges[bucket][direction].count > 0;
         });
     });
 }
 
 // Groups that look away may be dropped: the draw list drops them too.
-TEST_F(GoldenProof, AMissingGroupIsNoticedWhereItIsSeen) {
+TEST_F(GoldenProof, AMissingDirectionIsNoticedWhereItIsSeen) {
     const Meshes right = galleryOnGround();
     render::Renderer renderer = makeRenderer();
     const base::Image expected = drawGallery(renderer, right, kAbove);
     int noticed = 0;
-    for (int context = 0; context < mesh::kContextCount; ++context) {
-        for (int group = 0; group < mesh::kGroupCount; ++group) {
-            if (!hasGroup(right, context, group)) continue;
+    for (int bucket = 0; bucket < mesh::kDrawBucketCount; ++bucket) {
+        for (int direction = 0; direction < mesh::kFaceDirectionCount; ++direction) {
+            if (!hasDirection(right, bucket, direction)) continue;
             Meshes wrong = right;
-            for (auto& [pos, mesh] : wrong) dropGroup(mesh, context, group);
-            const bool looksAway =
-                group == world::kFacePosX || group == world::kFacePosY || group == world::kFaceNegZ;
+            for (auto& [pos, mesh] : wrong) dropDirection(mesh, bucket, direction);
+            const bool looksAway = direction == world::kFacePosX || direction == world::kFacePosY ||
+                                   direction == world::kFaceNegZ;
             EXPECT_EQ(isSame(expected, drawGallery(renderer, wrong, kAbove)), looksAway)
-                << "context " << context << ", group " << group;
+                << "bucket " << bucket << ", direction " << direction;
             noticed += !looksAway;
         }
     }
@@ -116,19 +116,20 @@ TEST_F(GoldenProof, AMissingGroupIsNoticedWhereItIsSeen) {
 }
 
 struct QuadPlace {
-    std::size_t region;
-    int context, group;
+    std::size_t meshSection;
+    int bucket, direction;
     std::uint32_t number;
 };
 
 std::vector<QuadPlace> quadsSeenFromBelow(const mesh::ChunkMesh& mesh) {
     std::vector<QuadPlace> places;
-    for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
-        for (int context = 0; context < mesh::kContextCount; ++context) {
-            for (const int group : {int{world::kFacePosX}, int{world::kFacePosY}, int{world::kFaceNegZ}}) {
-                const mesh::QuadRange range = mesh.regions[r].groups[context][group];
+    for (std::size_t r = 0; r < mesh.meshSections.size(); ++r) {
+        for (int bucket = 0; bucket < mesh::kDrawBucketCount; ++bucket) {
+            for (const int direction :
+                 {int{world::kFacePosX}, int{world::kFacePosY}, int{world::kFaceNegZ}}) {
+                const mesh::QuadRange range = mesh.meshSections[r].ranges[bucket][direction];
                 for (std::uint32_t k = 0; k < range.count; ++k)
-                    places.push_back({r, context, group, range.first + k});
+                    places.push_back({r, bucket, direction, range.first + k});
             }
         }
     }
@@ -136,7 +137,7 @@ std::vector<QuadPlace> quadsSeenFromBelow(const mesh::ChunkMesh& mesh) {
 }
 
 void dropQuad(mesh::ChunkMesh& mesh, const QuadPlace& place) {
-    mesh::QuadRange& range = mesh.regions[place.region].groups[place.context][place.group];
+    mesh::QuadRange& range = mesh.meshSections[place.meshSection].ranges[place.bucket][place.direction];
     mesh.quads[place.number] = mesh.quads[range.first + range.count - 1];
     --range.count;
 }
@@ -151,7 +152,7 @@ TEST_F(GoldenProof, AnyMissingFaceIsNoticed) {
         Meshes wrong = right;
         dropQuad(wrong.at({0, 0}), place);
         EXPECT_FALSE(isSame(expected, drawGallery(renderer, wrong, kBelow)))
-            << "quad " << place.number << " of group " << place.group;
+            << "quad " << place.number << " of direction " << place.direction;
     }
 }
 
@@ -179,7 +180,7 @@ base::Image transposed(const base::Image& image) {
     return result;
 }
 
-TEST_F(GoldenProof, AMirroredPictureIsNoticed) {
+TEST_F(GoldenProof, AMirroredImageIsNoticed) {
     for (const render::Camera& camera : {kCubeNegative, kCubePositive}) {
         const base::Image right = drawCube(cubeTexture, camera);
         EXPECT_FALSE(isSame(right, turned(right, true, false)));

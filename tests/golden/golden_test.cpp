@@ -1,4 +1,4 @@
-// The golden pictures; README.md says what each shows and how to make them anew.
+// The golden images; README.md says what each shows and how to update them.
 #include "apps/terrane/scenes.h"
 #include "tests/golden/axes_cube.h"
 #include "tests/golden/effect_scenes.h"
@@ -48,16 +48,16 @@ TEST_F(Golden, Landscape) {
     EXPECT_TRUE(matchesGolden("landscape_depth", draw(renderer, input)));
     input.view = render::View::Light;
     EXPECT_TRUE(matchesGolden("landscape_light", draw(renderer, input)));
-    input.view = render::View::Aggregation;
+    input.view = render::View::Merging;
     EXPECT_TRUE(matchesGolden("landscape_aggregation", draw(renderer, input)));
 }
 
-// However faces are merged, and however high regions are, the picture is that of single faces. Normals are
-// compared in the desert: where leaves meet they leap from sample to sample.
-TEST_F(Golden, MethodsDrawTheSamePicture) {
+// However faces are merged, and however high mesh sections are, the image is that of single faces. Normals
+// are compared in the desert: where leaves meet they leap from sample to sample.
+TEST_F(Golden, MergeMethodsDrawTheSameImage) {
     constexpr int kViewDistance = 4;
-    using mesh::Method;
-    const auto pictureOf = [&](std::string_view scene, const mesh::MeshOptions& options, render::View view) {
+    using mesh::MergeMethod;
+    const auto imageOf = [&](std::string_view scene, const mesh::MeshOptions& options, render::View view) {
         const render::Camera camera = app::findScene(scene)->camera;
         render::Renderer renderer = makeRenderer();
         loadOverworld(renderer, camera, kViewDistance, options);
@@ -65,20 +65,20 @@ TEST_F(Golden, MethodsDrawTheSamePicture) {
     };
     for (const auto& [scene, view] :
          {std::pair("landscape", render::View::Color), {"desert", render::View::Normal}}) {
-        const base::Image expected = pictureOf(scene, {Method::None}, view);
-        for (const mesh::MeshOptions options : {mesh::MeshOptions{Method::Lines, 8},
-                                                {Method::Squares, 16},
-                                                {Method::SquaresExt, 32},
-                                                {Method::Greedy, 64},
-                                                {Method::Greedy, 128}}) {
-            const Difference d = difference(expected, pictureOf(scene, options, view));
+        const base::Image expected = imageOf(scene, {MergeMethod::None}, view);
+        for (const mesh::MeshOptions options : {mesh::MeshOptions{MergeMethod::Lines, 8},
+                                                {MergeMethod::Squares, 16},
+                                                {MergeMethod::SquaresExt, 32},
+                                                {MergeMethod::Greedy, 64},
+                                                {MergeMethod::Greedy, 128}}) {
+            const Difference d = difference(expected, imageOf(scene, options, view));
             EXPECT_LE(d.max, kTolerance.max) << scene << ", method " << static_cast<int>(options.method);
             EXPECT_LE(d.mean, kTolerance.mean) << scene << ", method " << static_cast<int>(options.method);
         }
     }
     // Of the view that shows the merging this is not so.
-    EXPECT_FALSE(isSame(pictureOf("desert", {Method::None}, render::View::Aggregation),
-                        pictureOf("desert", {Method::Greedy}, render::View::Aggregation)));
+    EXPECT_FALSE(isSame(imageOf("desert", {MergeMethod::None}, render::View::Merging),
+                        imageOf("desert", {MergeMethod::Greedy}, render::View::Merging)));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The worlds of the golden pictures.
+// The worlds of the golden images.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace terrane::golden {
 
 using Meshes = std::map<world::ChunkPos, mesh::ChunkMesh>;
 
-// Meshes of the chunks whose eight neighbours are in the world, as the stream makes them.
+// Meshes of the chunks whose eight neighbors are in the world, as the stream makes them.
 inline Meshes meshWorld(const world::World& world) {
     Meshes meshes;
     mesh::MeshScratch scratch;
@@ -26,8 +26,8 @@ inline Meshes meshWorld(const world::World& world) {
             world.maybeChunkAt({pos.x, pos.y - 1}), world.maybeChunkAt({pos.x, pos.y + 1})};
         if (std::ranges::any_of(beside, [](const world::ChunkPtr& c) { return !c; })) return;
         mesh::MeshInput input;
-        input.centre = chunk.get();
-        for (std::size_t k = 0; k < beside.size(); ++k) input.neighbours[k] = beside[k].get();
+        input.center = chunk.get();
+        for (std::size_t k = 0; k < beside.size(); ++k) input.neighbors[k] = beside[k].get();
         input.blocks = &contentBlocks();
         meshes[pos] = mesh::meshChunk(input, scratch);
     });

@@ -32,7 +32,7 @@ TEST_F(ContextTest, offersWhatIsNeeded) {
 }
 
 // OpenGL has a limit for each use: textures of that many samples can be made for both.
-TEST_F(ContextTest, SamplesAreThoseOfColoursAndDepth) {
+TEST_F(ContextTest, SamplesAreThoseOfColorsAndDepth) {
     const int samples = queryDevice().maxSamples;
     EXPECT_GE(samples, 1);
     for (const GLenum limit : {GL_MAX_SAMPLES, GL_MAX_COLOR_TEXTURE_SAMPLES, GL_MAX_DEPTH_TEXTURE_SAMPLES}) {

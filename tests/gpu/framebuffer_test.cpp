@@ -49,7 +49,7 @@ TEST_F(FramebufferTest, readsTheTopRowFirst) {
     EXPECT_EQ(pixel(image, 4, 2), kRed);
 }
 
-TEST_F(FramebufferTest, everyColourIsCleared) {
+TEST_F(FramebufferTest, everyColorIsCleared) {
     const Texture2D first({4, 4}, GL_RGBA8, 1, "first");
     const Texture2D second({4, 4}, GL_RGBA8, 1, "second");
     const Texture2D depth({4, 4}, GL_DEPTH32F_STENCIL8, 1, "depth");

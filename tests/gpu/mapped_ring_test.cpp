@@ -21,16 +21,17 @@ TEST_F(MappedRingTest, theGpuReadsWhatEachFrameWrote) {
     std::set<std::size_t> offsets;
     for (std::uint32_t frame = 0; frame < 10; ++frame) {
         ring.beginFrame();
-        const std::optional<MappedRing::Slice> slice = ring.write(std::span<const std::uint32_t>(&frame, 1));
-        ASSERT_TRUE(slice);
-        offsets.insert(slice->offsetBytes);
-        glCopyNamedBufferSubData(ring.id(), copy.id(), static_cast<GLintptr>(slice->offsetBytes), 0, 4);
+        const std::optional<MappedRing::Allocation> allocation =
+            ring.write(std::span<const std::uint32_t>(&frame, 1));
+        ASSERT_TRUE(allocation);
+        offsets.insert(allocation->offsetBytes);
+        glCopyNamedBufferSubData(ring.id(), copy.id(), static_cast<GLintptr>(allocation->offsetBytes), 0, 4);
         ring.endFrame();
         std::uint32_t read = 0;
         copy.download(0, std::as_writable_bytes(std::span(&read, 1)));
         EXPECT_EQ(read, frame);
     }
-    EXPECT_EQ(offsets.size(), MappedRing::kRegions);
+    EXPECT_EQ(offsets.size(), MappedRing::kFrameSlices);
 }
 
 TEST_F(MappedRingTest, slicesAreAlignedAndEnd) {
@@ -44,11 +45,11 @@ TEST_F(MappedRingTest, slicesAreAlignedAndEnd) {
     glGetIntegerv(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT, &alignment);
     EXPECT_EQ(second->offsetBytes % static_cast<std::size_t>(alignment), 0U);
     EXPECT_GE(second->offsetBytes, first->offsetBytes + 3);
-    EXPECT_FALSE(ring.allocate(ring.regionBytes()));
+    EXPECT_FALSE(ring.allocate(ring.frameSliceBytes()));
     ring.bindUniform(0, *second);
     ring.endFrame();
     ring.beginFrame();
-    EXPECT_TRUE(ring.allocate(ring.regionBytes()));
+    EXPECT_TRUE(ring.allocate(ring.frameSliceBytes()));
     EXPECT_FALSE(ring.allocate(1));
     ring.endFrame();
 }

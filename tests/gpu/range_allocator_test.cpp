@@ -24,7 +24,7 @@ TEST(RangeAllocatorTest, takesTheSmallestRangeThatFits) {
     EXPECT_EQ(ranges.allocate(11), 30U);
 }
 
-TEST(RangeAllocatorTest, mergesFreedNeighbours) {
+TEST(RangeAllocatorTest, mergesFreedNeighbors) {
     RangeAllocator ranges(30);
     for (std::uint32_t i = 0; i < 3; ++i) ASSERT_EQ(ranges.allocate(10), i * 10);
     ranges.free(0, 10);

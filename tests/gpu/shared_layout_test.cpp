@@ -13,10 +13,10 @@
 #include "terrane/shared/frame.h"
 #include "terrane/shared/generation.h"
 #include "terrane/shared/light_solver.h"
+#include "terrane/shared/mesh_section.h"
 #include "terrane/shared/mesher.h"
 #include "terrane/shared/packed_section.h"
 #include "terrane/shared/quad.h"
-#include "terrane/shared/region.h"
 #include "terrane/shared/shape_face.h"
 #include "tests/gpu/gl_fixture.h"
 
@@ -61,11 +61,11 @@ std::vector<StructLayout> frameLayouts() {
               {"firstLightTile", offsetof(Frame, firstLightTile)},
               {"lightGridTiles", offsetof(Frame, lightGridTiles)},
               {"switches", offsetof(Frame, switches)},
-              {"singleLayer", offsetof(Frame, singleLayer)},
+              {"singleTransparencyLayer", offsetof(Frame, singleTransparencyLayer)},
               {"view", offsetof(Frame, view)},
               {"fogDistance", offsetof(Frame, fogDistance)},
               {"nearPlane", offsetof(Frame, nearPlane)},
-              {"crackGrowth", offsetof(Frame, crackGrowth)},
+              {"edgeExpansion", offsetof(Frame, edgeExpansion)},
               {"timeSeconds", offsetof(Frame, timeSeconds)},
               {"exposure", offsetof(Frame, exposure)},
               {"ambientFromBelow", offsetof(Frame, ambientFromBelow)},
@@ -89,18 +89,18 @@ std::vector<StructLayout> frameLayouts() {
               {"unused", offsetof(MaterialRecord, unused)}}}};
 }
 
-std::vector<StructLayout> regionLayouts() {
-    using shared::RegionRecord, shared::DrawCommand, shared::DrawCounts, shared::CullFrame;
-    return {{"RegionRecord",
-             "region.h",
+std::vector<StructLayout> meshSectionLayouts() {
+    using shared::MeshSectionRecord, shared::DrawCommand, shared::DrawCounts, shared::CullFrame;
+    return {{"MeshSectionRecord",
+             "mesh_section.h",
              false,
-             sizeof(RegionRecord),
-             {{"chunk", offsetof(RegionRecord, chunk)},
-              {"level", offsetof(RegionRecord, level)},
-              {"heights", offsetof(RegionRecord, heights)},
-              {"ranges", offsetof(RegionRecord, ranges)}}},
+             sizeof(MeshSectionRecord),
+             {{"chunk", offsetof(MeshSectionRecord, chunk)},
+              {"level", offsetof(MeshSectionRecord, level)},
+              {"heights", offsetof(MeshSectionRecord, heights)},
+              {"ranges", offsetof(MeshSectionRecord, ranges)}}},
             {"DrawCommand",
-             "region.h",
+             "mesh_section.h",
              false,
              sizeof(DrawCommand),
              {{"indexCount", offsetof(DrawCommand, indexCount)},
@@ -109,14 +109,14 @@ std::vector<StructLayout> regionLayouts() {
               {"baseVertex", offsetof(DrawCommand, baseVertex)},
               {"baseInstance", offsetof(DrawCommand, baseInstance)}}},
             {"DrawCounts",
-             "region.h",
+             "mesh_section.h",
              false,
              sizeof(DrawCounts),
              {{"commands", offsetof(DrawCounts, commands)},
               {"quads", offsetof(DrawCounts, quads)},
-              {"regions", offsetof(DrawCounts, regions)}}},
+              {"meshSections", offsetof(DrawCounts, meshSections)}}},
             {"CullFrame",
-             "region.h",
+             "mesh_section.h",
              true,
              sizeof(CullFrame),
              {{"cameraPlanes", offsetof(CullFrame, cameraPlanes)},
@@ -128,22 +128,22 @@ std::vector<StructLayout> regionLayouts() {
               {"cameraChunk", offsetof(CullFrame, cameraChunk)},
               {"viewportSize", offsetof(CullFrame, viewportSize)},
               {"nearPlane", offsetof(CullFrame, nearPlane)},
-              {"pyramidLevels", offsetof(CullFrame, pyramidLevels)},
-              {"regionCount", offsetof(CullFrame, regionCount)},
-              {"run", offsetof(CullFrame, run)}}}};
+              {"hiZLevels", offsetof(CullFrame, hiZLevels)},
+              {"meshSectionCount", offsetof(CullFrame, meshSectionCount)},
+              {"phase", offsetof(CullFrame, phase)}}}};
 }
 
 std::vector<StructLayout> mesherLayouts() {
-    using shared::MeshUnit, shared::MeshType, shared::MeshRegionCounts;
+    using shared::MeshUnit, shared::MeshType, shared::MeshSectionCounts;
     return {{"MeshUnit",
              "mesher.h",
              false,
              sizeof(MeshUnit),
              {{"section", offsetof(MeshUnit, section)},
-              {"smallData", offsetof(MeshUnit, smallData)},
-              {"region", offsetof(MeshUnit, region)},
+              {"blockState", offsetof(MeshUnit, blockState)},
+              {"meshSection", offsetof(MeshUnit, meshSection)},
               {"layers", offsetof(MeshUnit, layers)},
-              {"neighbours", offsetof(MeshUnit, neighbours)},
+              {"neighbors", offsetof(MeshUnit, neighbors)},
               {"baseZ", offsetof(MeshUnit, baseZ)},
               {"unused", offsetof(MeshUnit, unused)}}},
             {"MeshType",
@@ -153,13 +153,13 @@ std::vector<StructLayout> mesherLayouts() {
              {{"flags", offsetof(MeshType, flags)},
               {"growth", offsetof(MeshType, growth)},
               {"faces", offsetof(MeshType, faces)}}},
-            {"MeshRegionCounts",
+            {"MeshSectionCounts",
              "mesher.h",
              false,
-             sizeof(MeshRegionCounts),
-             {{"quads", offsetof(MeshRegionCounts, quads)},
-              {"minZ", offsetof(MeshRegionCounts, minZ)},
-              {"maxZ", offsetof(MeshRegionCounts, maxZ)}}}};
+             sizeof(MeshSectionCounts),
+             {{"quads", offsetof(MeshSectionCounts, quads)},
+              {"minZ", offsetof(MeshSectionCounts, minZ)},
+              {"maxZ", offsetof(MeshSectionCounts, maxZ)}}}};
 }
 
 std::vector<StructLayout> otherLayouts() {
@@ -181,7 +181,7 @@ std::vector<StructLayout> otherLayouts() {
              "generation.h",
              false,
              sizeof(TileJob),
-             {{"origin", offsetof(TileJob, origin)}, {"neighbours", offsetof(TileJob, neighbours)}}},
+             {{"origin", offsetof(TileJob, origin)}, {"neighbors", offsetof(TileJob, neighbors)}}},
             {"PackedSection",
              "packed_section.h",
              false,
@@ -202,7 +202,7 @@ std::vector<StructLayout> otherLayouts() {
 
 std::vector<StructLayout> allLayouts() {
     std::vector<StructLayout> all;
-    for (const auto& layouts : {frameLayouts(), regionLayouts(), mesherLayouts(), otherLayouts()}) {
+    for (const auto& layouts : {frameLayouts(), meshSectionLayouts(), mesherLayouts(), otherLayouts()}) {
         all.insert(all.end(), layouts.begin(), layouts.end());
     }
     return all;

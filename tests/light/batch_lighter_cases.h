@@ -18,7 +18,7 @@ namespace terrane::light {
 inline ChunkLight directLight(const LightRequest& request) {
     LightScratch scratch;
     std::array<LocalLight, kFieldChunks> locals;
-    LocalNeighbourhood around{};
+    LocalLightNeighborhood around{};
     for (std::size_t n = 0; n < locals.size(); ++n) {
         if (!request.chunks[n]) continue;
         locals[n] = solveLocal(*request.chunks[n], contentTable(), scratch);
@@ -88,8 +88,8 @@ inline void expectScatteredRequestsLit(BatchLighter& lighter) {
     expectLit(lighter, {area.request(3, 3)});
 }
 
-// Chunks of which one, several and all neighbours are missing, at the world's corners and inside it.
-inline void expectMissingNeighboursLit(BatchLighter& lighter) {
+// Chunks of which one, several and all neighbors are missing, at the world's corners and inside it.
+inline void expectMissingNeighborsLit(BatchLighter& lighter) {
     for (const world::ChunkPos corner :
          {world::ChunkPos{world::kMinChunk, world::kMinChunk}, {world::kMaxChunk - 2, world::kMaxChunk - 1}})
         expectLit(lighter, RequestArea(3, 2, caves(40), corner).all());
@@ -97,11 +97,11 @@ inline void expectMissingNeighboursLit(BatchLighter& lighter) {
     std::vector<LightRequest> requests;
     for (std::size_t n = 0; n < kFieldChunks; ++n) {
         LightRequest request = area.request(1, 1);
-        if (n != kCentreChunk) request.chunks[n] = nullptr;
+        if (n != kCenterChunk) request.chunks[n] = nullptr;
         requests.push_back(request);
     }
     requests.push_back({{1, 1}, {}});
-    requests.back().chunks[kCentreChunk] = area.chunk(1, 1);
+    requests.back().chunks[kCenterChunk] = area.chunk(1, 1);
     expectLit(lighter, requests);
 }
 
@@ -116,11 +116,11 @@ inline void expectSnapshotsKeptApart(BatchLighter& lighter) {
     }
     after.chunk(1, 0) = edited;
     LightRequest without = after.request(2, 0);
-    without.chunks[kCentreChunk - 1] = nullptr;
+    without.chunks[kCenterChunk - 1] = nullptr;
     const LightRequest old = before.request(0, 0), fresh = after.request(2, 0);
     expectLit(lighter,
               {old, fresh, old, old, fresh, without, fresh, after.request(1, 0), after.request(1, 0)});
-    EXPECT_FALSE(directLight(fresh) == directLight(without)) << "the neighbour's light matters here";
+    EXPECT_FALSE(directLight(fresh) == directLight(without)) << "the neighbor's light matters here";
 }
 
 // As a frame does that never waits.
@@ -175,7 +175,7 @@ inline void expectOtherLevelsRefused(BatchLighter& lighter) {
 inline void expectLighterCases(BatchLighter& lighter) {
     expectRandomChunksLit(lighter);
     expectScatteredRequestsLit(lighter);
-    expectMissingNeighboursLit(lighter);
+    expectMissingNeighborsLit(lighter);
     expectSnapshotsKeptApart(lighter);
     expectLightInOrder(lighter);
     expectManyRequestsLit(lighter);

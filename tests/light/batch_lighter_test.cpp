@@ -19,8 +19,8 @@ TEST(BatchLighter, RequestsOfAnAreaSeeItsChunks) {
     std::vector<LightRequest> requests;
     for (int k = 0; k < 6; ++k) requests.push_back(requestIn(view, k % 3, k / 3));
     EXPECT_EQ(requests[5].pos, (world::ChunkPos{2, 1}));
-    EXPECT_EQ(requests[5].chunks[kCentreChunk].get(), &area.chunks[5]);
-    EXPECT_EQ(requests[5].chunks[kCentreChunk + 1], nullptr);
+    EXPECT_EQ(requests[5].chunks[kCenterChunk].get(), &area.chunks[5]);
+    EXPECT_EQ(requests[5].chunks[kCenterChunk + 1], nullptr);
     EXPECT_EQ(lightAll(*makeCpuLighter(contentTable()), requests), area.lights());
 }
 

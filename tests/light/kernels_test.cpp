@@ -8,7 +8,7 @@
 namespace terrane::light {
 namespace {
 
-TEST(LightKernels, ShineDownTakesOpacityFromEachColumn) {
+TEST(LightKernels, SunlightLosesTheOpacityOfEachColumn) {
     BrickPool pool;
     Brick &opacity = *pool.acquire(), &light = *pool.acquire();
     opacity.values.fill(0);
@@ -16,7 +16,8 @@ TEST(LightKernels, ShineDownTakesOpacityFromEachColumn) {
     DaylightColumns columns;
     columns.fill(kFullDaylight);
     columns[8] = 3 << 12;
-    shineDown(opacity.values.data(), sharedUniformBrick(0x1111)->values.data(), columns, light.values.data());
+    propagateSunlight(opacity.values.data(), sharedUniformBrick(0x1111)->values.data(), columns,
+                      light.values.data());
     EXPECT_EQ(light.values[7 + 256 * 10], 0xF111);
     EXPECT_EQ(light.values[7 + 256 * 9], 0xB111);
     EXPECT_EQ(light.values[7], 0xB111);
@@ -26,14 +27,14 @@ TEST(LightKernels, ShineDownTakesOpacityFromEachColumn) {
     EXPECT_EQ(columns[255], kFullDaylight);
 }
 
-TEST(LightKernels, ReplaceSuspectsChoosesByLevel) {
+TEST(LightKernels, ReplaceDecreasedChoosesByLevel) {
     BrickPool pool;
-    Brick &suspects = *pool.acquire(), &light = *pool.acquire();
-    suspects.values.fill(0);
-    suspects.values[100] = 0x0F0A;  // red and blue
+    Brick &decreased = *pool.acquire(), &light = *pool.acquire();
+    decreased.values.fill(0);
+    decreased.values[100] = 0x0F0A;  // red and blue
     const LightValue* source = sharedUniformBrick(0x2222)->values.data();
     const LightValue* before = sharedUniformBrick(0x7777)->values.data();
-    replaceSuspects(suspects.values.data(), source, before, light.values.data());
+    replaceDecreased(decreased.values.data(), source, before, light.values.data());
     EXPECT_EQ(light.values[99], 0x7777);
     EXPECT_EQ(light.values[100], 0x7272);
 }

@@ -105,30 +105,30 @@ struct LampLight {
     std::vector<LightValue> light;
 };
 
-using Colour = std::array<int, 3>;
+using Color = std::array<int, 3>;
 
 TEST(LightArea, LampFallsOffByOneABlock) {
     const LampLight white("lamp_white", "");
-    EXPECT_EQ(white.at(0, 0, 0), (Colour{15, 13, 13}));
-    EXPECT_EQ(white.at(1, 0, 0), (Colour{14, 12, 12}));
-    EXPECT_EQ(white.at(-3, 0, 0), (Colour{12, 10, 10}));
-    EXPECT_EQ(white.at(2, -3, 4), (Colour{6, 4, 4}));
-    EXPECT_EQ(white.at(0, 0, 13), (Colour{2, 0, 0}));
-    EXPECT_EQ(white.at(0, -14, 0), (Colour{1, 0, 0}));
-    EXPECT_EQ(white.at(7, 0, -8), (Colour{0, 0, 0}));
-    EXPECT_EQ(LampLight("lamp_green", "").at(0, 5, 0), (Colour{0, 10, 0}));
-    EXPECT_EQ(LampLight("lamp_blue", "").at(0, 0, -5), (Colour{0, 0, 10}));
-    EXPECT_EQ(LampLight("glowing_mushroom", "").at(1, 1, 0), (Colour{3, 8, 6}));
+    EXPECT_EQ(white.at(0, 0, 0), (Color{15, 13, 13}));
+    EXPECT_EQ(white.at(1, 0, 0), (Color{14, 12, 12}));
+    EXPECT_EQ(white.at(-3, 0, 0), (Color{12, 10, 10}));
+    EXPECT_EQ(white.at(2, -3, 4), (Color{6, 4, 4}));
+    EXPECT_EQ(white.at(0, 0, 13), (Color{2, 0, 0}));
+    EXPECT_EQ(white.at(0, -14, 0), (Color{1, 0, 0}));
+    EXPECT_EQ(white.at(7, 0, -8), (Color{0, 0, 0}));
+    EXPECT_EQ(LampLight("lamp_green", "").at(0, 5, 0), (Color{0, 10, 0}));
+    EXPECT_EQ(LampLight("lamp_blue", "").at(0, 0, -5), (Color{0, 0, 10}));
+    EXPECT_EQ(LampLight("glowing_mushroom", "").at(1, 1, 0), (Color{3, 8, 6}));
 }
 
 TEST(LightArea, LampFallsOffByOpacityAsWell) {
     const LampLight inWater("lamp_red", "water");
-    for (int d = 0; d < 15; ++d) EXPECT_EQ(inWater.at(d, 0, 0), (Colour{std::max(0, 15 - 2 * d), 0, 0}));
-    EXPECT_EQ(LampLight("lamp_red", "oak_leaves").at(0, 3, 0), (Colour{3, 0, 0}));
-    EXPECT_EQ(LampLight("lamp_red", "stone").at(1, 0, 0), (Colour{0, 0, 0}));
+    for (int d = 0; d < 15; ++d) EXPECT_EQ(inWater.at(d, 0, 0), (Color{std::max(0, 15 - 2 * d), 0, 0}));
+    EXPECT_EQ(LampLight("lamp_red", "oak_leaves").at(0, 3, 0), (Color{3, 0, 0}));
+    EXPECT_EQ(LampLight("lamp_red", "stone").at(1, 0, 0), (Color{0, 0, 0}));
 }
 
-TEST(LightArea, ColoursDoNotMix) {
+TEST(LightArea, ColorsDoNotMix) {
     const TestArea area(2, 1, [](int x, int y, int z) {
         if (y != 8 || z != 100) return world::kAir;
         return x == 8 ? contentBlock("lamp_red") : x == 18 ? contentBlock("lamp_blue") : world::kAir;

@@ -13,7 +13,7 @@ ChunkLight lightMiddle(const TestArea& area, LightScratch& scratch) {
     std::vector<LocalLight> locals;
     for (const world::Chunk& chunk : area.chunks)
         locals.push_back(solveLocal(chunk, contentTable(), scratch));
-    LocalNeighbourhood around;
+    LocalLightNeighborhood around;
     for (std::size_t k = 0; k < around.size(); ++k) around[k] = &locals[k];
     return lightChunk(around, scratch);
 }
@@ -70,8 +70,8 @@ TEST(LightChunk, LightComesRoundTheCorner) {
     EXPECT_EQ(levelOf(light.get(2, 7, 50), kRed), 0);
 }
 
-// From the chunk out into its neighbour and back.
-TEST(LightChunk, LightComesBackFromTheNeighbour) {
+// From the chunk out into its neighbor and back.
+TEST(LightChunk, LightComesBackFromTheNeighbor) {
     const auto stone = contentBlock("stone"), lamp = contentBlock("lamp_blue");
     const TestArea area(3, 3, [&](int x, int y, int z) {
         if (z != 50) return stone;
@@ -104,15 +104,15 @@ TEST(LightChunk, LampsInCeilingAndFloorShineIntoAnEmptyBrick) {
     EXPECT_EQ(light.get(6, 8, 50), 10 << 8);
 }
 
-TEST(LightChunk, UnknownNeighboursAreDarkAndOpaque) {
+TEST(LightChunk, UnknownNeighborsAreDarkAndOpaque) {
     const auto stone = contentBlock("stone");
     const world::Chunk roofed =
         TestArea::makeChunk(0, 0, [&](int, int, int z) { return z == 99 ? stone : world::kAir; });
     LightScratch scratch;
     const LocalLight local = solveLocal(roofed, contentTable(), scratch),
                      open = solveLocal({}, contentTable(), scratch);
-    LocalNeighbourhood around{};
-    around[kCentreChunk] = &local;
+    LocalLightNeighborhood around{};
+    around[kCenterChunk] = &local;
     EXPECT_EQ(lightChunk(around, scratch).get(0, 0, 50), kDark);
     around[3] = &open;  // −x
     EXPECT_EQ(lightChunk(around, scratch).get(0, 0, 50), 14 << 12);
@@ -132,7 +132,7 @@ TEST(LightChunk, IsTheSameFromManyThreads) {
     std::vector<ChunkLight> lights(area.chunks.size());
     const auto lit = base::parallelFor(jobs, lights.size(), [&](std::size_t k) {
         thread_local LightScratch scratch;
-        LocalNeighbourhood around{};
+        LocalLightNeighborhood around{};
         for (int n = 0; n < kFieldChunks; ++n) {
             const int x = static_cast<int>(k) % 4 + n % 3 - 1, y = static_cast<int>(k) / 4 + n / 3 - 1;
             if (x < 0 || y < 0 || x >= 4 || y >= 4) continue;
@@ -144,14 +144,14 @@ TEST(LightChunk, IsTheSameFromManyThreads) {
     EXPECT_TRUE(lights == area.lights());
 }
 
-// Stage 1 is shared between neighbours: stage 2 must leave it as it is.
+// Stage 1 is shared between neighbors: stage 2 must leave it as it is.
 TEST(LightChunk, LeavesTheFirstStageAlone) {
     const TestArea area(3, 3, caves(30));
     LightScratch scratch;
     std::vector<LocalLight> locals;
     for (const world::Chunk& chunk : area.chunks)
         locals.push_back(solveLocal(chunk, contentTable(), scratch));
-    LocalNeighbourhood around;
+    LocalLightNeighborhood around;
     for (std::size_t k = 0; k < around.size(); ++k) around[k] = &locals[k];
     const ChunkLight first = lightChunk(around, scratch);
     solveLocal(area.chunks[0], contentTable(), scratch);

@@ -28,19 +28,19 @@ void putInside(LightField& field) {
     }
 }
 
-TEST(LightField, NeighboursLieOneStepAway) {
-    const int centre = LightField::indexOf(kCentreChunk, 7);
-    EXPECT_EQ(centre - LightField::kStepX, LightField::indexOf(3, 7));
-    EXPECT_EQ(centre + LightField::kStepX, LightField::indexOf(5, 7));
-    EXPECT_EQ(centre - LightField::kStepY, LightField::indexOf(1, 7));
-    EXPECT_EQ(centre + LightField::kStepY, LightField::indexOf(7, 7));
-    EXPECT_EQ(centre + LightField::kStepZ, LightField::indexOf(kCentreChunk, 8));
+TEST(LightField, NeighborsLieOneStepAway) {
+    const int center = LightField::indexOf(kCenterChunk, 7);
+    EXPECT_EQ(center - LightField::kStepX, LightField::indexOf(3, 7));
+    EXPECT_EQ(center + LightField::kStepX, LightField::indexOf(5, 7));
+    EXPECT_EQ(center - LightField::kStepY, LightField::indexOf(1, 7));
+    EXPECT_EQ(center + LightField::kStepY, LightField::indexOf(7, 7));
+    EXPECT_EQ(center + LightField::kStepZ, LightField::indexOf(kCenterChunk, 8));
 }
 
-TEST(LightField, MarksTheRowsOfAVoxelAndItsNeighbours) {
+TEST(LightField, MarksTheRowsOfAVoxelAndItsNeighbors) {
     LightField field;
     putInside(field);
-    const int index = LightField::indexOf(kCentreChunk, 7);
+    const int index = LightField::indexOf(kCenterChunk, 7);
     field.markAround(index, 5 + 16 * 6 + 256 * 7);
     const int row = 6 + 16 * 7;
     EXPECT_EQ(takeAll(field),
@@ -50,7 +50,7 @@ TEST(LightField, MarksTheRowsOfAVoxelAndItsNeighbours) {
 TEST(LightField, MarksAcrossBricks) {
     LightField field;
     putInside(field);
-    const int index = LightField::indexOf(kCentreChunk, 7);
+    const int index = LightField::indexOf(kCenterChunk, 7);
     field.markAround(index, 0);  // the lowest corner
     EXPECT_EQ(takeAll(field), (Rows{{index, 0},
                                     {index, 1},

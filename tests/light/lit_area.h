@@ -28,7 +28,8 @@ class LitArea {
         const world::BlockPos pos{corner_.x * world::kChunkSize + x, corner_.y * world::kChunkSize + y, z};
         const world::BlockId before = area_.type(x, y, z).id;
         if (before == id) return;
-        if (std::none_of(edits_.begin(), edits_.end(), [&](const world::BlockEdit& e) { return e.pos == pos; }))
+        if (std::none_of(edits_.begin(), edits_.end(),
+                         [&](const world::BlockEdit& e) { return e.pos == pos; }))
             edits_.push_back({pos, before, id});
         area_.set(x, y, z, id);
         const std::size_t k = area_.chunkIndex(x, y);

@@ -151,16 +151,16 @@ TEST(Relight, MakesNewSnapshots) {
     LightWindow window;
     const ChunkLightPtr before = std::make_shared<ChunkLight>(area.lights()[0]);
     chunk.setBlock(world::blockIndex(8, 8, 50), contentBlock("lamp_red"));
-    window.chunks[kCentreChunk] = &chunk;
-    window.lights[kCentreChunk] = before;
+    window.chunks[kCenterChunk] = &chunk;
+    window.lights[kCenterChunk] = before;
     const BlockChange changes[] = {{world::blockIndex(8, 8, 50), world::kAir}};
     const ChangedBricks bricks = relight(window, changes, contentTable(), scratch);
-    EXPECT_EQ(bricks[kCentreChunk], 1 << 3);
+    EXPECT_EQ(bricks[kCenterChunk], 1 << 3);
     EXPECT_EQ(before->get(8, 8, 50), kDark);
-    EXPECT_EQ(window.lights[kCentreChunk]->get(8, 8, 50), 15);
-    const ChunkLightPtr lit = window.lights[kCentreChunk];
+    EXPECT_EQ(window.lights[kCenterChunk]->get(8, 8, 50), 15);
+    const ChunkLightPtr lit = window.lights[kCenterChunk];
     EXPECT_EQ(relight(window, {}, contentTable(), scratch), ChangedBricks{});
-    EXPECT_EQ(window.lights[kCentreChunk], lit);
+    EXPECT_EQ(window.lights[kCenterChunk], lit);
 }
 
 void expectFromScratch(const LitArea& lit) {

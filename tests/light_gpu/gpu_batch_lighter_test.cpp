@@ -57,7 +57,7 @@ TEST_F(GpuBatchLighterTest, OverworldEqualsCpu) {
 }
 
 // More rounds than are given at once, so that the first look does not find the light; a batch behind it
-// waits. The tunnel crosses a border between cells at every third step.
+// waits. The tunnel crosses a border between light tiles at every third step.
 TEST_F(GpuBatchLighterTest, TunnelsTakeSeveralLooks) {
     const world::BlockId stone = contentBlock("stone"), lamp = contentBlock("lamp_white");
     RequestArea tunnel(1, 2, [&](int x, int y, int z) {

@@ -68,8 +68,8 @@ TEST_F(GpuLightSolverTest, PartsFitTogether) {
     EXPECT_EQ(difference(solver_->solve(area.view()), area.lights()), "");
 }
 
-// More rounds than one go has: the tunnel crosses a border between cells at every third step.
-TEST_F(GpuLightSolverTest, TunnelsAlongBordersOfCells) {
+// More rounds than one go has: the tunnel crosses a border between light tiles at every third step.
+TEST_F(GpuLightSolverTest, TunnelsAlongBordersOfTiles) {
     const world::BlockId stone = contentBlock("stone"), lamp = contentBlock("lamp_white");
     const TestArea area(2, 2, [&](int x, int y, int z) {
         if (z != 50 || x < 7 || x > 8 || y < 2 || y > 30) return stone;
@@ -97,7 +97,7 @@ TEST_F(GpuLightSolverTest, OverworldEqualsCpu) {
     }
 }
 
-// Light after ten thousand edits on the processor, each change on top of those before, against light from
+// Light after ten thousand edits on the CPU, each change on top of those before, against light from
 // scratch on the GPU.
 TEST_F(GpuLightSolverTest, EqualsTenThousandEdits) {
 #if defined(NDEBUG)

@@ -41,7 +41,7 @@ class Chunks {
     std::map<ChunkPos, ChunkPtr> chunks_;
 };
 
-TEST(LightBatch, ASquareSharesItsNeighbours) {
+TEST(LightBatch, ASquareSharesItsNeighbors) {
     const Chunks chunks({-20, -20}, {20, 20});
     const LightBatch batch = gatherBatch(chunks.square({-3, 5}, 8));
     EXPECT_EQ(batch.requested.size(), 64u);
@@ -60,7 +60,7 @@ TEST(LightBatch, ChunksThatAreNotThereHaveNoNumber) {
     const std::vector<LightRequest> requests = {chunks.request({1, 0})};
     const LightBatch batch = gatherBatch(requests);
     ASSERT_EQ(batch.chunks.size(), 2u);
-    EXPECT_EQ(batch.chunks[0], requests[0].chunks[light::kCentreChunk]);
+    EXPECT_EQ(batch.chunks[0], requests[0].chunks[light::kCenterChunk]);
     EXPECT_EQ(batch.beside[0], shared::uvec4(1, shared::kNoChunk, shared::kNoChunk, shared::kNoChunk));
     EXPECT_EQ(batch.beside[1], shared::uvec4(shared::kNoChunk, 0, shared::kNoChunk, shared::kNoChunk));
 }

@@ -35,13 +35,13 @@ TEST(BitCube, TransposedExchangesRowsAndBits) {
     EXPECT_EQ(transposed(other), cube);
 }
 
-TEST(BitCube, NeighbourBitsLookOneBlockToTheSide) {
+TEST(BitCube, NeighborBitsLookOneBlockToTheSide) {
     const BitCube cube = randomCube(2);
     BitSlice border;
     for (unsigned i = 0; i < 16; ++i) border[i] = static_cast<std::uint16_t>(shared::hash2(i, 7, 3));
     for (int s = 0; s < world::kFaceCount; ++s) {
         const auto side = static_cast<world::Face>(s);
-        const BitCube next = neighbourBits(cube, side, border);
+        const BitCube next = neighborBits(cube, side, border);
         const int step = s % 2 == 0 ? -1 : 1;
         forAllBlocks([&](int z, int row, int bit) {
             // Rows are the axis across for x and y, layers for z.
@@ -72,8 +72,8 @@ TEST(BitCube, RangesAreParts) {
     for (const LayerRange range : {LayerRange{0, 16}, {0, 1}, {15, 16}, {3, 9}, {8, 16}}) {
         for (int s = 0; s < world::kFaceCount; ++s) {
             const auto side = static_cast<world::Face>(s);
-            const BitCube whole = neighbourBits(cube, side, border);
-            const BitCube part = neighbourBits(cube, side, border, range);
+            const BitCube whole = neighborBits(cube, side, border);
+            const BitCube part = neighborBits(cube, side, border, range);
             const BitCube turned = transposed(cube, range);
             for (std::size_t i = 4 * range.first; i < 4 * range.end; ++i) {
                 EXPECT_EQ(part[i], whole[i]);

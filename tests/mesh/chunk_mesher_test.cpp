@@ -16,7 +16,7 @@ constexpr unsigned kSeeds = 4;
 #else
 constexpr unsigned kSeeds = 6;  // × 9 mixes × 5 methods = 270 chunks
 #endif
-constexpr int kRegionHeights[] = {8, 16, 32, 64, 128};
+constexpr int kMeshSectionHeights[] = {8, 16, 32, 64, 128};
 
 // Every visible face is covered once, no other face is.
 void expectExact(const MeshInput& input, const ChunkMesh& mesh) {
@@ -34,10 +34,10 @@ bool mayMerge(const shared::Quad q, const world::Material& material) {
     return shape < shared::kShapeFaceCross || shape >= shared::kShapeFaceLiquidTop;
 }
 
-// The parts of a chunk that no quad reaches out of: cells of the method, sections, regions.
+// The parts of a chunk that no quad reaches out of: cells of the method, sections, mesh sections.
 void expectInside(const shared::Quad q, const MeshOptions& options) {
-    const auto cell = options.method == Method::Greedy ? 16u : 8u;
-    const auto cellZ = std::min(cell, static_cast<unsigned>(options.regionHeight));
+    const auto cell = options.method == MergeMethod::Greedy ? 16u : 8u;
+    const auto cellZ = std::min(cell, static_cast<unsigned>(options.meshSectionHeight));
     const bool upright = shapeFaces()[quadShapeFace(q)].axisV.z != 0;
     const unsigned topZ = quadZ(q) + (upright ? quadExtentV(q) : 1) - 1;
     EXPECT_EQ(quadZ(q) / cellZ, topZ / cellZ);
@@ -54,7 +54,7 @@ void expectWellFormed(const shared::Quad q, const MeshOptions& options) {
     ASSERT_LT(quadMaterial(q), testBlocks().materials().size());
     EXPECT_EQ(q.word1 >> 16, 0u);
     expectInside(q, options);
-    if (options.method == Method::None || !mayMerge(q, testBlocks().materials()[quadMaterial(q)])) {
+    if (options.method == MergeMethod::None || !mayMerge(q, testBlocks().materials()[quadMaterial(q)])) {
         EXPECT_EQ(quadExtentU(q), 1u);
         EXPECT_EQ(quadExtentV(q), 1u);
     }
@@ -63,20 +63,20 @@ void expectWellFormed(const shared::Quad q, const MeshOptions& options) {
     }
 }
 
-// The context and group of a range against the quads in it, by the words of chunk_mesh.h.
-void expectSorted(const shared::Quad q, int context, int group) {
+// The draw bucket and direction of a range against the quads in it, by the words of chunk_mesh.h.
+void expectSorted(const shared::Quad q, int bucket, int direction) {
     const world::Material& material = testBlocks().materials()[quadMaterial(q)];
     const auto alpha = material.alpha;
     const bool opaque = alpha == world::AlphaMode::Unused || alpha == world::AlphaMode::Glow;
     const bool blended = alpha == world::AlphaMode::Blend;
-    EXPECT_EQ(context, (opaque ? 0 : blended ? 4 : 2) + (material.twoSided ? 1 : 0));
+    EXPECT_EQ(bucket, (opaque ? 0 : blended ? 4 : 2) + (material.twoSided ? 1 : 0));
     const shared::vec4 normal = shapeFaces()[quadShapeFace(q)].normal;
-    if (group == kGroupAlways) {
+    if (direction == kAnyDirection) {
         const bool oblique = normal.x != 0 && normal.y != 0;
         EXPECT_TRUE(material.twoSided || oblique);
     } else {
         EXPECT_FALSE(material.twoSided);
-        EXPECT_EQ(normal[group / 2], group % 2 == 0 ? -1.0f : 1.0f);
+        EXPECT_EQ(normal[direction / 2], direction % 2 == 0 ? -1.0f : 1.0f);
     }
 }
 
@@ -91,35 +91,35 @@ struct Height {
     }
 };
 
-void expectRegions(const ChunkMesh& mesh, int regionHeight) {
-    ASSERT_EQ(static_cast<int>(mesh.regions.size()), world::kChunkHeight / regionHeight);
+void expectMeshSections(const ChunkMesh& mesh, int meshSectionHeight) {
+    ASSERT_EQ(static_cast<int>(mesh.meshSections.size()), world::kChunkHeight / meshSectionHeight);
     std::uint32_t next = 0;
-    for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
-        const RegionMesh& region = mesh.regions[r];
+    for (std::size_t r = 0; r < mesh.meshSections.size(); ++r) {
+        const MeshSection& meshSection = mesh.meshSections[r];
         const std::uint32_t first = next;
         Height height;
-        for (int context = 0; context < kContextCount; ++context) {
-            for (int group = 0; group < kGroupCount; ++group) {
-                const QuadRange range = region.groups[context][group];
+        for (int bucket = 0; bucket < kDrawBucketCount; ++bucket) {
+            for (int direction = 0; direction < kFaceDirectionCount; ++direction) {
+                const QuadRange range = meshSection.ranges[bucket][direction];
                 ASSERT_EQ(range.first, next);
                 next += range.count;
                 ASSERT_LE(next, mesh.quads.size());
                 for (std::uint32_t i = range.first; i < next; ++i) {
-                    expectSorted(mesh.quads[i], context, group);
-                    EXPECT_EQ(quadZ(mesh.quads[i]) / static_cast<unsigned>(regionHeight), r);
+                    expectSorted(mesh.quads[i], bucket, direction);
+                    EXPECT_EQ(quadZ(mesh.quads[i]) / static_cast<unsigned>(meshSectionHeight), r);
                     height.cover(mesh.quads[i]);
                 }
             }
         }
-        EXPECT_EQ(region.minZ, next == first ? 0 : height.min);
-        EXPECT_EQ(region.maxZ, next == first ? 0 : height.max);
+        EXPECT_EQ(meshSection.minZ, next == first ? 0 : height.min);
+        EXPECT_EQ(meshSection.maxZ, next == first ? 0 : height.max);
     }
     EXPECT_EQ(next, mesh.quads.size());
 }
 
 struct MixAndMethod : testing::TestWithParam<std::tuple<int, int>> {
     static Mix mix() { return static_cast<Mix>(std::get<0>(GetParam())); }
-    static Method method() { return static_cast<Method>(std::get<1>(GetParam())); }
+    static MergeMethod method() { return static_cast<MergeMethod>(std::get<1>(GetParam())); }
 };
 
 TEST_P(MixAndMethod, CoverEachVisibleFaceOnce) {
@@ -127,12 +127,12 @@ TEST_P(MixAndMethod, CoverEachVisibleFaceOnce) {
     for (unsigned seed = 0; seed < kSeeds; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Area area(randomBlocks(mix(), seed + 100 * static_cast<unsigned>(method())));
-        if (seed % 2 == 1) area.addSmallData(seed);
-        const MeshOptions options{method(), kRegionHeights[seed % std::size(kRegionHeights)]};
+        if (seed % 2 == 1) area.addBlockState(seed);
+        const MeshOptions options{method(), kMeshSectionHeights[seed % std::size(kMeshSectionHeights)]};
         const MeshInput input = area.input(options);
         const ChunkMesh mesh = meshChunk(input, scratch);
         expectExact(input, mesh);
-        expectRegions(mesh, options.regionHeight);
+        expectMeshSections(mesh, options.meshSectionHeight);
         for (const shared::Quad q : mesh.quads) expectWellFormed(q, options);
         EXPECT_EQ(mesh, meshOf(area, options)) << "a fresh scratch gives the same";
         if (HasFailure()) return;
@@ -141,19 +141,19 @@ TEST_P(MixAndMethod, CoverEachVisibleFaceOnce) {
 
 INSTANTIATE_TEST_SUITE_P(All, MixAndMethod,
                          testing::Combine(testing::Range(0, static_cast<int>(Mix::Count)),
-                                          testing::Range(0, static_cast<int>(Method::Count))));
+                                          testing::Range(0, static_cast<int>(MergeMethod::Count))));
 
 // Of the methods without runs of any length the later merges more.
 TEST(ChunkMesher, MethodsMergeMoreAndMore) {
     for (unsigned seed = 0; seed < 5; ++seed) {
         const Area area(randomBlocks(Mix::Terrain, seed));
-        const auto count = [&](Method method) { return meshOf(area, {.method = method}).quads.size(); };
-        const std::size_t none = count(Method::None), lines = count(Method::Lines);
-        const std::size_t squares = count(Method::Squares), ext = count(Method::SquaresExt);
+        const auto count = [&](MergeMethod method) { return meshOf(area, {.method = method}).quads.size(); };
+        const std::size_t none = count(MergeMethod::None), lines = count(MergeMethod::Lines);
+        const std::size_t squares = count(MergeMethod::Squares), ext = count(MergeMethod::SquaresExt);
         EXPECT_LT(lines, none);
         EXPECT_LT(squares, none);
         EXPECT_LT(ext, squares);
-        EXPECT_LT(count(Method::Greedy), std::min(lines, ext));
+        EXPECT_LT(count(MergeMethod::Greedy), std::min(lines, ext));
     }
 }
 
@@ -163,29 +163,29 @@ TEST(ChunkMesher, FormOfSectionsDoesNotMatter) {
     const ChunkMesh before = meshOf(area);
     for (int z = 0; z < 64; ++z) {
         const world::BlockIndex i = world::blockIndex(z % 16, 5, z);
-        const world::BlockId old = area.centre.block(i);
-        for (world::BlockId id = 0; id < 300; ++id) area.centre.setBlock(i, id);
-        area.centre.setBlock(i, old);
+        const world::BlockId old = area.center.block(i);
+        for (world::BlockId id = 0; id < 300; ++id) area.center.setBlock(i, id);
+        area.center.setBlock(i, old);
     }
-    ASSERT_TRUE(area.centre.section(1).isDense());
+    ASSERT_TRUE(area.center.section(1).isDense());
     const ChunkMesh after = meshOf(area);
     EXPECT_EQ(coveredFaces(before.quads), coveredFaces(after.quads));
     EXPECT_EQ(before.quads.size(), after.quads.size());
 }
 
-TEST(ChunkMesher, RegionHeightOnlyRegroups) {
+TEST(ChunkMesher, MeshSectionHeightOnlyRegroups) {
     const Area area(randomBlocks(Mix::Terrain, 7));
     const std::vector<CellFace> faces = coveredFaces(meshOf(area).quads);
-    for (const int height : kRegionHeights) {
-        EXPECT_EQ(coveredFaces(meshOf(area, {.regionHeight = height}).quads), faces);
+    for (const int height : kMeshSectionHeights) {
+        EXPECT_EQ(coveredFaces(meshOf(area, {.meshSectionHeight = height}).quads), faces);
     }
 }
 
-TEST(ChunkMesher, EmptyChunkHasEmptyRegions) {
-    const ChunkMesh mesh = meshOf(placed({}), {.regionHeight = 64});
+TEST(ChunkMesher, EmptyChunkHasEmptyMeshSections) {
+    const ChunkMesh mesh = meshOf(placed({}), {.meshSectionHeight = 64});
     EXPECT_TRUE(mesh.quads.empty());
-    ASSERT_EQ(mesh.regions.size(), 4u);
-    EXPECT_EQ(mesh.regions[0], RegionMesh{});
+    ASSERT_EQ(mesh.meshSections.size(), 4u);
+    EXPECT_EQ(mesh.meshSections[0], MeshSection{});
 }
 
 TEST(ChunkMesher, SolidWorldShowsOnlyItsTop) {
@@ -208,26 +208,26 @@ TEST(ChunkMesher, SectionSizedCubeIsSixQuads) {
         const bool inside = x >= 0 && x < 16 && y >= 0 && y < 16 && z >= 32 && z < 48;
         return inside ? idOf("stone") : world::kAir;
     });
-    const ChunkMesh mesh = meshOf(area, {.regionHeight = 64});
+    const ChunkMesh mesh = meshOf(area, {.meshSectionHeight = 64});
     ASSERT_EQ(mesh.quads.size(), 6u);
     for (const shared::Quad q : mesh.quads) {
         EXPECT_EQ(quadExtentU(q), 16u);
         EXPECT_EQ(quadExtentV(q), 16u);
     }
-    EXPECT_EQ(mesh.regions[0].minZ, 32);
-    EXPECT_EQ(mesh.regions[0].maxZ, 48);
+    EXPECT_EQ(mesh.meshSections[0].minZ, 32);
+    EXPECT_EQ(mesh.meshSections[0].maxZ, 48);
 }
 
-// The column's top is in the next region, so that its sides alone reach up to the end of the first.
-TEST(ChunkMesher, BoundsOfRegionsAreTight) {
+// The column's top is in the next mesh section, so that its sides alone reach up to the end of the first.
+TEST(ChunkMesher, BoundsOfMeshSectionsAreTight) {
     std::vector<Placed> blocks{{8, 4, 62, "stone"}, {4, 8, 62, "stone"}};
     for (int z = 60; z < 66; ++z) blocks.push_back({4, 4, z, "stone"});
-    const ChunkMesh mesh = meshOf(placed(blocks), {.regionHeight = 64});
-    EXPECT_EQ(mesh.regions[0].minZ, 60);
-    EXPECT_EQ(mesh.regions[0].maxZ, 64);
-    EXPECT_EQ(mesh.regions[1].minZ, 64);
-    EXPECT_EQ(mesh.regions[1].maxZ, 66);
-    EXPECT_EQ(mesh.regions[2].maxZ, 0);
+    const ChunkMesh mesh = meshOf(placed(blocks), {.meshSectionHeight = 64});
+    EXPECT_EQ(mesh.meshSections[0].minZ, 60);
+    EXPECT_EQ(mesh.meshSections[0].maxZ, 64);
+    EXPECT_EQ(mesh.meshSections[1].minZ, 64);
+    EXPECT_EQ(mesh.meshSections[1].maxZ, 66);
+    EXPECT_EQ(mesh.meshSections[2].maxZ, 0);
 }
 
 TEST(ChunkMesher, BottomOfTheWorldIsNotDrawn) {

@@ -13,8 +13,8 @@
 namespace terrane::mesh {
 namespace {
 
-constexpr Method kMethods[] = {Method::None, Method::Lines, Method::Squares, Method::SquaresExt,
-                               Method::Greedy};
+constexpr MergeMethod kMergeMethods[] = {MergeMethod::None, MergeMethod::Lines, MergeMethod::Squares,
+                                         MergeMethod::SquaresExt, MergeMethod::Greedy};
 
 struct Rectangle {
     unsigned bit, row, bits, rows;
@@ -53,7 +53,7 @@ BitSlice sliceOf(std::initializer_list<std::uint16_t> lowest) {
 }
 
 // Rows whose bit in `among` is clear are passed over. Quads have x for the bit and y for the row.
-std::vector<Rectangle> mergedIn(Method method, std::uint16_t* rows, std::size_t step,
+std::vector<Rectangle> mergedIn(MergeMethod method, std::uint16_t* rows, std::size_t step,
                                 unsigned among = 0xFFFF) {
     std::uint32_t used = 0;
     for (unsigned row = 0; row < 16; ++row) used |= unsigned{rows[row * step] != 0} << row;
@@ -70,7 +70,7 @@ std::vector<Rectangle> mergedIn(Method method, std::uint16_t* rows, std::size_t 
     return found;
 }
 
-std::vector<Rectangle> merged(Method method, BitSlice rows) {
+std::vector<Rectangle> merged(MergeMethod method, BitSlice rows) {
     return mergedIn(method, rows.data(), 1);
 }
 
@@ -100,13 +100,13 @@ void forManySlices(F f) {
 
 TEST(Merge, EveryMethodCoversEachBitOnce) {
     forManySlices([](const BitSlice& rows) {
-        for (const Method method : kMethods) EXPECT_EQ(covered(merged(method, rows)), rows);
+        for (const MergeMethod method : kMergeMethods) EXPECT_EQ(covered(merged(method, rows)), rows);
     });
 }
 
 // Rows of 16 planes side by side, and only some of them.
 TEST(Merge, PlanesLieInLargerArrays) {
-    for (const Method method : kMethods) {
+    for (const MergeMethod method : kMergeMethods) {
         const BitSlice rows = lumpySlice(3);
         std::array<std::uint16_t, 256> stack;
         stack.fill(0xFFFF);
@@ -122,7 +122,7 @@ TEST(Merge, RectanglesAreOrderedByRowThenBit) {
         return a.row != b.row ? a.row < b.row : a.bit < b.bit;
     };
     forManySlices([&](const BitSlice& rows) {
-        for (const Method method : kMethods) {
+        for (const MergeMethod method : kMergeMethods) {
             const std::vector<Rectangle> found = merged(method, rows);
             EXPECT_TRUE(std::is_sorted(found.begin(), found.end(), before));
         }
@@ -131,7 +131,7 @@ TEST(Merge, RectanglesAreOrderedByRowThenBit) {
 
 TEST(Merge, TheThesissMethodsStayInCellsOf8) {
     forManySlices([](const BitSlice& rows) {
-        for (const Method method : {Method::Lines, Method::Squares, Method::SquaresExt}) {
+        for (const MergeMethod method : {MergeMethod::Lines, MergeMethod::Squares, MergeMethod::SquaresExt}) {
             for (const Rectangle& r : merged(method, rows)) {
                 EXPECT_EQ(r.bit / 8, (r.bit + r.bits - 1) / 8);
                 EXPECT_EQ(r.row / 8, (r.row + r.rows - 1) / 8);
@@ -141,9 +141,9 @@ TEST(Merge, TheThesissMethodsStayInCellsOf8) {
 }
 
 TEST(Merge, AFullPlaneReachesTheLimit) {
-    for (const Method method : kMethods) {
+    for (const MergeMethod method : kMergeMethods) {
         const std::vector<Rectangle> found = merged(method, filledSlice());
-        const unsigned extent = method == Method::None ? 1 : method == Method::Greedy ? 16 : 8;
+        const unsigned extent = method == MergeMethod::None ? 1 : method == MergeMethod::Greedy ? 16 : 8;
         EXPECT_EQ(found.size(), 256 / (extent * extent));
         for (const Rectangle& r : found) {
             EXPECT_EQ(r.bits, extent);
@@ -155,12 +155,12 @@ TEST(Merge, AFullPlaneReachesTheLimit) {
 TEST(Merge, ACheckerboardCannotMerge) {
     BitSlice rows;
     for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = row % 2 == 0 ? 0x5555 : 0xAAAA;
-    for (const Method method : kMethods) EXPECT_EQ(merged(method, rows).size(), 128u);
+    for (const MergeMethod method : kMergeMethods) EXPECT_EQ(merged(method, rows).size(), 128u);
 }
 
 TEST(Merge, NoneHasARectangleForEachBit) {
     forManySlices([](const BitSlice& rows) {
-        for (const Rectangle& r : merged(Method::None, rows)) EXPECT_EQ(r.bits * r.rows, 1u);
+        for (const Rectangle& r : merged(MergeMethod::None, rows)) EXPECT_EQ(r.bits * r.rows, 1u);
     });
 }
 
@@ -169,26 +169,29 @@ using Rectangles = std::vector<Rectangle>;
 // What tells lines and greedy apart: a shorter run over a longer one.
 TEST(Merge, LinesJoinsEqualLengthsOnlyGreedyWhatFits) {
     const BitSlice rows = sliceOf({0b0111, 0b0111, 0b1111});
-    EXPECT_EQ(merged(Method::Lines, rows), (Rectangles{{0, 0, 3, 2}, {0, 2, 4, 1}}));
-    EXPECT_EQ(merged(Method::Greedy, rows), (Rectangles{{0, 0, 3, 3}, {3, 2, 1, 1}}));
+    EXPECT_EQ(merged(MergeMethod::Lines, rows), (Rectangles{{0, 0, 3, 2}, {0, 2, 4, 1}}));
+    EXPECT_EQ(merged(MergeMethod::Greedy, rows), (Rectangles{{0, 0, 3, 3}, {3, 2, 1, 1}}));
 }
 
 TEST(Merge, GreedyCrossesTheCells) {
-    EXPECT_EQ(merged(Method::Greedy, sliceOf({0x0FF0, 0x0FF0})), (Rectangles{{4, 0, 8, 2}}));
-    EXPECT_EQ(merged(Method::Lines, sliceOf({0x0FF0, 0x0FF0})), (Rectangles{{4, 0, 4, 2}, {8, 0, 4, 2}}));
+    EXPECT_EQ(merged(MergeMethod::Greedy, sliceOf({0x0FF0, 0x0FF0})), (Rectangles{{4, 0, 8, 2}}));
+    EXPECT_EQ(merged(MergeMethod::Lines, sliceOf({0x0FF0, 0x0FF0})),
+              (Rectangles{{4, 0, 4, 2}, {8, 0, 4, 2}}));
 }
 
 // Halves of a cell only where both are full.
 TEST(Merge, SquaresGrowOnTheGrid) {
-    EXPECT_EQ(merged(Method::Squares, sliceOf({0b1111, 0b1111})), (Rectangles{{0, 0, 4, 2}}));
-    EXPECT_EQ(merged(Method::Squares, sliceOf({0b1110, 0b1110})), (Rectangles{{1, 0, 1, 2}, {2, 0, 2, 2}}));
-    EXPECT_EQ(merged(Method::SquaresExt, sliceOf({0b1110, 0b1110})), (Rectangles{{1, 0, 3, 2}}));
-    EXPECT_EQ(merged(Method::Squares, sliceOf({0, 0b11, 0b11})), (Rectangles{{0, 1, 2, 1}, {0, 2, 2, 1}}));
+    EXPECT_EQ(merged(MergeMethod::Squares, sliceOf({0b1111, 0b1111})), (Rectangles{{0, 0, 4, 2}}));
+    EXPECT_EQ(merged(MergeMethod::Squares, sliceOf({0b1110, 0b1110})),
+              (Rectangles{{1, 0, 1, 2}, {2, 0, 2, 2}}));
+    EXPECT_EQ(merged(MergeMethod::SquaresExt, sliceOf({0b1110, 0b1110})), (Rectangles{{1, 0, 3, 2}}));
+    EXPECT_EQ(merged(MergeMethod::Squares, sliceOf({0, 0b11, 0b11})),
+              (Rectangles{{0, 1, 2, 1}, {0, 2, 2, 1}}));
 }
 
 TEST(Merge, SquaresAreAlignedPowersOfTwo) {
     forManySlices([](const BitSlice& rows) {
-        for (const Rectangle& r : merged(Method::Squares, rows)) {
+        for (const Rectangle& r : merged(MergeMethod::Squares, rows)) {
             EXPECT_EQ(r.bits & (r.bits - 1), 0u);
             EXPECT_EQ(r.rows & (r.rows - 1), 0u);
             EXPECT_EQ(r.bit % r.bits, 0u);
@@ -200,8 +203,8 @@ TEST(Merge, SquaresAreAlignedPowersOfTwo) {
 TEST(Merge, SquaresExtJoinsMoreThanSquares) {
     unsigned fewer = 0;
     forManySlices([&](const BitSlice& rows) {
-        const std::size_t squares = merged(Method::Squares, rows).size();
-        const std::size_t ext = merged(Method::SquaresExt, rows).size();
+        const std::size_t squares = merged(MergeMethod::Squares, rows).size();
+        const std::size_t ext = merged(MergeMethod::SquaresExt, rows).size();
         EXPECT_LE(ext, squares);
         fewer += ext < squares;
     });
@@ -209,9 +212,9 @@ TEST(Merge, SquaresExtJoinsMoreThanSquares) {
 }
 
 // Nothing is left that the rule of the last step would still join.
-TEST(Merge, SquaresExtLeavesNoEqualNeighbourAcrossRows) {
+TEST(Merge, SquaresExtLeavesNoEqualNeighborAcrossRows) {
     forManySlices([](const BitSlice& rows) {
-        const Rectangles found = merged(Method::SquaresExt, rows);
+        const Rectangles found = merged(MergeMethod::SquaresExt, rows);
         for (const Rectangle& a : found) {
             for (const Rectangle& b : found) {
                 const bool touches = b.row == a.row + a.rows && b.row % 8 != 0 && a.bit == b.bit;

@@ -31,24 +31,24 @@ inline world::Chunk makeChunk(int originX, int originY, const BlockSource& sourc
 // A chunk and the four beside it.
 struct Area {
     explicit Area(const BlockSource& source)
-        : centre(makeChunk(0, 0, source)),
+        : center(makeChunk(0, 0, source)),
           beside{makeChunk(-16, 0, source), makeChunk(16, 0, source), makeChunk(0, -16, source),
                  makeChunk(0, 16, source)} {}
 
     // Data for one block in eight, whatever it is.
-    void addSmallData(unsigned seed) {
+    void addBlockState(unsigned seed) {
         for (int i = 0; i < world::kBlocksPerChunk; ++i) {
             const unsigned hash = shared::hash2(static_cast<unsigned>(i), 0, seed);
             if (hash % 8 != 0 || (hash >> 8) % 16 < seed % 16) continue;
-            centre.setSmallData(static_cast<world::BlockIndex>(i), static_cast<std::uint16_t>(hash / 8 % 5));
+            center.setBlockState(static_cast<world::BlockIndex>(i), static_cast<std::uint16_t>(hash / 8 % 5));
         }
     }
 
     MeshInput input(const MeshOptions& options = {}) const {
-        return {&centre, {&beside[0], &beside[1], &beside[2], &beside[3]}, &testBlocks(), options};
+        return {&center, {&beside[0], &beside[1], &beside[2], &beside[3]}, &testBlocks(), options};
     }
 
-    world::Chunk centre;
+    world::Chunk center;
     std::array<world::Chunk, 4> beside;
 };
 

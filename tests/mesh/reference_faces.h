@@ -44,11 +44,11 @@ class ReferenceFaces {
   private:
     world::BlockId idAt(int x, int y, int z) const {
         if (!world::isInHeight(z)) return world::kAir;
-        const world::Chunk* chunk = input_.centre;
-        if (x < 0) chunk = input_.neighbours[0];
-        if (x > 15) chunk = input_.neighbours[1];
-        if (y < 0) chunk = input_.neighbours[2];
-        if (y > 15) chunk = input_.neighbours[3];
+        const world::Chunk* chunk = input_.center;
+        if (x < 0) chunk = input_.neighbors[0];
+        if (x > 15) chunk = input_.neighbors[1];
+        if (y < 0) chunk = input_.neighbors[2];
+        if (y > 15) chunk = input_.neighbors[3];
         return chunk->block(world::blockIndex(x & 15, y & 15, z));
     }
 
@@ -58,7 +58,7 @@ class ReferenceFaces {
         return input_.blocks->materials()[type.material[static_cast<std::size_t>(side)]].twoSided;
     }
 
-    // Whether the side of the cell toward its neighbour is drawn.
+    // Whether the side of the cell toward its neighbor is drawn.
     bool sideVisible(int x, int y, int z, int side) const {
         const int step = side % 2 == 0 ? -1 : 1;
         const int nx = x + (side / 2 == 0 ? step : 0), ny = y + (side / 2 == 1 ? step : 0);
@@ -76,7 +76,7 @@ class ReferenceFaces {
     void push(int x, int y, int z, unsigned shapeFace, int side) {
         const world::BlockType& type = typeOf(idAt(x, y, z));
         const std::size_t left =
-            std::min<std::size_t>(input_.centre->smallData(world::blockIndex(x, y, z)), type.growth.size());
+            std::min<std::size_t>(input_.center->blockState(world::blockIndex(x, y, z)), type.growth.size());
         faces_.push_back(
             cellFace(static_cast<unsigned>(x), static_cast<unsigned>(y), static_cast<unsigned>(z), shapeFace,
                      left > 0 ? type.growth[left - 1] : type.material[static_cast<std::size_t>(side)]));

@@ -92,7 +92,7 @@ TEST(ShapeFaces, LevelFaces) {
     EXPECT_EQ(shapeFaceSide(shared::kShapeFaceLiquidTop), world::kFacePosZ);
 }
 
-TEST(ShapeFaces, CrossPlanesAreCentredDiagonalsOfWidthOne) {
+TEST(ShapeFaces, CrossPlanesAreCenteredDiagonalsOfWidthOne) {
     for (shared::uint i : {shared::kShapeFaceCross, shared::kShapeFaceCross + 1}) {
         const ShapeFace& face = shapeFaces()[i];
         const Bounds bounds = boundsOf(face, vec4(0), vec2(1));

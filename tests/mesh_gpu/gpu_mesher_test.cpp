@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "terrane/mesh/region_quads.h"
+#include "terrane/mesh/mesh_section_quads.h"
 #include "terrane/mesh_gpu/gpu_batch_mesher.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/mesh/random_blocks.h"
@@ -15,12 +15,12 @@ namespace terrane::mesh_gpu {
 namespace {
 
 using mesh::ChunkMesh;
+using mesh::MergeMethod;
 using mesh::MeshInput;
 using mesh::MeshOptions;
-using mesh::Method;
 
-constexpr Method kMethods[] = {Method::None, Method::Lines, Method::Squares, Method::SquaresExt,
-                               Method::Greedy};
+constexpr MergeMethod kMergeMethods[] = {MergeMethod::None, MergeMethod::Lines, MergeMethod::Squares,
+                                         MergeMethod::SquaresExt, MergeMethod::Greedy};
 
 class GpuMesherTest : public gpu::GlTest {
   protected:
@@ -36,23 +36,24 @@ void expectEqual(mesh::BatchMesher& mesher, std::span<const MeshInput> chunks) {
     const std::vector<ChunkMesh> expected = mesh::makeCpuMesher()->mesh(chunks);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t k = 0; k < found.size(); ++k) {
-        ASSERT_EQ(found[k].regions.size(), expected[k].regions.size());
-        for (std::size_t r = 0; r < found[k].regions.size(); ++r) {
-            ASSERT_TRUE(found[k].regions[r] == expected[k].regions[r]) << "chunk " << k << " region " << r;
+        ASSERT_EQ(found[k].meshSections.size(), expected[k].meshSections.size());
+        for (std::size_t r = 0; r < found[k].meshSections.size(); ++r) {
+            ASSERT_TRUE(found[k].meshSections[r] == expected[k].meshSections[r])
+                << "chunk " << k << " mesh section " << r;
         }
         ASSERT_TRUE(sorted(found[k]) == sorted(expected[k])) << "chunk " << k;
     }
 }
 
-// All block kinds, with and without small data; every height of regions comes up with several mixes.
+// All block kinds, with and without block state; every height of mesh sections comes up with several mixes.
 TEST_F(GpuMesherTest, RandomVolumesEqualCpu) {
     constexpr int kHeights[] = {8, 16, 32, 64, 128};
     GpuBatchMesher mesher = mesherOf(mesh::testBlocks());
     unsigned seed = 300;
     for (int mix = 0; mix < static_cast<int>(mesh::Mix::Count); ++mix) {
-        for (const Method method : kMethods) {
+        for (const MergeMethod method : kMergeMethods) {
             mesh::Area area(mesh::randomBlocks(static_cast<mesh::Mix>(mix), ++seed));
-            if (seed % 2 == 0) area.addSmallData(seed);
+            if (seed % 2 == 0) area.addBlockState(seed);
             const int height = kHeights[seed % std::size(kHeights)];
             SCOPED_TRACE(fmt::format("mix {} method {} height {}", mix, static_cast<int>(method), height));
             const std::vector<MeshInput> inputs = {area.input({method, height})};
@@ -71,10 +72,10 @@ TEST_F(GpuMesherTest, GrowingPlantsEqualCpu) {
         });
         for (int i = 0; i < world::kBlocksPerChunk; ++i) {
             const unsigned hash = shared::hash2(static_cast<unsigned>(i), values, 9);
-            area.centre.setSmallData(static_cast<world::BlockIndex>(i),
-                                     static_cast<std::uint16_t>(hash % values));
+            area.center.setBlockState(static_cast<world::BlockIndex>(i),
+                                      static_cast<std::uint16_t>(hash % values));
         }
-        const std::vector<MeshInput> inputs = {area.input({.method = kMethods[number++]})};
+        const std::vector<MeshInput> inputs = {area.input({.method = kMergeMethods[number++]})};
         expectEqual(mesher, inputs);
     }
 }
@@ -89,7 +90,7 @@ TEST_F(GpuMesherTest, EmptyAndFullChunksEqualCpu) {
     expectEqual(mesher, inputs);
 }
 
-// More chunks than a batch holds; neighbours are in the batch, in the next one, or in none.
+// More chunks than a batch holds; neighbors are in the batch, in the next one, or in none.
 TEST_F(GpuMesherTest, OverworldEqualsCpu) {
     const Overworld world(18);
     GpuBatchMesher mesher = mesherOf(contentBlocks());
@@ -99,26 +100,26 @@ TEST_F(GpuMesherTest, OverworldEqualsCpu) {
 TEST_F(GpuMesherTest, EveryMethodOnTheOverworldEqualsCpu) {
     const Overworld world(5);
     GpuBatchMesher mesher = mesherOf(contentBlocks());
-    for (const Method method : kMethods) {
+    for (const MergeMethod method : kMergeMethods) {
         SCOPED_TRACE(fmt::format("method {}", static_cast<int>(method)));
         expectEqual(mesher, world.inputs({.method = method}));
     }
 }
 
-// What lies in the buffer around the regions' places stays as it was.
+// What lies in the buffer around the mesh sections' places stays as it was.
 TEST_F(GpuMesherTest, WritesOnlyWhereItIsTold) {
     auto mesher = GpuMesher::create(render::contentShaders(), mesh::testBlocks());
     ASSERT_TRUE(mesher) << mesher.error().message;
     const mesh::Area area(mesh::randomBlocks(mesh::Mix::Terrain, 4));
-    const std::vector<MeshInput> inputs = {area.input({Method::Greedy, 16})};
+    const std::vector<MeshInput> inputs = {area.input({MergeMethod::Greedy, 16})};
     mesher->count(inputs);
-    const std::vector<mesh::RegionMesh> regions = mesher->regions();
+    const std::vector<mesh::MeshSection> meshSections = mesher->meshSections();
     constexpr std::uint32_t kGap = 7;
     std::vector<std::uint32_t> firstQuads;
     std::uint32_t end = kGap;
-    for (const mesh::RegionMesh& region : regions) {
+    for (const mesh::MeshSection& meshSection : meshSections) {
         firstQuads.push_back(end);
-        end += mesh::quadCount(region) + kGap;
+        end += mesh::quadCount(meshSection) + kGap;
     }
     constexpr shared::Quad kUntouched{0xDEADBEEF, 0xFFFFFFFF};
     std::vector<shared::Quad> quads(end, kUntouched);
@@ -128,8 +129,8 @@ TEST_F(GpuMesherTest, WritesOnlyWhereItIsTold) {
     std::size_t written = 0;
     for (std::uint32_t at = 0; at < end; ++at) {
         bool isInside = false;
-        for (std::size_t r = 0; r < regions.size(); ++r) {
-            isInside |= at >= firstQuads[r] && at < firstQuads[r] + mesh::quadCount(regions[r]);
+        for (std::size_t r = 0; r < meshSections.size(); ++r) {
+            isInside |= at >= firstQuads[r] && at < firstQuads[r] + mesh::quadCount(meshSections[r]);
         }
         ASSERT_EQ(quads[at] == kUntouched, !isInside) << at;
         written += isInside;
@@ -147,14 +148,14 @@ TEST_F(GpuMesherTest, FillsTheStoreThatIsDrawnFrom) {
     render::QuadStore store(400'000);
     const std::vector<MeshInput> inputs = {first.input(), second.input()};
     mesher->count(inputs);
-    const std::vector<mesh::RegionMesh> regions = mesher->regions();
-    const std::size_t perChunk = regions.size() / 2;
+    const std::vector<mesh::MeshSection> meshSections = mesher->meshSections();
+    const std::size_t perChunk = meshSections.size() / 2;
     std::vector<std::uint32_t> firstQuads;
     for (std::size_t k = 0; k < 2; ++k) {
         const world::ChunkPos pos{static_cast<int>(k), 0};
-        ASSERT_TRUE(store.reserve(pos, std::span(regions).subspan(k * perChunk, perChunk)));
-        for (const mesh::RegionMesh& region : store.regionsOf(pos))
-            firstQuads.push_back(mesh::firstQuad(region));
+        ASSERT_TRUE(store.reserve(pos, std::span(meshSections).subspan(k * perChunk, perChunk)));
+        for (const mesh::MeshSection& meshSection : store.meshSectionsOf(pos))
+            firstQuads.push_back(mesh::firstQuad(meshSection));
     }
     mesher->write(firstQuads, store.buffer());
     EXPECT_EQ(store.uploadedBytes(), 0u);

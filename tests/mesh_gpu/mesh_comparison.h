@@ -3,16 +3,16 @@
 
 #include <algorithm>
 
-#include "terrane/mesh/region_quads.h"
+#include "terrane/mesh/mesh_section_quads.h"
 #include "terrane/render/quad_store.h"
 
 namespace terrane::mesh_gpu {
 
 // The same quads in each range, sorted.
 inline mesh::ChunkMesh sorted(mesh::ChunkMesh mesh) {
-    for (const mesh::RegionMesh& region : mesh.regions) {
-        for (const auto& context : region.groups) {
-            for (const mesh::QuadRange range : context) {
+    for (const mesh::MeshSection& meshSection : mesh.meshSections) {
+        for (const auto& bucket : meshSection.ranges) {
+            for (const mesh::QuadRange range : bucket) {
                 std::sort(mesh.quads.begin() + range.first, mesh.quads.begin() + range.first + range.count,
                           [](shared::Quad a, shared::Quad b) {
                               return std::pair(a.word0, a.word1) < std::pair(b.word0, b.word1);
@@ -23,14 +23,14 @@ inline mesh::ChunkMesh sorted(mesh::ChunkMesh mesh) {
     return mesh;
 }
 
-// Read back, its regions one behind the other.
+// Read back, its mesh sections one behind the other.
 inline mesh::ChunkMesh meshIn(const render::QuadStore& store, world::ChunkPos pos) {
     mesh::ChunkMesh stored;
-    for (const mesh::RegionMesh& region : store.regionsOf(pos)) {
+    for (const mesh::MeshSection& meshSection : store.meshSectionsOf(pos)) {
         const std::size_t at = stored.quads.size();
-        stored.quads.resize(at + mesh::quadCount(region));
-        stored.regions.push_back(mesh::movedTo(static_cast<std::uint32_t>(at), region));
-        store.buffer().download(std::size_t{mesh::firstQuad(region)} * shared::kQuadBytes,
+        stored.quads.resize(at + mesh::quadCount(meshSection));
+        stored.meshSections.push_back(mesh::movedTo(static_cast<std::uint32_t>(at), meshSection));
+        store.buffer().download(std::size_t{mesh::firstQuad(meshSection)} * shared::kQuadBytes,
                                 std::as_writable_bytes(std::span(stored.quads).subspan(at)));
     }
     return stored;

@@ -72,9 +72,9 @@ class MeshQueueTest : public gpu::GlTest {
         std::vector<FirstQuads> places;
         for (const CountedChunk& chunk : queue_->takeCounted()) {
             FirstQuads& firstQuads = places.emplace_back();
-            if (!store_->reserve(chunk.pos, chunk.regions)) continue;
-            for (const mesh::RegionMesh& region : store_->regionsOf(chunk.pos)) {
-                firstQuads.push_back(mesh::firstQuad(region));
+            if (!store_->reserve(chunk.pos, chunk.meshSections)) continue;
+            for (const mesh::MeshSection& meshSection : store_->meshSectionsOf(chunk.pos)) {
+                firstQuads.push_back(mesh::firstQuad(meshSection));
             }
         }
         queue_->write(places, store_->buffer());
@@ -102,7 +102,7 @@ class MeshQueueTest : public gpu::GlTest {
     std::optional<render::QuadStore> store_;
 };
 
-TEST_F(MeshQueueTest, WritesWhatTheProcessorWouldUpload) {
+TEST_F(MeshQueueTest, WritesWhatTheCpuWouldUpload) {
     for (const auto& [pos, chunk] : chunks_) queue_->add(pos);
     finish();
     for (const auto& [pos, chunk] : chunks_) expectStored(pos);
@@ -202,7 +202,7 @@ TEST_F(MeshQueueTest, ManyChangesAddUp) {
     }
     finish();
     EXPECT_GT(store_->chunks().size(), 3u);
-    for (const auto& [pos, regions] : store_->chunks()) expectStored(pos);
+    for (const auto& [pos, meshSections] : store_->chunks()) expectStored(pos);
 }
 
 }  // namespace

@@ -97,11 +97,11 @@ TEST(ScriptFile, OptionsHoldUntilTheyChangeAndForOneShot) {
     };
     const Shot& shot = script->shots[0];
     EXPECT_EQ(optionsAt(shot, 0).viewDistance, 5);
-    EXPECT_EQ(optionsAt(shot, 0).mesh.method, mesh::Method::Greedy);
-    EXPECT_EQ(optionsAt(shot, 1).mesh.method, mesh::Method::Lines);
+    EXPECT_EQ(optionsAt(shot, 0).mesh.method, mesh::MergeMethod::Greedy);
+    EXPECT_EQ(optionsAt(shot, 1).mesh.method, mesh::MergeMethod::Lines);
     EXPECT_EQ(optionsAt(shot, 1.99).view, render::View::Color);
     EXPECT_EQ(optionsAt(shot, 2).view, render::View::Depth);
-    EXPECT_EQ(optionsAt(shot, 9).mesh.method, mesh::Method::Lines);
+    EXPECT_EQ(optionsAt(shot, 9).mesh.method, mesh::MergeMethod::Lines);
     EXPECT_EQ(occlusionAt(0, 0), render::Occlusion::Raw);
     EXPECT_EQ(occlusionAt(0, 3), render::Occlusion::On);
     EXPECT_EQ(occlusionAt(1, 3), render::Occlusion::Raw);
@@ -114,10 +114,10 @@ TEST(ScriptFile, FormerNamesOfOptionsAreRead) {
               shotOf("[[shot.set]]\ntime = 1\naggregation = \"lines\"\nregion-height = 32\n"));
     ASSERT_TRUE(script) << script.error().message;
     const Shot& shot = script->shots[0];
-    EXPECT_EQ(optionsAt(shot, 0).view, render::View::Aggregation);
+    EXPECT_EQ(optionsAt(shot, 0).view, render::View::Merging);
     EXPECT_FALSE(renderOptions(optionsAt(shot, 0).choices, true).atmosphere);
-    EXPECT_EQ(optionsAt(shot, 1).mesh.method, mesh::Method::Lines);
-    EXPECT_EQ(optionsAt(shot, 1).mesh.regionHeight, 32);
+    EXPECT_EQ(optionsAt(shot, 1).mesh.method, mesh::MergeMethod::Lines);
+    EXPECT_EQ(optionsAt(shot, 1).mesh.meshSectionHeight, 32);
 }
 
 TEST(ScriptFile, TheCommandLineWins) {

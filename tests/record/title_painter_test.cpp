@@ -59,7 +59,7 @@ TEST(TitlePainter, LinesGoBelowEachOther) {
     EXPECT_EQ(two.white, 2 * one.white);
 }
 
-TEST(TitlePainter, LongTitlesStayInThePicture) {
+TEST(TitlePainter, LongTitlesStayInTheImage) {
     const Changed c = changedBy(std::string(300, 'W'), true);
     EXPECT_EQ(c.left, 0);
     EXPECT_EQ(c.right, kWidth - 1);

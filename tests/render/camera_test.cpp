@@ -50,11 +50,11 @@ TEST(Camera, PositionCountsFromTheCornerOfItsChunk) {
 
 TEST(Camera, PointsProjectWhereTheyAreSeen) {
     const ViewMatrices view = viewMatrices({.position = {8, 8, 100}, .fieldOfView = 70}, 2.0f);
-    const float top = 10 * std::tan(glm::radians(35.0f));  // of the picture, 10 blocks ahead
+    const float top = 10 * std::tan(glm::radians(35.0f));  // of the image, 10 blocks ahead
     expectNear(screenPoint(view, {18, 8, 100}), {0, 0, kNear / 10});
     expectNear(screenPoint(view, {18, 8, 100 + top}), {0, 1, kNear / 10});
     expectNear(screenPoint(view, {18, 8, 100 - top}), {0, -1, kNear / 10});
-    // Looking along +x, +y is on the left; the picture is twice as wide as high.
+    // Looking along +x, +y is on the left; the image is twice as wide as high.
     expectNear(screenPoint(view, {18, 8 + 2 * top, 100}), {-1, 0, kNear / 10});
     expectNear(screenPoint(view, {18, 8 - 2 * top, 100}), {1, 0, kNear / 10});
     EXPECT_LT(clipPoint(view, {-2, 8, 100}).w, 0) << "behind the camera";

@@ -30,13 +30,13 @@ inline const gpu::ShaderLoader& contentShaders() {
     return loader;
 }
 
-// Nothing besides light, textures and what is blended, for pictures that show one thing.
+// Nothing besides light, textures and what is blended, for images that show one thing.
 inline RenderOptions plainOptions(int samples) {
     RenderOptions options;
-    options.samples = samples;
+    options.msaaSamples = samples;
     options.shadowSize = 0;
     options.depthOfField = options.godRays = options.clouds = false;
-    options.animation = options.sampledAlphaTest = false;
+    options.animation = options.msaaAlphaTest = false;
     return options;
 }
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "terrane/mesh/region_quads.h"
+#include "terrane/mesh/mesh_section_quads.h"
 #include "terrane/render/shadow_volume.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/render/content.h"
@@ -12,34 +12,35 @@
 namespace terrane::render {
 namespace {
 
-constexpr int kOpaque = mesh::faceContext(mesh::AlphaClass::Opaque, false);
-constexpr int kTestedTwoSided = mesh::faceContext(mesh::AlphaClass::Tested, true);
-constexpr int kBlended = mesh::faceContext(mesh::AlphaClass::Blended, true);
-constexpr int kRegionHeight = 64;
+constexpr int kOpaque = mesh::drawBucket(mesh::AlphaClass::Opaque, false);
+constexpr int kTestedTwoSided = mesh::drawBucket(mesh::AlphaClass::Tested, true);
+constexpr int kBlended = mesh::drawBucket(mesh::AlphaClass::Blended, true);
+constexpr int kMeshSectionHeight = 64;
 
-// How many quads of each context, group and region a mesh made here has.
+// How many quads of each draw bucket, face direction and mesh section a mesh made here has.
 struct Part {
-    int region, context, group;
+    int meshSection, bucket, direction;
     std::uint32_t count;
 };
 
-// Parts by region, context, group, as the mesher orders them. Regions are full height.
+// Parts by mesh section, draw bucket, direction, as the mesher orders them. Mesh sections are full height.
 mesh::ChunkMesh meshOfParts(const std::vector<Part>& parts) {
     mesh::ChunkMesh mesh;
-    mesh.regions.resize(256 / kRegionHeight);
-    for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
-        for (int context = 0; context < mesh::kContextCount; ++context) {
-            for (int group = 0; group < mesh::kGroupCount; ++group) {
+    mesh.meshSections.resize(256 / kMeshSectionHeight);
+    for (std::size_t r = 0; r < mesh.meshSections.size(); ++r) {
+        for (int bucket = 0; bucket < mesh::kDrawBucketCount; ++bucket) {
+            for (int direction = 0; direction < mesh::kFaceDirectionCount; ++direction) {
                 mesh::QuadRange range{static_cast<std::uint32_t>(mesh.quads.size()), 0};
                 for (const Part& part : parts) {
-                    if (part.region != static_cast<int>(r) || part.context != context || part.group != group)
+                    if (part.meshSection != static_cast<int>(r) || part.bucket != bucket ||
+                        part.direction != direction)
                         continue;
                     range.count = part.count;
                     mesh.quads.resize(mesh.quads.size() + part.count);
-                    mesh.regions[r].minZ = static_cast<int>(r) * kRegionHeight;
-                    mesh.regions[r].maxZ = mesh.regions[r].minZ + kRegionHeight;
+                    mesh.meshSections[r].minZ = static_cast<int>(r) * kMeshSectionHeight;
+                    mesh.meshSections[r].maxZ = mesh.meshSections[r].minZ + kMeshSectionHeight;
                 }
-                mesh.regions[r].groups[context][group] = range;
+                mesh.meshSections[r].ranges[bucket][direction] = range;
             }
         }
     }
@@ -48,8 +49,8 @@ mesh::ChunkMesh meshOfParts(const std::vector<Part>& parts) {
 
 // What the GPU chose, read back.
 struct Drawn {
-    std::array<std::vector<shared::DrawCommand>, mesh::kContextCount> commands, shadowCommands;
-    std::size_t quadCount = 0, regionCount = 0;
+    std::array<std::vector<shared::DrawCommand>, mesh::kDrawBucketCount> commands, shadowCommands;
+    std::size_t quadCount = 0, meshSectionCount = 0;
 };
 
 class CullPassTest : public gpu::GlTest {
@@ -66,33 +67,33 @@ class CullPassTest : public gpu::GlTest {
     void TearDown() override {
         pass_.reset();
         ring_.reset();
-        regions_.reset();
+        meshSections_.reset();
         quads_.reset();
         GlTest::TearDown();
     }
 
     void clear() {
         quads_.emplace();
-        regions_.emplace();
+        meshSections_.emplace();
     }
     void set(world::ChunkPos pos, const mesh::ChunkMesh& mesh) {
         ASSERT_TRUE(quads_->set(pos, mesh));
-        regions_->set(pos, quads_->regionsOf(pos));
+        meshSections_->set(pos, quads_->meshSectionsOf(pos));
     }
 
     Drawn& build(const Camera& camera, std::optional<Frustum> shadow = {}, glm::vec3 light = {0, 0, 1}) {
         const ViewMatrices view = viewMatrices(camera, 1.0f);
-        regions_->update(cameraChunk(camera));
+        meshSections_->update(cameraChunk(camera));
         ring_->beginFrame();
-        pass_->run(CullRun::All,
+        pass_->run(CullPhase::All,
                    {cameraChunk(camera), view.cameraPosition, frustumOf(view.viewProjection), light, shadow},
-                   *regions_, *ring_);
+                   *meshSections_, *ring_);
         pass_->queueCounts();
         ring_->endFrame();
         glFinish();
         const shared::DrawCounts& counts = pass_->counts();
         list_ = {};
-        list_.regionCount = counts.regions;
+        list_.meshSectionCount = counts.meshSections;
         for (shared::uint list = 0; list < shared::kDrawLists; ++list) {
             const bool isShadow = list >= shared::kCameraLists;
             auto& commands = isShadow ? list_.shadowCommands : list_.commands;
@@ -103,15 +104,15 @@ class CullPassTest : public gpu::GlTest {
         return list_;
     }
 
-    // Numbers of the quads drawn in a context, by place in the buffer; none may be drawn twice.
-    std::set<std::uint32_t> drawn(int context) const {
+    // Numbers of the quads drawn in a draw bucket, by place in the buffer; none may be drawn twice.
+    std::set<std::uint32_t> drawn(int bucket) const {
         std::set<std::uint32_t> numbers;
-        for (const shared::DrawCommand& command : list_.commands[static_cast<std::size_t>(context)]) {
+        for (const shared::DrawCommand& command : list_.commands[static_cast<std::size_t>(bucket)]) {
             EXPECT_EQ(command.instanceCount, 1u);
             EXPECT_EQ(command.firstIndex, 0u);
             EXPECT_EQ(command.indexCount % 6, 0u);
             EXPECT_LE(command.indexCount, 6 * shared::kMaxQuadsPerCommand);
-            EXPECT_LT(command.baseInstance, regions_->slots());
+            EXPECT_LT(command.baseInstance, meshSections_->slots());
             for (std::uint32_t k = 0; k < command.indexCount / 6; ++k) {
                 EXPECT_TRUE(numbers.insert(static_cast<std::uint32_t>(command.baseVertex) / 4 + k).second);
             }
@@ -119,16 +120,16 @@ class CullPassTest : public gpu::GlTest {
         return numbers;
     }
 
-    std::set<std::uint32_t> stored(world::ChunkPos pos, int region, int context, int group) const {
+    std::set<std::uint32_t> stored(world::ChunkPos pos, int meshSection, int bucket, int direction) const {
         const mesh::QuadRange range =
-            quads_->regionsOf(pos)[static_cast<std::size_t>(region)].groups[context][group];
+            quads_->meshSectionsOf(pos)[static_cast<std::size_t>(meshSection)].ranges[bucket][direction];
         std::set<std::uint32_t> numbers;
         for (std::uint32_t k = 0; k < range.count; ++k) numbers.insert(range.first + k);
         return numbers;
     }
 
     std::optional<QuadStore> quads_;
-    std::optional<RegionTable> regions_;
+    std::optional<MeshSectionTable> meshSections_;
     std::optional<CullPass> pass_;
     std::optional<gpu::MappedRing> ring_;
     Drawn list_;
@@ -137,22 +138,22 @@ class CullPassTest : public gpu::GlTest {
 TEST_F(CullPassTest, NothingGivesNoCommands) {
     const Drawn& list = build({});
     for (const auto& commands : list.commands) EXPECT_TRUE(commands.empty());
-    EXPECT_EQ(list.quadCount + list.regionCount, 0u);
+    EXPECT_EQ(list.quadCount + list.meshSectionCount, 0u);
 }
 
-TEST_F(CullPassTest, RegionsBehindTheCameraAreCulled) {
-    const mesh::ChunkMesh mesh = meshOfParts({{1, kOpaque, mesh::kGroupAlways, 5}});
+TEST_F(CullPassTest, MeshSectionsBehindTheCameraAreCulled) {
+    const mesh::ChunkMesh mesh = meshOfParts({{1, kOpaque, mesh::kAnyDirection, 5}});
     set({3, 0}, mesh);
     set({-3, 0}, mesh);
     const Drawn& list = build({.position = {8, 8, 100}, .yaw = 0});
-    EXPECT_EQ(list.regionCount, 1u);
+    EXPECT_EQ(list.meshSectionCount, 1u);
     EXPECT_EQ(list.quadCount, 5u);
-    EXPECT_EQ(drawn(kOpaque), stored({3, 0}, 1, kOpaque, mesh::kGroupAlways));
+    EXPECT_EQ(drawn(kOpaque), stored({3, 0}, 1, kOpaque, mesh::kAnyDirection));
     build({.position = {8, 8, 100}, .yaw = 180});
-    EXPECT_EQ(drawn(kOpaque), stored({-3, 0}, 1, kOpaque, mesh::kGroupAlways));
+    EXPECT_EQ(drawn(kOpaque), stored({-3, 0}, 1, kOpaque, mesh::kAnyDirection));
 }
 
-TEST_F(CullPassTest, RegionsAboveAndBelowTheViewAreCulled) {
+TEST_F(CullPassTest, MeshSectionsAboveAndBelowTheViewAreCulled) {
     set({3, 0}, meshOfParts({{0, kOpaque, 6, 1}, {1, kOpaque, 6, 2}, {3, kOpaque, 6, 4}}));
     build({.position = {8, 8, 96}, .fieldOfView = 30});
     EXPECT_EQ(drawn(kOpaque), stored({3, 0}, 1, kOpaque, 6));
@@ -161,16 +162,18 @@ TEST_F(CullPassTest, RegionsAboveAndBelowTheViewAreCulled) {
 // Camera and chunk may lie at the ends of the world.
 TEST_F(CullPassTest, TheEndsOfTheWorldAreLikeItsMiddle) {
     const world::ChunkPos far{world::kMaxChunk, world::kMinChunk};
-    set(far, meshOfParts({{1, kOpaque, mesh::kGroupAlways, 1}}));
+    set(far, meshOfParts({{1, kOpaque, mesh::kAnyDirection, 1}}));
     const glm::dvec3 corner(16.0 * far.x, 16.0 * far.y, 0);
-    EXPECT_EQ(build({.position = corner + glm::dvec3(-20, 8, 100)}).regionCount, 1u);
-    EXPECT_EQ(build({.position = corner + glm::dvec3(-20, 8, 100), .yaw = 180}).regionCount, 0u);
-    EXPECT_EQ(build({.position = {-2147483640.0, 8, 100}}).regionCount, 1u) << "far ahead, without overflow";
+    EXPECT_EQ(build({.position = corner + glm::dvec3(-20, 8, 100)}).meshSectionCount, 1u);
+    EXPECT_EQ(build({.position = corner + glm::dvec3(-20, 8, 100), .yaw = 180}).meshSectionCount, 0u);
+    EXPECT_EQ(build({.position = {-2147483640.0, 8, 100}}).meshSectionCount, 1u)
+        << "far ahead, without overflow";
 }
 
-TEST_F(CullPassTest, GroupsThatLookAwayAreNotDrawn) {
+TEST_F(CullPassTest, DirectionsThatLookAwayAreNotDrawn) {
     std::vector<Part> parts;
-    for (int group = 0; group < mesh::kGroupCount; ++group) parts.push_back({1, kOpaque, group, 10});
+    for (int direction = 0; direction < mesh::kFaceDirectionCount; ++direction)
+        parts.push_back({1, kOpaque, direction, 10});
     set({0, 0}, meshOfParts(parts));
     struct Case {
         Camera camera;
@@ -190,8 +193,8 @@ TEST_F(CullPassTest, GroupsThatLookAwayAreNotDrawn) {
     for (const Case& c : cases) {
         build(c.camera);
         std::set<std::uint32_t> expected;
-        for (int group = 0; group < mesh::kGroupCount; ++group) {
-            if (!c.hidden.contains(group)) expected.merge(stored({0, 0}, 1, kOpaque, group));
+        for (int direction = 0; direction < mesh::kFaceDirectionCount; ++direction) {
+            if (!c.hidden.contains(direction)) expected.merge(stored({0, 0}, 1, kOpaque, direction));
         }
         EXPECT_EQ(drawn(kOpaque), expected);
         EXPECT_EQ(list_.quadCount, expected.size());
@@ -199,19 +202,19 @@ TEST_F(CullPassTest, GroupsThatLookAwayAreNotDrawn) {
 }
 
 TEST_F(CullPassTest, TwoSidedQuadsAreAllDrawn) {
-    set({0, 0}, meshOfParts({{0, kTestedTwoSided, mesh::kGroupAlways, 100},
-                             {1, kTestedTwoSided, mesh::kGroupAlways, 50}}));
+    set({0, 0}, meshOfParts({{0, kTestedTwoSided, mesh::kAnyDirection, 100},
+                             {1, kTestedTwoSided, mesh::kAnyDirection, 50}}));
     for (const float yaw : {0.0f, 45.0f, 90.0f, 180.0f, 270.0f}) {
         const Camera around{.position = glm::dvec3(8, 8, 64) - 60.0 * glm::dvec3(lookDirection({.yaw = yaw})),
                             .yaw = yaw};
         build(around);
-        std::set<std::uint32_t> all = stored({0, 0}, 0, kTestedTwoSided, mesh::kGroupAlways);
-        all.merge(stored({0, 0}, 1, kTestedTwoSided, mesh::kGroupAlways));
+        std::set<std::uint32_t> all = stored({0, 0}, 0, kTestedTwoSided, mesh::kAnyDirection);
+        all.merge(stored({0, 0}, 1, kTestedTwoSided, mesh::kAnyDirection));
         EXPECT_EQ(drawn(kTestedTwoSided), all) << "yaw " << yaw;
     }
 }
 
-TEST_F(CullPassTest, NeighbouringGroupsShareACommand) {
+TEST_F(CullPassTest, NeighboringDirectionsShareACommand) {
     set({1, 0}, meshOfParts({{1, kOpaque, 0, 3}, {1, kOpaque, 2, 4}, {1, kOpaque, 6, 5}}));
     EXPECT_EQ(build({.position = {8, 8, 100}}).commands[kOpaque].size(), 1u);
     EXPECT_EQ(drawn(kOpaque).size(), 12u);
@@ -219,13 +222,13 @@ TEST_F(CullPassTest, NeighbouringGroupsShareACommand) {
 
 TEST_F(CullPassTest, LongRangesAreSplit) {
     constexpr std::uint32_t kCount = 2 * shared::kMaxQuadsPerCommand + 100;
-    set({9, 9}, meshOfParts({{0, kOpaque, mesh::kGroupAlways, 1}}));
-    set({1, 0}, meshOfParts({{1, kOpaque, mesh::kGroupAlways, kCount}}));
+    set({9, 9}, meshOfParts({{0, kOpaque, mesh::kAnyDirection, 1}}));
+    set({1, 0}, meshOfParts({{1, kOpaque, mesh::kAnyDirection, kCount}}));
     const auto& commands = build({.position = {8, 8, 100}}).commands[kOpaque];
     ASSERT_EQ(commands.size(), 3u);
     EXPECT_EQ(commands[0].indexCount, 6 * shared::kMaxQuadsPerCommand);
     EXPECT_EQ(commands[2].indexCount, 6 * 100u);
-    EXPECT_EQ(drawn(kOpaque), stored({1, 0}, 1, kOpaque, mesh::kGroupAlways));
+    EXPECT_EQ(drawn(kOpaque), stored({1, 0}, 1, kOpaque, mesh::kAnyDirection));
 }
 
 // Over the ground, in chunks; squared. Of the commands of a list, in their order.
@@ -247,8 +250,8 @@ TEST_F(CullPassTest, TheNearestAreDrawnFirst) {
     for (int y = -4; y <= 4; ++y) {
         for (int x = -4; x <= 4; ++x) {
             set({x, y},
-                meshOfParts({{0, kOpaque, mesh::kGroupAlways, 3}, {2, kOpaque, mesh::kGroupAlways, 2}}));
-            chunkOfQuad[mesh::firstQuad(quads_->regionsOf({x, y})[0])] = {x, y};
+                meshOfParts({{0, kOpaque, mesh::kAnyDirection, 3}, {2, kOpaque, mesh::kAnyDirection, 2}}));
+            chunkOfQuad[mesh::firstQuad(quads_->meshSectionsOf({x, y})[0])] = {x, y};
         }
     }
     for (const Camera& camera :
@@ -268,7 +271,7 @@ TEST_F(CullPassTest, OrderDependsOnPlacesOnly) {
         for (int k = 0; k < 81; ++k) {
             const int at = round == 0 ? k : 80 - k;
             const auto count = static_cast<std::uint32_t>(at + 1);  // tells which chunk it is
-            set({at % 9 - 4, at / 9 - 4}, meshOfParts({{1, kOpaque, mesh::kGroupAlways, count}}));
+            set({at % 9 - 4, at / 9 - 4}, meshOfParts({{1, kOpaque, mesh::kAnyDirection, count}}));
         }
         std::vector<std::uint32_t> counts;
         for (const auto& command : build({.position = {8, 8, 120}}).commands[kOpaque]) {
@@ -280,22 +283,22 @@ TEST_F(CullPassTest, OrderDependsOnPlacesOnly) {
 }
 
 TEST_F(CullPassTest, ReplacedAndRemovedChunksAreGone) {
-    set({1, 0}, meshOfParts({{1, kOpaque, mesh::kGroupAlways, 5}}));
-    set({2, 0}, meshOfParts({{1, kOpaque, mesh::kGroupAlways, 6}}));
+    set({1, 0}, meshOfParts({{1, kOpaque, mesh::kAnyDirection, 5}}));
+    set({2, 0}, meshOfParts({{1, kOpaque, mesh::kAnyDirection, 6}}));
     set({1, 0},
-        meshOfParts({{1, kOpaque, mesh::kGroupAlways, 7}, {1, kTestedTwoSided, mesh::kGroupAlways, 1}}));
+        meshOfParts({{1, kOpaque, mesh::kAnyDirection, 7}, {1, kTestedTwoSided, mesh::kAnyDirection, 1}}));
     EXPECT_EQ(build({.position = {8, 8, 100}}).quadCount, 14u);
-    regions_->remove({1, 0});
+    meshSections_->remove({1, 0});
     EXPECT_EQ(build({.position = {8, 8, 100}}).quadCount, 6u);
-    regions_->remove({2, 0});
+    meshSections_->remove({2, 0});
     EXPECT_EQ(build({.position = {8, 8, 100}}).quadCount, 0u);
 }
 
-// A region a chunk over a large area, against the test of a box and a frustum on the processor.
-TEST_F(CullPassTest, ManyRegionsAreCulledAsOneIs) {
+// A mesh section a chunk over a large area, against the test of a box and a frustum on the CPU.
+TEST_F(CullPassTest, ManyMeshSectionsAreCulledAsOneIs) {
     for (int y = -30; y <= 30; ++y) {
         for (int x = -30; x <= 30; ++x) {
-            set({x, y}, meshOfParts({{(x + y) & 3, kOpaque, mesh::kGroupAlways, 1}}));
+            set({x, y}, meshOfParts({{(x + y) & 3, kOpaque, mesh::kAnyDirection, 1}}));
         }
     }
     for (const Camera& camera : {Camera{{3, 5, 240}, 30, -30}, Camera{{3, 5, 10}, 200, 10}}) {
@@ -308,43 +311,44 @@ TEST_F(CullPassTest, ManyRegionsAreCulledAsOneIs) {
                                          low + glm::vec3(16, 16, 64) + shared::kWaving);
             }
         }
-        EXPECT_EQ(build(camera).regionCount, expected);
+        EXPECT_EQ(build(camera).meshSectionCount, expected);
     }
 }
 
 // Four times as wide, as high as all.
 TEST_F(CullPassTest, BoxesOfHigherLevelsAreWider) {
     for (int y = -8; y <= 8; ++y) {
-        for (int x = -8; x <= 8; ++x) set({x, y, 2}, meshOfParts({{1, kOpaque, mesh::kGroupAlways, 1}}));
+        for (int x = -8; x <= 8; ++x) set({x, y, 2}, meshOfParts({{1, kOpaque, mesh::kAnyDirection, 1}}));
     }
     const glm::dvec3 far(-1e9, 3e8, 0);
     for (const Camera& camera :
          {Camera{{3, 5, 240}, 30, -30}, Camera{{100, -70, 10}, 200, 10}, Camera{far, 0, 0}}) {
         const Frustum frustum = frustumOf(viewMatrices(camera, 1).viewProjection);
-        const world::ChunkPos centre = cameraChunk(camera);
+        const world::ChunkPos center = cameraChunk(camera);
         std::size_t expected = 0;
         for (int y = -8; y <= 8; ++y) {
             for (int x = -8; x <= 8; ++x) {
-                const glm::vec3 low(16 * (4 * x - centre.x), 16 * (4 * y - centre.y), 64);
+                const glm::vec3 low(16 * (4 * x - center.x), 16 * (4 * y - center.y), 64);
                 expected += mayBeVisible(frustum, low - shared::kWaving,
                                          low + glm::vec3(64, 64, 64) + shared::kWaving);
             }
         }
-        EXPECT_EQ(build(camera).regionCount, expected);
+        EXPECT_EQ(build(camera).meshSectionCount, expected);
     }
 }
 
 TEST_F(CullPassTest, ShadowsAreCastByWhatFacesTheLight) {
     std::vector<Part> parts;
-    for (int group = 0; group < mesh::kGroupCount; ++group) parts.push_back({1, kOpaque, group, 10});
-    parts.push_back({1, kBlended, mesh::kGroupAlways, 10});
+    for (int direction = 0; direction < mesh::kFaceDirectionCount; ++direction)
+        parts.push_back({1, kOpaque, direction, 10});
+    parts.push_back({1, kBlended, mesh::kAnyDirection, 10});
     set({0, 0}, meshOfParts(parts));
     set({40, 0}, meshOfParts(parts));
     const Camera camera{.position = {-20, 8, 100}, .yaw = 180};  // away from both
     const glm::vec3 light = glm::normalize(glm::vec3(-1, 0.5f, 2));
     const Frustum volume = planesOf({glm::mat3(1), {-60, -60}, {60, 60}, 0});
     const Drawn& drawn = build(camera, volume, light);
-    EXPECT_EQ(drawn.regionCount, 0u);
+    EXPECT_EQ(drawn.meshSectionCount, 0u);
     std::size_t quads = 0;
     for (const auto& command : drawn.shadowCommands[kOpaque]) quads += command.indexCount / 6;
     EXPECT_EQ(quads, 40u) << "-x, +y, +z and those that may look anywhere, of the near chunk";
@@ -352,20 +356,21 @@ TEST_F(CullPassTest, ShadowsAreCastByWhatFacesTheLight) {
 }
 
 TEST_F(CullPassTest, BlendedFacesInViewAreKnown) {
-    set({3, 0}, meshOfParts({{1, kBlended, mesh::kGroupAlways, 5}}));
-    set({-3, 0}, meshOfParts({{1, kOpaque, mesh::kGroupAlways, 5}}));
+    set({3, 0}, meshOfParts({{1, kBlended, mesh::kAnyDirection, 5}}));
+    set({-3, 0}, meshOfParts({{1, kOpaque, mesh::kAnyDirection, 5}}));
     const auto isKnown = [&](float yaw) {
         const Camera camera{.position = {8, 8, 100}, .yaw = yaw};
-        return regions_->hasBlended(cameraChunk(camera), frustumOf(viewMatrices(camera, 1).viewProjection));
+        return meshSections_->hasBlended(cameraChunk(camera),
+                                         frustumOf(viewMatrices(camera, 1).viewProjection));
     };
     EXPECT_TRUE(isKnown(0));
     EXPECT_FALSE(isKnown(180));
     const auto isKnownBeyond = [&](float x) {
-        return regions_->hasBlended({}, std::vector{glm::vec4(1, 0, 0, -x)});
+        return meshSections_->hasBlended({}, std::vector{glm::vec4(1, 0, 0, -x)});
     };
     EXPECT_TRUE(isKnownBeyond(64.0f + 0.9f * shared::kWaving)) << "waves leave the box";
     EXPECT_FALSE(isKnownBeyond(64.0f + 1.1f * shared::kWaving));
-    regions_->remove({3, 0});
+    meshSections_->remove({3, 0});
     EXPECT_FALSE(isKnown(0));
 }
 

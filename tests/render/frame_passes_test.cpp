@@ -1,4 +1,4 @@
-// What a failure leaves of the passes, and passes made anew from shaders that were written.
+// What a failure leaves of the passes, and passes rebuilt from shaders that were written.
 #include "terrane/render/frame_passes.h"
 
 #include "terrane/render/renderer.h"
@@ -14,7 +14,7 @@ constexpr glm::ivec2 kPassesSize{96, 64};
 
 constexpr std::string_view kFinalShader = "terrane/render/final.frag.glsl";
 constexpr std::string_view kRed =
-    "layout(location = 0) out vec4 picture;\nvoid main() { picture = vec4(1, 0, 0, 1); }\n";
+    "layout(location = 0) out vec4 image;\nvoid main() { image = vec4(1, 0, 0, 1); }\n";
 constexpr std::string_view kBroken = "this is no shader\n";
 
 class FramePassesTest : public gpu::GlTest {
@@ -39,7 +39,7 @@ class FramePassesTest : public gpu::GlTest {
     // All that has targets or a memory of its own: shadows, layers, occlusion, blur, rays, culling.
     static RenderOptions fullOptions(int samples) {
         RenderOptions options;
-        options.samples = samples;
+        options.msaaSamples = samples;
         options.shadowSize = 512;
         options.occlusion = Occlusion::On;
         return options;
@@ -49,7 +49,7 @@ class FramePassesTest : public gpu::GlTest {
         renderer_->draw({{{-9, 5, 86}, 10, -14}, world::environmentAt(0.4f), 120, 1, View::Color});
         return renderer_->readImage();
     }
-    // The second picture draws by what the first one saw.
+    // The second image draws by what the first one saw.
     base::Image drawTwice() {
         draw();
         return draw();
@@ -67,9 +67,9 @@ TEST_F(FramePassesTest, OptionsThatFailLeaveAllAsItWas) {
     };
     const Case cases[] = {
         {"terrane/render/final.frag.glsl", "RAW_OCCLUSION == 1"},
-        {"terrane/render/depth_pyramid.comp.glsl", "SAMPLES > 1"},
+        {"terrane/render/hi_z.comp.glsl", "MSAA_SAMPLES > 1"},
         {"terrane/render/hole_fill.frag.glsl", "1"},
-        {"terrane/render/layers.frag.glsl", "LAYERS == 1"},
+        {"terrane/render/transparency.frag.glsl", "LAYERS == 1"},
     };
     RenderOptions other = fullOptions(4);
     other.shadowSize = 1024;
@@ -77,7 +77,7 @@ TEST_F(FramePassesTest, OptionsThatFailLeaveAllAsItWas) {
     other.layers = 1;
     other.occlusion = Occlusion::Raw;
     other.tJunctions = TJunctions::Filled;
-    other.clouds = other.betterTexturing = other.depthOfField = other.godRays = false;
+    other.clouds = other.sharpFiltering = other.depthOfField = other.godRays = false;
     for (const Case& c : cases) {
         const std::string original = *contentShaders().find(c.name);
         const RenderOptions options = fullOptions(1);
@@ -101,7 +101,7 @@ TEST_F(FramePassesTest, OptionsThatFailLeaveAllAsItWas) {
     }
 }
 
-TEST_F(FramePassesTest, ShadersThatStayGiveTheSamePictureAtOnce) {
+TEST_F(FramePassesTest, ShadersThatStayGiveTheSameImageAtOnce) {
     for (const int samples : {1, 4}) {
         ASSERT_TRUE(renderer_->configure(kPassesSize, fullOptions(samples)));
         const base::Image before = drawTwice();
@@ -137,7 +137,7 @@ TEST_F(FramePassesTest, WrittenShadersAreSeenAndWrongOnesChangeNothing) {
     EXPECT_EQ(draw().rgba, before.rgba) << "what is compiled in is back";
 }
 
-TEST_F(FramePassesTest, ShadersCanBeWrittenBeforeThereIsAPicture) {
+TEST_F(FramePassesTest, ShadersCanBeWrittenBeforeThereIsAnImage) {
     folder_.write(kFinalShader, kRed);
     ASSERT_TRUE(renderer_->reloadShaders());
     ASSERT_TRUE(renderer_->configure(kPassesSize, fullOptions(1)));

@@ -1,4 +1,4 @@
-// Light on the GPU as pictures show it: a plane with one lamp, at night, seen from above.
+// Light on the GPU as images show it: a plane with one lamp, at night, seen from above.
 #include "terrane/render/light_store.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace terrane::render {
 namespace {
 
-class LightPictureTest : public gpu::GlTest {
+class LightImageTest : public gpu::GlTest {
   protected:
     // A stone plane of 5×5 chunks with a lamp in the middle chunk, which is at `middle`.
     struct Scene {
@@ -54,9 +54,9 @@ class LightPictureTest : public gpu::GlTest {
                 };
                 const world::ChunkPos pos{scene.middle.x + cx - 2, scene.middle.y + cy - 2};
                 mesh::MeshInput input;
-                input.centre = &chunks[at(0, 0)];
-                input.neighbours = {&chunks[at(-1, 0)], &chunks[at(1, 0)], &chunks[at(0, -1)],
-                                    &chunks[at(0, 1)]};
+                input.center = &chunks[at(0, 0)];
+                input.neighbors = {&chunks[at(-1, 0)], &chunks[at(1, 0)], &chunks[at(0, -1)],
+                                   &chunks[at(0, 1)]};
                 input.blocks = &contentBlocks();
                 mesh::MeshScratch scratch;
                 renderer.setChunk(pos, mesh::meshChunk(input, scratch));
@@ -65,7 +65,7 @@ class LightPictureTest : public gpu::GlTest {
         }
     }
 
-    // From 14 blocks above the lamp, so that borders of chunks and tiles lie in the picture wherever it
+    // From 14 blocks above the lamp, so that borders of chunks and light tiles lie in the image wherever it
     // stands.
     base::Image draw(Renderer& renderer, const Scene& scene) {
         const Camera camera{.position = {scene.middle.x * 16.0 + scene.x + 0.5,
@@ -76,7 +76,7 @@ class LightPictureTest : public gpu::GlTest {
         return renderer.readImage();
     }
 
-    base::Image picture(const Scene& scene) {
+    base::Image imageOf(const Scene& scene) {
         Renderer renderer = makeRenderer();
         load(renderer, scene);
         return draw(renderer, scene);
@@ -97,45 +97,45 @@ class LightPictureTest : public gpu::GlTest {
     }
 };
 
-TEST_F(LightPictureTest, ALampShines) {
-    const base::Image with = picture({}), without = picture({.middle = {}, .isLit = false});
+TEST_F(LightImageTest, ALampShines) {
+    const base::Image with = imageOf({}), without = imageOf({.middle = {}, .isLit = false});
     EXPECT_GT(redAt(with, 48, 60), redAt(without, 48, 60) + 60);
     EXPECT_GT(redAt(with, 48, 60), redAt(with, 48, 94) + 20) << "it falls with distance";
 }
 
-// Borders of tiles (8 blocks) and chunks (16) lie elsewhere in each of these; the picture is the same but for
-// the steps of filtered fetches, of stone's texture too, and dither. Without the nodes beyond a border it
+// Borders of light tiles (8 blocks) and chunks (16) lie elsewhere in each of these; the image is the same but
+// for the steps of filtered fetches, of stone's texture too, and dither. Without the nodes beyond a border it
 // would differ by 20 and more.
-TEST_F(LightPictureTest, BordersCannotBeSeen) {
-    const base::Image reference = picture({{0, 0}, 4, 4, 100});
+TEST_F(LightImageTest, BordersCannotBeSeen) {
+    const base::Image reference = imageOf({{0, 0}, 4, 4, 100});
     for (const Scene& scene :
          {Scene{{0, 0}, 8, 8, 100}, Scene{{0, 0}, 15, 15, 100}, Scene{{0, 0}, 0, 12, 100},
           Scene{{0, 0}, 4, 4, 104}, Scene{{0, 0}, 4, 4, 96}, Scene{{0, 0}, 7, 8, 112}}) {
-        EXPECT_LE(largestDifference(picture(scene), reference), 5)
+        EXPECT_LE(largestDifference(imageOf(scene), reference), 5)
             << scene.x << ' ' << scene.y << ' ' << scene.z;
     }
 }
 
-// Smooth light takes nodes with even coordinates from farther away: places of one parity give one picture.
-TEST_F(LightPictureTest, BordersCannotBeSeenInSmoothLight) {
+// Smooth light takes nodes with even coordinates from farther away: places of one parity give one image.
+TEST_F(LightImageTest, BordersCannotBeSeenInSmoothLight) {
     sampling_ = LightSampling::Smooth;
-    const base::Image reference = picture({{0, 0}, 4, 4, 100});
+    const base::Image reference = imageOf({{0, 0}, 4, 4, 100});
     for (const Scene& scene :
          {Scene{{0, 0}, 8, 8, 100}, Scene{{0, 0}, 14, 14, 100}, Scene{{0, 0}, 0, 12, 100},
           Scene{{0, 0}, 4, 4, 104}, Scene{{0, 0}, 6, 8, 112}, Scene{{-1, 3}, 2, 0, 96}}) {
-        EXPECT_LE(largestDifference(picture(scene), reference), 5)
+        EXPECT_LE(largestDifference(imageOf(scene), reference), 5)
             << scene.x << ' ' << scene.y << ' ' << scene.z;
     }
-    EXPECT_LE(largestDifference(picture({{0, 0}, 15, 7, 100}), reference), 16) << "the other parity";
+    EXPECT_LE(largestDifference(imageOf({{0, 0}, 15, 7, 100}), reference), 16) << "the other parity";
 }
 
 // Of a point on the axis and one on the diagonal at the same distance from the lamp, how much brighter the
 // first is.
-TEST_F(LightPictureTest, SmoothLightIsRounder) {
+TEST_F(LightImageTest, SmoothLightIsRounder) {
     constexpr int kAxis = 34, kDiagonal = 24;  // pixels; 34 / √2
     const auto excess = [&](LightSampling sampling) {
         sampling_ = sampling;
-        const base::Image image = picture({});
+        const base::Image image = imageOf({});
         return redAt(image, 48 + kAxis, 48) - redAt(image, 48 + kDiagonal, 48 + kDiagonal);
     };
     const int classic = excess(LightSampling::Classic), smooth = excess(LightSampling::Smooth);
@@ -143,23 +143,23 @@ TEST_F(LightPictureTest, SmoothLightIsRounder) {
     EXPECT_LT(3 * smooth, 2 * classic);
 }
 
-TEST_F(LightPictureTest, FarAwayItIsTheSame) {
-    const base::Image reference = picture({{0, 0}, 4, 4, 100});
-    EXPECT_LE(largestDifference(picture({{1000, -777}, 4, 4, 100}), reference), 2);
-    EXPECT_LE(largestDifference(picture({{-1, -1}, 4, 4, 100}), reference), 2);
+TEST_F(LightImageTest, FarAwayItIsTheSame) {
+    const base::Image reference = imageOf({{0, 0}, 4, 4, 100});
+    EXPECT_LE(largestDifference(imageOf({{1000, -777}, 4, 4, 100}), reference), 2);
+    EXPECT_LE(largestDifference(imageOf({{-1, -1}, 4, 4, 100}), reference), 2);
 }
 
-TEST_F(LightPictureTest, LightThatChangesReplacesTheOld) {
+TEST_F(LightImageTest, LightThatChangesReplacesTheOld) {
     Renderer renderer = makeRenderer();
     load(renderer, {});
     load(renderer, {.middle = {}, .isLit = false});
-    EXPECT_EQ(largestDifference(draw(renderer, {}), picture({.middle = {}, .isLit = false})), 0);
+    EXPECT_EQ(largestDifference(draw(renderer, {}), imageOf({.middle = {}, .isLit = false})), 0);
     load(renderer, {});
-    EXPECT_EQ(largestDifference(draw(renderer, {}), picture({})), 0);
+    EXPECT_EQ(largestDifference(draw(renderer, {}), imageOf({})), 0);
 }
 
 // Two rooms of stone whose only contact is an edge, a lamp in one.
-class LightCornerTest : public LightPictureTest {
+class LightCornerTest : public LightImageTest {
   protected:
     // The darker room's floor at the edge, from above; without the lamp's room it would be as dark as
     // everywhere.
@@ -229,7 +229,7 @@ TEST_F(LightStoreTest, UploadsTheBricksThatChanged) {
     light.setBrick(2, world::Section(7));
     light.setBrick(3, light.brick(0));
     store.set({0, 0}, light, 0b100);
-    EXPECT_EQ(store.uploadedTiles(), 4u * 8) << "one value needs no tile";
+    EXPECT_EQ(store.uploadedTiles(), 4u * 8) << "one value needs no light tile";
     EXPECT_EQ(store.usedBytes(), bytes - 8 * 1024);
     store.set({0, 0}, light, 0b1000);
     EXPECT_EQ(store.uploadedTiles(), 5u * 8);
@@ -249,9 +249,9 @@ light::ChunkLight noiseLight() {
     return noise;
 }
 
-// 4,096 tiles are those of 32 chunks of noise: of others only the middles of tiles are kept, until there is
-// room.
-TEST_F(LightPictureTest, APoolThatCannotGrowKeepsWhatFits) {
+// 4,096 light tiles are those of 32 chunks of noise: of others only the middles of light tiles are kept,
+// until there is room.
+TEST_F(LightImageTest, APoolThatCannotGrowKeepsWhatFits) {
     constexpr std::size_t kPoolBytes = 4096 * 1024;
     LightStore store(2, 1);
     const std::size_t gridBytes = store.usedBytes();
@@ -266,9 +266,9 @@ TEST_F(LightPictureTest, APoolThatCannotGrowKeepsWhatFits) {
 }
 
 // Chunks of noise fill the pool until it grows; what it had stays, and what is removed is used again.
-TEST_F(LightPictureTest, ThePoolGrowsAndKeepsWhatItHas) {
+TEST_F(LightImageTest, ThePoolGrowsAndKeepsWhatItHas) {
     Renderer renderer = makeRenderer();
-    renderer.setViewDistance(8);  // 8,192 tiles at first
+    renderer.setViewDistance(8);  // 8,192 light tiles at first
     load(renderer, {});
     const base::Image before = draw(renderer, {});
     const std::size_t bytesBefore = renderer.lightBytes();

@@ -94,7 +94,7 @@ TEST(Mipmaps, FlatImagesStayAsTheyAre) {
 }
 
 // Half of the light of white is sRGB 188, not 128.
-TEST(Mipmaps, ColoursAreAveragedAsLight) {
+TEST(Mipmaps, ColorsAreAveragedAsLight) {
     const Image image = makeImage(2, [](int x, int) {
         return x ? Texel{255, 255, 255, 255} : Texel{0, 0, 0, 255};
     });
@@ -103,7 +103,7 @@ TEST(Mipmaps, ColoursAreAveragedAsLight) {
     EXPECT_EQ(mean[3], 255);
 }
 
-TEST(Mipmaps, HiddenTexelsGiveNoColour) {
+TEST(Mipmaps, HiddenTexelsGiveNoColor) {
     const Image image = makeImage(2, [](int x, int y) {
         return x == y ? Texel{200, 0, 0, 255} : Texel{0, 250, 0, 0};
     });
@@ -116,8 +116,8 @@ TEST(Mipmaps, HiddenTexelsGiveNoColour) {
     EXPECT_GT(texel(mipmaps(image, AlphaMode::Glow)[1], 0, 0)[1], 100) << "alpha is no coverage here";
 }
 
-// Whatever colour a painter left under a hole, filters near its edge must not show it.
-TEST(Mipmaps, HiddenTexelsTakeTheColourBesideThem) {
+// Whatever color a painter left under a hole, filters near its edge must not show it.
+TEST(Mipmaps, HiddenTexelsTakeTheColorBesideThem) {
     const Image stem = makeImage(16, [](int x, int y) {
         if (x != 8) return Texel{255, 0, 255, 0};
         return y < 4 ? Texel{200, 200, 200, 255} : Texel{10, 120, 20, 255};
@@ -131,7 +131,7 @@ TEST(Mipmaps, HiddenTexelsTakeTheColourBesideThem) {
     EXPECT_EQ(mipmaps(stem, AlphaMode::Glow)[0].rgba, stem.rgba) << "alpha says something else";
 }
 
-TEST(Mipmaps, WhereAllIsHiddenColoursStayForFilters) {
+TEST(Mipmaps, WhereAllIsHiddenColorsStayForFilters) {
     const Image image = makeImage(4, [](int, int) { return Texel{40, 90, 10, 0}; });
     const Texel mean = texel(mipmaps(image, AlphaMode::Test)[2], 0, 0);
     EXPECT_EQ(mean, (Texel{40, 90, 10, 0}));

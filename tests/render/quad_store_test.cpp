@@ -3,7 +3,7 @@
 #include <map>
 #include <span>
 
-#include "terrane/mesh/region_quads.h"
+#include "terrane/mesh/mesh_section_quads.h"
 #include "terrane/shared/hash.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/mesh/random_blocks.h"
@@ -15,24 +15,24 @@ class QuadStoreTest : public gpu::GlTest {};
 
 using world::ChunkPos;
 
-// Quads that tell where they come from. One region.
+// Quads that tell where they come from. One mesh section.
 mesh::ChunkMesh numberedMesh(std::uint32_t seed, std::uint32_t count) {
     mesh::ChunkMesh mesh;
     for (std::uint32_t k = 0; k < count; ++k) mesh.quads.push_back({seed, k});
-    mesh.regions.resize(1);
-    mesh.regions[0].groups[0][0] = {0, count};
-    mesh.regions[0].maxZ = 16;
+    mesh.meshSections.resize(1);
+    mesh.meshSections[0].ranges[0][0] = {0, count};
+    mesh.meshSections[0].maxZ = 16;
     return mesh;
 }
 
 // What the store has of a chunk, read back: as the chunk's mesh.
 mesh::ChunkMesh readBack(const QuadStore& store, ChunkPos pos) {
     mesh::ChunkMesh mesh;
-    for (const mesh::RegionMesh& region : store.regionsOf(pos)) {
+    for (const mesh::MeshSection& meshSection : store.meshSectionsOf(pos)) {
         const std::size_t first = mesh.quads.size();
-        mesh.quads.resize(first + mesh::quadCount(region));
-        mesh.regions.push_back(mesh::movedTo(static_cast<std::uint32_t>(first), region));
-        store.buffer().download(std::size_t{mesh::firstQuad(region)} * shared::kQuadBytes,
+        mesh.quads.resize(first + mesh::quadCount(meshSection));
+        mesh.meshSections.push_back(mesh::movedTo(static_cast<std::uint32_t>(first), meshSection));
+        store.buffer().download(std::size_t{mesh::firstQuad(meshSection)} * shared::kQuadBytes,
                                 std::as_writable_bytes(std::span(mesh.quads).subspan(first)));
     }
     return mesh;
@@ -77,7 +77,7 @@ TEST_F(QuadStoreTest, ReplacesAndRemoves) {
 TEST_F(QuadStoreTest, EmptyMeshesTakeNothing) {
     QuadStore store;
     store.set({0, 0}, numberedMesh(1, 10));
-    store.set({0, 0}, mesh::ChunkMesh{{}, std::vector<mesh::RegionMesh>(4)});
+    store.set({0, 0}, mesh::ChunkMesh{{}, std::vector<mesh::MeshSection>(4)});
     EXPECT_TRUE(store.chunks().empty());
     EXPECT_EQ(store.usedBytes(), 0u);
 }
@@ -147,11 +147,11 @@ TEST_F(QuadStoreTest, FreedRoomIsUsedAgain) {
     expectStored(store, {1, 0}, numberedMesh(9, third));
 }
 
-// After random edits, each of which replaces the regions it touches, the store holds what meshing all again
-// gives; only the regions' quads were uploaded, and nothing leaks.
-TEST_F(QuadStoreTest, EditsReplaceOnlyTheirRegions) {
+// After random edits, each of which replaces the mesh sections it touches, the store holds what meshing all
+// again gives; only the mesh sections' quads were uploaded, and nothing leaks.
+TEST_F(QuadStoreTest, EditsReplaceOnlyTheirMeshSections) {
     for (const int height : {8, 64}) {
-        const mesh::MeshOptions options{mesh::Method::Greedy, height};
+        const mesh::MeshOptions options{mesh::MergeMethod::Greedy, height};
         mesh::Area area(mesh::randomBlocks(mesh::Mix::Terrain, 21));
         mesh::MeshScratch scratch;
         QuadStore store;
@@ -164,12 +164,13 @@ TEST_F(QuadStoreTest, EditsReplaceOnlyTheirRegions) {
                 return static_cast<int>(shared::hash2(step, k, 8) % count);
             };
             const world::BlockPos pos{random(0, 16), random(1, 16), 30 + random(2, 40)};
-            area.centre.setBlock(world::blockIndex(pos.x, pos.y, pos.z),
+            area.center.setBlock(world::blockIndex(pos.x, pos.y, pos.z),
                                  mesh::anyId(shared::hash2(step, 3, 8)));
-            const mesh::RegionSet regions = mesh::regionsTouchedBy(pos, height)[0].regions;
-            const mesh::ChunkMesh part = meshRegions(area.input(options), regions, scratch);
+            const mesh::MeshSectionSet meshSections =
+                mesh::meshSectionsTouchedBy(pos, height)[0].meshSections;
+            const mesh::ChunkMesh part = buildMeshSections(area.input(options), meshSections, scratch);
             const std::uint64_t before = store.uploadedBytes();
-            ASSERT_TRUE(store.set({0, 0}, part, regions));
+            ASSERT_TRUE(store.set({0, 0}, part, meshSections));
             EXPECT_EQ(store.uploadedBytes() - before, part.quads.size() * shared::kQuadBytes);
             const mesh::ChunkMesh all = meshChunk(area.input(options), scratch);
             allBytes += all.quads.size() * shared::kQuadBytes;
@@ -185,25 +186,26 @@ TEST_F(QuadStoreTest, EditsReplaceOnlyTheirRegions) {
     }
 }
 
-// Another height of regions replaces all of them.
-TEST_F(QuadStoreTest, AnotherNumberOfRegions) {
+// Another height of mesh sections replaces all of them.
+TEST_F(QuadStoreTest, AnotherNumberOfMeshSections) {
     const mesh::Area area(mesh::randomBlocks(mesh::Mix::Terrain, 22));
     mesh::MeshScratch scratch;
     QuadStore store;
     for (const int height : {64, 16, 128}) {
-        const mesh::ChunkMesh mesh = meshChunk(area.input({mesh::Method::Greedy, height}), scratch);
+        const mesh::ChunkMesh mesh = meshChunk(area.input({mesh::MergeMethod::Greedy, height}), scratch);
         ASSERT_TRUE(store.set({0, 0}, mesh));
         expectStored(store, {0, 0}, mesh);
         EXPECT_EQ(store.usedBytes(), mesh.quads.size() * shared::kQuadBytes);
     }
 }
 
-TEST_F(QuadStoreTest, ARegionThatFindsNoRoomIsEmpty) {
+TEST_F(QuadStoreTest, AMeshSectionThatFindsNoRoomIsEmpty) {
     QuadStore store(100);
     mesh::ChunkMesh two = numberedMesh(1, 60);
-    two.regions.push_back(mesh::movedTo(60, {}));
+    two.meshSections.push_back(mesh::movedTo(60, {}));
     ASSERT_TRUE(store.set({0, 0}, two));
-    mesh::ChunkMesh upper{numberedMesh(2, 50).quads, {mesh::RegionMesh{}, numberedMesh(2, 50).regions[0]}};
+    mesh::ChunkMesh upper{numberedMesh(2, 50).quads,
+                          {mesh::MeshSection{}, numberedMesh(2, 50).meshSections[0]}};
     EXPECT_FALSE(store.set({0, 0}, upper, 0b10));
     expectStored(store, {0, 0}, two);
 }

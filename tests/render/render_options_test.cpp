@@ -8,23 +8,23 @@ namespace {
 // The thesis's settings, section 6.
 TEST(RenderOptions, ThesisIsWhatItMeasuredWith) {
     const RenderOptions o = findPreset("thesis", true).value();
-    EXPECT_EQ(o.samples, 2);
+    EXPECT_EQ(o.msaaSamples, 2);
     EXPECT_EQ(o.shading, Shading::Sample);
-    EXPECT_TRUE(o.sampledAlphaTest && o.depthOfField && o.godRays && o.animation && o.betterTexturing);
+    EXPECT_TRUE(o.msaaAlphaTest && o.depthOfField && o.godRays && o.animation && o.sharpFiltering);
     EXPECT_EQ(o.shadowSize, 2048);
     EXPECT_EQ(o.occlusion, Occlusion::Off);
-    EXPECT_EQ(o.layers, 3);
+    EXPECT_EQ(o.transparencyLayers, 3);
     EXPECT_EQ(o.tJunctions, TJunctions::Covered);
     EXPECT_EQ(o, RenderOptions{});
 }
 
 TEST(RenderOptions, LowHasNoEffects) {
     const RenderOptions o = findPreset("low", false).value();
-    EXPECT_EQ(o.samples, 1);
+    EXPECT_EQ(o.msaaSamples, 1);
     EXPECT_EQ(o.shadowSize, 0);
     EXPECT_EQ(o.occlusion, Occlusion::Off);
     EXPECT_FALSE(o.depthOfField || o.godRays || o.clouds);
-    EXPECT_GT(o.layers, 0) << "water is seen";
+    EXPECT_GT(o.transparencyLayers, 0) << "water is seen";
 }
 
 TEST(RenderOptions, AutoGoesByTheRenderer) {

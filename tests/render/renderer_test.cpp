@@ -65,8 +65,8 @@ mesh::ChunkMesh blockMesh(std::string_view name, int x, int y, int z) {
     const world::Chunk air;
     chunk.setBlock(world::blockIndex(x, y, z), contentBlock(name));
     mesh::MeshInput input;
-    input.centre = &chunk;
-    input.neighbours = {&air, &air, &air, &air};
+    input.center = &chunk;
+    input.neighbors = {&air, &air, &air, &air};
     input.blocks = &contentBlocks();
     mesh::MeshScratch scratch;
     return mesh::meshChunk(input, scratch);
@@ -236,16 +236,16 @@ TEST_F(RendererTest, RemovedChunksAreGone) {
     const base::Image before = draw(noon(kLevel));
     renderer_->setChunk({0, 0}, blockMesh("grass", 4, 8, 100));
     const base::Image with = draw(noon(kLevel));
-    EXPECT_EQ(renderer_->statistics().regions, 1u);
+    EXPECT_EQ(renderer_->statistics().meshSections, 1u);
     EXPECT_GT(renderer_->statistics().quads, 0u);
-    EXPECT_EQ(renderer_->statistics().drawCommands, 2u) << "the group of +x between the others looks away";
+    EXPECT_EQ(renderer_->statistics().drawCommands, 2u) << "the direction +x between the others looks away";
     EXPECT_EQ(renderer_->quadBytes(), 6 * shared::kQuadBytes);
     EXPECT_NE(with.rgba, before.rgba);
     renderer_->removeChunk({0, 0});
     EXPECT_EQ(draw(noon(kLevel)).rgba, before.rgba);
 }
 
-// States of one frame must not reach into the next, also over more frames than the ring has regions.
+// States of one frame must not reach into the next, also over more frames than the ring has mesh sections.
 TEST_F(RendererTest, FramesDoNotDependOnTheOnesBefore) {
     renderer_->setChunk({0, 0}, blockMesh("stone", 4, 8, 100));
     renderer_->setChunk({1, 0}, blockMesh("oak_leaves", 0, 4, 100));
@@ -346,18 +346,18 @@ TEST_F(RendererTest, TexturesOfOtherSizesAreAnError) {
     }
 }
 
-// After edits that replace the regions they touch every frame is that of a renderer that got all anew, and no
-// more than these regions' quads were uploaded.
-TEST_F(RendererTest, EditsOfRegionsLookAsIfAllWasMeshedAgain) {
-    constexpr int kLowRegion = 16;
+// After edits that replace the mesh sections they touch every frame is that of a renderer that got everything
+// again, and no more than these mesh sections' quads were uploaded.
+TEST_F(RendererTest, EditsOfMeshSectionsLookAsIfAllWasMeshedAgain) {
+    constexpr int kLowMeshSection = 16;
     constexpr std::array kNames = {"stone", "water", "oak_leaves", "sand", "grass", "air"};
     world::Chunk chunk;
     const world::Chunk air;
     mesh::MeshInput input;
-    input.centre = &chunk;
-    input.neighbours = {&air, &air, &air, &air};
+    input.center = &chunk;
+    input.neighbors = {&air, &air, &air, &air};
     input.blocks = &contentBlocks();
-    input.options.regionHeight = kLowRegion;
+    input.options.meshSectionHeight = kLowMeshSection;
     mesh::MeshScratch scratch;
     auto other = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice());
     ASSERT_TRUE(other && other->configure(kSize, plainOptions(1)));
@@ -370,10 +370,11 @@ TEST_F(RendererTest, EditsOfRegionsLookAsIfAllWasMeshedAgain) {
         const std::string_view name = kNames[static_cast<std::size_t>(random(3, kNames.size()))];
         chunk.setBlock(world::blockIndex(pos.x, pos.y, pos.z),
                        name == "air" ? world::kAir : contentBlock(name));
-        const mesh::RegionSet regions = mesh::regionsTouchedBy(pos, kLowRegion)[0].regions;
-        const mesh::ChunkMesh part = meshRegions(input, regions, scratch);
+        const mesh::MeshSectionSet meshSections =
+            mesh::meshSectionsTouchedBy(pos, kLowMeshSection)[0].meshSections;
+        const mesh::ChunkMesh part = buildMeshSections(input, meshSections, scratch);
         const std::uint64_t before = renderer_->uploadedQuadBytes();
-        ASSERT_TRUE(renderer_->setChunk({0, 0}, part, regions));
+        ASSERT_TRUE(renderer_->setChunk({0, 0}, part, meshSections));
         EXPECT_EQ(renderer_->uploadedQuadBytes() - before, part.quads.size() * shared::kQuadBytes);
         ASSERT_TRUE(other->setChunk({0, 0}, meshChunk(input, scratch)));
         other->draw(frame);

@@ -40,33 +40,36 @@ const std::map<std::string, Values>& variantValues() {
         {"mesh.comp", {{"WRITES_QUADS", {"0", "1"}}}},
         {"quad.vert", {{"PASS", {"0", "1", "2"}}, {"ALPHA_CLASS", {"0", "1", "2"}}}},
         {"gbuffer.frag",
-         {{"PASS", {"0"}}, {"ALPHA_CLASS", {"0", "1"}}, {"SAMPLES", {"1", "4"}}, {"SMOOTH", {"0", "1"}}}},
+         {{"PASS", {"0"}},
+          {"ALPHA_CLASS", {"0", "1"}},
+          {"MSAA_SAMPLES", {"1", "4"}},
+          {"SMOOTH", {"0", "1"}}}},
         {"shadow.frag", {{"PASS", {"2"}}, {"ALPHA_CLASS", {"0", "1"}}}},
-        {"layer.frag",
-         {{"PASS", {"1"}}, {"ALPHA_CLASS", {"2"}}, {"NEXT", {"0", "1"}}, {"SAMPLES", {"1", "4"}}}},
-        {"layers.frag",
+        {"depth_peel.frag",
+         {{"PASS", {"1"}}, {"ALPHA_CLASS", {"2"}}, {"NEXT", {"0", "1"}}, {"MSAA_SAMPLES", {"1", "4"}}}},
+        {"transparency.frag",
          {{"PASS", {"1"}},
           {"ALPHA_CLASS", {"2"}},
-          {"SAMPLES", {"1", "4"}},
+          {"MSAA_SAMPLES", {"1", "4"}},
           {"LAYERS", {"1", "2", "3"}},
           {"SHADOW", {"0", "1"}},
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"QUADS", {"0", "1"}}}},
-        {"pixel_mask.frag", {{"SAMPLES", {"4"}}, {"OF", {"0", "1", "2"}}}},
+        {"pixel_mask.frag", {{"MSAA_SAMPLES", {"4"}}, {"OF", {"0", "1", "2"}}}},
         {"sky.frag", {{"CLOUDS", {"0", "1"}}}},
-        {"hole_fill.frag", {{"SAMPLES", {"1", "4"}}}},
-        {"far_blur.frag", {{"AXIS", {"0", "1"}}, {"SAMPLES", {"1", "4"}}}},
-        {"ambient_occlusion.frag", {{"SAMPLES", {"1", "4"}}}},
-        {"occlusion_blur.frag", {{"AXIS", {"0", "1"}}, {"SAMPLES", {"1", "4"}}}},
+        {"hole_fill.frag", {{"MSAA_SAMPLES", {"1", "4"}}}},
+        {"depth_of_field.frag", {{"AXIS", {"0", "1"}}, {"MSAA_SAMPLES", {"1", "4"}}}},
+        {"ambient_occlusion.frag", {{"MSAA_SAMPLES", {"1", "4"}}}},
+        {"occlusion_blur.frag", {{"AXIS", {"0", "1"}}, {"MSAA_SAMPLES", {"1", "4"}}}},
         {"final.frag",
-         {{"SAMPLES", {"1", "4"}},
-          {"FAR_BLUR", {"0", "1"}},
+         {{"MSAA_SAMPLES", {"1", "4"}},
+          {"DEPTH_OF_FIELD", {"0", "1"}},
           {"GOD_RAYS", {"0", "1"}},
           {"RAW_OCCLUSION", {"0", "1"}}}},
-        {"depth_pyramid.comp", {{"LEVEL_0", {"0", "1"}}, {"SAMPLES", {"1", "4"}}}},
-        {"debug_view.frag", {{"SAMPLES", {"1", "4"}}, {"LIGHT_SMOOTH", {"0", "1"}}}},
+        {"hi_z.comp", {{"LEVEL_0", {"0", "1"}}, {"MSAA_SAMPLES", {"1", "4"}}}},
+        {"debug_view.frag", {{"MSAA_SAMPLES", {"1", "4"}}, {"LIGHT_SMOOTH", {"0", "1"}}}},
         {"shade.frag",
-         {{"SAMPLES", {"1", "4"}},
+         {{"MSAA_SAMPLES", {"1", "4"}},
           {"PER_SAMPLE", {"0", "1"}},
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"SHADOW", {"0", "1"}},
@@ -83,7 +86,7 @@ bool has(const gpu::ShaderDefines& defines, const char* name, const char* value)
 // What no options lead to: with several samples a pixel layers are shaded over the whole screen, and surfaces
 // over the sky.
 bool isNeverSelected(const gpu::ShaderDefines& defines) {
-    return has(defines, "SAMPLES", "4") && (has(defines, "QUADS", "1") || has(defines, "OVER_SKY", "0"));
+    return has(defines, "MSAA_SAMPLES", "4") && (has(defines, "QUADS", "1") || has(defines, "OVER_SKY", "0"));
 }
 
 std::vector<gpu::ShaderDefines> variantsOf(std::string_view path) {
@@ -196,7 +199,7 @@ TEST_F(Shaders, ReferenceCompilerRefusesMistakes) {
     EXPECT_NE(complaints(folder_, kStages[1], {{"a", kWrong}, {"b", kRight}}), "");
     EXPECT_NE(complaints(folder_, kStages[1], {{"a", kRight}, {"b", kWrong}}), "");
     const auto source = contentShaders().load("terrane/render/gbuffer.frag.glsl", gpu::ShaderStage::Fragment,
-                                              {{"ALPHA_CLASS", "1"}, {"SAMPLES", "1"}, {"SMOOTH", "1"}});
+                                              {{"ALPHA_CLASS", "1"}, {"MSAA_SAMPLES", "1"}, {"SMOOTH", "1"}});
     ASSERT_TRUE(source);
     EXPECT_NE(complaints(folder_, kStages[0], {{"a", source->text}}), "") << "another stage";
 }
@@ -206,7 +209,8 @@ TEST(ShaderMacros, ThoseThatNobodyDefinesAreFound) {
               " OTHER THIRD");
     for (const base::EmbeddedFile& file : embedded::shaders()) {
         if (!file.path.ends_with("/shade.frag.glsl")) continue;
-        const auto source = contentShaders().load(file.path, gpu::ShaderStage::Fragment, {{"SAMPLES", "1"}});
+        const auto source =
+            contentShaders().load(file.path, gpu::ShaderStage::Fragment, {{"MSAA_SAMPLES", "1"}});
         ASSERT_TRUE(source);
         EXPECT_NE(undefinedMacros(source->text).find("OVER_SKY"), std::string::npos);
     }

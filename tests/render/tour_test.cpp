@@ -19,21 +19,21 @@ class Tour : public gpu::GlTest {
             return static_cast<int>(random_() % static_cast<unsigned>(count));
         };
         RenderOptions o;
-        o.samples = 1 << pick(3);
+        o.msaaSamples = 1 << pick(3);
         o.shading = static_cast<Shading>(pick(3));
         o.shadowSize = pick(2) * 512;
         o.occlusion = static_cast<Occlusion>(pick(3));
         o.depthOfField = pick(2) == 0;
-        o.atmosphere = pick(4) > 0;
+        o.distanceFog = pick(4) > 0;
         o.godRays = pick(2) == 0;
         o.clouds = pick(2) == 0;
         o.animation = pick(2) == 0;
-        o.betterTexturing = pick(2) == 0;
-        o.sampledAlphaTest = pick(2) == 0;
-        o.layers = pick(4);
-        o.singleLayer = pick(8) == 0 ? 1 + pick(3) : 0;
+        o.sharpFiltering = pick(2) == 0;
+        o.msaaAlphaTest = pick(2) == 0;
+        o.transparencyLayers = pick(4);
+        o.singleTransparencyLayer = pick(8) == 0 ? 1 + pick(3) : 0;
         o.tJunctions = static_cast<TJunctions>(pick(3));
-        o.hiddenRegionCulling = pick(2) == 0;
+        o.occlusionCulling = pick(2) == 0;
         return o;
     }
 
@@ -67,7 +67,7 @@ TEST_F(Tour, AnyOptionsInAnyOrder) {
     for (int frame = 0; frame < kFrames; ++frame) {
         if (frame % kFramesOfOptions == 0) {
             RenderOptions options = randomOptions();
-            options.samples = std::min(options.samples, most);
+            options.msaaSamples = std::min(options.msaaSamples, most);
             const glm::ivec2 size = frame % 400 == 0 ? glm::ivec2(33, 17 + frame % 31) : glm::ivec2(64, 40);
             const auto configured = made->configure(size, options);
             ASSERT_TRUE(configured) << configured.error().message;

@@ -53,7 +53,7 @@ TEST(Hash, Avalanche) {
 
 // Positions around the origin: no more equal results than chance gives (n² / 2 pairs out
 // of 2^32 results: one half on average for 65,536 positions, 8 for 262,144).
-TEST(Hash, NeighboursDiffer) {
+TEST(Hash, NeighborsDiffer) {
     const auto distinct = [](std::vector<uint> results) {
         std::sort(results.begin(), results.end());
         return std::unique(results.begin(), results.end()) - results.begin();

@@ -40,7 +40,7 @@ Bytes frame(ByteView plain, std::uint8_t version = kChunkVersion) {
     return withChecksum(bytes);
 }
 
-// Uniform sections of id 0 and small data 0, then what follows.
+// Uniform sections of id 0 and block state 0, then what follows.
 Bytes plainAir(ByteView rest) {
     Bytes plain(32 * 3);
     append(plain, rest);
@@ -65,15 +65,15 @@ TEST(ChunkCodec, EqualChunksGiveEqualBytes) {
         Chunk detour = chunk;
         for (int step = 0; step < 400; ++step) {
             const auto i = static_cast<world::BlockIndex>(random());
-            if (chunk.largeData(i)) continue;
+            if (chunk.blockEntityData(i)) continue;
             detour.setBlock(i, static_cast<world::BlockId>(random()));
-            if (step % 8 == 0) detour.setLargeData(i, randomBytes(random, 3));
+            if (step % 8 == 0) detour.setBlockEntityData(i, randomBytes(random, 3));
         }
         for (int i = 0; i < world::kBlocksPerChunk; ++i) {
             const auto index = static_cast<world::BlockIndex>(i);
-            if (chunk.largeData(index)) continue;
+            if (chunk.blockEntityData(index)) continue;
             if (detour.block(index) != chunk.block(index)) detour.setBlock(index, chunk.block(index));
-            detour.setSmallData(index, chunk.smallData(index));
+            detour.setBlockState(index, chunk.blockState(index));
         }
         ASSERT_EQ(detour, chunk);
         ASSERT_EQ(encode(detour), encode(chunk));
@@ -85,23 +85,23 @@ TEST(ChunkCodec, EmptyChunkIsSmall) {
     EXPECT_LT(encode(Chunk()).size(), 40u);
 }
 
-TEST(ChunkCodec, EveryBlockWithLargeData) {
+TEST(ChunkCodec, EveryBlockWithBlockEntityData) {
     Chunk chunk;
     for (int i = 0; i < world::kBlocksPerChunk; ++i)
-        chunk.setLargeData(static_cast<world::BlockIndex>(i), world::LargeData(2, std::byte(i)));
+        chunk.setBlockEntityData(static_cast<world::BlockIndex>(i), world::BlockEntityData(2, std::byte(i)));
     const auto back = decodeChunk(encode(chunk), allIds());
     ASSERT_TRUE(back) << back.error().message;
     EXPECT_EQ(*back, chunk);
 }
 
-TEST(ChunkCodec, TooMuchLargeDataIsRefused) {
+TEST(ChunkCodec, TooMuchBlockEntityDataIsRefused) {
     Chunk chunk;
-    chunk.setLargeData(5, world::LargeData(30u << 20));
+    chunk.setBlockEntityData(5, world::BlockEntityData(30u << 20));
     EXPECT_TRUE(encodeChunk(chunk, allIds()));
-    chunk.setLargeData(6, world::LargeData(33u << 20));
+    chunk.setBlockEntityData(6, world::BlockEntityData(33u << 20));
     const auto bytes = encodeChunk(chunk, allIds());
     ASSERT_FALSE(bytes);
-    EXPECT_THAT(bytes.error().message, HasSubstr("large data"));
+    EXPECT_THAT(bytes.error().message, HasSubstr("block entity data"));
 }
 
 // A save of a build whose blocks have other ids, and some that this one lacks.
@@ -170,8 +170,8 @@ TEST(ChunkCodec, ReadsVersion1) {
     expected.setSection(1, Section(300));
     for (int i = 0; i < 20; ++i)
         expected.setBlock(static_cast<world::BlockIndex>(9000 + 7 * i), static_cast<world::BlockId>(i * 3));
-    expected.setSmallData(9007, 500);
-    expected.setLargeData(65535, {std::byte{'a'}, std::byte{'b'}});
+    expected.setBlockState(9007, 500);
+    expected.setBlockEntityData(65535, {std::byte{'a'}, std::byte{'b'}});
     const auto chunk = decodeChunk(bytes, allIds());
     ASSERT_TRUE(chunk) << chunk.error().message;
     EXPECT_EQ(*chunk, expected);
@@ -193,7 +193,7 @@ TEST(ChunkCodec, SaysWhatIsWrong) {
     EXPECT_THAT(errorOf(frame(plainAir(large))), HasSubstr("70000 blocks"));
 }
 
-TEST(ChunkCodec, LargeDataOutOfOrderIsRefused) {
+TEST(ChunkCodec, BlockEntityDataOutOfOrderIsRefused) {
     Bytes large;
     appendNumber(large, std::uint32_t{2});
     for (const int index : {5, 5}) {
@@ -252,7 +252,7 @@ TEST(ChunkCodec, DamagedContent) {
         ASSERT_TRUE(decompress(ByteView(good).subspan(13), plain));
         for (int step = 0; step < 30; ++step) {
             Bytes bad = plain;
-            // Heads and large data's lengths are where it matters: at both ends.
+            // Heads and block entity data's lengths are where it matters: at both ends.
             const std::size_t near = random() % std::min<std::size_t>(bad.size(), 300);
             bad[random() % 2 ? near : bad.size() - 1 - near] = static_cast<std::byte>(random());
             (void)errorOf(frame(bad));

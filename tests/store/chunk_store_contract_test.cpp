@@ -44,7 +44,7 @@ TEST_P(ChunkStoreContract, ChunksComeBack) {
     }
 }
 
-// Blocks, small and large data of all forms, with ids of the registry.
+// Blocks, block states and block entity data of all forms, with ids of the registry.
 TEST_P(ChunkStoreContract, AllThatAChunkHasComesBack) {
     const auto store = world_->open();
     std::mt19937 random(1);
@@ -56,10 +56,11 @@ TEST_P(ChunkStoreContract, AllThatAChunkHasComesBack) {
             for (int k = 0; k < 100; ++k)
                 chunk.setBlock(static_cast<world::BlockIndex>(n << 12 | (random() & 4095)),
                                static_cast<world::BlockId>(random() % 6));
-            if (random() % 2) chunk.setSmallDataSection(n, randomSection(random, 40));
+            if (random() % 2) chunk.setBlockStateSection(n, randomSection(random, 40));
         }
         for (std::size_t count = random() % 30; count > 0; --count)
-            chunk.setLargeData(static_cast<world::BlockIndex>(random()), randomBytes(random, random() % 300));
+            chunk.setBlockEntityData(static_cast<world::BlockIndex>(random()),
+                                     randomBytes(random, random() % 300));
         store->save({x, -x}, std::make_shared<world::Chunk>(chunk), Provenance::Edited);
         chunks.push_back(std::move(chunk));
     }

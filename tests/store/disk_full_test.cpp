@@ -40,7 +40,7 @@ TEST(DiskFull, NothingIsLostAndItWorksAgainWithRoom) {
     std::mt19937 random(1);
     const auto noise = [&] {
         auto chunk = std::make_shared<world::Chunk>();
-        chunk->setLargeData(0, randomBytes(random, 20000));
+        chunk->setBlockEntityData(0, randomBytes(random, 20000));
         return chunk;
     };
     std::vector<world::ChunkPtr> chunks;

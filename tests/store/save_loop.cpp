@@ -4,8 +4,8 @@
 //   save_loop FILE verify LAST   exit code 0 where every chunk holds save 1 … LAST's edit of it, or a later
 //   one
 //
-// Save n edits the chunk n mod 100: sets it to numberedChunk(n) with n as large data, so that what is found
-// tells which save it is from.
+// Save n edits the chunk n mod 100: sets it to numberedChunk(n) with n as block entity data, so that what is
+// found tells which save it is from.
 #include <cstdio>
 #include <cstring>
 #include <string>
@@ -27,14 +27,14 @@ world::ChunkPos posOf(int number) {
 world::ChunkPtr edited(int number) {
     auto chunk = std::make_shared<world::Chunk>(*store::numberedChunk(number));
     const auto bytes = std::as_bytes(std::span(&number, 1));
-    chunk->setLargeData(kMark, world::LargeData(bytes.begin(), bytes.end()));
+    chunk->setBlockEntityData(kMark, world::BlockEntityData(bytes.begin(), bytes.end()));
     return chunk;
 }
 
 // 0 where there is none.
 int numberIn(const world::Chunk& chunk) {
     int number = 0;
-    const world::LargeData* mark = chunk.largeData(kMark);
+    const world::BlockEntityData* mark = chunk.blockEntityData(kMark);
     if (mark && mark->size() == sizeof number) std::memcpy(&number, mark->data(), sizeof number);
     return chunk == *edited(number) ? number : 0;
 }

@@ -174,7 +174,7 @@ TEST_F(SqliteStoreTest, IdWithoutANameIsDamage) {
 TEST_F(SqliteStoreTest, WhatNoSaveHoldsIsLeftOut) {
     const auto store = open();
     auto chunk = std::make_shared<world::Chunk>();
-    chunk->setLargeData(0, world::LargeData(70u << 20));
+    chunk->setBlockEntityData(0, world::BlockEntityData(70u << 20));
     store->save({0, 0}, chunk, Provenance::Edited);
     store->save({1, 0}, numberedChunk(1), Provenance::Edited);
     ASSERT_TRUE(store->flush());

@@ -61,23 +61,24 @@ inline world::Section randomSection(std::mt19937& random, int distinct) {
     return world::Section::fromValues(values);
 }
 
-inline world::LargeData randomBytes(std::mt19937& random, std::size_t size) {
-    world::LargeData data(size);
+inline world::BlockEntityData randomBytes(std::mt19937& random, std::size_t size) {
+    world::BlockEntityData data(size);
     for (std::byte& byte : data) byte = static_cast<std::byte>(random());
     return data;
 }
 
-// Sections of all forms, small and large data.
+// Sections of all forms, block states and block entity data.
 inline world::Chunk randomChunk(std::mt19937& random) {
     constexpr int kDistinct[] = {1, 1, 1, 2, 3, 4, 9, 16, 17, 200, 256, 257, 3000};
     world::Chunk chunk;
     for (int n = 0; n < world::kSectionsPerChunk; ++n) {
         chunk.setSection(n, randomSection(random, kDistinct[random() % std::size(kDistinct)]));
         if (random() % 4 == 0)
-            chunk.setSmallDataSection(n, randomSection(random, kDistinct[random() % std::size(kDistinct)]));
+            chunk.setBlockStateSection(n, randomSection(random, kDistinct[random() % std::size(kDistinct)]));
     }
     for (std::size_t count = random() % 2 * (random() % 50); count > 0; --count)
-        chunk.setLargeData(static_cast<world::BlockIndex>(random()), randomBytes(random, random() % 300));
+        chunk.setBlockEntityData(static_cast<world::BlockIndex>(random()),
+                                 randomBytes(random, random() % 300));
     return chunk;
 }
 
@@ -87,7 +88,7 @@ inline world::ChunkPtr numberedChunk(int number) {
     chunk->setSection(0, world::Section(1));
     for (int bit = 0; bit < 24; ++bit)
         chunk->setBlock(world::blockIndex(bit % 16, bit / 16, 20), number >> bit & 1 ? 2 : 3);
-    chunk->setSmallData(world::blockIndex(1, 1, 20), static_cast<std::uint16_t>(number));
+    chunk->setBlockState(world::blockIndex(1, 1, 20), static_cast<std::uint16_t>(number));
     return chunk;
 }
 
@@ -116,7 +117,7 @@ inline std::int64_t queryFile(const std::filesystem::path& path, const std::stri
     return number->value_or(-1);
 }
 
-// As a person without rights sees files: the tests may run as root, for whom nothing is read-only.
+// As a user without rights sees files: the tests may run as root, for whom nothing is read-only.
 class Unprivileged {
   public:
     Unprivileged() : wasRoot_(::geteuid() == 0) {

@@ -78,19 +78,19 @@ TEST_F(ChunkPipelineTest, TheSameViewChangesNothing) {
 TEST_F(ChunkPipelineTest, AWalkKeepsMemoryBoundedAndTheViewRight) {
     for (unsigned seed = 0; seed < 4; ++seed) {
         Numbers numbers(seed);
-        ChunkPos centre;
+        ChunkPos center;
         for (int step = 0; step < 60; ++step) {
-            centre.x += numbers.between(-2, 2);
-            centre.y += numbers.between(-2, 2);
-            if (numbers.between(0, 19) == 0) centre.x += 1000;  // a jump
-            setView(centre, numbers.between(0, 3));
+            center.x += numbers.between(-2, 2);
+            center.y += numbers.between(-2, 2);
+            if (numbers.between(0, 19) == 0) center.x += 1000;  // a jump
+            setView(center, numbers.between(0, 3));
             update();
             if (numbers.between(0, 2) == 0) pipeline_->waitForWorkers(std::chrono::milliseconds(5));
             take(static_cast<std::size_t>(numbers.between(0, 8)));
             if (HasFatalFailure()) return;
             now_ += std::chrono::milliseconds(numbers.between(0, 900));
-            if (numbers.between(0, 3) == 0 && world_.maybeChunkAt(centre)) {
-                placeBlock({centre.x * 16 + numbers.between(0, 15), centre.y * 16 + numbers.between(0, 15),
+            if (numbers.between(0, 3) == 0 && world_.maybeChunkAt(center)) {
+                placeBlock({center.x * 16 + numbers.between(0, 15), center.y * 16 + numbers.between(0, 15),
                             numbers.between(40, 90)},
                            numbers.between(0, 1) == 0 ? "lamp_red" : "air");
             }
@@ -132,7 +132,7 @@ TEST_F(ChunkPipelineTest, ViewsAtTheCornersOfTheWorldComplete) {
         expectShowsTheView();
         EXPECT_EQ(pipeline_->progress().wanted, 9u);
     }
-    // The last block of the world: its neighbours are outside.
+    // The last block of the world: its neighbors are outside.
     placeBlock({std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max(), 60},
                "sand");
     settle();
@@ -151,7 +151,7 @@ TEST_F(ChunkPipelineTest, OtherMeshOptionsMeshAgain) {
     setView({0, 0}, 1);
     settle();
     const auto before = shown_;
-    const mesh::MeshOptions none{mesh::Method::None, 16};
+    const mesh::MeshOptions none{mesh::MergeMethod::None, 16};
     pipeline_->setMeshOptions(none);
     EXPECT_EQ(shown_, before);
     EXPECT_TRUE(pipeline_->progress().complete());

@@ -64,7 +64,7 @@ TEST_F(ChunkTableTest, WhatLiesInFrontComesBeforeWhatLiesBehind) {
     EXPECT_LT(rank({-1, 0}), rank({5, 0})) << "but what is near comes first";
 }
 
-TEST_F(ChunkTableTest, AChunkIsFinishedOnceItsNeighboursAreActive) {
+TEST_F(ChunkTableTest, AChunkIsFinishedOnceItsNeighborsAreActive) {
     setView(table_, {0, 0}, 0);
     const auto loads = popLoadRequests(table_, kAll);
     ASSERT_EQ(loads.size(), 9u);
@@ -170,8 +170,8 @@ TEST_F(ChunkTableTest, WholeChunksAreMeshedAgainByJobsAndEditsAtOnce) {
     requestEditedMesh(table_, {40, 0}, 0b1);
     const auto edited = popEditedMeshes(table_, kAll);
     ASSERT_EQ(edited.size(), 2u) << "absent chunks are passed over";
-    EXPECT_EQ(edited[0].regions, mesh::kAllRegions) << "all of it had to be meshed";
-    EXPECT_EQ(edited[1].regions, 0b101u);
+    EXPECT_EQ(edited[0].meshSections, mesh::kAllMeshSections) << "all of it had to be meshed";
+    EXPECT_EQ(edited[1].meshSections, 0b101u);
     const auto jobs = popMeshJobs(table_, kAll);
     ASSERT_EQ(jobs.size(), 1u);
     EXPECT_EQ(jobs[0].pos, (ChunkPos{0, 0}));
@@ -186,7 +186,7 @@ TEST_F(ChunkTableTest, AnEditOutdatesTheJobThatMeshesTheChunk) {
     requestWholeMesh(table_, {0, 0});
     const auto jobs = popMeshJobs(table_, kAll);
     requestEditedMesh(table_, {0, 0}, 0b10);
-    EXPECT_EQ(popEditedMeshes(table_, kAll)[0].regions, mesh::kAllRegions);
+    EXPECT_EQ(popEditedMeshes(table_, kAll)[0].meshSections, mesh::kAllMeshSections);
     EXPECT_FALSE(finishMeshJob(table_, jobs[0]));
 }
 
@@ -210,7 +210,7 @@ TEST_F(ChunkTableTest, RandomWalksEndWellFromAnyState) {
         const auto below = [&](unsigned n) { return static_cast<int>(random() % n); };
         ChunkTable table;
         Time now{};
-        ChunkPos centre;
+        ChunkPos center;
         int distance = 2;
         std::vector<ChunkPos> loading, finishing;
         std::set<ChunkPos> shown;
@@ -247,12 +247,12 @@ TEST_F(ChunkTableTest, RandomWalksEndWellFromAnyState) {
             now += milliseconds(below(200));
         };
         for (int k = 0; k < 400; ++k) {
-            if (below(5) == 0) centre = {centre.x + below(3) - 1, centre.y + below(3) - 1};
-            if (below(100) == 0) centre.x += 500;
+            if (below(5) == 0) center = {center.x + below(3) - 1, center.y + below(3) - 1};
+            if (below(100) == 0) center.x += 500;
             if (below(60) == 0) distance = below(4);
-            setView(table, centre, distance, below(2) == 0 ? glm::vec2{0, 1} : glm::vec2{});
-            if (below(4) == 0) outdateLighting(table, {centre.x + below(7) - 3, centre.y + below(7) - 3});
-            if (below(20) == 0) requestChunk(table, {centre.x + below(40) - 20, centre.y}, now);
+            setView(table, center, distance, below(2) == 0 ? glm::vec2{0, 1} : glm::vec2{});
+            if (below(4) == 0) outdateLighting(table, {center.x + below(7) - 3, center.y + below(7) - 3});
+            if (below(20) == 0) requestChunk(table, {center.x + below(40) - 20, center.y}, now);
             ASSERT_NO_FATAL_FAILURE(step(true));
         }
         for (int k = 0; k < 300; ++k) ASSERT_NO_FATAL_FAILURE(step(false));
@@ -260,7 +260,7 @@ TEST_F(ChunkTableTest, RandomWalksEndWellFromAnyState) {
         const std::size_t side = 2 * static_cast<std::size_t>(distance) + 3;
         EXPECT_EQ(table.records.size(), side * side) << "what is far is gone";
         std::size_t inView = 0;
-        for (const ChunkPos pos : shown) inView += world::chunkDistance(pos, centre) <= distance ? 1 : 0;
+        for (const ChunkPos pos : shown) inView += world::chunkDistance(pos, center) <= distance ? 1 : 0;
         EXPECT_EQ(inView, table.visibleInView);
     }
 }

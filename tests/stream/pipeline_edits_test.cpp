@@ -29,7 +29,7 @@ TEST_F(PipelineEditsTest, EditsMeshAgainTheChunksThatSeeThem) {
     EXPECT_EQ(changedBy({-17, 9, 60}), (Chunks{{-2, 0}, {-1, 0}}));
     EXPECT_EQ(changedBy({5, 31, 60}), (Chunks{{0, 1}, {0, 2}}));
     EXPECT_EQ(changedBy({15, 0, 60}), (Chunks{{0, 0}, {1, 0}, {0, -1}}));
-    EXPECT_EQ(changedBy({47, 5, 60}), (Chunks{{2, 0}})) << "the neighbour is not in view";
+    EXPECT_EQ(changedBy({47, 5, 60}), (Chunks{{2, 0}})) << "the neighbor is not in view";
 }
 
 // Edits come faster than workers mesh: the meshes in between may be lost, the last may not.
@@ -84,9 +84,10 @@ TEST_F(PipelineEditsTest, EditsComeBeforeWhatIsShownAgain) {
             isThere = change.mesh && change.light;
             if (!isThere) continue;
             const mesh::ChunkMesh expected = directMesh(world_, kLast, options);
-            EXPECT_EQ(*change.mesh, change.regions == mesh::kAllRegions
-                                        ? expected
-                                        : mesh::withRegions(*change.mesh, expected, change.regions));
+            EXPECT_EQ(*change.mesh,
+                      change.meshSections == mesh::kAllMeshSections
+                          ? expected
+                          : mesh::withMeshSections(*change.mesh, expected, change.meshSections));
             EXPECT_EQ(*change.light, directLight(world_, kLast));
         }
         EXPECT_TRUE(isThere);
@@ -96,7 +97,7 @@ TEST_F(PipelineEditsTest, EditsComeBeforeWhatIsShownAgain) {
     pipeline_->resendLight();
     EXPECT_EQ(pipeline_->waitingChanges(), 121u);
     expectEditIsNext({}, 90);
-    const mesh::MeshOptions none{mesh::Method::None, 16};
+    const mesh::MeshOptions none{mesh::MergeMethod::None, 16};
     pipeline_->setMeshOptions(none);
     expectEditIsNext(none, 100);
     for (const auto& [pos, shown] : shown_) {
@@ -152,7 +153,7 @@ TEST_F(PipelineEditsTest, PlantsAreMeshedByTheirStage) {
     ASSERT_TRUE(placeBlock({3, 3, 101}, "wheat"));
     std::set<std::uint16_t> left;
     for (int stage = 3;; --stage) {
-        left.insert(world_.smallData({3, 3, 101}));
+        left.insert(world_.blockState({3, 3, 101}));
         settle();
         expectShowsTheView();
         if (stage == 0) break;
@@ -181,26 +182,27 @@ TEST_F(PipelineEditsTest, AnEditNamesTheBricksWhoseLightItChanged) {
     EXPECT_GE(lit, 5);
 }
 
-TEST_F(PipelineEditsTest, AnEditMeshesOnlyTheRegionsItTouches) {
-    pipeline_->setMeshOptions({mesh::Method::Greedy, 32});
+TEST_F(PipelineEditsTest, AnEditMeshesOnlyTheMeshSectionsItTouches) {
+    pipeline_->setMeshOptions({mesh::MergeMethod::Greedy, 32});
     setView({0, 0}, 1);
     settle();
-    placeBlock({15, 8, 95}, "stone");  // in region 2, below 3, and beside region 2 of the next chunk
+    placeBlock({15, 8, 95},
+               "stone");  // in mesh section 2, below 3, and beside mesh section 2 of the next chunk
     update();
-    std::map<ChunkPos, mesh::RegionSet> meshed;
+    std::map<ChunkPos, mesh::MeshSectionSet> meshed;
     for (const ChunkChange& change : pipeline_->takeChanges(kAll)) {
         if (!change.mesh) continue;
-        meshed[change.pos] = change.regions;
-        for (std::size_t r = 0; r < change.mesh->regions.size(); ++r) {
-            if (mesh::hasRegion(change.regions, r)) continue;
-            EXPECT_EQ(change.mesh->regions[r].maxZ, 0) << "region " << r << " has quads";
+        meshed[change.pos] = change.meshSections;
+        for (std::size_t r = 0; r < change.mesh->meshSections.size(); ++r) {
+            if (mesh::hasMeshSection(change.meshSections, r)) continue;
+            EXPECT_EQ(change.mesh->meshSections[r].maxZ, 0) << "mesh section " << r << " has quads";
         }
     }
-    EXPECT_EQ(meshed, (std::map<ChunkPos, mesh::RegionSet>{{{0, 0}, 0b1100}, {{1, 0}, 0b0100}}));
+    EXPECT_EQ(meshed, (std::map<ChunkPos, mesh::MeshSectionSet>{{{0, 0}, 0b1100}, {{1, 0}, 0b0100}}));
 }
 
 // Whatever is taken when, between edits and other options: what is shown is what meshing all again gives.
-TEST_F(PipelineEditsTest, RegionsOfManyEditsAddUp) {
+TEST_F(PipelineEditsTest, MeshSectionsOfManyEditsAddUp) {
     setView({0, 0}, 1);
     settle();
     mesh::MeshOptions options;
@@ -209,7 +211,7 @@ TEST_F(PipelineEditsTest, RegionsOfManyEditsAddUp) {
             return static_cast<int>(shared::hash2(step, k, 77) % count);
         };
         if (random(0, 25) == 0)
-            pipeline_->setMeshOptions(options = {mesh::Method::Greedy, 8 << random(1, 5)});
+            pipeline_->setMeshOptions(options = {mesh::MergeMethod::Greedy, 8 << random(1, 5)});
         placeBlock({random(2, 48) - 16, random(3, 48) - 16, 40 + random(4, 60)},
                    step % 3 == 0 ? "air" : "stone");
         if (random(5, 2) == 0) update();
@@ -236,8 +238,8 @@ TEST_F(PipelineEditsTest, EditsSurviveWhileTheirChunkStaysInView) {
     setView({0, 0}, 1);
     settle();
     placeBlock({3, 3, 90}, "lamp_red");
-    for (const ChunkPos centre : {ChunkPos{1, 0}, {2, 1}, {3, -1}, {0, 0}}) {
-        setView(centre, 1);
+    for (const ChunkPos center : {ChunkPos{1, 0}, {2, 1}, {3, -1}, {0, 0}}) {
+        setView(center, 1);
         settle();
     }
     EXPECT_EQ(world_.block({3, 3, 90}), contentBlock("lamp_red"));
@@ -270,10 +272,10 @@ TEST_F(PipelineEditsTest, MeshesOfWholeChunksAreLeftOut) {
     std::size_t meshed = 0;
     for (const ChunkChange& change : pipeline_->takeChanges(kAll)) {
         EXPECT_FALSE(change.needsMesh);
-        meshed += change.mesh && change.regions != mesh::kAllRegions;
+        meshed += change.mesh && change.meshSections != mesh::kAllMeshSections;
     }
     EXPECT_EQ(meshed, 1u);
-    pipeline_->setMeshOptions({mesh::Method::None, 16});
+    pipeline_->setMeshOptions({mesh::MergeMethod::None, 16});
     update();
     std::size_t again = 0;
     for (const ChunkChange& change : pipeline_->takeChanges(kAll)) again += change.needsMesh;

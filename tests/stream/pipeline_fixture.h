@@ -16,7 +16,7 @@ namespace terrane::stream {
 
 using world::ChunkPos;
 
-// Columns of random height, so that every chunk's mesh differs and depends on its neighbours.
+// Columns of random height, so that every chunk's mesh differs and depends on its neighbors.
 inline gen::Generator bumpyGenerator() {
     gen::GeneratorBuilder builder("bumpy", contentBlocks());
     builder.pass3D("ground", [](gen::Pass& p) {
@@ -28,8 +28,8 @@ inline gen::Generator bumpyGenerator() {
     return gen::Generator(*std::move(graph), 1);
 }
 
-inline bool isWithin(ChunkPos pos, ChunkPos centre, int distance) {
-    return world::isInWorld(pos) && world::chunkDistance(pos, centre) <= distance;
+inline bool isWithin(ChunkPos pos, ChunkPos center, int distance) {
+    return world::isInWorld(pos) && world::chunkDistance(pos, center) <= distance;
 }
 
 inline std::array<world::ChunkPtr, 9> chunksAround(const world::World& world, ChunkPos pos) {
@@ -57,10 +57,10 @@ class PipelineTest : public testing::Test {
   protected:
     static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
-    void setView(ChunkPos centre, int distance) {
-        centre_ = centre;
+    void setView(ChunkPos center, int distance) {
+        center_ = center;
         distance_ = distance;
-        pipeline_->setView(centre, distance);
+        pipeline_->setView(center, distance);
     }
 
     void update() { pipeline_->update(now_); }
@@ -76,15 +76,16 @@ class PipelineTest : public testing::Test {
                 continue;
             }
             Shown& shown = shown_[change.pos];
-            if (change.mesh) shown.mesh = withRegions(shown.mesh, change);
+            if (change.mesh) shown.mesh = withMeshSections(shown.mesh, change);
             if (change.light) shown.light = withBricks(shown.light, change);
         }
         return changes.size();
     }
 
-    static MeshPtr withRegions(const MeshPtr& old, const ChunkChange& change) {
-        if (change.regions == mesh::kAllRegions) return change.mesh;
-        return std::make_shared<mesh::ChunkMesh>(mesh::withRegions(*old, *change.mesh, change.regions));
+    static MeshPtr withMeshSections(const MeshPtr& old, const ChunkChange& change) {
+        if (change.meshSections == mesh::kAllMeshSections) return change.mesh;
+        return std::make_shared<mesh::ChunkMesh>(
+            mesh::withMeshSections(*old, *change.mesh, change.meshSections));
     }
 
     // As a renderer does that uploads nothing but the bricks which are said to have changed.
@@ -117,7 +118,7 @@ class PipelineTest : public testing::Test {
         const std::size_t side = 2 * (static_cast<std::size_t>(distance_) + 1) + 1;
         ASSERT_LE(world_.chunkCount(), side * side);
         world_.forEachChunk([&](ChunkPos pos, const world::ChunkPtr&) {
-            ASSERT_TRUE(isWithin(pos, centre_, distance_ + 1));
+            ASSERT_TRUE(isWithin(pos, center_, distance_ + 1));
         });
     }
 
@@ -125,7 +126,7 @@ class PipelineTest : public testing::Test {
         std::size_t wanted = 0;
         for (int dy = -distance_; dy <= distance_; ++dy) {
             for (int dx = -distance_; dx <= distance_; ++dx) {
-                const ChunkPos pos{centre_.x + dx, centre_.y + dy};
+                const ChunkPos pos{center_.x + dx, center_.y + dy};
                 if (!world::isInWorld(pos)) continue;
                 ++wanted;
                 const auto found = shown_.find(pos);
@@ -135,7 +136,7 @@ class PipelineTest : public testing::Test {
                     << "chunk " << pos.x << ' ' << pos.y;
             }
         }
-        for (const auto& [pos, shown] : shown_) EXPECT_TRUE(isWithin(pos, centre_, distance_ + 1));
+        for (const auto& [pos, shown] : shown_) EXPECT_TRUE(isWithin(pos, center_, distance_ + 1));
         EXPECT_EQ(pipeline_->progress().wanted, wanted);
         EXPECT_EQ(pipeline_->progress().visible, wanted);
     }
@@ -168,7 +169,7 @@ class PipelineTest : public testing::Test {
     base::JobSystem jobs_{2};
     ChunkPipeline::Time now_{};
     std::unique_ptr<ChunkPipeline> pipeline_ = makePipeline({&generator_, nullptr, false});
-    ChunkPos centre_;
+    ChunkPos center_;
     int distance_ = 0;
     std::map<ChunkPos, Shown> shown_;
     std::map<ChunkPos, int> removals_;

@@ -72,9 +72,9 @@ TEST_F(PipelineStoreTest, DataOfBlocksIsSaved) {
     restart();
     setView({0, 0}, 0);
     settle();
-    EXPECT_EQ(world_.smallData({3, 3, 20}), 77);
-    ASSERT_TRUE(world_.largeData({4, 3, 20}));
-    EXPECT_EQ(*world_.largeData({4, 3, 20}), (world::LargeData{std::byte{1}, std::byte{2}}));
+    EXPECT_EQ(world_.blockState({3, 3, 20}), 77);
+    ASSERT_TRUE(world_.blockEntityData({4, 3, 20}));
+    EXPECT_EQ(*world_.blockEntityData({4, 3, 20}), (world::BlockEntityData{std::byte{1}, std::byte{2}}));
 }
 
 }  // namespace

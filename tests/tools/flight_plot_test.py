@@ -16,7 +16,7 @@ except ModuleNotFoundError as missing:
     print(f"skipped: {missing}; needs python3-pandas and python3-matplotlib")
     sys.exit(77)
 
-# As terrane fly writes it.
+# As terrane flight-bench writes it.
 FLIGHT = """\
 time_s,frame_ms,follow_ms,upload_ms,draw_ms,follow_processor_ms,upload_processor_ms,uploads,visible_chunks,\
 wanted_chunks,queued_chunks
@@ -44,7 +44,7 @@ class FlightPlot(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         svg = (self.folder / "flight.svg").read_text(encoding="utf-8")
         for label in ("generating, view distance 16", "from a save, view distance 32", "twice the median",
-                      "of it loading (processor time)", "the same place, nothing to load"):
+                      "of it loading (CPU time)", "the same place, nothing to load"):
             self.assertIn(label, svg)
 
     def test_what_is_missing_is_named(self):

@@ -68,10 +68,10 @@ TEST_F(BlockEditTest, ReplacingTheGroundByOtherGroundKeepsThePlant) {
 TEST_F(BlockEditTest, WheatIsPlacedYoungAndOtherBlocksWithoutData) {
     put({1, 2, 3}, "dirt");
     put({1, 2, 4}, "wheat");
-    EXPECT_EQ(world_.smallData({1, 2, 3}), 0);
-    EXPECT_EQ(world_.smallData({1, 2, 4}), 3);
+    EXPECT_EQ(world_.blockState({1, 2, 3}), 0);
+    EXPECT_EQ(world_.blockState({1, 2, 4}), 3);
     put({1, 2, 4}, "poppy");
-    EXPECT_EQ(world_.smallData({1, 2, 4}), 0);
+    EXPECT_EQ(world_.blockState({1, 2, 4}), 0);
 }
 
 TEST_F(BlockEditTest, APlantIsNotPlacedWithoutGround) {
@@ -83,21 +83,21 @@ TEST_F(BlockEditTest, APlantIsNotPlacedWithoutGround) {
 TEST_F(BlockEditTest, DataOfBlocks) {
     const BlockPos pos{5, 7, 100}, above{5, 7, 256};
     const BlockId chest = contentBlock("chest");
-    const LargeData text{std::byte{'a'}, std::byte{'b'}};
+    const BlockEntityData text{std::byte{'a'}, std::byte{'b'}};
     put(pos, "chest");
     EXPECT_EQ(change({100, 7, 3}, SetState{1}), Edits{}) << "not loaded";
     EXPECT_EQ(change(above, SetState{1}), Edits{});
     EXPECT_EQ(change(above, SetEntityData{text}), Edits{});
     EXPECT_EQ(change(pos, SetState{7}), (Edits{{pos, chest, chest}}));
-    EXPECT_EQ(world_.smallData(pos), 7);
+    EXPECT_EQ(world_.blockState(pos), 7);
     const ChunkPtr before = world_.maybeChunkAt({0, 0});
     EXPECT_EQ(change(pos, SetEntityData{text}), (Edits{{pos, chest, chest}}));
-    ASSERT_NE(world_.largeData(pos), nullptr);
-    EXPECT_EQ(*world_.largeData(pos), text);
-    EXPECT_EQ(before->largeData(blockIndex(pos)), nullptr) << "a snapshot stays as it is";
+    ASSERT_NE(world_.blockEntityData(pos), nullptr);
+    EXPECT_EQ(*world_.blockEntityData(pos), text);
+    EXPECT_EQ(before->blockEntityData(blockIndex(pos)), nullptr) << "a snapshot stays as it is";
     put(pos, "stone");
-    EXPECT_EQ(world_.largeData(pos), nullptr) << "gone with the block";
-    EXPECT_EQ(world_.smallData(pos), 0);
+    EXPECT_EQ(world_.blockEntityData(pos), nullptr) << "gone with the block";
+    EXPECT_EQ(world_.blockState(pos), 0);
 }
 
 TEST_F(BlockEditTest, SnapshotsStayAsTheyWere) {

@@ -94,8 +94,8 @@ TEST(BlockParser, BadSelection) {
 }
 
 TEST(BlockParser, UnknownKeys) {
-    EXPECT_EQ(errorOf(cubeWith("colour = 1")),
-              fmt::format("blocks.toml:5: colour: unknown key, expected one of {}", kAllKeys));
+    EXPECT_EQ(errorOf(cubeWith("color = 1")),
+              fmt::format("blocks.toml:5: color: unknown key, expected one of {}", kAllKeys));
     EXPECT_EQ(errorOf(cubeWith("zeta = 1\nalfa = 2")),
               fmt::format("blocks.toml:5: zeta: unknown key, expected one of {}", kAllKeys))
         << "the first of the file, not of the alphabet";

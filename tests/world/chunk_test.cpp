@@ -10,8 +10,8 @@
 namespace terrane::world {
 namespace {
 
-LargeData bytes(std::string_view text) {
-    LargeData data;
+BlockEntityData bytes(std::string_view text) {
+    BlockEntityData data;
     for (const char c : text) data.push_back(static_cast<std::byte>(c));
     return data;
 }
@@ -31,118 +31,118 @@ TEST(Chunk, BlocksOfEverySection) {
     EXPECT_EQ(chunk.section(2).get(0 | 15 << 4), 33);
 }
 
-TEST(Chunk, SmallDataIsResetWithTheBlock) {
+TEST(Chunk, BlockStateIsResetWithTheBlock) {
     Chunk chunk;
     chunk.setBlock(kA, 5);
-    chunk.setSmallData(kA, 65535);
+    chunk.setBlockState(kA, 65535);
     EXPECT_EQ(chunk.block(kA), 5);
-    EXPECT_EQ(chunk.smallData(kA), 65535);
-    EXPECT_EQ(chunk.smallDataSection(0).get(kA), 65535);
+    EXPECT_EQ(chunk.blockState(kA), 65535);
+    EXPECT_EQ(chunk.blockStates(0).get(kA), 65535);
     chunk.setBlock(kA, 5);
-    EXPECT_EQ(chunk.smallData(kA), 0);
+    EXPECT_EQ(chunk.blockState(kA), 0);
 }
 
-TEST(Chunk, LargeDataSetReplaceClear) {
+TEST(Chunk, BlockEntityDataSetReplaceClear) {
     Chunk chunk;
-    EXPECT_EQ(chunk.largeData(kA), nullptr);
-    chunk.setLargeData(kA, bytes("first"));
-    chunk.setLargeData(kB, bytes("second"));
-    ASSERT_NE(chunk.largeData(kA), nullptr);
-    EXPECT_EQ(*chunk.largeData(kA), bytes("first"));
-    EXPECT_EQ(*chunk.largeData(kB), bytes("second"));
-    EXPECT_EQ(chunk.largeData(kC), nullptr) << "small data 0 is no slot of this block";
+    EXPECT_EQ(chunk.blockEntityData(kA), nullptr);
+    chunk.setBlockEntityData(kA, bytes("first"));
+    chunk.setBlockEntityData(kB, bytes("second"));
+    ASSERT_NE(chunk.blockEntityData(kA), nullptr);
+    EXPECT_EQ(*chunk.blockEntityData(kA), bytes("first"));
+    EXPECT_EQ(*chunk.blockEntityData(kB), bytes("second"));
+    EXPECT_EQ(chunk.blockEntityData(kC), nullptr) << "block state 0 is no slot of this block";
 
-    const std::uint16_t slot = chunk.smallData(kA);
-    chunk.setLargeData(kA, bytes("other"));
-    EXPECT_EQ(chunk.smallData(kA), slot) << "replaced in its slot";
-    EXPECT_EQ(*chunk.largeData(kA), bytes("other"));
+    const std::uint16_t slot = chunk.blockState(kA);
+    chunk.setBlockEntityData(kA, bytes("other"));
+    EXPECT_EQ(chunk.blockState(kA), slot) << "replaced in its slot";
+    EXPECT_EQ(*chunk.blockEntityData(kA), bytes("other"));
 
-    chunk.clearLargeData(kA);
-    EXPECT_EQ(chunk.largeData(kA), nullptr);
-    EXPECT_EQ(chunk.smallData(kA), 0);
-    EXPECT_EQ(*chunk.largeData(kB), bytes("second"));
-    chunk.clearLargeData(kA);
-    EXPECT_EQ(*chunk.largeData(kB), bytes("second"));
+    chunk.clearBlockEntityData(kA);
+    EXPECT_EQ(chunk.blockEntityData(kA), nullptr);
+    EXPECT_EQ(chunk.blockState(kA), 0);
+    EXPECT_EQ(*chunk.blockEntityData(kB), bytes("second"));
+    chunk.clearBlockEntityData(kA);
+    EXPECT_EQ(*chunk.blockEntityData(kB), bytes("second"));
 }
 
-TEST(Chunk, ClearLeavesPlainSmallData) {
+TEST(Chunk, ClearLeavesPlainBlockState) {
     Chunk chunk;
-    chunk.setSmallData(kA, 3);
-    chunk.clearLargeData(kA);
-    EXPECT_EQ(chunk.smallData(kA), 3);
+    chunk.setBlockState(kA, 3);
+    chunk.clearBlockEntityData(kA);
+    EXPECT_EQ(chunk.blockState(kA), 3);
 }
 
-TEST(Chunk, EmptyLargeDataIsData) {
+TEST(Chunk, EmptyBlockEntityDataIsData) {
     Chunk chunk;
-    chunk.setLargeData(kA, {});
-    ASSERT_NE(chunk.largeData(kA), nullptr);
-    EXPECT_TRUE(chunk.largeData(kA)->empty());
+    chunk.setBlockEntityData(kA, {});
+    ASSERT_NE(chunk.blockEntityData(kA), nullptr);
+    EXPECT_TRUE(chunk.blockEntityData(kA)->empty());
 }
 
-TEST(Chunk, SetBlockFreesLargeData) {
+TEST(Chunk, SetBlockFreesBlockEntityData) {
     Chunk chunk;
-    chunk.setLargeData(kA, LargeData(100000));
+    chunk.setBlockEntityData(kA, BlockEntityData(100000));
     const std::size_t before = chunk.memoryBytes();
     EXPECT_GE(before, 100000u);
     chunk.setBlock(kA, 9);
-    EXPECT_EQ(chunk.largeData(kA), nullptr);
+    EXPECT_EQ(chunk.blockEntityData(kA), nullptr);
     EXPECT_LT(chunk.memoryBytes(), before - 90000);
 }
 
 // Else the slot would be taken for ever, and the data come back with the number.
-TEST(Chunk, SetSmallDataFreesLargeData) {
+TEST(Chunk, SetBlockStateFreesBlockEntityData) {
     Chunk chunk;
-    chunk.setLargeData(kB, bytes("keeps slot 0"));
-    chunk.setLargeData(kA, bytes("in slot 1"));
-    chunk.setSmallData(kA, 7);
-    EXPECT_EQ(chunk.largeData(kA), nullptr);
-    chunk.setSmallData(kA, 1);
-    EXPECT_EQ(chunk.largeData(kA), nullptr);
-    EXPECT_EQ(chunk.smallData(kA), 1);
+    chunk.setBlockEntityData(kB, bytes("keeps slot 0"));
+    chunk.setBlockEntityData(kA, bytes("in slot 1"));
+    chunk.setBlockState(kA, 7);
+    EXPECT_EQ(chunk.blockEntityData(kA), nullptr);
+    chunk.setBlockState(kA, 1);
+    EXPECT_EQ(chunk.blockEntityData(kA), nullptr);
+    EXPECT_EQ(chunk.blockState(kA), 1);
 }
 
 TEST(Chunk, SlotsAreReused) {
     Chunk chunk;
-    for (int i = 0; i < 10; ++i) chunk.setLargeData(static_cast<BlockIndex>(i), bytes("x"));
-    chunk.clearLargeData(3);
+    for (int i = 0; i < 10; ++i) chunk.setBlockEntityData(static_cast<BlockIndex>(i), bytes("x"));
+    chunk.clearBlockEntityData(3);
     chunk.setBlock(5, 1);
-    chunk.setLargeData(1000, bytes("y"));
-    chunk.setLargeData(1001, bytes("z"));
-    EXPECT_EQ(chunk.smallData(1000), 3);
-    EXPECT_EQ(chunk.smallData(1001), 5);
-    chunk.setLargeData(1002, bytes("w"));
-    EXPECT_EQ(chunk.smallData(1002), 10);
-    EXPECT_EQ(chunk.largeData(3), nullptr);
-    EXPECT_EQ(chunk.largeData(5), nullptr);
+    chunk.setBlockEntityData(1000, bytes("y"));
+    chunk.setBlockEntityData(1001, bytes("z"));
+    EXPECT_EQ(chunk.blockState(1000), 3);
+    EXPECT_EQ(chunk.blockState(1001), 5);
+    chunk.setBlockEntityData(1002, bytes("w"));
+    EXPECT_EQ(chunk.blockState(1002), 10);
+    EXPECT_EQ(chunk.blockEntityData(3), nullptr);
+    EXPECT_EQ(chunk.blockEntityData(5), nullptr);
 }
 
 TEST(Chunk, CopiesAreIndependent) {
     Chunk chunk;
     chunk.setBlock(kA, 4);
-    chunk.setLargeData(kB, bytes("text"));
+    chunk.setBlockEntityData(kB, bytes("text"));
     Chunk copy = chunk;
     copy.setBlock(kA, 5);
-    copy.setLargeData(kB, bytes("changed"));
-    copy.setLargeData(kC, bytes("added"));
+    copy.setBlockEntityData(kB, bytes("changed"));
+    copy.setBlockEntityData(kC, bytes("added"));
     EXPECT_EQ(chunk.block(kA), 4);
-    EXPECT_EQ(*chunk.largeData(kB), bytes("text"));
-    EXPECT_EQ(chunk.largeData(kC), nullptr);
-    EXPECT_EQ(*copy.largeData(kB), bytes("changed"));
+    EXPECT_EQ(*chunk.blockEntityData(kB), bytes("text"));
+    EXPECT_EQ(chunk.blockEntityData(kC), nullptr);
+    EXPECT_EQ(*copy.blockEntityData(kB), bytes("changed"));
 }
 
 TEST(Chunk, SetSectionClearsItsDataOnly) {
     Chunk chunk;
     const BlockIndex inOne = blockIndex(3, 3, 16), inTwo = blockIndex(3, 3, 32);
-    chunk.setSmallData(blockIndex(4, 4, 20), 9);
-    chunk.setLargeData(inOne, bytes("one"));
-    chunk.setLargeData(inTwo, bytes("two"));
+    chunk.setBlockState(blockIndex(4, 4, 20), 9);
+    chunk.setBlockEntityData(inOne, bytes("one"));
+    chunk.setBlockEntityData(inTwo, bytes("two"));
     chunk.setSection(1, Section(8));
     EXPECT_EQ(chunk.block(inOne), 8);
     EXPECT_EQ(chunk.block(inTwo), kAir);
-    EXPECT_TRUE(chunk.smallDataSection(1).isUniform());
-    EXPECT_EQ(chunk.smallData(blockIndex(4, 4, 20)), 0);
-    EXPECT_EQ(chunk.largeData(inOne), nullptr);
-    EXPECT_EQ(*chunk.largeData(inTwo), bytes("two"));
+    EXPECT_TRUE(chunk.blockStates(1).isUniform());
+    EXPECT_EQ(chunk.blockState(blockIndex(4, 4, 20)), 0);
+    EXPECT_EQ(chunk.blockEntityData(inOne), nullptr);
+    EXPECT_EQ(*chunk.blockEntityData(inTwo), bytes("two"));
 }
 
 TEST(Chunk, MemoryBytesOfAnEmptyChunkIsTheObject) {
@@ -150,65 +150,65 @@ TEST(Chunk, MemoryBytesOfAnEmptyChunkIsTheObject) {
     EXPECT_LE(sizeof(Chunk), 2048u);
 }
 
-TEST(Chunk, FullOfLargeData) {
+TEST(Chunk, FullOfBlockEntityData) {
     Chunk chunk;
     for (int i = 0; i < 3000; ++i)
-        chunk.setLargeData(static_cast<BlockIndex>(i * 21), LargeData(1, std::byte(i)));
+        chunk.setBlockEntityData(static_cast<BlockIndex>(i * 21), BlockEntityData(1, std::byte(i)));
     for (int i = 0; i < 3000; ++i)
-        EXPECT_EQ(*chunk.largeData(static_cast<BlockIndex>(i * 21)), LargeData(1, std::byte(i)));
+        EXPECT_EQ(*chunk.blockEntityData(static_cast<BlockIndex>(i * 21)), BlockEntityData(1, std::byte(i)));
 }
 
-TEST(Chunk, SetSmallDataSectionFreesLargeDataThere) {
+TEST(Chunk, SetBlockStateSectionFreesBlockEntityDataThere) {
     Chunk chunk;
     const BlockIndex inOne = blockIndex(3, 3, 16), inTwo = blockIndex(3, 3, 32);
     chunk.setBlock(inOne, 8);
-    chunk.setLargeData(inTwo, bytes("two"));
-    chunk.setLargeData(inOne, bytes("one"));
-    chunk.setSmallDataSection(1, Section(6));
+    chunk.setBlockEntityData(inTwo, bytes("two"));
+    chunk.setBlockEntityData(inOne, bytes("one"));
+    chunk.setBlockStateSection(1, Section(6));
     EXPECT_EQ(chunk.block(inOne), 8);
-    EXPECT_EQ(chunk.smallData(inOne), 6);
-    EXPECT_EQ(chunk.largeData(inOne), nullptr);
-    EXPECT_EQ(*chunk.largeData(inTwo), bytes("two"));
+    EXPECT_EQ(chunk.blockState(inOne), 6);
+    EXPECT_EQ(chunk.blockEntityData(inOne), nullptr);
+    EXPECT_EQ(*chunk.blockEntityData(inTwo), bytes("two"));
 }
 
-TEST(Chunk, BlocksWithLargeDataAscend) {
+TEST(Chunk, BlocksWithBlockEntityDataAscend) {
     Chunk chunk;
-    EXPECT_TRUE(chunk.blocksWithLargeData().empty());
-    chunk.setLargeData(kB, bytes("1"));
-    chunk.setLargeData(kC, bytes("2"));
-    chunk.setLargeData(kA, bytes("3"));
-    EXPECT_EQ(chunk.blocksWithLargeData(), (std::vector<BlockIndex>{kC, kA, kB}));
+    EXPECT_TRUE(chunk.blocksWithBlockEntityData().empty());
+    chunk.setBlockEntityData(kB, bytes("1"));
+    chunk.setBlockEntityData(kC, bytes("2"));
+    chunk.setBlockEntityData(kA, bytes("3"));
+    EXPECT_EQ(chunk.blocksWithBlockEntityData(), (std::vector<BlockIndex>{kC, kA, kB}));
     chunk.setBlock(kC, 1);
-    EXPECT_EQ(chunk.blocksWithLargeData(), (std::vector<BlockIndex>{kA, kB}));
+    EXPECT_EQ(chunk.blocksWithBlockEntityData(), (std::vector<BlockIndex>{kA, kB}));
     chunk.setSection(15, Section(1));
-    EXPECT_EQ(chunk.blocksWithLargeData(), (std::vector<BlockIndex>{kA}));
+    EXPECT_EQ(chunk.blocksWithBlockEntityData(), (std::vector<BlockIndex>{kA}));
 }
 
-TEST(Chunk, EveryBlockMayHaveLargeData) {
+TEST(Chunk, EveryBlockMayHaveBlockEntityData) {
     Chunk chunk;
     for (int i = 0; i < kBlocksPerChunk; ++i)
-        chunk.setLargeData(static_cast<BlockIndex>(i), LargeData(1, std::byte(i)));
-    EXPECT_EQ(chunk.blocksWithLargeData().size(), 65536u);
-    EXPECT_EQ(*chunk.largeData(65535), LargeData(1, std::byte{255}));
+        chunk.setBlockEntityData(static_cast<BlockIndex>(i), BlockEntityData(1, std::byte(i)));
+    EXPECT_EQ(chunk.blocksWithBlockEntityData().size(), 65536u);
+    EXPECT_EQ(*chunk.blockEntityData(65535), BlockEntityData(1, std::byte{255}));
 }
 
 TEST(Chunk, EqualWhateverTheSlots) {
     Chunk a, b;
     EXPECT_EQ(a, b);
-    a.setLargeData(kA, bytes("one"));
-    a.setLargeData(kB, bytes("two"));
-    b.setLargeData(kB, bytes("two"));
+    a.setBlockEntityData(kA, bytes("one"));
+    a.setBlockEntityData(kB, bytes("two"));
+    b.setBlockEntityData(kB, bytes("two"));
     EXPECT_NE(a, b);
-    b.setLargeData(kA, bytes("one"));
-    EXPECT_NE(a.smallData(kA), b.smallData(kA));
+    b.setBlockEntityData(kA, bytes("one"));
+    EXPECT_NE(a.blockState(kA), b.blockState(kA));
     EXPECT_EQ(a, b);
-    b.setSmallData(kC, 1);
+    b.setBlockState(kC, 1);
     EXPECT_NE(a, b);
-    a.setSmallData(kC, 1);
+    a.setBlockState(kC, 1);
     EXPECT_EQ(a, b);
-    a.setLargeData(kA, bytes("other"));
+    a.setBlockEntityData(kA, bytes("other"));
     EXPECT_NE(a, b);
-    a.clearLargeData(kA);
+    a.clearBlockEntityData(kA);
     EXPECT_NE(a, b);
 }
 
@@ -223,8 +223,8 @@ TEST(Chunk, EqualNeedsEqualBlocks) {
 // What a chunk must hold, told plainly.
 struct PlainBlock {
     BlockId id = 0;
-    std::uint16_t smallData = 0;
-    LargeData largeData{};
+    std::uint16_t blockState = 0;
+    BlockEntityData blockEntityData{};
     bool hasLarge = false;
 };
 
@@ -242,24 +242,24 @@ TEST(Chunk, EqualsPlainMap) {
                 block = {.id = number};
                 break;
             case 1:
-                chunk.setSmallData(i, number);
-                block = {.id = block.id, .smallData = number};
+                chunk.setBlockState(i, number);
+                block = {.id = block.id, .blockState = number};
                 break;
             case 2:
-                chunk.setLargeData(i, LargeData(number));
-                block = {.id = block.id, .largeData = LargeData(number), .hasLarge = true};
+                chunk.setBlockEntityData(i, BlockEntityData(number));
+                block = {.id = block.id, .blockEntityData = BlockEntityData(number), .hasLarge = true};
                 break;
             default:
-                chunk.clearLargeData(i);
+                chunk.clearBlockEntityData(i);
                 if (block.hasLarge) block = {.id = block.id};
         }
         const auto seen = static_cast<BlockIndex>(random() % 64 * 1023);
         ASSERT_EQ(chunk.block(seen), plain[seen].id);
-        ASSERT_EQ(chunk.largeData(seen) != nullptr, plain[seen].hasLarge);
+        ASSERT_EQ(chunk.blockEntityData(seen) != nullptr, plain[seen].hasLarge);
         if (plain[seen].hasLarge) {
-            ASSERT_EQ(*chunk.largeData(seen), plain[seen].largeData);
+            ASSERT_EQ(*chunk.blockEntityData(seen), plain[seen].blockEntityData);
         } else {
-            ASSERT_EQ(chunk.smallData(seen), plain[seen].smallData);
+            ASSERT_EQ(chunk.blockState(seen), plain[seen].blockState);
         }
     }
 }

@@ -32,21 +32,21 @@ class CollisionTest : public testing::Test {
     World world_;
 };
 
-Aabb personAt(glm::dvec3 feet) {
+Aabb playerAt(glm::dvec3 feet) {
     return {feet - glm::dvec3(0.3, 0.3, 0), feet + glm::dvec3(0.3, 0.3, 1.8)};
 }
 
 TEST_F(CollisionTest, FallsOntoTheFloor) {
-    const Sweep s = move(personAt({4.5, 4.5, 15}), {0, 0, -20});
+    const Sweep s = move(playerAt({4.5, 4.5, 15}), {0, 0, -20});
     EXPECT_NEAR(s.moved.z, -5, 2 * kSkin);
     EXPECT_GE(15 + s.moved.z, 10);
     EXPECT_EQ(s.blocked, glm::bvec3(false, false, true));
-    EXPECT_EQ(move(personAt({4.5, 4.5, 15}), {0, 0, -3}).moved.z, -3);
+    EXPECT_EQ(move(playerAt({4.5, 4.5, 15}), {0, 0, -3}).moved.z, -3);
 }
 
 TEST_F(CollisionTest, SlidesAlongAWall) {
     for (int z = 10; z < 14; ++z) put({6, 4, z}, "stone");
-    const Sweep s = move(personAt({4.5, 4.5, 10.1}), {3, 0.25, 0});
+    const Sweep s = move(playerAt({4.5, 4.5, 10.1}), {3, 0.25, 0});
     EXPECT_NEAR(s.moved.x, 1.2, 2 * kSkin);
     EXPECT_EQ(s.moved.y, 0.25);
     EXPECT_EQ(s.blocked, glm::bvec3(true, false, false));
@@ -55,16 +55,16 @@ TEST_F(CollisionTest, SlidesAlongAWall) {
 TEST_F(CollisionTest, PassesPlantsAndWaterAndStopsAtACactusSide) {
     put({6, 4, 10}, "poppy");
     put({6, 4, 11}, "water");
-    EXPECT_EQ(move(personAt({4.5, 4.5, 10.1}), {4, 0, 0}).moved.x, 4);
+    EXPECT_EQ(move(playerAt({4.5, 4.5, 10.1}), {4, 0, 0}).moved.x, 4);
     put({6, 4, 10}, "cactus");
-    EXPECT_NEAR(move(personAt({4.5, 4.5, 10.1}), {4, 0, 0}).moved.x, 1.2 + 1.0 / 16, 2 * kSkin);
+    EXPECT_NEAR(move(playerAt({4.5, 4.5, 10.1}), {4, 0, 0}).moved.x, 1.2 + 1.0 / 16, 2 * kSkin);
 }
 
 TEST_F(CollisionTest, WhatIsNotLoadedStops) {
-    const Sweep s = move(personAt({28.5, 4.5, 10.1}), {30, 0, 0});
+    const Sweep s = move(playerAt({28.5, 4.5, 10.1}), {30, 0, 0});
     EXPECT_NEAR(s.moved.x, 32 - 28.8, 2 * kSkin);
     EXPECT_TRUE(s.blocked.x);
-    EXPECT_EQ(move(personAt({28.5, 4.5, 300}), {30, 0, 0}).moved.x, 30) << "above the world there is nothing";
+    EXPECT_EQ(move(playerAt({28.5, 4.5, 300}), {30, 0, 0}).moved.x, 30) << "above the world there is nothing";
 }
 
 TEST_F(CollisionTest, ABoxInsideABlockCanLeave) {
@@ -72,7 +72,7 @@ TEST_F(CollisionTest, ABoxInsideABlockCanLeave) {
         World empty;
         empty.insert({0, 0}, std::make_shared<Chunk>());
         putBlock(empty, {8, 8, 50}, contentBlock("stone"));
-        EXPECT_EQ(sweep(empty, contentBlocks(), personAt({8.5, 8.5, 50.2}), motion).moved, motion);
+        EXPECT_EQ(sweep(empty, contentBlocks(), playerAt({8.5, 8.5, 50.2}), motion).moved, motion);
     }
 }
 
@@ -80,7 +80,7 @@ TEST_F(CollisionTest, TheEdgeOfTheWorldHolds) {
     const ChunkPos corner{kMaxChunk, kMaxChunk};
     auto chunk = std::make_shared<Chunk>();
     world_.insert(corner, chunk);
-    const Sweep s = move(personAt({2147483640.5, 2147483640.5, 50}), {60, 60, 0});
+    const Sweep s = move(playerAt({2147483640.5, 2147483640.5, 50}), {60, 60, 0});
     EXPECT_LT(s.moved.x, 9);
     EXPECT_LT(s.moved.y, 9);
 }

@@ -87,7 +87,7 @@ TEST(Coords, HashTellsLevelsApart) {
 }
 
 // Tables take the lowest bits or a remainder: these must differ too.
-TEST(Coords, HashTellsNeighboursApart) {
+TEST(Coords, HashTellsNeighborsApart) {
     std::set<std::size_t> hashes, low;
     for (int y = -32; y < 32; ++y)
         for (int x = -32; x < 32; ++x) {

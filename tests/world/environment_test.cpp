@@ -28,7 +28,7 @@ bool isMoon(const Environment& e) {
     return e.discRadius < environmentAt(0.5f).discRadius;
 }
 
-// One step of the day may change a colour by as much as a screen can just show.
+// One step of the day may change a color by as much as a screen can just show.
 TEST(Environment, ColorsChangeWithoutJumps) {
     for (int step = 0; step < kSteps; ++step) {
         const auto now = colorsOf(environmentAt(timeOf(step))),

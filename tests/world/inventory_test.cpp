@@ -49,15 +49,15 @@ TEST(Inventory, AStackTakesItsOwnItemUpToItsEnd) {
 }
 
 TEST(Inventory, EveryCutIsFound) {
-    const LargeData whole = encodeInventory({{"stone", 99}, {}, {"sand", 1}});
+    const BlockEntityData whole = encodeInventory({{"stone", 99}, {}, {"sand", 1}});
     for (std::size_t length = 0; length < whole.size(); ++length) {
-        const LargeData cut(whole.begin(), whole.begin() + static_cast<long>(length));
+        const BlockEntityData cut(whole.begin(), whole.begin() + static_cast<long>(length));
         EXPECT_FALSE(decodeInventory(cut, 3)) << length;
     }
-    LargeData longer = whole;
+    BlockEntityData longer = whole;
     longer.push_back({});
     EXPECT_FALSE(decodeInventory(longer, 3));
-    LargeData newer = whole;
+    BlockEntityData newer = whole;
     newer[0] = std::byte{2};
     EXPECT_FALSE(decodeInventory(newer, 3));
 }
@@ -65,7 +65,7 @@ TEST(Inventory, EveryCutIsFound) {
 TEST(Inventory, AnyBytesGiveAnInventoryOrAnError) {
     std::mt19937 random(7);
     for (int round = 0; round < 5000; ++round) {
-        LargeData bytes = encodeInventory({{"stone", 9}, {}, {"a", 1}});
+        BlockEntityData bytes = encodeInventory({{"stone", 9}, {}, {"a", 1}});
         for (int k = 0; k < 3; ++k) bytes[random() % bytes.size()] = static_cast<std::byte>(random());
         const auto decoded = decodeInventory(bytes, 0);
         if (!decoded) continue;

@@ -28,7 +28,7 @@ class PlantGrowthTest : public testing::Test {
         for (std::uint64_t tick = 0; tick < atMost; ++tick) {
             if (stages == 0) return tick;
             for (const BlockPos pos : plantsThatGrow(world_, contentBlocks(), {tick, {0, 0}, 1})) {
-                putState(world_, pos, static_cast<std::uint16_t>(world_.smallData(pos) - 1));
+                putState(world_, pos, static_cast<std::uint16_t>(world_.blockState(pos) - 1));
                 --stages;
             }
         }
@@ -39,13 +39,13 @@ class PlantGrowthTest : public testing::Test {
 
 TEST_F(PlantGrowthTest, WheatGrowsThroughItsStages) {
     plantAt({4, 5, 60}, "wheat");
-    ASSERT_EQ(world_.smallData({4, 5, 61}), 3);
+    ASSERT_EQ(world_.blockState({4, 5, 61}), 3);
     // Three stages of 4096 / 3 ticks on average.
     const std::uint64_t ticks = grow(3, 60000);
     EXPECT_GT(ticks, 200u);
     EXPECT_LT(ticks, 40000u);
     EXPECT_EQ(world_.block({4, 5, 61}), contentBlock("wheat"));
-    EXPECT_EQ(world_.smallData({4, 5, 61}), 0);
+    EXPECT_EQ(world_.blockState({4, 5, 61}), 0);
 }
 
 TEST_F(PlantGrowthTest, EveryPlaceHasItsTurn) {
@@ -58,7 +58,7 @@ TEST_F(PlantGrowthTest, OtherBlocksKeepTheirData) {
     putBlock(world_, {1, 1, 50}, contentBlock("stone"));
     putState(world_, {1, 1, 50}, 7);
     grow(1, 3000);
-    EXPECT_EQ(world_.smallData({1, 1, 50}), 7);
+    EXPECT_EQ(world_.blockState({1, 1, 50}), 7);
 }
 
 TEST_F(PlantGrowthTest, TheSameTickGrowsTheSamePlantsOnce) {

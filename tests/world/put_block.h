@@ -22,7 +22,7 @@ inline bool putBlock(World& world, BlockPos pos, BlockId id) {
 }
 
 inline bool putState(World& world, BlockPos pos, std::uint16_t value) {
-    return changeChunk(world, pos, [&](Chunk& chunk) { chunk.setSmallData(blockIndex(pos), value); });
+    return changeChunk(world, pos, [&](Chunk& chunk) { chunk.setBlockState(blockIndex(pos), value); });
 }
 
 }  // namespace terrane::world

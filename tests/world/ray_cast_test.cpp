@@ -34,10 +34,10 @@ const BlockRegistry& registry() {
 // Chunks around a block, so that blocks near it can be set.
 World worldAround(BlockPos at) {
     World world;
-    const ChunkPos centre = chunkOf(at);
+    const ChunkPos center = chunkOf(at);
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x)
-            if (const ChunkPos pos{centre.x + x, centre.y + y}; isInWorld(pos))
+            if (const ChunkPos pos{center.x + x, center.y + y}; isInWorld(pos))
                 world.insert(pos, std::make_shared<Chunk>());
     return world;
 }
@@ -50,16 +50,16 @@ std::optional<RayHit> cast(const World& world, glm::dvec3 origin, glm::dvec3 dir
 TEST(RayCast, FaceAndDistanceAlongEachAxis) {
     World world = worldAround({5, 5, 5});
     putBlock(world, {5, 5, 5}, kRock);
-    const glm::dvec3 centre(5.5, 5.5, 5.5);
+    const glm::dvec3 center(5.5, 5.5, 5.5);
     for (int face = 0; face < kFaceCount; ++face) {
         glm::dvec3 outward(0);
         outward[face / 2] = face % 2 ? 1 : -1;
-        const auto hit = cast(world, centre + 4.0 * outward, -3.0 * outward);
+        const auto hit = cast(world, center + 4.0 * outward, -3.0 * outward);
         ASSERT_TRUE(hit) << face;
         EXPECT_EQ(hit->block, (BlockPos{5, 5, 5}));
         EXPECT_EQ(hit->face, face);
         EXPECT_DOUBLE_EQ(hit->distance, 3.5);
-        EXPECT_FALSE(cast(world, centre + 4.0 * outward, outward)) << "away from it";
+        EXPECT_FALSE(cast(world, center + 4.0 * outward, outward)) << "away from it";
     }
 }
 
@@ -153,26 +153,26 @@ TEST(RayCast, AtTheCornersOfTheWorld) {
             World world = worldAround({x, y, 0});
             putBlock(world, {x, y, 100}, kRock);
             const double inward = x < 0 ? 1 : -1;
-            const glm::dvec3 centre(x + 0.5, y + 0.5, 100.5);
-            const auto hit = cast(world, centre + glm::dvec3(5 * inward, 0, 0), {-inward, 0, 0});
+            const glm::dvec3 center(x + 0.5, y + 0.5, 100.5);
+            const auto hit = cast(world, center + glm::dvec3(5 * inward, 0, 0), {-inward, 0, 0});
             ASSERT_TRUE(hit);
             EXPECT_EQ(hit->block, (BlockPos{x, y, 100}));
             EXPECT_EQ(hit->face, x < 0 ? kFacePosX : kFaceNegX);
             EXPECT_DOUBLE_EQ(hit->distance, 4.5);
-            EXPECT_TRUE(cast(world, centre - glm::dvec3(5 * inward, 0, 0), {inward, 0, 0}))
+            EXPECT_TRUE(cast(world, center - glm::dvec3(5 * inward, 0, 0), {inward, 0, 0}))
                 << "from beyond the edge";
-            EXPECT_FALSE(cast(world, centre - glm::dvec3(inward, 0, 0), {-inward, 0, 0}, 1e18));
+            EXPECT_FALSE(cast(world, center - glm::dvec3(inward, 0, 0), {-inward, 0, 0}, 1e18));
         }
 }
 
-constexpr int kRegion = 12;  // blocks along each side of the random worlds' filled part
+constexpr int kFilledSide = 12;  // blocks along each side of the random worlds' filled part
 
 // A world with random blocks in a cube whose lowest corner is `corner`.
 World randomWorld(BlockPos corner, int percentFilled, std::mt19937& random) {
     World world = worldAround(corner);
-    for (int z = 0; z < kRegion; ++z)
-        for (int y = 0; y < kRegion; ++y)
-            for (int x = 0; x < kRegion; ++x)
+    for (int z = 0; z < kFilledSide; ++z)
+        for (int y = 0; y < kFilledSide; ++y)
+            for (int x = 0; x < kFilledSide; ++x)
                 if (static_cast<int>(random() % 100) < percentFilled)
                     putBlock(world, {corner.x + x, corner.y + y, corner.z + z},
                              static_cast<BlockId>(1 + random() % 4));
@@ -182,7 +182,8 @@ World randomWorld(BlockPos corner, int percentFilled, std::mt19937& random) {
 // A ray from a random point in or near that cube. Its origin is a multiple of 2^-10: exact also at 2^31.
 Ray randomRay(BlockPos corner, std::mt19937& random) {
     const auto coordinate = [&](std::int32_t low) {
-        return static_cast<double>(low) - 2 + static_cast<double>(random() % ((kRegion + 4) * 1024)) / 1024;
+        return static_cast<double>(low) - 2 +
+               static_cast<double>(random() % ((kFilledSide + 4) * 1024)) / 1024;
     };
     const auto component = [&] { return random() % 8 ? static_cast<double>(random() % 2001) - 1000 : 0.0; };
     return {.origin = {coordinate(corner.x), coordinate(corner.y), coordinate(corner.z)},
@@ -215,9 +216,9 @@ Span insideBox(const Ray& ray, BlockPos corner, BlockPos block, const Box& box) 
 // Looks at every block of the cube: the nearest whose box the ray enters. No other order, no shared code.
 std::optional<RayHit> exhaustive(const World& world, const Ray& ray, BlockPos corner) {
     std::optional<RayHit> nearest;
-    for (int i = 0; i < kRegion * kRegion * kRegion; ++i) {
-        const BlockPos block{corner.x + i % kRegion, corner.y + i / kRegion % kRegion,
-                             corner.z + i / kRegion / kRegion};
+    for (int i = 0; i < kFilledSide * kFilledSide * kFilledSide; ++i) {
+        const BlockPos block{corner.x + i % kFilledSide, corner.y + i / kFilledSide % kFilledSide,
+                             corner.z + i / kFilledSide / kFilledSide};
         const BlockType& type = registry().type(world.block(block));
         if (!type.selectable) continue;
         const Span span = insideBox(ray, corner, block, type.selection);
@@ -248,7 +249,7 @@ TEST(RayCast, EqualsLookingAtEveryBlock) {
     std::mt19937 random(1);
     int hits = 0, ties = 0;
     for (const BlockPos corner : {BlockPos{-6, -6, 20}, BlockPos{kLowest, kLowest, 0},
-                                  BlockPos{kHighest - kRegion + 1, kLowest + 100, 255 - kRegion + 1}})
+                                  BlockPos{kHighest - kFilledSide + 1, kLowest + 100, 255 - kFilledSide + 1}})
         for (int round = 0; round < 12; ++round) {
             const World world = randomWorld(corner, 1 + round * 2, random);
             for (int i = 0; i < 150; ++i) {

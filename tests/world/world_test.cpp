@@ -15,8 +15,8 @@ TEST(World, AirWhereNothingIsLoaded) {
     World world;
     EXPECT_EQ(world.maybeChunkAt({0, 0}), nullptr);
     EXPECT_EQ(world.block({1, 2, 3}), kAir);
-    EXPECT_EQ(world.smallData({1, 2, 3}), 0);
-    EXPECT_EQ(world.largeData({1, 2, 3}), nullptr);
+    EXPECT_EQ(world.blockState({1, 2, 3}), 0);
+    EXPECT_EQ(world.blockEntityData({1, 2, 3}), nullptr);
     EXPECT_EQ(world.chunkCount(), 0u);
     EXPECT_EQ(world.memoryBytes(), 0u);
 }

@@ -62,7 +62,7 @@ def merging(s, scene, method):
 
 
 def generating(scene, view_distance, **flags):
-    """Everything in view of a scene generated, in a small picture."""
+    """Everything in view of a scene generated, in a small image."""
     return command_line("render", scene=scene, preset="low", view_distance=view_distance, size="320x180", **flags)
 
 
@@ -73,7 +73,7 @@ def loading(scene, view_distance):
 
 def flight(s, is_from_save):
     """A flight ahead over the landscape."""
-    return command_line("fly", scene="landscape", **{"for": f"{s.flight_seconds:g}"},
+    return command_line("flight-bench", scene="landscape", **{"for": f"{s.flight_seconds:g}"},
                         preset="low" if s.is_software else "thesis", view_distance=s.view_distance,
                         size="320x180" if s.is_software else s.size,
                         **({"save_game": "flight"} if is_from_save else {}))

@@ -1,4 +1,4 @@
-"""What grows with the view distance and the picture, and what each effect costs."""
+"""What grows with the view distance and the image, and what each effect costs."""
 
 from .cells import frame, generating, loading, pixels, plain_frame
 from .table import (CHUNKS_IN_VIEW, FRAME_MS, LOAD_SECONDS, PROCESSOR_MS, Plot, Table, Value, difference, total,
@@ -41,9 +41,9 @@ def by_resolution(s):
         rows.append([str(pixels(size)), size, value(drawn, FRAME_MS), value(drawn, PROCESSOR_MS),
                      value(drawn, per_pixel), value(plain, FRAME_MS), value(plain, per_pixel)])
     return Table(
-        "resolution", "What grows with the picture",
+        "resolution", "What grows with the image",
         f"Landscape, V={s.view_distance}, with the options of the thesis's tables and with `--preset low`.",
-        "large pictures",
+        "large images",
         ["pixels", "size", "frame, ms", "processor, ms", "ns a pixel", "preset low: frame, ms",
          "preset low: ns a pixel"],
         rows, [Plot("pixels", "milliseconds a frame", [2, 5], is_lines=True)])

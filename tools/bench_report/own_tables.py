@@ -79,7 +79,7 @@ def stages(s):
                 ("light, stage 1", loaded, task("own light"), [blocks, light], 0,
                  "bricks that are not uniform: 5 to 6 a chunk, unpacked to a few bytes a block and searched"),
                 ("light, stage 2", loaded, task("light"), [light, light], 0,
-                 "twelve borders to neighbours, rows that change, packing"),
+                 "twelve borders to neighbors, rows that change, packing"),
                 ("mesh", loaded, task("mesh"), [blocks, quads], 0, "bit planes of sections, 16 ns for each quad"),
                 ("upload", loaded, Value("/milliseconds/upload", 1000, per=CHUNKS_IN_VIEW),
                  [quads, quads, light_gpu, light_gpu], 0, "the driver's copies"))]
@@ -104,12 +104,12 @@ def passes(s):
     return Table(
         "passes", "Passes of the frame",
         f"GPU milliseconds of each pass, {s.size}, V={s.view_distance}; the last column is nanoseconds a pixel of the "
-        "picture (the software renderer draws 4 samples each). A pass that does not run has no time.",
+        "image (the software renderer draws 4 samples each). A pass that does not run has no time.",
         "view distance, size", ["pass", *(f"{scene}, ms" for scene in SCENES), "landscape, ns a pixel"], rows,
         [Plot("pass", "milliseconds", [1, 2, 3, 4])])
 
 
-OWNERS = (("blocks", "blocks"), ("light", "light"), ("light of stage 1, until neighbours are lit", "light_of_stage_1"),
+OWNERS = (("blocks", "blocks"), ("light", "light"), ("light of stage 1, until neighbors are lit", "light_of_stage_1"),
           ("fields of the generator", "generator_cache"), ("quads on the GPU", "quads_gpu"),
           ("light on the GPU", "light_gpu"), ("the process", "process"), ("the process at its peak", "process_peak"))
 

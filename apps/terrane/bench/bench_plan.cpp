@@ -27,8 +27,8 @@ Cells frames(const BenchSettings& s, const std::string& flags) {
     return expandLine(fmt::format(
         "render --scene landscape --preset thesis --view-distance {} --size {} --frames {} --samples 2 "
         "--shading sample "
-        "--shadows {} --layers 3 --aggregation greedy --region-height {} {}",
-        s.viewDistance, s.size, s.frames, s.isQuick ? 1024 : 2048, mesh::kDefaultRegionHeight, flags));
+        "--shadows {} --layers 3 --merging greedy --mesh-section-height {} {}",
+        s.viewDistance, s.size, s.frames, s.isQuick ? 1024 : 2048, mesh::kDefaultMeshSectionHeight, flags));
 }
 
 // With the least options, which are those of `--preset auto` without a graphics card.
@@ -38,7 +38,7 @@ Cells plainFrames(const BenchSettings& s, const std::string& flags) {
                     s.viewDistance, s.size, s.frames, flags));
 }
 
-// Everything in view of a scene generated; a small picture, as loading does not wait for it.
+// Everything in view of a scene generated; a small image, as loading does not wait for it.
 Cells generating(const std::string& scene, const std::string& distances) {
     return expandLine(
         fmt::format("render --scene {} --preset low --view-distance {} --size 320x180", scene, distances));
@@ -72,18 +72,18 @@ Cells goals(const BenchSettings& s) {
         expandLine(fmt::format("generate --radius {} --threads 1 --backend cpu", s.isQuick ? 6 : 16));
     append(cells, generating("landscape", fmt::to_string(s.viewDistance)));
     cells.push_back(loading("landscape", s.viewDistance));
-    append(cells, frames(s, "--aggregation greedy,squares-ext --occlusion-culling off"));
+    append(cells, frames(s, "--merging greedy,squares-ext --occlusion-culling off"));
     cells.push_back(flight(s, false));
     return cells;
 }
 
-Cells regionHeights(const BenchSettings& s) {
+Cells meshSectionHeights(const BenchSettings& s) {
     Cells cells;
     for (const int distance : upTo(std::max(8, s.farthest), {8, 16, 32, 56})) {
         // The thesis has no others at 56.
         const char* heights = distance == 56 ? "8,64,128" : "8,16,32,64,128";
         for (Cell& cell :
-             frames(s, fmt::format("--view-distance {0} --region-height {1} --save-game landscape-{0}",
+             frames(s, fmt::format("--view-distance {0} --mesh-section-height {1} --save-game landscape-{0}",
                                    distance, heights)))
             cells.push_back({std::move(cell.arguments), loading("landscape", distance).arguments});
     }
@@ -98,7 +98,7 @@ Cells shadowMaps(const BenchSettings& s) {
 
 Cells effects(const BenchSettings& s) {
     Cells cells;
-    for (const char* flag : {"", "--depth-of-field off", "--god-rays off", "--better-texturing off",
+    for (const char* flag : {"", "--depth-of-field off", "--god-rays off", "--sharp-filtering off",
                              "--msaa-alpha-test off", "--t-junctions open", "--animation off"})
         append(cells, frames(s, (s.isQuick ? "--scene ocean,landscape " : kScenes) + std::string(flag)));
     return cells;
@@ -129,8 +129,8 @@ Cells effectCosts(const BenchSettings& s) {
     Cells cells;
     for (const char* flag :
          {"", "--samples 4", "--shading off", "--light smooth", "--shadows 2048", "--ssao on",
-          "--depth-of-field on", "--atmosphere off", "--god-rays on", "--clouds on", "--animation off",
-          "--better-texturing on", "--layers 0,3", "--t-junctions open", "--occlusion-culling off"})
+          "--depth-of-field on", "--distance-fog off", "--god-rays on", "--clouds on", "--animation off",
+          "--sharp-filtering on", "--layers 0,3", "--t-junctions open", "--occlusion-culling off"})
         append(cells, plainFrames(s, flag));
     return cells;
 }
@@ -164,10 +164,9 @@ std::vector<CellGroup> planGroups(const BenchSettings& s) {
         saves.push_back(loading(scene, s.viewDistance));
     return {
         {"goals", goals(s)},
-        {"region-height", regionHeights(s)},
+        {"region-height", meshSectionHeights(s)},
         {"memory", landscapes},
-        {"aggregation",
-         scenes("--aggregation none,lines,squares,squares-ext,greedy --occlusion-culling off")},
+        {"aggregation", scenes("--merging none,lines,squares,squares-ext,greedy --occlusion-culling off")},
         {"flight", {flight(s, true), flight(s, false)}},
         {"post-processing", scenes("--ssao on")},
         {"light-texture", scenes("")},

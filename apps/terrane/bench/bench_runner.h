@@ -10,7 +10,7 @@ namespace terrane::app {
 
 class BenchRunner {
   public:
-    // `program`: this program's file. `work`: absolute; what runs need (saves, pictures) goes there. The
+    // `program`: this program's file. `work`: absolute; what runs need (saves, images) goes there. The
     // results outlive the runner.
     BenchRunner(std::filesystem::path program, std::filesystem::path work, int runs, ResultFile& results);
 

@@ -3,8 +3,8 @@
 namespace terrane::app {
 
 std::vector<CommandEntry> addCommands(CLI::App& app) {
-    return {addPlay(app),  addRender(app),     addRecord(app), addFly(app),    addGenerate(app),
-            addMap(app),   addDump(app),       addCheck(app),  addBlocks(app), addInfo(app),
+    return {addPlay(app),  addRender(app),     addRecord(app), addFlightBench(app), addGenerate(app),
+            addMap(app),   addDump(app),       addCheck(app),  addBlocks(app),      addInfo(app),
             addBench(app), addCompletion(app), addMan(app)};
 }
 

@@ -42,7 +42,7 @@ std::string tableNames() {
     return names;
 }
 
-// What runs need: saves, pictures, messages. A folder that nobody had before, as the person's own files may
+// What runs need: saves, images, messages. A folder that nobody had before, as the user's own files may
 // lie beside it; removed with all that is in it.
 class WorkFolder {
   public:
@@ -203,7 +203,7 @@ void addSettings(CLI::App& command, BenchOptions& options) {
                 const glm::ivec2 size = parseSize(text);
                 options.size = fmt::format("{}x{}", size.x, size.y);
             },
-            "Picture size in pixels (default: 1920x1080, quick 320x180)")
+            "Image size in pixels (default: 1920x1080, quick 320x180)")
         ->type_name("WxH");
     command.add_option("--view-distance", options.viewDistance, "In chunks (default: 32, quick 8)")
         ->check(numberFrom(1, 64));

@@ -26,7 +26,7 @@ const char* defaultCommand();
 CommandEntry addPlay(CLI::App& app);
 CommandEntry addRender(CLI::App& app);
 CommandEntry addRecord(CLI::App& app);
-CommandEntry addFly(CLI::App& app);
+CommandEntry addFlightBench(CLI::App& app);
 CommandEntry addGenerate(CLI::App& app);
 CommandEntry addMap(CLI::App& app);
 CommandEntry addDump(CLI::App& app);

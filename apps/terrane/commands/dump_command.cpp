@@ -107,7 +107,7 @@ constexpr const char* kQuadType =
     "('extent_u','|u1'),('extent_v','|u1'),('material','<u2'),('context','|u1'),('group','|u1')]";
 
 void appendQuad(std::string& data, world::ChunkPos pos, shared::Quad quad,
-                std::array<int, 2> contextAndGroup) {
+                std::array<int, 2> bucketAndDirection) {
     const auto number = [&](auto value) {
         char bytes[sizeof(value)];
         std::memcpy(bytes, &value, sizeof(value));
@@ -123,18 +123,18 @@ void appendQuad(std::string& data, world::ChunkPos pos, shared::Quad quad,
     byte(shared::quadExtentU(quad));
     byte(shared::quadExtentV(quad));
     number(static_cast<std::uint16_t>(shared::quadMaterial(quad)));
-    for (const int value : contextAndGroup) byte(static_cast<shared::uint>(value));
+    for (const int value : bucketAndDirection) byte(static_cast<shared::uint>(value));
 }
 
 void appendMesh(base::NpyArray& array, world::ChunkPos pos, mesh::ChunkMesh& mesh) {
-    for (const mesh::RegionMesh& region : mesh.regions) {
-        for (int context = 0; context < mesh::kContextCount; ++context) {
-            for (int group = 0; group < mesh::kGroupCount; ++group) {
-                const mesh::QuadRange range = region.groups[context][group];
+    for (const mesh::MeshSection& meshSection : mesh.meshSections) {
+        for (int bucket = 0; bucket < mesh::kDrawBucketCount; ++bucket) {
+            for (int direction = 0; direction < mesh::kFaceDirectionCount; ++direction) {
+                const mesh::QuadRange range = meshSection.ranges[bucket][direction];
                 const auto quads = std::span(mesh.quads).subspan(range.first, range.count);
                 // Each back end has an order of its own; files are the same.
                 std::ranges::sort(quads, {}, [](shared::Quad q) { return std::pair(q.word0, q.word1); });
-                for (const shared::Quad quad : quads) appendQuad(array.data, pos, quad, {context, group});
+                for (const shared::Quad quad : quads) appendQuad(array.data, pos, quad, {bucket, direction});
             }
         }
     }

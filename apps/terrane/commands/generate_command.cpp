@@ -195,7 +195,7 @@ CommandEntry addGenerate(CLI::App& app) {
     command->add_option("--simd", options->simd, "Instruction set, as info lists them (default: the best)");
     addWorldOptions(*command, options->world);
     addWorldOption(*command, options->save,
-                   "World to generate into; made where it is not there. What it has is not generated again");
+                   "World to generate into; created if needed. What it has is not generated again");
     addRecreateOption(*command, options->save);
     return {command, [options] { return generate(*options); }};
 }

@@ -17,7 +17,7 @@ CommandEntry addCompletion(CLI::App& app) {
         {{"bash", bashCompletion}, {"zsh", zshCompletion}, {"fish", fishCompletion}}};
     auto shell = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand("completion", "Print a script that completes commands in a shell");
-    command->add_option("shell", *shell, "The shell: bash, zsh, fish")->type_name("WORD")->required();
+    command->add_option("shell", *shell, "The shell: bash, zsh, fish")->type_name("CHOICE")->required();
     return {command, [shell, &app]() -> base::Result<void> {
                 for (const Shell& known : kShells) {
                     if (known.name != *shell) continue;

@@ -39,8 +39,7 @@ base::Result<void> printInfo(bool asJson) {
 
 CommandEntry addInfo(CLI::App& app) {
     auto asJson = std::make_shared<bool>(false);
-    CLI::App* command =
-        app.add_subcommand("info", "Show the renderer, its limits and the processor's features");
+    CLI::App* command = app.add_subcommand("info", "Show the renderer, its limits and the CPU's features");
     command->add_flag("--json", *asJson, "Print as JSON");
     return {command, [asJson] { return printInfo(*asJson); }};
 }

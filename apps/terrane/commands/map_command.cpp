@@ -22,7 +22,7 @@ struct MapOptions {
     std::string output, resourcePack;
 };
 
-// 16,384² pixels: a picture of 1 GiB in memory.
+// 16,384² pixels: an image of 1 GiB in memory.
 constexpr std::int64_t kMaxChunksInMap = 1024 * 1024;
 
 base::Result<void> writeMap(MapOptions& options) {

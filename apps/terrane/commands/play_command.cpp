@@ -9,9 +9,9 @@
 #include "apps/terrane/resource_pack.h"
 #include "apps/terrane/shaders.h"
 #include "apps/terrane/stop_signals.h"
+#include "apps/terrane/window/bookmarks.h"
 #include "apps/terrane/window/game.h"
 #include "apps/terrane/window/icon.h"
-#include "apps/terrane/window/positions.h"
 #include "terrane/base/log.h"
 #include "terrane/game/spawn.h"
 #include "terrane/view/camera_pose.h"
@@ -25,7 +25,7 @@ constexpr const char* kKeys = R"(Keys:
   left, right button      break a block, build one or open a chest; wheel: choose the block
   M                       how one moves: on foot, fast or slowly through everything, not through walls
   O, P, I                 time of day back, forth; let it pass or stand still
-  F1, F2                  help; settings and figures
+  F1, F2                  help; settings and statistics
   F3, F4                  debug top view; a map of how far chunks are
   F5, F6                  save a bookmark in bookmarks.txt, go to the next one
   F11, F12, L             full screen; screenshot; light classic or smooth
@@ -37,22 +37,22 @@ struct PlayOptions {
     GraphicsOptions graphics;
     Backend backend = Backend::Auto;
     PlaySettings settings;
-    std::optional<int> position;
+    std::optional<int> bookmark;
     std::optional<double> time;
     std::string perfData;
     std::string settingsFile = settingsPath().string();
 };
 
-// What the person sees first: a place of the positions file, where the save was left, or a pleasant place.
+// What the player sees first: a bookmark, where the save was left, or a pleasant place.
 base::Result<world::Pose> startOf(const PlayOptions& options, game::Session& session) {
-    if (options.position) {
-        auto positions = readPositions(kPositionsFile);
-        if (!positions) return tl::unexpected(positions.error());
-        const auto number = static_cast<std::size_t>(*options.position);
-        if (number > positions->size()) {
-            return base::fail("--bookmark {}: {} has {}", number, kPositionsFile, positions->size());
+    if (options.bookmark) {
+        auto bookmarks = readBookmarks(kBookmarksFile);
+        if (!bookmarks) return tl::unexpected(bookmarks.error());
+        const auto number = static_cast<std::size_t>(*options.bookmark);
+        if (number > bookmarks->size()) {
+            return base::fail("--bookmark {}: {} has {}", number, kBookmarksFile, bookmarks->size());
         }
-        return view::poseOf((*positions)[number - 1]);
+        return view::poseOf((*bookmarks)[number - 1]);
     }
     const auto saved = cameraFrom(session.store().metadata(kCameraSetting).value_or(""));
     if (saved && world::isInWorld(render::cameraChunk(*saved))) return view::poseOf(*saved);
@@ -135,7 +135,7 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
 
 void addPlaySettings(CLI::App& command, PlaySettings& settings) {
     addChoice<game::Movement>(command, "--movement", settings.movement,
-                              {movementWords().begin(), movementWords().end()}, "How one moves");
+                              {movementNames().begin(), movementNames().end()}, "How one moves");
     command.add_option("--field-of-view", settings.fieldOfView, "Degrees, from below to above")
         ->check(numberFrom(40, 110))
         ->capture_default_str();
@@ -155,12 +155,12 @@ CommandEntry addPlay(CLI::App& app) {
     CLI::App* command = app.add_subcommand("play", "Open a window to walk, fly and build in (the default)");
     addWorldOptions(*command, options->world);
     addSaveGameOptions(*command, options->save);
-    command->add_option("--bookmark", options->position, "Start at this line of bookmarks.txt")
+    command->add_option("--bookmark", options->bookmark, "Start at this line of bookmarks.txt")
         ->check(numberFrom(1, 1e6))
         ->type_name("X");
     command->add_option("--time", options->time, "Time of day: 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk")
         ->check(numberFrom(0, 1));
-    command->add_option("--collect-perf-data", options->perfData, "Write figures of each frame (CSV)")
+    command->add_option("--collect-perf-data", options->perfData, "Write statistics of each frame (CSV)")
         ->type_name("FILE");
     addPlaySettings(*command, options->settings);
     addBackendOption(*command, options->backend, "Where to generate, light and mesh");

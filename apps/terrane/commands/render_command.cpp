@@ -1,4 +1,4 @@
-// terrane render: one picture of one place, without a window.
+// terrane render: one image of one place, without a window.
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -11,7 +11,7 @@
 #include "apps/terrane/offscreen.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/place_options.h"
-#include "apps/terrane/process_figures.h"
+#include "apps/terrane/process_statistics.h"
 #include "terrane/base/image.h"
 #include "terrane/base/log.h"
 #include "terrane/store/world_location.h"
@@ -26,7 +26,7 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-struct PictureOptions {
+struct RenderCommandOptions {
     WorldOptions world;
     SaveOptions save;
     GraphicsOptions graphics;
@@ -38,20 +38,21 @@ struct PictureOptions {
     bool json = false;
 };
 
-// What drawing a picture took; milliseconds.
-struct PictureFigures {
+// What drawing an image took; milliseconds.
+struct RenderTimings {
     double setUp = 0, load = 0, upload = 0, draw = 0, all = 0;
     FrameTimes frames;
 };
 
-void tell(const PictureOptions& options, const PictureFigures& figures, const game::Session& session,
+void tell(const RenderCommandOptions& options, const RenderTimings& timings, const game::Session& session,
           const render::FrameStatistics& statistics) {
-    base::logInfo("{}: {} chunks in {:.1f} s, {} quads in {} regions", options.output,
-                  session.world().chunkCount(), figures.load / 1000, statistics.quads, statistics.regions);
-    if (figures.frames.milliseconds.empty()) return;
-    const double frame = medianOf(figures.frames);
+    base::logInfo("{}: {} chunks in {:.1f} s, {} quads in {} mesh sections", options.output,
+                  session.world().chunkCount(), timings.load / 1000, statistics.quads,
+                  statistics.meshSections);
+    if (timings.frames.milliseconds.empty()) return;
+    const double frame = medianOf(timings.frames);
     base::logInfo("a frame takes {:.1f} ms in the middle of {}, {:.1f} frames/s", frame,
-                  figures.frames.milliseconds.size(), 1000 / frame);
+                  timings.frames.milliseconds.size(), 1000 / frame);
 }
 
 // Of the save's file and of what SQLite has not moved into it yet; 0 without a save.
@@ -81,7 +82,7 @@ nlohmann::json shadowsOverTheDay(const render::Renderer& renderer, render::Frame
     return day;
 }
 
-nlohmann::json memoryJson(const PictureOptions& options, const game::Session& session,
+nlohmann::json memoryJson(const RenderCommandOptions& options, const game::Session& session,
                           const render::Renderer& renderer) {
     return {{"blocks", session.world().memoryBytes()},
             {"light", session.pipeline().lightBytes()},
@@ -101,22 +102,22 @@ nlohmann::json tasksJson(const game::Session& session) {
     return tasks;
 }
 
-nlohmann::json pictureJson(const PictureOptions& options, const PictureFigures& figures,
-                           const game::Session& session, render::Renderer& renderer,
-                           const render::FrameInput& input) {
+nlohmann::json imageJson(const RenderCommandOptions& options, const RenderTimings& timings,
+                         const game::Session& session, render::Renderer& renderer,
+                         const render::FrameInput& input) {
     const render::FrameStatistics statistics = renderer.statistics();
     nlohmann::json result = {{"file", options.output},
                              {"milliseconds",
-                              {{"set_up", figures.setUp},
-                               {"load", figures.load},
-                               {"upload", figures.upload},
-                               {"draw", figures.draw},
-                               {"all", figures.all}}},
+                              {{"set_up", timings.setUp},
+                               {"load", timings.load},
+                               {"upload", timings.upload},
+                               {"draw", timings.draw},
+                               {"all", timings.all}}},
                              {"tasks", tasksJson(session)},
                              {"chunks", session.world().chunkCount()},
                              {"chunks_in_view", session.pipeline().progress().wanted},
                              {"quads", statistics.quads},
-                             {"regions", statistics.regions},
+                             {"regions", statistics.meshSections},
                              {"draw_commands", statistics.drawCommands},
                              {"triangles",
                               {{"opaque", statistics.opaqueTriangles},
@@ -124,15 +125,15 @@ nlohmann::json pictureJson(const PictureOptions& options, const PictureFigures& 
                                {"shadow", renderer.shadowTriangles(input)}}},
                              {"shadow_triangles_over_the_day", shadowsOverTheDay(renderer, input)},
                              {"bytes", memoryJson(options, session, renderer)}};
-    if (!figures.frames.milliseconds.empty()) {
-        result["milliseconds"]["frame"] = medianOf(figures.frames);
-        result["milliseconds"]["frame_processor"] = figures.frames.processorMilliseconds;
-        result["passes"] = passMedians(figures.frames);
+    if (!timings.frames.milliseconds.empty()) {
+        result["milliseconds"]["frame"] = medianOf(timings.frames);
+        result["milliseconds"]["frame_processor"] = timings.frames.cpuMilliseconds;
+        result["passes"] = passMedians(timings.frames);
     }
     return result;
 }
 
-base::Result<void> renderPicture(const PictureOptions& options) {
+base::Result<void> renderImage(const RenderCommandOptions& options) {
     const auto start = Clock::now();
     if (!options.place.scene && !options.place.at) return base::fail("render needs --scene or --at");
     const auto place = placeOf(options.place, {"", {}, scenes().front().timeDay});
@@ -144,13 +145,13 @@ base::Result<void> renderPicture(const PictureOptions& options) {
     if (!world) return tl::unexpected(world.error());
     game::Session& session = *(*world)->session;
     render::Renderer& renderer = (*world)->renderer;
-    PictureFigures figures;
-    figures.setUp = millisecondsSince(start);
+    RenderTimings timings;
+    timings.setUp = millisecondsSince(start);
 
     const auto loadStart = Clock::now();
-    figures.upload =
+    timings.upload =
         view::loadAll(session, *(*world)->view, place->camera, options.graphics.viewDistance, loadStart);
-    figures.load = millisecondsSince(loadStart);
+    timings.load = millisecondsSince(loadStart);
 
     const auto drawStart = Clock::now();
     const render::FrameInput input{place->camera,
@@ -161,30 +162,30 @@ base::Result<void> renderPicture(const PictureOptions& options) {
                                    game::isUnderWater(session, place->camera.position)};
     renderer.draw(input);
     const base::Image image = renderer.readImage();
-    figures.draw = millisecondsSince(drawStart);
-    figures.frames = measureFrames(renderer, input, options.frames);
+    timings.draw = millisecondsSince(drawStart);
+    timings.frames = measureFrames(renderer, input, options.frames);
     if (auto written = base::writePng(options.output, image); !written) return written;
     if (auto saved = session.save(); !saved) return saved;
     if (auto finished = (*world)->finish(); !finished) return finished;
 
-    figures.all = millisecondsSince(start);
-    tell(options, figures, session, renderer.statistics());
-    if (options.json) std::cout << pictureJson(options, figures, session, renderer, input).dump() << '\n';
+    timings.all = millisecondsSince(start);
+    tell(options, timings, session, renderer.statistics());
+    if (options.json) std::cout << imageJson(options, timings, session, renderer, input).dump() << '\n';
     return {};
 }
 
 }  // namespace
 
 CommandEntry addRender(CLI::App& app) {
-    auto options = std::make_shared<PictureOptions>();
-    CLI::App* command = app.add_subcommand("render", "Draw a picture into a PNG file, without a window");
+    auto options = std::make_shared<RenderCommandOptions>();
+    CLI::App* command = app.add_subcommand("render", "Draw an image into a PNG file, without a window");
     addPlaceOptions(*command, options->place);
     command->add_option("--seconds", options->seconds, "Time for what moves: plants, water, clouds")
         ->check(numberFrom(0, 1e6))
         ->capture_default_str();
     command
         ->add_option("--frames", options->frames,
-                     "Draws the picture so often again and tells how long that takes")
+                     "Draws the image so often again and tells how long that takes")
         ->check(numberFrom(0, 100000));
     addOutputOption(*command, options->output, "The PNG file");
     command->add_flag("--json", options->json, "Print timings and counts as JSON");
@@ -192,7 +193,7 @@ CommandEntry addRender(CLI::App& app) {
     addBackendOption(*command, options->backend, "Where to generate, light and mesh");
     addGraphicsOptions(*command, options->graphics, "high");
     addSaveGameOptions(*command, options->save);
-    return {command, [options] { return renderPicture(*options); }};
+    return {command, [options] { return renderImage(*options); }};
 }
 
 }  // namespace terrane::app

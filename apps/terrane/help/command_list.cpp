@@ -10,11 +10,11 @@ std::string valueOf(const CLI::Option& option) {
     return type.substr(0, type.find(':'));
 }
 
-// The description of an option that takes a WORD ends in ": " and its words.
-std::vector<std::string> wordsOf(const CLI::Option& option) {
+// The description of an option that takes a CHOICE ends in ": " and the names of its values.
+std::vector<std::string> valueNamesOf(const CLI::Option& option) {
     const std::string& description = option.get_description();
     const std::size_t colon = description.rfind(": ");
-    if (valueOf(option) != "WORD" || colon == std::string::npos) return {};
+    if (valueOf(option) != "CHOICE" || colon == std::string::npos) return {};
     return CLI::detail::split(CLI::detail::find_and_replace(description.substr(colon + 2), ", ", ","), ',');
 }
 
@@ -23,7 +23,7 @@ FlagEntry flagOf(const CLI::Option& option) {
     for (const std::string& name : option.get_lnames()) flag.names.push_back("--" + name);
     for (const std::string& name : option.get_snames()) flag.names.push_back("-" + name);
     flag.value = valueOf(option);
-    flag.words = wordsOf(option);
+    flag.valueNames = valueNamesOf(option);
     flag.description = option.get_description();
     flag.defaultText = option.get_default_str();
     flag.isRequired = option.get_required();

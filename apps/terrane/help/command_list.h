@@ -9,9 +9,9 @@
 namespace terrane::app {
 
 struct FlagEntry {
-    std::vector<std::string> names;  // with dashes, "--output", "-o"; none: a plain argument
-    std::string value;               // what it takes, "FILE"; empty: nothing
-    std::vector<std::string> words;  // what the value can be; empty: anything
+    std::vector<std::string> names;       // with dashes, "--output", "-o"; none: a plain argument
+    std::string value;                    // what it takes, "FILE"; empty: nothing
+    std::vector<std::string> valueNames;  // what the value can be; empty: anything
     std::string description, defaultText;
     bool isRequired = false;
     // Also "NAME|FILE|URL".

@@ -8,15 +8,15 @@ namespace {
 
 using Commands = std::vector<CommandListEntry>;
 
-std::string joined(const std::vector<std::string>& words) {
-    return fmt::format("{}", fmt::join(words, " "));
+std::string joined(const std::vector<std::string>& valueNames) {
+    return fmt::format("{}", fmt::join(valueNames, " "));
 }
 
 // What can stand behind a command: flags, and words that are arguments of their own.
 std::vector<std::string> namesOf(const CommandListEntry& command) {
     std::vector<std::string> names;
     for (const FlagEntry& flag : command.flags) {
-        const std::vector<std::string>& more = flag.names.empty() ? flag.words : flag.names;
+        const std::vector<std::string>& more = flag.names.empty() ? flag.valueNames : flag.names;
         names.insert(names.end(), more.begin(), more.end());
     }
     return names;
@@ -37,13 +37,14 @@ std::string inQuotes(std::string text) {
 std::string bashValues(const FlagEntry& flag) {
     if (flag.takesFile()) return "_terrane_files -f";
     if (flag.takesFolder()) return "_terrane_files -d";
-    return flag.words.empty() ? ":" : fmt::format("_terrane_words {}", inQuotes(joined(flag.words)));
+    return flag.valueNames.empty() ? ":"
+                                   : fmt::format("_terrane_words {}", inQuotes(joined(flag.valueNames)));
 }
 
 std::string zshAction(const FlagEntry& flag) {
     if (flag.takesFile()) return "_files";
     if (flag.takesFolder()) return "_files -/";
-    return flag.words.empty() ? " " : "(" + joined(flag.words) + ")";
+    return flag.valueNames.empty() ? " " : "(" + joined(flag.valueNames) + ")";
 }
 
 // A specification of _arguments for one name of a flag.
@@ -63,7 +64,7 @@ std::string fishFlag(const FlagEntry& flag, const std::string& condition) {
         line += " -r -F";
     } else if (!flag.value.empty()) {
         line += " -x";
-        if (!flag.words.empty()) line += fmt::format(" -a {}", inQuotes(joined(flag.words)));
+        if (!flag.valueNames.empty()) line += fmt::format(" -a {}", inQuotes(joined(flag.valueNames)));
     }
     return line + fmt::format(" -d {}\n", inQuotes(flag.description));
 }
@@ -164,7 +165,7 @@ std::string fishCompletion(const Commands& commands) {
                 script += fmt::format("complete -c terrane -n {} -F\n", inQuotes(condition));
             } else {
                 script += fmt::format("complete -c terrane -n {} -a {}\n", inQuotes(condition),
-                                      inQuotes(joined(flag.words)));
+                                      inQuotes(joined(flag.valueNames)));
             }
         }
     }

@@ -12,7 +12,7 @@ terrane \- large voxel worlds to walk, fly and build in
 .B terrane
 .RI [ COMMAND "] [" OPTION ...]
 .SH DESCRIPTION
-Makes large worlds of blocks from a number, keeps them in saves, and shows them: in a window, as pictures, as videos.
+Makes large worlds of blocks from a number, keeps them in saves, and shows them: in a window, as images, as videos.
 Without a command it plays.
 .SH COMMANDS
 )";

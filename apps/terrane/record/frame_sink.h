@@ -1,4 +1,4 @@
-// Where the frames of a video go: a file made by ffmpeg, or a folder of pictures. One thread.
+// Where the frames of a video go: a file made by ffmpeg, or a folder of images. One thread.
 #pragma once
 
 #include <filesystem>

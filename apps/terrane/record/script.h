@@ -12,7 +12,7 @@ namespace terrane::app {
 
 // Times are seconds from the start of the shot.
 
-// A text in the picture.
+// A text in the image.
 struct TitleCue {
     double time = 0, seconds = 4;
     std::string text;

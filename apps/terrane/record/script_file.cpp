@@ -16,8 +16,8 @@ namespace {
 using Names = std::vector<std::string>;
 using world::ContentTable;
 
-constexpr double kMostSeconds = 24 * 3600;           // of a shot
-constexpr std::int64_t kMostBlocksOfEdit = 1 << 18;  // about a second of work
+constexpr double kMaxSeconds = 24 * 3600;           // of a shot
+constexpr std::int64_t kMaxBlocksOfEdit = 1 << 18;  // about a second of work
 
 Names with(Names names, std::span<const GraphicsRow> rows) {
     for (const GraphicsRow& row : rows) names.emplace_back(row.name);
@@ -104,7 +104,7 @@ void ScriptReader::each(ContentTable& table, std::string_view key, Read read) {
 CameraKey ScriptReader::keyOf(ContentTable& table, const CameraKey& before, bool isFirst) {
     table.rejectUnknown(Names{"time", "at", "look", "look-at", "day", "fov"});
     CameraKey key = before;
-    key.time = numberOf(table, "time", 0, 0, kMostSeconds);
+    key.time = numberOf(table, "time", 0, 0, kMaxSeconds);
     if (!table.node("time") && !isFirst) table.missing("time");
     const auto at = numbersOf(table, "at", 3, "[x, y, z] in blocks");
     if (at) key.position = {(*at)[0], (*at)[1], (*at)[2]};
@@ -146,7 +146,7 @@ TitleCue ScriptReader::titleOf(ContentTable& table, double shotSeconds) {
     table.rejectUnknown(Names{"time", "seconds", "text", "place"});
     TitleCue title;
     title.time = numberOf(table, "time", 0, 0, shotSeconds);
-    title.seconds = numberOf(table, "seconds", title.seconds, 0.1, kMostSeconds);
+    title.seconds = numberOf(table, "seconds", title.seconds, 0.1, kMaxSeconds);
     const toml::node *text = table.node("text"), *place = table.node("place");
     if (!text) {
         table.missing("text");
@@ -158,8 +158,8 @@ TitleCue ScriptReader::titleOf(ContentTable& table, double shotSeconds) {
     } else {
         table.expected(*text, "text", "a text");
     }
-    constexpr std::array<world::Word<bool>, 2> kPlaces = {{{"bottom", false}, {"middle", true}}};
-    if (place) title.isLarge = table.wordOf(*place, "place", kPlaces);
+    constexpr std::array<world::EnumName<bool>, 2> kPlaces = {{{"bottom", false}, {"middle", true}}};
+    if (place) title.isLarge = table.enumOf(*place, "place", kPlaces);
     return title;
 }
 
@@ -172,15 +172,15 @@ void ScriptReader::readBox(ContentTable& table, EditCue& edit) {
     edit.low = {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
     edit.high = {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
     const double columns = (0.0 + edit.high.x - edit.low.x + 1) * (0.0 + edit.high.y - edit.low.y + 1);
-    if (columns * (edit.high.z - edit.low.z + 1) > kMostBlocksOfEdit)
-        table.wrong(table.line(), "to", fmt::format("more than {} blocks at once", kMostBlocksOfEdit));
+    if (columns * (edit.high.z - edit.low.z + 1) > kMaxBlocksOfEdit)
+        table.wrong(table.line(), "to", fmt::format("more than {} blocks at once", kMaxBlocksOfEdit));
 }
 
 EditCue ScriptReader::editOf(ContentTable& table, double shotSeconds) {
     table.rejectUnknown(Names{"time", "seconds", "at", "from", "to", "block"});
     EditCue edit;
     edit.time = numberOf(table, "time", 0, 0, shotSeconds);
-    edit.seconds = numberOf(table, "seconds", 0, 0, kMostSeconds);
+    edit.seconds = numberOf(table, "seconds", 0, 0, kMaxSeconds);
     readBox(table, edit);
     const toml::node* node = table.node("block");
     if (!node) {
@@ -211,7 +211,7 @@ void ScriptReader::readShot(ContentTable& table, const GraphicsOptions& graphics
     if (error_) return;
     Shot shot{.name = "", .path = CameraPath(keys), .options = {}, .titles = {}, .edits = {}};
     if (!shots.empty()) shot.start = shots.back().start + shots.back().seconds;
-    shot.seconds = numberOf(table, "seconds", keys.back().time, 0, kMostSeconds);
+    shot.seconds = numberOf(table, "seconds", keys.back().time, 0, kMaxSeconds);
     if (shot.seconds <= 0) table.wrong(table.line(), "seconds", "a shot takes more than 0");
     if (shot.seconds < keys.back().time)
         table.wrong(table.line(), "seconds", fmt::format("the shot has a key at {}", keys.back().time));

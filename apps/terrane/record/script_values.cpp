@@ -9,17 +9,16 @@
 namespace terrane::app {
 namespace {
 
-constexpr double kMostBlocks = 2147483647;  // from the origin
+constexpr double kMaxBlocks = 2147483647;  // from the origin
 
 }  // namespace
 
-double numberOf(world::ContentTable& table, std::string_view key, double fallback, double least,
-                double most) {
+double numberOf(world::ContentTable& table, std::string_view key, double fallback, double min, double max) {
     const toml::node* node = table.node(key);
     if (!node) return fallback;
     const auto value = node->is_number() ? node->value<double>() : std::nullopt;
-    if (value && *value >= least && *value <= most) return *value;
-    table.expected(*node, key, fmt::format("a number from {} to {}", least, most));
+    if (value && *value >= min && *value <= max) return *value;
+    table.expected(*node, key, fmt::format("a number from {} to {}", min, max));
     return fallback;
 }
 
@@ -31,7 +30,7 @@ std::optional<std::vector<double>> numbersOf(world::ContentTable& table, std::st
     if (const toml::array* array = node->as_array()) {
         for (const toml::node& element : *array) {
             const auto value = element.is_number() ? element.value<double>() : std::nullopt;
-            if (value && std::abs(*value) <= kMostBlocks) numbers.push_back(*value);
+            if (value && std::abs(*value) <= kMaxBlocks) numbers.push_back(*value);
         }
         if (numbers.size() == count && array->size() == count) return numbers;
     }

@@ -19,7 +19,7 @@ using Names = std::vector<std::string>;
 
 // What is wrong goes to the table's error, and something harmless is returned.
 
-double numberOf(world::ContentTable& table, std::string_view key, double fallback, double least, double most);
+double numberOf(world::ContentTable& table, std::string_view key, double fallback, double min, double max);
 // `form` says in errors what is expected.
 std::optional<std::vector<double>> numbersOf(world::ContentTable& table, std::string_view key,
                                              std::size_t count, std::string_view form);

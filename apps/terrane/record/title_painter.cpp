@@ -12,7 +12,7 @@
 namespace terrane::app {
 namespace {
 
-// Of the picture's height.
+// Of the image's height.
 constexpr float kSmall = 0.042f, kLarge = 0.11f, kBottomMargin = 0.07f;
 constexpr float kLetterSize = 13;  // the letters are drawn for whole multiples of it
 
@@ -46,7 +46,7 @@ ImFont* addFont(ImFontAtlas& atlas, float size) {
     return atlas.AddFontDefault(&config);
 }
 
-// What the letters of a text cover of a picture, 0…255 a pixel.
+// What the letters of a text cover of an image, 0…255 a pixel.
 struct Cover {
     int width, height;
     std::vector<std::uint8_t> values;
@@ -121,8 +121,8 @@ void blend(base::Image& image, const Cover& cover, int top, float brightness, fl
 
 }  // namespace
 
-TitlePainter::TitlePainter(int pictureHeight) : atlas_(std::make_unique<ImFontAtlas>()) {
-    const auto height = static_cast<float>(pictureHeight);
+TitlePainter::TitlePainter(int imageHeight) : atlas_(std::make_unique<ImFontAtlas>()) {
+    const auto height = static_cast<float>(imageHeight);
     small_ = addFont(*atlas_, kSmall * height);
     large_ = addFont(*atlas_, kLarge * height);
     atlas_->Build();

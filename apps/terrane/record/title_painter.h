@@ -1,4 +1,4 @@
-// Writes titles into pictures, on the processor, with the letters that come with Dear ImGui (ISO 8859-1): the
+// Writes titles into images, on the CPU, with the letters that come with Dear ImGui (ISO 8859-1): the
 // same pixels on every machine. One thread.
 #pragma once
 
@@ -15,14 +15,14 @@ namespace terrane::app {
 
 class TitlePainter {
   public:
-    // The size of letters follows from the picture's height.
-    explicit TitlePainter(int pictureHeight);
+    // The size of letters follows from the image's height.
+    explicit TitlePainter(int imageHeight);
     ~TitlePainter();
 
     // The first letter of a text that there is none for, as UTF-8; empty where it has all.
     static std::string missingLetter(std::string_view text);
 
-    // Lines are centred: large in the middle of the picture, or small at its bottom. `strength`: 0…1.
+    // Lines are centered: large in the middle of the image, or small at its bottom. `strength`: 0…1.
     void paint(base::Image& image, std::string_view text, bool isLarge, float strength) const;
 
   private:

@@ -30,7 +30,7 @@ std::string containerOf(const std::filesystem::path& file) {
     return ending == ".mp4" ? "mp4" : ending == ".mkv" ? "matroska" : "";
 }
 
-// BT.709 is what players take colours of HDTV sizes for; 4:2:0 is what all of them can play.
+// BT.709 is what players take colors of HDTV sizes for; 4:2:0 is what all of them can play.
 std::vector<std::string> argumentsFor(const std::filesystem::path& output, const std::string& container,
                                       const VideoFormat& format) {
     return {"ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-f", "rawvideo", "-pixel_format",

@@ -18,7 +18,7 @@ mesh::ChunkMesh meshOf(world::BlockId block, const world::BlockRegistry& blocks)
 
 render::RenderOptions BlockPreview::options() {
     render::RenderOptions options = *render::findPreset("low", true);
-    options.samples = 1;
+    options.msaaSamples = 1;
     return options;
 }
 
@@ -35,27 +35,27 @@ base::Result<BlockPreview> BlockPreview::create(const gpu::ShaderLoader& shaders
 }
 
 base::Result<void> BlockPreview::setTextures(const render::TextureSource& textures) {
-    pictures_.clear();
+    images_.clear();
     return renderer_.setTextures(*blocks_, textures);
 }
 
 base::Result<void> BlockPreview::reloadShaders() {
-    pictures_.clear();
+    images_.clear();
     return renderer_.reloadShaders();
 }
 
 gpu::Texture2D BlockPreview::draw(world::BlockId block) {
     renderer_.setChunk({0, 0}, meshOf(block, *blocks_));
     renderer_.draw({kCamera, world::environmentAt(0.4f), 1000.0f});
-    const gpu::Texture2D& drawn = renderer_.pictureTexture();
-    gpu::Texture2D picture(drawn.size(), drawn.format(), 1, "picture of a block");
-    picture.copyFrom(drawn);
-    return picture;
+    const gpu::Texture2D& drawn = renderer_.ldrTexture();
+    gpu::Texture2D image(drawn.size(), drawn.format(), 1, "image of a block");
+    image.copyFrom(drawn);
+    return image;
 }
 
-unsigned BlockPreview::picture(world::BlockId block) {
-    auto found = pictures_.find(block);
-    if (found == pictures_.end()) found = pictures_.emplace(block, draw(block)).first;
+unsigned BlockPreview::image(world::BlockId block) {
+    auto found = images_.find(block);
+    if (found == images_.end()) found = images_.emplace(block, draw(block)).first;
     return found->second.id();
 }
 

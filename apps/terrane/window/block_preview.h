@@ -1,4 +1,4 @@
-// Lit pictures of single blocks, for the corner that shows what is in the hand and for slots of chests. Each
+// Lit images of single blocks, for the corner that shows what is in the hand and for slots of chests. Each
 // is drawn once and kept: 83 KB a kind of block. Used on the thread of the OpenGL context.
 #pragma once
 
@@ -21,10 +21,10 @@ class BlockPreview {
                                              const render::TextureSource& textures,
                                              const gpu::DeviceInfo& device);
     base::Result<void> setTextures(const render::TextureSource& textures);
-    base::Result<void> reloadShaders();  // of pictures as they are asked for from then on
+    base::Result<void> reloadShaders();  // of images as they are asked for from then on
 
-    // The OpenGL texture with the block's picture. Its rows run from below.
-    unsigned picture(world::BlockId block);
+    // The OpenGL texture with the block's image. Its rows run from below.
+    unsigned image(world::BlockId block);
 
   private:
     BlockPreview(const world::BlockRegistry& blocks, render::Renderer renderer)
@@ -33,7 +33,7 @@ class BlockPreview {
 
     const world::BlockRegistry* blocks_;
     render::Renderer renderer_;
-    std::map<world::BlockId, gpu::Texture2D> pictures_;
+    std::map<world::BlockId, gpu::Texture2D> images_;
 };
 
 }  // namespace terrane::app

@@ -10,15 +10,15 @@ namespace {
 constexpr int kColumns = 9;
 constexpr float kSide = 40;  // of a slot, before scaling
 
-void drawStack(ImVec2 min, ImVec2 max, const world::ItemStack& stack, unsigned picture) {
+void drawStack(ImVec2 min, ImVec2 max, const world::ItemStack& stack, unsigned image) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImU32 ground = ImGui::IsItemHovered() ? IM_COL32(90, 100, 120, 200) : IM_COL32(50, 54, 62, 200);
     draw.AddRectFilled(min, max, ground, 3 * uiScale());
     if (stack.count == 0) return;
     const float edge = 3 * uiScale();
-    if (picture != 0) {
+    if (image != 0) {
         // Rows of a texture run from below.
-        draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture)),
+        draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(image)),
                       {min.x + edge, min.y + edge}, {max.x - edge, max.y - edge}, {0, 1}, {1, 0});
     }
     const std::string count = std::to_string(stack.count);
@@ -31,7 +31,7 @@ void drawStack(ImVec2 min, ImVec2 max, const world::ItemStack& stack, unsigned p
 }  // namespace
 
 std::optional<game::SlotClick> drawContainer(const Screen& screen, const world::Inventory& items,
-                                         const std::function<unsigned(const std::string&)>& picture) {
+                                             const std::function<unsigned(const std::string&)>& image) {
     std::optional<game::SlotClick> click;
     ImGui::SetNextWindowPos({screen.width / 2, screen.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::Begin("Chest", nullptr,
@@ -44,7 +44,7 @@ std::optional<game::SlotClick> drawContainer(const Screen& screen, const world::
                                ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
         const world::ItemStack& stack = items[slot];
         drawStack(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), stack,
-                  stack.count > 0 ? picture(stack.item) : 0);
+                  stack.count > 0 ? image(stack.item) : 0);
         if (stack.count > 0 && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", stack.item.c_str());
         const bool takes = ImGui::IsItemClicked(ImGuiMouseButton_Right);
         if (takes || ImGui::IsItemClicked(ImGuiMouseButton_Left))

@@ -9,8 +9,8 @@
 
 namespace terrane::app {
 
-// `picture`: the OpenGL texture for an item's name, 0: none.
+// `image`: the OpenGL texture for an item's name, 0: none.
 std::optional<game::SlotClick> drawContainer(const Screen& screen, const world::Inventory& items,
-                                         const std::function<unsigned(const std::string&)>& picture);
+                                             const std::function<unsigned(const std::string&)>& image);
 
 }  // namespace terrane::app

@@ -18,8 +18,8 @@ class FrameMeter {
     }
     // Frames a second.
     double now() const { return total_ > 0 ? static_cast<double>(frames_.size()) / total_ : 0; }
-    double least() const { return frames_.empty() ? 0 : 1 / *std::ranges::max_element(frames_); }
-    double most() const {
+    double min() const { return frames_.empty() ? 0 : 1 / *std::ranges::max_element(frames_); }
+    double max() const {
         return frames_.empty() ? 0 : 1 / std::max(*std::ranges::min_element(frames_), 1e-9);
     }
 

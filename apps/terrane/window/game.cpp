@@ -9,13 +9,13 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "apps/terrane/process_figures.h"
+#include "apps/terrane/process_statistics.h"
 #include "apps/terrane/resource_pack.h"
+#include "apps/terrane/window/bookmarks.h"
 #include "apps/terrane/window/container_panel.h"
 #include "apps/terrane/window/loading_map.h"
 #include "apps/terrane/window/overlay.h"
 #include "apps/terrane/window/panel.h"
-#include "apps/terrane/window/positions.h"
 #include "terrane/base/log.h"
 #include "terrane/game/container.h"
 #include "terrane/gpu/framebuffer.h"
@@ -24,7 +24,7 @@
 namespace terrane::app {
 namespace {
 
-// Between frames that show no world, so that the compiler has the processor.
+// Between frames that show no world, so that the compiler has the CPU.
 constexpr std::chrono::milliseconds kCompilePause{15};
 
 }  // namespace
@@ -69,7 +69,7 @@ base::Result<void> Game::drawFrames() {
         applySettings();
         reloadWrittenShaders();
         if (auto drawn = drawFrame(seconds); !drawn) return drawn;
-        if (perfLog_) perfLog_->add(seconds_, seconds, figures());
+        if (perfLog_) perfLog_->add(seconds_, seconds, statistics());
     }
     return {};
 }
@@ -126,8 +126,8 @@ void Game::reloadWrittenShaders() {
 
 bool Game::shadersAreReady(glm::ivec2 size) {
     constexpr glm::ivec2 kPreview(BlockPreview::kSize);
-    if (hasWorldPicture() && settings_.graphics == parts_.renderer.options()) return true;
-    if (!hasWorldPicture() && !parts_.compiler.isReady(kPreview, BlockPreview::options())) return false;
+    if (hasWorldImage() && settings_.graphics == parts_.renderer.options()) return true;
+    if (!hasWorldImage() && !parts_.compiler.isReady(kPreview, BlockPreview::options())) return false;
     return parts_.compiler.isReady(size, settings_.graphics);
 }
 
@@ -138,12 +138,12 @@ base::Result<void> Game::configureRenderer(glm::ivec2 size) {
     render::RenderOptions options = settings_.graphics;
     if (!shadersAreReady(size)) {
         say("shaders are being compiled");
-        if (!hasWorldPicture()) return {};
+        if (!hasWorldImage()) return {};
         options = renderer.options();
     }
     if (size == renderer.size() && options == renderer.options()) return {};
     const auto configured = renderer.configure(size, options);
-    if (configured || !hasWorldPicture() || options == renderer.options()) return configured;
+    if (configured || !hasWorldImage() || options == renderer.options()) return configured;
     base::logWarning("{}", configured.error().message);
     say(configured.error().message);
     settings_.graphics = renderer.options();
@@ -154,7 +154,7 @@ base::Result<void> Game::drawFrame(double seconds) {
     const glm::ivec2 size = parts_.window.framebufferSize();
     if (size.x == 0 || size.y == 0) return {};  // minimised
     if (auto configured = configureRenderer(size); !configured) return configured;
-    if (hasWorldPicture()) {
+    if (hasWorldImage()) {
         parts_.view.upload(view::uploadBudget(seconds, parts_.view.missing()));
         parts_.renderer.draw(frameInput());
         parts_.renderer.presentToWindow(size);
@@ -184,7 +184,7 @@ render::FrameInput Game::frameInput() const {
     input.isUnderWater = game::isUnderWater(parts_.session, player_.pose().position);
     if (isAbove_) {
         input.culledFor = input.camera;
-        input.camera = cameraAbove(camera(), settings_.viewDistance);
+        input.camera = debugTopCamera(camera(), settings_.viewDistance);
         input.fogDistance = 16 * view::fogDistance(settings_.viewDistance);
         input.isUnderWater = false;
     }
@@ -198,14 +198,14 @@ void Game::drawInterface() {
     const Screen screen{imgui_.size().x, imgui_.size().y};
     const render::Camera camera = this->camera();
     if (isAbove_) {
-        drawViewFromAbove(screen, cameraAbove(camera, settings_.viewDistance), camera,
-                          view::fogDistance(settings_.viewDistance));
+        drawDebugTopView(screen, debugTopCamera(camera, settings_.viewDistance), camera,
+                         view::fogDistance(settings_.viewDistance));
     } else if (const auto& target = interaction_.target()) {
         drawTarget(screen, camera, *target, session.world(), session.blocks());
     }
     if (isCaptured_ && !isAbove_) drawCrosshair(screen);
     drawHand(screen, session.blocks().type(interaction_.block()).name,
-             hasWorldPicture() ? parts_.preview.picture(interaction_.block()) : 0);
+             hasWorldImage() ? parts_.preview.image(interaction_.block()) : 0);
     if (hintSeconds_ > 0) drawHint(screen, static_cast<float>(std::min(hintSeconds_, 1.0)));
     if (messageSeconds_ > 0)
         drawMessage(screen, message_, static_cast<float>(std::min(messageSeconds_, 1.0)));
@@ -213,7 +213,7 @@ void Game::drawInterface() {
     if (showsLoading_)
         drawLoadingMap(screen, session.pipeline(), world::chunkOf(player_.pose().position),
                        settings_.viewDistance);
-    if (showsPanel_) drawFigures(figures());
+    if (showsPanel_) drawStatistics(statistics());
     if (showsPanel_) drawPanel(settings_, session.clock, {isSoftwareRenderer_, screen.width, screen.height});
     if (container_) drawOpenContainer(screen);
     imgui_.endFrame();
@@ -231,18 +231,18 @@ void Game::drawOpenContainer(const Screen& screen) {
         say(items.error().message);
         return closeContainer();
     }
-    const auto picture = [&](const std::string& item) {
+    const auto image = [&](const std::string& item) {
         const world::BlockType* kind = session.blocks().find(item);
-        return kind ? parts_.preview.picture(kind->id) : 0;
+        return kind ? parts_.preview.image(kind->id) : 0;
     };
-    const auto click = drawContainer(screen, *items, picture);
+    const auto click = drawContainer(screen, *items, image);
     world::BlockId inHand = interaction_.block();
     if (!click || !game::clickSlot(*items, session.blocks(), *click, inHand)) return;
     interaction_.choose(inHand);
     game::putItems(session, game::kLocalPlayer, *container_, *items);
 }
 
-MemoryFigures Game::memoryFigures() const {
+MemoryStatistics Game::memoryStatistics() const {
     return {.blocks = parts_.session.world().memoryBytes(),
             .light = parts_.session.pipeline().lightBytes(),
             .quads = parts_.renderer.quadBytes(),
@@ -250,7 +250,7 @@ MemoryFigures Game::memoryFigures() const {
             .resident = residentBytes()};
 }
 
-Figures Game::figures() {
+Statistics Game::statistics() {
     const game::Session& session = parts_.session;
     return {.frames = &meter_,
             .camera = camera(),
@@ -259,7 +259,7 @@ Figures Game::figures() {
             .activeChunks = session.world().chunkCount(),
             .queuedChunks = session.pipeline().queuedCount() + parts_.view.waiting(),
             .frame = parts_.renderer.statistics(),
-            .memory = memory_.at(seconds_, [&] { return memoryFigures(); }),
+            .memory = memory_.at(seconds_, [&] { return memoryStatistics(); }),
             .tasks = session.pipeline().taskTimes(),
             .passes = &parts_.renderer.passTimes()};
 }

@@ -1,4 +1,4 @@
-// The window's loop: what a person does, what time does, and the picture of it. Everything that is more than
+// The window's loop: what a player does, what time does, and the image of it. Everything that is more than
 // putting these together lies in the files beside this one.
 #pragma once
 
@@ -44,7 +44,7 @@ struct GameOptions {
 
 class Game {
   public:
-    static constexpr double kMemoryPause = 0.5;  // seconds for which figures of memory stay as they are
+    static constexpr double kMemoryPause = 0.5;  // seconds for which statistics of memory stay as they are
     static constexpr double kShaderPause = 1;    // seconds between looks at the files of shaders
 
     Game(const GameParts& parts, const GameOptions& options);
@@ -63,8 +63,8 @@ class Game {
     bool openContainer();
     void closeContainer();
     void capture(bool isCaptured);
-    void savePosition();
-    void nextPosition();
+    void saveBookmark();
+    void nextBookmark();
     void takeScreenshot();
     void nextMovement();
     void say(std::string message);
@@ -76,15 +76,15 @@ class Game {
     void applySettings();
     base::Result<void> useResourcePack(const std::string& folder);
     void reloadWrittenShaders();
-    bool hasWorldPicture() const { return parts_.renderer.size().x > 0; }
+    bool hasWorldImage() const { return parts_.renderer.size().x > 0; }
     bool shadersAreReady(glm::ivec2 size);
     base::Result<void> configureRenderer(glm::ivec2 size);
     base::Result<void> drawFrame(double seconds);
     render::FrameInput frameInput() const;
     void drawInterface();
     void drawOpenContainer(const Screen& screen);
-    Figures figures();
-    MemoryFigures memoryFigures() const;
+    Statistics statistics();
+    MemoryStatistics memoryStatistics() const;
     base::Result<void> leave();
 
     GameParts parts_;
@@ -95,7 +95,7 @@ class Game {
     game::BlockInteraction interaction_;
     PadReader pad_;
     FrameMeter meter_;
-    TimedValue<MemoryFigures> memory_{kMemoryPause};
+    TimedValue<MemoryStatistics> memory_{kMemoryPause};
     TimedValue<WriteTime> shadersWritten_{kShaderPause};
     WriteTime shadersRead_;                     // the newest one when they were last read
     std::optional<world::BlockPos> container_;  // the open one
@@ -105,7 +105,7 @@ class Game {
     bool isCaptured_ = false, showsPanel_ = false, isAbove_ = false, showsLoading_ = false;
     double hintSeconds_ = 12, messageSeconds_ = 0;
     std::string message_;
-    std::size_t nextPosition_ = 0, frames_ = 0;
+    std::size_t nextBookmark_ = 0, frames_ = 0;
     double seconds_ = 0;  // since the start
 };
 

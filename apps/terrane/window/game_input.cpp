@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
+#include "apps/terrane/window/bookmarks.h"
 #include "apps/terrane/window/game.h"
-#include "apps/terrane/window/positions.h"
 #include "terrane/base/image.h"
 #include "terrane/game/container.h"
 #include "terrane/view/camera_pose.h"
@@ -71,9 +71,9 @@ void Game::onKey(Key key) {
             showsLoading_ = !showsLoading_;
             break;
         case Key::F5:
-            return savePosition();
+            return saveBookmark();
         case Key::F6:
-            return nextPosition();
+            return nextBookmark();
         case Key::F11:
             settings_.fullScreen = !settings_.fullScreen;
             break;
@@ -104,7 +104,7 @@ void Game::onKey(Key key) {
 }
 
 void Game::nextMovement() {
-    const auto words = movementWords();
+    const auto words = movementNames();
     const std::size_t next = (static_cast<std::size_t>(settings_.movement) + 1) % words.size();
     settings_.movement = static_cast<game::Movement>(next);
     say("movement: " + words[next].first);
@@ -173,21 +173,21 @@ void Game::say(std::string message) {
     messageSeconds_ = kMessageSeconds;
 }
 
-void Game::savePosition() {
-    const auto done = appendPosition(kPositionsFile, camera());
-    say(done ? fmt::format("position saved in {}", kPositionsFile) : done.error().message);
+void Game::saveBookmark() {
+    const auto done = appendBookmark(kBookmarksFile, camera());
+    say(done ? fmt::format("bookmark saved in {}", kBookmarksFile) : done.error().message);
 }
 
-void Game::nextPosition() {
-    const auto positions = readPositions(kPositionsFile);
-    if (!positions) return say(positions.error().message);
-    if (positions->empty()) return say("no position is saved yet (F5)");
-    const render::Camera& camera = (*positions)[nextPosition_++ % positions->size()];
+void Game::nextBookmark() {
+    const auto bookmarks = readBookmarks(kBookmarksFile);
+    if (!bookmarks) return say(bookmarks.error().message);
+    if (bookmarks->empty()) return say("no bookmark is saved yet (F5)");
+    const render::Camera& camera = (*bookmarks)[nextBookmark_++ % bookmarks->size()];
     player_.placeAt(view::poseOf(camera), settings_.movement);
 }
 
 void Game::takeScreenshot() {
-    if (!hasWorldPicture()) return;
+    if (!hasWorldImage()) return;
     const std::filesystem::path file = freeScreenshot();
     const auto done = base::writePng(file, parts_.renderer.readImage());
     say(done ? "screenshot " + file.string() : done.error().message);

@@ -24,7 +24,7 @@ void setStyle(float scale) {
     ImGui::GetStyle() = s;
 }
 
-// Drawn anew in the size that it has on the screen, so that it is sharp.
+// Drawn again in the size that it has on the screen, so that it is sharp.
 void setFont(float pixels) {
     ImFontConfig config;
     config.SizePixels = std::round(pixels);

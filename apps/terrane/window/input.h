@@ -27,7 +27,7 @@ struct InputEvent {
     Key key = Key::A;                        // of the key events
     MouseButton button = MouseButton::Left;  // of the button events
     double x = 0.0;  // Wheel: steps; CursorMove: screen units since the last event, right
-    double y = 0.0;  // the same, wheel away from the person, cursor down
+    double y = 0.0;  // the same, wheel away from the player, cursor down
 };
 
 // Sticks are -1…1, right and up; within a small circle around the middle they are 0.

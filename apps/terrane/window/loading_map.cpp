@@ -7,7 +7,7 @@
 namespace terrane::app {
 namespace {
 
-ImU32 colourOf(stream::ChunkStage stage) {
+ImU32 colorOf(stream::ChunkStage stage) {
     switch (stage) {
         case stream::ChunkStage::Loading:
             return IM_COL32(200, 60, 50, 220);
@@ -23,7 +23,7 @@ ImU32 colourOf(stream::ChunkStage stage) {
 
 }  // namespace
 
-void drawLoadingMap(const Screen& screen, const stream::ChunkPipeline& pipeline, world::ChunkPos centre,
+void drawLoadingMap(const Screen& screen, const stream::ChunkPipeline& pipeline, world::ChunkPos center,
                     int viewDistance) {
     const int reach = viewDistance + 3;
     const float side = std::min(screen.width, screen.height) * 0.6f;
@@ -33,13 +33,13 @@ void drawLoadingMap(const Screen& screen, const stream::ChunkPipeline& pipeline,
     draw.AddRectFilled({left, top}, {left + side, top + side}, IM_COL32(10, 12, 16, 170));
     for (int y = -reach; y <= reach; ++y) {
         for (int x = -reach; x <= reach; ++x) {
-            const auto stage = pipeline.stageAt({centre.x + x, centre.y + y});
+            const auto stage = pipeline.stageAt({center.x + x, center.y + y});
             if (!stage) continue;
             // North, the direction of y, is up.
             const float px = left + static_cast<float>(x + reach) * cell;
             const float py = top + static_cast<float>(reach - y) * cell;
             const float gap = cell > 4 ? 1.0f : 0.0f;
-            draw.AddRectFilled({px, py}, {px + cell - gap, py + cell - gap}, colourOf(*stage));
+            draw.AddRectFilled({px, py}, {px + cell - gap, py + cell - gap}, colorOf(*stage));
         }
     }
     const float middle = left + static_cast<float>(reach) * cell;

@@ -5,7 +5,7 @@
 
 namespace terrane::app {
 
-void drawLoadingMap(const Screen& screen, const stream::ChunkPipeline& pipeline, world::ChunkPos centre,
+void drawLoadingMap(const Screen& screen, const stream::ChunkPipeline& pipeline, world::ChunkPos center,
                     int viewDistance);
 
 }  // namespace terrane::app

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "apps/terrane/process_figures.h"
+#include "apps/terrane/process_statistics.h"
 #include "apps/terrane/window/imgui_layer.h"
 #include "terrane/game/block_interaction.h"
 #include "terrane/render/shadow_volume.h"
@@ -52,7 +52,7 @@ Corners faceCorners(const Screen& screen, const render::Camera& camera, glm::dve
     return corners;
 }
 
-void centred(const char* name, const Screen& screen, float height) {
+void centered(const char* name, const Screen& screen, float height) {
     ImGui::SetNextWindowPos({screen.width / 2, height}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowBgAlpha(0.55f);
     ImGui::Begin(name, nullptr, kBare);
@@ -81,7 +81,7 @@ void drawTarget(const Screen& screen, const render::Camera& camera, const world:
     }
 }
 
-render::Camera cameraAbove(const render::Camera& camera, int viewDistance) {
+render::Camera debugTopCamera(const render::Camera& camera, int viewDistance) {
     render::Camera above = camera;
     above.pitch = -89.9f;
     const double half = 16.0 * (viewDistance + 1);
@@ -89,12 +89,12 @@ render::Camera cameraAbove(const render::Camera& camera, int viewDistance) {
     return above;
 }
 
-void drawViewFromAbove(const Screen& screen, const render::Camera& above, const render::Camera& camera,
-                       float farBlocks) {
+void drawDebugTopView(const Screen& screen, const render::Camera& above, const render::Camera& camera,
+                      float farBlocks) {
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-    const auto line = [&](glm::dvec3 a, glm::dvec3 b, ImU32 colour) {
+    const auto line = [&](glm::dvec3 a, glm::dvec3 b, ImU32 color) {
         const auto from = projected(screen, above, a), to = projected(screen, above, b);
-        if (from && to) draw.AddLine(*from, *to, colour, 2 * uiScale());
+        if (from && to) draw.AddLine(*from, *to, color, 2 * uiScale());
     };
     const glm::dvec3 ahead(render::lookDirection(camera)), right(render::rightDirection(camera));
     const glm::dvec3 up = glm::cross(right, ahead);
@@ -120,33 +120,33 @@ void drawViewFromAbove(const Screen& screen, const render::Camera& above, const 
 void drawCrosshair(const Screen& screen) {
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const float x = std::floor(screen.width / 2), y = std::floor(screen.height / 2), r = 8 * uiScale();
-    for (const auto& [colour, thick] :
+    for (const auto& [color, thick] :
          {std::pair(IM_COL32(0, 0, 0, 120), 4.0f), {IM_COL32(255, 255, 255, 220), 2.0f}}) {
-        draw.AddLine({x - r, y}, {x + r, y}, colour, thick * uiScale());
-        draw.AddLine({x, y - r}, {x, y + r}, colour, thick * uiScale());
+        draw.AddLine({x - r, y}, {x + r, y}, color, thick * uiScale());
+        draw.AddLine({x, y - r}, {x, y + r}, color, thick * uiScale());
     }
 }
 
-void drawHand(const Screen& screen, const std::string& name, unsigned picture) {
+void drawHand(const Screen& screen, const std::string& name, unsigned image) {
     const float margin = 12 * uiScale(), size = 72 * uiScale();
     ImGui::SetNextWindowPos({margin, screen.height - margin}, ImGuiCond_Always, {0, 1});
     ImGui::SetNextWindowBgAlpha(0.45f);
     ImGui::Begin("hand", nullptr, kBare);
-    if (picture != 0) {
+    if (image != 0) {
         // Rows of a texture run from below.
-        ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture)), {size, size},
-                     {0, 1}, {1, 0});
+        ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(image)), {size, size}, {0, 1},
+                     {1, 0});
     }
     ImGui::TextUnformatted(name.c_str());
     ImGui::End();
 }
 
-void drawFigures(const Figures& f) {
+void drawStatistics(const Statistics& f) {
     ImGui::SetNextWindowPos({10 * uiScale(), 10 * uiScale()});
     ImGui::SetNextWindowBgAlpha(0.5f);
-    ImGui::Begin("figures", nullptr, kBare);
+    ImGui::Begin("statistics", nullptr, kBare);
     const glm::dvec3& p = f.camera.position;
-    ImGui::Text("%.1f frames/s (%.1f to %.1f)", f.frames->now(), f.frames->least(), f.frames->most());
+    ImGui::Text("%.1f frames/s (%.1f to %.1f)", f.frames->now(), f.frames->min(), f.frames->max());
     ImGui::Text("x %.1f  y %.1f  z %.1f  yaw %.0f  pitch %.0f  time %.3f", p.x, p.y, p.z,
                 double{f.camera.yaw}, double{f.camera.pitch}, f.timeDay);
     ImGui::Text("chunks: %zu active, %zu of %zu visible, %zu queued", f.activeChunks, f.progress.visible,
@@ -168,7 +168,7 @@ void drawFigures(const Figures& f) {
 void drawProgress(const Screen& screen, const stream::Progress& progress) {
     const float share =
         static_cast<float>(progress.visible) / static_cast<float>(std::max<std::size_t>(progress.wanted, 1));
-    centred("progress", screen, screen.height - 40 * uiScale());
+    centered("progress", screen, screen.height - 40 * uiScale());
     ImGui::Text("the world comes into view");
     ImGui::ProgressBar(share, {240 * uiScale(), 8 * uiScale()}, "");
     ImGui::End();
@@ -176,11 +176,11 @@ void drawProgress(const Screen& screen, const stream::Progress& progress) {
 
 void drawHint(const Screen& screen, float share) {
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, share);
-    centred("hint", screen, screen.height * 0.3f);
+    centered("hint", screen, screen.height * 0.3f);
     ImGui::TextUnformatted(
         "click: look around    W A S D: move    Space: jump    Shift: run\n"
         "left button: break    right button: build, open a chest    wheel: choose a block\n"
-        "F1: this help    F2: settings and figures    M: way to move    Esc: quit");
+        "F1: this help    F2: settings and statistics    M: way to move    Esc: quit");
     ImGui::End();
     ImGui::PopStyleVar();
 }

@@ -1,4 +1,4 @@
-// What is drawn over the picture: crosshair, what is looked at, the block in the hand, figures, hints.
+// What is drawn over the image: crosshair, what is looked at, the block in the hand, statistics, hints.
 #pragma once
 
 #include <optional>
@@ -23,33 +23,33 @@ struct Screen {
 void drawTarget(const Screen& screen, const render::Camera& camera, const world::RayHit& target,
                 const world::World& world, const world::BlockRegistry& blocks);
 // Straight over a camera, so high that all within the view distance (chunks) is seen.
-render::Camera cameraAbove(const render::Camera& camera, int viewDistance);
+render::Camera debugTopCamera(const render::Camera& camera, int viewDistance);
 // What the camera sees, up to `farBlocks`, and where its shadows reach, as seen from above.
-void drawViewFromAbove(const Screen& screen, const render::Camera& above, const render::Camera& camera,
-                       float farBlocks);
+void drawDebugTopView(const Screen& screen, const render::Camera& above, const render::Camera& camera,
+                      float farBlocks);
 void drawCrosshair(const Screen& screen);
 
-// The block in the hand, bottom left. `picture`: an OpenGL texture, 0: none.
-void drawHand(const Screen& screen, const std::string& name, unsigned picture);
+// The block in the hand, bottom left. `image`: an OpenGL texture, 0: none.
+void drawHand(const Screen& screen, const std::string& name, unsigned image);
 
 // Bytes by owner. Finding them goes through all chunks.
-struct MemoryFigures {
+struct MemoryStatistics {
     std::size_t blocks = 0, light = 0, quads = 0, lightOnGpu = 0;
     std::size_t resident = 0;  // of the process; 0 where the system does not tell
 };
 
-struct Figures {
+struct Statistics {
     const FrameMeter* frames = nullptr;
     render::Camera camera;
     double timeDay = 0;
     stream::Progress progress;
     std::size_t activeChunks = 0, queuedChunks = 0;
     render::FrameStatistics frame;
-    MemoryFigures memory;
+    MemoryStatistics memory;
     std::vector<stream::TaskTime> tasks;
     const std::vector<gpu::GpuTiming>* passes = nullptr;
 };
-void drawFigures(const Figures& figures);
+void drawStatistics(const Statistics& statistics);
 
 // While chunks in view are missing.
 void drawProgress(const Screen& screen, const stream::Progress& progress);

@@ -12,14 +12,14 @@ namespace {
 // With Ctrl and a click a number can be typed: it too stays in the range.
 constexpr ImGuiSliderFlags kTyped = ImGuiSliderFlags_AlwaysClamp;
 
-// A combo box over `count` words; true when another one was chosen.
-template <class WordOf>
-bool combo(const char* label, int& chosen, int count, WordOf wordOf) {
-    const std::string current(chosen >= 0 && chosen < count ? wordOf(chosen) : "custom");
+// A combo box over `count` names; true when another one was chosen.
+template <class NameOf>
+bool combo(const char* label, int& chosen, int count, NameOf nameOf) {
+    const std::string current(chosen >= 0 && chosen < count ? nameOf(chosen) : "custom");
     if (!ImGui::BeginCombo(label, current.c_str())) return false;
     bool isChanged = false;
     for (int k = 0; k < count; ++k) {
-        if (!ImGui::Selectable(std::string(wordOf(k)).c_str(), k == chosen)) continue;
+        if (!ImGui::Selectable(std::string(nameOf(k)).c_str(), k == chosen)) continue;
         isChanged = k != chosen;
         chosen = k;
     }
@@ -28,14 +28,14 @@ bool combo(const char* label, int& chosen, int count, WordOf wordOf) {
 }
 
 template <class T>
-void choice(const char* label, T& value, Words<T> words) {
+void choice(const char* label, T& value, EnumNames<T> valueNames) {
     int chosen = -1;
-    for (std::size_t k = 0; k < words.size(); ++k) {
-        if (words[k].second == value) chosen = static_cast<int>(k);
+    for (std::size_t k = 0; k < valueNames.size(); ++k) {
+        if (valueNames[k].second == value) chosen = static_cast<int>(k);
     }
-    const auto wordOf = [&](int k) { return words[static_cast<std::size_t>(k)].first; };
-    if (combo(label, chosen, static_cast<int>(words.size()), wordOf)) {
-        value = words[static_cast<std::size_t>(chosen)].second;
+    const auto nameOf = [&](int k) { return valueNames[static_cast<std::size_t>(k)].first; };
+    if (combo(label, chosen, static_cast<int>(valueNames.size()), nameOf)) {
+        value = valueNames[static_cast<std::size_t>(chosen)].second;
     }
 }
 
@@ -60,31 +60,31 @@ void drawPreset(PlaySettings& settings, bool isSoftwareRenderer) {
 // A switch where a row is off or on, else a choice.
 void drawRow(const GraphicsRow& row, render::RenderOptions& graphics) {
     const std::string label(row.name);
-    int word = row.get(graphics);
+    int value = row.get(graphics);
     bool isChanged = false;
-    if (row.words[0] == "off" && row.words.size() == 2) {
-        bool isOn = word == 1;
+    if (row.valueNames[0] == "off" && row.valueNames.size() == 2) {
+        bool isOn = value == 1;
         isChanged = ImGui::Checkbox(label.c_str(), &isOn);
-        word = isOn ? 1 : 0;
+        value = isOn ? 1 : 0;
     } else {
-        const auto wordOf = [&](int k) { return row.words[static_cast<std::size_t>(k)]; };
-        isChanged = combo(label.c_str(), word, static_cast<int>(row.words.size()), wordOf);
+        const auto nameOf = [&](int k) { return row.valueNames[static_cast<std::size_t>(k)]; };
+        isChanged = combo(label.c_str(), value, static_cast<int>(row.valueNames.size()), nameOf);
     }
     tooltip(row.description);
-    if (isChanged) row.set(graphics, word);
+    if (isChanged) row.set(graphics, value);
 }
 
 void drawView(PlaySettings& s) {
-    choice("view", s.view, viewWords());
+    choice("view", s.view, viewNames());
     ImGui::SliderInt("view distance", &s.viewDistance, 2, 64, "%d", kTyped);
     ImGui::SliderFloat("field of view", &s.fieldOfView, 40, 110, "%.0f", kTyped);
-    choice("merging", s.mesh.method, aggregationWords());
-    int height = s.mesh.regionHeight;
+    choice("merging", s.mesh.method, mergeMethodNames());
+    int height = s.mesh.meshSectionHeight;
     int exponent = 0;
-    while ((mesh::kMinRegionHeight << exponent) < height) ++exponent;
-    const auto heightOf = [](int k) { return std::to_string(mesh::kMinRegionHeight << k); };
+    while ((mesh::kMinMeshSectionHeight << exponent) < height) ++exponent;
+    const auto heightOf = [](int k) { return std::to_string(mesh::kMinMeshSectionHeight << k); };
     if (combo("mesh section height", exponent, 5, heightOf))
-        s.mesh.regionHeight = mesh::kMinRegionHeight << exponent;
+        s.mesh.meshSectionHeight = mesh::kMinMeshSectionHeight << exponent;
 }
 
 // Taken over with Enter.
@@ -96,8 +96,8 @@ void drawResourcePack(PlaySettings& s) {
     tooltip("Folder of PNG files named as textures; Enter takes it");
 }
 
-void drawPerson(PlaySettings& s, game::DayClock& day) {
-    choice("movement", s.movement, movementWords());
+void drawPlayer(PlaySettings& s, game::DayClock& day) {
+    choice("movement", s.movement, movementNames());
     ImGui::SliderFloat("mouse", &s.mouseSensitivity, 0.02f, 0.6f, "%.2f", kTyped);
     ImGui::Checkbox("full screen", &s.fullScreen);
     float time = static_cast<float>(day.timeDay);
@@ -123,7 +123,7 @@ void drawPanel(PlaySettings& settings, game::DayClock& day, const PanelInput& in
     for (const GraphicsRow& row : graphicsTable()) drawRow(row, settings.graphics);
     ImGui::Separator();
     drawResourcePack(settings);
-    drawPerson(settings, day);
+    drawPlayer(settings, day);
     ImGui::PopItemWidth();
     ImGui::End();
 }

@@ -2,7 +2,7 @@
 
 #include <fmt/ostream.h>
 
-#include "apps/terrane/process_figures.h"
+#include "apps/terrane/process_statistics.h"
 
 namespace terrane::app {
 
@@ -16,9 +16,9 @@ base::Result<PerfLog> PerfLog::create(const std::filesystem::path& file) {
     return log;
 }
 
-void PerfLog::add(double seconds, double frameSeconds, const Figures& f) {
+void PerfLog::add(double seconds, double frameSeconds, const Statistics& f) {
     fmt::print(out_, "{:.4f},{:.3f},{:.1f},{:.1f},{:.1f},{:.1f},{:.1f},{},{},{},{},{}", seconds,
-               frameSeconds * 1000, f.frames->now(), f.frames->least(), f.frames->most(),
+               frameSeconds * 1000, f.frames->now(), f.frames->min(), f.frames->max(),
                megabytes(f.memory.resident), megabytes(f.memory.quads + f.memory.lightOnGpu), f.activeChunks,
                f.progress.visible, f.queuedChunks, f.frame.opaqueTriangles, f.frame.transparentTriangles);
     for (std::size_t k = 0; k < f.tasks.size(); ++k) {

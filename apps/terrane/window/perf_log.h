@@ -1,4 +1,4 @@
-// Figures of each frame as a CSV file, for plots: a line a frame, a column a figure.
+// Statistics of each frame as a CSV file, for plots: a line a frame, a column a value.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@ class PerfLog {
   public:
     static base::Result<PerfLog> create(const std::filesystem::path& file);
 
-    // `seconds`: since the start; `frameSeconds`: of the frame that the figures are of.
-    void add(double seconds, double frameSeconds, const Figures& figures);
+    // `seconds`: since the start; `frameSeconds`: of the frame that the statistics are of.
+    void add(double seconds, double frameSeconds, const Statistics& statistics);
     // An error where something could not be written.
     base::Result<void> finish();
 

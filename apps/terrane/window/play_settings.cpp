@@ -8,22 +8,22 @@ namespace terrane::app {
 namespace {
 
 template <class T>
-std::string wordOf(Words<T> words, T value) {
-    for (const auto& [word, meaning] : words) {
-        if (meaning == value) return word;
+std::string nameOf(EnumNames<T> valueNames, T value) {
+    for (const auto& [name, meaning] : valueNames) {
+        if (meaning == value) return name;
     }
     return {};
 }
 
 }  // namespace
 
-Words<game::Movement> movementWords() {
-    static const std::array<std::pair<std::string, game::Movement>, 4> words = {
+EnumNames<game::Movement> movementNames() {
+    static const std::array<std::pair<std::string, game::Movement>, 4> valueNames = {
         {{"fast", game::Movement::Fast},
          {"medium", game::Movement::Medium},
          {"walls", game::Movement::Walls},
          {"gravity", game::Movement::Gravity}}};
-    return words;
+    return valueNames;
 }
 
 std::vector<std::string> graphicsSettings() {
@@ -36,14 +36,14 @@ SettingValues valuesOf(const PlaySettings& s, bool isSoftwareRenderer) {
     SettingValues values = {{"preset", s.preset}};
     const render::RenderOptions preset = renderOptions({s.preset, {}}, isSoftwareRenderer);
     for (const GraphicsRow& row : graphicsTable()) {
-        const int word = row.get(s.graphics);
-        if (word == row.get(preset)) continue;
-        values.emplace(row.name, row.words[static_cast<std::size_t>(word)]);
+        const int value = row.get(s.graphics);
+        if (value == row.get(preset)) continue;
+        values.emplace(row.name, row.valueNames[static_cast<std::size_t>(value)]);
     }
     values.emplace("view-distance", fmt::format("{}", s.viewDistance));
-    values.emplace("merging", wordOf(aggregationWords(), s.mesh.method));
-    values.emplace("mesh-section-height", fmt::format("{}", s.mesh.regionHeight));
-    values.emplace("movement", wordOf(movementWords(), s.movement));
+    values.emplace("merging", nameOf(mergeMethodNames(), s.mesh.method));
+    values.emplace("mesh-section-height", fmt::format("{}", s.mesh.meshSectionHeight));
+    values.emplace("movement", nameOf(movementNames(), s.movement));
     values.emplace("field-of-view", fmt::format("{:.0f}", s.fieldOfView));
     values.emplace("mouse-sensitivity", fmt::format("{:.2f}", s.mouseSensitivity));
     values.emplace("day-minutes", fmt::format("{:.1f}", s.dayMinutes));

@@ -1,4 +1,4 @@
-// What a person can change while playing, and how it is written down. Shown by panel.h, kept by settings.h.
+// What a user can change while playing, and how it is written down. Shown by panel.h, kept by settings.h.
 #pragma once
 
 #include <string>
@@ -28,7 +28,7 @@ struct PlaySettings {
     bool operator==(const PlaySettings&) const = default;
 };
 
-Words<game::Movement> movementWords();  // of the option --movement
+EnumNames<game::Movement> movementNames();  // of the option --movement
 
 // The options of graphics that a preset stands for, and the preset.
 std::vector<std::string> graphicsSettings();

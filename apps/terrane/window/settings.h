@@ -1,4 +1,4 @@
-// What a person chose in the window, kept between sessions in a TOML file. Each setting is an option of
+// What a user chose in the window, kept between sessions in a TOML file. Each setting is an option of
 // `terrane play` of the same name: the file gives options that the command line leaves out.
 #pragma once
 
@@ -27,7 +27,7 @@ using SettingValues = std::map<std::string, std::string>;  // option without das
 base::Result<void> applySettings(const std::filesystem::path& file, CLI::App& command,
                                  const std::vector<std::string>& graphics);
 
-// Writes what differs between `before` and `after`, as a person changed it; all else in the file stays,
+// Writes what differs between `before` and `after`, as a user changed it; all else in the file stays,
 // comments and order too, so that options of one command line do not become settings. Another preset replaces
 // all of the `graphics` options. Makes the file and its folder; a link stays one.
 base::Result<void> writeChanges(const std::filesystem::path& file, const SettingValues& before,

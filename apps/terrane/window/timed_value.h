@@ -1,4 +1,4 @@
-// A value that takes long to find: found anew only when some time has passed. Any thread, one at a time.
+// A value that takes long to find: found again only when some time has passed. Any thread, one at a time.
 #pragma once
 
 namespace terrane::app {

@@ -273,7 +273,7 @@ std::optional<Gamepad> Window::gamepad() const {
 
 void Window::setCursorCaptured(bool captured) {
     glfwSetInputMode(state_->window, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
-    // The position jumps between the modes; that jump is no motion of the person's hand.
+    // The position jumps between the modes; that jump is no motion of the player's hand.
     state_->cursorKnown = false;
 }
 

@@ -11,7 +11,7 @@ void writeOverworld(GeneratorBuilder& g) {
     g.pass2D("climate", [&](Pass& p) { climatePass(p, f); });
     g.pass2D("relief", [&](Pass& p) { reliefPass(p, f); });
     g.pass2D("surface", [&](Pass& p) { surfacePass(p, f); });
-    // Before the blocks: neighbours need where trees stand, and run no pass after that for each other.
+    // Before the blocks: neighbors need where trees stand, and run no pass after that for each other.
     g.pass2D("plants", [&](Pass& p) { plantsPass(p, f); });
     g.pass3D("ground", [&](Pass& p) { groundPass(p, f); });
     g.pass3D("vegetation", [&](Pass& p) { vegetationPass(p, f); });

@@ -1,4 +1,4 @@
-// The overworld's trees and plants. What grows is found from columns alone, so that neighbours, into which
+// The overworld's trees and plants. What grows is found from columns alone, so that neighbors, into which
 // crowns reach, need no blocks of each other; that no plant stands where a cave cut the ground is seen to
 // when blocks are there.
 #include "terrane/gen/generators/overworld.h"
@@ -12,7 +12,7 @@ constexpr int kMinTreeHeight = 3;
 constexpr int kMaxCrownRise = 4;  // blocks of crown above the trunk: 4.7 / √1.7, see isLeaf
 
 // Trees stand at the points of a Voronoi diagram, so that they keep their distance and a crown meets its
-// neighbour's at the border between them.
+// neighbor's at the border between them.
 Voronoi2D trees(Pass& p) {
     return p.voronoi2D("trees", kTreeSpacing, 1);
 }

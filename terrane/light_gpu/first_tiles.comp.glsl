@@ -1,0 +1,20 @@
+// The light tiles of the first round: those that are not even, or that a neighbor's sources could raise. Left out are the open
+// sky, the dark and what lets no light in.
+#include "terrane/light_gpu/light_tiles.glsl"
+#include "terrane/light_gpu/work_list.glsl"
+
+layout(local_size_x = 64) in;
+
+void main() {
+    uint tile = gl_GlobalInvocationID.x;
+    if (tile >= tileCount()) return;
+    lists[2u * tileCount() + tile] = 0u;
+    uint summary = tiles[tile];
+    if ((summary & kTileIsOpaque) != 0u) return;
+    bool isWorthALook = (summary & kTileIsUniform) == 0u;
+    for (uint side = 0u; side < 6u && !isWorthALook; ++side) {
+        uint beside = cellBeside(tile, side);
+        isWorthALook = beside != kNoCell && couldRaise(tiles[beside] & 0xFFFFu, summary & 0xFFFFu);
+    }
+    if (isWorthALook) addToList(0u, tile);
+}

@@ -1,0 +1,52 @@
+// How faces are sorted for drawing: by draw bucket (what a draw call needs) and by face direction. The mesher
+// sorts by it, the renderer draws by it. Pure functions; any thread.
+#pragma once
+
+#include <cstdint>
+
+#include "terrane/mesh/shape_faces.h"
+#include "terrane/world/block_type.h"
+
+namespace terrane::mesh {
+
+// What the alpha channel demands of a draw call, then whether back faces are culled: two draw buckets an
+// alpha class.
+enum class AlphaClass : std::uint8_t { Opaque, Tested, Blended };
+
+constexpr int kDrawBucketCount = 6;
+// Directions 0–5: one-sided quads that look along an axis, in the order of world::Face. From behind none can
+// be seen.
+constexpr int kAnyDirection = 6;  // two-sided or oblique quads: drawn wherever the camera is
+constexpr int kFaceDirectionCount = 7;
+
+constexpr AlphaClass alphaClass(world::AlphaMode alpha) {
+    switch (alpha) {
+        case world::AlphaMode::Test:
+        case world::AlphaMode::TestGlow:
+            return AlphaClass::Tested;
+        case world::AlphaMode::Blend:
+            return AlphaClass::Blended;
+        default:
+            return AlphaClass::Opaque;
+    }
+}
+
+constexpr int drawBucket(AlphaClass alpha, bool twoSided) {
+    return 2 * static_cast<int>(alpha) + (twoSided ? 1 : 0);
+}
+constexpr int drawBucket(const world::Material& material) {
+    return drawBucket(alphaClass(material.alpha), material.twoSided);
+}
+constexpr AlphaClass bucketAlphaClass(int bucket) {
+    return static_cast<AlphaClass>(bucket / 2);
+}
+constexpr bool bucketTwoSided(int bucket) {
+    return bucket % 2 == 1;
+}
+
+inline int faceDirection(shared::uint shapeFace, const world::Material& material) {
+    static_assert(kAnyDirection == world::kFaceCount, "shapeFaceSide of oblique faces is the last direction");
+    return material.twoSided ? kAnyDirection : shapeFaceSide(shapeFace);
+}
+
+}  // namespace terrane::mesh

@@ -1,0 +1,46 @@
+// Where the quads of a mesh section lie: its ranges follow each other from the first on. Pure functions; any
+// thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "terrane/mesh/chunk_mesh.h"
+#include "terrane/shared/mesh_section.h"
+
+namespace terrane::mesh {
+
+inline std::uint32_t firstQuad(const MeshSection& meshSection) {
+    return meshSection.ranges[0][0].first;
+}
+
+inline std::uint32_t quadCount(const MeshSection& meshSection) {
+    std::uint32_t count = 0;
+    for (const auto& bucket : meshSection.ranges) {
+        for (const QuadRange range : bucket) count += range.count;
+    }
+    return count;
+}
+
+// In the order of a record for the GPU: two-sided buckets have faces of the last direction only.
+inline std::array<QuadRange, shared::kRangesPerMeshSection> rangesOf(const MeshSection& meshSection) {
+    std::array<QuadRange, shared::kRangesPerMeshSection> ranges;
+    std::size_t next = 0;
+    for (int bucket = 0; bucket < kDrawBucketCount; ++bucket) {
+        for (int g = bucketTwoSided(bucket) ? kAnyDirection : 0; g < kFaceDirectionCount; ++g) {
+            ranges[next++] = meshSection.ranges[bucket][g];
+        }
+    }
+    return ranges;
+}
+
+// The same mesh section with its quads from `first` on.
+inline MeshSection movedTo(std::uint32_t first, MeshSection meshSection) {
+    const std::uint32_t by = first - firstQuad(meshSection);  // modulo 2³² also where it moves down
+    for (auto& bucket : meshSection.ranges) {
+        for (QuadRange& range : bucket) range.first += by;
+    }
+    return meshSection;
+}
+
+}  // namespace terrane::mesh

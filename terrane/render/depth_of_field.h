@@ -1,0 +1,29 @@
+// Depth of field: what is far away blurs. Used by the renderer on the context's thread.
+#pragma once
+
+#include "terrane/gpu/sampler.h"
+#include "terrane/render/frame_targets.h"
+#include "terrane/render/fullscreen_pass.h"
+
+namespace terrane::render {
+
+class DepthOfField {
+  public:
+    DepthOfField() = default;
+    explicit DepthOfField(const gpu::ShaderLoader& shaders);
+
+    // Makes room for the blurred image at half the size, or none.
+    base::Result<void> configure(const FrameTargets& targets, bool isOn);
+    // From the scene and its depth.
+    void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
+    bool isOn() const { return size_.x > 0; }
+    void bindResult() const;
+
+  private:
+    FullscreenPass alongX_, alongY_;
+    gpu::Sampler smooth_;
+    ColorTarget between_, result_;
+    glm::ivec2 size_{0};
+};
+
+}  // namespace terrane::render

@@ -1,0 +1,39 @@
+// A layer of blended faces: the nearest of those that lie behind the layer before. NEXT: 0 for the first layer, 1 for the
+// others. MSAA_SAMPLES: of the layers; above 1 the layers behind the first are drawn sample by sample.
+#include "terrane/render/frame_uniforms.glsl"
+#include "terrane/shared/quad.h"
+#include "terrane/shared/shape_face.h"
+#include "terrane/render/packed_face.glsl"
+#define SMOOTH 1
+#include "terrane/render/block_texture.glsl"
+#include "terrane/render/packed_layer.glsl"
+
+#if NEXT == 1
+#if MSAA_SAMPLES > 1
+layout(binding = kTransparencyDepthUnit) uniform sampler2DMS before;
+#else
+layout(binding = kTransparencyDepthUnit) uniform sampler2D before;
+#endif
+#endif
+
+layout(location = 0) in vec2 inTexel;
+layout(location = 1) flat in uvec2 inFace;
+layout(location = 0) out vec4 outLayer;
+
+void main() {
+    vec2 dx = dFdx(inTexel), dy = dFdy(inTexel);  // before a pixel beside may have ended
+#if NEXT == 1
+#if MSAA_SAMPLES > 1
+    float last = texelFetch(before, ivec2(gl_FragCoord.xy), gl_SampleID).r;
+#else
+    float last = texelFetch(before, ivec2(gl_FragCoord.xy), 0).r;
+#endif
+    if (gl_FragCoord.z >= last) discard;
+#endif
+    vec4 texel = blockTexture(inFace.x, inTexel, dx, dy);
+    // Of a liquid the color counts, its pattern little.
+    if (isLiquid(inFace.x)) texel = mix(texel, textureLod(blockTextures, vec3(0.5, 0.5, textureOf(inFace.x)), 10.0), 0.7);
+    uint direction = directionOfFace(inFace.x);
+    if (!gl_FrontFacing && direction < kDirectionPlant) direction ^= 1u;
+    outLayer = packLayer(texel, direction, isLiquid(inFace.x));
+}

@@ -1,0 +1,35 @@
+// The G-buffer as shaders read it. MSAA_SAMPLES: a pixel's samples; with more than one the textures are multisampled.
+#include "terrane/render/packed_gbuffer.glsl"
+
+#if MSAA_SAMPLES > 1
+layout(binding = kGBufferUnit) uniform sampler2DMS surfaces;
+layout(binding = kDepthUnit) uniform sampler2DMS depths;
+#else
+layout(binding = kGBufferUnit) uniform sampler2D surfaces;
+layout(binding = kDepthUnit) uniform sampler2D depths;
+#endif
+
+vec4 packedSurfaceAt(ivec2 pixel, int k) {
+    return texelFetch(surfaces, pixel, k);
+}
+float depthAt(ivec2 pixel, int k) {
+    return texelFetch(depths, pixel, k).r;
+}
+
+// Of a point from the camera, along the view; 0 is the sky's depth.
+float blocksOfDepth(float depth) {
+    return frame.nearPlane / max(depth, 1e-9);
+}
+
+// Equal packed values are one surface: its texture is read once a pixel. Bits of its samples.
+int samplesOf(ivec2 pixel, vec4 packedSurface) {
+    int samples = 0;
+    for (int k = 0; k < MSAA_SAMPLES; ++k) samples |= packedSurfaceAt(pixel, k) == packedSurface ? 1 << k : 0;
+    return samples;
+}
+
+bool isOneSurface(ivec2 pixel, vec4 first) {
+    bool isSame = true;
+    for (int k = 1; k < MSAA_SAMPLES; ++k) isSame = isSame && packedSurfaceAt(pixel, k) == first;
+    return isSame;
+}

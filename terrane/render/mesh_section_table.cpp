@@ -1,0 +1,160 @@
+#include "terrane/render/mesh_section_table.h"
+
+#include <algorithm>
+#include <span>
+
+#include "terrane/base/profile.h"
+#include "terrane/mesh/mesh_section_quads.h"
+#include "terrane/render/camera.h"
+
+namespace terrane::render {
+namespace {
+
+constexpr std::uint32_t kFirstSlots = 1024;  // × 208 bytes
+
+static_assert(shared::kDrawBuckets == mesh::kDrawBucketCount &&
+              shared::kFaceDirections == mesh::kFaceDirectionCount);
+constexpr std::uint32_t kBlendedRanges =
+    shared::firstRange(mesh::drawBucket(mesh::AlphaClass::Blended, false));
+
+shared::MeshSectionRecord recordOf(world::ChunkPos pos, const mesh::MeshSection& meshSection) {
+    shared::MeshSectionRecord record{};
+    record.chunk = {pos.x, pos.y};
+    record.level = pos.level;
+    record.heights = static_cast<std::uint32_t>(meshSection.minZ | meshSection.maxZ << 16);
+    std::ranges::transform(mesh::rangesOf(meshSection), record.ranges,
+                           [](mesh::QuadRange quads) { return glm::uvec2(quads.first, quads.count); });
+    return record;
+}
+
+world::ChunkPos posOf(const shared::MeshSectionRecord& record) {
+    return {record.chunk.x, record.chunk.y, static_cast<std::uint8_t>(record.level)};
+}
+
+bool isEmpty(const shared::MeshSectionRecord& record) {
+    return std::ranges::all_of(record.ranges, [](glm::uvec2 range) { return range.y == 0; });
+}
+
+bool hasBlendedQuads(const shared::MeshSectionRecord& record) {
+    return std::ranges::any_of(std::span(record.ranges).subspan(kBlendedRanges),
+                               [](glm::uvec2 range) { return range.y > 0; });
+}
+
+}  // namespace
+
+MeshSectionTable::MeshSectionTable()
+    : records_(kFirstSlots * sizeof(shared::MeshSectionRecord), GL_DYNAMIC_STORAGE_BIT, "mesh sections"),
+      orderBuffer_(kFirstSlots * sizeof(std::uint32_t), GL_DYNAMIC_STORAGE_BIT, "order of mesh sections") {}
+
+std::uint32_t MeshSectionTable::allocateSlot() {
+    if (!free_.empty()) {
+        const std::uint32_t slot = free_.back();
+        free_.pop_back();
+        return slot;
+    }
+    cpuRecords_.emplace_back();
+    return slots() - 1;
+}
+
+// Neighboring directions share a command: of seven directions at most four commands, or as many as there are
+// directions.
+void MeshSectionTable::addCommands(const shared::MeshSectionRecord& record, std::int32_t sign) {
+    for (std::uint32_t bucket = 0; bucket < shared::kDrawBuckets; ++bucket) {
+        const std::uint32_t ranges = bucket % 2 == 0 ? shared::kFaceDirections : 1;
+        std::uint32_t directions = 0, quads = 0;
+        for (std::uint32_t k = 0; k < ranges; ++k) {
+            const std::uint32_t count = record.ranges[shared::firstRange(bucket) + k].y;
+            directions += count > 0;
+            quads += count;
+        }
+        const std::uint32_t max = std::min(directions, 4u) + quads / shared::kMaxQuadsPerCommand;
+        maxCommands_[bucket] += static_cast<std::uint32_t>(sign) * max;
+    }
+}
+
+void MeshSectionTable::set(world::ChunkPos pos, std::span<const mesh::MeshSection> meshSections,
+                           mesh::MeshSectionSet changed) {
+    if (chunks_[pos].size() != meshSections.size()) {
+        remove(pos);
+        changed = mesh::kAllMeshSections;
+    }
+    std::vector<std::uint32_t>& slotsOfChunk = chunks_[pos];
+    slotsOfChunk.resize(meshSections.size(), kNoSlot);
+    for (std::size_t r = 0; r < meshSections.size(); ++r) {
+        if (mesh::hasMeshSection(changed, r)) setMeshSection(slotsOfChunk[r], recordOf(pos, meshSections[r]));
+    }
+    if (meshSections.empty()) chunks_.erase(pos);
+}
+
+// Where the mesh section keeps its slot the order stays: mesh sections of a chunk lie one above the other
+// whatever their quads are.
+void MeshSectionTable::setMeshSection(std::uint32_t& slot, const shared::MeshSectionRecord& record) {
+    if (slot != kNoSlot) {
+        addCommands(cpuRecords_[slot], -1);
+        if (hasBlendedQuads(cpuRecords_[slot])) std::erase(blended_, slot);
+    }
+    const bool hadSlot = slot != kNoSlot, needsSlot = !isEmpty(record);
+    if (hadSlot && !needsSlot) {
+        order_.remove(slot);
+        free_.push_back(slot);
+        slot = kNoSlot;
+        --count_;
+    }
+    if (!hadSlot && needsSlot) {
+        slot = allocateSlot();
+        order_.add(slot, posOf(record), record.heights);
+        ++count_;
+    }
+    if (!needsSlot) return;
+    cpuRecords_[slot] = record;
+    changed_.push_back(slot);
+    if (hasBlendedQuads(record)) blended_.push_back(slot);
+    addCommands(record, 1);
+}
+
+void MeshSectionTable::remove(world::ChunkPos pos) {
+    const auto found = chunks_.find(pos);
+    if (found == chunks_.end()) return;
+    for (std::uint32_t& slot : found->second) setMeshSection(slot, {});
+    chunks_.erase(found);
+}
+
+void MeshSectionTable::uploadRecords() {
+    constexpr std::size_t kBytes = sizeof(shared::MeshSectionRecord);
+    if (cpuRecords_.size() * kBytes > records_.sizeBytes()) {
+        records_ = gpu::Buffer(2 * cpuRecords_.size() * kBytes, GL_DYNAMIC_STORAGE_BIT, "mesh sections");
+        records_.uploadVector(0, cpuRecords_);
+    } else {
+        for (const std::uint32_t slot : changed_) {
+            records_.upload(slot * kBytes, std::as_bytes(std::span(&cpuRecords_[slot], 1)));
+        }
+    }
+    changed_.clear();
+}
+
+void MeshSectionTable::uploadOrder() {
+    const std::vector<std::uint32_t>& slots = order_.slots();
+    const std::size_t bytes = slots.size() * sizeof(std::uint32_t);
+    if (bytes > orderBuffer_.sizeBytes()) {
+        orderBuffer_ = gpu::Buffer(2 * bytes, GL_DYNAMIC_STORAGE_BIT, "order of mesh sections");
+    }
+    if (!slots.empty()) orderBuffer_.uploadVector(0, slots);
+}
+
+void MeshSectionTable::update(world::ChunkPos center) {
+    TERRANE_ZONE("mesh section table");
+    if (!changed_.empty()) uploadRecords();
+    if (order_.update(center)) uploadOrder();
+}
+
+bool MeshSectionTable::hasBlended(world::ChunkPos center, std::span<const glm::vec4> planes) const {
+    return std::ranges::any_of(blended_, [&](std::uint32_t slot) {
+        const shared::MeshSectionRecord& r = cpuRecords_[slot];
+        const glm::vec2 corner = shared::chunkCorner(r.chunk, r.level, {center.x, center.y});
+        const glm::vec3 min(corner, r.heights & 0xFFFF);
+        const glm::vec3 max(corner + world::kChunkSize * shared::columnBlocks(r.level), r.heights >> 16);
+        return mayBeVisible(planes, min - shared::kWaving, max + shared::kWaving);  // as in cull.comp.glsl
+    });
+}
+
+}  // namespace terrane::render

@@ -1,0 +1,67 @@
+// What the GPU must know to cull and draw the mesh sections of the chunks: a record each, and their order
+// from the camera outward. Used by the renderer on the context's thread, beside QuadStore.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "terrane/gpu/buffer.h"
+#include "terrane/render/camera.h"
+#include "terrane/render/mesh_section_order.h"
+#include "terrane/render/quad_store.h"
+#include "terrane/shared/bindings.h"
+#include "terrane/shared/mesh_section.h"
+
+namespace terrane::render {
+
+class MeshSectionTable {
+  public:
+    MeshSectionTable();
+
+    // Of `meshSections`, which are all that the chunk has in the QuadStore (none: it is removed), those in
+    // `changed` are others than before.
+    void set(world::ChunkPos pos, std::span<const mesh::MeshSection> meshSections,
+             mesh::MeshSectionSet changed = mesh::kAllMeshSections);
+    void remove(world::ChunkPos pos);
+
+    // Sends what changed to the GPU and sorts the mesh sections by their distance from the chunk, nearest
+    // first. Does nothing where neither the mesh sections nor the chunk are others than at the last call.
+    void update(world::ChunkPos center);
+
+    void bindRecords() const { records_.bindStorage(shared::kMeshSectionsBinding); }
+    const gpu::Buffer& records() const { return records_; }  // shared::MeshSectionRecord by slot
+    void bindOrder() const { orderBuffer_.bindStorage(shared::kMeshSectionOrderBinding); }
+
+    // Mesh sections that have quads; the order has as many entries.
+    std::uint32_t count() const { return count_; }
+    // Slots of records, free ones included.
+    std::uint32_t slots() const { return static_cast<std::uint32_t>(cpuRecords_.size()); }
+    // Most commands that drawing all faces of a draw bucket can take.
+    const std::array<std::uint32_t, shared::kDrawBuckets>& maxCommands() const { return maxCommands_; }
+    // Whether a mesh section within the planes has blended faces. The planes are in blocks from the corner of
+    // the chunk `center`.
+    bool hasBlended(world::ChunkPos center, std::span<const glm::vec4> planes) const;
+
+  private:
+    static constexpr std::uint32_t kNoSlot = UINT32_MAX;
+
+    std::uint32_t allocateSlot();
+    void setMeshSection(std::uint32_t& slot, const shared::MeshSectionRecord& record);
+    void addCommands(const shared::MeshSectionRecord& record, std::int32_t sign);
+    void uploadRecords();
+    void uploadOrder();
+
+    // Slots by mesh section, kNoSlot where it has no quads.
+    std::unordered_map<world::ChunkPos, std::vector<std::uint32_t>, world::ChunkPosHash> chunks_;
+    std::vector<shared::MeshSectionRecord> cpuRecords_;
+    std::vector<std::uint32_t> free_, changed_, blended_;  // slots
+    std::array<std::uint32_t, shared::kDrawBuckets> maxCommands_{};
+    std::uint32_t count_ = 0;
+    MeshSectionOrder order_;
+    gpu::Buffer records_, orderBuffer_;
+};
+
+}  // namespace terrane::render

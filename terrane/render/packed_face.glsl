@@ -1,0 +1,30 @@
+// What a fragment must know of its quad, packed into 32 bits: bits 0–11 texture, 12–14 alpha mode, 15–17 direction, 18 whether
+// it is the surface of a liquid, 19–22 and 23–26 extents in columns less one, 27–30 level. Needs quad.h, shape_face.h, frame.h.
+#include "terrane/shared/material.h"
+#include "terrane/shared/mesh_section.h"
+#include "terrane/render/packed_gbuffer.glsl"
+
+uint directionOf(uint shapeFace) {
+    if (shapeFace < kShapeFaceCross) return shapeFace;
+    if (shapeFace < kShapeFaceInset) return kDirectionPlant;
+    if (shapeFace < kShapeFaceLiquidTop) return shapeFace - kShapeFaceInset;
+    return shapeFace == kShapeFaceLiquidTop ? 5u : shapeFace - kShapeFaceLiquidSide;
+}
+
+uint packFace(Quad quad, MaterialRecord material, uint level) {
+    uint isLiquid = material.animation == kAnimationLiquidSurface ? 1u : 0u;
+    return material.texture | material.alphaMode << 12 | directionOf(quadShapeFace(quad)) << 15 | isLiquid << 18 |
+           (quadExtentU(quad) - 1u) << 19 | (quadExtentV(quad) - 1u) << 23 | level << 27;
+}
+
+uint directionOfFace(uint face) {
+    return face >> 15 & 7u;
+}
+
+// In blocks, which a texture covers one of at every level. Heights of columns are those of blocks.
+vec2 extentOf(uint face) {
+    vec2 columns = vec2((face >> 19 & 15u) + 1u, (face >> 23 & 15u) + 1u);
+    float width = columnBlocks(face >> 27 & 15u);
+    bool isLevel = directionOfFace(face) >> 1 == 2u;
+    return columns * vec2(width, isLevel ? width : 1.0);
+}

@@ -1,0 +1,122 @@
+// The light of all layers of blended faces over the image: color times coverage, and coverage.
+// MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW: 1 where there is a shadow map. QUADS: 1 draws over the
+// quads of the first layer, 0 over the whole screen.
+#include "terrane/render/frame_uniforms.glsl"
+#include "terrane/render/light_sample.glsl"
+#include "terrane/render/sky_color.glsl"
+#include "terrane/render/gbuffer_read.glsl"
+#include "terrane/render/packed_layer.glsl"
+#include "terrane/render/distance_fog.glsl"
+#include "terrane/render/lighting.glsl"
+#include "terrane/render/water.glsl"
+#if SHADOW == 1
+#include "terrane/render/shadow_sample.glsl"
+#endif
+
+#if MSAA_SAMPLES > 1
+layout(binding = kTransparencyColorUnit) uniform sampler2DMS layerColors[LAYERS];
+layout(binding = kTransparencyDepthUnit) uniform sampler2DMS layerDepths[LAYERS];
+#else
+layout(binding = kTransparencyColorUnit) uniform sampler2D layerColors[LAYERS];
+layout(binding = kTransparencyDepthUnit) uniform sampler2D layerDepths[LAYERS];
+#endif
+
+#if QUADS == 1
+vec3 inRay;
+#else
+layout(location = 1) in vec3 inRay;
+#endif
+layout(location = 0) out vec4 outColor;
+
+const vec3 kBackground = vec3(0.35);  // of a single layer
+
+// `behind`: depth of what comes next.
+vec4 shadeLayer(Layer layer, float depth, float behind) {
+    float blocks = blocksOfDepth(depth);
+    vec3 toPoint = inRay * blocks, position = frame.cameraPosition.xyz + toPoint;
+    if ((frame.switches & kSwitchUnlit) != 0) return throughAir(layer.surface.albedo, toPoint, 1.0) * layer.alpha;
+    float shadow = 1.0;
+#if SHADOW == 1
+    shadow = lightShare(position, layer.surface.normal, length(toPoint));
+#endif
+    vec4 levels = levelsAt(position, layer.surface);
+    vec4 color;
+    if (layer.isLiquid) {
+        float thickness = (min(blocksOfDepth(behind), 1e4) - blocks) * length(inRay);
+        if (frame.isUnderWater != 0u) thickness = 0.3;  // seen from within: the water is on this side
+        color = shadeWater(layer.surface, position, toPoint, thickness, levels, shadow);
+    } else {
+        color = vec4(shade(layer.surface, levels, shadow, 1.0) * layer.alpha, layer.alpha);
+    }
+    vec4 air = throughAir(color.rgb / max(color.a, 1e-3), toPoint, levels.a);
+    return air * color.a;
+}
+
+// Of one of the layers. Which one may differ from pixel to pixel: such an index of textures would be undefined.
+vec4 packedLayerAt(ivec2 pixel, int k, int n) {
+    vec4 packedLayer = texelFetch(layerColors[0], pixel, k);
+    for (int m = 1; m < LAYERS; ++m) packedLayer = m == n ? texelFetch(layerColors[m], pixel, k) : packedLayer;
+    return packedLayer;
+}
+
+float layerDepthAt(ivec2 pixel, int k, int n) {
+    float depth = texelFetch(layerDepths[0], pixel, k).r;
+    for (int m = 1; m < LAYERS; ++m) depth = m == n ? texelFetch(layerDepths[m], pixel, k).r : depth;
+    return depth;
+}
+
+// A layer that has no face there has the depth of what is opaque, and behind it there are none.
+bool isThere(ivec2 pixel, int k, int n) {
+    return layerDepthAt(pixel, k, n) > depthAt(pixel, k);
+}
+
+int layersAt(ivec2 pixel, int k) {
+    int count = 0;
+    for (int n = 0; n < LAYERS; ++n) count += count == n && isThere(pixel, k, n) ? 1 : 0;
+    return count;
+}
+
+// A loop over the layers that are there: software renderers run what a branch leaves out.
+vec4 shadeLayers(ivec2 pixel, int k) {
+    vec4 sum = vec4(0.0);
+    float behind = depthAt(pixel, k);
+    for (int n = layersAt(pixel, k) - 1; n >= 0; --n) {
+        float depth = layerDepthAt(pixel, k, n);
+        bool isShown = frame.singleTransparencyLayer == 0 || frame.singleTransparencyLayer == n + 1;
+        vec4 color = isShown ? shadeLayer(unpackLayer(packedLayerAt(pixel, k, n)), depth, behind) : vec4(0.0);
+        sum = color + (1.0 - color.a) * sum;
+        behind = depth;
+    }
+    return sum;
+}
+
+// Whether all samples show the same.
+bool isOneLayer(ivec2 pixel) {
+    bool isSame = isOneSurface(pixel, packedSurfaceAt(pixel, 0));
+    int count = layersAt(pixel, 0);
+    for (int k = 1; k < MSAA_SAMPLES; ++k) isSame = isSame && layersAt(pixel, k) == count;
+    for (int n = 0; n < LAYERS; ++n) {
+        vec4 first = texelFetch(layerColors[n], pixel, 0);
+        for (int k = 1; k < MSAA_SAMPLES; ++k)
+            isSame = isSame && (n >= count || texelFetch(layerColors[n], pixel, k) == first);
+    }
+    return isSame;
+}
+
+vec4 shadeSamples(ivec2 pixel) {
+    int count = isOneLayer(pixel) ? 1 : MSAA_SAMPLES;
+    vec4 sum = vec4(0.0);
+    for (int k = 0; k < count; ++k) sum += shadeLayers(pixel, k);
+    vec4 color = sum / float(count);
+    return frame.singleTransparencyLayer > 0 ? vec4(color.rgb + (1.0 - color.a) * kBackground, 1.0) : color;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+#if QUADS == 1
+    inRay = rayAt(2.0 * gl_FragCoord.xy / frame.viewportSize - 1.0);
+    outColor = shadeLayers(pixel, 0);
+#else
+    outColor = shadeSamples(pixel);
+#endif
+}

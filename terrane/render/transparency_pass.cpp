@@ -1,0 +1,155 @@
+#include "terrane/render/transparency_pass.h"
+
+#include "terrane/gpu/debug.h"
+#include "terrane/shared/bindings.h"
+
+namespace terrane::render {
+namespace {
+
+gpu::Handle<gpu::ObjectKind::Query> makeQuery() {
+    GLuint id = 0;
+    glCreateQueries(GL_ANY_SAMPLES_PASSED, 1, &id);
+    return gpu::Handle<gpu::ObjectKind::Query>(id);
+}
+
+GLenum targetOf(int samples) {
+    return samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+}
+
+}  // namespace
+
+TransparencyPass::TransparencyPass(const gpu::ShaderLoader& shaders)
+    : first_(quadShaders(shaders, "depth_peel", "first layer")),
+      next_(quadShaders(shaders, "depth_peel", "next layer")),
+      shadeQuads_(quadShaders(shaders, "transparency", "shade layers")),
+      shade_(shaders, "transparency"),
+      mask_(shaders, PixelMask::Of::Layers) {
+    for (auto& query : anyDrawn_) query = makeQuery();
+}
+
+base::Result<TransparencyPass::Target> TransparencyPass::makeTarget(const FrameTargets& targets) {
+    Target target;
+    target.color = MsaaTexture(targets.size, GL_RGBA16, targets.msaaSamples, "layer");
+    target.depth = MsaaTexture(targets.size, GL_DEPTH_COMPONENT32F, targets.msaaSamples, "layer depth");
+    auto framebuffer =
+        gpu::Framebuffer::create({{target.color.attachment()}, target.depth.attachment()}, "layer");
+    if (!framebuffer) return tl::unexpected(framebuffer.error());
+    framebuffer->clearColor(0, glm::vec4(0));  // once: what no face was drawn to is read, but never used
+    target.framebuffer = std::move(*framebuffer);
+    return target;
+}
+
+base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOptions& options,
+                                                    bool hasShadows) {
+    const int layers = options.transparencyLayers;
+    const auto peeling = [&](int next) {
+        return defined({{"PASS", 1}, {"ALPHA_CLASS", 2}, {"MSAA_SAMPLES", samples}, {"NEXT", next}});
+    };
+    auto selected = first_.select(peeling(0));
+    if (selected && layers > 1) selected = next_.select(peeling(1));
+    const gpu::ShaderDefines shading = defined({{"PASS", 1},
+                                                {"ALPHA_CLASS", 2},
+                                                {"MSAA_SAMPLES", samples},
+                                                {"LAYERS", layers},
+                                                {"SHADOW", hasShadows},
+                                                {"LIGHT_SMOOTH", static_cast<int>(options.light)},
+                                                {"QUADS", shadesQuads_}});
+    if (selected) selected = shadesQuads_ ? shadeQuads_.select(shading) : shade_.select(shading);
+    if (selected && isMasked_) selected = mask_.select(samples);
+    return selected;
+}
+
+// With one sample a pixel the layers' quads are drawn once more to shade the pixels they cover, and no
+// others. A single layer has a background everywhere.
+base::Result<void> TransparencyPass::configure(const FrameTargets& targets, const RenderOptions& options,
+                                               bool hasShadows) {
+    shadesQuads_ = targets.msaaSamples == 1 && options.singleTransparencyLayer == 0;
+    isMasked_ = targets.msaaSamples > 1 && options.singleTransparencyLayer == 0;
+    if (options.transparencyLayers > 0) {
+        if (auto selected = selectVariants(targets.msaaSamples, options, hasShadows); !selected)
+            return selected;
+    }
+    const bool isMade =
+        size_ == targets.size && samples_ == targets.msaaSamples && scene_ == targets.sceneColor.id();
+    if (options.transparencyLayers == layers_ && isMade) return {};
+    targets_ = {};
+    overQuads_ = {};
+    layers_ = 0;
+    for (int k = 0; k < options.transparencyLayers; ++k) {
+        auto target = makeTarget(targets);
+        if (!target) return tl::unexpected(target.error());
+        targets_[static_cast<std::size_t>(k)] = std::move(*target);
+    }
+    if (options.transparencyLayers > 0 && targets.msaaSamples == 1) {
+        auto over =
+            gpu::Framebuffer::create({{targets.sceneColor}, targets_[0].depth.attachment()}, "over layers");
+        if (!over) return tl::unexpected(over.error());
+        overQuads_ = std::move(*over);
+    }
+    layers_ = options.transparencyLayers;
+    size_ = targets.size;
+    samples_ = targets.msaaSamples;
+    scene_ = targets.sceneColor.id();
+    return {};
+}
+
+// A layer starts with the depth of what is opaque: faces behind that fail the depth test, and where none is
+// drawn the depth tells so.
+void TransparencyPass::peelLayer(gpu::Pipeline& pipeline, const FrameTargets& targets, const CullPass& culled,
+                                 int number) {
+    const auto index = static_cast<std::size_t>(number);
+    Target& target = targets_[index];
+    const GLenum kind = targetOf(samples_);
+    glCopyImageSubData(targets.depth.id(), kind, 0, 0, 0, 0, target.depth.id(), kind, 0, 0, 0, 0, size_.x,
+                       size_.y, 1);
+    target.framebuffer.bind();
+    // Behind a layer without faces there are none: the GPU leaves out their drawing, not the copy above.
+    if (number > 0) {
+        glBeginConditionalRender(anyDrawn_[index - 1].id(), GL_QUERY_WAIT);
+        targets_[index - 1].depth.bind(shared::kTransparencyDepthUnit);
+    }
+    glBeginQuery(GL_ANY_SAMPLES_PASSED, anyDrawn_[index].id());
+    (number == 0 ? first_ : next_).use();
+    culled.drawBuckets(pipeline, {.depthTest = gpu::DepthTest::Greater}, mesh::AlphaClass::Blended, false);
+    glEndQuery(GL_ANY_SAMPLES_PASSED);
+    if (number > 0) glEndConditionalRender();
+}
+
+void TransparencyPass::peelLayers(gpu::Pipeline& pipeline, const FrameTargets& targets,
+                                  const QuadDraw& quads) {
+    const gpu::DebugGroup group("layers");
+    quads.bind();
+    for (int number = 0; number < layers_; ++number) peelLayer(pipeline, targets, quads.culled, number);
+}
+
+void TransparencyPass::bindLayers() const {
+    for (int k = 0; k < layers_; ++k) {
+        const Target& target = targets_[static_cast<std::size_t>(k)];
+        target.color.bind(shared::kTransparencyColorUnit + static_cast<GLuint>(k));
+        target.depth.bind(shared::kTransparencyDepthUnit + static_cast<GLuint>(k));
+    }
+}
+
+void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
+                             const ShadingInputs& inputs) const {
+    gpu::PipelineState state{.writesDepth = false, .blending = gpu::Blending::Over};
+    glBeginConditionalRender(anyDrawn_[0].id(), GL_QUERY_WAIT);
+    bindLayers();
+    if (isMasked_) mask_.draw(pipeline, targets);
+    targets.bindSurfaces();
+    inputs.bind();
+    if (shadesQuads_) {
+        overQuads_.bind();
+        quads.bind();
+        shadeQuads_.use();
+        state.depthTest = gpu::DepthTest::Equal;
+        quads.culled.drawBuckets(pipeline, state, mesh::AlphaClass::Blended, false);
+    } else {
+        targets.scene.bind();
+        if (isMasked_) state.depthTest = gpu::DepthTest::Less;
+        shade_.draw(pipeline, state);
+    }
+    glEndConditionalRender();
+}
+
+}  // namespace terrane::render

@@ -1,0 +1,113 @@
+// The mesh sections of chunks as the GPU culls and draws them: records, lists of draw commands, counts.
+#ifndef TERRANE_SHARED_MESH_SECTION_H
+#define TERRANE_SHARED_MESH_SECTION_H
+
+#include "terrane/shared/constants.h"
+#include "terrane/shared/language.h"
+
+SHARED_BEGIN
+
+const uint kDrawBuckets = 6u;     // mesh::kDrawBucketCount
+const uint kFaceDirections = 7u;  // mesh::kFaceDirectionCount
+
+// Quads of a mesh section, one range for each draw bucket and face direction. Two-sided buckets (the odd
+// ones) have faces of the last direction only.
+const uint kRangesOfTwoBuckets = 8u;
+const uint kRangesPerMeshSection = 24u;
+
+SHARED_FN uint firstRange(uint bucket) {
+    return (bucket >> 1) * kRangesOfTwoBuckets + (bucket & 1u) * kFaceDirections;
+}
+
+struct MeshSectionRecord {
+    ivec2 chunk;                          // in chunks of the level
+    uint level;                           // see world::ChunkPos
+    uint heights;                         // lowest block, and the block above the highest << 16
+    uvec2 ranges[kRangesPerMeshSection];  // first quad in the buffer, count
+};
+
+// Width of a column of a level, in blocks.
+SHARED_FN float columnBlocks(uint level) {
+    return float(1u << level);
+}
+
+// The lowest corner of a chunk, in blocks from the corner of the camera's chunk of level 0: exact near the
+// camera, wherever in the world that is.
+SHARED_FN vec2 chunkCorner(ivec2 chunk, uint level, ivec2 cameraChunk) {
+    return float(kChunkSize) * vec2((chunk << int(level)) - cameraChunk);
+}
+
+// As glMultiDrawElementsIndirect reads it.
+struct DrawCommand {
+    uint indexCount;
+    uint instanceCount;
+    uint firstIndex;
+    int baseVertex;     // 4 × first quad
+    uint baseInstance;  // number of the mesh section
+};
+
+// Quads that a command can draw: four vertices each within 16-bit indices.
+const uint kMaxQuadsPerCommand = 16384u;
+
+// Lists of commands: those of the camera by draw bucket, then those of the shadow map, which has none of
+// blended faces.
+const uint kCameraLists = 6u;
+const uint kShadowLists = 4u;
+const uint kDrawLists = 10u;
+
+// Commands and quads of each list, then mesh sections in sight.
+struct DrawCounts {
+    uint commands[kDrawLists];
+    uint quads[kDrawLists];
+    uint meshSections;
+};
+
+// Bits of a mesh section's word of visibility: face directions to draw for the camera, for the shadow map,
+// and of blended faces.
+const uint kCameraDirectionBits = 0u;
+const uint kShadowDirectionBits = 8u;
+const uint kBlendedDirectionBits = 16u;
+
+// What a culling phase draws. With occlusion culling there are two: early, mesh sections that were visible in
+// the frame before, and late, others that the depth of these (Hi-Z) does not hide.
+const uint kCullAll = 0u;
+const uint kCullEarly = 1u;
+const uint kCullLate = 2u;
+
+// How far leaves and plants may leave the box of their mesh section, in blocks.
+const float kWaving = 0.25f;
+
+// Threads of a work group: mesh sections of cull.comp.glsl, texels a side of hi_z.comp.glsl.
+const uint kCullThreads = 64u;
+const uint kHiZThreads = 8u;
+
+// Hi-Z, the pyramid of farthest depths: its finest texels are as many pixels a side, each next level twice as
+// many.
+const uint kHiZTexelPixels = 8u;
+
+// What culling needs to know. A plane (a, w) holds the points p with dot(a, p) + w ≥ 0.
+struct CullFrame {
+    vec4 cameraPlanes[5];
+    vec4 shadowPlanes[5];
+    vec4 cameraPosition;    // from the corner of its chunk
+    vec4 lightDirection;    // to the light
+    uvec4 firstCommand[3];  // of each list, in the buffer of commands
+    mat4 viewProjection;
+    ivec2 cameraChunk;
+    vec2 viewportSize;  // pixels
+    float nearPlane;    // blocks
+    int hiZLevels;
+    uint meshSectionCount;
+    uint phase;  // kCullAll and so on
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+namespace terrane::shared {
+static_assert(sizeof(MeshSectionRecord) == 16 + 8 * kRangesPerMeshSection);
+static_assert(sizeof(DrawCommand) == 20);
+static_assert(sizeof(CullFrame) == 21 * 16);
+}  // namespace terrane::shared
+#endif
+#endif
