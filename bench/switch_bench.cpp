@@ -12,6 +12,7 @@
 #include "apps/terrane/content.h"
 #include "apps/terrane/graphics_table.h"
 #include "apps/terrane/scenes.h"
+#include "apps/terrane/shaders.h"
 #include "bench/bench_content.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gpu/context.h"
@@ -97,7 +98,7 @@ void switchThrough(benchmark::State& state, const app::GraphicsRow& row) {
     stage.stallOf(usual);
     double wait = 0, stall = 0;
     for (auto _ : state) {
-        for (int word = 0; word < static_cast<int>(row.words.size()); ++word) {
+        for (int word = 0; word < static_cast<int>(row.valueNames.size()); ++word) {
             render::RenderOptions options = usual;
             row.set(options, word);
             wait = std::max(wait, stage.waitFor(options));

@@ -34,7 +34,7 @@ base::Result<void> AmbientOcclusion::configure(const FrameTargets& targets, bool
 }
 
 void AmbientOcclusion::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
-    targets.bindSurfaces();
+    targets.bindGBuffer();
     visibility_.framebuffer.bind();
     find_.draw(pipeline, {});
     between_.framebuffer.bind();

@@ -31,7 +31,7 @@ base::Result<void> DepthOfField::configure(const FrameTargets& targets, bool isO
 }
 
 void DepthOfField::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
-    targets.bindSurfaces();
+    targets.bindGBuffer();
     targets.sceneColor.bind(shared::kSceneUnit);
     between_.framebuffer.bind();
     alongX_.draw(pipeline, {});

@@ -30,14 +30,14 @@ base::Result<FrameTargets> FrameTargets::create(glm::ivec2 size, int samples) {
     FrameTargets t;
     t.size = size;
     t.requestedMsaaSamples = samples;
-    t.gbufferColor = MsaaTexture(size, GL_RGBA8, samples, "surfaces");
+    t.gbufferColor = MsaaTexture(size, GL_RGBA8, samples, "G-buffer");
     t.depth = MsaaTexture(size, GL_DEPTH_COMPONENT32F, samples, "depth");
     t.msaaSamples = t.gbufferColor.samples();
     t.sceneColor = gpu::Texture2D(size, GL_RGBA16F, 1, "scene");
     t.ldrColor = gpu::Texture2D(size, GL_RGBA8, 1, "LDR");
-    auto surfaces =
-        gpu::Framebuffer::create({{t.gbufferColor.attachment()}, t.depth.attachment()}, "surfaces");
-    if (!surfaces) return tl::unexpected(surfaces.error());
+    auto gbuffer =
+        gpu::Framebuffer::create({{t.gbufferColor.attachment()}, t.depth.attachment()}, "G-buffer");
+    if (!gbuffer) return tl::unexpected(gbuffer.error());
     gpu::FramebufferOptions sceneOptions{{t.sceneColor}, t.depth.attachment()};
     if (t.msaaSamples > 1) {
         t.maskDepth = gpu::Texture2D(size, GL_DEPTH_COMPONENT16, 1, "mask");
@@ -53,14 +53,14 @@ base::Result<FrameTargets> FrameTargets::create(glm::ivec2 size, int samples) {
     // No sky is drawn behind what is near; there the scene is blended with a share of 0 of what was before,
     // which must be a number.
     scene->clearColor(0, glm::vec4(0));
-    t.gbuffer = std::move(*surfaces);
+    t.gbuffer = std::move(*gbuffer);
     t.scene = std::move(*scene);
     t.ldr = std::move(*ldr);
     return t;
 }
 
-void FrameTargets::bindSurfaces() const {
-    surface.bind(shared::kGBufferUnit);
+void FrameTargets::bindGBuffer() const {
+    gbufferColor.bind(shared::kGBufferUnit);
     depth.bind(shared::kDepthUnit);
 }
 

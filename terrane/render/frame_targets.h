@@ -39,7 +39,7 @@ struct FrameTargets {
     static base::Result<FrameTargets> create(glm::ivec2 size, int samples);
 
     // The G-buffer, for shaders that read it.
-    void bindSurfaces() const;
+    void bindGBuffer() const;
 
     glm::ivec2 size{0};
     int requestedMsaaSamples = 0, msaaSamples = 0;  // a pixel; what the driver gives

@@ -23,7 +23,7 @@ base::Result<void> HoleFill::configure(const FrameTargets& targets, bool isOn) {
     if (auto selected = fill_.select(defined({{"MSAA_SAMPLES", targets.msaaSamples}})); !selected)
         return selected;
     if (this->isOn() && size_ == targets.size && surface_.samples() == targets.msaaSamples) return {};
-    surface_ = MsaaTexture(targets.size, GL_RGBA8, targets.msaaSamples, "surfaces with holes");
+    surface_ = MsaaTexture(targets.size, GL_RGBA8, targets.msaaSamples, "G-buffer with holes");
     depth_ = MsaaTexture(targets.size, GL_DEPTH_COMPONENT32F, targets.msaaSamples, "depth with holes");
     size_ = targets.size;
     return {};

@@ -9,7 +9,7 @@ base::Result<void> PixelMask::select(int samples) {
 void PixelMask::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
     const gpu::PipelineState nearest{.depthTest = gpu::DepthTest::Always, .depthRange = {1, 1}};
     pipeline.set(nearest);
-    targets.bindSurfaces();
+    targets.bindGBuffer();
     targets.mask.bind();
     targets.mask.clearDepth(0.0f);
     pass_.draw(pipeline, nearest);

@@ -219,7 +219,7 @@ void Renderer::drawTransparency(const FrameInput& input) {
 
 void Renderer::drawFinal() {
     const TimerZone zone(timer_, "final");
-    targets_.bindSurfaces();
+    targets_.bindGBuffer();
     targets_.sceneColor.bind(shared::kSceneUnit);
     if (passes_.occlusion.isOn()) passes_.occlusion.result().bind(shared::kOcclusionUnit);
     if (passes_.godRays.isOn()) passes_.godRays.bindResult();
@@ -247,7 +247,7 @@ void Renderer::drawImage(const FrameInput& input) {
 }
 
 void Renderer::drawDebugView() {
-    targets_.bindSurfaces();
+    targets_.bindGBuffer();
     light_.bind();
     targets_.ldr.bind();
     passes_.debugView.draw(pipeline_, {});

@@ -54,7 +54,7 @@ void ShadingPass::drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, 
 void ShadingPass::drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targets,
                                const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const {
     if (targets.msaaSamples > 1) surfaceMask_.draw(pipeline, targets);
-    targets.bindSurfaces();
+    targets.bindGBuffer();
     inputs.bind();
     if (occlusion.isOn()) occlusion.result().bind(shared::kOcclusionUnit);
     targets.scene.bind();

@@ -136,7 +136,7 @@ void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& target
     glBeginConditionalRender(anyDrawn_[0].id(), GL_QUERY_WAIT);
     bindLayers();
     if (isMasked_) mask_.draw(pipeline, targets);
-    targets.bindSurfaces();
+    targets.bindGBuffer();
     inputs.bind();
     if (shadesQuads_) {
         overQuads_.bind();

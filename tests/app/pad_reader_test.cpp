@@ -20,7 +20,7 @@ TEST(PadReader, TellsWhatHappenedSinceTheFrameBefore) {
 
 TEST(PadReader, APadThatIsPulledOutLetsGo) {
     PadReader pad;
-    HeldButton held;
+    game::HeldButton held;
     pad.read(Gamepad{.leftX = 1, .rightTrigger = true});
     pad.drive(held, &Gamepad::rightTrigger);
     EXPECT_TRUE(held.isDown());
@@ -32,7 +32,7 @@ TEST(PadReader, APadThatIsPulledOutLetsGo) {
 
 TEST(PadReader, AHeldMouseButtonStaysHeld) {
     PadReader pad;
-    HeldButton held;
+    game::HeldButton held;
     held.press();
     for (int frame = 0; frame < 3; ++frame) {
         pad.read(Gamepad{});

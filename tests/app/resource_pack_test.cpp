@@ -27,7 +27,7 @@ class ResourcePack : public testing::Test {
     void add(const char* file, const base::Image& image) {
         ASSERT_TRUE(base::writePng(folder_.path() / file, image));
     }
-    base::Result<render::TextureSource> load() const {
+    base::Result<world::TextureSource> load() const {
         return loadTextures(folder_.path().string(), blocks_);
     }
     std::string error() const {

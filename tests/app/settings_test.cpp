@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "apps/terrane/graphics_options.h"
 #include "apps/terrane/options.h"
 #include "tests/base/temp_folder.h"
 
@@ -101,7 +102,7 @@ TEST_F(Settings, FormerNamesAreRead) {
     EXPECT_EQ(options.mesh.method, mesh::MergeMethod::Lines);
     EXPECT_EQ(options.mesh.meshSectionHeight, 32);
     EXPECT_EQ(options.view, render::View::Merging);
-    EXPECT_FALSE(renderOptions(options.choices, true).atmosphere);
+    EXPECT_FALSE(renderOptions(options.choices, true).distanceFog);
 }
 
 TEST_F(Settings, AWrongValueOfAFormerNameIsNamedWithItsLine) {

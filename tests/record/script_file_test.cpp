@@ -115,7 +115,7 @@ TEST(ScriptFile, FormerNamesOfOptionsAreRead) {
     ASSERT_TRUE(script) << script.error().message;
     const Shot& shot = script->shots[0];
     EXPECT_EQ(optionsAt(shot, 0).view, render::View::Merging);
-    EXPECT_FALSE(renderOptions(optionsAt(shot, 0).choices, true).atmosphere);
+    EXPECT_FALSE(renderOptions(optionsAt(shot, 0).choices, true).distanceFog);
     EXPECT_EQ(optionsAt(shot, 1).mesh.method, mesh::MergeMethod::Lines);
     EXPECT_EQ(optionsAt(shot, 1).mesh.meshSectionHeight, 32);
 }

@@ -74,7 +74,7 @@ TEST_F(FramePassesTest, OptionsThatFailLeaveAllAsItWas) {
     RenderOptions other = fullOptions(4);
     other.shadowSize = 1024;
     other.shading = Shading::Pixel;
-    other.layers = 1;
+    other.transparencyLayers = 1;
     other.occlusion = Occlusion::Raw;
     other.tJunctions = TJunctions::Filled;
     other.clouds = other.sharpFiltering = other.depthOfField = other.godRays = false;
