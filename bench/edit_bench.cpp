@@ -31,7 +31,8 @@ std::unique_ptr<game::Session> loadedSession() {
     auto graph = bench::orExit(gen::makeGenerator("flat", bench::blocks()));
     auto store = std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "flat", 1});
     auto session = std::make_unique<game::Session>(
-        game::SessionParts{bench::blocks(), gen::Generator(std::move(graph), 1), std::move(store), 2});
+        game::SessionParts{std::make_unique<const world::BlockRegistry>(bench::blocks()),
+                           gen::Generator(std::move(graph), 1), std::move(store), 2});
     session->pipeline().setView({0, 0}, kViewDistance);
     settle(*session);
     return session;

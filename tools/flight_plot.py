@@ -27,7 +27,7 @@ def draw(axes, folder, name):
     standing = pandas.read_csv(folder / f"standing_{distance}.csv", names=["seconds", "milliseconds"])
     axes.vlines(flight.time_s, 0, flight.frame_ms, color="#9db8d2", label="frame")
     axes.vlines(flight.time_s, 0, flight.follow_processor_ms + flight.upload_processor_ms, color="#c0392b",
-                label="of it loading (processor time)")
+                label="of it loading (CPU time)")
     axes.plot(standing.seconds, standing.milliseconds, color="#2e7d32", linewidth=2,
               label="the same place, nothing to load")
     axes.axhline(2 * flight.frame_ms.median(), color="#555555", linestyle="--", label="twice the median")

@@ -51,9 +51,9 @@ bool usesGpu(Backend backend) {
 base::Result<std::unique_ptr<view::GpuBackEnds>> chooseBackEnds(game::SessionParts& parts,
                                                                 const WorldOptions& world, Backend backend) {
     if (!usesGpu(backend)) return nullptr;
-    auto graph = gen::makeGenerator(world.effectiveGenerator(), parts.blocks);
+    auto graph = gen::makeGenerator(world.effectiveGenerator(), *parts.blocks);
     if (!graph) return tl::unexpected(graph.error());
-    auto made = view::makeGpuBackEnds(makeShaderLoader(""), *graph, world.effectiveSeed(), parts.blocks);
+    auto made = view::makeGpuBackEnds(makeShaderLoader(""), *graph, world.effectiveSeed(), *parts.blocks);
     if (made) view::useBackEnds(parts, **made);
     return made;
 }

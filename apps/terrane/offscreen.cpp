@@ -11,7 +11,7 @@ base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const OffscreenOption
     WorldOptions world = options.world;
     auto parts = openSessionParts(world, options.save, options.access);
     if (!parts) return tl::unexpected(parts.error());
-    auto textures = loadTextures(graphics.resourcePack, parts->blocks);
+    auto textures = loadTextures(graphics.resourcePack, *parts->blocks);
     if (!textures) return tl::unexpected(textures.error());
     auto context = gpu::HeadlessContext::create({.debug = graphics.debugGl});
     if (!context) return tl::unexpected(context.error());
@@ -21,7 +21,7 @@ base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const OffscreenOption
     auto backEnds = chooseBackEnds(*parts, world, options.backend);
     if (!backEnds) return tl::unexpected(backEnds.error());
     made->backEnds = std::move(*backEnds);
-    auto renderer = render::Renderer::create(made->shaders, parts->blocks, *textures, made->device);
+    auto renderer = render::Renderer::create(made->shaders, *parts->blocks, *textures, made->device);
     if (!renderer) return tl::unexpected(renderer.error());
     made->renderer = std::move(*renderer);
     const auto quality = renderOptions(graphics.choices, made->device.software);

@@ -41,14 +41,15 @@ base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const wo
 
 base::Result<game::SessionParts> openSessionParts(WorldOptions& options, const SaveOptions& save,
                                                   store::WorldAccess access) {
-    auto blocks = loadBlocks();
-    if (!blocks) return tl::unexpected(blocks.error());
+    auto loaded = loadBlocks();
+    if (!loaded) return tl::unexpected(loaded.error());
+    auto blocks = std::make_unique<const world::BlockRegistry>(std::move(*loaded));
     auto opened = openSave(options, save, access, *blocks);
     if (!opened) return tl::unexpected(opened.error());
     auto generator = makeGenerator(options, *blocks);
     if (!generator) return tl::unexpected(generator.error());
     if (!*opened) *opened = std::make_unique<store::MemoryStore>(identityOf(options));
-    return game::SessionParts{std::move(*blocks), std::move(*generator), std::move(*opened),
+    return game::SessionParts{std::move(blocks), std::move(*generator), std::move(*opened),
                               threadCount(options)};
 }
 

@@ -23,12 +23,12 @@ constexpr double kMaxGrowthSeconds = 1;
 // chunks too.
 Session::Session(SessionParts parts)
     : blocks_(std::move(parts.blocks)),
-      lights_(blocks_),
+      lights_(*blocks_),
       store_(std::move(parts.store)),
       generator_(std::move(parts.generator)),
       jobs_(parts.threads),
       pipeline_({jobs_,
-                 blocks_,
+                 *blocks_,
                  lights_,
                  world_,
                  {&generator_, store_.get(), store_->isPersistent()},
@@ -56,7 +56,7 @@ EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEd
     }
     if (command.expected && *command.expected != world_.block(command.pos)) return EditResult::Conflict;
     const std::size_t before = edits.size();
-    world::applyChange(world_, blocks_, command.pos, command.change, edits);
+    world::applyChange(world_, *blocks_, command.pos, command.change, edits);
     return edits.size() > before ? EditResult::Applied : EditResult::Unchanged;
 }
 
@@ -74,7 +74,7 @@ void Session::advance(double seconds, world::ChunkPos center) {
     untilTick_ += std::min(seconds, kMaxGrowthSeconds);
     for (; untilTick_ >= tickSeconds; untilTick_ -= tickSeconds) {
         std::vector<EditCommand> growth;
-        for (const world::BlockPos pos : world::plantsThatGrow(world_, blocks_, {ticks_++, center})) {
+        for (const world::BlockPos pos : world::plantsThatGrow(world_, *blocks_, {ticks_++, center})) {
             const auto stagesLeft = static_cast<std::uint16_t>(world_.blockState(pos) - 1);
             growth.push_back({kNoPlayer, pos, world::SetState{stagesLeft}, std::nullopt});
         }

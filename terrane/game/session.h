@@ -23,7 +23,7 @@ namespace terrane::game {
 
 // What a session is made of.
 struct SessionParts {
-    world::BlockRegistry blocks;
+    std::unique_ptr<const world::BlockRegistry> blocks;  // stays where it is: others refer to it
     gen::Generator generator;
     std::unique_ptr<store::ChunkStore> store;
     unsigned threads = 1;  // workers
@@ -54,7 +54,7 @@ class Session {
     // Waits until all that changed is in the store.
     [[nodiscard]] base::Result<void> save();
 
-    const world::BlockRegistry& blocks() const { return blocks_; }
+    const world::BlockRegistry& blocks() const { return *blocks_; }
     const world::World& world() const { return world_; }
     const gen::Generator& generator() const { return generator_; }
     store::ChunkStore& store() { return *store_; }
@@ -68,7 +68,7 @@ class Session {
     bool canReach(PlayerId player, world::BlockPos pos) const;
 
     // They refer to each other: destroyed in reverse order.
-    world::BlockRegistry blocks_;
+    std::unique_ptr<const world::BlockRegistry> blocks_;
     light::LightTable lights_;
     std::unique_ptr<store::ChunkStore> store_;
     gen::Generator generator_;

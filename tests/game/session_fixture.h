@@ -27,7 +27,8 @@ inline gen::Generator flatGenerator() {
 
 inline SessionParts flatParts() {
     const store::WorldIdentity identity{.seed = 1, .generator = "flat stone", .generatorVersion = 1};
-    return {contentBlocks(), flatGenerator(), std::make_unique<store::MemoryStore>(identity), 2};
+    return {std::make_unique<const world::BlockRegistry>(contentBlocks()), flatGenerator(),
+            std::make_unique<store::MemoryStore>(identity), 2};
 }
 
 class SessionTest : public testing::Test {

@@ -47,7 +47,7 @@ def frame(s, scene, **flags):
     return command_line("render", **{
         "scene": scene, "preset": "thesis", "view_distance": s.view_distance, "size": s.size, "frames": s.frames,
         "samples": 2, "shading": "sample", "shadows": 1024 if s.is_quick else 2048, "layers": 3,
-        "aggregation": "greedy", "region_height": 16, **flags})
+        "merging": "greedy", "mesh_section_height": 16, **flags})
 
 
 def plain_frame(s, **flags):
@@ -58,7 +58,7 @@ def plain_frame(s, **flags):
 
 def merging(s, scene, method):
     """Frames with a method of merging, all triangles drawn."""
-    return frame(s, scene, aggregation=method, occlusion_culling="off")
+    return frame(s, scene, merging=method, occlusion_culling="off")
 
 
 def generating(scene, view_distance, **flags):
@@ -73,7 +73,7 @@ def loading(scene, view_distance):
 
 def flight(s, is_from_save):
     """A flight ahead over the landscape."""
-    return command_line("flight-bench", scene="landscape", **{"for": f"{s.flight_seconds:g}"},
+    return command_line("flight-bench", scene="landscape", duration=f"{s.flight_seconds:g}",
                         preset="low" if s.is_software else "thesis", view_distance=s.view_distance,
                         size="320x180" if s.is_software else s.size,
                         **({"save_game": "flight"} if is_from_save else {}))

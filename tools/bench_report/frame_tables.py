@@ -152,7 +152,7 @@ EFFECTS = (
     ("default", {}, (57, 56, 41, 59)),
     ("without depth of field", {"depth_of_field": "off"}, (66, 65, 46, 71)),
     ("without god rays", {"god_rays": "off"}, (59, 56, 42, 59)),
-    ("without better texturing", {"better_texturing": "off"}, 4 * ("no change",)),
+    ("without better texturing", {"sharp_filtering": "off"}, 4 * ("no change",)),
     ("without MSAA alpha test", {"msaa_alpha_test": "off"}, 4 * ("no change",)),
     ("T-junctions open", {"t_junctions": "open"}, 4 * ("no change",)),
     ("without animation", {"animation": "off"}, 4 * ("no change",)),

@@ -58,6 +58,12 @@ def read_results(path):
     return Results(about["settings"], frame, arrays, failures)
 
 
+# Of commands and flags, in files that 0.1 wrote.
+FORMER_NAMES = {"fly": "flight-bench", "--for": "--duration", "--aggregation": "--merging",
+                "--region-height": "--mesh-section-height", "--atmosphere": "--distance-fog",
+                "--better-texturing": "--sharp-filtering"}
+
+
 def parse(line):
     """None for what is no JSON: nothing that stands in these files."""
     def refuse(word):
@@ -70,7 +76,7 @@ def parse(line):
 
 def take_run(line, runs, arrays, failures):
     """Adds a run to what is known. ValueError, KeyError, TypeError: it is none."""
-    cell = " ".join(line["cell"])
+    cell = " ".join(FORMER_NAMES.get(word, word) for word in line["cell"])
     if "result" not in line:
         failures[cell] = str(line["failure"])
         return

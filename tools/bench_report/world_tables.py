@@ -21,7 +21,7 @@ def region_heights(s):
         if distance > max(8, s.farthest):
             continue
         for height, thesis in heights.items():
-            cell = frame(s, "landscape", view_distance=distance, region_height=height,
+            cell = frame(s, "landscape", view_distance=distance, mesh_section_height=height,
                          save_game=f"landscape-{distance}")
             rows.append([str(distance), str(height), value(cell, FRAMES_PER_SECOND),
                          total(cell, [Value("/triangles/opaque"), Value("/triangles/transparent")]),

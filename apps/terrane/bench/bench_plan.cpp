@@ -55,7 +55,7 @@ Cell loading(const std::string& scene, int distance) {
 // graphics card its frames need not.
 Cell flight(const BenchSettings& s, bool isFromSave) {
     Cell cell = expandLine(fmt::format(
-        "fly --scene landscape --for {:g} --preset {} --view-distance {} --size {}", s.flightSeconds,
+        "flight-bench --scene landscape --duration {:g} --preset {} --view-distance {} --size {}", s.flightSeconds,
         s.isSoftware ? "low" : "thesis", s.viewDistance, s.isSoftware ? "320x180" : s.size))[0];
     if (!isFromSave) return cell;
     cell.arguments.insert(cell.arguments.end(), {"--save-game", "flight"});

@@ -92,15 +92,15 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
     if (auto read = applySettings(options.settingsFile, command, graphicsSettings()); !read) return read;
     auto parts = openSessionParts(options.world, options.save);
     if (!parts) return tl::unexpected(parts.error());
-    auto textures = loadTextures(options.graphics.resourcePack, parts->blocks);
+    auto textures = loadTextures(options.graphics.resourcePack, *parts->blocks);
     if (!textures) return tl::unexpected(textures.error());
     auto window = openWindow(options);
     if (!window) return tl::unexpected(window.error());
     const gpu::ShaderLoader shaders = makeShaderLoader(options.graphics.shaderRoot);
     const gpu::DeviceInfo device = gpu::queryDevice();
-    auto renderer = render::Renderer::create(shaders, parts->blocks, *textures, device);
+    auto renderer = render::Renderer::create(shaders, *parts->blocks, *textures, device);
     if (!renderer) return tl::unexpected(renderer.error());
-    auto preview = BlockPreview::create(shaders, parts->blocks, *textures, device);
+    auto preview = BlockPreview::create(shaders, *parts->blocks, *textures, device);
     if (!preview) return tl::unexpected(preview.error());
     const auto backEnds = chooseBackEnds(*parts, options.world, options.backend);
     if (!backEnds) return tl::unexpected(backEnds.error());
