@@ -27,9 +27,7 @@ class ResourcePack : public testing::Test {
     void add(const char* file, const base::Image& image) {
         ASSERT_TRUE(base::writePng(folder_.path() / file, image));
     }
-    base::Result<world::TextureSource> load() const {
-        return loadTextures(folder_.path().string(), blocks_);
-    }
+    base::Result<world::TextureSource> load() const { return loadTextures(folder_.path().string(), blocks_); }
     std::string error() const {
         const auto loaded = load();
         return loaded ? "" : loaded.error().message;

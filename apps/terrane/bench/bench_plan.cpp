@@ -54,9 +54,10 @@ Cell loading(const std::string& scene, int distance) {
 // A flight ahead over the landscape, generating or from a save. It takes as long as it does: without a
 // graphics card its frames need not.
 Cell flight(const BenchSettings& s, bool isFromSave) {
-    Cell cell = expandLine(fmt::format(
-        "flight-bench --scene landscape --duration {:g} --preset {} --view-distance {} --size {}", s.flightSeconds,
-        s.isSoftware ? "low" : "thesis", s.viewDistance, s.isSoftware ? "320x180" : s.size))[0];
+    Cell cell = expandLine(
+        fmt::format("flight-bench --scene landscape --duration {:g} --preset {} --view-distance {} --size {}",
+                    s.flightSeconds, s.isSoftware ? "low" : "thesis", s.viewDistance,
+                    s.isSoftware ? "320x180" : s.size))[0];
     if (!isFromSave) return cell;
     cell.arguments.insert(cell.arguments.end(), {"--save-game", "flight"});
     return {cell.arguments, cell.arguments};
