@@ -1,0 +1,88 @@
+// A session that is played with generation, light and meshes on the GPU, beside one where workers do all:
+// the same edits, the same views, the same images.
+#include "terrane/view/gpu_back_ends.h"
+
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/store/memory_store.h"
+#include "terrane/view/world_view.h"
+#include "tests/golden/golden_fixture.h"
+
+namespace terrane::view {
+namespace {
+
+constexpr int kViewDistance = 2;
+constexpr glm::ivec2 kSize{160, 90};
+
+class GpuBackEndsTest : public gpu::GlTest {
+  protected:
+    // The parts refer to each other by address.
+    struct Player {
+        std::unique_ptr<GpuBackEnds> backEnds;
+        std::unique_ptr<game::Session> session;
+        render::Renderer renderer;
+        std::optional<WorldView> view;
+    };
+
+    std::unique_ptr<Player> makePlayer(bool isOnGpu) {
+        auto graph = gen::makeGenerator("overworld", contentBlocks()).value();
+        auto player = std::make_unique<Player>();
+        game::SessionParts parts{
+            std::make_unique<const world::BlockRegistry>(contentBlocks()), gen::Generator(graph, 1),
+            std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "overworld", 1}), 2};
+        if (isOnGpu) {
+            player->backEnds = makeGpuBackEnds(render::contentShaders(), graph, 1, contentBlocks()).value();
+            useBackEnds(parts, *player->backEnds);
+        }
+        player->session = std::make_unique<game::Session>(std::move(parts));
+        gpu::DeviceInfo device = gpu::queryDevice();
+        auto renderer = render::Renderer::create(render::contentShaders(), contentBlocks(),
+                                                 render::contentTexture, device);
+        player->renderer = std::move(renderer.value());
+        EXPECT_TRUE(player->renderer.configure(kSize, render::plainOptions(1)));
+        player->renderer.setViewDistance(kViewDistance);
+        player->view.emplace(*player->session, player->renderer);
+        if (isOnGpu) {
+            EXPECT_TRUE(player->view->meshOnGpu(render::contentShaders(), WorldView::kNoHurry));
+        }
+        return player;
+    }
+
+    static base::Image imageOf(Player& player, const render::Camera& camera) {
+        loadAll(*player.session, *player.view, camera, kViewDistance, std::chrono::steady_clock::now());
+        player.renderer.draw({camera, world::environmentAt(0.4f), 32, 0, render::View::Color});
+        return player.renderer.readImage();
+    }
+};
+
+TEST_F(GpuBackEndsTest, PlayingShowsTheSame) {
+    const auto onCpu = makePlayer(false), onGpu = makePlayer(true);
+    const std::vector<render::Camera> cameras = {{{-1020, -60, 92}, 200, -12}, {{-990, -50, 95}, 30, -20}};
+    std::optional<base::Image> before;
+    for (const render::Camera& camera : cameras) {
+        for (int round = 0; round < 2; ++round) {
+            const base::Image expected = imageOf(*onCpu, camera);
+            EXPECT_EQ(imageOf(*onGpu, camera).rgba, expected.rgba) << "round " << round;
+            if (before) {
+                EXPECT_NE(expected.rgba, before->rgba) << "an edit, or another view";
+            }
+            before = expected;
+            // A lamp and a wall in front of the camera, and a hole in the ground.
+            const glm::dvec3 ahead = camera.position + 6.0 * glm::dvec3(render::lookDirection(camera));
+            const world::BlockPos at{static_cast<int>(ahead.x), static_cast<int>(ahead.y),
+                                     static_cast<int>(ahead.z)};
+            std::vector<game::EditCommand> commands;
+            for (int k = 0; k < 5; ++k) {
+                commands.push_back({game::kNoPlayer,
+                                    {at.x + k - 2, at.y, at.z},
+                                    world::SetBlock{contentBlock(k == 2 ? "lamp_red" : "stone")},
+                                    {}});
+                commands.push_back(
+                    {game::kNoPlayer, {at.x, at.y + k - 2, at.z - 6}, world::SetBlock{world::kAir}, {}});
+            }
+            EXPECT_EQ(onCpu->session->edit(commands), onGpu->session->edit(commands));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace terrane::view
