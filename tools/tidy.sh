@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# Runs clang-tidy with .clang-tidy over the library and the program: all sources, or those given.
+# Runs clang-tidy with the rules of .clang-tidy over the library and the program. Several sources at a time (a unity
+# build), so that their headers are parsed once. Exits with an error when a rule is broken.
 #
-#   tools/tidy.sh [FILE.cpp …]
+#   tools/tidy.sh [MODULE …]    all modules unless told otherwise: tools/tidy.sh stream game app
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 readonly BUILD_FOLDER=build-tidy
 
 cmake -S . -B "$BUILD_FOLDER" -G Ninja --log-level=WARNING -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Debug \
-    -DTERRANE_WERROR=OFF -DTERRANE_TESTS=OFF -DTERRANE_BENCHMARKS=OFF
-if [[ $# -gt 0 ]]; then
-    files=("$@")
-else
-    mapfile -t files < <(find terrane apps -name '*.cpp')
-fi
-printf '%s\n' "${files[@]}" |
-    xargs --max-procs="$(nproc)" --max-args=4 clang-tidy --quiet -p "$BUILD_FOLDER" 2> >(grep -v 'warnings generated' >&2)
+    -DCMAKE_UNITY_BUILD=ON -DTERRANE_WERROR=OFF -DTERRANE_TESTS=OFF -DTERRANE_BENCHMARKS=OFF
+modules=("$@")
+[[ $# -gt 0 ]] || modules=('*')
+for module in "${modules[@]}"; do
+    # Not the embedded files, which are generated.
+    find "$BUILD_FOLDER" -path "*/terrane_$module.dir/Unity/*.cxx" ! -path '*terrane_shaders*' ! -path '*terrane_content*'
+done | xargs --max-procs="$(nproc)" --max-args=1 clang-tidy --quiet -p "$BUILD_FOLDER" 2> >(grep -v 'warnings generated' >&2)

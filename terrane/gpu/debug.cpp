@@ -62,8 +62,7 @@ void APIENTRY onMessage(GLenum source, GLenum type, GLuint id, GLenum severity, 
     const bool isError = type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR ||
                          severity == GL_DEBUG_SEVERITY_HIGH;
     if (isError) {
-        // OpenGL hands back as const what enableDebugOutput passed as mutable.
-        static_cast<DebugLog*>(const_cast<void*>(user))->addError(line);
+        static_cast<const DebugLog*>(user)->addError(line);
     } else if (severity == GL_DEBUG_SEVERITY_MEDIUM) {
         base::logWarning("{}", line);
     } else {
@@ -73,7 +72,7 @@ void APIENTRY onMessage(GLenum source, GLenum type, GLuint id, GLenum severity, 
 
 }  // namespace
 
-void DebugLog::addError(std::string_view message) {
+void DebugLog::addError(std::string_view message) const {
     ++errors_;
     base::logError("{}", message);
     if (fatal_) std::abort();

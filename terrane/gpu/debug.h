@@ -16,10 +16,10 @@ class DebugLog {
     void clear() { errors_ = 0; }
 
     // An error of the driver; aborts the program after logging when the log is fatal.
-    void addError(std::string_view message);
+    void addError(std::string_view message) const;
 
   private:
-    int errors_ = 0;
+    mutable int errors_ = 0;  // counted through the const pointer that OpenGL hands back
     bool fatal_ = false;
 };
 

@@ -13,6 +13,10 @@
 namespace terrane::store {
 namespace {
 
+using namespace std::string_view_literals;
+
+constexpr std::string_view kMagic = "SQLite format 3\0"sv;  // the first bytes of a SQLite file
+
 using base::ErrorCode;
 namespace fs = std::filesystem;
 
@@ -71,9 +75,9 @@ base::Result<bool> checkFile(const fs::path& path) {
     if (!file)
         return base::fail(ErrorCode::Io, "{}: cannot be read: {}", path.string(),
                           std::generic_category().message(errno));
-    char magic[16] = {};
+    char magic[kMagic.size()] = {};
     file.read(magic, sizeof magic);
-    if (std::string_view(magic, sizeof magic) != std::string_view("SQLite format 3", 16))
+    if (std::string_view(magic, sizeof magic) != kMagic)
         return base::fail(ErrorCode::Incompatible, "{}: not a save: not a SQLite file", path.string());
     if (auto whole = checkLength(path, size); !whole) return tl::unexpected(whole.error());
     return true;
