@@ -285,7 +285,7 @@ TEST_F(PipelineEditsTest, MeshesOfWholeChunksAreLeftOut) {
 // An edit where not all around is lit yet relights what is around it alone; the rest stays incremental. Light
 // is that of everything from scratch, in whatever order chunks came.
 TEST_F(PipelineEditsTest, EditsWhileTheViewLoads) {
-    for (unsigned round = 0; round < 12; ++round) {
+    for (unsigned round = 0; round < 4; ++round) {
         pipeline_ = nullptr;
         world_ = {};
         shown_.clear();
