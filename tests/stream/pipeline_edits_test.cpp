@@ -290,16 +290,15 @@ TEST_F(PipelineEditsTest, EditsWhileTheViewLoads) {
         world_ = {};
         shown_.clear();
         pipeline_ = makePipeline({&generator_, nullptr, false});
-        setView({0, 0}, 4);
+        setView({0, 0}, 2);
         for (unsigned step = 0; !pipeline_->progress().complete(); ++step) {
             update();
-            for (unsigned k = 0; k < 20; ++k) {
+            for (unsigned k = 0; k < 8; ++k) {
                 const auto random = [&](unsigned n, unsigned count) {
                     return static_cast<int>(shared::hash3(step, k, n, round) % count);
                 };
                 const char* const kinds[] = {"air", "stone", "lamp_red", "lamp_blue"};
-                placeBlock({random(0, 144) - 64, random(1, 144) - 64, 50 + random(2, 24)},
-                           kinds[random(3, 4)]);
+                placeBlock({random(0, 80) - 32, random(1, 80) - 32, 50 + random(2, 24)}, kinds[random(3, 4)]);
             }
             pipeline_->waitForWorkers(std::chrono::milliseconds(2));
             take(static_cast<std::size_t>(step % 7));
