@@ -291,7 +291,7 @@ TEST_F(PipelineEditsTest, EditsWhileTheViewLoads) {
         shown_.clear();
         pipeline_ = makePipeline({&generator_, nullptr, false});
         setView({0, 0}, 2);
-        for (unsigned step = 0; !pipeline_->progress().complete(); ++step) {
+        for (unsigned step = 0; step < 60 && !pipeline_->progress().complete(); ++step) {
             update();
             for (unsigned k = 0; k < 8; ++k) {
                 const auto random = [&](unsigned n, unsigned count) {
