@@ -81,7 +81,7 @@ TEST(Compare, FlatImagesAreFound) {
 class MatchesGolden : public testing::Test {
   protected:
     testing::AssertionResult match(const base::Image& image, bool update = false) const {
-        return matchesGolden("picture", image, update, {folder_.path(), folder_.path() / "failures"});
+        return matchesGolden("image", image, update, {folder_.path(), folder_.path() / "failures"});
     }
     bool exists(const char* name) const {
         return std::filesystem::exists(folder_.path() / "failures" / name);
@@ -116,7 +116,7 @@ TEST_F(MatchesGolden, AMissingOrFlatRenderFailsAlsoAsUpdate) {
         EXPECT_FALSE(match(base::Image{}, update));
         EXPECT_FALSE(match(flat, update));
     }
-    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "picture.png"));
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "image.png"));
 }
 
 }  // namespace
