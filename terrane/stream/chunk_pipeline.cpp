@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <map>
+#include <utility>
 
 #include "terrane/base/profile.h"
 #include "terrane/mesh/remesh.h"
@@ -241,24 +242,22 @@ void ChunkPipeline::onEdits(std::span<const world::BlockEdit> edits) {
                               mesh::MeshSectionSet{1} << (edit.pos.z / meshOptions_.meshSectionHeight));
         } else {
             record->localLight = nullptr;
-            toRelight_.try_emplace(edit.pos, edit);
+            toRelight_.add(edit);
         }
     }
 }
 
 void ChunkPipeline::relight() {
-    if (toRelight_.empty()) return;
+    if (toRelight_.edits.empty()) return;
     TERRANE_ZONE("edits");
-    std::vector<world::BlockEdit> edits;
+    const std::vector<world::BlockEdit> edits = std::exchange(toRelight_, {}).edits;
     std::map<ChunkPos, mesh::MeshSectionSet> touched;
-    for (const auto& [pos, edit] : toRelight_) {
-        edits.push_back(edit);
+    for (const world::BlockEdit& edit : edits) {
         for (const auto& [chunk, meshSections] :
-             mesh::meshSectionsTouchedBy(pos, meshOptions_.meshSectionHeight)) {
+             mesh::meshSectionsTouchedBy(edit.pos, meshOptions_.meshSectionHeight)) {
             touched[chunk] |= meshSections;
         }
     }
-    toRelight_.clear();
     for (const auto& [chunk, meshSections] : touched) requestEditedMesh(table_, chunk, meshSections);
     for (const light::LightChange& change : relightEdits(table_, parts_.world, edits, parts_.lights)) {
         changes_.setLight(change.pos, findRecord(table_, change.pos)->light, change.bricks);
@@ -331,7 +330,7 @@ std::size_t ChunkPipeline::queuedCount() const {
 }
 
 Progress ChunkPipeline::progress() const {
-    return {table_.chunksInView, table_.visibleInView, pendingMeshes(table_) + toRelight_.size()};
+    return {table_.chunksInView, table_.visibleInView, pendingMeshes(table_) + toRelight_.edits.size()};
 }
 
 std::size_t ChunkPipeline::localLightBytes() const {

@@ -10,12 +10,12 @@
 #include <deque>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "terrane/stream/change_queue.h"
 #include "terrane/stream/chunk_table.h"
 #include "terrane/stream/chunk_workers.h"
+#include "terrane/stream/pending_edits.h"
 #include "terrane/stream/pipeline_types.h"
 #include "terrane/world/block_edit.h"
 
@@ -97,8 +97,7 @@ class ChunkPipeline {
     // For the batch generator and the batch lighter, and how many chunks they have.
     std::deque<world::ChunkPos> toGenerate_, toLight_;
     std::size_t generating_ = 0, lighting_ = 0;
-    // Edits that are not lit yet: each block once, as it was first.
-    std::unordered_map<world::BlockPos, world::BlockEdit, world::BlockPosHash> toRelight_;
+    PendingEdits toRelight_;
     Time now_{}, nextHousekeeping_{};  // now: of the last update
     Time::duration sinceUpdate_{};     // between the last two updates
 };

@@ -100,11 +100,4 @@ struct ChunkPosHash {
     }
 };
 
-struct BlockPosHash {
-    std::size_t operator()(BlockPos p) const {
-        const std::size_t column = ChunkPosHash()({p.x, p.y});
-        return (column ^ static_cast<std::uint32_t>(p.z)) * 0x9E3779B97F4A7C15u;
-    }
-};
-
 }  // namespace terrane::world
