@@ -3,17 +3,12 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <span>
 #include <string_view>
 #include <utility>
 
-#include "terrane/base/embedded.h"
 #include "terrane/base/result.h"
+#include "terrane/content/built_in.h"
 #include "terrane/world/block_registry.h"
-
-namespace terrane::embedded {
-std::span<const base::EmbeddedFile> content();
-}  // namespace terrane::embedded
 
 namespace terrane::bench {
 
@@ -25,13 +20,7 @@ T orExit(base::Result<T> result) {
 }
 
 inline const world::BlockRegistry& blocks() {
-    static const world::BlockRegistry registry = [] {
-        std::string_view text;
-        for (const base::EmbeddedFile& file : embedded::content()) {
-            if (file.path == "blocks.toml") text = file.data;
-        }
-        return orExit(world::BlockRegistry::parse(text, "blocks.toml"));
-    }();
+    static const world::BlockRegistry registry = orExit(content::loadBlocks());
     return registry;
 }
 

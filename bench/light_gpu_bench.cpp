@@ -3,12 +3,9 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/scene_chunks.h"
+#include "terrane/gpu/built_in_shaders.h"
 #include "terrane/gpu/context.h"
 #include "terrane/light_gpu/gpu_light_solver.h"
-
-namespace terrane::embedded {
-std::span<const base::EmbeddedFile> shaders();
-}  // namespace terrane::embedded
 
 namespace {
 
@@ -37,7 +34,7 @@ void onCpu(benchmark::State& state, std::string_view scene) {
 
 void onGpu(benchmark::State& state, std::string_view scene) {
     static const auto context = bench::orExit(gpu::HeadlessContext::create({}));
-    static const gpu::ShaderLoader shaders(embedded::shaders());
+    static const gpu::ShaderLoader shaders = gpu::builtInShaders("");
     auto solver = bench::orExit(light_gpu::GpuLightSolver::create(shaders, table()));
     solve(state, solver, scene);
 }
@@ -65,7 +62,7 @@ void batchesOnCpu(benchmark::State& state) {
 
 void batchesOnGpu(benchmark::State& state) {
     static const auto context = bench::orExit(gpu::HeadlessContext::create({}));
-    static const gpu::ShaderLoader shaders(embedded::shaders());
+    static const gpu::ShaderLoader shaders = gpu::builtInShaders("");
     auto lighter = bench::orExit(light_gpu::GpuBatchLighter::create(shaders, table()));
     lightBatches(state, lighter);
 }

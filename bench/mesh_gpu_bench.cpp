@@ -8,13 +8,10 @@
 #include "bench/bench_content.h"
 #include "bench/mesh_inputs.h"
 #include "terrane/base/digest.h"
+#include "terrane/gpu/built_in_shaders.h"
 #include "terrane/gpu/context.h"
 #include "terrane/mesh/mesh_section_quads.h"
 #include "terrane/mesh_gpu/gpu_batch_mesher.h"
-
-namespace terrane::embedded {
-std::span<const base::EmbeddedFile> shaders();
-}  // namespace terrane::embedded
 
 namespace {
 
@@ -47,7 +44,7 @@ void onCpu(benchmark::State& state, const bench::MeshWorld& world) {
 
 mesh_gpu::GpuMesher gpuMesher(const world::BlockRegistry& blocks) {
     static const auto context = bench::orExit(gpu::HeadlessContext::create({}));
-    static const gpu::ShaderLoader shaders(embedded::shaders());
+    static const gpu::ShaderLoader shaders = gpu::builtInShaders("");
     return bench::orExit(mesh_gpu::GpuMesher::create(shaders, blocks));
 }
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "apps/terrane/scenes.h"
 #include "bench/bench_content.h"
+#include "terrane/content/scenes.h"
 #include "terrane/gen/builder.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
@@ -55,16 +55,11 @@ MeshWorld fromGenerator(gen::GeneratorGraph graph, ChunkPos middle) {
     return makeWorld(middle, [&](ChunkPos pos) { return generator.generate(pos); });
 }
 
-ChunkPos chunkUnder(glm::dvec3 position) {
-    return world::chunkOf(
-        {static_cast<int>(std::floor(position.x)), static_cast<int>(std::floor(position.y)), 0});
-}
-
 // Around the camera of a reference scene.
 template <std::size_t kScene>
 MeshWorld scene() {
     return fromGenerator(orExit(gen::makeGenerator("overworld", blocks())),
-                         chunkUnder(app::scenes()[kScene].camera.position));
+                         world::chunkOf(content::scenes()[kScene].pose.position));
 }
 
 constexpr int kSeaLevel = 80;

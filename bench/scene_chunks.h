@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/terrane/scenes.h"
 #include "bench/bench_content.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/job_system.h"
+#include "terrane/content/scenes.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/light/chunk_light.h"
@@ -21,9 +21,7 @@ constexpr int kSide = 2 * kViewDistance + 3;  // chunks along x and y, one aroun
 
 // Chunks of the scene with one around them, x fastest.
 inline std::vector<world::Chunk> sceneChunks(std::string_view name) {
-    const glm::dvec3 at = app::findScene(name)->camera.position;
-    const world::ChunkPos center =
-        world::chunkOf({static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y), 0});
+    const world::ChunkPos center = world::chunkOf(content::findScene(name)->pose.position);
     const gen::Generator generator(orExit(gen::makeGenerator("overworld", blocks())), 1);
     std::vector<world::Chunk> chunks(kSide * kSide);
     base::JobSystem jobs(2);

@@ -9,16 +9,17 @@
 #include <limits>
 #include <thread>
 
-#include "apps/terrane/content.h"
-#include "apps/terrane/graphics_table.h"
-#include "apps/terrane/scenes.h"
-#include "apps/terrane/shaders.h"
 #include "bench/bench_content.h"
+#include "terrane/content/built_in.h"
+#include "terrane/content/scenes.h"
 #include "terrane/gen/generators/catalogue.h"
+#include "terrane/gpu/built_in_shaders.h"
 #include "terrane/gpu/context.h"
 #include "terrane/render/background_compiler.h"
+#include "terrane/render/graphics_table.h"
 #include "terrane/render/renderer.h"
 #include "terrane/stream/chunk_pipeline.h"
+#include "terrane/view/camera_pose.h"
 
 namespace {
 
@@ -76,8 +77,8 @@ class Stage {
 
   private:
     render::Renderer makeRenderer() {
-        return bench::orExit(
-            render::Renderer::create(shaders_, bench::blocks(), app::builtInTextures(), gpu::queryDevice()));
+        return bench::orExit(render::Renderer::create(shaders_, bench::blocks(), content::builtInTextures(),
+                                                      gpu::queryDevice()));
     }
     double drawSince(Clock::time_point start) {
         renderer_.draw({camera_, world::environmentAt(0.34f), 16.0f * kViewDistance, 0, render::View::Color});
@@ -86,13 +87,13 @@ class Stage {
     }
 
     gpu::HeadlessContext context_ = bench::orExit(gpu::HeadlessContext::create({}));
-    gpu::ShaderLoader shaders_ = app::makeShaderLoader("");
-    render::Camera camera_ = app::findScene("landscape")->camera;
+    gpu::ShaderLoader shaders_ = gpu::builtInShaders("");
+    render::Camera camera_ = view::cameraOf(content::findScene("landscape")->pose);
     render::Renderer renderer_;
-    render::BackgroundCompiler compiler_{shaders_, bench::blocks(), app::builtInTextures()};
+    render::BackgroundCompiler compiler_{shaders_, bench::blocks(), content::builtInTextures()};
 };
 
-void switchThrough(benchmark::State& state, const app::GraphicsRow& row) {
+void switchThrough(benchmark::State& state, const render::GraphicsRow& row) {
     static Stage stage;
     const render::RenderOptions usual = *render::findPreset("medium", false);
     stage.stallOf(usual);
@@ -112,7 +113,7 @@ void switchThrough(benchmark::State& state, const app::GraphicsRow& row) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    for (const app::GraphicsRow& row : app::graphicsTable()) {
+    for (const render::GraphicsRow& row : render::graphicsTable()) {
         benchmark::RegisterBenchmark(std::string("switch/").append(row.name).c_str(),
                                      [&row](benchmark::State& state) { switchThrough(state, row); })
             ->Iterations(1);

@@ -3,15 +3,14 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(modules base shared world store gen light mesh stream game)
+set(modules base shared world content_files content video store gen light mesh stream game)
 set(TERRANE_GRAPHICS_PKG "")
 set(TERRANE_GRAPHICS_REQUIRES "")
 if(TERRANE_GRAPHICS)
-  list(APPEND modules gpu gen_gpu light_gpu mesh_gpu render view shaders)
+  list(APPEND modules shaders gpu gen_gpu light_gpu mesh_gpu render view)
   set(TERRANE_GRAPHICS_PKG "epoxy=epoxy")
   set(TERRANE_GRAPHICS_REQUIRES "epoxy")
 endif()
-list(APPEND modules content)
 
 # Everything under one name.
 add_library(terrane_all INTERFACE)

@@ -11,18 +11,13 @@
 #include <string>
 
 #include "examples/light_scenes.h"
-#include "terrane/base/embedded.h"
+#include "terrane/content/built_in.h"
+#include "terrane/gpu/built_in_shaders.h"
 #include "terrane/gpu/context.h"
-#include "terrane/gpu/shader_loader.h"
 #include "terrane/light/light_area.h"
 #include "terrane/mesh/chunk_mesher.h"
 #include "terrane/render/renderer.h"
 #include "terrane/shared/constants.h"
-
-namespace terrane::embedded {
-std::span<const base::EmbeddedFile> content();
-std::span<const base::EmbeddedFile> shaders();
-}  // namespace terrane::embedded
 
 namespace {
 
@@ -30,13 +25,6 @@ using namespace terrane;
 using examples::kSceneRadius;
 
 constexpr int kSide = 2 * kSceneRadius + 3;  // chunks, with an empty ring that is not drawn
-
-std::string_view contentFile(const std::string& path) {
-    for (const base::EmbeddedFile& file : embedded::content()) {
-        if (file.path == path) return file.data;
-    }
-    return {};
-}
 
 world::ChunkPos posOf(int k) {
     return {k % kSide - kSceneRadius - 1, k / kSide - kSceneRadius - 1};
@@ -149,17 +137,14 @@ base::Result<void> measureLamps(const world::BlockRegistry& blocks,
 }
 
 base::Result<void> run(const std::string& argument) {
-    auto blocks = world::BlockRegistry::parse(contentFile("blocks.toml"), "blocks.toml");
+    auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
     auto context = gpu::HeadlessContext::create({.debug = true});
     if (!context) return tl::unexpected(context.error());
-    const gpu::ShaderLoader shaders(embedded::shaders());
-    const auto texture = [](std::string_view name) {
-        const std::string path = "textures/" + std::string(name) + ".png";
-        return base::decodePng(contentFile(path), path);
-    };
+    const gpu::ShaderLoader shaders = gpu::builtInShaders("");
     const auto makeRenderer = [&]() -> base::Result<render::Renderer> {
-        auto renderer = render::Renderer::create(shaders, *blocks, texture, gpu::queryDevice());
+        auto renderer =
+            render::Renderer::create(shaders, *blocks, content::builtInTextures(), gpu::queryDevice());
         if (!renderer) return renderer;
         renderer->setViewDistance(kSceneRadius);
         return renderer;

@@ -1,10 +1,10 @@
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/choose_back_ends.h"
-#include "apps/terrane/content.h"
 #include "apps/terrane/open_session.h"
-#include "apps/terrane/shaders.h"
+#include "terrane/content/built_in.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen_gpu/gpu_generator.h"
+#include "terrane/gpu/built_in_shaders.h"
 #include "terrane/gpu/context.h"
 #include "terrane/gpu/device_info.h"
 #include "terrane/light_gpu/gpu_light_solver.h"
@@ -53,7 +53,7 @@ base::Result<std::unique_ptr<view::GpuBackEnds>> chooseBackEnds(game::SessionPar
     if (!usesGpu(backend)) return nullptr;
     auto graph = gen::makeGenerator(world.effectiveGenerator(), *parts.blocks);
     if (!graph) return tl::unexpected(graph.error());
-    auto made = view::makeGpuBackEnds(makeShaderLoader(""), *graph, world.effectiveSeed(), *parts.blocks);
+    auto made = view::makeGpuBackEnds(gpu::builtInShaders(""), *graph, world.effectiveSeed(), *parts.blocks);
     if (made) view::useBackEnds(parts, **made);
     return made;
 }
@@ -68,7 +68,7 @@ base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const WorldOptio
     const auto makeGpu = [&]() -> base::Result<gen_gpu::GpuGenerator> {
         auto graph = gen::makeGenerator(options.effectiveGenerator(), blocks);
         if (!graph) return tl::unexpected(graph.error());
-        return gen_gpu::GpuGenerator::create(makeShaderLoader(""), *graph, options.effectiveSeed());
+        return gen_gpu::GpuGenerator::create(gpu::builtInShaders(""), *graph, options.effectiveSeed());
     };
     return makeOnBackend<gen::BatchGenerator>(backend, makeCpu, makeGpu);
 }
@@ -77,7 +77,7 @@ base::Result<OnBackend<light::AreaSolver>> makeLightSolver(Backend backend, cons
     const auto makeCpu = [&]() -> base::Result<std::unique_ptr<light::AreaSolver>> {
         return light::makeCpuSolver(table);
     };
-    const auto makeGpu = [&] { return light_gpu::GpuLightSolver::create(makeShaderLoader(""), table); };
+    const auto makeGpu = [&] { return light_gpu::GpuLightSolver::create(gpu::builtInShaders(""), table); };
     return makeOnBackend<light::AreaSolver>(backend, makeCpu, makeGpu);
 }
 
@@ -87,7 +87,7 @@ base::Result<OnBackend<mesh::BatchMesher>> makeBatchMesher(Backend backend,
         return mesh::makeCpuMesher();
     };
     const auto makeGpu = [&]() -> base::Result<mesh_gpu::GpuBatchMesher> {
-        auto mesher = mesh_gpu::GpuMesher::create(makeShaderLoader(""), blocks);
+        auto mesher = mesh_gpu::GpuMesher::create(gpu::builtInShaders(""), blocks);
         if (!mesher) return tl::unexpected(mesher.error());
         return mesh_gpu::GpuBatchMesher(std::move(*mesher));
     };

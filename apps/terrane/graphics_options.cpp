@@ -10,19 +10,19 @@ namespace {
 
 constexpr int kMaxImageSide = 16384;
 
-void addGraphicsChoices(CLI::App& command, GraphicsChoices& choices, std::string preset) {
+void addGraphicsChoices(CLI::App& command, render::GraphicsChoices& choices, std::string preset) {
     choices.preset = std::move(preset);
     command
         .add_option("--preset", choices.preset,
-                    "Graphics options together, changed by the flags that follow: " + presetNames())
-        ->check(isPresetName)
+                    "Graphics options together, changed by the flags that follow: " + render::presetNames())
+        ->check(render::isPresetName)
         ->type_name("CHOICE")
         ->capture_default_str();
-    for (std::size_t k = 0; k < graphicsTable().size(); ++k) {
-        const GraphicsRow& row = graphicsTable()[k];
-        const std::string flag = "--" + std::string(row.name), words = valueNamesOf(row);
+    for (std::size_t k = 0; k < render::graphicsTable().size(); ++k) {
+        const render::GraphicsRow& row = render::graphicsTable()[k];
+        const std::string flag = "--" + std::string(row.name), words = render::valueNamesOf(row);
         const auto take = [&choices, k, flag, words](const std::string& text) {
-            if (const auto choice = choiceOf(graphicsTable()[k], text)) {
+            if (const auto choice = render::choiceOf(render::graphicsTable()[k], text)) {
                 choices.changed.emplace_back(k, *choice);
                 return;
             }

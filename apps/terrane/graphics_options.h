@@ -4,16 +4,16 @@
 #include <glm/vec2.hpp>
 #include <string>
 
-#include "apps/terrane/graphics_table.h"
 #include "apps/terrane/option_values.h"
 #include "terrane/render/frame_input.h"
+#include "terrane/render/graphics_table.h"
 
 namespace terrane::app {
 
 struct GraphicsOptions {
     glm::ivec2 size{1280, 720};  // pixels
     int viewDistance = 16;       // chunks
-    GraphicsChoices choices;
+    render::GraphicsChoices choices;
     render::View view = render::View::Color;
     mesh::MeshOptions mesh;
     std::string resourcePack;  // folder; empty: none

@@ -1,8 +1,8 @@
 #include "apps/terrane/offscreen.h"
 
-#include "apps/terrane/content.h"
-#include "apps/terrane/resource_pack.h"
-#include "apps/terrane/shaders.h"
+#include "terrane/content/built_in.h"
+#include "terrane/content/resource_pack.h"
+#include "terrane/gpu/built_in_shaders.h"
 
 namespace terrane::app {
 
@@ -11,20 +11,20 @@ base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const OffscreenOption
     WorldOptions world = options.world;
     auto parts = openSessionParts(world, options.save, options.access);
     if (!parts) return tl::unexpected(parts.error());
-    auto textures = loadTextures(graphics.resourcePack, *parts->blocks);
+    auto textures = content::loadTextures(graphics.resourcePack, *parts->blocks);
     if (!textures) return tl::unexpected(textures.error());
     auto context = gpu::HeadlessContext::create({.debug = graphics.debugGl});
     if (!context) return tl::unexpected(context.error());
 
     std::unique_ptr<Offscreen> made(new Offscreen{
-        std::move(*context), makeShaderLoader(graphics.shaderRoot), gpu::queryDevice(), {}, {}, {}, {}});
+        std::move(*context), gpu::builtInShaders(graphics.shaderRoot), gpu::queryDevice(), {}, {}, {}, {}});
     auto backEnds = chooseBackEnds(*parts, world, options.backend);
     if (!backEnds) return tl::unexpected(backEnds.error());
     made->backEnds = std::move(*backEnds);
     auto renderer = render::Renderer::create(made->shaders, *parts->blocks, *textures, made->device);
     if (!renderer) return tl::unexpected(renderer.error());
     made->renderer = std::move(*renderer);
-    const auto quality = renderOptions(graphics.choices, made->device.software);
+    const auto quality = render::renderOptions(graphics.choices, made->device.software);
     if (auto done = made->renderer.configure(graphics.size, quality); !done)
         return tl::unexpected(done.error());
     made->renderer.setViewDistance(graphics.viewDistance);
@@ -32,7 +32,7 @@ base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const OffscreenOption
     made->session->pipeline().setMeshOptions(graphics.mesh);
     made->view.emplace(*made->session, made->renderer);
     if (made->backEnds) {
-        auto meshes = made->view->meshOnGpu(makeShaderLoader(""), options.meshMilliseconds);
+        auto meshes = made->view->meshOnGpu(gpu::builtInShaders(""), options.meshMilliseconds);
         if (!meshes) return tl::unexpected(meshes.error());
     }
     return made;

@@ -1,6 +1,6 @@
 #include "apps/terrane/open_session.h"
 
-#include "apps/terrane/content.h"
+#include "terrane/content/built_in.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/memory_store.h"
 
@@ -41,7 +41,7 @@ base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const wo
 
 base::Result<game::SessionParts> openSessionParts(WorldOptions& options, const SaveOptions& save,
                                                   store::WorldAccess access) {
-    auto loaded = loadBlocks();
+    auto loaded = content::loadBlocks();
     if (!loaded) return tl::unexpected(loaded.error());
     auto blocks = std::make_unique<const world::BlockRegistry>(std::move(*loaded));
     auto opened = openSave(options, save, access, *blocks);

@@ -37,12 +37,6 @@ struct SaveOptions {
     bool recreate = false;
 };
 
-// Chunks x0 … x1 − 1, y0 … y1 − 1.
-struct Area {
-    std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-    std::int64_t chunkCount() const { return (std::int64_t{x1} - x0) * (std::int64_t{y1} - y0); }
-};
-
 unsigned threadCount(const WorldOptions& options);
 
 // The values of an option by name.

@@ -23,7 +23,7 @@ std::uint64_t parseSeed(const std::string& text) {
         "--seed", fmt::format("expected a whole number from 0 to {}, got \"{}\"", UINT64_MAX, text));
 }
 
-Area parseArea(const std::string& text) {
+world::ChunkArea parseArea(const std::string& text) {
     const auto n = parseNumbers(text, 4, "--area: expected X0,Y0,X1,Y1 in chunks");
     for (const double v : n) {
         if (v != static_cast<double>(static_cast<std::int64_t>(v)) || v < world::kMinChunk ||
@@ -32,8 +32,8 @@ Area parseArea(const std::string& text) {
                                                              world::kMinChunk, world::kMaxChunk));
         }
     }
-    const Area area{static_cast<std::int32_t>(n[0]), static_cast<std::int32_t>(n[1]),
-                    static_cast<std::int32_t>(n[2]), static_cast<std::int32_t>(n[3])};
+    const world::ChunkArea area{static_cast<std::int32_t>(n[0]), static_cast<std::int32_t>(n[1]),
+                                static_cast<std::int32_t>(n[2]), static_cast<std::int32_t>(n[3])};
     if (area.x1 <= area.x0 || area.y1 <= area.y0) {
         throw CLI::ValidationError("--area", fmt::format("\"{}\" is empty: the end X1,Y1 is excluded", text));
     }
@@ -183,7 +183,7 @@ void addSaveGameOptions(CLI::App& command, SaveOptions& save) {
     addRecreateOption(command, save);
 }
 
-void addAreaOption(CLI::App& command, std::optional<Area>& area) {
+void addAreaOption(CLI::App& command, std::optional<world::ChunkArea>& area) {
     command
         .add_option_function<std::string>(
             "--area", [&](const std::string& text) { area = parseArea(text); }, "Chunks, the end excluded")

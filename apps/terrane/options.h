@@ -16,7 +16,7 @@ void addWorldOptions(CLI::App& command, WorldOptions& options);
 // --merging and --mesh-section-height.
 void addMeshOptions(CLI::App& command, mesh::MeshOptions& options);
 // "X0,Y0,X1,Y1", the end excluded; not empty and inside the world.
-void addAreaOption(CLI::App& command, std::optional<Area>& area);
+void addAreaOption(CLI::App& command, std::optional<world::ChunkArea>& area);
 
 // --world: NAME, FILE or URL. The folder of a file must be there.
 void addWorldOption(CLI::App& command, SaveOptions& save, const std::string& description);

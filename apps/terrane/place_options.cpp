@@ -9,12 +9,13 @@ namespace {
 
 std::string sceneNames() {
     std::string names;
-    for (const Scene& scene : scenes()) names += (names.empty() ? "" : ", ") + std::string(scene.name);
+    for (const content::Scene& scene : content::scenes())
+        names += (names.empty() ? "" : ", ") + std::string(scene.name);
     return names;
 }
 
-const Scene* sceneNamed(const std::string& name) {
-    const Scene* found = findScene(name);
+const content::Scene* sceneNamed(const std::string& name) {
+    const content::Scene* found = content::findScene(name);
     if (found) return found;
     throw CLI::ValidationError("--scene", fmt::format("expected one of {}, got \"{}\"", sceneNames(), name));
 }
@@ -42,15 +43,15 @@ void addPlaceOptions(CLI::App& command, PlaceOptions& options) {
         ->check(numberFrom(0, 1));
 }
 
-base::Result<Scene> placeOf(const PlaceOptions& options, const Scene& otherwise) {
-    Scene place = options.scene ? *options.scene : otherwise;
-    if (options.at) place.camera.position = {(*options.at)[0], (*options.at)[1], (*options.at)[2]};
+base::Result<content::Scene> placeOf(const PlaceOptions& options, const content::Scene& otherwise) {
+    content::Scene place = options.scene ? *options.scene : otherwise;
+    if (options.at) place.pose.position = {(*options.at)[0], (*options.at)[1], (*options.at)[2]};
     if (options.look) {
-        place.camera.yaw = static_cast<float>((*options.look)[0]);
-        place.camera.pitch = static_cast<float>(std::clamp((*options.look)[1], -90.0, 90.0));
+        place.pose.yaw = static_cast<float>((*options.look)[0]);
+        place.pose.pitch = static_cast<float>(std::clamp((*options.look)[1], -90.0, 90.0));
     }
     if (options.time) place.timeDay = *options.time;
-    if (!world::isInWorld(render::cameraChunk(place.camera))) return base::fail("--at: outside the world");
+    if (!world::isInWorld(world::chunkOf(place.pose.position))) return base::fail("--at: outside the world");
     return place;
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/terrane/scenes.h"
 #include "terrane/base/result.h"
+#include "terrane/content/scenes.h"
 
 namespace CLI {
 class App;
@@ -15,7 +15,7 @@ class App;
 namespace terrane::app {
 
 struct PlaceOptions {
-    const Scene* scene = nullptr;
+    const content::Scene* scene = nullptr;
     std::optional<std::vector<double>> at, look;  // X, Y, Z in blocks; yaw, pitch in degrees
     std::optional<float> time;                    // of day
 };
@@ -23,6 +23,6 @@ struct PlaceOptions {
 void addPlaceOptions(CLI::App& command, PlaceOptions& options);
 
 // `otherwise`: what the options do not say. Fails for a place outside the world.
-base::Result<Scene> placeOf(const PlaceOptions& options, const Scene& otherwise);
+base::Result<content::Scene> placeOf(const PlaceOptions& options, const content::Scene& otherwise);
 
 }  // namespace terrane::app

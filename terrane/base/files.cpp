@@ -16,12 +16,8 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-std::string reason(int errorNumber) {
-    return std::generic_category().message(errorNumber);
-}
-
 tl::unexpected<Error> cannotWrite(const std::filesystem::path& path, int errorNumber) {
-    return fail(ErrorCode::Io, "{}: cannot be written: {}", path.string(), reason(errorNumber));
+    return fail(ErrorCode::Io, "{}: cannot be written: {}", path.string(), systemReason(errorNumber));
 }
 
 struct TemporaryFile {
@@ -69,14 +65,14 @@ std::filesystem::path behindLinks(std::filesystem::path file) {
 
 Result<std::string> readFile(const std::filesystem::path& path) {
     const File file{std::fopen(path.c_str(), "rb")};
-    if (!file) return fail(ErrorCode::Io, "{}: cannot be read: {}", path.string(), reason(errno));
+    if (!file) return fail(ErrorCode::Io, "{}: cannot be read: {}", path.string(), systemReason(errno));
     std::string bytes;
     std::array<char, 65536> part;
     while (const std::size_t partBytes = std::fread(part.data(), 1, part.size(), file.get())) {
         bytes.append(part.data(), partBytes);
     }
     if (std::ferror(file.get()) != 0)
-        return fail(ErrorCode::Io, "{}: cannot be read: {}", path.string(), reason(errno));
+        return fail(ErrorCode::Io, "{}: cannot be read: {}", path.string(), systemReason(errno));
     return bytes;
 }
 

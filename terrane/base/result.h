@@ -8,6 +8,7 @@
 #include <concepts>
 #include <cstdint>
 #include <string>
+#include <system_error>
 #include <tl/expected.hpp>
 #include <type_traits>
 #include <utility>
@@ -31,6 +32,11 @@ struct Error {
     ErrorCode code = ErrorCode::Failed;
     std::string message;
 };
+
+// What the system says of an errno.
+inline std::string systemReason(int errorNumber) {
+    return std::generic_category().message(errorNumber);
+}
 
 // A value or an error. Never ignored silently: write (void) where an error makes no difference.
 template <class T>

@@ -8,14 +8,9 @@
 #include <array>
 #include <cerrno>
 #include <string>
-#include <system_error>
 
 namespace terrane::store {
 namespace {
-
-std::string reason(int errorNumber) {
-    return std::generic_category().message(errorNumber);
-}
 
 // The process that took the lock last.
 std::string ownerOf(int descriptor) {
@@ -46,14 +41,15 @@ base::Result<FileLock> FileLock::acquire(const std::filesystem::path& path, Kind
     while (true) {
         const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
         if (descriptor < 0)
-            return base::fail(base::ErrorCode::Io, "{}: cannot be written: {}", file.string(), reason(errno));
+            return base::fail(base::ErrorCode::Io, "{}: cannot be written: {}", file.string(),
+                              base::systemReason(errno));
         FileLock lock(descriptor, file);
         if (::flock(descriptor, (kind == Kind::Exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
             const int error = errno;
             lock.file_.clear();  // it is another's to remove
             if (error != EWOULDBLOCK)
                 return base::fail(base::ErrorCode::Io, "{}: cannot be locked: {}", path.string(),
-                                  reason(error));
+                                  base::systemReason(error));
             return base::fail(base::ErrorCode::Busy, "{}: open in another program{}", path.string(),
                               ownerOf(descriptor));
         }

@@ -73,8 +73,7 @@ base::Result<bool> checkFile(const fs::path& path) {
     if (size == 0) return false;
     std::ifstream file(path, std::ios::binary);
     if (!file)
-        return base::fail(ErrorCode::Io, "{}: cannot be read: {}", path.string(),
-                          std::generic_category().message(errno));
+        return base::fail(ErrorCode::Io, "{}: cannot be read: {}", path.string(), base::systemReason(errno));
     char magic[kMagic.size()] = {};
     file.read(magic, sizeof magic);
     if (std::string_view(magic, sizeof magic) != kMagic)

@@ -88,6 +88,28 @@ constexpr std::int64_t chunkDistance(ChunkPos a, ChunkPos b) {
 
 // No two positions in the world have the same hash: coordinates have 28 bits and the level 8, and multiplying
 // by an odd number and folding the upper half are reversible.
+// All blocks from corner to corner, both included; in each coordinate low ≤ high. At most 2^63 blocks.
+struct BlockBox {
+    BlockPos low, high;
+
+    std::int64_t blockCount() const {
+        return (std::int64_t{high.x} - low.x + 1) * (std::int64_t{high.y} - low.y + 1) * (high.z - low.z + 1);
+    }
+    // 0 ≤ number < blockCount(), in the order of z, y, x.
+    BlockPos blockAt(std::int64_t number) const {
+        const std::int64_t width = std::int64_t{high.x} - low.x + 1, depth = std::int64_t{high.y} - low.y + 1;
+        return {static_cast<std::int32_t>(low.x + number % width),
+                static_cast<std::int32_t>(low.y + number / width % depth),
+                static_cast<std::int32_t>(low.z + number / width / depth)};
+    }
+};
+
+// Chunks x0 … x1 − 1, y0 … y1 − 1.
+struct ChunkArea {
+    std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    std::int64_t chunkCount() const { return (std::int64_t{x1} - x0) * (std::int64_t{y1} - y0); }
+};
+
 struct ChunkPosHash {
     std::size_t operator()(ChunkPos c) const {
         const std::uint64_t mask = (1u << 28) - 1;

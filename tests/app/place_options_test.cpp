@@ -5,14 +5,14 @@
 namespace terrane::app {
 namespace {
 
-const Scene kOtherwise{"", {{8, 8, 120}, 45, -5}, 0.4f};
+const content::Scene kOtherwise{"", {{8, 8, 120}, 45, -5}, 0.4f};
 
 TEST(PlaceOptions, WithoutAnyItIsThePlaceOtherwise) {
     const auto place = placeOf({}, kOtherwise);
     ASSERT_TRUE(place);
-    EXPECT_EQ(place->camera.position, kOtherwise.camera.position);
-    EXPECT_EQ(place->camera.yaw, 45);
-    EXPECT_EQ(place->camera.pitch, -5);
+    EXPECT_EQ(place->pose.position, kOtherwise.pose.position);
+    EXPECT_EQ(place->pose.yaw, 45);
+    EXPECT_EQ(place->pose.pitch, -5);
     EXPECT_EQ(place->timeDay, 0.4f);
 }
 
@@ -21,29 +21,29 @@ TEST(PlaceOptions, EachOptionChangesItsOwn) {
     options.at = {1, -2, 3.5};
     const auto moved = placeOf(options, kOtherwise);
     ASSERT_TRUE(moved);
-    EXPECT_EQ(moved->camera.position, glm::dvec3(1, -2, 3.5));
-    EXPECT_EQ(moved->camera.yaw, 45);
-    EXPECT_EQ(moved->camera.pitch, -5);
+    EXPECT_EQ(moved->pose.position, glm::dvec3(1, -2, 3.5));
+    EXPECT_EQ(moved->pose.yaw, 45);
+    EXPECT_EQ(moved->pose.pitch, -5);
 
     options.look = {190, -30};
     options.time = 0.9f;
     const auto turned = placeOf(options, kOtherwise);
     ASSERT_TRUE(turned);
-    EXPECT_EQ(turned->camera.position, glm::dvec3(1, -2, 3.5));
-    EXPECT_EQ(turned->camera.yaw, 190);
-    EXPECT_EQ(turned->camera.pitch, -30);
+    EXPECT_EQ(turned->pose.position, glm::dvec3(1, -2, 3.5));
+    EXPECT_EQ(turned->pose.yaw, 190);
+    EXPECT_EQ(turned->pose.pitch, -30);
     EXPECT_EQ(turned->timeDay, 0.9f);
 }
 
 TEST(PlaceOptions, TheSceneComesFirst) {
     PlaceOptions options;
-    options.scene = &scenes().front();
+    options.scene = &content::scenes().front();
     options.look = {10, 20};
     const auto place = placeOf(options, kOtherwise);
     ASSERT_TRUE(place);
-    EXPECT_EQ(place->camera.position, scenes().front().camera.position);
-    EXPECT_EQ(place->camera.yaw, 10);
-    EXPECT_EQ(place->timeDay, scenes().front().timeDay);
+    EXPECT_EQ(place->pose.position, content::scenes().front().pose.position);
+    EXPECT_EQ(place->pose.yaw, 10);
+    EXPECT_EQ(place->timeDay, content::scenes().front().timeDay);
 }
 
 TEST(PlaceOptions, OutsideTheWorldIsAnError) {

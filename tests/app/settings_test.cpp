@@ -102,7 +102,7 @@ TEST_F(Settings, FormerNamesAreRead) {
     EXPECT_EQ(options.mesh.method, mesh::MergeMethod::Lines);
     EXPECT_EQ(options.mesh.meshSectionHeight, 32);
     EXPECT_EQ(options.view, render::View::Merging);
-    EXPECT_FALSE(renderOptions(options.choices, true).distanceFog);
+    EXPECT_FALSE(render::renderOptions(options.choices, true).distanceFog);
 }
 
 TEST_F(Settings, AWrongValueOfAFormerNameIsNamedWithItsLine) {

@@ -1,5 +1,6 @@
 // Images that must not depend on what they do not show: hidden mesh sections, the place in the world.
-#include "apps/terrane/scenes.h"
+#include "terrane/content/scenes.h"
+#include "terrane/view/camera_pose.h"
 #include "tests/golden/effect_scenes.h"
 
 namespace terrane::golden {
@@ -9,7 +10,7 @@ using render::RenderOptions;
 
 // Over hills and through a forest, turning, with jumps.
 render::Camera cameraOfFrame(int frame) {
-    render::Camera camera = app::findScene("landscape")->camera;
+    render::Camera camera = view::cameraOf(content::findScene("landscape")->pose);
     const int leg = frame / 15;
     const double t = frame % 15;
     camera.position += glm::dvec3(6 * t - 30 * leg, 20 * leg - 2 * t, leg == 2 ? -25 : -1.5 * t);

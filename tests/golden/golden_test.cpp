@@ -1,5 +1,6 @@
 // The golden images; README.md says what each shows and how to update them.
-#include "apps/terrane/scenes.h"
+#include "terrane/content/scenes.h"
+#include "terrane/view/camera_pose.h"
 #include "tests/golden/axes_cube.h"
 #include "tests/golden/effect_scenes.h"
 
@@ -35,11 +36,12 @@ TEST_F(Golden, AxesOfACube) {
 
 TEST_F(Golden, Landscape) {
     constexpr int kViewDistance = 10;
-    const app::Scene* scene = app::findScene("landscape");
+    const content::Scene* scene = content::findScene("landscape");
     ASSERT_TRUE(scene);
     render::Renderer renderer = makeRenderer();
-    loadOverworld(renderer, scene->camera, kViewDistance);
-    render::FrameInput input{scene->camera, world::environmentAt(scene->timeDay), 16.0f * kViewDistance, 0,
+    const render::Camera camera = view::cameraOf(scene->pose);
+    loadOverworld(renderer, camera, kViewDistance);
+    render::FrameInput input{camera, world::environmentAt(scene->timeDay), 16.0f * kViewDistance, 0,
                              render::View::Color};
     EXPECT_TRUE(matchesGolden("landscape_color", draw(renderer, input)));
     input.view = render::View::Normal;
@@ -58,7 +60,7 @@ TEST_F(Golden, MergeMethodsDrawTheSameImage) {
     constexpr int kViewDistance = 4;
     using mesh::MergeMethod;
     const auto imageOf = [&](std::string_view scene, const mesh::MeshOptions& options, render::View view) {
-        const render::Camera camera = app::findScene(scene)->camera;
+        const render::Camera camera = view::cameraOf(content::findScene(scene)->pose);
         render::Renderer renderer = makeRenderer();
         loadOverworld(renderer, camera, kViewDistance, options);
         return draw(renderer, {camera, world::environmentAt(0.4f), 16.0f * kViewDistance, 0, view});

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/terrane/content.h"
+#include "terrane/content/built_in.h"
 
 namespace terrane::app {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 
 const world::BlockRegistry& blocks() {
-    static const world::BlockRegistry registry = *loadBlocks();
+    static const world::BlockRegistry registry = *content::loadBlocks();
     return registry;
 }
 
@@ -77,9 +77,9 @@ at = [0, 9, 0]
     EXPECT_EQ(first.titles[1].text, "a\nb");
     ASSERT_EQ(first.edits.size(), 2u);
     EXPECT_EQ(first.edits[0].time, 1) << "edits are in the order of time";
-    EXPECT_EQ(first.edits[0].low, (world::BlockPos{3, 4, 70}));
-    EXPECT_EQ(first.edits[0].high, (world::BlockPos{5, 5, 71}));
-    EXPECT_EQ(first.edits[0].count(), 12);
+    EXPECT_EQ(first.edits[0].box.low, (world::BlockPos{3, 4, 70}));
+    EXPECT_EQ(first.edits[0].box.high, (world::BlockPos{5, 5, 71}));
+    EXPECT_EQ(first.edits[0].box.blockCount(), 12);
     EXPECT_EQ(first.edits[1].block, blocks().find("stone")->id);
     EXPECT_EQ(second.start, 4);
     EXPECT_EQ(second.seconds, 2.5) << "as long as its keys";
@@ -93,7 +93,7 @@ TEST(ScriptFile, OptionsHoldUntilTheyChangeAndForOneShot) {
                               shotOf(""));
     ASSERT_TRUE(script) << script.error().message;
     const auto occlusionAt = [&](std::size_t shot, double time) {
-        return renderOptions(optionsAt(script->shots[shot], time).choices, true).occlusion;
+        return render::renderOptions(optionsAt(script->shots[shot], time).choices, true).occlusion;
     };
     const Shot& shot = script->shots[0];
     EXPECT_EQ(optionsAt(shot, 0).viewDistance, 5);
@@ -115,7 +115,7 @@ TEST(ScriptFile, FormerNamesOfOptionsAreRead) {
     ASSERT_TRUE(script) << script.error().message;
     const Shot& shot = script->shots[0];
     EXPECT_EQ(optionsAt(shot, 0).view, render::View::Merging);
-    EXPECT_FALSE(renderOptions(optionsAt(shot, 0).choices, true).distanceFog);
+    EXPECT_FALSE(render::renderOptions(optionsAt(shot, 0).choices, true).distanceFog);
     EXPECT_EQ(optionsAt(shot, 1).mesh.method, mesh::MergeMethod::Lines);
     EXPECT_EQ(optionsAt(shot, 1).mesh.meshSectionHeight, 32);
 }

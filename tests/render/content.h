@@ -5,28 +5,24 @@
 #include <string_view>
 
 #include "terrane/base/embedded.h"
-#include "terrane/gpu/shader_loader.h"
+#include "terrane/content/built_in.h"
+#include "terrane/gpu/built_in_shaders.h"
 #include "terrane/render/block_textures.h"
 #include "terrane/render/render_options.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::embedded {
-std::span<const base::EmbeddedFile> content();
 std::span<const base::EmbeddedFile> shaders();
 }  // namespace terrane::embedded
 
 namespace terrane::render {
 
 inline base::Result<base::Image> contentTexture(std::string_view name) {
-    const std::string path = "textures/" + std::string(name) + ".png";
-    for (const base::EmbeddedFile& file : embedded::content()) {
-        if (file.path == path) return base::decodePng(file.data, path);
-    }
-    return base::fail("{}: not in the content", path);
+    return content::builtInTextures()(name);
 }
 
 inline const gpu::ShaderLoader& contentShaders() {
-    static const gpu::ShaderLoader loader(embedded::shaders());
+    static const gpu::ShaderLoader loader = gpu::builtInShaders("");
     return loader;
 }
 

@@ -98,5 +98,19 @@ TEST(Coords, HashTellsNeighborsApart) {
     EXPECT_GE(low.size(), 3800u);  // 3,970 by chance
 }
 
+TEST(BlockBox, HasEachBlockOnceFromBelow) {
+    const BlockBox box{{-1, 5, 70}, {1, 6, 73}};
+    std::set<BlockPos> seen;
+    int z = box.low.z;
+    for (std::int64_t n = 0; n < box.blockCount(); ++n) {
+        const BlockPos pos = box.blockAt(n);
+        EXPECT_GE(pos.z, z);
+        z = pos.z;
+        EXPECT_TRUE(seen.insert(pos).second) << n;
+        EXPECT_TRUE(pos.x >= -1 && pos.x <= 1 && pos.y >= 5 && pos.y <= 6 && pos.z <= 73) << n;
+    }
+    EXPECT_EQ(seen.size(), 24u);
+}
+
 }  // namespace
 }  // namespace terrane::world

@@ -2,9 +2,9 @@
 
 #include <sstream>
 
-#include "apps/terrane/bench/child_process.h"
-#include "apps/terrane/bench/machine.h"
+#include "terrane/base/child_process.h"
 #include "terrane/base/files.h"
+#include "terrane/base/machine.h"
 
 namespace terrane::app {
 namespace {
@@ -57,9 +57,9 @@ base::Result<json> BenchRunner::runOnce(const Arguments& arguments) const {
     command.insert(command.end(), arguments.begin(), arguments.end());
     if (arguments[0] == "render") command.insert(command.end(), {"--output", "picture.png"});
     if (arguments[0] != "bench") command.push_back("--json");
-    const ChildOptions options{work_, work_ / "messages.txt", kLongestRun};
-    const double load = loadAverage();
-    const auto end = runChild(command, options);
+    const base::ChildOptions options{work_, work_ / "messages.txt", kLongestRun};
+    const double load = base::loadAverage();
+    const auto end = base::runChild(command, options);
     if (!end) return tl::unexpected(end.error());
     if (end->tookTooLong) return base::fail("took longer than {} s", kLongestRun.count());
     if (end->exitCode != 0)

@@ -11,15 +11,15 @@
 #include <utility>
 
 #include "apps/terrane/bench/bench_runner.h"
-#include "apps/terrane/bench/child_process.h"
-#include "apps/terrane/bench/machine.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/graphics_options.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/progress_bar.h"
+#include "terrane/base/child_process.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
+#include "terrane/base/machine.h"
+#include "terrane/base/progress_bar.h"
 
 namespace terrane::app {
 namespace {
@@ -49,8 +49,7 @@ class WorkFolder {
     static base::Result<WorkFolder> make(const fs::path& parent) {
         std::string path = parent / ".terrane-bench-XXXXXX";
         if (::mkdtemp(path.data())) return WorkFolder(path);
-        return base::fail("{}: no folder can be made in it: {}", parent.string(),
-                          std::generic_category().message(errno));
+        return base::fail("{}: no folder can be made in it: {}", parent.string(), base::systemReason(errno));
     }
     ~WorkFolder() {
         std::error_code ignored;
@@ -69,7 +68,7 @@ class WorkFolder {
 
 // What the program says of itself and the graphics driver, from a process of its own.
 base::Result<json> programInfo(const fs::path& program, const fs::path& work) {
-    auto end = runChild({program.string(), "info", "--json"}, {work, work / "messages.txt"});
+    auto end = base::runChild({program.string(), "info", "--json"}, {work, work / "messages.txt"});
     if (!end) return tl::unexpected(end.error());
     json info = json::parse(end->output, nullptr, false);
     if (end->exitCode != 0 || !info.is_object()) return base::fail("terrane info --json does not work");
@@ -97,7 +96,13 @@ base::Result<json> aboutRun(const BenchSettings& settings, const json& info, con
     if (!bytes) return tl::unexpected(bytes.error());
     base::Digest digest;
     digest.update(*bytes);
-    json about = machineJson();
+    const base::Machine machine = base::describeMachine();
+    json about = {{"processor", machine.processor},
+                  {"processors", machine.processors},
+                  {"memory", fmt::format("{:.0f} GB", machine.memoryBytes / 1e9)},
+                  {"system", machine.system},
+                  {"compiler", machine.compiler},
+                  {"assertions", machine.hasAssertions ? "on" : "off"}};
     about["program"] = "terrane " + info["version"].get<std::string>();
     about["digest_of_the_program"] = digest.hex();
     about["instruction_sets"] = info["simd"];
@@ -135,7 +140,7 @@ void printPlan(const json& about, const std::vector<CellGroup>& groups) {
 }
 
 base::Result<void> measureAll(const std::vector<Cell>& cells, BenchRunner& runner, ResultFile& results) {
-    ProgressBar bar("measuring", cells.size());
+    base::ProgressBar bar("measuring", cells.size());
     for (std::size_t k = 0; k < cells.size(); ++k) {
         if (auto done = runner.measure(cells[k]); !done) return done;
         const std::string_view failure = results.failureOf(cells[k]);
@@ -187,7 +192,7 @@ base::Result<void> bench(BenchOptions& options) {
 
 base::Result<void> runBench(BenchOptions& options) {
     if (options.copiesMemory) {
-        std::cout << json{{"bytes_per_second", memoryCopySpeed()}}.dump() << '\n';
+        std::cout << json{{"bytes_per_second", base::memoryCopySpeed()}}.dump() << '\n';
         return {};
     }
     if (options.output.empty() && !options.lists)

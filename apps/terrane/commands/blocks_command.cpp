@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/content.h"
 #include "apps/terrane/options.h"
+#include "terrane/content/built_in.h"
 
 namespace terrane::app {
 namespace {
@@ -54,7 +54,7 @@ nlohmann::json typeJson(const world::BlockRegistry& blocks, const world::BlockTy
 }
 
 base::Result<void> listBlocks(bool asJson) {
-    auto blocks = loadBlocks();
+    auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
     if (asJson) {
         nlohmann::json list = nlohmann::json::array();

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/content.h"
 #include "apps/terrane/options.h"
+#include "terrane/content/built_in.h"
 #include "terrane/store/save_check.h"
 #include "terrane/store/world_location.h"
 
@@ -56,7 +56,7 @@ void printText(const std::string& file, const store::CheckReport& report) {
 }
 
 base::Result<void> check(CheckOptions& options) {
-    const auto blocks = loadBlocks();
+    const auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
     const auto path = store::fileOf(store::worldLocation(options.file));
     if (!path) return tl::unexpected(path.error());

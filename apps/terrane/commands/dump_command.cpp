@@ -4,15 +4,15 @@
 #include <cstring>
 #include <memory>
 
-#include "apps/terrane/area_chunks.h"
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/content.h"
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/npy.h"
+#include "terrane/content/built_in.h"
+#include "terrane/stream/area_chunks.h"
 
 namespace terrane::app {
 namespace {
@@ -21,7 +21,7 @@ enum class What { Blocks, Light, Quads };
 
 struct DumpOptions {
     WorldOptions world;
-    std::optional<Area> area;
+    std::optional<world::ChunkArea> area;
     What what = What::Blocks;
     std::string output;
     SaveOptions save;
@@ -35,7 +35,7 @@ constexpr std::int64_t kMaxChunksInFile = 4096;
 // The area and one chunk around it, which light and meshes need.
 class LoadedArea {
   public:
-    LoadedArea(const Area& area)
+    LoadedArea(const world::ChunkArea& area)
         : area_(area), width_(area.x1 - area.x0 + 2), height_(area.y1 - area.y0 + 2) {}
 
     // From the save, which may be null, else generated.
@@ -43,7 +43,7 @@ class LoadedArea {
         std::vector<world::ChunkPos> positions;
         for (int k = 0; k < width_ * height_; ++k)
             positions.push_back({area_.x0 - 1 + k % width_, area_.y0 - 1 + k / width_});
-        auto chunks = chunksAt(positions, save, generator, jobs);
+        auto chunks = stream::chunksAt(positions, save, generator, jobs);
         if (!chunks) return tl::unexpected(chunks.error());
         chunks_ = std::move(*chunks);
         return {};
@@ -57,7 +57,7 @@ class LoadedArea {
     int chunksY() const { return height_ - 2; }
 
   private:
-    Area area_;
+    world::ChunkArea area_;
     int width_, height_;
     std::vector<world::Chunk> chunks_;
 };
@@ -163,11 +163,11 @@ base::NpyArray dumpQuads(const LoadedArea& area, const DumpOptions& options,
 }
 
 base::Result<void> dump(DumpOptions& options) {
-    const Area area = *options.area;
+    const world::ChunkArea area = *options.area;
     if (area.chunkCount() > kMaxChunksInFile) {
         return base::fail("--area: {} chunks, at most {} fit one file", area.chunkCount(), kMaxChunksInFile);
     }
-    auto blocks = loadBlocks();
+    auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
     auto save = openSave(options.world, options.save, store::WorldAccess::ReadOnly, *blocks);
     if (!save) return tl::unexpected(save.error());

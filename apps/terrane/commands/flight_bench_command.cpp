@@ -4,14 +4,18 @@
 
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/flight.h"
+#include "apps/terrane/offscreen.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/place_options.h"
 #include "terrane/base/log.h"
+#include "terrane/view/camera_pose.h"
+#include "terrane/view/flight.h"
 
 namespace terrane::app {
 namespace {
@@ -27,19 +31,20 @@ struct FlightBenchOptions {
     bool json = false;
 };
 
-base::Result<Flight> flightOf(const FlightBenchOptions& options) {
+base::Result<view::Flight> flightOf(const FlightBenchOptions& options) {
     auto place = placeOf(options.place, {"", {{8, 8, 120}, 45, 0}, 0.4f});
     if (!place) return tl::unexpected(place.error());
     // A scene looks down on the ground.
-    if (!options.place.look) place->camera.pitch = 0;
-    return Flight{place->camera, options.seconds, options.graphics.viewDistance, place->timeDay};
+    if (!options.place.look) place->pose.pitch = 0;
+    return view::Flight{view::cameraOf(place->pose), options.seconds, options.graphics.viewDistance,
+                        place->timeDay};
 }
 
-base::Result<void> writeFrames(const std::string& file, std::span<const FlightFrame> frames) {
+base::Result<void> writeFrames(const std::string& file, std::span<const view::FlightFrame> frames) {
     std::ofstream out(file);
     out << "time_s,frame_ms,follow_ms,upload_ms,draw_ms,follow_processor_ms,upload_processor_ms,uploads,"
            "visible_chunks,wanted_chunks,queued_chunks\n";
-    for (const FlightFrame& f : frames) {
+    for (const view::FlightFrame& f : frames) {
         fmt::print(out, "{:.4f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{}\n", f.seconds, f.all,
                    f.follow, f.upload, f.draw, f.followCpu, f.uploadCpu, f.uploads, f.visible, f.wanted,
                    f.queued);
@@ -48,18 +53,51 @@ base::Result<void> writeFrames(const std::string& file, std::span<const FlightFr
     return out ? base::Result<void>() : base::fail("{}: cannot be written", file);
 }
 
-void report(const FlightLog& log) {
-    const FlightStatistics statistics = statisticsOf(log);
+void report(const view::FlightLog& log) {
+    const view::FlightStatistics statistics = view::statisticsOf(log);
     const glm::dvec3& p = log.camera.position;
     base::logInfo(
         "{} frames to {:.0f},{:.0f},{:.0f}: median {:.1f} ms, longest {:.1f} ms; loading: at most {:.2f} ms "
         "of the CPU",
-        framesInFlight(log).size(), p.x, p.y, p.z, statistics.median, statistics.longest,
+        view::framesInFlight(log).size(), p.x, p.y, p.z, statistics.median, statistics.longest,
         statistics.maxLoading);
     base::logInfo(
         "{} frames over twice the median; without the time in loading {} would not be, without its CPU "
         "time {}",
         statistics.slow, statistics.slowByLoadingTime, statistics.slowByLoadingCpu);
+}
+
+nlohmann::json linesBySecond(const view::FlightLog& log) {
+    std::map<int, std::vector<view::FlightFrame>> seconds;
+    const double first = log.frames.front().seconds;
+    for (const view::FlightFrame& frame : log.frames)
+        seconds[static_cast<int>(frame.seconds - first)].push_back(frame);
+    nlohmann::json lines;
+    for (const auto& [second, frames] : seconds) {
+        const auto slowest = std::ranges::max_element(frames, {}, &view::FlightFrame::all);
+        lines["seconds"].push_back(second);
+        lines["frames"].push_back(frames.size());
+        lines["slowest_ms"].push_back(slowest->all);
+        lines["visible"].push_back(frames.back().visible);
+        lines["active"].push_back(frames.back().active);
+    }
+    return lines;
+}
+
+// The statistics, and a line of them for each second.
+nlohmann::json jsonOf(const view::FlightLog& log) {
+    const view::FlightStatistics statistics = view::statisticsOf(log);
+    return {{"seconds_to_load", log.secondsToLoad},
+            {"seconds_of_flight", log.secondsOfFlight},
+            {"seconds_to_load_again", log.secondsToLoadAgain},
+            {"chunks_missing_on_landing", log.missing},
+            {"frames", view::framesInFlight(log).size()},
+            {"frame_ms", statistics.median},
+            {"slowest_frame_ms", statistics.longest},
+            {"most_loading_ms", statistics.maxLoading},
+            {"frames_over_twice_the_median", statistics.slow},
+            {"of_these_by_loading", statistics.slowByLoadingCpu},
+            {"by_second", linesBySecond(log)}};
 }
 
 base::Result<void> runFlightBench(const FlightBenchOptions& options) {
@@ -72,9 +110,9 @@ base::Result<void> runFlightBench(const FlightBenchOptions& options) {
                                     .backend = options.backend,
                                     .meshMilliseconds = view::WorldView::kFrameMilliseconds});
     if (!world) return tl::unexpected(world.error());
-    const FlightLog log = fly(**world, *flight);
+    const view::FlightLog log = view::fly(*(*world)->session, *(*world)->view, (*world)->renderer, *flight);
     if (!options.output.empty()) {
-        if (auto written = writeFrames(options.output, framesInFlight(log)); !written) return written;
+        if (auto written = writeFrames(options.output, view::framesInFlight(log)); !written) return written;
     }
     if (auto saved = (*world)->session->save(); !saved) return saved;
     if (auto finished = (*world)->finish(); !finished) return finished;

@@ -8,12 +8,12 @@
 
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/content.h"
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/progress_bar.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/log.h"
+#include "terrane/base/progress_bar.h"
+#include "terrane/content/built_in.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/glsl_emitter.h"
 #include "terrane/gen/kernels.h"
@@ -24,7 +24,7 @@ namespace {
 struct GenerateOptions {
     WorldOptions world;
     std::optional<int> radius;
-    std::optional<Area> area;
+    std::optional<world::ChunkArea> area;
     bool digest = false;
     bool json = false;
     bool explain = false;
@@ -59,8 +59,8 @@ class AreaGenerator {
         : generator_(generator), save_(save), wantsDigest_(wantsDigest) {}
 
     // The digest takes chunks by y, then x; blocks by z, y, x, as 16-bit little-endian ids.
-    base::Result<Generated> run(const Area& area) {
-        ProgressBar bar("generating", static_cast<std::size_t>(area.chunkCount()));
+    base::Result<Generated> run(const world::ChunkArea& area) {
+        base::ProgressBar bar("generating", static_cast<std::size_t>(area.chunkCount()));
         const std::int64_t width = std::int64_t{area.x1} - area.x0;
         std::vector<world::ChunkPos> positions;
         for (std::int64_t first = 0; first < area.chunkCount(); first += kBatch) {
@@ -158,8 +158,8 @@ base::Result<void> generate(GenerateOptions& options) {
         return base::fail("generate needs --radius, --area or --explain");
     }
     const int r = options.radius.value_or(0);
-    const Area area = options.area.value_or(Area{-r, -r, r + 1, r + 1});
-    auto blocks = loadBlocks();
+    const world::ChunkArea area = options.area.value_or(world::ChunkArea{-r, -r, r + 1, r + 1});
+    auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
     if (options.explain) return explain(options.world, *blocks);
     if (!gen::chooseSimdTarget(options.simd)) {

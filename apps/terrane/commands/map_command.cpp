@@ -1,15 +1,15 @@
 // terrane map: an area from above, as generated, or as it is in a save.
 #include <memory>
 
-#include "apps/terrane/area_chunks.h"
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/content.h"
-#include "apps/terrane/map_image.h"
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/progress_bar.h"
-#include "apps/terrane/resource_pack.h"
 #include "terrane/base/log.h"
+#include "terrane/base/progress_bar.h"
+#include "terrane/content/built_in.h"
+#include "terrane/content/resource_pack.h"
+#include "terrane/stream/area_chunks.h"
+#include "terrane/world/map_image.h"
 
 namespace terrane::app {
 namespace {
@@ -18,7 +18,7 @@ struct MapOptions {
     WorldOptions world;
     SaveOptions save;
     std::optional<int> radius;
-    std::optional<Area> area;
+    std::optional<world::ChunkArea> area;
     std::string output, resourcePack;
 };
 
@@ -28,27 +28,27 @@ constexpr std::int64_t kMaxChunksInMap = 1024 * 1024;
 base::Result<void> writeMap(MapOptions& options) {
     if (!options.area && !options.radius) return base::fail("map needs --radius or --area");
     const int r = options.radius.value_or(0);
-    const Area area = options.area.value_or(Area{-r, -r, r + 1, r + 1});
+    const world::ChunkArea area = options.area.value_or(world::ChunkArea{-r, -r, r + 1, r + 1});
     if (area.chunkCount() > kMaxChunksInMap) {
         return base::fail("--area: {} chunks, a map shows at most {}", area.chunkCount(), kMaxChunksInMap);
     }
-    auto blocks = loadBlocks();
+    auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
     auto save = openSave(options.world, options.save, store::WorldAccess::ReadOnly, *blocks);
     if (!save) return tl::unexpected(save.error());
     auto generator = makeGenerator(options.world, *blocks);
     if (!generator) return tl::unexpected(generator.error());
-    auto textures = loadTextures(options.resourcePack, *blocks);
+    auto textures = content::loadTextures(options.resourcePack, *blocks);
     if (!textures) return tl::unexpected(textures.error());
     base::JobSystem jobs(threadCount(options.world));
     base::Result<base::Image> image;
     {
-        ProgressBar bar("mapping", static_cast<std::size_t>(area.y1 - area.y0));
-        image = drawMap({area,
-                         [&](std::span<const world::ChunkPos> row) {
-                             return chunksAt(row, save->get(), *generator, jobs);
-                         }},
-                        *blocks, *textures, jobs, [&](std::size_t rows) { bar.set(rows); });
+        base::ProgressBar bar("mapping", static_cast<std::size_t>(area.y1 - area.y0));
+        image = world::drawMap({area,
+                                [&](std::span<const world::ChunkPos> row) {
+                                    return stream::chunksAt(row, save->get(), *generator, jobs);
+                                }},
+                               *blocks, *textures, jobs, [&](std::size_t rows) { bar.set(rows); });
     }
     if (!image) return tl::unexpected(image.error());
     if (auto written = base::writePng(options.output, *image); !written) return written;

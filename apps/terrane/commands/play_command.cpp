@@ -3,17 +3,17 @@
 
 #include "apps/terrane/choose_back_ends.h"
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/content.h"
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/resource_pack.h"
-#include "apps/terrane/shaders.h"
-#include "apps/terrane/stop_signals.h"
 #include "apps/terrane/window/bookmarks.h"
 #include "apps/terrane/window/game.h"
 #include "apps/terrane/window/icon.h"
 #include "terrane/base/log.h"
+#include "terrane/base/stop_signals.h"
+#include "terrane/content/built_in.h"
+#include "terrane/content/resource_pack.h"
 #include "terrane/game/spawn.h"
+#include "terrane/gpu/built_in_shaders.h"
 #include "terrane/view/camera_pose.h"
 
 namespace terrane::app {
@@ -80,7 +80,7 @@ base::Result<Window> openWindow(const PlayOptions& options) {
 PlaySettings settingsOf(const PlayOptions& options, bool isSoftwareRenderer) {
     PlaySettings settings = options.settings;
     settings.preset = options.graphics.choices.preset;
-    settings.graphics = renderOptions(options.graphics.choices, isSoftwareRenderer);
+    settings.graphics = render::renderOptions(options.graphics.choices, isSoftwareRenderer);
     settings.viewDistance = options.graphics.viewDistance;
     settings.mesh = options.graphics.mesh;
     settings.view = options.graphics.view;
@@ -92,20 +92,20 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
     if (auto read = applySettings(options.settingsFile, command, graphicsSettings()); !read) return read;
     auto parts = openSessionParts(options.world, options.save);
     if (!parts) return tl::unexpected(parts.error());
-    auto textures = loadTextures(options.graphics.resourcePack, *parts->blocks);
+    auto textures = content::loadTextures(options.graphics.resourcePack, *parts->blocks);
     if (!textures) return tl::unexpected(textures.error());
     auto window = openWindow(options);
     if (!window) return tl::unexpected(window.error());
-    const gpu::ShaderLoader shaders = makeShaderLoader(options.graphics.shaderRoot);
+    const gpu::ShaderLoader shaders = gpu::builtInShaders(options.graphics.shaderRoot);
     const gpu::DeviceInfo device = gpu::queryDevice();
     auto renderer = render::Renderer::create(shaders, *parts->blocks, *textures, device);
     if (!renderer) return tl::unexpected(renderer.error());
-    auto preview = BlockPreview::create(shaders, *parts->blocks, *textures, device);
+    auto preview = view::BlockPreview::create(shaders, *parts->blocks, *textures, device);
     if (!preview) return tl::unexpected(preview.error());
     const auto backEnds = chooseBackEnds(*parts, options.world, options.backend);
     if (!backEnds) return tl::unexpected(backEnds.error());
     game::Session session(std::move(*parts));
-    render::BackgroundCompiler compiler(shaders, session.blocks(), builtInTextures());
+    render::BackgroundCompiler compiler(shaders, session.blocks(), content::builtInTextures());
     auto start = startOf(options, session);
     if (!start) return tl::unexpected(start.error());
     setClock(options, session);
@@ -117,10 +117,10 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
     game.isSoftwareRenderer = device.software;
     view::WorldView view(session, *renderer);
     if (*backEnds) {
-        const auto meshes = view.meshOnGpu(makeShaderLoader(""), view::WorldView::kFrameMilliseconds);
+        const auto meshes = view.meshOnGpu(gpu::builtInShaders(""), view::WorldView::kFrameMilliseconds);
         if (!meshes) return meshes;
     }
-    const StopSignals signals;
+    const base::StopSignals signals;
     Game loop({*window, session, *renderer, view, *preview, compiler, shaders, signals}, game);
     const auto played = loop.run();
     auto written = writeChanges(options.settingsFile, valuesOf(game.settings, device.software),

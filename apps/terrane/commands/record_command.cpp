@@ -4,15 +4,15 @@
 #include <memory>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/content.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/progress_bar.h"
-#include "apps/terrane/record/frame_sink.h"
 #include "apps/terrane/record/recorder.h"
 #include "apps/terrane/record/script_file.h"
-#include "apps/terrane/stop_signals.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
+#include "terrane/base/progress_bar.h"
+#include "terrane/base/stop_signals.h"
+#include "terrane/content/built_in.h"
+#include "terrane/video/frame_sink.h"
 
 namespace terrane::app {
 namespace {
@@ -35,7 +35,7 @@ struct FrameRange {
 base::Result<Script> readScript(const RecordOptions& options, const CLI::App& command) {
     auto text = base::readFile(options.path);
     if (!text) return tl::unexpected(text.error());
-    auto blocks = loadBlocks();
+    auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
     ScriptDefaults defaults{options.world, options.graphics, {}};
     for (const CLI::Option* option : command.get_options())
@@ -52,14 +52,14 @@ base::Result<FrameRange> framesOf(const RecordOptions& options, const Script& sc
                       script.seconds());
 }
 
-base::Result<std::unique_ptr<FrameSink>> openSink(const RecordOptions& options) {
-    if (!options.framesFolder.empty()) return openFrameFolder(options.framesFolder);
-    return openVideo(options.output, {options.graphics.size, options.framesPerSecond});
+base::Result<std::unique_ptr<video::FrameSink>> openSink(const RecordOptions& options) {
+    if (!options.framesFolder.empty()) return video::openFrameFolder(options.framesFolder);
+    return video::openVideo(options.output, {options.graphics.size, options.framesPerSecond});
 }
 
-base::Result<void> drawFrames(Recorder& recorder, FrameSink& sink, const FrameRange& range,
-                              int framesPerSecond, const StopSignals& signals) {
-    ProgressBar bar("recording", static_cast<std::size_t>(range.end - range.first));
+base::Result<void> drawFrames(Recorder& recorder, video::FrameSink& sink, const FrameRange& range,
+                              int framesPerSecond, const base::StopSignals& signals) {
+    base::ProgressBar bar("recording", static_cast<std::size_t>(range.end - range.first));
     for (std::int64_t k = range.first; k < range.end; ++k) {
         auto image = recorder.frame(static_cast<double>(k) / framesPerSecond);
         if (!image) return tl::unexpected(image.error());
@@ -86,7 +86,7 @@ base::Result<void> recordVideo(const RecordOptions& options, const CLI::App& com
                                     .graphics = optionsAt(shotAt(*script, options.from), 0),
                                     .access = store::WorldAccess::ReadOnly});
     if (!world) return tl::unexpected(world.error());
-    const StopSignals signals;  // until the file is finished: an unfinished one goes with its sink
+    const base::StopSignals signals;  // until the file is finished: an unfinished one goes with its sink
     auto sink = openSink(options);
     if (!sink) return tl::unexpected(sink.error());
 

@@ -7,15 +7,16 @@
 
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/frame_times.h"
 #include "apps/terrane/offscreen.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/place_options.h"
-#include "apps/terrane/process_statistics.h"
 #include "terrane/base/image.h"
 #include "terrane/base/log.h"
+#include "terrane/base/median.h"
+#include "terrane/base/process_statistics.h"
 #include "terrane/store/world_location.h"
 #include "terrane/view/camera_pose.h"
+#include "terrane/view/frame_times.h"
 
 namespace terrane::app {
 namespace {
@@ -41,7 +42,7 @@ struct RenderCommandOptions {
 // What drawing an image took; milliseconds.
 struct RenderTimings {
     double setUp = 0, load = 0, upload = 0, draw = 0, all = 0;
-    FrameTimes frames;
+    view::FrameTimes frames;
 };
 
 void tell(const RenderCommandOptions& options, const RenderTimings& timings, const game::Session& session,
@@ -50,7 +51,7 @@ void tell(const RenderCommandOptions& options, const RenderTimings& timings, con
                   session.world().chunkCount(), timings.load / 1000, statistics.quads,
                   statistics.meshSections);
     if (timings.frames.milliseconds.empty()) return;
-    const double frame = medianOf(timings.frames);
+    const double frame = base::medianOf(timings.frames.milliseconds);
     base::logInfo("a frame takes {:.1f} ms in the middle of {}, {:.1f} frames/s", frame,
                   timings.frames.milliseconds.size(), 1000 / frame);
 }
@@ -91,8 +92,8 @@ nlohmann::json memoryJson(const RenderCommandOptions& options, const game::Sessi
             {"light_gpu", renderer.lightBytes()},
             {"quads_gpu", renderer.quadBytes()},
             {"save", saveBytes(options.save)},
-            {"process", residentBytes()},
-            {"process_peak", peakResidentBytes()}};
+            {"process", base::residentBytes()},
+            {"process_peak", base::peakResidentBytes()}};
 }
 
 nlohmann::json tasksJson(const game::Session& session) {
@@ -126,9 +127,9 @@ nlohmann::json imageJson(const RenderCommandOptions& options, const RenderTiming
                              {"shadow_triangles_over_the_day", shadowsOverTheDay(renderer, input)},
                              {"bytes", memoryJson(options, session, renderer)}};
     if (!timings.frames.milliseconds.empty()) {
-        result["milliseconds"]["frame"] = medianOf(timings.frames);
+        result["milliseconds"]["frame"] = base::medianOf(timings.frames.milliseconds);
         result["milliseconds"]["frame_processor"] = timings.frames.cpuMilliseconds;
-        result["passes"] = passMedians(timings.frames);
+        result["passes"] = view::passMedians(timings.frames);
     }
     return result;
 }
@@ -136,7 +137,7 @@ nlohmann::json imageJson(const RenderCommandOptions& options, const RenderTiming
 base::Result<void> renderImage(const RenderCommandOptions& options) {
     const auto start = Clock::now();
     if (!options.place.scene && !options.place.at) return base::fail("render needs --scene or --at");
-    const auto place = placeOf(options.place, {"", {}, scenes().front().timeDay});
+    const auto place = placeOf(options.place, {"", {}, content::scenes().front().timeDay});
     if (!place) return tl::unexpected(place.error());
     auto world = Offscreen::create({.world = options.world,
                                     .save = options.save,
@@ -148,22 +149,23 @@ base::Result<void> renderImage(const RenderCommandOptions& options) {
     RenderTimings timings;
     timings.setUp = millisecondsSince(start);
 
+    const render::Camera camera = view::cameraOf(place->pose);
     const auto loadStart = Clock::now();
     timings.upload =
-        view::loadAll(session, *(*world)->view, place->camera, options.graphics.viewDistance, loadStart);
+        view::loadAll(session, *(*world)->view, camera, options.graphics.viewDistance, loadStart);
     timings.load = millisecondsSince(loadStart);
 
     const auto drawStart = Clock::now();
-    const render::FrameInput input{place->camera,
+    const render::FrameInput input{camera,
                                    world::environmentAt(place->timeDay),
                                    view::fogDistance(options.graphics.viewDistance),
                                    options.seconds,
                                    options.graphics.view,
-                                   game::isUnderWater(session, place->camera.position)};
+                                   game::isUnderWater(session, camera.position)};
     renderer.draw(input);
     const base::Image image = renderer.readImage();
     timings.draw = millisecondsSince(drawStart);
-    timings.frames = measureFrames(renderer, input, options.frames);
+    timings.frames = view::measureFrames(renderer, input, options.frames);
     if (auto written = base::writePng(options.output, image); !written) return written;
     if (auto saved = session.save(); !saved) return saved;
     if (auto finished = (*world)->finish(); !finished) return finished;

@@ -14,7 +14,7 @@ void EditPlayer::advanceTo(double seconds, game::Session& session) {
     for (Progress& progress : edits_) {
         const std::int64_t wanted = blocksDone(*progress.edit, seconds - progress.start);
         for (; progress.done < wanted; ++progress.done) {
-            const world::BlockPos pos = blockOf(*progress.edit, progress.done);
+            const world::BlockPos pos = progress.edit->box.blockAt(progress.done);
             session.pipeline().chunkAt(world::chunkOf(pos));
             session.edit({game::kNoPlayer, pos, world::SetBlock{progress.edit->block}, std::nullopt});
         }
@@ -23,17 +23,9 @@ void EditPlayer::advanceTo(double seconds, game::Session& session) {
 
 std::int64_t blocksDone(const EditCue& edit, double seconds) {
     if (seconds < -kTimeSlack) return 0;
-    if (seconds + kTimeSlack >= edit.seconds) return edit.count();
+    if (seconds + kTimeSlack >= edit.seconds) return edit.box.blockCount();
     const double share = (seconds + kTimeSlack) / edit.seconds;
-    return static_cast<std::int64_t>(share * static_cast<double>(edit.count()));
-}
-
-world::BlockPos blockOf(const EditCue& edit, std::int64_t number) {
-    const std::int64_t width = std::int64_t{edit.high.x} - edit.low.x + 1;
-    const std::int64_t depth = std::int64_t{edit.high.y} - edit.low.y + 1;
-    return {static_cast<std::int32_t>(edit.low.x + number % width),
-            static_cast<std::int32_t>(edit.low.y + number / width % depth),
-            static_cast<std::int32_t>(edit.low.z + number / width / depth)};
+    return static_cast<std::int64_t>(share * static_cast<double>(edit.box.blockCount()));
 }
 
 }  // namespace terrane::app

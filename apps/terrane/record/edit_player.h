@@ -28,7 +28,5 @@ class EditPlayer {
 
 // How many blocks of an edit are made after some seconds of it.
 std::int64_t blocksDone(const EditCue& edit, double seconds);
-// The block at a place in the order of an edit: by z, y, x.
-world::BlockPos blockOf(const EditCue& edit, std::int64_t number);
 
 }  // namespace terrane::app

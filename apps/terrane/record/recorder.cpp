@@ -28,7 +28,7 @@ float titleStrength(const TitleCue& title, double seconds) {
 base::Result<void> Recorder::apply(const GraphicsOptions& graphics) {
     render::Renderer& renderer = parts_.world.renderer;
     stream::ChunkPipeline& pipeline = parts_.world.session->pipeline();
-    const auto options = renderOptions(graphics.choices, parts_.world.device.software);
+    const auto options = render::renderOptions(graphics.choices, parts_.world.device.software);
     if (parts_.size != renderer.size() || options != renderer.options()) {
         if (auto configured = renderer.configure(parts_.size, options); !configured) return configured;
     }
@@ -59,7 +59,7 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     const double inShot = seconds - shot.start;
     const GraphicsOptions& graphics = optionsAt(shot, inShot);
     if (auto applied = apply(graphics); !applied) return tl::unexpected(applied.error());
-    const PathPoint point = shot.path.at(inShot);
+    const view::PathPoint point = shot.path.at(inShot);
     game::Session& session = *parts_.world.session;
     // First what is in view: an edit there then changes only what it touches.
     view::loadAll(session, *parts_.world.view, point.camera, viewDistance_, timeOf(seconds));

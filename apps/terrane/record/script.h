@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/terrane/graphics_options.h"
-#include "apps/terrane/record/camera_path.h"
+#include "terrane/view/camera_path.h"
 #include "terrane/world/block_type.h"
 
 namespace terrane::app {
@@ -22,11 +22,8 @@ struct TitleCue {
 // Fills a box of blocks, all at once or one after the other: by z, y, x.
 struct EditCue {
     double time = 0, seconds = 0;
-    world::BlockPos low, high;  // both included
+    world::BlockBox box;
     world::BlockId block = world::kAir;
-    std::int64_t count() const {
-        return (std::int64_t{high.x} - low.x + 1) * (std::int64_t{high.y} - low.y + 1) * (high.z - low.z + 1);
-    }
 };
 
 // How things are drawn from then on.
@@ -38,7 +35,7 @@ struct OptionsCue {
 struct Shot {
     std::string name;
     double start = 0, seconds = 0;  // start: from the beginning of the video
-    CameraPath path;
+    view::CameraPath path;
     std::vector<OptionsCue> options;  // by time; the first is at 0
     std::vector<TitleCue> titles;
     std::vector<EditCue> edits;  // by time; they last until the end of the video

@@ -19,20 +19,21 @@ using world::ContentTable;
 constexpr double kMaxSeconds = 24 * 3600;           // of a shot
 constexpr std::int64_t kMaxBlocksOfEdit = 1 << 18;  // about a second of work
 
-Names with(Names names, std::span<const GraphicsRow> rows) {
-    for (const GraphicsRow& row : rows) names.emplace_back(row.name);
+Names with(Names names, std::span<const render::GraphicsRow> rows) {
+    for (const render::GraphicsRow& row : rows) names.emplace_back(row.name);
     return names;
 }
 
 // Flags that say how a frame is drawn, a preset before what changes it.
 Names drawingFlags() {
-    return with({"preset", "view-distance", "view", "merging", "mesh-section-height"}, graphicsTable());
+    return with({"preset", "view-distance", "view", "merging", "mesh-section-height"},
+                render::graphicsTable());
 }
 
 // A preset on the command line stands alone, as with settings of the window.
 Names passedOver(const Names& given) {
     const bool hasPreset = std::ranges::find(given, "preset") != given.end();
-    return hasPreset ? with(given, graphicsTable()) : given;
+    return hasPreset ? with(given, render::graphicsTable()) : given;
 }
 
 Names with(Names names, std::initializer_list<const char*> more) {
@@ -57,8 +58,8 @@ class ScriptReader {
     template <class Read>
     void each(ContentTable& table, std::string_view key, Read read);
 
-    CameraKey keyOf(ContentTable& table, const CameraKey& before, bool isFirst);
-    std::vector<CameraKey> keysOf(ContentTable& shot);
+    view::CameraKey keyOf(ContentTable& table, const view::CameraKey& before, bool isFirst);
+    std::vector<view::CameraKey> keysOf(ContentTable& shot);
     TitleCue titleOf(ContentTable& table, double shotSeconds);
     EditCue editOf(ContentTable& table, double shotSeconds);
     void readBox(ContentTable& table, EditCue& edit);
@@ -101,9 +102,9 @@ void ScriptReader::each(ContentTable& table, std::string_view key, Read read) {
     }
 }
 
-CameraKey ScriptReader::keyOf(ContentTable& table, const CameraKey& before, bool isFirst) {
+view::CameraKey ScriptReader::keyOf(ContentTable& table, const view::CameraKey& before, bool isFirst) {
     table.rejectUnknown(Names{"time", "at", "look", "look-at", "day", "fov"});
-    CameraKey key = before;
+    view::CameraKey key = before;
     key.time = numberOf(table, "time", 0, 0, kMaxSeconds);
     if (!table.node("time") && !isFirst) table.missing("time");
     const auto at = numbersOf(table, "at", 3, "[x, y, z] in blocks");
@@ -129,10 +130,11 @@ CameraKey ScriptReader::keyOf(ContentTable& table, const CameraKey& before, bool
     return key;
 }
 
-std::vector<CameraKey> ScriptReader::keysOf(ContentTable& shot) {
-    std::vector<CameraKey> keys;
+std::vector<view::CameraKey> ScriptReader::keysOf(ContentTable& shot) {
+    std::vector<view::CameraKey> keys;
     each(shot, "key", [&](ContentTable& table) {
-        const CameraKey key = keyOf(table, keys.empty() ? CameraKey{} : keys.back(), keys.empty());
+        const view::CameraKey key =
+            keyOf(table, keys.empty() ? view::CameraKey{} : keys.back(), keys.empty());
         if (!keys.empty() && key.time <= keys.back().time)
             table.wrong(table.line(), "time",
                         fmt::format("must be after {}, the key before", keys.back().time));
@@ -169,10 +171,11 @@ void ScriptReader::readBox(ContentTable& table, EditCue& edit) {
     if (at ? from || to : !from || !to)
         return table.wrong(table.line(), "at", "needs either at, or from and to");
     const world::BlockPos a = at ? *at : *from, b = at ? *at : *to;
-    edit.low = {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
-    edit.high = {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-    const double columns = (0.0 + edit.high.x - edit.low.x + 1) * (0.0 + edit.high.y - edit.low.y + 1);
-    if (columns * (edit.high.z - edit.low.z + 1) > kMaxBlocksOfEdit)
+    edit.box.low = {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+    edit.box.high = {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+    const auto& [low, high] = edit.box;
+    const double columns = (0.0 + high.x - low.x + 1) * (0.0 + high.y - low.y + 1);
+    if (columns * (high.z - low.z + 1) > kMaxBlocksOfEdit)
         table.wrong(table.line(), "to", fmt::format("more than {} blocks at once", kMaxBlocksOfEdit));
 }
 
@@ -207,9 +210,9 @@ void ScriptReader::readOptions(ContentTable& shot, Shot& into, const GraphicsOpt
 
 void ScriptReader::readShot(ContentTable& table, const GraphicsOptions& graphics, std::vector<Shot>& shots) {
     table.rejectUnknown(Names{"name", "seconds", "key", "title", "set", "edit"});
-    const std::vector<CameraKey> keys = keysOf(table);
+    const std::vector<view::CameraKey> keys = keysOf(table);
     if (error_) return;
-    Shot shot{.name = "", .path = CameraPath(keys), .options = {}, .titles = {}, .edits = {}};
+    Shot shot{.name = "", .path = view::CameraPath(keys), .options = {}, .titles = {}, .edits = {}};
     if (!shots.empty()) shot.start = shots.back().start + shots.back().seconds;
     shot.seconds = numberOf(table, "seconds", keys.back().time, 0, kMaxSeconds);
     if (shot.seconds <= 0) table.wrong(table.line(), "seconds", "a shot takes more than 0");

@@ -9,14 +9,14 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "apps/terrane/process_statistics.h"
-#include "apps/terrane/resource_pack.h"
 #include "apps/terrane/window/bookmarks.h"
 #include "apps/terrane/window/container_panel.h"
 #include "apps/terrane/window/loading_map.h"
 #include "apps/terrane/window/overlay.h"
 #include "apps/terrane/window/panel.h"
 #include "terrane/base/log.h"
+#include "terrane/base/process_statistics.h"
+#include "terrane/content/resource_pack.h"
 #include "terrane/game/container.h"
 #include "terrane/gpu/framebuffer.h"
 #include "terrane/view/camera_pose.h"
@@ -107,7 +107,7 @@ void Game::applySettings() {
 }
 
 base::Result<void> Game::useResourcePack(const std::string& folder) {
-    auto textures = loadTextures(folder, parts_.session.blocks());
+    auto textures = content::loadTextures(folder, parts_.session.blocks());
     if (!textures) return tl::unexpected(textures.error());
     if (auto set = parts_.renderer.setTextures(parts_.session.blocks(), *textures); !set) return set;
     return parts_.preview.setTextures(*textures);
@@ -125,9 +125,9 @@ void Game::reloadWrittenShaders() {
 }
 
 bool Game::shadersAreReady(glm::ivec2 size) {
-    constexpr glm::ivec2 kPreview(BlockPreview::kSize);
+    constexpr glm::ivec2 kPreview(view::BlockPreview::kSize);
     if (hasWorldImage() && settings_.graphics == parts_.renderer.options()) return true;
-    if (!hasWorldImage() && !parts_.compiler.isReady(kPreview, BlockPreview::options())) return false;
+    if (!hasWorldImage() && !parts_.compiler.isReady(kPreview, view::BlockPreview::options())) return false;
     return parts_.compiler.isReady(size, settings_.graphics);
 }
 
@@ -247,7 +247,7 @@ MemoryStatistics Game::memoryStatistics() const {
             .light = parts_.session.pipeline().lightBytes(),
             .quads = parts_.renderer.quadBytes(),
             .lightOnGpu = parts_.renderer.lightBytes(),
-            .resident = residentBytes()};
+            .resident = base::residentBytes()};
 }
 
 Statistics Game::statistics() {

@@ -4,8 +4,6 @@
 
 #include <string>
 
-#include "apps/terrane/stop_signals.h"
-#include "apps/terrane/window/block_preview.h"
 #include "apps/terrane/window/frame_meter.h"
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/pad_reader.h"
@@ -13,9 +11,11 @@
 #include "apps/terrane/window/play_settings.h"
 #include "apps/terrane/window/timed_value.h"
 #include "apps/terrane/window/window.h"
+#include "terrane/base/stop_signals.h"
 #include "terrane/game/block_interaction.h"
 #include "terrane/game/day_clock.h"
 #include "terrane/render/background_compiler.h"
+#include "terrane/view/block_preview.h"
 #include "terrane/view/world_view.h"
 
 namespace terrane::app {
@@ -29,10 +29,10 @@ struct GameParts {
     game::Session& session;
     render::Renderer& renderer;
     view::WorldView& view;
-    BlockPreview& preview;
+    view::BlockPreview& preview;
     render::BackgroundCompiler& compiler;
     const gpu::ShaderLoader& shaders;
-    const StopSignals& signals;
+    const base::StopSignals& signals;
 };
 
 struct GameOptions {

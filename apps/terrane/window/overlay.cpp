@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "apps/terrane/process_statistics.h"
 #include "apps/terrane/window/imgui_layer.h"
+#include "terrane/base/process_statistics.h"
 #include "terrane/game/block_interaction.h"
 #include "terrane/render/shadow_volume.h"
 
@@ -153,8 +153,9 @@ void drawStatistics(const Statistics& f) {
                 f.progress.wanted, f.queuedChunks);
     ImGui::Text("triangles: %zu opaque, %zu transparent", f.frame.opaqueTriangles,
                 f.frame.transparentTriangles);
-    ImGui::Text("MB: blocks %.1f, light %.1f; on the GPU quads %.1f, light %.1f", megabytes(f.memory.blocks),
-                megabytes(f.memory.light), megabytes(f.memory.quads), megabytes(f.memory.lightOnGpu));
+    ImGui::Text("MB: blocks %.1f, light %.1f; on the GPU quads %.1f, light %.1f",
+                base::megabytes(f.memory.blocks), base::megabytes(f.memory.light),
+                base::megabytes(f.memory.quads), base::megabytes(f.memory.lightOnGpu));
     for (const stream::TaskTime& task : f.tasks) {
         if (task.count == 0) continue;
         ImGui::Text("%s: %.0f us each, %zu", task.name, task.microseconds / static_cast<double>(task.count),

@@ -54,11 +54,11 @@ void drawPreset(PlaySettings& settings, bool isSoftwareRenderer) {
     }
     if (!combo("preset", chosen, count, nameOf)) return;
     settings.preset = nameOf(chosen);
-    settings.graphics = renderOptions({settings.preset, {}}, isSoftwareRenderer);
+    settings.graphics = render::renderOptions({settings.preset, {}}, isSoftwareRenderer);
 }
 
 // A switch where a row is off or on, else a choice.
-void drawRow(const GraphicsRow& row, render::RenderOptions& graphics) {
+void drawRow(const render::GraphicsRow& row, render::RenderOptions& graphics) {
     const std::string label(row.name);
     int value = row.get(graphics);
     bool isChanged = false;
@@ -120,7 +120,7 @@ void drawPanel(PlaySettings& settings, game::DayClock& day, const PanelInput& in
     drawPreset(settings, input.isSoftwareRenderer);
     drawView(settings);
     ImGui::Separator();
-    for (const GraphicsRow& row : graphicsTable()) drawRow(row, settings.graphics);
+    for (const render::GraphicsRow& row : render::graphicsTable()) drawRow(row, settings.graphics);
     ImGui::Separator();
     drawResourcePack(settings);
     drawPlayer(settings, day);

@@ -2,7 +2,7 @@
 
 #include <fmt/ostream.h>
 
-#include "apps/terrane/process_statistics.h"
+#include "terrane/base/process_statistics.h"
 
 namespace terrane::app {
 
@@ -19,8 +19,9 @@ base::Result<PerfLog> PerfLog::create(const std::filesystem::path& file) {
 void PerfLog::add(double seconds, double frameSeconds, const Statistics& f) {
     fmt::print(out_, "{:.4f},{:.3f},{:.1f},{:.1f},{:.1f},{:.1f},{:.1f},{},{},{},{},{}", seconds,
                frameSeconds * 1000, f.frames->now(), f.frames->min(), f.frames->max(),
-               megabytes(f.memory.resident), megabytes(f.memory.quads + f.memory.lightOnGpu), f.activeChunks,
-               f.progress.visible, f.queuedChunks, f.frame.opaqueTriangles, f.frame.transparentTriangles);
+               base::megabytes(f.memory.resident), base::megabytes(f.memory.quads + f.memory.lightOnGpu),
+               f.activeChunks, f.progress.visible, f.queuedChunks, f.frame.opaqueTriangles,
+               f.frame.transparentTriangles);
     for (std::size_t k = 0; k < f.tasks.size(); ++k) {
         const double before = tasks_.empty() ? 0 : tasks_[k].microseconds;
         fmt::print(out_, ",{:.3f}", (f.tasks[k].microseconds - before) / 1000);

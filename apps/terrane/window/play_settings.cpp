@@ -28,14 +28,14 @@ EnumNames<game::Movement> movementNames() {
 
 std::vector<std::string> graphicsSettings() {
     std::vector<std::string> names = {"preset"};
-    for (const GraphicsRow& row : graphicsTable()) names.emplace_back(row.name);
+    for (const render::GraphicsRow& row : render::graphicsTable()) names.emplace_back(row.name);
     return names;
 }
 
 SettingValues valuesOf(const PlaySettings& s, bool isSoftwareRenderer) {
     SettingValues values = {{"preset", s.preset}};
-    const render::RenderOptions preset = renderOptions({s.preset, {}}, isSoftwareRenderer);
-    for (const GraphicsRow& row : graphicsTable()) {
+    const render::RenderOptions preset = render::renderOptions({s.preset, {}}, isSoftwareRenderer);
+    for (const render::GraphicsRow& row : render::graphicsTable()) {
         const int value = row.get(s.graphics);
         if (value == row.get(preset)) continue;
         values.emplace(row.name, row.valueNames[static_cast<std::size_t>(value)]);

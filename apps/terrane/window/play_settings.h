@@ -4,11 +4,11 @@
 #include <string>
 
 #include "apps/terrane/graphics_options.h"
-#include "apps/terrane/graphics_table.h"
 #include "apps/terrane/window/settings.h"
 #include "terrane/game/player.h"
 #include "terrane/mesh/mesh_options.h"
 #include "terrane/render/frame_input.h"
+#include "terrane/render/graphics_table.h"
 
 namespace terrane::app {
 

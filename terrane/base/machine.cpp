@@ -1,0 +1,84 @@
+#include "terrane/base/machine.h"
+
+#include <fmt/format.h>
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace terrane::base {
+namespace {
+
+// What stands behind `key` in a file of lines "key: value" or "key=value"; empty where there is none.
+std::string lineOf(const char* path, const std::string& key) {
+    std::ifstream file(path);
+    std::string line;
+    while (std::getline(file, line)) {
+        if (!line.starts_with(key)) continue;
+        const std::size_t start = line.find_first_not_of(" \t:=\"", key.size());
+        const std::size_t end = line.find_last_not_of(" \t\"");
+        if (start != std::string::npos) return line.substr(start, end - start + 1);
+    }
+    return {};
+}
+
+std::string systemName() {
+    utsname names{};
+    ::uname(&names);
+    return fmt::format("{}, {} {}", lineOf("/etc/os-release", "PRETTY_NAME"), names.sysname, names.release);
+}
+
+double memoryBytes() {
+    return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+Machine describeMachine() {
+    return {.processor = lineOf("/proc/cpuinfo", "model name"),
+            .system = systemName(),
+#ifdef __clang__
+            .compiler = fmt::format("clang {}", __clang_version__),
+#else
+            .compiler = fmt::format("g++ {}", __VERSION__),
+#endif
+            .processors = std::thread::hardware_concurrency(),
+            .memoryBytes = memoryBytes(),
+#ifdef NDEBUG
+            .hasAssertions = false};
+#else
+            .hasAssertions = true};
+#endif
+}
+
+double loadAverage() {
+    double load = 0;
+    return ::getloadavg(&load, 1) == 1 ? load : 0;
+}
+
+double memoryCopySpeed() {
+    using Clock = std::chrono::steady_clock;
+    constexpr std::size_t kBytes = std::size_t{128} << 20;
+    constexpr int kTimes = 8;
+    std::vector<char> from(kBytes, 1), to(kBytes, 2);
+    double best = 0;
+    for (int k = 0; k < kTimes; ++k) {
+        from[static_cast<std::size_t>(k)] = static_cast<char>(k);
+        const auto start = Clock::now();
+        std::memcpy(to.data(), from.data(), kBytes);
+        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        // What was copied is looked at, so that it is.
+        if (to[static_cast<std::size_t>(k)] == static_cast<char>(k))
+            best = std::max(best, static_cast<double>(kBytes) / seconds);
+    }
+    return best;
+}
+
+}  // namespace terrane::base

@@ -1,0 +1,18 @@
+// The middle of some numbers.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <vector>
+
+namespace terrane::base {
+
+// Of at least one; of an even number the mean of the middle two.
+inline double medianOf(std::vector<double> values) {
+    assert(!values.empty() && "nothing has no median");
+    std::ranges::sort(values);
+    const std::size_t middle = values.size() / 2;
+    return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+}  // namespace terrane::base

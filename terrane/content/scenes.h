@@ -1,0 +1,21 @@
+// The reference scenes: fixed places in the world of seed 1 with the character that measurements and images
+// need.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "terrane/world/pose.h"
+
+namespace terrane::content {
+
+struct Scene {
+    std::string_view name;
+    world::Pose pose;
+    float timeDay;
+};
+
+std::span<const Scene> scenes();
+const Scene* findScene(std::string_view name);  // null where there is none
+
+}  // namespace terrane::content

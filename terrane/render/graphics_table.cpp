@@ -1,0 +1,132 @@
+#include "terrane/render/graphics_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace terrane::render {
+namespace {
+
+constexpr std::array kSamples = {1, 2, 4, 8};
+constexpr std::array kShadowSizes = {0, 1024, 2048, 4096};
+
+template <std::size_t kCount>
+int indexOf(const std::array<int, kCount>& values, int value) {
+    return static_cast<int>(std::ranges::find(values, value) - values.begin());
+}
+
+GraphicsRow switchRow(std::string_view name, std::string_view description, int (*get)(const RenderOptions&),
+                      void (*set)(RenderOptions&, int)) {
+    return {name, description, {"off", "on"}, get, set};
+}
+
+// A row for a member that a value's index can be cast to.
+template <auto kMember>
+int getMember(const RenderOptions& o) {
+    return static_cast<int>(o.*kMember);
+}
+template <auto kMember>
+void setMember(RenderOptions& o, int value) {
+    using Value = std::remove_reference_t<decltype(o.*kMember)>;
+    o.*kMember = static_cast<Value>(value);
+}
+template <auto kMember>
+GraphicsRow switchOf(std::string_view name, std::string_view description) {
+    return switchRow(name, description, getMember<kMember>, setMember<kMember>);
+}
+
+std::vector<GraphicsRow> makeTable() {
+    return {
+        {"samples",
+         "Anti-aliasing: MSAA samples a pixel",
+         {"1", "2", "4", "8"},
+         [](const RenderOptions& o) { return indexOf(kSamples, o.msaaSamples); },
+         [](RenderOptions& o, int value) { o.msaaSamples = kSamples[static_cast<std::size_t>(value)]; }},
+        {"shading",
+         "Shading, of each MSAA sample or once a pixel",
+         {"off", "sample", "pixel"},
+         getMember<&RenderOptions::shading>,
+         setMember<&RenderOptions::shading>},
+        {"light",
+         "Light between blocks: as it is stored, or with soft corners and round edges",
+         {"classic", "smooth"},
+         getMember<&RenderOptions::light>,
+         setMember<&RenderOptions::light>},
+        {"shadows",
+         "Shadows of the sun and moon: texels along a side of the shadow map",
+         {"off", "1024", "2048", "4096"},
+         [](const RenderOptions& o) { return indexOf(kShadowSizes, o.shadowSize); },
+         [](RenderOptions& o, int value) { o.shadowSize = kShadowSizes[static_cast<std::size_t>(value)]; }},
+        {"ssao",
+         "Ambient occlusion in screen space",
+         {"off", "on", "raw"},
+         getMember<&RenderOptions::occlusion>,
+         setMember<&RenderOptions::occlusion>},
+        switchOf<&RenderOptions::depthOfField>("depth-of-field", "Depth of field: blurs what is far away"),
+        switchOf<&RenderOptions::distanceFog>("distance-fog", "Distance fog: far terrain fades into the sky"),
+        switchOf<&RenderOptions::godRays>("god-rays", "Rays of the sun between what stands before it"),
+        switchOf<&RenderOptions::clouds>("clouds", "Clouds"),
+        switchOf<&RenderOptions::animation>("animation", "Plants, leaves and water move"),
+        switchOf<&RenderOptions::sharpFiltering>("sharp-filtering",
+                                                 "Sharp texels with smooth edges in near textures"),
+        switchOf<&RenderOptions::msaaAlphaTest>("msaa-alpha-test",
+                                                "Anti-aliasing of holes in leaves and plants"),
+        {"layers",
+         "Transparency layers (depth peeling) of water and glass",
+         {"0", "1", "2", "3"},
+         getMember<&RenderOptions::transparencyLayers>,
+         setMember<&RenderOptions::transparencyLayers>},
+        {"single-layer",
+         "Show one transparency layer alone",
+         {"all", "1", "2", "3"},
+         getMember<&RenderOptions::singleTransparencyLayer>,
+         setMember<&RenderOptions::singleTransparencyLayer>},
+        {"t-junctions",
+         "Cracks where rectangles of different sizes meet",
+         {"open", "filled", "covered"},
+         getMember<&RenderOptions::tJunctions>,
+         setMember<&RenderOptions::tJunctions>},
+        switchOf<&RenderOptions::occlusionCulling>("occlusion-culling",
+                                                   "Leaves out what lies behind other terrain"),
+    };
+}
+
+}  // namespace
+
+std::span<const GraphicsRow> graphicsTable() {
+    static const std::vector<GraphicsRow> table = makeTable();
+    return table;
+}
+
+std::string valueNamesOf(const GraphicsRow& row) {
+    return fmt::format("{}", fmt::join(row.valueNames, ", "));
+}
+
+std::optional<int> choiceOf(const GraphicsRow& row, std::string_view name) {
+    const auto found = std::ranges::find(row.valueNames, name);
+    if (found == row.valueNames.end()) return std::nullopt;
+    return static_cast<int>(found - row.valueNames.begin());
+}
+
+std::string presetNames() {
+    std::string names = "auto";
+    for (const Preset& preset : presets()) names += ", " + std::string(preset.name);
+    return names;
+}
+
+std::string isPresetName(const std::string& preset) {
+    if (findPreset(preset, false)) return {};
+    return fmt::format("expected one of {}, got \"{}\"", presetNames(), preset);
+}
+
+RenderOptions renderOptions(const GraphicsChoices& choices, bool isSoftwareRenderer) {
+    const auto preset = findPreset(choices.preset, isSoftwareRenderer);
+    assert(preset && "the command line has checked the name");
+    RenderOptions options = *preset;
+    for (const auto& [row, value] : choices.changed) graphicsTable()[row].set(options, value);
+    return options;
+}
+
+}  // namespace terrane::render

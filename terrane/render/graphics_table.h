@@ -1,0 +1,38 @@
+// Every graphics option as one row of a table: its name, its values, where it is kept. The command line,
+// settings and menus are made from it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "terrane/render/render_options.h"
+
+namespace terrane::render {
+
+struct GraphicsRow {
+    std::string_view name;  // of the flag, without dashes, and of the setting
+    std::string_view description;
+    std::vector<std::string_view> valueNames;  // of its values, in order
+    int (*get)(const RenderOptions&);          // the value's index
+    void (*set)(RenderOptions&, int value);
+};
+
+std::span<const GraphicsRow> graphicsTable();
+std::string valueNamesOf(const GraphicsRow& row);  // "off, on"
+std::optional<int> choiceOf(const GraphicsRow& row, std::string_view name);
+
+// What a user asked for: a preset, then single rows.
+struct GraphicsChoices {
+    std::string preset;
+    std::vector<std::pair<std::size_t, int>> changed;  // row, value
+};
+
+std::string presetNames();                            // "auto, low, …"
+std::string isPresetName(const std::string& preset);  // empty, or what is wrong with it
+RenderOptions renderOptions(const GraphicsChoices& choices, bool isSoftwareRenderer);
+
+}  // namespace terrane::render

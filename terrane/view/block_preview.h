@@ -1,0 +1,39 @@
+// Lit images of single blocks, for the corner that shows what is in the hand and for slots of chests. Each
+// is drawn once and kept: 83 KB a kind of block. Used on the thread of the OpenGL context.
+#pragma once
+
+#include <map>
+
+#include "terrane/gpu/texture.h"
+#include "terrane/render/renderer.h"
+#include "terrane/world/block_registry.h"
+
+namespace terrane::view {
+
+class BlockPreview {
+  public:
+    static constexpr int kSize = 144;  // pixels
+    static render::RenderOptions options();
+
+    // `shaders` and `blocks` outlive this.
+    static base::Result<BlockPreview> create(const gpu::ShaderLoader& shaders,
+                                             const world::BlockRegistry& blocks,
+                                             const render::TextureSource& textures,
+                                             const gpu::DeviceInfo& device);
+    base::Result<void> setTextures(const render::TextureSource& textures);
+    base::Result<void> reloadShaders();  // of images as they are asked for from then on
+
+    // The OpenGL texture with the block's image. Its rows run from below.
+    unsigned image(world::BlockId block);
+
+  private:
+    BlockPreview(const world::BlockRegistry& blocks, render::Renderer renderer)
+        : blocks_(&blocks), renderer_(std::move(renderer)) {}
+    gpu::Texture2D draw(world::BlockId block);
+
+    const world::BlockRegistry* blocks_;
+    render::Renderer renderer_;
+    std::map<world::BlockId, gpu::Texture2D> images_;
+};
+
+}  // namespace terrane::view

@@ -1,0 +1,49 @@
+// Where a camera is, and when in the day, between the keys of a shot. Any thread.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "terrane/render/camera.h"
+#include "terrane/view/monotone_curve.h"
+
+namespace terrane::view {
+
+struct CameraKey {
+    double time = 0;  // seconds from the start of the shot
+    glm::dvec3 position{0.0};
+    double yaw = 0, pitch = 0;         // degrees
+    std::optional<glm::dvec3> lookAt;  // a point, in place of yaw and pitch
+    double timeDay = 0.5;              // only its fraction counts: 0.4 to 1.4 is a whole day
+    double fieldOfView = 70;           // degrees
+};
+
+struct PathPoint {
+    render::Camera camera;
+    float timeDay = 0.5f;  // 0…1
+};
+
+// Each number runs along a MonotoneCurve. Yaw turns the shorter way from key to key. Where the keys have
+// points to look at, the point moves.
+class CameraPath {
+  public:
+    // At least one key, times ascend strictly; all look at points or none does.
+    explicit CameraPath(std::vector<CameraKey> keys);
+
+    PathPoint at(double seconds) const;
+
+  private:
+    bool looksAtPoints_;
+    MonotoneCurve x_, y_, z_;
+    MonotoneCurve aimX_, aimY_, aimZ_;  // yaw and pitch, or the point
+    MonotoneCurve timeDay_, fieldOfView_;
+};
+
+// Degrees of a look from one point to another.
+struct Look {
+    double yaw = 0, pitch = 0;
+};
+Look lookFrom(glm::dvec3 eye, glm::dvec3 point);
+
+}  // namespace terrane::view

@@ -1,0 +1,146 @@
+#include "terrane/view/flight.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "terrane/base/median.h"
+#include "terrane/game/player.h"
+#include "terrane/view/camera_pose.h"
+
+namespace terrane::view {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double cpuMilliseconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) / 1e6;
+}
+
+// Draws frames and logs them.
+class Pilot {
+  public:
+    Pilot(game::Session& session, WorldView& view, render::Renderer& renderer, const Flight& flight)
+        : session_(session),
+          view_(view),
+          renderer_(renderer),
+          flight_(flight),
+          player_(poseOf(flight.start), game::Movement::Fast) {}
+
+    FlightLog run() {
+        log_.secondsToLoad = standUntilLoaded();
+        const auto takeOff = Clock::now();
+        log_.takeOff = log_.frames.size();
+        lastFrame_ = takeOff;
+        do {
+            frame({.forward = true});
+            log_.secondsOfFlight = secondsSince(takeOff);
+        } while (log_.secondsOfFlight < flight_.seconds);
+        log_.landing = log_.frames.size();
+        const FlightFrame& last = log_.frames.back();
+        log_.missing = std::min(last.wanted, last.wanted - last.visible + view_.waiting());
+        log_.secondsToLoadAgain = standUntilLoaded();
+        log_.camera = camera();
+        for (FlightFrame& frame : log_.frames)
+            frame.seconds -= std::chrono::duration<double>(takeOff - start_).count();
+        return std::move(log_);
+    }
+
+  private:
+    // Seconds that it took.
+    double standUntilLoaded() {
+        const auto start = Clock::now();
+        do frame({});
+        while (!isAllThere());
+        return secondsSince(start);
+    }
+
+    // Also what the GPU is to mesh.
+    bool isAllThere() const {
+        const stream::ChunkPipeline& pipeline = session_.pipeline();
+        return pipeline.progress().complete() && pipeline.waitingChanges() == 0 && view_.waiting() == 0;
+    }
+
+    void frame(const game::MoveKeys& keys) {
+        const auto start = Clock::now();
+        const double seconds = std::chrono::duration<double>(start - lastFrame_).count();
+        lastFrame_ = start;
+        FlightFrame frame;
+        frame.seconds = secondsSince(start_);
+        const double cpuStart = cpuMilliseconds();
+        player_.move(session_.world(), session_.blocks(), keys, seconds);
+        view_.follow(camera(), flight_.viewDistance);
+        frame.follow = 1000 * secondsSince(start);
+        frame.followCpu = cpuMilliseconds() - cpuStart;
+
+        const auto uploadStart = Clock::now();
+        frame.uploads = view_.upload(uploadBudget(seconds, view_.missing()));
+        glFinish();
+        frame.upload = 1000 * secondsSince(uploadStart);
+        frame.uploadCpu = cpuMilliseconds() - cpuStart - frame.followCpu;
+
+        const auto drawStart = Clock::now();
+        draw(static_cast<float>(frame.seconds));
+        frame.draw = 1000 * secondsSince(drawStart);
+        frame.all = 1000 * secondsSince(start);
+        const stream::ChunkPipeline& pipeline = session_.pipeline();
+        const stream::Progress progress = pipeline.progress();
+        frame.visible = progress.visible;
+        frame.wanted = progress.wanted;
+        frame.active = session_.world().chunkCount();
+        frame.queued = pipeline.queuedCount() + view_.waiting();
+        log_.frames.push_back(frame);
+    }
+
+    render::Camera camera() const { return cameraOf(player_.pose(), flight_.start.fieldOfView); }
+
+    void draw(float seconds) {
+        const render::Camera from = camera();
+        renderer_.draw({from, world::environmentAt(flight_.timeDay), fogDistance(flight_.viewDistance),
+                        seconds, render::View::Color, game::isUnderWater(session_, from.position)});
+        glFinish();
+    }
+
+    game::Session& session_;
+    WorldView& view_;
+    render::Renderer& renderer_;
+    const Flight& flight_;
+    game::Player player_;
+    FlightLog log_;
+    Clock::time_point start_ = Clock::now(), lastFrame_ = start_;
+};
+
+}  // namespace
+
+FlightLog fly(game::Session& session, WorldView& view, render::Renderer& renderer, const Flight& flight) {
+    return Pilot(session, view, renderer, flight).run();
+}
+
+std::span<const FlightFrame> framesInFlight(const FlightLog& log) {
+    return std::span(log.frames).subspan(log.takeOff, log.landing - log.takeOff);
+}
+
+FlightStatistics statisticsOf(const FlightLog& log) {
+    const std::span<const FlightFrame> frames = framesInFlight(log);
+    std::vector<double> all;
+    for (const FlightFrame& frame : frames) all.push_back(frame.all);
+    FlightStatistics statistics{.median = base::medianOf(all), .longest = *std::ranges::max_element(all)};
+    for (const FlightFrame& frame : frames) {
+        statistics.maxLoading = std::max(statistics.maxLoading, frame.loadingCpu());
+        if (frame.all <= 2 * statistics.median) continue;
+        ++statistics.slow;
+        if (frame.all - frame.follow - frame.upload <= 2 * statistics.median) ++statistics.slowByLoadingTime;
+        if (frame.all - frame.loadingCpu() <= 2 * statistics.median) ++statistics.slowByLoadingCpu;
+    }
+    return statistics;
+}
+
+}  // namespace terrane::view

@@ -1,0 +1,55 @@
+// A flight straight ahead at full speed, as the window would show it: in real time, with frames drawn while
+// chunks load. What each frame took is kept.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "terrane/view/world_view.h"
+
+namespace terrane::view {
+
+struct Flight {
+    render::Camera start;
+    double seconds = 20;  // of flying
+    int viewDistance = 16;
+    float timeDay = 0.4f;
+};
+
+struct FlightFrame {
+    double seconds = 0;  // of its beginning, since take-off
+    // Milliseconds, and what they were spent on; each with what the GPU does for it.
+    double all = 0, follow = 0, upload = 0, draw = 0;
+    // Of these the CPU time of this thread: where other programs use the machine as well, any part of a
+    // frame may have to wait for them.
+    double followCpu = 0, uploadCpu = 0;
+    std::size_t uploads = 0, visible = 0, wanted = 0, active = 0, queued = 0;  // chunks
+
+    double loadingCpu() const { return followCpu + uploadCpu; }
+};
+
+// The camera stands until all in view is there, flies, and stands again until all is there.
+struct FlightLog {
+    std::vector<FlightFrame> frames;
+    std::size_t takeOff = 0, landing = 0;  // frames: the flight's first, the first after it
+    double secondsToLoad = 0, secondsOfFlight = 0, secondsToLoadAgain = 0;
+    render::Camera camera;    // at the end
+    std::size_t missing = 0;  // chunks in view that were not there on landing
+};
+
+// Draws into the renderer's own image. On the thread of the session and of the OpenGL context.
+FlightLog fly(game::Session& session, WorldView& view, render::Renderer& renderer, const Flight& flight);
+
+// There is at least one.
+std::span<const FlightFrame> framesInFlight(const FlightLog& log);
+
+// Of the frames in flight; milliseconds.
+struct FlightStatistics {
+    double median = 0, longest = 0, maxLoading = 0;  // the last of CPU time
+    // Frames over twice the median, and those of them that would not be without the time that loading took by
+    // the clock, or without its CPU time.
+    std::size_t slow = 0, slowByLoadingTime = 0, slowByLoadingCpu = 0;
+};
+FlightStatistics statisticsOf(const FlightLog& log);
+
+}  // namespace terrane::view

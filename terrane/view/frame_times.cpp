@@ -1,0 +1,34 @@
+#include "terrane/view/frame_times.h"
+
+#include <chrono>
+
+#include "terrane/base/median.h"
+#include "terrane/base/process_statistics.h"
+
+namespace terrane::view {
+
+FrameTimes measureFrames(render::Renderer& renderer, const render::FrameInput& input, int count) {
+    using Clock = std::chrono::steady_clock;
+    FrameTimes times;
+    const double cpuBefore = base::cpuSeconds();
+    for (int k = 0; k < count; ++k) {
+        const auto start = Clock::now();
+        renderer.draw(input);
+        glFinish();
+        times.milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+        // They are of the frame before, which the GPU has finished: at first of one that is not counted.
+        if (k == 0 && count > 1) continue;
+        for (const gpu::GpuTiming& pass : renderer.passTimes())
+            times.passes[pass.name].push_back(pass.milliseconds);
+    }
+    if (count > 0) times.cpuMilliseconds = 1000 * (base::cpuSeconds() - cpuBefore) / count;
+    return times;
+}
+
+std::map<std::string, double> passMedians(const FrameTimes& times) {
+    std::map<std::string, double> medians;
+    for (const auto& [name, milliseconds] : times.passes) medians[name] = base::medianOf(milliseconds);
+    return medians;
+}
+
+}  // namespace terrane::view

@@ -1,0 +1,21 @@
+// A smooth curve through values at given times. Between two of them it stays between these two: it never
+// swings beyond what was asked for. Any thread.
+#pragma once
+
+#include <vector>
+
+namespace terrane::view {
+
+class MonotoneCurve {
+  public:
+    // As many times as values, at least one; times ascend strictly.
+    MonotoneCurve(std::vector<double> times, std::vector<double> values);
+
+    // The first value before the first time, the last one after the last.
+    double at(double time) const;
+
+  private:
+    std::vector<double> times_, values_, slopes_;
+};
+
+}  // namespace terrane::view

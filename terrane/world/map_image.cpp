@@ -1,0 +1,136 @@
+#include "terrane/world/map_image.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include "terrane/world/coords.h"
+
+namespace terrane::world {
+namespace {
+
+constexpr float kReliefPerBlock = 0.07f;  // brightness a block of difference to the column in the north-west
+constexpr float kWaterFade = 14.0f;       // blocks of water after which the ground is hardly seen
+
+// Of a row, about 10 KB each in memory.
+constexpr std::size_t kChunksAtOnce = 512;
+
+using Palette = std::vector<glm::vec3>;  // by block id: mean color of the top face, 0…255
+
+// What a map shows of a column.
+struct Column {
+    BlockId ground = kAir;
+    std::uint8_t height = 0;      // of the ground
+    std::uint8_t waterDepth = 0;  // blocks of liquid above it
+    BlockId liquid = kAir;
+};
+
+glm::vec3 meanColor(const base::Image& image) {
+    glm::vec3 sum(0.0f);
+    float weight = 0.0f;
+    for (std::size_t k = 0; k + 3 < image.rgba.size(); k += 4) {
+        if (image.rgba[k + 3] == 0) continue;
+        sum += glm::vec3(image.rgba[k], image.rgba[k + 1], image.rgba[k + 2]);
+        weight += 1.0f;
+    }
+    return weight > 0.0f ? sum / weight : sum;
+}
+
+// Glow maps use alpha for light: there a hole in the coverage is none.
+base::Result<Palette> makePalette(const BlockRegistry& blocks, const TextureSource& textures) {
+    Palette palette;
+    for (const BlockType& type : blocks.types()) {
+        if (type.shape == Shape::None) {
+            palette.emplace_back(0.0f);
+            continue;
+        }
+        const Material& material = blocks.materials()[type.material[kFacePosZ]];
+        auto image = textures(blocks.textures()[material.texture]);
+        if (!image) return tl::unexpected(image.error());
+        if (material.alpha == AlphaMode::Glow) {
+            for (std::size_t k = 3; k < image->rgba.size(); k += 4) image->rgba[k] = 255;
+        }
+        palette.push_back(meanColor(*image));
+    }
+    return palette;
+}
+
+// Plants are too small for a map: the ground under them is shown.
+Column lookDown(const Chunk& chunk, const BlockRegistry& blocks, int x, int y) {
+    Column column;
+    for (int z = kChunkHeight; z-- > 0;) {
+        const BlockId id = chunk.block(blockIndex(x, y, z));
+        const Shape shape = blocks.type(id).shape;
+        if (shape == Shape::None || shape == Shape::Cross || shape == Shape::Hash) continue;
+        if (shape == Shape::Liquid) {
+            column.liquid = id;
+            ++column.waterDepth;
+            continue;
+        }
+        column.ground = id;
+        column.height = static_cast<std::uint8_t>(z);
+        break;
+    }
+    return column;
+}
+
+glm::vec3 shade(const Column& column, const Column& northWest, const Palette& palette) {
+    const float rise = static_cast<float>(column.height) - static_cast<float>(northWest.height);
+    const float light = std::clamp(0.95f - std::clamp(-rise, -3.0f, 3.0f) * kReliefPerBlock, 0.6f, 1.25f);
+    const glm::vec3 ground = palette[column.ground] * light;
+    if (column.waterDepth == 0) return ground;
+    const float depth = static_cast<float>(column.waterDepth);
+    const glm::vec3 water = palette[column.liquid] * (0.6f + 0.4f * std::exp(-depth / kWaterFade));
+    return glm::mix(water, ground, 0.5f * std::exp(-depth / (0.4f * kWaterFade)));
+}
+
+}  // namespace
+
+base::Result<base::Image> drawMap(const MapSource& source, const BlockRegistry& blocks,
+                                  const TextureSource& textures, base::JobSystem& jobs,
+                                  const std::function<void(std::size_t)>& onRow) {
+    const ChunkArea& area = source.area;
+    auto palette = makePalette(blocks, textures);
+    if (!palette) return tl::unexpected(palette.error());
+    const auto chunksX = static_cast<std::size_t>(area.x1 - area.x0);
+    const auto chunksY = static_cast<std::size_t>(area.y1 - area.y0);
+    const std::size_t width = chunksX * kChunkSize, height = chunksY * kChunkSize;
+    std::vector<Column> columns(width * height);
+    for (std::size_t cy = 0; cy < chunksY; ++cy) {
+        for (std::size_t first = 0; first < chunksX; first += kChunksAtOnce) {
+            std::vector<ChunkPos> positions;
+            for (std::size_t cx = first; cx < std::min(first + kChunksAtOnce, chunksX); ++cx)
+                positions.push_back(
+                    {area.x0 + static_cast<std::int32_t>(cx), area.y0 + static_cast<std::int32_t>(cy)});
+            const auto chunks = source.chunks(positions);
+            if (!chunks) return tl::unexpected(chunks.error());
+            auto done = base::parallelFor(jobs, chunks->size(), [&](std::size_t n) {
+                for (int k = 0; k < kChunkSize * kChunkSize; ++k) {
+                    const std::size_t x = (first + n) * kChunkSize + static_cast<std::size_t>(k & 15);
+                    const std::size_t y = cy * kChunkSize + static_cast<std::size_t>(k >> 4);
+                    columns[y * width + x] = lookDown((*chunks)[n], blocks, k & 15, k >> 4);
+                }
+            });
+            if (!done) return tl::unexpected(done.error());
+        }
+        onRow(cy + 1);
+    }
+    base::Image image{static_cast<int>(width), static_cast<int>(height), {}};
+    image.rgba.reserve(columns.size() * 4);
+    for (std::size_t row = 0; row < height; ++row) {
+        const std::size_t y = height - 1 - row;
+        for (std::size_t x = 0; x < width; ++x) {
+            const Column& northWest = columns[std::min(y + 1, height - 1) * width + (x > 0 ? x - 1 : 0)];
+            const glm::vec3 color = shade(columns[y * width + x], northWest, *palette);
+            for (int c = 0; c < 3; ++c) {
+                image.rgba.push_back(static_cast<std::uint8_t>(std::clamp(color[c], 0.0f, 255.0f)));
+            }
+            image.rgba.push_back(255);
+        }
+    }
+    return image;
+}
+
+}  // namespace terrane::world
