@@ -17,7 +17,7 @@ float axis(bool positive, bool negative) {
     return static_cast<float>(positive) - static_cast<float>(negative);
 }
 
-glm::vec2 wanted(const MoveKeys& keys) {
+glm::vec2 directionOf(const MoveKeys& keys) {
     return {axis(keys.right, keys.left) + keys.stick.x, axis(keys.forward, keys.back) + keys.stick.y};
 }
 
@@ -56,7 +56,7 @@ void Player::move(const world::World& world, const world::BlockRegistry& blocks,
 }
 
 void Player::fly(const MoveKeys& keys, double seconds, float speed) {
-    const glm::vec2 along = wanted(keys);
+    const glm::vec2 along = directionOf(keys);
     const glm::vec3 motion = world::lookDirection(pose_.yaw, pose_.pitch) * along.y +
                              world::rightDirection(pose_.yaw) * along.x +
                              glm::vec3(0, 0, axis(keys.up || keys.jump, keys.down));
@@ -72,7 +72,7 @@ void Player::walk(const world::World& world, const world::BlockRegistry& blocks,
                   double seconds) {
     const double yaw = glm::radians(double{pose_.yaw});
     const glm::dvec2 ahead(std::cos(yaw), std::sin(yaw)), right(ahead.y, -ahead.x);
-    const glm::vec2 along = wanted(keys);
+    const glm::vec2 along = directionOf(keys);
     glm::dvec2 direction = ahead * double{along.y} + right * double{along.x};
     direction /= std::max(glm::length(direction), 1.0);
     const world::CharacterInput input{.direction = direction,

@@ -78,24 +78,23 @@ std::size_t mergeNothing(const PlaneRows& plane, const QuadPattern& pattern, Qua
 }
 
 // The methods of the thesis start from one rectangle a bit and merge neighbors, pass by pass.
-enum Axis : std::uint8_t { kAlongRow, kAcrossRows };
 
-// Sizes of the rectangles by the cell of their lowest corner, bit + 16 row; 0 where none begins.
-using Sizes = std::array<std::array<std::uint8_t, 256>, 2>;
+// Sizes of the rectangles along one axis by the cell of their lowest corner, bit + 16 row; 0 where none
+// begins.
+using Sizes = std::array<std::uint8_t, 256>;
 
-void join(Sizes& sizes, uint pass) {
-    const auto axis = static_cast<Axis>(pass % 2);
+// kStride: between cells that are neighbors along the axis of the pass. Known to the compiler it costs no
+// divisions.
+template <unsigned kStride>
+void join(Sizes& along, Sizes& across, uint pass) {
     const uint lines = shared::mergeLines(pass), length = shared::mergeLength(pass);
-    auto& along = sizes[axis];
-    auto& across = sizes[1 - axis];
-    const unsigned stride = axis == kAlongRow ? 1 : 16;
     for (unsigned cell = 0; cell < 256; ++cell) {
         if (along[cell] == 0) continue;
-        const unsigned first = cell / stride % 16;
+        const unsigned first = cell / kStride % 16;
         for (;;) {
-            const unsigned end = first + along[cell], next = cell + along[cell] * stride;
+            const unsigned end = first + along[cell], next = cell + along[cell] * kStride;
             if (end == 16 || (lines >> end & 1) == 0 || across[next] != across[cell]) break;
-            if (length != 0 && (along[cell] != length || along[next] != length)) break;
+            if (length != 0 && along[cell] != length) break;
             along[cell] = static_cast<std::uint8_t>(along[cell] + along[next]);
             along[next] = across[next] = 0;
         }
@@ -104,20 +103,21 @@ void join(Sizes& sizes, uint pass) {
 
 template <MergeMethod kMethod>
 std::size_t mergeInPasses(const PlaneRows& plane, const QuadPattern& pattern, Quad* out) {
-    Sizes sizes{};
+    Sizes bits{}, rows{};
     for (unsigned cell = 0; cell < 256; ++cell) {
         if ((plane.used >> cell / 16 & 1) == 0) continue;
-        sizes[kAlongRow][cell] = sizes[kAcrossRows][cell] =
+        bits[cell] = rows[cell] =
             static_cast<std::uint8_t>(plane.rows[cell / 16 * plane.step] >> cell % 16 & 1);
     }
     constexpr auto kNumber = static_cast<uint>(kMethod);
-    for (uint pass = shared::firstMergePass(kNumber); pass < shared::endOfMergePasses(kNumber); ++pass) {
-        join(sizes, pass);
+    constexpr uint kFirst = shared::firstMergePass(kNumber), kEnd = shared::endOfMergePasses(kNumber);
+    for (uint pass = kFirst; pass < kEnd; pass += 2) {
+        join<1>(bits, rows, pass);
+        join<16>(rows, bits, pass + 1);
     }
     const Quad* begin = out;
     for (unsigned cell = 0; cell < 256; ++cell) {
-        const uint bits = sizes[kAlongRow][cell];
-        if (bits != 0) *out++ = quadAt(pattern, cell % 16, cell / 16, bits, sizes[kAcrossRows][cell]);
+        if (bits[cell] != 0) *out++ = quadAt(pattern, cell % 16, cell / 16, bits[cell], rows[cell]);
     }
     return static_cast<std::size_t>(out - begin);
 }

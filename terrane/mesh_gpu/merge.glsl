@@ -77,9 +77,9 @@ uint rowsOf(uint at, uint bit) {
     return rows;
 }
 
-bool mayMerge(uint pass, uint end, uint length, uint nextLength) {
+bool mayMerge(uint pass, uint end, uint length) {
     bool isAtLine = (mergeLines(pass) >> end & 1u) != 0u;
-    return isAtLine && (mergeLength(pass) == 0u || length == mergeLength(pass) && nextLength == length);
+    return isAtLine && (mergeLength(pass) == 0u || length == mergeLength(pass));
 }
 
 // Rectangles that begin in one row, in the order of their bits: no other invocation touches them.
@@ -88,8 +88,8 @@ void mergeAlongRow(uint pass, uint at) {
         uint bit = uint(findLSB(left)), bits = bitsOf(at, bit), rows = rowsOf(at, bit);
         for (uint end = bit + bits; end < kSectionSize; end = bit + bits) {
             if ((sameKind[at] & lowestFaces(at) & 1u << end) == 0u || rowsOf(at, end) != rows) break;
+            if (!mayMerge(pass, end, bits)) break;
             uint nextBits = bitsOf(at, end);
-            if (!mayMerge(pass, end, bits, nextBits)) break;
             for (uint k = 0u; k < rows; ++k) atomicOr(merged[at + kSectionSize * k], 1u << end);
             left &= ~(1u << end);
             bits += nextBits;
@@ -109,8 +109,8 @@ void mergeAcrossRows(uint pass, uint first, uint bit) {
         while (row + rows < kSectionSize) {
             uint next = at + kSectionSize * rows;
             if ((sameKind[next] >> 16 & lowestFaces(next) & 1u << bit) == 0u || bitsOf(next, bit) != bits) break;
+            if (!mayMerge(pass, row + rows, rows)) break;
             uint nextRows = rowsOf(next, bit);
-            if (!mayMerge(pass, row + rows, rows, nextRows)) break;
             atomicOr(merged[next], ((1u << bits) - 1u) << bit << 16);
             rows += nextRows;
         }

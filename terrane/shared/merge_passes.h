@@ -33,7 +33,8 @@ SHARED_FN uint mergeLines(uint pass) {
     if (pass < 4u) return 0x4444u;
     return pass < kSquarePasses ? 0x1010u : 0xFEFEu;
 }
-// How long both rectangles are along the axis; 0: any length.
+// How long the first rectangle is along the axis, as the thesis has it: the second is at most as long. 0: any
+// length.
 SHARED_FN uint mergeLength(uint pass) {
     return pass < kSquarePasses ? 1u << (pass >> 1) : 0u;
 }

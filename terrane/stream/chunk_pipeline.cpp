@@ -127,7 +127,7 @@ void ChunkPipeline::onLit(ChunkPos pos, light::ChunkLightPtr light, MeshPtr mesh
     dropLocalLightAround(pos);
 }
 
-// A chunk's own light is needed until it and its neighbors are lit.
+// A chunk's local light is needed until it and its neighbors are lit.
 void ChunkPipeline::dropLocalLightAround(ChunkPos pos) {
     const auto isLit = [&](ChunkPos at) {
         return isAt(table_, at, ChunkStage::Visible) || !world::isInWorld(at);

@@ -10,7 +10,7 @@ using world::ChunkPos;
 
 namespace {
 
-constexpr std::array kTaskNames = {"load or generate", "own light", "light", "mesh"};
+constexpr std::array kTaskNames = {"load or generate", "local light", "light", "mesh"};
 static_assert(kTaskNames.size() == kTaskCount);
 
 // Jobs in flight a worker: enough that none waits for the next update, few enough that the queue follows the

@@ -46,7 +46,7 @@ class Pilot {
         } while (log_.secondsOfFlight < flight_.seconds);
         log_.landing = log_.frames.size();
         const FlightFrame& last = log_.frames.back();
-        log_.missing = std::min(last.wanted, last.wanted - last.visible + view_.waiting());
+        log_.missing = std::min(last.inView, last.inView - last.visible + view_.waiting());
         log_.secondsToLoadAgain = standUntilLoaded();
         log_.camera = camera();
         for (FlightFrame& frame : log_.frames)
@@ -94,7 +94,7 @@ class Pilot {
         const stream::ChunkPipeline& pipeline = session_.pipeline();
         const stream::Progress progress = pipeline.progress();
         frame.visible = progress.visible;
-        frame.wanted = progress.wanted;
+        frame.inView = progress.inView;
         frame.active = session_.world().chunkCount();
         frame.queued = pipeline.queuedCount() + view_.waiting();
         log_.frames.push_back(frame);

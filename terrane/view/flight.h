@@ -23,7 +23,7 @@ struct FlightFrame {
     // Of these the CPU time of this thread: where other programs use the machine as well, any part of a
     // frame may have to wait for them.
     double followCpu = 0, uploadCpu = 0;
-    std::size_t uploads = 0, visible = 0, wanted = 0, active = 0, queued = 0;  // chunks
+    std::size_t uploads = 0, visible = 0, inView = 0, active = 0, queued = 0;  // chunks
 
     double loadingCpu() const { return followCpu + uploadCpu; }
 };

@@ -22,8 +22,8 @@ inline double uploadBudget(double frameSeconds, double missing) {
 // The share of a view that is not on screen as it is, 0 to 1: chunks that are not visible yet, and changes
 // that wait for the renderer.
 inline double missingShare(const stream::Progress& progress, std::size_t waitingChanges) {
-    const auto wanted = static_cast<double>(std::max<std::size_t>(progress.wanted, 1));
-    const auto missing = static_cast<double>(progress.wanted - progress.visible + waitingChanges);
+    const auto wanted = static_cast<double>(std::max<std::size_t>(progress.inView, 1));
+    const auto missing = static_cast<double>(progress.inView - progress.visible + waitingChanges);
     return std::min(1.0, missing / wanted);
 }
 

@@ -131,7 +131,7 @@ class Render(ProgramTest):
             self.assertGreater(result["milliseconds"][key], 0, key)
         for key in ("blocks", "light", "light_gpu", "quads_gpu", "generator_cache", "process_peak"):
             self.assertGreater(result["bytes"][key], 0, key)
-        for task in ("load or generate", "own light", "light", "mesh"):
+        for task in ("load or generate", "local light", "light", "mesh"):
             self.assertGreater(result["tasks"][task]["count"], 0, task)
             self.assertGreater(result["tasks"][task]["milliseconds"], 0, task)
         self.assertEqual(result["chunks_in_view"], 25)

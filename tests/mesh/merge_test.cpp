@@ -179,24 +179,42 @@ TEST(Merge, GreedyCrossesTheCells) {
               (Rectangles{{4, 0, 4, 2}, {8, 0, 4, 2}}));
 }
 
-// Halves of a cell only where both are full.
+// Halves of a cell where the first is full.
 TEST(Merge, SquaresGrowOnTheGrid) {
     EXPECT_EQ(merged(MergeMethod::Squares, sliceOf({0b1111, 0b1111})), (Rectangles{{0, 0, 4, 2}}));
     EXPECT_EQ(merged(MergeMethod::Squares, sliceOf({0b1110, 0b1110})),
               (Rectangles{{1, 0, 1, 2}, {2, 0, 2, 2}}));
     EXPECT_EQ(merged(MergeMethod::SquaresExt, sliceOf({0b1110, 0b1110})), (Rectangles{{1, 0, 3, 2}}));
+    EXPECT_EQ(merged(MergeMethod::Squares, sliceOf({0b0111})), (Rectangles{{0, 0, 3, 1}}));
     EXPECT_EQ(merged(MergeMethod::Squares, sliceOf({0, 0b11, 0b11})),
               (Rectangles{{0, 1, 2, 1}, {0, 2, 2, 1}}));
 }
 
-TEST(Merge, SquaresAreAlignedPowersOfTwo) {
-    forManySlices([](const BitSlice& rows) {
-        for (const Rectangle& r : merged(MergeMethod::Squares, rows)) {
-            EXPECT_EQ(r.bits & (r.bits - 1), 0u);
-            EXPECT_EQ(r.rows & (r.rows - 1), 0u);
-            EXPECT_EQ(r.bit % r.bits, 0u);
-            EXPECT_EQ(r.row % r.rows, 0u);
+// Squares as the thesis says it: in a grid of cells of 2, 4 and 8 the rectangle that is the whole lower half
+// of a cell takes the one behind it that is as wide, first along the rows, then across them.
+void joinHalves(Rectangles& all, unsigned half, unsigned Rectangle::*at, unsigned Rectangle::*length,
+                unsigned Rectangle::*beside, unsigned Rectangle::*width) {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        if (all[k].*at % (2 * half) != 0 || all[k].*length != half) continue;
+        for (std::size_t n = 0; n < all.size(); ++n) {
+            const Rectangle &a = all[k], b = all[n];
+            if (b.*at != a.*at + half || b.*beside != a.*beside || b.*width != a.*width) continue;
+            all[k].*length += b.*length;
+            all.erase(all.begin() + static_cast<std::ptrdiff_t>(n));
+            k -= n < k;
+            break;
         }
+    }
+}
+
+TEST(Merge, SquaresAreThoseOfASlowReference) {
+    forManySlices([](const BitSlice& rows) {
+        Rectangles all = merged(MergeMethod::None, rows);
+        for (const unsigned half : {1u, 2u, 4u}) {
+            joinHalves(all, half, &Rectangle::bit, &Rectangle::bits, &Rectangle::row, &Rectangle::rows);
+            joinHalves(all, half, &Rectangle::row, &Rectangle::rows, &Rectangle::bit, &Rectangle::bits);
+        }
+        EXPECT_EQ(merged(MergeMethod::Squares, rows), all);
     });
 }
 

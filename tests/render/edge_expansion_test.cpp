@@ -5,10 +5,8 @@
 #include <map>
 
 #include "terrane/mesh/chunk_mesher.h"
-#include "terrane/render/renderer.h"
 #include "terrane/shared/hash.h"
-#include "tests/gpu/gl_fixture.h"
-#include "tests/render/content.h"
+#include "tests/render/renderer_fixture.h"
 
 namespace terrane::render {
 namespace {
@@ -63,19 +61,11 @@ world::Chunk makeChunk(int chunkX, int chunkY) {
     return chunk;
 }
 
-class EdgeExpansion : public gpu::GlTest {
+class EdgeExpansion : public RendererTest {
   protected:
     void SetUp() override {
-        GlTest::SetUp();
-        if (IsSkipped()) return;
-        auto made = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice());
-        ASSERT_TRUE(made) << made.error().message;
-        renderer_ = std::move(*made);
-        loadHollow();
-    }
-    void TearDown() override {
-        renderer_.reset();
-        GlTest::TearDown();
+        RendererTest::SetUp();
+        if (renderer_) loadHollow();
     }
 
     void loadHollow() {
@@ -130,8 +120,6 @@ class EdgeExpansion : public gpu::GlTest {
         return std::ranges::any_of(renderer_->passTimes(),
                                    [&](const gpu::GpuTiming& time) { return time.name == pass; });
     }
-
-    std::optional<Renderer> renderer_;
 };
 
 TEST_F(EdgeExpansion, NoViewShowsTheBackground) {

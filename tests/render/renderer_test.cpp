@@ -8,56 +8,10 @@
 
 #include "terrane/mesh/remesh.h"
 #include "terrane/shared/hash.h"
-#include "tests/gpu/gl_fixture.h"
-#include "tests/render/content.h"
+#include "tests/render/renderer_fixture.h"
 
 namespace terrane::render {
 namespace {
-
-constexpr glm::ivec2 kSize{96, 64};
-
-class RendererTest : public gpu::GlTest {
-  protected:
-    void SetUp() override {
-        GlTest::SetUp();
-        if (IsSkipped()) return;
-        auto made = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice());
-        ASSERT_TRUE(made) << made.error().message;
-        renderer_ = std::move(*made);
-        resize(kSize, 1);
-    }
-    void TearDown() override {
-        renderer_.reset();
-        GlTest::TearDown();
-    }
-
-    void resize(glm::ivec2 size, int samples) {
-        const auto resized = renderer_->configure(size, plainOptions(samples));
-        ASSERT_TRUE(resized) << resized.error().message;
-        EXPECT_EQ(renderer_->size(), size);
-    }
-
-    base::Image draw(const FrameInput& input) {
-        renderer_->draw(input);
-        base::Image image = renderer_->readImage();
-        EXPECT_EQ(glm::ivec2(image.width, image.height), renderer_->size());
-        EXPECT_EQ(image.rgba.size(), static_cast<std::size_t>(4 * image.width * image.height));
-        return image;
-    }
-
-    static FrameInput noon(const Camera& camera, View view = View::Color) {
-        return {camera, world::environmentAt(0.5f), 256, 0, view};
-    }
-
-    std::optional<Renderer> renderer_;
-};
-
-using Color = std::array<int, 3>;
-
-Color pixel(const base::Image& image, int x, int y) {
-    const std::size_t at = 4 * static_cast<std::size_t>(x + y * image.width);
-    return {image.rgba[at], image.rgba[at + 1], image.rgba[at + 2]};
-}
 
 // One block, alone in the world's chunk 0, 0.
 mesh::ChunkMesh blockMesh(std::string_view name, int x, int y, int z) {
@@ -74,94 +28,16 @@ mesh::ChunkMesh blockMesh(std::string_view name, int x, int y, int z) {
 
 const Camera kLevel{.position = {-4, 8, 100}, .yaw = 0};
 
-// Steps, a tower and a pit, in columns of a chunk.
-int heightOf(int x, int y) {
-    if (x == 11 && y == 4) return 40;
-    return x > 6 && y > 8 ? 8 : 16 + (x + y) / 3;
-}
-
-// Part cx, cy of a landscape in which each column of heightOf is `width` blocks wide. Around it is air, but
-// where the landscape goes on.
-mesh::ChunkMesh expandedMesh(int cx, int cy, int width) {
-    const auto chunkAt = [&](int chunkX, int chunkY) {
-        auto chunk = std::make_shared<world::Chunk>();
-        if (std::min(chunkX, chunkY) < 0 || std::max(chunkX, chunkY) >= width) return chunk;
-        for (int k = 0; k < world::kChunkSize * world::kChunkSize; ++k) {
-            const int x = k % world::kChunkSize, y = k / world::kChunkSize;
-            const int height =
-                heightOf((world::kChunkSize * chunkX + x) / width, (world::kChunkSize * chunkY + y) / width);
-            for (int z = 0; z < height; ++z) {
-                chunk->setBlock(world::blockIndex(x, y, z), contentBlock(z % 5 == 0 ? "stone" : "dirt"));
-            }
-        }
-        return chunk;
-    };
-    const mesh::MeshBlocks blocks{chunkAt(cx, cy), chunkAt(cx - 1, cy), chunkAt(cx + 1, cy),
-                                  chunkAt(cx, cy - 1), chunkAt(cx, cy + 1)};
-    mesh::MeshScratch scratch;
-    return mesh::meshChunk(mesh::meshInput(blocks, contentBlocks(), {}), scratch);
-}
-
-// The share of pixels of which a component differs by more than that.
-double shareThatDiffers(const base::Image& a, const base::Image& b, int limit) {
-    int count = 0;
-    for (int y = 0; y < a.height; ++y) {
-        for (int x = 0; x < a.width; ++x) {
-            const Color p = pixel(a, x, y), q = pixel(b, x, y);
-            bool differs = false;
-            for (std::size_t c = 0; c < 3; ++c) differs = differs || std::abs(p[c] - q[c]) > limit;
-            count += differs;
-        }
-    }
-    return static_cast<double>(count) / (a.width * a.height);
-}
-
-// One chunk of level 2 covers what 4 × 4 chunks of level 0 do that have each of its columns 4 × 4 times.
-TEST_F(RendererTest, AChunkOfLevelTwoCoversFourTimesAsMuch) {
-    constexpr int kWidth = 4;
-    const glm::dvec3 corner(-64, 64, 0);  // of chunk -1, 1 of level 2
-    const Camera cameras[] = {{corner + glm::dvec3(-30, -20, 60), 45, -25},
-                              {corner + glm::dvec3(32, 32, 90), 0, -89},
-                              {corner + glm::dvec3(50, 50, 20), 220, 10},
-                              {corner + glm::dvec3(100, 30, 30), 175, -10}};
-    resize({192, 128}, 1);
-    const auto drawAll = [&](View view) {
-        std::vector<base::Image> images;
-        for (const Camera& camera : cameras) images.push_back(draw(noon(camera, view)));
-        return images;
-    };
-    constexpr View kViews[] = {View::Depth, View::Normal, View::Color};
-    std::vector<std::vector<base::Image>> fine;
-    for (int k = 0; k < kWidth * kWidth; ++k) {
-        const int cx = k % kWidth, cy = k / kWidth;
-        ASSERT_TRUE(renderer_->setChunk({-kWidth + cx, kWidth + cy}, expandedMesh(cx, cy, kWidth)));
-    }
-    for (const View view : kViews) fine.push_back(drawAll(view));
-    for (int k = 0; k < kWidth * kWidth; ++k)
-        renderer_->removeChunk({-kWidth + k % kWidth, kWidth + k / kWidth});
-    EXPECT_EQ(renderer_->quadBytes(), 0u);
-    ASSERT_TRUE(renderer_->setChunk({-1, 1, 2}, expandedMesh(0, 0, 1)));
-    for (std::size_t v = 0; v < std::size(kViews); ++v) {
-        const std::vector<base::Image> coarse = drawAll(kViews[v]);
-        for (std::size_t k = 0; k < coarse.size(); ++k) {
-            EXPECT_LT(shareThatDiffers(fine[v][k], coarse[k], 8), 0.004) << "view " << v << ", camera " << k;
-        }
-    }
-    renderer_->removeChunk({-1, 1, 2});
-    const base::Image sky = draw(noon(cameras[0], View::Depth));
-    EXPECT_GT(shareThatDiffers(fine[0][0], sky, 8), 0.1) << "it covers much of the image";
-}
-
 TEST_F(RendererTest, AnEmptyWorldIsSky) {
     const base::Image image = draw(noon(kLevel));
     EXPECT_EQ(renderer_->statistics().quads, 0u);
     EXPECT_EQ(renderer_->quadBytes(), 0u);
-    for (int x = 0; x < kSize.x; ++x) {
-        const Color top = pixel(image, x, 0), horizon = pixel(image, x, kSize.y / 2 - 1);
+    for (int x = 0; x < kImageSize.x; ++x) {
+        const Color top = pixel(image, x, 0), horizon = pixel(image, x, kImageSize.y / 2 - 1);
         EXPECT_GT(top[2], top[0] + 40) << "the zenith is blue";
         EXPECT_GT(horizon[0], top[0] + 20) << "the horizon is paler";
     }
-    for (int y = 1; y < kSize.y; ++y) {
+    for (int y = 1; y < kImageSize.y; ++y) {
         const int step = std::abs(pixel(image, 5, y)[0] - pixel(image, 5, y - 1)[0]);
         EXPECT_LE(step, 8) << "row " << y << " has an edge";
     }
@@ -173,7 +49,7 @@ TEST_F(RendererTest, TheSunStandsWhereItShould) {
     const float pitch = std::asin(e.lightDirection.z) * 57.29578f;
     const Camera atSun{.position = {8, 8, 100}, .yaw = yaw, .pitch = pitch, .fieldOfView = 40};
     const base::Image image = draw({atSun, e, 256, 0, View::Color});
-    const Color sun = pixel(image, kSize.x / 2, kSize.y / 2), sky = pixel(image, 2, 2);
+    const Color sun = pixel(image, kImageSize.x / 2, kImageSize.y / 2), sky = pixel(image, 2, 2);
     EXPECT_GT(sun[0], 245);
     EXPECT_LT(sky[0], 180);
 }
@@ -181,7 +57,7 @@ TEST_F(RendererTest, TheSunStandsWhereItShould) {
 TEST_F(RendererTest, DebugViewsOfTheSkyAreBlack) {
     for (const View view : {View::Normal, View::Depth}) {
         const base::Image image = draw(noon(kLevel, view));
-        for (int x = 0; x < kSize.x; ++x) EXPECT_EQ(pixel(image, x, 30), (Color{0, 0, 0}));
+        for (int x = 0; x < kImageSize.x; ++x) EXPECT_EQ(pixel(image, x, 30), (Color{0, 0, 0}));
     }
 }
 
@@ -197,7 +73,7 @@ TEST_F(RendererTest, ABlockIsSeenFromTheSideItTurnsToTheCamera) {
         {{{0.5, 8.5, 98}, 0, 90}, {128, 128, 0}},  {{{0.5, 8.5, 103}, 0, -90}, {128, 128, 255}},
     };
     for (const Case& c : cases) {
-        const Color normal = pixel(draw(noon(c.camera, View::Normal)), kSize.x / 2, kSize.y / 2);
+        const Color normal = pixel(draw(noon(c.camera, View::Normal)), kImageSize.x / 2, kImageSize.y / 2);
         for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(normal[k], c.normal[k], 1);
     }
     EXPECT_EQ(pixel(draw(noon({{-2, 8.5, 100.5}, 180, 0}, View::Normal)), 48, 32), (Color{0, 0, 0}))
@@ -287,7 +163,7 @@ TEST_F(RendererTest, ResizingChangesTheSizeOnly) {
         resize(size, 1);
         draw(noon(kLevel));
     }
-    resize(kSize, 1);
+    resize(kImageSize, 1);
     EXPECT_EQ(draw(noon(kLevel)).rgba, before.rgba);
 }
 
@@ -306,18 +182,18 @@ TEST_F(RendererTest, SamplesSmoothEdges) {
     EXPECT_LE(plain, 4u) << "the sky and at most three sides";
     const int most = std::min(8, gpu::queryDevice().maxSamples);
     for (int samples = 2; samples <= most; samples *= 2) {
-        resize(kSize, samples);
+        resize(kImageSize, samples);
         EXPECT_GT(shades(draw(input)), plain) << samples << " samples";
     }
 }
 
 TEST_F(RendererTest, MoreSamplesThanTheDriverHasAreAnError) {
     const int tooMany = 2 * gpu::queryDevice().maxSamples;
-    const auto resized = renderer_->configure(kSize, plainOptions(tooMany));
+    const auto resized = renderer_->configure(kImageSize, plainOptions(tooMany));
     ASSERT_FALSE(resized);
     EXPECT_NE(resized.error().message.find(std::to_string(tooMany)), std::string::npos)
         << resized.error().message;
-    EXPECT_EQ(renderer_->size(), kSize) << "the old targets stay";
+    EXPECT_EQ(renderer_->size(), kImageSize) << "the old targets stay";
     draw(noon(kLevel));
 }
 
@@ -360,7 +236,7 @@ TEST_F(RendererTest, EditsOfMeshSectionsLookAsIfAllWasMeshedAgain) {
     input.options.meshSectionHeight = kLowMeshSection;
     mesh::MeshScratch scratch;
     auto other = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice());
-    ASSERT_TRUE(other && other->configure(kSize, plainOptions(1)));
+    ASSERT_TRUE(other && other->configure(kImageSize, plainOptions(1)));
     const FrameInput frame = noon({.position = {-12, 8, 110}, .yaw = 0, .pitch = -15});
     for (unsigned step = 0; step < 60; ++step) {
         const auto random = [&](unsigned k, unsigned count) {

@@ -32,7 +32,7 @@ TEST_F(ChunkPipelineTest, EveryChunkInViewEndsVisible) {
 TEST_F(ChunkPipelineTest, NothingIsWantedWithoutAView) {
     update();
     jobs_.waitIdle();
-    EXPECT_EQ(pipeline_->progress().wanted, 0u);
+    EXPECT_EQ(pipeline_->progress().inView, 0u);
     EXPECT_EQ(world_.chunkCount(), 0u);
     EXPECT_EQ(take(kAll), 0u);
 }
@@ -130,7 +130,7 @@ TEST_F(ChunkPipelineTest, ViewsAtTheCornersOfTheWorldComplete) {
         setView(corner, 2);
         settle();
         expectShowsTheView();
-        EXPECT_EQ(pipeline_->progress().wanted, 9u);
+        EXPECT_EQ(pipeline_->progress().inView, 9u);
     }
     // The last block of the world: its neighbors are outside.
     placeBlock({std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max(), 60},
@@ -143,7 +143,7 @@ TEST_F(ChunkPipelineTest, ViewsNextToTheEdgeComplete) {
     setView({world::kMaxChunk - 1, 0}, 2);
     settle();
     expectShowsTheView();
-    EXPECT_EQ(pipeline_->progress().wanted, 4u * 5u);
+    EXPECT_EQ(pipeline_->progress().inView, 4u * 5u);
 }
 
 // Everything is shown as before until the new meshes are there.

@@ -137,7 +137,7 @@ class PipelineTest : public testing::Test {
             }
         }
         for (const auto& [pos, shown] : shown_) EXPECT_TRUE(isWithin(pos, center_, distance_ + 1));
-        EXPECT_EQ(pipeline_->progress().wanted, wanted);
+        EXPECT_EQ(pipeline_->progress().inView, wanted);
         EXPECT_EQ(pipeline_->progress().visible, wanted);
     }
 

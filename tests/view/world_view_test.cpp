@@ -31,12 +31,12 @@ TEST(UploadBudget, FramesOfNoTimeLoadToo) {
 }
 
 TEST(MissingShare, CountsWhatIsNotVisibleAndWhatWaits) {
-    EXPECT_EQ(missingShare({.wanted = 0, .visible = 0}, 0), 0);
-    EXPECT_EQ(missingShare({.wanted = 100, .visible = 0}, 0), 1);
-    EXPECT_EQ(missingShare({.wanted = 100, .visible = 90}, 0), 0.1);
-    EXPECT_EQ(missingShare({.wanted = 100, .visible = 90}, 15), 0.25);
-    EXPECT_EQ(missingShare({.wanted = 100, .visible = 100}, 300), 1);
-    EXPECT_EQ(missingShare({.wanted = 0, .visible = 0}, 3), 1);
+    EXPECT_EQ(missingShare({.inView = 0, .visible = 0}, 0), 0);
+    EXPECT_EQ(missingShare({.inView = 100, .visible = 0}, 0), 1);
+    EXPECT_EQ(missingShare({.inView = 100, .visible = 90}, 0), 0.1);
+    EXPECT_EQ(missingShare({.inView = 100, .visible = 90}, 15), 0.25);
+    EXPECT_EQ(missingShare({.inView = 100, .visible = 100}, 300), 1);
+    EXPECT_EQ(missingShare({.inView = 0, .visible = 0}, 3), 1);
 }
 
 }  // namespace

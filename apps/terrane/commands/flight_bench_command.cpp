@@ -43,10 +43,10 @@ base::Result<view::Flight> flightOf(const FlightBenchOptions& options) {
 base::Result<void> writeFrames(const std::string& file, std::span<const view::FlightFrame> frames) {
     std::ofstream out(file);
     out << "time_s,frame_ms,follow_ms,upload_ms,draw_ms,follow_processor_ms,upload_processor_ms,uploads,"
-           "visible_chunks,wanted_chunks,queued_chunks\n";
+           "visible_chunks,chunks_in_view,queued_chunks\n";
     for (const view::FlightFrame& f : frames) {
         fmt::print(out, "{:.4f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{}\n", f.seconds, f.all,
-                   f.follow, f.upload, f.draw, f.followCpu, f.uploadCpu, f.uploads, f.visible, f.wanted,
+                   f.follow, f.upload, f.draw, f.followCpu, f.uploadCpu, f.uploads, f.visible, f.inView,
                    f.queued);
     }
     out.close();

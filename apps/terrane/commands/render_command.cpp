@@ -116,7 +116,7 @@ nlohmann::json imageJson(const RenderCommandOptions& options, const RenderTiming
                                {"all", timings.all}}},
                              {"tasks", tasksJson(session)},
                              {"chunks", session.world().chunkCount()},
-                             {"chunks_in_view", session.pipeline().progress().wanted},
+                             {"chunks_in_view", session.pipeline().progress().inView},
                              {"quads", statistics.quads},
                              {"regions", statistics.meshSections},
                              {"draw_commands", statistics.drawCommands},

@@ -150,7 +150,7 @@ void drawStatistics(const Statistics& f) {
     ImGui::Text("x %.1f  y %.1f  z %.1f  yaw %.0f  pitch %.0f  time %.3f", p.x, p.y, p.z,
                 double{f.camera.yaw}, double{f.camera.pitch}, f.timeDay);
     ImGui::Text("chunks: %zu active, %zu of %zu visible, %zu queued", f.activeChunks, f.progress.visible,
-                f.progress.wanted, f.queuedChunks);
+                f.progress.inView, f.queuedChunks);
     ImGui::Text("triangles: %zu opaque, %zu transparent", f.frame.opaqueTriangles,
                 f.frame.transparentTriangles);
     ImGui::Text("MB: blocks %.1f, light %.1f; on the GPU quads %.1f, light %.1f",
@@ -168,7 +168,7 @@ void drawStatistics(const Statistics& f) {
 
 void drawProgress(const Screen& screen, const stream::Progress& progress) {
     const float share =
-        static_cast<float>(progress.visible) / static_cast<float>(std::max<std::size_t>(progress.wanted, 1));
+        static_cast<float>(progress.visible) / static_cast<float>(std::max<std::size_t>(progress.inView, 1));
     centered("progress", screen, screen.height - 40 * uiScale());
     ImGui::Text("the world comes into view");
     ImGui::ProgressBar(share, {240 * uiScale(), 8 * uiScale()}, "");
