@@ -30,7 +30,7 @@ draw desert --at 530,340,110 --look -50,-12 --time 0.5
 save desert
 draw river --at -180,60,120 --look 152,-28 --time 0.42
 save river
-draw cave --scene cave
+draw cave --at -120,206,108 --look 88,-8 --time 0.5
 save cave
 draw ocean --scene ocean --time 0.79
 save ocean
@@ -42,8 +42,8 @@ save times
 draw rays --at 975,1104,87.5 --look 176,4 --time 0.235
 save rays
 
-draw open --scene cave --ssao off
-draw occluded --scene cave --ssao on
+draw open --at -120,206,108 --look 88,-8 --time 0.5 --ssao off
+draw occluded --at -120,206,108 --look 88,-8 --time 0.5 --ssao on
 beside ssao open occluded
 draw sharp --at -1125,35,168 --look 60,-8 --time 0.4 --depth-of-field off
 draw blurred --at -1125,35,168 --look 60,-8 --time 0.4 --depth-of-field on

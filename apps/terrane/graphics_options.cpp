@@ -57,13 +57,12 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string
             "Image size in pixels")
         ->type_name("WxH")
         ->default_str("1280x720");
-    command.add_option("--view-distance", options.viewDistance, "How far one sees, in chunks")
+    command.add_option("--view-distance", options.choices.viewDistance, "How far one sees, in chunks")
         ->check(numberFrom(1, 64))
-        ->capture_default_str();
+        ->default_str("16, thesis 32");
     addGraphicsChoices(command, options.choices, std::move(preset));
     addChoice<render::View>(command, "--view", options.view, {viewNames().begin(), viewNames().end()},
                             "What to show");
-    addMeshOptions(command, options.mesh);
     addResourcePackOption(command, options.resourcePack);
     command
         .add_option("--shader-root", options.shaderRoot, "Source tree to read shaders from, for development")

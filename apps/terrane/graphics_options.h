@@ -12,10 +12,8 @@ namespace terrane::app {
 
 struct GraphicsOptions {
     glm::ivec2 size{1280, 720};  // pixels
-    int viewDistance = 16;       // chunks
     render::GraphicsChoices choices;
     render::View view = render::View::Color;
-    mesh::MeshOptions mesh;
     std::string resourcePack;  // folder; empty: none
     std::string shaderRoot;
     bool debugGl = false;

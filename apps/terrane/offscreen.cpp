@@ -16,20 +16,26 @@ base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const OffscreenOption
     auto context = gpu::HeadlessContext::create({.debug = graphics.debugGl});
     if (!context) return tl::unexpected(context.error());
 
-    std::unique_ptr<Offscreen> made(new Offscreen{
-        std::move(*context), gpu::builtInShaders(graphics.shaderRoot), gpu::queryDevice(), {}, {}, {}, {}});
+    std::unique_ptr<Offscreen> made(new Offscreen{std::move(*context),
+                                                  gpu::builtInShaders(graphics.shaderRoot),
+                                                  gpu::queryDevice(),
+                                                  {},
+                                                  {},
+                                                  {},
+                                                  {},
+                                                  {}});
     auto backEnds = chooseBackEnds(*parts, world, options.backend);
     if (!backEnds) return tl::unexpected(backEnds.error());
     made->backEnds = std::move(*backEnds);
     auto renderer = render::Renderer::create(made->shaders, *parts->blocks, *textures, made->device);
     if (!renderer) return tl::unexpected(renderer.error());
     made->renderer = std::move(*renderer);
-    const auto quality = render::renderOptions(graphics.choices, made->device.software);
-    if (auto done = made->renderer.configure(graphics.size, quality); !done)
+    made->graphics = render::settingsOf(graphics.choices, made->device.software);
+    if (auto done = made->renderer.configure(graphics.size, made->graphics.render); !done)
         return tl::unexpected(done.error());
-    made->renderer.setViewDistance(graphics.viewDistance);
+    made->renderer.setViewDistance(made->graphics.viewDistance);
     made->session = std::make_unique<game::Session>(std::move(*parts));
-    made->session->pipeline().setMeshOptions(graphics.mesh);
+    made->session->pipeline().setMeshOptions(made->graphics.mesh);
     made->view.emplace(*made->session, made->renderer);
     if (made->backEnds) {
         auto meshes = made->view->meshOnGpu(gpu::builtInShaders(""), options.meshMilliseconds);

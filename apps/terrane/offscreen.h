@@ -37,6 +37,7 @@ struct Offscreen {
     gpu::HeadlessContext context;
     gpu::ShaderLoader shaders;
     gpu::DeviceInfo device;
+    render::GraphicsSettings graphics;            // at first
     std::unique_ptr<view::GpuBackEnds> backEnds;  // null: workers do all
     std::unique_ptr<game::Session> session;
     render::Renderer renderer;

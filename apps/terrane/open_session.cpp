@@ -15,7 +15,10 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
                                                           store::WorldAccess access,
                                                           const world::BlockRegistry& blocks) {
     if (save.world.empty()) {
-        if (save.recreate) return base::fail(base::ErrorCode::BadInput, "--recreate requires --world");
+        if (save.regenerate != store::Regenerate::None)
+            return base::fail(base::ErrorCode::BadInput, "--recreate and --regenerate require --world");
+        if (save.storeGenerated)
+            return base::fail(base::ErrorCode::BadInput, "--store-generated requires --world");
         return nullptr;
     }
     // Before a save is made: a generator that does not exist has none.
@@ -24,7 +27,7 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
     store::WorldRequest request;
     request.access = access;
     if (access != store::WorldAccess::ReadOnly) request.create = identityOf(options);
-    request.wanted = {options.seed, options.generator, save.recreate};
+    request.wanted = {options.seed, options.generator, save.regenerate};
     request.versionOf = gen::generatorVersion;
     auto opened = store::openWorld(store::worldLocation(save.world), blocks, request);
     if (!opened) return opened;
@@ -39,6 +42,19 @@ base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const wo
     return gen::Generator(std::move(*graph), options.effectiveSeed());
 }
 
+namespace {
+
+constexpr const char* kStoreGeneratedSetting = "store_generated";
+
+// As asked for, else as the world was opened before; kept in the world.
+bool storesGenerated(store::ChunkStore& store, const SaveOptions& save) {
+    if (!save.storeGenerated) return store.metadata(kStoreGeneratedSetting) != "off";
+    store.setMetadata(kStoreGeneratedSetting, *save.storeGenerated ? "on" : "off");
+    return *save.storeGenerated;
+}
+
+}  // namespace
+
 base::Result<game::SessionParts> openSessionParts(WorldOptions& options, const SaveOptions& save,
                                                   store::WorldAccess access) {
     auto loaded = content::loadBlocks();
@@ -49,8 +65,10 @@ base::Result<game::SessionParts> openSessionParts(WorldOptions& options, const S
     auto generator = makeGenerator(options, *blocks);
     if (!generator) return tl::unexpected(generator.error());
     if (!*opened) *opened = std::make_unique<store::MemoryStore>(identityOf(options));
-    return game::SessionParts{std::move(blocks), std::move(*generator), std::move(*opened),
-                              threadCount(options)};
+    game::SessionParts parts{std::move(blocks), std::move(*generator), std::move(*opened),
+                             threadCount(options)};
+    parts.storesGenerated = storesGenerated(*parts.store, save);
+    return parts;
 }
 
 }  // namespace terrane::app

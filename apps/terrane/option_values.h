@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "terrane/base/result.h"
-#include "terrane/mesh/mesh_options.h"
+#include "terrane/store/world_identity.h"
 #include "terrane/world/coords.h"
 
 namespace CLI {
@@ -31,10 +31,12 @@ struct WorldOptions {
     std::string effectiveGenerator() const { return generator.value_or(kDefaultGenerator); }
 };
 
-// --world and --recreate.
+// --world, --recreate, --regenerate, --store-generated.
 struct SaveOptions {
     std::string world;  // a store::WorldLocation; empty: none, edits last until the program ends
-    bool recreate = false;
+    store::Regenerate regenerate = store::Regenerate::None;
+    // Whether generated chunks are stored too. The world keeps it; where nothing is said they are.
+    std::optional<bool> storeGenerated;
 };
 
 unsigned threadCount(const WorldOptions& options);
@@ -42,7 +44,5 @@ unsigned threadCount(const WorldOptions& options);
 // The values of an option by name.
 template <class T>
 using EnumNames = std::span<const std::pair<std::string, T>>;
-
-EnumNames<mesh::MergeMethod> mergeMethodNames();  // --merging
 
 }  // namespace terrane::app

@@ -129,17 +129,6 @@ void addWorldOptions(CLI::App& command, WorldOptions& options) {
         ->check(numberFrom(1, 256));
 }
 
-void addMeshOptions(CLI::App& command, mesh::MeshOptions& options) {
-    addChoice<mesh::MergeMethod>(command, "--merging", options.method,
-                                 {mergeMethodNames().begin(), mergeMethodNames().end()},
-                                 "How equal faces are merged into rectangles");
-    command
-        .add_option("--mesh-section-height", options.meshSectionHeight,
-                    "Height in blocks of the mesh sections that are culled and drawn")
-        ->check(CLI::IsMember({8, 16, 32, 64, 128}))
-        ->capture_default_str();
-}
-
 void addOutputOption(CLI::App& command, std::string& output, const std::string& description) {
     command.add_option("-o,--output", output, description)->check(newFile())->type_name("FILE")->required();
 }
@@ -166,7 +155,22 @@ void addWorldOption(CLI::App& command, SaveOptions& save, const std::string& des
 }
 
 void addRecreateOption(CLI::App& command, SaveOptions& save) {
-    command.add_flag("--recreate", save.recreate, "Copy the world and regenerate it; edits are gone");
+    auto* recreate = command.add_flag_callback(
+        "--recreate", [&save] { save.regenerate = store::Regenerate::All; },
+        "Copy the world and regenerate it; edits are gone");
+    command
+        .add_option_function<std::string>(
+            "--regenerate",
+            [&save](const std::string& text) {
+                if (text != "keep-edits")
+                    throw CLI::ValidationError("--regenerate",
+                                               fmt::format("expected keep-edits, got \"{}\"", text));
+                save.regenerate = store::Regenerate::AllButEdited;
+            },
+            "Copy the world and regenerate its chunks without edits, as after a change of the generator: "
+            "keep-edits")
+        ->type_name("CHOICE")
+        ->excludes(recreate);
 }
 
 void addSaveGameOptions(CLI::App& command, SaveOptions& save) {
@@ -181,6 +185,17 @@ void addSaveGameOptions(CLI::App& command, SaveOptions& save) {
         ->check(CLI::Validator(isALocation, ""))
         ->group("");
     addRecreateOption(command, save);
+    command
+        .add_option_function<std::string>(
+            "--store-generated",
+            [&save](const std::string& text) {
+                if (text != "on" && text != "off")
+                    throw CLI::ValidationError("--store-generated",
+                                               fmt::format("expected one of on, off, got \"{}\"", text));
+                save.storeGenerated = text == "on";
+            },
+            "Store chunks without edits too: loading is faster than generating. The world keeps it: on, off")
+        ->type_name("CHOICE");
 }
 
 void addAreaOption(CLI::App& command, std::optional<world::ChunkArea>& area) {
@@ -192,17 +207,6 @@ void addAreaOption(CLI::App& command, std::optional<world::ChunkArea>& area) {
 
 unsigned threadCount(const WorldOptions& options) {
     return options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
-}
-
-EnumNames<mesh::MergeMethod> mergeMethodNames() {
-    using mesh::MergeMethod;
-    static const std::array<std::pair<std::string, MergeMethod>, 5> valueNames = {
-        {{"none", MergeMethod::None},
-         {"lines", MergeMethod::Lines},
-         {"squares", MergeMethod::Squares},
-         {"squares-ext", MergeMethod::SquaresExt},
-         {"greedy", MergeMethod::Greedy}}};
-    return valueNames;
 }
 
 }  // namespace terrane::app

@@ -14,7 +14,6 @@ namespace terrane::app {
 
 void addWorldOptions(CLI::App& command, WorldOptions& options);
 // --merging and --mesh-section-height.
-void addMeshOptions(CLI::App& command, mesh::MeshOptions& options);
 // "X0,Y0,X1,Y1", the end excluded; not empty and inside the world.
 void addAreaOption(CLI::App& command, std::optional<world::ChunkArea>& area);
 

@@ -7,9 +7,9 @@ namespace {
 
 const std::array kScenes = {
     Scene{"ocean", {{992, 1092, 89}, 163, -3}, 0.36f},
-    Scene{"desert", {{545, 35, 100}, 130, -4}, 0.36f},
+    Scene{"desert", {{1318, -790, 112}, 318, -6}, 0.36f},
     Scene{"landscape", {{-1048, -108, 122}, 136, -6}, 0.62f},
-    Scene{"cave", {{-120, 206, 108}, 88, -8}, 0.50f},
+    Scene{"cave", {{-109, 280, 88}, 90, -58}, 0.50f},
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ Session::Session(SessionParts parts)
                  *blocks_,
                  lights_,
                  world_,
-                 {&generator_, store_.get(), store_->isPersistent()},
+                 {&generator_, store_.get(), parts.storesGenerated && store_->isPersistent()},
                  parts.batchGenerator,
                  parts.batchLighter,
                  parts.meshing}) {}

@@ -26,7 +26,8 @@ struct SessionParts {
     std::unique_ptr<const world::BlockRegistry> blocks;  // stays where it is: others refer to it
     gen::Generator generator;
     std::unique_ptr<store::ChunkStore> store;
-    unsigned threads = 1;  // workers
+    unsigned threads = 1;         // workers
+    bool storesGenerated = true;  // chunks without edits too
     // Null: workers generate and light. They outlive the session.
     gen::BatchGenerator* batchGenerator = nullptr;
     light::BatchLighter* batchLighter = nullptr;

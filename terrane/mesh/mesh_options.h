@@ -1,7 +1,10 @@
 // What a user chooses about meshing. Plain values; the same options give the same mesh.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include "terrane/world/coords.h"
 
@@ -17,6 +20,10 @@ enum class MergeMethod : std::uint8_t {
     Greedy,      // runs of a row, then as many rows as have them all; up to 16×16
     Count,
 };
+
+// As users write them, in the order of the values.
+constexpr std::array<std::string_view, static_cast<std::size_t>(MergeMethod::Count)> kMergeMethodNames = {
+    "none", "lines", "squares", "squares-ext", "greedy"};
 
 // A chunk is culled and drawn in mesh sections: its columns, this many blocks high.
 constexpr int kMinMeshSectionHeight = 8, kMaxMeshSectionHeight = 128;

@@ -30,8 +30,9 @@ base::Result<void> DepthOfField::configure(const FrameTargets& targets, bool isO
     return {};
 }
 
-void DepthOfField::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
-    targets.bindGBuffer();
+void DepthOfField::draw(gpu::Pipeline& pipeline, const FrameTargets& targets,
+                        const MsaaTexture& depth) const {
+    depth.bind(shared::kDepthUnit);
     targets.sceneColor.bind(shared::kSceneUnit);
     between_.framebuffer.bind();
     alongX_.draw(pipeline, {});

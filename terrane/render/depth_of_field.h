@@ -14,8 +14,8 @@ class DepthOfField {
 
     // Makes room for the blurred image at half the size, or none.
     base::Result<void> configure(const FrameTargets& targets, bool isOn);
-    // From the scene and its depth.
-    void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
+    // From the scene. `depth`: of what is nearest, with the samples of the targets.
+    void draw(gpu::Pipeline& pipeline, const FrameTargets& targets, const MsaaTexture& depth) const;
     bool isOn() const { return size_.x > 0; }
     void bindResult() const;
 

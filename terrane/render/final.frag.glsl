@@ -58,7 +58,7 @@ void main() {
     color = mix(color, textureLod(blurred, at, 0.0).rgb, amount);
 #endif
 #if GOD_RAYS == 1
-    color += 0.75 * raysAt(at) * (frame.lightColor.rgb + 0.3 * frame.glowColor.rgb);
+    color += 1.2 * raysAt(at) * (frame.lightColor.rgb + 0.3 * frame.glowColor.rgb);
 #endif
     color = encodeSrgb(clamp(compressHighlights(color * frame.exposure), 0.0, 1.0));
     uint noise = hash2(uint(pixel.x), uint(pixel.y), 0u);

@@ -5,7 +5,7 @@
 namespace terrane::render {
 
 FrameStatistics statisticsOf(const shared::DrawCounts& counts) {
-    FrameStatistics statistics{counts.meshSections, 0, 0, 0, 0};
+    FrameStatistics statistics{.meshSections = counts.meshSections};
     for (shared::uint list = 0; list < shared::kCameraLists; ++list) {
         const bool isBlended = mesh::bucketAlphaClass(static_cast<int>(list)) == mesh::AlphaClass::Blended;
         statistics.quads += counts.quads[list];
@@ -13,6 +13,8 @@ FrameStatistics statisticsOf(const shared::DrawCounts& counts) {
         (isBlended ? statistics.transparentTriangles : statistics.opaqueTriangles) +=
             2 * std::size_t{counts.quads[list]};
     }
+    for (shared::uint list = shared::kCameraLists; list < shared::kDrawLists; ++list)
+        statistics.shadowTriangles += 2 * std::size_t{counts.quads[list]};
     return statistics;
 }
 

@@ -1,15 +1,24 @@
 // What a frame drew, for people to read. A plain value.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <string_view>
 
 #include "terrane/shared/mesh_section.h"
 
 namespace terrane::render {
 
+// The passes whose GPU time is measured, in the order of a frame. Options leave some out.
+constexpr std::array<std::string_view, 15> kPassNames = {
+    "cull",       "shadow map",        "surfaces", "depth pyramid", "cull again", "surfaces again",
+    "fill holes", "ambient occlusion", "sky",      "shade",         "peel",       "shade layers",
+    "god rays",   "depth of field",    "final"};
+
 struct FrameStatistics {
     std::size_t meshSections = 0, quads = 0, drawCommands = 0;
     std::size_t opaqueTriangles = 0, transparentTriangles = 0;  // of these, alpha-tested ones are opaque
+    std::size_t shadowTriangles = 0;                            // of the shadow map, without those above
 };
 
 FrameStatistics statisticsOf(const shared::DrawCounts& counts);

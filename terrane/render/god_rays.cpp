@@ -4,32 +4,40 @@
 
 namespace terrane::render {
 
-GodRays::GodRays(const gpu::ShaderLoader& shaders) : pass_(shaders, "god_rays"), smooth_({}, "smooth") {}
+GodRays::GodRays(const gpu::ShaderLoader& shaders)
+    : sample_(shaders, "god_rays"), smooth_(shaders, "god_rays_smooth"), linear_({}, "smooth") {}
 
 base::Result<void> GodRays::configure(glm::ivec2 size, bool isOn) {
     const glm::ivec2 wanted = isOn ? (size + 1) / 2 : glm::ivec2(0);
     if (wanted == size_) return {};
-    rays_ = {};
+    sampled_ = {};
+    smoothed_ = {};
     size_ = {0, 0};
     if (!isOn) return {};
-    if (auto selected = pass_.select({}); !selected) return selected;
-    auto rays = ColorTarget::create(wanted, GL_R8, "god rays");
-    if (!rays) return tl::unexpected(rays.error());
-    rays_ = std::move(*rays);
+    for (FullscreenPass* pass : {&sample_, &smooth_})
+        if (auto selected = pass->select({}); !selected) return selected;
+    for (ColorTarget* target : {&sampled_, &smoothed_}) {
+        auto made = ColorTarget::create(wanted, GL_R8, "god rays");
+        if (!made) return tl::unexpected(made.error());
+        *target = std::move(*made);
+    }
     size_ = wanted;
     return {};
 }
 
 void GodRays::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
-    rays_.framebuffer.bind();
+    linear_.bind(shared::kSceneUnit);
+    sampled_.framebuffer.bind();
     targets.sceneColor.bind(shared::kSceneUnit);
-    smooth_.bind(shared::kSceneUnit);
-    pass_.draw(pipeline, {});
+    sample_.draw(pipeline, {});
+    smoothed_.framebuffer.bind();
+    sampled_.texture.bind(shared::kSceneUnit);
+    smooth_.draw(pipeline, {});
 }
 
 void GodRays::bindResult() const {
-    rays_.texture.bind(shared::kGodRaysUnit);
-    smooth_.bind(shared::kGodRaysUnit);
+    smoothed_.texture.bind(shared::kGodRaysUnit);
+    linear_.bind(shared::kGodRaysUnit);
 }
 
 }  // namespace terrane::render

@@ -1,5 +1,6 @@
-// Rays of the sun or moon on the screen, at half its size: how much of the sky around the light is open on the way from a
-// pixel to the light (K. Mitchell, Volumetric Light Scattering as a Post-Process, 2007).
+// Rays of the sun or moon on the screen, at half its size: how much of its disc is open on the way from a pixel to it (K.
+// Mitchell, Volumetric Light Scattering as a Post-Process, 2007). Only the disc and the glow around it shine, so that what
+// stands before them cuts the light into shafts.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/shared/hash.h"
 
@@ -8,21 +9,37 @@ layout(binding = kSceneUnit) uniform sampler2D scene;
 layout(location = 0) in vec2 inScreen;
 layout(location = 0) out vec4 outRays;
 
-const int kSteps = 16;
+const int kSamples = 24;
+const float kReach = 5.0;    // radii of the disc within which the sky shines
+const float kSource = 0.25;  // radii of the part of the disc that light comes from: the smaller, the sharper the shafts
+
+// How bright the sky is as a source of rays; 0 behind what stands there and outside the image.
+float emission(vec2 at, vec2 aspect, float disc) {
+    vec2 inside = step(abs(at), vec2(1.0));
+    float glow = exp(-0.5 * max(length((at - frame.lightOnScreen) * aspect) / disc - 1.0, 0.0));
+    return inside.x * inside.y * glow * (1.0 - textureLod(scene, 0.5 + 0.5 * clamp(at, -1.0, 1.0), 0.0).a);
+}
+
+float random(uint number) {
+    return float(hash2(uint(gl_FragCoord.x), uint(gl_FragCoord.y), number) >> 8) / 16777216.0;
+}
 
 void main() {
     vec2 aspect = vec2(frame.viewportSize.x / frame.viewportSize.y, 1.0);
-    vec2 toLight = frame.lightOnScreen - inScreen;
-    // Steps of neighboring pixels lie between each other's; the blur of the larger image joins them.
-    float offset = float(hash2(uint(gl_FragCoord.x) & 3u, uint(gl_FragCoord.y) & 3u, 9u) >> 8) / 16777216.0;
+    float disc = frame.discSine / length(frame.rayUp.xyz);  // its radius; the image is 2 high
+    float away = length((inScreen - frame.lightOnScreen) * aspect);
+    float share = min(kReach * disc / max(away, 1e-4), 1.0);  // of the way on which the sky shines
+    // Neighboring pixels take other samples; smoothing joins them.
+    float turn = 6.2831853 * random(9u), offset = random(10u);
     float sum = 0.0;
-    for (int k = 0; k < kSteps; ++k) {
-        vec2 at = inScreen + toLight * ((float(k) + offset) / float(kSteps));
-        float near = exp(-4.0 * length((frame.lightOnScreen - at) * aspect));
-        vec2 inside = step(abs(at), vec2(1.0));
-        float visibility = 1.0 - textureLod(scene, 0.5 + 0.5 * clamp(at, -1.0, 1.0), 0.0).a;
-        sum += near * visibility * inside.x * inside.y;
+    for (int k = 0; k < kSamples; ++k) {
+        // Over the disc on a spiral, along the way in another order.
+        float angle = 2.3999632 * float(k) + turn, radius = kSource * disc * sqrt((float(k) + 0.5) / float(kSamples));
+        vec2 source = frame.lightOnScreen + radius * vec2(cos(angle), sin(angle)) / aspect;
+        float onWay = share * (float(7 * k % kSamples) + offset) / float(kSamples);
+        sum += emission(mix(source, inScreen, onWay), aspect, disc);
     }
-    float falloff = 1.0 / (1.0 + 1.5 * length(toLight * aspect));
-    outRays = vec4(sum / float(kSteps) * falloff * frame.lightRayShare);
+    // Squared: half-open ways are nearer to shade than to light, so that shafts stand out.
+    float open = sum / float(kSamples);
+    outRays = vec4(open * open * exp(-1.6 * away) * frame.lightRayShare);
 }

@@ -21,9 +21,9 @@ class GodRays {
     void bindResult() const;
 
   private:
-    FullscreenPass pass_;
-    gpu::Sampler smooth_;
-    ColorTarget rays_;
+    FullscreenPass sample_, smooth_;
+    gpu::Sampler linear_;
+    ColorTarget sampled_, smoothed_;
     glm::ivec2 size_{0};
 };
 

@@ -4,33 +4,33 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 
 namespace terrane::render {
 namespace {
 
 constexpr std::array kSamples = {1, 2, 4, 8};
 constexpr std::array kShadowSizes = {0, 1024, 2048, 4096};
+constexpr std::array kMeshSectionHeights = {8, 16, 32, 64, 128};
 
 template <std::size_t kCount>
 int indexOf(const std::array<int, kCount>& values, int value) {
     return static_cast<int>(std::ranges::find(values, value) - values.begin());
 }
 
-GraphicsRow switchRow(std::string_view name, std::string_view description, int (*get)(const RenderOptions&),
-                      void (*set)(RenderOptions&, int)) {
+GraphicsRow switchRow(std::string_view name, std::string_view description,
+                      int (*get)(const GraphicsSettings&), void (*set)(GraphicsSettings&, int)) {
     return {name, description, {"off", "on"}, get, set};
 }
 
 // A row for a member that a value's index can be cast to.
 template <auto kMember>
-int getMember(const RenderOptions& o) {
-    return static_cast<int>(o.*kMember);
+int getMember(const GraphicsSettings& s) {
+    return static_cast<int>(s.render.*kMember);
 }
 template <auto kMember>
-void setMember(RenderOptions& o, int value) {
-    using Value = std::remove_reference_t<decltype(o.*kMember)>;
-    o.*kMember = static_cast<Value>(value);
+void setMember(GraphicsSettings& s, int value) {
+    using Value = std::remove_reference_t<decltype(s.render.*kMember)>;
+    s.render.*kMember = static_cast<Value>(value);
 }
 template <auto kMember>
 GraphicsRow switchOf(std::string_view name, std::string_view description) {
@@ -42,8 +42,10 @@ std::vector<GraphicsRow> makeTable() {
         {"samples",
          "Anti-aliasing: MSAA samples a pixel",
          {"1", "2", "4", "8"},
-         [](const RenderOptions& o) { return indexOf(kSamples, o.msaaSamples); },
-         [](RenderOptions& o, int value) { o.msaaSamples = kSamples[static_cast<std::size_t>(value)]; }},
+         [](const GraphicsSettings& s) { return indexOf(kSamples, s.render.msaaSamples); },
+         [](GraphicsSettings& s, int value) {
+             s.render.msaaSamples = kSamples[static_cast<std::size_t>(value)];
+         }},
         {"shading",
          "Shading, of each MSAA sample or once a pixel",
          {"off", "sample", "pixel"},
@@ -57,8 +59,10 @@ std::vector<GraphicsRow> makeTable() {
         {"shadows",
          "Shadows of the sun and moon: texels along a side of the shadow map",
          {"off", "1024", "2048", "4096"},
-         [](const RenderOptions& o) { return indexOf(kShadowSizes, o.shadowSize); },
-         [](RenderOptions& o, int value) { o.shadowSize = kShadowSizes[static_cast<std::size_t>(value)]; }},
+         [](const GraphicsSettings& s) { return indexOf(kShadowSizes, s.render.shadowSize); },
+         [](GraphicsSettings& s, int value) {
+             s.render.shadowSize = kShadowSizes[static_cast<std::size_t>(value)];
+         }},
         {"ssao",
          "Ambient occlusion in screen space",
          {"off", "on", "raw"},
@@ -90,6 +94,18 @@ std::vector<GraphicsRow> makeTable() {
          setMember<&RenderOptions::tJunctions>},
         switchOf<&RenderOptions::occlusionCulling>("occlusion-culling",
                                                    "Leaves out what lies behind other terrain"),
+        {"merging",
+         "How equal faces are merged into rectangles",
+         {mesh::kMergeMethodNames.begin(), mesh::kMergeMethodNames.end()},
+         [](const GraphicsSettings& s) { return static_cast<int>(s.mesh.method); },
+         [](GraphicsSettings& s, int value) { s.mesh.method = static_cast<mesh::MergeMethod>(value); }},
+        {"mesh-section-height",
+         "Height in blocks of the mesh sections that are culled and drawn",
+         {"8", "16", "32", "64", "128"},
+         [](const GraphicsSettings& s) { return indexOf(kMeshSectionHeights, s.mesh.meshSectionHeight); },
+         [](GraphicsSettings& s, int value) {
+             s.mesh.meshSectionHeight = kMeshSectionHeights[static_cast<std::size_t>(value)];
+         }},
     };
 }
 
@@ -121,12 +137,11 @@ std::string isPresetName(const std::string& preset) {
     return fmt::format("expected one of {}, got \"{}\"", presetNames(), preset);
 }
 
-RenderOptions renderOptions(const GraphicsChoices& choices, bool isSoftwareRenderer) {
-    const auto preset = findPreset(choices.preset, isSoftwareRenderer);
-    assert(preset && "the command line has checked the name");
-    RenderOptions options = *preset;
-    for (const auto& [row, value] : choices.changed) graphicsTable()[row].set(options, value);
-    return options;
+GraphicsSettings settingsOf(const GraphicsChoices& choices, bool isSoftwareRenderer) {
+    GraphicsSettings settings = withPreset({}, choices.preset, isSoftwareRenderer);
+    for (const auto& [row, value] : choices.changed) graphicsTable()[row].set(settings, value);
+    if (choices.viewDistance) settings.viewDistance = *choices.viewDistance;
+    return settings;
 }
 
 }  // namespace terrane::render

@@ -17,8 +17,8 @@ struct GraphicsRow {
     std::string_view name;  // of the flag, without dashes, and of the setting
     std::string_view description;
     std::vector<std::string_view> valueNames;  // of its values, in order
-    int (*get)(const RenderOptions&);          // the value's index
-    void (*set)(RenderOptions&, int value);
+    int (*get)(const GraphicsSettings&);       // the value's index
+    void (*set)(GraphicsSettings&, int value);
 };
 
 std::span<const GraphicsRow> graphicsTable();
@@ -28,11 +28,12 @@ std::optional<int> choiceOf(const GraphicsRow& row, std::string_view name);
 // What a user asked for: a preset, then single rows.
 struct GraphicsChoices {
     std::string preset;
-    std::vector<std::pair<std::size_t, int>> changed;  // row, value
+    std::vector<std::pair<std::size_t, int>> changed = {};  // row, value
+    std::optional<int> viewDistance = {};
 };
 
 std::string presetNames();                            // "auto, low, …"
 std::string isPresetName(const std::string& preset);  // empty, or what is wrong with it
-RenderOptions renderOptions(const GraphicsChoices& choices, bool isSoftwareRenderer);
+GraphicsSettings settingsOf(const GraphicsChoices& choices, bool isSoftwareRenderer);
 
 }  // namespace terrane::render

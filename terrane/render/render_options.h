@@ -7,6 +7,8 @@
 #include <optional>
 #include <string_view>
 
+#include "terrane/mesh/mesh_options.h"
+
 namespace terrane::render {
 
 enum class Shading : std::uint8_t {
@@ -48,14 +50,27 @@ struct RenderOptions {
     bool operator==(const RenderOptions&) const = default;
 };
 
+// All that a user sets about what is on screen: how it is drawn, out of which meshes, and how far.
+struct GraphicsSettings {
+    RenderOptions render;
+    mesh::MeshOptions mesh;
+    int viewDistance = 16;  // chunks
+
+    bool operator==(const GraphicsSettings&) const = default;
+};
+
 struct Preset {
     std::string_view name;
     RenderOptions options;
+    mesh::MeshOptions mesh = {};
+    std::optional<int> viewDistance = {};  // none: as it is
 };
 
 // low, medium, high, thesis.
 const std::array<Preset, 4>& presets();
-// None where there is none of the name. "auto" is high on a graphics card and low without one.
-std::optional<RenderOptions> findPreset(std::string_view name, bool isSoftwareRenderer);
+// Null where there is none of the name. "auto" is high on a graphics card and low without one.
+const Preset* findPreset(std::string_view name, bool isSoftwareRenderer);
+// There is a preset of the name.
+GraphicsSettings withPreset(const GraphicsSettings& before, std::string_view name, bool isSoftwareRenderer);
 
 }  // namespace terrane::render

@@ -203,23 +203,25 @@ void Renderer::shadeSurfaces(float fogDistance) {
     passes_.shading.drawSurfaces(pipeline_, targets_, shadingInputs(), passes_.occlusion);
 }
 
-// Costs nothing where no mesh section in view has blended faces.
-void Renderer::drawTransparency(const FrameInput& input) {
+// Costs nothing where no mesh section in view has blended faces; false then.
+bool Renderer::drawTransparency(const FrameInput& input) {
     const ViewMatrices view = viewMatrices(input.camera, aspectOf(targets_.size));
     const Frustum frustum = frustumOf(view.viewProjection);
     if (options_.transparencyLayers == 0 || !meshSections_.hasBlended(cameraChunk(input.camera), frustum))
-        return;
+        return false;
     {
         const TimerZone zone(timer_, "peel");
         passes_.transparency.peelLayers(pipeline_, targets_, quadDraw());
     }
     const TimerZone zone(timer_, "shade layers");
     passes_.transparency.shade(pipeline_, targets_, quadDraw(), shadingInputs());
+    return true;
 }
 
-void Renderer::drawFinal() {
+// `depth`: of what is nearest.
+void Renderer::drawFinal(const MsaaTexture& depth) {
     const TimerZone zone(timer_, "final");
-    targets_.bindGBuffer();
+    depth.bind(shared::kDepthUnit);
     targets_.sceneColor.bind(shared::kSceneUnit);
     if (passes_.occlusion.isOn()) passes_.occlusion.result().bind(shared::kOcclusionUnit);
     if (passes_.godRays.isOn()) passes_.godRays.bindResult();
@@ -234,16 +236,18 @@ void Renderer::drawImage(const FrameInput& input) {
         passes_.occlusion.draw(pipeline_, targets_);
     }
     shadeSurfaces(input.fogDistance);
-    drawTransparency(input);
+    // Water is as far away as its surface, not as its ground.
+    const bool hasLayers = drawTransparency(input);
+    const MsaaTexture& depth = hasLayers ? passes_.transparency.nearestDepth() : targets_.depth;
     if (passes_.godRays.isOn()) {
         const TimerZone zone(timer_, "god rays");
         passes_.godRays.draw(pipeline_, targets_);
     }
     if (passes_.depthOfField.isOn()) {
         const TimerZone zone(timer_, "depth of field");
-        passes_.depthOfField.draw(pipeline_, targets_);
+        passes_.depthOfField.draw(pipeline_, targets_, depth);
     }
-    drawFinal();
+    drawFinal(depth);
 }
 
 void Renderer::drawDebugView() {

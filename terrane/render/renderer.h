@@ -78,9 +78,9 @@ class Renderer {
     void drawSurfaces();
     void drawLate(const CullInput& cullInput);
     void shadeSurfaces(float fogDistance);
-    void drawTransparency(const FrameInput& input);
+    bool drawTransparency(const FrameInput& input);
     void drawImage(const FrameInput& input);
-    void drawFinal();
+    void drawFinal(const MsaaTexture& depth);
     void drawDebugView();
     QuadDraw quadDraw();
     ShadingInputs shadingInputs() const;

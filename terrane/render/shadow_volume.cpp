@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
@@ -101,6 +102,18 @@ ShadowFit fitShadowMap(const Camera& camera, float aspect, glm::vec3 lightDirect
         for (int row = 0; row < 3; ++row) toMap[column][row] /= size[row];
     }
     return {toMap, texel};
+}
+
+std::array<glm::dvec3, 8> cornersOf(const ShadowFit& fit, const Camera& camera) {
+    const world::ChunkPos chunk = cameraChunk(camera);
+    const glm::dvec3 origin(double{world::kChunkSize} * chunk.x, double{world::kChunkSize} * chunk.y, 0);
+    const glm::mat4 fromMap = glm::inverse(fit.toMap);
+    std::array<glm::dvec3, 8> corners;
+    for (int k = 0; k < 8; ++k) {
+        const glm::vec4 at(k & 1, k >> 1 & 1, k >> 2, 1);
+        corners[static_cast<std::size_t>(k)] = origin + glm::dvec3(fromMap * at);
+    }
+    return corners;
 }
 
 std::size_t countShadowTriangles(const QuadStore& quads, const Camera& camera, const ViewMatrices& view,

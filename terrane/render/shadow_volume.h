@@ -2,6 +2,7 @@
 // Pure functions; any thread.
 #pragma once
 
+#include <array>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -35,6 +36,9 @@ struct ShadowFit {
     float texelBlocks;
 };
 ShadowFit fitShadowMap(const Camera& camera, float aspect, glm::vec3 lightDirection, int texels);
+// What the map covers, in the world. Bits of a corner's number: 1 for the map's x, 2 for y, 4 for toward the
+// light.
+std::array<glm::dvec3, 8> cornersOf(const ShadowFit& fit, const Camera& camera);
 
 // Triangles of a shadow map of these chunks: mesh sections in the volume, without blended quads and without
 // the face directions that look away from the light.

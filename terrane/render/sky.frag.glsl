@@ -8,9 +8,6 @@ layout(location = 0) out vec4 outColor;
 
 // The sun is plain; the moon has plains, brighter and darker.
 vec3 discColor(vec2 at) {
-#if CLOUDS == 0
-    return frame.discColor.rgb;
-#endif
     float isMoon = float(frame.isMoon);
     float pattern = texture(cloudNoise, 0.12 * at + 0.3).r + 0.5 * texture(cloudNoise, 0.3 * at).g;
     float rim = sqrt(max(1.0 - dot(at, at), 0.0));
@@ -30,10 +27,9 @@ void main() {
     vec3 direction = normalize(inRay);
     vec4 sun = disc(direction);
     vec3 color = skyColor(direction);
-#if CLOUDS == 1
     float pixel = length(fwidth(direction)), night = frame.starBrightness;
-    color += stars(starDirection(direction), pixel) * night * (1.0 - sun.a) * smoothstep(0.0, 0.2, direction.z);
-#endif
+    if (night > 0.0)
+        color += stars(starDirection(direction), pixel) * night * (1.0 - sun.a) * smoothstep(0.0, 0.2, direction.z);
     color = mix(color, max(color, sun.rgb), sun.a);
 #if CLOUDS == 1
     vec4 cloud = clouds(direction);

@@ -29,6 +29,9 @@ class TransparencyPass {
     void shade(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
                const ShadingInputs& inputs) const;
 
+    // After peelLayers(): of what is nearest in each sample, opaque or blended.
+    const MsaaTexture& nearestDepth() const { return targets_[0].depth; }
+
   private:
     struct Target {
         MsaaTexture color, depth;

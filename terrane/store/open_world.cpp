@@ -31,10 +31,14 @@ StoreResult openInMemory(const fs::path& path, const world::BlockRegistry& block
     auto saved = SqliteReader::open(path, blocks);
     if (!saved) return tl::unexpected(saved.error());
     WorldIdentity identity = (*saved)->identity();
-    const auto version = compareWorld(identity, request.wanted, request.versionOf, path.string());
-    if (!version) return tl::unexpected(version.error());
-    if (!*version) return std::make_unique<OverlayStore>(std::move(*saved));
-    identity.generatorVersion = **version;
+    const auto by = compareWorld(identity, request.wanted, request.versionOf, path.string());
+    if (!by) return tl::unexpected(by.error());
+    if (by->chunks == Regenerate::None) return std::make_unique<OverlayStore>(std::move(*saved));
+    if (by->chunks == Regenerate::AllButEdited)
+        return base::fail(base::ErrorCode::Unsupported,
+                          "{}: cannot be written, so its edits cannot be kept in a world made anew",
+                          path.string());
+    identity.generatorVersion = by->generatorVersion;
     return std::make_unique<MemoryStore>(std::move(identity));
 }
 

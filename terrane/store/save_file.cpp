@@ -115,18 +115,21 @@ base::Result<void> makeCurrent(SaveFile& file, const fs::path& path, const SaveA
 }
 
 // The copy is made before anything is deleted.
-base::Result<void> regenerate(SaveFile& file, const fs::path& path, int generatorVersion) {
+base::Result<void> regenerate(SaveFile& file, const fs::path& path, const Regeneration& by) {
     const fs::path backup = backupPath(path, "backup");
     if (auto copied = file.database.backUpTo(backup); !copied) return copied;
     auto transaction = Transaction::begin(file.database);
     if (!transaction) return tl::unexpected(transaction.error());
+    const std::string deleted =
+        by.chunks == Regenerate::All
+            ? "DELETE FROM chunks; DELETE FROM quarantine;"
+            : fmt::format("DELETE FROM chunks WHERE origin = {};", static_cast<int>(Provenance::Generated));
     const std::string sql = fmt::format(
-        "DELETE FROM chunks; DELETE FROM quarantine; "
-        "UPDATE settings SET value = '{}' WHERE name = 'generator_version'",
-        generatorVersion);
+        "{} UPDATE settings SET value = '{}' WHERE name = 'generator_version'", deleted, by.generatorVersion);
     if (auto done = file.database.execute(sql); !done) return done;
     if (auto done = transaction->commit(); !done) return done;
-    base::logInfo("{}: regenerated; the world as it was is {}", path.string(), backup.string());
+    base::logInfo("{}: regenerated{}; the world as it was is {}", path.string(),
+                  by.chunks == Regenerate::All ? "" : " but for chunks with edits", backup.string());
     return {};
 }
 
@@ -143,9 +146,9 @@ base::Result<void> readIdentity(SaveFile& file) {
 base::Result<void> regenerateIfAsked(SaveFile& file, const fs::path& path, const SaveAccess& access) {
     if (file.isNew || !access.decide) return {};
     if (auto read = readIdentity(file); !read) return read;
-    const auto version = access.decide(file.identity);
-    if (!version) return tl::unexpected(version.error());
-    return *version ? regenerate(file, path, **version) : base::Result<void>();
+    const auto by = access.decide(file.identity);
+    if (!by) return tl::unexpected(by.error());
+    return by->chunks == Regenerate::None ? base::Result<void>() : regenerate(file, path, *by);
 }
 
 base::Result<void> readContents(SaveFile& file, const world::BlockRegistry& registry) {

@@ -30,10 +30,9 @@ struct SaveFile {
 struct SaveAccess {
     // Made, with its folders, where it is not there. Nothing: it must be there.
     std::optional<WorldIdentity> create;
-    // What is to become of a save that is there, from what it is: nothing to take it as it is, a version of
-    // its generator to regenerate all chunks by that version, after a copy beside the save; an error to leave
-    // it alone. Empty: it is taken.
-    std::function<base::Result<std::optional<int>>(const WorldIdentity& saved)> decide;
+    // What of a save that is there is regenerated, after a copy beside the save, from what it is; an error to
+    // leave it alone. Empty: it is taken as it is.
+    std::function<base::Result<Regeneration>(const WorldIdentity& saved)> decide;
 };
 
 // To read and write. New names of block types are written already.

@@ -15,13 +15,13 @@ base::Result<void> requireSame(const WorldIdentity& saved, const WorldIdentity& 
     if (saved.generatorVersion != wanted.generatorVersion)
         return base::fail(ErrorCode::Incompatible,
                           "{}: made by version {} of the generator {}, this program has version {} "
-                          "(--recreate regenerates the world)",
+                          "(--regenerate keep-edits makes all chunks without edits anew, --recreate all)",
                           where, saved.generatorVersion, saved.generator, wanted.generatorVersion);
     return {};
 }
 
-base::Result<std::optional<int>> compareWorld(const WorldIdentity& saved, const WantedWorld& wanted,
-                                              const GeneratorVersionOf& versionOf, const std::string& where) {
+base::Result<Regeneration> compareWorld(const WorldIdentity& saved, const WantedWorld& wanted,
+                                        const GeneratorVersionOf& versionOf, const std::string& where) {
     const std::string generator = wanted.generator.value_or(saved.generator);
     const int version = versionOf(generator);
     if (version == 0) {
@@ -29,10 +29,9 @@ base::Result<std::optional<int>> compareWorld(const WorldIdentity& saved, const 
                           "{}: made by the generator {}, which this program does not have", where, generator);
     }
     const WorldIdentity expected{wanted.seed.value_or(saved.seed), generator,
-                                 wanted.regenerate ? saved.generatorVersion : version};
+                                 wanted.regenerate == Regenerate::None ? version : saved.generatorVersion};
     if (auto same = requireSame(saved, expected, where); !same) return tl::unexpected(same.error());
-    if (wanted.regenerate) return version;
-    return std::nullopt;
+    return Regeneration{wanted.regenerate, version};
 }
 
 }  // namespace terrane::store

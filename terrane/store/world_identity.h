@@ -22,11 +22,24 @@ struct WorldIdentity {
     bool operator==(const WorldIdentity&) const = default;
 };
 
+// Which chunks of a world are made anew by the program's version of its generator.
+enum class Regenerate : std::uint8_t {
+    None,
+    AllButEdited,  // chunks with edits stay as they are: beside them the ground may have steps
+    All,           // edits are lost
+};
+
 // What the player asks for. What is not given is taken from the world that is there.
 struct WantedWorld {
     std::optional<std::uint64_t> seed;
     std::optional<std::string> generator;
-    bool regenerate = false;  // all chunks by the program's version of the generator; edits are lost
+    Regenerate regenerate = Regenerate::None;
+};
+
+// What is to be done with a world that is taken: by which version of its generator it goes on.
+struct Regeneration {
+    Regenerate chunks = Regenerate::None;
+    int generatorVersion = 0;
 };
 
 // The version that the program has of a generator; 0: the program does not have it.
@@ -37,12 +50,11 @@ using GeneratorVersionOf = std::function<int(std::string_view generator)>;
 [[nodiscard]] base::Result<void> requireSame(const WorldIdentity& saved, const WorldIdentity& wanted,
                                              const std::string& where);
 
-// Whether a saved world is the one that is wanted. Gives the version to regenerate its chunks by, or nothing:
-// the world is taken as it is. An error where it is another world, or where the program lacks its generator,
-// or has another version of it and the world is not to be regenerated.
-[[nodiscard]] base::Result<std::optional<int>> compareWorld(const WorldIdentity& saved,
-                                                            const WantedWorld& wanted,
-                                                            const GeneratorVersionOf& versionOf,
-                                                            const std::string& where);
+// Whether a saved world is the one that is wanted, and what is to be regenerated. An error where it is
+// another world, or where the program lacks its generator, or has another version of it and the world is not
+// to be regenerated.
+[[nodiscard]] base::Result<Regeneration> compareWorld(const WorldIdentity& saved, const WantedWorld& wanted,
+                                                      const GeneratorVersionOf& versionOf,
+                                                      const std::string& where);
 
 }  // namespace terrane::store

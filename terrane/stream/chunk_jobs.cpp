@@ -13,12 +13,14 @@ light::LightScratch& lightScratch() {
 
 }  // namespace
 
-std::shared_ptr<world::Chunk> loadChunk(const ChunkSource& source, world::ChunkPos pos) {
-    if (source.store) {
-        TERRANE_ZONE("load chunk");
-        store::LoadedChunk stored = source.store->load(pos);
-        if (stored.state == store::LoadedChunk::State::Present) return stored.chunk;
-    }
+std::shared_ptr<world::Chunk> loadStored(const ChunkSource& source, world::ChunkPos pos) {
+    if (!source.store) return nullptr;
+    TERRANE_ZONE("load chunk");
+    store::LoadedChunk stored = source.store->load(pos);
+    return stored.state == store::LoadedChunk::State::Present ? stored.chunk : nullptr;
+}
+
+std::shared_ptr<world::Chunk> generateChunk(const ChunkSource& source, world::ChunkPos pos) {
     if (!source.generator) return nullptr;
     const auto chunk = std::make_shared<world::Chunk>(source.generator->generate(pos));
     storeGenerated(source, pos, chunk);

@@ -22,8 +22,10 @@ struct ChunkSource {
     bool storesGenerated = false;               // else only edited chunks are stored
 };
 
-// From the store, else from the generator. Null where it is to be made elsewhere.
-std::shared_ptr<world::Chunk> loadChunk(const ChunkSource& source, world::ChunkPos pos);
+// From the store. Null where it has none.
+std::shared_ptr<world::Chunk> loadStored(const ChunkSource& source, world::ChunkPos pos);
+// From the generator, stored where the source says so. Null where it is to be made elsewhere.
+std::shared_ptr<world::Chunk> generateChunk(const ChunkSource& source, world::ChunkPos pos);
 
 // Stores a generated chunk where the source says so.
 void storeGenerated(const ChunkSource& source, world::ChunkPos pos, const world::ChunkPtr& chunk);

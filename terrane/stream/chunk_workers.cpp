@@ -10,7 +10,7 @@ using world::ChunkPos;
 
 namespace {
 
-constexpr std::array kTaskNames = {"load or generate", "local light", "light", "mesh"};
+constexpr std::array kTaskNames = {"load", "generate", "local light", "light", "mesh"};
 static_assert(kTaskNames.size() == kTaskCount);
 
 // Jobs in flight a worker: enough that none waits for the next update, few enough that the queue follows the
@@ -45,7 +45,8 @@ base::JobHandle ChunkWorkers::submit(base::JobPriority priority, Work work) {
 base::JobHandle ChunkWorkers::submitLoad(base::JobPriority priority, ChunkPos pos,
                                          const ChunkSource& source) {
     return submit(priority, [pos, source, lights = &parts_.lights](WorkerResults& results) {
-        auto chunk = results.timed(kLoad, [&] { return loadChunk(source, pos); });
+        auto chunk = results.timed(kLoad, [&] { return loadStored(source, pos); });
+        if (!chunk) chunk = results.timed(kGenerate, [&] { return generateChunk(source, pos); });
         LocalLightPtr local;
         if (chunk) local = results.timed(kLocalLight, [&] { return localLight(*chunk, *lights); });
         return WorkerResults::Load{pos, std::move(chunk), std::move(local)};

@@ -15,7 +15,7 @@
 
 namespace terrane::stream {
 
-enum Task : std::size_t { kLoad, kLocalLight, kLight, kMesh, kTaskCount };
+enum Task : std::size_t { kLoad, kGenerate, kLocalLight, kLight, kMesh, kTaskCount };
 
 // Filled by any thread. Jobs hold it too, so that one that ends late finds it alive.
 struct WorkerResults {
@@ -50,11 +50,12 @@ struct WorkerResults {
     Lists lists;                      // under the mutex
     std::atomic<bool> isOver{false};  // nobody takes results any more: jobs that begin now do nothing
 
-    // Runs work and counts it. Any thread, without the mutex.
+    // Runs work that gives a pointer, and counts it unless that is null. Any thread, without the mutex.
     template <class Work>
     auto timed(std::size_t task, Work work) {
         const auto start = std::chrono::steady_clock::now();
         auto result = work();
+        if (!result) return result;
         const auto time = std::chrono::steady_clock::now() - start;
         nanoseconds[task] += std::chrono::duration_cast<std::chrono::nanoseconds>(time).count();
         ++counts[task];

@@ -17,7 +17,7 @@ mesh::ChunkMesh meshOf(world::BlockId block, const world::BlockRegistry& blocks)
 }  // namespace
 
 render::RenderOptions BlockPreview::options() {
-    render::RenderOptions options = *render::findPreset("low", true);
+    render::RenderOptions options = render::findPreset("low", true)->options;
     options.msaaSamples = 1;
     return options;
 }

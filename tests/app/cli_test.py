@@ -131,7 +131,7 @@ class Render(ProgramTest):
             self.assertGreater(result["milliseconds"][key], 0, key)
         for key in ("blocks", "light", "light_gpu", "quads_gpu", "generator_cache", "process_peak"):
             self.assertGreater(result["bytes"][key], 0, key)
-        for task in ("load or generate", "local light", "light", "mesh"):
+        for task in ("generate", "local light", "light", "mesh"):
             self.assertGreater(result["tasks"][task]["count"], 0, task)
             self.assertGreater(result["tasks"][task]["milliseconds"], 0, task)
         self.assertEqual(result["chunks_in_view"], 25)
@@ -435,6 +435,28 @@ class Saves(ProgramTest):
         self.assertEqual((anew["chunks"], anew["skipped"]), (9, 0))
         self.assertEqual(self.sql("SELECT value FROM settings WHERE name = 'seed'"), [("5",)])
         self.assertTrue((self.folder / "a.backup-1.sqlite").exists())
+
+    def test_chunks_with_edits_stay_where_the_generator_has_changed(self):
+        self.generate("--world", self.save, "--radius", "1", "--seed", "5")
+        self.sql("UPDATE settings SET value = '99' WHERE name = 'generator_version'")
+        key = 2**27 << 28 | 2**27
+        self.sql(f"UPDATE chunks SET origin = 1 WHERE key = {key}")
+        kept = self.sql(f"SELECT data FROM chunks WHERE key = {key}")
+        anew = self.generate("--world", self.save, "--radius", "1", "--regenerate", "keep-edits")
+        self.assertEqual((anew["chunks"], anew["skipped"]), (8, 1))
+        self.assertEqual(self.sql(f"SELECT data FROM chunks WHERE key = {key}"), kept)
+        self.assertTrue((self.folder / "a.backup-1.sqlite").exists())
+        for arguments in (("--regenerate", "all"), ("--recreate", "--regenerate", "keep-edits")):
+            self.assertRefused(run("generate", "--world", self.save, "--radius", "1", *arguments), arguments)
+
+    def test_a_world_without_generated_chunks(self):
+        draw = ("render", "--at", "8,8,120", "--world", self.save, "--view-distance", "1", "--size", "32x18", "--preset", "low",
+                "-o", self.folder / "a.png")
+        self.succeed(*draw, "--store-generated", "off")
+        self.succeed(*draw)
+        self.assertEqual(self.sql("SELECT count(*) FROM chunks"), [(0,)], "the world keeps it")
+        self.succeed(*draw, "--store-generated", "on")
+        self.assertGreater(self.sql("SELECT count(*) FROM chunks")[0][0], 8)
 
     def test_dump_takes_what_the_save_has(self):
         self.succeed("generate", "--world", self.save, "--radius", "1", *FLAT)

@@ -41,5 +41,30 @@ TEST(FrameMeter, FramesOfNoLengthAreNoDivisionByZero) {
     EXPECT_TRUE(std::isfinite(meter.max()));
 }
 
+TEST(FrameMeter, CountsTheFramesOfEachSecond) {
+    FrameMeter meter;
+    EXPECT_EQ(meter.lastSecond(), 0);
+    EXPECT_EQ(meter.mode(), 0);
+    const auto second = [&](int frames) {
+        for (int k = 0; k < frames; ++k) meter.add(1.0 / frames);
+    };
+    for (const int frames : {4, 8, 4, 16, 8, 4}) {
+        second(frames);
+        EXPECT_EQ(meter.lastSecond(), frames);
+    }
+    EXPECT_EQ(meter.mode(), 4);
+    second(8);
+    EXPECT_EQ(meter.mode(), 8) << "of equals the higher";
+}
+
+TEST(FrameMeter, AFrameOfSecondsLeavesSecondsWithoutFrames) {
+    FrameMeter meter;
+    meter.add(3.25);
+    EXPECT_EQ(meter.lastSecond(), 0);
+    EXPECT_EQ(meter.mode(), 0);
+    meter.add(0.75);
+    EXPECT_EQ(meter.lastSecond(), 1);
+}
+
 }  // namespace
 }  // namespace terrane::app

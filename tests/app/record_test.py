@@ -154,6 +154,12 @@ class Frames(RecordTest):
         for a, b in zip(one, one[1:]):
             self.assertNotEqual(a.rows, b.rows)
 
+    def test_back_ends_draw_the_same(self):
+        text = HEAD + shot(1, "[[shot.edit]]\ntime = 0.5\nat = [8, 8, 81]\nblock = \"lamp_red\"\n")
+        cpu, gpu = (self.frames(text, "--fps", "4", "--backend", name) for name in ("cpu", "gpu"))
+        self.assertEqual([image.rows for image in cpu], [image.rows for image in gpu])
+        self.assertNotEqual(cpu[1].rows, cpu[3].rows, "the lamp is there")
+
     def test_edits_titles_and_views_come_in_time(self):
         cues = ('[[shot.edit]]\ntime = 2\nfrom = [0, 0, 84]\nto = [16, 16, 84]\nblock = "snow"\n'
                 '[[shot.set]]\ntime = 4\nview = "normal"\n'

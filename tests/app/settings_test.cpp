@@ -99,10 +99,11 @@ TEST_F(Settings, FormerNamesAreRead) {
     addGraphicsOptions(command, options, "low");
     const auto done = applySettings(file_, command, {"preset", "distance-fog"});
     ASSERT_TRUE(done) << done.error().message;
-    EXPECT_EQ(options.mesh.method, mesh::MergeMethod::Lines);
-    EXPECT_EQ(options.mesh.meshSectionHeight, 32);
+    const render::GraphicsSettings settings = render::settingsOf(options.choices, true);
+    EXPECT_EQ(settings.mesh.method, mesh::MergeMethod::Lines);
+    EXPECT_EQ(settings.mesh.meshSectionHeight, 32);
     EXPECT_EQ(options.view, render::View::Merging);
-    EXPECT_FALSE(render::renderOptions(options.choices, true).distanceFog);
+    EXPECT_FALSE(settings.render.distanceFog);
 }
 
 TEST_F(Settings, AWrongValueOfAFormerNameIsNamedWithItsLine) {

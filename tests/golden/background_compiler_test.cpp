@@ -68,9 +68,9 @@ TEST_F(BackgroundCompilerTest, FramesThatFollowCompileNextToNothing) {
     draw(renderer, input);
     if (filesInCache() == 0) GTEST_SKIP() << "a driver without a cache of files";
 
-    RenderOptions all = *render::findPreset("thesis", true);
+    RenderOptions all = render::findPreset("thesis", true)->options;
     all.occlusion = render::Occlusion::On;
-    RenderOptions others = *render::findPreset("medium", true);
+    RenderOptions others = render::findPreset("medium", true)->options;
     others.light = render::LightSampling::Smooth;
     others.tJunctions = render::TJunctions::Filled;
     others.shading = render::Shading::Pixel;
@@ -91,7 +91,7 @@ TEST_F(BackgroundCompilerTest, FramesThatFollowCompileNextToNothing) {
 }
 
 TEST_F(BackgroundCompilerTest, TheLastWishIsMet) {
-    RenderOptions options = *render::findPreset("low", true);
+    RenderOptions options = render::findPreset("low", true)->options;
     for (const int layers : {0, 1, 2, 3}) {
         options.transparencyLayers = layers;
         EXPECT_FALSE(compiler_.isReady(kImageSize, options));

@@ -25,6 +25,10 @@ std::string errorOf(const std::string& text) {
     return script ? "no error" : script.error().message;
 }
 
+render::GraphicsSettings settingsAt(const Shot& shot, double seconds) {
+    return render::settingsOf(optionsAt(shot, seconds).choices, true);
+}
+
 constexpr const char* kKey = "[[shot.key]]\nat = [1, 2, 3]\nlook = [0, 0]\n";
 
 std::string shotOf(const std::string& more, const std::string& head = "seconds = 10\n") {
@@ -93,15 +97,15 @@ TEST(ScriptFile, OptionsHoldUntilTheyChangeAndForOneShot) {
                               shotOf(""));
     ASSERT_TRUE(script) << script.error().message;
     const auto occlusionAt = [&](std::size_t shot, double time) {
-        return render::renderOptions(optionsAt(script->shots[shot], time).choices, true).occlusion;
+        return settingsAt(script->shots[shot], time).render.occlusion;
     };
     const Shot& shot = script->shots[0];
-    EXPECT_EQ(optionsAt(shot, 0).viewDistance, 5);
-    EXPECT_EQ(optionsAt(shot, 0).mesh.method, mesh::MergeMethod::Greedy);
-    EXPECT_EQ(optionsAt(shot, 1).mesh.method, mesh::MergeMethod::Lines);
+    EXPECT_EQ(settingsAt(shot, 0).viewDistance, 5);
+    EXPECT_EQ(settingsAt(shot, 0).mesh.method, mesh::MergeMethod::Greedy);
+    EXPECT_EQ(settingsAt(shot, 1).mesh.method, mesh::MergeMethod::Lines);
     EXPECT_EQ(optionsAt(shot, 1.99).view, render::View::Color);
     EXPECT_EQ(optionsAt(shot, 2).view, render::View::Depth);
-    EXPECT_EQ(optionsAt(shot, 9).mesh.method, mesh::MergeMethod::Lines);
+    EXPECT_EQ(settingsAt(shot, 9).mesh.method, mesh::MergeMethod::Lines);
     EXPECT_EQ(occlusionAt(0, 0), render::Occlusion::Raw);
     EXPECT_EQ(occlusionAt(0, 3), render::Occlusion::On);
     EXPECT_EQ(occlusionAt(1, 3), render::Occlusion::Raw);
@@ -115,15 +119,15 @@ TEST(ScriptFile, FormerNamesOfOptionsAreRead) {
     ASSERT_TRUE(script) << script.error().message;
     const Shot& shot = script->shots[0];
     EXPECT_EQ(optionsAt(shot, 0).view, render::View::Merging);
-    EXPECT_FALSE(render::renderOptions(optionsAt(shot, 0).choices, true).distanceFog);
-    EXPECT_EQ(optionsAt(shot, 1).mesh.method, mesh::MergeMethod::Lines);
-    EXPECT_EQ(optionsAt(shot, 1).mesh.meshSectionHeight, 32);
+    EXPECT_FALSE(settingsAt(shot, 0).render.distanceFog);
+    EXPECT_EQ(settingsAt(shot, 1).mesh.method, mesh::MergeMethod::Lines);
+    EXPECT_EQ(settingsAt(shot, 1).mesh.meshSectionHeight, 32);
 }
 
 TEST(ScriptFile, TheCommandLineWins) {
     ScriptDefaults defaults;
     defaults.world.seed = 3;
-    defaults.graphics.viewDistance = 2;
+    defaults.graphics.choices.viewDistance = 2;
     defaults.given = {"seed", "view-distance"};
     const std::string text =
         "seed = 9\ngenerator = \"flat\"\n[options]\nview-distance = 8\nview = \"depth\"\n" +
@@ -132,14 +136,14 @@ TEST(ScriptFile, TheCommandLineWins) {
     ASSERT_TRUE(script) << script.error().message;
     EXPECT_EQ(script->world.seed, 3u);
     EXPECT_EQ(script->world.generator, "flat");
-    EXPECT_EQ(optionsAt(script->shots[0], 5).viewDistance, 2);
+    EXPECT_EQ(settingsAt(script->shots[0], 5).viewDistance, 2);
     EXPECT_EQ(optionsAt(script->shots[0], 5).view, render::View::Depth);
 }
 
 TEST(ScriptFile, APresetOfTheCommandLineStandsAlone) {
     ScriptDefaults defaults;
     defaults.graphics.choices.preset = "low";
-    defaults.graphics.viewDistance = 2;
+    defaults.graphics.choices.viewDistance = 2;
     const std::string text = "[options]\npreset = \"high\"\nclouds = \"on\"\nview-distance = 8\n" +
                              shotOf("[[shot.set]]\nssao = \"raw\"\nview = \"depth\"\n");
     const auto choicesWith = [&](std::vector<std::string> given) {
@@ -147,7 +151,7 @@ TEST(ScriptFile, APresetOfTheCommandLineStandsAlone) {
         const auto script = parseScript(text, "p.toml", defaults, blocks());
         EXPECT_TRUE(script);
         EXPECT_EQ(optionsAt(script->shots[0], 5).view, render::View::Depth) << "no part of a preset";
-        EXPECT_EQ(optionsAt(script->shots[0], 5).viewDistance, 8) << "no part of a preset";
+        EXPECT_EQ(settingsAt(script->shots[0], 5).viewDistance, 8) << "no part of a preset";
         return optionsAt(script->shots[0], 5).choices;
     };
     EXPECT_EQ(choicesWith({"preset"}).preset, "low");

@@ -1,6 +1,8 @@
 // What a failure leaves of the passes, and passes rebuilt from shaders that were written.
 #include "terrane/render/frame_passes.h"
 
+#include <algorithm>
+
 #include "terrane/render/renderer.h"
 #include "tests/golden/scenes.h"
 #include "tests/gpu/gl_fixture.h"
@@ -142,6 +144,20 @@ TEST_F(FramePassesTest, ShadersCanBeWrittenBeforeThereIsAnImage) {
     ASSERT_TRUE(renderer_->reloadShaders());
     ASSERT_TRUE(renderer_->configure(kPassesSize, fullOptions(1)));
     EXPECT_EQ(draw().rgba[0], 255);
+}
+
+// Whoever writes times into columns knows all passes.
+TEST_F(FramePassesTest, EachPassThatIsMeasuredIsListed) {
+    RenderOptions options = fullOptions(1);
+    options.tJunctions = TJunctions::Filled;
+    ASSERT_TRUE(renderer_->configure(kPassesSize, options));
+    for (int frame = 0; frame < 4; ++frame) {
+        draw();
+        glFinish();
+    }
+    EXPECT_EQ(renderer_->passTimes().size(), kPassNames.size()) << "all options are on";
+    for (const gpu::GpuTiming& pass : renderer_->passTimes())
+        EXPECT_TRUE(std::ranges::find(kPassNames, pass.name) != kPassNames.end()) << pass.name;
 }
 
 }  // namespace

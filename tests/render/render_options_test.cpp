@@ -7,19 +7,31 @@ namespace {
 
 // The thesis's settings, section 6.
 TEST(RenderOptions, ThesisIsWhatItMeasuredWith) {
-    const RenderOptions o = findPreset("thesis", true).value();
+    const RenderOptions o = findPreset("thesis", true)->options;
     EXPECT_EQ(o.msaaSamples, 2);
     EXPECT_EQ(o.shading, Shading::Sample);
     EXPECT_TRUE(o.msaaAlphaTest && o.depthOfField && o.godRays && o.animation && o.sharpFiltering);
     EXPECT_EQ(o.shadowSize, 2048);
     EXPECT_EQ(o.occlusion, Occlusion::Off);
     EXPECT_EQ(o.transparencyLayers, 3);
-    EXPECT_EQ(o.tJunctions, TJunctions::Covered);
-    EXPECT_EQ(o, RenderOptions{});
+    EXPECT_EQ(o.tJunctions, TJunctions::Filled);
+    const GraphicsSettings all = withPreset({}, "thesis", true);
+    EXPECT_EQ(all.mesh.method, mesh::MergeMethod::SquaresExt);
+    EXPECT_EQ(all.mesh.meshSectionHeight, 64);
+    EXPECT_EQ(all.viewDistance, 32);
+}
+
+TEST(RenderOptions, OtherPresetsLeaveTheViewDistance) {
+    for (const char* name : {"low", "medium", "high", "auto"}) {
+        const GraphicsSettings settings =
+            withPreset({.render = {}, .mesh = {mesh::MergeMethod::None, 8}, .viewDistance = 7}, name, true);
+        EXPECT_EQ(settings.viewDistance, 7) << name;
+        EXPECT_EQ(settings.mesh, mesh::MeshOptions{}) << name;
+    }
 }
 
 TEST(RenderOptions, LowHasNoEffects) {
-    const RenderOptions o = findPreset("low", false).value();
+    const RenderOptions o = findPreset("low", false)->options;
     EXPECT_EQ(o.msaaSamples, 1);
     EXPECT_EQ(o.shadowSize, 0);
     EXPECT_EQ(o.occlusion, Occlusion::Off);

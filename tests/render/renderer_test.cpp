@@ -54,6 +54,35 @@ TEST_F(RendererTest, TheSunStandsWhereItShould) {
     EXPECT_LT(sky[0], 180);
 }
 
+// How many steps brighter the brightest pixel is than the darkest.
+int rangeOfGreen(const base::Image& image, glm::ivec2 from, glm::ivec2 to) {
+    int least = 255, most = 0;
+    for (int y = from.y; y < to.y; ++y) {
+        for (int x = from.x; x < to.x; ++x) {
+            least = std::min(least, pixel(image, x, y)[1]);
+            most = std::max(most, pixel(image, x, y)[1]);
+        }
+    }
+    return most - least;
+}
+
+// Clouds are off here.
+TEST_F(RendererTest, WithoutCloudsTheNightHasStarsAndTheMoonAFace) {
+    const Camera up{.position = {8, 8, 100}, .yaw = 200, .pitch = 50, .fieldOfView = 40};
+    const auto rangeAt = [&](float timeDay) {
+        return rangeOfGreen(draw({up, world::environmentAt(timeDay), 256, 0, View::Color}), {0, 0},
+                            kImageSize);
+    };
+    EXPECT_GT(rangeAt(0.0f), rangeAt(0.5f) + 20);
+    const world::Environment night = world::environmentAt(0.05f);
+    const Camera atMoon{.position = {8, 8, 100},
+                        .yaw = std::atan2(night.lightDirection.y, night.lightDirection.x) * 57.29578f,
+                        .pitch = std::asin(night.lightDirection.z) * 57.29578f,
+                        .fieldOfView = 2 * 57.29578f * night.discRadius};
+    const base::Image moon = draw({atMoon, night, 256, 0, View::Color});
+    EXPECT_GT(rangeOfGreen(moon, kImageSize / 2 - 16, kImageSize / 2 + 16), 20) << "bright and dark plains";
+}
+
 TEST_F(RendererTest, DebugViewsOfTheSkyAreBlack) {
     for (const View view : {View::Normal, View::Depth}) {
         const base::Image image = draw(noon(kLevel, view));

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 const SaveAccess kCreate{.create = kIdentity, .decide = {}};
 const SaveAccess kMustBeThere{};
 
-auto recreateBy(int version) {
-    return [version](const WorldIdentity&) { return base::Result<std::optional<int>>(version); };
+auto recreateBy(int version, Regenerate chunks = Regenerate::All) {
+    return [=](const WorldIdentity&) { return base::Result<Regeneration>({chunks, version}); };
 }
 
 class SaveFileTest : public testing::Test {
@@ -215,11 +215,33 @@ TEST_F(SaveFileTest, RecreateKeepsACopy) {
     EXPECT_TRUE(fs::exists(folder_ / "a.backup-2.sqlite")) << "a copy never replaces another";
 }
 
+TEST_F(SaveFileTest, ChunksWithEditsStayWhereTheOthersAreMadeAnew) {
+    makeSave();
+    {
+        auto store = SqliteStore::open(path_, registry_, kMustBeThere);
+        ASSERT_TRUE(store) << store.error().message;
+        for (int x = 0; x < 20; x += 2) (*store)->save({x, 1}, numberedChunk(x), Provenance::Generated);
+    }
+    auto store = SqliteStore::open(path_, registry_,
+                                   {.create = {}, .decide = recreateBy(9, Regenerate::AllButEdited)});
+    ASSERT_TRUE(store) << store.error().message;
+    EXPECT_EQ((*store)->identity().generatorVersion, 9);
+    for (int x = 0; x < 20; ++x) {
+        EXPECT_EQ(*(*store)->load({x, 0}).chunk, *numberedChunk(x));
+        EXPECT_EQ((*store)->load({x, 1}).state, LoadedChunk::State::Absent);
+    }
+    path_ = folder_ / "a.backup-1.sqlite";
+    auto copy = SqliteStore::open(path_, registry_, kMustBeThere);
+    ASSERT_TRUE(copy) << copy.error().message;
+    EXPECT_EQ(*(*copy)->load({2, 1}).chunk, *numberedChunk(2)) << "the world as it was";
+    EXPECT_EQ((*copy)->identity(), kIdentity);
+}
+
 TEST_F(SaveFileTest, ARefusedSaveIsLeftAsItIs) {
     makeSave();
     const std::string before = readAll(path_);
     SaveAccess access = kCreate;
-    access.decide = [](const WorldIdentity& saved) -> base::Result<std::optional<int>> {
+    access.decide = [](const WorldIdentity& saved) -> base::Result<Regeneration> {
         EXPECT_EQ(saved, kIdentity);
         return base::fail("not this one");
     };
@@ -238,7 +260,7 @@ class ReadOnlyTest : public SaveFileTest {
         WorldRequest request;
         request.access = WorldAccess::ReadWriteOrMemory;
         request.create = std::move(create);
-        request.wanted.regenerate = regenerate;
+        if (regenerate) request.wanted.regenerate = Regenerate::All;
         request.versionOf = [=](std::string_view) { return regenerate ? 4 : kIdentity.generatorVersion; };
         return openWorld({WorldLocation::Kind::File, path}, registry_, request);
     }

@@ -25,7 +25,7 @@ TEST(RequireSame, SaysHowTheyDiffer) {
 }
 
 // A program with flat in a version, and overworld.
-base::Result<std::optional<int>> compare(const WantedWorld& wanted, int flatVersion = 3) {
+base::Result<Regeneration> compare(const WantedWorld& wanted, int flatVersion = 3) {
     const auto versionOf = [=](std::string_view generator) {
         return generator == "flat" ? flatVersion : generator == "overworld" ? 1 : 0;
     };
@@ -35,14 +35,14 @@ base::Result<std::optional<int>> compare(const WantedWorld& wanted, int flatVers
 TEST(CompareWorld, WhatIsNotGivenIsTaken) {
     for (const WantedWorld& wanted :
          {WantedWorld{}, {.seed = 7, .generator = {}}, {.seed = {}, .generator = "flat"}}) {
-        const auto version = compare(wanted);
-        ASSERT_TRUE(version) << version.error().message;
-        EXPECT_EQ(*version, std::nullopt) << "taken as it is";
+        const auto by = compare(wanted);
+        ASSERT_TRUE(by) << by.error().message;
+        EXPECT_EQ(by->chunks, Regenerate::None);
     }
 }
 
 TEST(CompareWorld, AnotherWorldIsRefused) {
-    for (const bool regenerate : {false, true}) {
+    for (const Regenerate regenerate : {Regenerate::None, Regenerate::AllButEdited, Regenerate::All}) {
         const auto seed = compare({.seed = 8, .generator = {}, .regenerate = regenerate});
         ASSERT_FALSE(seed);
         EXPECT_EQ(seed.error().code, ErrorCode::Incompatible);
@@ -55,8 +55,15 @@ TEST(CompareWorld, AnotherWorldIsRefused) {
 TEST(CompareWorld, AnotherVersionIsRefusedUnlessRegenerated) {
     EXPECT_THAT(compare({}, 5).error().message,
                 HasSubstr("version 3 of the generator flat, this program has version 5"));
-    EXPECT_EQ(*compare({.seed = {}, .generator = {}, .regenerate = true}, 5), 5);
-    EXPECT_EQ(*compare({.seed = {}, .generator = {}, .regenerate = true}), 3) << "the same version again";
+    EXPECT_THAT(compare({}, 5).error().message, HasSubstr("--regenerate keep-edits"));
+    for (const Regenerate regenerate : {Regenerate::AllButEdited, Regenerate::All}) {
+        for (const int version : {5, 3}) {  // another one, the same again
+            const auto by = compare({.seed = {}, .generator = {}, .regenerate = regenerate}, version);
+            ASSERT_TRUE(by) << by.error().message;
+            EXPECT_EQ(by->chunks, regenerate);
+            EXPECT_EQ(by->generatorVersion, version);
+        }
+    }
     EXPECT_THAT(compare({}, 0).error().message,
                 HasSubstr("generator flat, which this program does not have"));
 }

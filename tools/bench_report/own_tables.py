@@ -72,9 +72,9 @@ def stages(s):
     # The time of a stage, and the bytes of a chunk that it must read and write at least.
     rows = [[name, value(cell, microseconds), floor(cell, values, more_bytes), limit]
             for name, cell, microseconds, values, more_bytes, limit in (
-                ("generate", generated, task("load or generate"), [blocks], 4 * BLOCK_BYTES,
+                ("generate", generated, task("generate"), [blocks], 4 * BLOCK_BYTES,
                  "two voxel passes write all blocks, one reads them, packing reads them; the rest is arithmetic"),
-                ("load from a save", loaded, task("load or generate"), [blocks, save], 0,
+                ("load from a save", loaded, task("load"), [blocks, save], 0,
                  "reading a row of SQLite, decompressing"),
                 ("light, stage 1", loaded, task("local light"), [blocks, light], 0,
                  "bricks that are not uniform: 5 to 6 a chunk, unpacked to a few bytes a block and searched"),

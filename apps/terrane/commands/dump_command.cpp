@@ -200,6 +200,13 @@ base::Result<void> dump(DumpOptions& options) {
     return {};
 }
 
+std::vector<std::pair<std::string, mesh::MergeMethod>> mergeMethods() {
+    std::vector<std::pair<std::string, mesh::MergeMethod>> methods;
+    for (std::size_t k = 0; k < mesh::kMergeMethodNames.size(); ++k)
+        methods.emplace_back(mesh::kMergeMethodNames[k], static_cast<mesh::MergeMethod>(k));
+    return methods;
+}
+
 }  // namespace
 
 CommandEntry addDump(CLI::App& app) {
@@ -211,7 +218,13 @@ CommandEntry addDump(CLI::App& app) {
                     {{"blocks", What::Blocks}, {"light", What::Light}, {"quads", What::Quads}},
                     "What to write");
     addBackendOption(*command, options->backend, "Where to find the light, or the quads");
-    addMeshOptions(*command, options->mesh);
+    addChoice<mesh::MergeMethod>(*command, "--merging", options->mesh.method, mergeMethods(),
+                                 "How equal faces are merged into rectangles");
+    command
+        ->add_option("--mesh-section-height", options->mesh.meshSectionHeight,
+                     "Height in blocks of the mesh sections that quads are written by")
+        ->check(CLI::IsMember({8, 16, 32, 64, 128}))
+        ->capture_default_str();
     addOutputOption(*command, options->output, "The .npy file");
     addWorldOptions(*command, options->world);
     addWorldOption(*command, options->save, "World to take the chunks from; what it lacks is generated");

@@ -80,9 +80,7 @@ base::Result<Window> openWindow(const PlayOptions& options) {
 PlaySettings settingsOf(const PlayOptions& options, bool isSoftwareRenderer) {
     PlaySettings settings = options.settings;
     settings.preset = options.graphics.choices.preset;
-    settings.graphics = render::renderOptions(options.graphics.choices, isSoftwareRenderer);
-    settings.viewDistance = options.graphics.viewDistance;
-    settings.mesh = options.graphics.mesh;
+    settings.graphics = render::settingsOf(options.graphics.choices, isSoftwareRenderer);
     settings.view = options.graphics.view;
     settings.resourcePack = options.graphics.resourcePack;
     return settings;

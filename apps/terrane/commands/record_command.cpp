@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/record/recorder.h"
@@ -21,6 +22,7 @@ struct RecordOptions {
     WorldOptions world;
     SaveOptions save;
     GraphicsOptions graphics;
+    Backend backend = Backend::Auto;
     std::string path, output, framesFolder;
     int framesPerSecond = 30;
     double from = 0;
@@ -84,6 +86,7 @@ base::Result<void> recordVideo(const RecordOptions& options, const CLI::App& com
     auto world = Offscreen::create({.world = script->world,
                                     .save = options.save,
                                     .graphics = optionsAt(shotAt(*script, options.from), 0),
+                                    .backend = options.backend,
                                     .access = store::WorldAccess::ReadOnly});
     if (!world) return tl::unexpected(world.error());
     const base::StopSignals signals;  // until the file is finished: an unfinished one goes with its sink
@@ -129,6 +132,7 @@ CommandEntry addRecord(CLI::App& app) {
         ->check(numberFrom(0, 1e6));
     addWorldOptions(*command, options->world);
     addWorldOption(*command, options->save, "World to record in, left as it is; what it lacks is generated");
+    addBackendOption(*command, options->backend, "Where to generate, light and mesh");
     addGraphicsOptions(*command, options->graphics, "high");
     return {command, [options, command] { return recordVideo(*options, *command); }};
 }

@@ -146,19 +146,19 @@ base::Result<void> renderImage(const RenderCommandOptions& options) {
     if (!world) return tl::unexpected(world.error());
     game::Session& session = *(*world)->session;
     render::Renderer& renderer = (*world)->renderer;
+    const int viewDistance = (*world)->graphics.viewDistance;
     RenderTimings timings;
     timings.setUp = millisecondsSince(start);
 
     const render::Camera camera = view::cameraOf(place->pose);
     const auto loadStart = Clock::now();
-    timings.upload =
-        view::loadAll(session, *(*world)->view, camera, options.graphics.viewDistance, loadStart);
+    timings.upload = view::loadAll(session, *(*world)->view, camera, viewDistance, loadStart);
     timings.load = millisecondsSince(loadStart);
 
     const auto drawStart = Clock::now();
     const render::FrameInput input{camera,
                                    world::environmentAt(place->timeDay),
-                                   view::fogDistance(options.graphics.viewDistance),
+                                   view::fogDistance(viewDistance),
                                    options.seconds,
                                    options.graphics.view,
                                    game::isUnderWater(session, camera.position)};

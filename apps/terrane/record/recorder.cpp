@@ -28,13 +28,14 @@ float titleStrength(const TitleCue& title, double seconds) {
 base::Result<void> Recorder::apply(const GraphicsOptions& graphics) {
     render::Renderer& renderer = parts_.world.renderer;
     stream::ChunkPipeline& pipeline = parts_.world.session->pipeline();
-    const auto options = render::renderOptions(graphics.choices, parts_.world.device.software);
-    if (parts_.size != renderer.size() || options != renderer.options()) {
-        if (auto configured = renderer.configure(parts_.size, options); !configured) return configured;
+    const auto settings = render::settingsOf(graphics.choices, parts_.world.device.software);
+    if (parts_.size != renderer.size() || settings.render != renderer.options()) {
+        if (auto configured = renderer.configure(parts_.size, settings.render); !configured)
+            return configured;
     }
-    pipeline.setMeshOptions(graphics.mesh);
-    if (graphics.viewDistance != viewDistance_) {
-        viewDistance_ = graphics.viewDistance;
+    pipeline.setMeshOptions(settings.mesh);
+    if (settings.viewDistance != viewDistance_) {
+        viewDistance_ = settings.viewDistance;
         renderer.setViewDistance(viewDistance_);
         pipeline.resendLight();
     }

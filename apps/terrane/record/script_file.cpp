@@ -26,8 +26,7 @@ Names with(Names names, std::span<const render::GraphicsRow> rows) {
 
 // Flags that say how a frame is drawn, a preset before what changes it.
 Names drawingFlags() {
-    return with({"preset", "view-distance", "view", "merging", "mesh-section-height"},
-                render::graphicsTable());
+    return with({"preset", "view-distance", "view"}, render::graphicsTable());
 }
 
 // A preset on the command line stands alone, as with settings of the window.

@@ -1,8 +1,9 @@
-// How long frames take: the last one, and the range over the last second.
+// How long frames take: the range over the last second, and how many there are in each second.
 #pragma once
 
 #include <algorithm>
 #include <deque>
+#include <map>
 
 namespace terrane::app {
 
@@ -15,6 +16,7 @@ class FrameMeter {
             total_ -= frames_.front();
             frames_.pop_front();
         }
+        count(seconds);
     }
     // Frames a second.
     double now() const { return total_ > 0 ? static_cast<double>(frames_.size()) / total_ : 0; }
@@ -22,10 +24,31 @@ class FrameMeter {
     double max() const {
         return frames_.empty() ? 0 : 1 / std::max(*std::ranges::min_element(frames_), 1e-9);
     }
+    // Frames that began in the last whole second; 0 in the first.
+    int lastSecond() const { return lastSecond_; }
+    // The count that most seconds had, the higher of equals, as the thesis measures; 0 in the first second.
+    int mode() const {
+        const auto most = std::ranges::max_element(
+            seconds_, [](const auto& a, const auto& b) { return a.second <= b.second; });
+        return most == seconds_.end() ? 0 : most->first;
+    }
 
   private:
+    void count(double seconds) {
+        ++thisSecond_;
+        passed_ += seconds;
+        for (; passed_ >= 1; passed_ -= 1) {
+            lastSecond_ = thisSecond_;
+            ++seconds_[thisSecond_];
+            thisSecond_ = 0;
+        }
+    }
+
     std::deque<double> frames_;  // seconds each
     double total_ = 0;
+    double passed_ = 0;  // of this second
+    int thisSecond_ = 0, lastSecond_ = 0;
+    std::map<int, int> seconds_;  // how many, by the count of their frames
 };
 
 }  // namespace terrane::app

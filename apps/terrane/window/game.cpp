@@ -39,8 +39,8 @@ Game::Game(const GameParts& parts, const GameOptions& options)
       interaction_(parts.session.blocks()),
       shadersRead_(parts.shaders.newestWrite()),
       perfData_(options.perfData) {
-    parts_.session.pipeline().setMeshOptions(settings_.mesh);
-    parts_.renderer.setViewDistance(settings_.viewDistance);
+    parts_.session.pipeline().setMeshOptions(settings_.graphics.mesh);
+    parts_.renderer.setViewDistance(settings_.graphics.viewDistance);
 }
 
 base::Result<void> Game::run() {
@@ -52,6 +52,7 @@ base::Result<void> Game::run() {
     const auto drawn = drawFrames();
     const glm::dvec3& p = player_.pose().position;
     base::logInfo("closed after {} frames at {:.2f},{:.2f},{:.2f}", frames_, p.x, p.y, p.z);
+    if (perfLog_) base::logInfo("most seconds had {} frames", meter_.mode());
     const auto saved = leave();
     if (!drawn && !saved) base::logError("{}", saved.error().message);
     return drawn ? saved : drawn;
@@ -85,15 +86,16 @@ void Game::advance(double seconds) {
     session.setPlayer(game::kLocalPlayer, player_.pose());
     interaction_.act(session, game::kLocalPlayer, player_, seconds);
     session.advance(seconds, world::chunkOf(player_.pose().position));
-    parts_.view.follow(camera(), settings_.viewDistance);
+    parts_.view.follow(camera(), settings_.graphics.viewDistance);
 }
 
 // What changed since the last frame; the renderer sees to its own options with the frame's size.
 void Game::applySettings() {
     if (settings_ == applied_) return;
-    if (settings_.mesh != applied_.mesh) parts_.session.pipeline().setMeshOptions(settings_.mesh);
-    if (settings_.viewDistance != applied_.viewDistance) {
-        parts_.renderer.setViewDistance(settings_.viewDistance);
+    if (settings_.graphics.mesh != applied_.graphics.mesh)
+        parts_.session.pipeline().setMeshOptions(settings_.graphics.mesh);
+    if (settings_.graphics.viewDistance != applied_.graphics.viewDistance) {
+        parts_.renderer.setViewDistance(settings_.graphics.viewDistance);
         parts_.session.pipeline().resendLight();
     }
     if (settings_.movement != applied_.movement) player_.setMovement(settings_.movement);
@@ -126,16 +128,16 @@ void Game::reloadWrittenShaders() {
 
 bool Game::shadersAreReady(glm::ivec2 size) {
     constexpr glm::ivec2 kPreview(view::BlockPreview::kSize);
-    if (hasWorldImage() && settings_.graphics == parts_.renderer.options()) return true;
+    if (hasWorldImage() && settings_.graphics.render == parts_.renderer.options()) return true;
     if (!hasWorldImage() && !parts_.compiler.isReady(kPreview, view::BlockPreview::options())) return false;
-    return parts_.compiler.isReady(size, settings_.graphics);
+    return parts_.compiler.isReady(size, settings_.graphics.render);
 }
 
 // Other options come once their shaders are compiled; until then frames are drawn as before, and at first
 // none. Options that cannot be drawn are taken back.
 base::Result<void> Game::configureRenderer(glm::ivec2 size) {
     render::Renderer& renderer = parts_.renderer;
-    render::RenderOptions options = settings_.graphics;
+    render::RenderOptions options = settings_.graphics.render;
     if (!shadersAreReady(size)) {
         say("shaders are being compiled");
         if (!hasWorldImage()) return {};
@@ -146,7 +148,7 @@ base::Result<void> Game::configureRenderer(glm::ivec2 size) {
     if (configured || !hasWorldImage() || options == renderer.options()) return configured;
     base::logWarning("{}", configured.error().message);
     say(configured.error().message);
-    settings_.graphics = renderer.options();
+    settings_.graphics.render = renderer.options();
     return {};
 }
 
@@ -178,17 +180,27 @@ render::FrameInput Game::frameInput() const {
     render::FrameInput input;
     input.camera = camera();
     input.environment = world::environmentAt(static_cast<float>(parts_.session.clock.timeDay));
-    input.fogDistance = view::fogDistance(settings_.viewDistance);
+    input.fogDistance = view::fogDistance(settings_.graphics.viewDistance);
     input.timeSeconds = static_cast<float>(seconds_);
     input.view = settings_.view;
     input.isUnderWater = game::isUnderWater(parts_.session, player_.pose().position);
     if (isAbove_) {
         input.culledFor = input.camera;
-        input.camera = debugTopCamera(camera(), settings_.viewDistance);
-        input.fogDistance = 16 * view::fogDistance(settings_.viewDistance);
+        input.camera = debugTopCamera(camera(), settings_.graphics.viewDistance);
+        input.fogDistance = 16 * view::fogDistance(settings_.graphics.viewDistance);
         input.isUnderWater = false;
     }
     return input;
+}
+
+// None where there are no shadows.
+std::optional<render::ShadowFit> Game::shadowFit(const render::Camera& camera) const {
+    const int texels = parts_.renderer.options().shadowSize;
+    const glm::vec2 size(parts_.renderer.size());
+    if (texels == 0 || size.y == 0) return std::nullopt;
+    const auto timeDay = static_cast<float>(parts_.session.clock.timeDay);
+    return render::fitShadowMap(camera, size.x / size.y, world::environmentAt(timeDay).lightDirection,
+                                texels);
 }
 
 void Game::drawInterface() {
@@ -198,8 +210,9 @@ void Game::drawInterface() {
     const Screen screen{imgui_.size().x, imgui_.size().y};
     const render::Camera camera = this->camera();
     if (isAbove_) {
-        drawDebugTopView(screen, debugTopCamera(camera, settings_.viewDistance), camera,
-                         view::fogDistance(settings_.viewDistance));
+        const int viewDistance = settings_.graphics.viewDistance;
+        drawDebugTopView(screen, debugTopCamera(camera, viewDistance), camera,
+                         view::fogDistance(viewDistance), shadowFit(camera));
     } else if (const auto& target = interaction_.target()) {
         drawTarget(screen, camera, *target, session.world(), session.blocks());
     }
@@ -212,7 +225,7 @@ void Game::drawInterface() {
     if (!progress.complete()) drawProgress(screen, progress);
     if (showsLoading_)
         drawLoadingMap(screen, session.pipeline(), world::chunkOf(player_.pose().position),
-                       settings_.viewDistance);
+                       settings_.graphics.viewDistance);
     if (showsPanel_) drawStatistics(statistics());
     if (showsPanel_) drawPanel(settings_, session.clock, {isSoftwareRenderer_, screen.width, screen.height});
     if (container_) drawOpenContainer(screen);

@@ -83,6 +83,7 @@ class Game {
     render::FrameInput frameInput() const;
     void drawInterface();
     void drawOpenContainer(const Screen& screen);
+    std::optional<render::ShadowFit> shadowFit(const render::Camera& camera) const;
     Statistics statistics();
     MemoryStatistics memoryStatistics() const;
     base::Result<void> leave();

@@ -91,7 +91,7 @@ void Game::onKey(Key key) {
             break;
         case Key::L: {
             using render::LightSampling;
-            render::LightSampling& light = settings_.graphics.light;
+            render::LightSampling& light = settings_.graphics.render.light;
             light = light == LightSampling::Smooth ? LightSampling::Classic : LightSampling::Smooth;
             say(light == LightSampling::Smooth ? "smooth light" : "classic light");
             break;

@@ -90,7 +90,7 @@ render::Camera debugTopCamera(const render::Camera& camera, int viewDistance) {
 }
 
 void drawDebugTopView(const Screen& screen, const render::Camera& above, const render::Camera& camera,
-                      float farBlocks) {
+                      float farBlocks, const std::optional<render::ShadowFit>& shadows) {
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const auto line = [&](glm::dvec3 a, glm::dvec3 b, ImU32 color) {
         const auto from = projected(screen, above, a), to = projected(screen, above, b);
@@ -108,13 +108,13 @@ void drawDebugTopView(const Screen& screen, const render::Camera& above, const r
         line(camera.position, far[k], IM_COL32(255, 220, 60, 255));
         line(far[k], far[(k + 1) % 4], IM_COL32(255, 220, 60, 255));
     }
-    constexpr int kSteps = 48;
-    const auto onCircle = [&](int k) {
-        const double angle = 2 * 3.14159265358979 * k / kSteps;
-        return camera.position +
-               glm::dvec3(std::cos(angle), std::sin(angle), 0) * double{render::kShadowReach};
-    };
-    for (int k = 0; k < kSteps; ++k) line(onCircle(k), onCircle(k + 1), IM_COL32(120, 190, 255, 255));
+    if (!shadows) return;
+    const std::array<glm::dvec3, 8> map = render::cornersOf(*shadows, camera);
+    constexpr ImU32 kShadowColor = IM_COL32(120, 190, 255, 255);
+    for (std::size_t k = 0; k < map.size(); ++k) {
+        for (const std::size_t axis : {1u, 2u, 4u})
+            if ((k & axis) == 0) line(map[k], map[k | axis], kShadowColor);
+    }
 }
 
 void drawCrosshair(const Screen& screen) {
@@ -146,13 +146,14 @@ void drawStatistics(const Statistics& f) {
     ImGui::SetNextWindowBgAlpha(0.5f);
     ImGui::Begin("statistics", nullptr, kBare);
     const glm::dvec3& p = f.camera.position;
-    ImGui::Text("%.1f frames/s (%.1f to %.1f)", f.frames->now(), f.frames->min(), f.frames->max());
+    ImGui::Text("%.1f frames/s (%.1f to %.1f), %d in the last second", f.frames->now(), f.frames->min(),
+                f.frames->max(), f.frames->lastSecond());
     ImGui::Text("x %.1f  y %.1f  z %.1f  yaw %.0f  pitch %.0f  time %.3f", p.x, p.y, p.z,
                 double{f.camera.yaw}, double{f.camera.pitch}, f.timeDay);
     ImGui::Text("chunks: %zu active, %zu of %zu visible, %zu queued", f.activeChunks, f.progress.visible,
                 f.progress.inView, f.queuedChunks);
-    ImGui::Text("triangles: %zu opaque, %zu transparent", f.frame.opaqueTriangles,
-                f.frame.transparentTriangles);
+    ImGui::Text("triangles: %zu opaque, %zu transparent, %zu shadow", f.frame.opaqueTriangles,
+                f.frame.transparentTriangles, f.frame.shadowTriangles);
     ImGui::Text("MB: blocks %.1f, light %.1f; on the GPU quads %.1f, light %.1f",
                 base::megabytes(f.memory.blocks), base::megabytes(f.memory.light),
                 base::megabytes(f.memory.quads), base::megabytes(f.memory.lightOnGpu));

@@ -9,6 +9,7 @@
 #include "terrane/game/block_interaction.h"
 #include "terrane/gpu/timer.h"
 #include "terrane/render/renderer.h"
+#include "terrane/render/shadow_volume.h"
 #include "terrane/stream/chunk_pipeline.h"
 #include "terrane/world/ray_cast.h"
 
@@ -24,9 +25,9 @@ void drawTarget(const Screen& screen, const render::Camera& camera, const world:
                 const world::World& world, const world::BlockRegistry& blocks);
 // Straight over a camera, so high that all within the view distance (chunks) is seen.
 render::Camera debugTopCamera(const render::Camera& camera, int viewDistance);
-// What the camera sees, up to `farBlocks`, and where its shadows reach, as seen from above.
+// What the camera sees, up to `farBlocks`, and what its shadow map covers, if it has one, as seen from above.
 void drawDebugTopView(const Screen& screen, const render::Camera& above, const render::Camera& camera,
-                      float farBlocks);
+                      float farBlocks, const std::optional<render::ShadowFit>& shadows);
 void drawCrosshair(const Screen& screen);
 
 // The block in the hand, bottom left. `image`: an OpenGL texture, 0: none.

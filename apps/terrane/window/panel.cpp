@@ -54,11 +54,11 @@ void drawPreset(PlaySettings& settings, bool isSoftwareRenderer) {
     }
     if (!combo("preset", chosen, count, nameOf)) return;
     settings.preset = nameOf(chosen);
-    settings.graphics = render::renderOptions({settings.preset, {}}, isSoftwareRenderer);
+    settings.graphics = render::withPreset(settings.graphics, settings.preset, isSoftwareRenderer);
 }
 
 // A switch where a row is off or on, else a choice.
-void drawRow(const render::GraphicsRow& row, render::RenderOptions& graphics) {
+void drawRow(const render::GraphicsRow& row, render::GraphicsSettings& graphics) {
     const std::string label(row.name);
     int value = row.get(graphics);
     bool isChanged = false;
@@ -76,15 +76,8 @@ void drawRow(const render::GraphicsRow& row, render::RenderOptions& graphics) {
 
 void drawView(PlaySettings& s) {
     choice("view", s.view, viewNames());
-    ImGui::SliderInt("view distance", &s.viewDistance, 2, 64, "%d", kTyped);
+    ImGui::SliderInt("view distance", &s.graphics.viewDistance, 2, 64, "%d", kTyped);
     ImGui::SliderFloat("field of view", &s.fieldOfView, 40, 110, "%.0f", kTyped);
-    choice("merging", s.mesh.method, mergeMethodNames());
-    int height = s.mesh.meshSectionHeight;
-    int exponent = 0;
-    while ((mesh::kMinMeshSectionHeight << exponent) < height) ++exponent;
-    const auto heightOf = [](int k) { return std::to_string(mesh::kMinMeshSectionHeight << k); };
-    if (combo("mesh section height", exponent, 5, heightOf))
-        s.mesh.meshSectionHeight = mesh::kMinMeshSectionHeight << exponent;
 }
 
 // Taken over with Enter.

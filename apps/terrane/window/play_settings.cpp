@@ -34,15 +34,13 @@ std::vector<std::string> graphicsSettings() {
 
 SettingValues valuesOf(const PlaySettings& s, bool isSoftwareRenderer) {
     SettingValues values = {{"preset", s.preset}};
-    const render::RenderOptions preset = render::renderOptions({s.preset, {}}, isSoftwareRenderer);
+    const render::GraphicsSettings preset = render::settingsOf({s.preset}, isSoftwareRenderer);
     for (const render::GraphicsRow& row : render::graphicsTable()) {
         const int value = row.get(s.graphics);
         if (value == row.get(preset)) continue;
         values.emplace(row.name, row.valueNames[static_cast<std::size_t>(value)]);
     }
-    values.emplace("view-distance", fmt::format("{}", s.viewDistance));
-    values.emplace("merging", nameOf(mergeMethodNames(), s.mesh.method));
-    values.emplace("mesh-section-height", fmt::format("{}", s.mesh.meshSectionHeight));
+    values.emplace("view-distance", fmt::format("{}", s.graphics.viewDistance));
     values.emplace("movement", nameOf(movementNames(), s.movement));
     values.emplace("field-of-view", fmt::format("{:.0f}", s.fieldOfView));
     values.emplace("mouse-sensitivity", fmt::format("{:.2f}", s.mouseSensitivity));

@@ -14,9 +14,7 @@ namespace terrane::app {
 
 struct PlaySettings {
     std::string preset = "auto";
-    render::RenderOptions graphics;  // the preset's, with changes
-    int viewDistance = 16;           // chunks
-    mesh::MeshOptions mesh;
+    render::GraphicsSettings graphics;  // the preset's, with changes
     render::View view = render::View::Color;
     game::Movement movement = game::Movement::Gravity;
     float fieldOfView = 70;          // degrees
