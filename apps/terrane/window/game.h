@@ -4,7 +4,6 @@
 
 #include <string>
 
-#include "apps/terrane/window/frame_meter.h"
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/pad_reader.h"
 #include "apps/terrane/window/perf_log.h"
@@ -16,6 +15,7 @@
 #include "terrane/game/day_clock.h"
 #include "terrane/render/background_compiler.h"
 #include "terrane/view/block_preview.h"
+#include "terrane/view/frame_meter.h"
 #include "terrane/view/world_view.h"
 
 namespace terrane::app {
@@ -95,7 +95,7 @@ class Game {
     game::Player player_;
     game::BlockInteraction interaction_;
     PadReader pad_;
-    FrameMeter meter_;
+    view::FrameMeter meter_;
     TimedValue<MemoryStatistics> memory_{kMemoryPause};
     TimedValue<WriteTime> shadersWritten_{kShaderPause};
     WriteTime shadersRead_;                     // the newest one when they were last read

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/terrane/window/frame_meter.h"
 #include "terrane/game/block_interaction.h"
 #include "terrane/gpu/timer.h"
 #include "terrane/render/renderer.h"
 #include "terrane/render/shadow_volume.h"
 #include "terrane/stream/chunk_pipeline.h"
+#include "terrane/view/frame_meter.h"
 #include "terrane/world/ray_cast.h"
 
 namespace terrane::app {
@@ -40,7 +40,7 @@ struct MemoryStatistics {
 };
 
 struct Statistics {
-    const FrameMeter* frames = nullptr;
+    const view::FrameMeter* frames = nullptr;
     render::Camera camera;
     double timeDay = 0;
     stream::Progress progress;

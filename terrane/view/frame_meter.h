@@ -5,7 +5,7 @@
 #include <deque>
 #include <map>
 
-namespace terrane::app {
+namespace terrane::view {
 
 class FrameMeter {
   public:
@@ -51,4 +51,4 @@ class FrameMeter {
     std::map<int, int> seconds_;  // how many, by the count of their frames
 };
 
-}  // namespace terrane::app
+}  // namespace terrane::view

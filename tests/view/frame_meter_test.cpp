@@ -1,10 +1,10 @@
-#include "apps/terrane/window/frame_meter.h"
+#include "terrane/view/frame_meter.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace terrane::app {
+namespace terrane::view {
 namespace {
 
 TEST(FrameMeter, NothingIsZero) {
@@ -67,4 +67,4 @@ TEST(FrameMeter, AFrameOfSecondsLeavesSecondsWithoutFrames) {
 }
 
 }  // namespace
-}  // namespace terrane::app
+}  // namespace terrane::view
