@@ -47,7 +47,7 @@ def frame(s, scene, **flags):
     return command_line("render", **{
         "scene": scene, "preset": "thesis", "view_distance": s.view_distance, "size": s.size, "frames": s.frames,
         "samples": 2, "shading": "sample", "shadows": 1024 if s.is_quick else 2048, "layers": 3,
-        "merging": "greedy", "mesh_section_height": 16, **flags})
+        "merging": "squares-ext", "mesh_section_height": 64, **flags})
 
 
 def plain_frame(s, **flags):

@@ -11,9 +11,8 @@ from .world_tables import world_tables
 
 EXPLANATION = """
 Each measurement is a run of the program by itself; figures are medians of its runs, times of frames medians of the \
-frames of a run, after a first one. The frames of the thesis's tables are drawn with `--preset thesis` and greedy \
-merging. A load average above that of one program that uses all processors means that others ran, too: times are then \
-too long.
+frames of a run, after a first one. The frames of the thesis's tables are drawn with `--preset thesis`. A load average \
+above that of one program that uses all processors means that others ran, too: times are then too long.
 
 The thesis: D. Čejchan, Brno 2019; i7-6700HQ, GeForce GTX 960M, 1920×1080, view distance 32 where a table says nothing \
 else. Its frames a second are counted on a screen.

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "apps/terrane/bench/plan_line.h"
-#include "terrane/mesh/mesh_options.h"
 
 namespace terrane::app {
 namespace {
@@ -27,8 +26,8 @@ Cells frames(const BenchSettings& s, const std::string& flags) {
     return expandLine(fmt::format(
         "render --scene landscape --preset thesis --view-distance {} --size {} --frames {} --samples 2 "
         "--shading sample "
-        "--shadows {} --layers 3 --merging greedy --mesh-section-height {} {}",
-        s.viewDistance, s.size, s.frames, s.isQuick ? 1024 : 2048, mesh::kDefaultMeshSectionHeight, flags));
+        "--shadows {} --layers 3 --merging squares-ext --mesh-section-height 64 {}",
+        s.viewDistance, s.size, s.frames, s.isQuick ? 1024 : 2048, flags));
 }
 
 // With the least options, which are those of `--preset auto` without a graphics card.
