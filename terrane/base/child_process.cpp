@@ -29,7 +29,7 @@ constexpr int kCouldNotStart = 127;  // as of a shell
     const int errors = ::open(options.errorOutput.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     const int nothing = ::open("/dev/null", O_RDONLY);
     if (errors < 0 || nothing < 0 || ::chdir(options.folder.c_str()) != 0) ::_exit(kCouldNotStart);
-    ::setenv("XDG_DATA_HOME", options.folder.c_str(), 1);
+    for (const auto& [name, value] : options.environment) ::setenv(name.c_str(), value.c_str(), 1);
     ::dup2(nothing, STDIN_FILENO);
     ::dup2(output, STDOUT_FILENO);
     ::dup2(errors, STDERR_FILENO);

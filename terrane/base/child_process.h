@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "terrane/base/result.h"
@@ -11,9 +12,10 @@
 namespace terrane::base {
 
 struct ChildOptions {
-    std::filesystem::path folder;       // working directory
-    std::filesystem::path errorOutput;  // file for its standard error
-    std::chrono::seconds atMost{600};   // then it is killed
+    std::filesystem::path folder;                                       // working directory
+    std::filesystem::path errorOutput;                                  // file for its standard error
+    std::chrono::seconds atMost{600};                                   // then it is killed
+    std::vector<std::pair<std::string, std::string>> environment = {};  // variables besides one's own
 };
 
 struct ChildEnd {
@@ -23,9 +25,9 @@ struct ChildEnd {
     double seconds = 0, processorSeconds = 0;
 };
 
-// Waits. The child ends with the calling thread. XDG_DATA_HOME is the folder, so that an installed program
-// keeps its saves there too. For a process that has no other threads. An error where the system has no room
-// for another process; a program that is not there or cannot be run gives exit code 127, as in a shell.
+// Waits. The child ends with the calling thread. For a process that has no other threads. An error where the
+// system has no room for another process; a program that is not there or cannot be run gives exit code 127,
+// as in a shell.
 [[nodiscard]] Result<ChildEnd> runChild(const std::vector<std::string>& command, const ChildOptions& options);
 
 }  // namespace terrane::base

@@ -1,4 +1,4 @@
-// What is compiled into the program: block types and textures; for shaders see shaders.h.
+// What is compiled in: block types and textures; for shaders see gpu/built_in_shaders.h.
 #pragma once
 
 #include "terrane/base/result.h"

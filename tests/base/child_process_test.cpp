@@ -11,7 +11,8 @@ namespace {
 class ChildProcessTest : public testing::Test {
   protected:
     Result<ChildEnd> shell(const std::string& script, std::chrono::seconds atMost = std::chrono::minutes(1)) {
-        return runChild({"/bin/sh", "-c", script}, {folder.path(), folder / "errors", atMost});
+        return runChild({"/bin/sh", "-c", script},
+                        {folder.path(), folder / "errors", atMost, {{"TERRANE_TEST", "set"}}});
     }
 
     TempFolder folder;
@@ -52,10 +53,10 @@ TEST_F(ChildProcessTest, AProgramThatIsNotThereDoesNotStart) {
     EXPECT_EQ(end->exitCode, 127);
 }
 
-TEST_F(ChildProcessTest, ReadsNothingAndKeepsSavesInItsFolder) {
-    const auto end = shell("cat; echo $XDG_DATA_HOME");
+TEST_F(ChildProcessTest, ReadsNothingAndHasTheVariables) {
+    const auto end = shell("cat; echo $TERRANE_TEST");
     ASSERT_TRUE(end);
-    EXPECT_EQ(end->output, folder.path().string() + "\n");
+    EXPECT_EQ(end->output, "set\n");
 }
 
 }  // namespace

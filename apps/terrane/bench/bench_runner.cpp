@@ -57,7 +57,11 @@ base::Result<json> BenchRunner::runOnce(const Arguments& arguments) const {
     command.insert(command.end(), arguments.begin(), arguments.end());
     if (arguments[0] == "render") command.insert(command.end(), {"--output", "picture.png"});
     if (arguments[0] != "bench") command.push_back("--json");
-    const base::ChildOptions options{work_, work_ / "messages.txt", kLongestRun};
+    const base::ChildOptions options{.folder = work_,
+                                     .errorOutput = work_ / "messages.txt",
+                                     .atMost = kLongestRun,
+                                     // An installed program keeps its saves there too.
+                                     .environment = {{"XDG_DATA_HOME", work_.string()}}};
     const double load = base::loadAverage();
     const auto end = base::runChild(command, options);
     if (!end) return tl::unexpected(end.error());

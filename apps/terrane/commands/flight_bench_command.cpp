@@ -31,12 +31,14 @@ struct FlightBenchOptions {
     bool json = false;
 };
 
-base::Result<view::Flight> flightOf(const FlightBenchOptions& options, int viewDistance) {
+// Without the view distance.
+base::Result<view::Flight> flightOf(const FlightBenchOptions& options) {
     auto place = placeOf(options.place, {"", {{8, 8, 120}, 45, 0}, 0.4f});
     if (!place) return tl::unexpected(place.error());
     // A scene looks down on the ground.
     if (!options.place.look) place->pose.pitch = 0;
-    return view::Flight{view::cameraOf(place->pose), options.seconds, viewDistance, place->timeDay};
+    return view::Flight{
+        .start = view::cameraOf(place->pose), .seconds = options.seconds, .timeDay = place->timeDay};
 }
 
 base::Result<void> writeFrames(const std::string& file, std::span<const view::FlightFrame> frames) {
@@ -101,14 +103,15 @@ nlohmann::json jsonOf(const view::FlightLog& log) {
 
 base::Result<void> runFlightBench(const FlightBenchOptions& options) {
     if (options.output.empty() && !options.json) return base::fail("flight-bench needs --output or --json");
+    auto flight = flightOf(options);
+    if (!flight) return tl::unexpected(flight.error());
     auto world = Offscreen::create({.world = options.world,
                                     .save = options.save,
                                     .graphics = options.graphics,
                                     .backend = options.backend,
                                     .meshMilliseconds = view::WorldView::kFrameMilliseconds});
     if (!world) return tl::unexpected(world.error());
-    const auto flight = flightOf(options, (*world)->graphics.viewDistance);
-    if (!flight) return tl::unexpected(flight.error());
+    flight->viewDistance = (*world)->graphics.viewDistance;
     const view::FlightLog log = view::fly(*(*world)->session, *(*world)->view, (*world)->renderer, *flight);
     if (!options.output.empty()) {
         if (auto written = writeFrames(options.output, view::framesInFlight(log)); !written) return written;
