@@ -195,12 +195,13 @@ render::FrameInput Game::frameInput() const {
 
 // None where there are no shadows.
 std::optional<render::ShadowFit> Game::shadowFit(const render::Camera& camera) const {
-    const int texels = parts_.renderer.options().shadowSize;
+    const render::RenderOptions& options = parts_.renderer.options();
     const glm::vec2 size(parts_.renderer.size());
-    if (texels == 0 || size.y == 0) return std::nullopt;
+    if (options.shadowSize == 0 || options.shading == render::Shading::Off || size.y == 0)
+        return std::nullopt;
     const auto timeDay = static_cast<float>(parts_.session.clock.timeDay);
     return render::fitShadowMap(camera, size.x / size.y, world::environmentAt(timeDay).lightDirection,
-                                texels);
+                                options.shadowSize);
 }
 
 void Game::drawInterface() {
