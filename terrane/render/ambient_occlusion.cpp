@@ -4,17 +4,28 @@
 
 namespace terrane::render {
 
-AmbientOcclusion::AmbientOcclusion(const gpu::ShaderLoader& shaders)
-    : find_(shaders, "ambient_occlusion"),
-      alongX_(shaders, "occlusion_blur"),
-      alongY_(shaders, "occlusion_blur") {}
+AmbientOcclusion::Passes AmbientOcclusion::makePasses(const gpu::ShaderLoader& shaders) {
+    return {FullscreenPass(shaders, "ambient_occlusion"), FullscreenPass(shaders, "occlusion_blur"),
+            FullscreenPass(shaders, "occlusion_blur")};
+}
 
-base::Result<void> AmbientOcclusion::configure(const FrameTargets& targets, bool isOn) {
+AmbientOcclusion::AmbientOcclusion(const gpu::ShaderLoader& shaders)
+    : opaque_(makePasses(shaders)), nearestLayer_(makePasses(shaders)) {}
+
+base::Result<void> AmbientOcclusion::select(Passes& passes, int samples, bool nearestLayer) {
+    const auto variant = [&](int axis) {
+        return defined({{"AXIS", axis}, {"MSAA_SAMPLES", samples}, {"NEAREST_LAYER", nearestLayer}});
+    };
+    auto selected = passes.find.select(defined({{"MSAA_SAMPLES", samples}, {"NEAREST_LAYER", nearestLayer}}));
+    if (selected) selected = passes.alongX.select(variant(0));
+    if (selected) selected = passes.alongY.select(variant(1));
+    return selected;
+}
+
+base::Result<void> AmbientOcclusion::configure(const FrameTargets& targets, bool isOn, bool hasLayers) {
     if (isOn) {
-        const std::string samples = std::to_string(targets.msaaSamples);
-        auto selected = find_.select({{"MSAA_SAMPLES", samples}});
-        if (selected) selected = alongX_.select({{"AXIS", "0"}, {"MSAA_SAMPLES", samples}});
-        if (selected) selected = alongY_.select({{"AXIS", "1"}, {"MSAA_SAMPLES", samples}});
+        auto selected = select(opaque_, targets.msaaSamples, false);
+        if (selected && hasLayers) selected = select(nearestLayer_, targets.msaaSamples, true);
         if (!selected) return selected;
     }
     const glm::ivec2 wanted = isOn ? targets.size : glm::ivec2(0);
@@ -33,16 +44,24 @@ base::Result<void> AmbientOcclusion::configure(const FrameTargets& targets, bool
     return {};
 }
 
-void AmbientOcclusion::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
+void AmbientOcclusion::run(gpu::Pipeline& pipeline, const FrameTargets& targets, const Passes& passes) const {
     targets.bindGBuffer();
     visibility_.framebuffer.bind();
-    find_.draw(pipeline, {});
+    passes.find.draw(pipeline, {});
     between_.framebuffer.bind();
     visibility_.texture.bind(shared::kOcclusionUnit);
-    alongX_.draw(pipeline, {});
+    passes.alongX.draw(pipeline, {});
     visibility_.framebuffer.bind();
     between_.texture.bind(shared::kOcclusionUnit);
-    alongY_.draw(pipeline, {});
+    passes.alongY.draw(pipeline, {});
+}
+
+void AmbientOcclusion::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
+    run(pipeline, targets, opaque_);
+}
+
+void AmbientOcclusion::drawNearestLayer(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
+    run(pipeline, targets, nearestLayer_);
 }
 
 }  // namespace terrane::render

@@ -1,8 +1,11 @@
 // Ambient visibility of a surface from the depth on the screen: 1 open, 0 occluded. Two to eight points on a
 // spiral in the hemisphere over the surface, fewer with distance, turned differently in each of 4 × 4 pixels.
-// MSAA_SAMPLES: of the G-buffer, of which the first is taken.
+// MSAA_SAMPLES: of the G-buffer, of which the first is taken. NEAREST_LAYER: 1 for the nearest blended surface, pixels
+// without one stay as they are.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/gbuffer_read.glsl"
+#include "terrane/render/packed_layer.glsl"
+#include "terrane/render/nearest_depth.glsl"
 #include "terrane/shared/hash.h"
 
 layout(location = 1) in vec3 inRay;
@@ -15,7 +18,7 @@ float occlusionAt(vec3 position, float bias) {
     if (clip.w <= frame.nearPlane) return 0.0;
     vec2 screen = 0.5 + 0.5 * clip.xy / clip.w;
     if (screen != clamp(screen, 0.0, 1.0)) return 0.0;
-    float seen = blocksOfDepth(depthAt(ivec2(screen * frame.viewportSize), 0));
+    float seen = blocksOfDepth(nearestDepthAt(ivec2(screen * frame.viewportSize)));
     float inFront = clip.w - seen;
     // What stands far before the point does not occlude it.
     return inFront > bias ? clamp(1.0 - (inFront - kRadius) / kRadius, 0.0, 1.0) : 0.0;
@@ -23,11 +26,16 @@ float occlusionAt(vec3 position, float bias) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec4 packedSurface = packedSurfaceAt(pixel, 0);
-    float blocks = blocksOfDepth(depthAt(pixel, 0));
+    if (!isDrawnAt(pixel)) discard;
+    float blocks = blocksOfDepth(nearestDepthAt(pixel));
     outVisibility = vec4(1.0);
-    if (packedDirection(packedSurface) == kDirectionNone || blocks > 96.0) return;
-    vec3 normal = unpackSurface(packedSurface).normal;
+#if NEAREST_LAYER == 1
+    Surface surface = unpackLayer(texelFetch(nearestLayer, pixel, 0)).surface;
+#else
+    Surface surface = unpackSurface(packedSurfaceAt(pixel, 0));
+#endif
+    if (surface.direction == kDirectionNone || blocks > 96.0) return;
+    vec3 normal = surface.normal;
     vec3 position = frame.cameraPosition.xyz + inRay * blocks;
     vec3 tangent = abs(normal.z) > 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 0.0, 1.0), side = cross(normal, tangent);
     float turn = float(hash2(uint(pixel.x) & 3u, uint(pixel.y) & 3u, 3u) >> 8) / 16777216.0;

@@ -1,5 +1,5 @@
-// Ambient occlusion in screen space, for the shading of surfaces. Used by the renderer on the context's
-// thread.
+// Ambient occlusion in screen space: of the opaque surfaces, then of the nearest blended ones. Used by the
+// renderer on the context's thread.
 #pragma once
 
 #include "terrane/render/frame_targets.h"
@@ -12,15 +12,27 @@ class AmbientOcclusion {
     AmbientOcclusion() = default;
     explicit AmbientOcclusion(const gpu::ShaderLoader& shaders);
 
-    base::Result<void> configure(const FrameTargets& targets, bool isOn);
+    // `hasLayers`: drawNearestLayer() is used too.
+    base::Result<void> configure(const FrameTargets& targets, bool isOn, bool hasLayers);
+    // Of the opaque surfaces.
     void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
+    // Of the nearest blended layer, whose textures are bound: replaces the result where it has faces.
+    void drawNearestLayer(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
     bool isOn() const { return size_.x > 0; }
     const gpu::Texture2D& result() const {
         return visibility_.texture;
     }  // 1 where nothing shuts a surface in
 
   private:
-    FullscreenPass find_, alongX_, alongY_;
+    // Finds the visibility, then blurs it along both axes.
+    struct Passes {
+        FullscreenPass find, alongX, alongY;
+    };
+    static Passes makePasses(const gpu::ShaderLoader& shaders);
+    static base::Result<void> select(Passes& passes, int samples, bool nearestLayer);
+    void run(gpu::Pipeline& pipeline, const FrameTargets& targets, const Passes& passes) const;
+
+    Passes opaque_, nearestLayer_;
     ColorTarget visibility_, between_;
     glm::ivec2 size_{0};
 };

@@ -29,7 +29,9 @@ base::Result<void> FramePasses::configure(const FrameTargets& targets, const Ren
     if (done) done = shading.select(options, samples, hasShadows);
     if (done) done = transparency.configure(targets, options, hasShadows);
     if (done) done = debugView.select(defined({{"MSAA_SAMPLES", samples}, {"LIGHT_SMOOTH", light}}));
-    if (done) done = occlusion.configure(targets, options.occlusion != Occlusion::Off);
+    if (done)
+        done =
+            occlusion.configure(targets, options.occlusion != Occlusion::Off, options.transparencyLayers > 0);
     if (done) done = godRays.configure(targets.size, options.godRays);
     if (done) done = depthOfField.configure(targets, options.depthOfField);
     if (done) {

@@ -1,7 +1,8 @@
 // Smooths the ambient occlusion along one axis: Gaussian of 9 taps, σ = 3, over what lies at a like distance.
-// AXIS: 0 x, 1 y. MSAA_SAMPLES: of the depth.
+// AXIS: 0 x, 1 y. MSAA_SAMPLES: of the depth. NEAREST_LAYER: as in ambient_occlusion.frag.glsl.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/gbuffer_read.glsl"
+#include "terrane/render/nearest_depth.glsl"
 
 layout(binding = kOcclusionUnit) uniform sampler2D source;
 
@@ -11,11 +12,12 @@ const float kWeights[5] = float[](0.1509, 0.1427, 0.1208, 0.0915, 0.0620);
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy), step = AXIS == 0 ? ivec2(1, 0) : ivec2(0, 1), last = textureSize(source, 0) - 1;
-    float middle = blocksOfDepth(depthAt(pixel, 0));
+    if (!isDrawnAt(pixel)) discard;
+    float middle = blocksOfDepth(nearestDepthAt(pixel));
     float sum = 0.0, weights = 0.0;
     for (int k = -4; k <= 4; ++k) {
         ivec2 at = clamp(pixel + k * step, ivec2(0), last);
-        float difference = abs(blocksOfDepth(depthAt(at, 0)) - middle);
+        float difference = abs(blocksOfDepth(nearestDepthAt(at)) - middle);
         float weight = kWeights[abs(k)] * clamp(1.0 - difference / (0.5 + 0.02 * middle), 0.001, 1.0);
         sum += weight * texelFetch(source, at, 0).r;
         weights += weight;

@@ -214,7 +214,7 @@ bool Renderer::drawTransparency(const FrameInput& input) {
         passes_.transparency.peelLayers(pipeline_, targets_, quadDraw());
     }
     const TimerZone zone(timer_, "shade layers");
-    passes_.transparency.shade(pipeline_, targets_, quadDraw(), shadingInputs());
+    passes_.transparency.shade(pipeline_, targets_, quadDraw(), shadingInputs(), passes_.occlusion);
     return true;
 }
 

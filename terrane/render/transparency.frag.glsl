@@ -1,5 +1,6 @@
 // The light of all layers of blended faces over the image: color times coverage, and coverage.
-// MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW: 1 where there is a shadow map. QUADS: 1 draws over the
+// MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW, OCCLUSION: 1 where there is a shadow map, ambient
+// occlusion of the nearest layer. QUADS: 1 draws over the
 // quads of the first layer, 0 over the whole screen.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
@@ -20,6 +21,9 @@ layout(binding = kTransparencyDepthUnit) uniform sampler2DMS layerDepths[LAYERS]
 layout(binding = kTransparencyColorUnit) uniform sampler2D layerColors[LAYERS];
 layout(binding = kTransparencyDepthUnit) uniform sampler2D layerDepths[LAYERS];
 #endif
+#if OCCLUSION == 1
+layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
+#endif
 
 #if QUADS == 1
 vec3 inRay;
@@ -30,8 +34,8 @@ layout(location = 0) out vec4 outColor;
 
 const vec3 kBackground = vec3(0.35);  // of a single layer
 
-// `behind`: depth of what comes next.
-vec4 shadeLayer(Layer layer, float depth, float behind) {
+// `behind`: depth of what comes next. `visibility`: of light from all around.
+vec4 shadeLayer(Layer layer, float depth, float behind, float visibility) {
     float blocks = blocksOfDepth(depth);
     vec3 toPoint = inRay * blocks, position = frame.cameraPosition.xyz + toPoint;
     if ((frame.switches & kSwitchUnlit) != 0) return throughAir(layer.surface.albedo, toPoint, 1.0) * layer.alpha;
@@ -44,9 +48,9 @@ vec4 shadeLayer(Layer layer, float depth, float behind) {
     if (layer.isLiquid) {
         float thickness = (min(blocksOfDepth(behind), 1e4) - blocks) * length(inRay);
         if (frame.isUnderWater != 0u) thickness = 0.3;  // seen from within: the water is on this side
-        color = shadeWater(layer.surface, position, toPoint, thickness, levels, shadow);
+        color = shadeWater(layer.surface, position, toPoint, thickness, levels, shadow, visibility);
     } else {
-        color = vec4(shade(layer.surface, levels, shadow, 1.0) * layer.alpha, layer.alpha);
+        color = vec4(shade(layer.surface, levels, shadow, visibility) * layer.alpha, layer.alpha);
     }
     vec4 air = throughAir(color.rgb / max(color.a, 1e-3), toPoint, levels.a);
     return air * color.a;
@@ -76,6 +80,14 @@ int layersAt(ivec2 pixel, int k) {
     return count;
 }
 
+// Found for the nearest layer alone.
+float visibilityAt(ivec2 pixel, int n) {
+#if OCCLUSION == 1
+    if (n == 0) return texelFetch(occlusion, pixel, 0).r;
+#endif
+    return 1.0;
+}
+
 // A loop over the layers that are there: software renderers run what a branch leaves out.
 vec4 shadeLayers(ivec2 pixel, int k) {
     vec4 sum = vec4(0.0);
@@ -83,7 +95,7 @@ vec4 shadeLayers(ivec2 pixel, int k) {
     for (int n = layersAt(pixel, k) - 1; n >= 0; --n) {
         float depth = layerDepthAt(pixel, k, n);
         bool isShown = frame.singleTransparencyLayer == 0 || frame.singleTransparencyLayer == n + 1;
-        vec4 color = isShown ? shadeLayer(unpackLayer(packedLayerAt(pixel, k, n)), depth, behind) : vec4(0.0);
+        vec4 color = isShown ? shadeLayer(unpackLayer(packedLayerAt(pixel, k, n)), depth, behind, visibilityAt(pixel, n)) : vec4(0.0);
         sum = color + (1.0 - color.a) * sum;
         behind = depth;
     }

@@ -52,6 +52,7 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
                                                 {"MSAA_SAMPLES", samples},
                                                 {"LAYERS", layers},
                                                 {"SHADOW", hasShadows},
+                                                {"OCCLUSION", options.occlusion != Occlusion::Off},
                                                 {"LIGHT_SMOOTH", static_cast<int>(options.light)},
                                                 {"QUADS", shadesQuads_}});
     if (selected) selected = shadesQuads_ ? shadeQuads_.select(shading) : shade_.select(shading);
@@ -131,10 +132,14 @@ void TransparencyPass::bindLayers() const {
 }
 
 void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
-                             const ShadingInputs& inputs) const {
+                             const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const {
     gpu::PipelineState state{.writesDepth = false, .blending = gpu::Blending::Over};
     glBeginConditionalRender(anyDrawn_[0].id(), GL_QUERY_WAIT);
     bindLayers();
+    if (occlusion.isOn()) {
+        occlusion.drawNearestLayer(pipeline, targets);
+        occlusion.result().bind(shared::kOcclusionUnit);
+    }
     if (isMasked_) mask_.draw(pipeline, targets);
     targets.bindGBuffer();
     inputs.bind();

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "terrane/render/ambient_occlusion.h"
 #include "terrane/render/frame_targets.h"
 #include "terrane/render/fullscreen_pass.h"
 #include "terrane/render/pixel_mask.h"
@@ -27,7 +28,7 @@ class TransparencyPass {
     void peelLayers(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads);
     // Over the scene, where peel found anything. Of the same quads.
     void shade(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
-               const ShadingInputs& inputs) const;
+               const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const;
 
     // After peelLayers(): of what is nearest in each sample, opaque or blended.
     const MsaaTexture& nearestDepth() const { return targets_[0].depth; }

@@ -1,5 +1,5 @@
 // Water: waves in its normals, the sky in its mirror, darker and bluer the more of it one looks through. Needs
-// frame_uniforms.glsl, sky_color.glsl.
+// frame_uniforms.glsl, sky_color.glsl, lighting.glsl.
 layout(binding = kSkyNoiseUnit) uniform sampler2D noiseTexture;
 
 // Positions repeat every 64 blocks, so that they are exact anywhere in the world.
@@ -45,14 +45,15 @@ float waterMirror(float facing) {
 }
 
 // Color times coverage, and coverage, of a surface of water before `blocks` of it. `levels`: of light; `shadow`: the
-// share of direct light.
-vec4 shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 levels, float shadow) {
+// share of direct light; `visibility`: that of light from all around.
+vec4 shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 levels, float shadow, float visibility) {
     vec4 light = brightnessOf(levels);
     vec3 view = normalize(toPoint);
     bool isTop = abs(s.normal.z) > 0.5;
     vec3 normal = isTop ? waveNormal(position, toPoint) * sign(s.normal.z) : s.normal;
     vec3 direct = frame.lightColor.rgb * max(frame.lightDirection.z, 0.0) * shadow;
-    vec3 lit = light.a * (frame.ambientColor.rgb + direct) + light.rgb * (1.0 - frame.hiddenLampShare * light.a) + 0.02;
+    vec3 lamps = light.rgb * (1.0 - frame.hiddenLampShare * light.a);
+    vec3 lit = light.a * (frame.ambientColor.rgb * visibility + direct) + (lamps + kMinLight) * visibility;
     vec4 body = waterBody(s.albedo, lit, blocks);
 
     float mirror = isTop ? waterMirror(dot(-view, normal)) : 0.03;

@@ -1,5 +1,4 @@
-// What is far behind glass is as sharp as the glass: depth of field goes by the nearest surface, blended or
-// not.
+// Depth of field and ambient occlusion go by the nearest surface, blended or not.
 #include <cmath>
 
 #include "terrane/mesh/chunk_mesher.h"
@@ -8,14 +7,15 @@
 namespace terrane::render {
 namespace {
 
-// A wall across a chunk, from z = 90 to 110.
+// Walls across a chunk at the given x, from z = 90 to 110.
 template <class BlockAt>
-mesh::ChunkMesh wallAcross(int x, BlockAt blockAt) {
+mesh::ChunkMesh wallsAcross(std::initializer_list<int> xs, BlockAt blockAt) {
     world::Chunk chunk;
     const world::Chunk air;
-    for (int y = 0; y < world::kChunkSize; ++y)
-        for (int z = 90; z <= 110; ++z)
-            chunk.setBlock(world::blockIndex(x, y, z), contentBlock(blockAt(y, z)));
+    for (const int x : xs)
+        for (int y = 0; y < world::kChunkSize; ++y)
+            for (int z = 90; z <= 110; ++z)
+                chunk.setBlock(world::blockIndex(x, y, z), contentBlock(blockAt(x, y, z)));
     mesh::MeshScratch scratch;
     return mesh::meshChunk({&chunk, {&air, &air, &air, &air}, &contentBlocks(), {}}, scratch);
 }
@@ -42,13 +42,35 @@ class LayeredDepth : public RendererTest {
 
 TEST_F(LayeredDepth, GlassNearbyIsNotBlurredByWhatIsFarBehindIt) {
     ASSERT_TRUE(renderer_->setChunk(
-        {12, 0}, wallAcross(5, [](int y, int z) { return (y + z) % 2 == 0 ? "stone" : "snow"; })));
+        {12, 0}, wallsAcross({5}, [](int, int y, int z) { return (y + z) % 2 == 0 ? "stone" : "snow"; })));
     for (const int samples : {1, 4}) {
         const double farWall = blur(samples);
         EXPECT_GT(farWall, 1.0) << samples;
-        ASSERT_TRUE(renderer_->setChunk({0, 0}, wallAcross(12, [](int, int) { return "cyan_glass"; })));
+        ASSERT_TRUE(
+            renderer_->setChunk({0, 0}, wallsAcross({12}, [](int, int, int) { return "cyan_glass"; })));
         EXPECT_LT(blur(samples), 0.1 * farWall) << samples;
         renderer_->removeChunk({0, 0});
+    }
+}
+
+// A pane of glass before the sky, and a ledge of stone at it: the glass is occluded beside the ledge.
+TEST_F(LayeredDepth, GlassIsOccludedByWhatStandsAtIt) {
+    constexpr int kLedge = 11;
+    const auto blockAt = [](int x, int, int z) { return x == 12 ? "cyan_glass" : z == 98 ? "stone" : "air"; };
+    ASSERT_TRUE(renderer_->setChunk({0, 0}, wallsAcross({12, kLedge}, blockAt)));
+    const FrameInput input = noon({{8, 8.5, 100}, 0, 0});
+    for (const int samples : {1, 4}) {
+        RenderOptions options = plainOptions(samples);
+        options.occlusion = Occlusion::Raw;
+        const auto configured = renderer_->configure(kImageSize, options);
+        ASSERT_TRUE(configured) << configured.error().message;
+        const base::Image raw = draw(input);
+        // The top of the ledge lies 1 block below the camera and ends at the glass, 4 blocks ahead.
+        const int middle = kImageSize.x / 2;
+        int darkest = 255;
+        for (int y = 32; y < 43; ++y) darkest = std::min(darkest, pixel(raw, middle, y)[0]);
+        EXPECT_EQ(pixel(raw, middle, 20)[0], 255) << samples << ": open glass";
+        EXPECT_LT(darkest, 225) << samples << ": the corner of glass and stone";
     }
 }
 
