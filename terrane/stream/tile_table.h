@@ -1,0 +1,79 @@
+// Which chunks of which level cover the land out to the horizon: the rules, without threads, clocks or
+// blocks. tile_pipeline.h makes the tiles, view/world_view.h puts them on screen. One thread.
+//
+// A tile is a chunk of level 1 or more: 16×16 columns, each 2^level blocks wide (world/coords.h). Tiles form
+// a quad-tree: a tile of level k covers four chunks of level k − 1. Level 0 covers the view distance; beyond
+// it lie square rings of levels 1, 2, 3 …, each twice as wide as the one before, out to the horizon.
+//
+// Each column within the horizon is shown by exactly one chunk or tile, once a tile of the coarsest level is
+// there. A tile gives way to its four children when all of them can be shown, and comes back when it can be
+// shown itself. Without that rule land would vanish, or be drawn twice.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "terrane/world/coords.h"
+
+namespace terrane::stream {
+
+struct TileView {
+    world::ChunkPos center{};  // level 0, of the camera
+    int viewDistance = 0;      // of level 0, chunks (Chebyshev)
+    int horizon = 0;           // how far tiles reach, chunks of level 0; none unless beyond viewDistance
+    int detail = 16;           // tiles from the center to the outer edge of a ring
+
+    bool operator==(const TileView&) const = default;
+};
+
+constexpr int kMinDetail = 8, kMaxDetail = 32;
+constexpr int kMaxHorizon = 4096;
+
+struct TileRecord {
+    bool isReady = false;    // it can be shown
+    bool isLoading = false;  // tiles: a request was taken
+    bool isShown = false;
+};
+
+struct TileTable {
+    TileView view;
+    std::unordered_map<world::ChunkPos, TileRecord, world::ChunkPosHash> records;
+    // Tiles that are shown by their children, and tiles that are due to be: the latter change only some way
+    // beyond the border, so that walking to and fro loads nothing again.
+    std::unordered_set<world::ChunkPos, world::ChunkPosHash> open, divided;
+    std::vector<world::ChunkPos> requests;  // absent tiles, the most urgent last
+    bool isOutdated = true;                 // something changed since updateTiles()
+};
+
+// What changed on screen, in no order. A tile that is dropped was hidden before or is hidden too.
+struct TileChanges {
+    std::vector<world::ChunkPos> shown, hidden, dropped;
+};
+
+// The coarsest level: tiles of this level come first and cover everything. 0 without a horizon.
+int coarsestLevel(const TileView& view);
+// Chunks of level 0 between the chunk `center`, which is of level 0, and the nearest one that `tile` covers.
+std::int64_t tileDistance(world::ChunkPos center, world::ChunkPos tile);
+// The chunk of the next level that covers this one; the one of four children with the lowest x and y.
+world::ChunkPos parentOf(world::ChunkPos pos);
+world::ChunkPos firstChildOf(world::ChunkPos tile);
+
+void setTileView(TileTable& table, const TileView& view);
+// A chunk of level 0 can be shown, or no longer.
+void setChunkReady(TileTable& table, world::ChunkPos pos, bool isReady);
+// Up to `limit` tiles to make, most urgent first: the coarsest, then the nearest. They are loading then.
+std::vector<world::ChunkPos> popTileRequests(TileTable& table, std::size_t limit);
+// Whether somebody still waits for the tile: it is loading, not ready.
+bool isAwaited(const TileTable& table, world::ChunkPos tile);
+// A loading tile can be shown.
+void finishTile(TileTable& table, world::ChunkPos tile);
+// Shows, hides and drops what the last changes ask for.
+TileChanges updateTiles(TileTable& table);
+
+// Tiles that are wanted and not there yet.
+std::size_t missingTiles(const TileTable& table);
+
+}  // namespace terrane::stream
