@@ -12,7 +12,7 @@ SectionView viewSection(const MeshInput& input, int number) {
     SectionView view;
     view.center = &input.center->section(number);
     for (std::size_t side = 0; side < input.neighbors.size(); ++side) {
-        view.neighbors[side] = &input.neighbors[side]->section(number);
+        if (input.neighbors[side]) view.neighbors[side] = &input.neighbors[side]->section(number);
     }
     if (number > 0) view.neighbors[world::kFaceNegZ] = &input.center->section(number - 1);
     if (number + 1 < world::kSectionsPerChunk) {
@@ -27,8 +27,6 @@ SectionView viewSection(const MeshInput& input, int number) {
 
 void checkInput([[maybe_unused]] const MeshInput& input) {
     assert(input.center && input.blocks && "a chunk and what its ids mean");
-    assert(std::find(input.neighbors.begin(), input.neighbors.end(), nullptr) == input.neighbors.end() &&
-           "a chunk is meshed when its neighbors are known");
     assert(isMeshSectionHeight(input.options.meshSectionHeight) && "a power of two, 8 to 128");
 }
 
@@ -66,6 +64,11 @@ ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch) {
     }
     mesh.quads.assign(scratch.quads.begin(), scratch.quads.end());  // no larger than needed
     return mesh;
+}
+
+ChunkMesh meshTile(const world::Chunk& chunk, const world::BlockRegistry& blocks, const MeshOptions& options,
+                   MeshScratch& scratch) {
+    return meshChunk({&chunk, {}, &blocks, options}, scratch);
 }
 
 ChunkMesh meshAlone(const world::Chunk& chunk, const world::BlockRegistry& blocks) {

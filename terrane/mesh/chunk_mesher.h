@@ -15,7 +15,10 @@ namespace terrane::mesh {
 
 struct MeshInput {
     const world::Chunk* center = nullptr;
-    std::array<const world::Chunk*, 4> neighbors{};  // -x, +x, -y, +y; none is null
+    // -x, +x, -y, +y. Null: unknown, the border is open. Faces of opaque cubes on it are drawn, down to the
+    // bottom of the world, so that no gap shows beside land of another height; faces that meet their own kind
+    // (water) are not.
+    std::array<const world::Chunk*, 4> neighbors{};
     const world::BlockRegistry* blocks = nullptr;
     MeshOptions options;
 };
@@ -38,6 +41,9 @@ ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch);
 
 // Of a chunk with air all around.
 ChunkMesh meshAlone(const world::Chunk& chunk, const world::BlockRegistry& blocks);
+// Of a chunk of which all four borders are open.
+ChunkMesh meshTile(const world::Chunk& chunk, const world::BlockRegistry& blocks, const MeshOptions& options,
+                   MeshScratch& scratch);
 
 // One mesh section of it, the lowest is 0: appends its quads to `quads`, in which its ranges count.
 MeshSection buildMeshSection(const MeshInput& input, int meshSection, MeshScratch& scratch,

@@ -54,7 +54,8 @@ struct Surroundings {
                            [](const BitSlice& b) { return b == filledSlice(); });
     }
 
-    std::array<std::optional<SectionSide>, world::kFaceCount> sides;  // none beyond the world
+    std::array<std::optional<SectionSide>, world::kFaceCount>
+        sides;  // none beyond the world or an open border
     // Opaque cubes beyond each side. What lies below the world counts as opaque: its bottom is never seen.
     Borders opaque{};
 };
@@ -93,6 +94,7 @@ class SectionFaces {
   private:
     void findUncovered();
     LayerRange visibleLayers(const BlockType& type, const BitCube& blocks) const;
+    BitSlice ownKindBeyond(world::BlockId id, Face side) const;
     BitCube visible(const TypeBlocks& blocks, Face side) const;
     bool merges(const BlockType& type, Face side) const { return mergesFaces(type, side, *view_.blocks); }
 
@@ -172,13 +174,19 @@ void SectionFaces::add(const TypeBlocks& blocks) {
     }
 }
 
+// Beyond an open border everything counts as of the own kind.
+BitSlice SectionFaces::ownKindBeyond(world::BlockId id, Face side) const {
+    const auto& next = around_.sides[side];
+    if (next) return next->blocks(id);
+    return side < kUprightSides ? filledSlice() : BitSlice{};
+}
+
 BitCube SectionFaces::visible(const TypeBlocks& blocks, Face side) const {
     const LayerRange layers = blocks.layers;
     const BitCube faces = both(blocks.facing(side), uncovered_[side], layers);
     if (blocks.type.opaqueCube || !hidesOwnKind(blocks.type, side, *view_.blocks)) return faces;
-    const auto& next = around_.sides[side];
-    const BitSlice border = next ? next->blocks(blocks.id) : BitSlice{};
-    return without(faces, neighborBits(blocks.facing(side), side, border, layers), layers);
+    return without(faces, neighborBits(blocks.facing(side), side, ownKindBeyond(blocks.id, side), layers),
+                   layers);
 }
 
 void SectionFaces::addSide(const TypeBlocks& blocks, Face side) {

@@ -14,7 +14,8 @@ namespace terrane::mesh {
 // A section and what surrounds it.
 struct SectionView {
     const world::Section* center = nullptr;
-    // By side; null above the world, where there is air, and below it, from where nothing is seen.
+    // By side; null above the world, where there is air, below it, from where nothing is seen, and beyond an
+    // open border (MeshInput).
     std::array<const world::Section*, world::kFaceCount> neighbors{};
     const world::Section* blockState = nullptr;  // of the section's blocks
     const world::BlockRegistry* blocks = nullptr;

@@ -129,12 +129,18 @@ TEST_P(MixAndMethod, CoverEachVisibleFaceOnce) {
         Area area(randomBlocks(mix(), seed + 100 * static_cast<unsigned>(method())));
         if (seed % 2 == 1) area.addBlockState(seed);
         const MeshOptions options{method(), kMeshSectionHeights[seed % std::size(kMeshSectionHeights)]};
-        const MeshInput input = area.input(options);
+        MeshInput input = area.input(options);
+        // Some borders are open, in the last chunk all.
+        const bool hasOpenBorders = seed >= kSeeds / 2;
+        for (unsigned side = 0; hasOpenBorders && side < 4; ++side) {
+            if (side % 2 == seed % 2 || seed == kSeeds - 1) input.neighbors[side] = nullptr;
+        }
         const ChunkMesh mesh = meshChunk(input, scratch);
         expectExact(input, mesh);
         expectMeshSections(mesh, options.meshSectionHeight);
         for (const shared::Quad q : mesh.quads) expectWellFormed(q, options);
-        EXPECT_EQ(mesh, meshOf(area, options)) << "a fresh scratch gives the same";
+        MeshScratch fresh;
+        EXPECT_EQ(mesh, meshChunk(input, fresh)) << "a fresh scratch gives the same";
         if (HasFailure()) return;
     }
 }

@@ -42,14 +42,24 @@ class ReferenceFaces {
     }
 
   private:
+    // Null beyond an open border.
+    const world::Chunk* chunkAt(int x, int y) const {
+        if (x < 0) return input_.neighbors[0];
+        if (x > 15) return input_.neighbors[1];
+        if (y < 0) return input_.neighbors[2];
+        if (y > 15) return input_.neighbors[3];
+        return input_.center;
+    }
+
     world::BlockId idAt(int x, int y, int z) const {
         if (!world::isInHeight(z)) return world::kAir;
-        const world::Chunk* chunk = input_.center;
-        if (x < 0) chunk = input_.neighbors[0];
-        if (x > 15) chunk = input_.neighbors[1];
-        if (y < 0) chunk = input_.neighbors[2];
-        if (y > 15) chunk = input_.neighbors[3];
-        return chunk->block(world::blockIndex(x & 15, y & 15, z));
+        return chunkAt(x, y)->block(world::blockIndex(x & 15, y & 15, z));
+    }
+
+    // Beyond an open border an opaque cube meets air, everything else its own kind.
+    world::BlockId idBeside(world::BlockId id, int x, int y, int z) const {
+        if (chunkAt(x, y)) return idAt(x, y, z);
+        return typeOf(id).opaqueCube ? world::kAir : id;
     }
 
     const world::BlockType& typeOf(world::BlockId id) const { return input_.blocks->type(id); }
@@ -64,7 +74,7 @@ class ReferenceFaces {
         const int nx = x + (side / 2 == 0 ? step : 0), ny = y + (side / 2 == 1 ? step : 0);
         const int nz = z + (side / 2 == 2 ? step : 0);
         if (nz < 0) return false;
-        const world::BlockId id = idAt(x, y, z), next = idAt(nx, ny, nz);
+        const world::BlockId id = idAt(x, y, z), next = idBeside(id, nx, ny, nz);
         if (typeOf(next).opaqueCube) return false;
         if (next != id) return true;
         const world::BlockType& type = typeOf(id);
