@@ -64,7 +64,7 @@ class CpuBatchGenerator : public BatchGenerator {
     std::size_t submit(std::span<const ChunkPos> positions) override {
         if (inFlight_.size() == kCpuBatchesInFlight || positions.empty()) return 0;
         const auto taken = positions.first(std::min(positions.size(), kMaxCpuBatch));
-        for (const ChunkPos pos : taken) requireGenerated(pos);
+        for (const ChunkPos pos : taken) requireGenerated(pos, level());
         auto batch = std::make_shared<CpuBatch>(taken);
         for (unsigned k = 0; helpers_ && k < helpers_->threadCount(); ++k)
             helpers_->submit(0, [this, batch](const base::CancelToken&) { batch->work(generator_); });
@@ -85,6 +85,7 @@ class CpuBatchGenerator : public BatchGenerator {
     }
 
     std::string_view backend() const override { return "cpu"; }
+    int level() const override { return generator_.level(); }
 
   private:
     Generator generator_;
@@ -101,7 +102,7 @@ std::unique_ptr<BatchGenerator> makeCpuGenerator(Generator generator, unsigned t
 base::Result<std::vector<std::shared_ptr<world::Chunk>>> generateAll(BatchGenerator& generator,
                                                                      std::span<const ChunkPos> positions) {
     for (const ChunkPos pos : positions) {
-        if (auto valid = checkGenerated(pos); !valid) return tl::unexpected(valid.error());
+        if (auto valid = checkGenerated(pos, generator.level()); !valid) return tl::unexpected(valid.error());
     }
     std::vector<std::shared_ptr<world::Chunk>> chunks;
     chunks.reserve(positions.size());

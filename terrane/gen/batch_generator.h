@@ -23,7 +23,8 @@ class BatchGenerator {
 
     // Starts a batch from the front of `positions`, which are different, and returns how many it took. 0 when
     // as many batches are in flight as there is room for: take one first. Does not wait. Throws
-    // std::invalid_argument, and takes none, where not all of the batch `isGenerated` (generator.h).
+    // std::invalid_argument, and takes none, where not all of the batch `isGenerated` at its level
+    // (generator.h).
     [[nodiscard]] virtual std::size_t submit(std::span<const world::ChunkPos> positions) = 0;
 
     // The oldest batch in the order of its positions, if it is finished (with `wait`: once it is); otherwise,
@@ -31,6 +32,7 @@ class BatchGenerator {
     [[nodiscard]] virtual std::vector<GeneratedChunk> take(bool wait) = 0;
 
     virtual std::string_view backend() const = 0;  // "cpu" or "gpu"
+    virtual int level() const { return 0; }        // of the chunks it makes
 };
 
 // Generates on `threads` − 1 threads of its own and, while it waits in take(), on the calling one. With one

@@ -8,8 +8,14 @@
 
 namespace terrane::gen {
 
-GeneratorBuilder::GeneratorBuilder(std::string name, const world::BlockRegistry& blocks) : blocks_(blocks) {
+GeneratorBuilder::GeneratorBuilder(std::string name, const world::BlockRegistry& blocks, int level)
+    : blocks_(blocks) {
     generator_.name = std::move(name);
+    if (level < 0 || level > world::kMaxLevel) {
+        errors_.push_back(fmt::format("level {} is not in 0…{}", level, world::kMaxLevel));
+        level = 0;
+    }
+    generator_.level = level;
 }
 
 int GeneratorBuilder::newest3D() const {
@@ -83,6 +89,7 @@ NoiseCall GeneratorBuilder::checkedNoise(Pass& pass, std::string_view kind, Nois
     if (!isNew && known->second != parameters) {
         pass.error(fmt::format("noise \"{}\" is used twice with different parameters", call.name));
     }
+    call.weights = fadedWeights(std::move(call.weights), call.size, step());
     return call;
 }
 

@@ -12,6 +12,8 @@
 //   auto generator = g.finish();
 // clang-format on
 //
+// A generator is recorded once for each level of detail; at level k its columns lie 2^k blocks apart.
+//
 // Used on one thread. Mistakes (unknown block, offset too large, a name used twice, more values at once than
 // there are registers) are collected and reported by finish(), each with pass and name.
 #pragma once
@@ -30,7 +32,12 @@ namespace terrane::gen {
 
 class GeneratorBuilder {
   public:
-    GeneratorBuilder(std::string name, const world::BlockRegistry& blocks);
+    // Records the graph of one level, 0…world::kMaxLevel: a generator is written once and recorded for each.
+    GeneratorBuilder(std::string name, const world::BlockRegistry& blocks, int level = 0);
+
+    // Blocks from one column to the next: 2^level. A constant, so `if` on it leaves out what it does not
+    // record.
+    int step() const { return world::columnWidth(generator_.level); }
 
     template <class T>
     Field<T> field(std::string_view name) {
@@ -50,7 +57,8 @@ class GeneratorBuilder {
     int newest3D() const;  // number of the newest finished 3D pass, or -1
     std::uint32_t newField(std::string_view name, Type type);
     void addPass(std::string name, bool is3D, const std::function<void(Pass&)>& body);
-    // The call, or where it has a mistake, which is noted, one that has none. A name stands for one noise.
+    // The call with the weights of the level, or where it has a mistake, which is noted, one that has none. A
+    // name stands for one noise.
     NoiseCall checkedNoise(Pass& pass, std::string_view kind, NoiseCall call);
     std::uint32_t noiseIndex(const NoiseCall& call);
     std::uint32_t hashSlot(const std::string& seedName);

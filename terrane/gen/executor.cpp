@@ -72,23 +72,23 @@ void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
         context_.blocksAround[n] = inputs.blocks[n] ? inputs.blocks[n]->data() : nullptr;
     }
     context_.blocks = context_.blocksAround[4];
-    const std::int32_t x0 = inputs.chunk.x * world::kChunkSize, y0 = inputs.chunk.y * world::kChunkSize;
-    fillConstants(program, x0, y0);
+    const SampleGrid grid = sampleGrid(inputs.chunk);
+    fillConstants(program, grid);
     for (const std::uint32_t n : program.noises) {
         const NoiseCall& call = noises_[n];
         const std::uint32_t seed = seeds_.noises[n];
         switch (call.kind) {
             case NoiseKind::Perlin2D:
-                prepare(context_.perlin2D[n], call, seed, x0, y0);
+                prepare(context_.perlin2D[n], call, seed, grid);
                 break;
             case NoiseKind::Perlin3D:
-                prepare(context_.perlin3D[n], call, seed, x0, y0);
+                prepare(context_.perlin3D[n], call, seed, grid);
                 break;
             case NoiseKind::Voronoi2D:
-                prepare(context_.voronoi2D[n], call, seed, x0, y0);
+                prepare(context_.voronoi2D[n], call, seed, grid);
                 break;
             case NoiseKind::Voronoi3D:
-                prepare(context_.voronoi3D[n], call, seed, x0, y0);
+                prepare(context_.voronoi3D[n], call, seed, grid);
                 break;
         }
     }
@@ -101,12 +101,12 @@ void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
     for (const std::uint32_t f : program.readsAt) fillWindow(f, inputs);
 }
 
-void Executor::fillConstants(const Program& program, std::int32_t x0, std::int32_t y0) {
+void Executor::fillConstants(const Program& program, SampleGrid grid) {
     for (std::size_t k = 0; k < program.constants.size(); ++k) arena_[k].lanes.fill(program.constants[k]);
     for (int r = 0; r < kTileSize; ++r) {
         for (int lane = 0; lane < kRowLanes; ++lane) {
-            row(program.x)[r * kRowLanes + lane] = bitsOf(x0 + lane);
-            row(program.y)[r * kRowLanes + lane] = bitsOf(y0 + r);
+            row(program.x)[r * kRowLanes + lane] = bitsOf(grid.x + lane * grid.step);
+            row(program.y)[r * kRowLanes + lane] = bitsOf(grid.y + r * grid.step);
         }
     }
 }

@@ -39,7 +39,7 @@ class Executor {
 
   private:
     void prepareTile(const Program& program, const PassInputs& inputs);
-    void fillConstants(const Program& program, std::int32_t x0, std::int32_t y0);
+    void fillConstants(const Program& program, SampleGrid grid);
     void fillWindow(std::uint32_t field, const PassInputs& inputs);
     Bits* row(Operand o) { return context_.arena + static_cast<std::size_t>(o.row) * kRowLanes; }
     void writeLayer(Operand block, std::uint16_t* layer);

@@ -146,20 +146,24 @@ void Generator::Impl::advance(world::ChunkPos pos, ChunkWork& work, int passes, 
     work.advance(passes, [&](int pass) { runPass(pos, work, pass, worker); });
 }
 
-base::Result<void> checkGenerated(world::ChunkPos pos) {
-    if (isGenerated(pos)) return {};
-    if (pos.level != 0) {
-        return base::fail("chunk {},{} of level {}: generators make level 0 only", pos.x, pos.y, pos.level);
+base::Result<void> checkGenerated(world::ChunkPos pos, int level) {
+    if (isGenerated(pos, level)) return {};
+    if (pos.level != level) {
+        return base::fail("chunk {},{} of level {}: this generator makes level {} only", pos.x, pos.y,
+                          pos.level, level);
     }
-    return base::fail("chunk {},{}: outside of the world, {} to {}", pos.x, pos.y, world::kMinChunk,
-                      world::kMaxChunk);
+    const std::string ofLevel = level == 0 ? "" : fmt::format(" of level {}", level);
+    return base::fail("chunk {},{}{}: outside of the world, {} to {}", pos.x, pos.y, ofLevel,
+                      world::kMinChunk >> level, world::kMaxChunk >> level);
 }
 
-void requireGenerated(world::ChunkPos pos) {
-    if (isGenerated(pos)) return;
-    throw std::invalid_argument(checkGenerated(pos).error().message);
+void requireGenerated(world::ChunkPos pos, int level) {
+    if (isGenerated(pos, level)) return;
+    throw std::invalid_argument(checkGenerated(pos, level).error().message);
 }
 
+Generator::Generator(GeneratorGraph graph, std::uint64_t seed)
+    : impl_(std::make_unique<Impl>(std::move(graph), seed, cacheSizeOf(graph.level))) {}
 Generator::Generator(GeneratorGraph graph, std::uint64_t seed, CacheSize cacheSize)
     : impl_(std::make_unique<Impl>(std::move(graph), seed, cacheSize)) {}
 Generator::~Generator() = default;
@@ -170,14 +174,18 @@ const std::string& Generator::name() const {
     return impl_->graph.name;
 }
 
+int Generator::level() const {
+    return impl_->graph.level;
+}
+
 std::size_t Generator::cacheBytes() const {
     return impl_->cache.size() * impl_->workBytes();
 }
 
 world::Chunk Generator::generate(world::ChunkPos pos) const {
     TERRANE_ZONE("generate chunk");
-    requireGenerated(pos);
     Impl& impl = *impl_;
+    requireGenerated(pos, impl.graph.level);
     auto worker = impl.borrowWorker();
     const auto work = impl.cache.get(pos);
     impl.advance(pos, *work, impl.shared, *worker);

@@ -1,5 +1,5 @@
-// A generator ready to run for one world seed: position in, chunk out. The blocks depend on nothing but the
-// generator, the seed and the position: not on threads, order of requests or instruction set.
+// A generator ready to run for one world seed and one level: position in, chunk out. The blocks depend on
+// nothing but the generator, the seed and the position: not on threads, order of requests or instruction set.
 //
 // What neighbors may need of a chunk is computed once and kept, in a cache of bounded size; what they do not
 // is computed with the chunk itself.
@@ -17,7 +17,8 @@
 namespace terrane::gen {
 
 // Room for what chunks' neighbors need of them: 1 KiB a field and, where they read blocks, 128 KiB a 3D
-// pass. Overworld: 15 KiB a chunk, so that the default holds 4,350 chunks.
+// pass. Overworld: 15 KiB a chunk, so that the default holds 4,350 chunks, more than the 4,225 of a view
+// of 32.
 struct CacheSize {
     std::size_t bytes = std::size_t{64} << 20;
     // Kept even where they need more bytes: with less than some rows of a wide area nearly everything would
@@ -25,29 +26,36 @@ struct CacheSize {
     std::size_t minChunks = 256;
 };
 
-// Whether generators make the chunk: level 0, in the world. Higher levels have keys, but no blocks yet, and
-// nobody gets those of level 0 in their place.
-constexpr bool isGenerated(world::ChunkPos pos) {
-    return pos.level == 0 && world::isInWorld(pos);
+// A ring of tiles is at most 64 wide and made row by row: 8 MiB hold 8 rows of it, and neighbors need 4.
+constexpr CacheSize cacheSizeOf(int level) {
+    return level == 0 ? CacheSize{} : CacheSize{.bytes = std::size_t{8} << 20};
+}
+
+// Whether a generator of `level` makes the chunk: of that level, in the world. Nobody gets blocks of another
+// level in place of those.
+constexpr bool isGenerated(world::ChunkPos pos, int level = 0) {
+    return pos.level == level && world::isInWorld(pos);
 }
 // The reason where it is not.
-base::Result<void> checkGenerated(world::ChunkPos pos);
+base::Result<void> checkGenerated(world::ChunkPos pos, int level = 0);
 // Throws std::invalid_argument with the reason.
-void requireGenerated(world::ChunkPos pos);
+void requireGenerated(world::ChunkPos pos, int level = 0);
 
 class Generator {
   public:
-    Generator(GeneratorGraph graph, std::uint64_t seed, CacheSize cacheSize = {});
+    Generator(GeneratorGraph graph, std::uint64_t seed);  // with the cache of the graph's level
+    Generator(GeneratorGraph graph, std::uint64_t seed, CacheSize cacheSize);
     ~Generator();
     Generator(Generator&&) noexcept;
     Generator& operator=(Generator&&) noexcept;
 
     // Any thread, any number at a time. Where one runs out of memory the others go on. Throws
-    // std::invalid_argument unless isGenerated(pos). Beyond the world's edge generation sees coordinates
-    // wrap.
+    // std::invalid_argument unless isGenerated(pos, level()). Beyond the world's edge generation sees
+    // coordinates wrap.
     world::Chunk generate(world::ChunkPos pos) const;
 
     const std::string& name() const;
+    int level() const;
     std::size_t cacheBytes() const;  // in use
 
   private:

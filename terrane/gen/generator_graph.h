@@ -45,6 +45,7 @@ std::vector<NodeId> outputsOf(const PassGraph& pass);
 
 struct GeneratorGraph {
     std::string name;
+    int level = 0;  // of the chunks it makes
     std::vector<FieldInfo> fields;
     std::vector<NoiseCall> noises;
     std::vector<std::string> hashNames;  // of seed slots

@@ -26,7 +26,7 @@ struct TileContext {
     // By index of the generator's noises; prepared for those the program calls.
     std::vector<Perlin2DTile> perlin2D;
     std::vector<Perlin3DTile> perlin3D;
-    std::vector<std::vector<VoronoiPoint>> voronoi2D;
+    std::vector<Voronoi2DTile> voronoi2D;
     std::vector<Voronoi3DTile> voronoi3D;
     std::vector<const Bits*> fields;         // by field: kTileLanes values
     std::vector<std::vector<Bits>> windows;  // by field: kWindowSize² values where read with an offset

@@ -39,6 +39,11 @@ struct NoiseCall {
     bool operator==(const NoiseCall&) const = default;
 };
 
+// The weights at `step` blocks from sample to sample. An octave shorter than two steps cannot be seen there
+// and would only flicker, so it fades: of cells of `s` blocks clamp(s / step − 1, 0, 1) is left. At step 1
+// nothing fades.
+std::vector<float> fadedWeights(std::vector<float> weights, std::int32_t size, std::int32_t step);
+
 // Results of a Voronoi call.
 enum VoronoiResult : std::uint32_t {
     kVoronoiDistance,  // Float, blocks, to the nearest point
@@ -90,5 +95,6 @@ struct Octave {
     float weight;
 };
 std::vector<Octave> octavesOf(const NoiseCall& call);
+bool hasOctaves(const NoiseCall& call);
 
 }  // namespace terrane::gen

@@ -49,6 +49,10 @@ Int Pass::z() {
     return Int(leaf(Op::PosZ, Type::Int, 0, kDependsZ));
 }
 
+int Pass::step() const {
+    return generator_.step();
+}
+
 Block Pass::block(std::string_view name) {
     if (name == "air") return Block(world::kAir);
     const world::BlockType* type = generator_.blocks_.find(name);
@@ -109,43 +113,6 @@ void Pass::while_(const std::function<Bool()>& condition, const std::function<vo
     }
 }
 
-bool Pass::requireWritten(std::uint32_t field) {
-    const FieldInfo& info = generator_.generator_.fields[field];
-    const bool earlier = info.writtenBy >= 0 && info.writtenBy < number_;
-    if (!earlier) error(fmt::format("field \"{}\" is read, but no earlier pass writes it", info.name));
-    return earlier;
-}
-
-bool Pass::requireBlocks() {
-    const bool earlier = generator_.newest3D() >= 0;
-    if (!earlier) error("blocks are read, but no earlier 3D pass sets them");
-    return earlier;
-}
-
-Value Pass::readField(std::uint32_t field, Type type) {
-    requireWritten(field);
-    return leaf(Op::Field, type, field, kDependsColumn);
-}
-
-void Pass::checkOffset(std::string_view what, IVec2 offset) {
-    for (const Int& o : {offset.x, offset.y}) {
-        const bool isLiteral = o.graph == nullptr;
-        if (isLiteral && (asInt(o.bits) < -kMaxReadOffset || asInt(o.bits) > kMaxReadOffset)) {
-            error(fmt::format("{}: offset {} is beyond {} blocks", what, asInt(o.bits), kMaxReadOffset));
-        }
-    }
-}
-
-Value Pass::readFieldAt(std::uint32_t field, Type type, IVec2 offset) {
-    requireWritten(field);
-    checkOffset(fmt::format("field \"{}\"", generator_.generator_.fields[field].name), offset);
-    auto& readsAt = graph_.readsAt;
-    if (std::find(readsAt.begin(), readsAt.end(), field) == readsAt.end()) readsAt.push_back(field);
-    Graph& g = graph_.graph;
-    const NodeId args[] = {offset.x.nodeIn(g, Type::Int), offset.y.nodeIn(g, Type::Int)};
-    return {&g, g.add(Op::FieldAt, type, args, field, kDependsColumn)};
-}
-
 // False, with a message, where another pass writes the field.
 bool Pass::claimField(std::uint32_t field) {
     FieldInfo& info = generator_.generator_.fields[field];
@@ -179,29 +146,6 @@ void Pass::setFieldAt(std::uint32_t field, Type type, Int atZ, Value value) {
     const NodeId isThere = (z() == clamp(atZ, 0, world::kChunkHeight - 1)).nodeIn(g, Type::Bool);
     const NodeId args[] = {isThere, value.nodeIn(g, type), g.constant(type, 0)};
     graph_.fields.push_back({field, g.add(Op::Phi, type, args, g.newIf()), isThere});
-}
-
-Block Pass::blockHere() {
-    if (!require3D("blockHere")) return Block(world::kAir);
-    requireBlocks();
-    return Block(leaf(Op::BlockHere, Type::Int, 0, kDependsVoxel));
-}
-
-Block Pass::blockInColumn(Int pz) {
-    if (!requireBlocks()) return Block(world::kAir);
-    Graph& g = graph_.graph;
-    const NodeId args[] = {pz.nodeIn(g, Type::Int)};
-    return Block(Value{&g, g.add(Op::BlockInColumn, Type::Int, args, 0, kDependsColumn)});
-}
-
-Block Pass::blockAt(IVec2 offset, Int pz) {
-    if (!requireBlocks()) return Block(world::kAir);
-    checkOffset("blockAt", offset);
-    graph_.readsBlocksAt = true;
-    Graph& g = graph_.graph;
-    const NodeId args[] = {offset.x.nodeIn(g, Type::Int), offset.y.nodeIn(g, Type::Int),
-                           pz.nodeIn(g, Type::Int)};
-    return Block(Value{&g, g.add(Op::BlockAt, Type::Int, args, 0, kDependsColumn)});
 }
 
 void Pass::setBlock(Block value) {

@@ -34,9 +34,12 @@ struct Voronoi3D {
 
 class Pass {
   public:
-    Int x();
+    Int x();  // block coordinates; beyond level 0 those of the block behind the middle of the column
     Int y();
-    Int z();                             // 3D passes
+    Int z();  // 3D passes
+    // Blocks from one column to the next: 1, 2, 4, … A constant while recording, so that `if` on it leaves
+    // out what it does not record.
+    int step() const;
     Block block(std::string_view name);  // "air" or a name of the registry
 
     template <class T>
@@ -68,7 +71,8 @@ class Pass {
     Bool randomBool2D(std::string_view name, Float probability, Int x, Int y);
     Bool randomBool3D(std::string_view name, Float probability, Int x, Int y, Int z);
 
-    // A field of an earlier pass, here or at an offset within ±kMaxReadOffset (larger ones are clamped).
+    // A field of an earlier pass, here or at an offset within ±kMaxReadOffset blocks (larger ones are
+    // clamped). Beyond level 0 the nearest column stands for the block.
     template <class T>
     T read(Field<T> field) {
         return T(readField(field.index, T::kType));
@@ -77,6 +81,11 @@ class Pass {
     T readAt(Field<T> field, IVec2 offset) {
         return T(readFieldAt(field.index, T::kType, offset));
     }
+    // How a field changes a block: over 4 blocks at level 0, over two columns at others.
+    Vec2 slope(Field<Float> field);
+    // A field at an offset of any fraction of a block, blended from the four columns around it. Offset and
+    // the block beyond it within ±kMaxReadOffset.
+    Float readBetween(Field<Float> field, Vec2 offset);
     template <class T>
     void set(Field<T> field, T value) {  // 2D passes
         setField(field.index, T::kType, value);
@@ -111,12 +120,15 @@ class Pass {
     Value leaf(Op op, Type type, std::uint32_t imm, std::uint8_t dependence);
     Value noise(const NoiseCall& call, std::uint32_t result, Type type);
     NoiseCall checkedNoise(std::string_view kind, NoiseCall call);
+    Float perlin(const NoiseCall& call);
     // A hash of two or three coordinates; `seedName`: see randomSeedName and noiseSeedName.
     Int hash(const std::string& seedName, std::uint32_t octave, std::span<const Int> position);
     std::function<Int(std::span<const Int>)> latticeHash(const NoiseCall& call, std::size_t octave);
     std::array<Float, 3> gradient(const NoiseCall& call, std::span<const Int> position);
     Value readField(std::uint32_t field, Type type);
     Value readFieldAt(std::uint32_t field, Type type, IVec2 offset);
+    Value readColumn(std::uint32_t field, Type type, IVec2 columns);
+    IVec2 nearestColumn(IVec2 offset) const;
     void setField(std::uint32_t field, Type type, Value value);
     void setFieldAt(std::uint32_t field, Type type, Int z, Value value);
     bool claimField(std::uint32_t field);

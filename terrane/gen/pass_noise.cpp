@@ -2,6 +2,7 @@
 #include "terrane/gen/builder.h"
 #include "terrane/gen/noise_expressions.h"
 #include "terrane/gen/pass.h"
+#include "terrane/gen/voronoi_mean.h"
 
 namespace terrane::gen {
 namespace {
@@ -37,15 +38,19 @@ Value Pass::noise(const NoiseCall& call, std::uint32_t result, Type type) {
     return applyOp(Op::Component, type, {leaf(Op::Noise, Type::Float, index, dependence)}, result);
 }
 
+Float Pass::perlin(const NoiseCall& call) {
+    return hasOctaves(call) ? Float(noise(call, 0, Type::Float)) : Float(0.0f);
+}
+
 Float Pass::perlin2D(std::string_view name, int size, std::vector<float> weights) {
     const auto call = octaveNoise(NoiseKind::Perlin2D, name, size, std::move(weights));
-    return Float(noise(checkedNoise("Perlin 2D", call), 0, Type::Float));
+    return perlin(checkedNoise("Perlin 2D", call));
 }
 
 Float Pass::perlin3D(std::string_view name, int size, std::vector<float> weights) {
     if (!require3D("perlin3D")) return 0.0f;
     const auto call = octaveNoise(NoiseKind::Perlin3D, name, size, std::move(weights));
-    return Float(noise(checkedNoise("Perlin 3D", call), 0, Type::Float));
+    return perlin(checkedNoise("Perlin 3D", call));
 }
 
 Int Pass::hash(const std::string& seedName, std::uint32_t octave, std::span<const Int> position) {
@@ -110,6 +115,10 @@ Float Pass::simplex3D(std::string_view name, int size, std::vector<float> weight
 Voronoi2D Pass::voronoi2D(std::string_view name, int size, int maxPoints) {
     const NoiseCall call =
         checkedNoise("Voronoi 2D", {NoiseKind::Voronoi2D, std::string(name), size, {}, maxPoints});
+    if (call.size < step()) {
+        const VoronoiMean mean = voronoiMean2D(call.maxPoints);
+        return {mean.distance * static_cast<float>(call.size), mean.ratio, {0, 0}};
+    }
     const auto number = [&](VoronoiResult r) { return Float(noise(call, r, Type::Float)); };
     const auto blocks = [&](VoronoiResult r) { return Int(noise(call, r, Type::Int)); };
     return {
@@ -120,6 +129,10 @@ Voronoi3D Pass::voronoi3D(std::string_view name, int size, int maxPoints, int ex
     if (!require3D("voronoi3D")) return {0.0f, 0.0f, {0, 0, 0}};
     const NoiseCall call =
         checkedNoise("Voronoi 3D", {NoiseKind::Voronoi3D, std::string(name), size, {}, maxPoints, exponent});
+    if (call.size < step()) {
+        const VoronoiMean mean = voronoiMean3D(call.maxPoints, call.exponent);
+        return {mean.distance * static_cast<float>(call.size), mean.ratio, {0, 0, 0}};
+    }
     const auto root = [&](Voronoi3DResult r) {
         return metricRoot(Float(noise(call, r, Type::Float)), call.exponent);
     };

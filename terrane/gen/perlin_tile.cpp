@@ -48,18 +48,20 @@ float lerp(float a, float b, float t) {
     return a + t * (b - a);
 }
 
-// Cells and fractions of 16 neighboring coordinates.
+// Cells and fractions of the coordinates of 16 columns in a row.
 struct AxisCells {
     std::array<uint, kTileSize> cell;
     TileRow offset, fadeOf;
 };
 
-AxisCells axisCells(std::int32_t first, std::int32_t size, float inverseSize) {
+AxisCells axisCells(std::int32_t first, std::int32_t step, std::int32_t size, float inverseSize) {
+    assert(size >= step && "from one column to the next at most one cell ends");
     AxisCells axis{};
     for (int k = 0; k < kTileSize; ++k) {
         const auto at = static_cast<std::size_t>(k);
+        const std::int32_t position = first + k * step;
         // The start of a cell may lie before the first block of the world: no int32 holds it.
-        const std::int32_t quotient = (first + k) / size, rest = (first + k) % size;
+        const std::int32_t quotient = position / size, rest = position % size;
         const bool isBelow = rest < 0;
         axis.cell[at] = static_cast<uint>(quotient) - (isBelow ? 1u : 0u);
         axis.offset[at] = static_cast<float>(isBelow ? rest + size : rest) * inverseSize;
@@ -109,15 +111,15 @@ void fillLevel(const Perlin3DTile::Octave& o, std::int32_t zCell, PerlinLevel& l
 
 }  // namespace
 
-void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0,
-             std::int32_t y0) {
+void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid) {
     const std::vector<Octave> octaves = octavesOf(call);
     tile.octaves.resize(octaves.size());
     for (std::size_t o = 0; o < octaves.size(); ++o) {
         PerlinOctave& octave = tile.octaves[o];
         const std::int32_t size = octaves[o].size;
         const float inverseSize = 1.0f / static_cast<float>(size);
-        const AxisCells x = axisCells(x0, size, inverseSize), y = axisCells(y0, size, inverseSize);
+        const AxisCells x = axisCells(grid.x, grid.step, size, inverseSize);
+        const AxisCells y = axisCells(grid.y, grid.step, size, inverseSize);
         octave.weight = octaves[o].weight;
         const auto nodeRows = static_cast<uint>(setRows(octave, y));
         for (uint row = 0; row < nodeRows; ++row) {
@@ -133,8 +135,7 @@ void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, std:
     }
 }
 
-void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0,
-             std::int32_t y0) {
+void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid) {
     const std::vector<Octave> octaves = octavesOf(call);
     tile.octaves.resize(octaves.size());
     tile.layer = -1;
@@ -143,7 +144,8 @@ void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, std:
         o.size = octaves[n].size;
         o.inverseSize = 1.0f / static_cast<float>(o.size);
         o.seed = seed + octaves[n].seedStep;
-        const AxisCells x = axisCells(x0, o.size, o.inverseSize), y = axisCells(y0, o.size, o.inverseSize);
+        const AxisCells x = axisCells(grid.x, grid.step, o.size, o.inverseSize);
+        const AxisCells y = axisCells(grid.y, grid.step, o.size, o.inverseSize);
         o.xCell = x.cell;
         o.xOffset = x.offset;
         o.xFade = x.fadeOf;

@@ -12,10 +12,12 @@
 
 #include "terrane/gen/noise.h"
 #include "terrane/gen/program.h"
+#include "terrane/gen/sample_grid.h"
 
 namespace terrane::gen {
 
-// Rows of lattice nodes around 16 blocks: 16 cells and one more with a lattice of one block.
+// Rows of lattice nodes around 16 columns: 16 cells and one more with a lattice as wide as a column. At
+// higher levels smaller ones have faded (fadedWeights, noise.h).
 constexpr int kMaxNodeRows = kTileSize + 1;
 
 using TileRow = std::array<float, kTileSize>;
@@ -39,8 +41,8 @@ struct Perlin2DTile {
     std::vector<PerlinOctave> octaves;
 };
 
-// x0, y0: block coordinates of the tile's first column.
-void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0, std::int32_t y0);
+// No octave of the call is smaller than the grid's step.
+void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid);
 
 // One level of lattice nodes of equal z: coefficients of 1, of the y offset and of the z offset.
 struct PerlinLevel {
@@ -62,7 +64,7 @@ struct Perlin3DTile {
     std::int32_t layer = -1;
 };
 
-void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0, std::int32_t y0);
+void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid);
 // Cheapest when called for each z in order.
 void moveToLayer(Perlin3DTile& tile, std::int32_t z);
 

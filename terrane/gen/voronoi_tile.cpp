@@ -18,10 +18,25 @@ std::int64_t floorDivide(std::int64_t a, std::int64_t b) {
     return a / b - (a % b < 0 ? 1 : 0);
 }
 
-// Points of a cell relative to (x0, y0). Cell coordinates wrap at 32 bits like everything hashed.
-void addCell(std::vector<VoronoiPoint>& points, const NoiseCall& call, std::uint32_t seed,
-             std::array<std::int64_t, 4> cellAndOrigin) {
-    const auto [cellX, cellY, x0, y0] = cellAndOrigin;
+struct Cell2D {
+    std::int64_t x, y;
+};
+
+// Cells within two of those of 16 columns, along one axis.
+struct CellRange {
+    std::int64_t first, last;
+};
+
+CellRange searchedCells(std::int64_t firstColumn, std::int64_t step, std::int64_t size) {
+    assert(size >= step && "smaller cells have no place in a tile: Pass gives their means");
+    return {floorDivide(firstColumn, size) - 2, floorDivide(firstColumn + (kTileSize - 1) * step, size) + 2};
+}
+
+// Points of a cell relative to the grid's first column. Cell coordinates wrap at 32 bits like everything
+// hashed.
+void addCell(std::vector<VoronoiPoint>& points, const NoiseCall& call, std::uint32_t seed, SampleGrid grid,
+             Cell2D cell) {
+    const auto [cellX, cellY] = cell;
     const uint h = shared::hash2(static_cast<uint>(cellX), static_cast<uint>(cellY), seed);
     const int count = 1 + static_cast<int>(((h >> 16) * static_cast<uint>(call.maxPoints)) >> 16);
     const auto size = static_cast<uint>(call.size);
@@ -30,7 +45,7 @@ void addCell(std::vector<VoronoiPoint>& points, const NoiseCall& call, std::uint
         const uint hy = shared::mixBits(h + static_cast<uint>(2 * k + 2) * shared::kHashY);
         const std::int64_t x = cellX * call.size + ((hx >> 16) * size >> 16);
         const std::int64_t y = cellY * call.size + ((hy >> 16) * size >> 16);
-        points.push_back({static_cast<std::int32_t>(x - x0), static_cast<std::int32_t>(y - y0)});
+        points.push_back({static_cast<std::int32_t>(x - grid.x), static_cast<std::int32_t>(y - grid.y)});
     }
 }
 
@@ -40,13 +55,13 @@ struct DistanceRange {
 };
 
 // The same along one axis of the tile.
-DistanceRange axisDistance(std::int64_t p) {
-    constexpr std::int64_t kLast = kTileSize - 1;
-    return {std::max({-p, p - kLast, std::int64_t{0}}), std::max(std::abs(p), std::abs(kLast - p))};
+DistanceRange axisDistance(std::int64_t p, std::int64_t step) {
+    const std::int64_t last = (kTileSize - 1) * step;
+    return {std::max({-p, p - last, std::int64_t{0}}), std::max(std::abs(p), std::abs(last - p))};
 }
 
-DistanceRange tileDistance(VoronoiPoint p) {
-    const DistanceRange x = axisDistance(p.x), y = axisDistance(p.y);
+DistanceRange tileDistance(VoronoiPoint p, std::int32_t step) {
+    const DistanceRange x = axisDistance(p.x, step), y = axisDistance(p.y, step);
     return {x.nearest * x.nearest + y.nearest * y.nearest, x.farthest * x.farthest + y.farthest * y.farthest};
 }
 
@@ -63,7 +78,8 @@ void addCell3D(Voronoi3DTile& tile, std::vector<Voronoi3DPoint>& points, std::in
         const std::int64_t y =
             cellY * tile.call.size + inCell(shared::mixBits(h + (3 * k + 2) * shared::kHashY));
         const std::int64_t z = inCell(shared::mixBits(h + (3 * k + 3) * shared::kHashZ));
-        points.push_back({static_cast<std::int32_t>(x - tile.x0), static_cast<std::int32_t>(y - tile.y0),
+        points.push_back({static_cast<std::int32_t>(x - tile.grid.x),
+                          static_cast<std::int32_t>(y - tile.grid.y),
                           cellZ * tile.call.size + static_cast<std::int32_t>(z)});
     }
 }
@@ -71,11 +87,11 @@ void addCell3D(Voronoi3DTile& tile, std::vector<Voronoi3DPoint>& points, std::in
 void fillCells(Voronoi3DTile& tile, std::vector<Voronoi3DPoint>& points, std::int32_t cellZ) {
     points.clear();
     const std::int64_t size = tile.call.size;
-    const std::int64_t firstX = floorDivide(tile.x0, size) - 2, firstY = floorDivide(tile.y0, size) - 2;
-    const std::int64_t lastX = floorDivide(std::int64_t{tile.x0} + kTileSize - 1, size) + 2;
-    const std::int64_t lastY = floorDivide(std::int64_t{tile.y0} + kTileSize - 1, size) + 2;
-    for (std::int64_t y = firstY; y <= lastY; ++y) {
-        for (std::int64_t x = firstX; x <= lastX; ++x) addCell3D(tile, points, x, y, cellZ);
+    const CellRange x = searchedCells(tile.grid.x, tile.grid.step, size);
+    const CellRange y = searchedCells(tile.grid.y, tile.grid.step, size);
+    for (std::int64_t cellY = y.first; cellY <= y.last; ++cellY) {
+        for (std::int64_t cellX = x.first; cellX <= x.last; ++cellX)
+            addCell3D(tile, points, cellX, cellY, cellZ);
     }
 }
 
@@ -95,7 +111,7 @@ struct SumRange {
 };
 
 SumRange layerDistance(const Voronoi3DTile& tile, Voronoi3DPoint p, std::int32_t z) {
-    const DistanceRange x = axisDistance(p.x), y = axisDistance(p.y);
+    const DistanceRange x = axisDistance(p.x, tile.grid.step), y = axisDistance(p.y, tile.grid.step);
     const std::int64_t height = std::abs(p.z - z);
     return {powerSum(tile.call, {x.nearest, y.nearest, height}),
             powerSum(tile.call, {x.farthest, y.farthest, height})};
@@ -103,35 +119,34 @@ SumRange layerDistance(const Voronoi3DTile& tile, Voronoi3DPoint p, std::int32_t
 
 }  // namespace
 
-void prepare(std::vector<VoronoiPoint>& points, const NoiseCall& call, std::uint32_t seed, std::int32_t x0,
-             std::int32_t y0) {
+void prepare(Voronoi2DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid) {
     assert(call.size <= kMaxVoronoiSize && "squared distances fit 31 bits");
+    tile.size = call.size;
+    tile.step = grid.step;
+    std::vector<VoronoiPoint>& points = tile.points;
     points.clear();
-    const std::int64_t firstX = floorDivide(x0, call.size) - 2, firstY = floorDivide(y0, call.size) - 2;
-    const std::int64_t lastX = floorDivide(std::int64_t{x0} + kTileSize - 1, call.size) + 2;
-    const std::int64_t lastY = floorDivide(std::int64_t{y0} + kTileSize - 1, call.size) + 2;
-    for (std::int64_t cellY = firstY; cellY <= lastY; ++cellY) {
-        for (std::int64_t cellX = firstX; cellX <= lastX; ++cellX) {
-            addCell(points, call, seed, {cellX, cellY, x0, y0});
+    const CellRange x = searchedCells(grid.x, grid.step, call.size);
+    const CellRange y = searchedCells(grid.y, grid.step, call.size);
+    for (std::int64_t cellY = y.first; cellY <= y.last; ++cellY) {
+        for (std::int64_t cellX = x.first; cellX <= x.last; ++cellX) {
+            addCell(points, call, seed, grid, {cellX, cellY});
         }
     }
     // A point farther from every column than two other points are from any column is never among the two
     // nearest.
     std::int64_t best = std::numeric_limits<std::int64_t>::max(), second = best;
     for (const VoronoiPoint p : points) {
-        const std::int64_t d = tileDistance(p).farthest;
+        const std::int64_t d = tileDistance(p, grid.step).farthest;
         second = std::min(second, std::max(best, d));
         best = std::min(best, d);
     }
-    std::erase_if(points, [&](VoronoiPoint p) { return tileDistance(p).nearest > second; });
+    std::erase_if(points, [&](VoronoiPoint p) { return tileDistance(p, grid.step).nearest > second; });
 }
 
-void prepare(Voronoi3DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0,
-             std::int32_t y0) {
+void prepare(Voronoi3DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid) {
     tile.call = call;
     tile.seed = seed;
-    tile.x0 = x0;
-    tile.y0 = y0;
+    tile.grid = grid;
     tile.layer = -1;
 }
 

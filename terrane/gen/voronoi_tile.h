@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "terrane/gen/noise.h"
+#include "terrane/gen/sample_grid.h"
 
 namespace terrane::gen {
 
@@ -13,10 +14,15 @@ struct VoronoiPoint {
     std::int32_t x, y;  // blocks from the tile's first column
 };
 
-// Fills `points`, in the order of cells by y, then x, then number in the cell: of points at equal distance
-// the first one counts. x0, y0: block coordinates of the tile's first column.
-void prepare(std::vector<VoronoiPoint>& points, const NoiseCall& call, std::uint32_t seed, std::int32_t x0,
-             std::int32_t y0);
+struct Voronoi2DTile {
+    // In the order of cells by y, then x, then number in the cell: of points at equal distance the first one
+    // counts.
+    std::vector<VoronoiPoint> points;
+    std::int32_t size = 1, step = 1;
+};
+
+// The call's cells are at least as wide as the grid's step: at most (16 + 5)² of them are looked at.
+void prepare(Voronoi2DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid);
 
 struct Voronoi3DPoint {
     std::int32_t x, y;  // blocks from the tile's first column
@@ -26,7 +32,7 @@ struct Voronoi3DPoint {
 struct Voronoi3DTile {
     NoiseCall call;
     std::uint32_t seed = 0;
-    std::int32_t x0 = 0, y0 = 0;
+    SampleGrid grid;
     std::int32_t zCell = 0;
     // Points of the cells that the search covers: around zCell, from below, each in the order of y, then x.
     std::array<std::vector<Voronoi3DPoint>, 5> cells;
@@ -34,8 +40,7 @@ struct Voronoi3DTile {
     std::int32_t layer = -1;
 };
 
-void prepare(Voronoi3DTile& tile, const NoiseCall& call, std::uint32_t seed, std::int32_t x0,
-             std::int32_t y0);
+void prepare(Voronoi3DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid);
 // Cheapest when called for each z in order.
 void moveToLayer(Voronoi3DTile& tile, std::int32_t z);
 

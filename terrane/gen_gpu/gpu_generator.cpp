@@ -10,6 +10,7 @@
 #include "terrane/base/profile.h"
 #include "terrane/gen/chunks_around.h"
 #include "terrane/gen/glsl_emitter.h"
+#include "terrane/gen/sample_grid.h"
 #include "terrane/gen/seeds.h"
 #include "terrane/gen_gpu/pass_plan.h"
 #include "terrane/gen_gpu/slot_cache.h"
@@ -141,8 +142,8 @@ gpu::Buffer GpuGenerator::Impl::tileJobs(const std::vector<ChunkPos>& chunks) co
     std::vector<shared::TileJob> jobs;
     for (const ChunkPos pos : chunks) {
         shared::TileJob job{};
-        job.origin = {pos.x * world::kChunkSize, pos.y * world::kChunkSize, static_cast<int>(slots.slot(pos)),
-                      0};
+        const gen::SampleGrid grid = gen::sampleGrid(pos);
+        job.origin = {grid.x, grid.y, static_cast<int>(slots.slot(pos)), grid.step};
         const auto around = gen::chunksAround(pos);
         for (int n = 0; n < 9; ++n) {
             const auto slot = slots.find(around[static_cast<std::size_t>(n)]);
@@ -185,6 +186,10 @@ void GpuGenerator::Impl::runPasses(const PassCounts& needed, const std::vector<C
     runPass(static_cast<std::size_t>(last), wanted);
 }
 
+int GpuGenerator::level() const {
+    return impl_->generator.level;
+}
+
 GpuGenerator::GpuGenerator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 GpuGenerator::GpuGenerator(GpuGenerator&&) noexcept = default;
 GpuGenerator& GpuGenerator::operator=(GpuGenerator&&) noexcept = default;
@@ -211,7 +216,7 @@ std::size_t GpuGenerator::submit(std::span<const ChunkPos> positions) {
     if (impl.inFlight.size() == kBatchesInFlight || positions.empty()) return 0;
     std::vector<ChunkPos> wanted(positions.begin(),
                                  positions.begin() + std::min<long>(kMaxBatch, std::ssize(positions)));
-    for (const ChunkPos pos : wanted) gen::requireGenerated(pos);
+    for (const ChunkPos pos : wanted) gen::requireGenerated(pos, impl.generator.level);
     PassCounts needed = neededPasses(impl.generator, wanted);
     while (needed.size() > kSlots) {
         assert(wanted.size() > 1 && "the slots hold what one chunk needs");

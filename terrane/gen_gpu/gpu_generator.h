@@ -34,6 +34,7 @@ class GpuGenerator : public gen::BatchGenerator {
     [[nodiscard]] std::size_t submit(std::span<const world::ChunkPos> positions) override;
     [[nodiscard]] std::vector<gen::GeneratedChunk> take(bool wait) override;
     std::string_view backend() const override { return "gpu"; }
+    int level() const override;
 
   private:
     struct Impl;

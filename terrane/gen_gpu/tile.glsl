@@ -37,8 +37,8 @@ uint evenLayerBlock;  // waits for its odd neighbor
 void beginTile() {
     TileJob job = jobs[gl_WorkGroupID.x];
     column = gl_LocalInvocationID.x + kChunkSize * gl_LocalInvocationID.y;
-    columnX = job.origin.x + int(gl_LocalInvocationID.x);
-    columnY = job.origin.y + int(gl_LocalInvocationID.y);
+    columnX = job.origin.x + int(gl_LocalInvocationID.x) * job.origin.w;
+    columnY = job.origin.y + int(gl_LocalInvocationID.y) * job.origin.w;
     slot = uint(job.origin.z);
 }
 

@@ -22,7 +22,8 @@ const uint kHashSeedsBinding = 5u;
 
 // One chunk of a dispatch. A slot holds a chunk's fields and blocks on the GPU.
 struct TileJob {
-    ivec4 origin;        // x, y: block coordinates of the first column; z: the chunk's slot
+    ivec4 origin;  // x, y: block of the first column's sample; z: the chunk's slot; w: blocks to the next
+                   // column
     uvec4 neighbors[3];  // slots of the 3×3 chunks around, by y then x; the last three are unused
 };
 

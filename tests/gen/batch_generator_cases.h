@@ -70,7 +70,7 @@ inline void expectOthersRefused(BatchGenerator& batches) {
     }
     const std::vector<world::ChunkPos> coarse = {{3, -4, 2}};
     EXPECT_EQ(generateAll(batches, coarse).error().message,
-              "chunk 3,-4 of level 2: generators make level 0 only");
+              "chunk 3,-4 of level 2: this generator makes level 0 only");
 }
 
 inline void expectBatchGeneratorCases(BatchGenerator& batches, const Generator& expected) {

@@ -46,7 +46,12 @@ TEST(Generator, RefusesOtherLevels) {
     EXPECT_THROW(generator.generate({world::kMaxChunk + 1, 0}), std::invalid_argument);
     EXPECT_TRUE(isGenerated({world::kMaxChunk, world::kMinChunk}));
     EXPECT_EQ(checkGenerated({1, 2, 3}).error().message,
-              "chunk 1,2 of level 3: generators make level 0 only");
+              "chunk 1,2 of level 3: this generator makes level 0 only");
+    EXPECT_EQ(checkGenerated({1, 2, 0}, 3).error().message,
+              "chunk 1,2 of level 0: this generator makes level 3 only");
+    EXPECT_TRUE(isGenerated({world::kMaxChunk >> 3, world::kMinChunk >> 3, 3}, 3));
+    EXPECT_EQ(checkGenerated({world::kMaxChunk, 2, 3}, 3).error().message,
+              "chunk 134217727,2 of level 3: outside of the world, -16777216 to 16777215");
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ namespace terrane::world {
 
 inline void PrintTo(ChunkPos pos, std::ostream* out) {
     *out << "chunk (" << pos.x << ", " << pos.y << ")";
+    if (pos.level > 0) *out << " of level " << int{pos.level};
 }
 
 }  // namespace terrane::world
@@ -80,6 +81,15 @@ constexpr std::array<ChunkPos, 6> kPlaces = {{{0, 0},
                                               {world::kMinChunk, world::kMinChunk},
                                               {world::kMaxChunk, world::kMaxChunk},
                                               {world::kMinChunk, world::kMaxChunk}}};
+
+// The chunks of a level that hold the first blocks of those places, and the corners of the world.
+inline std::array<ChunkPos, 6> placesOf(int level) {
+    std::array<ChunkPos, 6> places = kPlaces;
+    for (ChunkPos& pos : places) {
+        pos = {pos.x >> level, pos.y >> level, static_cast<std::uint8_t>(level)};
+    }
+    return places;
+}
 
 inline std::vector<BlockId> blocksOf(const world::Chunk& chunk) {
     std::vector<BlockId> ids(world::kBlocksPerChunk);

@@ -22,11 +22,12 @@ class NoiseTile {
     }
 
     void moveTo(ChunkPos chunk) {
-        const std::int32_t x0 = chunk.x * world::kChunkSize, y0 = chunk.y * world::kChunkSize;
-        if (call_.kind == NoiseKind::Perlin2D) prepare(context_.perlin2D[0], call_, seed_, x0, y0);
-        if (call_.kind == NoiseKind::Perlin3D) prepare(context_.perlin3D[0], call_, seed_, x0, y0);
-        if (call_.kind == NoiseKind::Voronoi2D) prepare(context_.voronoi2D[0], call_, seed_, x0, y0);
-        if (call_.kind == NoiseKind::Voronoi3D) prepare(context_.voronoi3D[0], call_, seed_, x0, y0);
+        chunk_ = chunk;
+        const SampleGrid grid = sampleGrid(chunk);
+        if (call_.kind == NoiseKind::Perlin2D) prepare(context_.perlin2D[0], call_, seed_, grid);
+        if (call_.kind == NoiseKind::Perlin3D) prepare(context_.perlin3D[0], call_, seed_, grid);
+        if (call_.kind == NoiseKind::Voronoi2D) prepare(context_.voronoi2D[0], call_, seed_, grid);
+        if (call_.kind == NoiseKind::Voronoi3D) prepare(context_.voronoi3D[0], call_, seed_, grid);
     }
 
     // Samples the columns (2D) or the layer z (3D).
@@ -40,11 +41,13 @@ class NoiseTile {
     }
     float floatAt(int x, int y, std::uint32_t component = 0) const { return asFloat(at(x, y, component)); }
 
-    std::size_t pointCount() const { return context_.voronoi2D[0].size(); }
+    ChunkPos chunk() const { return chunk_; }
+    std::size_t pointCount() const { return context_.voronoi2D[0].points.size(); }
 
   private:
     NoiseCall call_;
     std::uint32_t seed_;
+    ChunkPos chunk_;
     alignas(64) std::array<Bits, kVoronoi3DResultCount * kTileLanes> arena_{};
     TileContext context_;
     InstructionList list_;

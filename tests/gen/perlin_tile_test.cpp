@@ -40,14 +40,19 @@ std::string sizeAndOctaves(const NoiseCall& call) {
     return "size " + std::to_string(call.size) + ", " + std::to_string(call.weights.size()) + " octaves";
 }
 
+// The block that stands for a column.
+std::int64_t sampleOf(std::int32_t chunk, int column, int level) {
+    return ((std::int64_t{chunk} * 16 + column) << level) + (1 << level) / 2;
+}
+
 void expectTile2D(const NoiseCall& call, ChunkPos chunk) {
     NoiseTile tile(call, kPerlinSeed);
     tile.moveTo(chunk);
     tile.run();
     for (int y = 0; y < kTileSize; ++y) {
         for (int x = 0; x < kTileSize; ++x) {
-            const std::int64_t blockX = std::int64_t{chunk.x} * 16 + x,
-                               blockY = std::int64_t{chunk.y} * 16 + y;
+            const std::int64_t blockX = sampleOf(chunk.x, x, chunk.level);
+            const std::int64_t blockY = sampleOf(chunk.y, y, chunk.level);
             ASSERT_EQ(tile.at(x, y), bitsOf(reference::perlin2D(call, kPerlinSeed, blockX, blockY)))
                 << sizeAndOctaves(call) << " at (" << blockX << ", " << blockY << ")";
         }
@@ -65,8 +70,8 @@ TEST(Perlin2D, EverySampleIsThatOfTheDescription) {
 void expectLayer(const NoiseTile& tile, const NoiseCall& call, ChunkPos chunk, std::int32_t z) {
     for (int y = 0; y < kTileSize; y += 3) {
         for (int x = 0; x < kTileSize; ++x) {
-            const std::int64_t blockX = std::int64_t{chunk.x} * 16 + x,
-                               blockY = std::int64_t{chunk.y} * 16 + y;
+            const std::int64_t blockX = sampleOf(chunk.x, x, chunk.level);
+            const std::int64_t blockY = sampleOf(chunk.y, y, chunk.level);
             ASSERT_EQ(tile.at(x, y), bitsOf(reference::perlin3D(call, kPerlinSeed, {blockX, blockY, z})))
                 << sizeAndOctaves(call) << " at (" << blockX << ", " << blockY << ", " << z << ")";
         }
@@ -87,6 +92,34 @@ TEST(Perlin3D, EverySampleIsThatOfTheDescription) {
             }
         }
     });
+}
+
+// Columns lie 2^level blocks apart; lattices are as wide as a column at least.
+TEST(Perlin, EverySampleOfATileIsThatOfTheDescription) {
+    for (const int level : {1, 2, 3, 7, 12, world::kMaxLevel}) {
+        for (const std::int32_t size : {1 << level, (3 << level) / 2, (7 << level) / 3, 5 << level}) {
+            const NoiseCall flat = call2D(size, {1.0f, 0.5f}), solid = call3D(size, {1.0f, 0.5f});
+            for (const ChunkPos chunk : placesOf(level)) {
+                ASSERT_NO_FATAL_FAILURE(expectTile2D(flat, chunk)) << level;
+                NoiseTile tile(solid, kPerlinSeed);
+                tile.moveTo(chunk);
+                for (const std::int32_t z : {0, 77, 255}) {
+                    tile.run(z);
+                    ASSERT_NO_FATAL_FAILURE(expectLayer(tile, solid, chunk, z)) << level;
+                }
+            }
+        }
+    }
+}
+
+TEST(FadedWeights, FallFromTwoStepsToOne) {
+    const std::vector<float> weights = {1, 1, 1, -2};
+    EXPECT_EQ(fadedWeights(weights, 3, 1), weights);
+    EXPECT_EQ(fadedWeights({1.0f}, 1, 1), std::vector<float>{1.0f}) << "at step 1 nothing fades";
+    EXPECT_EQ(fadedWeights(weights, 3, 2), (std::vector<float>{0.5f, 1, 1, -2}));
+    EXPECT_EQ(fadedWeights(weights, 3, 4), (std::vector<float>{0, 0.5f, 1, -2}));
+    EXPECT_EQ(fadedWeights(weights, 3, 16), (std::vector<float>{0, 0, 0, -1}));
+    EXPECT_EQ(fadedWeights(weights, 8, 8), (std::vector<float>{0, 1, 1, -2}));
 }
 
 TEST(Perlin3D, LayersMayComeInAnyOrder) {

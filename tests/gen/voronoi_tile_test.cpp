@@ -29,7 +29,9 @@ std::string sizeAndPoints(const NoiseCall& call) {
 constexpr int kReach = 4;
 
 void expectColumn(const NoiseTile& tile, const NoiseCall& call, ChunkPos chunk, int x, int y) {
-    const std::int64_t blockX = std::int64_t{chunk.x} * 16 + x, blockY = std::int64_t{chunk.y} * 16 + y;
+    const SampleGrid grid = sampleGrid(chunk);
+    const std::int64_t blockX = std::int64_t{grid.x} + x * grid.step;
+    const std::int64_t blockY = std::int64_t{grid.y} + y * grid.step;
     const reference::VoronoiSample want = reference::voronoi2D(call, kVoronoiSeed, blockX, blockY, kReach);
     SCOPED_TRACE(sizeAndPoints(call) + " at (" + std::to_string(blockX) + ", " + std::to_string(blockY) +
                  ")");
@@ -51,6 +53,27 @@ TEST(Voronoi2D, EverySampleIsThatOfASearchOfMoreCells) {
                     for (int lane = 0; lane < kTileLanes; lane += 7) {
                         ASSERT_NO_FATAL_FAILURE(
                             expectColumn(tile, cells(size, maxPoints), chunk, lane % 16, lane / 16));
+                    }
+                }
+            }
+        }
+    });
+}
+
+// Columns lie 2^level blocks apart; cells are as wide as a column at least.
+TEST(Voronoi2D, EverySampleOfATileIsThatOfASearchOfMoreCells) {
+    onEachTarget([] {
+        for (const int level : {1, 2, 3, 7, 11, 14}) {
+            const std::int32_t step = 1 << level;
+            for (const int size : {step, step * 3 / 2, step * 7, kMaxVoronoiSize}) {
+                if (size > kMaxVoronoiSize) continue;
+                const NoiseCall call = cells(size, 1 + level % 4);
+                NoiseTile tile(call, kVoronoiSeed);
+                for (const ChunkPos chunk : placesOf(level)) {
+                    tile.moveTo(chunk);
+                    tile.run();
+                    for (int lane = 0; lane < kTileLanes; lane += 7) {
+                        ASSERT_NO_FATAL_FAILURE(expectColumn(tile, call, chunk, lane % 16, lane / 16));
                     }
                 }
             }
@@ -171,7 +194,8 @@ NoiseCall solidCells(int size, int maxPoints, int exponent) {
 
 void expectVoxel(const NoiseTile& tile, const NoiseCall& call, std::array<std::int64_t, 3> block, int reach) {
     const reference::Voronoi3DSample want = reference::voronoi3D(call, kVoronoiSeed, block, reach);
-    const int x = static_cast<int>(block[0] & 15), y = static_cast<int>(block[1] & 15);
+    const int level = tile.chunk().level;
+    const int x = static_cast<int>(block[0] >> level & 15), y = static_cast<int>(block[1] >> level & 15);
     SCOPED_TRACE(sizeAndPoints(call) + ", exponent " + std::to_string(call.exponent) + " at (" +
                  std::to_string(block[0]) + ", " + std::to_string(block[1]) + ", " +
                  std::to_string(block[2]) + ")");
@@ -212,6 +236,28 @@ TEST(Voronoi3D, EverySampleIsThatOfASearchOfMoreCells) {
             }
         }
     });
+}
+
+TEST(Voronoi3D, EverySampleOfATileIsThatOfASearchOfMoreCells) {
+    for (const int level : {1, 3, 5}) {
+        for (const int size : {1 << level, 5 << level}) {
+            const NoiseCall call = solidCells(size, 2, 3);
+            NoiseTile tile(call, kVoronoiSeed);
+            for (const ChunkPos chunk : placesOf(level)) {
+                tile.moveTo(chunk);
+                const SampleGrid grid = sampleGrid(chunk);
+                for (const std::int32_t z : {0, 41, 255}) {
+                    tile.run(z);
+                    for (int lane = z % 29; lane < kTileLanes; lane += 83) {
+                        const std::array<std::int64_t, 3> block = {
+                            std::int64_t{grid.x} + lane % 16 * grid.step,
+                            std::int64_t{grid.y} + lane / 16 * grid.step, z};
+                        ASSERT_NO_FATAL_FAILURE(expectVoxel(tile, call, block, 3));
+                    }
+                }
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ class GpuGeneratorTest : public gpu::GlTest {
     // Generates all chunks on both back ends, the GPU in batches of `batch`, and compares them block by
     // block.
     void compare(const std::string& name, const std::vector<ChunkPos>& chunks, std::size_t batch) {
-        const auto graph = gen::makeGenerator(name, contentBlocks());
+        const auto graph = gen::makeGenerator(name, contentBlocks(), chunks.front().level);
         ASSERT_TRUE(graph) << graph.error().message;
         compare(*graph, chunks, batch);
     }
@@ -48,7 +48,7 @@ class GpuGeneratorTest : public gpu::GlTest {
             ASSERT_FALSE(done.empty());
             for (const auto& [pos, chunk] : done) {
                 ASSERT_EQ(difference(cpu.generate(pos), *chunk), "")
-                    << graph.name << " chunk " << pos.x << "," << pos.y;
+                    << graph.name << " chunk " << pos.x << "," << pos.y << " of level " << int{pos.level};
                 ++compared;
             }
         }
@@ -123,6 +123,14 @@ TEST_F(GpuGeneratorTest, EveryPartOfTheLanguageEqualsCpu) {
     compare(*graph, gen::chunksInSquare({-1, -2}, 1), 1);
     compare(*graph, gen::chunksInSquare({12345, -6789}, 1), 1);
     compare(*graph, gen::chunksInSquare({world::kMinChunk, world::kMaxChunk}, 1), 1);
+    // Lattices of 13 and cells of 19 blocks at 4 and 8 blocks a column, half and wholly faded.
+    for (const std::uint8_t level : {2, 3}) {
+        gen::GeneratorBuilder ofLevel("everything", blocks, level);
+        writeEverything(ofLevel);
+        const auto far = ofLevel.finish();
+        ASSERT_TRUE(far) << far.error().message;
+        compare(*far, gen::chunksInSquare({123, -67, level}, 1), 1);
+    }
 }
 
 // Each pass reads around what the one before made: 27×27 chunks for one, more than there are slots.
@@ -155,6 +163,30 @@ TEST_F(GpuGeneratorTest, OverworldEqualsCpuFarAway) {
     compare("overworld", gen::chunksInSquare({world::kMinChunk, world::kMinChunk}, 5), 25);
     compare("overworld", gen::chunksInSquare({world::kMaxChunk - 4, world::kMaxChunk - 4}, 5), 25);
     compare("overworld", gen::chunksInSquare({world::kMinChunk, world::kMaxChunk - 4}, 5), 25);
+}
+
+// Around the origin and at corners of the world, ±2^31 blocks away.
+TEST_F(GpuGeneratorTest, LevelsEqualCpu) {
+    for (const std::string& name : gen::generatorNames()) {
+        for (const std::uint8_t level : {1, 2, 3, 5, 10, 15}) {
+            std::vector<ChunkPos> chunks = gen::chunksInSquare({-1, -1, level}, 2);
+            chunks.push_back({world::kMinChunk >> level, world::kMaxChunk >> level, level});
+            chunks.push_back({world::kMaxChunk >> level, world::kMinChunk >> level, level});
+            compare(name, chunks, chunks.size());
+        }
+    }
+}
+
+TEST_F(GpuGeneratorTest, ALevelRefusesOthers) {
+    const auto graph = gen::makeGenerator("flat", contentBlocks(), 2);
+    ASSERT_TRUE(graph) << graph.error().message;
+    auto batches = GpuGenerator::create(render::contentShaders(), *graph, kSeed);
+    ASSERT_TRUE(batches) << batches.error().message;
+    EXPECT_EQ(batches->level(), 2);
+    const std::vector<ChunkPos> others = {{0, 0, 1}};
+    EXPECT_THROW(static_cast<void>(batches->submit(others)), std::invalid_argument);
+    EXPECT_EQ(generateAll(*batches, others).error().message,
+              "chunk 0,0 of level 1: this generator makes level 2 only");
 }
 
 TEST_F(GpuGeneratorTest, ScatteredChunksReuseSlots) {

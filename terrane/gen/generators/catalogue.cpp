@@ -30,10 +30,11 @@ int generatorVersion(std::string_view name) {
     return 0;
 }
 
-base::Result<GeneratorGraph> makeGenerator(std::string_view name, const world::BlockRegistry& blocks) {
+base::Result<GeneratorGraph> makeGenerator(std::string_view name, const world::BlockRegistry& blocks,
+                                           int level) {
     for (const Entry& entry : kGenerators) {
         if (entry.name != name) continue;
-        GeneratorBuilder builder(std::string(name), blocks);
+        GeneratorBuilder builder(std::string(name), blocks, level);
         entry.write(builder);
         return builder.finish();
     }

@@ -15,9 +15,9 @@ std::vector<std::string> generatorNames();
 // The same name and version make the same blocks: saves hold both. 0 for an unknown name.
 int generatorVersion(std::string_view name);
 
-// An unknown name is an error that lists the known ones.
+// The graph of one level. An unknown name is an error that lists the known ones.
 [[nodiscard]] base::Result<GeneratorGraph> makeGenerator(std::string_view name,
-                                                         const world::BlockRegistry& blocks);
+                                                         const world::BlockRegistry& blocks, int level = 0);
 
 void writeOverworld(
     GeneratorBuilder& g);  // overworld.cpp: seas, rivers, plains, deserts, mountains, caves, plants

@@ -1,0 +1,65 @@
+// How tiles of each level compare with the chunks under them: cost, heights, kinds of ground, crowns, water.
+//   bench_levels [GENERATOR [PLACES]]     overworld, 24 places of 512×512 blocks
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "bench/bench_content.h"
+#include "bench/level_figures.h"
+#include "terrane/gen/generators/catalogue.h"
+
+namespace {
+
+using namespace terrane;
+using world::ChunkPos;
+
+constexpr int kFigureLevels = 5;  // a tile of level 5 is 512 blocks wide
+constexpr int kSide = 32;         // chunks
+
+// Far from each other, so that all kinds of land are among them.
+bench::FigureArea placesOf(int count) {
+    bench::FigureArea area{kSide, {}};
+    for (int k = 0; k < count; ++k)
+        area.corners.push_back({(k * 37 % 101 - 50) * kSide, (k * 61 % 97 - 48) * kSide});
+    return area;
+}
+
+// Microseconds a chunk on this thread, from a generator that knows nothing yet: the least of some rounds.
+double costOf(const std::string& name, int level) {
+    constexpr int kRounds = 3, kTiles = 24;
+    double best = 1e9;
+    for (int round = 0; round < kRounds; ++round) {
+        const gen::Generator generator(bench::orExit(gen::makeGenerator(name, bench::blocks(), level)), 1);
+        const auto start = std::chrono::steady_clock::now();
+        for (int k = 0; k < kTiles * kTiles; ++k) {
+            static_cast<void>(generator.generate({k % kTiles, k / kTiles, static_cast<std::uint8_t>(level)}));
+        }
+        const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
+        best = std::min(best, time.count() / (kTiles * kTiles));
+    }
+    return best;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const std::string name = argc > 1 ? argv[1] : "overworld";
+    const int places = argc > 2 ? std::atoi(argv[2]) : 24;
+    const double chunkCost = costOf(name, 0);
+    fmt::print("level  us a chunk  of level 0\n");
+    for (int level = 0; level <= 10; ++level) {
+        const double cost = level == 0 ? chunkCost : costOf(name, level);
+        fmt::print("{:5}  {:10.1f}  {:10.3f}\n", level, cost, cost / chunkCost);
+    }
+    const gen::LevelGenerators generators(
+        [&](int level) { return gen::makeGenerator(name, bench::blocks(), level); }, 1);
+    const bench::LevelComparison comparison(generators, bench::blocks(), placesOf(places));
+    std::vector<bench::LevelFigures> figures;
+    for (int level = 1; level <= kFigureLevels; ++level) figures.push_back(comparison.of(level));
+    fmt::print("\n{}\nheight of tiles less that of chunks, blocks\n{}", bench::coverTable(figures),
+               bench::landTable(figures));
+    return 0;
+}

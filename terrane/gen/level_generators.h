@@ -1,0 +1,39 @@
+// A generator at every level: chunks of any level of detail from one seed. Used by whoever streams tiles.
+//
+// The graph of a level and its Generator are made when the level is first asked for, so that a world that
+// shows no far tiles pays for none. Any thread.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "terrane/base/result.h"
+#include "terrane/gen/generator.h"
+
+namespace terrane::gen {
+
+class LevelGenerators {
+  public:
+    // Records the graph of one level, such as makeGenerator(name, blocks, level). Called once a level and by
+    // one thread at a time, later too: what it refers to lives as long as this object.
+    using MakeGraph = std::function<base::Result<GeneratorGraph>(int level)>;
+
+    LevelGenerators(MakeGraph makeGraph, std::uint64_t seed);
+    ~LevelGenerators();
+    LevelGenerators(LevelGenerators&&) noexcept;
+    LevelGenerators& operator=(LevelGenerators&&) noexcept;
+
+    // The generator of a level, 0…world::kMaxLevel, which lives as long as this object; or what is wrong with
+    // its graph.
+    [[nodiscard]] base::Result<const Generator*> at(int level) const;
+
+    // The chunk of the position's level. Throws std::invalid_argument with the reason where there is none.
+    [[nodiscard]] world::Chunk generate(world::ChunkPos pos) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace terrane::gen

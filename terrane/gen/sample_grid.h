@@ -1,0 +1,21 @@
+// Where the columns of a chunk are sampled, at every level. Both back ends take positions from here.
+#pragma once
+
+#include <cstdint>
+
+#include "terrane/world/coords.h"
+
+namespace terrane::gen {
+
+struct SampleGrid {
+    std::int32_t x = 0, y = 0;  // block that stands for the first column
+    std::int32_t step = 1;      // blocks from one column to the next
+};
+
+// A column is sampled at the block behind its middle; at level 0 that is its only block.
+constexpr SampleGrid sampleGrid(world::ChunkPos pos) {
+    const std::int32_t step = world::columnWidth(pos.level), width = world::kChunkSize * step;
+    return {pos.x * width + step / 2, pos.y * width + step / 2, step};
+}
+
+}  // namespace terrane::gen
