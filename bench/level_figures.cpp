@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace terrane::bench {
 namespace {
@@ -35,17 +36,31 @@ double shareOf(const Columns& columns, Window window, Cover cover) {
     return count / (window.side * window.side);
 }
 
+// Cave mouths, which tiles do not have: ground far below that of all columns kReach blocks away.
+bool isPit(const Columns& columns, std::size_t k) {
+    constexpr int kReach = 6, kDepth = 4;
+    const int x = static_cast<int>(k) % columns.width, y = static_cast<int>(k) / columns.width;
+    int lowest = world::kChunkHeight;
+    for (const auto& [dx, dy] : {std::pair(-kReach, 0), {kReach, 0}, {0, -kReach}, {0, kReach}}) {
+        const int ox = std::clamp(x + dx, 0, columns.width - 1), oy = std::clamp(y + dy, 0, columns.width - 1);
+        lowest = std::min<int>(lowest, columns.ground[static_cast<std::size_t>(ox + columns.width * oy)]);
+    }
+    return columns.ground[k] < lowest - kDepth;
+}
+
 struct Heights {
     double mean = 0, variance = 0;
 };
 
 Heights heightsOf(const Columns& columns, Window window) {
-    double sum = 0, squares = 0;
+    double sum = 0, squares = 0, count = 0;
     forEachColumn(columns, window, [&](std::size_t k) {
-        sum += columns.ground[k];
-        squares += double(columns.ground[k]) * double(columns.ground[k]);
+        if (columns.step == 1 && isPit(columns, k)) return;
+        const double ground = columns.ground[k];
+        sum += ground;
+        squares += ground * ground;
+        count += 1;
     });
-    const double count = window.side * window.side;
     return {sum / count, squares / count - (sum / count) * (sum / count)};
 }
 
@@ -123,6 +138,7 @@ Cover LevelComparison::coverOf(const std::string& name) const {
 Columns LevelComparison::columnsOf(ChunkPos corner, int side, int level) const {
     Columns columns;
     columns.width = side * world::kChunkSize;
+    columns.step = world::columnWidth(level);
     const auto count = static_cast<std::size_t>(columns.width) * static_cast<std::size_t>(columns.width);
     columns.cover.resize(count, Cover::Other);
     columns.ground.resize(count);

@@ -24,6 +24,7 @@ constexpr int kAreaBlocks = 64;
 // A square of columns, by x + width y.
 struct Columns {
     int width = 0;
+    int step = 1;  // blocks a column
     std::vector<Cover> cover;
     std::vector<std::int16_t> ground;  // z of the highest block of earth
     std::vector<std::int16_t> crown;   // z of the highest leaf, or 0

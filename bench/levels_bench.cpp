@@ -2,6 +2,8 @@
 //   bench_levels [GENERATOR [PLACES]]     overworld, 24 places of 512×512 blocks
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <string>
@@ -19,13 +21,12 @@ using world::ChunkPos;
 constexpr int kFigureLevels = 5;  // a tile of level 5 is 512 blocks wide
 constexpr int kSide = 32;         // chunks
 
-// Far from each other, so that all kinds of land are among them.
-bench::FigureArea placesOf(int count) {
-    bench::FigureArea area{kSide, {}};
-    for (int k = 0; k < count; ++k)
-        area.corners.push_back({(k * 37 % 101 - 50) * kSide, (k * 61 % 97 - 48) * kSide});
-    return area;
-}
+// Of the overworld of seed 1, by kinds of land in turn: mountains, coast, plains, desert, forest, hills.
+constexpr std::array<ChunkPos, 24> kPlaces = {
+    {{-1824, -1920}, {-1344, -2304}, {-1056, -2112}, {-1536, -2208}, {-2112, -2304}, {0, -2208},
+     {-1344, -672},  {96, -2304},    {-1920, -2016}, {-1632, -2112}, {-2208, -2304}, {-1056, -2208},
+     {-96, 1344},    {-1632, -2208}, {576, -1920},   {-1056, -768},  {-1056, -1440}, {-1056, -192},
+     {768, 1536},    {-1056, -1536}, {1632, -1536},  {-1056, 864},   {-288, -2304},  {-2208, -2208}}};
 
 // Microseconds a chunk on this thread, from a generator that knows nothing yet: the least of some rounds.
 double costOf(const std::string& name, int level) {
@@ -47,7 +48,7 @@ double costOf(const std::string& name, int level) {
 
 int main(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "overworld";
-    const int places = argc > 2 ? std::atoi(argv[2]) : 24;
+    const int places = std::clamp(argc > 2 ? std::atoi(argv[2]) : 24, 1, static_cast<int>(kPlaces.size()));
     const double chunkCost = costOf(name, 0);
     fmt::print("level  us a chunk  of level 0\n");
     for (int level = 0; level <= 10; ++level) {
@@ -56,7 +57,7 @@ int main(int argc, char** argv) {
     }
     const gen::LevelGenerators generators(
         [&](int level) { return gen::makeGenerator(name, bench::blocks(), level); }, 1);
-    const bench::LevelComparison comparison(generators, bench::blocks(), placesOf(places));
+    const bench::LevelComparison comparison(generators, bench::blocks(), {kSide, {kPlaces.begin(), kPlaces.begin() + places}});
     std::vector<bench::LevelFigures> figures;
     for (int level = 1; level <= kFigureLevels; ++level) figures.push_back(comparison.of(level));
     fmt::print("\n{}\nheight of tiles less that of chunks, blocks\n{}", bench::coverTable(figures),

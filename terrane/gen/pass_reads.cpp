@@ -59,8 +59,7 @@ IVec2 Pass::nearestColumn(IVec2 offset) const {
 
 Vec2 Pass::slope(Field<Float> field) {
     requireWritten(field.index);
-    // Over two blocks a single step of the ground would count in full.
-    const int reach = step() == 1 ? 2 : 1;  // columns
+    const int reach = slopeReach(step()) / step();  // columns
     const auto at = [&](int dx, int dy) { return Float(readColumn(field.index, Type::Float, {dx, dy})); };
     const float perBlock = 1.0f / static_cast<float>(2 * reach * step());
     return {(at(reach, 0) - at(-reach, 0)) * perBlock, (at(0, reach) - at(0, -reach)) * perBlock};

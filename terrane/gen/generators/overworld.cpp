@@ -11,6 +11,7 @@ void writeOverworld(GeneratorBuilder& g) {
     g.pass2D("climate", [&](Pass& p) { climatePass(p, f); });
     g.pass2D("relief", [&](Pass& p) { reliefPass(p, f); });
     g.pass2D("surface", [&](Pass& p) { surfacePass(p, f); });
+    if (g.step() > 1) return g.pass3D("far", [&](Pass& p) { farPass(p, f); });
     // Before the blocks: neighbors need where trees stand, and run no pass after that for each other.
     g.pass2D("plants", [&](Pass& p) { plantsPass(p, f); });
     g.pass3D("ground", [&](Pass& p) { groundPass(p, f); });

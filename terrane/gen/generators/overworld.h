@@ -9,7 +9,7 @@ namespace terrane::gen::overworld {
 constexpr float kSea = kSeaLevel;
 constexpr int kSoilDepth = 3;  // blocks of soil under the highest block
 
-// What the passes hand on, by column.
+// What the passes hand on, by column. Some are of level 0 alone, one of the others.
 struct Fields {
     explicit Fields(GeneratorBuilder& g)
         : ocean(g.field<Float>("ocean")),
@@ -22,11 +22,16 @@ struct Fields {
           surface(g.field<Int>("surface")),
           top(g.field<Block>("top")),
           soil(g.field<Block>("soil")),
-          caveTop(g.field<Int>("cave top")),
-          forest(g.field<Float>("forest")),
-          treeHeight(g.field<Int>("tree height")),
-          plant(g.field<Block>("plant")),
-          plantHeight(g.field<Int>("plant height")) {}
+          forest(g.field<Float>("forest")) {
+        if (g.step() > 1) {
+            lostSlope = g.field<Float>("lost slope");
+            return;
+        }
+        caveTop = g.field<Int>("cave top");
+        treeHeight = g.field<Int>("tree height");
+        plant = g.field<Block>("plant");
+        plantHeight = g.field<Int>("plant height");
+    }
 
     Field<Float> ocean;        // above 0: sea; falls inland
     Field<Float> river;        // 0 in the middle of a river, of different signs on its sides
@@ -37,19 +42,44 @@ struct Fields {
     Field<Float> height;       // of the ground, z
     Field<Int> surface;        // z of the highest ground block
     Field<Block> top, soil;    // the highest ground block, and the few below it
-    Field<Int> caveTop;        // z below which caves may be
     Field<Float> forest;       // share of the places for trees that are taken, 0…1
+    Field<Int> caveTop;        // z below which caves may be
     Field<Int> treeHeight;     // of the trunk that stands in this column, or 0
     Field<Block> plant;        // in this column above the ground, or air
     Field<Int> plantHeight;
+    Field<Float> lostSlope;  // deviation along an axis of slopes that columns are too wide to show
 };
 
 // 2D, in this order: what only depends on the position; the height; what the ground is made of.
 void climatePass(Pass& p, const Fields& f);
 void reliefPass(Pass& p, const Fields& f);
 void surfacePass(Pass& p, const Fields& f);
+// At level 0.
 void groundPass(Pass& p, const Fields& f);      // 3D: earth, water, caves, ore
 void plantsPass(Pass& p, const Fields& f);      // 2D: where trees and plants stand
 void vegetationPass(Pass& p, const Fields& f);  // 3D: their blocks
+// At other levels.
+void farPass(Pass& p, const Fields& f);  // 3D: earth, water, crowns
+
+// Trees stand at the points of a Voronoi diagram, so that they keep their distance and a crown meets its neighbor's at the
+// border between them.
+constexpr int kTreeSpacing = 7;   // blocks: one tree a cell of this size at most
+constexpr int kMaxCrownRise = 4;  // blocks of crown above the trunk: 4.7 / √1.7, see isLeaf
+struct Tree {
+    IVec2 offset;      // from here to the trunk, blocks
+    Int base, height;  // of the trunk; height 0: no tree
+};
+Voronoi2D trees(Pass& p);
+Int randomTreeHeight(Pass& p, IVec2 at);  // of the trunk, blocks
+// Whether this voxel is leaf of the crown around (0, 0, top), whose size follows the tree's height.
+Bool isLeaf(Pass& p, IVec2 offset, Int aboveTop, Int treeHeight);
+
+// What grows in a column beside trees; `block` is air where nothing does.
+struct Plant {
+    Block block;
+    Int height;
+};
+Plant plantHere(Pass& p, const Fields& f);
+Plant farPlant(Pass& p, const Fields& f);  // of those the ones that give wide land its color: wheat
 
 }  // namespace terrane::gen::overworld

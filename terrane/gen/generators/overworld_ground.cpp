@@ -12,9 +12,10 @@ struct Shape {
 
 Shape shape(Pass& p, const Fields& f) {
     const auto at = [&](int dx, int dy) { return p.readAt(f.height, {dx, dy}); };
-    const Float dx = at(2, 0) - at(-2, 0), dy = at(0, 2) - at(0, -2);
     const Float beside = min(min(at(1, 0), at(-1, 0)), min(at(0, 1), at(0, -1)));
-    return {length({dx, dy}) * 0.25f, min(beside, p.read(f.height))};
+    Vec2 slope = p.slope(f.height);
+    if (p.step() > 1) slope = slope + p.grain2D("slope") * p.read(f.lostSlope);
+    return {length(slope), min(beside, p.read(f.height))};
 }
 
 struct Ground {
@@ -72,19 +73,19 @@ Bool isCave(Pass& p, const Fields& f) {
 void surfacePass(Pass& p, const Fields& f) {
     const Float height = p.read(f.height), ocean = p.read(f.ocean);
     const Shape s = shape(p, f);
-    const Float patches = p.perlin2D("ground patches", 8, {.3f, .3f, .6f});
+    const Float patches = p.perlin2DWithGrain("ground patches", 8, {.3f, .3f, .6f});
     const Float snowLine = 160.0f + p.read(f.temperature) * 40.0f + patches * 10.0f;
     const Ground ground = groundBlocks(p, f, s, snowLine, patches);
 
-    const Float forest = p.perlin2D("forestness", 64, {.06f, .12f, .25f, .5f});
-    const Float clearings = smoothstep(0.4f, 0.5f, p.perlin2D("clearings", 32, {.3f, 1.0f}));
+    const Float forest = p.perlin2DWithGrain("forestness", 64, {.06f, .12f, .25f, .5f});
+    const Float clearings = smoothstep(0.4f, 0.5f, p.perlin2DWithGrain("clearings", 32, {.3f, 1.0f}));
     const Float treeLine = smoothstep(0.0f, 25.0f, snowLine - 8.0f - height);
     const Float gentle = smoothstep(1.0f, 0.75f, s.steepness);
     const Float density = smoothstep(0.03f, 0.08f, forest - p.read(f.desert)) * (1.0f - clearings * 0.95f);
     p.set(f.surface, Int(floor(height)));
     p.set(f.top, ground.top);
     p.set(f.soil, ground.soil);
-    p.set(f.caveTop, caveTop(p, f, s));
+    if (p.step() == 1) p.set(f.caveTop, caveTop(p, f, s));
     p.set(f.forest, max(density * 0.9f, 0.012f) * treeLine * gentle * smoothstep(0.0f, -0.05f, ocean));
 }
 

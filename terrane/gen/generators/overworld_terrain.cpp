@@ -44,15 +44,6 @@ Vec2 bend(Pass& p) {
     return {along("bend x"), along("bend y")};
 }
 
-// A field at an offset of any fraction of a block.
-Float readBetween(Pass& p, Field<Float> field, Vec2 offset) {
-    const Int x(floor(offset.x)), y(floor(offset.y));
-    const Float fx = offset.x - floor(offset.x), fy = offset.y - floor(offset.y);
-    const Float low = lerp(p.readAt(field, {x, y}), p.readAt(field, {x + 1, y}), fx);
-    const Float high = lerp(p.readAt(field, {x, y + 1}), p.readAt(field, {x + 1, y + 1}), fx);
-    return lerp(low, high, fy);
-}
-
 struct River {
     Float beyond;  // how far the noise is beyond what makes the bank, from 0
     Float across;  // distance to the middle / half width, below 1 in the water
@@ -63,13 +54,15 @@ struct River {
 // not follow the gradient. The gradient's lower bound makes lakes where it vanishes.
 River rivers(Pass& p, const Fields& f) {
     const Float here = abs(p.read(f.river));
-    const Float dx = p.readAt(f.river, {2, 0}) - p.readAt(f.river, {-2, 0});
-    const Float dy = p.readAt(f.river, {0, 2}) - p.readAt(f.river, {0, -2});
-    const Float gradient = max(length({dx, dy}) * 0.25f, 0.0007f);
+    const Float gradient = max(length(p.slope(f.river)), 0.0007f);
     const Float mouth = smoothstep(-0.12f, 0.03f, p.read(f.ocean));
     const Float halfWidth =
         (p.perlin2D("river width", 128, {.4f, 1.0f}) * 4.0f + 7.0f) * (mouth * 0.8f + 1.0f);
-    return {max(here - halfWidth * gradient, 0.0f), here / (gradient * halfWidth), halfWidth * 0.25f + 2.0f};
+    Float across = here / (gradient * halfWidth);
+    // A column is water where a river takes half of it.
+    const auto step = static_cast<float>(p.step());
+    if (p.step() > 16) across = select(halfWidth * 4.0f < step, max(across, 1.0f), across);
+    return {max(here - halfWidth * gradient, 0.0f), across, halfWidth * 0.25f + 2.0f};
 }
 
 // Above z = 210 the land approaches 250 without reaching it.
@@ -82,9 +75,14 @@ struct Land {
     Float height;     // blocks above the sea, far from rivers and coasts
     Float bumps;      // blocks to add on slopes
     Float mountains;  // 0…1
+    // Deviations of slopes that columns are too wide to show: of the land, and of the bumps on it.
+    Float lostSlope, lostBumps;
 };
 
+
 Land land(Pass& p, const Fields& f) {
+    const std::vector<float> hillWeights = {2.0f, 6.0f, 18.0f}, roughWeights = {1.6f, 3.2f, 6.0f, 12.0f},
+                             bumpWeights = {.8f, 1.3f, 1.3f};
     const Float desert = p.read(f.desert);
     // Ranges run along the lines where a noise is zero.
     const Float range = abs(p.perlin2D("ranges", 256, {.15f, .35f, 1.0f}));
@@ -93,16 +91,27 @@ Land land(Pass& p, const Fields& f) {
     const Float hilliness = clamp(abs(p.perlin2D("hilliness", 128, {.3f, .5f, .7f})) * 1.6f, 0.0f, 1.0f);
     const Float base = clamp(p.perlin2D("base", 1024, {.33f, .66f}) + 0.25f, 0.0f, 1.0f) * 30.0f;
     const Float plains = max(p.perlin2D("plains", 32, {.6f, 1.2f, 2.5f}) + 3.0f, 0.0f);
-    const Float hills = (p.perlin2D("hills", 32, {2.0f, 6.0f, 18.0f}) + 14.0f) * hilliness;
+    const Float hills = (p.perlin2D("hills", 32, hillWeights) + 14.0f) * hilliness;
     const Vec2 offset = bend(p);
-    const Float roughness = p.perlin2D("roughness", 8, {1.6f, 3.2f, 6.0f, 12.0f});
-    const Float peaks = (readBetween(p, f.crags, offset) + roughness) * mountains;
+    const Float roughness = p.perlin2D("roughness", 8, roughWeights);
+    const Float peaks = (p.readBetween(f.crags, offset) + roughness) * mountains;
     const Float dunes =
-        (readBetween(p, f.dunes, offset) * 18.0f + p.perlin2D("sand", 64, {2.0f, 6.0f})) * desert;
+        (p.readBetween(f.dunes, offset) * 18.0f + p.perlin2D("sand", 64, {2.0f, 6.0f})) * desert;
     // Slopes without it would be contour lines.
     const Float bumpiness = clamp(max(hilliness * 1.5f, mountains) + 0.2f, 0.0f, 1.0f) * (1.0f - desert);
-    const Float bumps = p.perlin2D("bumps", 4, {.8f, 1.3f, 1.3f}) * bumpiness;
-    return {base + max(max(dunes, hills), max(peaks, plains)), bumps, mountains};
+    const Float bumps = p.perlin2D("bumps", 4, bumpWeights) * bumpiness;
+    const Float lost = select(peaks > hills, mountains * lostSlope(roughWeights, 8, p.step()),
+                              select(dunes > hills, Float(0.0f), hilliness * lostSlope(hillWeights, 32, p.step())));
+    return {base + max(max(dunes, hills), max(peaks, plains)), bumps, mountains, lost,
+            bumpiness * lostSlope(bumpWeights, 4, p.step())};
+}
+
+// Of the ground: `scale` of the land's height is left near rivers and coasts, and high peaks are flattened.
+Float lostGroundSlope(const Land& l, Float raised, Float scale) {
+    const Float flattened = 40.0f / (max(l.height - 130.0f, 0.0f) + 40.0f);
+    const Float ofLand = l.lostSlope * scale * (flattened * flattened);
+    const Float ofBumps = l.lostBumps * smoothstep(2.0f, 9.0f, raised);
+    return length({ofLand, ofBumps});
 }
 
 }  // namespace
@@ -132,6 +141,7 @@ void reliefPass(Pass& p, const Fields& f) {
     const Float raised = compressPeaks(l.height) * inland * valley;
     const Float ground = select(ocean > 0.0f, seaFloor, raised + l.bumps * smoothstep(2.0f, 9.0f, raised));
     const Float bed = (min(river.across * river.across, 1.0f) - 1.0f) * river.depth;
+    if (p.step() > 1) p.set(f.lostSlope, lostGroundSlope(l, raised, inland * valley));
     p.set(f.height, kSea + select(river.across < 1.0f, min(bed, ground + shore), ground + shore));
 }
 

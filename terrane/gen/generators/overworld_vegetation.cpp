@@ -4,17 +4,53 @@
 #include "terrane/gen/generators/overworld.h"
 
 namespace terrane::gen::overworld {
-namespace {
 
-constexpr int kTreeSpacing = 7;     // blocks: one tree a cell of this size at most
-constexpr int kMaxTreeHeight = 10;  // blocks of trunk
-constexpr int kMinTreeHeight = 3;
-constexpr int kMaxCrownRise = 4;  // blocks of crown above the trunk: 4.7 / √1.7, see isLeaf
+Bool isLeaf(Pass& p, IVec2 offset, Int aboveTop, Int treeHeight) {
+    const Float radius = Float(treeHeight) * 0.3f + 1.7f;
+    const Float dx(offset.x), dy(offset.y), dz(aboveTop);
+    const Float distance = sqrt(dx * dx + dy * dy + dz * dz * 1.7f);
+    const Float chance = 1.25f - (distance / radius) * (distance / radius) * 0.75f;
+    return distance < radius && p.random3D("leaves", p.x(), p.y(), p.z()) < chance;
+}
 
-// Trees stand at the points of a Voronoi diagram, so that they keep their distance and a crown meets its
-// neighbor's at the border between them.
 Voronoi2D trees(Pass& p) {
     return p.voronoi2D("trees", kTreeSpacing, 1);
+}
+
+Int randomTreeHeight(Pass& p, IVec2 at) {
+    constexpr int kMin = 3, kMax = 10;
+    return Int(p.random2D("tree height", at.x, at.y) * float(kMax - kMin + 1)) + kMin;
+}
+
+namespace {
+
+constexpr float kWheatShare = 0.75f;  // of a field's columns
+
+Bool isGrass(Pass& p, const Fields& f) {
+    return p.read(f.surface) > kSeaLevel && p.read(f.top) == p.block("grass");
+}
+
+Bool isWheatField(Pass& p, const Fields& f, Bool isFlat) {
+    return p.perlin2DWithGrain("wheat fields", 16, {.15f, .3f, 1.0f}) > 0.55f && isFlat &&
+           p.read(f.surface) < kSeaLevel + 35 && p.read(f.forest) < 0.1f;
+}
+
+Block plantOnGrass(Pass& p, const Fields& f, Float chance, Float kind) {
+    const Float meadow = p.perlin2D("meadows", 16, {.5f, 1.0f});
+    const Block air = p.block("air"), tuft = p.block("grass_tuft");
+    Var<Block> plant = p.var(select(chance < 0.07f + meadow * 0.06f, tuft, air));
+    p.if_(meadow > 0.4f && chance > 0.9f, [&] {
+        const Block flower = select(kind < 0.6f, p.block("poppy"), p.block("oxeye_daisy"));
+        plant = select(kind < 0.2f, p.block("blue_orchid"), flower);
+    });
+    const auto rise = [&](int dx, int dy) {
+        return abs(p.readAt(f.surface, {dx, dy}) - p.readAt(f.surface, {-dx, -dy}));
+    };
+    const Bool isFlat = rise(3, 0) + rise(0, 3) <= 1;
+    p.if_(isWheatField(p, f, isFlat), [&] { plant = select(chance < kWheatShare, p.block("wheat"), air); });
+    p.if_(p.read(f.forest) > 0.5f && chance > 0.985f,
+          [&] { plant = select(kind < 0.5f, p.block("red_mushroom"), p.block("brown_mushroom")); });
+    return plant;
 }
 
 // No cave cuts the blocks that carry a plant.
@@ -31,45 +67,9 @@ Int treeHeightHere(Pass& p, const Fields& f, Bool isGrass) {
     const IVec2 offset = trees(p).offset;
     const Bool isPoint = offset.x == 0 && offset.y == 0;
     const Bool grows = p.random2D("tree grows", p.x(), p.y()) < p.read(f.forest);
-    const Int height =
-        Int(p.random2D("tree height", p.x(), p.y()) * float(kMaxTreeHeight - kMinTreeHeight + 1)) +
-        kMinTreeHeight;
+    const Int height = randomTreeHeight(p, {p.x(), p.y()});
     return select(isPoint && grows && isGrass && isFarFromCaves, height, Int(0));
 }
-
-Block plantOnGrass(Pass& p, const Fields& f, Float chance, Float kind) {
-    const Float meadow = p.perlin2D("meadows", 16, {.5f, 1.0f});
-    const Block air = p.block("air"), tuft = p.block("grass_tuft");
-    Var<Block> plant = p.var(select(chance < 0.07f + meadow * 0.06f, tuft, air));
-    p.if_(meadow > 0.4f && chance > 0.9f, [&] {
-        const Block flower = select(kind < 0.6f, p.block("poppy"), p.block("oxeye_daisy"));
-        plant = select(kind < 0.2f, p.block("blue_orchid"), flower);
-    });
-    const auto rise = [&](int dx, int dy) {
-        return abs(p.readAt(f.surface, {dx, dy}) - p.readAt(f.surface, {-dx, -dy}));
-    };
-    const Bool isFlat = rise(3, 0) + rise(0, 3) <= 1;
-    p.if_(p.perlin2D("wheat fields", 16, {.15f, .3f, 1.0f}) > 0.55f && isFlat &&
-              p.read(f.surface) < kSeaLevel + 35 && p.read(f.forest) < 0.1f,
-          [&] { plant = select(chance < 0.75f, p.block("wheat"), air); });
-    p.if_(p.read(f.forest) > 0.5f && chance > 0.985f,
-          [&] { plant = select(kind < 0.5f, p.block("red_mushroom"), p.block("brown_mushroom")); });
-    return plant;
-}
-
-// Whether this voxel is leaf of the crown around (0, 0, top), whose size follows the tree's height.
-Bool isLeaf(Pass& p, IVec2 offset, Int aboveTop, Int treeHeight) {
-    const Float radius = Float(treeHeight) * 0.3f + 1.7f;
-    const Float dx(offset.x), dy(offset.y), dz(aboveTop);
-    const Float distance = sqrt(dx * dx + dy * dy + dz * dz * 1.7f);
-    const Float chance = 1.25f - (distance / radius) * (distance / radius) * 0.75f;
-    return distance < radius && p.random3D("leaves", p.x(), p.y(), p.z()) < chance;
-}
-
-struct Tree {
-    IVec2 offset;      // from here to the trunk
-    Int base, height;  // of the trunk; height 0: no tree
-};
 
 // A voxel from the soil up to the highest leaf.
 Block vegetation(Pass& p, const Fields& f, const Tree& tree) {
@@ -102,23 +102,35 @@ Block caveFloor(Pass& p) {
 
 }  // namespace
 
-void plantsPass(Pass& p, const Fields& f) {
-    const Block top = p.read(f.top);
-    const Bool isGround = p.read(f.surface) > kSeaLevel;
-    const Bool isGrass = isGround && top == p.block("grass");
-    const Int tree = treeHeightHere(p, f, isGrass);
-
+Plant plantHere(Pass& p, const Fields& f) {
     const Float chance = p.random2D("plant", p.x(), p.y()), kind = p.random2D("plant kind", p.x(), p.y());
     Var<Block> plant = p.var(p.block("air"));
     Var<Int> height = p.var(Int(1));
-    p.if_(isGrass, [&] { plant = plantOnGrass(p, f, chance, kind); });
-    p.if_(isGround && top == p.block("sand") && p.read(f.desert) > 0.5f && chance < 0.0014f, [&] {
+    p.if_(isGrass(p, f), [&] { plant = plantOnGrass(p, f, chance, kind); });
+    const Bool isDesert = p.read(f.surface) > kSeaLevel && p.read(f.top) == p.block("sand") && p.read(f.desert) > 0.5f;
+    p.if_(isDesert && chance < 0.0014f, [&] {
         plant = p.block("cactus");
         height = Int(kind * 4.0f) + 1;
     });
+    return {plant, height};
+}
+
+Plant farPlant(Pass& p, const Fields& f) {
+    const Vec2 slope = p.slope(f.height);
+    const Bool isFlat = abs(slope.x) + abs(slope.y) < 0.25f;
+    Var<Block> plant = p.var(p.block("air"));
+    p.if_(isGrass(p, f) && p.random2D("plant", p.x(), p.y()) < kWheatShare,
+          [&] { plant = select(isWheatField(p, f, isFlat), p.block("wheat"), p.block("air")); });
+    return {plant, 1};
+}
+
+void plantsPass(Pass& p, const Fields& f) {
+    const Int tree = treeHeightHere(p, f, isGrass(p, f));
+
+    const Plant plant = plantHere(p, f);
     p.set(f.treeHeight, tree);
-    p.set(f.plant, select(tree > 0, p.block("air"), static_cast<Block>(plant)));
-    p.set(f.plantHeight, static_cast<Int>(height));
+    p.set(f.plant, select(tree > 0, p.block("air"), plant.block));
+    p.set(f.plantHeight, plant.height);
 }
 
 void vegetationPass(Pass& p, const Fields& f) {

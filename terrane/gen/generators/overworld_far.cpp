@@ -1,0 +1,81 @@
+// The overworld where columns are 2, 4, 8 … blocks wide: earth, water, and of what grows what is seen from afar. There are
+// no caves and no ore.
+#include "terrane/gen/generators/overworld.h"
+
+namespace terrane::gen::overworld {
+namespace {
+
+// Up to this step single trees stand where they stand at level 0; their crowns are 5 to 9 blocks wide.
+constexpr int kMaxTreeStep = 4;
+// A trunk of one block may be as wide as a column of this step; beyond it only leaves show.
+constexpr int kMaxTrunkStep = 2;
+
+// What stands on the ground of a column.
+struct Growth {
+    Int top;                       // z up to which something may grow
+    std::function<Block()> block;  // at a voxel above the ground
+};
+
+Bool isGrassAt(Pass& p, const Fields& f, IVec2 offset) {
+    return p.readAt(f.top, offset) == p.block("grass") && p.readAt(f.surface, offset) > kSeaLevel;
+}
+
+// Decided by the trunk's own position, so that it is the same tree at each level.
+Tree nearestTree(Pass& p, const Fields& f) {
+    const IVec2 offset = trees(p).offset, trunk = {p.x() + offset.x, p.y() + offset.y};
+    const Bool grows = p.random2D("tree grows", trunk.x, trunk.y) < p.readAt(f.forest, offset);
+    const Int height = select(grows && isGrassAt(p, f, offset), randomTreeHeight(p, trunk), Int(0));
+    return {offset, p.readAt(f.surface, offset), height};
+}
+
+// The crown at the middle of the column, and in the trunk's column something below it: no crown floats.
+Growth treeAndPlant(Pass& p, const Fields& f) {
+    const Tree tree = nearestTree(p, f);
+    const Plant plant = p.step() == 2 ? plantHere(p, f) : farPlant(p, f);
+    const Int half = p.step() / 2, surface = p.read(f.surface);
+    const auto isHere = [&](Int offset) { return offset >= -half && offset < half; };
+    const Bool isTrunk = isHere(tree.offset.x) && isHere(tree.offset.y) && tree.height > 0;
+    const auto block = [=, &p] {
+        const Int aboveBase = p.z() - tree.base;
+        const Bool inCrown = tree.height > 0 && aboveBase > (tree.height >> 1) &&
+                             isLeaf(p, tree.offset, aboveBase - tree.height, tree.height);
+        const Block trunk = p.block(p.step() <= kMaxTrunkStep ? "oak_log" : "oak_leaves");
+        const Block onGround = select(p.z() <= surface + plant.height, plant.block, p.block("air"));
+        return multiSelect({{isTrunk && aboveBase <= tree.height, trunk}, {inCrown, p.block("oak_leaves")}},
+                           onGround);
+    };
+    const Int crownTop = select(tree.height > 0, tree.base + tree.height + kMaxCrownRise, Int(0));
+    return {max(surface + plant.height, crownTop), block};
+}
+
+// As many columns are crowns as crowns cover at level 0, from the ground to where they end there on average.
+Growth crownOrPlant(Pass& p, const Fields& f) {
+    constexpr float kCrownShare = 0.6f;  // of the ground that a point's tree covers, if it grows
+    constexpr int kMinTop = 5, kMaxTop = 12;
+    const Plant plant = farPlant(p, f);
+    const Bool isCrown =
+        isGrassAt(p, f, {0, 0}) && p.random2D("crown", p.x(), p.y()) < p.read(f.forest) * kCrownShare;
+    const Int crown = Int(p.random2D("crown top", p.x(), p.y()) * float(kMaxTop - kMinTop + 1)) + kMinTop;
+    const auto block = [=, &p] { return select(isCrown, p.block("oak_leaves"), plant.block); };
+    return {p.read(f.surface) + select(isCrown, crown, plant.height), block};
+}
+
+}  // namespace
+
+void farPass(Pass& p, const Fields& f) {
+    const Int z = p.z(), surface = p.read(f.surface), depth = surface - z;
+    const Growth growth = p.step() <= kMaxTreeStep ? treeAndPlant(p, f) : crownOrPlant(p, f);
+    Var<Block> block = p.var(p.block("stone"));
+    // The fewer conditions most voxels meet, the faster.
+    p.if_(depth <= kSoilDepth, [&] {
+        p.if_(
+            depth >= 0, [&] { block = select(depth == 0, p.read(f.top), p.read(f.soil)); },
+            [&] {
+                block = select(z <= kSeaLevel, p.block("water"), p.block("air"));
+                p.if_(z > kSeaLevel && z <= growth.top, [&] { block = growth.block(); });
+            });
+    });
+    p.setBlock(block);
+}
+
+}  // namespace terrane::gen::overworld
