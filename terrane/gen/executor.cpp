@@ -36,7 +36,15 @@ void Executor::run3D(const Program& program, const PassInputs& inputs, BlockArra
     prepareTile(program, inputs);
     for (ColumnValues* field : fieldResults) field->fill(0);
     runInstructions(program.column, context_);
+    // Fields are written from layers too.
+    const bool maySkip = program.fields.empty();
+    if (maySkip) layerRanges_.begin(program, context_.arena, context_.noiseKinds, context_.blocks);
     for (int z = 0; z < world::kChunkHeight; ++z) {
+        const auto uniform = maySkip ? layerRanges_.blockOfLayer(z) : std::nullopt;
+        if (uniform) {
+            std::fill_n(result.data() + z * kTileLanes, kTileLanes, *uniform);
+            continue;
+        }
         context_.z = z;
         std::fill_n(row(program.z), kRowLanes, bitsOf(z));
         runInstructions(program.layer, context_);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "terrane/gen/kernels.h"
+#include "terrane/gen/layer_ranges.h"
 #include "terrane/gen/seeds.h"
 #include "terrane/world/coords.h"
 
@@ -53,6 +54,7 @@ class Executor {
     const Seeds& seeds_;
     std::vector<AlignedRow> arena_;
     TileContext context_;
+    LayerRanges layerRanges_;
 };
 
 }  // namespace terrane::gen

@@ -12,8 +12,8 @@ float fadeOf(std::int32_t size, std::int32_t step) {
     return std::clamp(static_cast<float>(size) / static_cast<float>(step) - 1.0f, 0.0f, 1.0f);
 }
 
-// Standard deviation of (n(x + reach) − n(x − reach)) / (2 reach) for noise n of weight 1 and size 1; measured over 200,000
-// places. Beyond a reach of 1 both ends have nothing in common.
+// Standard deviation of (n(x + reach) − n(x − reach)) / (2 reach) for noise n of weight 1 and size 1;
+// measured over 200,000 places. Beyond a reach of 1 both ends have nothing in common.
 float slopeDeviation(float reach) {
     constexpr std::array<float, 9> kAtEighths = {0.884f, 0.842f, 0.728f, 0.593f, 0.459f,
                                                  0.356f, 0.290f, 0.246f, 0.215f};

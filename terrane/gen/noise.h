@@ -44,13 +44,13 @@ struct NoiseCall {
 // nothing fades.
 std::vector<float> fadedWeights(std::vector<float> weights, std::int32_t size, std::int32_t step);
 
-// What fades of Perlin noise in 2D from step 1 to `step`, as standard deviations: of its value, and of its slope along an
-// axis as Pass::slope measures it at both steps, a block. 0 at step 1.
+// What fades of Perlin noise in 2D from step 1 to `step`, as standard deviations: of its value, and of its
+// slope along an axis as Pass::slope measures it at both steps, a block. 0 at step 1.
 float lostDeviation(const std::vector<float>& weights, std::int32_t size, std::int32_t step);
 float lostSlope(const std::vector<float>& weights, std::int32_t size, std::int32_t step);
 
-// Half the distance over which Pass::slope measures, in blocks. At step 1 over two blocks a single step of the ground
-// would count in full.
+// Half the distance over which Pass::slope measures, in blocks. At step 1 over two blocks a single step of
+// the ground would count in full.
 constexpr std::int32_t slopeReach(std::int32_t step) {
     return step == 1 ? 2 : step;
 }

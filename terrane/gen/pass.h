@@ -55,8 +55,8 @@ class Pass {
     // and noise_expressions.cpp.
     Float perlin2D(std::string_view name, int size, std::vector<float> weights);
     Float perlin3D(std::string_view name, int size, std::vector<float> weights);
-    // The noise, and for what faded of it at this level grain: a random number for each column, of the same spread. What a
-    // threshold divides keeps its shares, where noise alone would let the larger part win.
+    // The noise, and for what faded of it at this level grain: a random number for each column, of the same
+    // spread. What a threshold divides keeps its shares, where noise alone would let the larger part win.
     Float perlin2DWithGrain(std::string_view name, int size, std::vector<float> weights);
     // A random number and pair for each column with mean 0 and deviation 1.
     Float grain(std::string_view name);

@@ -61,8 +61,8 @@ void vegetationPass(Pass& p, const Fields& f);  // 3D: their blocks
 // At other levels.
 void farPass(Pass& p, const Fields& f);  // 3D: earth, water, crowns
 
-// Trees stand at the points of a Voronoi diagram, so that they keep their distance and a crown meets its neighbor's at the
-// border between them.
+// Trees stand at the points of a Voronoi diagram, so that they keep their distance and a crown meets its
+// neighbor's at the border between them.
 constexpr int kTreeSpacing = 7;   // blocks: one tree a cell of this size at most
 constexpr int kMaxCrownRise = 4;  // blocks of crown above the trunk: 4.7 / √1.7, see isLeaf
 struct Tree {

@@ -1,5 +1,5 @@
-// The overworld where columns are 2, 4, 8 … blocks wide: earth, water, and of what grows what is seen from afar. There are
-// no caves and no ore.
+// The overworld where columns are 2, 4, 8 … blocks wide: earth, water, and of what grows what is seen from
+// afar. There are no caves and no ore.
 #include "terrane/gen/generators/overworld.h"
 
 namespace terrane::gen::overworld {
@@ -10,10 +10,10 @@ constexpr int kMaxTreeStep = 4;
 // A trunk of one block may be as wide as a column of this step; beyond it only leaves show.
 constexpr int kMaxTrunkStep = 2;
 
-// What stands on the ground of a column.
+// What stands on the ground of a column, up to `top`.
 struct Growth {
-    Int top;                       // z up to which something may grow
-    std::function<Block()> block;  // at a voxel above the ground
+    Int top;
+    std::function<Block(Block open)> block;  // at a voxel above the ground; `open` is air or water
 };
 
 Bool isGrassAt(Pass& p, const Fields& f, IVec2 offset) {
@@ -35,7 +35,7 @@ Growth treeAndPlant(Pass& p, const Fields& f) {
     const Int half = p.step() / 2, surface = p.read(f.surface);
     const auto isHere = [&](Int offset) { return offset >= -half && offset < half; };
     const Bool isTrunk = isHere(tree.offset.x) && isHere(tree.offset.y) && tree.height > 0;
-    const auto block = [=, &p] {
+    const auto voxel = [=, &p] {
         const Int aboveBase = p.z() - tree.base;
         const Bool inCrown = tree.height > 0 && aboveBase > (tree.height >> 1) &&
                              isLeaf(p, tree.offset, aboveBase - tree.height, tree.height);
@@ -45,35 +45,39 @@ Growth treeAndPlant(Pass& p, const Fields& f) {
                            onGround);
     };
     const Int crownTop = select(tree.height > 0, tree.base + tree.height + kMaxCrownRise, Int(0));
-    return {max(surface + plant.height, crownTop), block};
+    const Int top = max(surface + plant.height, crownTop);
+    return {top, [=, &p](Block open) {
+                Var<Block> block = p.var(open);
+                p.if_(p.z() > max(surface, kSeaLevel) && p.z() <= top, [&] { block = voxel(); });
+                return static_cast<Block>(block);
+            }};
 }
 
 // As many columns are crowns as crowns cover at level 0, from the ground to where they end there on average.
 Growth crownOrPlant(Pass& p, const Fields& f) {
-    constexpr float kCrownShare = 0.6f;  // of the ground that a point's tree covers, if it grows
+    constexpr float kCrownShare = 0.615f;  // of the ground that a point's tree covers, if it grows
     constexpr int kMinTop = 5, kMaxTop = 12;
     const Plant plant = farPlant(p, f);
     const Bool isCrown =
         isGrassAt(p, f, {0, 0}) && p.random2D("crown", p.x(), p.y()) < p.read(f.forest) * kCrownShare;
     const Int crown = Int(p.random2D("crown top", p.x(), p.y()) * float(kMaxTop - kMinTop + 1)) + kMinTop;
-    const auto block = [=, &p] { return select(isCrown, p.block("oak_leaves"), plant.block); };
-    return {p.read(f.surface) + select(isCrown, crown, plant.height), block};
+    const Block growth = select(isCrown, p.block("oak_leaves"), plant.block);
+    const Int height = select(isCrown, crown, select(plant.block == p.block("air"), Int(0), plant.height));
+    const Int top = p.read(f.surface) + height;
+    return {top, [=, &p](Block open) { return select(p.z() <= top, growth, open); }};
 }
 
 }  // namespace
 
 void farPass(Pass& p, const Fields& f) {
-    const Int z = p.z(), surface = p.read(f.surface), depth = surface - z;
+    const Int z = p.z(), surface = p.read(f.surface), stoneTop = surface - (kSoilDepth + 1);
     const Growth growth = p.step() <= kMaxTreeStep ? treeAndPlant(p, f) : crownOrPlant(p, f);
+    const Block open = select(z <= kSeaLevel, p.block("water"), p.block("air"));
     Var<Block> block = p.var(p.block("stone"));
-    // The fewer conditions most voxels meet, the faster.
-    p.if_(depth <= kSoilDepth, [&] {
-        p.if_(
-            depth >= 0, [&] { block = select(depth == 0, p.read(f.top), p.read(f.soil)); },
-            [&] {
-                block = select(z <= kSeaLevel, p.block("water"), p.block("air"));
-                p.if_(z > kSeaLevel && z <= growth.top, [&] { block = growth.block(); });
-            });
+    // Without branches inside: a select costs less than finding out which rows need it.
+    p.if_(z > stoneTop, [&] {
+        const Block earth = select(z == surface, p.read(f.top), p.read(f.soil));
+        block = select(z > surface, growth.block(open), earth);
     });
     p.setBlock(block);
 }

@@ -79,7 +79,6 @@ struct Land {
     Float lostSlope, lostBumps;
 };
 
-
 Land land(Pass& p, const Fields& f) {
     const std::vector<float> hillWeights = {2.0f, 6.0f, 18.0f}, roughWeights = {1.6f, 3.2f, 6.0f, 12.0f},
                              bumpWeights = {.8f, 1.3f, 1.3f};
@@ -100,8 +99,9 @@ Land land(Pass& p, const Fields& f) {
     // Slopes without it would be contour lines.
     const Float bumpiness = clamp(max(hilliness * 1.5f, mountains) + 0.2f, 0.0f, 1.0f) * (1.0f - desert);
     const Float bumps = p.perlin2D("bumps", 4, bumpWeights) * bumpiness;
-    const Float lost = select(peaks > hills, mountains * lostSlope(roughWeights, 8, p.step()),
-                              select(dunes > hills, Float(0.0f), hilliness * lostSlope(hillWeights, 32, p.step())));
+    const Float lost =
+        select(peaks > hills, mountains * lostSlope(roughWeights, 8, p.step()),
+               select(dunes > hills, Float(0.0f), hilliness * lostSlope(hillWeights, 32, p.step())));
     return {base + max(max(dunes, hills), max(peaks, plains)), bumps, mountains, lost,
             bumpiness * lostSlope(bumpWeights, 4, p.step())};
 }

@@ -107,7 +107,8 @@ Plant plantHere(Pass& p, const Fields& f) {
     Var<Block> plant = p.var(p.block("air"));
     Var<Int> height = p.var(Int(1));
     p.if_(isGrass(p, f), [&] { plant = plantOnGrass(p, f, chance, kind); });
-    const Bool isDesert = p.read(f.surface) > kSeaLevel && p.read(f.top) == p.block("sand") && p.read(f.desert) > 0.5f;
+    const Bool isDesert =
+        p.read(f.surface) > kSeaLevel && p.read(f.top) == p.block("sand") && p.read(f.desert) > 0.5f;
     p.if_(isDesert && chance < 0.0014f, [&] {
         plant = p.block("cactus");
         height = Int(kind * 4.0f) + 1;

@@ -1,0 +1,142 @@
+#include "terrane/gen/layer_ranges.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "terrane/world/coords.h"
+
+namespace terrane::gen {
+
+void LayerRanges::begin(const Program& program, const Bits* arena, std::span<const NoiseKind> noises,
+                        const std::uint16_t* blocks) {
+    blocks_ = blocks;
+    program_ = &program;
+    arena_ = arena;
+    noises_ = noises;
+    ranges_.resize(program.arenaRows);
+    isKnown_.assign(program.arenaRows, false);
+}
+
+std::optional<std::uint16_t> LayerRanges::blockOfLayer(std::int32_t z) {
+    z_ = z;
+    write(program_->z, {z, z});
+    run(program_->layer);
+    const Range block = read(*program_->block);
+    if (block.low != block.high) return std::nullopt;
+    return static_cast<std::uint16_t>(block.low);
+}
+
+// What no instruction of the layer wrote lies in the arena, the same for all layers.
+const LayerRanges::Range& LayerRanges::read(Operand o) {
+    if (!isKnown_[o.row]) {
+        const Bits* first = arena_ + std::size_t{o.row} * kRowLanes;
+        Range range = {asInt(*first), asInt(*first)};
+        const int count = o.rowStep == 0 ? 1 : kTileLanes;
+        for (int k = 1; k < count; ++k) {
+            range.low = std::min<std::int64_t>(range.low, asInt(first[k]));
+            range.high = std::max<std::int64_t>(range.high, asInt(first[k]));
+        }
+        write(o, range);
+    }
+    return ranges_[o.row];
+}
+
+void LayerRanges::write(Operand o, Range range) {
+    ranges_[o.row] = range;
+    isKnown_[o.row] = true;
+}
+
+void LayerRanges::run(const InstructionList& list) {
+    for (const Instruction& i : list) {
+        if (i.op == Op::Phi) {
+            runBranch(program_->branches[i.imm]);
+        } else if (i.op == Op::LoopOut || i.op == Op::Noise) {
+            forget(i);
+        } else {
+            write(i.dst, resultOf(i));
+        }
+    }
+}
+
+// A side that some columns take and others do not is not looked at: only the phis are used after it.
+void LayerRanges::runBranch(const Branch& branch) {
+    const Range condition = read(branch.condition);
+    if (condition.low != condition.high) {
+        for (const PhiMove& move : branch.phis) write(move.dst, kAnything);
+        return;
+    }
+    const bool isTaken = condition.low != 0;
+    run(isTaken ? branch.then : branch.otherwise);
+    for (const PhiMove& move : branch.phis) write(move.dst, read(isTaken ? move.then : move.otherwise));
+}
+
+// Loops and noise have several results.
+void LayerRanges::forget(const Instruction& i) {
+    if (i.op == Op::Noise) {
+        for (std::uint32_t k = 0; k < resultCount(noises_[i.imm]); ++k) {
+            write({static_cast<std::uint16_t>(i.dst.row + k * kTileSize), i.dst.rowStep}, kAnything);
+        }
+        return;
+    }
+    for (const LoopMove& variable : program_->loops[i.imm].variables) write(variable.in, kAnything);
+}
+
+// Of the pass before.
+LayerRanges::Range LayerRanges::blocksOfLayer(std::int64_t z) const {
+    const std::uint16_t* layer =
+        blocks_ + std::clamp<std::int64_t>(z, 0, world::kChunkHeight - 1) * kTileLanes;
+    const bool isUniform = std::memcmp(layer, layer + 1, (kTileLanes - 1) * sizeof(*layer)) == 0;
+    return isUniform ? Range{*layer, *layer} : Range{0, UINT16_MAX};
+}
+
+LayerRanges::Range LayerRanges::resultOf(const Instruction& i) {
+    const auto arg = [&](std::size_t k) { return read(i.args[k]); };
+    const auto condition = [&](std::size_t k) {
+        return Range{std::max<std::int64_t>(arg(k).low, -1), std::min<std::int64_t>(arg(k).high, 0)};
+    };
+    // Lanes of a condition are all zeros or all ones: 0 or −1.
+    const auto truth = [](bool always, bool never) { return Range{never ? 0 : -1, always ? -1 : 0}; };
+    const auto unlessWrapped = [](Range r) {
+        return r.low < kAnything.low || r.high > kAnything.high ? kAnything : r;
+    };
+    switch (i.op) {
+        case Op::LessI:
+            return truth(arg(0).high < arg(1).low, arg(0).low >= arg(1).high);
+        case Op::LessEqualI:
+            return truth(arg(0).high <= arg(1).low, arg(0).low > arg(1).high);
+        case Op::EqualI: {
+            const Range a = arg(0), b = arg(1);
+            return truth(a.low == a.high && b.low == b.high && a.low == b.low,
+                         a.high < b.low || b.high < a.low);
+        }
+        case Op::And:  // of 0 and −1 the larger is 0
+            return {std::max(condition(0).low, condition(1).low),
+                    std::max(condition(0).high, condition(1).high)};
+        case Op::Or:
+            return {std::min(condition(0).low, condition(1).low),
+                    std::min(condition(0).high, condition(1).high)};
+        case Op::Not:
+            return {-1 - condition(0).high, -1 - condition(0).low};
+        case Op::AddI:
+            return unlessWrapped({arg(0).low + arg(1).low, arg(0).high + arg(1).high});
+        case Op::SubI:
+            return unlessWrapped({arg(0).low - arg(1).high, arg(0).high - arg(1).low});
+        case Op::MinI:
+            return {std::min(arg(0).low, arg(1).low), std::min(arg(0).high, arg(1).high)};
+        case Op::MaxI:
+            return {std::max(arg(0).low, arg(1).low), std::max(arg(0).high, arg(1).high)};
+        case Op::Select: {
+            const Range choice = arg(0), yes = arg(1), no = arg(2);
+            if (choice.low == choice.high) return choice.low != 0 ? yes : no;
+            return {std::min(yes.low, no.low), std::max(yes.high, no.high)};
+        }
+        case Op::BlockHere:
+            return blocksOfLayer(z_);
+        case Op::BlockInColumn:
+            return arg(0).low == arg(0).high ? blocksOfLayer(arg(0).low) : kAnything;
+        default:
+            return kAnything;
+    }
+}
+
+}  // namespace terrane::gen
