@@ -42,7 +42,8 @@ bool isPit(const Columns& columns, std::size_t k) {
     const int x = static_cast<int>(k) % columns.width, y = static_cast<int>(k) / columns.width;
     int lowest = world::kChunkHeight;
     for (const auto& [dx, dy] : {std::pair(-kReach, 0), {kReach, 0}, {0, -kReach}, {0, kReach}}) {
-        const int ox = std::clamp(x + dx, 0, columns.width - 1), oy = std::clamp(y + dy, 0, columns.width - 1);
+        const int ox = std::clamp(x + dx, 0, columns.width - 1),
+                  oy = std::clamp(y + dy, 0, columns.width - 1);
         lowest = std::min<int>(lowest, columns.ground[static_cast<std::size_t>(ox + columns.width * oy)]);
     }
     return columns.ground[k] < lowest - kDepth;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -28,18 +28,18 @@ constexpr std::array<ChunkPos, 24> kPlaces = {
      {-96, 1344},    {-1632, -2208}, {576, -1920},   {-1056, -768},  {-1056, -1440}, {-1056, -192},
      {768, 1536},    {-1056, -1536}, {1632, -1536},  {-1056, 864},   {-288, -2304},  {-2208, -2208}}};
 
-// Microseconds a chunk on this thread, from a generator that knows nothing yet: the least of some rounds.
+// Microseconds of CPU time a chunk, from a generator that knows nothing yet: the least of some rounds.
 double costOf(const std::string& name, int level) {
     constexpr int kRounds = 3, kTiles = 24;
     double best = 1e9;
     for (int round = 0; round < kRounds; ++round) {
         const gen::Generator generator(bench::orExit(gen::makeGenerator(name, bench::blocks(), level)), 1);
-        const auto start = std::chrono::steady_clock::now();
+        const std::clock_t start = std::clock();
         for (int k = 0; k < kTiles * kTiles; ++k) {
             static_cast<void>(generator.generate({k % kTiles, k / kTiles, static_cast<std::uint8_t>(level)}));
         }
-        const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
-        best = std::min(best, time.count() / (kTiles * kTiles));
+        const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+        best = std::min(best, seconds * 1e6 / (kTiles * kTiles));
     }
     return best;
 }
@@ -57,7 +57,8 @@ int main(int argc, char** argv) {
     }
     const gen::LevelGenerators generators(
         [&](int level) { return gen::makeGenerator(name, bench::blocks(), level); }, 1);
-    const bench::LevelComparison comparison(generators, bench::blocks(), {kSide, {kPlaces.begin(), kPlaces.begin() + places}});
+    const bench::LevelComparison comparison(generators, bench::blocks(),
+                                            {kSide, {kPlaces.begin(), kPlaces.begin() + places}});
     std::vector<bench::LevelFigures> figures;
     for (int level = 1; level <= kFigureLevels; ++level) figures.push_back(comparison.of(level));
     fmt::print("\n{}\nheight of tiles less that of chunks, blocks\n{}", bench::coverTable(figures),

@@ -39,9 +39,11 @@ struct NoiseCall {
     bool operator==(const NoiseCall&) const = default;
 };
 
-// The weights at `step` blocks from sample to sample. An octave shorter than two steps cannot be seen there
-// and would only flicker, so it fades: of cells of `s` blocks clamp(s / step − 1, 0, 1) is left. At step 1
-// nothing fades.
+// What is left at `step` blocks from sample to sample of noise with cells of `size` blocks: cells shorter
+// than two steps cannot be seen there and would only flicker, so they fade. All at two steps, nothing at one;
+// at step 1 nothing fades.
+float shareLeft(std::int32_t size, std::int32_t step);
+// The weights of octaves times what is left of them.
 std::vector<float> fadedWeights(std::vector<float> weights, std::int32_t size, std::int32_t step);
 
 // What fades of Perlin noise in 2D from step 1 to `step`, as standard deviations: of its value, and of its
