@@ -19,42 +19,45 @@ HWY_BEFORE_NAMESPACE();
 namespace terrane::gen {
 namespace HWY_NAMESPACE {
 
+// The operands are read before the loops: stores of vectors might change them, as far as the compiler knows.
 template <class Function>
 void unaryF(const Instruction& i, Bits* arena, const RowList& rows, Function f) {
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) {
-        storeBits(f(loadF(rowOf(arena, i.args[0], row) + lane)), rowOf(arena, i.dst, row) + lane);
+    const RowsOf a(arena, i.args[0]), out(arena, i.dst);
+    forEachVector(rows, i.dst, [=](int row, std::size_t lane) {
+        storeBits(f(loadF(a.at(row, lane))), out.at(row, lane));
     });
 }
 
 template <class Function>
 void unaryI(const Instruction& i, Bits* arena, const RowList& rows, Function f) {
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) {
-        storeBits(f(loadI(rowOf(arena, i.args[0], row) + lane)), rowOf(arena, i.dst, row) + lane);
+    const RowsOf a(arena, i.args[0]), out(arena, i.dst);
+    forEachVector(rows, i.dst, [=](int row, std::size_t lane) {
+        storeBits(f(loadI(a.at(row, lane))), out.at(row, lane));
     });
 }
 
 template <class Function>
 void binaryF(const Instruction& i, Bits* arena, const RowList& rows, Function f) {
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) {
-        storeBits(f(loadF(rowOf(arena, i.args[0], row) + lane), loadF(rowOf(arena, i.args[1], row) + lane)),
-                  rowOf(arena, i.dst, row) + lane);
+    const RowsOf a(arena, i.args[0]), b(arena, i.args[1]), out(arena, i.dst);
+    forEachVector(rows, i.dst, [=](int row, std::size_t lane) {
+        storeBits(f(loadF(a.at(row, lane)), loadF(b.at(row, lane))), out.at(row, lane));
     });
 }
 
 template <class Function>
 void binaryI(const Instruction& i, Bits* arena, const RowList& rows, Function f) {
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) {
-        storeBits(f(loadI(rowOf(arena, i.args[0], row) + lane), loadI(rowOf(arena, i.args[1], row) + lane)),
-                  rowOf(arena, i.dst, row) + lane);
+    const RowsOf a(arena, i.args[0]), b(arena, i.args[1]), out(arena, i.dst);
+    forEachVector(rows, i.dst, [=](int row, std::size_t lane) {
+        storeBits(f(loadI(a.at(row, lane)), loadI(b.at(row, lane))), out.at(row, lane));
     });
 }
 
 void blend(Operand condition, const PhiMove& move, Bits* arena, const RowList& rows) {
-    forEachVector(rows, move.dst, [&](int row, std::size_t lane) {
-        const auto taken = hn::MaskFromVec(loadI(rowOf(arena, condition, row) + lane));
-        const VI a = loadI(rowOf(arena, move.then, row) + lane);
-        const VI b = loadI(rowOf(arena, move.otherwise, row) + lane);
-        storeBits(hn::IfThenElse(taken, a, b), rowOf(arena, move.dst, row) + lane);
+    const RowsOf choice(arena, condition), a(arena, move.then), b(arena, move.otherwise),
+        out(arena, move.dst);
+    forEachVector(rows, move.dst, [=](int row, std::size_t lane) {
+        const auto taken = hn::MaskFromVec(loadI(choice.at(row, lane)));
+        storeBits(hn::IfThenElse(taken, loadI(a.at(row, lane)), loadI(b.at(row, lane))), out.at(row, lane));
     });
 }
 
@@ -104,9 +107,9 @@ RowList rowsWithSome(Operand condition, Bits* arena, const RowList& rows) {
 }
 
 void copyRows(Operand to, Operand from, Bits* arena, const RowList& rows) {
-    forEachVector(rows, to, [&](int row, std::size_t lane) {
-        storeBits(loadI(rowOf(arena, from, row) + lane), rowOf(arena, to, row) + lane);
-    });
+    const RowsOf in(arena, from), out(arena, to);
+    forEachVector(rows, to,
+                  [=](int row, std::size_t lane) { storeBits(loadI(in.at(row, lane)), out.at(row, lane)); });
 }
 
 // A lane whose condition does not hold keeps its variables, so its condition does not hold again either.

@@ -39,6 +39,18 @@ Bits* rowOf(Bits* arena, Operand o, int row) {
     return arena + static_cast<std::size_t>(o.row + o.rowStep * row) * kRowLanes;
 }
 
+// An operand's rows in the arena.
+struct RowsOf {
+    RowsOf(Bits* arena, Operand o)
+        : first(arena + std::size_t{o.row} * kRowLanes), stride(std::size_t{o.rowStep} * kRowLanes) {}
+    Bits* at(int row, std::size_t lane) const {
+        return first + stride * static_cast<std::size_t>(row) + lane;
+    }
+
+    Bits* first;
+    std::size_t stride;  // lanes from row to row; 0 where all rows are one
+};
+
 // Calls f(row, lane) for each vector of the destination's rows: one row where the value is the same in every
 // column.
 template <class Function>
