@@ -50,7 +50,8 @@ void writeHills3D(GeneratorBuilder& g) {
     g.pass2D("land", [&](Pass& p) { p.set(middle, 90.0f + p.simplex2D("land", 256, {7.0f, 20.0f})); });
     g.pass3D("ground", [&](Pass& p) { groundPass(p, middle); });
     g.pass3D("soil", soilPass);
-    g.pass3D("plants", plantsPass);
+    // A flower as wide as a column of 4 blocks would be a tree.
+    if (g.step() <= 2) g.pass3D("plants", plantsPass);
 }
 
 }  // namespace terrane::gen

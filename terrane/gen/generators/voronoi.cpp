@@ -23,13 +23,15 @@ void groundPass(Pass& p, Field<Int> height) {
     Var<Block> block = p.var(select(z <= kSeaLevel, p.block("water"), p.block("air")));
     p.if_(depth >= 0, [&] { block = p.block("stone"); });
     p.if_(depth >= 0 && depth < 3, [&] { block = cover; });
-    p.if_(depth > 6 && z > 3, [&] {
+    const auto chambers = [&] {
         const Voronoi3D cells = p.voronoi3D("chambers", 28, 1, 8);
         const Bool isChamber = cells.distance < 9.0f && p.perlin3D("where", 64, {1.0f}) > 0.1f;
         const Bool isFloor = cells.offset.z == 8;
         const Block inside = select(isFloor && cells.ratio < 0.3f, p.block("glowing_ore"), p.block("air"));
         p.if_(isChamber, [&] { block = inside; });
-    });
+    };
+    // Nobody sees them from afar, and they are most of the cost.
+    if (p.step() == 1) p.if_(depth > 6 && z > 3, chambers);
     p.setBlock(block);
 }
 
