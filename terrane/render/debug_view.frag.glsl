@@ -2,12 +2,13 @@
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
 #include "terrane/render/gbuffer_read.glsl"
+#include "terrane/render/lighting.glsl"
 
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
 
 vec3 lightView(vec3 position, Surface s) {
-    vec4 levels = sampleLight(position, s.direction == kDirectionPlant ? vec3(0.0) : s.normal);
+    vec4 levels = levelsAt(position, s);
     return max(levels.rgb, levels.a * vec3(0.85, 0.8, 0.65));
 }
 

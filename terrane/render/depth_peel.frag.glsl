@@ -35,5 +35,5 @@ void main() {
     if (isLiquid(inFace.x)) texel = mix(texel, textureLod(blockTextures, vec3(0.5, 0.5, textureOf(inFace.x)), 10.0), 0.7);
     uint direction = directionOfFace(inFace.x);
     if (!gl_FrontFacing && direction < kDirectionPlant) direction ^= 1u;
-    outLayer = packLayer(texel, direction, isLiquid(inFace.x));
+    outLayer = packLayer(texel, direction, isFarFace(inFace.x), isLiquid(inFace.x));
 }

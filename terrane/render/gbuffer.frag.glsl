@@ -61,5 +61,5 @@ void main() {
     if (!gl_FrontFacing && direction < kDirectionPlant) direction ^= 1u;
     vec3 color = texel.rgb;
     if (frame.view == kViewMerging) color = mergingColor(color, normalOf(direction));
-    outSurface = packSurface(color, direction, glowOf(texel.a));
+    outSurface = packSurface(color, direction, glowOf(texel.a), isFarFace(inFace.x));
 }

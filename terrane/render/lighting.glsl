@@ -4,8 +4,9 @@ const vec3 kMinLight = vec3(0.02);  // of the darkest cave: shapes can just be s
 
 // Levels of light as sampled before the surface. Plants stand inside their block and take its light. The position comes
 // from the depth and is off by less than kOff within some hundred blocks: moved by that along the normal it is on the
-// near side of the plane between two layers of nodes, everywhere on a face.
+// near side of the plane between two layers of nodes, everywhere on a face. Far tiles lie under the open sky.
 vec4 levelsAt(vec3 position, Surface s) {
+    if (s.isFar) return vec4(0.0, 0.0, 0.0, 1.0);
     const float kOff = 1.0 / 256.0;
     vec3 normal = s.direction == kDirectionPlant ? vec3(0.0) : s.normal;
     return sampleLight(position + kOff * normal, normal);

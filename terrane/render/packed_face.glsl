@@ -21,6 +21,10 @@ uint directionOfFace(uint face) {
     return face >> 15 & 7u;
 }
 
+bool isFarFace(uint face) {
+    return (face >> 27 & 15u) != 0u;
+}
+
 // In blocks, which a texture covers one of at every level. Heights of columns are those of blocks.
 vec2 extentOf(uint face) {
     vec2 columns = vec2((face >> 19 & 15u) + 1u, (face >> 23 & 15u) + 1u);

@@ -47,7 +47,7 @@ vec4 shadePixel(ivec2 pixel, float visibility) {
 }
 #elif MSAA_SAMPLES > 1
 vec4 shadePixel(ivec2 pixel, float visibility) {
-    Surface mean = Surface(vec3(0.0), vec3(0.0), 0.0, kDirectionNone);
+    Surface mean = Surface(vec3(0.0), vec3(0.0), 0.0, kDirectionNone, false);
     float nearest = 0.0;
     int covered = 0;
     for (int k = 0; k < MSAA_SAMPLES; ++k) {
@@ -58,12 +58,17 @@ vec4 shadePixel(ivec2 pixel, float visibility) {
         mean.albedo += s.albedo;
         mean.normal += s.normal;
         mean.glow += s.glow;
-        if (depth > nearest) mean.direction = s.direction;
+        if (depth > nearest) {
+            mean.direction = s.direction;
+            mean.isFar = s.isFar;
+        }
         nearest = max(nearest, depth);
         ++covered;
     }
     float share = 1.0 / float(covered);
-    mean = Surface(mean.albedo * share, normalize(mean.normal + 1e-4), mean.glow * share, mean.direction);
+    mean.albedo *= share;
+    mean.normal = normalize(mean.normal + 1e-4);
+    mean.glow *= share;
     return shadeAt(mean, nearest, visibility) * float(covered) / float(MSAA_SAMPLES);
 }
 #else
