@@ -1,0 +1,66 @@
+// Makes the tiles that a view needs beyond its chunks, on worker threads: straight from the generator,
+// without light and without neighbors. tile_table.h has the rules. Used on the thread that owns the world;
+// workers hand results back through a queue.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "terrane/base/job_system.h"
+#include "terrane/gen/level_generators.h"
+#include "terrane/mesh/mesh_options.h"
+#include "terrane/stream/chunk_jobs.h"
+#include "terrane/stream/tile_table.h"
+
+namespace terrane::stream {
+
+// Everything outlives the pipeline.
+struct TileParts {
+    base::JobSystem& jobs;
+    const world::BlockRegistry& blocks;
+    const gen::LevelGenerators& generators;
+};
+
+struct TileMesh {
+    world::ChunkPos pos;
+    MeshPtr mesh;
+};
+
+// Blocks and mesh of a tile. Any thread. Throws where there is no generator of the level.
+MeshPtr makeTile(const TileParts& parts, world::ChunkPos pos, mesh::MergeMethod method);
+
+class TilePipeline {
+  public:
+    explicit TilePipeline(const TileParts& parts);
+    ~TilePipeline();  // waits for running jobs; the others do nothing
+
+    void setView(const TileView& view) { setTileView(table_, view); }
+    // A chunk of level 0 can be shown, or no longer.
+    void setChunkReady(world::ChunkPos pos, bool isReady) { stream::setChunkReady(table_, pos, isReady); }
+    // Takes in what workers finished, and gives out new work after all chunks that wait. Call each frame.
+    // What a worker threw is thrown on from here.
+    void update(mesh::MergeMethod method);
+    // Blocks until a worker may have finished a tile, or the time is over.
+    void waitForWorkers(std::chrono::milliseconds atMost);
+
+    // Up to `limit` tiles that are new. The caller can show them from here on.
+    std::vector<TileMesh> takeMeshes(std::size_t limit);
+    // What is to be shown, hidden and dropped, by what the caller has.
+    TileChanges takeChanges() { return updateTiles(table_); }
+
+    const TileTable& table() const { return table_; }
+    // Tiles that are wanted and that the caller does not have.
+    std::size_t missing() const { return missingTiles(table_); }
+
+  private:
+    struct Results;
+
+    TileParts parts_;
+    TileTable table_;
+    std::vector<TileMesh> finished_;
+    std::size_t running_ = 0;  // jobs
+    std::shared_ptr<Results> results_;
+};
+
+}  // namespace terrane::stream

@@ -1,0 +1,74 @@
+#include "terrane/stream/tile_pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/mesh/chunk_mesher.h"
+#include "tests/world/content_blocks.h"
+
+namespace terrane::stream {
+namespace {
+
+using world::ChunkPos;
+
+class TilePipelineTest : public testing::Test {
+  protected:
+    // Until all tiles are there, as a frame does it.
+    void settle(TilePipeline& tiles) {
+        for (;;) {
+            tiles.update(mesh::MergeMethod::Greedy);
+            for (const TileMesh& tile : tiles.takeMeshes(1000)) meshes_[tile.pos] = tile.mesh;
+            const TileChanges changes = tiles.takeChanges();
+            for (const ChunkPos pos : changes.hidden) shown_.erase(pos);
+            for (const ChunkPos pos : changes.shown) shown_.insert(pos);
+            for (const ChunkPos pos : changes.dropped) meshes_.erase(pos);
+            if (tiles.missing() == 0) return;
+            tiles.waitForWorkers(std::chrono::milliseconds(100));
+        }
+    }
+
+    base::JobSystem jobs_{2};
+    gen::LevelGenerators generators_{
+        [](int level) { return gen::makeGenerator("overworld", contentBlocks(), level); }, 5};
+    TileParts parts_{jobs_, contentBlocks(), generators_};
+    std::map<ChunkPos, MeshPtr> meshes_;
+    std::set<ChunkPos> shown_;
+};
+
+TEST_F(TilePipelineTest, MakesWhatTheViewShows) {
+    TilePipeline tiles(parts_);
+    tiles.setView({{3, -4}, 4, 64, 8});
+    settle(tiles);
+    EXPECT_GT(shown_.size(), 100u);
+    for (const ChunkPos pos : shown_) ASSERT_TRUE(meshes_.contains(pos));
+    for (const auto& [pos, mesh] : meshes_) {
+        EXPECT_EQ(*mesh, *makeTile(parts_, pos, mesh::MergeMethod::Greedy)) << pos.x << ' ' << pos.y;
+    }
+}
+
+TEST_F(TilePipelineTest, ForgetsWhatTheViewLeft) {
+    TilePipeline tiles(parts_);
+    tiles.setView({{0, 0}, 4, 64, 8});
+    settle(tiles);
+    const std::size_t count = meshes_.size();
+    tiles.setView({{5000, 0}, 4, 64, 8});
+    settle(tiles);
+    EXPECT_LT(meshes_.size(), 2 * count);
+    tiles.setView({{5000, 0}, 4, 0, 8});
+    settle(tiles);
+    EXPECT_TRUE(meshes_.empty());
+    EXPECT_TRUE(shown_.empty());
+}
+
+TEST_F(TilePipelineTest, AJobThatThrowsIsHeardOf) {
+    const gen::LevelGenerators none([](int) -> base::Result<gen::GeneratorGraph> { return base::fail("no"); },
+                                    5);
+    TilePipeline tiles({jobs_, contentBlocks(), none});
+    tiles.setView({{0, 0}, 4, 64, 8});
+    EXPECT_ANY_THROW(settle(tiles));
+}
+
+}  // namespace
+}  // namespace terrane::stream
