@@ -28,11 +28,11 @@ void settle(game::Session& session) {
 }
 
 std::unique_ptr<game::Session> loadedSession() {
-    auto graph = bench::orExit(gen::makeGenerator("flat", bench::blocks()));
+    auto generators = bench::orExit(gen::makeLevelGenerators("flat", bench::blocks(), 1));
     auto store = std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "flat", 1});
     auto session = std::make_unique<game::Session>(
         game::SessionParts{std::make_unique<const world::BlockRegistry>(bench::blocks()),
-                           gen::Generator(std::move(graph), 1), std::move(store), 2});
+                           std::move(generators), std::move(store), 2});
     session->pipeline().setView({0, 0}, kViewDistance);
     settle(*session);
     return session;

@@ -62,10 +62,11 @@ base::Result<game::SessionParts> openSessionParts(WorldOptions& options, const S
     auto blocks = std::make_unique<const world::BlockRegistry>(std::move(*loaded));
     auto opened = openSave(options, save, access, *blocks);
     if (!opened) return tl::unexpected(opened.error());
-    auto generator = makeGenerator(options, *blocks);
-    if (!generator) return tl::unexpected(generator.error());
+    auto generators =
+        gen::makeLevelGenerators(options.effectiveGenerator(), *blocks, options.effectiveSeed());
+    if (!generators) return tl::unexpected(generators.error());
     if (!*opened) *opened = std::make_unique<store::MemoryStore>(identityOf(options));
-    game::SessionParts parts{std::move(blocks), std::move(*generator), std::move(*opened),
+    game::SessionParts parts{std::move(blocks), std::move(*generators), std::move(*opened),
                              threadCount(options)};
     parts.storesGenerated = storesGenerated(*parts.store, save);
     return parts;

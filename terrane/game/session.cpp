@@ -25,7 +25,8 @@ Session::Session(SessionParts parts)
     : blocks_(std::move(parts.blocks)),
       lights_(*blocks_),
       store_(std::move(parts.store)),
-      generator_(std::move(parts.generator)),
+      generators_(std::move(parts.generators)),
+      generator_(*generators_.at(0).value()),
       jobs_(parts.threads),
       pipeline_({jobs_,
                  *blocks_,
@@ -34,7 +35,8 @@ Session::Session(SessionParts parts)
                  {&generator_, store_.get(), parts.storesGenerated && store_->isPersistent()},
                  parts.batchGenerator,
                  parts.batchLighter,
-                 parts.meshing}) {}
+                 parts.meshing}),
+      tiles_({jobs_, *blocks_, generators_}) {}
 
 EditResult Session::edit(const EditCommand& command) {
     return edit(std::span(&command, 1)).front();

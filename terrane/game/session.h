@@ -11,10 +11,11 @@
 #include "terrane/base/job_system.h"
 #include "terrane/game/day_clock.h"
 #include "terrane/game/edit_command.h"
-#include "terrane/gen/generator.h"
+#include "terrane/gen/level_generators.h"
 #include "terrane/light/light_table.h"
 #include "terrane/store/chunk_store.h"
 #include "terrane/stream/chunk_pipeline.h"
+#include "terrane/stream/tile_pipeline.h"
 #include "terrane/world/block_registry.h"
 #include "terrane/world/pose.h"
 #include "terrane/world/world.h"
@@ -24,7 +25,7 @@ namespace terrane::game {
 // What a session is made of.
 struct SessionParts {
     std::unique_ptr<const world::BlockRegistry> blocks;  // stays where it is: others refer to it
-    gen::Generator generator;
+    gen::LevelGenerators generators;                     // has level 0
     std::unique_ptr<store::ChunkStore> store;
     unsigned threads = 1;         // workers
     bool storesGenerated = true;  // chunks without edits too
@@ -57,10 +58,13 @@ class Session {
 
     const world::BlockRegistry& blocks() const { return *blocks_; }
     const world::World& world() const { return world_; }
-    const gen::Generator& generator() const { return generator_; }
+    const gen::Generator& generator() const { return generator_; }  // of level 0
     store::ChunkStore& store() { return *store_; }
     stream::ChunkPipeline& pipeline() { return pipeline_; }
     const stream::ChunkPipeline& pipeline() const { return pipeline_; }
+    // Land beyond the chunks.
+    stream::TilePipeline& tiles() { return tiles_; }
+    const stream::TilePipeline& tiles() const { return tiles_; }
 
     DayClock clock;
 
@@ -72,10 +76,12 @@ class Session {
     std::unique_ptr<const world::BlockRegistry> blocks_;
     light::LightTable lights_;
     std::unique_ptr<store::ChunkStore> store_;
-    gen::Generator generator_;
+    gen::LevelGenerators generators_;
+    const gen::Generator& generator_;
     world::World world_;
     base::JobSystem jobs_;
     stream::ChunkPipeline pipeline_;
+    stream::TilePipeline tiles_;
 
     std::unordered_map<PlayerId, world::Pose> players_;
     double untilTick_ = 0;  // seconds of game time that made no tick yet

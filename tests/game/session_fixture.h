@@ -15,19 +15,20 @@ namespace terrane::game {
 
 constexpr int kGroundHeight = 64;
 
-inline gen::Generator flatGenerator() {
-    gen::GeneratorBuilder builder("flat stone", contentBlocks());
-    builder.pass3D("ground", [](gen::Pass& p) {
-        p.setBlock(select(p.z() < kGroundHeight, p.block("stone"), p.block("air")));
-    });
-    auto graph = builder.finish();
-    if (!graph) throw std::runtime_error(graph.error().message);
-    return gen::Generator(*std::move(graph), 1);
+inline gen::LevelGenerators flatGenerators() {
+    const auto makeGraph = [](int level) {
+        gen::GeneratorBuilder builder("flat stone", contentBlocks(), level);
+        builder.pass3D("ground", [](gen::Pass& p) {
+            p.setBlock(select(p.z() < kGroundHeight, p.block("stone"), p.block("air")));
+        });
+        return builder.finish();
+    };
+    return {makeGraph, 1};
 }
 
 inline SessionParts flatParts() {
     const store::WorldIdentity identity{.seed = 1, .generator = "flat stone", .generatorVersion = 1};
-    return {std::make_unique<const world::BlockRegistry>(contentBlocks()), flatGenerator(),
+    return {std::make_unique<const world::BlockRegistry>(contentBlocks()), flatGenerators(),
             std::make_unique<store::MemoryStore>(identity), 2};
 }
 

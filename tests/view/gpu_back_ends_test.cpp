@@ -27,7 +27,8 @@ class GpuBackEndsTest : public gpu::GlTest {
         auto graph = gen::makeGenerator("overworld", contentBlocks()).value();
         auto player = std::make_unique<Player>();
         game::SessionParts parts{
-            std::make_unique<const world::BlockRegistry>(contentBlocks()), gen::Generator(graph, 1),
+            std::make_unique<const world::BlockRegistry>(contentBlocks()),
+            gen::makeLevelGenerators("overworld", contentBlocks(), 1).value(),
             std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "overworld", 1}), 2};
         if (isOnGpu) {
             player->backEnds = makeGpuBackEnds(render::contentShaders(), graph, 1, contentBlocks()).value();

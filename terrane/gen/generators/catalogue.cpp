@@ -41,4 +41,12 @@ base::Result<GeneratorGraph> makeGenerator(std::string_view name, const world::B
     return base::fail("unknown generator \"{}\": known are {}", name, fmt::join(generatorNames(), ", "));
 }
 
+base::Result<LevelGenerators> makeLevelGenerators(std::string_view name, const world::BlockRegistry& blocks,
+                                                  std::uint64_t seed) {
+    LevelGenerators made(
+        [name = std::string(name), &blocks](int level) { return makeGenerator(name, blocks, level); }, seed);
+    if (auto first = made.at(0); !first) return tl::unexpected(first.error());
+    return made;
+}
+
 }  // namespace terrane::gen

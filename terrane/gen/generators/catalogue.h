@@ -7,6 +7,7 @@
 
 #include "terrane/base/result.h"
 #include "terrane/gen/builder.h"
+#include "terrane/gen/level_generators.h"
 
 namespace terrane::gen {
 
@@ -18,6 +19,11 @@ int generatorVersion(std::string_view name);
 // The graph of one level. An unknown name is an error that lists the known ones.
 [[nodiscard]] base::Result<GeneratorGraph> makeGenerator(std::string_view name,
                                                          const world::BlockRegistry& blocks, int level = 0);
+
+// The same for all levels of a world. The block types outlive it.
+[[nodiscard]] base::Result<LevelGenerators> makeLevelGenerators(std::string_view name,
+                                                                const world::BlockRegistry& blocks,
+                                                                std::uint64_t seed);
 
 void writeOverworld(
     GeneratorBuilder& g);  // overworld.cpp: seas, rivers, plains, deserts, mountains, caves, plants
