@@ -27,8 +27,10 @@ void ArenaAllocator::free(std::uint32_t address, std::uint32_t size) {
 std::optional<ArenaGrowth> ArenaAllocator::planGrowth(std::uint32_t size, std::uint64_t room) const {
     const auto last = static_cast<std::uint32_t>(arenas_.size() - 1);
     const std::uint64_t old = arenas_[last].capacity();
-    const std::uint64_t doubled = std::min<std::uint64_t>(old + std::max<std::uint64_t>(old, size), sizes_.arena);
-    if (doubled >= old + size && doubled <= room) return ArenaGrowth{last, static_cast<std::uint32_t>(doubled)};
+    const std::uint64_t doubled =
+        std::min<std::uint64_t>(old + std::max<std::uint64_t>(old, size), sizes_.arena);
+    if (doubled >= old + size && doubled <= room)
+        return ArenaGrowth{last, static_cast<std::uint32_t>(doubled)};
     if (size > sizes_.arena || size > room || arenas_.size() == sizes_.count) return std::nullopt;
     const std::uint64_t capacity = std::min<std::uint64_t>(std::max(sizes_.first, size), room);
     return ArenaGrowth{last + 1, static_cast<std::uint32_t>(capacity)};

@@ -1,6 +1,6 @@
 // Hands out ranges over several buffers (arenas), none of which is larger than a limit. A range lies in one
-// arena. Units are the caller's (quads). Plain bookkeeping without OpenGL: the caller makes the buffers that a
-// growth asks for. Not synchronised: one thread at a time.
+// arena. Units are the caller's (quads). Plain bookkeeping without OpenGL: the caller makes the buffers that
+// a growth asks for. Not synchronised: one thread at a time.
 //
 // An address is arena × arenaSize + offset, so that 32 bits name a unit in any arena. Only the last arena
 // grows: it doubles, which copies it, up to the limit. Where that finds no room, or the arena is full-sized,
@@ -31,7 +31,8 @@ class ArenaAllocator {
     // Begins with one arena. Addresses of all arenas must fit 32 bits.
     explicit ArenaAllocator(const ArenaSizes& sizes);
 
-    // In the first arena with a free range that holds `size`; the best fit there. None where no arena has one.
+    // In the first arena with a free range that holds `size`; the best fit there. None where no arena has
+    // one.
     [[nodiscard]] std::optional<std::uint32_t> allocate(std::uint32_t size);
     // A range from allocate, or a part of one.
     void free(std::uint32_t address, std::uint32_t size);

@@ -153,7 +153,9 @@ void Texture2DArray::upload(int level, int layer, GLenum format, GLenum type,
 }
 
 std::size_t Texture2DArray::sizeBytes() const {
-    return id() == 0 ? 0 : static_cast<std::size_t>(shape_.layers) * levelBytes(shape_.size, shape_.levels, format_);
+    return id() == 0
+               ? 0
+               : static_cast<std::size_t>(shape_.layers) * levelBytes(shape_.size, shape_.levels, format_);
 }
 
 void Texture2DArray::bind(GLuint unit) const {

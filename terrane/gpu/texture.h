@@ -1,7 +1,7 @@
 // Textures of fixed size and format. Used on the thread of their context. Formats and types are OpenGL's:
 // `format` of the constructors is a sized internal format (GL_RGBA8), `format` and `type` of uploads describe
-// the bytes given (GL_RGBA, GL_UNSIGNED_BYTE), rows without padding, the first row at v = 0. sizeBytes() is the
-// memory of all texels, 0 for an empty texture; drivers may pad it.
+// the bytes given (GL_RGBA, GL_UNSIGNED_BYTE), rows without padding, the first row at v = 0. sizeBytes() is
+// the memory of all texels, 0 for an empty texture; drivers may pad it.
 #pragma once
 
 #include <cstddef>

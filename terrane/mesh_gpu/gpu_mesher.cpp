@@ -175,8 +175,8 @@ double GpuMesher::countMilliseconds() const {
 std::size_t GpuMesher::gpuBytes() const {
     const Impl& m = *impl_;
     std::size_t bytes = m.counts.sizeBytes();  // as much again to read them back
-    for (const gpu::Buffer* buffer : {&m.sections, &m.data, &m.units, &m.unitCounts, &m.types, &m.growth,
-                                      &m.counts, &m.places})
+    for (const gpu::Buffer* buffer :
+         {&m.sections, &m.data, &m.units, &m.unitCounts, &m.types, &m.growth, &m.counts, &m.places})
         bytes += buffer->sizeBytes();
     return bytes;
 }

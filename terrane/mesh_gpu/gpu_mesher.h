@@ -51,8 +51,8 @@ class GpuMesher {
     // Of all buffers, with those of the batch at hand.
     std::size_t gpuBytes() const;
     // Writes the quads of each mesh section from `firstQuads` on, in the order of meshSections(), or leaves
-    // them out (kNoPlace). Once for each buffer that mesh sections of the batch lie in. Shaders that run later
-    // see the quads.
+    // them out (kNoPlace). Once for each buffer that mesh sections of the batch lie in. Shaders that run
+    // later see the quads.
     void write(std::span<const std::uint32_t> firstQuads, const gpu::Buffer& quads);
 
   private:

@@ -88,7 +88,8 @@ void MeshQueue::write(std::span<const FirstQuads> places, const gpu::ArenaBuffer
         std::ranges::copy(*place++, addresses.begin() + static_cast<std::ptrdiff_t>(k * perChunk));
     }
     for (std::size_t arena = 0; arena < quads.buffers.size(); ++arena) {
-        const auto [offsets, isAny] = offsetsIn(addresses, static_cast<std::uint32_t>(arena), quads.arenaSize);
+        const auto [offsets, isAny] =
+            offsetsIn(addresses, static_cast<std::uint32_t>(arena), quads.arenaSize);
         if (isAny) mesher_.write(offsets, *quads.buffers[arena]);
     }
     // Writing does on the GPU what counting does.

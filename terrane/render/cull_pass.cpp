@@ -97,7 +97,8 @@ void CullPass::reserve(const MeshSectionTable& meshSections) {
     };
     grow(commands_, commandBytesOf(meshSections), "draw commands");
     grow(visible_, meshSections.count() * sizeof(std::uint32_t), "visible mesh sections");
-    if (!grow(visibleLastFrame_, meshSections.slots() * sizeof(std::uint32_t), "mesh sections visible last frame"))
+    if (!grow(visibleLastFrame_, meshSections.slots() * sizeof(std::uint32_t),
+              "mesh sections visible last frame"))
         return;
     const GLuint zero = 0;
     glClearNamedBufferData(visibleLastFrame_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);

@@ -1,4 +1,5 @@
-// Buffers that are replaced by one of twice the needed size when they get too small, and the bytes that takes.
+// Buffers that are replaced by one of twice the needed size when they get too small, and the bytes that
+// takes.
 #pragma once
 
 #include <cstddef>

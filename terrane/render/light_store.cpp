@@ -163,8 +163,9 @@ bool LightStore::set(world::ChunkPos pos, const light::ChunkLight& light, std::u
     bool hasRoom = true;
     for (int n = 0; n < world::kSectionsPerChunk; ++n) {
         if (!isNew && (bricks >> n & 1) == 0) continue;
-        hasRoom &= setBrick(entries.subspan(kTilesPerBrick * static_cast<std::size_t>(n)).first<kTilesPerBrick>(),
-                            light.brick(n));
+        hasRoom &=
+            setBrick(entries.subspan(kTilesPerBrick * static_cast<std::size_t>(n)).first<kTilesPerBrick>(),
+                     light.brick(n));
     }
     uploadEntries(pos, it->second);
     return hasRoom;

@@ -3,8 +3,8 @@
 //
 // Light is kept in light tiles of 8³ blocks; light tiles of one value take an entry of the grid and nothing
 // else. Grid: a 3D texture of 32-bit entries, two by two light tiles a chunk, wrapping around the camera.
-// Pool: a 3D texture with four bits a component that grows by doubling, up to 1 GiB. No growth takes grid and pool
-// past `maxBytes`, with the copy that it needs for a moment.
+// Pool: a 3D texture with four bits a component that grows by doubling, up to 1 GiB. No growth takes grid and
+// pool past `maxBytes`, with the copy that it needs for a moment.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +26,8 @@ namespace terrane::render {
 class LightStore {
   public:
     LightStore() = default;
-    // Room for chunks up to `viewDistance` + 1 around the camera. `maxSlabs`: of 4,096 light tiles each (4 MiB),
-    // as many as the driver allows where it is 0.
+    // Room for chunks up to `viewDistance` + 1 around the camera. `maxSlabs`: of 4,096 light tiles each (4
+    // MiB), as many as the driver allows where it is 0.
     explicit LightStore(int viewDistance, int maxSlabs = 0, std::size_t maxBytes = SIZE_MAX);
     // From now on. What grid and pool take already stays.
     void setMaxBytes(std::size_t bytes) { maxBytes_ = bytes; }

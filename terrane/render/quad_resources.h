@@ -1,5 +1,5 @@
-// What every pass that draws the chunks' quads binds beside the quads: index pattern, shapes, materials, textures. Used by the
-// renderer on the context's thread.
+// What every pass that draws the chunks' quads binds beside the quads: index pattern, shapes, materials,
+// textures. Used by the renderer on the context's thread.
 #pragma once
 
 #include "terrane/base/result.h"

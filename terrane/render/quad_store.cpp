@@ -8,7 +8,6 @@
 namespace terrane::render {
 namespace {
 
-constexpr std::uint32_t kFirstQuads = 1u << 20;  // 8 MiB, a landscape at view distance 16
 // Growing copies no more than half of that, and at most that much lies unused.
 constexpr std::int64_t kArenaBytes = std::int64_t{1} << 28;
 static_assert(kArenaBytes <= std::int64_t{1} << 30, "no buffer is larger than 1 GiB");
@@ -23,7 +22,7 @@ std::uint32_t reachableQuads() {
 
 gpu::ArenaSizes arenaSizes(const QuadStoreSizes& sizes) {
     const std::uint32_t arena = sizes.arenaQuads > 0 ? sizes.arenaQuads : reachableQuads();
-    return {.arena = arena, .first = std::min(kFirstQuads, arena), .count = sizes.maxArenas};
+    return {.arena = arena, .first = std::min(sizes.firstQuads, arena), .count = sizes.maxArenas};
 }
 
 std::uint32_t quadsOf(std::span<const mesh::MeshSection> meshSections) {

@@ -1,10 +1,10 @@
-// The quads of all visible chunks in a few GPU buffers (arenas): one binding and one draw call for each arena and
-// draw bucket, however many chunks there are. Used by the renderer on the context's thread.
+// The quads of all visible chunks in a few GPU buffers (arenas): one binding and one draw call for each arena
+// and draw bucket, however many chunks there are. Used by the renderer on the context's thread.
 //
-// The first arena begins with 8 MiB and doubles up to 256 MiB, or to what a shader can reach where that is less
-// (128 MiB in Mesa's software renderer: a landscape at view distance 55). Further arenas come after it without a
-// copy. The quads of a mesh section lie in one arena. No growth takes the buffers past setMaxBytes(), with the
-// copy that a doubling needs for a moment.
+// The first arena begins with 8 MiB (less in a small budget) and doubles up to 256 MiB, or to what a shader
+// can reach where that is less (128 MiB in Mesa's software renderer: a landscape at view distance 55).
+// Further arenas come after it without a copy. The quads of a mesh section lie in one arena. No growth takes
+// the buffers past setMaxBytes(), with the copy that a doubling needs for a moment.
 //
 // Everything is written and copied by commands in the stream of the context, so a frame sees a mesh section's
 // quads as they were or as they are, never a mixture, and nothing waits for the GPU. A chunk's mesh sections
@@ -35,6 +35,8 @@ using ChunkMeshSections = std::vector<mesh::MeshSection>;
 struct QuadStoreSizes {
     std::uint32_t arenaQuads = 0;  // of an arena; 0: 256 MiB, or as many as a shader can reach
     std::uint32_t maxArenas = shared::kMaxArenas;
+    std::uint32_t firstQuads =
+        1u << 20;  // the first arena begins with 8 MiB, a landscape at view distance 16
 };
 
 class QuadStore {
@@ -62,7 +64,9 @@ class QuadStore {
     // Empty where the chunk has no quads.
     std::span<const mesh::MeshSection> meshSectionsOf(world::ChunkPos pos) const;
     gpu::ArenaBuffers buffers() const;  // until the next change
-    const gpu::BufferTexture& texels(std::size_t arena) const { return arenas_[arena].texels; }  // a quad each
+    const gpu::BufferTexture& texels(std::size_t arena) const {
+        return arenas_[arena].texels;
+    }  // a quad each
     std::size_t usedBytes() const;
     std::size_t bufferBytes() const;  // of all arenas
     // The most that the buffers took at once since the last call, with copies.

@@ -14,7 +14,7 @@
 namespace terrane::render {
 namespace {
 
-constexpr std::size_t kRingBytes = 4096;  // uniforms of a frame and of culling, aligned
+constexpr std::size_t kRingBytes = 8192;  // uniforms of a frame and twice those of culling, aligned
 constexpr int kLightViewDistance = 16;    // chunks, until setViewDistance
 constexpr float kMaxAnisotropy = 8.0f;
 

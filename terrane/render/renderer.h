@@ -36,8 +36,8 @@ class Renderer {
     base::Result<void> reloadShaders();
 
     // The most bytes that all of this may take on the GPU: quads and light grow no further. Comes before
-    // configure() and setViewDistance(), which take what they need.
-    void setMemoryBudget(std::size_t bytes) { budgetBytes_ = bytes; }
+    // configure(), which takes what it needs, and setViewDistance(); chunks are forgotten.
+    void setMemoryBudget(std::size_t bytes);
     std::size_t memoryBudget() const { return budgetBytes_; }
     GpuMemory memory() const;  // as of the next frame
     // The most so far at once, with copies while something grows.

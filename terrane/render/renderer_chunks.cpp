@@ -6,9 +6,12 @@
 namespace terrane::render {
 namespace {
 
-// A share of the budget for records of mesh sections and draw commands, which grow with what is drawn: quads and
-// light leave it free. They take about a twelfth of what quads and light take.
+// A share of the budget for records of mesh sections and draw commands, which grow with what is drawn: quads
+// and light leave it free. They take about a twelfth of what quads and light take.
 constexpr std::size_t kRecordsShare = 8;
+
+// A share for the first buffer of quads, which is seldom full.
+constexpr std::size_t kFirstQuadsShare = 16;
 
 // Of what quads and light take: a chunk of a landscape has 28 KB of light and 8 KB of quads.
 std::size_t lightShare(std::size_t bytes) {
@@ -24,6 +27,14 @@ GpuMemory Renderer::memory() const {
             .textures = resources_.gpuBytes() + noise_.gpuBytes(),
             .targets = targets_.gpuBytes() + passes_.targetBytes(),
             .staging = stagingBytes_};
+}
+
+void Renderer::setMemoryBudget(std::size_t bytes) {
+    budgetBytes_ = bytes;
+    const std::size_t firstQuads = bytes / kFirstQuadsShare / shared::kQuadBytes;
+    quadSizes_.firstQuads =
+        static_cast<std::uint32_t>(std::clamp<std::size_t>(firstQuads, 1, QuadStoreSizes().firstQuads));
+    clearChunks();
 }
 
 // Before quads or light may grow: both get what the others leave.

@@ -55,8 +55,8 @@ const uint kCameraLists = 6u;
 const uint kShadowLists = 4u;
 const uint kDrawLists = 10u;
 
-// Quads lie in several buffers (arenas). Each arena has commands and counts of its own, since a draw call reads
-// one buffer. 32 × 2²⁷ quads (1 GiB) are all that 32 bits can name.
+// Quads lie in several buffers (arenas). Each arena has commands and counts of its own, since a draw call
+// reads one buffer. 32 × 2²⁷ quads (1 GiB) are all that 32 bits can name.
 const uint kMaxArenas = 32u;
 const uint kFirstCommandVectors = 80u;  // kMaxArenas × kDrawLists / 4
 
@@ -103,7 +103,7 @@ struct CullFrame {
     float nearPlane;    // blocks
     int hiZLevels;
     uint meshSectionCount;
-    uint phase;  // kCullAll and so on
+    uint phase;       // kCullAll and so on
     uint arenaQuads;  // addresses of an arena
     uint arenaCount;
     uint unused0, unused1;

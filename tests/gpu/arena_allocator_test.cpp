@@ -25,7 +25,8 @@ TEST(ArenaAllocator, DoublesTheLastArenaThenAddsAnother) {
     std::vector<std::size_t> capacities;
     for (int k = 0; k < 24; ++k) {
         ASSERT_TRUE(allocateGrowing(arenas, 8, kNoLimit)) << k;
-        if (capacities.empty() || capacities.back() != arenas.capacity()) capacities.push_back(arenas.capacity());
+        if (capacities.empty() || capacities.back() != arenas.capacity())
+            capacities.push_back(arenas.capacity());
     }
     EXPECT_EQ(capacities, (std::vector<std::size_t>{16, 32, 64, 80, 96, 128, 144, 160, 192}));
     EXPECT_EQ(arenas.arenas().size(), 3u);

@@ -130,7 +130,11 @@ std::vector<StructLayout> meshSectionLayouts() {
               {"nearPlane", offsetof(CullFrame, nearPlane)},
               {"hiZLevels", offsetof(CullFrame, hiZLevels)},
               {"meshSectionCount", offsetof(CullFrame, meshSectionCount)},
-              {"phase", offsetof(CullFrame, phase)}}}};
+              {"phase", offsetof(CullFrame, phase)},
+              {"arenaQuads", offsetof(CullFrame, arenaQuads)},
+              {"arenaCount", offsetof(CullFrame, arenaCount)},
+              {"unused0", offsetof(CullFrame, unused0)},
+              {"unused1", offsetof(CullFrame, unused1)}}}};
 }
 
 std::vector<StructLayout> mesherLayouts() {

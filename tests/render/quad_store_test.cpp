@@ -238,7 +238,8 @@ TEST_F(QuadStoreTest, NeverPassesItsBudget) {
             ASSERT_LE(store.takePeakBytes(), maxBytes);
         }
         EXPECT_GT(store.usedBytes(), maxBytes / 2) << "most of it is of use";
-        for (int k = 0; k < chunks; k += 7) expectStored(store, {k, 0}, numberedMesh(static_cast<std::uint32_t>(k), 50'000));
+        for (int k = 0; k < chunks; k += 7)
+            expectStored(store, {k, 0}, numberedMesh(static_cast<std::uint32_t>(k), 50'000));
     }
 }
 
