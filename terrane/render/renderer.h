@@ -3,6 +3,7 @@
 // OpenGL context.
 #pragma once
 
+#include <algorithm>
 #include <glm/vec2.hpp>
 
 #include "terrane/base/image.h"
@@ -40,7 +41,7 @@ class Renderer {
     void setMemoryBudget(std::size_t bytes);
     std::size_t memoryBudget() const { return budgetBytes_; }
     GpuMemory memory() const;  // as of the next frame
-    // The most so far at once, with copies while something grows.
+    // The most at once since setMemoryBudget(), with copies while something grows.
     std::size_t peakMemory() const { return peakBytes_; }
     // Memory of others that the budget counts.
     void setStagingBytes(std::size_t bytes) { stagingBytes_ = bytes; }
@@ -80,7 +81,7 @@ class Renderer {
     std::size_t quadBytes() const { return quads_.usedBytes(); }
     std::uint64_t uploadedQuadBytes() const { return quads_.uploadedBytes(); }  // since the beginning
     std::size_t lightBytes() const { return light_.usedBytes(); }
-    std::size_t litChunks() const { return light_.chunkCount(); }
+    std::size_t chunkCount() const { return std::max(light_.chunkCount(), quads_.chunks().size()); }
     glm::ivec2 size() const { return targets_.size; }
 
   private:

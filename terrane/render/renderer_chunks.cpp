@@ -31,6 +31,7 @@ GpuMemory Renderer::memory() const {
 
 void Renderer::setMemoryBudget(std::size_t bytes) {
     budgetBytes_ = bytes;
+    peakBytes_ = 0;
     const std::size_t firstQuads = bytes / kFirstQuadsShare / shared::kQuadBytes;
     quadSizes_.firstQuads =
         static_cast<std::uint32_t>(std::clamp<std::size_t>(firstQuads, 1, QuadStoreSizes().firstQuads));

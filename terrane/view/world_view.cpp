@@ -87,7 +87,8 @@ bool WorldView::shortenView() {
     const render::GpuMemory used = renderer_.memory();
     const std::size_t budget = renderer_.memoryBudget();
     const std::size_t limitBytes = budget - std::min(budget, used.fixed());
-    const int shorter = fittingViewDistance({renderer_.litChunks(), used.world(), limitBytes}, viewDistance_);
+    const int shorter =
+        fittingViewDistance({renderer_.chunkCount(), used.world(), limitBytes}, viewDistance_);
     if (shorter >= viewDistance_) return false;
     viewDistance_ = shorter;
     stream::ChunkPipeline& pipeline = session_.pipeline();

@@ -117,7 +117,8 @@ class Render(ProgramTest):
             self.assertEqual(text, "")
 
     def test_a_small_memory_budget_makes_the_view_shorter(self):
-        draw = ("render", "--scene", "landscape", "--size", "64x36", "--preset", "low", "--json", "--debug-gl")
+        draw = ("render", "--scene", "landscape", "--size", "64x36", "--preset", "low", "--t-junctions", "open", "--json",
+                "--debug-gl")
         short, whole = self.folder / "short.png", self.folder / "whole.png"
         done = run(*draw, "--view-distance", "12", "--gpu-memory", "24", "-o", short)
         self.assertEqual(done.returncode, 0, done.stderr)

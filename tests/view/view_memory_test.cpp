@@ -11,9 +11,18 @@
 namespace terrane::view {
 namespace {
 
-constexpr std::size_t kBudget = std::size_t{24} << 20;
-constexpr int kDistance = 14;
-constexpr glm::ivec2 kSize{160, 90};
+constexpr std::size_t kBudgetBytes = std::size_t{24} << 20;
+constexpr int kRequested = 14;
+constexpr glm::ivec2 kImageSize{160, 90};
+
+// Where quads overlap at equal depth the order of drawing decides, which depends on the frames before: none
+// do.
+render::RenderOptions options() {
+    render::RenderOptions options = render::plainOptions(1);
+    options.tJunctions = render::TJunctions::Open;
+    return options;
+}
+
 const render::Camera kCamera{{-1020, -60, 100}, 200, -12};
 
 class ViewMemoryTest : public gpu::GlTest {
@@ -38,7 +47,7 @@ class ViewMemoryTest : public gpu::GlTest {
                                                               render::contentTexture, gpu::queryDevice())
                                          .value());
         player->renderer.setMemoryBudget(budget);
-        EXPECT_TRUE(player->renderer.configure(kSize, render::plainOptions(1)));
+        EXPECT_TRUE(player->renderer.configure(kImageSize, options()));
         player->renderer.setViewDistance(distance);
         player->view.emplace(*player->session, player->renderer);
         if (isOnGpu) {
@@ -53,6 +62,13 @@ class ViewMemoryTest : public gpu::GlTest {
         return player.renderer.readImage();
     }
 
+    static int differentPixels(const base::Image& a, const base::Image& b) {
+        int count = 0;
+        for (std::size_t k = 0; k < a.rgba.size(); k += 4)
+            count += !std::equal(&a.rgba[k], &a.rgba[k] + 4, &b.rgba[k]);
+        return count;
+    }
+
     // Frames as the window draws them, until all is there. How many notices there were.
     static int frames(Player& player, const render::Camera& camera, int distance) {
         int notices = 0;
@@ -60,8 +76,8 @@ class ViewMemoryTest : public gpu::GlTest {
             player.view->follow(camera, distance);
             player.view->upload(0.02);
             draw(player, camera);
-            EXPECT_LE(player.renderer.memory().total(), kBudget);
-            EXPECT_LE(player.renderer.peakMemory(), kBudget);
+            EXPECT_LE(player.renderer.memory().total(), kBudgetBytes);
+            EXPECT_LE(player.renderer.peakMemory(), kBudgetBytes);
             notices += player.view->takeNotice().has_value();
             const stream::ChunkPipeline& pipeline = player.session->pipeline();
             isLoaded =
@@ -71,21 +87,21 @@ class ViewMemoryTest : public gpu::GlTest {
     }
 
     static void expectShortView(Player& player) {
-        EXPECT_EQ(frames(player, kCamera, kDistance), 1);
+        EXPECT_EQ(frames(player, kCamera, kRequested), 1);
         const int reached = player.view->viewDistance();
-        EXPECT_LT(reached, kDistance);
+        EXPECT_LT(reached, kRequested);
         EXPECT_GE(reached, 4) << "most of the budget is of use";
         const base::Image image = draw(player, kCamera);
         // It stays as it is, also where the camera moves.
-        EXPECT_EQ(frames(player, {{-980, -60, 100}, 30, -12}, kDistance), 0);
+        EXPECT_EQ(frames(player, {{-980, -60, 100}, 30, -12}, kRequested), 0);
         EXPECT_EQ(player.view->viewDistance(), reached);
-        EXPECT_EQ(frames(player, kCamera, kDistance), 0);
-        EXPECT_EQ(draw(player, kCamera).rgba, image.rgba);
+        EXPECT_EQ(frames(player, kCamera, kRequested), 0);
+        EXPECT_EQ(differentPixels(draw(player, kCamera), image), 0);
     }
 };
 
 TEST_F(ViewMemoryTest, TheViewGetsShorterInPlaceOfHoles) {
-    const auto small = makePlayer(kBudget, kDistance, false);
+    const auto small = makePlayer(kBudgetBytes, kRequested, false);
     expectShortView(*small);
     const int reached = small->view->viewDistance();
     const auto large = makePlayer(SIZE_MAX, reached, false);
@@ -101,10 +117,10 @@ TEST_F(ViewMemoryTest, TheViewGetsShorterInPlaceOfHoles) {
 }
 
 TEST_F(ViewMemoryTest, AlsoWhereTheGpuMeshes) {
-    const auto small = makePlayer(2 * kBudget, kDistance, true);
-    loadAll(*small->session, *small->view, kCamera, kDistance, std::chrono::steady_clock::now());
+    const auto small = makePlayer(2 * kBudgetBytes, kRequested, true);
+    loadAll(*small->session, *small->view, kCamera, kRequested, std::chrono::steady_clock::now());
     const int reached = small->view->viewDistance();
-    EXPECT_LE(small->renderer.peakMemory(), 2 * kBudget);
+    EXPECT_LE(small->renderer.peakMemory(), 2 * kBudgetBytes);
     const auto large = makePlayer(SIZE_MAX, reached, false);
     loadAll(*large->session, *large->view, kCamera, reached, std::chrono::steady_clock::now());
     EXPECT_EQ(draw(*small, kCamera).rgba, draw(*large, kCamera).rgba);
@@ -112,17 +128,17 @@ TEST_F(ViewMemoryTest, AlsoWhereTheGpuMeshes) {
 
 // The budget counts the targets too.
 TEST_F(ViewMemoryTest, ALargerImageTakesMemoryFromTheWorld) {
-    const auto player = makePlayer(kBudget, kDistance, false);
-    frames(*player, kCamera, kDistance);
+    const auto player = makePlayer(kBudgetBytes, kRequested, false);
+    frames(*player, kCamera, kRequested);
     const int before = player->view->viewDistance();
-    ASSERT_TRUE(player->renderer.configure({800, 450}, render::plainOptions(1)));
+    ASSERT_TRUE(player->renderer.configure({480, 270}, options()));
     for (int k = 0; k < 3; ++k) {
-        player->view->follow(kCamera, kDistance);
+        player->view->follow(kCamera, kRequested);
         player->view->upload(0.02);
-        EXPECT_LE(player->renderer.memory().total(), kBudget);
+        EXPECT_LE(player->renderer.memory().total(), kBudgetBytes);
     }
-    loadAll(*player->session, *player->view, kCamera, kDistance, std::chrono::steady_clock::now());
-    EXPECT_LE(player->renderer.memory().total(), kBudget);
+    loadAll(*player->session, *player->view, kCamera, kRequested, std::chrono::steady_clock::now());
+    EXPECT_LE(player->renderer.memory().total(), kBudgetBytes);
     EXPECT_LE(player->view->viewDistance(), before);
     EXPECT_GE(player->view->viewDistance(), 2);
     EXPECT_GT(player->renderer.quadBytes(), 0u);
