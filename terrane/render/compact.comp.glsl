@@ -33,8 +33,10 @@ uint commandsFor(uint quads) {
     return (quads + kMaxQuadsPerCommand - 1u) / kMaxQuadsPerCommand;
 }
 
-bool isInArena(uint slot) {
-    return cull.arenaCount == 1u || meshSections[slot].ranges[0].x / cull.arenaQuads == gl_WorkGroupID.y;
+// Of the mesh section with a place in the order, those in the work group's arena.
+uint directionsOf(uint place, uint shift) {
+    uint word = visible[place];
+    return word >> kArenaBits == gl_WorkGroupID.y ? word >> shift & 127u : 0u;
 }
 
 uint writeCommands(uvec2 quads, uint slot, uint at) {
@@ -93,8 +95,8 @@ void main() {
 
     uint quads = 0u, own = 0u, meshSectionCount = 0u;
     for (uint k = begin; k < end; ++k) {
-        uint directions = visible[k] >> shift & 127u;
-        if (directions == 0u || !isInArena(order[k])) continue;
+        uint directions = directionsOf(k, shift);
+        if (directions == 0u) continue;
         ++meshSectionCount;
         own = visit(order[k], bucket, directions, own, false, quads);
     }
@@ -105,8 +107,8 @@ void main() {
     uint at = cull.firstCommand[number >> 2][number & 3u] + last - own;
     uint ignored = 0u;
     for (uint k = begin; k < end; ++k) {
-        uint directions = visible[k] >> shift & 127u;
-        if (directions != 0u && isInArena(order[k])) at = visit(order[k], bucket, directions, at, true, ignored);
+        uint directions = directionsOf(k, shift);
+        if (directions != 0u) at = visit(order[k], bucket, directions, at, true, ignored);
     }
     if (thread == kThreads - 1u) {
         uint into = 2u * arena + (cull.phase == kCullLate ? 1u : 0u);

@@ -119,7 +119,6 @@ void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSect
         frame.firstCommand[number / 4][static_cast<int>(number % 4)] = list.first;
     }
     frame.arenaQuads = meshSections.arenaQuads();
-    frame.arenaCount = static_cast<shared::uint>(lists_.size());
     const auto slice = ring.write(std::span<const shared::CullFrame>(&frame, 1));
     assert(slice && "the ring holds a frame's uniforms");
     ring.buffer().bindUniform(shared::kCullBinding, slice->offsetBytes, sizeof(frame));
@@ -134,7 +133,8 @@ void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSect
     glDispatchCompute((meshSections.count() + shared::kCullThreads - 1) / shared::kCullThreads, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     compact_.use();
-    glDispatchCompute(input.shadow ? shared::kDrawLists : shared::kCameraLists, frame.arenaCount, 1);
+    glDispatchCompute(input.shadow ? shared::kDrawLists : shared::kCameraLists,
+                      static_cast<GLuint>(lists_.size()), 1);
     // The late pass overwrites what the early one read.
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }

@@ -68,10 +68,11 @@ struct DrawCounts {
 };
 
 // Bits of a mesh section's word of visibility: face directions to draw for the camera, for the shadow map,
-// and of blended faces.
+// and of blended faces, then the arena of its quads.
 const uint kCameraDirectionBits = 0u;
 const uint kShadowDirectionBits = 8u;
 const uint kBlendedDirectionBits = 16u;
+const uint kArenaBits = 24u;
 
 // What a culling phase draws. With occlusion culling there are two: early, mesh sections that were visible in
 // the frame before, and late, others that the depth of these (Hi-Z) does not hide.
@@ -105,8 +106,7 @@ struct CullFrame {
     uint meshSectionCount;
     uint phase;       // kCullAll and so on
     uint arenaQuads;  // addresses of an arena
-    uint arenaCount;
-    uint unused0, unused1;
+    uint unused0, unused1, unused2;
 };
 
 SHARED_END

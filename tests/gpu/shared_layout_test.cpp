@@ -132,9 +132,9 @@ std::vector<StructLayout> meshSectionLayouts() {
               {"meshSectionCount", offsetof(CullFrame, meshSectionCount)},
               {"phase", offsetof(CullFrame, phase)},
               {"arenaQuads", offsetof(CullFrame, arenaQuads)},
-              {"arenaCount", offsetof(CullFrame, arenaCount)},
               {"unused0", offsetof(CullFrame, unused0)},
-              {"unused1", offsetof(CullFrame, unused1)}}}};
+              {"unused1", offsetof(CullFrame, unused1)},
+              {"unused2", offsetof(CullFrame, unused2)}}}};
 }
 
 std::vector<StructLayout> mesherLayouts() {
