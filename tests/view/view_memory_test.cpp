@@ -20,6 +20,7 @@ constexpr glm::ivec2 kImageSize{160, 90};
 render::RenderOptions options() {
     render::RenderOptions options = render::plainOptions(1);
     options.tJunctions = render::TJunctions::Open;
+    options.occlusionCulling = false;
     return options;
 }
 
@@ -62,11 +63,11 @@ class ViewMemoryTest : public gpu::GlTest {
         return player.renderer.readImage();
     }
 
-    static int differentPixels(const base::Image& a, const base::Image& b) {
-        int count = 0;
-        for (std::size_t k = 0; k < a.rgba.size(); k += 4)
-            count += !std::equal(&a.rgba[k], &a.rgba[k] + 4, &b.rgba[k]);
-        return count;
+    static int largestDifference(const base::Image& a, const base::Image& b) {
+        int largest = 0;
+        for (std::size_t k = 0; k < a.rgba.size(); ++k)
+            largest = std::max(largest, std::abs(int{a.rgba[k]} - int{b.rgba[k]}));
+        return largest;
     }
 
     // Frames as the window draws them, until all is there. How many notices there were.
@@ -96,7 +97,8 @@ class ViewMemoryTest : public gpu::GlTest {
         EXPECT_EQ(frames(player, {{-980, -60, 100}, 30, -12}, kRequested), 0);
         EXPECT_EQ(player.view->viewDistance(), reached);
         EXPECT_EQ(frames(player, kCamera, kRequested), 0);
-        EXPECT_EQ(differentPixels(draw(player, kCamera), image), 0);
+        // Chunks behind the fog may be others: the fog rounds to a step beside the sky.
+        EXPECT_LE(largestDifference(draw(player, kCamera), image), 1);
     }
 };
 
