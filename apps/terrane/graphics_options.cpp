@@ -50,6 +50,15 @@ glm::ivec2 parseSize(const std::string& text) {
     return {width, height};
 }
 
+void addGpuMemoryOption(CLI::App& command, std::optional<int>& mebibytes) {
+    command
+        .add_option("--gpu-memory", mebibytes,
+                    "Most MiB on the graphics card; the view gets shorter to stay within")
+        ->check(numberFrom(16, 1 << 20))
+        ->type_name("MIB")
+        ->default_str("half of what is free; 2048 where the driver does not tell");
+}
+
 void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string preset) {
     command
         .add_option_function<std::string>(
@@ -60,6 +69,7 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string
     command.add_option("--view-distance", options.choices.viewDistance, "How far one sees, in chunks")
         ->check(numberFrom(1, 64))
         ->default_str("16, thesis 32");
+    addGpuMemoryOption(command, options.gpuMemory);
     addGraphicsChoices(command, options.choices, std::move(preset));
     addChoice<render::View>(command, "--view", options.view, {viewNames().begin(), viewNames().end()},
                             "What to show");

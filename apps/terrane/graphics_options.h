@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 
 #include "apps/terrane/option_values.h"
@@ -14,13 +15,16 @@ struct GraphicsOptions {
     glm::ivec2 size{1280, 720};  // pixels
     render::GraphicsChoices choices;
     render::View view = render::View::Color;
-    std::string resourcePack;  // folder; empty: none
+    std::string resourcePack;      // folder; empty: none
+    std::optional<int> gpuMemory;  // MiB; none: as the driver tells
     std::string shaderRoot;
     bool debugGl = false;
 };
 
 // `preset`: where none is asked for.
 void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string preset);
+
+void addGpuMemoryOption(CLI::App& command, std::optional<int>& mebibytes);  // --gpu-memory
 
 // "1280x720", for --size. Throws CLI::ValidationError.
 glm::ivec2 parseSize(const std::string& text);

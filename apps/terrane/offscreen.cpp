@@ -3,6 +3,7 @@
 #include "terrane/content/built_in.h"
 #include "terrane/content/resource_pack.h"
 #include "terrane/gpu/built_in_shaders.h"
+#include "terrane/view/memory_budget.h"
 
 namespace terrane::app {
 
@@ -30,6 +31,7 @@ base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const OffscreenOption
     auto renderer = render::Renderer::create(made->shaders, *parts->blocks, *textures, made->device);
     if (!renderer) return tl::unexpected(renderer.error());
     made->renderer = std::move(*renderer);
+    made->renderer.setMemoryBudget(view::gpuMemoryBudget(made->device, graphics.gpuMemory));
     made->graphics = render::settingsOf(graphics.choices, made->device.software);
     if (auto done = made->renderer.configure(graphics.size, made->graphics.render); !done)
         return tl::unexpected(done.error());

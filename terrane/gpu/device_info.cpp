@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 namespace terrane::gpu {
@@ -34,6 +35,18 @@ float anisotropyLimit() {
     return value;
 }
 
+// Both extensions count in KiB. What a driver tells of software renderers is the computer's memory.
+std::int64_t videoMemory(bool isSoftware) {
+    constexpr std::int64_t kKiB = 1024;
+    if (isSoftware) return 0;
+    if (epoxy_has_gl_extension("GL_NVX_gpu_memory_info"))
+        return kKiB * glInt(GL_GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX);
+    if (!epoxy_has_gl_extension("GL_ATI_meminfo")) return 0;
+    std::array<GLint, 4> free{};  // in all, the largest block; then the same of auxiliary memory
+    glGetIntegerv(GL_VBO_FREE_MEMORY_ATI, free.data());
+    return kKiB * free[0];
+}
+
 }  // namespace
 
 DeviceInfo queryDevice() {
@@ -56,6 +69,7 @@ DeviceInfo queryDevice() {
     GLint64 blockBytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &blockBytes);
     info.maxStorageBlockBytes = blockBytes;
+    info.videoMemoryBytes = videoMemory(info.software);
     return info;
 }
 

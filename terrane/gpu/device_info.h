@@ -24,6 +24,7 @@ struct DeviceInfo {
     int storageAlignmentBytes = 0;
     float maxAnisotropy = 1.0F;  // 1: not offered
     std::int64_t maxStorageBlockBytes = 0;
+    std::int64_t videoMemoryBytes = 0;  // free on the graphics card when asked; 0: the driver does not tell
 };
 
 [[nodiscard]] DeviceInfo queryDevice();

@@ -59,6 +59,33 @@ Handle<ObjectKind::Texture> createTexture(GLenum target, std::string_view label)
            channelBytes(type);
 }
 
+// Of the sized formats that textures here have.
+std::size_t texelBytes(GLenum format) {
+    switch (format) {
+        case GL_R8:
+            return 1;
+        case GL_RGBA4:
+        case GL_DEPTH_COMPONENT16:
+            return 2;
+        case GL_RGBA16F:
+        case GL_RGBA16:
+            return 8;
+        case GL_RGBA32F:
+            return 16;
+        default:  // GL_RGBA8, GL_SRGB8_ALPHA8, GL_R32F, GL_R32UI, GL_DEPTH_COMPONENT32F
+            return 4;
+    }
+}
+
+std::size_t levelBytes(glm::ivec2 size, int levels, GLenum format) {
+    std::size_t texels = 0;
+    for (int level = 0; level < levels; ++level) {
+        const glm::ivec2 s = levelSize(size, level);
+        texels += static_cast<std::size_t>(s.x) * static_cast<std::size_t>(s.y);
+    }
+    return texels * texelBytes(format);
+}
+
 // OpenGL would read past the end of shorter data.
 void checkData([[maybe_unused]] std::span<const std::byte> data, [[maybe_unused]] std::size_t expectedBytes) {
     assert(expectedBytes != 0 && "uploads are in a format with one number per channel");
@@ -100,6 +127,10 @@ void Texture2D::copyFrom(const Texture2D& other) {
                        size_.y, 1);
 }
 
+std::size_t Texture2D::sizeBytes() const {
+    return id() == 0 ? 0 : levelBytes(size_, levels_, format_);
+}
+
 void Texture2D::bind(GLuint unit) const {
     assert(id() != 0 && "an empty texture cannot be bound");
     glBindTextureUnit(unit, id());
@@ -121,13 +152,19 @@ void Texture2DArray::upload(int level, int layer, GLenum format, GLenum type,
     glTextureSubImage3D(id(), level, 0, 0, layer, size.x, size.y, 1, format, type, data.data());
 }
 
+std::size_t Texture2DArray::sizeBytes() const {
+    return id() == 0
+               ? 0
+               : static_cast<std::size_t>(shape_.layers) * levelBytes(shape_.size, shape_.levels, format_);
+}
+
 void Texture2DArray::bind(GLuint unit) const {
     assert(id() != 0 && "an empty texture cannot be bound");
     glBindTextureUnit(unit, id());
 }
 
 Texture3D::Texture3D(glm::ivec3 size, GLenum format, std::string_view label)
-    : handle_(createTexture(GL_TEXTURE_3D, label)), size_(size) {
+    : handle_(createTexture(GL_TEXTURE_3D, label)), size_(size), format_(format) {
     assert(size.x > 0 && size.y > 0 && size.z > 0 && "a texture has a size");
     glTextureStorage3D(id(), 1, format, size.x, size.y, size.z);
     // Integer formats know no filter.
@@ -146,6 +183,10 @@ void Texture3D::uploadPart(glm::ivec3 corner, glm::ivec3 size, GLenum format, GL
                         data.data());
 }
 
+std::size_t Texture3D::sizeBytes() const {
+    return id() == 0 ? 0 : static_cast<std::size_t>(size_.z) * levelBytes({size_.x, size_.y}, 1, format_);
+}
+
 void Texture3D::bind(GLuint unit) const {
     glBindTextureUnit(unit, id());
 }
@@ -160,6 +201,10 @@ Texture2DMultisample::Texture2DMultisample(glm::ivec2 size, GLenum format, int s
     assert(samples >= 1 && "a texture has samples");
     glTextureStorage2DMultisample(id(), samples, format, size.x, size.y, GL_TRUE);
     glGetTextureLevelParameteriv(id(), 0, GL_TEXTURE_SAMPLES, &samples_);
+}
+
+std::size_t Texture2DMultisample::sizeBytes() const {
+    return id() == 0 ? 0 : static_cast<std::size_t>(samples_) * levelBytes(size_, 1, format_);
 }
 
 void Texture2DMultisample::bind(GLuint unit) const {

@@ -1,6 +1,7 @@
 // Textures of fixed size and format. Used on the thread of their context. Formats and types are OpenGL's:
 // `format` of the constructors is a sized internal format (GL_RGBA8), `format` and `type` of uploads describe
-// the bytes given (GL_RGBA, GL_UNSIGNED_BYTE), rows without padding, the first row at v = 0.
+// the bytes given (GL_RGBA, GL_UNSIGNED_BYTE), rows without padding, the first row at v = 0. sizeBytes() is
+// the memory of all texels, 0 for an empty texture; drivers may pad it.
 #pragma once
 
 #include <cstddef>
@@ -33,6 +34,7 @@ class Texture2D {
     [[nodiscard]] glm::ivec2 size() const { return size_; }
     [[nodiscard]] GLenum format() const { return format_; }
     [[nodiscard]] int levels() const { return levels_; }
+    [[nodiscard]] std::size_t sizeBytes() const;
 
   private:
     Handle<ObjectKind::Texture> handle_;
@@ -59,6 +61,7 @@ class Texture2DArray {
     [[nodiscard]] GLuint id() const { return handle_.id(); }
     [[nodiscard]] const Shape& shape() const { return shape_; }
     [[nodiscard]] GLenum format() const { return format_; }
+    [[nodiscard]] std::size_t sizeBytes() const;
 
   private:
     Handle<ObjectKind::Texture> handle_;
@@ -79,10 +82,12 @@ class Texture3D {
 
     [[nodiscard]] GLuint id() const { return handle_.id(); }
     [[nodiscard]] glm::ivec3 size() const { return size_; }
+    [[nodiscard]] std::size_t sizeBytes() const;
 
   private:
     Handle<ObjectKind::Texture> handle_;
     glm::ivec3 size_ = {0, 0, 0};
+    GLenum format_ = GL_NONE;
 };
 
 // A render target with several samples per pixel, at the same places in every pixel. The driver may take more
@@ -98,6 +103,7 @@ class Texture2DMultisample {
     [[nodiscard]] glm::ivec2 size() const { return size_; }
     [[nodiscard]] GLenum format() const { return format_; }
     [[nodiscard]] int samples() const { return samples_; }
+    [[nodiscard]] std::size_t sizeBytes() const;
 
   private:
     Handle<ObjectKind::Texture> handle_;

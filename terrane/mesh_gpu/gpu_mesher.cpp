@@ -172,6 +172,15 @@ double GpuMesher::countMilliseconds() const {
     return static_cast<double>(nanoseconds[1] - nanoseconds[0]) / 1e6;
 }
 
+std::size_t GpuMesher::gpuBytes() const {
+    const Impl& m = *impl_;
+    std::size_t bytes = m.counts.sizeBytes();  // as much again to read them back
+    for (const gpu::Buffer* buffer :
+         {&m.sections, &m.data, &m.units, &m.unitCounts, &m.types, &m.growth, &m.counts, &m.places})
+        bytes += buffer->sizeBytes();
+    return bytes;
+}
+
 std::vector<mesh::MeshSection> GpuMesher::meshSections() const {
     const Impl& m = *impl_;
     assert(m.counted.valid() && "after count()");

@@ -48,8 +48,11 @@ class GpuMesher {
     std::vector<mesh::MeshSection> meshSections() const;
     // Of the GPU for count(), once isCounted() holds.
     double countMilliseconds() const;
+    // Of all buffers, with those of the batch at hand.
+    std::size_t gpuBytes() const;
     // Writes the quads of each mesh section from `firstQuads` on, in the order of meshSections(), or leaves
-    // them out (kNoPlace); once a batch. Shaders that run later see them.
+    // them out (kNoPlace). Once for each buffer that mesh sections of the batch lie in. Shaders that run
+    // later see the quads.
     void write(std::span<const std::uint32_t> firstQuads, const gpu::Buffer& quads);
 
   private:

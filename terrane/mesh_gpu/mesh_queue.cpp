@@ -14,6 +14,19 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+// Of the addresses those in one arena, as offsets in it; kNoPlace for the others. Whether there are any.
+std::pair<std::vector<std::uint32_t>, bool> offsetsIn(std::span<const std::uint32_t> addresses,
+                                                      std::uint32_t arena, std::uint32_t arenaSize) {
+    std::vector<std::uint32_t> offsets(addresses.size(), kNoPlace);
+    bool isAny = false;
+    for (std::size_t k = 0; k < addresses.size(); ++k) {
+        if (addresses[k] == kNoPlace || addresses[k] / arenaSize != arena) continue;
+        offsets[k] = addresses[k] % arenaSize;
+        isAny = true;
+    }
+    return {std::move(offsets), isAny};
+}
+
 }  // namespace
 
 MeshQueue::MeshQueue(GpuMesher mesher, double budgetMilliseconds)
@@ -63,18 +76,22 @@ std::vector<CountedChunk> MeshQueue::takeCounted() {
     return counted;
 }
 
-void MeshQueue::write(std::span<const FirstQuads> places, const gpu::Buffer& quads) {
+void MeshQueue::write(std::span<const FirstQuads> places, const gpu::ArenaBuffers& quads) {
     TERRANE_ZONE("mesh queue: write");
     assert(places.size() == counting_.size() - isRemoved_.size() && "one for each of takeCounted()");
     const std::size_t perChunk = meshSections_.size() / counting_.size();
-    std::vector<std::uint32_t> firstQuads(meshSections_.size(), kNoPlace);
+    std::vector<std::uint32_t> addresses(meshSections_.size(), kNoPlace);
     auto place = places.begin();
     for (std::size_t k = 0; k < counting_.size(); ++k) {
         if (isRemoved_.contains(counting_[k])) continue;
         assert((place->empty() || place->size() == perChunk) && "one for each mesh section");
-        std::ranges::copy(*place++, firstQuads.begin() + static_cast<std::ptrdiff_t>(k * perChunk));
+        std::ranges::copy(*place++, addresses.begin() + static_cast<std::ptrdiff_t>(k * perChunk));
     }
-    mesher_.write(firstQuads, quads);
+    for (std::size_t arena = 0; arena < quads.buffers.size(); ++arena) {
+        const auto [offsets, isAny] =
+            offsetsIn(addresses, static_cast<std::uint32_t>(arena), quads.arenaSize);
+        if (isAny) mesher_.write(offsets, *quads.buffers[arena]);
+    }
     // Writing does on the GPU what counting does.
     const double onGpu = 2 * mesher_.countMilliseconds();
     adaptBatch(counting_.size(), std::max(onGpu, countMilliseconds_ + millisecondsSince(start_)));

@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "terrane/gpu/arena_buffers.h"
 #include "terrane/mesh_gpu/gpu_mesher.h"
 
 namespace terrane::mesh_gpu {
@@ -19,12 +20,12 @@ struct CountedChunk {
     std::span<const mesh::MeshSection> meshSections;
 };
 
-// Where the quads of each mesh section of a chunk begin in the buffer; empty where there is no room for them.
+// Addresses of the first quad of each mesh section of a chunk; empty where there is no room for them.
 using FirstQuads = std::vector<std::uint32_t>;
 
 // A frame calls, in this order:
 //
-//   if (queue.isCounted()) { counted = queue.takeCounted(); make room; queue.write(places, buffer); }
+//   if (queue.isCounted()) { counted = queue.takeCounted(); make room; queue.write(places, buffers); }
 //   if (chunks = queue.takeWaiting(); !chunks.empty()) queue.count(inputs of these chunks);
 class MeshQueue {
   public:
@@ -38,13 +39,14 @@ class MeshQueue {
     // It will be meshed from what it is when its turn comes, or later.
     bool contains(world::ChunkPos pos) const { return isWaiting_.contains(pos) || isOnTheWay(pos); }
     std::size_t size() const { return isWaiting_.size() + counting_.size(); }
+    std::size_t gpuBytes() const { return mesher_.gpuBytes(); }
 
     // A batch is on the way and its counts are back.
     bool isCounted() const { return !counting_.empty() && mesher_.isCounted(); }
     // The chunks of that batch, without those removed since it was counted. write() comes next.
     std::vector<CountedChunk> takeCounted();
     // Writes the quads of the chunks that takeCounted() returned, in the same order. Ends the batch.
-    void write(std::span<const FirstQuads> places, const gpu::Buffer& quads);
+    void write(std::span<const FirstQuads> places, const gpu::ArenaBuffers& quads);
 
     // The chunks of the next batch; none while one is on the way. count() comes next, for exactly these.
     std::vector<world::ChunkPos> takeWaiting();

@@ -22,6 +22,7 @@ class AmbientOcclusion {
     const gpu::Texture2D& result() const {
         return visibility_.texture;
     }  // 1 where nothing shuts a surface in
+    std::size_t gpuBytes() const { return visibility_.texture.sizeBytes() + between_.texture.sizeBytes(); }
 
   private:
     // Finds the visibility, then blurs it along both axes.

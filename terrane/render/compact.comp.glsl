@@ -1,4 +1,4 @@
-// Writes the draw commands of each list, a work group a list, in the order of the mesh sections. Each thread takes as many
+// Writes the draw commands of each list and arena, a work group each, in the order of the mesh sections. Each thread takes as many
 // neighboring mesh sections as there are for it: counts their commands, learns from the sum over the threads before where its
 // own begin, and writes them.
 #include "terrane/shared/bindings.h"
@@ -23,7 +23,7 @@ layout(std430, binding = kCommandsBinding) writeonly buffer Commands {
     DrawCommand commands[];
 };
 layout(std430, binding = kCountsBinding) writeonly buffer Counts {
-    DrawCounts counts[2];  // of the early and the late pass
+    DrawCounts counts[];  // of each arena two: of the early and the late pass
 };
 
 shared uint sums[kThreads];
@@ -33,7 +33,14 @@ uint commandsFor(uint quads) {
     return (quads + kMaxQuadsPerCommand - 1u) / kMaxQuadsPerCommand;
 }
 
+// Of the mesh section with a place in the order, those in the work group's arena.
+uint directionsOf(uint place, uint shift) {
+    uint word = visible[place];
+    return word >> kArenaBits == gl_WorkGroupID.y ? word >> shift & 127u : 0u;
+}
+
 uint writeCommands(uvec2 quads, uint slot, uint at) {
+    quads.x -= gl_WorkGroupID.y * cull.arenaQuads;
     while (quads.y > 0u) {
         uint part = min(quads.y, kMaxQuadsPerCommand);
         commands[at++] = DrawCommand(6u * part, 1u, 0u, int(4u * quads.x), slot);
@@ -77,7 +84,7 @@ uint scan(uint thread, uint value) {
 }
 
 void main() {
-    uint thread = gl_LocalInvocationID.x, list = gl_WorkGroupID.x;
+    uint thread = gl_LocalInvocationID.x, list = gl_WorkGroupID.x, arena = gl_WorkGroupID.y;
     bool isShadow = list >= kCameraLists;
     uint bucket = isShadow ? list - kCameraLists : list;
     uint shift = isShadow ? kShadowDirectionBits : bucket >= 4u ? kBlendedDirectionBits : kCameraDirectionBits;
@@ -88,7 +95,7 @@ void main() {
 
     uint quads = 0u, own = 0u, meshSectionCount = 0u;
     for (uint k = begin; k < end; ++k) {
-        uint directions = visible[k] >> shift & 127u;
+        uint directions = directionsOf(k, shift);
         if (directions == 0u) continue;
         ++meshSectionCount;
         own = visit(order[k], bucket, directions, own, false, quads);
@@ -96,16 +103,17 @@ void main() {
     atomicAdd(quadSum, quads);
     atomicAdd(meshSectionSum, meshSectionCount);
     uint last = scan(thread, own);
-    uint at = cull.firstCommand[list >> 2][list & 3u] + last - own;
+    uint number = arena * kDrawLists + list;
+    uint at = cull.firstCommand[number >> 2][number & 3u] + last - own;
     uint ignored = 0u;
     for (uint k = begin; k < end; ++k) {
-        uint directions = visible[k] >> shift & 127u;
+        uint directions = directionsOf(k, shift);
         if (directions != 0u) at = visit(order[k], bucket, directions, at, true, ignored);
     }
     if (thread == kThreads - 1u) {
-        uint phase = cull.phase == kCullLate ? 1u : 0u;
-        counts[phase].commands[list] = last;
-        counts[phase].quads[list] = quadSum;
-        if (list == 0u) counts[phase].meshSections = meshSectionSum;
+        uint into = 2u * arena + (cull.phase == kCullLate ? 1u : 0u);
+        counts[into].commands[list] = last;
+        counts[into].quads[list] = quadSum;
+        if (list == 0u) counts[into].meshSections = meshSectionSum;
     }
 }

@@ -81,16 +81,18 @@ void main() {
     vec3 camera = cull.cameraPosition.xyz, light = cull.lightDirection.xyz;
     uint directions = isInView ? bitsOf(lessThan(camera, high), greaterThan(camera, low)) : 0u;
     uint casting = isCasting ? bitsOf(lessThan(light, vec3(0.0)), greaterThan(light, vec3(0.0))) : 0u;
+    uint word = (meshSections[slot].ranges[0].x / cull.arenaQuads) << kArenaBits;
     if (cull.phase == kCullAll) {
-        visible[number] = directions << kCameraDirectionBits | directions << kBlendedDirectionBits |
-                          casting << kShadowDirectionBits;
+        word |= directions << kCameraDirectionBits | directions << kBlendedDirectionBits |
+                casting << kShadowDirectionBits;
     } else if (cull.phase == kCullEarly) {
-        visible[number] = (visibleLastFrame[slot] == 1u ? directions << kCameraDirectionBits : 0u) |
-                          casting << kShadowDirectionBits;
+        word |= (visibleLastFrame[slot] == 1u ? directions << kCameraDirectionBits : 0u) |
+                casting << kShadowDirectionBits;
     } else {
         bool isNew = visibleLastFrame[slot] != 1u, isVisible = isInView && !isHidden(wavingLow, wavingHigh);
         if (!isVisible) directions = 0u;
-        visible[number] = (isNew ? directions << kCameraDirectionBits : 0u) | directions << kBlendedDirectionBits;
+        word |= (isNew ? directions << kCameraDirectionBits : 0u) | directions << kBlendedDirectionBits;
         visibleLastFrame[slot] = isVisible ? 1u : 0u;
     }
+    visible[number] = word;
 }

@@ -6,12 +6,13 @@
 #include <span>
 
 #include "terrane/gpu/debug.h"
+#include "terrane/render/growing_buffer.h"
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
 namespace {
 
-using TwoCounts = std::array<shared::DrawCounts, 2>;  // of the early and the late pass
+using TwoCounts = std::array<shared::DrawCounts, 2>;  // of the early and the late pass, of one arena
 
 gpu::Buffer gpuOnly(std::size_t bytes, std::string_view label) {
     return gpu::Buffer(bytes, 0, label);
@@ -40,14 +41,24 @@ shared::CullFrame frameOf(CullPhase phase, const CullInput& input, std::uint32_t
     return frame;
 }
 
-shared::DrawCounts sumOf(const TwoCounts& both) {
-    shared::DrawCounts sum = both[0];
+void add(shared::DrawCounts& sum, const shared::DrawCounts& counts) {
     for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
-        sum.commands[list] += both[1].commands[list];
-        sum.quads[list] += both[1].quads[list];
+        sum.commands[list] += counts.commands[list];
+        sum.quads[list] += counts.quads[list];
     }
-    sum.meshSections += both[1].meshSections;
-    return sum;
+    sum.meshSections += counts.meshSections;
+}
+
+std::uint32_t bucketOf(std::uint32_t list) {
+    return list < shared::kCameraLists ? list : list - shared::kCameraLists;
+}
+
+// Room for all faces of each list's draw bucket, so that none can overflow.
+std::size_t commandBytesOf(const MeshSectionTable& meshSections) {
+    std::size_t sum = 0;
+    for (const MeshSectionTable::BucketCommands& buckets : meshSections.maxCommands())
+        for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) sum += buckets[bucketOf(list)];
+    return std::max<std::size_t>(sum, 1) * sizeof(shared::DrawCommand);
 }
 
 }  // namespace
@@ -61,40 +72,53 @@ base::Result<CullPass> CullPass::create(const gpu::ShaderLoader& shaders, const 
     pass.cull_ = std::move(*cull);
     pass.compact_ = std::move(*compact);
     pass.hasIndirectCount_ = device.indirectCount;
-    const TwoCounts none{};
+    const std::array<TwoCounts, shared::kMaxArenas> none{};  // 5 KB
     pass.countBuffer_ = gpu::Buffer(std::as_bytes(std::span(none)), GL_DYNAMIC_STORAGE_BIT, "draw counts");
     for (Readback& readback : pass.readbacks_) {
-        readback.buffer = gpu::ReadbackBuffer(sizeof(TwoCounts), "draw counts");
+        readback.buffer = gpu::ReadbackBuffer(sizeof(none), "draw counts");
     }
     return pass;
 }
 
-// Each list has room for all faces of its draw bucket, so that none can overflow.
 void CullPass::reserve(const MeshSectionTable& meshSections) {
     std::uint32_t sum = 0;
-    for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
-        firstCommand_[list] = sum;
-        const std::uint32_t bucket = list < shared::kCameraLists ? list : list - shared::kCameraLists;
-        maxCommands_[list] = meshSections.maxCommands()[bucket];
-        sum += maxCommands_[list];
+    lists_.resize(meshSections.maxCommands().size());
+    assert(lists_.size() <= shared::kMaxArenas && "the store has no more arenas");
+    for (std::size_t arena = 0; arena < lists_.size(); ++arena) {
+        for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
+            lists_[arena][list] = {sum, meshSections.maxCommands()[arena][bucketOf(list)]};
+            sum += lists_[arena][list].max;
+        }
     }
-    const std::size_t commandBytes = std::max(sum, 1u) * sizeof(shared::DrawCommand);
-    if (commandBytes > commands_.sizeBytes()) commands_ = gpuOnly(2 * commandBytes, "draw commands");
-    const std::size_t wordBytes = meshSections.count() * sizeof(std::uint32_t);
-    if (wordBytes > visible_.sizeBytes()) visible_ = gpuOnly(2 * wordBytes, "visible mesh sections");
-    const std::size_t visibleLastFrameBytes = meshSections.slots() * sizeof(std::uint32_t);
-    if (visibleLastFrameBytes <= visibleLastFrame_.sizeBytes()) return;
-    visibleLastFrame_ = gpuOnly(2 * visibleLastFrameBytes, "mesh sections visible last frame");
+    const auto grow = [](gpu::Buffer& buffer, std::size_t neededBytes, std::string_view label) {
+        const std::size_t bytes = grownBytes(buffer, neededBytes);
+        if (bytes > 0) buffer = gpuOnly(bytes, label);
+        return bytes > 0;
+    };
+    grow(commands_, commandBytesOf(meshSections), "draw commands");
+    grow(visible_, meshSections.count() * sizeof(std::uint32_t), "visible mesh sections");
+    if (!grow(visibleLastFrame_, meshSections.slots() * sizeof(std::uint32_t),
+              "mesh sections visible last frame"))
+        return;
     const GLuint zero = 0;
     glClearNamedBufferData(visibleLastFrame_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+}
+
+std::size_t CullPass::gpuBytes(const MeshSectionTable& meshSections) const {
+    return bytesWhileGrowing(commands_, commandBytesOf(meshSections)) +
+           bytesWhileGrowing(visible_, meshSections.count() * sizeof(std::uint32_t)) +
+           bytesWhileGrowing(visibleLastFrame_, meshSections.slots() * sizeof(std::uint32_t)) +
+           countBuffer_.sizeBytes();
 }
 
 // Mesh sections that were never tested count as hidden: the late pass draws them.
 void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSections, gpu::MappedRing& ring) {
     shared::CullFrame frame = frameOf(phase_, input, meshSections.count());
-    for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
-        frame.firstCommand[list / 4][static_cast<int>(list % 4)] = firstCommand_[list];
+    for (std::uint32_t number = 0; number < lists_.size() * shared::kDrawLists; ++number) {
+        const ListCommands& list = lists_[number / shared::kDrawLists][number % shared::kDrawLists];
+        frame.firstCommand[number / 4][static_cast<int>(number % 4)] = list.first;
     }
+    frame.arenaQuads = meshSections.arenaQuads();
     const auto slice = ring.write(std::span<const shared::CullFrame>(&frame, 1));
     assert(slice && "the ring holds a frame's uniforms");
     ring.buffer().bindUniform(shared::kCullBinding, slice->offsetBytes, sizeof(frame));
@@ -109,7 +133,8 @@ void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSect
     glDispatchCompute((meshSections.count() + shared::kCullThreads - 1) / shared::kCullThreads, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     compact_.use();
-    glDispatchCompute(input.shadow ? shared::kDrawLists : shared::kCameraLists, 1, 1);
+    glDispatchCompute(input.shadow ? shared::kDrawLists : shared::kCameraLists,
+                      static_cast<GLuint>(lists_.size()), 1);
     // The late pass overwrites what the early one read.
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -130,15 +155,19 @@ void CullPass::run(CullPhase phase, const CullInput& input, const MeshSectionTab
     dispatch(input, meshSections, ring);
 }
 
-void CullPass::drawList(shared::uint list) const {
-    if (maxCommands_[list] == 0) return;
+std::size_t CullPass::countsOffset(std::size_t arena) const {
+    return (2 * arena + (phase_ == CullPhase::Late ? 1 : 0)) * sizeof(shared::DrawCounts);
+}
+
+void CullPass::drawList(shared::uint list, std::size_t arena) const {
+    const ListCommands& commands = lists_[arena][list];
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
     const auto offset =
-        reinterpret_cast<const void*>(std::size_t{firstCommand_[list]} * sizeof(shared::DrawCommand));
-    const auto maxCommands = static_cast<GLsizei>(maxCommands_[list]);
+        reinterpret_cast<const void*>(std::size_t{commands.first} * sizeof(shared::DrawCommand));
+    const auto maxCommands = static_cast<GLsizei>(commands.max);
     if (hasIndirectCount_) {
         glBindBuffer(GL_PARAMETER_BUFFER_ARB, countBuffer_.id());
-        const auto countOffset = static_cast<GLintptr>(countsOffset() + list * sizeof(shared::uint));
+        const auto countOffset = static_cast<GLintptr>(countsOffset(arena) + list * sizeof(shared::uint));
         glMultiDrawElementsIndirectCountARB(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset, countOffset, maxCommands,
                                             0);
     } else {
@@ -146,13 +175,19 @@ void CullPass::drawList(shared::uint list) const {
     }
 }
 
-void CullPass::drawBuckets(gpu::Pipeline& pipeline, gpu::PipelineState state, mesh::AlphaClass alphaClass,
-                           bool forShadows) const {
+void CullPass::drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const QuadStore& quads,
+                           const DrawClass& drawn) const {
     for (const bool isTwoSided : {false, true}) {
-        state.cullsBackFaces = !isTwoSided;
-        pipeline.set(state);
-        const auto bucket = static_cast<shared::uint>(mesh::drawBucket(alphaClass, isTwoSided));
-        drawList(forShadows ? shared::kCameraLists + bucket : bucket);
+        gpu::PipelineState bucketState = state;
+        bucketState.cullsBackFaces = !isTwoSided;
+        pipeline.set(bucketState);
+        const auto bucket = static_cast<shared::uint>(mesh::drawBucket(drawn.alphaClass, isTwoSided));
+        const shared::uint list = drawn.forShadows ? shared::kCameraLists + bucket : bucket;
+        for (std::size_t arena = 0; arena < lists_.size(); ++arena) {
+            if (lists_[arena][list].max == 0) continue;
+            quads.texels(arena).bind(shared::kQuadsUnit);
+            drawList(list, arena);
+        }
     }
 }
 
@@ -161,7 +196,8 @@ void CullPass::queueCounts() {
     counts();
     Readback& readback = readbacks_[nextReadback_];
     if (readback.isPending) return;
-    readback.buffer.copyFrom(countBuffer_, sizeof(TwoCounts));
+    readback.arenas = lists_.size();
+    readback.buffer.copyFrom(countBuffer_, readback.arenas * sizeof(TwoCounts));
     readback.fence = gpu::Fence::insert();
     readback.isPending = true;
     nextReadback_ = (nextReadback_ + 1) % kReadbacks;
@@ -171,21 +207,23 @@ const shared::DrawCounts& CullPass::counts() {
     for (std::size_t k = 0; k < kReadbacks; ++k) {
         Readback& readback = readbacks_[(nextReadback_ + k) % kReadbacks];
         if (!readback.isPending || !readback.fence.passed()) continue;
-        TwoCounts both;
-        std::memcpy(both.data(), readback.buffer.data().data(), sizeof(both));
-        counts_ = sumOf(both);
+        std::array<TwoCounts, shared::kMaxArenas> arenas;
+        std::memcpy(arenas.data(), readback.buffer.data().data(), readback.arenas * sizeof(TwoCounts));
+        counts_ = {};
+        for (const TwoCounts& both : std::span(arenas).first(readback.arenas))
+            for (const shared::DrawCounts& counts : both) add(counts_, counts);
         readback.isPending = false;
     }
     return counts_;
 }
 
-std::vector<shared::DrawCommand> CullPass::readCommands(shared::uint list) const {
+std::vector<shared::DrawCommand> CullPass::readCommands(shared::uint list, std::size_t arena) const {
     shared::DrawCounts counts{};
-    countBuffer_.download(countsOffset(), std::as_writable_bytes(std::span(&counts, 1)));
+    countBuffer_.download(countsOffset(arena), std::as_writable_bytes(std::span(&counts, 1)));
     std::vector<shared::DrawCommand> commands(counts.commands[list]);
-    assert(commands.size() <= maxCommands_[list] && "each list has room for all commands");
+    assert(commands.size() <= lists_[arena][list].max && "each list has room for all commands");
     if (!commands.empty()) {
-        commands_.download(firstCommand_[list] * sizeof(shared::DrawCommand),
+        commands_.download(lists_[arena][list].first * sizeof(shared::DrawCommand),
                            std::as_writable_bytes(std::span(commands)));
     }
     return commands;

@@ -32,6 +32,12 @@ struct CullInput {
 // depth does not hide.
 enum class CullPhase : std::uint8_t { All, Early, Late };
 
+// Which quads a draw takes: of an alpha class, of the camera's view or of the shadow map's.
+struct DrawClass {
+    mesh::AlphaClass alphaClass = mesh::AlphaClass::Opaque;
+    bool forShadows = false;
+};
+
 class CullPass {
   public:
     static base::Result<CullPass> create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device);
@@ -40,35 +46,44 @@ class CullPass {
     // The early and the late pass of a frame follow each other, drawing between them.
     void run(CullPhase phase, const CullInput& input, const MeshSectionTable& meshSections,
              gpu::MappedRing& ring);
-    // Draws what the last pass chose, with the shader and what it reads bound. Culls the back faces of what
-    // has such.
-    void drawBuckets(gpu::Pipeline& pipeline, gpu::PipelineState state, mesh::AlphaClass alphaClass,
-                     bool forShadows) const;
+    // Draws the quads that the last pass chose, one draw call for each draw bucket and arena of `quads`. The
+    // shader and what it reads but the quads are bound. Culls the back faces of one-sided quads.
+    void drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const QuadStore& quads,
+                     const DrawClass& drawn) const;
 
     // Of the newest frame that the GPU has finished, all runs together; does not wait. Ends the frame.
     void queueCounts();
     const shared::DrawCounts& counts();
 
     // Of the last run, for tests: waits for the GPU.
-    std::vector<shared::DrawCommand> readCommands(shared::uint list) const;
+    std::vector<shared::DrawCommand> readCommands(shared::uint list, std::size_t arena = 0) const;
+
+    // On the GPU as of the next run. Buffers that it replaces count too.
+    std::size_t gpuBytes(const MeshSectionTable& meshSections) const;
 
   private:
     void reserve(const MeshSectionTable& meshSections);
     void dispatch(const CullInput& input, const MeshSectionTable& meshSections, gpu::MappedRing& ring);
-    void drawList(shared::uint list) const;
-    std::size_t countsOffset() const { return phase_ == CullPhase::Late ? sizeof(shared::DrawCounts) : 0; }
+    void drawList(shared::uint list, std::size_t arena) const;
+    std::size_t countsOffset(std::size_t arena) const;
 
     struct Readback {
         gpu::ReadbackBuffer buffer;
         gpu::Fence fence;
         bool isPending = false;
+        std::size_t arenas = 0;
     };
+    // Where the commands of a list begin in the buffer, and the most that there can be.
+    struct ListCommands {
+        std::uint32_t first = 0, max = 0;
+    };
+    using ArenaLists = std::array<ListCommands, shared::kDrawLists>;
     static constexpr std::size_t kReadbacks = 4;
 
     gpu::Program cull_, compact_;
     gpu::Buffer visible_, visibleLastFrame_, commands_, countBuffer_;
     CullPhase phase_ = CullPhase::All;
-    std::array<std::uint32_t, shared::kDrawLists> firstCommand_{}, maxCommands_{};
+    std::vector<ArenaLists> lists_;  // by arena
     std::array<Readback, kReadbacks> readbacks_;
     std::size_t nextReadback_ = 0;
     shared::DrawCounts counts_{};

@@ -18,6 +18,7 @@ class DepthOfField {
     void draw(gpu::Pipeline& pipeline, const FrameTargets& targets, const MsaaTexture& depth) const;
     bool isOn() const { return size_.x > 0; }
     void bindResult() const;
+    std::size_t gpuBytes() const { return between_.texture.sizeBytes() + result_.texture.sizeBytes(); }
 
   private:
     FullscreenPass alongX_, alongY_;

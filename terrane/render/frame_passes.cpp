@@ -45,4 +45,9 @@ base::Result<void> FramePasses::configure(const FrameTargets& targets, const Ren
     return done;
 }
 
+std::size_t FramePasses::targetBytes() const {
+    return hiZ.gpuBytes() + shadowMap.gpuBytes() + holeFill.gpuBytes() + transparency.gpuBytes() +
+           occlusion.gpuBytes() + godRays.gpuBytes() + depthOfField.gpuBytes();
+}
+
 }  // namespace terrane::render

@@ -25,6 +25,9 @@ struct FramePasses {
     // as before: configured as it was before, all are. That compiles nothing.
     base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options);
 
+    // Of the passes' own targets.
+    std::size_t targetBytes() const;
+
     CullPass cull;
     HiZ hiZ;
     ShadowMap shadowMap;

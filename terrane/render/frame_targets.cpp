@@ -64,4 +64,9 @@ void FrameTargets::bindGBuffer() const {
     depth.bind(shared::kDepthUnit);
 }
 
+std::size_t FrameTargets::gpuBytes() const {
+    return gbufferColor.sizeBytes() + depth.sizeBytes() + sceneColor.sizeBytes() + ldrColor.sizeBytes() +
+           maskDepth.sizeBytes();
+}
+
 }  // namespace terrane::render

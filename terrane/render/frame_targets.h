@@ -21,6 +21,7 @@ class MsaaTexture {
     }
     int samples() const { return plain_.id() != 0 ? 1 : sampled_.samples(); }
     GLuint id() const { return plain_.id() != 0 ? plain_.id() : sampled_.id(); }
+    std::size_t sizeBytes() const { return plain_.sizeBytes() + sampled_.sizeBytes(); }
 
   private:
     gpu::Texture2D plain_;
@@ -40,6 +41,7 @@ struct FrameTargets {
 
     // The G-buffer, for shaders that read it.
     void bindGBuffer() const;
+    std::size_t gpuBytes() const;
 
     glm::ivec2 size{0};
     int requestedMsaaSamples = 0, msaaSamples = 0;  // a pixel; what the driver gives

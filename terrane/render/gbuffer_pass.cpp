@@ -32,9 +32,9 @@ void GBufferPass::draw(gpu::Pipeline& pipeline, const FrameTargets& targets, con
     targets.gbuffer.bind();
     quads.bind();
     opaque_.use();
-    quads.culled.drawBuckets(pipeline, kNearest, mesh::AlphaClass::Opaque, false);
+    quads.draw(pipeline, kNearest, {mesh::AlphaClass::Opaque});
     tested_.use();
-    quads.culled.drawBuckets(pipeline, kNearest, mesh::AlphaClass::Tested, false);
+    quads.draw(pipeline, kNearest, {mesh::AlphaClass::Tested});
 }
 
 }  // namespace terrane::render

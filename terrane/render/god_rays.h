@@ -19,6 +19,7 @@ class GodRays {
     void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
     bool isOn() const { return size_.x > 0; }
     void bindResult() const;
+    std::size_t gpuBytes() const { return sampled_.texture.sizeBytes() + smoothed_.texture.sizeBytes(); }
 
   private:
     FullscreenPass sample_, smooth_;

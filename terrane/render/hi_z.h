@@ -19,6 +19,7 @@ class HiZ {
 
     void build(const FrameTargets& targets) const;
     void bind() const { texture_.bind(shared::kHiZUnit); }
+    std::size_t gpuBytes() const { return texture_.sizeBytes(); }
 
   private:
     const gpu::ShaderLoader* shaders_ = nullptr;

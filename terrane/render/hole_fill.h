@@ -19,6 +19,7 @@ class HoleFill {
     bool isOn() const { return surface_.id() != 0; }
     // In the G-buffer.
     void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
+    std::size_t gpuBytes() const { return surface_.sizeBytes() + depth_.sizeBytes(); }
 
   private:
     FullscreenPass fill_;

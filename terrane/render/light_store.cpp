@@ -7,7 +7,6 @@
 #include <iterator>
 #include <utility>
 
-#include "terrane/base/log.h"
 #include "terrane/base/profile.h"
 #include "terrane/shared/bindings.h"
 
@@ -17,6 +16,8 @@ namespace {
 constexpr int kTile = static_cast<int>(shared::kLightTileSize);
 constexpr int kPoolTiles = static_cast<int>(shared::kLightPoolTiles);
 constexpr int kTilesPerSlab = kPoolTiles * kPoolTiles;
+constexpr std::size_t kSlabBytes = std::size_t{kTilesPerSlab} * 1024;
+constexpr int kMaxSlabs = static_cast<int>((std::size_t{1} << 30) / kSlabBytes);  // 256: 1 GiB
 // What a landscape needs: copying a pool that is too small takes a tenth of a second in software.
 constexpr int kTilesAChunk = 28;
 constexpr std::size_t kTileBlocks = shared::kLightTileSize * shared::kLightTileSize * shared::kLightTileSize;
@@ -43,7 +44,7 @@ int slabsFor(int viewDistance) {
 int slabsOfDriver() {
     GLint texels = 0;
     glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &texels);
-    return texels / kTile;
+    return std::min(texels / kTile, kMaxSlabs);
 }
 
 // Light tile (x, y, z), 0 or 1 each, of an unpacked brick of 16³.
@@ -66,20 +67,20 @@ constexpr auto filled(std::uint32_t entry) {
 
 }  // namespace
 
-LightStore::LightStore(int viewDistance, int maxSlabs)
-    : maxSlabs_(maxSlabs > 0 ? maxSlabs : slabsOfDriver()) {
+LightStore::LightStore(int viewDistance, int maxSlabs, std::size_t maxBytes)
+    : maxSlabs_(maxSlabs > 0 ? maxSlabs : slabsOfDriver()), maxBytes_(maxBytes) {
     gridChunks_ = static_cast<int>(std::bit_ceil(static_cast<unsigned>(2 * (viewDistance + 2) + 1)));
     const int side = 2 * gridChunks_, high = static_cast<int>(shared::kLightTilesHigh);
     grid_ = gpu::Texture3D({side, side, high}, GL_R32UI, "light grid");
     const shared::uint unknown = shared::kLightUnknown;
     glClearTexImage(grid_.id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &unknown);
-    pool_ = makePool(std::min(slabsFor(viewDistance), maxSlabs_));
+    pool_ = makePool(std::min({slabsFor(viewDistance), maxSlabs_, std::max(1, slabsWithin(maxBytes_))}));
 }
 
-std::size_t LightStore::gridBytes() const {
-    const glm::ivec3 size = grid_.size();
-    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
-           static_cast<std::size_t>(size.z) * sizeof(std::uint32_t);
+// Slabs for which there is room beside the textures that exist.
+int LightStore::slabsWithin(std::size_t bytes) const {
+    const std::size_t room = bytes - std::min(bytes, textureBytes());
+    return static_cast<int>(std::min<std::size_t>(room / kSlabBytes, kMaxSlabs));
 }
 
 int LightStore::slabs() const {
@@ -99,9 +100,11 @@ std::optional<std::uint32_t> LightStore::allocateTile() {
 
 // The GPU copies; draws on the way keep the old texture alive.
 bool LightStore::growPool() {
-    if (slabs() == maxSlabs_) return false;
+    const int grown = std::min({2 * slabs(), maxSlabs_, slabsWithin(maxBytes_)});
+    if (grown <= slabs()) return false;
     const glm::ivec3 size = pool_.size();
-    gpu::Texture3D larger = makePool(std::min(2 * slabs(), maxSlabs_));
+    gpu::Texture3D larger = makePool(grown);
+    peakBytes_ = textureBytes() + larger.sizeBytes();
     glCopyImageSubData(pool_.id(), GL_TEXTURE_3D, 0, 0, 0, 0, larger.id(), GL_TEXTURE_3D, 0, 0, 0, 0, size.x,
                        size.y, size.z);
     pool_ = std::move(larger);
@@ -127,11 +130,12 @@ void LightStore::release(std::span<const std::uint32_t> entries) {
                  [](std::uint32_t entry) { return (entry & shared::kLightUniformBit) == 0; });
 }
 
-void LightStore::setBrick(std::span<std::uint32_t, kTilesPerBrick> entries, const light::LightBrick& brick) {
+bool LightStore::setBrick(std::span<std::uint32_t, kTilesPerBrick> entries, const light::LightBrick& brick) {
+    bool hasRoom = true;
     release(entries);
     if (brick.isUniform()) {
         std::fill(entries.begin(), entries.end(), shared::kLightUniformBit | brick.uniformValue());
-        return;
+        return true;
     }
     std::array<std::uint16_t, world::kBlocksPerSection> unpacked;
     brick.unpack(unpacked);
@@ -146,24 +150,25 @@ void LightStore::setBrick(std::span<std::uint32_t, kTilesPerBrick> entries, cons
         const auto tile = allocateTile();
         entry = tile.value_or(shared::kLightUniformBit | values[kMiddle]);
         if (tile) uploadTile(*tile, values.data());
-        if (!tile && !std::exchange(hasWarned_, true)) {
-            base::logWarning(
-                "no room on the graphics card for all light: a shorter --view-distance needs less");
-        }
+        hasRoom &= tile.has_value();
     }
+    return hasRoom;
 }
 
-void LightStore::set(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks) {
+bool LightStore::set(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks) {
     TERRANE_ZONE("upload light");
     assert(pos.level == 0 && "the grid has light tiles of blocks");
     const auto [it, isNew] = chunks_.try_emplace(pos, filled(shared::kLightUnknown));
     const std::span entries(it->second);
+    bool hasRoom = true;
     for (int n = 0; n < world::kSectionsPerChunk; ++n) {
         if (!isNew && (bricks >> n & 1) == 0) continue;
-        setBrick(entries.subspan(kTilesPerBrick * static_cast<std::size_t>(n)).first<kTilesPerBrick>(),
-                 light.brick(n));
+        hasRoom &=
+            setBrick(entries.subspan(kTilesPerBrick * static_cast<std::size_t>(n)).first<kTilesPerBrick>(),
+                     light.brick(n));
     }
     uploadEntries(pos, it->second);
+    return hasRoom;
 }
 
 void LightStore::remove(world::ChunkPos pos) {

@@ -3,13 +3,17 @@
 //
 // Light is kept in light tiles of 8³ blocks; light tiles of one value take an entry of the grid and nothing
 // else. Grid: a 3D texture of 32-bit entries, two by two light tiles a chunk, wrapping around the camera.
-// Pool: a 3D texture with four bits a component that grows by doubling.
+// Pool: a 3D texture with four bits a component that grows by doubling, up to 1 GiB. No growth takes grid and
+// pool past `maxBytes`, with the copy that it needs for a moment.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "terrane/gpu/texture.h"
@@ -22,20 +26,25 @@ namespace terrane::render {
 class LightStore {
   public:
     LightStore() = default;
-    // Room for chunks up to `viewDistance` + 1 around the camera. `maxSlabs`: of 4,096 light tiles each, as
-    // many as the driver allows where it is 0. Light tiles for which there is no room have the light of their
-    // middle.
-    explicit LightStore(int viewDistance, int maxSlabs = 0);
+    // Room for chunks up to `viewDistance` + 1 around the camera. `maxSlabs`: of 4,096 light tiles each (4
+    // MiB), as many as the driver allows where it is 0.
+    explicit LightStore(int viewDistance, int maxSlabs = 0, std::size_t maxBytes = SIZE_MAX);
+    // From now on. What grid and pool take already stays.
+    void setMaxBytes(std::size_t bytes) { maxBytes_ = bytes; }
 
     // `bricks`: which of the sixteen may differ from what was set before, a bit each; of a new chunk all
-    // count.
-    void set(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF);
+    // count. False where there was no room for some light tiles: they have the light of their middle.
+    bool set(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF);
     void remove(world::ChunkPos pos);
     void bind() const;
 
     // Chunks along a side of the grid: a power of two.
     int gridChunks() const { return gridChunks_; }
-    std::size_t usedBytes() const { return (tileCount_ - free_.size()) * kTileBytes + gridBytes(); }
+    std::size_t usedBytes() const { return (tileCount_ - free_.size()) * kTileBytes + grid_.sizeBytes(); }
+    std::size_t textureBytes() const { return grid_.sizeBytes() + pool_.sizeBytes(); }
+    // The most that the textures took at once since the last call, with copies.
+    std::size_t takePeakBytes() { return std::max(std::exchange(peakBytes_, 0), textureBytes()); }
+    std::size_t chunkCount() const { return chunks_.size(); }
     std::size_t uploadedTiles() const { return uploadedTiles_; }  // so far
 
   private:
@@ -46,14 +55,14 @@ class LightStore {
     std::optional<std::uint32_t> allocateTile();
     bool growPool();  // false where it is as large as it can be
     int slabs() const;
+    int slabsWithin(std::size_t bytes) const;
     void uploadTile(std::uint32_t tile, const std::uint16_t* values);
     void uploadEntries(world::ChunkPos pos, const Entries& entries);
-    void setBrick(std::span<std::uint32_t, kTilesPerBrick> entries, const light::LightBrick& brick);
+    bool setBrick(std::span<std::uint32_t, kTilesPerBrick> entries, const light::LightBrick& brick);
     void release(std::span<const std::uint32_t> entries);
-    std::size_t gridBytes() const;
 
     int gridChunks_ = 0, maxSlabs_ = 0;
-    bool hasWarned_ = false;
+    std::size_t maxBytes_ = SIZE_MAX, peakBytes_ = 0;
     gpu::Texture3D grid_, pool_;
     std::size_t tileCount_ = 0;  // handed out so far, free ones included
     std::vector<std::uint32_t> free_;

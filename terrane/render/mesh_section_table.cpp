@@ -6,6 +6,7 @@
 #include "terrane/base/profile.h"
 #include "terrane/mesh/mesh_section_quads.h"
 #include "terrane/render/camera.h"
+#include "terrane/render/growing_buffer.h"
 
 namespace terrane::render {
 namespace {
@@ -42,8 +43,9 @@ bool hasBlendedQuads(const shared::MeshSectionRecord& record) {
 
 }  // namespace
 
-MeshSectionTable::MeshSectionTable()
-    : records_(kFirstSlots * sizeof(shared::MeshSectionRecord), GL_DYNAMIC_STORAGE_BIT, "mesh sections"),
+MeshSectionTable::MeshSectionTable(std::uint32_t arenaQuads)
+    : arenaQuads_(arenaQuads),
+      records_(kFirstSlots * sizeof(shared::MeshSectionRecord), GL_DYNAMIC_STORAGE_BIT, "mesh sections"),
       orderBuffer_(kFirstSlots * sizeof(std::uint32_t), GL_DYNAMIC_STORAGE_BIT, "order of mesh sections") {}
 
 std::uint32_t MeshSectionTable::allocateSlot() {
@@ -59,6 +61,8 @@ std::uint32_t MeshSectionTable::allocateSlot() {
 // Neighboring directions share a command: of seven directions at most four commands, or as many as there are
 // directions.
 void MeshSectionTable::addCommands(const shared::MeshSectionRecord& record, std::int32_t sign) {
+    const std::size_t arena = record.ranges[0].x / arenaQuads_;
+    if (arena >= maxCommands_.size()) maxCommands_.resize(arena + 1);
     for (std::uint32_t bucket = 0; bucket < shared::kDrawBuckets; ++bucket) {
         const std::uint32_t ranges = bucket % 2 == 0 ? shared::kFaceDirections : 1;
         std::uint32_t directions = 0, quads = 0;
@@ -68,7 +72,7 @@ void MeshSectionTable::addCommands(const shared::MeshSectionRecord& record, std:
             quads += count;
         }
         const std::uint32_t max = std::min(directions, 4u) + quads / shared::kMaxQuadsPerCommand;
-        maxCommands_[bucket] += static_cast<std::uint32_t>(sign) * max;
+        maxCommands_[arena][bucket] += static_cast<std::uint32_t>(sign) * max;
     }
 }
 
@@ -121,8 +125,8 @@ void MeshSectionTable::remove(world::ChunkPos pos) {
 
 void MeshSectionTable::uploadRecords() {
     constexpr std::size_t kBytes = sizeof(shared::MeshSectionRecord);
-    if (cpuRecords_.size() * kBytes > records_.sizeBytes()) {
-        records_ = gpu::Buffer(2 * cpuRecords_.size() * kBytes, GL_DYNAMIC_STORAGE_BIT, "mesh sections");
+    if (const std::size_t bytes = grownBytes(records_, cpuRecords_.size() * kBytes)) {
+        records_ = gpu::Buffer(bytes, GL_DYNAMIC_STORAGE_BIT, "mesh sections");
         records_.uploadVector(0, cpuRecords_);
     } else {
         for (const std::uint32_t slot : changed_) {
@@ -134,11 +138,15 @@ void MeshSectionTable::uploadRecords() {
 
 void MeshSectionTable::uploadOrder() {
     const std::vector<std::uint32_t>& slots = order_.slots();
-    const std::size_t bytes = slots.size() * sizeof(std::uint32_t);
-    if (bytes > orderBuffer_.sizeBytes()) {
-        orderBuffer_ = gpu::Buffer(2 * bytes, GL_DYNAMIC_STORAGE_BIT, "order of mesh sections");
+    if (const std::size_t bytes = grownBytes(orderBuffer_, slots.size() * sizeof(std::uint32_t))) {
+        orderBuffer_ = gpu::Buffer(bytes, GL_DYNAMIC_STORAGE_BIT, "order of mesh sections");
     }
     if (!slots.empty()) orderBuffer_.uploadVector(0, slots);
+}
+
+std::size_t MeshSectionTable::gpuBytes() const {
+    return bytesWhileGrowing(records_, cpuRecords_.size() * sizeof(shared::MeshSectionRecord)) +
+           bytesWhileGrowing(orderBuffer_, count_ * sizeof(std::uint32_t));
 }
 
 void MeshSectionTable::update(world::ChunkPos center) {

@@ -19,7 +19,8 @@ namespace terrane::render {
 
 class MeshSectionTable {
   public:
-    MeshSectionTable();
+    // `arenaQuads`: addresses of an arena, as QuadStore has them.
+    explicit MeshSectionTable(std::uint32_t arenaQuads = UINT32_MAX);
 
     // Of `meshSections`, which are all that the chunk has in the QuadStore (none: it is removed), those in
     // `changed` are others than before.
@@ -39,8 +40,12 @@ class MeshSectionTable {
     std::uint32_t count() const { return count_; }
     // Slots of records, free ones included.
     std::uint32_t slots() const { return static_cast<std::uint32_t>(cpuRecords_.size()); }
-    // Most commands that drawing all faces of a draw bucket can take.
-    const std::array<std::uint32_t, shared::kDrawBuckets>& maxCommands() const { return maxCommands_; }
+    // By arena: most commands that drawing all faces of a draw bucket can take. There is one arena at least.
+    using BucketCommands = std::array<std::uint32_t, shared::kDrawBuckets>;
+    const std::vector<BucketCommands>& maxCommands() const { return maxCommands_; }
+    std::uint32_t arenaQuads() const { return arenaQuads_; }
+    // On the GPU as of the next update(). A buffer that update() replaces counts too.
+    std::size_t gpuBytes() const;
     // Whether a mesh section within the planes has blended faces. The planes are in blocks from the corner of
     // the chunk `center`.
     bool hasBlended(world::ChunkPos center, std::span<const glm::vec4> planes) const;
@@ -58,7 +63,8 @@ class MeshSectionTable {
     std::unordered_map<world::ChunkPos, std::vector<std::uint32_t>, world::ChunkPosHash> chunks_;
     std::vector<shared::MeshSectionRecord> cpuRecords_;
     std::vector<std::uint32_t> free_, changed_, blended_;  // slots
-    std::array<std::uint32_t, shared::kDrawBuckets> maxCommands_{};
+    std::uint32_t arenaQuads_;
+    std::vector<BucketCommands> maxCommands_{1};
     std::uint32_t count_ = 0;
     MeshSectionOrder order_;
     gpu::Buffer records_, orderBuffer_;

@@ -14,7 +14,11 @@ struct QuadDraw {
     const CullPass& culled;  // draws what its last run chose
     bool isSmooth = false;   // textures are filtered
 
-    void bind() const { resources.bind(quads, meshSections, isSmooth); }
+    void bind() const { resources.bind(meshSections, isSmooth); }
+    // With a shader and what bind() binds.
+    void draw(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const DrawClass& drawn) const {
+        culled.drawBuckets(pipeline, state, quads, drawn);
+    }
 };
 
 }  // namespace terrane::render

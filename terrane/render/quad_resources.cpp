@@ -61,8 +61,11 @@ QuadResources::QuadResources(const world::BlockRegistry& blocks, gpu::Texture2DA
     vertexArray_.setElementBuffer(indices_);
 }
 
-void QuadResources::bind(const QuadStore& quads, const MeshSectionTable& meshSections, bool isSmooth) {
-    quads.texels().bind(shared::kQuadsUnit);
+std::size_t QuadResources::gpuBytes() const {
+    return textures_.sizeBytes() + indices_.sizeBytes() + shapeFaces_.sizeBytes() + materials_.sizeBytes();
+}
+
+void QuadResources::bind(const MeshSectionTable& meshSections, bool isSmooth) {
     shapeFaceTexels_.bind(shared::kShapeFacesUnit);
     materialTexels_.bind(shared::kMaterialsUnit);
     constexpr GLint kChunkAndLevel = 3;

@@ -1,5 +1,5 @@
-// What every pass that draws the chunks' quads binds: index pattern, shapes, materials, textures. Used by the
-// renderer on the context's thread.
+// What every pass that draws the chunks' quads binds beside the quads: index pattern, shapes, materials,
+// textures. Used by the renderer on the context's thread.
 #pragma once
 
 #include "terrane/base/result.h"
@@ -8,7 +8,6 @@
 #include "terrane/gpu/texture.h"
 #include "terrane/gpu/vertex_array.h"
 #include "terrane/render/mesh_section_table.h"
-#include "terrane/render/quad_store.h"
 #include "terrane/world/block_registry.h"
 
 namespace terrane::render {
@@ -22,7 +21,8 @@ class QuadResources {
     void setTextures(gpu::Texture2DArray textures) { textures_ = std::move(textures); }
 
     // isSmooth: textures are filtered.
-    void bind(const QuadStore& quads, const MeshSectionTable& meshSections, bool isSmooth);
+    void bind(const MeshSectionTable& meshSections, bool isSmooth);
+    std::size_t gpuBytes() const;
 
   private:
     gpu::Texture2DArray textures_;

@@ -8,24 +8,21 @@
 namespace terrane::render {
 namespace {
 
-constexpr std::uint32_t kFirstCapacity = 1u << 20;  // quads: 8 MiB, a landscape at view distance 16
+// Growing copies no more than half of that, and at most that much lies unused.
+constexpr std::int64_t kArenaBytes = std::int64_t{1} << 28;
+static_assert(kArenaBytes <= std::int64_t{1} << 30, "no buffer is larger than 1 GiB");
+static_assert(kArenaBytes / shared::kQuadBytes * shared::kMaxArenas <= std::int64_t{1} << 32);
 
-gpu::BufferTexture texelsOf(const gpu::Buffer& quads) {
-    return gpu::BufferTexture(quads, GL_RG32UI, "quads");
-}
-
-gpu::Buffer quadBuffer(std::uint32_t quads) {
-    return gpu::Buffer(std::size_t{quads} * shared::kQuadBytes, GL_DYNAMIC_STORAGE_BIT, "quads");
-}
-
-// 128 MiB of quads in Mesa's software renderer (a landscape at view distance 55), gigabytes elsewhere. No
-// buffer is larger than 1 GiB.
 std::uint32_t reachableQuads() {
     GLint64 blockBytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &blockBytes);
-    constexpr std::int64_t kMaxBytes = std::int64_t{1} << 30;
-    const auto quads = static_cast<std::size_t>(std::min(blockBytes, kMaxBytes)) / shared::kQuadBytes;
+    const auto quads = static_cast<std::size_t>(std::min(blockBytes, kArenaBytes)) / shared::kQuadBytes;
     return static_cast<std::uint32_t>(std::min(quads, gpu::BufferTexture::maxElements()));
+}
+
+gpu::ArenaSizes arenaSizes(const QuadStoreSizes& sizes) {
+    const std::uint32_t arena = sizes.arenaQuads > 0 ? sizes.arenaQuads : reachableQuads();
+    return {.arena = arena, .first = std::min(sizes.firstQuads, arena), .count = sizes.maxArenas};
 }
 
 std::uint32_t quadsOf(std::span<const mesh::MeshSection> meshSections) {
@@ -36,11 +33,16 @@ std::uint32_t quadsOf(std::span<const mesh::MeshSection> meshSections) {
 
 }  // namespace
 
-QuadStore::QuadStore(std::uint32_t maxQuads)
-    : maxQuads_(maxQuads > 0 ? maxQuads : reachableQuads()),
-      buffer_(quadBuffer(std::min(kFirstCapacity, maxQuads_))),
-      texels_(texelsOf(buffer_)),
-      ranges_(std::min(kFirstCapacity, maxQuads_)) {}
+QuadStore::QuadStore(const QuadStoreSizes& sizes) : ranges_(arenaSizes(sizes)) {
+    assert(sizes.maxArenas <= shared::kMaxArenas && "culling has lists for no more");
+    arenas_.push_back(makeArena(ranges_.arenas().front().capacity()));
+}
+
+QuadStore::Arena QuadStore::makeArena(std::uint32_t quads) {
+    Arena arena{gpu::Buffer(std::size_t{quads} * shared::kQuadBytes, GL_DYNAMIC_STORAGE_BIT, "quads"), {}};
+    arena.texels = gpu::BufferTexture(arena.buffer, GL_RG32UI, "quads");
+    return arena;
+}
 
 bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::MeshSectionSet meshSections) {
     if (!reserve(pos, mesh.meshSections, meshSections)) return false;
@@ -49,7 +51,9 @@ bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::Mesh
     assert(quadsOf(mesh.meshSections) == mesh.quads.size() && "ranges name each quad once");
     std::size_t lowest = 0;
     while (!mesh::hasMeshSection(meshSections, lowest)) ++lowest;
-    buffer_.uploadVector(std::size_t{mesh::firstQuad(stored[lowest])} * shared::kQuadBytes, mesh.quads);
+    const std::uint32_t first = mesh::firstQuad(stored[lowest]);
+    arenas_[ranges_.arenaOf(first)].buffer.uploadVector(
+        std::size_t{ranges_.offsetOf(first)} * shared::kQuadBytes, mesh.quads);
     uploadedBytes_ += mesh.quads.size() * shared::kQuadBytes;
     return true;
 }
@@ -107,22 +111,34 @@ std::optional<std::uint32_t> QuadStore::allocate(std::uint32_t count) {
 
 // Doubling copies each quad once or twice in all. The GPU frees the old buffer when it has drawn with it.
 bool QuadStore::grow(std::uint32_t count) {
-    const std::uint64_t old = ranges_.capacity();
-    const std::uint64_t wanted =
-        std::min<std::uint64_t>(old + std::max<std::uint64_t>(old, count), maxQuads_);
-    if (wanted < old + count) return false;
-    const auto capacity = static_cast<std::uint32_t>(wanted);
-    gpu::Buffer larger = quadBuffer(capacity);
-    glCopyNamedBufferSubData(buffer_.id(), larger.id(), 0, 0,
-                             static_cast<GLsizeiptr>(old * shared::kQuadBytes));
-    buffer_ = std::move(larger);
-    texels_ = texelsOf(buffer_);
-    ranges_.grow(capacity);
+    const std::size_t bytes = bufferBytes(), room = maxBytes_ - std::min(maxBytes_, bytes);
+    const auto growth = ranges_.planGrowth(count, room / shared::kQuadBytes);
+    if (!growth) return false;
+    Arena arena = makeArena(growth->capacity);
+    if (growth->arena == arenas_.size()) {
+        arenas_.push_back(std::move(arena));
+    } else {
+        peakBytes_ = std::max(peakBytes_, bytes + arena.buffer.sizeBytes());
+        gpu::Buffer& old = arenas_[growth->arena].buffer;
+        glCopyNamedBufferSubData(old.id(), arena.buffer.id(), 0, 0, static_cast<GLsizeiptr>(old.sizeBytes()));
+        arenas_[growth->arena] = std::move(arena);
+    }
+    ranges_.grow(*growth);
     return true;
 }
 
+gpu::ArenaBuffers QuadStore::buffers() const {
+    gpu::ArenaBuffers result{{}, ranges_.arenaSize()};
+    for (const Arena& arena : arenas_) result.buffers.push_back(&arena.buffer);
+    return result;
+}
+
+std::size_t QuadStore::bufferBytes() const {
+    return static_cast<std::size_t>(ranges_.capacity()) * shared::kQuadBytes;
+}
+
 std::size_t QuadStore::usedBytes() const {
-    return std::size_t{ranges_.capacity() - ranges_.freeTotal()} * shared::kQuadBytes;
+    return static_cast<std::size_t>(ranges_.capacity() - ranges_.freeTotal()) * shared::kQuadBytes;
 }
 
 }  // namespace terrane::render

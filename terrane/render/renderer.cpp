@@ -14,7 +14,7 @@
 namespace terrane::render {
 namespace {
 
-constexpr std::size_t kRingBytes = 4096;  // uniforms of a frame and of culling, aligned
+constexpr std::size_t kRingBytes = 8192;  // uniforms of a frame and twice those of culling, aligned
 constexpr int kLightViewDistance = 16;    // chunks, until setViewDistance
 constexpr float kMaxAnisotropy = 8.0f;
 
@@ -39,7 +39,8 @@ float aspectOf(glm::ivec2 size) {
 }  // namespace
 
 base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
-                                        const TextureSource& textures, const gpu::DeviceInfo& device) {
+                                        const TextureSource& textures, const gpu::DeviceInfo& device,
+                                        const QuadStoreSizes& quads) {
     auto blockTextures = loadBlockTextures(blocks, textures, device.maxArrayLayers);
     if (!blockTextures) return tl::unexpected(blockTextures.error());
     auto passes = FramePasses::create(shaders, device);
@@ -52,7 +53,9 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     renderer.passes_ = std::move(*passes);
     renderer.noise_ = SkyNoise::create();
     renderer.ring_ = gpu::MappedRing(kRingBytes, "frame data");
-    renderer.light_ = LightStore(kLightViewDistance);
+    renderer.viewDistance_ = kLightViewDistance;
+    renderer.quadSizes_ = quads;
+    renderer.clearChunks();
     renderer.shaders_ = &shaders;
     renderer.device_ = device;
     renderer.edgeExpansion_ = edgeExpansion();
@@ -100,24 +103,6 @@ base::Result<void> Renderer::reloadShaders() {
     }
     passes_ = std::move(*passes);
     return {};
-}
-
-bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::MeshSectionSet meshSections) {
-    const bool hasRoom = quads_.set(pos, mesh, meshSections);
-    meshSections_.set(pos, quads_.meshSectionsOf(pos), meshSections);
-    return hasRoom;
-}
-
-bool Renderer::reserveChunk(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes) {
-    const bool hasRoom = quads_.reserve(pos, meshes);
-    meshSections_.set(pos, quads_.meshSectionsOf(pos));
-    return hasRoom;
-}
-
-void Renderer::removeChunk(world::ChunkPos pos) {
-    meshSections_.remove(pos);
-    quads_.remove(pos);
-    light_.remove(pos);
 }
 
 bool Renderer::hasShadows(const FrameInput& input) const {

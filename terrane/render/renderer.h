@@ -3,6 +3,7 @@
 // OpenGL context.
 #pragma once
 
+#include <algorithm>
 #include <glm/vec2.hpp>
 
 #include "terrane/base/image.h"
@@ -11,6 +12,7 @@
 #include "terrane/render/frame_input.h"
 #include "terrane/render/frame_passes.h"
 #include "terrane/render/frame_statistics.h"
+#include "terrane/render/gpu_memory.h"
 #include "terrane/render/light_store.h"
 #include "terrane/render/quad_draw.h"
 #include "terrane/render/shading_inputs.h"
@@ -21,7 +23,8 @@ class Renderer {
   public:
     // The loader outlives the renderer.
     static base::Result<Renderer> create(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
-                                         const TextureSource& textures, const gpu::DeviceInfo& device);
+                                         const TextureSource& textures, const gpu::DeviceInfo& device,
+                                         const QuadStoreSizes& quads = {});
 
     // Other textures for the same blocks, from the next frame on. Where one is wrong those before stay.
     base::Result<void> setTextures(const world::BlockRegistry& blocks, const TextureSource& textures);
@@ -33,25 +36,35 @@ class Renderer {
     // Shaders as the loader gives them now, from the next frame on. Where one is wrong those before stay.
     base::Result<void> reloadShaders();
 
+    // The most bytes that all of this may take on the GPU: quads and light grow no further. Comes before
+    // configure(), which takes what it needs, and setViewDistance(); chunks are forgotten.
+    void setMemoryBudget(std::size_t bytes);
+    std::size_t memoryBudget() const { return budgetBytes_; }
+    GpuMemory memory() const;  // as of the next frame
+    // The most at once since setMemoryBudget(), with copies while something grows.
+    std::size_t peakMemory() const { return peakBytes_; }
+    // Memory of others that the budget counts.
+    void setStagingBytes(std::size_t bytes) { stagingBytes_ = bytes; }
+
     // The next frame shows these mesh sections of the chunk so; of others `mesh` has no quads. False where
-    // the GPU has no room: the mesh sections are not shown then.
+    // there is no room within the budget: the mesh sections are not shown then.
     bool setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
                   mesh::MeshSectionSet meshSections = mesh::kAllMeshSections);
     // The same of the whole chunk, but for the quads: before the next frame a shader writes them into
-    // quadBuffer(), to where meshSectionsOf() says.
+    // quadBuffers(), to where meshSectionsOf() says.
     bool reserveChunk(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes);
     std::span<const mesh::MeshSection> meshSectionsOf(world::ChunkPos pos) const {
         return quads_.meshSectionsOf(pos);
     }
-    const gpu::Buffer& quadBuffer() const { return quads_.buffer(); }  // until the next change
+    gpu::ArenaBuffers quadBuffers() const { return quads_.buffers(); }  // until the next change
     // Of chunks of level 0. Chunks without light are drawn as under the open sky. `viewDistance` of
-    // setViewDistance is the farthest that light is kept for. `bricks`: see LightStore.
-    void setLight(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF) {
-        light_.set(pos, light, bricks);
-    }
+    // setViewDistance is the farthest that light is kept for. `bricks` and result: see LightStore.
+    bool setLight(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF);
     void removeChunk(world::ChunkPos pos);
     // Makes room for light; what was set is forgotten.
-    void setViewDistance(int chunks) { light_ = LightStore(chunks); }
+    void setViewDistance(int chunks);
+    // Forgets all chunks. Their memory is given back but for the least that there is at first.
+    void clearChunks();
 
     // Draws into the renderer's own image.
     void draw(const FrameInput& input);
@@ -68,6 +81,7 @@ class Renderer {
     std::size_t quadBytes() const { return quads_.usedBytes(); }
     std::uint64_t uploadedQuadBytes() const { return quads_.uploadedBytes(); }  // since the beginning
     std::size_t lightBytes() const { return light_.usedBytes(); }
+    std::size_t chunkCount() const { return std::max(light_.chunkCount(), quads_.chunks().size()); }
     glm::ivec2 size() const { return targets_.size; }
 
   private:
@@ -85,10 +99,12 @@ class Renderer {
     QuadDraw quadDraw();
     ShadingInputs shadingInputs() const;
     bool hasShadows(const FrameInput& input) const;
+    void shareBudget();
+    void notePeak();
 
     RenderOptions options_;
     FrameTargets targets_;
-    QuadStore quads_;
+    QuadStore quads_{{.arenaQuads = 1}};  // until clearChunks()
     MeshSectionTable meshSections_;
     LightStore light_;
     QuadResources resources_;
@@ -102,6 +118,9 @@ class Renderer {
     const gpu::ShaderLoader* shaders_ = nullptr;
     gpu::DeviceInfo device_;
     float edgeExpansion_ = 0;  // pixels
+    QuadStoreSizes quadSizes_;
+    int viewDistance_ = 0;  // chunks
+    std::size_t budgetBytes_ = SIZE_MAX, stagingBytes_ = 0, peakBytes_ = 0;
 };
 
 }  // namespace terrane::render

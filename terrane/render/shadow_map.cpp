@@ -42,9 +42,9 @@ void ShadowMap::draw(gpu::Pipeline& pipeline, const QuadDraw& quads) const {
     framebuffer_.clearDepth(0.0f);
     quads.bind();
     opaque_.use();
-    quads.culled.drawBuckets(pipeline, kNearestToLight, mesh::AlphaClass::Opaque, true);
+    quads.draw(pipeline, kNearestToLight, {mesh::AlphaClass::Opaque, true});
     tested_.use();
-    quads.culled.drawBuckets(pipeline, kNearestToLight, mesh::AlphaClass::Tested, true);
+    quads.draw(pipeline, kNearestToLight, {mesh::AlphaClass::Tested, true});
 }
 
 void ShadowMap::bind() const {

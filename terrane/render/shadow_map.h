@@ -20,6 +20,7 @@ class ShadowMap {
     // Draws what is culled for shadows, with the frame's uniforms bound.
     void draw(gpu::Pipeline& pipeline, const QuadDraw& quads) const;
     void bind() const;
+    std::size_t gpuBytes() const { return depth_.sizeBytes(); }
 
   private:
     ShaderVariants opaque_, tested_;

@@ -14,6 +14,7 @@ class SkyNoise {
     static SkyNoise create();
 
     void bind() const;
+    std::size_t gpuBytes() const { return texture_.sizeBytes(); }
 
   private:
     gpu::Texture2D texture_;

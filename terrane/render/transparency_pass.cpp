@@ -96,7 +96,7 @@ base::Result<void> TransparencyPass::configure(const FrameTargets& targets, cons
 
 // A layer starts with the depth of what is opaque: faces behind that fail the depth test, and where none is
 // drawn the depth tells so.
-void TransparencyPass::peelLayer(gpu::Pipeline& pipeline, const FrameTargets& targets, const CullPass& culled,
+void TransparencyPass::peelLayer(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
                                  int number) {
     const auto index = static_cast<std::size_t>(number);
     Target& target = targets_[index];
@@ -111,7 +111,7 @@ void TransparencyPass::peelLayer(gpu::Pipeline& pipeline, const FrameTargets& ta
     }
     glBeginQuery(GL_ANY_SAMPLES_PASSED, anyDrawn_[index].id());
     (number == 0 ? first_ : next_).use();
-    culled.drawBuckets(pipeline, {.depthTest = gpu::DepthTest::Greater}, mesh::AlphaClass::Blended, false);
+    quads.draw(pipeline, {.depthTest = gpu::DepthTest::Greater}, {mesh::AlphaClass::Blended});
     glEndQuery(GL_ANY_SAMPLES_PASSED);
     if (number > 0) glEndConditionalRender();
 }
@@ -120,7 +120,13 @@ void TransparencyPass::peelLayers(gpu::Pipeline& pipeline, const FrameTargets& t
                                   const QuadDraw& quads) {
     const gpu::DebugGroup group("layers");
     quads.bind();
-    for (int number = 0; number < layers_; ++number) peelLayer(pipeline, targets, quads.culled, number);
+    for (int number = 0; number < layers_; ++number) peelLayer(pipeline, targets, quads, number);
+}
+
+std::size_t TransparencyPass::gpuBytes() const {
+    std::size_t bytes = 0;
+    for (const Target& target : targets_) bytes += target.color.sizeBytes() + target.depth.sizeBytes();
+    return bytes;
 }
 
 void TransparencyPass::bindLayers() const {
@@ -148,7 +154,7 @@ void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& target
         quads.bind();
         shadeQuads_.use();
         state.depthTest = gpu::DepthTest::Equal;
-        quads.culled.drawBuckets(pipeline, state, mesh::AlphaClass::Blended, false);
+        quads.draw(pipeline, state, {mesh::AlphaClass::Blended});
     } else {
         targets.scene.bind();
         if (isMasked_) state.depthTest = gpu::DepthTest::Less;

@@ -32,6 +32,7 @@ class TransparencyPass {
 
     // After peelLayers(): of what is nearest in each sample, opaque or blended.
     const MsaaTexture& nearestDepth() const { return targets_[0].depth; }
+    std::size_t gpuBytes() const;
 
   private:
     struct Target {
@@ -39,7 +40,7 @@ class TransparencyPass {
         gpu::Framebuffer framebuffer;
     };
     static base::Result<Target> makeTarget(const FrameTargets& targets);
-    void peelLayer(gpu::Pipeline& pipeline, const FrameTargets& targets, const CullPass& culled, int number);
+    void peelLayer(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads, int number);
     void bindLayers() const;
 
     base::Result<void> selectVariants(int samples, const RenderOptions& options, bool hasShadows);

@@ -23,7 +23,7 @@ struct MeshSectionRecord {
     ivec2 chunk;                          // in chunks of the level
     uint level;                           // see world::ChunkPos
     uint heights;                         // lowest block, and the block above the highest << 16
-    uvec2 ranges[kRangesPerMeshSection];  // first quad in the buffer, count
+    uvec2 ranges[kRangesPerMeshSection];  // address of the first quad (gpu/arena_allocator.h), count
 };
 
 // Width of a column of a level, in blocks.
@@ -42,7 +42,7 @@ struct DrawCommand {
     uint indexCount;
     uint instanceCount;
     uint firstIndex;
-    int baseVertex;     // 4 × first quad
+    int baseVertex;     // 4 × first quad in its arena
     uint baseInstance;  // number of the mesh section
 };
 
@@ -55,7 +55,12 @@ const uint kCameraLists = 6u;
 const uint kShadowLists = 4u;
 const uint kDrawLists = 10u;
 
-// Commands and quads of each list, then mesh sections in sight.
+// Quads lie in several buffers (arenas). Each arena has commands and counts of its own, since a draw call
+// reads one buffer. 32 × 2²⁷ quads (1 GiB) are all that 32 bits can name.
+const uint kMaxArenas = 32u;
+const uint kFirstCommandVectors = 80u;  // kMaxArenas × kDrawLists / 4
+
+// Commands and quads of each list, then mesh sections in sight; of one arena.
 struct DrawCounts {
     uint commands[kDrawLists];
     uint quads[kDrawLists];
@@ -63,10 +68,11 @@ struct DrawCounts {
 };
 
 // Bits of a mesh section's word of visibility: face directions to draw for the camera, for the shadow map,
-// and of blended faces.
+// and of blended faces, then the arena of its quads.
 const uint kCameraDirectionBits = 0u;
 const uint kShadowDirectionBits = 8u;
 const uint kBlendedDirectionBits = 16u;
+const uint kArenaBits = 24u;
 
 // What a culling phase draws. With occlusion culling there are two: early, mesh sections that were visible in
 // the frame before, and late, others that the depth of these (Hi-Z) does not hide.
@@ -89,16 +95,18 @@ const uint kHiZTexelPixels = 8u;
 struct CullFrame {
     vec4 cameraPlanes[5];
     vec4 shadowPlanes[5];
-    vec4 cameraPosition;    // from the corner of its chunk
-    vec4 lightDirection;    // to the light
-    uvec4 firstCommand[3];  // of each list, in the buffer of commands
+    vec4 cameraPosition;                       // from the corner of its chunk
+    vec4 lightDirection;                       // to the light
+    uvec4 firstCommand[kFirstCommandVectors];  // of arena × kDrawLists + list, in the buffer of commands
     mat4 viewProjection;
     ivec2 cameraChunk;
     vec2 viewportSize;  // pixels
     float nearPlane;    // blocks
     int hiZLevels;
     uint meshSectionCount;
-    uint phase;  // kCullAll and so on
+    uint phase;       // kCullAll and so on
+    uint arenaQuads;  // addresses of an arena
+    uint unused0, unused1, unused2;
 };
 
 SHARED_END
@@ -107,7 +115,8 @@ SHARED_END
 namespace terrane::shared {
 static_assert(sizeof(MeshSectionRecord) == 16 + 8 * kRangesPerMeshSection);
 static_assert(sizeof(DrawCommand) == 20);
-static_assert(sizeof(CullFrame) == 21 * 16);
+static_assert(sizeof(CullFrame) == (19 + kFirstCommandVectors) * 16);
+static_assert(4 * kFirstCommandVectors == kMaxArenas * kDrawLists);
 }  // namespace terrane::shared
 #endif
 #endif

@@ -1,6 +1,7 @@
 #include "terrane/store/world_location.h"
 
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "terrane/store/save_path.h"
@@ -32,6 +33,17 @@ base::Result<std::filesystem::path> fileOf(const WorldLocation& location) {
     const std::string scheme = location.text.substr(0, location.text.find(kSchemeEnd));
     return base::fail(base::ErrorCode::Unsupported,
                       "{}://…: a world in a database is not supported by this build", scheme);
+}
+
+std::uintmax_t bytesOnDisk(const WorldLocation& location) {
+    const auto path = fileOf(location);
+    std::uintmax_t bytes = 0;
+    for (const char* ending : {"", "-wal"}) {
+        std::error_code error;
+        const std::uintmax_t size = path ? std::filesystem::file_size(path->string() + ending, error) : 0;
+        if (!error) bytes += size;
+    }
+    return bytes;
 }
 
 }  // namespace terrane::store

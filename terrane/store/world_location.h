@@ -1,6 +1,7 @@
 // Where a world is kept, as the player names it. A plain value, for any thread.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -24,5 +25,8 @@ WorldLocation worldLocation(std::string text);
 // The file that a name or a file stands for, whether it is there or not. An error for what cannot be the name
 // of a save, and for a URL: no build can open one yet.
 [[nodiscard]] base::Result<std::filesystem::path> fileOf(const WorldLocation& location);
+
+// Bytes on disk of the file and of what SQLite has not moved into it yet; 0 where there is none.
+[[nodiscard]] std::uintmax_t bytesOnDisk(const WorldLocation& location);
 
 }  // namespace terrane::store

@@ -63,4 +63,13 @@ std::vector<ChunkChange> ChangeQueue::take(std::size_t limit) {
     return taken;
 }
 
+std::vector<ChunkPos> ChangeQueue::takeHidden() {
+    std::vector<ChunkPos> hidden;
+    std::erase_if(changes_, [&](const auto& entry) {
+        if (entry.second.isHidden) hidden.push_back(entry.first);
+        return entry.second.isHidden;
+    });
+    return hidden;
+}
+
 }  // namespace terrane::stream

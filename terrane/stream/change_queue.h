@@ -26,6 +26,8 @@ class ChangeQueue {
     void putFirst(world::ChunkPos pos);
 
     std::vector<ChunkChange> take(std::size_t limit);
+    // Those that are no longer on screen, before all others.
+    std::vector<world::ChunkPos> takeHidden();
     std::size_t size() const { return changes_.size(); }
 
   private:

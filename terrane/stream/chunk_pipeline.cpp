@@ -48,6 +48,10 @@ void ChunkPipeline::setView(ChunkPos center, int viewDistance, glm::vec2 directi
     cancelLoads();
 }
 
+void ChunkPipeline::hideAll() {
+    for (const ChunkPos pos : popVisible(table_)) changes_.hide(pos);
+}
+
 // Those that wait for a worker; a load that runs goes on.
 void ChunkPipeline::cancelLoads() {
     std::vector<ChunkPos> cancelled;

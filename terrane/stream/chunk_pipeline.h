@@ -56,6 +56,10 @@ class ChunkPipeline {
     // Returns up to `limit` chunks whose mesh or light changed since the last call. Edited chunks come first,
     // then the rest in order of change.
     std::vector<ChunkChange> takeChanges(std::size_t limit) { return changes_.take(limit); }
+    // Of these changes the chunks that are no longer on screen, before all others: they free memory.
+    std::vector<world::ChunkPos> takeHidden() { return changes_.takeHidden(); }
+    // Takes all chunks off the screen. They are lit, meshed and shown again in the next updates.
+    void hideAll();
     std::size_t waitingChanges() const { return changes_.size(); }
     // Hands out the light of all visible chunks again, as to a renderer whose store of light is new.
     void resendLight();

@@ -31,6 +31,21 @@ void changeLoadedAround(ChunkTable& table, ChunkPos pos, int change) {
     }
 }
 
+// Visible chunks become Loaded where `isPopped`.
+template <class IsPopped>
+std::vector<ChunkPos> popVisibleWhere(ChunkTable& table, const IsPopped& isPopped) {
+    std::vector<ChunkPos> popped;
+    for (auto& [pos, record] : table.records) {
+        if (record.stage != ChunkStage::Visible || !isPopped(pos)) continue;
+        setStage(table, pos, record, ChunkStage::Loaded);
+        record.light = nullptr;
+        record.toMesh = 0;
+        record.meshJob = 0;
+        popped.push_back(pos);
+    }
+    return popped;
+}
+
 }  // namespace
 
 bool setView(ChunkTable& table, ChunkPos center, int distance, glm::vec2 direction) {
@@ -98,17 +113,14 @@ void abandonLoad(ChunkTable& table, ChunkPos pos) {
     if (isNeeded(table.view, pos)) table.loadCursor = std::min(table.loadCursor, rankOf(table.view, pos));
 }
 
+std::vector<ChunkPos> popVisible(ChunkTable& table) {
+    std::vector<ChunkPos> popped = popVisibleWhere(table, [](ChunkPos) { return true; });
+    for (const ChunkPos pos : popped) considerLighting(table, pos);
+    return popped;
+}
+
 std::vector<ChunkPos> popHidden(ChunkTable& table) {
-    std::vector<ChunkPos> hidden;
-    for (auto& [pos, record] : table.records) {
-        if (record.stage != ChunkStage::Visible || isNeeded(table.view, pos)) continue;
-        setStage(table, pos, record, ChunkStage::Loaded);
-        record.light = nullptr;
-        record.toMesh = 0;
-        record.meshJob = 0;
-        hidden.push_back(pos);
-    }
-    return hidden;
+    return popVisibleWhere(table, [&](ChunkPos pos) { return !isNeeded(table.view, pos); });
 }
 
 std::vector<ChunkPos> findUnneeded(ChunkTable& table, Time now) {

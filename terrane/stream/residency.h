@@ -26,6 +26,8 @@ void abandonLoad(ChunkTable& table, world::ChunkPos pos);
 
 // Visible chunks that the view has left by more than one ring; they are Loaded then.
 std::vector<world::ChunkPos> popHidden(ChunkTable& table);
+// All visible chunks; they are Loaded then, and come again where the view has them.
+std::vector<world::ChunkPos> popVisible(ChunkTable& table);
 // Loaded chunks that nobody needed for 5 s. The caller saves them and erases their records.
 std::vector<world::ChunkPos> findUnneeded(ChunkTable& table, Time now);
 void unload(ChunkTable& table, world::ChunkPos pos);

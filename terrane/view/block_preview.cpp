@@ -5,7 +5,8 @@
 namespace terrane::view {
 namespace {
 
-constexpr int kZ = 100;  // where the block floats
+constexpr std::uint32_t kQuads = 1024;  // of one block there are few
+constexpr int kZ = 100;                 // where the block floats
 constexpr render::Camera kCamera{{5.3, 5.3, kZ + 2.6}, 45, -25, 24};
 
 mesh::ChunkMesh meshOf(world::BlockId block, const world::BlockRegistry& blocks) {
@@ -26,7 +27,7 @@ base::Result<BlockPreview> BlockPreview::create(const gpu::ShaderLoader& shaders
                                                 const world::BlockRegistry& blocks,
                                                 const render::TextureSource& textures,
                                                 const gpu::DeviceInfo& device) {
-    auto renderer = render::Renderer::create(shaders, blocks, textures, device);
+    auto renderer = render::Renderer::create(shaders, blocks, textures, device, {.firstQuads = kQuads});
     if (!renderer) return tl::unexpected(renderer.error());
     if (auto done = renderer->configure({kSize, kSize}, options()); !done)
         return tl::unexpected(done.error());

@@ -1,10 +1,12 @@
 #include "terrane/view/flight.h"
 
+#include <fmt/ostream.h>
 #include <time.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 
 #include "terrane/base/median.h"
 #include "terrane/game/player.h"
@@ -49,6 +51,7 @@ class Pilot {
         log_.missing = std::min(last.inView, last.inView - last.visible + view_.waiting());
         log_.secondsToLoadAgain = standUntilLoaded();
         log_.camera = camera();
+        log_.viewDistance = view_.viewDistance();
         for (FlightFrame& frame : log_.frames)
             frame.seconds -= std::chrono::duration<double>(takeOff - start_).count();
         return std::move(log_);
@@ -104,7 +107,7 @@ class Pilot {
 
     void draw(float seconds) {
         const render::Camera from = camera();
-        renderer_.draw({from, world::environmentAt(flight_.timeDay), fogDistance(flight_.viewDistance),
+        renderer_.draw({from, world::environmentAt(flight_.timeDay), fogDistance(view_.viewDistance()),
                         seconds, render::View::Color, game::isUnderWater(session_, from.position)});
         glFinish();
     }
@@ -126,6 +129,19 @@ FlightLog fly(game::Session& session, WorldView& view, render::Renderer& rendere
 
 std::span<const FlightFrame> framesInFlight(const FlightLog& log) {
     return std::span(log.frames).subspan(log.takeOff, log.landing - log.takeOff);
+}
+
+base::Result<void> writeFrames(const std::string& file, std::span<const FlightFrame> frames) {
+    std::ofstream out(file);
+    out << "time_s,frame_ms,follow_ms,upload_ms,draw_ms,follow_processor_ms,upload_processor_ms,uploads,"
+           "visible_chunks,chunks_in_view,queued_chunks\n";
+    for (const FlightFrame& f : frames) {
+        fmt::print(out, "{:.4f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{}\n", f.seconds, f.all,
+                   f.follow, f.upload, f.draw, f.followCpu, f.uploadCpu, f.uploads, f.visible, f.inView,
+                   f.queued);
+    }
+    out.close();
+    return out ? base::Result<void>() : base::fail("{}: cannot be written", file);
 }
 
 FlightStatistics statisticsOf(const FlightLog& log) {

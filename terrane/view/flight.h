@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "terrane/view/world_view.h"
@@ -35,6 +36,7 @@ struct FlightLog {
     double secondsToLoad = 0, secondsOfFlight = 0, secondsToLoadAgain = 0;
     render::Camera camera;    // at the end
     std::size_t missing = 0;  // chunks in view that were not there on landing
+    int viewDistance = 0;     // at the end: less than asked for where GPU memory allows no more
 };
 
 // Draws into the renderer's own image. On the thread of the session and of the OpenGL context.
@@ -42,6 +44,9 @@ FlightLog fly(game::Session& session, WorldView& view, render::Renderer& rendere
 
 // There is at least one.
 std::span<const FlightFrame> framesInFlight(const FlightLog& log);
+
+// As CSV, a line a frame.
+[[nodiscard]] base::Result<void> writeFrames(const std::string& file, std::span<const FlightFrame> frames);
 
 // Of the frames in flight; milliseconds.
 struct FlightStatistics {

@@ -9,11 +9,15 @@
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
 #include "terrane/mesh/mesh_section_quads.h"
+#include "terrane/view/memory_budget.h"
 
 namespace terrane::view {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// Most batches of the mesher on the GPU take less.
+constexpr std::size_t kStagingBytes = std::size_t{8} << 20;
 
 // Where the camera looks over the ground, in sixteenths of a circle: chunks are put in order again only when
 // it turns.
@@ -27,8 +31,18 @@ glm::vec2 lookSector(const render::Camera& camera) {
 }  // namespace
 
 void WorldView::follow(const render::Camera& camera, int viewDistance) {
-    session_.pipeline().setView(render::cameraChunk(camera), viewDistance, lookSector(camera));
+    setView(render::cameraChunk(camera), viewDistance, lookSector(camera));
     session_.pipeline().update();
+}
+
+void WorldView::setView(world::ChunkPos center, int viewDistance, glm::vec2 direction) {
+    if (viewDistance != requestedDistance_) {
+        requestedDistance_ = viewDistance_ = viewDistance;
+        hasNoticed_ = false;
+    }
+    center_ = center;
+    direction_ = direction;
+    session_.pipeline().setView(center_, viewDistance_, direction_);
 }
 
 base::Result<void> WorldView::meshOnGpu(const gpu::ShaderLoader& shaders, double budgetMilliseconds) {
@@ -42,6 +56,7 @@ std::size_t WorldView::upload(double budgetSeconds) {
     TERRANE_ZONE("upload chunks");
     const auto start = Clock::now();
     std::size_t count = 0;
+    keepWithinBudget();
     do {
         const std::vector<stream::ChunkChange> changes = session_.pipeline().takeChanges(1);
         if (changes.empty()) break;
@@ -49,17 +64,72 @@ std::size_t WorldView::upload(double budgetSeconds) {
         ++count;
     } while (std::chrono::duration<double>(Clock::now() - start).count() < budgetSeconds);
     if (queue_) advanceQueue();
+    noticeShortView();
     return count;
+}
+
+// Calls set() until it finds room, and makes the view shorter in between. False where the chunk is no longer
+// in the view.
+template <class Set>
+bool WorldView::makeRoomFor(world::ChunkPos pos, const Set& set) {
+    while (!set()) {
+        if (!shortenView()) {
+            warnOfNoRoom(pos);
+            return true;
+        }
+        if (session_.pipeline().stageAt(pos) != stream::ChunkStage::Visible) return false;
+    }
+    return true;
+}
+
+// False where the view is as short as can be.
+bool WorldView::shortenView() {
+    const render::GpuMemory used = renderer_.memory();
+    const std::size_t budget = renderer_.memoryBudget();
+    const std::size_t limitBytes = budget - std::min(budget, used.fixed());
+    const int shorter =
+        fittingViewDistance({renderer_.chunkCount(), used.world(), limitBytes}, viewDistance_);
+    if (shorter >= viewDistance_) return false;
+    viewDistance_ = shorter;
+    stream::ChunkPipeline& pipeline = session_.pipeline();
+    pipeline.setView(center_, viewDistance_, direction_);
+    for (const world::ChunkPos pos : pipeline.takeHidden()) hide(pos);
+    return true;
+}
+
+// The image may get larger, or the mesher take more, when the world already takes all that is left. Buffers
+// do not shrink: all chunks are taken back, and those that fit come again. Once for each size of what is
+// fixed.
+void WorldView::keepWithinBudget() {
+    if (queue_) renderer_.setStagingBytes(std::max(queue_->gpuBytes(), kStagingBytes));
+    const render::GpuMemory used = renderer_.memory();
+    const std::size_t budget = renderer_.memoryBudget();
+    if (used.total() <= budget || used.fixed() <= fixedBytes_) return;
+    fixedBytes_ = used.fixed();
+    session_.pipeline().hideAll();
+    for (const world::ChunkPos pos : session_.pipeline().takeHidden()) hide(pos);
+    renderer_.clearChunks();
+}
+
+void WorldView::noticeShortView() {
+    const stream::ChunkPipeline& pipeline = session_.pipeline();
+    const bool isShort = viewDistance_ < requestedDistance_ && !hasNoticed_;
+    if (!isShort || !pipeline.progress().complete() || pipeline.waitingChanges() + waiting() > 0) return;
+    hasNoticed_ = true;
+    notice_ = shortViewNotice(requestedDistance_, viewDistance_, renderer_.memoryBudget());
+    base::logWarning("{}", *notice_);
 }
 
 void WorldView::show(const stream::ChunkChange& change) {
     if (change.isHidden) return hide(change.pos);
-    if (change.light) renderer_.setLight(change.pos, *change.light, change.bricks);
+    const auto setLight = [&] { return renderer_.setLight(change.pos, *change.light, change.bricks); };
+    if (change.light && !makeRoomFor(change.pos, setLight)) return;
     // An edit of a chunk that is on the way is meshed with the rest of it.
     if (change.needsMesh || (change.mesh && queue_ && queue_->contains(change.pos))) {
         queue_->add(change.pos);
-    } else if (change.mesh && !renderer_.setChunk(change.pos, *change.mesh, change.meshSections)) {
-        warnOfNoRoom(change.pos);
+    } else if (change.mesh) {
+        makeRoomFor(change.pos,
+                    [&] { return renderer_.setChunk(change.pos, *change.mesh, change.meshSections); });
     }
 }
 
@@ -75,17 +145,24 @@ void WorldView::advanceQueue() {
 
 void WorldView::writeMeshes() {
     std::vector<mesh_gpu::FirstQuads> places;
+    std::vector<world::ChunkPos> refused;
     for (const mesh_gpu::CountedChunk& chunk : queue_->takeCounted()) {
         mesh_gpu::FirstQuads& firstQuads = places.emplace_back();
         if (!renderer_.reserveChunk(chunk.pos, chunk.meshSections)) {
-            warnOfNoRoom(chunk.pos);
+            refused.push_back(chunk.pos);
             continue;
         }
         for (const mesh::MeshSection& section : renderer_.meshSectionsOf(chunk.pos)) {
             firstQuads.push_back(mesh::firstQuad(section));
         }
     }
-    queue_->write(places, renderer_.quadBuffer());
+    queue_->write(places, renderer_.quadBuffers());
+    if (refused.empty()) return;
+    if (!shortenView()) return warnOfNoRoom(refused.front());
+    // Those that are still in view come with the next batch.
+    for (const world::ChunkPos pos : refused) {
+        if (session_.pipeline().stageAt(pos) == stream::ChunkStage::Visible) queue_->add(pos);
+    }
 }
 
 void WorldView::countMeshes() {
@@ -105,15 +182,16 @@ void WorldView::warnOfNoRoom(world::ChunkPos pos) {
     if (hasWarned_) return;
     hasWarned_ = true;
     base::logWarning(
-        "no room on the graphics card for all quads: chunk {},{} and others after it are not shown whole; a "
-        "shorter --view-distance needs less",
-        pos.x, pos.y);
+        "no room within {} MiB of GPU memory even for a view distance of {}: chunk {},{} and others after it "
+        "are "
+        "not shown whole",
+        renderer_.memoryBudget() >> 20, viewDistance_, pos.x, pos.y);
 }
 
 double loadAll(game::Session& session, WorldView& view, const render::Camera& camera, int viewDistance,
                stream::ChunkPipeline::Time now) {
     stream::ChunkPipeline& pipeline = session.pipeline();
-    pipeline.setView(render::cameraChunk(camera), viewDistance);
+    view.setView(render::cameraChunk(camera), viewDistance);
     double uploads = 0;
     for (;;) {
         pipeline.update(now);

@@ -1,9 +1,16 @@
 // What a frame does so that the world around its camera is on screen: asks for chunks, takes in what workers
-// did, hands it to the renderer within a budget of time. Used on the thread of the OpenGL context.
+// did, hands it to the renderer within a budget of time and within the renderer's memory budget. Used on the
+// thread of the OpenGL context.
+//
+// Where a chunk finds no room within the memory budget the view gets shorter (memory_budget.h) until it fits,
+// and the farthest chunks go. The view stays as short until another view distance is asked for: it cannot
+// flap.
 #pragma once
 
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "terrane/game/session.h"
 #include "terrane/mesh_gpu/mesh_queue.h"
@@ -39,11 +46,19 @@ class WorldView {
     // GPU, where they are drawn from, for so long a frame. Comes before the first upload.
     base::Result<void> meshOnGpu(const gpu::ShaderLoader& shaders, double budgetMilliseconds);
 
-    // Chunks up to `viewDistance` around the camera come, those in front of it first. Takes in what is there.
+    // Chunks up to `viewDistance` around the camera come, or as far as memory allows, those in front of it
+    // first. Takes in what is there.
     void follow(const render::Camera& camera, int viewDistance);
+    // The same without taking in. `direction`: see stream::ViewOrder.
+    void setView(world::ChunkPos center, int viewDistance, glm::vec2 direction = {});
+    // What was asked for last, or what memory allows of it.
+    int viewDistance() const { return viewDistance_; }
     // Hands changed chunks to the renderer, at least one, until so much time is over; the rest waits for the
-    // next frames. The first time that one finds no room there is a warning. How many it handed on.
+    // next frames. How many it handed on.
     std::size_t upload(double budgetSeconds);
+    // Tells that the view is shorter than asked for, once, when the shorter view is on screen; it is logged
+    // too.
+    std::optional<std::string> takeNotice() { return std::exchange(notice_, std::nullopt); }
     double missing() const {
         return missingShare(session_.pipeline().progress(), session_.pipeline().waitingChanges());
     }
@@ -52,6 +67,11 @@ class WorldView {
 
   private:
     void show(const stream::ChunkChange& change);
+    template <class Set>
+    bool makeRoomFor(world::ChunkPos pos, const Set& set);
+    bool shortenView();
+    void keepWithinBudget();
+    void noticeShortView();
     void hide(world::ChunkPos pos);
     void advanceQueue();
     void writeMeshes();
@@ -61,10 +81,16 @@ class WorldView {
     game::Session& session_;
     render::Renderer& renderer_;
     std::optional<mesh_gpu::MeshQueue> queue_;
-    bool hasWarned_ = false;
+    world::ChunkPos center_;
+    glm::vec2 direction_{};
+    int requestedDistance_ = -1, viewDistance_ = -1;  // chunks; -1: no view yet
+    std::size_t fixedBytes_ = 0;                      // when all chunks were taken back last
+    bool hasWarned_ = false, hasNoticed_ = false;
+    std::optional<std::string> notice_;
 };
 
-// Waits until the renderer has everything that the camera may see, as it is now. `now`: the pipeline's time.
+// Waits until the renderer has everything that the camera may see, as it is now, as far as memory allows: see
+// WorldView::viewDistance(). `now`: the pipeline's time.
 // Returns the milliseconds that uploading took.
 double loadAll(game::Session& session, WorldView& view, const render::Camera& camera, int viewDistance,
                stream::ChunkPipeline::Time now);

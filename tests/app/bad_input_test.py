@@ -67,6 +67,11 @@ CASES = [
     (("flight-bench", "--duration", "0", "-o", "{out}"), '"0"'),
     # Images
     ((*RENDER, "--resource-pack", "{folder}/none"), "none"),
+    *(((*RENDER, "--gpu-memory", bad), f'"{bad}"') for bad in ("0", "15", "-24", "1048577", "much", "24MiB", "1e9", "nan")),
+    ((*RENDER, "--gpu-memory", "24.5"), "24.5"),
+    (("flight-bench", "-o", "{out}", "--gpu-memory", "8"), '"8"'),
+    (("bench", "-o", "{folder}/bench", "--gpu-memory", "8"), '"8"'),
+    (("play", "--gpu-memory", "8"), '"8"'),
     ((*RENDER, "--size", "0x0"), '"0x0"'),
     ((*RENDER, "--size", "abc"), '"abc"'),
     ((*RENDER, "--size", "99999x1"), '"99999x1"'),

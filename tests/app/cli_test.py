@@ -116,6 +116,26 @@ class Render(ProgramTest):
             self.assertGreater(len(image.colors()), 20, scene)
             self.assertEqual(text, "")
 
+    def test_a_small_memory_budget_makes_the_view_shorter(self):
+        draw = ("render", "--scene", "landscape", "--size", "64x36", "--preset", "low", "--t-junctions", "open", "--json",
+                "--debug-gl")
+        short, whole = self.folder / "short.png", self.folder / "whole.png"
+        done = run(*draw, "--view-distance", "12", "--gpu-memory", "24", "-o", short)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        result = json.loads(done.stdout)
+        reached = result["view_distance"]
+        self.assertLess(reached, 12)
+        self.assertGreaterEqual(reached, 4)
+        self.assertEqual(result["bytes"]["gpu_budget"], 24 << 20)
+        self.assertLessEqual(result["bytes"]["gpu"], 24 << 20)
+        told = [line for line in done.stderr.splitlines() if "--gpu-memory" in line]
+        self.assertEqual(len(told), 1, done.stderr)
+        self.assertIn(f"view distance {reached} in place of 12: 24 MiB", told[0])
+        enough = run(*draw, "--view-distance", str(reached), "-o", whole)
+        self.assertNotIn("--gpu-memory", enough.stderr)
+        self.assertEqual(json.loads(enough.stdout)["view_distance"], reached)
+        self.assertEqual(Image(short).rows, Image(whole).rows)
+
     def test_json_tells_counts_and_times(self):
         _, text = self.render("a.png", "--scene", "landscape", "--json")
         self.assertEqual(text.count("\n"), 1)

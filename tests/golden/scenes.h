@@ -17,7 +17,7 @@ namespace terrane::golden {
 using Meshes = std::map<world::ChunkPos, mesh::ChunkMesh>;
 
 // Meshes of the chunks whose eight neighbors are in the world, as the stream makes them.
-inline Meshes meshWorld(const world::World& world) {
+inline Meshes meshWorld(const world::World& world, const mesh::MeshOptions& options = {}) {
     Meshes meshes;
     mesh::MeshScratch scratch;
     world.forEachChunk([&](world::ChunkPos pos, const world::ChunkPtr& chunk) {
@@ -29,6 +29,7 @@ inline Meshes meshWorld(const world::World& world) {
         input.center = chunk.get();
         for (std::size_t k = 0; k < beside.size(); ++k) input.neighbors[k] = beside[k].get();
         input.blocks = &contentBlocks();
+        input.options = options;
         meshes[pos] = mesh::meshChunk(input, scratch);
     });
     return meshes;

@@ -130,7 +130,11 @@ std::vector<StructLayout> meshSectionLayouts() {
               {"nearPlane", offsetof(CullFrame, nearPlane)},
               {"hiZLevels", offsetof(CullFrame, hiZLevels)},
               {"meshSectionCount", offsetof(CullFrame, meshSectionCount)},
-              {"phase", offsetof(CullFrame, phase)}}}};
+              {"phase", offsetof(CullFrame, phase)},
+              {"arenaQuads", offsetof(CullFrame, arenaQuads)},
+              {"unused0", offsetof(CullFrame, unused0)},
+              {"unused1", offsetof(CullFrame, unused1)},
+              {"unused2", offsetof(CullFrame, unused2)}}}};
 }
 
 std::vector<StructLayout> mesherLayouts() {

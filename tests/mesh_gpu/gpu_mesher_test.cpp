@@ -145,7 +145,7 @@ TEST_F(GpuMesherTest, FillsTheStoreThatIsDrawnFrom) {
     ASSERT_TRUE(mesher) << mesher.error().message;
     const mesh::Area first(mesh::randomBlocks(mesh::Mix::Terrain, 5)),
         second(mesh::randomBlocks(mesh::Mix::Slabs, 6));
-    render::QuadStore store(400'000);
+    render::QuadStore store({.arenaQuads = 400'000, .maxArenas = 1});
     const std::vector<MeshInput> inputs = {first.input(), second.input()};
     mesher->count(inputs);
     const std::vector<mesh::MeshSection> meshSections = mesher->meshSections();
@@ -157,7 +157,7 @@ TEST_F(GpuMesherTest, FillsTheStoreThatIsDrawnFrom) {
         for (const mesh::MeshSection& meshSection : store.meshSectionsOf(pos))
             firstQuads.push_back(mesh::firstQuad(meshSection));
     }
-    mesher->write(firstQuads, store.buffer());
+    mesher->write(firstQuads, *store.buffers().buffers.front());
     EXPECT_EQ(store.uploadedBytes(), 0u);
     for (std::size_t k = 0; k < 2; ++k) {
         const ChunkMesh stored = meshIn(store, {static_cast<int>(k), 0});

@@ -30,8 +30,10 @@ inline mesh::ChunkMesh meshIn(const render::QuadStore& store, world::ChunkPos po
         const std::size_t at = stored.quads.size();
         stored.quads.resize(at + mesh::quadCount(meshSection));
         stored.meshSections.push_back(mesh::movedTo(static_cast<std::uint32_t>(at), meshSection));
-        store.buffer().download(std::size_t{mesh::firstQuad(meshSection)} * shared::kQuadBytes,
-                                std::as_writable_bytes(std::span(stored.quads).subspan(at)));
+        const std::uint32_t first = mesh::firstQuad(meshSection);
+        store.buffers().buffers[store.ranges().arenaOf(first)]->download(
+            std::size_t{store.ranges().offsetOf(first)} * shared::kQuadBytes,
+            std::as_writable_bytes(std::span(stored.quads).subspan(at)));
     }
     return stored;
 }

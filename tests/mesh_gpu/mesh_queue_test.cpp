@@ -30,11 +30,11 @@ class MeshQueueTest : public gpu::GlTest {
         GlTest::TearDown();
     }
 
-    void makeQueue(double budgetMilliseconds, std::uint32_t maxQuads = 0) {
+    void makeQueue(double budgetMilliseconds, std::uint32_t maxQuads = 0, std::uint32_t maxArenas = 1) {
         auto mesher = GpuMesher::create(render::contentShaders(), mesh::testBlocks());
         ASSERT_TRUE(mesher) << mesher.error().message;
         queue_.emplace(std::move(*mesher), budgetMilliseconds);
-        store_.emplace(maxQuads);
+        store_.emplace(render::QuadStoreSizes{maxQuads, maxArenas});
     }
 
     // Other blocks than before.
@@ -77,7 +77,7 @@ class MeshQueueTest : public gpu::GlTest {
                 firstQuads.push_back(mesh::firstQuad(meshSection));
             }
         }
-        queue_->write(places, store_->buffer());
+        queue_->write(places, store_->buffers());
     }
     void finish() {
         for (int k = 0; queue_->size() > 0; ++k) {
@@ -174,6 +174,15 @@ TEST_F(MeshQueueTest, WithoutRoomOthersAreStored) {
     finish();
     EXPECT_EQ(store_->chunks().size(), 1u);
     expectStored({0, 0});
+}
+
+TEST_F(MeshQueueTest, WritesIntoSeveralArenas) {
+    const auto quads = static_cast<std::uint32_t>(expected({0, 0}).quads.size());
+    makeQueue(0, 2 * quads, 16);
+    for (const auto& [pos, chunk] : chunks_) queue_->add(pos);
+    finish();
+    EXPECT_GT(store_->buffers().buffers.size(), 3u);
+    for (const auto& [pos, chunk] : chunks_) expectStored(pos);
 }
 
 TEST_F(MeshQueueTest, ManyChangesAddUp) {

@@ -32,8 +32,10 @@ mesh::ChunkMesh readBack(const QuadStore& store, ChunkPos pos) {
         const std::size_t first = mesh.quads.size();
         mesh.quads.resize(first + mesh::quadCount(meshSection));
         mesh.meshSections.push_back(mesh::movedTo(static_cast<std::uint32_t>(first), meshSection));
-        store.buffer().download(std::size_t{mesh::firstQuad(meshSection)} * shared::kQuadBytes,
-                                std::as_writable_bytes(std::span(mesh.quads).subspan(first)));
+        const std::uint32_t address = mesh::firstQuad(meshSection);
+        store.buffers().buffers[store.ranges().arenaOf(address)]->download(
+            std::size_t{store.ranges().offsetOf(address)} * shared::kQuadBytes,
+            std::as_writable_bytes(std::span(mesh.quads).subspan(first)));
     }
     return mesh;
 }
@@ -84,19 +86,19 @@ TEST_F(QuadStoreTest, EmptyMeshesTakeNothing) {
 
 TEST_F(QuadStoreTest, GrowthKeepsTheContents) {
     QuadStore store;
-    const std::size_t before = store.buffer().sizeBytes();
+    const std::size_t before = store.bufferBytes();
     const auto quarter = static_cast<std::uint32_t>(before / shared::kQuadBytes / 4);
     std::vector<mesh::ChunkMesh> meshes;
     for (std::uint32_t k = 0; k < 6; ++k) {
         meshes.push_back(numberedMesh(k, quarter + k));
         store.set({static_cast<int>(k), 0}, meshes.back());
     }
-    EXPECT_EQ(store.buffer().sizeBytes(), 2 * before);
+    EXPECT_EQ(store.bufferBytes(), 2 * before);
     for (std::size_t k = 0; k < meshes.size(); ++k) expectStored(store, {static_cast<int>(k), 0}, meshes[k]);
 }
 
 TEST_F(QuadStoreTest, StaysBelowItsLimit) {
-    QuadStore store(1000);
+    QuadStore store({.arenaQuads = 1000, .maxArenas = 1});
     const mesh::ChunkMesh a = numberedMesh(1, 600), b = numberedMesh(2, 300), c = numberedMesh(3, 200);
     EXPECT_TRUE(store.set({0, 0}, a));
     EXPECT_TRUE(store.set({1, 0}, b));
@@ -107,27 +109,27 @@ TEST_F(QuadStoreTest, StaysBelowItsLimit) {
     EXPECT_TRUE(store.set({2, 0}, c));
     expectStored(store, {0, 0}, a);
     expectStored(store, {2, 0}, c);
-    EXPECT_LE(store.buffer().sizeBytes(), 1000u * shared::kQuadBytes);
+    EXPECT_LE(store.bufferBytes(), 1000u * shared::kQuadBytes);
 }
 
 // Copies and uploads follow each other in the stream of commands: none gets ahead of the other.
 TEST_F(QuadStoreTest, EditsAroundGrowthAreKept) {
     QuadStore store;
-    const auto capacity = static_cast<std::uint32_t>(store.buffer().sizeBytes() / shared::kQuadBytes);
+    const auto capacity = static_cast<std::uint32_t>(store.bufferBytes() / shared::kQuadBytes);
     std::map<ChunkPos, mesh::ChunkMesh> expected;
     for (std::uint32_t k = 0; k < 40; ++k) {
         const ChunkPos pos{static_cast<int>(k % 11), 0};
         expected[pos] = numberedMesh(k, capacity / 13 + 1000 * k);
         ASSERT_TRUE(store.set(pos, expected[pos]));
     }
-    EXPECT_GT(store.buffer().sizeBytes(), std::size_t{capacity} * shared::kQuadBytes);
+    EXPECT_GT(store.bufferBytes(), std::size_t{capacity} * shared::kQuadBytes);
     for (const auto& [pos, mesh] : expected) expectStored(store, pos, mesh);
 }
 
 // One mesh that is larger than twice the buffer still finds room.
 TEST_F(QuadStoreTest, GrowsByWhatIsNeeded) {
     QuadStore store;
-    const auto capacity = static_cast<std::uint32_t>(store.buffer().sizeBytes() / shared::kQuadBytes);
+    const auto capacity = static_cast<std::uint32_t>(store.bufferBytes() / shared::kQuadBytes);
     const mesh::ChunkMesh small = numberedMesh(1, 3), large = numberedMesh(2, 2 * capacity + 5);
     store.set({0, 0}, small);
     store.set({1, 0}, large);
@@ -137,12 +139,12 @@ TEST_F(QuadStoreTest, GrowsByWhatIsNeeded) {
 
 TEST_F(QuadStoreTest, FreedRoomIsUsedAgain) {
     QuadStore store;
-    const std::size_t before = store.buffer().sizeBytes();
+    const std::size_t before = store.bufferBytes();
     const auto third = static_cast<std::uint32_t>(before / shared::kQuadBytes / 3);
     for (int round = 0; round < 10; ++round) {
         store.set({round % 2, 0}, numberedMesh(static_cast<std::uint32_t>(round), third));
     }
-    EXPECT_EQ(store.buffer().sizeBytes(), before);
+    EXPECT_EQ(store.bufferBytes(), before);
     expectStored(store, {0, 0}, numberedMesh(8, third));
     expectStored(store, {1, 0}, numberedMesh(9, third));
 }
@@ -199,8 +201,50 @@ TEST_F(QuadStoreTest, AnotherNumberOfMeshSections) {
     }
 }
 
+// Random chunks come, change and go in one arena and in many: both hold the same.
+TEST_F(QuadStoreTest, ManyArenasHoldWhatOneHolds) {
+    QuadStore one, many({.arenaQuads = 300, .maxArenas = 32});
+    std::map<ChunkPos, mesh::ChunkMesh> expected;
+    for (std::uint32_t step = 0; step < 600; ++step) {
+        const std::uint32_t random = shared::hash2(step, 1, 4);
+        const ChunkPos pos{static_cast<int>(random % 37), 0};
+        if (random / 64 % 3 == 0) {
+            one.remove(pos);
+            many.remove(pos);
+            expected.erase(pos);
+        } else {
+            expected[pos] = numberedMesh(step, random / 256 % 200 + 1);
+            ASSERT_TRUE(one.set(pos, expected[pos]));
+            ASSERT_TRUE(many.set(pos, expected[pos]));
+        }
+        ASSERT_EQ(many.usedBytes(), one.usedBytes());
+    }
+    EXPECT_EQ(one.buffers().buffers.size(), 1u);
+    EXPECT_GT(many.buffers().buffers.size(), 8u);
+    for (const auto& [pos, mesh] : expected) {
+        expectStored(one, pos, mesh);
+        expectStored(many, pos, mesh);
+    }
+}
+
+// The copy of a doubling counts.
+TEST_F(QuadStoreTest, NeverPassesItsBudget) {
+    for (const std::size_t maxBytes : {9u << 20, 17u << 20, 20u << 20, 25u << 20, 40u << 20}) {
+        QuadStore store;
+        store.setMaxBytes(maxBytes);
+        int chunks = 0;
+        while (store.set({chunks, 0}, numberedMesh(static_cast<std::uint32_t>(chunks), 50'000))) {
+            ++chunks;
+            ASSERT_LE(store.takePeakBytes(), maxBytes);
+        }
+        EXPECT_GT(store.usedBytes(), maxBytes / 2) << "most of it is of use";
+        for (int k = 0; k < chunks; k += 7)
+            expectStored(store, {k, 0}, numberedMesh(static_cast<std::uint32_t>(k), 50'000));
+    }
+}
+
 TEST_F(QuadStoreTest, AMeshSectionThatFindsNoRoomIsEmpty) {
-    QuadStore store(100);
+    QuadStore store({.arenaQuads = 100, .maxArenas = 1});
     mesh::ChunkMesh two = numberedMesh(1, 60);
     two.meshSections.push_back(mesh::movedTo(60, {}));
     ASSERT_TRUE(store.set({0, 0}, two));

@@ -27,8 +27,13 @@ std::string lastLine(const fs::path& file) {
 
 }  // namespace
 
-BenchRunner::BenchRunner(fs::path program, fs::path work, int runs, ResultFile& results)
-    : program_(std::move(program)), work_(std::move(work)), runs_(runs), results_(results) {}
+BenchRunner::BenchRunner(fs::path program, fs::path work, int runs, Arguments drawOptions,
+                         ResultFile& results)
+    : program_(std::move(program)),
+      work_(std::move(work)),
+      runs_(runs),
+      drawOptions_(std::move(drawOptions)),
+      results_(results) {}
 
 base::Result<void> BenchRunner::measure(const Cell& cell) {
     const int there = results_.runsOf(cell);
@@ -55,6 +60,8 @@ base::Result<void> BenchRunner::prepare(const Cell& cell) {
 base::Result<json> BenchRunner::runOnce(const Arguments& arguments) const {
     Arguments command{program_.string()};
     command.insert(command.end(), arguments.begin(), arguments.end());
+    const bool draws = arguments[0] == "render" || arguments[0] == "flight-bench";
+    if (draws) command.insert(command.end(), drawOptions_.begin(), drawOptions_.end());
     if (arguments[0] == "render") command.insert(command.end(), {"--output", "picture.png"});
     if (arguments[0] != "bench") command.push_back("--json");
     const base::ChildOptions options{.folder = work_,

@@ -12,7 +12,9 @@ class BenchRunner {
   public:
     // `program`: this program's file. `work`: absolute; what runs need (saves, images) goes there. The
     // results outlive the runner.
-    BenchRunner(std::filesystem::path program, std::filesystem::path work, int runs, ResultFile& results);
+    // `drawOptions`: given to each run that draws; cells do not name them.
+    BenchRunner(std::filesystem::path program, std::filesystem::path work, int runs, Arguments drawOptions,
+                ResultFile& results);
 
     // The runs that are missing. What goes wrong in a cell is kept with the results; an error where no run
     // can be made at all.
@@ -25,6 +27,7 @@ class BenchRunner {
 
     std::filesystem::path program_, work_;
     int runs_;
+    Arguments drawOptions_;
     ResultFile& results_;
     std::set<std::string> prepared_;
 };

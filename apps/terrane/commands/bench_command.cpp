@@ -3,12 +3,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <system_error>
-#include <utility>
 
 #include "apps/terrane/bench/bench_runner.h"
 #include "apps/terrane/commands/commands.h"
@@ -20,6 +18,7 @@
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
 #include "terrane/base/progress_bar.h"
+#include "terrane/base/temporary_folder.h"
 
 namespace terrane::app {
 namespace {
@@ -32,7 +31,7 @@ struct BenchOptions {
     std::vector<std::string> only;
     bool isQuick = false, resumes = false, lists = false, copiesMemory = false;
     std::optional<std::string> size;
-    std::optional<int> viewDistance, frames, runs;
+    std::optional<int> viewDistance, frames, runs, gpuMemory;
     bool anyFailed = false;  // of the last run
 };
 
@@ -41,30 +40,6 @@ std::string tableNames() {
     for (const CellGroup& group : planGroups({})) names += (names.empty() ? "" : ", ") + group.name;
     return names;
 }
-
-// What runs need: saves, images, messages. A folder that nobody had before, as the user's own files may
-// lie beside it; removed with all that is in it.
-class WorkFolder {
-  public:
-    static base::Result<WorkFolder> make(const fs::path& parent) {
-        std::string path = parent / ".terrane-bench-XXXXXX";
-        if (::mkdtemp(path.data())) return WorkFolder(path);
-        return base::fail("{}: no folder can be made in it: {}", parent.string(), base::systemReason(errno));
-    }
-    ~WorkFolder() {
-        std::error_code ignored;
-        if (!path_.empty()) fs::remove_all(path_, ignored);
-    }
-    WorkFolder(WorkFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
-    WorkFolder& operator=(WorkFolder&&) = delete;
-
-    const fs::path& path() const { return path_; }
-
-  private:
-    explicit WorkFolder(fs::path path) : path_(std::move(path)) {}
-
-    fs::path path_;
-};
 
 // What the program says of itself and the graphics driver, from a process of its own.
 base::Result<json> programInfo(const fs::path& program, const fs::path& work) {
@@ -164,7 +139,7 @@ base::Result<void> bench(BenchOptions& options) {
     const fs::path program = fmt::format("/proc/{}/exe", ::getpid());
     auto folder = options.lists ? fs::temp_directory_path() : outputFolder(options.output);
     if (!folder) return tl::unexpected(folder.error());
-    const auto work = WorkFolder::make(*folder);
+    const auto work = base::TemporaryFolder::make(*folder, ".terrane-bench-");
     if (!work) return tl::unexpected(work.error());
     auto info = programInfo(program, work->path());
     if (!info) return tl::unexpected(info.error());
@@ -172,6 +147,7 @@ base::Result<void> bench(BenchOptions& options) {
     const std::vector<CellGroup> groups = chosenGroups(settings, options.only);
     auto about = aboutRun(settings, *info, program);
     if (!about) return tl::unexpected(about.error());
+    if (options.gpuMemory) (*about)["gpu_memory"] = *options.gpuMemory;
     if (options.lists) {
         printPlan(*about, groups);
         return {};
@@ -183,7 +159,9 @@ base::Result<void> bench(BenchOptions& options) {
     if (!results) return tl::unexpected(results.error());
     const std::vector<Cell> cells = uniqueCells(groups);
     base::logInfo("{} tables, {} measurements of {} runs each", groups.size(), cells.size(), settings.runs);
-    BenchRunner runner(program, work->path(), settings.runs, *results);
+    Arguments drawOptions;
+    if (options.gpuMemory) drawOptions = {"--gpu-memory", std::to_string(*options.gpuMemory)};
+    BenchRunner runner(program, work->path(), settings.runs, drawOptions, *results);
     if (auto done = measureAll(cells, runner, *results); !done) return done;
     options.anyFailed = results->failureCount() > 0;
     base::logInfo("{} measurements, {} failed: {}", cells.size(), results->failureCount(), path.string());
@@ -212,6 +190,7 @@ void addSettings(CLI::App& command, BenchOptions& options) {
         ->type_name("WxH");
     command.add_option("--view-distance", options.viewDistance, "In chunks (default: 32, quick 8)")
         ->check(numberFrom(1, 64));
+    addGpuMemoryOption(command, options.gpuMemory);
     command
         .add_option("--frames", options.frames,
                     "Frames of a run (default: 9, quick 3; × 20 on a graphics card)")

@@ -1,8 +1,5 @@
 // terrane flight-bench: flies straight ahead at full speed without a window, in real time, and records the
 // time of each frame. For plots of frame times (tools/flight_trace.sh) and `terrane bench`.
-#include <fmt/ostream.h>
-
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -41,19 +38,6 @@ base::Result<view::Flight> flightOf(const FlightBenchOptions& options) {
         .start = view::cameraOf(place->pose), .seconds = options.seconds, .timeDay = place->timeDay};
 }
 
-base::Result<void> writeFrames(const std::string& file, std::span<const view::FlightFrame> frames) {
-    std::ofstream out(file);
-    out << "time_s,frame_ms,follow_ms,upload_ms,draw_ms,follow_processor_ms,upload_processor_ms,uploads,"
-           "visible_chunks,chunks_in_view,queued_chunks\n";
-    for (const view::FlightFrame& f : frames) {
-        fmt::print(out, "{:.4f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{}\n", f.seconds, f.all,
-                   f.follow, f.upload, f.draw, f.followCpu, f.uploadCpu, f.uploads, f.visible, f.inView,
-                   f.queued);
-    }
-    out.close();
-    return out ? base::Result<void>() : base::fail("{}: cannot be written", file);
-}
-
 void report(const view::FlightLog& log) {
     const view::FlightStatistics statistics = view::statisticsOf(log);
     const glm::dvec3& p = log.camera.position;
@@ -88,7 +72,8 @@ nlohmann::json linesBySecond(const view::FlightLog& log) {
 // The statistics, and a line of them for each second.
 nlohmann::json jsonOf(const view::FlightLog& log) {
     const view::FlightStatistics statistics = view::statisticsOf(log);
-    return {{"seconds_to_load", log.secondsToLoad},
+    return {{"view_distance", log.viewDistance},
+            {"seconds_to_load", log.secondsToLoad},
             {"seconds_of_flight", log.secondsOfFlight},
             {"seconds_to_load_again", log.secondsToLoadAgain},
             {"chunks_missing_on_landing", log.missing},
@@ -114,7 +99,8 @@ base::Result<void> runFlightBench(const FlightBenchOptions& options) {
     flight->viewDistance = (*world)->graphics.viewDistance;
     const view::FlightLog log = view::fly(*(*world)->session, *(*world)->view, (*world)->renderer, *flight);
     if (!options.output.empty()) {
-        if (auto written = writeFrames(options.output, view::framesInFlight(log)); !written) return written;
+        if (auto written = view::writeFrames(options.output, view::framesInFlight(log)); !written)
+            return written;
     }
     if (auto saved = (*world)->session->save(); !saved) return saved;
     if (auto finished = (*world)->finish(); !finished) return finished;

@@ -15,6 +15,7 @@
 #include "terrane/game/spawn.h"
 #include "terrane/gpu/built_in_shaders.h"
 #include "terrane/view/camera_pose.h"
+#include "terrane/view/memory_budget.h"
 
 namespace terrane::app {
 namespace {
@@ -98,6 +99,7 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
     const gpu::DeviceInfo device = gpu::queryDevice();
     auto renderer = render::Renderer::create(shaders, *parts->blocks, *textures, device);
     if (!renderer) return tl::unexpected(renderer.error());
+    renderer->setMemoryBudget(view::gpuMemoryBudget(device, options.graphics.gpuMemory));
     auto preview = view::BlockPreview::create(shaders, *parts->blocks, *textures, device);
     if (!preview) return tl::unexpected(preview.error());
     const auto backEnds = chooseBackEnds(*parts, options.world, options.backend);

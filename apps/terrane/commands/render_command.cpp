@@ -1,6 +1,5 @@
 // terrane render: one image of one place, without a window.
 #include <chrono>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -43,6 +42,7 @@ struct RenderCommandOptions {
 struct RenderTimings {
     double setUp = 0, load = 0, upload = 0, draw = 0, all = 0;
     view::FrameTimes frames;
+    int viewDistance = 0;  // chunks; less than asked for where memory allows no more
 };
 
 void tell(const RenderCommandOptions& options, const RenderTimings& timings, const game::Session& session,
@@ -54,20 +54,6 @@ void tell(const RenderCommandOptions& options, const RenderTimings& timings, con
     const double frame = base::medianOf(timings.frames.milliseconds);
     base::logInfo("a frame takes {:.1f} ms in the middle of {}, {:.1f} frames/s", frame,
                   timings.frames.milliseconds.size(), 1000 / frame);
-}
-
-// Of the save's file and of what SQLite has not moved into it yet; 0 without a save.
-std::uintmax_t saveBytes(const SaveOptions& save) {
-    if (save.world.empty()) return 0;
-    const auto path = store::fileOf(store::worldLocation(save.world));
-    if (!path) return 0;
-    std::uintmax_t bytes = 0;
-    for (const char* ending : {"", "-wal"}) {
-        std::error_code error;
-        const std::uintmax_t size = std::filesystem::file_size(path->string() + ending, error);
-        if (!error) bytes += size;
-    }
-    return bytes;
 }
 
 // Triangles of the shadow map at times of day from 0 to 1.
@@ -85,13 +71,16 @@ nlohmann::json shadowsOverTheDay(const render::Renderer& renderer, render::Frame
 
 nlohmann::json memoryJson(const RenderCommandOptions& options, const game::Session& session,
                           const render::Renderer& renderer) {
+    const std::string& world = options.save.world;
     return {{"blocks", session.world().memoryBytes()},
             {"light", session.pipeline().lightBytes()},
             {"light_of_stage_1", session.pipeline().localLightBytes()},
             {"generator_cache", session.generator().cacheBytes()},
             {"light_gpu", renderer.lightBytes()},
             {"quads_gpu", renderer.quadBytes()},
-            {"save", saveBytes(options.save)},
+            {"gpu", renderer.memory().total()},
+            {"gpu_budget", renderer.memoryBudget()},
+            {"save", world.empty() ? 0 : store::bytesOnDisk(store::worldLocation(world))},
             {"process", base::residentBytes()},
             {"process_peak", base::peakResidentBytes()}};
 }
@@ -116,6 +105,7 @@ nlohmann::json imageJson(const RenderCommandOptions& options, const RenderTiming
                                {"all", timings.all}}},
                              {"tasks", tasksJson(session)},
                              {"chunks", session.world().chunkCount()},
+                             {"view_distance", timings.viewDistance},
                              {"chunks_in_view", session.pipeline().progress().inView},
                              {"quads", statistics.quads},
                              {"regions", statistics.meshSections},
@@ -154,11 +144,12 @@ base::Result<void> renderImage(const RenderCommandOptions& options) {
     const auto loadStart = Clock::now();
     timings.upload = view::loadAll(session, *(*world)->view, camera, viewDistance, loadStart);
     timings.load = millisecondsSince(loadStart);
+    timings.viewDistance = (*world)->view->viewDistance();
 
     const auto drawStart = Clock::now();
     const render::FrameInput input{camera,
                                    world::environmentAt(place->timeDay),
-                                   view::fogDistance(viewDistance),
+                                   view::fogDistance(timings.viewDistance),
                                    options.seconds,
                                    options.graphics.view,
                                    game::isUnderWater(session, camera.position)};

@@ -72,7 +72,7 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     render::FrameInput input;
     input.camera = point.camera;
     input.environment = world::environmentAt(point.timeDay);
-    input.fogDistance = view::fogDistance(viewDistance_);
+    input.fogDistance = view::fogDistance(parts_.world.view->viewDistance());
     input.timeSeconds = static_cast<float>(seconds);
     input.view = graphics.view;
     input.isUnderWater = game::isUnderWater(session, point.camera.position);

@@ -158,6 +158,7 @@ base::Result<void> Game::drawFrame(double seconds) {
     if (auto configured = configureRenderer(size); !configured) return configured;
     if (hasWorldImage()) {
         parts_.view.upload(view::uploadBudget(seconds, parts_.view.missing()));
+        if (auto notice = parts_.view.takeNotice()) say(std::move(*notice));
         parts_.renderer.draw(frameInput());
         parts_.renderer.presentToWindow(size);
     } else {
@@ -180,14 +181,14 @@ render::FrameInput Game::frameInput() const {
     render::FrameInput input;
     input.camera = camera();
     input.environment = world::environmentAt(static_cast<float>(parts_.session.clock.timeDay));
-    input.fogDistance = view::fogDistance(settings_.graphics.viewDistance);
+    input.fogDistance = view::fogDistance(parts_.view.viewDistance());
     input.timeSeconds = static_cast<float>(seconds_);
     input.view = settings_.view;
     input.isUnderWater = game::isUnderWater(parts_.session, player_.pose().position);
     if (isAbove_) {
         input.culledFor = input.camera;
-        input.camera = debugTopCamera(camera(), settings_.graphics.viewDistance);
-        input.fogDistance = 16 * view::fogDistance(settings_.graphics.viewDistance);
+        input.camera = debugTopCamera(camera(), parts_.view.viewDistance());
+        input.fogDistance = 16 * view::fogDistance(parts_.view.viewDistance());
         input.isUnderWater = false;
     }
     return input;
@@ -211,7 +212,7 @@ void Game::drawInterface() {
     const Screen screen{imgui_.size().x, imgui_.size().y};
     const render::Camera camera = this->camera();
     if (isAbove_) {
-        const int viewDistance = settings_.graphics.viewDistance;
+        const int viewDistance = parts_.view.viewDistance();
         drawDebugTopView(screen, debugTopCamera(camera, viewDistance), camera,
                          view::fogDistance(viewDistance), shadowFit(camera));
     } else if (const auto& target = interaction_.target()) {
@@ -226,7 +227,7 @@ void Game::drawInterface() {
     if (!progress.complete()) drawProgress(screen, progress);
     if (showsLoading_)
         drawLoadingMap(screen, session.pipeline(), world::chunkOf(player_.pose().position),
-                       settings_.graphics.viewDistance);
+                       parts_.view.viewDistance());
     if (showsPanel_) drawStatistics(statistics());
     if (showsPanel_) drawPanel(settings_, session.clock, {isSoftwareRenderer_, screen.width, screen.height});
     if (container_) drawOpenContainer(screen);
@@ -261,6 +262,8 @@ MemoryStatistics Game::memoryStatistics() const {
             .light = parts_.session.pipeline().lightBytes(),
             .quads = parts_.renderer.quadBytes(),
             .lightOnGpu = parts_.renderer.lightBytes(),
+            .onGpu = parts_.renderer.memory().total(),
+            .gpuBudget = parts_.renderer.memoryBudget(),
             .resident = base::residentBytes()};
 }
 

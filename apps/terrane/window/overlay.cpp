@@ -154,9 +154,10 @@ void drawStatistics(const Statistics& f) {
                 f.progress.inView, f.queuedChunks);
     ImGui::Text("triangles: %zu opaque, %zu transparent, %zu shadow", f.frame.opaqueTriangles,
                 f.frame.transparentTriangles, f.frame.shadowTriangles);
-    ImGui::Text("MB: blocks %.1f, light %.1f; on the GPU quads %.1f, light %.1f",
+    ImGui::Text("MB: blocks %.1f, light %.1f; on the GPU quads %.1f, light %.1f, %.0f of %.0f",
                 base::megabytes(f.memory.blocks), base::megabytes(f.memory.light),
-                base::megabytes(f.memory.quads), base::megabytes(f.memory.lightOnGpu));
+                base::megabytes(f.memory.quads), base::megabytes(f.memory.lightOnGpu),
+                base::megabytes(f.memory.onGpu), base::megabytes(f.memory.gpuBudget));
     for (const stream::TaskTime& task : f.tasks) {
         if (task.count == 0) continue;
         ImGui::Text("%s: %.0f us each, %zu", task.name, task.microseconds / static_cast<double>(task.count),

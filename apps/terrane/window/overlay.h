@@ -36,7 +36,8 @@ void drawHand(const Screen& screen, const std::string& name, unsigned image);
 // Bytes by owner. Finding them goes through all chunks.
 struct MemoryStatistics {
     std::size_t blocks = 0, light = 0, quads = 0, lightOnGpu = 0;
-    std::size_t resident = 0;  // of the process; 0 where the system does not tell
+    std::size_t onGpu = 0, gpuBudget = 0;  // all, with what is free in buffers
+    std::size_t resident = 0;              // of the process; 0 where the system does not tell
 };
 
 struct Statistics {

@@ -1,0 +1,58 @@
+// Hands out ranges over several buffers (arenas), none of which is larger than a limit. A range lies in one
+// arena. Units are the caller's (quads). Plain bookkeeping without OpenGL: the caller makes the buffers that
+// a growth asks for. Not synchronised: one thread at a time.
+//
+// An address is arena × arenaSize + offset, so that 32 bits name a unit in any arena. Only the last arena
+// grows: it doubles, which copies it, up to the limit. Where that finds no room, or the arena is full-sized,
+// another arena comes after it without a copy.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "terrane/gpu/range_allocator.h"
+
+namespace terrane::gpu {
+
+struct ArenaSizes {
+    std::uint32_t arena = 0;  // most units of an arena
+    std::uint32_t first = 0;  // units with which an arena begins; at most `arena`
+    std::uint32_t count = 1;  // most arenas
+};
+
+// The arena gets `capacity` units. Where it had some already its contents must be copied.
+struct ArenaGrowth {
+    std::uint32_t arena = 0, capacity = 0;
+};
+
+class ArenaAllocator {
+  public:
+    // Begins with one arena. Addresses of all arenas must fit 32 bits.
+    explicit ArenaAllocator(const ArenaSizes& sizes);
+
+    // In the first arena with a free range that holds `size`; the best fit there. None where no arena has
+    // one.
+    [[nodiscard]] std::optional<std::uint32_t> allocate(std::uint32_t size);
+    // A range from allocate, or a part of one.
+    void free(std::uint32_t address, std::uint32_t size);
+
+    // The growth after which `size` units fit, if there is one that adds at most `room` units. While an arena
+    // is copied the old buffer exists beside the new one, so all of the new capacity counts as added.
+    [[nodiscard]] std::optional<ArenaGrowth> planGrowth(std::uint32_t size, std::uint64_t room) const;
+    // As planned. The new units are free.
+    void grow(const ArenaGrowth& growth);
+
+    [[nodiscard]] std::uint32_t arenaSize() const { return sizes_.arena; }
+    [[nodiscard]] std::uint32_t arenaOf(std::uint32_t address) const { return address / sizes_.arena; }
+    [[nodiscard]] std::uint32_t offsetOf(std::uint32_t address) const { return address % sizes_.arena; }
+    [[nodiscard]] const std::vector<RangeAllocator>& arenas() const { return arenas_; }
+    [[nodiscard]] std::uint64_t capacity() const;  // of all arenas
+    [[nodiscard]] std::uint64_t freeTotal() const;
+
+  private:
+    ArenaSizes sizes_;
+    std::vector<RangeAllocator> arenas_;
+};
+
+}  // namespace terrane::gpu

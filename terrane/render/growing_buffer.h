@@ -1,0 +1,21 @@
+// Buffers that are replaced by one of twice the needed size when they get too small, and the bytes that
+// takes.
+#pragma once
+
+#include <cstddef>
+
+#include "terrane/gpu/buffer.h"
+
+namespace terrane::render {
+
+// Size of the buffer that takes the place of `buffer`; 0 where `buffer` is large enough.
+inline std::size_t grownBytes(const gpu::Buffer& buffer, std::size_t neededBytes) {
+    return neededBytes > buffer.sizeBytes() ? 2 * neededBytes : 0;
+}
+
+// Bytes of the buffer and of the one that takes its place: both exist until the GPU has used the old one.
+inline std::size_t bytesWhileGrowing(const gpu::Buffer& buffer, std::size_t neededBytes) {
+    return buffer.sizeBytes() + grownBytes(buffer, neededBytes);
+}
+
+}  // namespace terrane::render

@@ -1,0 +1,150 @@
+// A view with too little GPU memory for the distance that is asked for, beside one with enough.
+#include <chrono>
+
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/store/memory_store.h"
+#include "terrane/view/camera_pose.h"
+#include "terrane/view/gpu_back_ends.h"
+#include "terrane/view/world_view.h"
+#include "tests/golden/golden_fixture.h"
+
+namespace terrane::view {
+namespace {
+
+constexpr std::size_t kBudgetBytes = std::size_t{24} << 20;
+constexpr int kRequested = 14;
+constexpr glm::ivec2 kImageSize{160, 90};
+
+// Where quads overlap at equal depth the order of drawing decides, which depends on the frames before: none
+// do.
+render::RenderOptions options() {
+    render::RenderOptions options = render::plainOptions(1);
+    options.tJunctions = render::TJunctions::Open;
+    options.occlusionCulling = false;
+    return options;
+}
+
+const render::Camera kCamera{{-1020, -60, 100}, 200, -12};
+
+class ViewMemoryTest : public gpu::GlTest {
+  protected:
+    // The parts refer to each other by address.
+    struct Player {
+        std::unique_ptr<GpuBackEnds> backEnds;
+        std::unique_ptr<game::Session> session;
+        render::Renderer renderer;
+        std::optional<WorldView> view;
+    };
+
+    std::unique_ptr<Player> makePlayer(std::size_t budget, int distance, bool isOnGpu) {
+        auto graph = gen::makeGenerator("overworld", contentBlocks()).value();
+        auto player = std::make_unique<Player>();
+        game::SessionParts parts{
+            std::make_unique<const world::BlockRegistry>(contentBlocks()), gen::Generator(graph, 1),
+            std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "overworld", 1}), 2};
+        if (isOnGpu) parts.meshing = stream::MeshPolicy::Caller;
+        player->session = std::make_unique<game::Session>(std::move(parts));
+        player->renderer = std::move(render::Renderer::create(render::contentShaders(), contentBlocks(),
+                                                              render::contentTexture, gpu::queryDevice())
+                                         .value());
+        player->renderer.setMemoryBudget(budget);
+        EXPECT_TRUE(player->renderer.configure(kImageSize, options()));
+        player->renderer.setViewDistance(distance);
+        player->view.emplace(*player->session, player->renderer);
+        if (isOnGpu) {
+            EXPECT_TRUE(player->view->meshOnGpu(render::contentShaders(), WorldView::kNoHurry));
+        }
+        return player;
+    }
+
+    static base::Image draw(Player& player, const render::Camera& camera) {
+        player.renderer.draw({camera, world::environmentAt(0.4f), fogDistance(player.view->viewDistance()), 0,
+                              render::View::Color});
+        return player.renderer.readImage();
+    }
+
+    static int largestDifference(const base::Image& a, const base::Image& b) {
+        int largest = 0;
+        for (std::size_t k = 0; k < a.rgba.size(); ++k)
+            largest = std::max(largest, std::abs(int{a.rgba[k]} - int{b.rgba[k]}));
+        return largest;
+    }
+
+    // Frames as the window draws them, until all is there. How many notices there were.
+    static int frames(Player& player, const render::Camera& camera, int distance) {
+        int notices = 0;
+        for (bool isLoaded = false; !isLoaded;) {
+            player.view->follow(camera, distance);
+            player.view->upload(0.02);
+            draw(player, camera);
+            EXPECT_LE(player.renderer.memory().total(), kBudgetBytes);
+            EXPECT_LE(player.renderer.peakMemory(), kBudgetBytes);
+            notices += player.view->takeNotice().has_value();
+            const stream::ChunkPipeline& pipeline = player.session->pipeline();
+            isLoaded =
+                pipeline.progress().isUpToDate() && pipeline.waitingChanges() + player.view->waiting() == 0;
+        }
+        return notices;
+    }
+
+    static void expectShortView(Player& player) {
+        EXPECT_EQ(frames(player, kCamera, kRequested), 1);
+        const int reached = player.view->viewDistance();
+        EXPECT_LT(reached, kRequested);
+        EXPECT_GE(reached, 4) << "most of the budget is of use";
+        const base::Image image = draw(player, kCamera);
+        // It stays as it is, also where the camera moves.
+        EXPECT_EQ(frames(player, {{-980, -60, 100}, 30, -12}, kRequested), 0);
+        EXPECT_EQ(player.view->viewDistance(), reached);
+        EXPECT_EQ(frames(player, kCamera, kRequested), 0);
+        // Chunks behind the fog may be others: the fog rounds to a step beside the sky.
+        EXPECT_LE(largestDifference(draw(player, kCamera), image), 1);
+    }
+};
+
+TEST_F(ViewMemoryTest, TheViewGetsShorterInPlaceOfHoles) {
+    const auto small = makePlayer(kBudgetBytes, kRequested, false);
+    expectShortView(*small);
+    const int reached = small->view->viewDistance();
+    const auto large = makePlayer(SIZE_MAX, reached, false);
+    loadAll(*large->session, *large->view, kCamera, reached, std::chrono::steady_clock::now());
+    EXPECT_EQ(large->view->viewDistance(), reached);
+    EXPECT_FALSE(large->view->takeNotice());
+    EXPECT_EQ(draw(*small, kCamera).rgba, draw(*large, kCamera).rgba)
+        << "what is in the shorter view is all there";
+
+    // Another distance begins anew.
+    EXPECT_EQ(frames(*small, kCamera, 3), 0);
+    EXPECT_EQ(small->view->viewDistance(), 3);
+}
+
+TEST_F(ViewMemoryTest, AlsoWhereTheGpuMeshes) {
+    const auto small = makePlayer(2 * kBudgetBytes, kRequested, true);
+    loadAll(*small->session, *small->view, kCamera, kRequested, std::chrono::steady_clock::now());
+    const int reached = small->view->viewDistance();
+    EXPECT_LE(small->renderer.peakMemory(), 2 * kBudgetBytes);
+    const auto large = makePlayer(SIZE_MAX, reached, false);
+    loadAll(*large->session, *large->view, kCamera, reached, std::chrono::steady_clock::now());
+    EXPECT_EQ(draw(*small, kCamera).rgba, draw(*large, kCamera).rgba);
+}
+
+// The budget counts the targets too.
+TEST_F(ViewMemoryTest, ALargerImageTakesMemoryFromTheWorld) {
+    const auto player = makePlayer(kBudgetBytes, kRequested, false);
+    frames(*player, kCamera, kRequested);
+    const int before = player->view->viewDistance();
+    ASSERT_TRUE(player->renderer.configure({480, 270}, options()));
+    for (int k = 0; k < 3; ++k) {
+        player->view->follow(kCamera, kRequested);
+        player->view->upload(0.02);
+        EXPECT_LE(player->renderer.memory().total(), kBudgetBytes);
+    }
+    loadAll(*player->session, *player->view, kCamera, kRequested, std::chrono::steady_clock::now());
+    EXPECT_LE(player->renderer.memory().total(), kBudgetBytes);
+    EXPECT_LE(player->view->viewDistance(), before);
+    EXPECT_GE(player->view->viewDistance(), 2);
+    EXPECT_GT(player->renderer.quadBytes(), 0u);
+}
+
+}  // namespace
+}  // namespace terrane::view
