@@ -39,6 +39,7 @@ base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const OffscreenOption
     made->session = std::make_unique<game::Session>(std::move(*parts));
     made->session->pipeline().setMeshOptions(made->graphics.mesh);
     made->view.emplace(*made->session, made->renderer);
+    made->view->setHorizon({made->graphics.horizon, made->graphics.detail});
     if (made->backEnds) {
         auto meshes = made->view->meshOnGpu(gpu::builtInShaders(""), options.meshMilliseconds);
         if (!meshes) return tl::unexpected(meshes.error());

@@ -11,6 +11,8 @@ namespace {
 constexpr std::array kSamples = {1, 2, 4, 8};
 constexpr std::array kShadowSizes = {0, 1024, 2048, 4096};
 constexpr std::array kMeshSectionHeights = {8, 16, 32, 64, 128};
+constexpr std::array kHorizons = {0, 128, 256, 512, 1024, 2048, 4096};
+constexpr std::array kDetails = {8, 12, 16, 20, 24, 28, 32};
 
 template <std::size_t kCount>
 int indexOf(const std::array<int, kCount>& values, int value) {
@@ -106,6 +108,16 @@ std::vector<GraphicsRow> makeTable() {
          [](GraphicsSettings& s, int value) {
              s.mesh.meshSectionHeight = kMeshSectionHeights[static_cast<std::size_t>(value)];
          }},
+        {"horizon",
+         "How far land goes on beyond the view distance, in chunks",
+         {"0", "128", "256", "512", "1024", "2048", "4096"},
+         [](const GraphicsSettings& s) { return indexOf(kHorizons, s.horizon); },
+         [](GraphicsSettings& s, int value) { s.horizon = kHorizons[static_cast<std::size_t>(value)]; }},
+        {"detail",
+         "Detail of the land beyond the view distance: tiles from the camera to the edge of each level",
+         {"8", "12", "16", "20", "24", "28", "32"},
+         [](const GraphicsSettings& s) { return indexOf(kDetails, s.detail); },
+         [](GraphicsSettings& s, int value) { s.detail = kDetails[static_cast<std::size_t>(value)]; }},
     };
 }
 

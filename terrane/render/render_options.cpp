@@ -65,7 +65,8 @@ const Preset* findPreset(std::string_view name, bool isSoftwareRenderer) {
 GraphicsSettings withPreset(const GraphicsSettings& before, std::string_view name, bool isSoftwareRenderer) {
     const Preset* preset = findPreset(name, isSoftwareRenderer);
     assert(preset && "whoever reads a name checks it");
-    return {preset->options, preset->mesh, preset->viewDistance.value_or(before.viewDistance)};
+    return {preset->options, preset->mesh, preset->viewDistance.value_or(before.viewDistance), before.horizon,
+            before.detail};
 }
 
 }  // namespace terrane::render

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <glm/vec2.hpp>
+#include <unordered_set>
 
 #include "terrane/base/image.h"
 #include "terrane/gpu/timer.h"
@@ -61,6 +62,9 @@ class Renderer {
     // setViewDistance is the farthest that light is kept for. `bricks` and result: see LightStore.
     bool setLight(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF);
     void removeChunk(world::ChunkPos pos);
+    // A chunk that is not shown keeps its quads and its light. Chunks are shown unless told otherwise, which
+    // may come before they are set; removeChunk() ends it.
+    void setShown(world::ChunkPos pos, bool isShown);
     // Makes room for light; what was set is forgotten.
     void setViewDistance(int chunks);
     // Forgets all chunks. Their memory is given back but for the least that there is at first.
@@ -99,6 +103,7 @@ class Renderer {
     QuadDraw quadDraw();
     ShadingInputs shadingInputs() const;
     bool hasShadows(const FrameInput& input) const;
+    void showQuads(world::ChunkPos pos, mesh::MeshSectionSet changed);
     void shareBudget();
     void notePeak();
 
@@ -106,6 +111,7 @@ class Renderer {
     FrameTargets targets_;
     QuadStore quads_{{.arenaQuads = 1}};  // until clearChunks()
     MeshSectionTable meshSections_;
+    std::unordered_set<world::ChunkPos, world::ChunkPosHash> hidden_;  // chunks that are not shown
     LightStore light_;
     QuadResources resources_;
     gpu::MappedRing ring_;

@@ -55,10 +55,22 @@ void Renderer::notePeak() {
     peakBytes_ = std::max(peakBytes_, others + quads_.takePeakBytes() + light_.takePeakBytes());
 }
 
+void Renderer::showQuads(world::ChunkPos pos, mesh::MeshSectionSet changed) {
+    if (!hidden_.contains(pos)) meshSections_.set(pos, quads_.meshSectionsOf(pos), changed);
+}
+
+void Renderer::setShown(world::ChunkPos pos, bool isShown) {
+    if (isShown) {
+        if (hidden_.erase(pos) > 0) showQuads(pos, mesh::kAllMeshSections);
+    } else if (hidden_.insert(pos).second) {
+        meshSections_.remove(pos);
+    }
+}
+
 bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::MeshSectionSet meshSections) {
     shareBudget();
     const bool hasRoom = quads_.set(pos, mesh, meshSections);
-    meshSections_.set(pos, quads_.meshSectionsOf(pos), meshSections);
+    showQuads(pos, meshSections);
     notePeak();
     return hasRoom;
 }
@@ -66,7 +78,7 @@ bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::
 bool Renderer::reserveChunk(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes) {
     shareBudget();
     const bool hasRoom = quads_.reserve(pos, meshes);
-    meshSections_.set(pos, quads_.meshSectionsOf(pos));
+    showQuads(pos, mesh::kAllMeshSections);
     notePeak();
     return hasRoom;
 }
@@ -80,6 +92,7 @@ bool Renderer::setLight(world::ChunkPos pos, const light::ChunkLight& light, std
 
 void Renderer::removeChunk(world::ChunkPos pos) {
     meshSections_.remove(pos);
+    hidden_.erase(pos);
     quads_.remove(pos);
     light_.remove(pos);
 }
@@ -101,6 +114,7 @@ void Renderer::setViewDistance(int chunks) {
 void Renderer::clearChunks() {
     quads_ = QuadStore({.arenaQuads = 1});  // before the new one takes memory
     quads_ = QuadStore(quadSizes_);
+    hidden_.clear();
     meshSections_ = MeshSectionTable(quads_.ranges().arenaSize());
     setViewDistance(viewDistance_);
 }

@@ -101,4 +101,11 @@ std::vector<TileMesh> TilePipeline::takeMeshes(std::size_t limit) {
     return taken;
 }
 
+void TilePipeline::forgetAll() {
+    const TileView view = table_.view;
+    table_ = {};
+    setTileView(table_, view);
+    finished_.clear();
+}
+
 }  // namespace terrane::stream

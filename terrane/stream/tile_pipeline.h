@@ -49,6 +49,9 @@ class TilePipeline {
     // What is to be shown, hidden and dropped, by what the caller has.
     TileChanges takeChanges() { return updateTiles(table_); }
 
+    // The caller has nothing any more: everything comes again.
+    void forgetAll();
+
     const TileTable& table() const { return table_; }
     // Tiles that are wanted and that the caller does not have.
     std::size_t missing() const { return missingTiles(table_); }

@@ -69,7 +69,8 @@ class Pilot {
     // Also what the GPU is to mesh.
     bool isAllThere() const {
         const stream::ChunkPipeline& pipeline = session_.pipeline();
-        return pipeline.progress().complete() && pipeline.waitingChanges() == 0 && view_.waiting() == 0;
+        return pipeline.progress().complete() && pipeline.waitingChanges() == 0 && view_.waiting() == 0 &&
+               view_.missingTiles() == 0;
     }
 
     void frame(const game::MoveKeys& keys) {
@@ -107,7 +108,7 @@ class Pilot {
 
     void draw(float seconds) {
         const render::Camera from = camera();
-        renderer_.draw({from, world::environmentAt(flight_.timeDay), fogDistance(view_.viewDistance()),
+        renderer_.draw({from, world::environmentAt(flight_.timeDay), fogDistance(view_.sightDistance()),
                         seconds, render::View::Color, game::isUnderWater(session_, from.position)});
         glFinish();
     }

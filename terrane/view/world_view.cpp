@@ -33,6 +33,7 @@ glm::vec2 lookSector(const render::Camera& camera) {
 void WorldView::follow(const render::Camera& camera, int viewDistance) {
     setView(render::cameraChunk(camera), viewDistance, lookSector(camera));
     session_.pipeline().update();
+    far_.update();
 }
 
 void WorldView::setView(world::ChunkPos center, int viewDistance, glm::vec2 direction) {
@@ -42,7 +43,17 @@ void WorldView::setView(world::ChunkPos center, int viewDistance, glm::vec2 dire
     }
     center_ = center;
     direction_ = direction;
+    moveView();
+}
+
+void WorldView::moveView() {
     session_.pipeline().setView(center_, viewDistance_, direction_);
+    far_.setView(center_, viewDistance_, horizon_);
+}
+
+void WorldView::setHorizon(const Horizon& horizon) {
+    if (horizon == requestedHorizon_) return;
+    requestedHorizon_ = horizon_ = horizon;
 }
 
 base::Result<void> WorldView::meshOnGpu(const gpu::ShaderLoader& shaders, double budgetMilliseconds) {
@@ -64,6 +75,11 @@ std::size_t WorldView::upload(double budgetSeconds) {
         ++count;
     } while (std::chrono::duration<double>(Clock::now() - start).count() < budgetSeconds);
     if (queue_) advanceQueue();
+    const std::chrono::duration<double> budget(std::min(budgetSeconds, 1e6));
+    const auto deadline = start + std::chrono::duration_cast<Clock::duration>(budget);
+    while (!far_.upload(deadline) && shortenHorizon()) {
+    }
+    far_.applyChanges();
     noticeShortView();
     return count;
 }
@@ -82,8 +98,18 @@ bool WorldView::makeRoomFor(world::ChunkPos pos, const Set& set) {
     return true;
 }
 
+// Far land goes first.
+bool WorldView::shortenHorizon() {
+    if (horizon_.distance <= viewDistance_) return false;
+    horizon_.distance /= 2;
+    moveView();
+    far_.applyChanges();
+    return true;
+}
+
 // False where the view is as short as can be.
 bool WorldView::shortenView() {
+    if (shortenHorizon()) return true;
     const render::GpuMemory used = renderer_.memory();
     const std::size_t budget = renderer_.memoryBudget();
     const std::size_t limitBytes = budget - std::min(budget, used.fixed());
@@ -91,9 +117,8 @@ bool WorldView::shortenView() {
         fittingViewDistance({renderer_.chunkCount(), used.world(), limitBytes}, viewDistance_);
     if (shorter >= viewDistance_) return false;
     viewDistance_ = shorter;
-    stream::ChunkPipeline& pipeline = session_.pipeline();
-    pipeline.setView(center_, viewDistance_, direction_);
-    for (const world::ChunkPos pos : pipeline.takeHidden()) hide(pos);
+    moveView();
+    for (const world::ChunkPos pos : session_.pipeline().takeHidden()) hide(pos);
     return true;
 }
 
@@ -109,6 +134,7 @@ void WorldView::keepWithinBudget() {
     session_.pipeline().hideAll();
     for (const world::ChunkPos pos : session_.pipeline().takeHidden()) hide(pos);
     renderer_.clearChunks();
+    far_.forgetAll();
 }
 
 void WorldView::noticeShortView() {
@@ -122,19 +148,23 @@ void WorldView::noticeShortView() {
 
 void WorldView::show(const stream::ChunkChange& change) {
     if (change.isHidden) return hide(change.pos);
+    far_.beforeChunk(change.pos);
     const auto setLight = [&] { return renderer_.setLight(change.pos, *change.light, change.bricks); };
     if (change.light && !makeRoomFor(change.pos, setLight)) return;
     // An edit of a chunk that is on the way is meshed with the rest of it.
     if (change.needsMesh || (change.mesh && queue_ && queue_->contains(change.pos))) {
         queue_->add(change.pos);
     } else if (change.mesh) {
-        makeRoomFor(change.pos,
-                    [&] { return renderer_.setChunk(change.pos, *change.mesh, change.meshSections); });
+        const auto setMesh = [&] {
+            return renderer_.setChunk(change.pos, *change.mesh, change.meshSections);
+        };
+        if (makeRoomFor(change.pos, setMesh)) far_.setChunkReady(change.pos, true);
     }
 }
 
 void WorldView::hide(world::ChunkPos pos) {
     if (queue_) queue_->remove(pos);
+    far_.setChunkReady(pos, false);
     renderer_.removeChunk(pos);
 }
 
@@ -152,6 +182,7 @@ void WorldView::writeMeshes() {
             refused.push_back(chunk.pos);
             continue;
         }
+        far_.setChunkReady(chunk.pos, true);
         for (const mesh::MeshSection& section : renderer_.meshSectionsOf(chunk.pos)) {
             firstQuads.push_back(mesh::firstQuad(section));
         }
@@ -188,6 +219,14 @@ void WorldView::warnOfNoRoom(world::ChunkPos pos) {
         renderer_.memoryBudget() >> 20, viewDistance_, pos.x, pos.y);
 }
 
+void WorldView::waitForWorkers(std::chrono::milliseconds atMost) {
+    if (session_.pipeline().progress().isUpToDate()) {
+        session_.tiles().waitForWorkers(atMost);
+    } else {
+        session_.pipeline().waitForWorkers(atMost);
+    }
+}
+
 double loadAll(game::Session& session, WorldView& view, const render::Camera& camera, int viewDistance,
                stream::ChunkPipeline::Time now) {
     stream::ChunkPipeline& pipeline = session.pipeline();
@@ -195,12 +234,13 @@ double loadAll(game::Session& session, WorldView& view, const render::Camera& ca
     double uploads = 0;
     for (;;) {
         pipeline.update(now);
+        view.updateTiles();
         const auto start = Clock::now();
         const std::size_t changed = view.upload(std::numeric_limits<double>::infinity());
         uploads += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-        const bool isLoaded = pipeline.progress().isUpToDate();
+        const bool isLoaded = pipeline.progress().isUpToDate() && view.missingTiles() == 0;
         if (isLoaded && changed == 0 && view.waiting() == 0) return uploads;
-        if (!isLoaded && changed == 0) pipeline.waitForWorkers(std::chrono::milliseconds(100));
+        if (!isLoaded && changed == 0) view.waitForWorkers(std::chrono::milliseconds(100));
     }
 }
 

@@ -15,6 +15,7 @@
 #include "terrane/game/session.h"
 #include "terrane/mesh_gpu/mesh_queue.h"
 #include "terrane/render/renderer.h"
+#include "terrane/view/far_view.h"
 
 namespace terrane::view {
 
@@ -40,7 +41,8 @@ class WorldView {
     static constexpr double kFrameMilliseconds = 3, kNoHurry = 0;
 
     // Both outlive this.
-    WorldView(game::Session& session, render::Renderer& renderer) : session_(session), renderer_(renderer) {}
+    WorldView(game::Session& session, render::Renderer& renderer)
+        : session_(session), renderer_(renderer), far_(session, renderer) {}
 
     // For a session whose pipeline leaves whole chunks to its caller (stream::MeshPolicy): meshes them on the
     // GPU, where they are drawn from, for so long a frame. Comes before the first upload.
@@ -51,8 +53,12 @@ class WorldView {
     void follow(const render::Camera& camera, int viewDistance);
     // The same without taking in. `direction`: see stream::ViewOrder.
     void setView(world::ChunkPos center, int viewDistance, glm::vec2 direction = {});
+    // How far land goes on beyond the chunks, from the next setView() or follow() on.
+    void setHorizon(const Horizon& horizon);
     // What was asked for last, or what memory allows of it.
     int viewDistance() const { return viewDistance_; }
+    // How far one sees, chunks: to the horizon, or the view distance.
+    int sightDistance() const { return std::max(viewDistance_, horizon_.distance); }
     // Hands changed chunks to the renderer, at least one, until so much time is over; the rest waits for the
     // next frames. How many it handed on.
     std::size_t upload(double budgetSeconds);
@@ -64,12 +70,20 @@ class WorldView {
     }
     // Chunks that were handed on and wait for the GPU to mesh them.
     std::size_t waiting() const { return queue_ ? queue_->size() : 0; }
+    // Takes in the tiles that workers finished; part of follow().
+    void updateTiles() { far_.update(); }
+    // Tiles that are not on screen yet.
+    std::size_t missingTiles() const { return far_.missing(); }
+    // Blocks until workers may have finished something, or the time is over.
+    void waitForWorkers(std::chrono::milliseconds atMost);
 
   private:
     void show(const stream::ChunkChange& change);
     template <class Set>
     bool makeRoomFor(world::ChunkPos pos, const Set& set);
     bool shortenView();
+    bool shortenHorizon();
+    void moveView();
     void keepWithinBudget();
     void noticeShortView();
     void hide(world::ChunkPos pos);
@@ -80,6 +94,8 @@ class WorldView {
 
     game::Session& session_;
     render::Renderer& renderer_;
+    FarView far_;
+    Horizon requestedHorizon_, horizon_;  // horizon_: what memory allows of it
     std::optional<mesh_gpu::MeshQueue> queue_;
     world::ChunkPos center_;
     glm::vec2 direction_{};

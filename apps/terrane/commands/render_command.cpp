@@ -149,7 +149,7 @@ base::Result<void> renderImage(const RenderCommandOptions& options) {
     const auto drawStart = Clock::now();
     const render::FrameInput input{camera,
                                    world::environmentAt(place->timeDay),
-                                   view::fogDistance(timings.viewDistance),
+                                   view::fogDistance((*world)->view->sightDistance()),
                                    options.seconds,
                                    options.graphics.view,
                                    game::isUnderWater(session, camera.position)};

@@ -34,6 +34,7 @@ base::Result<void> Recorder::apply(const GraphicsOptions& graphics) {
             return configured;
     }
     pipeline.setMeshOptions(settings.mesh);
+    parts_.world.view->setHorizon({settings.horizon, settings.detail});
     if (settings.viewDistance != viewDistance_) {
         viewDistance_ = settings.viewDistance;
         renderer.setViewDistance(viewDistance_);
@@ -72,7 +73,7 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     render::FrameInput input;
     input.camera = point.camera;
     input.environment = world::environmentAt(point.timeDay);
-    input.fogDistance = view::fogDistance(parts_.world.view->viewDistance());
+    input.fogDistance = view::fogDistance(parts_.world.view->sightDistance());
     input.timeSeconds = static_cast<float>(seconds);
     input.view = graphics.view;
     input.isUnderWater = game::isUnderWater(session, point.camera.position);

@@ -86,6 +86,7 @@ void Game::advance(double seconds) {
     session.setPlayer(game::kLocalPlayer, player_.pose());
     interaction_.act(session, game::kLocalPlayer, player_, seconds);
     session.advance(seconds, world::chunkOf(player_.pose().position));
+    parts_.view.setHorizon({settings_.graphics.horizon, settings_.graphics.detail});
     parts_.view.follow(camera(), settings_.graphics.viewDistance);
 }
 
@@ -181,7 +182,7 @@ render::FrameInput Game::frameInput() const {
     render::FrameInput input;
     input.camera = camera();
     input.environment = world::environmentAt(static_cast<float>(parts_.session.clock.timeDay));
-    input.fogDistance = view::fogDistance(parts_.view.viewDistance());
+    input.fogDistance = view::fogDistance(parts_.view.sightDistance());
     input.timeSeconds = static_cast<float>(seconds_);
     input.view = settings_.view;
     input.isUnderWater = game::isUnderWater(parts_.session, player_.pose().position);

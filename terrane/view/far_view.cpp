@@ -1,0 +1,35 @@
+#include "terrane/view/far_view.h"
+
+#include "terrane/base/profile.h"
+
+namespace terrane::view {
+
+void FarView::setView(world::ChunkPos center, int viewDistance, const Horizon& horizon) {
+    tiles_.setView({center, viewDistance, horizon.distance, horizon.detail});
+}
+
+void FarView::beforeChunk(world::ChunkPos pos) {
+    if (!tiles_.table().records.contains(pos)) renderer_.setShown(pos, false);
+}
+
+bool FarView::upload(std::chrono::steady_clock::time_point deadline) {
+    TERRANE_ZONE("upload tiles");
+    while (std::chrono::steady_clock::now() < deadline) {
+        const std::vector<stream::TileMesh> tiles = tiles_.takeMeshes(1);
+        if (tiles.empty()) return true;
+        renderer_.setShown(tiles.front().pos, false);
+        if (!renderer_.setChunk(tiles.front().pos, *tiles.front().mesh)) return false;
+    }
+    return true;
+}
+
+void FarView::applyChanges() {
+    const stream::TileChanges changes = tiles_.takeChanges();
+    for (const world::ChunkPos pos : changes.hidden) {
+        if (tiles_.table().records.contains(pos)) renderer_.setShown(pos, false);
+    }
+    for (const world::ChunkPos pos : changes.dropped) renderer_.removeChunk(pos);
+    for (const world::ChunkPos pos : changes.shown) renderer_.setShown(pos, true);
+}
+
+}  // namespace terrane::view
