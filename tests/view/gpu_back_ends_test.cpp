@@ -2,10 +2,7 @@
 // the same edits, the same views, the same images.
 #include "terrane/view/gpu_back_ends.h"
 
-#include "terrane/gen/generators/catalogue.h"
-#include "terrane/store/memory_store.h"
-#include "terrane/view/world_view.h"
-#include "tests/golden/golden_fixture.h"
+#include "tests/view/drawn_session.h"
 
 namespace terrane::view {
 namespace {
@@ -15,43 +12,16 @@ constexpr glm::ivec2 kSize{160, 90};
 
 class GpuBackEndsTest : public gpu::GlTest {
   protected:
-    // The parts refer to each other by address.
-    struct Player {
-        std::unique_ptr<GpuBackEnds> backEnds;
-        std::unique_ptr<game::Session> session;
-        render::Renderer renderer;
-        std::optional<WorldView> view;
-    };
-
-    std::unique_ptr<Player> makePlayer(bool isOnGpu) {
-        auto graph = gen::makeGenerator("overworld", contentBlocks()).value();
-        auto player = std::make_unique<Player>();
-        game::SessionParts parts{
-            std::make_unique<const world::BlockRegistry>(contentBlocks()),
-            gen::makeLevelGenerators("overworld", contentBlocks(), 1).value(),
-            std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "overworld", 1}), 2};
-        if (isOnGpu) {
-            player->backEnds = makeGpuBackEnds(render::contentShaders(), graph, 1, contentBlocks()).value();
-            useBackEnds(parts, *player->backEnds);
-        }
-        player->session = std::make_unique<game::Session>(std::move(parts));
-        gpu::DeviceInfo device = gpu::queryDevice();
-        auto renderer = render::Renderer::create(render::contentShaders(), contentBlocks(),
-                                                 render::contentTexture, device);
-        player->renderer = std::move(renderer.value());
-        EXPECT_TRUE(player->renderer.configure(kSize, render::plainOptions(1)));
-        player->renderer.setViewDistance(kViewDistance);
-        player->view.emplace(*player->session, player->renderer);
-        if (isOnGpu) {
-            EXPECT_TRUE(player->view->meshOnGpu(render::contentShaders(), WorldView::kNoHurry));
-        }
-        return player;
+    static std::unique_ptr<DrawnSession> makePlayer(bool isOnGpu) {
+        return makeDrawnSession({.size = kSize,
+                                 .viewDistance = kViewDistance,
+                                 .generatesOnGpu = isOnGpu,
+                                 .meshesOnGpu = isOnGpu});
     }
 
-    static base::Image imageOf(Player& player, const render::Camera& camera) {
+    static base::Image imageOf(DrawnSession& player, const render::Camera& camera) {
         loadAll(*player.session, *player.view, camera, kViewDistance, std::chrono::steady_clock::now());
-        player.renderer.draw({camera, world::environmentAt(0.4f), 32, 0, render::View::Color});
-        return player.renderer.readImage();
+        return player.draw({camera, world::environmentAt(0.4f), 32, 0, render::View::Color});
     }
 };
 

@@ -1,12 +1,8 @@
 // A view with too little GPU memory for the distance that is asked for, beside one with enough.
 #include <chrono>
 
-#include "terrane/gen/generators/catalogue.h"
-#include "terrane/store/memory_store.h"
 #include "terrane/view/camera_pose.h"
-#include "terrane/view/gpu_back_ends.h"
-#include "terrane/view/world_view.h"
-#include "tests/golden/golden_fixture.h"
+#include "tests/view/drawn_session.h"
 
 namespace terrane::view {
 namespace {
@@ -28,36 +24,15 @@ const render::Camera kCamera{{-1020, -60, 100}, 200, -12};
 
 class ViewMemoryTest : public gpu::GlTest {
   protected:
-    // The parts refer to each other by address.
-    struct Player {
-        std::unique_ptr<GpuBackEnds> backEnds;
-        std::unique_ptr<game::Session> session;
-        render::Renderer renderer;
-        std::optional<WorldView> view;
-    };
-
-    std::unique_ptr<Player> makePlayer(std::size_t budget, int distance, bool isOnGpu) {
-        auto graph = gen::makeGenerator("overworld", contentBlocks()).value();
-        auto player = std::make_unique<Player>();
-        game::SessionParts parts{
-            std::make_unique<const world::BlockRegistry>(contentBlocks()), gen::Generator(graph, 1),
-            std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "overworld", 1}), 2};
-        if (isOnGpu) parts.meshing = stream::MeshPolicy::Caller;
-        player->session = std::make_unique<game::Session>(std::move(parts));
-        player->renderer = std::move(render::Renderer::create(render::contentShaders(), contentBlocks(),
-                                                              render::contentTexture, gpu::queryDevice())
-                                         .value());
-        player->renderer.setMemoryBudget(budget);
-        EXPECT_TRUE(player->renderer.configure(kImageSize, options()));
-        player->renderer.setViewDistance(distance);
-        player->view.emplace(*player->session, player->renderer);
-        if (isOnGpu) {
-            EXPECT_TRUE(player->view->meshOnGpu(render::contentShaders(), WorldView::kNoHurry));
-        }
-        return player;
+    static std::unique_ptr<DrawnSession> makePlayer(std::size_t budget, int distance, bool isOnGpu) {
+        return makeDrawnSession({.size = kImageSize,
+                                 .viewDistance = distance,
+                                 .render = options(),
+                                 .memoryBudget = budget,
+                                 .meshesOnGpu = isOnGpu});
     }
 
-    static base::Image draw(Player& player, const render::Camera& camera) {
+    static base::Image draw(DrawnSession& player, const render::Camera& camera) {
         player.renderer.draw({camera, world::environmentAt(0.4f), fogDistance(player.view->viewDistance()), 0,
                               render::View::Color});
         return player.renderer.readImage();
@@ -71,7 +46,7 @@ class ViewMemoryTest : public gpu::GlTest {
     }
 
     // Frames as the window draws them, until all is there. How many notices there were.
-    static int frames(Player& player, const render::Camera& camera, int distance) {
+    static int frames(DrawnSession& player, const render::Camera& camera, int distance) {
         int notices = 0;
         for (bool isLoaded = false; !isLoaded;) {
             player.view->follow(camera, distance);
@@ -87,7 +62,7 @@ class ViewMemoryTest : public gpu::GlTest {
         return notices;
     }
 
-    static void expectShortView(Player& player) {
+    static void expectShortView(DrawnSession& player) {
         EXPECT_EQ(frames(player, kCamera, kRequested), 1);
         const int reached = player.view->viewDistance();
         EXPECT_LT(reached, kRequested);

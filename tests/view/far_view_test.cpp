@@ -1,0 +1,129 @@
+// Land to the horizon on screen: no holes where levels meet, the same light as nearby, nothing left behind.
+#include "terrane/view/far_view.h"
+
+#include <glm/trigonometric.hpp>
+#include <random>
+
+#include "terrane/view/camera_pose.h"
+#include "tests/view/drawn_session.h"
+
+namespace terrane::view {
+namespace {
+
+constexpr glm::ivec2 kFarSize{96, 64};
+constexpr int kNear = 4, kFar = 128;
+constexpr double kFarBlocks = kFar * 16.0;
+
+class FarViewTest : public gpu::GlTest {
+  protected:
+    static constexpr glm::dvec3 kPlaces[] = {{-1020, -60, 120}, {8, 8, 140}, {1318, -790, 150}};
+
+    std::unique_ptr<DrawnSession> load(const render::Camera& camera, int horizon, int detail = 8) {
+        auto player = makeDrawnSession({.size = kFarSize, .viewDistance = kNear});
+        player->view->setHorizon({horizon, detail});
+        loadAll(*player->session, *player->view, camera, kNear, std::chrono::steady_clock::now());
+        return player;
+    }
+
+    static render::FrameInput inputAt(const render::Camera& camera, render::View view) {
+        return {camera, world::environmentAt(0.5f), 2 * fogDistance(kFar), 0, view};
+    }
+
+    // In the camera's chunk.
+    static int highestBlock(const DrawnSession& player, const render::Camera& camera) {
+        const world::Chunk chunk = player.session->generator().generate(render::cameraChunk(camera));
+        for (int k = world::kBlocksPerChunk - 1; k > 0; --k) {
+            if (chunk.block(static_cast<world::BlockIndex>(k)) != world::kAir) return k >> 8;
+        }
+        return 0;
+    }
+
+    // Pixels that show nothing although their rays meet the bottom of the world within the horizon.
+    static int holes(const base::Image& normals, const render::Camera& camera) {
+        const double scale = std::tan(glm::radians(camera.fieldOfView) / 2) * 2 / kFarSize.y;
+        const glm::dvec3 look = render::lookDirection(camera), right = render::rightDirection(camera);
+        const glm::dvec3 up = glm::cross(right, look);
+        int count = 0;
+        for (int y = 0; y < kFarSize.y; ++y) {
+            for (int x = 0; x < kFarSize.x; ++x) {
+                const std::size_t at = 4 * static_cast<std::size_t>(x + y * kFarSize.x);
+                if (normals.rgba[at] + normals.rgba[at + 1] + normals.rgba[at + 2] > 0) continue;
+                const glm::dvec3 ray = look + right * (scale * (x + 0.5 - kFarSize.x / 2.0)) +
+                                       up * (scale * (kFarSize.y / 2.0 - y - 0.5));
+                const double steps = ray.z < 0 ? camera.position.z / -ray.z : 1e9;
+                count += steps * std::hypot(ray.x, ray.y) < 0.8 * kFarBlocks;
+            }
+        }
+        return count;
+    }
+};
+
+TEST_F(FarViewTest, ThereAreNoHoles) {
+    std::mt19937 random(7);
+    const auto within = [&](double least, double most) {
+        return std::uniform_real_distribution<double>(least, most)(random);
+    };
+    for (const glm::dvec3& place : kPlaces) {
+        const auto player = load({place}, kFar);
+        for (int k = 0; k < 60; ++k) {
+            // Near and far from where chunks end, from the ground to high above.
+            const double reach = k % 2 == 0 ? 100 : 600;
+            render::Camera camera{
+                {place.x + within(-reach, reach), place.y + within(-reach, reach), within(100, 250)},
+                static_cast<float>(within(0, 360)),
+                static_cast<float>(within(-90, -5))};
+            camera.position.z = std::max(camera.position.z, highestBlock(*player, camera) + 2.0);
+            const base::Image image = player->draw(inputAt(camera, render::View::Normal));
+            EXPECT_EQ(holes(image, camera), 0)
+                << camera.position.x << ',' << camera.position.y << ',' << camera.position.z << " look "
+                << camera.yaw << ' ' << camera.pitch;
+        }
+    }
+}
+
+// The test above sees holes: without tiles there are many.
+TEST_F(FarViewTest, WithoutAHorizonThereAreHoles) {
+    const render::Camera camera{{8, 8, 200}, 30, -20};
+    const auto player = load(camera, 0);
+    EXPECT_GT(holes(player->draw(inputAt(camera, render::View::Normal)), camera), 100);
+}
+
+// Far tiles have no light of their own: they lie under the open sky, wherever chunks with light are.
+TEST_F(FarViewTest, FarLandIsAsBrightAsNearLand) {
+    const render::Camera camera{{-1020, -60, 240}, 0, -90};
+    const auto player = load(camera, kFar);
+    const base::Image image = player->draw(inputAt(camera, render::View::Light));
+    // Half a view of 70 degrees from 150 blocks above the ground is 105 blocks wide; chunks end at 64.
+    for (const int x : {2, kFarSize.x - 3}) {
+        EXPECT_GT(image.rgba[4 * static_cast<std::size_t>(x + kFarSize.x * kFarSize.y / 2)], 200) << x;
+    }
+}
+
+// A camera that goes away and comes back sees what it saw.
+TEST_F(FarViewTest, ComingBackShowsTheSame) {
+    const render::Camera home{{8, 8, 140}, 30, -15}, away{{900, 8, 140}, 30, -15};
+    const auto player = load(home, kFar);
+    const base::Image before = player->draw(inputAt(home, render::View::Color));
+    for (const render::Camera& camera : {away, home})
+        loadAll(*player->session, *player->view, camera, kNear, std::chrono::steady_clock::now());
+    const auto fresh = load(home, kFar);
+    const base::Image after = player->draw(inputAt(home, render::View::Color));
+    EXPECT_EQ(before.rgba, fresh->draw(inputAt(home, render::View::Color)).rgba);
+    int different = 0;
+    for (std::size_t k = 0; k < before.rgba.size(); ++k) different += before.rgba[k] != after.rgba[k];
+    EXPECT_LT(different, 0.02 * static_cast<double>(before.rgba.size())) << "tiles near a border may stay";
+}
+
+TEST_F(FarViewTest, WithoutAHorizonNothingIsLeft) {
+    const render::Camera camera{{8, 8, 140}, 30, -15};
+    const auto player = load(camera, kFar), none = load(camera, 0);
+    EXPECT_GT(player->renderer.quadBytes(), 2 * none->renderer.quadBytes());
+    player->view->setHorizon({});
+    loadAll(*player->session, *player->view, camera, kNear, std::chrono::steady_clock::now());
+    EXPECT_EQ(player->renderer.quadBytes(), none->renderer.quadBytes());
+    EXPECT_EQ(player->draw(inputAt(camera, render::View::Color)).rgba,
+              none->draw(inputAt(camera, render::View::Color)).rgba);
+}
+
+}  // namespace
+}  // namespace terrane::view
