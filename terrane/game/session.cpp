@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "terrane/shared/shape_face.h"
+#include "terrane/shared/material.h"
 #include "terrane/world/plant_growth.h"
 
 namespace terrane::game {
@@ -93,9 +93,9 @@ bool isUnderWater(const Session& session, const glm::dvec3& point) {
     const world::BlockPos pos{static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y),
                               static_cast<std::int32_t>(at.z)};
     if (session.world().block(pos) != water) return false;
-    constexpr double kSurface = shared::kLiquidSurfaceSixteenths / 16.0;
+    const double surface = session.blocks().type(water).surface.heightUnits / double{shared::kSurfaceUnits};
     const bool isFull = session.world().block({pos.x, pos.y, pos.z + 1}) == water;
-    return isFull || point.z - at.z < kSurface;
+    return isFull || point.z - at.z < surface;
 }
 
 }  // namespace terrane::game

@@ -62,8 +62,21 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
 base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, const TextureSource& textures) {
     auto loaded = loadBlockTextures(blocks, textures, device_.maxArrayLayers);
     if (!loaded) return tl::unexpected(loaded.error());
-    resources_.setTextures(std::move(*loaded));
+    if (targets_.size.x > 0) {
+        const bool before = resources_.hasFaceSampling(), now = needsFaceSampling(blocks, *loaded);
+        if (auto done = passes_.configure(targets_, options_, now); !done) {
+            keepOptions(before);
+            return done;
+        }
+    }
+    resources_.setTextures(blocks, std::move(*loaded));
     return {};
+}
+
+// After passes could not be configured otherwise.
+void Renderer::keepOptions(bool hasFaceSampling) {
+    const auto undone = passes_.configure(targets_, options_, hasFaceSampling);
+    if (!undone) base::logError("options cannot be as they were: {}", undone.error().message);
 }
 
 base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& options) {
@@ -81,10 +94,9 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
         if (!targets) return tl::unexpected(targets.error());
         made = std::move(*targets);
     }
-    if (auto done = passes_.configure(made ? *made : targets_, options); !done) {
-        const bool isDrawn = targets_.size.x > 0;
-        const auto undone = isDrawn ? passes_.configure(targets_, options_) : base::Result<void>();
-        if (!undone) base::logError("options cannot be as they were: {}", undone.error().message);
+    const bool hasFaceSampling = resources_.hasFaceSampling();
+    if (auto done = passes_.configure(made ? *made : targets_, options, hasFaceSampling); !done) {
+        if (targets_.size.x > 0) keepOptions(hasFaceSampling);
         return done;
     }
     if (made) targets_ = std::move(*made);
@@ -96,7 +108,8 @@ base::Result<void> Renderer::reloadShaders() {
     auto passes = FramePasses::create(*shaders_, device_);
     if (!passes) return tl::unexpected(passes.error());
     if (targets_.size.x > 0) {
-        if (auto done = passes->configure(targets_, options_); !done) return done;
+        if (auto done = passes->configure(targets_, options_, resources_.hasFaceSampling()); !done)
+            return done;
     }
     passes_ = std::move(*passes);
     return {};

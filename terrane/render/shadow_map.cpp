@@ -22,8 +22,8 @@ base::Result<void> ShadowMap::resize(int size) {
     framebuffer_ = {};
     depth_ = {};
     if (size == 0) return {};
-    auto selected = opaque_.select({{"PASS", "2"}, {"ALPHA_CLASS", "0"}});
-    if (selected) selected = tested_.select({{"PASS", "2"}, {"ALPHA_CLASS", "1"}});
+    auto selected = opaque_.select({{"PASS", "2"}, {"ALPHA_CLASS", "0"}, {"FACE_SAMPLING", "0"}});
+    if (selected) selected = tested_.select({{"PASS", "2"}, {"ALPHA_CLASS", "1"}, {"FACE_SAMPLING", "0"}});
     if (!selected) return selected;
     gpu::Texture2D depth({size, size}, kFormat, 1, "shadow map");
     auto framebuffer = gpu::Framebuffer::create({{}, depth}, "shadow map");

@@ -1,6 +1,7 @@
 #include "terrane/world/block_parser.h"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <unordered_set>
@@ -38,10 +39,13 @@ constexpr std::array<EnumName<Animation>, 4> kAnimations{{{"none", Animation::No
                                                           {"whole_waves", Animation::WholeWaves},
                                                           {"liquid_surface", Animation::LiquidSurface}}};
 
-constexpr std::array<std::string_view, 17> kBlockKeys{
-    "name",       "shape",        "texture",   "textures", "alpha",    "animation",
-    "two_sided",  "inner_faces",  "opacity",   "emission", "collides", "selection",
-    "selectable", "needs_ground", "generated", "growth",   "slots"};
+constexpr std::array<EnumName<Wrap>, 3> kWraps{
+    {{"quad", Wrap::Quad}, {"repeat", Wrap::Repeat}, {"clamp", Wrap::Clamp}}};
+
+constexpr std::array<std::string_view, 21> kBlockKeys{
+    "name",       "shape",        "texture",     "textures", "alpha",    "animation",      "two_sided",
+    "wrap",       "sharp",        "inner_faces", "opacity",  "emission", "collides",       "selection",
+    "selectable", "needs_ground", "generated",   "growth",   "slots",    "surface_height", "wave_height"};
 
 // `texture` for all faces or `textures` with one a group: exactly one of them.
 Groups<std::string> readTextures(ContentTable& table) {
@@ -69,9 +73,16 @@ void readFaces(ContentTable& table, BlockDescription& block) {
     const auto twoSided =
         table.valueEach<bool>("two_sided", kGroupNames, false,
                               [&](const toml::node& value, auto key) { return table.booleanOf(value, key); });
+    const auto wrap = table.valueEach<Wrap>(
+        "wrap", kGroupNames, Wrap::Quad,
+        [&](const toml::node& value, auto key) { return table.enumOf(value, key, kWraps); });
+    const auto filtering = table.valueEach<Filtering>(
+        "sharp", kGroupNames, Filtering::Option, [&](const toml::node& value, auto key) {
+            return table.booleanOf(value, key) ? Filtering::Sharp : Filtering::Nearest;
+        });
     for (std::size_t face = 0; face < kFaceCount; ++face) {
         const Group g = kGroupOfFace[face];
-        block.faces[face] = {.texture = textures[g], .alpha = alpha[g], .twoSided = twoSided[g]};
+        block.faces[face] = {textures[g], alpha[g], twoSided[g], wrap[g], filtering[g]};
     }
     if (const toml::node* value = table.node("animation"))
         block.animation = table.enumOf(*value, "animation", kAnimations);
@@ -79,6 +90,27 @@ void readFaces(ContentTable& table, BlockDescription& block) {
     const Shape shape = block.type.shape;
     const bool isPlant = shape == Shape::Cross || shape == Shape::Hash || shape == Shape::Inset;
     block.type.needsGround = table.boolean("needs_ground", isPlant);
+}
+
+// Height and waves of a liquid's surface. Waves sink by 4/3 of their height: they stay above the bottom.
+void readSurface(ContentTable& table, BlockDescription& block) {
+    constexpr double kMinHeight = 0.125, kMaxWave = 0.25;
+    LiquidSurface& surface = block.type.surface;
+    if (const toml::node* value = table.node("surface_height")) {
+        if (block.type.shape != Shape::Liquid)
+            return table.expected(*value, "surface_height", "surface_height only for the shape liquid");
+        const double height = table.realOf(*value, "surface_height", kMinHeight, 1);
+        surface.heightUnits = static_cast<std::uint16_t>(std::lround(height * shared::kSurfaceUnits));
+    }
+    const double highest = std::min(kMaxWave, 0.75 * surface.heightUnits / shared::kSurfaceUnits);
+    if (const toml::node* value = table.node("wave_height")) {
+        if (block.type.shape != Shape::Liquid || block.animation != Animation::LiquidSurface)
+            return table.expected(
+                *value, "wave_height",
+                "wave_height only with the shape liquid and animation = \"liquid_surface\"");
+        const double wave = table.realOf(*value, "wave_height", 0, highest);
+        surface.waveUnits = static_cast<std::uint16_t>(std::lround(wave * shared::kWaveUnits));
+    }
 }
 
 std::uint8_t lightOf(ContentTable& table, const toml::node& value, std::string_view key) {
@@ -155,6 +187,7 @@ BlockDescription readBlock(ContentTable& table) {
         table.missing("shape");
 
     readFaces(table, block);
+    readSurface(table, block);
     readLight(table, block);
     const Box box = shapeBox(block.type.shape);
     if (table.boolean("collides", true)) block.type.collision = {box};

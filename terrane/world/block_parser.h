@@ -22,6 +22,8 @@ struct FaceLook {
     std::string texture;
     AlphaMode alpha = AlphaMode::Unused;
     bool twoSided = false;
+    Wrap wrap = Wrap::Quad;
+    Filtering filtering = Filtering::Option;
 };
 
 struct BlockDescription {

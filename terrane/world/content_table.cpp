@@ -53,6 +53,13 @@ int ContentTable::numberOf(const toml::node& value, std::string_view key, int mi
     return min;
 }
 
+double ContentTable::realOf(const toml::node& value, std::string_view key, double min, double max) {
+    const auto number = value.is_number() ? value.value<double>() : std::nullopt;
+    if (number && *number >= min && *number <= max) return *number;
+    expected(value, key, fmt::format("{} to {}", min, max));
+    return min;
+}
+
 std::string ContentTable::nameOf(const toml::node& value, std::string_view key) {
     const auto text = value.value_exact<std::string>();
     if (text && isName(*text)) return *text;
