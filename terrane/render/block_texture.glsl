@@ -55,6 +55,10 @@ vec4 sharpTexture(sampler2DArray textures, uint face, vec2 inTextures, vec2 dx, 
 // SMOOTH 1: sharp filtering; 0 takes the nearest texel and costs a third. dx, dy: of the coordinates, before the margin
 // bends them.
 vec4 blockTexture(uint face, vec2 inTextures, vec2 dx, vec2 dy) {
+#if SMOOTH == 0 && MSAA_SAMPLES <= 1
+    // Cheaper, and the same where no pixel beside has ended and the coordinates are those of the face.
+    vec4 nearest = texture(blockTextures, vec3(inTextures, textureOf(face)));
+#endif
 #if FACE_SAMPLING == 1
     if (optionsFiltering(inSampling) == kFilteringSharp) return sharpTexture(smoothTextures, face, inTextures, dx, dy);
     if (optionsFiltering(inSampling) == kFilteringNearest)
@@ -62,19 +66,20 @@ vec4 blockTexture(uint face, vec2 inTextures, vec2 dx, vec2 dy) {
 #endif
 #if SMOOTH == 1
     return sharpTexture(blockTextures, face, inTextures, dx, dy);
-#elif MSAA_SAMPLES <= 1 && FACE_SAMPLING == 0
-    // Cheaper, and the same where no pixel beside has ended and the coordinates are those of the face.
-    return texture(blockTextures, vec3(inTextures, textureOf(face)));
+#elif MSAA_SAMPLES <= 1
+    return nearest;
 #else
     return textureGrad(blockTextures, vec3(inTextures, textureOf(face)), dx, dy);
 #endif
 }
 
-// The mipmap whose texels are nearest to a pixel's size, along its shorter side: planes seen edge on do not close.
+// The mipmap whose texels are nearest to a pixel's size, along its shorter side: planes seen edge on do not close. None
+// above the texture's own size.
 int nearestLevel(vec2 dx, vec2 dy) {
-    vec2 size = vec2(textureSize(blockTextures, 0).xy);
+    int doublings = int(optionsDoublings(inSampling));
+    vec2 size = vec2(textureSize(blockTextures, 0).xy >> doublings);
     float texels = min(length(dx * size), length(dy * size));
-    return clamp(int(log2(max(texels, 1.0)) + 0.5), 0, textureQueryLevels(blockTextures) - 1);
+    return clamp(int(log2(max(texels, 1.0)) + 0.5) + doublings, 0, textureQueryLevels(blockTextures) - 1);
 }
 
 vec4 nearestTexel(uint face, vec2 inTextures, int level) {

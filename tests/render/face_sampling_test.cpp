@@ -47,6 +47,13 @@ int maxDifference(const base::Image& a, const base::Image& b) {
     return most;
 }
 
+int differentPixels(const base::Image& a, const base::Image& b) {
+    int count = 0;
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x) count += pixel(a, x, y) != pixel(b, x, y) ? 1 : 0;
+    return count;
+}
+
 class FaceSampling : public RendererTest {
   protected:
     static Renderer make(const world::BlockRegistry& blocks, const TextureSource& textures) {
@@ -85,7 +92,7 @@ TEST_F(FaceSampling, ALargerTextureLeavesOtherBlocksAsTheyAre) {
         for (const int samples : {1, 4}) {
             for (const bool isSharp : {false, true}) {
                 const base::Image expected = draw(plain, camera, samples, isSharp);
-                EXPECT_LE(maxDifference(draw(mixed, camera, samples, isSharp), expected), 0)
+                EXPECT_EQ(maxDifference(draw(mixed, camera, samples, isSharp), expected), 0)
                     << &camera - kCameras << ", samples " << samples << (isSharp ? ", sharp" : "");
             }
         }
@@ -109,7 +116,8 @@ TEST_F(FaceSampling, ALargerTextureThatComesLaterIsDrawnAsFromTheBeginning) {
     EXPECT_EQ(maxDifference(draw(renderer, kCameras[0], 1, true), before), 0) << "and as before again";
 }
 
-// One of the driver's roundings of derivatives may differ: the shorter shader takes them by itself.
+// Up to one pixel in 200 may differ: the driver chooses the mipmap of a nearest texel by derivatives of its
+// own or by given ones.
 TEST_F(FaceSampling, TheKeySharpIsTheOptionOfAFace) {
     Renderer plain = make(contentBlocks(), contentTexture);
     for (const bool isSharp : {false, true}) {
@@ -117,9 +125,9 @@ TEST_F(FaceSampling, TheKeySharpIsTheOptionOfAFace) {
         Renderer keyed = make(blocks, contentTexture);
         for (const Camera& camera : kCameras) {
             const base::Image expected = draw(plain, camera, 1, isSharp);
-            EXPECT_EQ(maxDifference(draw(keyed, camera, 1, !isSharp), expected), 0)
-                << (isSharp ? "sharp" : "nearest");
-            EXPECT_GT(maxDifference(draw(plain, camera, 1, !isSharp), expected), 10);
+            const base::Image drawn = draw(keyed, camera, 1, !isSharp);
+            EXPECT_LE(differentPixels(drawn, expected), isSharp ? 0 : 160 * 96 / 200);
+            EXPECT_GT(differentPixels(draw(plain, camera, 1, !isSharp), expected), 1000);
         }
     }
 }
@@ -230,11 +238,7 @@ TEST_F(FaceSampling, WavesOfLiquidsAreAsHighAsTheirKeySays) {
         return renderer->readImage();
     };
     const auto change = [&](std::string_view waves) {
-        const base::Image a = imageWith(waves, 0.3f), b = imageWith(waves, 1.9f);
-        int pixels = 0;
-        for (int y = 0; y < a.height; ++y)
-            for (int x = 0; x < a.width; ++x) pixels += pixel(a, x, y) != pixel(b, x, y) ? 1 : 0;
-        return pixels;
+        return differentPixels(imageWith(waves, 0.3f), imageWith(waves, 1.9f));
     };
     EXPECT_EQ(imageWith("wave_height = 0.06\n", 0.3f).rgba, imageWith("", 0.3f).rgba) << "the default";
     EXPECT_NE(imageWith("wave_height = 0.25\n", 0.3f).rgba, imageWith("", 0.3f).rgba);

@@ -46,7 +46,7 @@ const std::map<std::string, Values>& variantValues() {
           {"MSAA_SAMPLES", {"1", "4"}},
           {"SMOOTH", {"0", "1"}},
           {"FACE_SAMPLING", {"0", "1"}}}},
-        {"shadow.frag", {{"PASS", {"2"}}, {"ALPHA_CLASS", {"0", "1"}}, {"FACE_SAMPLING", {"0"}}}},
+        {"shadow.frag", {{"PASS", {"2"}}, {"ALPHA_CLASS", {"0", "1"}}, {"FACE_SAMPLING", {"0", "1"}}}},
         {"depth_peel.frag",
          {{"PASS", {"1"}},
           {"ALPHA_CLASS", {"2"}},
