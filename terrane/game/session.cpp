@@ -7,15 +7,15 @@
 #include <utility>
 
 #include "terrane/shared/material.h"
-#include "terrane/world/plant_growth.h"
+#include "terrane/world/random_ticks.h"
 
 namespace terrane::game {
 namespace {
 
 // Between the middle of a block and its farthest corner: 0.87 blocks.
 constexpr double kBlockRadius = 1;
-// After a stall plants grow as if it had been shorter.
-constexpr double kMaxGrowthSeconds = 1;
+// After a stall ticks come as if it had been shorter.
+constexpr double kMaxTickSeconds = 1;
 
 }  // namespace
 
@@ -71,14 +71,12 @@ bool Session::canReach(PlayerId player, world::BlockPos pos) const {
 void Session::advance(double seconds, world::ChunkPos center) {
     clock.advance(seconds);
     const double tickSeconds = std::chrono::duration<double>(world::kTickLength).count();
-    untilTick_ += std::min(seconds, kMaxGrowthSeconds);
+    untilTick_ += std::min(seconds, kMaxTickSeconds);
     for (; untilTick_ >= tickSeconds; untilTick_ -= tickSeconds) {
-        std::vector<EditCommand> growth;
-        for (const world::BlockPos pos : world::plantsThatGrow(world_, *blocks_, {ticks_++, center})) {
-            const auto stagesLeft = static_cast<std::uint16_t>(world_.blockState(pos) - 1);
-            growth.push_back({kNoPlayer, pos, world::SetState{stagesLeft}, std::nullopt});
-        }
-        edit(growth);
+        std::vector<EditCommand> ticks;
+        for (const world::BlockPos pos : world::blocksToTick(world_, *blocks_, {ticks_++, center}))
+            ticks.push_back({kNoPlayer, pos, world::RunTick{}, std::nullopt});
+        edit(ticks);
     }
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "terrane/base/result.h"
-#include "terrane/world/block_type.h"
+#include "terrane/world/block_behavior.h"
 
 namespace terrane::world {
 
@@ -35,8 +35,9 @@ struct BlockDescription {
 };
 
 // The file's blocks in its order, names unique. Errors read "file:line: key: what is wrong", always one line.
-[[nodiscard]] base::Result<std::vector<BlockDescription>> parseBlocks(std::string_view toml,
-                                                                      std::string_view file);
+// `behaviors`: those that blocks may name.
+[[nodiscard]] base::Result<std::vector<BlockDescription>> parseBlocks(
+    std::string_view toml, std::string_view file, const BehaviorTable& behaviors = builtInBehaviors());
 
 // A cube that hides what touches it: no face lets the eye through.
 bool isOpaqueCube(const BlockDescription& block);

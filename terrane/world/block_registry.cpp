@@ -82,8 +82,9 @@ class Materials {
 
 }  // namespace
 
-base::Result<BlockRegistry> BlockRegistry::parse(std::string_view toml, std::string_view name) {
-    auto blocks = parseBlocks(toml, name);
+base::Result<BlockRegistry> BlockRegistry::parse(std::string_view toml, std::string_view name,
+                                                 const BehaviorTable& behaviors) {
+    auto blocks = parseBlocks(toml, name, behaviors);
     if (!blocks) return tl::unexpected(blocks.error());
     blocks->push_back(describeMissing());
 

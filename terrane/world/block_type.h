@@ -6,6 +6,7 @@
 #include <compare>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -79,14 +80,25 @@ struct Box {
 // Order of faces everywhere: -x, +x, -y, +y, -z, +z.
 enum Face : std::uint8_t { kFaceNegX, kFacePosX, kFaceNegY, kFacePosY, kFaceNegZ, kFacePosZ, kFaceCount };
 
+// The cell beside a face of a block.
+constexpr BlockPos beside(BlockPos pos, Face face) {
+    // Around at the ends of the numbers, where no chunk is.
+    const auto step = [&](std::int32_t at, int axis) {
+        const std::uint32_t by = face / 2 != axis ? 0u : face % 2 == 0 ? ~0u : 1u;
+        return static_cast<std::int32_t>(static_cast<std::uint32_t>(at) + by);
+    };
+    return {step(pos.x, 0), step(pos.y, 1), step(pos.z, 2)};
+}
+
+struct BlockBehavior;
+
 struct BlockType {
     std::string name;
     BlockId id = 0;
     Shape shape = Shape::Cube;
     std::array<std::uint16_t, kFaceCount> material{};  // index into BlockRegistry::materials()
     bool opaqueCube = false;                           // hides every face that touches it
-    // Of a plant that grows: the material by the stages that are left, growth[0] for 1. The block's small
-    // data counts them; 0 is grown.
+    // Of a plant that grows: the material by its block state, which counts the stages left; growth[0] for 1.
     std::vector<std::uint16_t> growth;
     LiquidSurface surface;                   // of a liquid
     bool innerFaces = false;                 // faces between two blocks of this type are drawn (leaves)
@@ -95,9 +107,10 @@ struct BlockType {
     std::vector<Box> collision;              // empty: nothing collides
     Box selection;                           // what a ray from the camera hits
     bool selectable = true;                  // false: rays pass (air, water)
-    bool needsGround = false;                // falls when the block below goes (plants)
     bool generated = true;                   // appears in generated terrain (else placed only)
-    int slots = 0;                           // stacks of items it holds, as block entity data (inventory.h)
+    // What it does (block_behavior.h), in the order in which they are called.
+    std::vector<std::shared_ptr<const BlockBehavior>> behaviors;
+    int slots = 0;  // of the behavior container: stacks of items it holds
 };
 
 }  // namespace terrane::world

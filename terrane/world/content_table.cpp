@@ -15,6 +15,10 @@ std::string shown(const toml::node& node) {
     if (node.is_table()) return "a table";
     if (const toml::array* array = node.as_array()) return fmt::format("an array of {}", array->size());
     if (const auto text = node.value_exact<std::string_view>()) return fmt::format("\"{}\"", *text);
+    if (const auto number = node.value_exact<double>()) {  // as short as it is written
+        const std::string digits = fmt::format("{}", *number);
+        return digits.find_first_not_of("-0123456789") == std::string::npos ? digits + ".0" : digits;
+    }
     std::ostringstream other;
     node.visit([&](const auto& value) {
         if constexpr (toml::is_value<decltype(value)>) other << value;

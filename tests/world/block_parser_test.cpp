@@ -34,7 +34,8 @@ struct BadLine {
 constexpr std::string_view kAllKeys =
     "name, shape, texture, textures, alpha, animation, two_sided, wrap, sharp, inner_faces, opacity, "
     "emission, "
-    "collides, selection, selectable, needs_ground, generated, growth, slots, surface_height, wave_height";
+    "collides, selection, selectable, needs_ground, generated, growth, slots, surface_height, wave_height, "
+    "behaviors";
 
 TEST(BlockParser, BadLines) {
     constexpr BadLine kCases[] = {
@@ -73,6 +74,11 @@ TEST(BlockParser, BadLines) {
         {"wave_height = 0.1",
          "blocks.toml:5: wave_height: expected wave_height only with the shape liquid and animation = "
          "\"liquid_surface\", got 0.1"},
+        {"behaviors = \"falling\"", "blocks.toml:5: behaviors: expected an array of names, got \"falling\""},
+        {"behaviors = [\"plant\",\n \"flies\"]",
+         "blocks.toml:6: behaviors: expected one of plant, crop, falling, container, got \"flies\""},
+        {"behaviors = [1]",
+         "blocks.toml:5: behaviors: expected one of plant, crop, falling, container, got 1"},
         {"alpha = \"test\"", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
         {"alpha = { top = \"blend\" }", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
         {"[[block]]\nname = \"rock\"\nshape = \"cube\"\ntexture = \"rock\"",
