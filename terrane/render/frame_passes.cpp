@@ -23,7 +23,8 @@ base::Result<FramePasses> FramePasses::create(const gpu::ShaderLoader& shaders,
 base::Result<void> FramePasses::configure(const FrameTargets& targets, const RenderOptions& options,
                                           bool hasFaceSampling) {
     const int samples = targets.msaaSamples, light = static_cast<int>(options.light);
-    auto done = shadowMap.configure(options.shading == Shading::Off ? 0 : options.shadowSize, hasFaceSampling);
+    auto done =
+        shadowMap.configure(options.shading == Shading::Off ? 0 : options.shadowSize, hasFaceSampling);
     const bool hasShadows = shadowMap.size() > 0;
     if (done)
         done = gbuffer.select(options.msaaAlphaTest ? samples : 1, options.sharpFiltering, hasFaceSampling);

@@ -6,6 +6,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
+#include "terrane/render/edge_expansion.h"
 #include "terrane/render/frame_uniforms.h"
 #include "terrane/render/shadow_volume.h"
 #include "terrane/render/timer_zone.h"
@@ -20,17 +21,6 @@ constexpr float kMaxAnisotropy = 8.0f;
 
 // Between sun and moon it is dark: light that cannot be seen casts no shadows. Linear.
 constexpr float kMinShadowedLight = 0.002f;
-
-// A corner and an edge's ends are each off by up to √½ steps of the rasterizer's grid: two quads that both
-// grow by √½ steps meet. Corners of folded quads grow less, so more is taken; with 2 steps of 1/256 pixel one
-// in a hundred samples along an edge changes.
-constexpr float kExpansionSteps = 2;
-
-float edgeExpansion() {
-    GLint subpixelBits = 4;  // the least that OpenGL allows
-    glGetIntegerv(GL_SUBPIXEL_BITS, &subpixelBits);
-    return kExpansionSteps / static_cast<float>(1 << subpixelBits);
-}
 
 float aspectOf(glm::ivec2 size) {
     return static_cast<float>(size.x) / static_cast<float>(size.y);
@@ -63,20 +53,21 @@ base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, con
     auto loaded = loadBlockTextures(blocks, textures, device_.maxArrayLayers);
     if (!loaded) return tl::unexpected(loaded.error());
     if (targets_.size.x > 0) {
-        const bool before = resources_.hasFaceSampling(), now = needsFaceSampling(blocks, *loaded);
-        if (auto done = passes_.configure(targets_, options_, now); !done) {
-            keepOptions(before);
-            return done;
-        }
+        auto done = configurePasses(targets_, options_, needsFaceSampling(blocks, *loaded));
+        if (!done) return done;
     }
     resources_.setTextures(blocks, std::move(*loaded));
     return {};
 }
 
-// After passes could not be configured otherwise.
-void Renderer::keepOptions(bool hasFaceSampling) {
-    const auto undone = passes_.configure(targets_, options_, hasFaceSampling);
+// Where it fails the passes are as they were.
+base::Result<void> Renderer::configurePasses(const FrameTargets& targets, const RenderOptions& options,
+                                             bool hasFaceSampling) {
+    auto done = passes_.configure(targets, options, hasFaceSampling);
+    if (done || targets_.size.x == 0) return done;
+    const auto undone = passes_.configure(targets_, options_, resources_.hasFaceSampling());
     if (!undone) base::logError("options cannot be as they were: {}", undone.error().message);
+    return done;
 }
 
 base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& options) {
@@ -94,11 +85,8 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
         if (!targets) return tl::unexpected(targets.error());
         made = std::move(*targets);
     }
-    const bool hasFaceSampling = resources_.hasFaceSampling();
-    if (auto done = passes_.configure(made ? *made : targets_, options, hasFaceSampling); !done) {
-        if (targets_.size.x > 0) keepOptions(hasFaceSampling);
-        return done;
-    }
+    auto done = configurePasses(made ? *made : targets_, options, resources_.hasFaceSampling());
+    if (!done) return done;
     if (made) targets_ = std::move(*made);
     options_ = options;
     return {};

@@ -65,10 +65,8 @@ TEST(BlockParser, BadLines) {
         {"textures = { top = \"a\", bottom = \"a\", side = \"a\" }",
          "blocks.toml:5: textures: expected only one of texture and textures, got a table"},
         {"wrap = \"mirror\"", "blocks.toml:5: wrap: expected one of quad, repeat, clamp, got \"mirror\""},
-        {"wrap = { side = true }", "blocks.toml:5: wrap.side: expected one of quad, repeat, clamp, got true"},
         {"sharp = \"off\"", "blocks.toml:5: sharp: expected true or false, got \"off\""},
         {"sharp = { top = 1 }", "blocks.toml:5: sharp.top: expected true or false, got 1"},
-        {"sharp = { up = true }", "blocks.toml:5: sharp.up: unknown key, expected one of top, bottom, side"},
         {"surface_height = 0.5",
          "blocks.toml:5: surface_height: expected surface_height only for the shape liquid, got 0.5"},
         {"wave_height = 0.1",
@@ -77,8 +75,6 @@ TEST(BlockParser, BadLines) {
         {"behaviors = \"falling\"", "blocks.toml:5: behaviors: expected an array of names, got \"falling\""},
         {"behaviors = [\"plant\",\n \"flies\"]",
          "blocks.toml:6: behaviors: expected one of plant, crop, falling, container, got \"flies\""},
-        {"behaviors = [1]",
-         "blocks.toml:5: behaviors: expected one of plant, crop, falling, container, got 1"},
         {"alpha = \"test\"", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
         {"alpha = { top = \"blend\" }", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
         {"[[block]]\nname = \"rock\"\nshape = \"cube\"\ntexture = \"rock\"",
@@ -101,10 +97,8 @@ std::string liquidWith(std::string_view lines) {
 
 TEST(BlockParser, BadSurfaces) {
     constexpr BadLine kCases[] = {
-        {"surface_height = 0", "blocks.toml:8: surface_height: expected 0.125 to 1, got 0"},
         {"surface_height = 1.5", "blocks.toml:8: surface_height: expected 0.125 to 1, got 1.5"},
         {"surface_height = nan", "blocks.toml:8: surface_height: expected 0.125 to 1, got nan"},
-        {"surface_height = \"low\"", "blocks.toml:8: surface_height: expected 0.125 to 1, got \"low\""},
         {"surface_height = true", "blocks.toml:8: surface_height: expected 0.125 to 1, got true"},
         {"wave_height = -0.1", "blocks.toml:8: wave_height: expected 0 to 0.25, got -0.1"},
         {"surface_height = 0.25\nwave_height = 0.2",
