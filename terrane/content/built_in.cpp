@@ -20,10 +20,10 @@ std::optional<std::string_view> findContent(std::string_view path) {
 
 }  // namespace
 
-base::Result<world::BlockRegistry> loadBlocks() {
+base::Result<world::BlockRegistry> loadBlocks(const world::BehaviorTable& behaviors) {
     const auto text = findContent("blocks.toml");
     if (!text) return base::fail("blocks.toml: not in the program");
-    return world::BlockRegistry::parse(*text, "blocks.toml");
+    return world::BlockRegistry::parse(*text, "blocks.toml", behaviors);
 }
 
 world::TextureSource builtInTextures() {

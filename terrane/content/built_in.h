@@ -7,7 +7,9 @@
 
 namespace terrane::content {
 
-base::Result<world::BlockRegistry> loadBlocks();
+// `behaviors`: those that blocks may name, the built-in ones among them.
+base::Result<world::BlockRegistry> loadBlocks(
+    const world::BehaviorTable& behaviors = world::builtInBehaviors());
 world::TextureSource builtInTextures();
 
 }  // namespace terrane::content

@@ -69,22 +69,6 @@ base::Result<Images> readPack(const fs::path& folder, std::span<const std::strin
     return tl::unexpected(errors.back());
 }
 
-// Each pixel becomes a square of them.
-base::Image scaledUp(const base::Image& image, int side) {
-    const int factor = side / image.width;
-    base::Image large{
-        side, side,
-        std::vector<std::uint8_t>(4 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side))};
-    for (int y = 0; y < side; ++y) {
-        for (int x = 0; x < side; ++x) {
-            const auto from = 4 * static_cast<std::ptrdiff_t>(y / factor * image.width + x / factor);
-            const auto to = 4 * (static_cast<std::ptrdiff_t>(y) * side + x);
-            std::copy_n(image.rgba.begin() + from, 4, large.rgba.begin() + to);
-        }
-    }
-    return large;
-}
-
 }  // namespace
 
 base::Result<world::TextureSource> loadTextures(const std::string& folder,
@@ -93,20 +77,17 @@ base::Result<world::TextureSource> loadTextures(const std::string& folder,
     if (folder.empty()) return builtIn;
     auto images = readPack(folder, blocks.textures());
     if (!images) return tl::unexpected(images.error());
-    int side = 1;
     for (const std::string& name : blocks.textures()) {
-        if (!images->contains(name)) {
-            auto image = builtIn(name);
-            if (!image) return tl::unexpected(image.error());
-            (*images)[name] = std::move(*image);
-        }
-        side = std::max(side, images->find(name)->second.width);
+        if (images->contains(name)) continue;
+        auto image = builtIn(name);
+        if (!image) return tl::unexpected(image.error());
+        (*images)[name] = std::move(*image);
     }
     const auto all = std::make_shared<const Images>(std::move(*images));
-    return [all, side](std::string_view name) -> base::Result<base::Image> {
+    return [all](std::string_view name) -> base::Result<base::Image> {
         const auto found = all->find(name);
         if (found == all->end()) return base::fail("texture \"{}\": there is none", name);
-        return scaledUp(found->second, side);
+        return found->second;
     };
 }
 

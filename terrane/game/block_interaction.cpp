@@ -1,7 +1,6 @@
 #include "terrane/game/block_interaction.h"
 
 #include <algorithm>
-#include <array>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
@@ -21,12 +20,6 @@ bool isInTheWay(const world::BlockType& type, world::BlockPos pos, const std::op
 }
 
 }  // namespace
-
-world::BlockPos beside(world::BlockPos pos, world::Face face) {
-    constexpr std::array<glm::ivec3, world::kFaceCount> kOut = {
-        {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
-    return {pos.x + kOut[face].x, pos.y + kOut[face].y, pos.z + kOut[face].z};
-}
 
 BlockInteraction::BlockInteraction(const world::BlockRegistry& blocks) {
     for (const world::BlockType& type : blocks.types()) {
@@ -52,7 +45,7 @@ void BlockInteraction::act(Session& session, PlayerId id, const Player& player, 
     target_ = world::castRay(world, blocks, ray, kReach);
     const bool breaks = breaking.acts(seconds), builds = building.acts(seconds);
     if (!target_ || (!breaks && !builds)) return;
-    const world::BlockPos pos = breaks ? target_->block : beside(target_->block, target_->face);
+    const world::BlockPos pos = breaks ? target_->block : world::beside(target_->block, target_->face);
     const world::BlockId there = world.block(pos);
     if (breaks) {
         session.edit({id, pos, world::SetBlock{world::kAir}, there});

@@ -35,7 +35,4 @@ class BlockInteraction {
     std::optional<world::RayHit> target_;
 };
 
-// The cell beside a face of a block.
-world::BlockPos beside(world::BlockPos pos, world::Face face);
-
 }  // namespace terrane::game

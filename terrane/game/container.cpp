@@ -2,19 +2,22 @@
 
 #include <cassert>
 
+#include "terrane/world/block_behavior.h"
+
 namespace terrane::game {
 
 bool isContainer(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos pos) {
-    return blocks.type(world.block(pos)).slots > 0;
+    return world::behaviorWith(blocks.type(world.block(pos)), &world::BlockBehavior::items) != nullptr;
 }
 
 base::Result<world::Inventory> itemsOf(const world::World& world, const world::BlockRegistry& blocks,
                                        world::BlockPos pos) {
-    const int slots = blocks.type(world.block(pos)).slots;
-    const world::BlockEntityData* data = world.blockEntityData(pos);
-    if (!data) return world::Inventory(static_cast<std::size_t>(slots));
-    auto items = world::decodeInventory(*data, slots);
-    if (!items) return base::fail("the chest at {},{},{}: {}", pos.x, pos.y, pos.z, items.error().message);
+    const world::BlockType& type = blocks.type(world.block(pos));
+    const world::BlockBehavior* behavior = world::behaviorWith(type, &world::BlockBehavior::items);
+    if (!behavior) return world::Inventory();
+    auto items = behavior->items(world, blocks, pos);
+    if (!items)
+        return base::fail("the {} at {},{},{}: {}", type.name, pos.x, pos.y, pos.z, items.error().message);
     return items;
 }
 

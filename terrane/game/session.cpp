@@ -6,16 +6,16 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "terrane/shared/shape_face.h"
-#include "terrane/world/plant_growth.h"
+#include "terrane/shared/material.h"
+#include "terrane/world/random_ticks.h"
 
 namespace terrane::game {
 namespace {
 
 // Between the middle of a block and its farthest corner: 0.87 blocks.
 constexpr double kBlockRadius = 1;
-// After a stall plants grow as if it had been shorter.
-constexpr double kMaxGrowthSeconds = 1;
+// After a stall ticks come as if it had been shorter.
+constexpr double kMaxTickSeconds = 1;
 
 }  // namespace
 
@@ -73,14 +73,12 @@ bool Session::canReach(PlayerId player, world::BlockPos pos) const {
 void Session::advance(double seconds, world::ChunkPos center) {
     clock.advance(seconds);
     const double tickSeconds = std::chrono::duration<double>(world::kTickLength).count();
-    untilTick_ += std::min(seconds, kMaxGrowthSeconds);
+    untilTick_ += std::min(seconds, kMaxTickSeconds);
     for (; untilTick_ >= tickSeconds; untilTick_ -= tickSeconds) {
-        std::vector<EditCommand> growth;
-        for (const world::BlockPos pos : world::plantsThatGrow(world_, *blocks_, {ticks_++, center})) {
-            const auto stagesLeft = static_cast<std::uint16_t>(world_.blockState(pos) - 1);
-            growth.push_back({kNoPlayer, pos, world::SetState{stagesLeft}, std::nullopt});
-        }
-        edit(growth);
+        std::vector<EditCommand> ticks;
+        for (const world::BlockPos pos : world::blocksToTick(world_, *blocks_, {ticks_++, center}))
+            ticks.push_back({kNoPlayer, pos, world::RunTick{}, std::nullopt});
+        edit(ticks);
     }
 }
 
@@ -95,9 +93,9 @@ bool isUnderWater(const Session& session, const glm::dvec3& point) {
     const world::BlockPos pos{static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y),
                               static_cast<std::int32_t>(at.z)};
     if (session.world().block(pos) != water) return false;
-    constexpr double kSurface = shared::kLiquidSurfaceSixteenths / 16.0;
+    const double surface = session.blocks().type(water).surface.heightUnits / double{shared::kSurfaceUnits};
     const bool isFull = session.world().block({pos.x, pos.y, pos.z + 1}) == water;
-    return isFull || point.z - at.z < kSurface;
+    return isFull || point.z - at.z < surface;
 }
 
 }  // namespace terrane::game

@@ -1,11 +1,48 @@
 #include "terrane/render/block_textures.h"
 
 #include <algorithm>
+#include <bit>
+#include <iterator>
+#include <span>
 
 #include "terrane/render/mipmaps.h"
 #include "terrane/shared/material.h"
 
 namespace terrane::render {
+namespace {
+
+// Each pixel becomes a square of them.
+base::Image enlarged(const base::Image& image, int side) {
+    const int factor = side / image.width;
+    base::Image large{
+        side, side,
+        std::vector<std::uint8_t>(4 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side))};
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            const auto from = 4 * static_cast<std::ptrdiff_t>(y / factor * image.width + x / factor);
+            const auto to = 4 * (static_cast<std::ptrdiff_t>(y) * side + x);
+            std::copy_n(image.rgba.begin() + from, 4, large.rgba.begin() + to);
+        }
+    }
+    return large;
+}
+
+base::Result<std::vector<base::Image>> readImages(std::span<const std::string> names,
+                                                  const TextureSource& source) {
+    std::vector<base::Image> images;
+    for (const std::string& name : names) {
+        base::Result<base::Image> image = source(name);
+        if (!image) return tl::unexpected(image.error());
+        if (image->width != image->height || !std::has_single_bit(static_cast<unsigned>(image->width))) {
+            return base::fail("texture \"{}\": {}×{} is not square with a power of two", name, image->width,
+                              image->height);
+        }
+        images.push_back(std::move(*image));
+    }
+    return images;
+}
+
+}  // namespace
 
 world::AlphaMode textureAlpha(const world::BlockRegistry& registry, std::size_t texture) {
     using world::AlphaMode;
@@ -18,37 +55,45 @@ world::AlphaMode textureAlpha(const world::BlockRegistry& registry, std::size_t 
     return alpha;
 }
 
-base::Result<gpu::Texture2DArray> loadBlockTextures(const world::BlockRegistry& registry,
-                                                    const TextureSource& source, int maxLayers) {
+world::Wrap textureWrap(const world::BlockRegistry& registry, std::size_t texture) {
+    const bool isClamped = std::ranges::any_of(registry.materials(), [&](const world::Material& material) {
+        return material.texture == texture && material.wrap == world::Wrap::Clamp;
+    });
+    return isClamped ? world::Wrap::Clamp : world::Wrap::Quad;
+}
+
+std::vector<base::Image> levelsInArray(std::vector<base::Image> mipmaps, int side) {
+    const base::Image largest = mipmaps.front();
+    std::vector<base::Image> levels;
+    for (; side > largest.width; side /= 2) levels.push_back(enlarged(largest, side));
+    std::ranges::move(mipmaps, std::back_inserter(levels));
+    return levels;
+}
+
+base::Result<BlockTextures> loadBlockTextures(const world::BlockRegistry& registry,
+                                              const TextureSource& source, int maxLayers) {
     const auto names = registry.textures();
     const int count = static_cast<int>(names.size());
     const int most = std::min(static_cast<int>(shared::kMaxBlockTextures), maxLayers);
     if (count > most) return base::fail("the blocks have {} textures: at most {} can be drawn", count, most);
-    gpu::Texture2DArray array;
-    glm::ivec2 size{0};
-    for (std::size_t layer = 0; layer < names.size(); ++layer) {
-        const base::Result<base::Image> image = source(names[layer]);
-        if (!image) return tl::unexpected(image.error());
-        const bool isPowerOfTwo = image->width > 0 && (image->width & (image->width - 1)) == 0;
-        if (image->width != image->height || !isPowerOfTwo) {
-            return base::fail("texture \"{}\": {}×{} is not square with a power of two", names[layer],
-                              image->width, image->height);
-        }
-        if (layer == 0) {
-            size = {image->width, image->height};
-            array = gpu::Texture2DArray({size, count, gpu::fullLevels(size)}, GL_RGBA8, "block textures");
-        }
-        if (image->width != size.x) {
-            return base::fail("texture \"{}\": is {} wide, the others are {}", names[layer], image->width,
-                              size.x);
-        }
-        const auto levels = mipmaps(*image, textureAlpha(registry, layer));
+    const auto images = readImages(names, source);
+    if (!images) return tl::unexpected(images.error());
+    const int side = std::ranges::max(*images, {}, &base::Image::width).width;
+    BlockTextures textures;
+    textures.array =
+        gpu::Texture2DArray({{side, side}, count, gpu::fullLevels({side, side})}, GL_RGBA8, "block textures");
+    for (std::size_t layer = 0; layer < images->size(); ++layer) {
+        const base::Image& image = (*images)[layer];
+        const auto levels =
+            levelsInArray(mipmaps(image, textureAlpha(registry, layer), textureWrap(registry, layer)), side);
         for (std::size_t level = 0; level < levels.size(); ++level) {
-            array.upload(static_cast<int>(level), static_cast<int>(layer), GL_RGBA, GL_UNSIGNED_BYTE,
-                         std::as_bytes(std::span(levels[level].rgba)));
+            textures.array.upload(static_cast<int>(level), static_cast<int>(layer), GL_RGBA, GL_UNSIGNED_BYTE,
+                                  std::as_bytes(std::span(levels[level].rgba)));
         }
+        const auto times = static_cast<unsigned>(side / image.width);
+        textures.doublings.push_back(static_cast<std::uint8_t>(std::countr_zero(times)));
     }
-    return array;
+    return textures;
 }
 
 }  // namespace terrane::render

@@ -1,24 +1,27 @@
-// Conservative edge expansion: covers the cracks between quads. Where a corner of one quad lies on the edge of another, the
-// rasterizer moves the corner to its grid of sub-pixels but not the edge with it, and a sample between the two sees what is
-// behind. Every edge moves outward by a few steps of that grid, far less than a pixel, so that neighbors overlap and
-// silhouettes stay where they are.
+// Conservative edge expansion: covers the cracks between quads. Where a corner of one quad lies on the edge
+// of another, the rasterizer moves the corner to its grid of sub-pixels but not the edge with it, and a
+// sample between the two sees what is behind. Every edge moves outward by a few steps of that grid, far less
+// than a pixel, so that neighbors overlap and silhouettes stay where they are.
 
 // Corners of nearly folded quads move no farther along them than this many times the growth.
 const float kLongestMiter = 64.0;
 
-// On the screen, from a point toward another, which may lie behind the camera: the derivative of the projection.
+// On the screen, from a point toward another, which may lie behind the camera: the derivative of the
+// projection.
 vec2 screenDirection(vec4 from, vec4 to, vec2 halfViewport) {
     vec2 toward = (to.xy * from.w - from.xy * to.w) * halfViewport;
     float size = length(toward);
     return size > 0.0 ? toward / size : vec2(0.0);
 }
 
-// A corner in clip space moved so that the edges toward the neighboring corners move outward by `growth` pixels. Depth
-// stays. Corners behind the camera stay too: the clipped edge grows by what its other end does, and more.
+// A corner in clip space moved so that the edges toward the neighboring corners move outward by `growth`
+// pixels. Depth stays. Corners behind the camera stay too: the clipped edge grows by what its other end does,
+// and more.
 vec4 expandEdges(vec4 corner, vec4 neighborU, vec4 neighborV, vec2 viewport, float growth) {
     if (corner.w <= 0.0) return corner;
     vec2 halfViewport = 0.5 * viewport;
-    vec2 u = screenDirection(corner, neighborU, halfViewport), v = screenDirection(corner, neighborV, halfViewport);
+    vec2 u = screenDirection(corner, neighborU, halfViewport),
+         v = screenDirection(corner, neighborV, halfViewport);
     float sine = abs(u.x * v.y - u.y * v.x);
     vec2 outward = -(u + v) / max(sine, 1.0 / kLongestMiter);
     corner.xy += outward * growth / halfViewport * corner.w;

@@ -20,14 +20,17 @@ base::Result<FramePasses> FramePasses::create(const gpu::ShaderLoader& shaders,
                        .finalPass = FullscreenPass(shaders, "final")};
 }
 
-base::Result<void> FramePasses::configure(const FrameTargets& targets, const RenderOptions& options) {
+base::Result<void> FramePasses::configure(const FrameTargets& targets, const RenderOptions& options,
+                                          bool hasFaceSampling) {
     const int samples = targets.msaaSamples, light = static_cast<int>(options.light);
-    auto done = shadowMap.resize(options.shading == Shading::Off ? 0 : options.shadowSize);
+    auto done =
+        shadowMap.configure(options.shading == Shading::Off ? 0 : options.shadowSize, hasFaceSampling);
     const bool hasShadows = shadowMap.size() > 0;
-    if (done) done = gbuffer.select(options.msaaAlphaTest ? samples : 1, options.sharpFiltering);
+    if (done)
+        done = gbuffer.select(options.msaaAlphaTest ? samples : 1, options.sharpFiltering, hasFaceSampling);
     if (done) done = holeFill.configure(targets, options.tJunctions == TJunctions::Filled);
     if (done) done = shading.select(options, samples, hasShadows);
-    if (done) done = transparency.configure(targets, options, hasShadows);
+    if (done) done = transparency.configure(targets, options, hasShadows, hasFaceSampling);
     if (done) done = debugView.select(defined({{"MSAA_SAMPLES", samples}, {"LIGHT_SMOOTH", light}}));
     if (done)
         done =

@@ -13,12 +13,17 @@ GBufferPass::GBufferPass(const gpu::ShaderLoader& shaders)
     : opaque_(quadShaders(shaders, "gbuffer", "opaque quads")),
       tested_(quadShaders(shaders, "gbuffer", "tested quads")) {}
 
-base::Result<void> GBufferPass::select(int alphaSamples, bool isSmooth) {
-    auto selected =
-        opaque_.select(defined({{"PASS", 0}, {"ALPHA_CLASS", 0}, {"MSAA_SAMPLES", 1}, {"SMOOTH", isSmooth}}));
+base::Result<void> GBufferPass::select(int alphaSamples, bool isSmooth, bool hasFaceSampling) {
+    const auto variant = [&](int alphaClass, int samples) {
+        return defined({{"PASS", 0},
+                        {"ALPHA_CLASS", alphaClass},
+                        {"MSAA_SAMPLES", samples},
+                        {"SMOOTH", isSmooth},
+                        {"FACE_SAMPLING", hasFaceSampling}});
+    };
+    auto selected = opaque_.select(variant(0, 1));
     if (!selected) return selected;
-    return tested_.select(
-        defined({{"PASS", 0}, {"ALPHA_CLASS", 1}, {"MSAA_SAMPLES", alphaSamples}, {"SMOOTH", isSmooth}}));
+    return tested_.select(variant(1, alphaSamples));
 }
 
 void GBufferPass::clear(gpu::Pipeline& pipeline, const FrameTargets& targets) const {

@@ -14,6 +14,7 @@ namespace {
 // Linear colors, alpha as stored.
 struct LinearImage {
     int size = 0;
+    world::Wrap wrap = world::Wrap::Quad;
     std::vector<glm::vec4> texels;
 };
 
@@ -28,8 +29,8 @@ std::uint8_t byte(float v) {
     return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
 }
 
-LinearImage decode(const base::Image& image) {
-    LinearImage result{image.width, {}};
+LinearImage decode(const base::Image& image, world::Wrap wrap) {
+    LinearImage result{image.width, wrap, {}};
     for (std::size_t k = 0; k < image.rgba.size(); k += 4) {
         const auto channel = [&](std::size_t c) { return static_cast<float>(image.rgba[k + c]) / 255.0f; };
         result.texels.emplace_back(decodeSrgb(channel(0)), decodeSrgb(channel(1)), decodeSrgb(channel(2)),
@@ -49,7 +50,7 @@ base::Image encode(const LinearImage& linear, float alphaScale) {
 }
 
 LinearImage half(const LinearImage& from, bool alphaIsCoverage) {
-    LinearImage to{from.size / 2, {}};
+    LinearImage to{from.size / 2, from.wrap, {}};
     for (int y = 0; y < to.size; ++y) {
         for (int x = 0; x < to.size; ++x) {
             glm::vec4 sum(0.0f), plain(0.0f);
@@ -75,12 +76,17 @@ float threshold(world::AlphaMode alpha) {
     return alpha == world::AlphaMode::TestGlow ? 0.25f : 0.5f;
 }
 
-// Alpha as stored, between texels, which repeat; x and y in texels from the middle of the first.
+// The texel that stands for one beyond the border; sizes are powers of two.
+int insideOf(int texel, int size, world::Wrap wrap) {
+    return wrap == world::Wrap::Clamp ? std::clamp(texel, 0, size - 1) : texel & (size - 1);
+}
+
+// Alpha as stored, between texels; x and y in texels from the middle of the first.
 float filteredAlpha(const LinearImage& image, float x, float y, float scale) {
     const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
     const auto alpha = [&](int tx, int ty) {
-        const int last = image.size - 1;  // sizes are powers of two
-        const auto at = static_cast<std::size_t>((ty & last) * image.size + (tx & last));
+        const auto at = static_cast<std::size_t>(insideOf(ty, image.size, image.wrap) * image.size +
+                                                 insideOf(tx, image.size, image.wrap));
         return static_cast<float>(byte(image.texels[at].a * scale)) / 255.0f;
     };
     const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
@@ -116,22 +122,22 @@ float coverageScale(const LinearImage& image, float limit, float wanted) {
     return takesAbove ? high : low;
 }
 
-// The texels around one of a repeating texture, and itself.
-std::array<std::size_t, 9> texelsAround(const base::Image& image, std::size_t at) {
-    const int last = image.width - 1, x = static_cast<int>(at) & last, y = static_cast<int>(at) / image.width;
+// The texels around one, and itself; some of them twice where the texture does not repeat.
+std::array<std::size_t, 9> texelsAround(const base::Image& image, world::Wrap wrap, std::size_t at) {
+    const int size = image.width, x = static_cast<int>(at) % size, y = static_cast<int>(at) / size;
     std::array<std::size_t, 9> texels{};
     for (int k = 0; k < 9; ++k) {
-        const int nx = (x + k % 3 - 1) & last, ny = (y + k / 3 - 1) & last;
-        texels[static_cast<std::size_t>(k)] = static_cast<std::size_t>(ny * image.width + nx);
+        const int nx = insideOf(x + k % 3 - 1, size, wrap), ny = insideOf(y + k / 3 - 1, size, wrap);
+        texels[static_cast<std::size_t>(k)] = static_cast<std::size_t>(ny * size + nx);
     }
     return texels;
 }
 
 // Gives a texel the mean of the known colors around it, alpha 0. There is one at least.
-void takeColorAround(base::Image& image, const std::vector<bool>& known, std::size_t at) {
+void takeColorAround(base::Image& image, world::Wrap wrap, const std::vector<bool>& known, std::size_t at) {
     std::array<int, 3> sum{};
     int count = 0;
-    for (const std::size_t texel : texelsAround(image, at)) {
+    for (const std::size_t texel : texelsAround(image, wrap, at)) {
         if (!known[texel]) continue;
         for (std::size_t c = 0; c < 3; ++c) sum[c] += image.rgba[4 * texel + c];
         ++count;
@@ -141,13 +147,13 @@ void takeColorAround(base::Image& image, const std::vector<bool>& known, std::si
 }
 
 // Hidden texels take the color of what is next to them, ring by ring: filters mix it into the edges.
-void colorHiddenTexels(base::Image& image) {
+void colorHiddenTexels(base::Image& image, world::Wrap wrap) {
     std::vector<bool> known;
     for (std::size_t k = 3; k < image.rgba.size(); k += 4) known.push_back(image.rgba[k] > 0);
     std::vector<bool> isInRing = known;  // this one or one before
     std::vector<std::size_t> ring;
     const auto addAround = [&](std::size_t at) {
-        for (const std::size_t texel : texelsAround(image, at)) {
+        for (const std::size_t texel : texelsAround(image, wrap, at)) {
             if (isInRing[texel]) continue;
             isInRing[texel] = true;
             ring.push_back(texel);
@@ -156,7 +162,7 @@ void colorHiddenTexels(base::Image& image) {
     for (std::size_t at = 0; at < known.size(); ++at)
         if (known[at]) addAround(at);
     while (!ring.empty()) {
-        for (const std::size_t at : ring) takeColorAround(image, known, at);
+        for (const std::size_t at : ring) takeColorAround(image, wrap, known, at);
         for (const std::size_t at : ring) known[at] = true;
         for (const std::size_t at : std::exchange(ring, {})) addAround(at);
     }
@@ -164,13 +170,13 @@ void colorHiddenTexels(base::Image& image) {
 
 }  // namespace
 
-std::vector<base::Image> mipmaps(const base::Image& image, world::AlphaMode alpha) {
+std::vector<base::Image> mipmaps(const base::Image& image, world::AlphaMode alpha, world::Wrap wrap) {
     assert(image.width == image.height && (image.width & (image.width - 1)) == 0 &&
            "block textures are 2^n square");
     const bool isTested = alpha == world::AlphaMode::Test || alpha == world::AlphaMode::TestGlow;
     std::vector<base::Image> levels{image};
-    if (isTested) colorHiddenTexels(levels[0]);
-    LinearImage level = decode(levels[0]);
+    if (isTested) colorHiddenTexels(levels[0], wrap);
+    LinearImage level = decode(levels[0], wrap);
     const float limit = threshold(alpha), wanted = coverage(level, limit, 1.0f);
     while (level.size > 1) {
         level = half(level, isTested || alpha == world::AlphaMode::Blend);

@@ -14,6 +14,8 @@ namespace terrane::render {
 // Colors are averaged as light (sRGB is decoded), weighted by alpha where alpha is coverage. Where alpha
 // decides holes, each level is scaled so that the share of the surface that passes the test stays that of
 // level 0: else leaves and grass would thin out with distance (I. Castaño, Computing Alpha Mipmaps, 2010).
-std::vector<base::Image> mipmaps(const base::Image& image, world::AlphaMode alpha);
+// Beyond its border a texture repeats, but with Wrap::Clamp, where its border goes on.
+std::vector<base::Image> mipmaps(const base::Image& image, world::AlphaMode alpha,
+                                 world::Wrap wrap = world::Wrap::Quad);
 
 }  // namespace terrane::render

@@ -1,4 +1,5 @@
-// PASS: 0 G-buffer, 1 blended layer, 2 shadow map. ALPHA_CLASS: 0 opaque, 1 tested, 2 blended.
+// PASS: 0 G-buffer, 1 blended layer, 2 shadow map. ALPHA_CLASS: 0 opaque, 1 tested, 2 blended. FACE_SAMPLING: see
+// block_texture.glsl.
 // Pulls a quad's corner from the quad buffer. Four vertices a quad; the base vertex of a draw is four times its first
 // quad, its base instance the number of its mesh section.
 #include "terrane/render/edge_expansion.glsl"
@@ -24,6 +25,9 @@ const float kLiquidInset = 1.0 / 1024.0;
 
 layout(location = 0) out vec2 outTexel;        // in textures; row 0 of the image is at integer v
 layout(location = 1) flat out uvec2 outFace;   // see packed_face.glsl; a number of the quad's own
+#if FACE_SAMPLING == 1
+layout(location = 2) flat out uint outSampling;
+#endif
 #include "terrane/render/packed_face.glsl"
 
 Quad quadOf(int vertex) {
@@ -31,11 +35,21 @@ Quad quadOf(int vertex) {
     return Quad(words.x, words.y);
 }
 
-// Without the normal.
-ShapeFace shapeFaceOf(Quad quad) {
-    int first = 4 * int(quadShapeFace(quad));
-    return ShapeFace(texelFetch(shapeFaces, first), texelFetch(shapeFaces, first + 1), texelFetch(shapeFaces, first + 2),
-                     vec4(0.0));
+// Without the normal. The surface of a liquid lies as high as its material says.
+ShapeFace shapeFaceOf(Quad quad, MaterialRecord material) {
+    uint number = quadShapeFace(quad);
+    int first = 4 * int(number);
+    ShapeFace face = ShapeFace(texelFetch(shapeFaces, first), texelFetch(shapeFaces, first + 1),
+                               texelFetch(shapeFaces, first + 2), vec4(0.0));
+    if (number == kShapeFaceLiquidTop) face.base.z = optionsSurfaceHeight(material.options);
+    if (number >= kShapeFaceLiquidSide) face.axisV.z = optionsSurfaceHeight(material.options);
+    return face;
+}
+
+// Whether a corner belongs to the surface of a liquid.
+bool isOnSurface(Quad quad, vec2 corner) {
+    uint number = quadShapeFace(quad);
+    return number == kShapeFaceLiquidTop || (number >= kShapeFaceLiquidSide && corner.y == 1.0);
 }
 
 vec3 normalOfFace(Quad quad) {
@@ -52,14 +66,14 @@ void main() {
     vec2 corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1);
     vec2 extent = vec2(quadExtentU(quad), quadExtentV(quad));
     vec4 cell = vec4(quadX(quad), quadY(quad), quadZ(quad), 0.0);
-    ShapeFace face = shapeFaceOf(quad);
     MaterialRecord material = materialOf(quad);
+    ShapeFace face = shapeFaceOf(quad, material);
     ivec2 chunk = meshSectionChunk.xy;
     uint level = uint(meshSectionChunk.z);
     vec3 cellBlocks = vec3(vec2(columnBlocks(level)), 1.0);
     vec3 inChunk = cellBlocks * shapeFaceCorner(face, cell, corner, extent).xyz;
     if ((frame.switches & kSwitchAnimation) != 0 && level == 0u) {
-        inChunk += waveOffset(material.animation, chunk, cell.xyz, inChunk, corner.y, frame.timeSeconds);
+        inChunk += waveOffset(material, isOnSurface(quad, corner), chunk, cell.xyz, inChunk, corner.y, frame.timeSeconds);
     }
 #if PASS == 1
     if (material.animation == kAnimationLiquidSurface) inChunk -= kLiquidInset * normalOfFace(quad);
@@ -81,5 +95,8 @@ void main() {
 #endif
     uint seed = hash2(uint(chunk.x), uint(chunk.y), quad.word1);
     outFace = uvec2(packFace(quad, material, level), quad.word0 ^ seed);
+#if FACE_SAMPLING == 1
+    outSampling = optionsSampling(material.options);
+#endif
     outTexel = vec2(corner.x, 1.0 - corner.y) * extentOf(outFace.x);
 }

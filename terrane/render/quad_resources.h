@@ -5,8 +5,8 @@
 #include "terrane/base/result.h"
 #include "terrane/gpu/buffer_texture.h"
 #include "terrane/gpu/sampler.h"
-#include "terrane/gpu/texture.h"
 #include "terrane/gpu/vertex_array.h"
+#include "terrane/render/block_textures.h"
 #include "terrane/render/mesh_section_table.h"
 #include "terrane/world/block_registry.h"
 
@@ -16,20 +16,27 @@ class QuadResources {
   public:
     QuadResources() = default;
     // `anisotropy`: samples along the long side of a slanted texel footprint; 1 is none.
-    QuadResources(const world::BlockRegistry& blocks, gpu::Texture2DArray textures, float anisotropy);
+    QuadResources(const world::BlockRegistry& blocks, BlockTextures textures, float anisotropy);
 
-    void setTextures(gpu::Texture2DArray textures) { textures_ = std::move(textures); }
+    // Other textures for the same blocks.
+    void setTextures(const world::BlockRegistry& blocks, BlockTextures textures);
+    bool hasFaceSampling() const { return hasFaceSampling_; }
 
     // isSmooth: textures are filtered.
     void bind(const MeshSectionTable& meshSections, bool isSmooth);
     std::size_t gpuBytes() const;
 
   private:
-    gpu::Texture2DArray textures_;
+    BlockTextures textures_;
     gpu::Sampler smooth_, nearest_;
     gpu::Buffer indices_, shapeFaces_, materials_;
     gpu::BufferTexture shapeFaceTexels_, materialTexels_;
     gpu::VertexArray vertexArray_;
+    bool hasFaceSampling_ = false;
 };
+
+// Whether some face samples its texture in its own way, or a texture is smaller than the array: the shaders
+// of quads need FACE_SAMPLING then (block_texture.glsl). Without it they are shorter.
+bool needsFaceSampling(const world::BlockRegistry& blocks, const BlockTextures& textures);
 
 }  // namespace terrane::render

@@ -6,6 +6,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
+#include "terrane/render/edge_expansion.h"
 #include "terrane/render/frame_uniforms.h"
 #include "terrane/render/shadow_volume.h"
 #include "terrane/render/timer_zone.h"
@@ -20,17 +21,6 @@ constexpr float kMaxAnisotropy = 8.0f;
 
 // Between sun and moon it is dark: light that cannot be seen casts no shadows. Linear.
 constexpr float kMinShadowedLight = 0.002f;
-
-// A corner and an edge's ends are each off by up to √½ steps of the rasterizer's grid: two quads that both
-// grow by √½ steps meet. Corners of folded quads grow less, so more is taken; with 2 steps of 1/256 pixel one
-// in a hundred samples along an edge changes.
-constexpr float kExpansionSteps = 2;
-
-float edgeExpansion() {
-    GLint subpixelBits = 4;  // the least that OpenGL allows
-    glGetIntegerv(GL_SUBPIXEL_BITS, &subpixelBits);
-    return kExpansionSteps / static_cast<float>(1 << subpixelBits);
-}
 
 float aspectOf(glm::ivec2 size) {
     return static_cast<float>(size.x) / static_cast<float>(size.y);
@@ -65,8 +55,22 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
 base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, const TextureSource& textures) {
     auto loaded = loadBlockTextures(blocks, textures, device_.maxArrayLayers);
     if (!loaded) return tl::unexpected(loaded.error());
-    resources_.setTextures(std::move(*loaded));
+    if (targets_.size.x > 0) {
+        auto done = configurePasses(targets_, options_, needsFaceSampling(blocks, *loaded));
+        if (!done) return done;
+    }
+    resources_.setTextures(blocks, std::move(*loaded));
     return {};
+}
+
+// Where it fails the passes are as they were.
+base::Result<void> Renderer::configurePasses(const FrameTargets& targets, const RenderOptions& options,
+                                             bool hasFaceSampling) {
+    auto done = passes_.configure(targets, options, hasFaceSampling);
+    if (done || targets_.size.x == 0) return done;
+    const auto undone = passes_.configure(targets_, options_, resources_.hasFaceSampling());
+    if (!undone) base::logError("options cannot be as they were: {}", undone.error().message);
+    return done;
 }
 
 base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& options) {
@@ -84,12 +88,8 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
         if (!targets) return tl::unexpected(targets.error());
         made = std::move(*targets);
     }
-    if (auto done = passes_.configure(made ? *made : targets_, options); !done) {
-        const bool isDrawn = targets_.size.x > 0;
-        const auto undone = isDrawn ? passes_.configure(targets_, options_) : base::Result<void>();
-        if (!undone) base::logError("options cannot be as they were: {}", undone.error().message);
-        return done;
-    }
+    auto done = configurePasses(made ? *made : targets_, options, resources_.hasFaceSampling());
+    if (!done) return done;
     if (made) targets_ = std::move(*made);
     options_ = options;
     return {};
@@ -99,7 +99,8 @@ base::Result<void> Renderer::reloadShaders() {
     auto passes = FramePasses::create(*shaders_, device_);
     if (!passes) return tl::unexpected(passes.error());
     if (targets_.size.x > 0) {
-        if (auto done = passes->configure(targets_, options_); !done) return done;
+        if (auto done = passes->configure(targets_, options_, resources_.hasFaceSampling()); !done)
+            return done;
     }
     passes_ = std::move(*passes);
     return {};

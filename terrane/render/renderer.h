@@ -89,6 +89,8 @@ class Renderer {
     glm::ivec2 size() const { return targets_.size; }
 
   private:
+    base::Result<void> configurePasses(const FrameTargets& targets, const RenderOptions& options,
+                                       bool hasFaceSampling);
     void bindFrame(const FrameInput& input, const ViewMatrices& view);
     CullInput cullInput(const FrameInput& input, const ViewMatrices& view) const;
     void cull(CullPhase phase, const CullInput& input);

@@ -17,14 +17,18 @@ ShadowMap::ShadowMap(const gpu::ShaderLoader& shaders)
       tested_(quadShaders(shaders, "shadow", "tested shadows")),
       sampler_({.compare = GL_GEQUAL}, "shadow map") {}
 
-base::Result<void> ShadowMap::resize(int size) {
+base::Result<void> ShadowMap::configure(int size, bool hasFaceSampling) {
+    if (size > 0) {
+        auto selected = opaque_.select(defined({{"PASS", 2}, {"ALPHA_CLASS", 0}, {"FACE_SAMPLING", 0}}));
+        if (selected)
+            selected = tested_.select(
+                defined({{"PASS", 2}, {"ALPHA_CLASS", 1}, {"FACE_SAMPLING", hasFaceSampling}}));
+        if (!selected) return selected;
+    }
     if (size == this->size()) return {};
     framebuffer_ = {};
     depth_ = {};
     if (size == 0) return {};
-    auto selected = opaque_.select({{"PASS", "2"}, {"ALPHA_CLASS", "0"}});
-    if (selected) selected = tested_.select({{"PASS", "2"}, {"ALPHA_CLASS", "1"}});
-    if (!selected) return selected;
     gpu::Texture2D depth({size, size}, kFormat, 1, "shadow map");
     auto framebuffer = gpu::Framebuffer::create({{}, depth}, "shadow map");
     if (!framebuffer) return tl::unexpected(framebuffer.error());

@@ -15,7 +15,7 @@ class ShadowMap {
     explicit ShadowMap(const gpu::ShaderLoader& shaders);
 
     // Texels a side; 0: none.
-    base::Result<void> resize(int size);
+    base::Result<void> configure(int size, bool hasFaceSampling);
     int size() const { return depth_.size().x; }
     // Draws what is culled for shadows, with the frame's uniforms bound.
     void draw(gpu::Pipeline& pipeline, const QuadDraw& quads) const;

@@ -22,7 +22,9 @@ class TransparencyPass {
     explicit TransparencyPass(const gpu::ShaderLoader& shaders);
 
     // Makes room for the layers. Comes again whenever the targets are others.
-    base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options, bool hasShadows);
+    // `hasFaceSampling`: see needsFaceSampling().
+    base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options, bool hasShadows,
+                                 bool hasFaceSampling);
 
     // Into textures of its own, behind nothing of the depth in `targets`.
     void peelLayers(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads);
@@ -43,7 +45,8 @@ class TransparencyPass {
     void peelLayer(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads, int number);
     void bindLayers() const;
 
-    base::Result<void> selectVariants(int samples, const RenderOptions& options, bool hasShadows);
+    base::Result<void> selectVariants(int samples, const RenderOptions& options, bool hasShadows,
+                                      bool hasFaceSampling);
 
     ShaderVariants first_, next_, shadeQuads_;
     FullscreenPass shade_;

@@ -19,9 +19,11 @@ float liquidWave(ivec2 chunk, vec2 inChunk, float seconds) {
     return mix(low, high, f.y);
 }
 
-// `top`: 1 at the upper end of upright planes. Each class of faces has its own kinds of movement (ALPHA_CLASS, see
+// `isSurface`: the corner belongs to the surface of a liquid. `top`: 1 at the upper end of upright planes. Each class of faces has its own kinds of movement (ALPHA_CLASS, see
 // quad.vert.glsl): opaque faces stand still, only blended ones are liquid.
-vec3 waveOffset(uint animation, ivec2 chunk, vec3 cell, vec3 inChunk, float top, float seconds) {
+vec3 waveOffset(MaterialRecord material, bool isSurface, ivec2 chunk, vec3 cell, vec3 inChunk, float top,
+                float seconds) {
+    uint animation = material.animation;
 #if ALPHA_CLASS == 1
     vec2 base = vec2((chunk & 4095) * int(kChunkSize));
     if (animation == kAnimationTopWaves) {
@@ -37,10 +39,9 @@ vec3 waveOffset(uint animation, ivec2 chunk, vec3 cell, vec3 inChunk, float top,
         return 0.035 * vec3(a, b, a - b);
     }
 #elif ALPHA_CLASS == 2
-    // Only what belongs to the surface, 14/16 above a block's bottom.
-    bool isSurface = abs(fract(inChunk.z) - 14.0 / 16.0) < 0.01;
     if (animation == kAnimationLiquidSurface && isSurface) {
-        return vec3(0.0, 0.0, 0.06 * liquidWave(chunk, inChunk.xy, seconds) - 0.02);
+        float height = optionsWaveHeight(material.options);
+        return vec3(0.0, 0.0, height * liquidWave(chunk, inChunk.xy, seconds) - height / 3.0);
     }
 #endif
     return vec3(0.0);

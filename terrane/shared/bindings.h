@@ -36,6 +36,8 @@ const uint kHiZUnit = 17u;                // Hi-Z
 const uint kQuadsUnit = 18u;              // buffers as textures
 const uint kShapeFacesUnit = 19u;
 const uint kMaterialsUnit = 20u;
+const uint kSmoothTexturesUnit = 21u;  // the block textures with one sampler and the other: FACE_SAMPLING
+const uint kNearestTexturesUnit = 22u;
 
 // Vertex attributes
 const uint kMeshSectionChunkAttribute = 0u;  // chunk and level of a draw's mesh section, by the base instance

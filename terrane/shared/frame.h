@@ -77,7 +77,7 @@ struct MaterialRecord {
     uint texture;  // layer of the array
     uint alphaMode;
     uint animation;
-    uint unused;
+    uint options;  // material.h
 };
 
 SHARED_END

@@ -1,4 +1,5 @@
-// Values of a material: alpha mode and animation as world::AlphaMode and world::Animation number them.
+// Values of a material, as world::AlphaMode, Animation, Wrap and Filtering number them, and its packed
+// options.
 #ifndef TERRANE_SHARED_MATERIAL_H
 #define TERRANE_SHARED_MATERIAL_H
 
@@ -19,5 +20,61 @@ const uint kAnimationTopWaves = 1u;
 const uint kAnimationWholeWaves = 2u;
 const uint kAnimationLiquidSurface = 3u;
 
+const uint kWrapQuad = 0u;
+const uint kWrapRepeat = 1u;
+const uint kWrapClamp = 2u;
+
+const uint kFilteringOption = 0u;
+const uint kFilteringSharp = 1u;
+const uint kFilteringNearest = 2u;
+
+// Height and waves of a liquid's surface are counted in these parts of a block.
+const uint kSurfaceUnits = 1024u;
+const uint kWaveUnits = 1000u;
+
+// The options of a material:
+//
+//   bits 0–1    wrap
+//        2–3    filtering
+//        4–7    how many times the texture was doubled to the size of the array
+//        8–18   height of a liquid's surface
+//        19–26  amplitude of its waves
+//
+// Of these, bits 0–7 say how a fragment samples its texture.
+SHARED_FN uint optionsWrap(uint options) {
+    return options & 3u;
+}
+SHARED_FN uint optionsFiltering(uint options) {
+    return (options >> 2) & 3u;
+}
+SHARED_FN uint optionsDoublings(uint options) {
+    return (options >> 4) & 15u;
+}
+SHARED_FN uint optionsSampling(uint options) {
+    return options & 255u;
+}
+SHARED_FN float optionsSurfaceHeight(uint options) {
+    return float((options >> 8) & 2047u) / float(kSurfaceUnits);
+}
+SHARED_FN float optionsWaveHeight(uint options) {
+    return float((options >> 19) & 255u) / float(kWaveUnits);
+}
+
 SHARED_END
+
+#ifdef __cplusplus
+namespace terrane::shared {
+
+struct MaterialOptions {
+    uint wrap = 0, filtering = 0, doublings = 0;
+    uint surfaceHeight = 0;  // kSurfaceUnits a block
+    uint waveHeight = 0;     // kWaveUnits a block
+};
+
+constexpr uint packOptions(const MaterialOptions& o) {
+    return o.wrap | o.filtering << 2 | o.doublings << 4 | o.surfaceHeight << 8 | o.waveHeight << 19;
+}
+
+}  // namespace terrane::shared
+#endif
 #endif

@@ -1,8 +1,10 @@
 #include "terrane/world/block_parser.h"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <optional>
+#include <ranges>
 #include <unordered_set>
 #include <utility>
 
@@ -38,10 +40,14 @@ constexpr std::array<EnumName<Animation>, 4> kAnimations{{{"none", Animation::No
                                                           {"whole_waves", Animation::WholeWaves},
                                                           {"liquid_surface", Animation::LiquidSurface}}};
 
-constexpr std::array<std::string_view, 17> kBlockKeys{
-    "name",       "shape",        "texture",   "textures", "alpha",    "animation",
-    "two_sided",  "inner_faces",  "opacity",   "emission", "collides", "selection",
-    "selectable", "needs_ground", "generated", "growth",   "slots"};
+constexpr std::array<EnumName<Wrap>, 3> kWraps{
+    {{"quad", Wrap::Quad}, {"repeat", Wrap::Repeat}, {"clamp", Wrap::Clamp}}};
+
+constexpr std::array<std::string_view, 22> kBlockKeys{
+    "name",      "shape",          "texture",     "textures",     "alpha",     "animation",
+    "two_sided", "wrap",           "sharp",       "inner_faces",  "opacity",   "emission",
+    "collides",  "selection",      "selectable",  "needs_ground", "generated", "growth",
+    "slots",     "surface_height", "wave_height", "behaviors"};
 
 // `texture` for all faces or `textures` with one a group: exactly one of them.
 Groups<std::string> readTextures(ContentTable& table) {
@@ -69,16 +75,41 @@ void readFaces(ContentTable& table, BlockDescription& block) {
     const auto twoSided =
         table.valueEach<bool>("two_sided", kGroupNames, false,
                               [&](const toml::node& value, auto key) { return table.booleanOf(value, key); });
+    const auto wrap = table.valueEach<Wrap>(
+        "wrap", kGroupNames, Wrap::Quad,
+        [&](const toml::node& value, auto key) { return table.enumOf(value, key, kWraps); });
+    const auto filtering = table.valueEach<Filtering>(
+        "sharp", kGroupNames, Filtering::Option, [&](const toml::node& value, auto key) {
+            return table.booleanOf(value, key) ? Filtering::Sharp : Filtering::Nearest;
+        });
     for (std::size_t face = 0; face < kFaceCount; ++face) {
         const Group g = kGroupOfFace[face];
-        block.faces[face] = {.texture = textures[g], .alpha = alpha[g], .twoSided = twoSided[g]};
+        block.faces[face] = {textures[g], alpha[g], twoSided[g], wrap[g], filtering[g]};
     }
     if (const toml::node* value = table.node("animation"))
         block.animation = table.enumOf(*value, "animation", kAnimations);
     block.type.innerFaces = table.boolean("inner_faces", false);
-    const Shape shape = block.type.shape;
-    const bool isPlant = shape == Shape::Cross || shape == Shape::Hash || shape == Shape::Inset;
-    block.type.needsGround = table.boolean("needs_ground", isPlant);
+}
+
+// Height and waves of a liquid's surface. Waves sink by 4/3 of their height: they stay above the bottom.
+void readSurface(ContentTable& table, BlockDescription& block) {
+    constexpr double kMinHeight = 0.125, kMaxWave = 0.25;
+    LiquidSurface& surface = block.type.surface;
+    if (const toml::node* value = table.node("surface_height")) {
+        if (block.type.shape != Shape::Liquid)
+            return table.expected(*value, "surface_height", "surface_height only for the shape liquid");
+        const double height = table.realOf(*value, "surface_height", kMinHeight, 1);
+        surface.heightUnits = static_cast<std::uint16_t>(std::lround(height * shared::kSurfaceUnits));
+    }
+    const double highest = std::min(kMaxWave, 0.75 * surface.heightUnits / shared::kSurfaceUnits);
+    if (const toml::node* value = table.node("wave_height")) {
+        if (block.type.shape != Shape::Liquid || block.animation != Animation::LiquidSurface)
+            return table.expected(
+                *value, "wave_height",
+                "wave_height only with the shape liquid and animation = \"liquid_surface\"");
+        const double wave = table.realOf(*value, "wave_height", 0, highest);
+        surface.waveUnits = static_cast<std::uint16_t>(std::lround(wave * shared::kWaveUnits));
+    }
 }
 
 std::uint8_t lightOf(ContentTable& table, const toml::node& value, std::string_view key) {
@@ -141,7 +172,35 @@ void readGrowth(ContentTable& table, BlockDescription& block) {
     }
 }
 
-BlockDescription readBlock(ContentTable& table) {
+// Behaviors that other keys stand for come first.
+void readBehaviors(ContentTable& table, BlockDescription& block, const BehaviorTable& behaviors) {
+    const auto add = [&](const BehaviorPtr& behavior) {
+        auto& own = block.type.behaviors;
+        if (behavior && std::ranges::find(own, behavior) == own.end()) own.push_back(behavior);
+    };
+    const Shape shape = block.type.shape;
+    const bool isPlant = shape == Shape::Cross || shape == Shape::Hash || shape == Shape::Inset;
+    if (table.boolean("needs_ground", isPlant)) add(behaviors.find("plant"));
+    if (!block.growth.empty()) add(behaviors.find("crop"));
+    if (block.type.slots > 0) add(behaviors.find("container"));
+
+    const toml::node* value = table.node("behaviors");
+    if (!value) return;
+    const toml::array* names = value->as_array();
+    if (!names) return table.expected(*value, "behaviors", "an array of names");
+    for (const toml::node& name : *names) {
+        const auto text = name.value_exact<std::string>();
+        const BehaviorPtr behavior = text ? behaviors.find(*text) : nullptr;
+        if (!behavior) {
+            const auto known =
+                std::views::transform(behaviors.behaviors(), [](const auto& b) { return b->name; });
+            return table.expected(name, "behaviors", fmt::format("one of {}", fmt::join(known, ", ")));
+        }
+        add(behavior);
+    }
+}
+
+BlockDescription readBlock(ContentTable& table, const BehaviorTable& behaviors) {
     BlockDescription block;
     block.line = table.line();
     table.rejectUnknown(kBlockKeys);
@@ -155,6 +214,7 @@ BlockDescription readBlock(ContentTable& table) {
         table.missing("shape");
 
     readFaces(table, block);
+    readSurface(table, block);
     readLight(table, block);
     const Box box = shapeBox(block.type.shape);
     if (table.boolean("collides", true)) block.type.collision = {box};
@@ -164,6 +224,7 @@ BlockDescription readBlock(ContentTable& table) {
     readGrowth(table, block);
     if (const toml::node* slots = table.node("slots"))
         block.type.slots = table.numberOf(*slots, "slots", 0, kMaxSlots);
+    readBehaviors(table, block, behaviors);
     return block;
 }
 
@@ -174,7 +235,8 @@ base::Error oneLine(std::string message) {
     return {base::ErrorCode::BadInput, std::move(message)};
 }
 
-base::Result<std::vector<BlockDescription>> readBlocks(const toml::table& root, std::string_view file) {
+base::Result<std::vector<BlockDescription>> readBlocks(const toml::table& root, std::string_view file,
+                                                       const BehaviorTable& behaviors) {
     std::optional<std::string> error;
     std::vector<BlockDescription> blocks;
     std::unordered_set<std::string> names{"air", "missing"};
@@ -190,7 +252,7 @@ base::Result<std::vector<BlockDescription>> readBlocks(const toml::table& root, 
         if (i == kMaxDescribedBlocks)
             table.wrong(table.line(), "block",
                         fmt::format("expected at most {}, got more", kMaxDescribedBlocks));
-        blocks.push_back(readBlock(table));
+        blocks.push_back(readBlock(table, behaviors));
         if (!names.insert(blocks.back().type.name).second && !error)
             table.expected(*table.node("name"), "name", "a name not used before");
     }
@@ -200,9 +262,10 @@ base::Result<std::vector<BlockDescription>> readBlocks(const toml::table& root, 
 
 }  // namespace
 
-base::Result<std::vector<BlockDescription>> parseBlocks(std::string_view toml, std::string_view file) {
+base::Result<std::vector<BlockDescription>> parseBlocks(std::string_view toml, std::string_view file,
+                                                        const BehaviorTable& behaviors) {
     try {
-        return readBlocks(toml::parse(toml), file);
+        return readBlocks(toml::parse(toml), file, behaviors);
     } catch (const toml::parse_error& error) {  // the only way this library tells of wrong syntax
         return tl::unexpected(
             oneLine(fmt::format("{}:{}: syntax: {}", file, error.source().begin.line, error.description())));

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "terrane/base/result.h"
-#include "terrane/world/block_type.h"
+#include "terrane/world/block_behavior.h"
 
 namespace terrane::world {
 
@@ -22,6 +22,8 @@ struct FaceLook {
     std::string texture;
     AlphaMode alpha = AlphaMode::Unused;
     bool twoSided = false;
+    Wrap wrap = Wrap::Quad;
+    Filtering filtering = Filtering::Option;
 };
 
 struct BlockDescription {
@@ -33,8 +35,9 @@ struct BlockDescription {
 };
 
 // The file's blocks in its order, names unique. Errors read "file:line: key: what is wrong", always one line.
-[[nodiscard]] base::Result<std::vector<BlockDescription>> parseBlocks(std::string_view toml,
-                                                                      std::string_view file);
+// `behaviors`: those that blocks may name.
+[[nodiscard]] base::Result<std::vector<BlockDescription>> parseBlocks(
+    std::string_view toml, std::string_view file, const BehaviorTable& behaviors = builtInBehaviors());
 
 // A cube that hides what touches it: no face lets the eye through.
 bool isOpaqueCube(const BlockDescription& block);

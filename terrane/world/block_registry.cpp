@@ -3,7 +3,6 @@
 #include <cassert>
 #include <map>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "terrane/world/block_parser.h"
@@ -39,7 +38,7 @@ class Materials {
     bool numberFaces(BlockDescription& block) {
         bool fits = true;
         const auto set = [&](std::uint16_t& material, const FaceLook& face) {
-            const auto number = this->number(face, block.animation);
+            const auto number = this->number(face, block);
             fits = fits && number;
             material = number.value_or(0);
         };
@@ -57,32 +56,35 @@ class Materials {
 
   private:
     // None where 16 bits do not suffice.
-    std::optional<std::uint16_t> number(const FaceLook& face, Animation animation) {
+    std::optional<std::uint16_t> number(const FaceLook& face, const BlockDescription& block) {
         const auto texture = static_cast<std::uint32_t>(
             textureNumbers_.try_emplace(face.texture, textureNumbers_.size()).first->second);
         if (texture == textures_.size()) textures_.push_back(face.texture);
 
-        const auto key = std::tuple(texture, face.alpha, animation, face.twoSided);
-        const auto number = numbers_.try_emplace(key, numbers_.size()).first->second;
-        if (number >= kMaxNumbered) return std::nullopt;
-        if (number == materials_.size())
-            materials_.push_back({.texture = static_cast<std::uint16_t>(texture),
-                                  .alpha = face.alpha,
-                                  .animation = animation,
-                                  .twoSided = face.twoSided});
+        const Material material{.texture = static_cast<std::uint16_t>(texture),
+                                .alpha = face.alpha,
+                                .animation = block.animation,
+                                .twoSided = face.twoSided,
+                                .wrap = face.wrap,
+                                .filtering = face.filtering,
+                                .surface = block.type.surface};
+        const auto number = numbers_.try_emplace(material, numbers_.size()).first->second;
+        if (texture >= kMaxNumbered || number >= kMaxNumbered) return std::nullopt;
+        if (number == materials_.size()) materials_.push_back(material);
         return static_cast<std::uint16_t>(number);
     }
 
     std::map<std::string, std::size_t> textureNumbers_;
-    std::map<std::tuple<std::uint32_t, AlphaMode, Animation, bool>, std::size_t> numbers_;
+    std::map<Material, std::size_t> numbers_;
     std::vector<Material> materials_;
     std::vector<std::string> textures_;
 };
 
 }  // namespace
 
-base::Result<BlockRegistry> BlockRegistry::parse(std::string_view toml, std::string_view name) {
-    auto blocks = parseBlocks(toml, name);
+base::Result<BlockRegistry> BlockRegistry::parse(std::string_view toml, std::string_view name,
+                                                 const BehaviorTable& behaviors) {
+    auto blocks = parseBlocks(toml, name, behaviors);
     if (!blocks) return tl::unexpected(blocks.error());
     blocks->push_back(describeMissing());
 
@@ -94,10 +96,8 @@ base::Result<BlockRegistry> BlockRegistry::parse(std::string_view toml, std::str
         type.id = static_cast<BlockId>(registry.types_.size());
         type.opaqueCube = isOpaqueCube(block);
         if (!materials.numberFaces(block))
-            return base::fail(
-                "{}:{}: texture: expected at most {} combinations of texture, alpha, animation and "
-                "two_sided in all blocks, got more",
-                name, block.line, kMaxNumbered);
+            return base::fail("{}:{}: texture: expected at most {} different faces in all blocks, got more",
+                              name, block.line, kMaxNumbered);
         registry.types_.push_back(std::move(type));
     }
     assert(registry.types_.size() <= kMaxNumbered && "the parser limits blocks to what ids can tell apart");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "terrane/base/result.h"
+#include "terrane/world/block_behavior.h"
 #include "terrane/world/block_type.h"
 
 namespace terrane::world {
@@ -16,7 +17,9 @@ class BlockRegistry {
   public:
     // Reads the content file's text. `name` stands in errors, which read "name:line: key: what is wrong".
     // Ids follow the order of the file; air is 0 and is not in the file. The last type added is "missing".
-    [[nodiscard]] static base::Result<BlockRegistry> parse(std::string_view toml, std::string_view name);
+    // `behaviors`: those that blocks may name.
+    [[nodiscard]] static base::Result<BlockRegistry> parse(
+        std::string_view toml, std::string_view name, const BehaviorTable& behaviors = builtInBehaviors());
 
     std::span<const BlockType> types() const { return types_; }  // index is the id
     const BlockType& type(BlockId id) const { return types_[id < types_.size() ? id : missing_]; }

@@ -3,11 +3,15 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "terrane/shared/material.h"
+#include "terrane/shared/shape_face.h"
 #include "terrane/world/chunk.h"
 
 namespace terrane::world {
@@ -15,7 +19,7 @@ namespace terrane::world {
 enum class Shape : std::uint8_t {
     None,    // nothing to draw (air)
     Cube,    // six faces; merges with its neighbors
-    Liquid,  // like a cube; the surface under anything but the same liquid lies lower
+    Liquid,  // like a cube; the surface under anything but the same liquid lies lower (LiquidSurface)
     Cross,   // X: two upright planes through the middle
     Hash,    // #: four upright planes, a quarter inside the cell
     Inset,   // #: four upright planes 1/16 inside the cell, and full top and bottom (cactus)
@@ -32,14 +36,41 @@ enum class AlphaMode : std::uint8_t {
 
 enum class Animation : std::uint8_t { None, TopWaves, WholeWaves, LiquidSurface };
 
+// Where filters of a face's texture may read, when a texel is smaller or larger than a pixel.
+enum class Wrap : std::uint8_t {
+    Quad,    // the texture repeats over a merged quad; filters stop at the quad's edge
+    Repeat,  // filters reach over every edge to the opposite side of the texture: it tiles without seams
+    Clamp,   // filters stop at the edge of each block's texture, inside a merged quad too
+};
+
+// How a face's texture is filtered.
+enum class Filtering : std::uint8_t {
+    Option,   // as the graphics option says (--sharp-filtering)
+    Sharp,    // as with the option on
+    Nearest,  // as with the option off
+};
+
+// The top of a liquid under anything but the same liquid. Integers, so that equal ones compare equal.
+struct LiquidSurface {
+    // In the cell; shared::kSurfaceUnits a block.
+    std::uint16_t heightUnits = shared::kLiquidSurfaceSixteenths * shared::kSurfaceUnits / 16;
+    // Amplitude of Animation::LiquidSurface; shared::kWaveUnits a block.
+    std::uint16_t waveUnits = 60;
+
+    auto operator<=>(const LiquidSurface&) const = default;
+};
+
 // One configuration of drawn faces ("face context") with one texture.
 struct Material {
     std::uint16_t texture = 0;  // index into BlockRegistry::textures()
     AlphaMode alpha = AlphaMode::Unused;
     Animation animation = Animation::None;
     bool twoSided = false;
+    Wrap wrap = Wrap::Quad;
+    Filtering filtering = Filtering::Option;
+    LiquidSurface surface = {};
 
-    bool operator==(const Material&) const = default;
+    auto operator<=>(const Material&) const = default;
 };
 
 struct Box {
@@ -49,24 +80,37 @@ struct Box {
 // Order of faces everywhere: -x, +x, -y, +y, -z, +z.
 enum Face : std::uint8_t { kFaceNegX, kFacePosX, kFaceNegY, kFacePosY, kFaceNegZ, kFacePosZ, kFaceCount };
 
+// The cell beside a face of a block.
+constexpr BlockPos beside(BlockPos pos, Face face) {
+    // Around at the ends of the numbers, where no chunk is.
+    const auto step = [&](std::int32_t at, int axis) {
+        const std::uint32_t by = face / 2 != axis ? 0u : face % 2 == 0 ? ~0u : 1u;
+        return static_cast<std::int32_t>(static_cast<std::uint32_t>(at) + by);
+    };
+    return {step(pos.x, 0), step(pos.y, 1), step(pos.z, 2)};
+}
+
+struct BlockBehavior;
+
 struct BlockType {
     std::string name;
     BlockId id = 0;
     Shape shape = Shape::Cube;
     std::array<std::uint16_t, kFaceCount> material{};  // index into BlockRegistry::materials()
     bool opaqueCube = false;                           // hides every face that touches it
-    // Of a plant that grows: the material by the stages that are left, growth[0] for 1. The block's small
-    // data counts them; 0 is grown.
+    // Of a plant that grows: the material by its block state, which counts the stages left; growth[0] for 1.
     std::vector<std::uint16_t> growth;
+    LiquidSurface surface;                   // of a liquid
     bool innerFaces = false;                 // faces between two blocks of this type are drawn (leaves)
     std::uint8_t opacity = 15;               // to light, 0…15
     std::array<std::uint8_t, 3> emission{};  // red, green, blue, 0…15
     std::vector<Box> collision;              // empty: nothing collides
     Box selection;                           // what a ray from the camera hits
     bool selectable = true;                  // false: rays pass (air, water)
-    bool needsGround = false;                // falls when the block below goes (plants)
     bool generated = true;                   // appears in generated terrain (else placed only)
-    int slots = 0;                           // stacks of items it holds, as block entity data (inventory.h)
+    // What it does (block_behavior.h), in the order in which they are called.
+    std::vector<std::shared_ptr<const BlockBehavior>> behaviors;
+    int slots = 0;  // of the behavior container: stacks of items it holds
 };
 
 }  // namespace terrane::world

@@ -15,6 +15,10 @@ std::string shown(const toml::node& node) {
     if (node.is_table()) return "a table";
     if (const toml::array* array = node.as_array()) return fmt::format("an array of {}", array->size());
     if (const auto text = node.value_exact<std::string_view>()) return fmt::format("\"{}\"", *text);
+    if (const auto number = node.value_exact<double>()) {  // as short as it is written
+        const std::string digits = fmt::format("{}", *number);
+        return digits.find_first_not_of("-0123456789") == std::string::npos ? digits + ".0" : digits;
+    }
     std::ostringstream other;
     node.visit([&](const auto& value) {
         if constexpr (toml::is_value<decltype(value)>) other << value;
@@ -49,6 +53,13 @@ bool ContentTable::booleanOf(const toml::node& value, std::string_view key) {
 int ContentTable::numberOf(const toml::node& value, std::string_view key, int min, int max) {
     const auto number = value.value_exact<std::int64_t>();
     if (number && *number >= min && *number <= max) return static_cast<int>(*number);
+    expected(value, key, fmt::format("{} to {}", min, max));
+    return min;
+}
+
+double ContentTable::realOf(const toml::node& value, std::string_view key, double min, double max) {
+    const auto number = value.is_number() ? value.value<double>() : std::nullopt;
+    if (number && *number >= min && *number <= max) return *number;
     expected(value, key, fmt::format("{} to {}", min, max));
     return min;
 }

@@ -61,6 +61,7 @@ class ContentTable {
     bool booleanOf(const toml::node& value, std::string_view key);
     // From `min` to `max`.
     int numberOf(const toml::node& value, std::string_view key, int min, int max);
+    double realOf(const toml::node& value, std::string_view key, double min, double max);
     std::string nameOf(const toml::node& value, std::string_view key);
 
     template <class T, std::size_t N>

@@ -38,7 +38,7 @@ class World {
     }
 
   private:
-    friend struct BlockWriter;  // of block_edit.cpp
+    friend class BlockUpdate;  // of block_edit.h: the only way to a chunk that can be written
 
     const Chunk* findChunk(BlockPos pos) const;  // null above, below and where none is loaded
     Chunk* findWritable(BlockPos pos);           // the same; no snapshot shows what is written to it

@@ -90,6 +90,33 @@ TEST_F(SessionTest, TimeLetsPlantsGrow) {
     EXPECT_NE(session_.clock.timeDay, before);
 }
 
+// Sand that falls is lit, meshed and saved as any edit.
+TEST_F(SessionTest, SandThatFallsReachesTheStoreAndTheScreen) {
+    const world::BlockPos high{5, 5, kGroundHeight + 9}, landing = kOnGround;
+    session_.edit(put({5, 5, kGroundHeight + 8}, "stone"));
+    session_.edit(put(high, "sand"));
+    settle();
+    takeChanges();
+    EXPECT_EQ(session_.edit(put({5, 5, kGroundHeight + 8}, "air")), EditResult::Applied);
+    EXPECT_EQ(session_.world().block(high), world::kAir);
+    EXPECT_EQ(session_.world().block(landing), contentBlock("sand"));
+    settle();
+    const light::LightTable table(contentBlocks());
+    for (const stream::ChunkChange& change : takeChanges()) {
+        if (!change.light) continue;
+        stream::ChunkNeighborhood around;
+        for (int n = 0; n < 9; ++n) {
+            around.chunks[static_cast<std::size_t>(n)] =
+                session_.world().maybeChunkAt(world::offsetBy(change.pos, n % 3 - 1, n / 3 - 1));
+        }
+        EXPECT_EQ(*change.light, *stream::lightOf(around, table)) << change.pos.x << ' ' << change.pos.y;
+    }
+    ASSERT_TRUE(session_.save());
+    const store::LoadedChunk stored = session_.store().load({0, 0});
+    EXPECT_EQ(stored.chunk->block(world::blockIndex(landing)), contentBlock("sand"));
+    EXPECT_EQ(stored.chunk->block(world::blockIndex(high)), world::kAir);
+}
+
 // A fill and a clear through the door, over several chunks: light is that of lighting everything anew.
 TEST_F(SessionTest, LightAfterABatchIsThatFromScratch) {
     const auto fill = [&](std::string_view name) {

@@ -86,7 +86,7 @@ std::vector<StructLayout> frameLayouts() {
              {{"texture", offsetof(MaterialRecord, texture)},
               {"alphaMode", offsetof(MaterialRecord, alphaMode)},
               {"animation", offsetof(MaterialRecord, animation)},
-              {"unused", offsetof(MaterialRecord, unused)}}}};
+              {"options", offsetof(MaterialRecord, options)}}}};
 }
 
 std::vector<StructLayout> meshSectionLayouts() {

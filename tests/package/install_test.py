@@ -84,7 +84,8 @@ class Install(unittest.TestCase):
     def test_an_example_by_find_package_and_by_pkg_config(self):
         build = self.folder / "build"
         run(CMAKE, "-G", "Ninja", "-S", self.examples, "-B", build, "-DCMAKE_BUILD_TYPE=Debug", f"-DCMAKE_PREFIX_PATH={self.prefix}")
-        run(CMAKE, "--build", build, "--target", "own_generator")
+        run(CMAKE, "--build", build, "--target", "own_generator", "own_behavior")
+        self.assertIn("8,8,40: iron becomes rust", run(build / "own_behavior"))
         text = self.build_and_run(build / "own_generator")
 
         paths = {"PKG_CONFIG_PATH": str(self.find("terrane.pc").parent)}

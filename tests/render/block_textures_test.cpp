@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "terrane/render/mipmaps.h"
 #include "terrane/shared/material.h"
 
 namespace terrane::render {
@@ -46,6 +49,40 @@ TEST(BlockTextures, OfSeveralMeaningsOfAlphaOneThatTestsCounts) {
         ASSERT_EQ(registry.textures()[0], "shared");
         EXPECT_EQ(textureAlpha(registry, 0), c.expected) << "case " << &c - cases;
     }
+}
+
+TEST(BlockTextures, ASmallTextureHasItsOwnMipmapsBehindEnlargedOnes) {
+    const base::Image small{2, 2, {10, 20, 30, 255, 40, 50, 60, 255, 70, 80, 90, 255, 1, 2, 3, 255}};
+    const auto own = mipmaps(small, AlphaMode::Unused);
+    const auto levels = levelsInArray(own, 8);
+    ASSERT_EQ(levels.size(), 4u);
+    for (std::size_t level = 0; level < 2; ++level) {
+        const int side = 8 >> level;
+        ASSERT_EQ(levels[level].width, side);
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; ++x) {
+                const auto at = static_cast<std::size_t>(4 * (y * side + x));
+                const auto from = static_cast<std::size_t>(4 * (2 * y / side * 2 + 2 * x / side));
+                ASSERT_EQ(levels[level].rgba[at], small.rgba[from]) << level << ' ' << x << ' ' << y;
+            }
+        }
+    }
+    EXPECT_EQ(levels[2].rgba, own[0].rgba);
+    EXPECT_EQ(levels[3].rgba, own[1].rgba);
+}
+
+TEST(BlockTextures, ATextureIsClampedWhereOneFaceClampsIt) {
+    const world::BlockRegistry registry = textureRegistry(
+        "[[block]]\nname = \"a\"\nshape = \"cube\"\ntextures = { top = \"t\", bottom = \"b\", side = \"t\" "
+        "}\n"
+        "wrap = { side = \"clamp\", bottom = \"repeat\" }\n");
+    const auto wrapOf = [&](std::string_view name) {
+        const auto names = registry.textures();
+        return textureWrap(registry,
+                           static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()));
+    };
+    EXPECT_EQ(wrapOf("t"), world::Wrap::Clamp);
+    EXPECT_EQ(wrapOf("b"), world::Wrap::Quad);
 }
 
 base::Result<base::Image> textureNobodyReads(std::string_view name) {

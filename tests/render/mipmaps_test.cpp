@@ -190,5 +190,19 @@ TEST(Mipmaps, RowsAndColumnsKeepTheirPlaces) {
     EXPECT_EQ(texel(half, 0, 1), (Texel{255, 0, 0, 255}));
 }
 
+// A red column, and a blue one at the right border: the left border is next to the blue one where the texture
+// repeats.
+TEST(Mipmaps, HiddenTexelsTakeColorsAcrossTheBorderUnlessItIsClamped) {
+    const Image image = makeImage(8, [](int x, int) {
+        if (x == 3) return Texel{255, 0, 0, 255};
+        return x == 7 ? Texel{0, 0, 255, 255} : Texel{0, 0, 0, 0};
+    });
+    const Image repeated = mipmaps(image, AlphaMode::Test)[0];
+    const Image clamped = mipmaps(image, AlphaMode::Test, world::Wrap::Clamp)[0];
+    EXPECT_EQ(texel(repeated, 0, 3), (Texel{0, 0, 255, 0})) << "from the last column, beside the first";
+    EXPECT_EQ(texel(clamped, 0, 3), (Texel{255, 0, 0, 0}));
+    EXPECT_EQ(texel(clamped, 6, 3), (Texel{0, 0, 255, 0}));
+}
+
 }  // namespace
 }  // namespace terrane::render

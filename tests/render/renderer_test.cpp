@@ -236,7 +236,7 @@ TEST_F(RendererTest, ATextureThatIsMissingIsAnError) {
     EXPECT_EQ(made.error().message, "dirt is lost");
 }
 
-TEST_F(RendererTest, TexturesOfOtherSizesAreAnError) {
+TEST_F(RendererTest, TexturesOfOtherShapesAreAnError) {
     const auto sized = [](int width, int height) {
         return [=](std::string_view name) -> base::Result<base::Image> {
             if (name != "dirt") return contentTexture(name);
@@ -244,7 +244,7 @@ TEST_F(RendererTest, TexturesOfOtherSizesAreAnError) {
                                std::vector<std::uint8_t>(static_cast<std::size_t>(4 * width * height))};
         };
     };
-    for (const auto& [width, height] : {std::pair(16, 8), {12, 12}, {32, 32}, {8, 8}}) {
+    for (const auto& [width, height] : {std::pair(16, 8), {12, 12}, {0, 0}}) {
         const auto made = loadBlockTextures(contentBlocks(), sized(width, height), 2048);
         ASSERT_FALSE(made);
         EXPECT_NE(made.error().message.find("\"dirt\""), std::string::npos) << made.error().message;

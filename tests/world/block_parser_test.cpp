@@ -32,8 +32,10 @@ struct BadLine {
 };
 
 constexpr std::string_view kAllKeys =
-    "name, shape, texture, textures, alpha, animation, two_sided, inner_faces, opacity, emission, collides, "
-    "selection, selectable, needs_ground, generated, growth, slots";
+    "name, shape, texture, textures, alpha, animation, two_sided, wrap, sharp, inner_faces, opacity, "
+    "emission, "
+    "collides, selection, selectable, needs_ground, generated, growth, slots, surface_height, wave_height, "
+    "behaviors";
 
 TEST(BlockParser, BadLines) {
     constexpr BadLine kCases[] = {
@@ -62,6 +64,17 @@ TEST(BlockParser, BadLines) {
          "\"spins\""},
         {"textures = { top = \"a\", bottom = \"a\", side = \"a\" }",
          "blocks.toml:5: textures: expected only one of texture and textures, got a table"},
+        {"wrap = \"mirror\"", "blocks.toml:5: wrap: expected one of quad, repeat, clamp, got \"mirror\""},
+        {"sharp = \"off\"", "blocks.toml:5: sharp: expected true or false, got \"off\""},
+        {"sharp = { top = 1 }", "blocks.toml:5: sharp.top: expected true or false, got 1"},
+        {"surface_height = 0.5",
+         "blocks.toml:5: surface_height: expected surface_height only for the shape liquid, got 0.5"},
+        {"wave_height = 0.1",
+         "blocks.toml:5: wave_height: expected wave_height only with the shape liquid and animation = "
+         "\"liquid_surface\", got 0.1"},
+        {"behaviors = \"falling\"", "blocks.toml:5: behaviors: expected an array of names, got \"falling\""},
+        {"behaviors = [\"plant\",\n \"flies\"]",
+         "blocks.toml:6: behaviors: expected one of plant, crop, falling, container, got \"flies\""},
         {"alpha = \"test\"", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
         {"alpha = { top = \"blend\" }", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
         {"[[block]]\nname = \"rock\"\nshape = \"cube\"\ntexture = \"rock\"",
@@ -72,6 +85,46 @@ TEST(BlockParser, BadLines) {
          "blocks.toml:6: name: expected a name not used before, got \"missing\""},
     };
     for (const BadLine& c : kCases) EXPECT_EQ(errorOf(cubeWith(c.line)), c.error) << c.line;
+}
+
+// A liquid that lacks nothing, to which a case adds lines from the eighth on.
+std::string liquidWith(std::string_view lines) {
+    return fmt::format(
+        "[[block]]\nname = \"oil\"\nshape = \"liquid\"\ntexture = \"oil\"\nalpha = \"blend\"\nopacity = 1\n"
+        "animation = \"liquid_surface\"\n{}\n",
+        lines);
+}
+
+TEST(BlockParser, BadSurfaces) {
+    constexpr BadLine kCases[] = {
+        {"surface_height = 1.5", "blocks.toml:8: surface_height: expected 0.125 to 1, got 1.5"},
+        {"surface_height = nan", "blocks.toml:8: surface_height: expected 0.125 to 1, got nan"},
+        {"surface_height = true", "blocks.toml:8: surface_height: expected 0.125 to 1, got true"},
+        {"wave_height = -0.1", "blocks.toml:8: wave_height: expected 0 to 0.25, got -0.1"},
+        {"surface_height = 0.25\nwave_height = 0.2",
+         "blocks.toml:9: wave_height: expected 0 to 0.1875, got 0.2"},
+    };
+    for (const BadLine& c : kCases) EXPECT_EQ(errorOf(liquidWith(c.line)), c.error) << c.line;
+}
+
+TEST(BlockParser, Surfaces) {
+    const auto surfaceOf = [](std::string_view lines) { return only(liquidWith(lines)).type.surface; };
+    EXPECT_EQ(surfaceOf(""), (LiquidSurface{896, 60}));
+    EXPECT_EQ(surfaceOf("surface_height = 1"), (LiquidSurface{1024, 60}));
+    EXPECT_EQ(surfaceOf("surface_height = 0.5\nwave_height = 0"), (LiquidSurface{512, 0}));
+    EXPECT_EQ(surfaceOf("wave_height = 0.25"), (LiquidSurface{896, 250}));
+}
+
+TEST(BlockParser, SamplingOfFaces) {
+    const BlockDescription block =
+        only(cubeWith("wrap = { top = \"repeat\", side = \"clamp\" }\nsharp = false"));
+    EXPECT_EQ(block.faces[kFacePosZ].wrap, Wrap::Repeat);
+    EXPECT_EQ(block.faces[kFaceNegZ].wrap, Wrap::Quad);
+    EXPECT_EQ(block.faces[kFacePosX].wrap, Wrap::Clamp);
+    for (const FaceLook& face : block.faces) EXPECT_EQ(face.filtering, Filtering::Nearest);
+    const BlockDescription some = only(cubeWith("sharp = { bottom = true }"));
+    EXPECT_EQ(some.faces[kFaceNegZ].filtering, Filtering::Sharp);
+    EXPECT_EQ(some.faces[kFacePosZ].filtering, Filtering::Option);
 }
 
 TEST(BlockParser, BadSelection) {
@@ -199,6 +252,8 @@ TEST(BlockParser, Defaults) {
         EXPECT_EQ(face.texture, "rock");
         EXPECT_EQ(face.alpha, AlphaMode::Unused);
         EXPECT_FALSE(face.twoSided);
+        EXPECT_EQ(face.wrap, Wrap::Quad);
+        EXPECT_EQ(face.filtering, Filtering::Option);
     }
 }
 

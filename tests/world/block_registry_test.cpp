@@ -87,15 +87,18 @@ TEST(BlockRegistry, MaterialsAreShared) {
 
 TEST(BlockRegistry, MaterialsDifferByEveryProperty) {
     std::string file;
-    for (const char* look : {"", "alpha = \"test\"\n", "two_sided = true\n", "animation = \"top_waves\"\n"})
+    for (const char* look : {"", "alpha = \"test\"\n", "two_sided = true\n", "animation = \"top_waves\"\n",
+                             "wrap = \"clamp\"\n", "sharp = true\n"})
         file += fmt::format("[[block]]\nname = \"b{}\"\nshape = \"cross\"\ntexture = \"a\"\nopacity = 0\n{}",
                             file.size(), look);
     const BlockRegistry registry = parsed(file);
-    EXPECT_EQ(registry.materials().size(), 4u + 1);
+    EXPECT_EQ(registry.materials().size(), 6u + 1);
     EXPECT_EQ(registry.textures().size(), 2u);
     EXPECT_EQ(registry.materials()[1].alpha, AlphaMode::Test);
     EXPECT_TRUE(registry.materials()[2].twoSided);
     EXPECT_EQ(registry.materials()[3].animation, Animation::TopWaves);
+    EXPECT_EQ(registry.materials()[4].wrap, Wrap::Clamp);
+    EXPECT_EQ(registry.materials()[5].filtering, Filtering::Sharp);
 }
 
 TEST(BlockRegistry, ErrorsArePassedOn) {
@@ -118,10 +121,8 @@ TEST(BlockRegistry, NumberOfMaterials) {
     add(21845);
     const auto registry = BlockRegistry::parse(file, "blocks.toml");
     ASSERT_FALSE(registry);
-    EXPECT_EQ(
-        registry.error().message,
-        "blocks.toml:87381: texture: expected at most 65536 combinations of texture, alpha, animation and "
-        "two_sided in all blocks, got more");
+    EXPECT_EQ(registry.error().message,
+              "blocks.toml:87381: texture: expected at most 65536 different faces in all blocks, got more");
 }
 
 struct Row {

@@ -1,4 +1,4 @@
-#include "terrane/world/plant_growth.h"
+#include "terrane/world/random_ticks.h"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 namespace terrane::world {
 namespace {
 
-class PlantGrowthTest : public testing::Test {
+class RandomTicksTest : public testing::Test {
   protected:
-    PlantGrowthTest() {
+    RandomTicksTest() {
         for (int n = 0; n < 9; ++n) world_.insert({n % 3 - 1, n / 3 - 1}, std::make_shared<Chunk>());
     }
     void plantAt(BlockPos ground, std::string_view name) {
@@ -27,8 +27,10 @@ class PlantGrowthTest : public testing::Test {
     std::uint64_t grow(std::uint64_t stages, std::uint64_t atMost) {
         for (std::uint64_t tick = 0; tick < atMost; ++tick) {
             if (stages == 0) return tick;
-            for (const BlockPos pos : plantsThatGrow(world_, contentBlocks(), {tick, {0, 0}, 1})) {
-                putState(world_, pos, static_cast<std::uint16_t>(world_.blockState(pos) - 1));
+            for (const BlockPos pos : blocksToTick(world_, contentBlocks(), {tick, {0, 0}, 1})) {
+                std::vector<BlockEdit> edits;
+                applyChange(world_, contentBlocks(), pos, RunTick{}, edits);
+                EXPECT_EQ(edits.size(), 1u);
                 --stages;
             }
         }
@@ -37,7 +39,7 @@ class PlantGrowthTest : public testing::Test {
     World world_;
 };
 
-TEST_F(PlantGrowthTest, WheatGrowsThroughItsStages) {
+TEST_F(RandomTicksTest, WheatGrowsThroughItsStages) {
     plantAt({4, 5, 60}, "wheat");
     ASSERT_EQ(world_.blockState({4, 5, 61}), 3);
     // Three stages of 4096 / 3 ticks on average.
@@ -48,26 +50,26 @@ TEST_F(PlantGrowthTest, WheatGrowsThroughItsStages) {
     EXPECT_EQ(world_.blockState({4, 5, 61}), 0);
 }
 
-TEST_F(PlantGrowthTest, EveryPlaceHasItsTurn) {
+TEST_F(RandomTicksTest, EveryPlaceHasItsTurn) {
     for (int x = 0; x < 16; ++x)
         for (int y = -16; y < 0; ++y) plantAt({x, y, 30}, "wheat");
     EXPECT_LT(grow(3 * 256, 60000), 60000u);
 }
 
-TEST_F(PlantGrowthTest, OtherBlocksKeepTheirData) {
+TEST_F(RandomTicksTest, OtherBlocksKeepTheirData) {
     putBlock(world_, {1, 1, 50}, contentBlock("stone"));
     putState(world_, {1, 1, 50}, 7);
     grow(1, 3000);
     EXPECT_EQ(world_.blockState({1, 1, 50}), 7);
 }
 
-TEST_F(PlantGrowthTest, TheSameTickGrowsTheSamePlantsOnce) {
+TEST_F(RandomTicksTest, TheSameTickGrowsTheSamePlantsOnce) {
     for (int x = 0; x < 16; ++x)
         for (int y = 0; y < 16; ++y) plantAt({x, y, 30}, "wheat");
     std::size_t count = 0;
     for (std::uint64_t tick = 0; tick < 200; ++tick) {
-        const auto growing = plantsThatGrow(world_, contentBlocks(), {tick, {0, 0}, 1});
-        EXPECT_EQ(growing, plantsThatGrow(world_, contentBlocks(), {tick, {0, 0}, 1}));
+        const auto growing = blocksToTick(world_, contentBlocks(), {tick, {0, 0}, 1});
+        EXPECT_EQ(growing, blocksToTick(world_, contentBlocks(), {tick, {0, 0}, 1}));
         EXPECT_EQ(std::set(growing.begin(), growing.end()).size(), growing.size());
         count += growing.size();
     }

@@ -1,8 +1,9 @@
-#include "terrane/world/plant_growth.h"
+#include "terrane/world/random_ticks.h"
 
 #include <algorithm>
 
 #include "terrane/shared/hash.h"
+#include "terrane/world/block_behavior.h"
 
 namespace terrane::world {
 namespace {
@@ -14,28 +15,27 @@ bool hasBlockState(const Section& blockState) {
 }
 
 void addFromSection(const Chunk& chunk, ChunkPos pos, int number, const BlockRegistry& blocks,
-                    std::uint64_t tick, std::vector<BlockPos>& growing) {
+                    std::uint64_t tick, std::vector<BlockPos>& ticked) {
     const std::uint32_t place =
         shared::hash2(static_cast<std::uint32_t>(pos.x), static_cast<std::uint32_t>(pos.y), kSeed);
-    for (int pick = 0; pick < kGrowthPicks; ++pick) {
+    for (int pick = 0; pick < kTickPicks; ++pick) {
         const std::uint32_t when =
             shared::hash2(static_cast<std::uint32_t>(tick), static_cast<std::uint32_t>(tick >> 32),
-                          static_cast<std::uint32_t>(number * kGrowthPicks + pick));
+                          static_cast<std::uint32_t>(number * kTickPicks + pick));
         const auto inSection =
             static_cast<int>((place ^ when) % static_cast<std::uint32_t>(kBlocksPerSection));
         const auto index = static_cast<BlockIndex>(number * kBlocksPerSection + inSection);
         const BlockType& type = blocks.type(chunk.block(index));
-        if (type.growth.empty() || chunk.blockState(index) == 0) continue;
+        if (chunk.blockState(index) == 0 || !behaviorWith(type, &BlockBehavior::tick)) continue;
         const BlockPos at = blockPos(pos, index);
-        if (std::find(growing.begin(), growing.end(), at) == growing.end()) growing.push_back(at);
+        if (std::find(ticked.begin(), ticked.end(), at) == ticked.end()) ticked.push_back(at);
     }
 }
 
 }  // namespace
 
-std::vector<BlockPos> plantsThatGrow(const World& world, const BlockRegistry& blocks,
-                                     const GrowthTick& tick) {
-    std::vector<BlockPos> growing;
+std::vector<BlockPos> blocksToTick(const World& world, const BlockRegistry& blocks, const RandomTick& tick) {
+    std::vector<BlockPos> ticked;
     for (int dy = -tick.radius; dy <= tick.radius; ++dy) {
         for (int dx = -tick.radius; dx <= tick.radius; ++dx) {
             const ChunkPos pos{tick.center.x + dx, tick.center.y + dy};
@@ -43,11 +43,11 @@ std::vector<BlockPos> plantsThatGrow(const World& world, const BlockRegistry& bl
             if (!chunk) continue;
             for (int number = 0; number < kSectionsPerChunk; ++number) {
                 if (!hasBlockState(chunk->blockStates(number))) continue;
-                addFromSection(*chunk, pos, number, blocks, tick.number, growing);
+                addFromSection(*chunk, pos, number, blocks, tick.number, ticked);
             }
         }
     }
-    return growing;
+    return ticked;
 }
 
 }  // namespace terrane::world

@@ -1,0 +1,29 @@
+// Which blocks a tick of time reaches: blocks with a behavior that has a tick, such as plants that grow.
+// Called by whoever runs the game, at a fixed rate.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+#include "terrane/world/block_registry.h"
+#include "terrane/world/world.h"
+
+namespace terrane::world {
+
+// Ticks come every 50 ms; each takes kTickPicks blocks of each section at random. A block's turn comes
+// every 4096 / 3 ticks, or 68 s, on average: wheat is grown after about three and a half minutes.
+constexpr std::chrono::milliseconds kTickLength{50};
+constexpr int kTickPicks = 3;
+
+struct RandomTick {
+    std::uint64_t number = 0;  // of ticks before; the same world and number reach the same blocks
+    ChunkPos center;
+    int radius = 8;  // chunks, Chebyshev
+};
+
+// The blocks to be changed by RunTick (block_edit.h). Looks only into sections where some block has block
+// state: a block whose state is 0 is at rest. On the world's thread.
+std::vector<BlockPos> blocksToTick(const World& world, const BlockRegistry& blocks, const RandomTick& tick);
+
+}  // namespace terrane::world
