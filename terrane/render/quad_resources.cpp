@@ -81,7 +81,8 @@ void QuadResources::setTextures(const world::BlockRegistry& blocks, BlockTexture
 }
 
 std::size_t QuadResources::gpuBytes() const {
-    return textures_.sizeBytes() + indices_.sizeBytes() + shapeFaces_.sizeBytes() + materials_.sizeBytes();
+    return textures_.array.sizeBytes() + indices_.sizeBytes() + shapeFaces_.sizeBytes() +
+           materials_.sizeBytes();
 }
 
 void QuadResources::bind(const MeshSectionTable& meshSections, bool isSmooth) {
