@@ -427,7 +427,7 @@ class Window(ProgramTest):
             game = self.play(display, *FLAT, size=size)
             pause = game.pause_after("F2")
             for name in ("no", "pk"):  # the first is not there: a message says so, and all stays
-                game.click(1, 258, 561, pause)  # the field of the folder
+                game.click(1, 258, 607, pause)  # the field of the folder
                 for key in ("BackSpace", "BackSpace", *name, "Return"):
                     game.hold(key, pause / 2)
                 time.sleep(2 * pause)
