@@ -87,6 +87,12 @@ base::Result<void> Session::save() {
     return store_->flush();
 }
 
+std::vector<stream::TaskTime> Session::taskTimes() const {
+    std::vector<stream::TaskTime> times = pipeline_.taskTimes();
+    times.push_back(tiles_.taskTime());
+    return times;
+}
+
 bool isUnderWater(const Session& session, const glm::dvec3& point) {
     const glm::dvec3 at = glm::floor(point);
     const world::BlockId water = session.blocks().find("water")->id;

@@ -65,6 +65,7 @@ class Session {
     // Land beyond the chunks.
     stream::TilePipeline& tiles() { return tiles_; }
     const stream::TilePipeline& tiles() const { return tiles_; }
+    std::vector<stream::TaskTime> taskTimes() const;  // of the work on chunks, then on tiles
 
     DayClock clock;
 

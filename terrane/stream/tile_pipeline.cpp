@@ -32,8 +32,13 @@ struct TilePipeline::Results {
     std::exception_ptr failure;        // the first, under the mutex
     std::atomic<bool> isOver = false;  // jobs that begin now do nothing
 
-    void add(TileMesh mesh) {
+    std::size_t count = 0;    // of tiles made, under the mutex
+    double microseconds = 0;  // that they took
+
+    void add(TileMesh mesh, double took) {
         const std::lock_guard lock(mutex);
+        ++count;
+        microseconds += took;
         meshes.push_back(std::move(mesh));
         changed.notify_one();
     }
@@ -76,7 +81,11 @@ void TilePipeline::update(mesh::MergeMethod method) {
         parts_.jobs.submit(priority, [pos, method, parts = parts_, results = results_](const auto&) {
             if (results->isOver) return;
             try {
-                results->add({pos, makeTile(parts, pos, method)});
+                const auto start = std::chrono::steady_clock::now();
+                MeshPtr mesh = makeTile(parts, pos, method);
+                const std::chrono::duration<double, std::micro> took =
+                    std::chrono::steady_clock::now() - start;
+                results->add({pos, std::move(mesh)}, took.count());
             } catch (...) {
                 results->fail(std::current_exception());
             }
@@ -99,6 +108,11 @@ std::vector<TileMesh> TilePipeline::takeMeshes(std::size_t limit) {
         taken.push_back(std::move(mesh));
     }
     return taken;
+}
+
+TaskTime TilePipeline::taskTime() const {
+    const std::lock_guard lock(results_->mutex);
+    return {"tile", results_->count, results_->microseconds};
 }
 
 void TilePipeline::forgetAll() {

@@ -10,7 +10,7 @@
 #include "terrane/base/job_system.h"
 #include "terrane/gen/level_generators.h"
 #include "terrane/mesh/mesh_options.h"
-#include "terrane/stream/chunk_jobs.h"
+#include "terrane/stream/pipeline_types.h"
 #include "terrane/stream/tile_table.h"
 
 namespace terrane::stream {
@@ -53,6 +53,7 @@ class TilePipeline {
     void forgetAll();
 
     const TileTable& table() const { return table_; }
+    TaskTime taskTime() const;  // of tiles made so far, on all workers
     // Tiles that are wanted and that the caller does not have.
     std::size_t missing() const { return missingTiles(table_); }
 

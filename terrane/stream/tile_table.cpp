@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <functional>
+#include <utility>
 
 namespace terrane::stream {
 
@@ -22,16 +24,18 @@ constexpr int kEarly = 16;
 // Tiles of level 1 under the outermost chunks of level 0 are kept ready, since the chunks vanish at once.
 // They go when they lie twice as far inside.
 constexpr int kStandby = 4;
+// Beyond all distances.
+constexpr std::int64_t kFarthest = std::int64_t{1} << 40;
 
 std::int64_t widthOf(int level) {
     return std::int64_t{1} << level;
 }
 
-bool isCovered(const TileTable& table, ChunkPos tile) {
+// `isKnown`: it has a record.
+bool isCovered(const TileView& view, ChunkPos tile, bool isKnown) {
     if (!world::isInWorld(tile)) return false;
-    const std::int64_t beyond = tileDistance(table.view.center, tile) - table.view.horizon;
-    if (beyond <= kEarly) return true;
-    return beyond <= 2 * kEarly && (table.records.contains(tile) || table.divided.contains(tile));
+    const std::int64_t beyond = tileDistance(view.center, tile) - view.horizon;
+    return beyond <= (isKnown ? 2 * kEarly : kEarly);
 }
 
 // Distance to the farthest of the chunks that the tile covers.
@@ -47,20 +51,14 @@ bool isWithinView(const TileView& view, ChunkPos tile) {
     return farthestDistance(view.center, tile) <= view.viewDistance;
 }
 
-// Whether children are to cover the tile.
-bool isDivided(const TileTable& table, ChunkPos tile) {
-    const TileView& view = table.view;
+// Whether children are to cover the tile. `isDivided`: they were before.
+bool divides(const TileView& view, ChunkPos tile, bool isDivided) {
     if (tile.level == 0) return false;
     if (tile.level == 1) return isWithinView(view, tile);
-    const std::int64_t distance = tileDistance(view.center, tile), width = widthOf(tile.level);
+    const std::int64_t width = widthOf(tile.level);
     std::int64_t border = std::max<std::int64_t>(view.detail * width / 2, view.viewDistance + 1);
-    if (table.divided.contains(tile)) border += kStayDivided * width;
-    return distance < border;
-}
-
-bool isReady(const TileTable& table, ChunkPos pos) {
-    const auto found = table.records.find(pos);
-    return found != table.records.end() && found->second.isReady;
+    if (isDivided) border += kStayDivided * width;
+    return tileDistance(view.center, tile) < border;
 }
 
 std::array<ChunkPos, 4> childrenOf(ChunkPos tile) {
@@ -68,109 +66,117 @@ std::array<ChunkPos, 4> childrenOf(ChunkPos tile) {
     return {first, offsetBy(first, 1, 0), offsetBy(first, 0, 1), offsetBy(first, 1, 1)};
 }
 
+using Node = std::pair<const ChunkPos, TileRecord>;
+
 // One walk over the quad-tree: what is wanted, and what covers each column.
 class Walk {
   public:
-    Walk(const TileTable& table, int coarsest) : table_(table), coarsest_(coarsest) {}
+    Walk(TileTable& table, int coarsest) : table_(table), coarsest_(coarsest) {}
 
-    // Adds what shows the tile to `shown`. False where some of it cannot be shown yet.
-    bool visit(ChunkPos tile, bool isWanted) {
-        if (!isCovered(table_, tile)) return true;
-        const bool divides = isWanted && isDivided(table_, tile);
-        if (divides) divided.insert(tile);
-        const std::size_t before = shown.size();
-        const bool isThere = isReady(table_, tile);
-        bool isWhole = false;
-        if (divides || (!isThere && table_.open.contains(tile))) isWhole = visitChildren(tile, divides);
-        if (isWanted && tile.level > 0 && isUseful(tile, divides, isWhole)) wanted.push_back(tile);
-        if (isThere && !isWhole) {
-            shown.resize(before);
-            shown.push_back(tile);
-            return true;
-        }
-        // Where the tile itself is missing a part of it is better than nothing.
-        if (shown.size() > before) open.insert(tile);
-        return isWhole;
-    }
+    void visitAll();
 
-    std::vector<ChunkPos> shown;
-    std::vector<ChunkPos> wanted;  // tiles
-    std::unordered_set<ChunkPos, world::ChunkPosHash> open, divided;
+    std::vector<Node*> shown;
 
   private:
-    bool visitChildren(ChunkPos tile, bool isWanted) {
-        bool isWhole = true;
-        for (const ChunkPos child : childrenOf(tile)) isWhole = visit(child, isWanted) && isWhole;
-        return isWhole;
-    }
+    bool visit(ChunkPos tile, bool isWanted);
+    bool visitChildren(ChunkPos tile, bool isWanted);
+    bool isUseful(ChunkPos tile, bool isKnown, bool isWhole) const;
+    void request(ChunkPos tile);
 
-    // `isWhole`: its children show all of it.
-    bool isUseful(ChunkPos tile, bool divides, bool isWhole) const {
-        if (!divides) return true;
-        if (tile.level == 1) {
-            const int standby = table_.records.contains(tile) ? 2 * kStandby : kStandby;
-            if (farthestDistance(table_.view.center, tile) > table_.view.viewDistance - standby) return true;
-        }
-        return !isWhole && (coarsest_ - tile.level) % kLevelsBetween == 0;
-    }
-
-    const TileTable& table_;
+    TileTable& table_;
     int coarsest_;
 };
 
-void visitAll(Walk& walk, const TileView& view, int level) {
+void Walk::visitAll() {
+    const TileView& view = table_.view;
     const std::int64_t reach = view.horizon + 2 * kEarly;
-    const auto first = [&](std::int64_t center) { return (center - reach) >> level; };
-    const auto last = [&](std::int64_t center) { return (center + reach) >> level; };
+    const auto first = [&](std::int64_t center) { return (center - reach) >> coarsest_; };
+    const auto last = [&](std::int64_t center) { return (center + reach) >> coarsest_; };
     for (std::int64_t y = first(view.center.y); y <= last(view.center.y); ++y) {
         for (std::int64_t x = first(view.center.x); x <= last(view.center.x); ++x) {
-            walk.visit({static_cast<std::int32_t>(x), static_cast<std::int32_t>(y),
-                        static_cast<std::uint8_t>(level)},
-                       true);
+            visit({static_cast<std::int32_t>(x), static_cast<std::int32_t>(y),
+                   static_cast<std::uint8_t>(coarsest_)},
+                  true);
         }
     }
+}
+
+// Adds what shows the tile to `shown`. False where some of it cannot be shown yet.
+bool Walk::visit(ChunkPos tile, bool isWanted) {
+    auto found = table_.records.find(tile);
+    const bool isKnown = found != table_.records.end();
+    if (!isCovered(table_.view, tile, isKnown)) return true;
+    if (!isKnown) {
+        if (tile.level == 0 || !isWanted) return false;
+        found = table_.records.emplace(tile, TileRecord()).first;
+    }
+    TileRecord& record = found->second;
+    record.visited = table_.walks;
+    record.isDivided = isWanted && divides(table_.view, tile, record.isDivided);
+    const std::size_t before = shown.size();
+    bool isWhole = false;
+    if (record.isDivided || (!record.isReady && record.isOpen))
+        isWhole = visitChildren(tile, record.isDivided);
+    record.isWanted = isWanted && tile.level > 0 && (!record.isDivided || isUseful(tile, isKnown, isWhole));
+    if (record.isWanted && !record.isReady && !record.isLoading) request(tile);
+    const bool showsItself = record.isReady && !isWhole;
+    if (showsItself) {
+        shown.resize(before);
+        shown.push_back(&*found);
+    }
+    // Where the tile itself is missing, a part of it is better than nothing.
+    record.isOpen = !showsItself && shown.size() > before;
+    return showsItself || isWhole;
+}
+
+bool Walk::visitChildren(ChunkPos tile, bool isWanted) {
+    bool isWhole = true;
+    for (const ChunkPos child : childrenOf(tile)) isWhole = visit(child, isWanted) && isWhole;
+    return isWhole;
+}
+
+// Of a tile that is divided. `isWhole`: its children show all of it.
+bool Walk::isUseful(ChunkPos tile, bool isKnown, bool isWhole) const {
+    if (tile.level == 1) {
+        const int standby = isKnown ? 2 * kStandby : kStandby;
+        if (farthestDistance(table_.view.center, tile) > table_.view.viewDistance - standby) return true;
+    }
+    return !isWhole && (coarsest_ - tile.level) % kLevelsBetween == 0;
 }
 
 // The coarsest tiles first, then what is nearest.
-void orderRequests(TileTable& table, int coarsest) {
-    const auto isLess = [&](ChunkPos a, ChunkPos b) {
-        const bool isFirstA = a.level == coarsest, isFirstB = b.level == coarsest;
-        if (isFirstA != isFirstB) return isFirstB;
-        const std::int64_t da = tileDistance(table.view.center, a), db = tileDistance(table.view.center, b);
-        if (da != db) return da > db;
-        return a < b;
-    };
-    std::ranges::sort(table.requests, isLess);
+void Walk::request(ChunkPos tile) {
+    const std::int64_t distance = tileDistance(table_.view.center, tile);
+    table_.requests.push_back({tile.level == coarsest_ ? distance - kFarthest : distance, tile});
 }
 
-void applyShown(TileTable& table, const std::vector<ChunkPos>& shown, TileChanges& changes) {
-    std::unordered_set<ChunkPos, world::ChunkPosHash> now(shown.begin(), shown.end());
-    for (auto& [pos, record] : table.records) {
-        if (record.isShown && !now.contains(pos)) {
-            record.isShown = false;
-            changes.hidden.push_back(pos);
-        }
+// Hides and drops what the last walk neither shows nor wants. False where nothing is left of the record.
+bool keep(TileTable& table, Node& node, TileChanges& changes) {
+    auto& [pos, record] = node;
+    if (record.visited != table.walks) record.isWanted = record.isDivided = record.isOpen = false;
+    if (record.isShown && record.shown != table.walks) {
+        record.isShown = false;
+        changes.hidden.push_back(pos);
     }
-    for (const ChunkPos pos : shown) {
-        TileRecord& record = table.records.at(pos);
-        if (!record.isShown) changes.shown.push_back(pos);
-        record.isShown = true;
-    }
+    if (pos.level == 0) return record.isReady;
+    if (record.isShown || record.isWanted) return true;
+    if (record.isReady) changes.dropped.push_back(pos);
+    table.loading -= record.isLoading ? 1 : 0;
+    record.isReady = record.isLoading = false;
+    return record.isDivided || record.isOpen;
 }
 
-void applyWanted(TileTable& table, const std::vector<ChunkPos>& wanted, TileChanges& changes) {
-    const std::unordered_set<ChunkPos, world::ChunkPosHash> now(wanted.begin(), wanted.end());
-    std::erase_if(table.records, [&](const auto& entry) {
-        const auto& [pos, record] = entry;
-        if (pos.level == 0) return !record.isReady && !record.isShown;
-        if (record.isShown || now.contains(pos)) return false;
-        if (record.isReady) changes.dropped.push_back(pos);
-        return true;
-    });
-    table.requests.clear();
-    for (const ChunkPos pos : wanted) {
-        if (!table.records.contains(pos)) table.requests.push_back(pos);
+TileChanges applyWalk(TileTable& table, const std::vector<Node*>& shown) {
+    TileChanges changes;
+    for (Node* node : shown) {
+        if (!node->second.isShown) changes.shown.push_back(node->first);
+        node->second.isShown = true;
+        node->second.shown = table.walks;
     }
+    for (auto it = table.records.begin(); it != table.records.end();) {
+        it = keep(table, *it, changes) ? std::next(it) : table.records.erase(it);
+    }
+    return changes;
 }
 
 }  // namespace
@@ -208,6 +214,7 @@ void setTileView(TileTable& table, const TileView& view) {
 
 void setChunkReady(TileTable& table, ChunkPos pos, bool isReady) {
     assert(pos.level == 0 && "tiles have finishTile()");
+    if (!isReady && !table.records.contains(pos)) return;
     TileRecord& record = table.records[pos];
     if (record.isReady == isReady) return;
     record.isReady = isReady;
@@ -217,9 +224,11 @@ void setChunkReady(TileTable& table, ChunkPos pos, bool isReady) {
 std::vector<ChunkPos> popTileRequests(TileTable& table, std::size_t limit) {
     std::vector<ChunkPos> popped;
     while (popped.size() < limit && !table.requests.empty()) {
-        popped.push_back(table.requests.back());
+        std::ranges::pop_heap(table.requests, std::greater());
+        popped.push_back(table.requests.back().tile);
         table.requests.pop_back();
-        table.records[popped.back()].isLoading = true;
+        table.records.at(popped.back()).isLoading = true;
+        ++table.loading;
     }
     return popped;
 }
@@ -231,35 +240,29 @@ bool isAwaited(const TileTable& table, ChunkPos tile) {
 
 void finishTile(TileTable& table, ChunkPos tile) {
     assert(isAwaited(table, tile) && "only what is loading becomes ready");
-    table.records[tile] = {.isReady = true};
+    TileRecord& record = table.records.at(tile);
+    record.isLoading = false;
+    record.isReady = true;
+    --table.loading;
     table.isOutdated = true;
 }
 
 TileChanges updateTiles(TileTable& table) {
-    TileChanges changes;
-    if (!table.isOutdated) return changes;
+    if (!table.isOutdated) return {};
     table.isOutdated = false;
+    ++table.walks;
+    table.requests.clear();
     const int coarsest = coarsestLevel(table.view);
     Walk walk(table, coarsest);
     if (coarsest > 0) {
-        visitAll(walk, table.view, coarsest);
+        walk.visitAll();
     } else {
-        for (const auto& [pos, record] : table.records) {
-            if (pos.level == 0 && record.isReady) walk.shown.push_back(pos);
+        for (Node& node : table.records) {
+            if (node.first.level == 0 && node.second.isReady) walk.shown.push_back(&node);
         }
     }
-    table.open = std::move(walk.open);
-    table.divided = std::move(walk.divided);
-    applyShown(table, walk.shown, changes);
-    applyWanted(table, walk.wanted, changes);
-    orderRequests(table, coarsest);
-    return changes;
-}
-
-std::size_t missingTiles(const TileTable& table) {
-    return table.requests.size() +
-           static_cast<std::size_t>(std::ranges::count_if(
-               table.records, [](const auto& entry) { return entry.second.isLoading; }));
+    std::ranges::make_heap(table.requests, std::greater());
+    return applyWalk(table, walk.shown);
 }
 
 }  // namespace terrane::stream

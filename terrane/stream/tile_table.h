@@ -10,10 +10,10 @@
 // shown itself. Without that rule land would vanish, or be drawn twice.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "terrane/world/coords.h"
@@ -32,20 +32,32 @@ struct TileView {
 constexpr int kMinDetail = 8, kMaxDetail = 32;
 constexpr int kMaxHorizon = 4096;
 
+// A chunk of level 0 that can be shown, a tile, or what lies between the two in the quad-tree.
 struct TileRecord {
     bool isReady = false;    // it can be shown
     bool isLoading = false;  // tiles: a request was taken
     bool isShown = false;
+    // As of the last walk over the quad-tree. A tile that is due to be divided stays so some way beyond the
+    // border: walking to and fro loads nothing again.
+    bool isWanted = false;                 // tiles: it is to be made or kept
+    bool isDivided = false;                // children are to cover it
+    bool isOpen = false;                   // children are shown in its place, or some of them
+    std::uint32_t visited = 0, shown = 0;  // the last walk that came here, that showed it
+};
+
+struct TileRequest {
+    std::int64_t urgency = 0;  // the smaller the sooner
+    world::ChunkPos tile;
+    auto operator<=>(const TileRequest&) const = default;
 };
 
 struct TileTable {
     TileView view;
     std::unordered_map<world::ChunkPos, TileRecord, world::ChunkPosHash> records;
-    // Tiles that are shown by their children, and tiles that are due to be: the latter change only some way
-    // beyond the border, so that walking to and fro loads nothing again.
-    std::unordered_set<world::ChunkPos, world::ChunkPosHash> open, divided;
-    std::vector<world::ChunkPos> requests;  // absent tiles, the most urgent last
-    bool isOutdated = true;                 // something changed since updateTiles()
+    std::vector<TileRequest> requests;  // absent tiles that are wanted, a heap with the most urgent in front
+    std::size_t loading = 0;            // tiles
+    std::uint32_t walks = 0;
+    bool isOutdated = true;  // something changed since updateTiles()
 };
 
 // What changed on screen, in no order. A tile that is dropped was hidden before or is hidden too.
@@ -70,10 +82,13 @@ std::vector<world::ChunkPos> popTileRequests(TileTable& table, std::size_t limit
 bool isAwaited(const TileTable& table, world::ChunkPos tile);
 // A loading tile can be shown.
 void finishTile(TileTable& table, world::ChunkPos tile);
-// Shows, hides and drops what the last changes ask for.
+// Shows, hides and drops what the last changes ask for. One walk over the quad-tree, about half a millisecond
+// with some thousand tiles; nothing where nothing changed.
 TileChanges updateTiles(TileTable& table);
 
-// Tiles that are wanted and not there yet.
-std::size_t missingTiles(const TileTable& table);
+// Tiles that are wanted and not there yet, as of the last updateTiles().
+inline std::size_t missingTiles(const TileTable& table) {
+    return table.requests.size() + table.loading;
+}
 
 }  // namespace terrane::stream

@@ -3,6 +3,12 @@
 #include "terrane/base/profile.h"
 
 namespace terrane::view {
+namespace {
+
+// Many tiles come in that time, and each change looks at all.
+constexpr std::chrono::milliseconds kBetweenChanges{15};
+
+}  // namespace
 
 void FarView::setView(world::ChunkPos center, int viewDistance, const Horizon& horizon) {
     tiles_.setView({center, viewDistance, horizon.distance, horizon.detail});
@@ -24,6 +30,9 @@ bool FarView::upload(std::chrono::steady_clock::time_point deadline) {
 }
 
 void FarView::applyChanges() {
+    const auto now = std::chrono::steady_clock::now();
+    if (tiles_.table().loading > 0 && now < nextChanges_) return;
+    nextChanges_ = now + kBetweenChanges;
     const stream::TileChanges changes = tiles_.takeChanges();
     for (const world::ChunkPos pos : changes.hidden) {
         if (tiles_.table().records.contains(pos)) renderer_.setShown(pos, false);

@@ -35,7 +35,7 @@ class FarView {
     void update() { tiles_.update(pipeline_.meshOptions().method); }
     // Hands tiles to the renderer until the deadline. False where there is no room for one.
     bool upload(std::chrono::steady_clock::time_point deadline);
-    // Shows and hides what came and went.
+    // Shows and hides what came and went; while tiles come, some times a second.
     void applyChanges();
 
     std::size_t missing() const { return tiles_.missing(); }
@@ -44,6 +44,7 @@ class FarView {
     stream::TilePipeline& tiles_;
     const stream::ChunkPipeline& pipeline_;
     render::Renderer& renderer_;
+    std::chrono::steady_clock::time_point nextChanges_{};
 };
 
 }  // namespace terrane::view

@@ -87,7 +87,7 @@ nlohmann::json memoryJson(const RenderCommandOptions& options, const game::Sessi
 
 nlohmann::json tasksJson(const game::Session& session) {
     nlohmann::json tasks = nlohmann::json::object();
-    for (const stream::TaskTime& task : session.pipeline().taskTimes())
+    for (const stream::TaskTime& task : session.taskTimes())
         tasks[task.name] = {{"count", task.count}, {"milliseconds", task.microseconds / 1000}};
     return tasks;
 }

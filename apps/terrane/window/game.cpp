@@ -278,7 +278,7 @@ Statistics Game::statistics() {
             .queuedChunks = session.pipeline().queuedCount() + parts_.view.waiting(),
             .frame = parts_.renderer.statistics(),
             .memory = memory_.at(seconds_, [&] { return memoryStatistics(); }),
-            .tasks = session.pipeline().taskTimes(),
+            .tasks = session.taskTimes(),
             .passes = &parts_.renderer.passTimes()};
 }
 
