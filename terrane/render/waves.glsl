@@ -1,14 +1,22 @@
 // How plants, leaves and water move. Everything repeats after 4,096 chunks, so that numbers stay small and images do
-// not depend on where in the world they are. Needs hash.h.
+// not depend on where in the world they are. Needs frame_uniforms.glsl.
 #include "terrane/shared/hash.h"
 #include "terrane/shared/material.h"
 
 const float kTurn = 6.2831853;
 
+// Water lies still from here on, in blocks from the camera: its waves are smaller than a pixel, and land beyond the chunks,
+// whose water does not move, meets it without a gap.
+const float kStillFrom = 96.0;
+
+// The surface at the corner of a chunk with the lowest x and y, in wave heights: it sinks by a third, so that waves reach less
+// far above it.
 float nodeWave(ivec2 chunk, float seconds) {
+    vec2 away = float(kChunkSize) * vec2(chunk - frame.cameraChunk) - frame.cameraPosition.xy;
+    float share = 1.0 - smoothstep(0.6 * kStillFrom, kStillFrom, length(away));
     uvec2 node = uvec2(chunk) & 4095u;
     float phase = float(hash2(node.x, node.y, 77u) >> 8) / 16777216.0;
-    return sin(kTurn * (0.25 * seconds + phase));
+    return share * (sin(kTurn * (0.25 * seconds + phase)) - 1.0 / 3.0);
 }
 
 // Straight along x and y between the corners of chunks: quads of any size that lie in one chunk meet at their edges.
@@ -40,8 +48,7 @@ vec3 waveOffset(MaterialRecord material, bool isSurface, ivec2 chunk, vec3 cell,
     }
 #elif ALPHA_CLASS == 2
     if (animation == kAnimationLiquidSurface && isSurface) {
-        float height = optionsWaveHeight(material.options);
-        return vec3(0.0, 0.0, height * liquidWave(chunk, inChunk.xy, seconds) - height / 3.0);
+        return vec3(0.0, 0.0, optionsWaveHeight(material.options) * liquidWave(chunk, inChunk.xy, seconds));
     }
 #endif
     return vec3(0.0);

@@ -31,8 +31,7 @@ BlockBehavior crop() {
     return {.name = "crop",
             .placed =
                 [](BlockUpdate& update, BlockPos pos) {
-                    const std::size_t stages =
-                        update.blocks().type(update.world().block(pos)).growth.size();
+                    const std::size_t stages = update.blocks().type(update.world().block(pos)).growth.size();
                     update.change(pos, SetState{static_cast<std::uint16_t>(stages)});
                 },
             .tick =
@@ -55,14 +54,17 @@ void fall(BlockUpdate& update, BlockPos pos) {
 
 // Not where a block beside goes: overhangs of generated terrain stay as they are.
 BlockBehavior falling() {
-    return {.name = "falling", .placed = fall, .neighborChanged = [](BlockUpdate& update, BlockPos pos, Face side) {
+    return {.name = "falling",
+            .placed = fall,
+            .neighborChanged = [](BlockUpdate& update, BlockPos pos, Face side) {
                 if (side == kFaceNegZ) fall(update, pos);
             }};
 }
 
 BlockBehavior container() {
     return {.name = "container",
-            .items = [](const World& world, const BlockRegistry& blocks, BlockPos pos) -> base::Result<Inventory> {
+            .items = [](const World& world, const BlockRegistry& blocks,
+                        BlockPos pos) -> base::Result<Inventory> {
                 const int slots = blocks.type(world.block(pos)).slots;
                 const BlockEntityData* data = world.blockEntityData(pos);
                 if (!data) return Inventory(static_cast<std::size_t>(slots));

@@ -1,6 +1,6 @@
-// What blocks do beside being drawn and lit: a behavior is a table of functions, named by the block types that
-// have it (`behaviors` in assets/blocks.toml). Users of the library add their own to a BehaviorTable before
-// they read the block types. See docs/blocks.md.
+// What blocks do beside being drawn and lit: a behavior is a table of functions, named by the block types
+// that have it (`behaviors` in assets/blocks.toml). Users of the library add their own to a BehaviorTable
+// before they read the block types. See docs/blocks.md.
 #pragma once
 
 #include <cstdint>
@@ -68,7 +68,7 @@ const BehaviorTable& builtInBehaviors();
 
 // The first behavior of a type that has the function; null where none has.
 template <class Function>
-const BlockBehavior* behaviorWith(const BlockType& type, Function BlockBehavior::* function) {
+const BlockBehavior* behaviorWith(const BlockType& type, Function BlockBehavior::*function) {
     for (const BehaviorPtr& behavior : type.behaviors)
         if ((*behavior).*function) return behavior.get();
     return nullptr;

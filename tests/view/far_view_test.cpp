@@ -114,6 +114,35 @@ TEST_F(FarViewTest, ComingBackShowsTheSame) {
     EXPECT_LT(different, 0.02 * static_cast<double>(before.rgba.size())) << "tiles near a border may stay";
 }
 
+// Waves of nearby water end before land beyond the chunks begins: no gap between the two shows the sea floor.
+TEST_F(FarViewTest, WaterMeetsWaterWithoutGaps) {
+    constexpr glm::ivec2 kWide{320, 180};
+    constexpr int kChunks = 8;
+    render::RenderOptions options = render::plainOptions(1);
+    options.animation = true;
+    const auto player = makeDrawnSession({.size = kWide, .viewDistance = kChunks, .render = options});
+    player->view->setHorizon({kFar, 8});
+    const render::Camera camera{{850, -520, 190}, 205, -38, 30};  // nothing but sea
+    loadAll(*player->session, *player->view, camera, kChunks, std::chrono::steady_clock::now());
+    int dots = 0;
+    for (const float seconds : {0.0f, 1.3f, 2.6f}) {
+        render::FrameInput input = inputAt(camera, render::View::Color);
+        input.timeSeconds = seconds;
+        const base::Image image = player->draw(input);
+        const auto sumAt = [&](int x, int y) {
+            const std::size_t at = 4 * static_cast<std::size_t>(x + y * kWide.x);
+            return image.rgba[at] + image.rgba[at + 1] + image.rgba[at + 2];
+        };
+        for (int y = 1; y < kWide.y - 1; ++y) {
+            for (int x = 0; x < kWide.x; ++x) {
+                const int above = sumAt(x, y - 1), below = sumAt(x, y + 1), here = sumAt(x, y);
+                dots += std::abs(here - above) > 90 && std::abs(here - below) > 90;
+            }
+        }
+    }
+    EXPECT_LE(dots, 2);
+}
+
 TEST_F(FarViewTest, WithoutAHorizonNothingIsLeft) {
     const render::Camera camera{{8, 8, 140}, 30, -15};
     const auto player = load(camera, kFar), none = load(camera, 0);
