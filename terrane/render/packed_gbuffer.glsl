@@ -33,6 +33,10 @@ vec3 linearFromSrgb(vec3 c) {
     return c * (c * (c * 0.305306011 + 0.682171111) + 0.012522878);
 }
 
+bool packedIsFar(vec4 packedSurface) {
+    return (uint(255.0 * packedSurface.a + 0.5) & 7u) == kFarTile;
+}
+
 uint packedDirection(vec4 packedSurface) {
     uint byte = uint(255.0 * packedSurface.a + 0.5);
     return (byte & 7u) == kFarTile ? byte >> 3 & 7u : byte & 7u;
@@ -40,7 +44,7 @@ uint packedDirection(vec4 packedSurface) {
 
 Surface unpackSurface(vec4 packedSurface) {
     uint byte = uint(255.0 * packedSurface.a + 0.5), direction = packedDirection(packedSurface);
-    bool isFar = (byte & 7u) == kFarTile;
+    bool isFar = packedIsFar(packedSurface);
     float glow = isFar ? float(byte >> 6) / 3.0 : float(byte >> 3) / 31.0;
     return Surface(linearFromSrgb(packedSurface.rgb), normalOf(direction), glow, direction, isFar);
 }

@@ -34,8 +34,8 @@ layout(location = 0) out vec4 outColor;
 
 const vec3 kBackground = vec3(0.35);  // of a single layer
 
-// `behind`: depth of what comes next. `visibility`: of light from all around.
-vec4 shadeLayer(Layer layer, float depth, float behind, float visibility) {
+// `behind`: depth of what comes next. `visibility`: of light from all around. `hasFarFloor`: see water.glsl.
+vec4 shadeLayer(Layer layer, float depth, float behind, float visibility, bool hasFarFloor) {
     float blocks = blocksOfDepth(depth);
     vec3 toPoint = inRay * blocks, position = frame.cameraPosition.xyz + toPoint;
     if ((frame.switches & kSwitchUnlit) != 0) return throughAir(layer.surface.albedo, toPoint, 1.0) * layer.alpha;
@@ -48,7 +48,7 @@ vec4 shadeLayer(Layer layer, float depth, float behind, float visibility) {
     if (layer.isLiquid) {
         float thickness = (min(blocksOfDepth(behind), 1e4) - blocks) * length(inRay);
         if (frame.isUnderWater != 0u) thickness = 0.3;  // seen from within: the water is on this side
-        color = shadeWater(layer.surface, position, toPoint, thickness, levels, shadow, visibility);
+        color = shadeWater(layer.surface, position, toPoint, thickness, levels, shadow, visibility, hasFarFloor);
     } else {
         color = vec4(shade(layer.surface, levels, shadow, visibility) * layer.alpha, layer.alpha);
     }
@@ -92,10 +92,14 @@ float visibilityAt(ivec2 pixel, int n) {
 vec4 shadeLayers(ivec2 pixel, int k) {
     vec4 sum = vec4(0.0);
     float behind = depthAt(pixel, k);
-    for (int n = layersAt(pixel, k) - 1; n >= 0; --n) {
+    int last = layersAt(pixel, k) - 1;
+    bool isFloorFar = packedIsFar(packedSurfaceAt(pixel, k));
+    for (int n = last; n >= 0; --n) {
         float depth = layerDepthAt(pixel, k, n);
         bool isShown = frame.singleTransparencyLayer == 0 || frame.singleTransparencyLayer == n + 1;
-        vec4 color = isShown ? shadeLayer(unpackLayer(packedLayerAt(pixel, k, n)), depth, behind, visibilityAt(pixel, n)) : vec4(0.0);
+        Layer layer = unpackLayer(packedLayerAt(pixel, k, n));
+        bool hasFarFloor = isFloorFar && n == last;
+        vec4 color = isShown ? shadeLayer(layer, depth, behind, visibilityAt(pixel, n), hasFarFloor) : vec4(0.0);
         sum = color + (1.0 - color.a) * sum;
         behind = depth;
     }

@@ -44,9 +44,16 @@ float waterMirror(float facing) {
     return 0.02 + 0.98 * pow(1.0 - clamp(facing, 0.0, 1.0), 5.0);
 }
 
+// The share of daylight that is left under so much water: it loses a level a block.
+float lightUnder(float blocks) {
+    return brightnessOf(vec4(clamp(1.0 - blocks / 15.0, 0.0, 1.0))).a;
+}
+
 // Color times coverage, and coverage, of a surface of water before `blocks` of it. `levels`: of light; `shadow`: the
-// share of direct light; `visibility`: that of light from all around.
-vec4 shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 levels, float shadow, float visibility) {
+// share of direct light; `visibility`: that of light from all around. `hasFarFloor`: what lies behind belongs to a far tile, whose
+// light knows nothing of the water.
+vec4 shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 levels, float shadow, float visibility,
+                bool hasFarFloor) {
     vec4 light = brightnessOf(levels);
     vec3 view = normalize(toPoint);
     bool isTop = abs(s.normal.z) > 0.5;
@@ -64,6 +71,7 @@ vec4 shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 level
     float toLight = max(dot(reflected, frame.lightDirection.xyz), 0.0);
     vec3 glint = frame.discColor.rgb * smoothstep(0.9985, 0.9998, toLight) * shadow;
     vec3 sky = (skyColor(reflected) + glint) * light.a * light.a;
-    float coverage = 1.0 - (1.0 - mirror) * body.a;
+    float seen = hasFarFloor ? body.a * lightUnder(blocks * abs(view.z)) : body.a;
+    float coverage = 1.0 - (1.0 - mirror) * seen;
     return vec4(mix(body.rgb * (1.0 - body.a), sky, mirror), coverage);
 }

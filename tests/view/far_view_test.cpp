@@ -143,6 +143,31 @@ TEST_F(FarViewTest, WaterMeetsWaterWithoutGaps) {
     EXPECT_LE(dots, 2);
 }
 
+// Far water has the color of near water, and so has its floor, which gets no light of its own.
+TEST_F(FarViewTest, FarWaterLooksLikeNearWater) {
+    constexpr glm::ivec2 kWide{160, 96};
+    constexpr int kBlock = 16;
+    const render::Camera camera{{850, -520, 190}, 205, -38, 30};  // nothing but sea, 80 to 260 blocks away
+    const auto imageWith = [&](int viewDistance, int horizon) {
+        const auto player = makeDrawnSession({.size = kWide, .viewDistance = viewDistance});
+        player->view->setHorizon({horizon, 16});
+        loadAll(*player->session, *player->view, camera, viewDistance, std::chrono::steady_clock::now());
+        return player->draw(inputAt(camera, render::View::Color));
+    };
+    const base::Image far = imageWith(8, kFar), near = imageWith(18, 0);
+    for (int y0 = 0; y0 < kWide.y; y0 += kBlock) {
+        for (int x0 = 0; x0 < kWide.x; x0 += kBlock) {
+            double difference = 0;
+            for (int k = 0; k < kBlock * kBlock; ++k) {
+                const std::size_t at =
+                    4 * static_cast<std::size_t>(x0 + k % kBlock + kWide.x * (y0 + k / kBlock));
+                for (std::size_t c = 0; c < 3; ++c) difference += far.rgba[at + c] - near.rgba[at + c];
+            }
+            EXPECT_LT(std::abs(difference) / (3 * kBlock * kBlock), 3) << x0 << ',' << y0;
+        }
+    }
+}
+
 TEST_F(FarViewTest, WithoutAHorizonNothingIsLeft) {
     const render::Camera camera{{8, 8, 140}, 30, -15};
     const auto player = load(camera, kFar), none = load(camera, 0);
