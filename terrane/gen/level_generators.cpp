@@ -8,6 +8,8 @@
 namespace terrane::gen {
 
 struct LevelGenerators::Impl {
+    Impl(MakeGraph make, std::uint64_t s) : makeGraph(std::move(make)), seed(s) {}
+
     MakeGraph makeGraph;
     std::uint64_t seed;
     std::mutex mutex;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <initializer_list>
 #include <optional>
-#include <ranges>
 #include <unordered_set>
 #include <utility>
 
@@ -192,8 +191,8 @@ void readBehaviors(ContentTable& table, BlockDescription& block, const BehaviorT
         const auto text = name.value_exact<std::string>();
         const BehaviorPtr behavior = text ? behaviors.find(*text) : nullptr;
         if (!behavior) {
-            const auto known =
-                std::views::transform(behaviors.behaviors(), [](const auto& b) { return b->name; });
+            std::vector<std::string_view> known;
+            for (const BehaviorPtr& one : behaviors.behaviors()) known.push_back(one->name);
             return table.expected(name, "behaviors", fmt::format("one of {}", fmt::join(known, ", ")));
         }
         add(behavior);
