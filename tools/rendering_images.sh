@@ -39,7 +39,7 @@ for time in 0.215 0.5 0.79 0.93; do draw "at_$time" --at -625,128,98 --look 12,6
 montage at_*.png -tile 2x -geometry 640x360+2+2 times.png
 save times
 
-draw horizon --view-distance 24 --horizon 1024 --detail 24 --at -1160,-70,200 --look 120,-7 --time 0.3
+draw horizon --horizon 1024 --detail 24 --at -1160,-70,200 --look 120,-7 --time 0.3
 save horizon
 
 draw rays --at 975,1104,87.5 --look 176,4 --time 0.235
