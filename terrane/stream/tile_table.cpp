@@ -219,6 +219,7 @@ void setChunkReady(TileTable& table, ChunkPos pos, bool isReady) {
     if (record.isReady == isReady) return;
     record.isReady = isReady;
     table.isOutdated = true;
+    table.hasGone = table.hasGone || record.isShown;
 }
 
 std::vector<ChunkPos> popTileRequests(TileTable& table, std::size_t limit) {
@@ -249,7 +250,7 @@ void finishTile(TileTable& table, ChunkPos tile) {
 
 TileChanges updateTiles(TileTable& table) {
     if (!table.isOutdated) return {};
-    table.isOutdated = false;
+    table.isOutdated = table.hasGone = false;
     ++table.walks;
     table.requests.clear();
     const int coarsest = coarsestLevel(table.view);

@@ -58,6 +58,7 @@ struct TileTable {
     std::size_t loading = 0;            // tiles
     std::uint32_t walks = 0;
     bool isOutdated = true;  // something changed since updateTiles()
+    bool hasGone = false;    // something that was shown cannot be any more
 };
 
 // What changed on screen, in no order. A tile that is dropped was hidden before or is hidden too.

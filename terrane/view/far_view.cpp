@@ -31,8 +31,12 @@ bool FarView::upload(std::chrono::steady_clock::time_point deadline) {
 
 void FarView::applyChanges() {
     const auto now = std::chrono::steady_clock::now();
-    if (tiles_.table().loading > 0 && now < nextChanges_) return;
+    if (tiles_.table().loading > 0 && !tiles_.table().hasGone && now < nextChanges_) return;
+    applyNow();
     nextChanges_ = now + kBetweenChanges;
+}
+
+void FarView::applyNow() {
     const stream::TileChanges changes = tiles_.takeChanges();
     for (const world::ChunkPos pos : changes.hidden) {
         if (tiles_.table().records.contains(pos)) renderer_.setShown(pos, false);

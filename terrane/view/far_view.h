@@ -35,8 +35,10 @@ class FarView {
     void update() { tiles_.update(pipeline_.meshOptions().method); }
     // Hands tiles to the renderer until the deadline. False where there is no room for one.
     bool upload(std::chrono::steady_clock::time_point deadline);
-    // Shows and hides what came and went; while tiles come, some times a second.
+    // Shows and hides what came and went. While tiles come, some times a second, unless something is gone.
     void applyChanges();
+    // The same at once.
+    void applyNow();
 
     std::size_t missing() const { return tiles_.missing(); }
 

@@ -103,7 +103,7 @@ bool WorldView::shortenHorizon() {
     if (horizon_.distance <= viewDistance_) return false;
     horizon_.distance /= 2;
     moveView();
-    far_.applyChanges();
+    far_.applyNow();
     return true;
 }
 

@@ -81,7 +81,21 @@ TEST_F(FarViewTest, ThereAreNoHoles) {
     }
 }
 
-// The test above sees holes: without tiles there are many.
+// Chunks vanish behind the camera and tiles come ahead of it: what is there covers the land in every frame.
+TEST_F(FarViewTest, AFastFlightShowsNoHoles) {
+    render::Camera camera{{8, 8, 220}, 0, -40};
+    const auto player = load(camera, kFar);
+    for (int frame = 0; frame < 60; ++frame) {
+        camera.position.x += 13;  // 200 blocks a second at 15 frames
+        camera.yaw += 6;
+        player->view->follow(camera, kNear);
+        player->view->upload(0.004);
+        const base::Image image = player->draw(inputAt(camera, render::View::Normal));
+        EXPECT_EQ(holes(image, camera), 0) << "frame " << frame;
+    }
+}
+
+// The tests above see holes: without tiles there are many.
 TEST_F(FarViewTest, WithoutAHorizonThereAreHoles) {
     const render::Camera camera{{8, 8, 200}, 30, -20};
     const auto player = load(camera, 0);
