@@ -217,6 +217,20 @@ TEST(TileTable, CirclingABorderMakesNothingNew) {
     EXPECT_EQ(model.made(), made);
 }
 
+TEST(TileTable, TellsThatSomethingShownIsGone) {
+    TileTable table;
+    setTileView(table, {{0, 0}, 4, 0, 8});
+    setChunkReady(table, {1, 1}, true);
+    setChunkReady(table, {1, 1}, false);
+    EXPECT_FALSE(table.hasGone) << "it was not shown yet";
+    setChunkReady(table, {1, 1}, true);
+    EXPECT_EQ(updateTiles(table).shown.size(), 1u);
+    setChunkReady(table, {1, 1}, false);
+    EXPECT_TRUE(table.hasGone);
+    EXPECT_EQ(updateTiles(table).hidden.size(), 1u);
+    EXPECT_FALSE(table.hasGone);
+}
+
 // At the edge of the world there is nothing beyond it.
 TEST(TileTable, TheWorldEnds) {
     Model model(6);
