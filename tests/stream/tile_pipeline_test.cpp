@@ -31,7 +31,7 @@ class TilePipelineTest : public testing::Test {
 
     base::JobSystem jobs_{2};
     gen::LevelGenerators generators_{
-        [](int level) { return gen::makeGenerator("overworld", contentBlocks(), level); }, 5};
+        [](int level) { return gen::makeGenerator("flat", contentBlocks(), level); }, 5};
     TileParts parts_{jobs_, contentBlocks(), generators_};
     std::map<ChunkPos, MeshPtr> meshes_;
     std::set<ChunkPos> shown_;
