@@ -64,16 +64,16 @@ double loadAverage() {
 }
 
 double memoryCopySpeed() {
-    using Clock = std::chrono::steady_clock;
+    const auto now = std::chrono::steady_clock::now;
     constexpr std::size_t kBytes = std::size_t{128} << 20;
     constexpr int kTimes = 8;
     std::vector<char> from(kBytes, 1), to(kBytes, 2);
     double best = 0;
     for (int k = 0; k < kTimes; ++k) {
         from[static_cast<std::size_t>(k)] = static_cast<char>(k);
-        const auto start = Clock::now();
+        const auto start = now();
         std::memcpy(to.data(), from.data(), kBytes);
-        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        const double seconds = std::chrono::duration<double>(now() - start).count();
         // What was copied is looked at, so that it is.
         if (to[static_cast<std::size_t>(k)] == static_cast<char>(k))
             best = std::max(best, static_cast<double>(kBytes) / seconds);

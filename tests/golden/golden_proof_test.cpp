@@ -137,9 +137,13 @@ std::vector<QuadPlace> quadsSeenFromBelow(const mesh::ChunkMesh& mesh) {
 }
 
 void dropQuad(mesh::ChunkMesh& mesh, const QuadPlace& place) {
-    mesh::QuadRange& range = mesh.meshSections[place.meshSection].ranges[place.bucket][place.direction];
-    mesh.quads[place.number] = mesh.quads[range.first + range.count - 1];
-    --range.count;
+    mesh.quads.erase(mesh.quads.begin() + static_cast<std::ptrdiff_t>(place.number));
+    for (mesh::MeshSection& meshSection : mesh.meshSections) {
+        for (auto& bucket : meshSection.ranges) {
+            for (mesh::QuadRange& range : bucket) range.first -= range.first > place.number ? 1u : 0u;
+        }
+    }
+    --mesh.meshSections[place.meshSection].ranges[place.bucket][place.direction].count;
 }
 
 TEST_F(GoldenProof, AnyMissingFaceIsNoticed) {
