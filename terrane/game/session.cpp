@@ -23,6 +23,7 @@ constexpr double kMaxTickSeconds = 1;
 // chunks too.
 Session::Session(SessionParts parts)
     : blocks_(std::move(parts.blocks)),
+      farBlocks_(blocks_->seenFromAfar()),
       lights_(*blocks_),
       store_(std::move(parts.store)),
       generators_(std::move(parts.generators)),
@@ -36,7 +37,7 @@ Session::Session(SessionParts parts)
                  parts.batchGenerator,
                  parts.batchLighter,
                  parts.meshing}),
-      tiles_({jobs_, *blocks_, generators_}) {}
+      tiles_({jobs_, farBlocks_, generators_}) {}
 
 EditResult Session::edit(const EditCommand& command) {
     return edit(std::span(&command, 1)).front();

@@ -75,6 +75,7 @@ class Session {
 
     // They refer to each other: destroyed in reverse order.
     std::unique_ptr<const world::BlockRegistry> blocks_;
+    world::BlockRegistry farBlocks_;
     light::LightTable lights_;
     std::unique_ptr<store::ChunkStore> store_;
     gen::LevelGenerators generators_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <optional>
 
 namespace terrane::gen {
 
@@ -39,10 +40,10 @@ void Executor::run3D(const Program& program, const PassInputs& inputs, BlockArra
     // Fields are written from layers too.
     const bool maySkip = program.fields.empty();
     if (maySkip) layerRanges_.begin(program, context_.arena, context_.noiseKinds, context_.blocks);
-    for (int z = 0; z < world::kChunkHeight; ++z) {
-        const auto uniform = maySkip ? layerRanges_.blockOfLayer(z) : std::nullopt;
-        if (uniform) {
-            std::fill_n(result.data() + z * kTileLanes, kTileLanes, *uniform);
+    for (int z = 0; z < world::kChunkHeight;) {
+        const int certain = maySkip ? fillCertain(z, result) : 0;
+        if (certain > 0) {
+            z += certain;
             continue;
         }
         context_.z = z;
@@ -52,7 +53,21 @@ void Executor::run3D(const Program& program, const PassInputs& inputs, BlockArra
         for (std::size_t k = 0; k < fieldResults.size(); ++k) {
             addToField(program.fields[k].value, *fieldResults[k]);
         }
+        ++z;
     }
+}
+
+// A section's layers at once, where z begins one, else the layer z. Returns how many layers that were.
+int Executor::fillCertain(int z, BlockArray& result) {
+    int count = z % world::kSectionSize == 0 ? world::kSectionSize : 1;
+    std::optional<std::uint16_t> block = layerRanges_.blockOfLayers(z, count);
+    if (!block && count > 1) block = layerRanges_.blockOfLayers(z, count = 1);
+    if (!block) return 0;
+    std::uint16_t* layers = result.data() + z * kTileLanes;
+    std::fill_n(layers, kTileLanes, *block);
+    for (int k = 1; k < count; ++k)
+        std::memcpy(layers + k * kTileLanes, layers, kTileLanes * sizeof(*layers));
+    return count;
 }
 
 // A column's value is 0 in all layers but one.
@@ -69,7 +84,10 @@ void Executor::writeLayer(Operand block, std::uint16_t* layer) {
         std::fill_n(layer, kTileLanes, static_cast<std::uint16_t>(*values));
         return;
     }
-    for (int lane = 0; lane < kTileLanes; ++lane) layer[lane] = static_cast<std::uint16_t>(values[lane]);
+    std::array<std::uint16_t, kTileLanes> blocks;
+    for (std::size_t lane = 0; lane < kTileLanes; ++lane)
+        blocks[lane] = static_cast<std::uint16_t>(values[lane]);
+    std::memcpy(layer, blocks.data(), sizeof(blocks));
 }
 
 void Executor::prepareTile(const Program& program, const PassInputs& inputs) {

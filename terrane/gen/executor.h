@@ -43,6 +43,7 @@ class Executor {
     void fillConstants(const Program& program, SampleGrid grid);
     void fillWindow(std::uint32_t field, const PassInputs& inputs);
     Bits* row(Operand o) { return context_.arena + static_cast<std::size_t>(o.row) * kRowLanes; }
+    int fillCertain(int z, BlockArray& result);
     void writeLayer(Operand block, std::uint16_t* layer);
     void addToField(Operand value, ColumnValues& field);
 

@@ -17,9 +17,9 @@ void LayerRanges::begin(const Program& program, const Bits* arena, std::span<con
     isKnown_.assign(program.arenaRows, false);
 }
 
-std::optional<std::uint16_t> LayerRanges::blockOfLayer(std::int32_t z) {
-    z_ = z;
-    write(program_->z, {z, z});
+std::optional<std::uint16_t> LayerRanges::blockOfLayers(std::int32_t z, std::int32_t count) {
+    z_ = {z, z + count - 1};
+    write(program_->z, z_);
     run(program_->layer);
     const Range block = read(*program_->block);
     if (block.low != block.high) return std::nullopt;
@@ -82,11 +82,14 @@ void LayerRanges::forget(const Instruction& i) {
 }
 
 // Of the pass before.
-LayerRanges::Range LayerRanges::blocksOfLayer(std::int64_t z) const {
-    const std::uint16_t* layer =
-        blocks_ + std::clamp<std::int64_t>(z, 0, world::kChunkHeight - 1) * kTileLanes;
-    const bool isUniform = std::memcmp(layer, layer + 1, (kTileLanes - 1) * sizeof(*layer)) == 0;
-    return isUniform ? Range{*layer, *layer} : Range{0, UINT16_MAX};
+LayerRanges::Range LayerRanges::blocksOfLayers(Range z) const {
+    const auto within = [](std::int64_t at) {
+        return static_cast<std::size_t>(std::clamp<std::int64_t>(at, 0, world::kChunkHeight - 1));
+    };
+    const std::size_t count = (within(z.high) - within(z.low) + 1) * kTileLanes;
+    const std::uint16_t* first = blocks_ + within(z.low) * kTileLanes;
+    const bool isUniform = std::memcmp(first, first + 1, (count - 1) * sizeof(*first)) == 0;
+    return isUniform ? Range{*first, *first} : Range{0, UINT16_MAX};
 }
 
 LayerRanges::Range LayerRanges::resultOf(const Instruction& i) {
@@ -131,9 +134,9 @@ LayerRanges::Range LayerRanges::resultOf(const Instruction& i) {
             return {std::min(yes.low, no.low), std::max(yes.high, no.high)};
         }
         case Op::BlockHere:
-            return blocksOfLayer(z_);
+            return blocksOfLayers(z_);
         case Op::BlockInColumn:
-            return arg(0).low == arg(0).high ? blocksOfLayer(arg(0).low) : kAnything;
+            return blocksOfLayers(arg(0));
         default:
             return kAnything;
     }

@@ -20,8 +20,8 @@ class LayerRanges {
     void begin(const Program& program, const Bits* arena, std::span<const NoiseKind> noises,
                const std::uint16_t* blocks);
 
-    // The block of every column at height z, where that is certain.
-    std::optional<std::uint16_t> blockOfLayer(std::int32_t z);
+    // The block of all voxels of `count` layers, the lowest at height z, where that is certain.
+    std::optional<std::uint16_t> blockOfLayers(std::int32_t z, std::int32_t count);
 
   private:
     // Values as signed numbers, whatever their type. Wide open where nothing is known.
@@ -36,13 +36,13 @@ class LayerRanges {
     void runBranch(const Branch& branch);
     void forget(const Instruction& i);
     Range resultOf(const Instruction& i);
-    Range blocksOfLayer(std::int64_t z) const;
+    Range blocksOfLayers(Range z) const;
 
     const Program* program_ = nullptr;
     const Bits* arena_ = nullptr;
     std::span<const NoiseKind> noises_;
     const std::uint16_t* blocks_ = nullptr;
-    std::int32_t z_ = 0;
+    Range z_{};
     std::vector<Range> ranges_;  // by the operand's first row
     std::vector<bool> isKnown_;
 };

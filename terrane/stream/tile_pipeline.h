@@ -18,7 +18,7 @@ namespace terrane::stream {
 // Everything outlives the pipeline.
 struct TileParts {
     base::JobSystem& jobs;
-    const world::BlockRegistry& blocks;
+    const world::BlockRegistry& blocks;  // as seen from afar
     const gen::LevelGenerators& generators;
 };
 

@@ -80,6 +80,17 @@ class Materials {
     std::vector<std::string> textures_;
 };
 
+// What is seen through the holes of a crown of leaves is too small to be told: only its outside is drawn.
+void lookFromAfar(BlockDescription& block) {
+    block.type.innerFaces = false;
+    for (FaceLook& face : block.faces) face.twoSided = false;
+}
+
+auto tooManyFaces(std::string_view name, int line) {
+    return base::fail("{}:{}: texture: expected at most {} different faces in all blocks, got more", name,
+                      line, kMaxNumbered);
+}
+
 }  // namespace
 
 base::Result<BlockRegistry> BlockRegistry::parse(std::string_view toml, std::string_view name,
@@ -95,17 +106,30 @@ base::Result<BlockRegistry> BlockRegistry::parse(std::string_view toml, std::str
         BlockType& type = block.type;
         type.id = static_cast<BlockId>(registry.types_.size());
         type.opaqueCube = isOpaqueCube(block);
-        if (!materials.numberFaces(block))
-            return base::fail("{}:{}: texture: expected at most {} different faces in all blocks, got more",
-                              name, block.line, kMaxNumbered);
-        registry.types_.push_back(std::move(type));
+        if (!materials.numberFaces(block)) return tooManyFaces(name, block.line);
+        registry.types_.push_back(type);
     }
     assert(registry.types_.size() <= kMaxNumbered && "the parser limits blocks to what ids can tell apart");
     registry.missing_ = registry.types_.back().id;
+    registry.farTypes_ = registry.types_;
+    for (std::size_t k = 0; k < blocks->size(); ++k) {
+        BlockDescription& block = (*blocks)[k];
+        block.type = registry.types_[k + 1];
+        if (block.type.shape != Shape::Cube) continue;
+        lookFromAfar(block);
+        if (!materials.numberFaces(block)) return tooManyFaces(name, block.line);
+        registry.farTypes_[k + 1] = block.type;
+    }
     registry.materials_ = materials.takeMaterials();
     registry.textures_ = materials.takeTextures();
     for (const BlockType& type : registry.types_) registry.byName_.emplace(type.name, type.id);
     return registry;
+}
+
+BlockRegistry BlockRegistry::seenFromAfar() const {
+    BlockRegistry far = *this;
+    far.types_ = farTypes_;
+    return far;
 }
 
 const BlockType* BlockRegistry::find(std::string_view name) const {

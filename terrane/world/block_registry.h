@@ -26,11 +26,15 @@ class BlockRegistry {
     const BlockType* find(std::string_view name) const;  // null where there is none
     BlockId missing() const { return missing_; }         // stands for unknown blocks
 
+    // The same blocks with fewer faces, to be meshed for a view from afar: cubes with holes show their
+    // outside only. Ids, materials and textures are the same.
+    BlockRegistry seenFromAfar() const;
+
     std::span<const Material> materials() const { return materials_; }
     std::span<const std::string> textures() const { return textures_; }  // names without folder and ending
 
   private:
-    std::vector<BlockType> types_;
+    std::vector<BlockType> types_, farTypes_;
     std::vector<Material> materials_;
     std::vector<std::string> textures_;
     std::unordered_map<std::string, BlockId> byName_;

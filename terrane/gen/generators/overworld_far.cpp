@@ -1,5 +1,7 @@
 // The overworld where columns are 2, 4, 8 … blocks wide: earth, water, and of what grows what is seen from
 // afar. There are no caves and no ore.
+#include <algorithm>
+
 #include "terrane/gen/generators/overworld.h"
 
 namespace terrane::gen::overworld {
@@ -9,6 +11,10 @@ namespace {
 constexpr int kMaxTreeStep = 4;
 // A trunk of one block may be as wide as a column of this step; beyond it only leaves show.
 constexpr int kMaxTrunkStep = 2;
+
+// Up to here one block on top of a slope of 45 degrees is as high as its column is wide. Higher steps of
+// still wider columns are seen from so far away that their lower part does not count.
+constexpr int kMaxCover = 32;
 
 // What stands on the ground of a column, up to `top`.
 struct Growth {
@@ -70,13 +76,16 @@ Growth crownOrPlant(Pass& p, const Fields& f) {
 }  // namespace
 
 void farPass(Pass& p, const Fields& f) {
-    const Int z = p.z(), surface = p.read(f.surface), stoneTop = surface - (kSoilDepth + 1);
+    const Int z = p.z(), surface = p.read(f.surface);
+    // Columns of one block show a slope's top and its sides, which here lie below each other.
+    const int cover = std::min(p.step(), kMaxCover);
+    const Int stoneTop = surface - std::max(kSoilDepth + 1, cover);
     const Growth growth = p.step() <= kMaxTreeStep ? treeAndPlant(p, f) : crownOrPlant(p, f);
     const Block open = select(z <= kSeaLevel, p.block("water"), p.block("air"));
     Var<Block> block = p.var(p.block("stone"));
     // Without branches inside: a select costs less than finding out which rows need it.
     p.if_(z > stoneTop, [&] {
-        const Block earth = select(z == surface, p.read(f.top), p.read(f.soil));
+        const Block earth = select(z > surface - cover, p.read(f.top), p.read(f.soil));
         block = select(z > surface, growth.block(open), earth);
     });
     p.setBlock(block);
