@@ -48,7 +48,7 @@ int lowestGround(const world::DownsampleRule& rule, const ChunkBlocks& blocks) {
 // One child of a tile, with and without edits.
 struct ChildBlocks {
     ChunkBlocks edited, generated;
-    int seenFrom = 0;                  // lower blocks are not seen
+    int seenFrom = 0;                    // lower blocks are not seen
     std::bitset<kColumns> hasChanged{};  // columns that differ in what is seen
 };
 
