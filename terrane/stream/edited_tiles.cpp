@@ -1,0 +1,201 @@
+#include "terrane/stream/edited_tiles.h"
+
+#include <algorithm>
+#include <bitset>
+#include <cassert>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "terrane/stream/tile_table.h"
+
+namespace terrane::stream {
+
+using world::BlockId;
+using world::ChunkPos;
+using world::ChunkPtr;
+
+namespace {
+
+constexpr int kColumns = world::kChunkSize * world::kChunkSize;
+constexpr int kHalf = world::kChunkSize / 2;
+
+// Of a whole chunk, by block index.
+using ChunkBlocks = std::vector<BlockId>;
+
+ChunkBlocks unpackChunk(const world::Chunk& chunk) {
+    ChunkBlocks blocks(world::kBlocksPerChunk);
+    for (int s = 0; s < world::kSectionsPerChunk; ++s) {
+        const auto first = static_cast<std::size_t>(s) * world::kBlocksPerSection;
+        chunk.section(s).unpack(std::span(blocks).subspan(first).first<world::kBlocksPerSection>());
+    }
+    return blocks;
+}
+
+// The lowest ground of all columns: z of the first opaque block from above, 0 where a column has none.
+int lowestGround(const world::DownsampleRule& rule, const ChunkBlocks& blocks) {
+    std::bitset<kColumns> found;
+    for (int z = world::kChunkHeight - 1; z > 0; --z) {
+        const BlockId* layer = &blocks[world::blockIndex(0, 0, z)];
+        for (std::size_t i = 0; i < kColumns; ++i) {
+            if (!found[i] && rule.kind(layer[i]).isOpaque) found.set(i);
+        }
+        if (found.all()) return z;
+    }
+    return 0;
+}
+
+// One child of a tile, with and without edits.
+struct ChildBlocks {
+    ChunkBlocks edited, generated;
+    int seenFrom = 0;                    // lower blocks are not seen
+    std::bitset<kColumns> hasChanged{};  // columns that differ in what is seen
+};
+
+ChildBlocks compareBlocks(const world::DownsampleRule& rule, const world::Chunk& edited,
+                          const world::Chunk& generated) {
+    ChildBlocks child{.edited = unpackChunk(edited), .generated = unpackChunk(generated)};
+    const int ground = std::min(lowestGround(rule, child.edited), lowestGround(rule, child.generated));
+    child.seenFrom = std::max(0, ground - kSeenDepth);
+    for (std::size_t i = world::blockIndex(0, 0, child.seenFrom); i < child.edited.size(); ++i) {
+        if (child.edited[i] != child.generated[i]) child.hasChanged.set(i % kColumns);
+    }
+    return child;
+}
+
+// Column of a tile made of the four whose lowest x and y are these.
+world::BlockColumn parentColumn(const world::DownsampleRule& rule, const ChunkBlocks& blocks, int x, int y,
+                                world::ColumnPos at) {
+    std::array<world::BlockColumn, 4> four;
+    for (int k = 0; k < 4; ++k) {
+        auto& column = four[static_cast<std::size_t>(k)];
+        const std::size_t first = world::blockIndex(x + (k & 1), y + (k >> 1), 0);
+        for (std::size_t z = 0; z < column.size(); ++z) column[z] = blocks[first + z * kColumns];
+    }
+    world::BlockColumn out;
+    world::downsampleColumn(rule, four, at, out);
+    return out;
+}
+
+// Writes the columns of a child that look different into the blocks of its tile.
+void writeColumns(const world::DownsampleRule& rule, const ChildBlocks& child, ChunkPos tile, int quarter,
+                  ChunkBlocks& blocks) {
+    for (int n = 0; n < kHalf * kHalf; ++n) {
+        const int x = n % kHalf * 2, y = n / kHalf * 2;
+        const std::size_t first = world::blockIndex(x, y, 0);
+        constexpr std::size_t kBeside = world::kChunkSize;
+        if (!child.hasChanged[first] && !child.hasChanged[first + 1] && !child.hasChanged[first + kBeside] &&
+            !child.hasChanged[first + kBeside + 1]) {
+            continue;
+        }
+        const int tileX = x / 2 + (quarter & 1) * kHalf, tileY = y / 2 + (quarter >> 1) * kHalf;
+        const world::ColumnPos at{tile.x * world::kChunkSize + tileX, tile.y * world::kChunkSize + tileY,
+                                  tile.level};
+        const auto edited = parentColumn(rule, child.edited, x, y, at);
+        const auto generated = parentColumn(rule, child.generated, x, y, at);
+        if (std::equal(edited.begin() + child.seenFrom, edited.end(), generated.begin() + child.seenFrom)) {
+            continue;
+        }
+        const std::size_t to = world::blockIndex(tileX, tileY, 0);
+        for (std::size_t z = 0; z < edited.size(); ++z) blocks[to + z * kColumns] = edited[z];
+    }
+}
+
+// The tile with these blocks, which have no block state; null where they are its own.
+ChunkPtr withBlocks(const world::Chunk& tile, const ChunkBlocks& blocks) {
+    std::shared_ptr<world::Chunk> changed;
+    for (int s = 0; s < world::kSectionsPerChunk; ++s) {
+        const auto first = static_cast<std::size_t>(s) * world::kBlocksPerSection;
+        auto section =
+            world::Section::fromValues(std::span(blocks).subspan(first).first<world::kBlocksPerSection>());
+        if (section == tile.section(s)) continue;
+        if (!changed) changed = std::make_shared<world::Chunk>(tile);
+        changed->setSection(s, std::move(section));
+    }
+    return changed;
+}
+
+ChunkPos childOf(ChunkPos tile, int quarter) {
+    return world::offsetBy(firstChildOf(tile), quarter & 1, quarter >> 1);
+}
+
+// Generated chunks that are asked for again: a tile of one level is compared as a child on the next.
+class GeneratedChunks {
+  public:
+    explicit GeneratedChunks(const gen::LevelGenerators& generators) : generators_(generators) {}
+
+    const world::Chunk& at(ChunkPos pos) {
+        auto& chunk = chunks_[pos];
+        if (!chunk) chunk = std::make_unique<const world::Chunk>(generators_.generate(pos));
+        return *chunk;
+    }
+    void forgetBelow(int level) {
+        std::erase_if(chunks_, [&](const auto& entry) { return entry.first.level < level; });
+    }
+
+  private:
+    const gen::LevelGenerators& generators_;
+    std::map<ChunkPos, std::unique_ptr<const world::Chunk>> chunks_;
+};
+
+ChunkPtr editedTileOf(GeneratedChunks& generated, const world::DownsampleRule& rule, ChunkPos tile,
+                      const std::array<ChunkPtr, 4>& children) {
+    assert(tile.level > 0 && "level 0 is what players edit");
+    ChunkBlocks blocks;  // empty until a column may differ
+    for (int quarter = 0; quarter < 4; ++quarter) {
+        const ChunkPtr& child = children[static_cast<std::size_t>(quarter)];
+        if (!child) continue;
+        const auto compared = compareBlocks(rule, *child, generated.at(childOf(tile, quarter)));
+        if (compared.hasChanged.none()) continue;
+        if (blocks.empty()) blocks = unpackChunk(generated.at(tile));
+        writeColumns(rule, compared, tile, quarter, blocks);
+    }
+    return blocks.empty() ? nullptr : withBlocks(generated.at(tile), blocks);
+}
+
+bool isSameTile(const ChunkPtr& a, const ChunkPtr& b) {
+    return a && b ? *a == *b : a == b;
+}
+
+}  // namespace
+
+ChunkPtr editedTile(const gen::LevelGenerators& generators, const world::DownsampleRule& rule, ChunkPos tile,
+                    const std::array<ChunkPtr, 4>& children) {
+    GeneratedChunks generated(generators);
+    return editedTileOf(generated, rule, tile, children);
+}
+
+std::vector<TileChange> tilesAfterEdits(const gen::LevelGenerators& generators,
+                                        const world::DownsampleRule& rule,
+                                        std::span<const ChunkPos> editedChunks, const ReadTile& read,
+                                        int topLevel) {
+    assert(topLevel <= world::kMaxLevel && "no level above");
+    GeneratedChunks generated(generators);
+    std::vector<TileChange> changes;
+    std::set<ChunkPos> changed(editedChunks.begin(), editedChunks.end());
+    std::map<ChunkPos, ChunkPtr> now;  // tiles of the level below that changed
+    for (int level = 1; level <= topLevel && !changed.empty(); ++level) {
+        std::set<ChunkPos> tiles;
+        for (const ChunkPos pos : changed) tiles.insert(parentOf(pos));
+        changed.clear();
+        std::map<ChunkPos, ChunkPtr> next;
+        for (const ChunkPos tile : tiles) {
+            std::array<ChunkPtr, 4> children;
+            for (int quarter = 0; quarter < 4; ++quarter) {
+                const auto found = now.find(childOf(tile, quarter));
+                children[static_cast<std::size_t>(quarter)] =
+                    found != now.end() ? found->second : read(childOf(tile, quarter));
+            }
+            ChunkPtr made = editedTileOf(generated, rule, tile, children);
+            if (isSameTile(made, read(tile))) continue;
+            changed.insert(tile);
+            next[tile] = made;
+            changes.push_back({tile, std::move(made)});
+        }
+        generated.forgetBelow(level);
+        now = std::move(next);
+    }
+    return changes;
+}
+
+}  // namespace terrane::stream
