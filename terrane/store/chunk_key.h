@@ -12,6 +12,9 @@ namespace terrane::store {
 
 constexpr int kLevelShift = 56, kXShift = 28;  // 4 bits of the level, then x and y from 0 in 28 bits each
 
+// Keys of level 0 are from 0 to below this one.
+constexpr std::int64_t kFirstTileKey = std::int64_t{1} << kLevelShift;
+
 constexpr std::int64_t keyOf(world::ChunkPos pos) {
     return std::int64_t{pos.level} << kLevelShift | (std::int64_t{pos.x} - world::kMinChunk) << kXShift |
            (std::int64_t{pos.y} - world::kMinChunk);

@@ -22,7 +22,7 @@ LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids) {
     return damaged;
 }
 
-StoredRow ChunkReader::Connection::read(world::ChunkPos pos) {
+StoredRow readRow(Statement& select, world::ChunkPos pos) {
     select.bind(1, keyOf(pos));
     const auto row = select.step();
     std::optional<StoredChunk> chunk;
@@ -34,6 +34,20 @@ StoredRow ChunkReader::Connection::read(world::ChunkPos pos) {
     select.reset();
     if (!row) return tl::unexpected(row.error());
     return chunk;
+}
+
+base::Result<std::vector<world::ChunkPos>> readEditedChunks(Database& database) {
+    auto select = database.prepare(
+        fmt::format("SELECT key FROM chunks WHERE origin = {} AND key >= 0 AND key < {} ORDER BY key",
+                    static_cast<int>(Provenance::Edited), kFirstTileKey));
+    if (!select) return tl::unexpected(select.error());
+    std::vector<world::ChunkPos> edited;
+    while (true) {
+        const auto row = select->step();
+        if (!row) return tl::unexpected(row.error());
+        if (!*row) return edited;
+        edited.push_back(posOf(select->number(0)));
+    }
 }
 
 base::Result<std::unique_ptr<ChunkReader::Connection>> ChunkReader::open() const {
@@ -71,7 +85,7 @@ void ChunkReader::giveBack(std::unique_ptr<Connection> connection) {
 StoredRow ChunkReader::read(world::ChunkPos pos) {
     auto connection = take();
     if (!connection) return tl::unexpected(connection.error());
-    StoredRow row = (*connection)->read(pos);
+    StoredRow row = readRow((*connection)->select, pos);
     giveBack(std::move(*connection));
     return row;
 }
@@ -84,7 +98,7 @@ std::vector<StoredRow> ChunkReader::readMany(std::span<const world::ChunkPos> po
     rows.reserve(positions.size());
     // A transaction that cannot begin makes it slower, not wrong.
     const bool hasBegun = (*connection)->begin.run().has_value();
-    for (const world::ChunkPos pos : positions) rows.push_back((*connection)->read(pos));
+    for (const world::ChunkPos pos : positions) rows.push_back(readRow((*connection)->select, pos));
     const bool hasEnded = !hasBegun || (*connection)->end.run();
     // One that cannot end goes with its connection.
     if (hasEnded) giveBack(std::move(*connection));
@@ -102,6 +116,14 @@ base::Result<bool> ChunkReader::contains(world::ChunkPos pos) {
     giveBack(std::move(*connection));
     if (!row) return tl::unexpected(row.error());
     return found;
+}
+
+base::Result<std::vector<world::ChunkPos>> ChunkReader::editedChunks() {
+    auto connection = take();
+    if (!connection) return tl::unexpected(connection.error());
+    auto edited = readEditedChunks((*connection)->database);
+    giveBack(std::move(*connection));
+    return edited;
 }
 
 }  // namespace terrane::store

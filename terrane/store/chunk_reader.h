@@ -22,6 +22,12 @@ struct StoredChunk {
 // Nothing where the save has no chunk; an error where the file is damaged.
 using StoredRow = base::Result<std::optional<StoredChunk>>;
 
+// By a statement that selects data and origin of the key ?1.
+StoredRow readRow(Statement& select, world::ChunkPos pos);
+
+// As ReadableStore::editedChunks().
+[[nodiscard]] base::Result<std::vector<world::ChunkPos>> readEditedChunks(Database& database);
+
 // The chunk of a row, or what is wrong with it, without the file and the position.
 LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids);
 
@@ -34,12 +40,12 @@ class ChunkReader {
     // All as they were at one moment, in one transaction.
     [[nodiscard]] std::vector<StoredRow> readMany(std::span<const world::ChunkPos> positions);
     [[nodiscard]] base::Result<bool> contains(world::ChunkPos pos);
+    [[nodiscard]] base::Result<std::vector<world::ChunkPos>> editedChunks();
 
   private:
     struct Connection {
         Database database;
         Statement select, count, begin, end;
-        StoredRow read(world::ChunkPos pos);
     };
     base::Result<std::unique_ptr<Connection>> open() const;
     base::Result<std::unique_ptr<Connection>> take();

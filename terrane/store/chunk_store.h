@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "terrane/base/result.h"
+#include "terrane/store/derived_rows.h"
 #include "terrane/store/world_identity.h"
 #include "terrane/world/chunk.h"
 #include "terrane/world/coords.h"
@@ -52,6 +53,9 @@ class ReadableStore {
     // of them in one transaction, or one round trip over a network.
     virtual std::vector<LoadedChunk> loadMany(std::span<const world::ChunkPos> positions);
     virtual bool contains(world::ChunkPos pos) = 0;  // as load() tells, without reading the chunk
+    // The edited chunks of level 0, in the order of x and y, without those that wait to be saved. Looks at
+    // every row of a file.
+    [[nodiscard]] virtual base::Result<std::vector<world::ChunkPos>> editedChunks() = 0;
 
     // Small texts by name, for example the player's position.
     virtual std::optional<std::string> metadata(std::string_view name) = 0;
@@ -76,12 +80,20 @@ class ChunkStore : public ReadableStore {
     virtual SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) = 0;
 
     // Saved in the same order as chunks. What identity() is read from (seed, generator, generator_version)
-    // cannot be set: that is logged as an error, and nothing changes.
+    // and kDerivedRowsMark cannot be set: that is logged as an error, and nothing changes.
     virtual SaveNumber setMetadata(std::string_view name, std::string value) = 0;
 
     // Blocks until all saves so far are durable, or one attempt to write them has failed.
     [[nodiscard]] virtual base::Result<void> flush() = 0;
     virtual SaveStatus status() = 0;
+
+    // From now on these rows are written with the edited chunks that they follow from, in one transaction.
+    // Empty functions: none. Returns when no function given before runs any more.
+    virtual void setDerivedRows(DerivedRows rows) = 0;
+    // Deletes all rows of levels above 0 and derives them again from all edited chunks, in one transaction,
+    // on the calling thread; written() is not called. Saves wait meanwhile. What `rules` names becomes the
+    // value of kDerivedRowsMark. setDerivedRows() comes first.
+    [[nodiscard]] virtual base::Result<void> deriveAll(std::string_view rules) = 0;
 
     virtual bool isPersistent() const = 0;  // false: all is lost when the program ends
 };

@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "terrane/store/derived_rows.h"
+
 namespace terrane::store {
 namespace {
 
@@ -30,8 +32,8 @@ base::Result<T> numberOf(const Metadata& metadata, const char* name, const std::
 
 }  // namespace
 
-bool isPartOfIdentity(std::string_view name) {
-    return name == kSeed || name == kGenerator || name == kGeneratorVersion;
+bool isReserved(std::string_view name) {
+    return name == kSeed || name == kGenerator || name == kGeneratorVersion || name == kDerivedRowsMark;
 }
 
 Metadata metadataOf(const WorldIdentity& identity) {

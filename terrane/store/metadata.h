@@ -1,4 +1,4 @@
-// The metadata of a world that are its identity, and how they are written as texts. Used by the stores.
+// The metadata of a world that stores write themselves, and its identity as texts. Used by the stores.
 #pragma once
 
 #include <map>
@@ -11,9 +11,9 @@ namespace terrane::store {
 
 using Metadata = std::map<std::string, std::string, std::less<>>;
 
-// Whether the name is one that a world's identity is read from. Only creating and regenerating a world write
-// these.
-bool isPartOfIdentity(std::string_view name);
+// Whether stores alone write it: a world's identity, by creating and regenerating a world, and
+// kDerivedRowsMark.
+bool isReserved(std::string_view name);
 
 // The metadata of a new world.
 Metadata metadataOf(const WorldIdentity& identity);

@@ -33,21 +33,22 @@ StoreResult openInMemory(const fs::path& path, const world::BlockRegistry& block
     WorldIdentity identity = (*saved)->identity();
     const auto by = compareWorld(identity, request.wanted, request.versionOf, path.string());
     if (!by) return tl::unexpected(by.error());
-    if (by->chunks == Regenerate::None) return std::make_unique<OverlayStore>(std::move(*saved));
+    if (by->chunks == Regenerate::None)
+        return std::make_unique<OverlayStore>(std::move(*saved), request.limits);
     if (by->chunks == Regenerate::AllButEdited)
         return base::fail(base::ErrorCode::Unsupported,
                           "{}: cannot be written, so its edits cannot be kept in a world made anew",
                           path.string());
     identity.generatorVersion = by->generatorVersion;
-    return std::make_unique<MemoryStore>(std::move(identity));
+    return std::make_unique<MemoryStore>(std::move(identity), request.limits);
 }
 
 StoreResult openUnwritable(const fs::path& path, const world::BlockRegistry& blocks,
                            const WorldRequest& request) {
     std::error_code ignored;
     const bool isNew = !fs::exists(path, ignored) && request.create;
-    StoreResult store =
-        isNew ? std::make_unique<MemoryStore>(*request.create) : openInMemory(path, blocks, request);
+    StoreResult store = isNew ? std::make_unique<MemoryStore>(*request.create, request.limits)
+                              : openInMemory(path, blocks, request);
     if (store) {
         base::logWarning("{}: cannot be written: the world runs in memory, changes are lost at the end",
                          path.string());

@@ -1,51 +1,163 @@
 #include "terrane/store/overlay_store.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "terrane/base/log.h"
+#include "terrane/store/metadata.h"
+
 namespace terrane::store {
+namespace {
 
-OverlayStore::OverlayStore(std::unique_ptr<ReadableStore> below)
-    : below_(std::move(below)), above_(below_->identity()) {}
-
-LoadedChunk OverlayStore::load(world::ChunkPos pos) {
-    LoadedChunk loaded = above_.load(pos);
-    return loaded.state == LoadedChunk::State::Absent ? below_->load(pos) : loaded;
+LoadedChunk copyOf(const world::ChunkPtr& chunk, Provenance provenance) {
+    if (!chunk) return {};
+    return {LoadedChunk::State::Present, std::make_shared<world::Chunk>(*chunk), provenance, {}};
 }
 
+}  // namespace
+
+OverlayStore::OverlayStore(std::unique_ptr<ReadableStore> below, SaveLimits limits)
+    : below_(std::move(below)),
+      queue_(std::make_unique<SaveQueue>([this](const SaveBatch& batch) { return write(batch); }, limits)) {}
+
+// Nobody can load what would still be derived.
+OverlayStore::~OverlayStore() {
+    OverlayStore::setDerivedRows({});
+}
+
+std::optional<OverlayStore::Row> OverlayStore::find(world::ChunkPos pos) {
+    const std::lock_guard lock(mutex_);
+    const auto found = rows_.find(pos);
+    if (found != rows_.end()) return found->second;
+    return hidesTiles_ && pos.level > 0 ? std::optional(Row{}) : std::nullopt;
+}
+
+LoadedChunk OverlayStore::load(world::ChunkPos pos) {
+    return std::move(OverlayStore::loadMany(std::span(&pos, 1)).front());
+}
+
+// The queue first: what is no longer in it is in the rows.
 std::vector<LoadedChunk> OverlayStore::loadMany(std::span<const world::ChunkPos> positions) {
-    std::vector<LoadedChunk> loaded = above_.loadMany(positions);
-    std::vector<world::ChunkPos> missing;
+    const auto waiting = queue_->findMany(positions);
+    std::vector<LoadedChunk> loaded(positions.size());
+    std::vector<std::size_t> missing;
+    std::vector<world::ChunkPos> missingPositions;
+    for (std::size_t k = 0; k < positions.size(); ++k) {
+        if (waiting[k] && waiting[k]->provenance == Provenance::Edited) continue;
+        if (const auto row = find(positions[k])) {
+            loaded[k] = copyOf(row->chunk, row->provenance);
+        } else {
+            missing.push_back(k);
+            missingPositions.push_back(positions[k]);
+        }
+    }
+    if (!missing.empty()) {
+        auto below = below_->loadMany(missingPositions);
+        for (std::size_t n = 0; n < missing.size(); ++n) loaded[missing[n]] = std::move(below[n]);
+    }
     for (std::size_t k = 0; k < positions.size(); ++k)
-        if (loaded[k].state == LoadedChunk::State::Absent) missing.push_back(positions[k]);
-    if (missing.empty()) return loaded;
-    auto next = below_->loadMany(missing);
-    auto from = next.begin();
-    for (LoadedChunk& chunk : loaded)
-        if (chunk.state == LoadedChunk::State::Absent) chunk = std::move(*from++);
+        if (waiting[k] && loaded[k].provenance == Provenance::Generated)
+            loaded[k] = copyOf(waiting[k]->chunk, waiting[k]->provenance);
     return loaded;
 }
 
 bool OverlayStore::contains(world::ChunkPos pos) {
-    return above_.contains(pos) || below_->contains(pos);
+    if (queue_->find(pos)) return true;
+    const auto row = find(pos);
+    return row ? row->chunk != nullptr : below_->contains(pos);
+}
+
+base::Result<std::vector<world::ChunkPos>> OverlayStore::editedChunks() {
+    auto edited = below_->editedChunks();
+    if (!edited) return edited;
+    {
+        const std::lock_guard lock(mutex_);
+        for (const auto& [pos, row] : rows_)
+            if (pos.level == 0 && row.chunk && row.provenance == Provenance::Edited) edited->push_back(pos);
+    }
+    std::sort(edited->begin(), edited->end());
+    edited->erase(std::unique(edited->begin(), edited->end()), edited->end());
+    return edited;
 }
 
 std::optional<std::string> OverlayStore::metadata(std::string_view name) {
-    auto value = above_.metadata(name);
-    return value ? value : below_->metadata(name);
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = metadata_.find(name);
+        if (found != metadata_.end()) return found->second;
+    }
+    return below_->metadata(name);
 }
 
 SaveNumber OverlayStore::save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) {
-    // contains() first: mostly nothing is there, and nothing is read.
-    if (provenance == Provenance::Generated && !above_.contains(pos) && below_->contains(pos)) {
-        LoadedChunk loaded = below_->load(pos);
-        if (loaded.chunk && loaded.provenance == Provenance::Edited)
-            return above_.save(pos, std::move(loaded.chunk), Provenance::Edited);
-    }
-    return above_.save(pos, std::move(chunk), provenance);
+    return queue_->add(pos, {std::move(chunk), provenance});
 }
 
 SaveNumber OverlayStore::setMetadata(std::string_view name, std::string value) {
-    return above_.setMetadata(name, std::move(value));
+    if (isReserved(name)) {
+        base::logError("{} is written by the store alone and stays as it is", name);
+        return queue_->status().queued;
+    }
+    const std::lock_guard lock(mutex_);
+    metadata_.insert_or_assign(std::string(name), value);
+    return queue_->add(std::string(name), std::move(value));
+}
+
+void OverlayStore::setDerivedRows(DerivedRows rows) {
+    const std::lock_guard writing(writeMutex_);
+    derivedRows_ = std::move(rows);
+}
+
+world::ChunkPtr OverlayStore::editedChunk(world::ChunkPos pos) {
+    if (const auto row = find(pos)) return row->provenance == Provenance::Edited ? row->chunk : nullptr;
+    if (!below_->contains(pos)) return nullptr;
+    LoadedChunk loaded = below_->load(pos);
+    return loaded.provenance == Provenance::Edited ? std::move(loaded.chunk) : nullptr;
+}
+
+base::Result<void> OverlayStore::write(const SaveBatch& batch) {
+    const std::lock_guard writing(writeMutex_);
+    const std::vector<ChunkRow> edited = batch.editedChunks();
+    std::vector<ChunkRow> derived;
+    if (!edited.empty() && derivedRows_.derive)
+        derived = derivedRows_.derive(edited, [this](world::ChunkPos pos) { return editedChunk(pos); });
+    std::vector<std::pair<world::ChunkPos, Row>> changes;
+    for (const auto& [pos, chunk] : batch.chunks)
+        if (chunk.provenance == Provenance::Edited || !editedChunk(pos))
+            changes.push_back({pos, {chunk.chunk, chunk.provenance}});
+    for (const ChunkRow& row : derived) changes.push_back({row.pos, {row.chunk, Provenance::Edited}});
+    {
+        const std::lock_guard lock(mutex_);
+        for (auto& [pos, row] : changes) rows_.insert_or_assign(pos, std::move(row));
+        if (!edited.empty() && !derivedRows_.derive)
+            metadata_.insert_or_assign(std::string(kDerivedRowsMark), std::nullopt);
+    }
+    if (derivedRows_.written && !derived.empty()) derivedRows_.written(derived);
+    return {};
+}
+
+base::Result<void> OverlayStore::deriveAll(std::string_view rules) {
+    const std::lock_guard writing(writeMutex_);
+    auto edited = editedChunks();
+    if (!edited) return tl::unexpected(edited.error());
+    decltype(rows_) tiles;
+    const auto saved = [&](world::ChunkPos pos) {
+        if (pos.level == 0) return editedChunk(pos);
+        const auto found = tiles.find(pos);
+        return found == tiles.end() ? nullptr : found->second.chunk;
+    };
+    const auto write = [&](std::span<const ChunkRow> rows) -> base::Result<void> {
+        for (const ChunkRow& row : rows) tiles.insert_or_assign(row.pos, Row{row.chunk, Provenance::Edited});
+        return {};
+    };
+    auto done = deriveInGroups(derivedRows_, std::move(*edited), saved, write);
+    if (!done) return done;
+    const std::lock_guard lock(mutex_);
+    std::erase_if(rows_, [](const auto& entry) { return entry.first.level > 0; });
+    rows_.merge(tiles);
+    hidesTiles_ = true;
+    metadata_.insert_or_assign(std::string(kDerivedRowsMark), std::string(rules));
+    return {};
 }
 
 }  // namespace terrane::store

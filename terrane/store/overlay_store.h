@@ -1,33 +1,55 @@
 // Changes in memory over a store that stays as it is: for saves that cannot be written, and for commands that
-// must not change a world.
+// must not change a world. MemoryStore is one over an empty world.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <mutex>
+#include <unordered_map>
 
-#include "terrane/store/memory_store.h"
+#include "terrane/store/chunk_store.h"
+#include "terrane/store/save_queue.h"
 
 namespace terrane::store {
 
 class OverlayStore : public ChunkStore {
   public:
-    explicit OverlayStore(std::unique_ptr<ReadableStore> below);
+    explicit OverlayStore(std::unique_ptr<ReadableStore> below, SaveLimits limits = {});
+    ~OverlayStore() override;
 
     // What is not saved here comes from below.
     LoadedChunk load(world::ChunkPos pos) override;
     std::vector<LoadedChunk> loadMany(std::span<const world::ChunkPos> positions) override;
     bool contains(world::ChunkPos pos) override;
+    [[nodiscard]] base::Result<std::vector<world::ChunkPos>> editedChunks() override;
     std::optional<std::string> metadata(std::string_view name) override;
 
     SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) override;
     SaveNumber setMetadata(std::string_view name, std::string value) override;
-    [[nodiscard]] base::Result<void> flush() override { return {}; }
-    SaveStatus status() override { return above_.status(); }
-    const WorldIdentity& identity() const override { return above_.identity(); }
+    [[nodiscard]] base::Result<void> flush() override { return queue_->flush(); }
+    SaveStatus status() override { return queue_->status(); }  // "durable" as far as memory is
+    void setDerivedRows(DerivedRows rows) override;
+    [[nodiscard]] base::Result<void> deriveAll(std::string_view rules) override;
+    const WorldIdentity& identity() const override { return below_->identity(); }
     bool isPersistent() const override { return false; }
 
   private:
+    struct Row {
+        world::ChunkPtr chunk;  // null: what is below is hidden
+        Provenance provenance = Provenance::Generated;
+    };
+    std::optional<Row> find(world::ChunkPos pos);  // nothing: what is below counts
+    world::ChunkPtr editedChunk(world::ChunkPos pos);
+    base::Result<void> write(const SaveBatch& batch);
+
     std::unique_ptr<ReadableStore> below_;
-    MemoryStore above_;
+    std::mutex writeMutex_;  // held while a batch is derived and written
+    DerivedRows derivedRows_;
+    std::mutex mutex_;  // of the following, which change under both mutexes
+    std::unordered_map<world::ChunkPos, Row, world::ChunkPosHash> rows_;
+    bool hidesTiles_ = false;                                                  // of all levels above 0 below
+    std::map<std::string, std::optional<std::string>, std::less<>> metadata_;  // nothing: hidden
+    std::unique_ptr<SaveQueue> queue_;                                         // ends first
 };
 
 }  // namespace terrane::store

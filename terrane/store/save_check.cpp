@@ -36,7 +36,9 @@ base::Result<void> checkChunks(SaveFile& file, CheckReport& report) {
         if (!row) return tl::unexpected(row.error());
         if (!*row) return {};
         ++report.chunks;
-        if (select->number(1) != 0) ++report.editedChunks;
+        const bool isTile = select->number(0) >= kFirstTileKey;
+        if (isTile) ++report.tiles;
+        if (!isTile && select->number(1) != 0) ++report.editedChunks;
         report.chunkBytes += select->blob(2).size();
         std::string problem = problemOf(select->number(0), select->blob(2), file.ids);
         if (!problem.empty()) report.damaged.push_back({posOf(select->number(0)), std::move(problem)});

@@ -19,10 +19,11 @@ struct DamagedChunk {
 struct CheckReport {
     std::int64_t format = 0;
     WorldIdentity identity;
-    std::size_t chunks = 0, editedChunks = 0;  // that are stored, damaged ones included
-    std::uint64_t chunkBytes = 0;              // of their data
-    std::uint64_t fileBytes = 0;               // of the file with its log
-    std::size_t quarantined = 0;               // rows that were found damaged before and put aside
+    // Stored, damaged ones included: of all levels, of level 0 with edits, of levels above 0.
+    std::size_t chunks = 0, editedChunks = 0, tiles = 0;
+    std::uint64_t chunkBytes = 0;  // of their data
+    std::uint64_t fileBytes = 0;   // of the file with its log
+    std::size_t quarantined = 0;   // rows that were found damaged before and put aside
 
     std::vector<std::string> fileProblems;  // of SQLite's pages and of the tables
     std::vector<DamagedChunk> damaged;

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "terrane/base/log.h"
+#include "terrane/store/chunk_key.h"
+#include "terrane/store/derived_rows.h"
 
 namespace terrane::store {
 namespace {
@@ -120,12 +122,15 @@ base::Result<void> regenerate(SaveFile& file, const fs::path& path, const Regene
     if (auto copied = file.database.backUpTo(backup); !copied) return copied;
     auto transaction = Transaction::begin(file.database);
     if (!transaction) return tl::unexpected(transaction.error());
-    const std::string deleted =
-        by.chunks == Regenerate::All
-            ? "DELETE FROM chunks; DELETE FROM quarantine;"
-            : fmt::format("DELETE FROM chunks WHERE origin = {};", static_cast<int>(Provenance::Generated));
+    // Tiles follow from generated chunks too, also where they have the mark of edits.
+    const std::string deleted = by.chunks == Regenerate::All
+                                    ? "DELETE FROM chunks; DELETE FROM quarantine;"
+                                    : fmt::format("DELETE FROM chunks WHERE origin = {} OR key >= {};",
+                                                  static_cast<int>(Provenance::Generated), kFirstTileKey);
     const std::string sql = fmt::format(
-        "{} UPDATE settings SET value = '{}' WHERE name = 'generator_version'", deleted, by.generatorVersion);
+        "{} DELETE FROM settings WHERE name = '{}'; "
+        "UPDATE settings SET value = '{}' WHERE name = 'generator_version'",
+        deleted, kDerivedRowsMark, by.generatorVersion);
     if (auto done = file.database.execute(sql); !done) return done;
     if (auto done = transaction->commit(); !done) return done;
     base::logInfo("{}: regenerated{}; the world as it was is {}", path.string(),

@@ -27,6 +27,13 @@ std::string contentOf(const SaveBatch& batch) {
 
 }  // namespace
 
+std::vector<ChunkRow> SaveBatch::editedChunks() const {
+    std::vector<ChunkRow> edited;
+    for (const auto& [pos, chunk] : chunks)
+        if (pos.level == 0 && chunk.provenance == Provenance::Edited) edited.push_back({pos, chunk.chunk});
+    return edited;
+}
+
 SaveQueue::SaveQueue(WriteBatch write, SaveLimits limits)
     : write_(std::move(write)), limits_(limits), thread_([this] { run(); }) {}
 

@@ -45,6 +45,7 @@ struct SaveBatch {
     std::vector<DamagedRow> damaged;
 
     bool isEmpty() const { return chunks.empty() && metadata.empty() && damaged.empty(); }
+    std::vector<ChunkRow> editedChunks() const;  // of level 0
 };
 
 struct SaveLimits {

@@ -18,6 +18,9 @@ class SqliteReader : public ReadableStore {
     LoadedChunk load(world::ChunkPos pos) override;
     std::vector<LoadedChunk> loadMany(std::span<const world::ChunkPos> positions) override;
     bool contains(world::ChunkPos pos) override;
+    [[nodiscard]] base::Result<std::vector<world::ChunkPos>> editedChunks() override {
+        return reader_.editedChunks();
+    }
     std::optional<std::string> metadata(std::string_view name) override;
     const WorldIdentity& identity() const override { return file_.identity; }
 

@@ -4,124 +4,25 @@
 
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
-#include "terrane/store/chunk_codec.h"
-#include "terrane/store/chunk_key.h"
 
 namespace terrane::store {
-
-// The statements that write a batch.
-struct SqliteStore::Writer {
-    Statement selectChunk, putChunk, putMetadata, quarantineIfSame, deleteIfSame;
-
-    static base::Result<std::unique_ptr<Writer>> make(Database& database);
-
-    base::Result<void> write(SaveFile& file, const SaveBatch& batch);
-    base::Result<void> writeChunk(SaveFile& file, world::ChunkPos pos, const WaitingChunk& chunk);
-    base::Result<void> quarantine(const DamagedRow& row);
-};
-
-namespace {
-
-std::string describe(const std::string& path, world::ChunkPos pos, const std::string& problem) {
-    return fmt::format("{}: {}: {}", path, nameOf(pos), problem);
-}
-
-}  // namespace
-
-base::Result<std::unique_ptr<SqliteStore::Writer>> SqliteStore::Writer::make(Database& database) {
-    auto selectChunk = database.prepare("SELECT data FROM chunks WHERE key = ?1");
-    if (!selectChunk) return tl::unexpected(selectChunk.error());
-    auto putChunk = database.prepare(
-        "INSERT INTO chunks (key, origin, data) VALUES (?1, ?2, ?3) ON CONFLICT (key) DO UPDATE "
-        "SET origin = excluded.origin, data = excluded.data WHERE excluded.origin >= origin");
-    if (!putChunk) return tl::unexpected(putChunk.error());
-    auto putMetadata = database.prepare("INSERT OR REPLACE INTO settings (name, value) VALUES (?1, ?2)");
-    if (!putMetadata) return tl::unexpected(putMetadata.error());
-    auto quarantine = database.prepare(
-        "INSERT INTO quarantine (key, reason, data) SELECT key, ?2, data FROM chunks WHERE key = ?1 AND "
-        "CAST(data AS BLOB) = ?3");
-    if (!quarantine) return tl::unexpected(quarantine.error());
-    auto remove = database.prepare("DELETE FROM chunks WHERE key = ?1 AND CAST(data AS BLOB) = ?2");
-    if (!remove) return tl::unexpected(remove.error());
-    return std::make_unique<Writer>(Writer{std::move(*selectChunk), std::move(*putChunk),
-                                           std::move(*putMetadata), std::move(*quarantine),
-                                           std::move(*remove)});
-}
-
-base::Result<void> SqliteStore::Writer::write(SaveFile& file, const SaveBatch& batch) {
-    TERRANE_ZONE("save batch");
-    auto transaction = Transaction::begin(file.database);
-    if (!transaction) return tl::unexpected(transaction.error());
-    for (const DamagedRow& row : batch.damaged)
-        if (auto done = quarantine(row); !done) return done;
-    for (const auto& [name, value] : batch.metadata) {
-        putMetadata.bind(1, std::string_view(name));
-        putMetadata.bind(2, std::string_view(value));
-        if (auto done = putMetadata.run(); !done) return done;
-    }
-    for (const auto& [pos, chunk] : batch.chunks)
-        if (auto done = writeChunk(file, pos, chunk); !done) return done;
-    return transaction->commit();
-}
-
-// What is there is looked at before it is overwritten: a row that was damaged is kept, also where nobody
-// has tried to load it.
-base::Result<void> SqliteStore::Writer::writeChunk(SaveFile& file, world::ChunkPos pos,
-                                                   const WaitingChunk& chunk) {
-    selectChunk.bind(1, keyOf(pos));
-    const auto row = selectChunk.step();
-    std::optional<DamagedRow> damaged;
-    if (row && *row) {
-        const ByteView data = selectChunk.blob(0);
-        if (auto good = verifyChunk(data); !good)
-            damaged = DamagedRow{pos, Bytes(data.begin(), data.end()), good.error().message};
-    }
-    selectChunk.reset();
-    if (!row) return tl::unexpected(row.error());
-    if (damaged) {
-        base::logWarning("{}; what it had is kept in the table quarantine",
-                         describe(file.database.path(), pos, damaged->reason));
-        if (auto done = quarantine(*damaged); !done) return done;
-    }
-
-    const auto bytes = encodeChunk(*chunk.chunk, file.ids);
-    if (!bytes) {
-        base::logError("{}; it is not saved", describe(file.database.path(), pos, bytes.error().message));
-        return {};
-    }
-    putChunk.bind(1, keyOf(pos));
-    putChunk.bind(2, std::int64_t{chunk.provenance == Provenance::Edited});
-    putChunk.bind(3, ByteView(*bytes));
-    return putChunk.run();
-}
-
-base::Result<void> SqliteStore::Writer::quarantine(const DamagedRow& row) {
-    quarantineIfSame.bind(1, keyOf(row.pos));
-    quarantineIfSame.bind(2, std::string_view(row.reason));
-    quarantineIfSame.bind(3, ByteView(row.data));
-    if (auto done = quarantineIfSame.run(); !done) return done;
-    deleteIfSame.bind(1, keyOf(row.pos));
-    deleteIfSame.bind(2, ByteView(row.data));
-    return deleteIfSame.run();
-}
 
 base::Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const std::filesystem::path& path,
                                                              const world::BlockRegistry& registry,
                                                              const SaveAccess& access, SaveLimits limits) {
     auto file = openToWrite(path, registry, access);
     if (!file) return tl::unexpected(file.error());
-    auto writer = Writer::make(file->database);
+    std::unique_ptr<SqliteStore> store(new SqliteStore(std::move(*file)));
+    auto writer = SqliteWriter::make(store->file_);
     if (!writer) return tl::unexpected(writer.error());
-    return std::unique_ptr<SqliteStore>(new SqliteStore(std::move(*file), std::move(*writer), limits));
+    store->writer_ = std::move(*writer);
+    store->queue_ = std::make_unique<SaveQueue>(
+        [self = store.get()](const SaveBatch& batch) { return self->write(batch); }, limits);
+    return store;
 }
 
-SqliteStore::SqliteStore(SaveFile file, std::unique_ptr<Writer> writer, SaveLimits limits)
-    : file_(std::move(file)),
-      reader_(file_.database.path(), file_.readers),
-      metadata_(file_.metadata),
-      writer_(std::move(writer)),
-      queue_(std::make_unique<SaveQueue>(
-          [this](const SaveBatch& batch) { return writer_->write(file_, batch); }, limits)) {}
+SqliteStore::SqliteStore(SaveFile file)
+    : file_(std::move(file)), reader_(file_.database.path(), file_.readers), metadata_(file_.metadata) {}
 
 SqliteStore::~SqliteStore() = default;
 
@@ -137,8 +38,8 @@ LoadedChunk copyOf(const WaitingChunk& waiting) {
 LoadedChunk SqliteStore::loadStored(StoredRow row, world::ChunkPos pos) {
     LoadedChunk loaded = decodeRow(row, file_.ids);
     if (loaded.state != LoadedChunk::State::Damaged) return loaded;
-    const std::string reason =
-        std::exchange(loaded.problem, describe(file_.database.path(), pos, loaded.problem));
+    const std::string reason = std::exchange(
+        loaded.problem, fmt::format("{}: {}: {}", file_.database.path(), nameOf(pos), loaded.problem));
     if (row) {
         base::logWarning("{}; what it had is kept in the table quarantine", loaded.problem);
         queue_->add(DamagedRow{pos, std::move((*row)->data), reason});
@@ -189,14 +90,47 @@ std::optional<std::string> SqliteStore::metadata(std::string_view name) {
 }
 
 SaveNumber SqliteStore::setMetadata(std::string_view name, std::string value) {
-    if (isPartOfIdentity(name)) {
-        base::logError("{}: {} belongs to the world's identity and stays as it is", file_.database.path(),
+    if (isReserved(name)) {
+        base::logError("{}: {} is written by the store alone and stays as it is", file_.database.path(),
                        name);
         return queue_->status().queued;
     }
     const std::lock_guard lock(metadataMutex_);
     metadata_.insert_or_assign(std::string(name), value);
     return queue_->add(std::string(name), std::move(value));
+}
+
+void SqliteStore::setDerivedRows(DerivedRows rows) {
+    const std::lock_guard writing(writeMutex_);
+    derivedRows_ = std::move(rows);
+}
+
+// Rows are derived before the transaction begins, and read what is in the file by other connections.
+base::Result<void> SqliteStore::write(const SaveBatch& batch) {
+    const std::lock_guard writing(writeMutex_);
+    const std::vector<ChunkRow> edited = batch.editedChunks();
+    SavedRows saved([this](world::ChunkPos pos) { return reader_.read(pos); }, file_.ids);
+    std::vector<ChunkRow> derived;
+    if (!edited.empty() && derivedRows_.derive) derived = derivedRows_.derive(edited, saved.reader());
+    if (!saved.result()) return saved.result();
+    const bool isComplete = edited.empty() || (derivedRows_.derive && !saved.metDamage());
+    const auto written = writer_->write(batch, derived, isComplete);
+    if (!written) return tl::unexpected(written.error());
+    if (!*written) {
+        const std::lock_guard lock(metadataMutex_);
+        if (const auto mark = metadata_.find(kDerivedRowsMark); mark != metadata_.end())
+            metadata_.erase(mark);
+    }
+    if (derivedRows_.written && !derived.empty()) derivedRows_.written(derived);
+    return {};
+}
+
+base::Result<void> SqliteStore::deriveAll(std::string_view rules) {
+    const std::lock_guard writing(writeMutex_);
+    if (auto done = writer_->deriveAll(derivedRows_, rules); !done) return done;
+    const std::lock_guard lock(metadataMutex_);
+    metadata_.insert_or_assign(std::string(kDerivedRowsMark), std::string(rules));
+    return {};
 }
 
 }  // namespace terrane::store

@@ -9,6 +9,7 @@
 #include "terrane/store/chunk_store.h"
 #include "terrane/store/save_file.h"
 #include "terrane/store/save_queue.h"
+#include "terrane/store/sqlite_writer.h"
 
 namespace terrane::store {
 
@@ -23,25 +24,32 @@ class SqliteStore : public ChunkStore {
     LoadedChunk load(world::ChunkPos pos) override;
     std::vector<LoadedChunk> loadMany(std::span<const world::ChunkPos> positions) override;
     bool contains(world::ChunkPos pos) override;
+    [[nodiscard]] base::Result<std::vector<world::ChunkPos>> editedChunks() override {
+        return reader_.editedChunks();
+    }
     // A chunk with more block entity data than a save keeps (62 MiB) is reported and left out.
     SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) override;
     std::optional<std::string> metadata(std::string_view name) override;
     SaveNumber setMetadata(std::string_view name, std::string value) override;
     [[nodiscard]] base::Result<void> flush() override { return queue_->flush(); }
     SaveStatus status() override { return queue_->status(); }
+    void setDerivedRows(DerivedRows rows) override;
+    [[nodiscard]] base::Result<void> deriveAll(std::string_view rules) override;
     const WorldIdentity& identity() const override { return file_.identity; }
     bool isPersistent() const override { return true; }
 
   private:
-    struct Writer;
-    SqliteStore(SaveFile file, std::unique_ptr<Writer> writer, SaveLimits limits);
+    explicit SqliteStore(SaveFile file);
     LoadedChunk loadStored(StoredRow row, world::ChunkPos pos);
+    base::Result<void> write(const SaveBatch& batch);
 
     SaveFile file_;
     ChunkReader reader_;
     std::mutex metadataMutex_;
     Metadata metadata_;
-    std::unique_ptr<Writer> writer_;    // used by the queue's thread
+    std::mutex writeMutex_;  // held while a batch is derived and written
+    DerivedRows derivedRows_;
+    std::unique_ptr<SqliteWriter> writer_;
     std::unique_ptr<SaveQueue> queue_;  // ends first
 };
 

@@ -24,13 +24,13 @@ class SqliteWorld : public ContractWorld {
 
 class MemoryWorld : public ContractWorld {
   public:
-    std::unique_ptr<ChunkStore> open() override { return std::make_unique<MemoryStore>(kIdentity); }
+    std::unique_ptr<ChunkStore> open() override { return std::make_unique<MemoryStore>(kIdentity, kNever); }
 };
 
 class OverlayWorld : public ContractWorld {
   public:
     std::unique_ptr<ChunkStore> open() override {
-        return std::make_unique<OverlayStore>(std::make_unique<MemoryStore>(kIdentity));
+        return std::make_unique<OverlayStore>(std::make_unique<MemoryStore>(kIdentity), kNever);
     }
 };
 
@@ -43,7 +43,7 @@ class OverlayOfSqliteWorld : public ContractWorld {
             throw std::runtime_error("no save");
         auto below = SqliteReader::open(path_, registry_);
         if (!below) throw std::runtime_error(below.error().message);
-        return std::make_unique<OverlayStore>(std::move(*below));
+        return std::make_unique<OverlayStore>(std::move(*below), kNever);
     }
 
   private:

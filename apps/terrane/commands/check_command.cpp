@@ -32,6 +32,7 @@ nlohmann::json toJson(const store::CheckReport& report) {
             {"generator_version", report.identity.generatorVersion},
             {"chunks", report.chunks},
             {"edited_chunks", report.editedChunks},
+            {"tiles", report.tiles},
             {"chunk_bytes", report.chunkBytes},
             {"file_bytes", report.fileBytes},
             {"quarantined", report.quarantined},
@@ -44,8 +45,8 @@ void printText(const std::string& file, const store::CheckReport& report) {
     if (report.format > 0) {
         fmt::print("{}: format {}, generator {} version {}, seed {}\n", file, report.format,
                    report.identity.generator, report.identity.generatorVersion, report.identity.seed);
-        fmt::print("{} chunks, {} of them edited, {} bytes; the file has {} bytes\n", report.chunks,
-                   report.editedChunks, report.chunkBytes, report.fileBytes);
+        fmt::print("{} chunks, {} of them edited, {} of them tiles; {} bytes; the file has {} bytes\n",
+                   report.chunks, report.editedChunks, report.tiles, report.chunkBytes, report.fileBytes);
     }
     if (report.quarantined > 0) fmt::print("{} damaged chunks were put aside before\n", report.quarantined);
     for (const std::string& name : report.unknownBlocks) fmt::print("unknown block: {}\n", name);

@@ -1,0 +1,158 @@
+#include "terrane/store/sqlite_writer.h"
+
+#include <cassert>
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/base/profile.h"
+#include "terrane/store/chunk_codec.h"
+#include "terrane/store/chunk_key.h"
+
+namespace terrane::store {
+
+world::ChunkPtr SavedRows::editedChunk(world::ChunkPos pos) {
+    const StoredRow row = read_(pos);
+    if (row && (!*row || (*row)->provenance != Provenance::Edited)) return nullptr;
+    LoadedChunk loaded = decodeRow(row, ids_);
+    if (loaded.state == LoadedChunk::State::Damaged) metDamage_ = true;
+    if (!row && row.error().code != base::ErrorCode::Damaged) result_ = tl::unexpected(row.error());
+    return std::move(loaded.chunk);
+}
+
+base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
+    constexpr const char* kStatements[] = {
+        "SELECT data, origin FROM chunks WHERE key = ?1",
+        "INSERT INTO chunks (key, origin, data) VALUES (?1, ?2, ?3) ON CONFLICT (key) DO UPDATE "
+        "SET origin = excluded.origin, data = excluded.data WHERE excluded.origin >= origin",
+        "DELETE FROM chunks WHERE key = ?1",
+        "INSERT OR REPLACE INTO settings (name, value) VALUES (?1, ?2)",
+        "DELETE FROM settings WHERE name = ?1",
+        "INSERT INTO quarantine (key, reason, data) SELECT key, ?2, data FROM chunks WHERE key = ?1 AND "
+        "CAST(data AS BLOB) = ?3",
+        "DELETE FROM chunks WHERE key = ?1 AND CAST(data AS BLOB) = ?2"};
+    std::vector<Statement> made;
+    for (const char* sql : kStatements) {
+        auto statement = file.database.prepare(sql);
+        if (!statement) return tl::unexpected(statement.error());
+        made.push_back(std::move(*statement));
+    }
+    auto next = made.begin();
+    const auto take = [&] { return std::move(*next++); };
+    // Braces initialize in their order: that of the texts above.
+    return std::unique_ptr<SqliteWriter>(
+        new SqliteWriter(file, Statements{take(), take(), take(), take(), take(), take(), take()}));
+}
+
+base::Result<bool> SqliteWriter::write(const SaveBatch& batch, std::span<const ChunkRow> derived,
+                                       bool isComplete) {
+    TERRANE_ZONE("save batch");
+    auto transaction = Transaction::begin(file_.database);
+    if (!transaction) return tl::unexpected(transaction.error());
+    isComplete_ = isComplete;
+    if (auto done = writeBatch(batch); !done) return tl::unexpected(done.error());
+    if (auto done = writeDerived(derived); !done) return tl::unexpected(done.error());
+    if (!isComplete_) {
+        use_.deleteMetadata.bind(1, kDerivedRowsMark);
+        if (auto done = use_.deleteMetadata.run(); !done) return tl::unexpected(done.error());
+    }
+    if (auto done = transaction->commit(); !done) return tl::unexpected(done.error());
+    return isComplete_;
+}
+
+base::Result<void> SqliteWriter::deriveAll(const DerivedRows& rows, std::string_view rules) {
+    TERRANE_ZONE("derive all rows");
+    auto transaction = Transaction::begin(file_.database);
+    if (!transaction) return tl::unexpected(transaction.error());
+    const std::string deletion = fmt::format("DELETE FROM chunks WHERE key >= {}", kFirstTileKey);
+    if (auto done = file_.database.execute(deletion); !done) return done;
+    auto edited = readEditedChunks(file_.database);
+    if (!edited) return tl::unexpected(edited.error());
+    // By the connection that writes: it sees what the transaction has written so far.
+    SavedRows saved([this](world::ChunkPos pos) { return readRow(use_.selectChunk, pos); }, file_.ids);
+    auto derived =
+        deriveInGroups(rows, std::move(*edited), saved.reader(), [&](std::span<const ChunkRow> group) {
+            return saved.result() ? writeDerived(group) : saved.result();
+        });
+    if (!derived) return derived;
+    if (!saved.result()) return saved.result();
+    if (auto done = writeMetadata(kDerivedRowsMark, rules); !done) return done;
+    return transaction->commit();
+}
+
+base::Result<void> SqliteWriter::writeBatch(const SaveBatch& batch) {
+    for (const DamagedRow& row : batch.damaged)
+        if (auto done = quarantine(row); !done) return done;
+    for (const auto& [name, value] : batch.metadata)
+        if (auto done = writeMetadata(name, value); !done) return done;
+    for (const auto& [pos, chunk] : batch.chunks)
+        if (auto done = writeChunk(pos, chunk); !done) return done;
+    return {};
+}
+
+base::Result<void> SqliteWriter::writeMetadata(std::string_view name, std::string_view value) {
+    use_.putMetadata.bind(1, name);
+    use_.putMetadata.bind(2, value);
+    return use_.putMetadata.run();
+}
+
+base::Result<void> SqliteWriter::writeChunk(world::ChunkPos pos, const WaitingChunk& chunk) {
+    if (auto done = putAsideIfDamaged(pos); !done) return done;
+    const auto bytes = encodeChunk(*chunk.chunk, file_.ids);
+    if (!bytes) {
+        base::logError("{}: {}: {}; it is not saved", file_.database.path(), nameOf(pos),
+                       bytes.error().message);
+        isComplete_ = false;
+        return {};
+    }
+    use_.putChunk.bind(1, keyOf(pos));
+    use_.putChunk.bind(2, std::int64_t{chunk.provenance == Provenance::Edited});
+    use_.putChunk.bind(3, ByteView(*bytes));
+    return use_.putChunk.run();
+}
+
+base::Result<void> SqliteWriter::writeDerived(std::span<const ChunkRow> rows) {
+    for (const auto& [pos, chunk] : rows) {
+        assert(pos.level > 0 && world::isInWorld(pos) && "chunks of level 0 follow from no others");
+        base::Result<void> done;
+        if (chunk) {
+            done = writeChunk(pos, {chunk, Provenance::Edited});
+        } else {
+            use_.deleteChunk.bind(1, keyOf(pos));
+            done = use_.deleteChunk.run();
+        }
+        if (!done) return done;
+    }
+    return {};
+}
+
+// What is there is looked at before it is overwritten: a row that was damaged is kept, also where nobody
+// has tried to load it.
+base::Result<void> SqliteWriter::putAsideIfDamaged(world::ChunkPos pos) {
+    use_.selectChunk.bind(1, keyOf(pos));
+    const auto row = use_.selectChunk.step();
+    std::optional<DamagedRow> damaged;
+    if (row && *row) {
+        const ByteView data = use_.selectChunk.blob(0);
+        if (auto good = verifyChunk(data); !good)
+            damaged = DamagedRow{pos, Bytes(data.begin(), data.end()), good.error().message};
+    }
+    use_.selectChunk.reset();
+    if (!row) return tl::unexpected(row.error());
+    if (!damaged) return {};
+    base::logWarning("{}: {}: {}; what it had is kept in the table quarantine", file_.database.path(),
+                     nameOf(pos), damaged->reason);
+    return quarantine(*damaged);
+}
+
+base::Result<void> SqliteWriter::quarantine(const DamagedRow& row) {
+    isComplete_ = false;
+    use_.quarantineIfSame.bind(1, keyOf(row.pos));
+    use_.quarantineIfSame.bind(2, std::string_view(row.reason));
+    use_.quarantineIfSame.bind(3, ByteView(row.data));
+    if (auto done = use_.quarantineIfSame.run(); !done) return done;
+    use_.deleteIfSame.bind(1, keyOf(row.pos));
+    use_.deleteIfSame.bind(2, ByteView(row.data));
+    return use_.deleteIfSame.run();
+}
+
+}  // namespace terrane::store
