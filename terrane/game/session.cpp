@@ -6,7 +6,9 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "terrane/base/log.h"
 #include "terrane/shared/material.h"
+#include "terrane/stream/tile_rows.h"
 #include "terrane/world/random_ticks.h"
 
 namespace terrane::game {
@@ -25,9 +27,9 @@ Session::Session(SessionParts parts)
     : blocks_(std::move(parts.blocks)),
       farBlocks_(blocks_->seenFromAfar()),
       lights_(*blocks_),
-      store_(std::move(parts.store)),
       generators_(std::move(parts.generators)),
       generator_(*generators_.at(0).value()),
+      store_(std::move(parts.store)),
       jobs_(parts.threads),
       pipeline_({jobs_,
                  *blocks_,
@@ -37,7 +39,10 @@ Session::Session(SessionParts parts)
                  parts.batchGenerator,
                  parts.batchLighter,
                  parts.meshing}),
-      tiles_({jobs_, farBlocks_, generators_}) {}
+      tiles_({jobs_, farBlocks_, generators_, store_.get()}) {
+    const auto kept = stream::keepTileRows(*store_, generators_, *blocks_, tiles_.tileListener());
+    if (!kept) base::logError("edits far away are not seen: {}", kept.error().message);
+}
 
 EditResult Session::edit(const EditCommand& command) {
     return edit(std::span(&command, 1)).front();

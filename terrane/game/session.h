@@ -77,9 +77,9 @@ class Session {
     std::unique_ptr<const world::BlockRegistry> blocks_;
     world::BlockRegistry farBlocks_;
     light::LightTable lights_;
-    std::unique_ptr<store::ChunkStore> store_;
     gen::LevelGenerators generators_;
     const gen::Generator& generator_;
+    std::unique_ptr<store::ChunkStore> store_;  // makes tiles of edited chunks until it ends
     world::World world_;
     base::JobSystem jobs_;
     stream::ChunkPipeline pipeline_;

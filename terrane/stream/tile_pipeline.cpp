@@ -1,5 +1,6 @@
 #include "terrane/stream/tile_pipeline.h"
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <exception>
@@ -22,24 +23,36 @@ constexpr std::size_t kJobsPerWorker = 64;
 // After all chunks. The coarsest tiles come before all: without them there is nothing out there.
 constexpr base::JobPriority kFirst = -1, kAfterChunks = base::JobPriority{1} << 40;
 
+world::Chunk tileBlocks(const TileParts& parts, ChunkPos pos) {
+    if (parts.store) {
+        if (store::LoadedChunk stored = parts.store->load(pos); stored.chunk) return std::move(*stored.chunk);
+    }
+    return parts.generators.generate(pos);
+}
+
 }  // namespace
 
 // Filled by any thread; jobs hold it too, so that one that ends late finds it alive.
 struct TilePipeline::Results {
+    struct Made {
+        std::uint64_t job = 0;
+        TileMesh tile;
+    };
     std::mutex mutex;
     std::condition_variable changed;
-    std::vector<TileMesh> meshes;      // under the mutex
+    std::vector<Made> made;            // under the mutex
+    std::vector<ChunkPos> outdated;    // under the mutex
     std::exception_ptr failure;        // the first, under the mutex
     std::atomic<bool> isOver = false;  // jobs that begin now do nothing
 
     std::size_t count = 0;    // of tiles made, under the mutex
     double microseconds = 0;  // that they took
 
-    void add(TileMesh mesh, double took) {
+    void add(Made result, double took) {
         const std::lock_guard lock(mutex);
         ++count;
         microseconds += took;
-        meshes.push_back(std::move(mesh));
+        made.push_back(std::move(result));
         changed.notify_one();
     }
     void fail(std::exception_ptr error) {
@@ -52,7 +65,7 @@ struct TilePipeline::Results {
 MeshPtr makeTile(const TileParts& parts, ChunkPos pos, mesh::MergeMethod method) {
     TERRANE_ZONE("make tile");
     thread_local mesh::MeshScratch scratch;
-    const world::Chunk chunk = parts.generators.generate(pos);
+    const world::Chunk chunk = tileBlocks(parts, pos);
     return std::make_shared<const mesh::ChunkMesh>(
         mesh::meshTile(chunk, parts.blocks, {method, kMeshSectionHeight}, scratch));
 }
@@ -64,38 +77,73 @@ TilePipeline::~TilePipeline() {
     parts_.jobs.waitIdle();
 }
 
+void TilePipeline::setView(const TileView& view) {
+    hasMoved_ = hasMoved_ || !(view == table_.view);
+    setTileView(table_, view);
+}
+
 void TilePipeline::update(mesh::MergeMethod method) {
-    {
-        const std::lock_guard lock(results_->mutex);
-        if (results_->failure) std::rethrow_exception(results_->failure);
-        running_ -= results_->meshes.size();
-        for (TileMesh& mesh : results_->meshes) finished_.push_back(std::move(mesh));
-        results_->meshes.clear();
-    }
+    takeResults();
+    if (std::exchange(hasMoved_, false)) cancelJobs();
+    if (std::exchange(method_, method) != method) outdateAllTiles(table_);
     const std::size_t limit = kJobsPerWorker * parts_.jobs.threadCount();
-    const int coarsest = coarsestLevel(table_.view);
-    for (const ChunkPos pos : popTileRequests(table_, limit - std::min(limit, running_))) {
-        ++running_;
-        const base::JobPriority priority =
-            pos.level == coarsest ? kFirst : kAfterChunks + tileDistance(table_.view.center, pos);
-        parts_.jobs.submit(priority, [pos, method, parts = parts_, results = results_](const auto&) {
-            if (results->isOver) return;
-            try {
-                const auto start = std::chrono::steady_clock::now();
-                MeshPtr mesh = makeTile(parts, pos, method);
-                const std::chrono::duration<double, std::micro> took =
-                    std::chrono::steady_clock::now() - start;
-                results->add({pos, std::move(mesh)}, took.count());
-            } catch (...) {
-                results->fail(std::current_exception());
-            }
-        });
+    for (const ChunkPos tile : popTileRequests(table_, limit - std::min(limit, jobs_.size()))) submit(tile);
+}
+
+void TilePipeline::takeResults() {
+    const std::lock_guard lock(results_->mutex);
+    if (results_->failure) std::rethrow_exception(results_->failure);
+    for (Results::Made& made : results_->made) {
+        jobs_.erase(made.job);
+        finished_.push_back(std::move(made.tile));
     }
+    results_->made.clear();
+    for (const ChunkPos tile : results_->outdated) outdateTile(table_, tile);
+    results_->outdated.clear();
+}
+
+// Of tiles that nobody waits for any more. Those that run already end as usual.
+void TilePipeline::cancelJobs() {
+    std::erase_if(jobs_, [&](const auto& entry) {
+        const Job& job = entry.second;
+        if (isAwaited(table_, job.tile)) return false;
+        job.handle.cancel();
+        return job.handle.state() == base::JobState::Cancelled;
+    });
+}
+
+void TilePipeline::submit(ChunkPos tile) {
+    const base::JobPriority priority = tile.level == coarsestLevel(table_.view)
+                                           ? kFirst
+                                           : kAfterChunks + tileDistance(table_.view.center, tile);
+    const std::uint64_t number = jobCount_++;
+    const auto work = [tile, number, method = method_, parts = parts_, results = results_](const auto&) {
+        if (results->isOver) return;
+        try {
+            const auto start = std::chrono::steady_clock::now();
+            MeshPtr mesh = makeTile(parts, tile, method);
+            const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
+            results->add({number, {tile, std::move(mesh)}}, took.count());
+        } catch (...) {
+            results->fail(std::current_exception());
+        }
+    };
+    jobs_.emplace(number, Job{tile, parts_.jobs.submit(priority, work)});
+}
+
+TileListener TilePipeline::tileListener() const {
+    return [results = results_](std::span<const ChunkPos> tiles) {
+        const std::lock_guard lock(results->mutex);
+        results->outdated.insert(results->outdated.end(), tiles.begin(), tiles.end());
+        results->changed.notify_one();
+    };
 }
 
 void TilePipeline::waitForWorkers(std::chrono::milliseconds atMost) {
     std::unique_lock lock(results_->mutex);
-    results_->changed.wait_for(lock, atMost, [&] { return !results_->meshes.empty() || results_->failure; });
+    results_->changed.wait_for(lock, atMost, [&] {
+        return !results_->made.empty() || !results_->outdated.empty() || results_->failure;
+    });
 }
 
 std::vector<TileMesh> TilePipeline::takeMeshes(std::size_t limit) {

@@ -118,7 +118,7 @@ bool Walk::visit(ChunkPos tile, bool isWanted) {
     if (record.isDivided || (!record.isReady && record.isOpen))
         isWhole = visitChildren(tile, record.isDivided);
     record.isWanted = isWanted && tile.level > 0 && (!record.isDivided || isUseful(tile, isKnown, isWhole));
-    if (record.isWanted && !record.isReady && !record.isLoading) request(tile);
+    if (record.isWanted && !record.isLoading && (!record.isReady || record.isStale)) request(tile);
     const bool showsItself = record.isReady && !isWhole;
     if (showsItself) {
         shown.resize(before);
@@ -162,7 +162,7 @@ bool keep(TileTable& table, Node& node, TileChanges& changes) {
     if (record.isShown || record.isWanted) return true;
     if (record.isReady) changes.dropped.push_back(pos);
     table.loading -= record.isLoading ? 1 : 0;
-    record.isReady = record.isLoading = false;
+    record.isReady = record.isLoading = record.isStale = false;
     return record.isDivided || record.isOpen;
 }
 
@@ -228,7 +228,9 @@ std::vector<ChunkPos> popTileRequests(TileTable& table, std::size_t limit) {
         std::ranges::pop_heap(table.requests, std::greater());
         popped.push_back(table.requests.back().tile);
         table.requests.pop_back();
-        table.records.at(popped.back()).isLoading = true;
+        TileRecord& record = table.records.at(popped.back());
+        record.isLoading = true;
+        record.isStale = false;
         ++table.loading;
     }
     return popped;
@@ -245,6 +247,18 @@ void finishTile(TileTable& table, ChunkPos tile) {
     record.isLoading = false;
     record.isReady = true;
     --table.loading;
+    table.isOutdated = true;
+}
+
+void outdateTile(TileTable& table, ChunkPos tile) {
+    const auto found = table.records.find(tile);
+    if (found == table.records.end() || tile.level == 0) return;
+    found->second.isStale = true;
+    table.isOutdated = true;
+}
+
+void outdateAllTiles(TileTable& table) {
+    for (auto& [pos, record] : table.records) record.isStale = pos.level > 0;
     table.isOutdated = true;
 }
 

@@ -36,6 +36,7 @@ constexpr int kMaxHorizon = 4096;
 struct TileRecord {
     bool isReady = false;    // it can be shown
     bool isLoading = false;  // tiles: a request was taken
+    bool isStale = false;    // tiles: to be made again; until then it is shown as it is
     bool isShown = false;
     // As of the last walk over the quad-tree. A tile that is due to be divided stays so some way beyond the
     // border: walking to and fro loads nothing again.
@@ -54,8 +55,9 @@ struct TileRequest {
 struct TileTable {
     TileView view;
     std::unordered_map<world::ChunkPos, TileRecord, world::ChunkPosHash> records;
-    std::vector<TileRequest> requests;  // absent tiles that are wanted, a heap with the most urgent in front
-    std::size_t loading = 0;            // tiles
+    std::vector<TileRequest>
+        requests;             // absent or stale tiles that are wanted, a heap with the most urgent in front
+    std::size_t loading = 0;  // tiles
     std::uint32_t walks = 0;
     bool isOutdated = true;  // something changed since updateTiles()
     bool hasGone = false;    // something that was shown cannot be any more
@@ -79,15 +81,18 @@ void setTileView(TileTable& table, const TileView& view);
 void setChunkReady(TileTable& table, world::ChunkPos pos, bool isReady);
 // Up to `limit` tiles to make, most urgent first: the coarsest, then the nearest. They are loading then.
 std::vector<world::ChunkPos> popTileRequests(TileTable& table, std::size_t limit);
-// Whether somebody still waits for the tile: it is loading, not ready.
+// Whether somebody still waits for the tile: it is loading.
 bool isAwaited(const TileTable& table, world::ChunkPos tile);
 // A loading tile can be shown.
 void finishTile(TileTable& table, world::ChunkPos tile);
+// The tile would be made otherwise now: it is made again where it is wanted. The same for all tiles.
+void outdateTile(TileTable& table, world::ChunkPos tile);
+void outdateAllTiles(TileTable& table);
 // Shows, hides and drops what the last changes ask for. One walk over the quad-tree, about half a millisecond
 // with some thousand tiles; nothing where nothing changed.
 TileChanges updateTiles(TileTable& table);
 
-// Tiles that are wanted and not there yet, as of the last updateTiles().
+// Tiles that are wanted and not there yet or stale, as of the last updateTiles().
 inline std::size_t missingTiles(const TileTable& table) {
     return table.requests.size() + table.loading;
 }

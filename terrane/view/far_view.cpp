@@ -23,7 +23,8 @@ bool FarView::upload(std::chrono::steady_clock::time_point deadline) {
     while (std::chrono::steady_clock::now() < deadline) {
         const std::vector<stream::TileMesh> tiles = tiles_.takeMeshes(1);
         if (tiles.empty()) return true;
-        renderer_.setShown(tiles.front().pos, false);
+        if (!tiles_.table().records.at(tiles.front().pos).isShown)
+            renderer_.setShown(tiles.front().pos, false);
         if (!renderer_.setChunk(tiles.front().pos, *tiles.front().mesh)) return false;
     }
     return true;

@@ -60,6 +60,14 @@ class Model {
         while (missingTiles(table_) > 0) work(0, 1000);
     }
 
+    // Some of the tiles that are shown would be made otherwise now.
+    void outdate(int count) {
+        for (const ChunkPos pos : shown_) {
+            if (pos.level > 0 && pick(0, 9) == 0 && count-- > 0) outdateTile(table_, pos);
+        }
+        apply();
+    }
+
     // How many chunks and tiles show the column of a chunk of level 0.
     int timesShown(ChunkPos chunk) const {
         int count = 0;
@@ -185,6 +193,7 @@ TEST_P(TileWalk, EachColumnIsShownOnce) {
             const ChunkPos column = model.columnNear(k % 2 == 0 ? view.horizon : 24);
             ASSERT_EQ(model.timesShown(column), 1) << "step " << step << ": " << column.x << ',' << column.y;
         }
+        model.outdate(model.pick(0, 5));
         model.work(model.pick(0, 120), model.pick(20, 200));
     }
 }
@@ -215,6 +224,37 @@ TEST(TileTable, CirclingABorderMakesNothingNew) {
     const int made = model.made();
     circle();
     EXPECT_EQ(model.made(), made);
+}
+
+// A stale tile stays on screen until it has been made again, once.
+TEST(TileTable, AStaleTileIsMadeAgain) {
+    Model model(7);
+    model.moveTo(viewAt(0, 0));
+    model.finishAll();
+    const std::set<ChunkPos> shown = model.shown();
+    const int made = model.made();
+    model.outdate(3);
+    EXPECT_EQ(missingTiles(model.table()), 3u);
+    EXPECT_EQ(model.shown(), shown);
+    model.finishAll();
+    EXPECT_EQ(model.made(), made + 3);
+    EXPECT_EQ(model.shown(), shown);
+}
+
+// What changes while a tile is made comes too late for it.
+TEST(TileTable, ATileThatBecomesStaleWhileItIsMadeIsMadeTwice) {
+    TileTable table;
+    setTileView(table, {{0, 0}, 4, 64, 8});
+    updateTiles(table);
+    const ChunkPos tile = popTileRequests(table, 1).front();
+    outdateTile(table, tile);
+    finishTile(table, tile);
+    EXPECT_EQ(updateTiles(table).shown, std::vector{tile});
+    const std::vector<ChunkPos> again = popTileRequests(table, 1000);
+    EXPECT_EQ(std::ranges::count(again, tile), 1);
+    finishTile(table, tile);
+    updateTiles(table);
+    EXPECT_EQ(std::ranges::count(popTileRequests(table, 1000), tile), 0);
 }
 
 TEST(TileTable, TellsThatSomethingShownIsGone) {

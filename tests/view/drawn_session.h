@@ -30,16 +30,18 @@ struct DrawnSessionOptions {
     int viewDistance = 4;
     render::RenderOptions render = render::plainOptions(1);
     std::size_t memoryBudget = SIZE_MAX;
-    bool generatesOnGpu = false;  // and lights
+    std::unique_ptr<store::ChunkStore> store = nullptr;  // null: one in memory
+    bool generatesOnGpu = false;                         // and lights
     bool meshesOnGpu = false;
 };
 
-inline std::unique_ptr<DrawnSession> makeDrawnSession(const DrawnSessionOptions& options) {
+inline std::unique_ptr<DrawnSession> makeDrawnSession(DrawnSessionOptions options) {
     auto made = std::make_unique<DrawnSession>();
     game::SessionParts parts{std::make_unique<const world::BlockRegistry>(contentBlocks()),
                              gen::makeLevelGenerators("overworld", contentBlocks(), 1).value(),
-                             std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "overworld", 1}),
-                             2};
+                             std::move(options.store), 2};
+    if (!parts.store)
+        parts.store = std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "overworld", 1});
     if (options.generatesOnGpu) {
         const auto graph = gen::makeGenerator("overworld", contentBlocks()).value();
         made->backEnds = makeGpuBackEnds(render::contentShaders(), graph, 1, contentBlocks()).value();

@@ -1,0 +1,20 @@
+// Keeps the tiles that edits change in the store, as rows that follow from the edited chunks. What is done
+// here is written down in docs/levels.md.
+#pragma once
+
+#include "terrane/base/result.h"
+#include "terrane/gen/level_generators.h"
+#include "terrane/store/chunk_store.h"
+#include "terrane/stream/tile_pipeline.h"
+#include "terrane/world/block_registry.h"
+
+namespace terrane::stream {
+
+// From now on the store writes such rows with the chunks that they follow from, and tells the listener.
+// `generators` outlives the store. Builds the rows of a world that has none, which takes some milliseconds an
+// edited chunk; where that fails the store is as before, and edits beyond the view distance are not seen.
+[[nodiscard]] base::Result<void> keepTileRows(store::ChunkStore& store,
+                                              const gen::LevelGenerators& generators,
+                                              const world::BlockRegistry& blocks, TileListener listener);
+
+}  // namespace terrane::stream

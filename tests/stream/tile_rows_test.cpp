@@ -1,0 +1,117 @@
+// Tiles of edited chunks, from the store to the meshes of the view.
+#include "terrane/stream/tile_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/mesh/chunk_mesher.h"
+#include "terrane/store/memory_store.h"
+#include "tests/world/content_blocks.h"
+
+namespace terrane::stream {
+namespace {
+
+using world::ChunkPos;
+
+constexpr ChunkPos kEdited{-30, 21};  // beyond the chunks of the view below
+
+class TileRowsTest : public testing::Test {
+  protected:
+    void keepRows(TileListener listener) {
+        ASSERT_TRUE(keepTileRows(store_, generators_, contentBlocks(), std::move(listener)));
+    }
+
+    // The chunk with a roof of lamps over it, or as the generator makes it, by somebody's hand either way.
+    void saveChunk(bool hasRoof) {
+        auto chunk = std::make_shared<world::Chunk>(generators_.generate(kEdited));
+        for (int n = 0; hasRoof && n < 256; ++n)
+            chunk->setBlock(world::blockIndex(n % 16, n / 16, 150), contentBlock("lamp_red"));
+        store_.save(kEdited, chunk, store::Provenance::Edited);
+        ASSERT_TRUE(store_.flush());
+    }
+
+    // Until all tiles are there.
+    void settle(TilePipeline& tiles) {
+        do {
+            tiles.waitForWorkers(std::chrono::milliseconds(100));
+            tiles.update(mesh::MergeMethod::Greedy);
+            for (const TileMesh& tile : tiles.takeMeshes(1000)) {
+                meshes_[tile.pos] = tile.mesh;
+                ++made_;
+            }
+            tiles.takeChanges();
+        } while (tiles.missing() > 0);
+    }
+
+    MeshPtr meshOf(ChunkPos tile) { return makeTile(parts_, tile, mesh::MergeMethod::Greedy); }
+
+    base::JobSystem jobs_{2};
+    gen::LevelGenerators generators_{
+        [](int level) { return gen::makeGenerator("flat", contentBlocks(), level); }, 5};
+    store::MemoryStore store_{store::WorldIdentity{5, "flat", 1}};
+    TileParts parts_{jobs_, contentBlocks(), generators_, &store_};
+    std::map<ChunkPos, MeshPtr> meshes_;
+    int made_ = 0;
+};
+
+TEST_F(TileRowsTest, ComeWithTheEditedChunk) {
+    keepRows([](auto) {});
+    ChunkPos tile = kEdited;
+    saveChunk(true);
+    for (int level = 1; level <= 6; ++level) {
+        tile = parentOf(tile);
+        const store::LoadedChunk loaded = store_.load(tile);
+        ASSERT_TRUE(loaded.chunk) << "level " << level;
+        EXPECT_FALSE(*loaded.chunk == generators_.generate(tile));
+    }
+    saveChunk(false);
+    for (tile = parentOf(kEdited); tile.level <= 6; tile = parentOf(tile))
+        EXPECT_FALSE(store_.contains(tile));
+}
+
+TEST_F(TileRowsTest, AreBuiltForAWorldWithoutThem) {
+    saveChunk(true);
+    EXPECT_FALSE(store_.contains(parentOf(kEdited)));
+    keepRows([](auto) {});
+    EXPECT_TRUE(store_.contains(parentOf(kEdited)));
+}
+
+TEST_F(TileRowsTest, TilesInViewAreMadeAgain) {
+    TilePipeline tiles(parts_);
+    keepRows(tiles.tileListener());
+    tiles.setView({{0, 0}, 4, 64, 8});
+    settle(tiles);
+    const auto before = meshes_;
+    const int made = made_;
+
+    saveChunk(true);
+    settle(tiles);
+    EXPECT_GT(made_, made);
+    EXPECT_LT(made_, made + 8) << "others stay as they are";
+    int changed = 0;
+    for (const auto& [pos, mesh] : meshes_) {
+        EXPECT_EQ(*mesh, *meshOf(pos)) << pos.x << ',' << pos.y;
+        changed += !(*mesh == *before.at(pos));
+    }
+    EXPECT_GE(changed, 1);
+
+    saveChunk(false);
+    settle(tiles);
+    for (const auto& [pos, mesh] : meshes_) EXPECT_EQ(*mesh, *before.at(pos)) << pos.x << ',' << pos.y;
+}
+
+TEST_F(TileRowsTest, AnotherMergingMethodReachesAllTiles) {
+    TilePipeline tiles(parts_);
+    tiles.setView({{0, 0}, 4, 64, 8});
+    settle(tiles);
+    const auto count = static_cast<int>(meshes_.size());
+    made_ = 0;
+    tiles.update(mesh::MergeMethod::None);
+    tiles.takeChanges();
+    EXPECT_GE(static_cast<int>(tiles.missing()), count);
+}
+
+}  // namespace
+}  // namespace terrane::stream
