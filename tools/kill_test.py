@@ -4,8 +4,9 @@
     kill_test.py SAVE_LOOP PROGRAM [KILLS]     8 kills unless told otherwise
 
 SAVE_LOOP is the test program tests/store/save_loop, PROGRAM is terrane, or "-" to leave out terrane check. After each
-kill (SIGKILL, at a random moment) the file must pass SQLite's integrity check and terrane check, and hold every save
-that was reported as durable. Needs nothing but Python; exits with 1 when something is lost or damaged."""
+kill (SIGKILL, at a random moment) the file must pass SQLite's integrity check and terrane check, hold every save
+that was reported as durable, and have exactly the tiles that follow from its chunks. Needs nothing but Python; exits
+with 1 when something is lost or damaged."""
 import pathlib
 import random
 import sqlite3
@@ -47,7 +48,7 @@ def main():
     loop, program = sys.argv[1:3]
     kills = int(sys.argv[3]) if len(sys.argv) == 4 else 8
     generator = random.Random(1)
-    durable = 0
+    durable = most_tiles = 0
     with tempfile.TemporaryDirectory(prefix="terrane_kill_") as folder:
         save = str(pathlib.Path(folder) / "a.sqlite")
         for number in range(1, kills + 1):
@@ -66,9 +67,13 @@ def main():
                 done = subprocess.run(check, capture_output=True, text=True, check=False)
                 if done.returncode != 0:
                     sys.exit(f"kill_test: kill {number}: {' '.join(check)}: {done.stdout}{done.stderr}")
+                if "verify" in check:
+                    most_tiles = max(most_tiles, int(done.stdout.split()[2]))  # "100 chunks, 34 tiles"
     if durable == 0:
         sys.exit("kill_test: nothing was ever reported as durable: the test shows nothing")
-    print(f"kill_test: {kills} kills, {durable} durable saves, all there")
+    if most_tiles == 0:
+        sys.exit("kill_test: no tile was ever found: the test shows nothing of them")
+    print(f"kill_test: {kills} kills, {durable} durable saves, all there; up to {most_tiles} tiles, all right")
 
 
 if __name__ == "__main__":

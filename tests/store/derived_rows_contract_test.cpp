@@ -39,23 +39,20 @@ struct Calls {
     }
 };
 
-// Every tile that there could be, for chunks of -8 to 7, is as it follows from these chunks.
+// The store has the tiles that follow from these chunks, and no others around chunks of -8 to 7.
 void expectTilesOf(ChunkStore& store, const std::vector<ChunkRow>& edited) {
-    const TileMap expected = tilesOf(edited);
-    for (int level = 1; level <= kTopTileLevel; ++level) {
-        for (int y = -8 >> level; y < 8 >> level; ++y) {
-            for (int x = -8 >> level; x < 8 >> level; ++x) {
-                const ChunkPos pos{x, y, static_cast<std::uint8_t>(level)};
-                const auto tile = expected.find(pos);
-                const LoadedChunk loaded = store.load(pos);
-                ASSERT_EQ(loaded.state, tile == expected.end() ? State::Absent : State::Present)
-                    << nameOf(pos);
-                EXPECT_EQ(store.contains(pos), loaded.chunk != nullptr) << nameOf(pos);
-                if (!loaded.chunk) continue;
-                EXPECT_EQ(*loaded.chunk, *tile->second) << nameOf(pos);
-                EXPECT_EQ(loaded.provenance, Provenance::Edited);
-            }
-        }
+    TileMap expected = tilesOf(edited);
+    for (int level = 1; level <= kTopTileLevel; ++level)
+        for (int y = -8 >> level; y < 8 >> level; ++y)
+            for (int x = -8 >> level; x < 8 >> level; ++x)
+                expected.try_emplace({x, y, static_cast<std::uint8_t>(level)});
+    for (const auto& [pos, tile] : expected) {
+        const LoadedChunk loaded = store.load(pos);
+        ASSERT_EQ(loaded.state, tile ? State::Present : State::Absent) << nameOf(pos);
+        EXPECT_EQ(store.contains(pos), tile != nullptr) << nameOf(pos);
+        if (!tile) continue;
+        EXPECT_EQ(*loaded.chunk, *tile) << nameOf(pos);
+        EXPECT_EQ(loaded.provenance, Provenance::Edited);
     }
 }
 
@@ -109,6 +106,10 @@ TEST_P(ChunkStoreContract, DerivedRowsGoWithTheirChunks) {
     expectTilesOf(*store, {{{2, 0}, numberedChunk(3)}});
 }
 
+bool isNumbered(const world::ChunkPtr& chunk, int number) {
+    return chunk && *chunk == *numberedChunk(number);
+}
+
 // While rows are derived the store has what it had before the batch, and takes more.
 TEST_P(ChunkStoreContract, WhatDeriveSees) {
     const auto store = world_->open();
@@ -123,11 +124,11 @@ TEST_P(ChunkStoreContract, WhatDeriveSees) {
         if (batches.size() == 1) {
             store->save({0, 0}, numberedChunk(4), Provenance::Edited);
             store->save({3, 3}, numberedChunk(5), Provenance::Edited);
-            EXPECT_EQ(*saved({0, 0}), *numberedChunk(1)) << "not what waits";
+            EXPECT_TRUE(isNumbered(saved({0, 0}), 1)) << "not what waits";
             EXPECT_EQ(saved({3, 3}), nullptr);
             EXPECT_FALSE(saved({0, 0, 1}));
         } else {
-            EXPECT_EQ(*saved({0, 0}), *numberedChunk(3));
+            EXPECT_TRUE(isNumbered(saved({0, 0}), 3));
             EXPECT_TRUE(saved({0, 0, 1}));
         }
         auto rows = deriveSums(edited, saved);
@@ -207,8 +208,10 @@ TEST_P(ChunkStoreContract, TellsEditedChunks) {
 
 TEST_P(ChunkStoreContract, DerivesAll) {
     const auto store = world_->open();
+    // Without four chunks: the second group begins in the middle of a tile of level 2.
     std::vector<ChunkRow> edited;
-    for (int k = 0; k < 16 * 16; ++k) edited.push_back({{k % 16 - 8, k / 16 - 8}, numberedChunk(k)});
+    for (int k = 0; k < 16 * 16; ++k)
+        if (k % 16 > 1 || k / 16 > 1) edited.push_back({{k % 16 - 8, k / 16 - 8}, numberedChunk(k)});
     for (int k = 0; k < 300; ++k) edited.push_back({{1000 + k % 16, k / 16}, numberedChunk(k)});
     saveAll(*store, edited);
     store->save({0, 0, 1}, numberedChunk(1), Provenance::Edited);

@@ -2,16 +2,21 @@
 //
 //   save_loop FILE FIRST         from save FIRST on, prints the number of each last durable save on a line
 //   save_loop FILE verify LAST   exit code 0 where every chunk holds save 1 … LAST's edit of it, or a later
-//   one
+//   one, and every tile is the one that follows from the chunks, byte for byte
 //
 // Save n edits the chunk n mod 100: sets it to numberedChunk(n) with n as block entity data, so that what is
-// found tells which save it is from.
+// found tells which save it is from. Every third round through the chunks makes them count
+// as empty, so that tiles (tests/store/tile_sums.h) go too.
 #include <cstdio>
 #include <cstring>
 #include <string>
 
+#include "terrane/store/chunk_key.h"
+#include "terrane/store/chunk_reader.h"
+#include "terrane/store/save_file.h"
 #include "terrane/store/sqlite_store.h"
 #include "tests/store/store_fixture.h"
+#include "tests/store/tile_sums.h"
 
 namespace {
 
@@ -26,6 +31,7 @@ world::ChunkPos posOf(int number) {
 
 world::ChunkPtr edited(int number) {
     auto chunk = std::make_shared<world::Chunk>(*store::numberedChunk(number));
+    if (number / kChunks % 3 == 2) chunk->setBlock(0, world::kAir);
     const auto bytes = std::as_bytes(std::span(&number, 1));
     chunk->setBlockEntityData(kMark, world::BlockEntityData(bytes.begin(), bytes.end()));
     return chunk;
@@ -64,12 +70,50 @@ int verify(store::ChunkStore& store, int last) {
     return 0;
 }
 
+// Whether the rows of levels above 0 have the bytes of the tiles that follow from the rows of level 0. By
+// the file alone: no store is open.
+base::Result<void> verifyTiles(const char* path, const world::BlockRegistry& registry) {
+    auto file = store::openToRead(path, registry);
+    if (!file) return tl::unexpected(file.error());
+    auto select = file->database.prepare("SELECT key, data FROM chunks ORDER BY key");
+    if (!select) return tl::unexpected(select.error());
+    std::vector<store::ChunkRow> chunks;
+    std::map<world::ChunkPos, store::Bytes> tiles;
+    while (true) {
+        const auto row = select->step();
+        if (!row) return tl::unexpected(row.error());
+        if (!*row) break;
+        const world::ChunkPos pos = store::posOf(select->number(0));
+        const store::ByteView data = select->blob(1);
+        if (pos.level > 0) {
+            tiles.emplace(pos, store::Bytes(data.begin(), data.end()));
+            continue;
+        }
+        auto chunk = store::decodeChunk(data, file->ids);
+        if (!chunk) return tl::unexpected(chunk.error());
+        chunks.push_back({pos, std::make_shared<world::Chunk>(std::move(*chunk))});
+    }
+    std::map<world::ChunkPos, store::Bytes> expected;
+    for (const auto& [pos, tile] : store::tilesOf(chunks))
+        expected.emplace(pos, *store::encodeChunk(*tile, file->ids));
+    std::printf("%zu chunks, %zu tiles\n", chunks.size(), tiles.size());
+    if (tiles == expected) return {};
+    return base::fail("{} chunks have {} tiles, expected {} or others", chunks.size(), tiles.size(),
+                      expected.size());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     if (argc < 3) return 2;
     const bool isVerifying = std::strcmp(argv[2], "verify") == 0;
     const auto registry = store::testRegistry();
+    // Before a store opens the file.
+    const auto verified = isVerifying ? verifyTiles(argv[1], registry) : base::Result<void>();
+    if (!verified) {
+        std::fprintf(stderr, "%s\n", verified.error().message.c_str());
+        return 1;
+    }
     const store::SaveAccess access{.create = isVerifying ? std::nullopt : std::optional(store::kIdentity),
                                    .decide = {}};
     auto store = store::SqliteStore::open(argv[1], registry, access,
@@ -79,5 +123,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     if (isVerifying) return verify(**store, std::atoi(argv[3]));
+    (*store)->setDerivedRows({store::deriveSums, {}});
+    if (!store::ensureDerivedRows(**store, "sums")) return 3;
     saveForEver(**store, std::atoi(argv[2]));
 }
