@@ -41,7 +41,7 @@ class TileRowsTest : public testing::Test {
                 meshes_[tile.pos] = tile.mesh;
                 ++made_;
             }
-            tiles.takeChanges();
+            for (const ChunkPos pos : tiles.takeChanges().dropped) meshes_.erase(pos);
         } while (tiles.missing() > 0);
     }
 
