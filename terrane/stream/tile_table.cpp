@@ -1,9 +1,11 @@
 #include "terrane/stream/tile_table.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <functional>
+
 #include <utility>
 
 namespace terrane::stream {
@@ -260,6 +262,18 @@ void outdateTile(TileTable& table, ChunkPos tile) {
 void outdateAllTiles(TileTable& table) {
     for (auto& [pos, record] : table.records) record.isStale = pos.level > 0;
     table.isOutdated = true;
+}
+
+std::string shownLevels(const TileTable& table) {
+    if (coarsestLevel(table.view) == 0) return {};
+    std::array<std::size_t, world::kMaxLevel + 1> counts{};
+    for (const auto& [pos, record] : table.records) counts[pos.level] += record.isShown ? 1 : 0;
+    std::string text;
+    for (std::size_t level = 0; level < counts.size(); ++level) {
+        if (counts[level] == 0) continue;
+        text += fmt::format("{}{} of level {}", text.empty() ? "" : ", ", counts[level], level);
+    }
+    return text;
 }
 
 TileChanges updateTiles(TileTable& table) {

@@ -110,6 +110,12 @@ struct ChunkArea {
     std::int64_t chunkCount() const { return (std::int64_t{x1} - x0) * (std::int64_t{y1} - y0); }
 };
 
+// The chunks of a level that cover an area of chunks of level 0.
+constexpr ChunkArea areaOver(const ChunkArea& area, int level) {
+    const auto above = [level](std::int32_t end) { return ((end - 1) >> level) + 1; };
+    return {area.x0 >> level, area.y0 >> level, above(area.x1), above(area.y1)};
+}
+
 struct ChunkPosHash {
     std::size_t operator()(ChunkPos c) const {
         const std::uint64_t mask = (1u << 28) - 1;

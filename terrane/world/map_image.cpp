@@ -76,8 +76,9 @@ Column lookDown(const Chunk& chunk, const BlockRegistry& blocks, int x, int y) {
     return column;
 }
 
-glm::vec3 shade(const Column& column, const Column& northWest, const Palette& palette) {
-    const float rise = static_cast<float>(column.height) - static_cast<float>(northWest.height);
+// `width`: of a column, blocks.
+glm::vec3 shade(const Column& column, const Column& northWest, float width, const Palette& palette) {
+    const float rise = (static_cast<float>(column.height) - static_cast<float>(northWest.height)) / width;
     const float light = std::clamp(0.95f - std::clamp(-rise, -3.0f, 3.0f) * kReliefPerBlock, 0.6f, 1.25f);
     const glm::vec3 ground = palette[column.ground] * light;
     if (column.waterDepth == 0) return ground;
@@ -102,8 +103,8 @@ base::Result<base::Image> drawMap(const MapSource& source, const BlockRegistry& 
         for (std::size_t first = 0; first < chunksX; first += kChunksAtOnce) {
             std::vector<ChunkPos> positions;
             for (std::size_t cx = first; cx < std::min(first + kChunksAtOnce, chunksX); ++cx)
-                positions.push_back(
-                    {area.x0 + static_cast<std::int32_t>(cx), area.y0 + static_cast<std::int32_t>(cy)});
+                positions.push_back({area.x0 + static_cast<std::int32_t>(cx),
+                                     area.y0 + static_cast<std::int32_t>(cy), source.level});
             const auto chunks = source.chunks(positions);
             if (!chunks) return tl::unexpected(chunks.error());
             auto done = base::parallelFor(jobs, chunks->size(), [&](std::size_t n) {
@@ -117,13 +118,14 @@ base::Result<base::Image> drawMap(const MapSource& source, const BlockRegistry& 
         }
         onRow(cy + 1);
     }
+    const auto blocksWide = static_cast<float>(1 << source.level);
     base::Image image{static_cast<int>(width), static_cast<int>(height), {}};
     image.rgba.reserve(columns.size() * 4);
     for (std::size_t row = 0; row < height; ++row) {
         const std::size_t y = height - 1 - row;
         for (std::size_t x = 0; x < width; ++x) {
             const Column& northWest = columns[std::min(y + 1, height - 1) * width + (x > 0 ? x - 1 : 0)];
-            const glm::vec3 color = shade(columns[y * width + x], northWest, *palette);
+            const glm::vec3 color = shade(columns[y * width + x], northWest, blocksWide, *palette);
             for (int c = 0; c < 3; ++c) {
                 image.rgba.push_back(static_cast<std::uint8_t>(std::clamp(color[c], 0.0f, 255.0f)));
             }

@@ -1,5 +1,5 @@
-// A map of an area seen from above: each column's topmost block, shaded as relief, water by its depth. Any
-// thread.
+// A map of an area seen from above: each column's topmost block, shaded as relief, water by its depth. Of any
+// level: a column is 2^level blocks wide. Any thread.
 #pragma once
 
 #include <functional>
@@ -17,11 +17,12 @@ namespace terrane::world {
 
 // What is drawn: the area, and its chunks, asked for a row after the other.
 struct MapSource {
-    ChunkArea area;
+    ChunkArea area;  // of chunks of the level
+    std::uint8_t level = 0;
     std::function<base::Result<std::vector<Chunk>>(std::span<const ChunkPos>)> chunks;
 };
 
-// One pixel a block; y points up. `onRow` is called with the number of chunk rows done.
+// One pixel a column; y points up. `onRow` is called with the number of chunk rows done.
 base::Result<base::Image> drawMap(const MapSource& source, const BlockRegistry& blocks,
                                   const TextureSource& textures, base::JobSystem& jobs,
                                   const std::function<void(std::size_t)>& onRow);

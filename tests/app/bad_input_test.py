@@ -121,7 +121,9 @@ CASES = [
     ((*DUMP, "--what", "nothing"), '"nothing"'),
     ((*DUMP, "--backend", "abacus"), '"abacus"'),
     (("map", "-o", "{out}"), "--radius"),
-    (("map", "--radius", "512", "-o", "{out}"), '"512"'),
+    (("map", "--radius", "512", "-o", "{out}"), "1050625 chunks"),
+    (("map", "--radius", "8191", "--level", "3", "-o", "{out}"), "4194304 chunks"),
+    (("map", "--radius", "1", "--level", "16", "-o", "{out}"), '"16"'),
     # Saves
     (("check",), "file"),
     (("check", "{out}"), "no such file"),

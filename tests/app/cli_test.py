@@ -306,6 +306,13 @@ class Map(ProgramTest):
         self.assertEqual((image.width, image.height), (48, 48))
         self.assertGreater(len(image.colors()), 1)
 
+    def test_a_pixel_of_a_level_is_as_wide_as_its_columns(self):
+        path = self.folder / "map.png"
+        self.succeed("map", "--area", "-70,0,58,63", "--level", "6", "-o", path)
+        image = Image(path)
+        self.assertEqual((image.width, image.height), (48, 16), "three tiles over chunks -128 to 63")
+        self.assertGreater(len(image.colors()), 3)
+
 
 class Dump(ProgramTest):
     def dump(self, what, area, *arguments):

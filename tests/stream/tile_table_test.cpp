@@ -1,6 +1,7 @@
 // Random walks over the rules of tiles: after every step each column is shown once.
 #include "terrane/stream/tile_table.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -255,6 +256,16 @@ TEST(TileTable, ATileThatBecomesStaleWhileItIsMadeIsMadeTwice) {
     finishTile(table, tile);
     updateTiles(table);
     EXPECT_EQ(std::ranges::count(popTileRequests(table, 1000), tile), 0);
+}
+
+TEST(TileTable, TellsWhatIsShown) {
+    Model model(8);
+    model.moveTo({{0, 0}, 4, 0, 8});
+    model.finishAll();
+    EXPECT_EQ(shownLevels(model.table()), "");
+    model.moveTo({{0, 0}, 4, 16, 8});
+    model.finishAll();
+    EXPECT_THAT(shownLevels(model.table()), testing::MatchesRegex("[0-9]+ of level 0, [0-9]+ of level 1.*"));
 }
 
 TEST(TileTable, TellsThatSomethingShownIsGone) {

@@ -112,5 +112,19 @@ TEST(BlockBox, HasEachBlockOnceFromBelow) {
     EXPECT_EQ(seen.size(), 24u);
 }
 
+TEST(Coords, AnAreaOfALevelCoversTheChunks) {
+    const ChunkArea area{-70, 0, 58, 64};
+    const auto expect = [&](int level, const ChunkArea& right) {
+        const ChunkArea above = areaOver(area, level);
+        EXPECT_TRUE(above.x0 == right.x0 && above.y0 == right.y0 && above.x1 == right.x1 &&
+                    above.y1 == right.y1)
+            << level;
+    };
+    expect(0, area);
+    expect(1, {-35, 0, 29, 32});
+    expect(6, {-2, 0, 1, 1});
+    expect(15, {-1, 0, 1, 1});
+}
+
 }  // namespace
 }  // namespace terrane::world

@@ -19,6 +19,7 @@ struct MapOptions {
     SaveOptions save;
     std::optional<int> radius;
     std::optional<world::ChunkArea> area;
+    int level = 0;
     std::string output, resourcePack;
 };
 
@@ -28,15 +29,17 @@ constexpr std::int64_t kMaxChunksInMap = 1024 * 1024;
 base::Result<void> writeMap(MapOptions& options) {
     if (!options.area && !options.radius) return base::fail("map needs --radius or --area");
     const int r = options.radius.value_or(0);
-    const world::ChunkArea area = options.area.value_or(world::ChunkArea{-r, -r, r + 1, r + 1});
+    const world::ChunkArea area =
+        world::areaOver(options.area.value_or(world::ChunkArea{-r, -r, r + 1, r + 1}), options.level);
     if (area.chunkCount() > kMaxChunksInMap) {
-        return base::fail("--area: {} chunks, a map shows at most {}", area.chunkCount(), kMaxChunksInMap);
+        return base::fail("{} chunks, a map shows at most {}; a higher --level shows more land",
+                          area.chunkCount(), kMaxChunksInMap);
     }
     auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
     auto save = openSave(options.world, options.save, store::WorldAccess::ReadOnly, *blocks);
     if (!save) return tl::unexpected(save.error());
-    auto generator = makeGenerator(options.world, *blocks);
+    auto generator = makeGenerator(options.world, *blocks, options.level);
     if (!generator) return tl::unexpected(generator.error());
     auto textures = content::loadTextures(options.resourcePack, *blocks);
     if (!textures) return tl::unexpected(textures.error());
@@ -44,7 +47,7 @@ base::Result<void> writeMap(MapOptions& options) {
     base::Result<base::Image> image;
     {
         base::ProgressBar bar("mapping", static_cast<std::size_t>(area.y1 - area.y0));
-        image = world::drawMap({area,
+        image = world::drawMap({area, static_cast<std::uint8_t>(options.level),
                                 [&](std::span<const world::ChunkPos> row) {
                                     return stream::chunksAt(row, save->get(), *generator, jobs);
                                 }},
@@ -52,8 +55,8 @@ base::Result<void> writeMap(MapOptions& options) {
     }
     if (!image) return tl::unexpected(image.error());
     if (auto written = base::writePng(options.output, *image); !written) return written;
-    base::logInfo("{}: {} chunks, {}x{} blocks", options.output, area.chunkCount(), image->width,
-                  image->height);
+    base::logInfo("{}: {} chunks, {}x{} blocks", options.output, area.chunkCount(),
+                  image->width << options.level, image->height << options.level);
     return {};
 }
 
@@ -63,9 +66,11 @@ CommandEntry addMap(CLI::App& app) {
     auto options = std::make_shared<MapOptions>();
     CLI::App* command = app.add_subcommand("map", "Draw a map of an area from above into a PNG file");
     auto* radius = command->add_option("--radius", options->radius, "Chunks around 0,0: (2R+1)² of them")
-                       ->check(numberFrom(0, 511));
+                       ->check(numberFrom(0, world::kMaxChunk));
     addAreaOption(*command, options->area);
     command->get_option("--area")->excludes(radius);
+    command->add_option("--level", options->level, "A pixel is 2^LEVEL blocks wide")
+        ->check(numberFrom(0, world::kMaxLevel));
     addOutputOption(*command, options->output, "The PNG file");
     addWorldOptions(*command, options->world);
     addWorldOption(*command, options->save, "World to take the chunks from; what it lacks is generated");

@@ -226,9 +226,7 @@ void Game::drawInterface() {
     if (messageSeconds_ > 0)
         drawMessage(screen, message_, static_cast<float>(std::min(messageSeconds_, 1.0)));
     if (!progress.complete()) drawProgress(screen, progress);
-    if (showsLoading_)
-        drawLoadingMap(screen, session.pipeline(), world::chunkOf(player_.pose().position),
-                       parts_.view.viewDistance());
+    if (showsLoading_) drawLoadingMap(screen, session.pipeline(), session.tiles().table());
     if (showsPanel_) drawStatistics(statistics());
     if (showsPanel_) drawPanel(settings_, session.clock, {isSoftwareRenderer_, screen.width, screen.height});
     if (container_) drawOpenContainer(screen);
@@ -274,6 +272,7 @@ Statistics Game::statistics() {
             .camera = camera(),
             .timeDay = parts_.session.clock.timeDay,
             .progress = session.pipeline().progress(),
+            .tiles = &session.tiles().table(),
             .activeChunks = session.world().chunkCount(),
             .queuedChunks = session.pipeline().queuedCount() + parts_.view.waiting(),
             .frame = parts_.renderer.statistics(),

@@ -8,7 +8,7 @@
 #include "apps/terrane/window/pad_reader.h"
 #include "apps/terrane/window/perf_log.h"
 #include "apps/terrane/window/play_settings.h"
-#include "apps/terrane/window/timed_value.h"
+#include "terrane/base/timed_value.h"
 #include "apps/terrane/window/window.h"
 #include "terrane/base/stop_signals.h"
 #include "terrane/game/block_interaction.h"
@@ -96,8 +96,8 @@ class Game {
     game::BlockInteraction interaction_;
     PadReader pad_;
     view::FrameMeter meter_;
-    TimedValue<MemoryStatistics> memory_{kMemoryPause};
-    TimedValue<WriteTime> shadersWritten_{kShaderPause};
+    base::TimedValue<MemoryStatistics> memory_{kMemoryPause};
+    base::TimedValue<WriteTime> shadersWritten_{kShaderPause};
     WriteTime shadersRead_;                     // the newest one when they were last read
     std::optional<world::BlockPos> container_;  // the open one
     std::string perfData_;

@@ -21,32 +21,50 @@ ImU32 colorOf(stream::ChunkStage stage) {
     return 0;
 }
 
+// Shades of green, darker the coarser.
+ImU32 colorOf(int level) {
+    const float share = 1.0f / (1.0f + 0.25f * static_cast<float>(level));
+    return IM_COL32(static_cast<int>(70 * share), static_cast<int>(180 * share), static_cast<int>(80 * share),
+                    220);
+}
+
 }  // namespace
 
-void drawLoadingMap(const Screen& screen, const stream::ChunkPipeline& pipeline, world::ChunkPos center,
-                    int viewDistance) {
-    const int reach = viewDistance + 3;
+void drawLoadingMap(const Screen& screen, const stream::ChunkPipeline& pipeline,
+                    const stream::TileTable& tiles) {
+    const world::ChunkPos center = tiles.view.center;
+    const int around = tiles.view.viewDistance + 3, reach = std::max(around, tiles.view.horizon);
     const float side = std::min(screen.width, screen.height) * 0.6f;
     const float cell = side / static_cast<float>(2 * reach + 1);
     const float left = (screen.width - side) / 2, top = (screen.height - side) / 2;
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     draw.AddRectFilled({left, top}, {left + side, top + side}, IM_COL32(10, 12, 16, 170));
-    for (int y = -reach; y <= reach; ++y) {
-        for (int x = -reach; x <= reach; ++x) {
-            const auto stage = pipeline.stageAt({center.x + x, center.y + y});
-            if (!stage) continue;
-            // North, the direction of y, is up.
-            const float px = left + static_cast<float>(x + reach) * cell;
-            const float py = top + static_cast<float>(reach - y) * cell;
-            const float gap = cell > 4 ? 1.0f : 0.0f;
-            draw.AddRectFilled({px, py}, {px + cell - gap, py + cell - gap}, colorOf(*stage));
+    // A square of chunks of level 0. North, the direction of y, is up.
+    const auto square = [&](world::ChunkPos first, int width, ImU32 color) {
+        const auto at = [&](int chunks) {
+            return static_cast<float>(std::clamp(chunks, 0, 2 * reach + 1)) * cell;
+        };
+        const int x = first.x - center.x + reach, y = reach + 1 - (first.y - center.y);
+        const float gap = cell * static_cast<float>(width) > 4 ? 1.0f : 0.0f;
+        draw.AddRectFilled({left + at(x), top + at(y - width)},
+                           {left + at(x + width) - gap, top + at(y) - gap}, color);
+    };
+    for (const auto& [pos, record] : tiles.records) {
+        if (pos.level == 0 || !record.isShown) continue;
+        square({pos.x << pos.level, pos.y << pos.level}, 1 << pos.level, colorOf(pos.level));
+    }
+    for (int y = -around; y <= around; ++y) {
+        for (int x = -around; x <= around; ++x) {
+            const world::ChunkPos pos = world::offsetBy(center, x, y);
+            if (const auto stage = pipeline.stageAt(pos)) square(pos, 1, colorOf(*stage));
         }
     }
-    const float middle = left + static_cast<float>(reach) * cell;
-    draw.AddRect({middle, top + static_cast<float>(reach) * cell},
-                 {middle + cell, top + static_cast<float>(reach + 1) * cell}, IM_COL32(255, 255, 255, 255));
-    draw.AddText({left + 6, top + side + 4}, IM_COL32(255, 255, 255, 255),
-                 "red: loading   yellow: there   blue: lit and meshed now   green: visible");
+    draw.AddRect({left + static_cast<float>(reach) * cell, top + static_cast<float>(reach) * cell},
+                 {left + static_cast<float>(reach + 1) * cell, top + static_cast<float>(reach + 1) * cell},
+                 IM_COL32(255, 255, 255, 255));
+    draw.AddText(
+        {left + 6, top + side + 4}, IM_COL32(255, 255, 255, 255),
+        "red: loading   yellow: there   blue: lit and meshed now   green: visible, the darker the coarser");
 }
 
 }  // namespace terrane::app

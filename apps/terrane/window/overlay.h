@@ -45,6 +45,7 @@ struct Statistics {
     render::Camera camera;
     double timeDay = 0;
     stream::Progress progress;
+    const stream::TileTable* tiles = nullptr;
     std::size_t activeChunks = 0, queuedChunks = 0;
     render::FrameStatistics frame;
     MemoryStatistics memory;

@@ -1,8 +1,8 @@
-#include "apps/terrane/window/timed_value.h"
+#include "terrane/base/timed_value.h"
 
 #include <gtest/gtest.h>
 
-namespace terrane::app {
+namespace terrane::base {
 namespace {
 
 TEST(TimedValue, IsFoundAgainAfterThePause) {
@@ -15,4 +15,4 @@ TEST(TimedValue, IsFoundAgainAfterThePause) {
 }
 
 }  // namespace
-}  // namespace terrane::app
+}  // namespace terrane::base

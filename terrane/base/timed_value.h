@@ -1,7 +1,7 @@
 // A value that takes long to find: found again only when some time has passed. Any thread, one at a time.
 #pragma once
 
-namespace terrane::app {
+namespace terrane::base {
 
 template <class T>
 class TimedValue {
@@ -25,4 +25,4 @@ class TimedValue {
     T value_{};
 };
 
-}  // namespace terrane::app
+}  // namespace terrane::base
