@@ -56,7 +56,7 @@ struct GraphicsSettings {
     mesh::MeshOptions mesh;
     int viewDistance = 16;  // chunks
     int horizon = 0;        // how far land goes on beyond them, chunks; 0: not at all
-    int detail = 16;        // tiles a ring of a level of detail: see stream::TileView
+    int detail = 12;        // tiles a ring of a level of detail: see stream::TileView
 
     bool operator==(const GraphicsSettings&) const = default;
 };

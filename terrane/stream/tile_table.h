@@ -25,7 +25,7 @@ struct TileView {
     world::ChunkPos center{};  // level 0, of the camera
     int viewDistance = 0;      // of level 0, chunks (Chebyshev)
     int horizon = 0;           // how far tiles reach, chunks of level 0; none unless beyond viewDistance
-    int detail = 16;           // tiles from the center to the outer edge of a ring
+    int detail = 12;           // tiles from the center to the outer edge of a ring
 
     bool operator==(const TileView&) const = default;
 };

@@ -12,7 +12,7 @@ namespace terrane::view {
 // How far tiles reach and how wide their rings are: see stream::TileView. In chunks.
 struct Horizon {
     int distance = 0;  // 0: no tiles
-    int detail = 16;
+    int detail = 12;
 
     bool operator==(const Horizon&) const = default;
 };

@@ -46,9 +46,21 @@ Float dunes(Pass& p) {
     return share == 1.0f ? crest * crest : lerp(kMean, crest * crest, share);
 }
 
+// Beyond level 0 only in deserts: at their borders, where dunes beyond are read, they are too low to be seen.
+Float dunesOf(Pass& p, Float desert) {
+    if (p.step() == 1) return dunes(p);
+    Var<Float> result = p.var(Float(0.0f));
+    p.if_(desert > 0.0f, [&] { result = dunes(p); });
+    return result;
+}
+
 // How far straight features are bent, in blocks; reads reach one block farther.
 constexpr float kBend = 14.0f;
 static_assert(kBend + 1 < kMaxReadOffset);
+
+// From this step on nothing is bent by as much as a column.
+constexpr int kStraightStep = 16;
+static_assert(kBend < kStraightStep);
 
 Vec2 bend(Pass& p) {
     const auto along = [&](const char* name) {
@@ -104,11 +116,14 @@ Land land(Pass& p, const Fields& f) {
     const Float base = clamp(p.perlin2D("base", 1024, {.33f, .66f}) + 0.25f, 0.0f, 1.0f) * 30.0f;
     const Float plains = max(p.perlin2D("plains", 32, {.6f, 1.2f, 2.5f}) + 3.0f, 0.0f);
     const Float hills = (p.perlin2D("hills", 32, hillWeights) + 14.0f) * hilliness;
-    const Vec2 offset = bend(p);
+    const bool isBent = p.step() < kStraightStep;
+    const Vec2 offset = isBent ? bend(p) : Vec2{0.0f, 0.0f};
+    const auto bent = [&](Field<Float> field) {
+        return isBent ? p.readBetween(field, offset) : p.read(field);
+    };
     const Float roughness = p.perlin2D("roughness", 8, roughWeights);
-    const Float peaks = (p.readBetween(f.crags, offset) + roughness) * mountains;
-    const Float dunes =
-        (p.readBetween(f.dunes, offset) * 18.0f + p.perlin2D("sand", 64, {2.0f, 6.0f})) * desert;
+    const Float peaks = (bent(f.crags) + roughness) * mountains;
+    const Float dunes = (bent(f.dunes) * 18.0f + p.perlin2D("sand", 64, {2.0f, 6.0f})) * desert;
     // Slopes without it would be contour lines.
     const Float bumpiness = clamp(max(hilliness * 1.5f, mountains) + 0.2f, 0.0f, 1.0f) * (1.0f - desert);
     const Float bumps = p.perlin2D("bumps", 4, bumpWeights) * bumpiness;
@@ -136,9 +151,10 @@ void climatePass(Pass& p, const Fields& f) {
     p.set(f.ocean, w.ocean);
     p.set(f.river, w.river);
     p.set(f.temperature, temperature);
-    p.set(f.desert, smoothstep(0.55f, 0.8f, temperature));
+    const Float desert = smoothstep(0.55f, 0.8f, temperature);
+    p.set(f.desert, desert);
     p.set(f.crags, crags(p));
-    p.set(f.dunes, dunes(p));
+    p.set(f.dunes, dunesOf(p, desert));
 }
 
 void reliefPass(Pass& p, const Fields& f) {
