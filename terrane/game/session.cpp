@@ -40,8 +40,13 @@ Session::Session(SessionParts parts)
                  parts.batchLighter,
                  parts.meshing}),
       tiles_({jobs_, farBlocks_, generators_, store_.get()}) {
-    const auto kept = stream::keepTileRows(*store_, generators_, *blocks_, tiles_.tileListener());
-    if (!kept) base::logError("edits far away are not seen: {}", kept.error().message);
+    stream::keepTileRows(*store_, generators_, *blocks_, tiles_.tileListener());
+    if (store_->isPersistent()) buildTiles();
+}
+
+void Session::buildTiles() {
+    const auto built = stream::buildTileRows(*store_);
+    if (!built) base::logError("edits far away are not seen: {}", built.error().message);
 }
 
 EditResult Session::edit(const EditCommand& command) {

@@ -62,6 +62,9 @@ class Session {
     store::ChunkStore& store() { return *store_; }
     stream::ChunkPipeline& pipeline() { return pipeline_; }
     const stream::ChunkPipeline& pipeline() const { return pipeline_; }
+    // The tiles that edits change, of a world that lacks them. A store that lasts has them from the
+    // beginning; others need them only once land beyond the chunks is shown.
+    void buildTiles();
     // Land beyond the chunks.
     stream::TilePipeline& tiles() { return tiles_; }
     const stream::TilePipeline& tiles() const { return tiles_; }

@@ -47,8 +47,8 @@ std::vector<store::ChunkRow> rowsAfterEdits(const gen::LevelGenerators& generato
 
 }  // namespace
 
-base::Result<void> keepTileRows(store::ChunkStore& store, const gen::LevelGenerators& generators,
-                                const world::BlockRegistry& blocks, TileListener listener) {
+void keepTileRows(store::ChunkStore& store, const gen::LevelGenerators& generators,
+                  const world::BlockRegistry& blocks, TileListener listener) {
     store.setDerivedRows(
         {[&generators, rule = world::downsampleRule(blocks)](auto edited, const auto& saved) {
              return rowsAfterEdits(generators, rule, edited, saved);
@@ -58,6 +58,9 @@ base::Result<void> keepTileRows(store::ChunkStore& store, const gen::LevelGenera
              for (const store::ChunkRow& row : rows) tiles.push_back(row.pos);
              listener(tiles);
          }});
+}
+
+base::Result<void> buildTileRows(store::ChunkStore& store) {
     const auto built = store::ensureDerivedRows(store, kRules);
     if (!built) return tl::unexpected(built.error());
     return {};

@@ -11,10 +11,12 @@
 namespace terrane::stream {
 
 // From now on the store writes such rows with the chunks that they follow from, and tells the listener.
-// `generators` outlives the store. Builds the rows of a world that has none, which takes some milliseconds an
-// edited chunk; where that fails the store is as before, and edits beyond the view distance are not seen.
-[[nodiscard]] base::Result<void> keepTileRows(store::ChunkStore& store,
-                                              const gen::LevelGenerators& generators,
-                                              const world::BlockRegistry& blocks, TileListener listener);
+// `generators` outlives the store.
+void keepTileRows(store::ChunkStore& store, const gen::LevelGenerators& generators,
+                  const world::BlockRegistry& blocks, TileListener listener);
+
+// Builds the rows of a world that lacks them, after keepTileRows() and before tiles are loaded: takes some
+// milliseconds an edited chunk, and nothing where they are there. Where it fails the store is as before.
+[[nodiscard]] base::Result<void> buildTileRows(store::ChunkStore& store);
 
 }  // namespace terrane::stream

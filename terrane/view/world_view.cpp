@@ -54,6 +54,7 @@ void WorldView::moveView() {
 void WorldView::setHorizon(const Horizon& horizon) {
     if (horizon == requestedHorizon_) return;
     requestedHorizon_ = horizon_ = horizon;
+    if (horizon.distance > 0) session_.buildTiles();
 }
 
 base::Result<void> WorldView::meshOnGpu(const gpu::ShaderLoader& shaders, double budgetMilliseconds) {

@@ -80,10 +80,16 @@ class Materials {
     std::vector<std::string> textures_;
 };
 
-// What is seen through the holes of a crown of leaves is too small to be told: only its outside is drawn.
+// Through the holes of leaves more leaves are seen. From afar they are closed, and hide what lies behind
+// them; so they may not wave.
 void lookFromAfar(BlockDescription& block) {
-    block.type.innerFaces = false;
-    for (FaceLook& face : block.faces) face.twoSided = false;
+    for (FaceLook& face : block.faces) {
+        if (face.alpha != AlphaMode::Test) continue;
+        face.alpha = AlphaMode::Unused;
+        face.twoSided = false;
+        block.animation = Animation::None;
+    }
+    block.type.opaqueCube = isOpaqueCube(block);
 }
 
 auto tooManyFaces(std::string_view name, int line) {

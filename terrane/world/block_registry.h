@@ -26,8 +26,8 @@ class BlockRegistry {
     const BlockType* find(std::string_view name) const;  // null where there is none
     BlockId missing() const { return missing_; }         // stands for unknown blocks
 
-    // The same blocks with fewer faces, to be meshed for a view from afar: cubes with holes show their
-    // outside only. Ids, materials and textures are the same.
+    // The same blocks with fewer faces, to be meshed for a view from afar: cubes with holes are closed, and
+    // stand still. Ids and textures are the same.
     BlockRegistry seenFromAfar() const;
 
     std::span<const Material> materials() const { return materials_; }

@@ -20,7 +20,8 @@ constexpr ChunkPos kEdited{-30, 21};  // beyond the chunks of the view below
 class TileRowsTest : public testing::Test {
   protected:
     void keepRows(TileListener listener) {
-        ASSERT_TRUE(keepTileRows(store_, generators_, contentBlocks(), std::move(listener)));
+        keepTileRows(store_, generators_, contentBlocks(), std::move(listener));
+        ASSERT_TRUE(buildTileRows(store_));
     }
 
     // The chunk with a roof of lamps over it, or as the generator makes it, by somebody's hand either way.

@@ -122,6 +122,22 @@ TEST_F(FarEditsTest, ATownIsSeenFromFarAway) {
     }
 }
 
+// A save that is only read keeps its tiles in memory, and builds them when they are first needed.
+TEST_F(FarEditsTest, AWorldWithoutTilesGetsThemWithTheHorizon) {
+    auto store = std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "overworld", 1});
+    auto chunk = std::make_shared<world::Chunk>();
+    chunk->setBlock(world::blockIndex(1, 1, 200), contentBlock("lamp_red"));
+    store->save({0, 0}, chunk, store::Provenance::Edited);
+    ASSERT_TRUE(store->flush());
+    const auto player =
+        makeDrawnSession({.size = kEditsSize, .viewDistance = kAround, .store = std::move(store)});
+    const world::ChunkPos tile = stream::parentOf({0, 0});
+    player->view->setHorizon({0, kDetail});
+    EXPECT_FALSE(player->session->store().contains(tile));
+    player->view->setHorizon({64, kDetail});
+    EXPECT_TRUE(player->session->store().contains(tile));
+}
+
 TEST_F(FarEditsTest, WhatIsRemovedLeavesNothing) {
     const auto player = open("town.terrane");
     const base::Image before = imageAt(*player, 30, 0.5f);

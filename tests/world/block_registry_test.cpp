@@ -249,6 +249,28 @@ TEST(Content, Looks) {
     }
 }
 
+// Leaves are closed and stand still; all else looks as it does nearby.
+TEST(Content, SeenFromAfar) {
+    const BlockRegistry far = content().seenFromAfar();
+    ASSERT_EQ(far.types().size(), content().types().size());
+    EXPECT_EQ(far.materials().size(), content().materials().size()) << "those of both are in one table";
+    for (const BlockType& near : content().types()) {
+        const BlockType& type = far.type(near.id);
+        EXPECT_EQ(type.name, near.name);
+        if (near.name == "oak_leaves") continue;
+        EXPECT_EQ(type.material, near.material) << near.name;
+        EXPECT_EQ(type.opaqueCube, near.opaqueCube) << near.name;
+    }
+    const BlockType& leaves = *far.find("oak_leaves");
+    EXPECT_TRUE(leaves.opaqueCube);
+    const Material& near = content().materials()[content().find("oak_leaves")->material[0]];
+    const Material& material = far.materials()[leaves.material[0]];
+    EXPECT_EQ(material.texture, near.texture);
+    EXPECT_EQ(material.alpha, AlphaMode::Unused);
+    EXPECT_EQ(material.animation, Animation::None);
+    EXPECT_FALSE(material.twoSided);
+}
+
 TEST(Content, MaterialsAreUnique) {
     const auto materials = content().materials();
     for (std::size_t a = 0; a < materials.size(); ++a)

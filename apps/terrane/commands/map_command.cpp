@@ -56,7 +56,7 @@ base::Result<void> writeMap(MapOptions& options) {
     if (!image) return tl::unexpected(image.error());
     if (auto written = base::writePng(options.output, *image); !written) return written;
     base::logInfo("{}: {} chunks, {}x{} blocks", options.output, area.chunkCount(),
-                  image->width << options.level, image->height << options.level);
+                  std::int64_t{image->width} << options.level, std::int64_t{image->height} << options.level);
     return {};
 }
 

@@ -64,7 +64,7 @@ void drawLoadingMap(const Screen& screen, const stream::ChunkPipeline& pipeline,
                  IM_COL32(255, 255, 255, 255));
     draw.AddText(
         {left + 6, top + side + 4}, IM_COL32(255, 255, 255, 255),
-        "red: loading   yellow: there   blue: lit and meshed now   green: visible, the darker the coarser");
+        "red: loading   yellow: there   blue: lit and meshed now   green: visible\ndarker green: coarser");
 }
 
 }  // namespace terrane::app

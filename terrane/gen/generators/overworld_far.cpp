@@ -12,8 +12,8 @@ constexpr int kMaxTreeStep = 4;
 // A trunk of one block may be as wide as a column of this step; beyond it only leaves show.
 constexpr int kMaxTrunkStep = 2;
 
-// Up to here one block on top of a slope of 45 degrees is as high as its column is wide. Higher steps of
-// still wider columns are seen from so far away that their lower part does not count.
+// Blocks. On a slope of 45 degrees the step from one column to the next is as high as the columns are wide.
+// Of higher steps than this, which are seen from very far away, the lower part does not count.
 constexpr int kMaxCover = 32;
 
 // What stands on the ground of a column, up to `top`.
