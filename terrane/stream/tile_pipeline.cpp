@@ -77,14 +77,8 @@ TilePipeline::~TilePipeline() {
     parts_.jobs.waitIdle();
 }
 
-void TilePipeline::setView(const TileView& view) {
-    hasMoved_ = hasMoved_ || !(view == table_.view);
-    setTileView(table_, view);
-}
-
 void TilePipeline::update(mesh::MergeMethod method) {
     takeResults();
-    if (std::exchange(hasMoved_, false)) cancelJobs();
     if (std::exchange(method_, method) != method) outdateAllTiles(table_);
     const std::size_t limit = kJobsPerWorker * parts_.jobs.threadCount();
     for (const ChunkPos tile : popTileRequests(table_, limit - std::min(limit, jobs_.size()))) submit(tile);
@@ -94,22 +88,25 @@ void TilePipeline::takeResults() {
     const std::lock_guard lock(results_->mutex);
     if (results_->failure) std::rethrow_exception(results_->failure);
     for (Results::Made& made : results_->made) {
-        jobs_.erase(made.job);
-        finished_.push_back(std::move(made.tile));
+        if (jobs_.erase(made.job) > 0) finished_.push_back(std::move(made.tile));
     }
     results_->made.clear();
     for (const ChunkPos tile : results_->outdated) outdateTile(table_, tile);
     results_->outdated.clear();
 }
 
-// Of tiles that nobody waits for any more. Those that run already end as usual.
-void TilePipeline::cancelJobs() {
+// What was begun for a tile that is not wanted any more is never taken for it later, when it is wanted again:
+// its blocks may be others by then.
+TileChanges TilePipeline::takeChanges() {
+    TileChanges changes = updateTiles(table_);
     std::erase_if(jobs_, [&](const auto& entry) {
         const Job& job = entry.second;
         if (isAwaited(table_, job.tile)) return false;
         job.handle.cancel();
-        return job.handle.state() == base::JobState::Cancelled;
+        return true;
     });
+    std::erase_if(finished_, [&](const TileMesh& mesh) { return !isAwaited(table_, mesh.pos); });
+    return changes;
 }
 
 void TilePipeline::submit(ChunkPos tile) {
@@ -151,7 +148,6 @@ std::vector<TileMesh> TilePipeline::takeMeshes(std::size_t limit) {
     while (taken.size() < limit && !finished_.empty()) {
         TileMesh mesh = std::move(finished_.back());
         finished_.pop_back();
-        if (!isAwaited(table_, mesh.pos)) continue;  // the view moved on
         finishTile(table_, mesh.pos);
         taken.push_back(std::move(mesh));
     }
@@ -167,6 +163,8 @@ void TilePipeline::forgetAll() {
     const TileView view = table_.view;
     table_ = {};
     setTileView(table_, view);
+    for (const auto& [number, job] : jobs_) job.handle.cancel();
+    jobs_.clear();
     finished_.clear();
 }
 

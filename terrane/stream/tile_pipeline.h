@@ -43,7 +43,7 @@ class TilePipeline {
     explicit TilePipeline(const TileParts& parts);
     ~TilePipeline();  // waits for running jobs; the others do nothing
 
-    void setView(const TileView& view);
+    void setView(const TileView& view) { setTileView(table_, view); }
     // A chunk of level 0 can be shown, or no longer.
     void setChunkReady(world::ChunkPos pos, bool isReady) { stream::setChunkReady(table_, pos, isReady); }
     // Tells the pipeline of tiles to be made again. The listener may outlive it.
@@ -56,8 +56,8 @@ class TilePipeline {
 
     // Up to `limit` tiles that are new. The caller can show them from here on.
     std::vector<TileMesh> takeMeshes(std::size_t limit);
-    // What is to be shown, hidden and dropped, by what the caller has.
-    TileChanges takeChanges() { return updateTiles(table_); }
+    // What is to be shown, hidden and dropped, by what the caller has. Cancels the work on what is dropped.
+    TileChanges takeChanges();
 
     // The caller has nothing any more: everything comes again.
     void forgetAll();
@@ -75,7 +75,6 @@ class TilePipeline {
     };
 
     void takeResults();
-    void cancelJobs();
     void submit(world::ChunkPos tile);
 
     TileParts parts_;
@@ -83,7 +82,6 @@ class TilePipeline {
     std::vector<TileMesh> finished_;
     std::unordered_map<std::uint64_t, Job> jobs_;  // given out and not over, by number
     std::uint64_t jobCount_ = 0;
-    bool hasMoved_ = false;       // the view, since the last update
     mesh::MergeMethod method_{};  // of the last update
     std::shared_ptr<Results> results_;
 };

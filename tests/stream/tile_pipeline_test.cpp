@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <future>
 #include <set>
 
 #include "terrane/gen/generators/catalogue.h"
@@ -19,7 +20,10 @@ class TilePipelineTest : public testing::Test {
     void settle(TilePipeline& tiles) {
         for (;;) {
             tiles.update(mesh::MergeMethod::Greedy);
-            for (const TileMesh& tile : tiles.takeMeshes(1000)) meshes_[tile.pos] = tile.mesh;
+            for (const TileMesh& tile : tiles.takeMeshes(1000)) {
+                meshes_[tile.pos] = tile.mesh;
+                ++made_;
+            }
             const TileChanges changes = tiles.takeChanges();
             for (const ChunkPos pos : changes.hidden) shown_.erase(pos);
             for (const ChunkPos pos : changes.shown) shown_.insert(pos);
@@ -35,6 +39,7 @@ class TilePipelineTest : public testing::Test {
     TileParts parts_{jobs_, contentBlocks(), generators_};
     std::map<ChunkPos, MeshPtr> meshes_;
     std::set<ChunkPos> shown_;
+    std::size_t made_ = 0;
 };
 
 TEST_F(TilePipelineTest, MakesWhatTheViewShows) {
@@ -60,6 +65,30 @@ TEST_F(TilePipelineTest, ForgetsWhatTheViewLeft) {
     settle(tiles);
     EXPECT_TRUE(meshes_.empty());
     EXPECT_TRUE(shown_.empty());
+}
+
+// While the only worker is busy the view goes elsewhere: what was asked for before is not made.
+TEST_F(TilePipelineTest, WhatIsNotWantedAnyMoreIsNotMade) {
+    base::JobSystem jobs(1);
+    TilePipeline tiles({jobs, contentBlocks(), generators_});
+    std::promise<void> released;
+    jobs.submit(-100, [wait = released.get_future().share()](const auto&) { wait.wait(); });
+    std::size_t given = 0;
+    for (const int x : {0, 100000}) {
+        tiles.setView({{x, 0}, 4, 64, 8});
+        for (int frame = 0; frame < 3; ++frame) {
+            tiles.update(mesh::MergeMethod::Greedy);
+            tiles.takeChanges();
+        }
+        given += tiles.table().loading;
+    }
+    EXPECT_GT(given, 100u) << "tiles of both places were given out";
+    released.set_value();
+    settle(tiles);
+    std::size_t taken = 0;
+    for (const auto& [pos, mesh] : meshes_) taken += tileDistance({100000, 0}, pos) < 1000 ? 1 : 0;
+    EXPECT_EQ(taken, meshes_.size());
+    EXPECT_EQ(tiles.taskTime().count, made_);
 }
 
 TEST_F(TilePipelineTest, AJobThatThrowsIsHeardOf) {
