@@ -36,9 +36,8 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
     return opened;
 }
 
-base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const world::BlockRegistry& blocks,
-                                           int level) {
-    auto graph = gen::makeGenerator(options.effectiveGenerator(), blocks, level);
+base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const world::BlockRegistry& blocks) {
+    auto graph = gen::makeGenerator(options.effectiveGenerator(), blocks);
     if (!graph) return tl::unexpected(graph.error());
     return gen::Generator(std::move(*graph), options.effectiveSeed());
 }

@@ -18,8 +18,7 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
                                                           store::WorldAccess access,
                                                           const world::BlockRegistry& blocks);
 
-base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const world::BlockRegistry& blocks,
-                                           int level = 0);
+base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const world::BlockRegistry& blocks);
 
 // What a session is made of, with workers for everything. Without a named world edits last until the program
 // ends. `options` get the seed and generator of the world.

@@ -186,6 +186,9 @@ std::vector<TileChange> tilesAfterEdits(const gen::LevelGenerators& generators,
                 children[static_cast<std::size_t>(quarter)] =
                     found != now.end() ? found->second : read(childOf(tile, quarter));
             }
+            const bool isEdited =
+                std::ranges::any_of(children, [](const ChunkPtr& c) { return c != nullptr; });
+            if (isEdited && !generators.at(level)) return changes;
             ChunkPtr made = editedTileOf(generated, rule, tile, children);
             if (isSameTile(made, read(tile))) continue;
             changed.insert(tile);

@@ -37,8 +37,9 @@ struct TileChange {
 // The edited chunk or the stored tile at a position; null where there is none.
 using ReadTile = std::function<world::ChunkPtr(world::ChunkPos)>;
 
-// What becomes of the tiles up to `topLevel` when these chunks (of level 0) have changed, lowest level first.
-// `read` gives the chunks as they are now and the tiles as they were. Stops where a tile stays as it was.
+// What becomes of the tiles when these chunks (of level 0) have changed, lowest level first: up to
+// `topLevel`, or as far as there are generators. `read` gives the chunks as they are now and the tiles as
+// they were. Stops where a tile stays as it was.
 std::vector<TileChange> tilesAfterEdits(const gen::LevelGenerators& generators,
                                         const world::DownsampleRule& rule,
                                         std::span<const world::ChunkPos> editedChunks, const ReadTile& read,

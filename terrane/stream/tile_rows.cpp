@@ -4,7 +4,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include "terrane/base/log.h"
 #include "terrane/base/profile.h"
 #include "terrane/stream/edited_tiles.h"
 #include "terrane/world/downsample.h"
@@ -49,15 +48,17 @@ std::vector<store::ChunkRow> rowsAfterEdits(const gen::LevelGenerators& generato
 
 void keepTileRows(store::ChunkStore& store, const gen::LevelGenerators& generators,
                   const world::BlockRegistry& blocks, TileListener listener) {
+    const auto tell = [listener = std::move(listener)](std::span<const store::ChunkRow> rows) {
+        if (!listener) return;
+        std::vector<ChunkPos> tiles;
+        for (const store::ChunkRow& row : rows) tiles.push_back(row.pos);
+        listener(tiles);
+    };
     store.setDerivedRows(
         {[&generators, rule = world::downsampleRule(blocks)](auto edited, const auto& saved) {
              return rowsAfterEdits(generators, rule, edited, saved);
          },
-         [listener = std::move(listener)](std::span<const store::ChunkRow> rows) {
-             std::vector<ChunkPos> tiles;
-             for (const store::ChunkRow& row : rows) tiles.push_back(row.pos);
-             listener(tiles);
-         }});
+         tell});
 }
 
 base::Result<void> buildTileRows(store::ChunkStore& store) {

@@ -10,8 +10,8 @@
 
 namespace terrane::stream {
 
-// From now on the store writes such rows with the chunks that they follow from, and tells the listener.
-// `generators` outlives the store.
+// From now on the store writes such rows with the chunks that they follow from, and tells the listener,
+// unless empty. `generators` outlives the store.
 void keepTileRows(store::ChunkStore& store, const gen::LevelGenerators& generators,
                   const world::BlockRegistry& blocks, TileListener listener);
 

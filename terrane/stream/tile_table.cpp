@@ -269,10 +269,8 @@ std::string shownLevels(const TileTable& table) {
     std::array<std::size_t, world::kMaxLevel + 1> counts{};
     for (const auto& [pos, record] : table.records) counts[pos.level] += record.isShown ? 1 : 0;
     std::string text;
-    for (std::size_t level = 0; level < counts.size(); ++level) {
-        if (counts[level] == 0) continue;
-        text += fmt::format("{}{} of level {}", text.empty() ? "" : ", ", counts[level], level);
-    }
+    for (int level = 0; level <= coarsestLevel(table.view); ++level)
+        text += fmt::format("{}{}", level > 0 ? " " : "", counts[static_cast<std::size_t>(level)]);
     return text;
 }
 

@@ -93,7 +93,7 @@ void outdateAllTiles(TileTable& table);
 // with some thousand tiles; nothing where nothing changed.
 TileChanges updateTiles(TileTable& table);
 
-// How many chunks of which level are shown: "1089 of level 0, 752 of level 1". Empty without a horizon.
+// How many chunks of each level are shown, from level 0 on: "1089 752 432". Empty without a horizon.
 std::string shownLevels(const TileTable& table);
 
 // Tiles that are wanted and not there yet or stale, as of the last updateTiles().

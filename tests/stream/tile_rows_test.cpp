@@ -103,6 +103,43 @@ TEST_F(TileRowsTest, TilesInViewAreMadeAgain) {
     for (const auto& [pos, mesh] : meshes_) EXPECT_EQ(*mesh, *before.at(pos)) << pos.x << ',' << pos.y;
 }
 
+// A mesh that was made before the edit and lies about while the view is elsewhere is not shown after it.
+TEST_F(TileRowsTest, WhatWasMadeBeforeAnEditIsNotTakenAfterIt) {
+    TilePipeline tiles(parts_);
+    keepRows(tiles.tileListener());
+    const TileView here{{-36, 21}, 4, 64, 8}, elsewhere{{100000, 0}, 4, 64, 8};
+    tiles.setView(here);
+    tiles.takeChanges();
+    do {
+        tiles.update(mesh::MergeMethod::Greedy);
+        tiles.waitForWorkers(std::chrono::milliseconds(100));
+    } while (tiles.taskTime().count < tiles.missing());
+    tiles.update(mesh::MergeMethod::Greedy);
+    tiles.setView(elsewhere);
+    tiles.takeChanges();
+    saveChunk(true);
+    tiles.update(mesh::MergeMethod::Greedy);
+    tiles.setView(here);
+    tiles.takeChanges();
+    settle(tiles);
+    for (const auto& [pos, mesh] : meshes_) EXPECT_EQ(*mesh, *meshOf(pos)) << pos.x << ',' << pos.y;
+}
+
+// The save goes on where a generator has no levels above 0.
+TEST_F(TileRowsTest, AGeneratorWithoutLevelsHasNone) {
+    const gen::LevelGenerators flat(
+        [](int level) -> base::Result<gen::GeneratorGraph> {
+            if (level > 0) return base::fail("only level 0");
+            return gen::makeGenerator("flat", contentBlocks());
+        },
+        5);
+    keepTileRows(store_, flat, contentBlocks(), {});
+    saveChunk(true);
+    EXPECT_TRUE(store_.contains(kEdited));
+    EXPECT_FALSE(store_.contains(parentOf(kEdited)));
+    store_.setDerivedRows({});
+}
+
 TEST_F(TileRowsTest, AnotherMergingMethodReachesAllTiles) {
     TilePipeline tiles(parts_);
     tiles.setView({{0, 0}, 4, 64, 8});

@@ -8,7 +8,9 @@
 #include "terrane/base/progress_bar.h"
 #include "terrane/content/built_in.h"
 #include "terrane/content/resource_pack.h"
+#include "terrane/gen/generators/catalogue.h"
 #include "terrane/stream/area_chunks.h"
+#include "terrane/stream/tile_rows.h"
 #include "terrane/world/map_image.h"
 
 namespace terrane::app {
@@ -39,8 +41,16 @@ base::Result<void> writeMap(MapOptions& options) {
     if (!blocks) return tl::unexpected(blocks.error());
     auto save = openSave(options.world, options.save, store::WorldAccess::ReadOnly, *blocks);
     if (!save) return tl::unexpected(save.error());
-    auto generator = makeGenerator(options.world, *blocks, options.level);
+    const auto generators =
+        gen::makeLevelGenerators(options.world.effectiveGenerator(), *blocks, options.world.effectiveSeed());
+    if (!generators) return tl::unexpected(generators.error());
+    const auto generator = generators->at(options.level);
     if (!generator) return tl::unexpected(generator.error());
+    const std::unique_ptr<store::ChunkStore> store = std::move(*save);  // ends before the generators
+    if (store && options.level > 0) {
+        stream::keepTileRows(*store, *generators, *blocks, {});
+        if (auto built = stream::buildTileRows(*store); !built) return built;
+    }
     auto textures = content::loadTextures(options.resourcePack, *blocks);
     if (!textures) return tl::unexpected(textures.error());
     base::JobSystem jobs(threadCount(options.world));
@@ -49,7 +59,7 @@ base::Result<void> writeMap(MapOptions& options) {
         base::ProgressBar bar("mapping", static_cast<std::size_t>(area.y1 - area.y0));
         image = world::drawMap({area, static_cast<std::uint8_t>(options.level),
                                 [&](std::span<const world::ChunkPos> row) {
-                                    return stream::chunksAt(row, save->get(), *generator, jobs);
+                                    return stream::chunksAt(row, store.get(), **generator, jobs);
                                 }},
                                *blocks, *textures, jobs, [&](std::size_t rows) { bar.set(rows); });
     }

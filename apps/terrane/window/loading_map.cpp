@@ -59,11 +59,10 @@ void drawLoadingMap(const Screen& screen, const stream::ChunkPipeline& pipeline,
             if (const auto stage = pipeline.stageAt(pos)) square(pos, 1, colorOf(*stage));
         }
     }
-    draw.AddRect({left + static_cast<float>(reach) * cell, top + static_cast<float>(reach) * cell},
-                 {left + static_cast<float>(reach + 1) * cell, top + static_cast<float>(reach + 1) * cell},
-                 IM_COL32(255, 255, 255, 255));
+    const float own = static_cast<float>(reach) * cell;
+    draw.AddRect({left + own, top + own}, {left + own + cell, top + own + cell}, IM_COL32_WHITE);
     draw.AddText(
-        {left + 6, top + side + 4}, IM_COL32(255, 255, 255, 255),
+        {left + 6, top + side + 4}, IM_COL32_WHITE,
         "red: loading   yellow: there   blue: lit and meshed now   green: visible\ndarker green: coarser");
 }
 

@@ -153,7 +153,7 @@ void drawStatistics(const Statistics& f) {
     ImGui::Text("chunks: %zu active, %zu of %zu visible, %zu queued", f.activeChunks, f.progress.visible,
                 f.progress.inView, f.queuedChunks);
     if (const std::string levels = stream::shownLevels(*f.tiles); !levels.empty())
-        ImGui::Text("tiles: %s; %zu to come", levels.c_str(), stream::missingTiles(*f.tiles));
+        ImGui::Text("shown by level: %s; %zu to come", levels.c_str(), stream::missingTiles(*f.tiles));
     ImGui::Text("triangles: %zu opaque, %zu transparent, %zu shadow", f.frame.opaqueTriangles,
                 f.frame.transparentTriangles, f.frame.shadowTriangles);
     ImGui::Text("MB: blocks %.1f, light %.1f; on the GPU quads %.1f, light %.1f, %.0f of %.0f",
