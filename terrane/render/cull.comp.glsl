@@ -4,6 +4,8 @@
 
 layout(local_size_x = kCullThreads) in;
 
+const int kMaxHiZTexels = 64;  // that are read for a box
+
 layout(binding = kHiZUnit) uniform sampler2D hiZ;  // the farthest depths of squares of pixels
 
 layout(std140, binding = kCullBinding) uniform CullBlock {
@@ -44,10 +46,15 @@ bool isHidden(vec3 low, vec3 high) {
     // A pixel more on each side: quads grow a little.
     vec2 from = clamp((0.5 + 0.5 * screenMin) * cull.viewportSize - 1.0, vec2(0.0), cull.viewportSize - 1.0);
     vec2 to = clamp((0.5 + 0.5 * screenMax) * cull.viewportSize + 1.0, vec2(0.0), cull.viewportSize - 1.0);
-    vec2 size = (to - from) / float(kHiZTexelPixels);
-    // The level where the box covers at most three texels along each side.
-    int level = int(clamp(ceil(log2(max(max(size.x, size.y), 1.0) / 2.0)), 0.0, float(cull.hiZLevels) - 1.0));
-    ivec2 first = ivec2(from) / int(kHiZTexelPixels) >> level, last = ivec2(to) / int(kHiZTexelPixels) >> level;
+    // The finest level where few texels cover the box: far land is wide and flat.
+    ivec2 first = ivec2(from) / int(kHiZTexelPixels), last = ivec2(to) / int(kHiZTexelPixels), size = last - first + 1;
+    int level = 0;
+    while (size.x * size.y > kMaxHiZTexels && level + 1 < cull.hiZLevels) {
+        ++level;
+        size = (last >> level) - (first >> level) + 1;
+    }
+    first >>= level;
+    last >>= level;
     float farthest = 1.0;
     for (int y = first.y; y <= last.y; ++y) {
         for (int x = first.x; x <= last.x; ++x) farthest = min(farthest, texelFetch(hiZ, ivec2(x, y), level).r);

@@ -95,6 +95,28 @@ TEST_F(FarViewTest, AFastFlightShowsNoHoles) {
     }
 }
 
+// Far land that was hidden, and comes out from behind what is near, is in the very next image.
+TEST_F(FarViewTest, HiddenLandIsNeverMissed) {
+    render::Camera camera{{-1020, -60, 120}, 0, -5};
+    const auto player = load(camera, kFar);
+    std::size_t quadsOfAll = 0, quadsOfVisible = 0;
+    for (int frame = 0; frame < 40; ++frame) {
+        camera.position += glm::dvec3(2, 1, frame % 20 < 10 ? -4 : 4);
+        camera.yaw += 9;
+        std::array<base::Image, 2> images;
+        for (const bool culls : {false, true}) {
+            render::RenderOptions options = render::plainOptions(1);
+            options.tJunctions = render::TJunctions::Open;
+            options.occlusionCulling = culls;
+            ASSERT_TRUE(player->renderer.configure(kFarSize, options));
+            images[culls] = player->draw(inputAt(camera, render::View::Color));
+            (culls ? quadsOfVisible : quadsOfAll) += player->renderer.statistics().quads;
+        }
+        EXPECT_EQ(images[0].rgba, images[1].rgba) << "frame " << frame;
+    }
+    EXPECT_LT(quadsOfVisible, quadsOfAll * 9 / 10) << "something is hidden";
+}
+
 // The tests above see holes: without tiles there are many.
 TEST_F(FarViewTest, WithoutAHorizonThereAreHoles) {
     const render::Camera camera{{8, 8, 200}, 30, -20};
