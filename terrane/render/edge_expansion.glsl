@@ -15,15 +15,16 @@ vec2 screenDirection(vec4 from, vec4 to, vec2 halfViewport) {
 }
 
 // A corner in clip space moved so that the edges toward the neighboring corners move outward by `growth`
-// pixels. Depth stays. Corners behind the camera stay too: the clipped edge grows by what its other end does,
+// pixels; the edge toward neighborU stays if `growsV` is 0. Depth stays. Corners behind the camera stay too: the clipped edge grows by what its other end does,
 // and more.
-vec4 expandEdges(vec4 corner, vec4 neighborU, vec4 neighborV, vec2 viewport, float growth) {
+vec4 expandEdges(vec4 corner, vec4 neighborU, vec4 neighborV, vec2 viewport, float growth,
+                 float growsV) {
     if (corner.w <= 0.0) return corner;
     vec2 halfViewport = 0.5 * viewport;
     vec2 u = screenDirection(corner, neighborU, halfViewport),
          v = screenDirection(corner, neighborV, halfViewport);
     float sine = abs(u.x * v.y - u.y * v.x);
-    vec2 outward = -(u + v) / max(sine, 1.0 / kLongestMiter);
+    vec2 outward = -(u + growsV * v) / max(sine, 1.0 / kLongestMiter);
     corner.xy += outward * growth / halfViewport * corner.w;
     return corner;
 }

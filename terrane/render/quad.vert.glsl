@@ -23,6 +23,9 @@ invariant gl_Position;
 // of the two is nearer would change from pixel to pixel.
 const float kLiquidInset = 1.0 / 1024.0;
 
+// How far the sides of tiles lie behind their place, for the depth test: columns. Behind them is solid ground.
+const float kTileSideDepth = 0.25;
+
 layout(location = 0) out vec2 outTexel;        // in textures; row 0 of the image is at integer v
 layout(location = 1) flat out uvec2 outFace;   // see packed_face.glsl; a number of the quad's own
 #if FACE_SAMPLING == 1
@@ -90,8 +93,13 @@ void main() {
     vec2 inward = (1.0 - 2.0 * corner) * extent;
     vec4 alongU = frame.viewProjection * vec4(cellBlocks * face.axisU.xyz * inward.x, 0.0);
     vec4 alongV = frame.viewProjection * vec4(cellBlocks * face.axisV.xyz * inward.y, 0.0);
+    // A tile has sides under all of its border. Where the land beside is as high, dots of them would show: so they do not
+    // grow beyond the top, whose own growth covers the edge, and lie behind what is at the same place.
+    bool isTileSide = level > 0u && face.axisV.z > 0.0;
+    float growsV = isTileSide && corner.y > 0.0 ? 0.0 : 1.0;
     gl_Position = expandEdges(gl_Position, gl_Position + alongU, gl_Position + alongV, frame.viewportSize,
-                              frame.edgeExpansion);
+                              frame.edgeExpansion, growsV);
+    if (isTileSide) gl_Position.z *= gl_Position.w / (gl_Position.w + kTileSideDepth * columnBlocks(level));
 #endif
     uint seed = hash2(uint(chunk.x), uint(chunk.y), quad.word1);
     outFace = uvec2(packFace(quad, material, level), quad.word0 ^ seed);

@@ -31,15 +31,17 @@ struct DrawnSessionOptions {
     render::RenderOptions render = render::plainOptions(1);
     std::size_t memoryBudget = SIZE_MAX;
     std::unique_ptr<store::ChunkStore> store = nullptr;  // null: one in memory
+    gen::LevelGenerators::MakeGraph makeGraph = nullptr;  // null: the overworld
     bool generatesOnGpu = false;                         // and lights
     bool meshesOnGpu = false;
 };
 
 inline std::unique_ptr<DrawnSession> makeDrawnSession(DrawnSessionOptions options) {
     auto made = std::make_unique<DrawnSession>();
+    if (!options.makeGraph)
+        options.makeGraph = [](int level) { return gen::makeGenerator("overworld", contentBlocks(), level); };
     game::SessionParts parts{std::make_unique<const world::BlockRegistry>(contentBlocks()),
-                             gen::makeLevelGenerators("overworld", contentBlocks(), 1).value(),
-                             std::move(options.store), 2};
+                             gen::LevelGenerators(options.makeGraph, 1), std::move(options.store), 2};
     if (!parts.store)
         parts.store = std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "overworld", 1});
     if (options.generatesOnGpu) {
