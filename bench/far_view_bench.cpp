@@ -30,7 +30,7 @@ using world::ChunkPos;
 constexpr glm::ivec2 kSize{640, 360};
 constexpr int kDetail = 8, kTopLevel = 4;  // the coarsest; the ring of level 4 begins 64 chunks away
 constexpr float kNoon = 0.5f, kDusk = 0.78f, kNight = 0.0f;
-constexpr world::BlockPos kTown{-1024, 512, 180};
+constexpr world::BlockPos kTown{-1024, 512, 84};
 
 struct Place {
     const char* name;
@@ -40,10 +40,10 @@ struct Place {
 constexpr std::array kPlaces = {
     Place{"mountains", {{-1048, -108, 122}, 136, -6}, 40}, Place{"coast", {{196, -522, 120}, 0, -6}, 90},
     Place{"plains", {{1697, -392, 110}, 90, -6}, 200},     Place{"forest", {{-2546, 2220, 130}, 0, -8}, 200},
-    Place{"town", {{-992, 32, 190}, 90, -6}, 60},
+    Place{"town", {{-992, 96, 130}, 90, -8}, 60},
 };
 
-// A village of towers and a platform with lamps, above whatever land is there.
+// Houses, lamps and a tower on a platform that stands on whatever land is there.
 std::vector<game::EditCommand> villageAt(world::BlockPos corner) {
     std::vector<game::EditCommand> commands;
     const auto put = [&](int x, int y, int z, std::string_view name) {
@@ -54,7 +54,7 @@ std::vector<game::EditCommand> villageAt(world::BlockPos corner) {
     };
     for (int k = 0; k < 64 * 64; ++k) {
         const int x = k % 64, y = k / 64;
-        put(x, y, 0, "stone");
+        for (int z = -20; z <= 0; ++z) put(x, y, z, "stone");
         if (x % 16 == 0 && y % 16 == 0) put(x, y, 1, "lamp_red");
         const bool isHouse = x % 16 >= 4 && x % 16 < 12 && y % 16 >= 4 && y % 16 < 12;
         for (int z = 1; isHouse && z < 7; ++z) put(x, y, z, z < 5 ? "oak_log" : "sand");

@@ -112,12 +112,14 @@ std::vector<GraphicsRow> makeTable() {
          "How far land goes on beyond the view distance, in chunks",
          {"0", "128", "256", "512", "1024", "2048", "4096"},
          [](const GraphicsSettings& s) { return indexOf(kHorizons, s.horizon); },
-         [](GraphicsSettings& s, int value) { s.horizon = kHorizons[static_cast<std::size_t>(value)]; }},
+         [](GraphicsSettings& s, int value) { s.horizon = kHorizons[static_cast<std::size_t>(value)]; },
+         false},
         {"detail",
          "Detail of the land beyond the view distance: tiles from the camera to the edge of each level",
          {"8", "12", "16", "20", "24", "28", "32"},
          [](const GraphicsSettings& s) { return indexOf(kDetails, s.detail); },
-         [](GraphicsSettings& s, int value) { s.detail = kDetails[static_cast<std::size_t>(value)]; }},
+         [](GraphicsSettings& s, int value) { s.detail = kDetails[static_cast<std::size_t>(value)]; },
+         false},
     };
 }
 
@@ -126,6 +128,13 @@ std::vector<GraphicsRow> makeTable() {
 std::span<const GraphicsRow> graphicsTable() {
     static const std::vector<GraphicsRow> table = makeTable();
     return table;
+}
+
+std::vector<std::string> namesOfPreset() {
+    std::vector<std::string> names;
+    for (const GraphicsRow& row : graphicsTable())
+        if (row.isOfPreset) names.emplace_back(row.name);
+    return names;
 }
 
 std::string valueNamesOf(const GraphicsRow& row) {

@@ -19,9 +19,11 @@ struct GraphicsRow {
     std::vector<std::string_view> valueNames;  // of its values, in order
     int (*get)(const GraphicsSettings&);       // the value's index
     void (*set)(GraphicsSettings&, int value);
+    bool isOfPreset = true;  // a preset sets it
 };
 
 std::span<const GraphicsRow> graphicsTable();
+std::vector<std::string> namesOfPreset();          // of the rows that a preset sets
 std::string valueNamesOf(const GraphicsRow& row);  // "off, on"
 std::optional<int> choiceOf(const GraphicsRow& row, std::string_view name);
 

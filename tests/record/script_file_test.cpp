@@ -144,7 +144,7 @@ TEST(ScriptFile, APresetOfTheCommandLineStandsAlone) {
     ScriptDefaults defaults;
     defaults.graphics.choices.preset = "low";
     defaults.graphics.choices.viewDistance = 2;
-    const std::string text = "[options]\npreset = \"high\"\nclouds = \"on\"\nview-distance = 8\n" +
+    const std::string text = "[options]\npreset = \"high\"\nclouds = \"on\"\nview-distance = 8\nhorizon = 512\n" +
                              shotOf("[[shot.set]]\nssao = \"raw\"\nview = \"depth\"\n");
     const auto choicesWith = [&](std::vector<std::string> given) {
         defaults.given = std::move(given);
@@ -152,12 +152,13 @@ TEST(ScriptFile, APresetOfTheCommandLineStandsAlone) {
         EXPECT_TRUE(script);
         EXPECT_EQ(optionsAt(script->shots[0], 5).view, render::View::Depth) << "no part of a preset";
         EXPECT_EQ(settingsAt(script->shots[0], 5).viewDistance, 8) << "no part of a preset";
+        EXPECT_EQ(settingsAt(script->shots[0], 5).horizon, 512) << "no part of a preset";
         return optionsAt(script->shots[0], 5).choices;
     };
     EXPECT_EQ(choicesWith({"preset"}).preset, "low");
-    EXPECT_TRUE(choicesWith({"preset"}).changed.empty());
+    EXPECT_EQ(choicesWith({"preset"}).changed.size(), 1u) << "the horizon";
     EXPECT_EQ(choicesWith({}).preset, "high");
-    EXPECT_EQ(choicesWith({}).changed.size(), 2u);
+    EXPECT_EQ(choicesWith({}).changed.size(), 3u);
 }
 
 TEST(ScriptFile, ShotsFollowEachOther) {

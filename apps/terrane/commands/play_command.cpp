@@ -88,7 +88,7 @@ PlaySettings settingsOf(const PlayOptions& options, bool isSoftwareRenderer) {
 }
 
 base::Result<void> play(PlayOptions& options, CLI::App& command) {
-    if (auto read = applySettings(options.settingsFile, command, graphicsSettings()); !read) return read;
+    if (auto read = applySettings(options.settingsFile, command, render::namesOfPreset()); !read) return read;
     auto parts = openSessionParts(options.world, options.save);
     if (!parts) return tl::unexpected(parts.error());
     auto textures = content::loadTextures(options.graphics.resourcePack, *parts->blocks);
@@ -124,7 +124,7 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
     Game loop({*window, session, *renderer, view, *preview, compiler, shaders, signals}, game);
     const auto played = loop.run();
     auto written = writeChanges(options.settingsFile, valuesOf(game.settings, device.software),
-                                valuesOf(loop.settings(), device.software), graphicsSettings());
+                                valuesOf(loop.settings(), device.software), render::namesOfPreset());
     if (!played) return played;
     if (!written) return written;
     if (window->debugLog() && window->debugLog()->errorCount() > 0) {

@@ -30,9 +30,10 @@ Names drawingFlags() {
 }
 
 // A preset on the command line stands alone, as with settings of the window.
-Names passedOver(const Names& given) {
+Names passedOver(Names given) {
     const bool hasPreset = std::ranges::find(given, "preset") != given.end();
-    return hasPreset ? with(given, render::graphicsTable()) : given;
+    if (hasPreset) std::ranges::copy(render::namesOfPreset(), std::back_inserter(given));
+    return given;
 }
 
 Names with(Names names, std::initializer_list<const char*> more) {

@@ -26,12 +26,6 @@ EnumNames<game::Movement> movementNames() {
     return valueNames;
 }
 
-std::vector<std::string> graphicsSettings() {
-    std::vector<std::string> names = {"preset"};
-    for (const render::GraphicsRow& row : render::graphicsTable()) names.emplace_back(row.name);
-    return names;
-}
-
 SettingValues valuesOf(const PlaySettings& s, bool isSoftwareRenderer) {
     SettingValues values = {{"preset", s.preset}};
     const render::GraphicsSettings preset = render::settingsOf({s.preset}, isSoftwareRenderer);

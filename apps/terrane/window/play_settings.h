@@ -28,9 +28,6 @@ struct PlaySettings {
 
 EnumNames<game::Movement> movementNames();  // of the option --movement
 
-// The options of graphics that a preset stands for, and the preset.
-std::vector<std::string> graphicsSettings();
-
 // As options of `terrane play`: of the graphics options only those that differ from the preset.
 SettingValues valuesOf(const PlaySettings& settings, bool isSoftwareRenderer);
 
