@@ -37,12 +37,13 @@ constexpr RenderOptions high() {
 }
 
 // With what the thesis measured, in its own words: samples 2, shadows 2048, three layers, squares ext in mesh
-// sections of 64 blocks, T-junctions hidden after the image, 65 x 65 chunks.
+// sections of 64 blocks, T-junctions hidden after the image, 65 x 65 chunks and nothing beyond.
 constexpr Preset thesis() {
     Preset preset{.name = "thesis", .options = {}};
     preset.options.tJunctions = TJunctions::Filled;
     preset.mesh = {.method = mesh::MergeMethod::SquaresExt, .meshSectionHeight = 64};
     preset.viewDistance = 32;
+    preset.horizon = 0;
     return preset;
 }
 
@@ -65,8 +66,8 @@ const Preset* findPreset(std::string_view name, bool isSoftwareRenderer) {
 GraphicsSettings withPreset(const GraphicsSettings& before, std::string_view name, bool isSoftwareRenderer) {
     const Preset* preset = findPreset(name, isSoftwareRenderer);
     assert(preset && "whoever reads a name checks it");
-    return {preset->options, preset->mesh, preset->viewDistance.value_or(before.viewDistance), before.horizon,
-            before.detail};
+    return {preset->options, preset->mesh, preset->viewDistance.value_or(before.viewDistance),
+            preset->horizon.value_or(before.horizon), before.detail};
 }
 
 }  // namespace terrane::render

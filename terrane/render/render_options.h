@@ -55,7 +55,7 @@ struct GraphicsSettings {
     RenderOptions render;
     mesh::MeshOptions mesh;
     int viewDistance = 16;  // chunks
-    int horizon = 0;        // how far land goes on beyond them, chunks; 0: not at all
+    int horizon = 1024;     // how far land goes on beyond them, chunks; 0: not at all
     int detail = 12;        // tiles a ring of a level of detail: see stream::TileView
 
     bool operator==(const GraphicsSettings&) const = default;
@@ -65,7 +65,7 @@ struct Preset {
     std::string_view name;
     RenderOptions options;
     mesh::MeshOptions mesh = {};
-    std::optional<int> viewDistance = {};  // none: as it is
+    std::optional<int> viewDistance = {}, horizon = {};  // none: as they are
 };
 
 // low, medium, high, thesis.

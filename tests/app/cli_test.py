@@ -131,7 +131,7 @@ class Render(ProgramTest):
         told = [line for line in done.stderr.splitlines() if "--gpu-memory" in line]
         self.assertEqual(len(told), 1, done.stderr)
         self.assertIn(f"view distance {reached} in place of 12: 24 MiB", told[0])
-        enough = run(*draw, "--view-distance", str(reached), "-o", whole)
+        enough = run(*draw, "--view-distance", str(reached), "--horizon", "0", "-o", whole)
         self.assertNotIn("--gpu-memory", enough.stderr)
         self.assertEqual(json.loads(enough.stdout)["view_distance"], reached)
         self.assertEqual(Image(short).rows, Image(whole).rows)

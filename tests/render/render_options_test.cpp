@@ -19,13 +19,16 @@ TEST(RenderOptions, ThesisIsWhatItMeasuredWith) {
     EXPECT_EQ(all.mesh.method, mesh::MergeMethod::SquaresExt);
     EXPECT_EQ(all.mesh.meshSectionHeight, 64);
     EXPECT_EQ(all.viewDistance, 32);
+    EXPECT_EQ(all.horizon, 0) << "the thesis draws chunks only";
 }
 
-TEST(RenderOptions, OtherPresetsLeaveTheViewDistance) {
+TEST(RenderOptions, OtherPresetsLeaveWhatIsSeenHowFar) {
     for (const char* name : {"low", "medium", "high", "auto"}) {
-        const GraphicsSettings settings =
-            withPreset({.render = {}, .mesh = {mesh::MergeMethod::None, 8}, .viewDistance = 7}, name, true);
+        const GraphicsSettings settings = withPreset(
+            {.render = {}, .mesh = {mesh::MergeMethod::None, 8}, .viewDistance = 7, .horizon = 256}, name,
+            true);
         EXPECT_EQ(settings.viewDistance, 7) << name;
+        EXPECT_EQ(settings.horizon, 256) << name;
         EXPECT_EQ(settings.mesh, mesh::MeshOptions{}) << name;
     }
 }

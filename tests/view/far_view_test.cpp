@@ -1,6 +1,7 @@
 // Land to the horizon on screen: no holes where levels meet, the same light as nearby, nothing left behind.
 #include "terrane/view/far_view.h"
 
+#include <cstdlib>
 #include <glm/trigonometric.hpp>
 #include <random>
 
@@ -27,6 +28,12 @@ class FarViewTest : public gpu::GlTest {
 
     static render::FrameInput inputAt(const render::Camera& camera, render::View view) {
         return {camera, world::environmentAt(0.5f), 2 * fogDistance(kFar), 0, view};
+    }
+
+    // Cameras a place: TERRANE_CAMERAS, for long runs, or 60.
+    static int cameraCount() {
+        const char* value = std::getenv("TERRANE_CAMERAS");
+        return value ? std::atoi(value) : 60;
     }
 
     // In the camera's chunk.
@@ -65,7 +72,7 @@ TEST_F(FarViewTest, ThereAreNoHoles) {
     };
     for (const glm::dvec3& place : kPlaces) {
         const auto player = load({place}, kFar);
-        for (int k = 0; k < 60; ++k) {
+        for (int k = 0; k < cameraCount(); ++k) {
             // Near and far from where chunks end, from the ground to high above.
             const double reach = k % 2 == 0 ? 100 : 600;
             render::Camera camera{

@@ -159,8 +159,9 @@ base::Result<void> bench(BenchOptions& options) {
     if (!results) return tl::unexpected(results.error());
     const std::vector<Cell> cells = uniqueCells(groups);
     base::logInfo("{} tables, {} measurements of {} runs each", groups.size(), cells.size(), settings.runs);
-    Arguments drawOptions;
-    if (options.gpuMemory) drawOptions = {"--gpu-memory", std::to_string(*options.gpuMemory)};
+    Arguments drawOptions = {"--horizon", "0"};  // the thesis's tables are of chunks
+    if (options.gpuMemory)
+        drawOptions.insert(drawOptions.end(), {"--gpu-memory", std::to_string(*options.gpuMemory)});
     BenchRunner runner(program, work->path(), settings.runs, drawOptions, *results);
     if (auto done = measureAll(cells, runner, *results); !done) return done;
     options.anyFailed = results->failureCount() > 0;
