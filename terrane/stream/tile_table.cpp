@@ -26,6 +26,9 @@ constexpr int kEarly = 16;
 // Tiles of level 1 under the outermost chunks of level 0 are kept ready, since the chunks vanish at once.
 // They go when they lie twice as far inside.
 constexpr int kStandby = 4;
+// Tiles of a level come in bands around the camera, so many tiles wide, row by row: neighbors, which share much
+// of their generation, then follow each other.
+constexpr int kBandTiles = 16;
 // Beyond all distances.
 constexpr std::int64_t kFarthest = std::int64_t{1} << 40;
 
@@ -149,7 +152,8 @@ bool Walk::isUseful(ChunkPos tile, bool isKnown, bool isWhole) const {
 // The coarsest tiles first, then what is nearest.
 void Walk::request(ChunkPos tile) {
     const std::int64_t distance = tileDistance(table_.view.center, tile);
-    table_.requests.push_back({tile.level == coarsest_ ? distance - kFarthest : distance, tile});
+    const std::int64_t urgency = distance - distance % (kBandTiles * widthOf(tile.level));
+    table_.requests.push_back({tile.level == coarsest_ ? urgency - kFarthest : urgency, tile});
 }
 
 // Hides and drops what the last walk neither shows nor wants. False where nothing is left of the record.
