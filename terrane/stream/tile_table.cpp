@@ -26,8 +26,8 @@ constexpr int kEarly = 16;
 // Tiles of level 1 under the outermost chunks of level 0 are kept ready, since the chunks vanish at once.
 // They go when they lie twice as far inside.
 constexpr int kStandby = 4;
-// Tiles of a level come in bands around the camera, so many tiles wide, row by row: neighbors, which share much
-// of their generation, then follow each other.
+// Tiles of a level come in bands around the camera, so many tiles wide, row by row: neighbors, which share
+// much of their generation, then follow each other.
 constexpr int kBandTiles = 16;
 // Beyond all distances.
 constexpr std::int64_t kFarthest = std::int64_t{1} << 40;

@@ -80,8 +80,8 @@ world::ChunkPos firstChildOf(world::ChunkPos tile);
 void setTileView(TileTable& table, const TileView& view);
 // A chunk of level 0 can be shown, or no longer.
 void setChunkReady(TileTable& table, world::ChunkPos pos, bool isReady);
-// Up to `limit` tiles to make, most urgent first: the coarsest, then level by level from the camera on. They are loading
-// then.
+// Up to `limit` tiles to make, most urgent first: the coarsest, then level by level from the camera on. They
+// are loading then.
 std::vector<world::ChunkPos> popTileRequests(TileTable& table, std::size_t limit);
 // Whether somebody still waits for the tile: it is loading.
 bool isAwaited(const TileTable& table, world::ChunkPos tile);
