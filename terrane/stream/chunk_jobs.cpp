@@ -47,12 +47,11 @@ light::ChunkLightPtr lightOf(const ChunkNeighborhood& around, const light::Light
     return std::make_shared<const light::ChunkLight>(light::lightChunk(neighborhood, lightScratch()));
 }
 
-MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockRegistry& blocks,
+MeshPtr meshOf(const mesh::MeshBlocks& chunks, const world::BlockRegistry& blocks,
                const mesh::MeshOptions& options, mesh::MeshSectionSet meshSections) {
     TERRANE_ZONE("mesh chunk");
     thread_local mesh::MeshScratch scratch;
-    const mesh::MeshBlocks around = meshBlocksOf(chunks);
-    const mesh::MeshInput input = mesh::meshInput(around, blocks, options);
+    const mesh::MeshInput input = mesh::meshInput(chunks, blocks, options);
     return std::make_shared<const mesh::ChunkMesh>(mesh::buildMeshSections(input, meshSections, scratch));
 }
 

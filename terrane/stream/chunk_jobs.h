@@ -38,6 +38,7 @@ LocalLightPtr localLight(const world::Chunk& chunk, const light::LightTable& tab
 struct ChunkNeighborhood {
     std::array<world::ChunkPtr, 9> chunks;
     std::array<LocalLightPtr, 9> localLights;
+    mesh::MeshBlocks meshed;  // what the middle one is meshed from
 };
 
 light::ChunkLightPtr lightOf(const ChunkNeighborhood& around, const light::LightTable& table);
@@ -45,7 +46,7 @@ light::ChunkLightPtr lightOf(const ChunkNeighborhood& around, const light::Light
 inline mesh::MeshBlocks meshBlocksOf(const std::array<world::ChunkPtr, 9>& chunks) {
     return {chunks[4], chunks[3], chunks[5], chunks[1], chunks[7]};
 }
-MeshPtr meshOf(const std::array<world::ChunkPtr, 9>& chunks, const world::BlockRegistry& blocks,
+MeshPtr meshOf(const mesh::MeshBlocks& chunks, const world::BlockRegistry& blocks,
                const mesh::MeshOptions& options, mesh::MeshSectionSet meshSections = mesh::kAllMeshSections);
 
 }  // namespace terrane::stream

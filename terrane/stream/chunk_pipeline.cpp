@@ -34,7 +34,8 @@ constexpr std::chrono::milliseconds kBatchPause{1};
 
 }  // namespace
 
-ChunkPipeline::ChunkPipeline(const PipelineParts& parts) : parts_(parts), workers_(parts_) {
+ChunkPipeline::ChunkPipeline(const PipelineParts& parts)
+    : parts_(parts), beyond_(chunkBeyond(parts.blocks)), workers_(parts_) {
     if (parts_.batchGenerator) parts_.source.generator = nullptr;
 }
 
@@ -42,8 +43,11 @@ ChunkPipeline::~ChunkPipeline() {
     saveAll();
 }
 
-void ChunkPipeline::setView(ChunkPos center, int viewDistance, glm::vec2 direction) {
-    if (!stream::setView(table_, center, viewDistance, direction)) return;
+void ChunkPipeline::setView(ChunkPos center, int viewDistance, glm::vec2 direction, int horizon) {
+    const bool isOther = stream::setView(table_, center, viewDistance, direction);
+    const TileView before = std::exchange(tileView_, {center, viewDistance, horizon});
+    remeshBorders(table_, before, tileView_);
+    if (!isOther) return;
     for (const ChunkPos pos : popHidden(table_)) changes_.hide(pos);
     cancelLoads();
 }
@@ -73,7 +77,16 @@ void ChunkPipeline::setMeshOptions(const mesh::MeshOptions& options) {
 }
 
 mesh::MeshBlocks ChunkPipeline::meshBlocks(ChunkPos pos) const {
-    return meshBlocksOf(neighborhoodOf(table_, parts_.world, pos).chunks);
+    return around(pos).meshed;
+}
+
+// What the chunk is lit and meshed from.
+ChunkNeighborhood ChunkPipeline::around(ChunkPos pos) const {
+    ChunkNeighborhood around = neighborhoodOf(table_, parts_.world, pos);
+    const SideSet open = openSides(tileView_, pos);
+    for (std::size_t side = 0; side < 4; ++side)
+        if ((open >> side & 1) != 0) around.meshed[1 + side] = beyond_;
+    return around;
 }
 
 void ChunkPipeline::update(Time now) {
@@ -182,7 +195,7 @@ void ChunkPipeline::exchangeLight() {
     while (!toLight_.empty()) {
         std::vector<light::LightRequest> requests;
         for (std::size_t k = 0; k < std::min(toLight_.size(), kLightBatch); ++k) {
-            requests.push_back({toLight_[k], neighborhoodOf(table_, parts_.world, toLight_[k]).chunks});
+            requests.push_back({toLight_[k], around(toLight_[k]).chunks});
         }
         const std::size_t taken = lighter.submit(requests);
         if (taken == 0) break;
@@ -196,7 +209,7 @@ void ChunkPipeline::exchangeLight() {
             onLit(lit.pos, std::move(light), nullptr);
         } else {
             workers_.submitFirstMesh(urgency(table_.view, lit.pos) - 1, lit.pos, std::move(light),
-                                     neighborhoodOf(table_, parts_.world, lit.pos), meshOptions_);
+                                     around(lit.pos), meshOptions_);
         }
     }
 }
@@ -214,16 +227,14 @@ void ChunkPipeline::submitLighting() {
             continue;
         }
         // Before loads of equal urgency: chunks on screen free memory.
-        workers_.submitLighting(urgency(table_.view, pos) - 1, pos, neighborhoodOf(table_, parts_.world, pos),
-                                meshOptions_);
+        workers_.submitLighting(urgency(table_.view, pos) - 1, pos, around(pos), meshOptions_);
     }
 }
 
 void ChunkPipeline::submitMeshes() {
     for (const MeshJob& job : popMeshJobs(table_, roomFor(table_.meshJobCount))) {
         if (parts_.meshing == MeshPolicy::Workers) {
-            workers_.submitMesh(urgency(table_.view, job.pos), job,
-                                neighborhoodOf(table_, parts_.world, job.pos), meshOptions_);
+            workers_.submitMesh(urgency(table_.view, job.pos), job, around(job.pos), meshOptions_);
         } else if (finishMeshJob(table_, job)) {
             changes_.askForMesh(job.pos);
         }
@@ -282,8 +293,8 @@ void ChunkPipeline::showMesh(ChunkPos pos, mesh::MeshSectionSet meshSections) {
         (meshSections == mesh::kAllMeshSections || changes_.asksForMesh(pos))) {
         return changes_.askForMesh(pos);
     }
-    const std::array<ChunkPtr, 9> chunks = neighborhoodOf(table_, parts_.world, pos).chunks;
-    changes_.setMesh(pos, meshOf(chunks, parts_.blocks, meshOptions_, meshSections), meshSections);
+    changes_.setMesh(pos, meshOf(around(pos).meshed, parts_.blocks, meshOptions_, meshSections),
+                     meshSections);
 }
 
 // Saves what was edited some time ago, unloads what nobody needs.

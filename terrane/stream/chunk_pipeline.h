@@ -17,6 +17,7 @@
 #include "terrane/stream/chunk_workers.h"
 #include "terrane/stream/pending_edits.h"
 #include "terrane/stream/pipeline_types.h"
+#include "terrane/stream/tile_borders.h"
 #include "terrane/world/block_edit.h"
 
 namespace terrane::stream {
@@ -28,8 +29,9 @@ class ChunkPipeline {
     explicit ChunkPipeline(const PipelineParts& parts);
     ~ChunkPipeline();  // waits for its running jobs, the others do nothing; saves what changed
 
-    // Chunks up to `viewDistance` (Chebyshev) around `center` are to be visible. `direction`: see ViewOrder.
-    void setView(world::ChunkPos center, int viewDistance, glm::vec2 direction = {});
+    // Chunks up to `viewDistance` (Chebyshev) around `center` are to be visible, tiles beyond them to
+    // `horizon`: see TileView. `direction`: see ViewOrder.
+    void setView(world::ChunkPos center, int viewDistance, glm::vec2 direction = {}, int horizon = 0);
     // Visible chunks are meshed again in the next updates; they are shown as before until then.
     void setMeshOptions(const mesh::MeshOptions& options);
     const mesh::MeshOptions& meshOptions() const { return meshOptions_; }
@@ -74,6 +76,7 @@ class ChunkPipeline {
     std::size_t localLightBytes() const;
 
   private:
+    ChunkNeighborhood around(world::ChunkPos pos) const;
     void takeResults();
     void onLoaded(world::ChunkPos pos, std::shared_ptr<world::Chunk> chunk, LocalLightPtr local);
     void onLit(world::ChunkPos pos, light::ChunkLightPtr light, MeshPtr mesh);
@@ -96,6 +99,8 @@ class ChunkPipeline {
     PipelineParts parts_;
     mesh::MeshOptions meshOptions_;
     ChunkTable table_;
+    TileView tileView_;  // what borders on tiles
+    world::ChunkPtr beyond_;
     ChangeQueue changes_;
     ChunkWorkers workers_;
     // For the batch generator and the batch lighter, and how many chunks they have.

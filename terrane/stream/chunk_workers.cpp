@@ -69,14 +69,14 @@ void ChunkWorkers::submitLighting(base::JobPriority priority, ChunkPos pos, Chun
                auto light = results.timed(kLight, [&] { return lightOf(around, *lights); });
                MeshPtr mesh;
                if (isMeshedHere)
-                   mesh = results.timed(kMesh, [&] { return meshOf(around.chunks, *blocks, options); });
+                   mesh = results.timed(kMesh, [&] { return meshOf(around.meshed, *blocks, options); });
                return WorkerResults::Lit{pos, std::move(light), std::move(mesh)};
            });
 }
 
 void ChunkWorkers::submitFirstMesh(base::JobPriority priority, ChunkPos pos, light::ChunkLightPtr light,
                                    const ChunkNeighborhood& around, const mesh::MeshOptions& options) {
-    submit(priority, [pos, light = std::move(light), chunks = around.chunks, options,
+    submit(priority, [pos, light = std::move(light), chunks = around.meshed, options,
                       blocks = &parts_.blocks](WorkerResults& results) {
         auto mesh = results.timed(kMesh, [&] { return meshOf(chunks, *blocks, options); });
         return WorkerResults::Lit{pos, light, std::move(mesh)};
@@ -85,7 +85,7 @@ void ChunkWorkers::submitFirstMesh(base::JobPriority priority, ChunkPos pos, lig
 
 void ChunkWorkers::submitMesh(base::JobPriority priority, const MeshJob& job, const ChunkNeighborhood& around,
                               const mesh::MeshOptions& options) {
-    submit(priority, [job, chunks = around.chunks, options, blocks = &parts_.blocks](WorkerResults& results) {
+    submit(priority, [job, chunks = around.meshed, options, blocks = &parts_.blocks](WorkerResults& results) {
         auto mesh = results.timed(kMesh, [&] { return meshOf(chunks, *blocks, options); });
         return WorkerResults::Meshed{job, std::move(mesh)};
     });

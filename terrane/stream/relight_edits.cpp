@@ -60,6 +60,7 @@ ChunkNeighborhood neighborhoodOf(const ChunkTable& table, const world::World& wo
             around.localLights[n] = record->localLight;
         }
     }
+    around.meshed = meshBlocksOf(around.chunks);
     return around;
 }
 

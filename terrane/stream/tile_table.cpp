@@ -52,10 +52,6 @@ std::int64_t farthestDistance(ChunkPos center, ChunkPos tile) {
     return std::max(along(center.x, tile.x * width), along(center.y, tile.y * width));
 }
 
-bool isWithinView(const TileView& view, ChunkPos tile) {
-    return farthestDistance(view.center, tile) <= view.viewDistance;
-}
-
 // Whether children are to cover the tile. `isDivided`: they were before.
 bool divides(const TileView& view, ChunkPos tile, bool isDivided) {
     if (tile.level == 0) return false;
@@ -200,6 +196,10 @@ std::int64_t tileDistance(ChunkPos center, ChunkPos tile) {
         return std::max({first - at, at - (first + width - 1), std::int64_t{0}});
     };
     return std::max(along(center.x, tile.x * width), along(center.y, tile.y * width));
+}
+
+bool isWithinView(const TileView& view, ChunkPos tile) {
+    return farthestDistance(view.center, tile) <= view.viewDistance;
 }
 
 ChunkPos parentOf(ChunkPos pos) {

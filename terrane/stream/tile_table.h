@@ -73,6 +73,9 @@ struct TileChanges {
 int coarsestLevel(const TileView& view);
 // Chunks of level 0 between the chunk `center`, which is of level 0, and the nearest one that `tile` covers.
 std::int64_t tileDistance(world::ChunkPos center, world::ChunkPos tile);
+// Whether the view distance holds all chunks that the tile covers: of tiles of level 1 these chunks are
+// shown.
+bool isWithinView(const TileView& view, world::ChunkPos tile);
 // The chunk of the next level that covers this one; the one of four children with the lowest x and y.
 world::ChunkPos parentOf(world::ChunkPos pos);
 world::ChunkPos firstChildOf(world::ChunkPos tile);

@@ -47,7 +47,7 @@ void WorldView::setView(world::ChunkPos center, int viewDistance, glm::vec2 dire
 }
 
 void WorldView::moveView() {
-    session_.pipeline().setView(center_, viewDistance_, direction_);
+    session_.pipeline().setView(center_, viewDistance_, direction_, horizon_.distance);
     far_.setView(center_, viewDistance_, horizon_);
 }
 

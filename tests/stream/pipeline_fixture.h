@@ -43,14 +43,14 @@ inline std::array<world::ChunkPtr, 9> chunksAround(const world::World& world, Ch
 // What the chunk must look like, made here and now.
 inline mesh::ChunkMesh directMesh(const world::World& world, ChunkPos pos,
                                   const mesh::MeshOptions& options = {}) {
-    return *meshOf(chunksAround(world, pos), contentBlocks(), options);
+    return *meshOf(meshBlocksOf(chunksAround(world, pos)), contentBlocks(), options);
 }
 inline const light::LightTable& lightTable() {
     static const light::LightTable table(contentBlocks());
     return table;
 }
 inline light::ChunkLight directLight(const world::World& world, ChunkPos pos) {
-    return *lightOf({chunksAround(world, pos), {}}, lightTable());
+    return *lightOf({chunksAround(world, pos), {}, {}}, lightTable());
 }
 
 class PipelineTest : public testing::Test {
