@@ -144,8 +144,9 @@ TEST(ScriptFile, APresetOfTheCommandLineStandsAlone) {
     ScriptDefaults defaults;
     defaults.graphics.choices.preset = "low";
     defaults.graphics.choices.viewDistance = 2;
-    const std::string text = "[options]\npreset = \"high\"\nclouds = \"on\"\nview-distance = 8\nhorizon = 512\n" +
-                             shotOf("[[shot.set]]\nssao = \"raw\"\nview = \"depth\"\n");
+    const std::string text =
+        "[options]\npreset = \"high\"\nclouds = \"on\"\nview-distance = 8\nhorizon = 512\n" +
+        shotOf("[[shot.set]]\nssao = \"raw\"\nview = \"depth\"\n");
     const auto choicesWith = [&](std::vector<std::string> given) {
         defaults.given = std::move(given);
         const auto script = parseScript(text, "p.toml", defaults, blocks());

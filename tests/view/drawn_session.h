@@ -30,9 +30,9 @@ struct DrawnSessionOptions {
     int viewDistance = 4;
     render::RenderOptions render = render::plainOptions(1);
     std::size_t memoryBudget = SIZE_MAX;
-    std::unique_ptr<store::ChunkStore> store = nullptr;  // null: one in memory
+    std::unique_ptr<store::ChunkStore> store = nullptr;   // null: one in memory
     gen::LevelGenerators::MakeGraph makeGraph = nullptr;  // null: the overworld
-    bool generatesOnGpu = false;                         // and lights
+    bool generatesOnGpu = false;                          // and lights
     bool meshesOnGpu = false;
 };
 
