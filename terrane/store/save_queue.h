@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <thread>
@@ -37,6 +38,8 @@ struct KeyOrder {
         return std::tie(a.level, a.x, a.y) < std::tie(b.level, b.x, b.y);
     }
 };
+
+using ChunkPosSet = std::set<world::ChunkPos, KeyOrder>;
 
 struct SaveBatch {
     // Sorted by key: pages of a file are filled one after the other.

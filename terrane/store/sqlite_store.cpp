@@ -35,7 +35,30 @@ LoadedChunk copyOf(const WaitingChunk& waiting) {
 
 }  // namespace
 
+void SqliteStore::setUnread(world::ChunkPos pos, bool isUnread) {
+    const std::lock_guard lock(unreadMutex_);
+    if (isUnread) {
+        unread_.insert(pos);
+    } else if (!unread_.empty()) {
+        unread_.erase(pos);
+    }
+}
+
+bool SqliteStore::isUnread(world::ChunkPos pos) {
+    const std::lock_guard lock(unreadMutex_);
+    return unread_.contains(pos);
+}
+
+ChunkPosSet SqliteStore::unreadOf(const SaveBatch& batch) {
+    const std::lock_guard lock(unreadMutex_);
+    ChunkPosSet found;
+    for (const world::ChunkPos pos : unread_)
+        if (batch.chunks.contains(pos)) found.insert(pos);
+    return found;
+}
+
 LoadedChunk SqliteStore::loadStored(StoredRow row, world::ChunkPos pos) {
+    setUnread(pos, !row);
     LoadedChunk loaded = decodeRow(row, file_.ids);
     if (loaded.state != LoadedChunk::State::Damaged) return loaded;
     const std::string reason = std::exchange(
@@ -44,8 +67,7 @@ LoadedChunk SqliteStore::loadStored(StoredRow row, world::ChunkPos pos) {
         base::logWarning("{}; what it had is kept in the table quarantine", loaded.problem);
         queue_->add(DamagedRow{pos, std::move((*row)->data), reason});
     } else {
-        // The file itself is damaged here. Writing fails too, so nothing is overwritten.
-        base::logWarning("{}", loaded.problem);
+        base::logWarning("{}; what it has stays", loaded.problem);
     }
     return loaded;
 }
@@ -79,6 +101,7 @@ bool SqliteStore::contains(world::ChunkPos pos) {
 }
 
 SaveNumber SqliteStore::save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) {
+    if (provenance == Provenance::Generated && isUnread(pos)) return queue_->status().queued;
     return queue_->add(pos, {std::move(chunk), provenance});
 }
 
@@ -114,8 +137,10 @@ base::Result<void> SqliteStore::write(const SaveBatch& batch) {
     if (!edited.empty() && derivedRows_.derive) derived = derivedRows_.derive(edited, saved.reader());
     if (!saved.result()) return saved.result();
     const bool isComplete = edited.empty() || (derivedRows_.derive && !saved.metDamage());
-    const auto written = writer_->write(batch, derived, isComplete);
+    const ChunkPosSet unread = unreadOf(batch);
+    const auto written = writer_->write(batch, unread, derived, isComplete);
     if (!written) return tl::unexpected(written.error());
+    for (const world::ChunkPos pos : unread) setUnread(pos, false);
     if (!*written) {
         const std::lock_guard lock(metadataMutex_);
         if (const auto mark = metadata_.find(kDerivedRowsMark); mark != metadata_.end())

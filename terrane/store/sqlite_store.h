@@ -41,12 +41,17 @@ class SqliteStore : public ChunkStore {
   private:
     explicit SqliteStore(SaveFile file);
     LoadedChunk loadStored(StoredRow row, world::ChunkPos pos);
+    void setUnread(world::ChunkPos pos, bool isUnread);
+    bool isUnread(world::ChunkPos pos);
+    ChunkPosSet unreadOf(const SaveBatch& batch);
     base::Result<void> write(const SaveBatch& batch);
 
     SaveFile file_;
     ChunkReader reader_;
     std::mutex metadataMutex_;
     Metadata metadata_;
+    std::mutex unreadMutex_;
+    ChunkPosSet unread_;     // reading these failed last: what is there is not known
     std::mutex writeMutex_;  // held while a batch is derived and written
     DerivedRows derivedRows_;
     std::unique_ptr<SqliteWriter> writer_;

@@ -27,6 +27,7 @@ base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
         "DELETE FROM chunks WHERE key = ?1",
         "INSERT OR REPLACE INTO settings (name, value) VALUES (?1, ?2)",
         "DELETE FROM settings WHERE name = ?1",
+        "INSERT INTO quarantine (key, reason, data) SELECT key, ?2, data FROM chunks WHERE key = ?1",
         "INSERT INTO quarantine (key, reason, data) SELECT key, ?2, data FROM chunks WHERE key = ?1 AND "
         "CAST(data AS BLOB) = ?3",
         "DELETE FROM chunks WHERE key = ?1 AND CAST(data AS BLOB) = ?2"};
@@ -40,16 +41,16 @@ base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
     const auto take = [&] { return std::move(*next++); };
     // Braces initialize in their order: that of the texts above.
     return std::unique_ptr<SqliteWriter>(
-        new SqliteWriter(file, Statements{take(), take(), take(), take(), take(), take(), take()}));
+        new SqliteWriter(file, Statements{take(), take(), take(), take(), take(), take(), take(), take()}));
 }
 
-base::Result<bool> SqliteWriter::write(const SaveBatch& batch, std::span<const ChunkRow> derived,
-                                       bool isComplete) {
+base::Result<bool> SqliteWriter::write(const SaveBatch& batch, const ChunkPosSet& unread,
+                                       std::span<const ChunkRow> derived, bool isComplete) {
     TERRANE_ZONE("save batch");
     auto transaction = Transaction::begin(file_.database);
     if (!transaction) return tl::unexpected(transaction.error());
     isComplete_ = isComplete;
-    if (auto done = writeBatch(batch); !done) return tl::unexpected(done.error());
+    if (auto done = writeBatch(batch, unread); !done) return tl::unexpected(done.error());
     if (auto done = writeDerived(derived); !done) return tl::unexpected(done.error());
     if (!isComplete_) {
         use_.deleteMetadata.bind(1, kDerivedRowsMark);
@@ -79,11 +80,13 @@ base::Result<void> SqliteWriter::deriveAll(const DerivedRows& rows, std::string_
     return transaction->commit();
 }
 
-base::Result<void> SqliteWriter::writeBatch(const SaveBatch& batch) {
+base::Result<void> SqliteWriter::writeBatch(const SaveBatch& batch, const ChunkPosSet& unread) {
     for (const DamagedRow& row : batch.damaged)
         if (auto done = quarantine(row); !done) return done;
     for (const auto& [name, value] : batch.metadata)
         if (auto done = writeMetadata(name, value); !done) return done;
+    for (const world::ChunkPos pos : unread)
+        if (auto done = putAside(pos, "could not be read when it was replaced"); !done) return done;
     for (const auto& [pos, chunk] : batch.chunks)
         if (auto done = writeChunk(pos, chunk); !done) return done;
     return {};
@@ -123,6 +126,12 @@ base::Result<void> SqliteWriter::writeDerived(std::span<const ChunkRow> rows) {
         if (!done) return done;
     }
     return {};
+}
+
+base::Result<void> SqliteWriter::putAside(world::ChunkPos pos, std::string_view reason) {
+    use_.quarantineAll.bind(1, keyOf(pos));
+    use_.quarantineAll.bind(2, reason);
+    return use_.quarantineAll.run();
 }
 
 // What is there is looked at before it is overwritten: a row that was damaged is kept, also where nobody

@@ -41,24 +41,26 @@ class SqliteWriter {
     // Keeps `file`.
     [[nodiscard]] static base::Result<std::unique_ptr<SqliteWriter>> make(SaveFile& file);
 
-    // The batch and the rows derived from it. Unless `isComplete`, or where a row is lost, the world has not
-    // all derived rows any more: kDerivedRowsMark goes, and false comes back.
-    [[nodiscard]] base::Result<bool> write(const SaveBatch& batch, std::span<const ChunkRow> derived,
-                                           bool isComplete);
+    // The batch and the rows derived from it. What the chunks of `unread` replace is put aside first. Unless
+    // `isComplete`, or where a row is lost, the world has not all derived rows any more: kDerivedRowsMark
+    // goes, and false comes back.
+    [[nodiscard]] base::Result<bool> write(const SaveBatch& batch, const ChunkPosSet& unread,
+                                           std::span<const ChunkRow> derived, bool isComplete);
     // As ChunkStore::deriveAll().
     [[nodiscard]] base::Result<void> deriveAll(const DerivedRows& rows, std::string_view rules);
 
   private:
     struct Statements {
-        Statement selectChunk, putChunk, deleteChunk, putMetadata, deleteMetadata, quarantineIfSame,
-            deleteIfSame;
+        Statement selectChunk, putChunk, deleteChunk, putMetadata, deleteMetadata, quarantineAll,
+            quarantineIfSame, deleteIfSame;
     };
     SqliteWriter(SaveFile& file, Statements statements) : file_(file), use_(std::move(statements)) {}
 
-    base::Result<void> writeBatch(const SaveBatch& batch);
+    base::Result<void> writeBatch(const SaveBatch& batch, const ChunkPosSet& unread);
     base::Result<void> writeChunk(world::ChunkPos pos, const WaitingChunk& chunk);
     base::Result<void> writeDerived(std::span<const ChunkRow> rows);
     base::Result<void> writeMetadata(std::string_view name, std::string_view value);
+    base::Result<void> putAside(world::ChunkPos pos, std::string_view reason);
     base::Result<void> putAsideIfDamaged(world::ChunkPos pos);
     base::Result<void> quarantine(const DamagedRow& row);
 

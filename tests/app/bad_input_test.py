@@ -3,6 +3,7 @@
 
 Usage: bad_input_test.py PROGRAM"""
 import os
+import re
 import subprocess
 
 import support
@@ -163,6 +164,27 @@ class BadInput(ProgramTest):
                 self.assertRefused(done, filled)
                 self.assertIn(hint.format(**names), done.stderr)
                 self.assertEqual(written, [], "something was written")
+
+    # Nobody means an empty value. Some options mean their default by it.
+    def test_an_empty_value_of_every_option(self):
+        enough = {"render": ("--scene", "cave", "-o", "{out}"), "record": ("--path", "{out}", "--frames-dir", "{folder}/f"),
+                  "flight-bench": ("--json",), "generate": ("--radius", "0"), "map": ("--radius", "0", "-o", "{out}"),
+                  "dump": ("--area", "0,0,1,1", "-o", "{out}"), "bench": ("-o", "{folder}/bench")}
+        taken = {"--resource-pack", "--shader-root", "--simd", "--settings", "--collect-perf-data"}
+        tried = 0
+        for command in re.findall(r"^  ([a-z-]+)  ", run("--help").stdout, re.M):
+            for option, kind in re.findall(r"^  (?:-\w,)?(--[a-z-]+) ([A-Z]\S*)", run(command, "--help").stdout, re.M):
+                if option in taken or kind in ("Excludes:", "REQUIRED"):
+                    continue
+                names = {"out": self.folder / "out", "folder": self.folder}
+                others = [text.format(**names) for text in enough.get(command, ())]
+                if option in others:
+                    del others[others.index(option):others.index(option) + 2]
+                done = run(command, *others, option, "")
+                with self.subTest(f"{command} {option}"):
+                    self.assertRefused(done, (command, option))
+                tried += 1
+        self.assertGreater(tried, 60)
 
     # root can write everywhere but in file systems that take nothing.
     def test_a_folder_that_nothing_can_be_written_in(self):

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "terrane/store/chunk_key.h"
+#include "tests/store/faulty_disk.h"
 #include "tests/store/store_fixture.h"
 
 namespace terrane::store {
@@ -19,6 +20,14 @@ class SqliteStoreTest : public testing::Test {
         return std::move(*store);
     }
     std::unique_ptr<SqliteStore> open() { return open(registry_); }
+    // The bytes of the only row.
+    Bytes chunkData(const std::string& table = "chunks") {
+        auto database = Database::open(path_, OpenMode::ReadOnly).value();
+        auto select = database.prepare("SELECT data FROM " + table).value();
+        EXPECT_TRUE(select.step().value());
+        const ByteView data = select.blob(0);
+        return Bytes(data.begin(), data.end());
+    }
 
     base::TempFolder folder_;
     std::filesystem::path path_ = folder_ / "a.sqlite";
@@ -89,6 +98,42 @@ TEST_F(SqliteStoreTest, DamagedRowIsPutAside) {
     EXPECT_EQ(queryFile(path_, "SELECT count(*) FROM chunks"), 2);
     EXPECT_EQ(queryFile(path_, "SELECT length(data) > 21 AND substr(data, 21, 1) = x'00' FROM quarantine"),
               1);
+}
+
+// Reading fails for a moment. What the generator makes in its place is not saved over what is there.
+TEST_F(SqliteStoreTest, WhatCouldNotBeReadIsNotSavedOver) {
+    FaultyDisk disk;
+    { open()->save({0, 0}, numberedChunk(1), Provenance::Edited); }
+    const auto store = open();
+    disk.fail(kDiskRead);
+    EXPECT_EQ(store->load({0, 0}).state, State::Damaged);
+    disk.work();
+    store->save({0, 0}, numberedChunk(2), Provenance::Generated);
+    ASSERT_TRUE(store->flush());
+    EXPECT_EQ(*store->load({0, 0}).chunk, *numberedChunk(1));
+}
+
+// Where a player builds there, what could not be read is put aside first, once.
+TEST_F(SqliteStoreTest, WhatCouldNotBeReadIsPutAsideBeforeItIsReplaced) {
+    FaultyDisk disk;
+    { open()->save({0, 0}, numberedChunk(1), Provenance::Edited); }
+    const Bytes before = chunkData();
+    {
+        const auto store = open();
+        disk.fail(kDiskRead);
+        EXPECT_EQ(store->load({0, 0}).state, State::Damaged);
+        disk.work();
+        for (const int number : {2, 3}) {
+            store->save({0, 0}, numberedChunk(number), Provenance::Edited);
+            disk.fail(kDiskSync);
+            EXPECT_FALSE(store->flush()) << "the disk fails again";
+            disk.work();
+            ASSERT_TRUE(store->flush());
+        }
+    }
+    EXPECT_EQ(queryFile(path_, "SELECT count(*) FROM quarantine"), 1);
+    EXPECT_EQ(chunkData("quarantine"), before);
+    EXPECT_EQ(*open()->load({0, 0}).chunk, *numberedChunk(3));
 }
 
 // Whoever saves without having loaded does not overwrite what could still be rescued.

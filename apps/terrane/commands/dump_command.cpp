@@ -220,11 +220,9 @@ CommandEntry addDump(CLI::App& app) {
     addBackendOption(*command, options->backend, "Where to find the light, or the quads");
     addChoice<mesh::MergeMethod>(*command, "--merging", options->mesh.method, mergeMethods(),
                                  "How equal faces are merged into rectangles");
-    command
-        ->add_option("--mesh-section-height", options->mesh.meshSectionHeight,
-                     "Height in blocks of the mesh sections that quads are written by")
-        ->check(CLI::IsMember({8, 16, 32, 64, 128}))
-        ->capture_default_str();
+    addChoice<int>(*command, "--mesh-section-height", options->mesh.meshSectionHeight,
+                   {{"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}},
+                   "Height in blocks of the mesh sections that quads are written by");
     addOutputOption(*command, options->output, "The .npy file");
     addWorldOptions(*command, options->world);
     addWorldOption(*command, options->save, "World to take the chunks from; what it lacks is generated");
