@@ -25,11 +25,17 @@ void writeOwner(int descriptor) {
     if (::ftruncate(descriptor, 0) == 0) (void)!::pwrite(descriptor, number.data(), number.size(), 0);
 }
 
+// A file with this one name: what is written to it changes no other.
+bool isOrdinary(int descriptor) {
+    struct stat opened {};
+    return ::fstat(descriptor, &opened) == 0 && S_ISREG(opened.st_mode) && opened.st_nlink <= 1;
+}
+
 // False where the file was removed by the lock's last owner after it was opened here.
 bool isStillThere(int descriptor, const std::filesystem::path& file) {
     struct stat opened {
     }, there{};
-    return ::fstat(descriptor, &opened) == 0 && ::stat(file.c_str(), &there) == 0 &&
+    return ::fstat(descriptor, &opened) == 0 && ::lstat(file.c_str(), &there) == 0 &&
            opened.st_ino == there.st_ino && opened.st_dev == there.st_dev;
 }
 
@@ -39,11 +45,17 @@ base::Result<FileLock> FileLock::acquire(const std::filesystem::path& path, Kind
     std::filesystem::path file = path;
     file += "-lock";
     while (true) {
-        const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+        const int descriptor =
+            ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
         if (descriptor < 0)
             return base::fail(base::ErrorCode::Io, "{}: cannot be written: {}", file.string(),
-                              base::systemReason(errno));
+                              errno == ELOOP ? "a symbolic link" : base::systemReason(errno));
         FileLock lock(descriptor, file);
+        if (!isOrdinary(descriptor)) {
+            lock.file_.clear();
+            return base::fail(base::ErrorCode::Io, "{}: a link, or no file; it is left as it is",
+                              file.string());
+        }
         if (::flock(descriptor, (kind == Kind::Exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
             const int error = errno;
             lock.file_.clear();  // it is another's to remove

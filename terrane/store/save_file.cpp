@@ -10,6 +10,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/store/chunk_key.h"
+#include "terrane/store/companion_files.h"
 #include "terrane/store/derived_rows.h"
 
 namespace terrane::store {
@@ -25,24 +26,6 @@ namespace fs = std::filesystem;
 bool isPresent(const fs::path& path) {
     std::error_code ignored;  // what cannot be looked at counts as not there
     return fs::exists(path, ignored);
-}
-
-bool isBeside(const fs::path& path, const char* ending) {
-    fs::path beside = path;
-    beside += ending;
-    std::error_code ignored;
-    const auto size = fs::file_size(beside, ignored);
-    return !ignored && size > 0;
-}
-
-// Committed transactions that have not reached the file itself: a program was killed, or is writing.
-bool hasLog(const fs::path& path) {
-    return isBeside(path, "-wal");
-}
-
-// What a transaction that was cut short has to be undone with. Only making a save leaves one.
-bool hasJournal(const fs::path& path) {
-    return isBeside(path, "-journal");
 }
 
 std::uint32_t bigEndian(const unsigned char* bytes, int count) {
@@ -219,13 +202,17 @@ bool isWritable(const fs::path& path) {
     return can(folder);
 }
 
-base::Result<SaveFile> openToWrite(const fs::path& path, const world::BlockRegistry& registry,
+base::Result<SaveFile> openToWrite(const fs::path& name, const world::BlockRegistry& registry,
                                    const SaveAccess& access) {
+    const auto own = ownPath(name);
+    if (!own) return tl::unexpected(own.error());
+    const fs::path& path = *own;
     auto isThere = checkFile(path);
     if (!isThere) return tl::unexpected(isThere.error());
     if (!*isThere && !access.create) {
         return notASave(path);
     }
+    if (auto checked = checkCompanions(path); !checked) return tl::unexpected(checked.error());
     if (auto made = makeFolder(path); !made) return tl::unexpected(made.error());
     auto lock = FileLock::acquire(path, FileLock::Kind::Exclusive);
     if (!lock) return tl::unexpected(lock.error());
@@ -245,12 +232,20 @@ base::Result<SaveFile> openToWrite(const fs::path& path, const world::BlockRegis
     return file;
 }
 
-base::Result<SaveFile> openToRead(const fs::path& path, const world::BlockRegistry& registry) {
+base::Result<SaveFile> openToRead(const fs::path& name, const world::BlockRegistry& registry) {
+    const auto own = ownPath(name);
+    if (!own) return tl::unexpected(own.error());
+    const fs::path& path = *own;
     auto isThere = checkFile(path);
     if (!isThere) return tl::unexpected(isThere.error());
     if (!*isThere) {
         return notASave(path);
     }
+    if (auto checked = checkCompanions(path); !checked) return tl::unexpected(checked.error());
+    if (hasJournal(path))
+        return base::fail(ErrorCode::Incompatible,
+                          "{}: its last change was cut short and is undone when it is opened to play",
+                          path.string());
     std::optional<FileLock> lock;
     if (isWritable(path)) {
         auto acquired = FileLock::acquire(path, FileLock::Kind::Shared);
@@ -258,8 +253,7 @@ base::Result<SaveFile> openToRead(const fs::path& path, const world::BlockRegist
         lock = std::move(*acquired);
     }
     // Without a log nothing needs to be made beside the file, which may be impossible.
-    OpenMode mode = hasLog(path) ? OpenMode::ReadOnly : OpenMode::Immutable;
-    if (hasJournal(path)) mode = OpenMode::ReadWrite;
+    const OpenMode mode = hasLog(path) ? OpenMode::ReadOnly : OpenMode::Immutable;
     auto database = Database::open(path, mode);
     if (!database) return tl::unexpected(database.error());
     SaveFile file{std::move(lock), std::move(*database), mode, false, kFormatVersion, {}, {}, {}};

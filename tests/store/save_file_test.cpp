@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
+#include "terrane/store/file_lock.h"
 #include "terrane/store/open_world.h"
 #include "terrane/store/sqlite_store.h"
 #include "tests/store/store_fixture.h"
@@ -29,6 +30,8 @@ class SaveFileTest : public testing::Test {
         for (int x = 0; x < 20; ++x) (*store)->save({x, 0}, numberedChunk(x), Provenance::Edited);
     }
 
+    std::int64_t pageCount() const { return queryFile(path_, "PRAGMA page_count"); }
+
     std::string errorOfWriting(const SaveAccess& access = kCreate) {
         const auto file = openToWrite(path_, registry_, access);
         return file ? "" : file.error().message;
@@ -53,6 +56,99 @@ class SaveFileTest : public testing::Test {
     fs::path path_ = folder_ / "a.sqlite";
     world::BlockRegistry registry_ = testRegistry();
 };
+
+// What stands beside a save may come from anybody: other files are left alone.
+TEST_F(SaveFileTest, LinksBesideItAreNotFollowed) {
+    makeSave();
+    const fs::path precious = folder_ / "precious.txt";
+    writeAll(precious, "precious");
+    for (const std::string ending : {"-lock", "-wal", "-shm", "-journal"}) {
+        const fs::path beside = path_.string() + ending;
+        for (const bool isSymbolic : {true, false}) {
+            if (isSymbolic) {
+                fs::create_symlink(precious, beside);
+            } else {
+                fs::create_hard_link(precious, beside);
+            }
+            for (const std::string& message : {errorOfWriting(), errorOfReading()}) {
+                EXPECT_THAT(message, HasSubstr(beside.string() + ": ")) << ending;
+                EXPECT_THAT(message, HasSubstr("link")) << ending;
+            }
+            EXPECT_EQ(readAll(precious), "precious") << ending;
+            fs::remove(beside);
+        }
+    }
+    EXPECT_EQ(errorOfReading(), "");
+}
+
+TEST_F(SaveFileTest, ALockThatIsALinkIsNotWritten) {
+    const fs::path precious = folder_ / "precious.txt";
+    writeAll(precious, "precious");
+    fs::create_symlink(precious, path_.string() + "-lock");
+    EXPECT_FALSE(FileLock::acquire(path_, FileLock::Kind::Exclusive));
+    fs::remove(path_.string() + "-lock");
+    fs::create_hard_link(precious, path_.string() + "-lock");
+    EXPECT_FALSE(FileLock::acquire(path_, FileLock::Kind::Shared));
+    EXPECT_EQ(readAll(precious), "precious");
+}
+
+// A rollback journal that undoes nothing in a file of so many pages, of a transaction over several files
+// which the other one lists.
+std::string journalNaming(const std::string& other, std::int64_t pages) {
+    const std::string magic = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
+    const auto number = [](std::uint32_t value) {
+        std::string bytes;
+        for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 255);
+        return bytes;
+    };
+    std::uint32_t sum = 0;
+    for (const char c : other) sum += static_cast<std::uint32_t>(c);
+    std::string header = magic + number(0) + number(1) + number(static_cast<std::uint32_t>(pages)) +
+                         number(512) + number(4096);
+    header.resize(512, '\0');
+    return header + number((1u << 30) / 4096 + 1) + other + number(static_cast<std::uint32_t>(other.size())) +
+           number(sum) + magic;
+}
+
+TEST_F(SaveFileTest, AJournalDeletesNoOtherFile) {
+    makeSave();
+    const fs::path precious = folder_ / "precious.txt";
+    writeAll(precious, "precious");
+    writeAll(path_.string() + "-journal", journalNaming(precious.string(), pageCount()));
+    EXPECT_THAT(errorOfReading(), HasSubstr("a.sqlite-journal: names another file"));
+    EXPECT_THAT(errorOfWriting(), HasSubstr("a.sqlite-journal: names another file"));
+    EXPECT_EQ(readAll(precious), "precious");
+}
+
+TEST_F(SaveFileTest, ReadingUndoesNothing) {
+    makeSave();
+    std::string journal = journalNaming("", pageCount());
+    journal.resize(512);
+    writeAll(path_.string() + "-journal", journal);
+    const std::string before = readAll(path_);
+    EXPECT_THAT(errorOfReading(), HasSubstr("cut short"));
+    EXPECT_EQ(readAll(path_), before);
+    EXPECT_EQ(readAll(path_.string() + "-journal"), journal);
+    EXPECT_EQ(errorOfWriting(kMustBeThere), "");
+    EXPECT_EQ(errorOfReading(), "");
+}
+
+// By whatever name it is opened, it is one save.
+TEST_F(SaveFileTest, ALinkLeadsToTheSameLockAndLog) {
+    const fs::path link = folder_ / "link.sqlite";
+    fs::create_symlink(path_, link);
+    auto store = SqliteStore::open(path_, registry_, kCreate, kNever);
+    ASSERT_TRUE(store);
+    (*store)->save({0, 0}, numberedChunk(1), Provenance::Edited);
+    ASSERT_TRUE((*store)->flush());
+    EXPECT_THAT(openToWrite(link, registry_, kMustBeThere).error().message,
+                HasSubstr("open in another program"));
+    EXPECT_THAT(openToRead(link, registry_).error().message, HasSubstr("open in another program"));
+    (*store).reset();
+    EXPECT_TRUE(openToRead(link, registry_));
+    fs::create_hard_link(path_, folder_ / "other.sqlite");
+    expectRefused("has 2 names (hard links)");
+}
 
 TEST_F(SaveFileTest, NotThere) {
     EXPECT_THAT(errorOfReading(), HasSubstr("there is no such file"));

@@ -1,0 +1,75 @@
+#include "terrane/store/companion_files.h"
+
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+namespace terrane::store {
+namespace {
+
+using base::ErrorCode;
+namespace fs = std::filesystem;
+
+fs::path companion(const fs::path& path, const char* ending) {
+    fs::path beside = path;
+    beside += ending;
+    return beside;
+}
+
+bool hasContent(const fs::path& path) {
+    std::error_code ignored;  // what cannot be looked at counts as not there
+    const auto size = fs::file_size(path, ignored);
+    return !ignored && size > 0;
+}
+
+base::Result<void> checkOrdinary(const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::symlink_status(path, error);
+    if (!fs::exists(status)) return {};
+    if (fs::is_regular_file(status) && fs::hard_link_count(path, error) == 1) return {};
+    return base::fail(ErrorCode::Incompatible, "{}: a link, or no file; nothing is opened through it",
+                      path.string());
+}
+
+// A journal that is one of several ends with the name of a file that lists all (SQLite's file format, section
+// 3: "The Super-Journal File"), a checksum, and these bytes. A save has one file alone.
+bool namesAnother(const fs::path& journal) {
+    constexpr std::array<unsigned char, 8> kMagic = {0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7};
+    std::ifstream file(journal, std::ios::binary);
+    std::array<char, kMagic.size()> end{};
+    file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+    return file.read(end.data(), end.size()) && std::memcmp(end.data(), kMagic.data(), end.size()) == 0;
+}
+
+}  // namespace
+
+base::Result<fs::path> ownPath(const fs::path& path) {
+    std::error_code error;
+    const fs::path own = fs::weakly_canonical(path, error);
+    if (error) return base::fail(ErrorCode::Io, "{}: cannot be found: {}", path.string(), error.message());
+    const auto names = fs::hard_link_count(own, error);
+    if (!error && fs::is_regular_file(own, error) && names > 1)
+        return base::fail(ErrorCode::Incompatible,
+                          "{}: has {} names (hard links), and each would have a lock and a log of its own",
+                          path.string(), names);
+    return own;
+}
+
+bool hasLog(const fs::path& path) {
+    return hasContent(companion(path, "-wal"));
+}
+
+bool hasJournal(const fs::path& path) {
+    return hasContent(companion(path, "-journal"));
+}
+
+base::Result<void> checkCompanions(const fs::path& path) {
+    for (const char* ending : {"-wal", "-shm", "-journal", "-lock"})
+        if (auto ordinary = checkOrdinary(companion(path, ending)); !ordinary) return ordinary;
+    const fs::path journal = companion(path, "-journal");
+    if (!namesAnother(journal)) return {};
+    return base::fail(ErrorCode::Damaged, "{}: names another file, which would be deleted", journal.string());
+}
+
+}  // namespace terrane::store
