@@ -64,6 +64,11 @@ bool hasJournal(const fs::path& path) {
     return hasContent(companion(path, "-journal"));
 }
 
+bool hasLostLog(const fs::path& path) {
+    std::error_code ignored;
+    return hasContent(companion(path, "-lock")) && !fs::exists(companion(path, "-wal"), ignored);
+}
+
 base::Result<void> checkCompanions(const fs::path& path) {
     for (const char* ending : {"-wal", "-shm", "-journal", "-lock"})
         if (auto ordinary = checkOrdinary(companion(path, ending)); !ordinary) return ordinary;

@@ -69,7 +69,7 @@ base::Result<FileLock> FileLock::acquire(const std::filesystem::path& path, Kind
             lock.file_.clear();
             continue;
         }
-        writeOwner(descriptor);
+        if (kind == Kind::Exclusive) writeOwner(descriptor);
         return lock;
     }
 }

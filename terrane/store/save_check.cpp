@@ -4,6 +4,8 @@
 
 #include "terrane/store/chunk_codec.h"
 #include "terrane/store/chunk_key.h"
+#include "terrane/store/companion_files.h"
+#include "terrane/store/log_check.h"
 #include "terrane/store/save_file.h"
 
 namespace terrane::store {
@@ -68,6 +70,7 @@ std::uint64_t sizeOf(std::filesystem::path path, const char* ending) {
 
 base::Result<CheckReport> checkSave(const std::filesystem::path& path, const world::BlockRegistry& registry) {
     CheckReport report;
+    const bool isLogLost = hasLostLog(path);
     report.fileBytes = sizeOf(path, "") + sizeOf(path, "-wal");
     auto file = openToRead(path, registry);
     if (!file) {
@@ -78,6 +81,12 @@ base::Result<CheckReport> checkSave(const std::filesystem::path& path, const wor
     report.format = file->format;
     report.identity = file->identity;
     report.unknownBlocks = file->ids.unknown();
+    report.fileProblems = logProblems(file->database.path());
+    if (isLogLost)
+        report.fileProblems.push_back(
+            fmt::format("{}-wal: it is gone, though a program that wrote to it was killed: what was saved "
+                        "last is missing",
+                        file->database.path()));
     note(report, checkPages(file->database, report));
     note(report, checkChunks(*file, report));
     note(report, countQuarantined(file->database, report));

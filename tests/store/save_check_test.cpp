@@ -47,6 +47,78 @@ TEST_F(SaveCheckTest, GoodSave) {
     EXPECT_EQ(folder_.fileCount(), 1);
 }
 
+// A save as a killed program leaves it: with a log of one transaction a chunk.
+class LogCheckTest : public SaveCheckTest {
+  protected:
+    static constexpr int kInLog = 20;
+
+    void SetUp() override {
+        SaveCheckTest::SetUp();
+        const auto store = SqliteStore::open(path_, registry_, {}, kNever);
+        ASSERT_TRUE(store);
+        for (int x = 0; x < kInLog; ++x) {
+            (*store)->save({100 + x, 0}, numberedChunk(x), Provenance::Edited);
+            ASSERT_TRUE((*store)->flush());
+        }
+        save_ = readAll(path_);
+        log_ = readAll(logPath());
+    }
+    std::filesystem::path logPath() const { return path_.string() + "-wal"; }
+    CheckReport checkWith(const std::string& log) {
+        std::filesystem::remove(path_.string() + "-shm");
+        writeAll(path_, save_);
+        writeAll(logPath(), log);
+        return check();
+    }
+
+    std::string save_, log_;
+};
+
+TEST_F(LogCheckTest, AWholeLogIsGood) {
+    EXPECT_FALSE(checkWith(log_).isDamaged());
+    EXPECT_EQ(checkWith(log_).chunks, 30u + kInLog);
+    // What was being written when the power went was never reported as saved.
+    EXPECT_FALSE(checkWith(log_ + std::string(5000, 'x')).isDamaged());
+    EXPECT_FALSE(checkWith(log_.substr(0, log_.size() - 100)).isDamaged());
+}
+
+// Where the check finds nothing wrong, nothing is missing.
+TEST_F(LogCheckTest, OneFlippedBitIsNoticed) {
+    std::mt19937 random(5);
+    int damaged = 0;
+    for (int n = 0; n < 200; ++n) {
+        std::string log = log_;
+        const std::size_t at = n < 60 ? static_cast<std::size_t>(n) : random() % log.size();
+        log[at] = static_cast<char>(log[at] ^ 1 << random() % 8);
+        const CheckReport report = checkWith(log);
+        damaged += report.isDamaged();
+        if (!report.isDamaged()) {
+            EXPECT_EQ(report.chunks, 30u + kInLog) << "bit in byte " << at;
+        }
+    }
+    EXPECT_GT(damaged, 150);
+}
+
+TEST_F(LogCheckTest, AMissingLogIsNoticed) {
+    writeAll(path_.string() + "-lock", "12345");
+    EXPECT_FALSE(checkWith(log_).isDamaged());
+    EXPECT_FALSE(check().isDamaged());
+    writeAll(path_.string() + "-lock", "12345");
+    std::filesystem::remove(logPath());
+    const CheckReport report = check();
+    ASSERT_EQ(report.fileProblems.size(), 1u);
+    EXPECT_THAT(report.fileProblems.front(), HasSubstr("a.sqlite-wal: it is gone"));
+}
+
+TEST_F(LogCheckTest, TellsHowMuchIsLost) {
+    std::string log = log_;
+    log[log.size() / 2] = static_cast<char>(log[log.size() / 2] ^ 1);
+    const CheckReport report = checkWith(log);
+    ASSERT_EQ(report.fileProblems.size(), 1u);
+    EXPECT_THAT(report.fileProblems.front(),
+                testing::ContainsRegex("a.sqlite-wal: broken behind frame [0-9]+: [0-9]+ transactions"));
+}
+
 TEST_F(SaveCheckTest, NamesEveryDamagedChunk) {
     runSql(path_, fmt::format("UPDATE chunks SET data = x'00' WHERE key = {}", keyOf({4, -4})));
     runSql(path_, fmt::format("UPDATE chunks SET data = zeroblob(100) WHERE key = {}", keyOf({9, -9})));
