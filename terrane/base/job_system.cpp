@@ -83,16 +83,25 @@ void forbidOnWorker(const JobQueue& queue, const char* reason) {
     std::abort();
 }
 
-// The message of what `call` threw, or nothing.
+// Without memory for it, a text that needs none.
+std::string copyOf(const char* text) noexcept {
+    try {
+        return text;
+    } catch (const std::bad_alloc&) {
+        return "no memory";
+    }
+}
+
+// The message of what `call` threw, or nothing. Throws nothing: who calls this would leave others waiting.
 template <class Call>
-std::optional<std::string> errorOf(const Call& call) {
+std::optional<std::string> errorOf(const Call& call) noexcept {
     try {
         call();
         return std::nullopt;
     } catch (const std::exception& exception) {
-        return exception.what();
+        return copyOf(exception.what());
     } catch (...) {
-        return "an exception that is not a std::exception";
+        return copyOf("an exception that is not a std::exception");
     }
 }
 
@@ -247,7 +256,8 @@ struct Loop {
     std::mutex mutex;
     std::condition_variable allFinished;
     std::size_t finishedCount = 0;
-    std::map<std::size_t, std::string> errors;  // by index
+    std::size_t failedIndex = std::numeric_limits<std::size_t>::max();  // the lowest that threw
+    std::string error;                                                  // its message
 
     Loop(const std::function<void(std::size_t)>& loopBody, std::size_t n) : body(loopBody), count(n) {}
 };
@@ -257,7 +267,10 @@ void runIndices(Loop& loop) {
     for (std::size_t index = loop.next++; index < loop.count; index = loop.next++) {
         if (std::optional<std::string> error = errorOf([&] { loop.body(index); })) {
             const std::lock_guard lock(loop.mutex);
-            loop.errors.emplace(index, std::move(*error));
+            if (index < loop.failedIndex) {
+                loop.failedIndex = index;
+                loop.error = std::move(*error);
+            }
         }
         ++ranCount;
     }
@@ -275,17 +288,18 @@ Result<void> parallelFor(JobSystem& jobs, std::size_t count, const std::function
     if (count == 0) return {};
     const auto loop = std::make_shared<Loop>(body, count);
     std::vector<JobHandle> helpers(std::min<std::size_t>(jobs.threadCount(), count - 1));
-    for (JobHandle& helper : helpers) {
-        helper = jobs.submit(kMostUrgent, [loop](const CancelToken&) { runIndices(*loop); });
-    }
+    std::size_t helperCount = 0;
+    // Those that there is no memory for are done without.
+    static_cast<void>(errorOf([&] {
+        for (; helperCount < helpers.size(); ++helperCount)
+            helpers[helperCount] =
+                jobs.submit(kMostUrgent, [loop](const CancelToken&) { runIndices(*loop); });
+    }));
     runIndices(*loop);
-    for (const JobHandle& helper : helpers) helper.cancel();  // the ones that never got a thread
+    for (std::size_t k = 0; k < helperCount; ++k) helpers[k].cancel();  // the ones that never got a thread
     std::unique_lock lock(loop->mutex);
     loop->allFinished.wait(lock, [&] { return loop->finishedCount == loop->count; });
-    if (!loop->errors.empty()) {
-        const auto& [index, message] = *loop->errors.begin();
-        return fail("index {} of {}: {}", index, count, message);
-    }
+    if (loop->failedIndex < count) return fail("index {} of {}: {}", loop->failedIndex, count, loop->error);
     return {};
 }
 

@@ -17,6 +17,17 @@ void put(Chunks& chunks, world::ChunkPos pos, WaitingChunk newer) {
     if (!isNew && newer.provenance >= entry->second.provenance) entry->second = std::move(newer);
 }
 
+// What writing threw is a failure like others: the queue's thread goes on.
+base::Result<void> resultOf(const SaveQueue::WriteBatch& write, const SaveBatch& batch) {
+    try {
+        return write(batch);
+    } catch (const std::bad_alloc&) {
+        return tl::unexpected(base::Error{base::ErrorCode::OutOfResources, "no memory"});
+    } catch (const std::exception& exception) {
+        return base::fail("{}", exception.what());
+    }
+}
+
 // Metadata by name. A damaged row is not lost: it stays in the file, to be found again.
 std::string contentOf(const SaveBatch& batch) {
     std::string text = fmt::format("{} chunks", batch.chunks.size());
@@ -147,7 +158,7 @@ void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
     const SaveNumber goal = queued_;
     lock.unlock();
     base::Result<void> done;
-    if (!writing_.isEmpty()) done = write_(writing_);
+    if (!writing_.isEmpty()) done = resultOf(write_, writing_);
     lock.lock();
 
     if (done) {
@@ -167,12 +178,16 @@ void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
     written_.notify_all();
 }
 
-// What came meanwhile is newer.
+// What came meanwhile is newer. Needs no memory, which may be what writing failed for.
 void SaveQueue::takeBack(SaveBatch failed) {
-    SaveBatch newer = std::exchange(waiting_, std::move(failed));
-    for (auto& [pos, chunk] : newer.chunks) put(waiting_.chunks, pos, std::move(chunk));
-    for (auto& [name, value] : newer.metadata) waiting_.metadata[name] = std::move(value);
-    std::move(newer.damaged.begin(), newer.damaged.end(), std::back_inserter(waiting_.damaged));
+    for (auto& [pos, newer] : waiting_.chunks) {
+        const auto older = failed.chunks.find(pos);
+        if (older != failed.chunks.end() && newer.provenance < older->second.provenance)
+            newer = older->second;
+    }
+    waiting_.chunks.merge(failed.chunks);
+    waiting_.metadata.merge(failed.metadata);
+    waiting_.damaged.splice(waiting_.damaged.begin(), failed.damaged);
     due_ = Clock::now() + limits_.delay;
 }
 

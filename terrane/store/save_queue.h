@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <functional>
+#include <list>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -45,7 +46,7 @@ struct SaveBatch {
     // Sorted by key: pages of a file are filled one after the other.
     std::map<world::ChunkPos, WaitingChunk, KeyOrder> chunks;
     std::map<std::string, std::string> metadata;
-    std::vector<DamagedRow> damaged;
+    std::list<DamagedRow> damaged;
 
     bool isEmpty() const { return chunks.empty() && metadata.empty() && damaged.empty(); }
     std::vector<ChunkRow> editedChunks() const;  // of level 0

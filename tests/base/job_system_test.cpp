@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tests/base/failing_memory.h"
+
 namespace terrane::base {
 namespace {
 
@@ -394,6 +396,47 @@ TEST(ParallelFor, WorksOnWorkersAndNested) {
     });
     handle.wait();
     EXPECT_EQ(callCount, 64);
+}
+
+// Wherever memory runs out: the call returns or throws, and works again afterwards.
+TEST(ParallelFor, WithoutMemoryNobodyWaitsForEver) {
+    JobSystem jobs(2);
+    long n = 0;
+    for (; n < 2000; ++n) {
+        bool hasFailed = false;
+        for (const long count : {1L, LONG_MAX}) {
+            std::atomic<int> calls = 0;
+            try {
+                const FailingMemory memory(n, count);
+                const Result<void> done = parallelFor(jobs, 20, [&](std::size_t i) {
+                    ++calls;
+                    if (i % 3 == 1) throw std::runtime_error("a message that needs memory of its own");
+                });
+                EXPECT_FALSE(done);
+                EXPECT_EQ(calls, 20);
+            } catch (const std::bad_alloc&) {
+            }
+            hasFailed = hasFailed || FailingMemory::hasFailed();
+            jobs.waitIdle();
+            EXPECT_TRUE(parallelFor(jobs, 20, [](std::size_t) {}));
+        }
+        if (!hasFailed) break;
+    }
+    EXPECT_GT(n, 10);
+    EXPECT_LT(n, 2000) << "in the end memory is enough";
+}
+
+TEST(JobSystem, AJobWithoutMemoryFails) {
+    JobSystem jobs(1);
+    for (long n = 0; n < 100; ++n) {
+        const JobHandle job = jobs.submit(0, [&](const CancelToken&) {
+            const FailingMemory memory(n, LONG_MAX);
+            throw std::runtime_error("a message that needs memory of its own");
+        });
+        job.wait();
+        EXPECT_EQ(job.state(), JobState::Failed);
+        EXPECT_FALSE(job.error().empty());
+    }
 }
 
 }  // namespace

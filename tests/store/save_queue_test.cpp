@@ -29,6 +29,34 @@ struct Recorder {
     }
 };
 
+// Writing takes memory: where there is none nothing is lost and the program goes on.
+TEST(SaveQueue, WhatThrowsStaysAndIsTriedAgain) {
+    int attempts = 0;
+    Recorder recorder;
+    const auto older = numberedChunk(1), newer = numberedChunk(2);
+    SaveQueue queue(
+        [&](const SaveBatch& batch) -> base::Result<void> {
+            if (++attempts == 1) throw std::bad_alloc();
+            if (attempts == 2) throw std::runtime_error("not now");
+            return recorder.write()(batch);
+        },
+        kNever);
+    queue.add({1, 2}, {older, Provenance::Edited});
+    queue.add({3, 4}, {older, Provenance::Edited});
+    queue.add("time", "0.5");
+    EXPECT_EQ(queue.flush().error().message, "no memory");
+    queue.add({1, 2}, {newer, Provenance::Edited});
+    queue.add({3, 4}, {newer, Provenance::Generated});
+    queue.add("time", "0.6");
+    EXPECT_EQ(queue.flush().error().message, "not now");
+    ASSERT_TRUE(queue.flush());
+    ASSERT_EQ(recorder.batches.size(), 1u);
+    EXPECT_EQ(recorder.batches[0].chunks.at({1, 2}).chunk, newer);
+    EXPECT_EQ(recorder.batches[0].chunks.at({3, 4}).chunk, older)
+        << "a generated chunk replaces no edited one";
+    EXPECT_EQ(recorder.batches[0].metadata.at("time"), "0.6");
+}
+
 TEST(SaveQueue, FlushWritesOneBatchWithTheNewest) {
     Recorder recorder;
     SaveQueue queue(recorder.write(), kNever);

@@ -1,0 +1,90 @@
+#include "tests/base/failing_memory.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+std::atomic<bool> isFailing = false, failed = false;
+std::atomic<long> counted = 0, failFrom = 0, failUntil = 0;
+
+bool fails() {
+    if (!isFailing) return false;
+    const long number = counted++;
+    if (number < failFrom || number >= failUntil) return false;
+    failed = true;
+    return true;
+}
+
+void* allocate(std::size_t bytes) {
+    if (fails()) throw std::bad_alloc();
+    if (void* memory = std::malloc(bytes > 0 ? bytes : 1)) return memory;
+    throw std::bad_alloc();
+}
+
+void* allocateAligned(std::size_t bytes, std::align_val_t alignment) {
+    const auto step = static_cast<std::size_t>(alignment);
+    if (fails()) throw std::bad_alloc();
+    if (void* memory = std::aligned_alloc(step, (bytes + step) / step * step)) return memory;
+    throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t bytes) {
+    return allocate(bytes);
+}
+void* operator new[](std::size_t bytes) {
+    return allocate(bytes);
+}
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+    return allocateAligned(bytes, alignment);
+}
+void* operator new[](std::size_t bytes, std::align_val_t alignment) {
+    return allocateAligned(bytes, alignment);
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}
+
+namespace terrane::base {
+
+FailingMemory::FailingMemory(long after, long count) {
+    counted = 0;
+    failFrom = after;
+    failUntil = count == LONG_MAX ? LONG_MAX : after + count;
+    failed = false;
+    isFailing = true;
+}
+
+FailingMemory::~FailingMemory() {
+    isFailing = false;
+}
+
+bool FailingMemory::hasFailed() {
+    return failed;
+}
+
+}  // namespace terrane::base

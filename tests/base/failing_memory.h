@@ -1,0 +1,20 @@
+// Memory that runs out when a test says so: allocations of the whole program fail. The test program links
+// failing_memory.cpp, which replaces operator new.
+#pragma once
+
+#include <climits>
+
+namespace terrane::base {
+
+// While it lives allocations by any thread fail: `count` of them, after `after` that do not.
+class FailingMemory {
+  public:
+    explicit FailingMemory(long after, long count = LONG_MAX);
+    ~FailingMemory();
+    FailingMemory(const FailingMemory&) = delete;
+    FailingMemory& operator=(const FailingMemory&) = delete;
+
+    static bool hasFailed();  // an allocation, since the last one began
+};
+
+}  // namespace terrane::base
