@@ -58,15 +58,16 @@ std::string isALocation(const std::string& text) {
     return isFile ? isInAFolder(text) : std::string();
 }
 
-// Files are written beside their name and renamed, so the folder counts; but for what is no regular file, as
-// /dev/stdout.
+// Files are written beside their name and renamed, so the folder counts. What is no regular file is refused
+// by base::writeFile(), too, but after the work.
 std::string isWritable(const std::string& text) {
     const std::filesystem::path path(text);
     const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
     std::error_code ignored;
     const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-    const bool isOther = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
-    if (isOther || ::access(folder.c_str(), W_OK) == 0) return {};
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        return fmt::format("\"{}\" is not a regular file", text);
+    if (::access(folder.c_str(), W_OK) == 0) return {};
     return fmt::format("\"{}\": nothing can be written in the folder {}", text, folder);
 }
 

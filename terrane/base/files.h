@@ -10,13 +10,18 @@
 
 namespace terrane::base {
 
-[[nodiscard]] Result<std::string> readFile(const std::filesystem::path& path);
+// No file that is read whole is larger, unless the caller says so.
+constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
 
-// Writes a temporary file beside the path, then renames it over the path: a reader, or a program that ends
-// midway, finds the old file or the new one. (Not a promise for power cuts: nothing is synchronised to the
-// disk.) A symbolic link is followed: the file it leads to is replaced, or made, and the link stays. Makes no
-// folders and refuses to replace what is not a regular file, such as a folder
-// or a device.
+// A regular file of at most `maxBytes`. Others are refused before they are read: a device, a pipe that nobody
+// writes to, what is too large.
+[[nodiscard]] Result<std::string> readFile(const std::filesystem::path& path,
+                                           std::size_t maxBytes = kMaxFileBytes);
+
+// Writes a temporary file beside the path, waits until the disk has it, then renames it over the path: a
+// reader finds the old file or the new one, also after a program, or the power, has ended midway. A symbolic
+// link is followed: the file it leads to is replaced, or made, and the link stays. Makes no folders and
+// refuses to replace what is not a regular file, such as a folder or a device.
 [[nodiscard]] Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace terrane::base

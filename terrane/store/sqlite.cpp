@@ -62,7 +62,8 @@ tl::unexpected<base::Error> failure(const std::string& path, sqlite3* database) 
 
 // "file:" and the path with what means something in a URI escaped.
 std::string uriOf(const std::filesystem::path& path, bool isImmutable) {
-    std::string uri = "file:";
+    std::string uri =
+        path.is_absolute() ? "file://" : "file:";  // "//" ends with an authority, which is empty
     for (const char c : path.string()) {
         if (c == '?' || c == '#' || c == '%') {
             uri += fmt::format("%{:02x}", static_cast<unsigned char>(c));

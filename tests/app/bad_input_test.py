@@ -149,7 +149,9 @@ CASES = [
     (("dump", "--area", "0,0,1,1", "-o", "{folder}"), "{folder}"),
     (("dump", "--area", "0,0,1,1", "-o", "{folder}/missing/a.npy"), "{folder}/missing"),
     (("map", "--radius", "0", "-o", "{folder}/missing/a.png"), "{folder}/missing"),
-    (("map", "--radius", "0", "-o", "/dev/null"), "/dev/null"),
+    (("map", "--radius", "0", "-o", "/dev/null"), '"/dev/null" is not a regular file'),
+    (("render", "--scene", "cave", "-o", "/dev/full"), '"/dev/full" is not a regular file'),
+    (("blocks", "--trace", "/dev/full"), '"/dev/full" is not a regular file'),
 ]
 
 

@@ -1,6 +1,7 @@
 #include "terrane/base/files.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <string>
 #include <thread>
@@ -36,6 +37,28 @@ TEST(Files, ReadingAFolderIsAnError) {
     const Result<std::string> result = readFile(folder.path());
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().message, folder.path().string() + ": cannot be read: Is a directory");
+}
+
+// Whatever a name stands for, reading it takes no more than a moment and the memory that was allowed.
+TEST(Files, OnlyRegularFilesAreRead) {
+    const TempFolder folder;
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    for (const std::filesystem::path& path : {folder / "pipe", std::filesystem::path("/dev/zero")}) {
+        const Result<std::string> result = readFile(path);
+        ASSERT_FALSE(result);
+        EXPECT_EQ(result.error().message, path.string() + ": cannot be read: it is not a regular file");
+    }
+}
+
+TEST(Files, LargeFilesAreRefused) {
+    const TempFolder folder;
+    ASSERT_TRUE(writeFile(folder / "large", ""));
+    std::filesystem::resize_file(folder / "large", std::uintmax_t{20} << 30);  // holds no blocks
+    EXPECT_EQ(readFile(folder / "large").error().message,
+              (folder / "large").string() + ": cannot be read: it has more than 67108864 bytes");
+    ASSERT_TRUE(writeFile(folder / "small", "12345"));
+    EXPECT_FALSE(readFile(folder / "small", 4));
+    EXPECT_EQ(readFile(folder / "small", 5), "12345");
 }
 
 TEST(Files, WritingIntoAMissingFolderNamesPathAndReason) {

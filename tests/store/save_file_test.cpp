@@ -133,6 +133,13 @@ TEST_F(SaveFileTest, ReadingUndoesNothing) {
     EXPECT_EQ(errorOfReading(), "");
 }
 
+TEST_F(SaveFileTest, ADoubledSlashIsOne) {
+    makeSave();
+    EXPECT_TRUE(openToWrite("/" + path_.string(), registry_, kMustBeThere));
+    EXPECT_TRUE(openToRead("/" + path_.string(), registry_));
+    EXPECT_TRUE(Database::open("/" + path_.string(), OpenMode::ReadOnly));
+}
+
 // By whatever name it is opened, it is one save.
 TEST_F(SaveFileTest, ALinkLeadsToTheSameLockAndLog) {
     const fs::path link = folder_ / "link.sqlite";

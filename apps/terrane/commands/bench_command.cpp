@@ -67,7 +67,7 @@ BenchSettings settingsOf(const BenchOptions& options, const json& graphics) {
 
 // All that results depend on: the first line of results. A second run must have the same to go on with them.
 base::Result<json> aboutRun(const BenchSettings& settings, const json& info, const fs::path& program) {
-    const auto bytes = base::readFile(program);
+    const auto bytes = base::readFile(program, std::size_t{1} << 30);  // with what debuggers want
     if (!bytes) return tl::unexpected(bytes.error());
     base::Digest digest;
     digest.update(*bytes);
