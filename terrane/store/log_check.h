@@ -1,6 +1,6 @@
 // Whether the log beside a save (SQLite's write-ahead log) is whole. SQLite takes a log up to its first
 // broken frame and passes over the rest in silence: transactions that were committed would be gone. Called
-// before the save is opened; any thread.
+// while the save is open to read and nobody writes; any thread.
 #pragma once
 
 #include <filesystem>

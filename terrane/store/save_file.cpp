@@ -242,16 +242,16 @@ base::Result<SaveFile> openToRead(const fs::path& name, const world::BlockRegist
         return notASave(path);
     }
     if (auto checked = checkCompanions(path); !checked) return tl::unexpected(checked.error());
-    if (hasJournal(path))
-        return base::fail(ErrorCode::Incompatible,
-                          "{}: its last change was cut short and is undone when it is opened to play",
-                          path.string());
     std::optional<FileLock> lock;
     if (isWritable(path)) {
         auto acquired = FileLock::acquire(path, FileLock::Kind::Shared);
         if (!acquired) return tl::unexpected(acquired.error());
         lock = std::move(*acquired);
     }
+    if (hasJournal(path))
+        return base::fail(ErrorCode::Incompatible,
+                          "{}: its last change was cut short and is undone when it is opened to play",
+                          path.string());
     // Without a log nothing needs to be made beside the file, which may be impossible.
     const OpenMode mode = hasLog(path) ? OpenMode::ReadOnly : OpenMode::Immutable;
     auto database = Database::open(path, mode);
