@@ -17,13 +17,13 @@ bool fails() {
     return true;
 }
 
-void* allocate(std::size_t bytes) {
+[[maybe_unused]] void* allocate(std::size_t bytes) {
     if (fails()) throw std::bad_alloc();
     if (void* memory = std::malloc(bytes > 0 ? bytes : 1)) return memory;
     throw std::bad_alloc();
 }
 
-void* allocateAligned(std::size_t bytes, std::align_val_t alignment) {
+[[maybe_unused]] void* allocateAligned(std::size_t bytes, std::align_val_t alignment) {
     const auto step = static_cast<std::size_t>(alignment);
     if (fails()) throw std::bad_alloc();
     if (void* memory = std::aligned_alloc(step, (bytes + step) / step * step)) return memory;
@@ -32,6 +32,13 @@ void* allocateAligned(std::size_t bytes, std::align_val_t alignment) {
 
 }  // namespace
 
+// The thread sanitizer has an operator new of its own, which cannot be replaced.
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define TERRANE_MEMORY_NEVER_FAILS
+#endif
+#endif
+#ifndef TERRANE_MEMORY_NEVER_FAILS
 void* operator new(std::size_t bytes) {
     return allocate(bytes);
 }
@@ -68,6 +75,7 @@ void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
 void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
     std::free(memory);
 }
+#endif
 
 namespace terrane::base {
 
@@ -81,6 +89,15 @@ FailingMemory::FailingMemory(long after, long count) {
 
 FailingMemory::~FailingMemory() {
     isFailing = false;
+}
+
+bool FailingMemory::isPossible() {
+    const FailingMemory memory(0);
+    try {
+        ::operator delete(::operator new(1));
+    } catch (const std::bad_alloc&) {
+    }
+    return failed;
 }
 
 bool FailingMemory::hasFailed() {

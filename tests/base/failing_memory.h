@@ -14,7 +14,8 @@ class FailingMemory {
     FailingMemory(const FailingMemory&) = delete;
     FailingMemory& operator=(const FailingMemory&) = delete;
 
-    static bool hasFailed();  // an allocation, since the last one began
+    static bool isPossible();  // not under the thread sanitizer
+    static bool hasFailed();   // an allocation, since the last one began
 };
 
 }  // namespace terrane::base
