@@ -70,7 +70,6 @@ std::uint64_t sizeOf(std::filesystem::path path, const char* ending) {
 
 base::Result<CheckReport> checkSave(const std::filesystem::path& path, const world::BlockRegistry& registry) {
     CheckReport report;
-    const bool isLogLost = hasLostLog(path);
     report.fileBytes = sizeOf(path, "") + sizeOf(path, "-wal");
     auto file = openToRead(path, registry);
     if (!file) {
@@ -82,7 +81,7 @@ base::Result<CheckReport> checkSave(const std::filesystem::path& path, const wor
     report.identity = file->identity;
     report.unknownBlocks = file->ids.unknown();
     report.fileProblems = logProblems(file->database.path());
-    if (isLogLost)
+    if (hasLostLog(file->database.path()))
         report.fileProblems.push_back(
             fmt::format("{}-wal: it is gone, though a program that wrote to it was killed: what was saved "
                         "last is missing",

@@ -108,6 +108,9 @@ TEST_F(LogCheckTest, AMissingLogIsNoticed) {
     const CheckReport report = check();
     ASSERT_EQ(report.fileProblems.size(), 1u);
     EXPECT_THAT(report.fileProblems.front(), HasSubstr("a.sqlite-wal: it is gone"));
+    writeAll(path_.string() + "-lock", "12345");
+    std::filesystem::create_symlink(path_, folder_ / "link.sqlite");
+    EXPECT_TRUE(checkSave(folder_ / "link.sqlite", registry_)->isDamaged()) << "by another name";
 }
 
 TEST_F(LogCheckTest, TellsHowMuchIsLost) {
