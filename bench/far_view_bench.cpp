@@ -152,7 +152,8 @@ void show(Stage& stage, const std::vector<ChunkPos>& tiles, bool isShown) {
         if (isShown) {
             const store::LoadedChunk saved = stage.session->store().load(tile);
             const world::Chunk chunk = saved.chunk ? *saved.chunk : stage.generators.generate(tile);
-            stage.renderer.setChunk(tile, mesh::meshTile(chunk, stage.farBlocks, {}, scratch));
+            if (!stage.renderer.setChunk(tile, mesh::meshTile(chunk, stage.farBlocks, {}, scratch)))
+                orExit(base::fail("no room for a tile on the GPU"));
         } else {
             stage.renderer.removeChunk(tile);
         }
@@ -218,10 +219,11 @@ int main(int argc, char** argv) {
                 show(stage, shown, false);
                 const double focal = kSize.y / 2 / std::tan(glm::radians(camera.fieldOfView) / 2);
                 const double cell = (1 << level) * focal / (ringOf(level) * world::kChunkSize);
+                const bench::PictureFigures figures = comparePictures(chunks, tiles, cell);
                 Sum one;
-                one.add(comparePictures(chunks, tiles, cell));
+                one.add(figures);
                 print(place.name, kNames[at], level, one);
-                sums[static_cast<std::size_t>(level)].add(comparePictures(chunks, tiles, cell));
+                sums[static_cast<std::size_t>(level)].add(figures);
                 if (folder.empty()) continue;
                 const auto file = folder / fmt::format("{}_{}_{}.png", place.name, kNames[at], level);
                 if (!base::writePng(file, bench::above(chunks.color, tiles.color))) return 1;
