@@ -11,12 +11,13 @@ struct Renamed {
 };
 
 constexpr std::array<Renamed, 1> kCommands = {{{"fly", "flight-bench"}}};
-constexpr std::array<Renamed, 6> kFlags = {{{"aggregation", "merging"},
+constexpr std::array<Renamed, 7> kFlags = {{{"aggregation", "merging"},
                                             {"atmosphere", "distance-fog"},
                                             {"better-texturing", "sharp-filtering"},
                                             {"for", "duration"},
                                             {"position", "bookmark"},
-                                            {"region-height", "mesh-section-height"}}};
+                                            {"region-height", "mesh-section-height"},
+                                            {"save-game", "world"}}};
 constexpr std::array<Renamed, 1> kValues = {{{"aggregation", "merging"}}};  // of --view
 
 std::string_view currentIn(std::span<const Renamed> names, std::string_view name) {

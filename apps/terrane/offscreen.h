@@ -21,7 +21,7 @@ struct OffscreenOptions {
     SaveOptions save;
     GraphicsOptions graphics;
     Backend backend = Backend::Cpu;
-    store::WorldAccess access = store::WorldAccess::ReadWriteOrMemory;
+    store::WorldAccess access = store::WorldAccess::ReadOnly;
     double meshMilliseconds = view::WorldView::kNoHurry;  // of a frame, on the GPU
 };
 

@@ -22,8 +22,7 @@ base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const wo
 
 // What a session is made of, with workers for everything. Without a named world edits last until the program
 // ends. `options` get the seed and generator of the world.
-base::Result<game::SessionParts> openSessionParts(
-    WorldOptions& options, const SaveOptions& save,
-    store::WorldAccess access = store::WorldAccess::ReadWriteOrMemory);
+base::Result<game::SessionParts> openSessionParts(WorldOptions& options, const SaveOptions& save,
+                                                  store::WorldAccess access);
 
 }  // namespace terrane::app

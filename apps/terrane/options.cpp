@@ -175,16 +175,7 @@ void addRecreateOption(CLI::App& command, SaveOptions& save) {
 }
 
 void addSaveGameOptions(CLI::App& command, SaveOptions& save) {
-    addWorldOption(command, save, "World to play in; made where it is not there");
-    // After --world: options are read in this order. excludes() would show in the help of --world.
-    const auto take = [&save](const std::string& text) {
-        if (!save.world.empty())
-            throw CLI::ValidationError("--save-game", "the old name of --world: only one of them");
-        save.world = text;
-    };
-    command.add_option_function<std::string>("--save-game", take)
-        ->check(CLI::Validator(isALocation, ""))
-        ->group("");
+    addWorldOption(command, save, "World to play in; created if needed");
     addRecreateOption(command, save);
     command
         .add_option_function<std::string>(

@@ -19,8 +19,7 @@ void addAreaOption(CLI::App& command, std::optional<world::ChunkArea>& area);
 
 // --world: NAME, FILE or URL. The folder of a file must be there.
 void addWorldOption(CLI::App& command, SaveOptions& save, const std::string& description);
-// --world and --recreate of commands that play, which make a world where none is there; --save-game, the old
-// name of --world, still works.
+// --world and --recreate of commands that play, which make a world where none is there.
 void addSaveGameOptions(CLI::App& command, SaveOptions& save);
 void addRecreateOption(CLI::App& command, SaveOptions& save);
 

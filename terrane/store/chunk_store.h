@@ -66,10 +66,11 @@ class ReadableStore {
 using SaveNumber = std::uint64_t;
 
 struct SaveStatus {
-    SaveNumber queued = 0;    // the last one asked for
-    SaveNumber durable = 0;   // it and all before it survive the end of the program, and of the power
-    std::size_t waiting = 0;  // chunks not durable yet
-    std::string problem;      // why the last attempt to write failed; empty after one that did not
+    SaveNumber queued = 0;      // the last one asked for
+    SaveNumber durable = 0;     // it and all before it survive the end of the program, and of the power
+    std::size_t waiting = 0;    // chunks not durable yet
+    std::string problem;        // why the last attempt to write failed; empty after one that did not
+    double failingSeconds = 0;  // since the first attempt that failed
 };
 
 // The destructor writes what waits.

@@ -1,12 +1,12 @@
 #include "terrane/store/open_world.h"
 
 #include <cassert>
-#include <system_error>
 #include <utility>
 
 #include "terrane/base/log.h"
 #include "terrane/store/memory_store.h"
 #include "terrane/store/overlay_store.h"
+#include "terrane/store/save_path.h"
 #include "terrane/store/sqlite_reader.h"
 #include "terrane/store/sqlite_store.h"
 
@@ -43,17 +43,12 @@ StoreResult openInMemory(const fs::path& path, const world::BlockRegistry& block
     return std::make_unique<MemoryStore>(std::move(identity), request.limits);
 }
 
-StoreResult openUnwritable(const fs::path& path, const world::BlockRegistry& blocks,
-                           const WorldRequest& request) {
-    std::error_code ignored;
-    const bool isNew = !fs::exists(path, ignored) && request.create;
-    StoreResult store = isNew ? std::make_unique<MemoryStore>(*request.create, request.limits)
-                              : openInMemory(path, blocks, request);
-    if (store) {
-        base::logWarning("{}: cannot be written: the world runs in memory, changes are lost at the end",
-                         path.string());
-    }
-    return store;
+// Saves by name in the working directory were the only ones up to version 0.1.
+void reportFormerPlace(const WorldLocation& location, const fs::path& path) {
+    if (location.kind != WorldLocation::Kind::Name || path.is_absolute()) return;
+    if (const auto folder = dataFolder(savePlaces()))
+        base::logInfo("{}: opened from the working directory; move it into {} to find it from everywhere",
+                      path.string(), folder->string());
 }
 
 }  // namespace
@@ -63,9 +58,8 @@ StoreResult openWorld(const WorldLocation& location, const world::BlockRegistry&
     assert(request.versionOf && "the generators of the program decide whether a world fits");
     const auto path = fileOf(location);
     if (!path) return tl::unexpected(path.error());
+    reportFormerPlace(location, *path);
     if (request.access == WorldAccess::ReadOnly) return openInMemory(*path, blocks, request);
-    if (request.access == WorldAccess::ReadWriteOrMemory && !isWritable(*path))
-        return openUnwritable(*path, blocks, request);
     return openFile(*path, blocks, request);
 }
 

@@ -13,9 +13,8 @@
 namespace terrane::store {
 
 enum class WorldAccess {
-    ReadOnly,           // the world must be there, and stays as it is: changes are kept in memory
-    ReadWrite,          // an error where the world cannot be written
-    ReadWriteOrMemory,  // where it cannot be written changes are kept in memory, and a message says so
+    ReadOnly,   // the world must be there, and stays as it is: changes are kept in memory
+    ReadWrite,  // an error where the world cannot be written
 };
 
 struct WorldRequest {

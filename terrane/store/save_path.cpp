@@ -38,20 +38,25 @@ base::Result<void> checkName(std::string_view name) {
 }  // namespace
 
 SavePlaces savePlaces() {
-    std::error_code ignored;
-    return {fs::read_symlink("/proc/self/exe", ignored), environment("XDG_DATA_HOME"), environment("HOME")};
+    return {.xdgDataHome = environment("XDG_DATA_HOME"), .home = environment("HOME")};
+}
+
+base::Result<fs::path> dataFolder(const SavePlaces& places) {
+    // The XDG specification has relative values ignored.
+    if (fs::path(places.xdgDataHome).is_absolute()) return fs::path(places.xdgDataHome) / "terrane";
+    if (fs::path(places.home).is_absolute()) return fs::path(places.home) / ".local/share/terrane";
+    return base::fail(base::ErrorCode::NotFound,
+                      "no folder for worlds: neither XDG_DATA_HOME nor HOME names an absolute path");
 }
 
 base::Result<fs::path> savePath(std::string_view name, const SavePlaces& places) {
     if (auto good = checkName(name); !good) return tl::unexpected(good.error());
+    const auto folder = dataFolder(places);
+    if (!folder) return base::fail(folder.error().code, "{:?}: {}", name, folder.error().message);
     const std::string file = std::string(name) + ".sqlite";
     std::error_code ignored;
-    if (fs::exists(places.program.parent_path() / "CMakeCache.txt", ignored)) return fs::path("save") / file;
-    // The specification has relative values ignored.
-    if (fs::path(places.xdgDataHome).is_absolute()) return fs::path(places.xdgDataHome) / "terrane" / file;
-    if (!places.home.empty()) return fs::path(places.home) / ".local/share/terrane" / file;
-    return base::fail(base::ErrorCode::NotFound,
-                      "{:?}: no place for saves: neither XDG_DATA_HOME nor HOME is set", name);
+    const bool isFormer = !fs::exists(*folder / file, ignored) && fs::exists(places.former / file, ignored);
+    return isFormer ? places.former / file : *folder / file;
 }
 
 }  // namespace terrane::store

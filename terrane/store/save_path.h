@@ -12,19 +12,21 @@ namespace terrane::store {
 
 // What the place depends on. Texts are empty where the environment does not have them.
 struct SavePlaces {
-    std::filesystem::path program;  // the executable
-    std::string xdgDataHome;        // $XDG_DATA_HOME
-    std::string home;               // $HOME
+    std::string xdgDataHome;                // $XDG_DATA_HOME
+    std::string home;                       // $HOME
+    std::filesystem::path former = "save";  // folder of saves up to version 0.1, below the working directory
 };
 
-// Of this program.
+// Of this process.
 SavePlaces savePlaces();
 
-// A program that lies in a build folder (with a CMakeCache.txt) is being developed: save/NAME.sqlite below
-// the working directory. Else it is installed: $XDG_DATA_HOME/terrane/NAME.sqlite, where that variable is no
-// absolute path $HOME/.local/share/terrane/NAME.sqlite. An error for what cannot be the name of a file:
-// empty, longer than 100 bytes, with a slash or a control character, or with a dot or a space in front. Makes
-// no folders.
+// Where Terrane keeps what players make: $XDG_DATA_HOME/terrane, or $HOME/.local/share/terrane where that
+// variable is no absolute path. Absolute; may not exist. An error where neither variable is set.
+[[nodiscard]] base::Result<std::filesystem::path> dataFolder(const SavePlaces& places);
+
+// NAME.sqlite in the data folder. A save that only the former folder has is found there: the path is then
+// relative. An error for a name that cannot be a file's: empty, longer than 100 bytes, with a slash or a
+// control character, or with a dot or a space in front. Makes no folders.
 [[nodiscard]] base::Result<std::filesystem::path> savePath(std::string_view name, const SavePlaces& places);
 
 }  // namespace terrane::store

@@ -125,7 +125,13 @@ base::Result<void> SaveQueue::flush() {
 
 SaveStatus SaveQueue::status() {
     const std::lock_guard lock(mutex_);
-    return {queued_, durable_, waiting_.chunks.size() + writing_.chunks.size(), problem_.message};
+    SaveStatus status{.queued = queued_,
+                      .durable = durable_,
+                      .waiting = waiting_.chunks.size() + writing_.chunks.size(),
+                      .problem = problem_.message};
+    if (!status.problem.empty())
+        status.failingSeconds = std::chrono::duration<double>(Clock::now() - failingSince_).count();
+    return status;
 }
 
 // After a failure the number of chunks no longer counts, or a full disk would be tried again at each save.
@@ -171,6 +177,7 @@ void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
         if (problem_.message.empty() && wantedAttempts_ < attempts_ && !isLast)
             base::logError("{}; waiting, tried again every {} s: {}", done.error().message,
                            static_cast<double>(limits_.delay.count()) / 1000, contentOf(writing_));
+        if (problem_.message.empty()) failingSince_ = Clock::now();
         problem_ = done.error();
         takeBack(std::exchange(writing_, {}));
     }

@@ -54,7 +54,7 @@ struct SaveBatch {
 
 struct SaveLimits {
     // What is waiting is written after this time, or as soon as there are this many chunks of about 10 KB.
-    std::chrono::milliseconds delay{2000};
+    std::chrono::milliseconds delay{1000};
     std::size_t chunks = 1024;
 };
 
@@ -98,8 +98,9 @@ class SaveQueue {
     Clock::time_point due_ = Clock::time_point::max();  // when what waits must be written
     std::uint64_t attempts_ = 0, wantedAttempts_ = 0;   // begun and asked for by flush
     std::uint64_t finished_ = 0;                        // attempts
-    base::Error problem_;         // of the last attempt; no message where it did not fail
-    bool isProblemTold_ = false;  // by flush(), and nothing was added since
+    base::Error problem_;             // of the last attempt; no message where it did not fail
+    Clock::time_point failingSince_;  // while there is a problem
+    bool isProblemTold_ = false;      // by flush(), and nothing was added since
     bool isEnding_ = false;
     std::thread thread_;
 };

@@ -9,6 +9,7 @@
 
 #include "terrane/store/chunk_reader.h"
 #include "terrane/store/derived_rows.h"
+#include "terrane/store/open_files.h"
 #include "terrane/store/save_file.h"
 #include "terrane/store/save_queue.h"
 
@@ -43,7 +44,7 @@ class SqliteWriter {
 
     // The batch and the rows derived from it. What the chunks of `unread` replace is put aside first. Unless
     // `isComplete`, or where a row is lost, the world has not all derived rows any more: kDerivedRowsMark
-    // goes, and false comes back.
+    // goes, and false comes back. An error, and nothing is written, where the save was deleted or replaced.
     [[nodiscard]] base::Result<bool> write(const SaveBatch& batch, const ChunkPosSet& unread,
                                            std::span<const ChunkRow> derived, bool isComplete);
     // As ChunkStore::deriveAll().
@@ -54,8 +55,10 @@ class SqliteWriter {
         Statement selectChunk, putChunk, deleteChunk, putMetadata, deleteMetadata, quarantineAll,
             quarantineIfSame, deleteIfSame;
     };
-    SqliteWriter(SaveFile& file, Statements statements) : file_(file), use_(std::move(statements)) {}
+    SqliteWriter(SaveFile& file, Statements statements)
+        : file_(file), files_(file.database.path()), use_(std::move(statements)) {}
 
+    base::Result<void> commit(Transaction& transaction);
     base::Result<void> writeBatch(const SaveBatch& batch, const ChunkPosSet& unread);
     base::Result<void> writeChunk(world::ChunkPos pos, const WaitingChunk& chunk);
     base::Result<void> writeDerived(std::span<const ChunkRow> rows);
@@ -65,6 +68,7 @@ class SqliteWriter {
     base::Result<void> quarantine(const DamagedRow& row);
 
     SaveFile& file_;
+    OpenFiles files_;
     Statements use_;
     bool isComplete_ = true;  // of the transaction that runs
 };

@@ -477,12 +477,12 @@ class Saves(ProgramTest):
             self.assertRefused(run("generate", "--world", self.save, "--radius", "1", *arguments), arguments)
 
     def test_a_world_without_generated_chunks(self):
-        draw = ("render", "--at", "8,8,120", "--world", self.save, "--view-distance", "1", "--size", "32x18", "--preset", "low",
-                "-o", self.folder / "a.png")
-        self.succeed(*draw, "--store-generated", "off")
-        self.succeed(*draw)
+        fly = ("flight-bench", "--at", "8,8,120", "--world", self.save, "--view-distance", "1", "--size", "32x18", "--preset",
+               "low", "--duration", "0.1", "--json")
+        self.succeed(*fly, "--store-generated", "off")
+        self.succeed(*fly)
         self.assertEqual(self.sql("SELECT count(*) FROM chunks"), [(0,)], "the world keeps it")
-        self.succeed(*draw, "--store-generated", "on")
+        self.succeed(*fly, "--store-generated", "on")
         self.assertGreater(self.sql("SELECT count(*) FROM chunks")[0][0], 8)
 
     def test_dump_takes_what_the_save_has(self):
@@ -548,14 +548,24 @@ class Saves(ProgramTest):
             self.assertNotIn("secret", done.stderr)
 
     def test_save_game_is_the_old_name_of_world(self):
-        out = self.folder / "out.png"
-        view = ("render", "--scene", "landscape", "-o", out, "--size", "32x24", "--view-distance", "1", "--preset", "low", *FLAT)
+        area = ("--backend", "cpu", "--radius", "0", *FLAT)
         for flag in ("--save-game", "--world"):
-            done = self.run_here(*view, flag, "home")
+            done = self.run_here("generate", *area, flag, "home")
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(len(list(self.folder.glob("*/*.sqlite"))), 1)
-        self.assertNotIn("--save-game", self.succeed("render", "--help"))
-        self.assertRefused(run(*view, "--save-game", "a", "--world", "b"), "both")
+        self.assertNotIn("--save-game", self.succeed("generate", "--help"))
+        self.assertRefused(run("generate", *area, "--save-game", "a", "--world", "b"), "both")
+
+    def test_render_leaves_a_save_as_it_is(self):
+        out = self.folder / "out.png"
+        view = ("render", "--at", "8,8,90", "-o", out, "--size", "32x24", "--view-distance", "1", "--preset", "low")
+        done = run(*view, "--world", self.save)
+        self.assertRefused(done, "there is none")
+        self.succeed("generate", "--world", self.save, "--radius", "0", *FLAT)
+        before = self.save.read_bytes()
+        self.succeed(*view, "--world", self.save)  # most of what it draws is generated
+        self.assertEqual(self.save.read_bytes(), before)
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), sorted([out.name, self.save.name]))
 
     def test_check_good(self):
         self.generate("--world", self.save, "--radius", "1", "--seed", "5")

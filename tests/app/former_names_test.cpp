@@ -14,7 +14,8 @@ Arguments named(std::initializer_list<const char*> arguments) {
 TEST(FormerNames, CommandsAndFlagsAreReplaced) {
     EXPECT_EQ(named({"terrane", "fly", "--for", "3", "--atmosphere=off", "-o", "fly"}),
               (Arguments{"terrane", "flight-bench", "--duration", "3", "--distance-fog=off", "-o", "fly"}));
-    EXPECT_EQ(named({"terrane", "--position", "2"}), (Arguments{"terrane", "--bookmark", "2"}));
+    EXPECT_EQ(named({"terrane", "--position", "2", "--save-game", "a"}),
+              (Arguments{"terrane", "--bookmark", "2", "--world", "a"}));
 }
 
 TEST(FormerNames, AllElseStays) {

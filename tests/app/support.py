@@ -29,11 +29,13 @@ def program():
 
 
 def environment(display=None, settings=None):
-    """That of this process with no other display server than the one named, and settings in a folder or none."""
-    variables = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "XDG_CONFIG_HOME")}
+    """That of this process with no other display server than the one named, and settings and worlds in a folder (they
+    are then in terrane/) or none."""
+    variables = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
     if display:
         variables["DISPLAY"] = display
-    variables["XDG_CONFIG_HOME"] = str(settings or "/nonexistent")
+    # Where nothing can be made, not even by root.
+    variables["XDG_CONFIG_HOME"] = variables["XDG_DATA_HOME"] = str(settings or "/dev/null")
     return variables
 
 

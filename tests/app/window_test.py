@@ -83,12 +83,13 @@ def is_grey(red, green, blue):
 class Game:
     """The running program and its window."""
 
-    def __init__(self, display, folder, arguments):
+    def __init__(self, display, folder, arguments, data=None):
+        """Runs in `folder`, and keeps worlds and settings there or in `data`."""
         self.display = display
         self.log = tempfile.TemporaryFile(mode="w+")
         self.process = subprocess.Popen(
             [support.program(), "play", "--debug-gl", *arguments], cwd=folder,
-            env=support.environment(display.name, folder), stdout=self.log, stderr=self.log)
+            env=support.environment(display.name, data or folder), stdout=self.log, stderr=self.log)
         self.window = None
 
     def open(self):
@@ -223,7 +224,8 @@ class Window(ProgramTest):
 
     # Above the flat world, whose ground is grass at z = 80 on earth: one block fills the middle of the image.
     def look_down(self, display, *arguments):
-        (self.folder / "bookmarks.txt").write_text("8.5 8.5 84 0 -89\n")
+        (self.folder / "terrane").mkdir(exist_ok=True)
+        (self.folder / "terrane" / "bookmarks.txt").write_text("8.5 8.5 84 0 -89\n")
         game = self.play(display, "--bookmark", "1", *arguments, *FLAT)
         game.pause_after("F1")  # no help in the image
         game.wait_for_ground(is_green)
@@ -231,9 +233,9 @@ class Window(ProgramTest):
         return game
 
     def test_the_gpu_makes_meshes_while_one_flies_and_builds(self):
-        save = self.folder / "save" / "home.sqlite"
+        save = self.folder / "terrane" / "home.sqlite"
         with Display() as display:
-            game = self.look_down(display, "--backend", "gpu", "--movement", "fast", "--save-game", "home")
+            game = self.look_down(display, "--backend", "gpu", "--movement", "fast", "--world", "home")
             display.xdotool("keydown", "w")
             time.sleep(1)
             display.xdotool("keyup", "w")
@@ -249,8 +251,8 @@ class Window(ProgramTest):
     def test_a_signal_saves_and_quits(self):
         with Display() as display:
             for number in (signal.SIGINT, signal.SIGTERM):
-                save = self.folder / "save" / f"{number}.sqlite"
-                game = self.look_down(display, "--movement", "medium", "--save-game", save.stem)
+                save = self.folder / "terrane" / f"{number}.sqlite"
+                game = self.look_down(display, "--movement", "medium", "--world", save.stem)
                 display.xdotool("click", 1)
                 game.wait_for_ground(is_brown)
                 game.pause_after("m")
@@ -261,7 +263,7 @@ class Window(ProgramTest):
                 self.assertEqual(self.lines_of_settings(), ["movement = 'walls'"])
 
     def screenshots(self):
-        return list(self.folder.glob("terrane-*.png"))
+        return list(self.folder.glob("**/terrane-*.png"))
 
     def highest_block(self, save):
         """Height of the highest block of the column 8,8 in the save."""
@@ -273,13 +275,17 @@ class Window(ProgramTest):
         with contextlib.closing(sqlite3.connect(save)) as database:
             return database.execute("SELECT value FROM settings WHERE name = ?", (name,)).fetchone()[0]
 
+    def has_edits(self, save):
+        with contextlib.closing(sqlite3.connect(save)) as database:
+            return database.execute("SELECT count(*) FROM chunks WHERE origin = 1 AND key < 1 << 56").fetchone()[0] > 0
+
     def set_setting(self, save, name, value):
         with contextlib.closing(sqlite3.connect(save)) as database, database:
             database.execute("UPDATE settings SET value = ? WHERE name = ?", (value, name))
 
     def test_edits_and_the_camera_outlive_the_program(self):
-        save = self.folder / "save" / "home.sqlite"
-        options = ("--save-game", "home", "--movement", "medium", *FLAT)
+        save = self.folder / "terrane" / "home.sqlite"
+        options = ("--world", "home", "--movement", "medium", *FLAT)
         with Display() as display:
             self.close(self.play(display, *options))
             top = self.highest_block(save)
@@ -296,9 +302,95 @@ class Window(ProgramTest):
             self.assertTrue(self.succeed("check", save).endswith("\ngood\n"))
 
 
+    def test_without_options_everything_is_saved(self):
+        """The world, the place, the time and the block in the hand outlive even a kill, wherever the program runs."""
+        save = self.folder / "terrane" / "flat-1.sqlite"
+        with Display() as display:
+            game = self.look_down(display, "--movement", "medium", "--time", "0.6")
+            display.xdotool("click", 5)  # the wheel: the next kind of block
+            display.xdotool("click", 1)
+            game.wait_for_ground(is_brown)
+            game.press("p")
+            # Other programs may read meanwhile.
+            game.wait_for(lambda: float(self.setting(save, "time")) > 0.61 and self.has_edits(save))
+            game.process.kill()
+            game.process.wait(HANG_SECONDS)
+            self.assertEqual(self.highest_block(save), 79)
+            self.assertEqual(self.setting(save, "camera"), "8.5 8.5 84 0 -89")
+            hand = self.setting(save, "hand")
+            self.assertNotIn(hand, ("", "stone"))
+
+            elsewhere = self.folder / "elsewhere"
+            elsewhere.mkdir()
+            game = Game(display, elsewhere, ("--size", "320x180", "--view-distance", "3", *FLAT), data=self.folder)
+            self.addCleanup(game.log.close)
+            self.addCleanup(game.process.kill)
+            game.open()
+            game.wait_for_ground(is_brown)
+            _, _, place = game.close()
+            self.assertAlmostEqual(place[0], 8.5)
+            self.assertEqual(self.setting(save, "hand"), hand)
+            self.assertEqual(list(elsewhere.iterdir()), [], "nothing in the working directory")
+
+    def test_not_to_save_is_a_choice(self):
+        with Display() as display:
+            game = self.look_down(display, "--no-save")
+            display.xdotool("click", 1)
+            game.wait_for_ground(is_brown)
+            self.close(game)
+            self.assertEqual(list(self.folder.glob("**/*.sqlite")), [])
+            # Neither where nothing can be saved: that is told before anything is built.
+            game = Game(display, self.folder, FLAT, data="/dev/null")
+            self.addCleanup(game.log.close)
+            self.assertEqual(game.process.wait(HANG_SECONDS), 2)
+            self.assertRegex(game.output(), r"\Aterrane: error: /dev/null/terrane: .*\(--no-save plays without saving\)\n\Z")
+
+    def test_a_world_of_the_working_directory_is_found(self):
+        with Display() as display:
+            self.close(self.play(display, "--world", "home", *FLAT))
+            (self.folder / "save").mkdir()
+            (self.folder / "terrane" / "home.sqlite").rename(self.folder / "save" / "home.sqlite")
+            game = self.play(display, "--world", "home")
+            self.close(game)
+            self.assertIn("save/home.sqlite: opened from the working directory; move it into", game.output())
+            self.assertEqual(list((self.folder / "terrane").glob("*.sqlite")), [])
+
+    def test_a_player_learns_that_saving_fails(self):
+        save, away, size = self.folder / "terrane" / "home.sqlite", self.folder / "away.sqlite", (640, 400)
+        options = ("--world", "home", "--movement", "medium", *FLAT)
+
+        def is_warned(game, y):
+            red, green, blue = display.screenshot(game.window).color(size[0] // 2 - 200, y)
+            return red > 3 * max(green, blue)
+
+        with Display() as display:
+            game = self.play(display, *options, size=size)
+            save.rename(away)
+            game.wait_for(lambda: is_warned(game, 18))
+            game.press("Escape")
+            game.wait_for(lambda: is_warned(game, 194))  # asks instead of closing
+            game.press("Escape")
+            game.wait_for(lambda: not is_warned(game, 194))  # stays
+            game.wait_for(lambda: is_warned(game, 18))
+            away.rename(save)
+            game.wait_for(lambda: not is_warned(game, 18))
+            code, _, place = game.close()
+            self.assertEqual(code, 0, game.output())
+            self.assertIn("deleted or moved while it was open", game.output())
+            self.assertEqual(self.setting(save, "camera").split()[0], f"{place[0]:g}")
+
+            game = self.play(display, *options, size=size)
+            save.rename(away)
+            game.wait_for(lambda: is_warned(game, 18))
+            game.press("Escape")
+            game.wait_for(lambda: is_warned(game, 194))
+            game.click(1, 365, 241)
+            self.assertEqual(game.process.wait(HANG_SECONDS), 2)
+            self.assertRegex(game.output(), r"error: .*home.sqlite: deleted or moved .*; not saved: \d+ chunks\n")
+
     def test_what_is_in_a_chest_is_saved(self):
-        save, size = self.folder / "save" / "home.sqlite", (480, 300)
-        options = ("--save-game", "home", "--movement", "medium", *FLAT)
+        save, size = self.folder / "terrane" / "home.sqlite", (480, 300)
+        options = ("--world", "home", "--movement", "medium", *FLAT)
         middle, slot = (240, 150), (64, 94)  # the slot: the first, left above
         with Display() as display:
             self.close(self.play(display, *options, size=size))
@@ -332,7 +424,7 @@ class Window(ProgramTest):
 
     def test_a_player_tries_everything_and_finds_it_again(self):
         size, settings = (480, 720), self.folder / "terrane" / "settings.toml"
-        options = ("--save-game", "home", *FLAT)
+        options = ("--world", "home", *FLAT)
         with Display(size) as display:
             game = self.play(display, *options, "--collect-perf-data", "perf.csv", size=size)
             game.click(1, 100, 400)  # takes the mouse
@@ -348,8 +440,8 @@ class Window(ProgramTest):
                 game.click(1, 203, y, pause)
             end = self.close(game)
 
-            self.assertEqual(len((self.folder / "bookmarks.txt").read_text().splitlines()), 1)
-            image = Image(self.folder / "terrane-0001.png")
+            self.assertEqual(len((self.folder / "terrane" / "bookmarks.txt").read_text().splitlines()), 1)
+            image = Image(self.folder / "terrane" / "screenshots" / "terrane-0001.png")
             self.assertEqual((image.width, image.height), size)
             rows = [line.split(",") for line in (self.folder / "perf.csv").read_text().splitlines()]
             self.assertEqual(rows[0][:3], ["time_s", "frame_ms", "fps"])
@@ -371,7 +463,7 @@ class Window(ProgramTest):
         return [line for line in path.read_text().splitlines() if line and not line.startswith("#")]
 
     def test_only_what_a_player_changed_is_kept(self):
-        (self.folder / "terrane").mkdir()
+        (self.folder / "terrane").mkdir(exist_ok=True)
         (self.folder / "terrane" / "settings.toml").write_text("day-minutes = 3\n")
         with Display() as display:
             self.close(self.play(display, "--clouds", "off", *FLAT))
@@ -396,15 +488,15 @@ class Window(ProgramTest):
         self.assertNotIn("full-screen", settings.read_text())
 
     def test_a_wrong_time_in_a_save_is_named(self):
-        save = self.folder / "save" / "home.sqlite"
+        save = self.folder / "terrane" / "home.sqlite"
         with Display() as display:
-            self.close(self.play(display, "--save-game", "home", *FLAT))
+            self.close(self.play(display, "--world", "home", *FLAT))
             self.set_setting(save, "time", "nan")
-            game = self.play(display, "--save-game", "home")
+            game = self.play(display, "--world", "home")
             code, _, _ = game.close()
             self.assertEqual(code, 0, game.output())
             self.assertIn('warning: the save\'s time of day is no number from 0 to 1: "nan"', game.output())
-            self.close(self.play(display, "--save-game", "home"))  # there is a time again
+            self.close(self.play(display, "--world", "home"))  # there is a time again
 
     def test_keys_do_nothing_else_while_one_types(self):
         size = (480, 720)

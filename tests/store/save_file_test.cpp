@@ -358,14 +358,12 @@ class ReadOnlyTest : public SaveFileTest {
     void TearDown() override { fs::permissions(folder_.path(), fs::perms::owner_all); }
     void makeReadOnly() { fs::permissions(folder_.path(), fs::perms(0555)); }
 
-    // As the program opens worlds that it plays in; nothing: the world must be there.
-    auto openAsPlayed(const fs::path& path, std::optional<WorldIdentity> create, bool regenerate = false) {
+    auto openInMemory(bool regenerate = false) {
         WorldRequest request;
-        request.access = WorldAccess::ReadWriteOrMemory;
-        request.create = std::move(create);
+        request.access = WorldAccess::ReadOnly;
         if (regenerate) request.wanted.regenerate = Regenerate::All;
         request.versionOf = [=](std::string_view) { return regenerate ? 4 : kIdentity.generatorVersion; };
-        return openWorld({WorldLocation::Kind::File, path}, registry_, request);
+        return openWorld({WorldLocation::Kind::File, path_}, registry_, request);
     }
 };
 
@@ -378,7 +376,7 @@ TEST_F(ReadOnlyTest, SaveInAReadOnlyFolder) {
     const Unprivileged user;
     EXPECT_FALSE(isWritable(path_));
     EXPECT_THAT(errorOfWriting(), HasSubstr("cannot be written"));
-    auto store = openAsPlayed(path_, kIdentity);
+    auto store = openInMemory();
     ASSERT_TRUE(store) << store.error().message;
     EXPECT_FALSE((*store)->isPersistent());
     EXPECT_EQ((*store)->identity(), kIdentity);
@@ -395,17 +393,15 @@ TEST_F(ReadOnlyTest, SaveInAReadOnlyFolder) {
 TEST_F(ReadOnlyTest, NewWorldInAReadOnlyFolder) {
     makeReadOnly();
     const Unprivileged user;
-    auto store = openAsPlayed(folder_ / "new.sqlite", kIdentity);
-    ASSERT_TRUE(store) << store.error().message;
-    EXPECT_FALSE((*store)->isPersistent());
-    EXPECT_FALSE(openAsPlayed(folder_ / "new.sqlite", {})) << "there is none to read";
+    EXPECT_THAT(errorOfWriting({.create = kIdentity, .decide = {}}), HasSubstr("cannot be written"));
+    EXPECT_EQ(folder_.fileCount(), 0);
 }
 
 TEST_F(ReadOnlyTest, RecreateInAReadOnlyFolder) {
     makeSave();
     makeReadOnly();
     const Unprivileged user;
-    auto store = openAsPlayed(path_, kIdentity, true);
+    auto store = openInMemory(true);
     ASSERT_TRUE(store) << store.error().message;
     EXPECT_EQ((*store)->load({3, 0}).state, LoadedChunk::State::Absent);
     EXPECT_EQ((*store)->identity().seed, kIdentity.seed);
@@ -417,7 +413,7 @@ TEST_F(ReadOnlyTest, OneReadOnlyFile) {
     fs::permissions(path_, fs::perms(0444));
     fs::permissions(folder_.path(), fs::perms::all);
     const Unprivileged user;
-    auto store = openAsPlayed(path_, kIdentity);
+    auto store = openInMemory();
     ASSERT_TRUE(store) << store.error().message;
     EXPECT_FALSE((*store)->isPersistent());
     EXPECT_EQ(*(*store)->load({3, 0}).chunk, *numberedChunk(3));

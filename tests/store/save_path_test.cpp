@@ -7,23 +7,35 @@
 namespace terrane::store {
 namespace {
 
-TEST(SavePath, BesideTheWorkingDirectoryInASourceTree) {
-    const base::TempFolder build;
-    writeAll(build / "CMakeCache.txt", "");
-    const SavePlaces places{build / "terrane", "/data", "/home/me"};
-    EXPECT_EQ(*savePath("world", places), "save/world.sqlite");
+TEST(SavePath, InTheDataFolder) {
+    EXPECT_EQ(*savePath("world", {"/data", "/home/me"}), "/data/terrane/world.sqlite");
+    const std::filesystem::path byHome = "/home/me/.local/share/terrane/world.sqlite";
+    EXPECT_EQ(*savePath("world", {"", "/home/me"}), byHome);
+    EXPECT_EQ(*savePath("world", {"relative", "/home/me"}), byHome);
+    EXPECT_EQ(*dataFolder({"", "/home/me"}), byHome.parent_path());
+    for (const char* home : {"", "relative"}) {
+        const auto nowhere = savePath("world", {"", home});
+        ASSERT_FALSE(nowhere) << home;
+        EXPECT_THAT(nowhere.error().message, testing::HasSubstr("\"world\": no folder for worlds"));
+    }
 }
 
-TEST(SavePath, InTheDataFolderWhenInstalled) {
-    EXPECT_EQ(*savePath("world", {"/usr/bin/terrane", "/data", "/home/me"}), "/data/terrane/world.sqlite");
-    const std::filesystem::path byHome = "/home/me/.local/share/terrane/world.sqlite";
-    EXPECT_EQ(*savePath("world", {"/usr/bin/terrane", "", "/home/me"}), byHome);
-    EXPECT_EQ(*savePath("world", {"/usr/bin/terrane", "relative", "/home/me"}), byHome);
-    EXPECT_FALSE(savePath("world", {"/usr/bin/terrane", "", ""}));
+// Up to version 0.1 they lay below the working directory.
+TEST(SavePath, InTheFormerFolderWhereOnlyThatHasIt) {
+    const base::TempFolder folder;
+    const std::filesystem::path former = folder / "save", data = folder / "data";
+    std::filesystem::create_directories(former);
+    std::filesystem::create_directories(data / "terrane");
+    const SavePlaces places{data.string(), "", former};
+    EXPECT_EQ(*savePath("home", places), data / "terrane/home.sqlite");
+    writeAll(former / "home.sqlite", "");
+    EXPECT_EQ(*savePath("home", places), former / "home.sqlite");
+    writeAll(data / "terrane/home.sqlite", "");
+    EXPECT_EQ(*savePath("home", places), data / "terrane/home.sqlite");
 }
 
 TEST(SavePath, NamesThatAreFiles) {
-    const SavePlaces places{"/usr/bin/terrane", "/data", ""};
+    const SavePlaces places{"/data", ""};
     for (const std::string& name :
          std::vector<std::string>{"a", "My world 2", "svět", "a.b", "-x", std::string(100, 'n')})
         EXPECT_TRUE(savePath(name, places)) << name;
@@ -34,10 +46,6 @@ TEST(SavePath, NamesThatAreFiles) {
     EXPECT_FALSE(savePath(std::string_view("a\0b", 3), places));
     EXPECT_EQ(savePath("a\nb", places).error().message,
               "\"a\\nb\": the name of a save has neither slashes nor control characters");
-}
-
-TEST(SavePath, OfThisProgram) {
-    EXPECT_EQ(savePlaces().program.filename(), "store_tests");
 }
 
 }  // namespace

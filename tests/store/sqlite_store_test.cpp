@@ -227,5 +227,33 @@ TEST_F(SqliteStoreTest, WhatNoSaveHoldsIsLeftOut) {
     EXPECT_EQ(store->load({1, 0}).state, State::Present);
 }
 
+// Writing into a file without a name would look as if it were saved.
+TEST_F(SqliteStoreTest, AMovedOrReplacedFileIsNotWritten) {
+    const auto elsewhere = folder_ / "elsewhere";
+    for (const char* ending : {"", "-wal"}) {
+        const std::filesystem::path file = path_.string() + ending;
+        const auto store = open();
+        store->save({0, 0}, numberedChunk(1), Provenance::Edited);
+        ASSERT_TRUE(store->flush());
+        std::filesystem::rename(file, elsewhere);
+        store->save({0, 0}, numberedChunk(2), Provenance::Edited);
+        const auto moved = store->flush();
+        ASSERT_FALSE(moved) << ending;
+        EXPECT_THAT(moved.error().message, HasSubstr(file.string() + ": deleted or moved while it was open"));
+        writeAll(file, "another");
+        const auto replaced = store->flush();
+        ASSERT_FALSE(replaced) << ending;
+        EXPECT_THAT(replaced.error().message, HasSubstr(file.string() + ": replaced while it was open"));
+        EXPECT_EQ(store->status().waiting, 1u);
+        EXPECT_GT(store->status().failingSeconds, 0);
+
+        std::filesystem::rename(elsewhere, file);
+        EXPECT_TRUE(store->flush());
+        EXPECT_EQ(store->status().failingSeconds, 0);
+        EXPECT_EQ(*store->load({0, 0}).chunk, *numberedChunk(2));
+    }
+    EXPECT_EQ(*open()->load({0, 0}).chunk, *numberedChunk(2));
+}
+
 }  // namespace
 }  // namespace terrane::store

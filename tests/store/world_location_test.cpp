@@ -87,8 +87,7 @@ TEST_F(OpenWorldTest, ReadOnlyKeepsChangesInMemory) {
 
 TEST_F(OpenWorldTest, ErrorsHaveCodes) {
     { ASSERT_TRUE(open(WorldAccess::ReadWrite)); }
-    for (const WorldAccess access :
-         {WorldAccess::ReadOnly, WorldAccess::ReadWrite, WorldAccess::ReadWriteOrMemory})
+    for (const WorldAccess access : {WorldAccess::ReadOnly, WorldAccess::ReadWrite})
         EXPECT_EQ(open(access, {.seed = 8, .generator = {}}).error().code, ErrorCode::Incompatible);
     {
         const auto first = open(WorldAccess::ReadWrite);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "apps/terrane/bench/plan_line.h"
+#include "terrane/content/scenes.h"
 
 namespace terrane::app {
 namespace {
@@ -43,11 +44,17 @@ Cells generating(const std::string& scene, const std::string& distances) {
         fmt::format("render --scene {} --preset low --view-distance {} --size 320x180", scene, distances));
 }
 
-// The same from a save that has it all.
+// The same from a save that has it all: what is in view and a chunk more, whose light comes in.
 Cell loading(const std::string& scene, int distance) {
     Cell cell = generating(scene, fmt::to_string(distance))[0];
-    cell.arguments.insert(cell.arguments.end(), {"--save-game", fmt::format("{}-{}", scene, distance)});
-    return {cell.arguments, cell.arguments};
+    const std::string save = fmt::format("{}-{}", scene, distance);
+    cell.arguments.insert(cell.arguments.end(), {"--save-game", save});
+    const world::ChunkPos c = world::chunkOf(content::findScene(scene)->pose.position);
+    const int radius = distance + 1;
+    cell.before = {
+        "generate", "--world", save,
+        fmt::format("--area={},{},{},{}", c.x - radius, c.y - radius, c.x + radius + 1, c.y + radius + 1)};
+    return cell;
 }
 
 // A flight ahead over the landscape, generating or from a save. It takes as long as it does: without a
@@ -85,7 +92,7 @@ Cells meshSectionHeights(const BenchSettings& s) {
         for (Cell& cell :
              frames(s, fmt::format("--view-distance {0} --mesh-section-height {1} --save-game landscape-{0}",
                                    distance, heights)))
-            cells.push_back({std::move(cell.arguments), loading("landscape", distance).arguments});
+            cells.push_back({std::move(cell.arguments), loading("landscape", distance).before});
     }
     return cells;
 }

@@ -94,6 +94,7 @@ base::Result<void> runFlightBench(const FlightBenchOptions& options) {
                                     .save = options.save,
                                     .graphics = options.graphics,
                                     .backend = options.backend,
+                                    .access = store::WorldAccess::ReadWrite,
                                     .meshMilliseconds = view::WorldView::kFrameMilliseconds});
     if (!world) return tl::unexpected(world.error());
     flight->viewDistance = (*world)->graphics.viewDistance;

@@ -5,16 +5,17 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/window/bookmarks.h"
 #include "apps/terrane/window/game.h"
 #include "apps/terrane/window/icon.h"
 #include "terrane/base/log.h"
 #include "terrane/base/stop_signals.h"
 #include "terrane/content/built_in.h"
 #include "terrane/content/resource_pack.h"
+#include "terrane/game/bookmarks.h"
+#include "terrane/game/player_state.h"
 #include "terrane/game/spawn.h"
 #include "terrane/gpu/built_in_shaders.h"
-#include "terrane/view/camera_pose.h"
+#include "terrane/store/save_path.h"
 #include "terrane/view/memory_budget.h"
 
 namespace terrane::app {
@@ -28,13 +29,18 @@ constexpr const char* kKeys = R"(Keys:
   O, P, I                 time of day back, forth; let it pass or stand still
   F1, F2                  help; settings and statistics
   F3, F4                  debug top view; a map of how far chunks are
-  F5, F6                  save a bookmark in bookmarks.txt, go to the next one
+  F5, F6                  save a bookmark, go to the next one
   F11, F12, L             full screen; screenshot; light classic or smooth
-  Esc                     end typing, close the chest, quit; Ctrl+C in the terminal quits, too)";
+  Esc                     end typing, close the chest, quit; Ctrl+C in the terminal quits, too
+
+The world, the place, the time of day and the block in the hand are saved while one plays, in
+$XDG_DATA_HOME/terrane/NAME.sqlite ($HOME/.local/share/terrane where that is not set); bookmarks.txt and
+screenshots/ lie beside it.)";
 
 struct PlayOptions {
     WorldOptions world;
     SaveOptions save;
+    bool savesNothing = false;
     GraphicsOptions graphics;
     Backend backend = Backend::Auto;
     PlaySettings settings;
@@ -45,27 +51,36 @@ struct PlayOptions {
 };
 
 // What the player sees first: a bookmark, where the save was left, or a pleasant place.
-base::Result<world::Pose> startOf(const PlayOptions& options, game::Session& session) {
+base::Result<world::Pose> startOf(const PlayOptions& options, const game::BookmarkFiles& files,
+                                  const game::SavedPlayer& saved, game::Session& session) {
     if (options.bookmark) {
-        auto bookmarks = readBookmarks(kBookmarksFile);
+        auto bookmarks = game::readBookmarks(files);
         if (!bookmarks) return tl::unexpected(bookmarks.error());
         const auto number = static_cast<std::size_t>(*options.bookmark);
         if (number > bookmarks->size()) {
-            return base::fail("--bookmark {}: {} has {}", number, kBookmarksFile, bookmarks->size());
+            return base::fail("--bookmark {}: {} has {}", number, files.file.string(), bookmarks->size());
         }
-        return view::poseOf((*bookmarks)[number - 1]);
+        return (*bookmarks)[number - 1];
     }
-    const auto saved = cameraFrom(session.store().metadata(kCameraSetting).value_or(""));
-    if (saved && world::isInWorld(render::cameraChunk(*saved))) return view::poseOf(*saved);
-    return game::findSpawn(session.generator(), session.blocks());
+    return saved.pose ? *saved.pose : game::findSpawn(session.generator(), session.blocks());
 }
 
-void setClock(const PlayOptions& options, game::Session& session) {
-    const auto saved = session.store().metadata(kTimeSetting);
-    const auto time = game::timeDayFrom(saved.value_or(""));
-    if (saved && !time) base::logWarning("the save's time of day is no number from 0 to 1: \"{}\"", *saved);
-    game::DayClock& clock = session.clock;
-    clock.timeDay = options.time ? *options.time : time.value_or(clock.timeDay);
+// Worlds are saved unless the player chooses otherwise. One without a name has that of what makes it, so that
+// it fits whenever the same is asked for.
+base::Result<game::SessionParts> openWorld(PlayOptions& options) {
+    using store::WorldAccess;
+    if (options.savesNothing) return openSessionParts(options.world, options.save, WorldAccess::ReadOnly);
+    std::string& name = options.save.world;
+    if (name.empty())
+        name = fmt::format("{}-{}", options.world.effectiveGenerator(), options.world.effectiveSeed());
+    auto parts = openSessionParts(options.world, options.save, WorldAccess::ReadWrite);
+    if (parts || parts.error().code == base::ErrorCode::Damaged) return parts;
+    return base::fail(parts.error().code, "{} (--no-save plays without saving)", parts.error().message);
+}
+
+// Empty where no variable names a home: bookmarks and screenshots are then kept in the working directory.
+std::filesystem::path dataFolder() {
+    return store::dataFolder(store::savePlaces()).value_or(std::filesystem::path());
 }
 
 base::Result<Window> openWindow(const PlayOptions& options) {
@@ -89,12 +104,13 @@ PlaySettings settingsOf(const PlayOptions& options, bool isSoftwareRenderer) {
 
 base::Result<void> play(PlayOptions& options, CLI::App& command) {
     if (auto read = applySettings(options.settingsFile, command, render::namesOfPreset()); !read) return read;
-    auto parts = openSessionParts(options.world, options.save);
+    // The window first: without one no world is made.
+    auto window = openWindow(options);
+    if (!window) return tl::unexpected(window.error());
+    auto parts = openWorld(options);
     if (!parts) return tl::unexpected(parts.error());
     auto textures = content::loadTextures(options.graphics.resourcePack, *parts->blocks);
     if (!textures) return tl::unexpected(textures.error());
-    auto window = openWindow(options);
-    if (!window) return tl::unexpected(window.error());
     const gpu::ShaderLoader shaders = gpu::builtInShaders(options.graphics.shaderRoot);
     const gpu::DeviceInfo device = gpu::queryDevice();
     auto renderer = render::Renderer::create(shaders, *parts->blocks, *textures, device);
@@ -106,11 +122,16 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
     if (!backEnds) return tl::unexpected(backEnds.error());
     game::Session session(std::move(*parts));
     render::BackgroundCompiler compiler(shaders, session.blocks(), content::builtInTextures());
-    auto start = startOf(options, session);
-    if (!start) return tl::unexpected(start.error());
-    setClock(options, session);
-
     GameOptions game;
+    game.dataFolder = dataFolder();
+    const game::SavedPlayer saved = game::savedPlayer(session.store());
+    const game::BookmarkFiles bookmarks = game::bookmarkFiles(game.dataFolder);
+    game::reportFormerFiles(bookmarks);
+    auto start = startOf(options, bookmarks, saved, session);
+    if (!start) return tl::unexpected(start.error());
+    session.clock.timeDay = options.time ? *options.time : saved.timeDay.value_or(session.clock.timeDay);
+
+    game.hand = saved.hand.value_or("");
     game.settings = settingsOf(options, device.software);
     game.start = *start;
     game.perfData = options.perfData;
@@ -155,7 +176,10 @@ CommandEntry addPlay(CLI::App& app) {
     CLI::App* command = app.add_subcommand("play", "Open a window to walk, fly and build in (the default)");
     addWorldOptions(*command, options->world);
     addSaveGameOptions(*command, options->save);
-    command->add_option("--bookmark", options->bookmark, "Start at this line of bookmarks.txt")
+    command->get_option("--world")->description(
+        "World to play in; created if needed (default: GENERATOR-SEED)");
+    command->add_flag("--no-save", options->savesNothing, "Save nothing: changes are lost at the end");
+    command->add_option("--bookmark", options->bookmark, "Start at this bookmark, counted from 1")
         ->check(numberFrom(1, 1e6))
         ->type_name("X");
     command->add_option("--time", options->time, "Time of day: 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk")

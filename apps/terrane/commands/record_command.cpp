@@ -86,8 +86,7 @@ base::Result<void> recordVideo(const RecordOptions& options, const CLI::App& com
     auto world = Offscreen::create({.world = script->world,
                                     .save = options.save,
                                     .graphics = optionsAt(shotAt(*script, options.from), 0),
-                                    .backend = options.backend,
-                                    .access = store::WorldAccess::ReadOnly});
+                                    .backend = options.backend});
     if (!world) return tl::unexpected(world.error());
     const base::StopSignals signals;  // until the file is finished: an unfinished one goes with its sink
     auto sink = openSink(options);

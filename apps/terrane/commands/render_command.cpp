@@ -158,7 +158,6 @@ base::Result<void> renderImage(const RenderCommandOptions& options) {
     timings.draw = millisecondsSince(drawStart);
     timings.frames = view::measureFrames(renderer, input, options.frames);
     if (auto written = base::writePng(options.output, image); !written) return written;
-    if (auto saved = session.save(); !saved) return saved;
     if (auto finished = (*world)->finish(); !finished) return finished;
 
     timings.all = millisecondsSince(start);
@@ -185,7 +184,7 @@ CommandEntry addRender(CLI::App& app) {
     addWorldOptions(*command, options->world);
     addBackendOption(*command, options->backend, "Where to generate, light and mesh");
     addGraphicsOptions(*command, options->graphics, "high");
-    addSaveGameOptions(*command, options->save);
+    addWorldOption(*command, options->save, "World to draw, left as it is; what it lacks is generated");
     return {command, [options] { return renderImage(*options); }};
 }
 

@@ -38,8 +38,11 @@ Settings of the window.
 .I ~/.local/share/terrane/NAME.sqlite
 Saves.
 .TP
-.I bookmarks.txt
-Bookmarks saved in the window, in the working directory.
+.I ~/.local/share/terrane/bookmarks.txt
+Bookmarks saved in the window.
+.TP
+.I ~/.local/share/terrane/screenshots/
+Screenshots.
 )";
 
 // Plain text for roff: no letter of it is a request, an escape or a hyphen.

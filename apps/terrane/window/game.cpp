@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "apps/terrane/window/bookmarks.h"
 #include "apps/terrane/window/container_panel.h"
 #include "apps/terrane/window/loading_map.h"
 #include "apps/terrane/window/overlay.h"
@@ -38,7 +37,11 @@ Game::Game(const GameParts& parts, const GameOptions& options)
       player_(options.start, options.settings.movement),
       interaction_(parts.session.blocks()),
       shadersRead_(parts.shaders.newestWrite()),
+      screenshots_(options.dataFolder / "screenshots"),
+      bookmarks_(game::bookmarkFiles(options.dataFolder)),
       perfData_(options.perfData) {
+    if (const world::BlockType* hand = parts_.session.blocks().find(options.hand))
+        interaction_.choose(hand->id);
     parts_.session.pipeline().setMeshOptions(settings_.graphics.mesh);
     parts_.renderer.setViewDistance(settings_.graphics.viewDistance);
 }
@@ -49,13 +52,17 @@ base::Result<void> Game::run() {
         if (!log) return tl::unexpected(log.error());
         perfLog_ = std::move(*log);
     }
-    const auto drawn = drawFrames();
+    base::Result<void> drawn, saved;
+    do {
+        drawn = drawFrames();
+        saved = save();
+    } while (drawn && staysAfter(saved));
     const glm::dvec3& p = player_.pose().position;
     base::logInfo("closed after {} frames at {:.2f},{:.2f},{:.2f}", frames_, p.x, p.y, p.z);
     if (perfLog_) base::logInfo("most seconds had {} frames", meter_.mode());
-    const auto saved = leave();
     if (!drawn && !saved) base::logError("{}", saved.error().message);
-    return drawn ? saved : drawn;
+    if (!drawn || !saved) return drawn ? saved : drawn;
+    return perfLog_ ? perfLog_->finish() : base::Result<void>();
 }
 
 base::Result<void> Game::drawFrames() {
@@ -86,6 +93,7 @@ void Game::advance(double seconds) {
     session.setPlayer(game::kLocalPlayer, player_.pose());
     interaction_.act(session, game::kLocalPlayer, player_, seconds);
     session.advance(seconds, world::chunkOf(player_.pose().position));
+    game::savePlayer(session.store(), playerState(), saved_);
     parts_.view.setHorizon({settings_.graphics.horizon, settings_.graphics.detail});
     parts_.view.follow(camera(), settings_.graphics.viewDistance);
 }
@@ -230,6 +238,12 @@ void Game::drawInterface() {
     if (showsPanel_) drawStatistics(statistics());
     if (showsPanel_) drawPanel(settings_, session.clock, {isSoftwareRenderer_, screen.width, screen.height});
     if (container_) drawOpenContainer(screen);
+    const store::SaveStatus status = session.store().status();
+    if (!asksToQuit_) {
+        drawSaveNotice(screen, status);
+    } else if (const auto choice = drawQuitDialog(screen, status)) {
+        answerQuitDialog(*choice);
+    }
     imgui_.endFrame();
 }
 
@@ -281,12 +295,32 @@ Statistics Game::statistics() {
             .passes = &parts_.renderer.passTimes()};
 }
 
-base::Result<void> Game::leave() {
-    store::ChunkStore& store = parts_.session.store();
-    store.setMetadata(kCameraSetting, textOf(camera()));
-    store.setMetadata(kTimeSetting, fmt::format("{:.5f}", parts_.session.clock.timeDay));
-    if (auto saved = parts_.session.save(); !saved) return saved;
-    return perfLog_ ? perfLog_->finish() : base::Result<void>();
+game::PlayerState Game::playerState() const {
+    return {player_.pose(), parts_.session.clock.timeDay,
+            parts_.session.blocks().type(interaction_.block()).name};
+}
+
+base::Result<void> Game::save() {
+    game::savePlayer(parts_.session.store(), playerState(), saved_);
+    const auto saved = parts_.session.save();
+    if (saved) return saved;
+    return base::fail(saved.error().code, "{}; not saved: {} chunks", saved.error().message,
+                      parts_.session.store().status().waiting);
+}
+
+// Who closes the window is asked before anything is lost; who sends a signal is not there to answer.
+bool Game::staysAfter(const base::Result<void>& saved) {
+    if (saved || quitsUnsaved_ || parts_.signals.stopAsked()) return false;
+    parts_.window.cancelClose();
+    asksToQuit_ = true;
+    capture(false);
+    return true;
+}
+
+void Game::answerQuitDialog(QuitChoice choice) {
+    asksToQuit_ = false;
+    quitsUnsaved_ = choice == QuitChoice::QuitUnsaved;
+    if (choice != QuitChoice::Stay) parts_.window.requestClose();
 }
 
 }  // namespace terrane::app

@@ -8,20 +8,20 @@
 #include "apps/terrane/window/pad_reader.h"
 #include "apps/terrane/window/perf_log.h"
 #include "apps/terrane/window/play_settings.h"
+#include "apps/terrane/window/save_notice.h"
 #include "apps/terrane/window/window.h"
 #include "terrane/base/stop_signals.h"
 #include "terrane/base/timed_value.h"
 #include "terrane/game/block_interaction.h"
+#include "terrane/game/bookmarks.h"
 #include "terrane/game/day_clock.h"
+#include "terrane/game/player_state.h"
 #include "terrane/render/background_compiler.h"
 #include "terrane/view/block_preview.h"
 #include "terrane/view/frame_meter.h"
 #include "terrane/view/world_view.h"
 
 namespace terrane::app {
-
-// Settings of a save: "X Y Z YAW PITCH", and the time of day.
-constexpr std::string_view kCameraSetting = "camera", kTimeSetting = "time";
 
 // What the loop works with; everything outlives it.
 struct GameParts {
@@ -38,6 +38,8 @@ struct GameParts {
 struct GameOptions {
     PlaySettings settings;
     world::Pose start;
+    std::string hand;                  // name of a block type; empty: the first one
+    std::filesystem::path dataFolder;  // for bookmarks and screenshots
     bool isSoftwareRenderer = false;
     std::string perfData;  // file; empty: none
 };
@@ -49,7 +51,8 @@ class Game {
 
     Game(const GameParts& parts, const GameOptions& options);
 
-    // Until the window closes, a signal asks to stop or a frame fails; then everything is saved.
+    // Until the window closes, a signal asks to stop or a frame fails; then everything is saved. Where that
+    // fails the player is asked first; an error says what is lost.
     base::Result<void> run();
     const PlaySettings& settings() const { return settings_; }
 
@@ -86,7 +89,10 @@ class Game {
     std::optional<render::ShadowFit> shadowFit(const render::Camera& camera) const;
     Statistics statistics();
     MemoryStatistics memoryStatistics() const;
-    base::Result<void> leave();
+    game::PlayerState playerState() const;
+    base::Result<void> save();
+    bool staysAfter(const base::Result<void>& saved);
+    void answerQuitDialog(QuitChoice choice);
 
     GameParts parts_;
     PlaySettings settings_, applied_;
@@ -100,10 +106,14 @@ class Game {
     base::TimedValue<WriteTime> shadersWritten_{kShaderPause};
     WriteTime shadersRead_;                     // the newest one when they were last read
     std::optional<world::BlockPos> container_;  // the open one
+    std::optional<game::PlayerState> saved_;    // as handed to the store
+    std::filesystem::path screenshots_;         // folder
+    game::BookmarkFiles bookmarks_;
     std::string perfData_;
     std::optional<PerfLog> perfLog_;
 
     bool isCaptured_ = false, showsPanel_ = false, isAbove_ = false, showsLoading_ = false;
+    bool asksToQuit_ = false, quitsUnsaved_ = false;
     double hintSeconds_ = 12, messageSeconds_ = 0;
     std::string message_;
     std::size_t nextBookmark_ = 0, frames_ = 0;

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 
-#include "apps/terrane/window/bookmarks.h"
 #include "apps/terrane/window/game.h"
 #include "terrane/base/image.h"
 #include "terrane/game/container.h"
@@ -16,10 +15,10 @@ constexpr double kStickDegrees = 160;  // a second, of a gamepad's stick at its 
 constexpr double kDayStep = 0.01;      // of a day, for each press
 constexpr double kMessageSeconds = 3;
 
-// The first name of its kind that is free in the working directory.
-std::filesystem::path freeScreenshot() {
+// The first name of its kind that is free in the folder.
+std::filesystem::path freeScreenshot(const std::filesystem::path& folder) {
     for (int number = 1;; ++number) {
-        const std::filesystem::path path = fmt::format("terrane-{:04}.png", number);
+        const std::filesystem::path path = folder / fmt::format("terrane-{:04}.png", number);
         std::error_code ignored;
         if (!std::filesystem::exists(path, ignored)) return path;
     }
@@ -56,6 +55,7 @@ void Game::onKey(Key key) {
     if (imgui_.takesKeys()) return;  // Escape ends the typing
     switch (key) {
         case Key::Escape:
+            if (asksToQuit_) return answerQuitDialog(QuitChoice::Stay);
             return container_ ? closeContainer() : parts_.window.requestClose();
         case Key::F1:
             hintSeconds_ = hintSeconds_ > 0 ? 0 : 20;
@@ -174,21 +174,22 @@ void Game::say(std::string message) {
 }
 
 void Game::saveBookmark() {
-    const auto done = appendBookmark(kBookmarksFile, camera());
-    say(done ? fmt::format("bookmark saved in {}", kBookmarksFile) : done.error().message);
+    const auto done = game::appendBookmark(bookmarks_.file, player_.pose());
+    say(done ? fmt::format("bookmark saved in {}", bookmarks_.file.string()) : done.error().message);
 }
 
 void Game::nextBookmark() {
-    const auto bookmarks = readBookmarks(kBookmarksFile);
+    const auto bookmarks = game::readBookmarks(bookmarks_);
     if (!bookmarks) return say(bookmarks.error().message);
     if (bookmarks->empty()) return say("no bookmark is saved yet (F5)");
-    const render::Camera& camera = (*bookmarks)[nextBookmark_++ % bookmarks->size()];
-    player_.placeAt(view::poseOf(camera), settings_.movement);
+    player_.placeAt((*bookmarks)[nextBookmark_++ % bookmarks->size()], settings_.movement);
 }
 
 void Game::takeScreenshot() {
     if (!hasWorldImage()) return;
-    const std::filesystem::path file = freeScreenshot();
+    std::error_code ignored;  // writing tells
+    std::filesystem::create_directories(screenshots_, ignored);
+    const std::filesystem::path file = freeScreenshot(screenshots_);
     const auto done = base::writePng(file, parts_.renderer.readImage());
     say(done ? "screenshot " + file.string() : done.error().message);
 }

@@ -200,6 +200,10 @@ void Window::requestClose() {
     glfwSetWindowShouldClose(state_->window, GLFW_TRUE);
 }
 
+void Window::cancelClose() {
+    glfwSetWindowShouldClose(state_->window, GLFW_FALSE);
+}
+
 glm::ivec2 Window::framebufferSize() const {
     glm::ivec2 size(0, 0);
     glfwGetFramebufferSize(state_->window, &size.x, &size.y);

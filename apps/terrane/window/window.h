@@ -43,6 +43,7 @@ class Window {
     void swapBuffers();
     [[nodiscard]] bool shouldClose() const;
     void requestClose();
+    void cancelClose();
 
     [[nodiscard]] glm::ivec2 framebufferSize() const;  // pixels; 0 while minimised
     [[nodiscard]] float contentScale() const;          // how much larger than usual things are to be drawn

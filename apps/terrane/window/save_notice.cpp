@@ -1,0 +1,61 @@
+#include "apps/terrane/window/save_notice.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "apps/terrane/window/imgui_layer.h"
+
+namespace terrane::app {
+namespace {
+
+const ImVec4 kWarning{0.45f, 0.05f, 0.02f, 0.9f};
+
+void beginNotice(const char* title, const Screen& screen, float height, ImGuiWindowFlags flags) {
+    const float width = std::min(520 * uiScale(), screen.width - 20 * uiScale());
+    ImGui::SetNextWindowPos({screen.width / 2, height}, ImGuiCond_Always, {0.5f, 0});
+    ImGui::SetNextWindowSize({width, 0});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, kWarning);
+    ImGui::Begin(title, nullptr,
+                 flags | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
+    ImGui::PopStyleColor();
+}
+
+void textOf(const store::SaveStatus& status) {
+    ImGui::TextWrapped("%s", status.problem.c_str());
+    ImGui::TextWrapped(
+        "For %.0f s; %zu chunks wait and are tried again. Nothing is lost while the program runs.",
+        status.failingSeconds, status.waiting);
+}
+
+}  // namespace
+
+void drawSaveNotice(const Screen& screen, const store::SaveStatus& status) {
+    if (status.problem.empty()) return;
+    beginNotice("save notice", screen, 10 * uiScale(),
+                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+    ImGui::TextUnformatted("The world is not being saved");
+    textOf(status);
+    ImGui::End();
+}
+
+std::optional<QuitChoice> drawQuitDialog(const Screen& screen, const store::SaveStatus& status) {
+    std::optional<QuitChoice> choice;
+    beginNotice("The world could not be saved", screen, screen.height * 0.35f, ImGuiWindowFlags_None);
+    if (status.problem.empty()) {
+        ImGui::TextWrapped("Saving works again.");
+    } else {
+        textOf(status);
+    }
+    ImGui::Spacing();
+    if (ImGui::Button("Try again and quit")) choice = QuitChoice::TryAgain;
+    ImGui::SameLine();
+    if (ImGui::Button("Keep playing")) choice = QuitChoice::Stay;
+    ImGui::SameLine();
+    if (ImGui::Button("Quit and lose it")) choice = QuitChoice::QuitUnsaved;
+    ImGui::End();
+    return choice;
+}
+
+}  // namespace terrane::app

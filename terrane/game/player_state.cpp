@@ -1,0 +1,37 @@
+#include "terrane/game/player_state.h"
+
+#include <fmt/format.h>
+
+#include "terrane/base/log.h"
+#include "terrane/game/day_clock.h"
+#include "terrane/game/pose_text.h"
+
+namespace terrane::game {
+namespace {
+
+// Names of metadata. The pose is that of the player's camera.
+constexpr std::string_view kPose = "camera", kTime = "time", kHand = "hand";
+
+}  // namespace
+
+SavedPlayer savedPlayer(store::ReadableStore& store) {
+    const auto pose = store.metadata(kPose), time = store.metadata(kTime);
+    SavedPlayer player;
+    player.hand = store.metadata(kHand);
+    if (pose) player.pose = poseFrom(*pose);
+    if (pose && !player.pose)
+        base::logWarning("the save's camera is no place and direction in the world: {:?}", *pose);
+    if (time) player.timeDay = timeDayFrom(*time);
+    if (time && !player.timeDay)
+        base::logWarning("the save's time of day is no number from 0 to 1: {:?}", *time);
+    return player;
+}
+
+void savePlayer(store::ChunkStore& store, const PlayerState& now, std::optional<PlayerState>& saved) {
+    if (!saved || saved->pose != now.pose) store.setMetadata(kPose, textOf(now.pose));
+    if (!saved || saved->timeDay != now.timeDay) store.setMetadata(kTime, fmt::format("{:.5f}", now.timeDay));
+    if (!saved || saved->hand != now.hand) store.setMetadata(kHand, now.hand);
+    saved = now;
+}
+
+}  // namespace terrane::game

@@ -1,0 +1,34 @@
+// What a save keeps of its player besides the world. Metadata of a store: saved in the same order and within
+// the same time as blocks.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "terrane/store/chunk_store.h"
+#include "terrane/world/pose.h"
+
+namespace terrane::game {
+
+struct PlayerState {
+    world::Pose pose;
+    double timeDay = 0;  // of the world, 0 to 1
+    std::string hand;    // name of the block type in the hand
+
+    bool operator==(const PlayerState&) const = default;
+};
+
+// Nothing where a save has none yet, or something else, which is logged.
+struct SavedPlayer {
+    std::optional<world::Pose> pose;
+    std::optional<double> timeDay;
+    std::optional<std::string> hand;  // may name a type that this program does not have
+};
+
+SavedPlayer savedPlayer(store::ReadableStore& store);
+
+// Hands the parts that differ from `saved` to the store, without waiting, and sets `saved`; all of them where
+// that is empty. Cheap enough for every frame.
+void savePlayer(store::ChunkStore& store, const PlayerState& now, std::optional<PlayerState>& saved);
+
+}  // namespace terrane::game

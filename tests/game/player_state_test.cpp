@@ -1,0 +1,47 @@
+#include "terrane/game/player_state.h"
+
+#include <gtest/gtest.h>
+
+#include "terrane/store/memory_store.h"
+
+namespace terrane::game {
+namespace {
+
+const PlayerState kState{{{1.5, -2, 80.25}, 30, -5}, 0.625, "lamp"};
+
+TEST(PlayerState, ComesBack) {
+    store::MemoryStore store({1, "flat", 1});
+    EXPECT_FALSE(savedPlayer(store).pose || savedPlayer(store).timeDay || savedPlayer(store).hand);
+    std::optional<PlayerState> saved;
+    savePlayer(store, kState, saved);
+    const SavedPlayer again = savedPlayer(store);
+    EXPECT_EQ(again.pose, kState.pose);
+    EXPECT_EQ(again.timeDay, kState.timeDay);
+    EXPECT_EQ(again.hand, kState.hand);
+}
+
+// A player who stands still writes nothing.
+TEST(PlayerState, OnlyWhatChangedIsSaved) {
+    store::MemoryStore store({1, "flat", 1});
+    std::optional<PlayerState> saved;
+    savePlayer(store, kState, saved);
+    const store::SaveNumber all = store.status().queued;
+    savePlayer(store, kState, saved);
+    EXPECT_EQ(store.status().queued, all);
+    PlayerState other = kState;
+    other.hand = "sand";
+    savePlayer(store, other, saved);
+    EXPECT_EQ(store.status().queued, all + 1);
+    EXPECT_EQ(savedPlayer(store).hand, "sand");
+}
+
+TEST(PlayerState, WhatIsNoneIsLeftOut) {
+    store::MemoryStore store({1, "flat", 1});
+    store.setMetadata("camera", "3000000000 0 0 0 0");
+    store.setMetadata("time", "nan");
+    EXPECT_FALSE(savedPlayer(store).pose);
+    EXPECT_FALSE(savedPlayer(store).timeDay);
+}
+
+}  // namespace
+}  // namespace terrane::game
