@@ -1,0 +1,61 @@
+// What a store was told to save and what it reported as durable: which content a save may have afterwards.
+// Contents are numbers (markedChunk); 0 stands for none.
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "terrane/store/chunk_store.h"
+
+namespace terrane::store {
+
+class Ledger {
+  public:
+    void saved(world::ChunkPos pos, int content, SaveNumber number) {
+        versions_[pos].contents.push_back({content, number});
+    }
+    // All saves up to this number are durable.
+    void durable(SaveNumber number) {
+        for (auto& [pos, versions] : versions_)
+            for (std::size_t k = versions.from; k < versions.contents.size(); ++k)
+                if (versions.contents[k].second <= number) versions.from = k;
+    }
+    // A save has it from the start, or it was found there. Nothing older is possible any more.
+    void found(world::ChunkPos pos, int content) { versions_[pos] = {{{content, 0}}, 0}; }
+    // Another store counts from 1 again. What the last one was told and did not write may be there or not.
+    void closed() {
+        for (auto& [pos, versions] : versions_)
+            for (auto& [content, number] : versions.contents) number = kNever;
+    }
+
+    // Whether a save may have this content there.
+    bool mayHold(world::ChunkPos pos, int content) const {
+        const auto found = versions_.find(pos);
+        if (found == versions_.end()) return content == 0;
+        const auto& [contents, from] = found->second;
+        for (std::size_t k = from; k < contents.size(); ++k)
+            if (contents[k].first == content) return true;
+        return false;
+    }
+    // The last one that was saved: a store that is open gives it.
+    int newest(world::ChunkPos pos) const {
+        const auto found = versions_.find(pos);
+        return found == versions_.end() ? 0 : found->second.contents.back().first;
+    }
+    std::vector<world::ChunkPos> positions() const {
+        std::vector<world::ChunkPos> all;
+        for (const auto& [pos, versions] : versions_) all.push_back(pos);
+        return all;
+    }
+
+  private:
+    static constexpr SaveNumber kNever = ~SaveNumber{0};
+    struct Versions {
+        std::vector<std::pair<int, SaveNumber>> contents{{0, 0}};  // oldest first, with their numbers
+        std::size_t from = 0;                                      // these are possible
+    };
+    std::map<world::ChunkPos, Versions> versions_;
+};
+
+}  // namespace terrane::store
