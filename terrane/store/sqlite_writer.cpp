@@ -56,7 +56,7 @@ base::Result<bool> SqliteWriter::write(const SaveBatch& batch, const ChunkPosSet
         use_.deleteMetadata.bind(1, kDerivedRowsMark);
         if (auto done = use_.deleteMetadata.run(); !done) return tl::unexpected(done.error());
     }
-    if (auto done = transaction->commit(); !done) return tl::unexpected(done.error());
+    if (auto done = commit(*transaction); !done) return tl::unexpected(done.error());
     return isComplete_;
 }
 
@@ -77,7 +77,14 @@ base::Result<void> SqliteWriter::deriveAll(const DerivedRows& rows, std::string_
     if (!derived) return derived;
     if (!saved.result()) return saved.result();
     if (auto done = writeMetadata(kDerivedRowsMark, rules); !done) return done;
-    return transaction->commit();
+    return commit(*transaction);
+}
+
+// A log that has a transaction will be missed where it is gone.
+base::Result<void> SqliteWriter::commit(Transaction& transaction) {
+    auto done = transaction.commit();
+    if (done && file_.lock) file_.lock->setHasLog(true);
+    return done;
 }
 
 base::Result<void> SqliteWriter::writeBatch(const SaveBatch& batch, const ChunkPosSet& unread) {

@@ -56,6 +56,7 @@ class SqliteWriter {
     };
     SqliteWriter(SaveFile& file, Statements statements) : file_(file), use_(std::move(statements)) {}
 
+    base::Result<void> commit(Transaction& transaction);
     base::Result<void> writeBatch(const SaveBatch& batch, const ChunkPosSet& unread);
     base::Result<void> writeChunk(world::ChunkPos pos, const WaitingChunk& chunk);
     base::Result<void> writeDerived(std::span<const ChunkRow> rows);

@@ -38,8 +38,6 @@ class Play {
     void run(bool lasts);
     // Nothing fails any more: what was durable is there, the save is whole and works.
     void verify();
-    // As a program that was stopped leaves it.
-    void leaveLock() const;
 
     bool tellsAll = true;  // the play got through without a refusal
 

@@ -75,10 +75,24 @@ void setSystemCalls(sqlite3_vfs* real, bool areOurs) {
         real->xSetSystemCall(real, name, areOurs ? write : nullptr);
 }
 
+std::optional<std::string> contentOfFile(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return std::nullopt;
+    return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
 void stopHere() {
     disk->hasStopped = true;
-    disk->left = disk->stop == DiskStop::Kill ? disk->unsynced.afterKill()
-                                              : disk->unsynced.afterPowerLoss(disk->random);
+    const bool isKill = disk->stop == DiskStop::Kill;
+    disk->left = isKill ? disk->unsynced.afterKill() : disk->unsynced.afterPowerLoss(disk->random);
+    // The lock of terrane/store/file_lock.h, which SQLite does not know: its file may be as it is, or not yet
+    // have its last words.
+    for (const auto& [path, content] : UnsyncedWrites::Files(disk->left)) {
+        auto lock = contentOfFile(path + "-lock");
+        if (!lock || lock->empty()) continue;
+        if (!isKill && disk->random() % 3 == 0) lock = lock->substr(0, lock->find(' '));
+        if (isKill || disk->random() % 4 != 0) disk->left[path + "-lock"] = lock;
+    }
 }
 
 // The code of a failure. Room is needed by what writes and by new files.
@@ -213,12 +227,6 @@ const sqlite3_io_methods kMethods = {
     .xFetch = nullptr,
     .xUnfetch = nullptr,
 };
-
-std::optional<std::string> contentOfFile(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return std::nullopt;
-    return std::string(std::istreambuf_iterator<char>(file), {});
-}
 
 int openFile(sqlite3_vfs* vfs, const char* name, sqlite3_file* file, int flags, int* outFlags) {
     auto* opened = reinterpret_cast<File*>(file);
