@@ -17,23 +17,40 @@ void put(Chunks& chunks, world::ChunkPos pos, WaitingChunk newer) {
     if (!isNew && newer.provenance >= entry->second.provenance) entry->second = std::move(newer);
 }
 
+// Short enough to need no memory.
+base::Error noMemory() {
+    return {base::ErrorCode::OutOfResources, "no memory"};
+}
+
 // What writing threw is a failure like others: the queue's thread goes on.
-base::Result<void> resultOf(const SaveQueue::WriteBatch& write, const SaveBatch& batch) {
+base::Result<void> resultOf(const SaveQueue::WriteBatch& write, const SaveBatch& batch) noexcept {
     try {
-        return write(batch);
-    } catch (const std::bad_alloc&) {
-        return tl::unexpected(base::Error{base::ErrorCode::OutOfResources, "no memory"});
-    } catch (const std::exception& exception) {
-        return base::fail("{}", exception.what());
+        try {
+            return write(batch);
+        } catch (const std::bad_alloc&) {
+            return tl::unexpected(noMemory());
+        } catch (const std::exception& exception) {
+            return base::fail("{}", exception.what());
+        }
+    } catch (...) {
+        return tl::unexpected(noMemory());
     }
 }
 
 // Metadata by name. A damaged row is not lost: it stays in the file, to be found again.
-std::string contentOf(const SaveBatch& batch) {
+std::string listOf(const SaveBatch& batch) {
     std::string text = fmt::format("{} chunks", batch.chunks.size());
     for (const auto& [name, value] : batch.metadata) text += fmt::format(", the setting {}", name);
     if (!batch.damaged.empty()) text += fmt::format(", {} damaged rows put aside", batch.damaged.size());
     return text;
+}
+
+std::string contentOf(const SaveBatch& batch) noexcept {
+    try {
+        return listOf(batch);
+    } catch (const std::bad_alloc&) {
+        return "much";
+    }
 }
 
 }  // namespace
@@ -171,7 +188,7 @@ void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
         if (problem_.message.empty() && wantedAttempts_ < attempts_ && !isLast)
             base::logError("{}; waiting, tried again every {} s: {}", done.error().message,
                            static_cast<double>(limits_.delay.count()) / 1000, contentOf(writing_));
-        problem_ = done.error();
+        problem_ = std::move(done.error());
         takeBack(std::exchange(writing_, {}));
     }
     ++finished_;
