@@ -62,8 +62,13 @@ std::vector<ChunkRow> SaveBatch::editedChunks() const {
     return edited;
 }
 
-SaveQueue::SaveQueue(WriteBatch write, SaveLimits limits)
-    : write_(std::move(write)), limits_(limits), thread_([this] { run(); }) {}
+SaveQueue::SaveQueue(WriteBatch write, SaveLimits limits) : write_(std::move(write)), limits_(limits) {
+    if (limits_.clock) {
+        limits_.clock->writeIfDue = [this] { writeIfDue(); };
+    } else {
+        thread_ = std::thread([this] { run(); });
+    }
+}
 
 SaveQueue::~SaveQueue() {
     {
@@ -71,7 +76,12 @@ SaveQueue::~SaveQueue() {
         isEnding_ = true;
     }
     wake_.notify_all();
-    thread_.join();
+    if (limits_.clock) {
+        limits_.clock->writeIfDue = nullptr;
+        writeIfDue();
+    } else {
+        thread_.join();
+    }
     if (!waiting_.isEmpty() && !isProblemTold_)
         base::logError("{}; lost: {}", problem_.message, contentOf(waiting_));
 }
@@ -86,7 +96,7 @@ SaveNumber SaveQueue::addNumbered(Add add) {
         isProblemTold_ = false;
         number = ++queued_;
         const bool isFirst = due_ == Clock::time_point::max();
-        if (isFirst) due_ = Clock::now() + limits_.delay;
+        if (isFirst) due_ = now() + limits_.delay;
         wakes = isFirst || waiting_.chunks.size() >= limits_.chunks;
     }
     if (wakes) wake_.notify_one();
@@ -134,6 +144,7 @@ base::Result<void> SaveQueue::flush() {
     const std::uint64_t attempt = attempts_ + 1;
     wantedAttempts_ = std::max(wantedAttempts_, attempt);
     wake_.notify_all();
+    if (limits_.clock) writeOnce(lock, false);
     written_.wait(lock, [&] { return durable_ >= goal || finished_ >= attempt; });
     if (durable_ >= goal) return {};
     isProblemTold_ = true;
@@ -148,7 +159,7 @@ SaveStatus SaveQueue::status() {
 // After a failure the number of chunks no longer counts, or a full disk would be tried again at each save.
 bool SaveQueue::isDue() const {
     if (isEnding_ || wantedAttempts_ > attempts_) return true;
-    return (waiting_.chunks.size() >= limits_.chunks && problem_.message.empty()) || Clock::now() >= due_;
+    return (waiting_.chunks.size() >= limits_.chunks && problem_.message.empty()) || now() >= due_;
 }
 
 void SaveQueue::run() {
@@ -166,6 +177,11 @@ void SaveQueue::run() {
         writeOnce(lock, isLast);
         if (isLast) return;
     }
+}
+
+void SaveQueue::writeIfDue() {
+    std::unique_lock lock(mutex_);
+    if (isDue()) writeOnce(lock, isEnding_);
 }
 
 void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
@@ -205,7 +221,7 @@ void SaveQueue::takeBack(SaveBatch failed) {
     waiting_.chunks.merge(failed.chunks);
     waiting_.metadata.merge(failed.metadata);
     waiting_.damaged.splice(waiting_.damaged.begin(), failed.damaged);
-    due_ = Clock::now() + limits_.delay;
+    due_ = now() + limits_.delay;
 }
 
 }  // namespace terrane::store

@@ -2,6 +2,7 @@
 // Contents are numbers (markedChunk); 0 stands for none.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <utility>
 #include <vector>
@@ -29,14 +30,18 @@ class Ledger {
             for (auto& [content, number] : versions.contents) number = kNever;
     }
 
-    // Whether a save may have this content there.
-    bool mayHold(world::ChunkPos pos, int content) const {
+    // What a save may have there.
+    std::vector<int> possible(world::ChunkPos pos) const {
         const auto found = versions_.find(pos);
-        if (found == versions_.end()) return content == 0;
-        const auto& [contents, from] = found->second;
-        for (std::size_t k = from; k < contents.size(); ++k)
-            if (contents[k].first == content) return true;
-        return false;
+        if (found == versions_.end()) return {0};
+        std::vector<int> contents;
+        for (std::size_t k = found->second.from; k < found->second.contents.size(); ++k)
+            contents.push_back(found->second.contents[k].first);
+        return contents;
+    }
+    bool mayHold(world::ChunkPos pos, int content) const {
+        const std::vector<int> contents = possible(pos);
+        return std::find(contents.begin(), contents.end(), content) != contents.end();
     }
     // The last one that was saved: a store that is open gives it.
     int newest(world::ChunkPos pos) const {

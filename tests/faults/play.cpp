@@ -6,7 +6,7 @@
 
 #include "terrane/store/save_check.h"
 #include "tests/base/failing_memory.h"
-#include "tests/store/tile_sums.h"
+#include "tests/faults/expect_tiles.h"
 
 namespace terrane::store {
 namespace {
@@ -162,28 +162,6 @@ void Play::expectGoodCheck(bool mayBeUndone) const {
             ADD_FAILURE() << nameOf(chunk.pos) << ": " << chunk.problem;
 }
 
-void Play::expectTiles(SqliteStore& store) const {
-    if (store.metadata(kDerivedRowsMark) != kSumRules) return;
-    const auto positions = store.editedChunks();
-    ASSERT_TRUE(positions) << positions.error().message;
-    std::vector<ChunkRow> edited;
-    std::set<world::ChunkPos> places;
-    for (const world::ChunkPos pos : *positions) {
-        edited.push_back({pos, store.load(pos).chunk});
-        places.insert(tileAbove(pos));
-        places.insert(tileAbove(tileAbove(pos)));
-    }
-    const TileMap expected = tilesOf(edited);
-    for (const world::ChunkPos pos : places) {
-        const LoadedChunk tile = store.load(pos);
-        const auto found = expected.find(pos);
-        ASSERT_EQ(tile.chunk != nullptr, found != expected.end()) << nameOf(pos);
-        if (tile.chunk) {
-            ASSERT_TRUE(*tile.chunk == *found->second) << nameOf(pos);
-        }
-    }
-}
-
 void Play::verify() {
     lasts_ = false;
     expectGoodCheck(true);
@@ -191,7 +169,7 @@ void Play::verify() {
     ASSERT_TRUE(store) << "the save cannot be opened any more";
     expectLoads(*store);
     ASSERT_TRUE(store->flush()) << "damaged rows are put aside";
-    expectTiles(*store);
+    expectTiles(*store, kSumRules);
     for (const world::ChunkPos pos : ledger_.positions()) {
         const int content = contentOf(store->load(pos));
         ledger_.found(pos, content);
@@ -202,7 +180,7 @@ void Play::verify() {
     ASSERT_TRUE(store->flush());
     ledger_.durable(store->status().durable);
     expectLoads(*store);
-    expectTiles(*store);
+    expectTiles(*store, kSumRules);
     store.reset();
     ledger_.closed();
     damaged_ = 0;

@@ -48,7 +48,6 @@ class Play {
     void flush(SqliteStore& store);
     void expectLoads(SqliteStore& store);
     void expectGoodCheck(bool mayBeUndone) const;
-    void expectTiles(SqliteStore& store) const;
 
     std::filesystem::path path_;
     world::BlockRegistry registry_ = testRegistry();
