@@ -203,7 +203,8 @@ void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
         // Who waits for flush() is told there; what the last attempt loses is told by the destructor.
         if (problem_.message.empty() && wantedAttempts_ < attempts_ && !isLast)
             base::logError("{}; waiting, tried again every {} s: {}", done.error().message,
-                           static_cast<double>(limits_.delay.count()) / 1000, contentOf(writing_));
+                           kTryAgainDelays * static_cast<double>(limits_.delay.count()) / 1000,
+                           contentOf(writing_));
         problem_ = std::move(done.error());
         takeBack(std::exchange(writing_, {}));
     }
@@ -221,7 +222,7 @@ void SaveQueue::takeBack(SaveBatch failed) {
     waiting_.chunks.merge(failed.chunks);
     waiting_.metadata.merge(failed.metadata);
     waiting_.damaged.splice(waiting_.damaged.begin(), failed.damaged);
-    due_ = now() + limits_.delay;
+    due_ = now() + kTryAgainDelays * limits_.delay;
 }
 
 }  // namespace terrane::store

@@ -59,9 +59,12 @@ struct ManualClock {
     std::function<void()> writeIfDue;  // of the queue that has the clock
 };
 
+constexpr int kTryAgainDelays = 4;
+
 struct SaveLimits {
     // What is waiting is written after this time, or as soon as there are this many chunks of about 10 KB.
-    std::chrono::milliseconds delay{2000};
+    // What failed is tried again after kTryAgainDelays of it.
+    std::chrono::milliseconds delay{500};
     std::size_t chunks = 1024;
     ManualClock* clock = nullptr;  // null: the queue has a thread and the system's clock
 };

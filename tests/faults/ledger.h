@@ -43,10 +43,11 @@ class Ledger {
         const std::vector<int> contents = possible(pos);
         return std::find(contents.begin(), contents.end(), content) != contents.end();
     }
-    // The last one that was saved: a store that is open gives it.
-    int newest(world::ChunkPos pos) const {
+    // What the store that is open may give: the last one that it was told, or what it may have found.
+    std::vector<int> expected(world::ChunkPos pos) const {
         const auto found = versions_.find(pos);
-        return found == versions_.end() ? 0 : found->second.contents.back().first;
+        if (found == versions_.end() || found->second.contents.back().second == kNever) return possible(pos);
+        return {found->second.contents.back().first};
     }
     std::vector<world::ChunkPos> positions() const {
         std::vector<world::ChunkPos> all;

@@ -62,6 +62,7 @@ TEST_F(SimulationTest, TheSameSeedDoesTheSame) {
         for (std::uint64_t& history : histories) {
             Simulation simulation(seed);
             simulation.run();
+            ASSERT_FALSE(HasFailure()) << "TERRANE_SEED=" << seed << " plays this again";
             history = simulation.history();
         }
         EXPECT_EQ(histories[0], histories[1]) << "seed " << seed;
