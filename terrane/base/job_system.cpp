@@ -34,6 +34,7 @@ struct JobQueue {
     std::uint64_t nextSequence = 0;
     std::size_t runningCount = 0;
     bool stopping = false;
+    bool hasNoThreads = false;               // whoever waits runs the jobs
     std::vector<std::thread::id> workerIds;  // complete before the first job is submitted
 
     [[nodiscard]] bool isIdle() const { return queued.empty() && runningCount == 0; }
@@ -105,17 +106,21 @@ std::optional<std::string> errorOf(const Call& call) noexcept {
     }
 }
 
-// Blocks for the most urgent job; none when the system stops.
-std::shared_ptr<Job> takeJob(JobQueue& queue) {
-    std::unique_lock lock(queue.mutex);
-    queue.workAdded.wait(lock, [&] { return queue.stopping || !queue.queued.empty(); });
-    if (queue.stopping) return nullptr;
+// Under the lock. There is one.
+std::shared_ptr<Job> takeFirst(JobQueue& queue) {
     std::shared_ptr<Job> job = std::move(queue.queued.begin()->second);
     queue.queued.erase(queue.queued.begin());
     assert(job->state == JobState::Queued && "only queued jobs are in the queue");
     job->state = JobState::Running;
     ++queue.runningCount;
     return job;
+}
+
+// Blocks for the most urgent job; none when the system stops.
+std::shared_ptr<Job> takeJob(JobQueue& queue) {
+    std::unique_lock lock(queue.mutex);
+    queue.workAdded.wait(lock, [&] { return queue.stopping || !queue.queued.empty(); });
+    return queue.stopping ? nullptr : takeFirst(queue);
 }
 
 void runJob(Job& job) {
@@ -156,6 +161,17 @@ void stopQueue(JobQueue& queue) {
     for (const auto& [key, job] : cancelled) job->finished.notify_all();
 }
 
+bool runFirst(JobQueue& queue) {
+    std::shared_ptr<Job> job;
+    {
+        const std::lock_guard lock(queue.mutex);
+        if (queue.queued.empty()) return false;
+        job = takeFirst(queue);
+    }
+    runJob(*job);
+    return true;
+}
+
 void runWorker(JobQueue& queue, unsigned number) {
     setThreadName(fmt::format("worker {}", number));
     while (const std::shared_ptr<Job> job = takeJob(queue)) runJob(*job);
@@ -189,6 +205,8 @@ void JobHandle::cancel() const {
 void JobHandle::wait() const {
     assert(job_ && "an empty handle has nothing to wait for");
     forbidOnWorker(*job_->queue, "JobHandle::wait was called on a worker, which could wait for itself");
+    if (job_->queue->hasNoThreads)
+        while (!isFinished(job_->state) && runFirst(*job_->queue)) continue;
     std::unique_lock lock(job_->queue->mutex);
     job_->finished.wait(lock, [&] { return isFinished(job_->state); });
 }
@@ -201,8 +219,8 @@ std::string JobHandle::error() const {
 }
 
 JobSystem::JobSystem(unsigned threadCount) : queue_(std::make_shared<JobQueue>()) {
-    assert(threadCount >= 1 && "without a thread no job would ever run");
     const std::lock_guard lock(queue_->mutex);
+    queue_->hasNoThreads = threadCount == 0;
     workers_.reserve(threadCount);
     for (unsigned number = 1; number <= threadCount; ++number) {
         workers_.emplace_back([queue = queue_.get(), number] { runWorker(*queue, number); });
@@ -239,8 +257,13 @@ std::size_t JobSystem::queuedCount() const {
     return queue_->queued.size();
 }
 
+bool JobSystem::runNext() {
+    return runFirst(*queue_);
+}
+
 void JobSystem::waitIdle() {
     forbidOnWorker(*queue_, "JobSystem::waitIdle was called on a worker, which would wait for itself");
+    while (queue_->hasNoThreads && runNext()) continue;
     std::unique_lock lock(queue_->mutex);
     queue_->becameIdle.wait(lock, [&] { return queue_->isIdle(); });
 }

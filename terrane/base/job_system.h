@@ -81,7 +81,8 @@ class JobHandle {
 
 class JobSystem {
   public:
-    explicit JobSystem(unsigned threadCount);  // at least one
+    // Without threads jobs run when the caller says so, by runNext() or by waiting: tests decide when.
+    explicit JobSystem(unsigned threadCount);
     ~JobSystem();  // cancels queued jobs, lets running ones finish; jobs submitted meanwhile come back
                    // Cancelled
     JobSystem(const JobSystem&) = delete;
@@ -89,7 +90,13 @@ class JobSystem {
 
     JobHandle submit(JobPriority priority, JobWork work);
 
-    [[nodiscard]] unsigned threadCount() const { return static_cast<unsigned>(workers_.size()); }
+    // Runs the most urgent job on the calling thread. False where none is queued.
+    bool runNext();
+
+    // How many jobs run at a time.
+    [[nodiscard]] unsigned threadCount() const {
+        return workers_.empty() ? 1 : static_cast<unsigned>(workers_.size());
+    }
     [[nodiscard]] std::size_t queuedCount() const;  // submitted and not started
 
     // Blocks until nothing is queued or running. Not on a worker of this system.

@@ -3,7 +3,10 @@
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <iomanip>
 #include <system_error>
+
+#include "terrane/store/file_lock.h"
 
 namespace terrane::store {
 namespace {
@@ -66,7 +69,10 @@ bool hasJournal(const fs::path& path) {
 
 bool hasLostLog(const fs::path& path) {
     std::error_code ignored;
-    return hasContent(companion(path, "-lock")) && !fs::exists(companion(path, "-wal"), ignored);
+    if (fs::exists(companion(path, "-wal"), ignored)) return false;
+    std::ifstream lock(companion(path, "-lock"));
+    std::string number, word;
+    return (lock >> std::setw(16) >> number >> std::setw(16) >> word) && word == kLogWord;
 }
 
 base::Result<void> checkCompanions(const fs::path& path) {

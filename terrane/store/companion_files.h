@@ -18,7 +18,7 @@ bool hasLog(const std::filesystem::path& path);
 // What a transaction that was cut short has to be undone with. Only making a save leaves one.
 bool hasJournal(const std::filesystem::path& path);
 
-// A program that wrote was killed, which leaves its lock and its log, but the log is gone.
+// A program that had written was killed, which leaves its lock and its log, but the log is gone.
 bool hasLostLog(const std::filesystem::path& path);
 
 // An error where one of them is a link or no ordinary file, and where the journal names another file: SQLite

@@ -5,8 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <string>
 
 namespace terrane::store {
@@ -16,13 +18,17 @@ namespace {
 std::string ownerOf(int descriptor) {
     std::array<char, 16> text{};
     const ssize_t size = ::pread(descriptor, text.data(), text.size(), 0);
-    return size > 0 ? " (process " + std::string(text.data(), static_cast<std::size_t>(size)) + ")" : "";
+    const auto count = static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; }));
+    return size > 0 && count > 0 ? " (process " + std::string(text.data(), count) + ")" : "";
 }
 
-void writeOwner(int descriptor) {
-    const std::string number = std::to_string(::getpid());
-    // For messages only: without it they tell less.
-    if (::ftruncate(descriptor, 0) == 0) (void)!::pwrite(descriptor, number.data(), number.size(), 0);
+// For messages and for the check: without it they tell less.
+void writeOwner(int descriptor, bool hasLog) {
+    std::array<char, 32> text{};
+    const int size = std::snprintf(text.data(), text.size(), hasLog ? "%d %s" : "%d", ::getpid(), kLogWord);
+    if (::ftruncate(descriptor, 0) == 0)
+        (void)!::pwrite(descriptor, text.data(), static_cast<std::size_t>(size), 0);
 }
 
 // A file with this one name: what is written to it changes no other.
@@ -69,7 +75,7 @@ base::Result<FileLock> FileLock::acquire(const std::filesystem::path& path, Kind
             lock.file_.clear();
             continue;
         }
-        if (kind == Kind::Exclusive) writeOwner(descriptor);
+        if (kind == Kind::Exclusive) writeOwner(descriptor, false);
         return lock;
     }
 }
@@ -79,13 +85,22 @@ FileLock::~FileLock() {
 }
 
 FileLock::FileLock(FileLock&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), file_(std::move(other.file_)) {}
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      hasLog_(other.hasLog_),
+      file_(std::move(other.file_)) {}
 
 FileLock& FileLock::operator=(FileLock&& other) noexcept {
     release();
     descriptor_ = std::exchange(other.descriptor_, -1);
+    hasLog_ = other.hasLog_;
     file_ = std::move(other.file_);
     return *this;
+}
+
+void FileLock::setHasLog(bool hasLog) {
+    if (descriptor_ < 0 || std::exchange(hasLog_, hasLog) == hasLog) return;
+    writeOwner(descriptor_, hasLog);
+    ::fdatasync(descriptor_);
 }
 
 void FileLock::release() {

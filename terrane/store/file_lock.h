@@ -1,6 +1,7 @@
 // Keeps other programs from a save. The lock is a file beside it, removed at the end; a program that is
-// killed leaves the file but not the lock. Not a lock on the save itself: closing any handle of a file would
-// end the locks that SQLite has on it.
+// killed leaves the file but not the lock. The file holds the program's process number and, where the save's
+// last transactions may be in the log alone, the word "log". Not a lock on the save itself: closing any
+// handle of a file would end the locks that SQLite has on it.
 //
 // Any thread may acquire one; a lock is used by one thread at a time.
 #pragma once
@@ -12,6 +13,8 @@
 
 namespace terrane::store {
 
+inline constexpr const char* kLogWord = "log";
+
 class FileLock {
   public:
     enum class Kind { Exclusive, Shared };
@@ -22,11 +25,16 @@ class FileLock {
     FileLock(FileLock&& other) noexcept;
     FileLock& operator=(FileLock&& other) noexcept;
 
+    // Notes in the lock's file that a log belongs to the save, or none any more: that is on the disk when
+    // this returns. Of an exclusive lock.
+    void setHasLog(bool hasLog);
+
   private:
     FileLock(int descriptor, std::filesystem::path file) : descriptor_(descriptor), file_(std::move(file)) {}
     void release();
 
     int descriptor_ = -1;
+    bool hasLog_ = false;
     std::filesystem::path file_;
 };
 

@@ -81,8 +81,11 @@ std::vector<std::string> logProblems(const std::filesystem::path& save) {
         return {fmt::format("{}: its header is broken: all that it holds is lost", path.string())};
     const Frames frames = readFrames(log, header, sum, pageBytes);
     if (frames.commitsBehind == 0) return {};
-    return {fmt::format("{}: broken behind frame {}: {} transactions are lost", path.string(), frames.whole,
-                        frames.commitsBehind)};
+    // Each transaction is on the disk before the next one is written.
+    const std::string lost = frames.commitsBehind == 1
+                                 ? "the last transaction is lost, unless the power went while it was written"
+                                 : fmt::format("{} transactions are lost", frames.commitsBehind);
+    return {fmt::format("{}: broken behind frame {}: {}", path.string(), frames.whole, lost)};
 }
 
 }  // namespace terrane::store

@@ -17,23 +17,40 @@ void put(Chunks& chunks, world::ChunkPos pos, WaitingChunk newer) {
     if (!isNew && newer.provenance >= entry->second.provenance) entry->second = std::move(newer);
 }
 
+// Short enough to need no memory.
+base::Error noMemory() {
+    return {base::ErrorCode::OutOfResources, "no memory"};
+}
+
 // What writing threw is a failure like others: the queue's thread goes on.
-base::Result<void> resultOf(const SaveQueue::WriteBatch& write, const SaveBatch& batch) {
+base::Result<void> resultOf(const SaveQueue::WriteBatch& write, const SaveBatch& batch) noexcept {
     try {
-        return write(batch);
-    } catch (const std::bad_alloc&) {
-        return tl::unexpected(base::Error{base::ErrorCode::OutOfResources, "no memory"});
-    } catch (const std::exception& exception) {
-        return base::fail("{}", exception.what());
+        try {
+            return write(batch);
+        } catch (const std::bad_alloc&) {
+            return tl::unexpected(noMemory());
+        } catch (const std::exception& exception) {
+            return base::fail("{}", exception.what());
+        }
+    } catch (...) {
+        return tl::unexpected(noMemory());
     }
 }
 
 // Metadata by name. A damaged row is not lost: it stays in the file, to be found again.
-std::string contentOf(const SaveBatch& batch) {
+std::string listOf(const SaveBatch& batch) {
     std::string text = fmt::format("{} chunks", batch.chunks.size());
     for (const auto& [name, value] : batch.metadata) text += fmt::format(", the setting {}", name);
     if (!batch.damaged.empty()) text += fmt::format(", {} damaged rows put aside", batch.damaged.size());
     return text;
+}
+
+std::string contentOf(const SaveBatch& batch) noexcept {
+    try {
+        return listOf(batch);
+    } catch (const std::bad_alloc&) {
+        return "much";
+    }
 }
 
 }  // namespace
@@ -45,8 +62,13 @@ std::vector<ChunkRow> SaveBatch::editedChunks() const {
     return edited;
 }
 
-SaveQueue::SaveQueue(WriteBatch write, SaveLimits limits)
-    : write_(std::move(write)), limits_(limits), thread_([this] { run(); }) {}
+SaveQueue::SaveQueue(WriteBatch write, SaveLimits limits) : write_(std::move(write)), limits_(limits) {
+    if (limits_.clock) {
+        limits_.clock->writeIfDue = [this] { writeIfDue(); };
+    } else {
+        thread_ = std::thread([this] { run(); });
+    }
+}
 
 SaveQueue::~SaveQueue() {
     {
@@ -54,7 +76,12 @@ SaveQueue::~SaveQueue() {
         isEnding_ = true;
     }
     wake_.notify_all();
-    thread_.join();
+    if (limits_.clock) {
+        limits_.clock->writeIfDue = nullptr;
+        writeIfDue();
+    } else {
+        thread_.join();
+    }
     if (!waiting_.isEmpty() && !isProblemTold_)
         base::logError("{}; lost: {}", problem_.message, contentOf(waiting_));
 }
@@ -69,7 +96,7 @@ SaveNumber SaveQueue::addNumbered(Add add) {
         isProblemTold_ = false;
         number = ++queued_;
         const bool isFirst = due_ == Clock::time_point::max();
-        if (isFirst) due_ = Clock::now() + limits_.delay;
+        if (isFirst) due_ = now() + limits_.delay;
         wakes = isFirst || waiting_.chunks.size() >= limits_.chunks;
     }
     if (wakes) wake_.notify_one();
@@ -117,6 +144,7 @@ base::Result<void> SaveQueue::flush() {
     const std::uint64_t attempt = attempts_ + 1;
     wantedAttempts_ = std::max(wantedAttempts_, attempt);
     wake_.notify_all();
+    if (limits_.clock) writeOnce(lock, false);
     written_.wait(lock, [&] { return durable_ >= goal || finished_ >= attempt; });
     if (durable_ >= goal) return {};
     isProblemTold_ = true;
@@ -130,14 +158,14 @@ SaveStatus SaveQueue::status() {
                       .waiting = waiting_.chunks.size() + writing_.chunks.size(),
                       .problem = problem_.message};
     if (!status.problem.empty())
-        status.failingSeconds = std::chrono::duration<double>(Clock::now() - failingSince_).count();
+        status.failingSeconds = std::chrono::duration<double>(now() - failingSince_).count();
     return status;
 }
 
 // After a failure the number of chunks no longer counts, or a full disk would be tried again at each save.
 bool SaveQueue::isDue() const {
     if (isEnding_ || wantedAttempts_ > attempts_) return true;
-    return (waiting_.chunks.size() >= limits_.chunks && problem_.message.empty()) || Clock::now() >= due_;
+    return (waiting_.chunks.size() >= limits_.chunks && problem_.message.empty()) || now() >= due_;
 }
 
 void SaveQueue::run() {
@@ -155,6 +183,11 @@ void SaveQueue::run() {
         writeOnce(lock, isLast);
         if (isLast) return;
     }
+}
+
+void SaveQueue::writeIfDue() {
+    std::unique_lock lock(mutex_);
+    if (isDue()) writeOnce(lock, isEnding_);
 }
 
 void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
@@ -176,9 +209,10 @@ void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
         // Who waits for flush() is told there; what the last attempt loses is told by the destructor.
         if (problem_.message.empty() && wantedAttempts_ < attempts_ && !isLast)
             base::logError("{}; waiting, tried again every {} s: {}", done.error().message,
-                           static_cast<double>(limits_.delay.count()) / 1000, contentOf(writing_));
-        if (problem_.message.empty()) failingSince_ = Clock::now();
-        problem_ = done.error();
+                           kTryAgainDelays * static_cast<double>(limits_.delay.count()) / 1000,
+                           contentOf(writing_));
+        if (problem_.message.empty()) failingSince_ = now();
+        problem_ = std::move(done.error());
         takeBack(std::exchange(writing_, {}));
     }
     ++finished_;
@@ -195,7 +229,7 @@ void SaveQueue::takeBack(SaveBatch failed) {
     waiting_.chunks.merge(failed.chunks);
     waiting_.metadata.merge(failed.metadata);
     waiting_.damaged.splice(waiting_.damaged.begin(), failed.damaged);
-    due_ = Clock::now() + limits_.delay;
+    due_ = now() + kTryAgainDelays * limits_.delay;
 }
 
 }  // namespace terrane::store

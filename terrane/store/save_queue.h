@@ -52,10 +52,21 @@ struct SaveBatch {
     std::vector<ChunkRow> editedChunks() const;  // of level 0
 };
 
+// A clock that a test sets, for queues without a thread: they write when writeIfDue() is called, by flush()
+// and at the end, on the calling thread. Outlives its queue.
+struct ManualClock {
+    std::chrono::steady_clock::time_point now{};
+    std::function<void()> writeIfDue;  // of the queue that has the clock
+};
+
+constexpr int kTryAgainDelays = 2;
+
 struct SaveLimits {
     // What is waiting is written after this time, or as soon as there are this many chunks of about 10 KB.
+    // What failed is tried again after kTryAgainDelays of it.
     std::chrono::milliseconds delay{1000};
     std::size_t chunks = 1024;
+    ManualClock* clock = nullptr;  // null: the queue has a thread and the system's clock
 };
 
 class SaveQueue {
@@ -82,6 +93,8 @@ class SaveQueue {
     using Clock = std::chrono::steady_clock;
 
     void run();
+    void writeIfDue();
+    Clock::time_point now() const { return limits_.clock ? limits_.clock->now : Clock::now(); }
     bool isDue() const;
     void writeOnce(std::unique_lock<std::mutex>& lock, bool isLast);
     void takeBack(SaveBatch failed);
@@ -102,7 +115,7 @@ class SaveQueue {
     Clock::time_point failingSince_;  // while there is a problem
     bool isProblemTold_ = false;      // by flush(), and nothing was added since
     bool isEnding_ = false;
-    std::thread thread_;
+    std::thread thread_;  // none with a ManualClock
 };
 
 }  // namespace terrane::store

@@ -94,27 +94,30 @@ void Statement::Finalize::operator()(sqlite3_stmt* statement) const {
     sqlite3_finalize(statement);
 }
 
+// What was bound before stays bound then.
+void Statement::noteBound(int code) {
+    assert((code == SQLITE_OK || code == SQLITE_NOMEM) && "the statement has this parameter and was reset");
+    if (code != SQLITE_OK) isUnbound_ = true;
+}
+
 void Statement::bind(int parameter, std::int64_t value) {
-    [[maybe_unused]] const int code = sqlite3_bind_int64(statement_.get(), parameter, value);
-    assert(code == SQLITE_OK && "the statement has this parameter and was reset");
+    noteBound(sqlite3_bind_int64(statement_.get(), parameter, value));
 }
 
 void Statement::bind(int parameter, std::string_view text) {
-    [[maybe_unused]] const int code = sqlite3_bind_text64(statement_.get(), parameter, text.data(),
-                                                          text.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
-    assert(code == SQLITE_OK && "the statement has this parameter and was reset");
+    noteBound(sqlite3_bind_text64(statement_.get(), parameter, text.data(), text.size(), SQLITE_TRANSIENT,
+                                  SQLITE_UTF8));
 }
 
 void Statement::bind(int parameter, ByteView blob) {
     // A null pointer would bind NULL, and nothing equals NULL.
-    [[maybe_unused]] const int code =
-        blob.empty()
-            ? sqlite3_bind_zeroblob(statement_.get(), parameter, 0)
-            : sqlite3_bind_blob64(statement_.get(), parameter, blob.data(), blob.size(), SQLITE_TRANSIENT);
-    assert(code == SQLITE_OK && "the statement has this parameter and was reset");
+    noteBound(blob.empty() ? sqlite3_bind_zeroblob(statement_.get(), parameter, 0)
+                           : sqlite3_bind_blob64(statement_.get(), parameter, blob.data(), blob.size(),
+                                                 SQLITE_TRANSIENT));
 }
 
 base::Result<bool> Statement::step() {
+    if (isUnbound_) return base::fail(base::ErrorCode::OutOfResources, "{}: no memory", *path_);
     const int code = sqlite3_step(statement_.get());
     if (code == SQLITE_ROW) return true;
     if (code == SQLITE_DONE) return false;
@@ -131,6 +134,7 @@ base::Result<void> Statement::run() {
 
 void Statement::reset() {
     sqlite3_reset(statement_.get());
+    isUnbound_ = false;
 }
 
 std::int64_t Statement::number(int column) const {
@@ -167,6 +171,11 @@ base::Result<Database> Database::open(const std::filesystem::path& path, OpenMod
 base::Result<void> Database::execute(const std::string& sql) {
     if (sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK) return {};
     return failure(path(), database_.get());
+}
+
+// Some errors, as of a full disk, have rolled back by themselves: then there is nothing left to do.
+void Database::rollBack() noexcept {
+    sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
 
 base::Result<Statement> Database::prepare(std::string_view sql) {
@@ -213,8 +222,7 @@ base::Result<Transaction> Transaction::begin(Database& database) {
 }
 
 Transaction::~Transaction() {
-    // Some errors, as of a full disk, have rolled back by themselves: then there is nothing left to do.
-    if (database_) (void)database_->execute("ROLLBACK");
+    if (database_) database_->rollBack();
 }
 
 base::Result<void> Transaction::commit() {

@@ -19,7 +19,8 @@ namespace terrane::store {
 
 class Statement {
   public:
-    // Parameters count from 1. Blobs and texts are copied.
+    // Parameters count from 1. Blobs and texts are copied; where there is no memory for one, the next step()
+    // fails.
     void bind(int parameter, std::int64_t value);
     void bind(int parameter, std::string_view text);
     void bind(int parameter, ByteView blob);
@@ -41,8 +42,10 @@ class Statement {
         void operator()(sqlite3_stmt* statement) const;
     };
     Statement(sqlite3_stmt* statement, const std::string* path) : statement_(statement), path_(path) {}
+    void noteBound(int code);
 
     std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+    bool isUnbound_ = false;   // a parameter, for lack of memory
     const std::string* path_;  // the database's
 };
 
@@ -70,9 +73,11 @@ class Database {
     const std::string& path() const { return *path_; }
 
   private:
+    friend class Transaction;
     struct Close {
         void operator()(sqlite3* database) const;
     };
+    void rollBack() noexcept;
     base::Result<void> copyTo(const std::filesystem::path& target);
     explicit Database(std::string path) : path_(std::make_unique<std::string>(std::move(path))) {}
 

@@ -24,7 +24,11 @@ base::Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const std::filesyst
 SqliteStore::SqliteStore(SaveFile file)
     : file_(std::move(file)), reader_(file_.database.path(), file_.readers), metadata_(file_.metadata) {}
 
-SqliteStore::~SqliteStore() = default;
+// When nothing is written any more. Closing the file takes its log.
+SqliteStore::~SqliteStore() {
+    queue_ = nullptr;
+    if (file_.lock) file_.lock->setHasLog(false);
+}
 
 namespace {
 

@@ -80,9 +80,12 @@ base::Result<void> SqliteWriter::deriveAll(const DerivedRows& rows, std::string_
     return commit(*transaction);
 }
 
+// A log that has a transaction will be missed where it is gone.
 base::Result<void> SqliteWriter::commit(Transaction& transaction) {
     if (auto there = files_.check(); !there) return there;
-    return transaction.commit();
+    auto done = transaction.commit();
+    if (done && file_.lock) file_.lock->setHasLog(true);
+    return done;
 }
 
 base::Result<void> SqliteWriter::writeBatch(const SaveBatch& batch, const ChunkPosSet& unread) {

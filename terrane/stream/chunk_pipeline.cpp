@@ -21,8 +21,6 @@ using world::ChunkPtr;
 
 namespace {
 
-constexpr std::chrono::milliseconds kHousekeepingEvery{250};
-
 // Edits are seen in the next frame, up to so many chunks a frame, and before all that is only meshed again; a
 // chunk takes at most about 0.05 ms.
 constexpr std::size_t kEditedMeshesPerUpdate = 64;

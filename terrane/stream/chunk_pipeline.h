@@ -48,10 +48,11 @@ class ChunkPipeline {
     // Blocks until the chunk is loaded. `pos` is in the world.
     world::ChunkPtr chunkAt(world::ChunkPos pos);
 
-    // Blocks of the world changed. Light and mesh follow in the next update; the store gets the chunks after
-    // kSaveAfter: with its own delay (store::SaveLimits) they are on the disk within 2 s.
+    // Blocks of the world changed. Light and mesh follow in the next update; the chunks go to the store after
+    // kSaveAfter and are in the file store::SaveLimits::delay later: within two seconds in all.
     void onEdits(std::span<const world::BlockEdit> edits);
     static constexpr std::chrono::milliseconds kSaveAfter{500};
+    static constexpr std::chrono::milliseconds kHousekeepingEvery{250};
     // Hands all edited chunks to the store.
     void saveAll();
 

@@ -10,7 +10,7 @@ std::atomic<bool> isFailing = false, failed = false;
 std::atomic<long> counted = 0, failFrom = 0, failUntil = 0;
 
 bool fails() {
-    if (!isFailing) return false;
+    if (!isFailing || terrane::base::detail::enoughMemory > 0) return false;
     const long number = counted++;
     if (number < failFrom || number >= failUntil) return false;
     failed = true;
@@ -102,6 +102,14 @@ bool FailingMemory::isPossible() {
 
 bool FailingMemory::hasFailed() {
     return failed;
+}
+
+long FailingMemory::allocations() {
+    return counted;
+}
+
+bool FailingMemory::failsNext() {
+    return fails();
 }
 
 }  // namespace terrane::base

@@ -14,8 +14,23 @@ class FailingMemory {
     FailingMemory(const FailingMemory&) = delete;
     FailingMemory& operator=(const FailingMemory&) = delete;
 
-    static bool isPossible();  // not under the thread sanitizer
-    static bool hasFailed();   // an allocation, since the last one began
+    static bool isPossible();   // not under the thread sanitizer
+    static bool hasFailed();    // an allocation, since the last one began
+    static long allocations();  // since then
+    static bool failsNext();    // counts one more, for allocators besides operator new
+};
+
+namespace detail {
+inline thread_local int enoughMemory = 0;
+}
+
+// While it lives allocations of this thread succeed and are not counted: those of the test itself.
+class EnoughMemory {
+  public:
+    EnoughMemory() { ++detail::enoughMemory; }
+    ~EnoughMemory() { --detail::enoughMemory; }
+    EnoughMemory(const EnoughMemory&) = delete;
+    EnoughMemory& operator=(const EnoughMemory&) = delete;
 };
 
 }  // namespace terrane::base

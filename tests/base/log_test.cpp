@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/base/failing_memory.h"
+
 namespace terrane::base {
 namespace {
 
@@ -24,6 +26,18 @@ TEST_F(LogTest, WritesShortLinesToStandardError) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(),
               "terrane: 12 chunks\nterrane: warning: no file a.toml\nterrane: error: stopped\n");
     EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
+
+TEST_F(LogTest, WithoutMemoryALineSaysSo) {
+    logInfo("the log is there");
+    if (!FailingMemory::isPossible()) GTEST_SKIP() << "memory does not fail under this sanitizer";
+    const std::string longText(5000, 'x');
+    testing::internal::CaptureStderr();
+    {
+        const FailingMemory memory(0);
+        EXPECT_NO_THROW(logError("{}", longText));
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "terrane: no memory for a message\n");
 }
 
 TEST_F(LogTest, LeavesOutWhatIsBelowTheLevel) {

@@ -1,26 +1,110 @@
 #include "tests/store/faulty_disk.h"
 
 #include <sqlite3.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+
+#include "tests/base/failing_memory.h"
+#include "tests/store/unsynced_writes.h"
 
 namespace terrane::store {
 namespace {
 
 // One disk at a time: SQLite's callbacks know only files.
-std::atomic<unsigned> failingKinds = 0;
-std::atomic<long> counted = 0, failFrom = 0, failUntil = 0;
+struct DiskState {
+    std::mutex mutex;
+    unsigned failingKinds = 0;
+    DiskError error = DiskError::Io;
+    long counted = 0, failFrom = 0, failUntil = 0, failed = 0;
 
-bool fails(DiskOperation kind) {
-    if ((failingKinds & kind) == 0) return false;
-    const long number = counted++;
-    return number >= failFrom && number < failUntil;
+    UnsyncedWrites unsynced;
+    UnsyncedWrites::Files left;  // by the stop
+    DiskStop stop = DiskStop::Kill;
+    bool hasStopped = false;
+    long changed = 0, stopFrom = LONG_MAX;
+    std::mt19937 random, sqliteRandom;
+    std::uint64_t history = 0xCBF2'9CE4'8422'2325;
+};
+DiskState* disk = nullptr;
+thread_local bool isHalved = false;  // the next call of the system
+
+constexpr unsigned kChanges = kDiskOpen | kDiskWrite | kDiskTruncate | kDiskSync | kDiskDelete;
+
+// What becomes of an operation.
+enum class Fate { Works, Fails, IsCutShort, IsLost };
+
+// Called under the mutex.
+void remember(std::uint64_t value) {
+    disk->history = (disk->history ^ value) * 0x100'0000'01B3;
+}
+
+Fate fateOf(DiskOperation kind, std::int64_t at = 0, int bytes = 0) {
+    remember(kind);
+    remember(static_cast<std::uint64_t>(at));
+    remember(static_cast<std::uint64_t>(bytes));
+    if (disk->hasStopped) return Fate::IsLost;
+    if ((kind & kChanges) != 0 && disk->changed++ >= disk->stopFrom) return Fate::IsCutShort;
+    if ((disk->failingKinds & kind) == 0) return Fate::Works;
+    const long number = disk->counted++;
+    if (number < disk->failFrom || number >= disk->failUntil) return Fate::Works;
+    ++disk->failed;
+    isHalved = disk->error == DiskError::Short;
+    return isHalved ? Fate::Works : Fate::Fails;
+}
+
+// The system's calls, of which an operation makes as many as it takes.
+ssize_t readHalf(int file, void* to, size_t bytes, off64_t at) {
+    return ::pread64(file, to, std::exchange(isHalved, false) ? (bytes + 1) / 2 : bytes, at);
+}
+ssize_t writeHalf(int file, const void* from, size_t bytes, off64_t at) {
+    return ::pwrite64(file, from, std::exchange(isHalved, false) ? (bytes + 1) / 2 : bytes, at);
+}
+void setSystemCalls(sqlite3_vfs* real, bool areOurs) {
+    const auto read = reinterpret_cast<sqlite3_syscall_ptr>(readHalf);
+    const auto write = reinterpret_cast<sqlite3_syscall_ptr>(writeHalf);
+    for (const char* name : {"pread", "pread64"}) real->xSetSystemCall(real, name, areOurs ? read : nullptr);
+    for (const char* name : {"pwrite", "pwrite64"})
+        real->xSetSystemCall(real, name, areOurs ? write : nullptr);
+}
+
+std::optional<std::string> contentOfFile(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return std::nullopt;
+    return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+void stopHere() {
+    disk->hasStopped = true;
+    const bool isKill = disk->stop == DiskStop::Kill;
+    disk->left = isKill ? disk->unsynced.afterKill() : disk->unsynced.afterPowerLoss(disk->random);
+    // The lock of terrane/store/file_lock.h, which SQLite does not know: its file may be as it is, or not yet
+    // have its last words.
+    for (const auto& [path, content] : UnsyncedWrites::Files(disk->left)) {
+        auto lock = contentOfFile(path + "-lock");
+        if (!lock || lock->empty()) continue;
+        if (!isKill && disk->random() % 3 == 0) lock = lock->substr(0, lock->find(' '));
+        if (isKill || disk->random() % 4 != 0) disk->left[path + "-lock"] = lock;
+    }
+}
+
+// The code of a failure. Room is needed by what writes and by new files.
+int codeOf(DiskOperation kind, int code) {
+    const bool needsRoom = (kind & (kDiskWrite | kDiskOpen | kDiskMap)) != 0;
+    return disk->error == DiskError::Full && needsRoom ? SQLITE_FULL : code;
 }
 
 struct File {
     sqlite3_file base;
     sqlite3_file* real;  // behind this one in memory
+    const char* name;    // SQLite's, as long as the file is open; null: of no interest
 };
 
 sqlite3_file* realOf(sqlite3_file* file) {
@@ -30,34 +114,86 @@ sqlite3_vfs* realOf(sqlite3_vfs* vfs) {
     return static_cast<sqlite3_vfs*>(vfs->pAppData);
 }
 
+// Runs `change`, which keeps account of it, if the operation works, or where it is cut short by chance; then
+// it happened before the stop.
+template <class Change, class Run>
+int changing(DiskOperation kind, int code, std::int64_t at, int bytes, Change change, Run run) {
+    const base::EnoughMemory enough;
+    const std::lock_guard lock(disk->mutex);
+    const Fate fate = fateOf(kind, at, bytes);
+    if (fate == Fate::IsCutShort) {
+        if (disk->random() % 2 == 0) change();
+        stopHere();
+    }
+    if (fate != Fate::Works) return codeOf(kind, code);
+    const int done = run();
+    if (done == SQLITE_OK) change();
+    return done;
+}
+
 template <class Run>
 int unlessFailing(DiskOperation kind, int code, Run run) {
-    return fails(kind) ? code : run();
+    const base::EnoughMemory enough;
+    const std::lock_guard lock(disk->mutex);
+    return fateOf(kind) == Fate::Works ? run() : codeOf(kind, code);
+}
+
+template <class Account>
+void ofNamed(sqlite3_file* file, Account account) {
+    if (const char* name = reinterpret_cast<File*>(file)->name) account(std::string(name));
+}
+
+int readFile(sqlite3_file* file, void* to, int bytes, sqlite3_int64 at) {
+    const base::EnoughMemory enough;
+    const std::lock_guard lock(disk->mutex);
+    if (fateOf(kDiskRead, at, bytes) != Fate::Works) return SQLITE_IOERR_READ;
+    return realOf(file)->pMethods->xRead(realOf(file), to, bytes, at);
+}
+
+int writeFile(sqlite3_file* file, const void* from, int bytes, sqlite3_int64 at) {
+    const std::string_view data(static_cast<const char*>(from), static_cast<std::size_t>(bytes));
+    return changing(
+        kDiskWrite, SQLITE_IOERR_WRITE, at, bytes,
+        [&] {
+            ofNamed(file, [&](const std::string& name) {
+                disk->unsynced.write(name, data, static_cast<std::size_t>(at));
+            });
+        },
+        [&] { return realOf(file)->pMethods->xWrite(realOf(file), from, bytes, at); });
+}
+
+int truncateFile(sqlite3_file* file, sqlite3_int64 size) {
+    return changing(
+        kDiskTruncate, SQLITE_IOERR_TRUNCATE, size, 0,
+        [&] {
+            ofNamed(file, [&](const std::string& name) {
+                disk->unsynced.truncate(name, static_cast<std::size_t>(size));
+            });
+        },
+        [&] { return realOf(file)->pMethods->xTruncate(realOf(file), size); });
+}
+
+// Nothing waits for the real disk: the power goes in tests alone.
+int syncFile(sqlite3_file* file, int) {
+    return changing(
+        kDiskSync, SQLITE_IOERR_FSYNC, 0, 0,
+        [&] { ofNamed(file, [](const std::string& name) { disk->unsynced.sync(name); }); },
+        [] { return SQLITE_OK; });
+}
+
+// Whoever is killed leaves the index of the log behind.
+int unmapFile(sqlite3_file* file, int isDeleted) {
+    const std::lock_guard lock(disk->mutex);
+    return realOf(file)->pMethods->xShmUnmap(realOf(file), disk->hasStopped ? 0 : isDeleted);
 }
 
 const sqlite3_io_methods kMethods = {
     .iVersion = 2,
     .xClose = [](sqlite3_file* f) { return realOf(f)->pMethods->xClose(realOf(f)); },
-    .xRead =
-        [](sqlite3_file* f, void* to, int bytes, sqlite3_int64 at) {
-            return unlessFailing(kDiskRead, SQLITE_IOERR_READ,
-                                 [&] { return realOf(f)->pMethods->xRead(realOf(f), to, bytes, at); });
-        },
-    .xWrite =
-        [](sqlite3_file* f, const void* from, int bytes, sqlite3_int64 at) {
-            return unlessFailing(kDiskWrite, SQLITE_IOERR_WRITE,
-                                 [&] { return realOf(f)->pMethods->xWrite(realOf(f), from, bytes, at); });
-        },
-    .xTruncate =
-        [](sqlite3_file* f, sqlite3_int64 size) {
-            return unlessFailing(kDiskTruncate, SQLITE_IOERR_TRUNCATE,
-                                 [&] { return realOf(f)->pMethods->xTruncate(realOf(f), size); });
-        },
-    .xSync =
-        [](sqlite3_file* f, int flags) {
-            return unlessFailing(kDiskSync, SQLITE_IOERR_FSYNC,
-                                 [&] { return realOf(f)->pMethods->xSync(realOf(f), flags); });
-        },
+    .xRead = readFile,
+    .xWrite = writeFile,
+    .xTruncate = truncateFile,
+    .xSync = syncFile,
     .xFileSize = [](sqlite3_file* f,
                     sqlite3_int64* size) { return realOf(f)->pMethods->xFileSize(realOf(f), size); },
     .xLock =
@@ -81,13 +217,13 @@ const sqlite3_io_methods kMethods = {
         },
     .xShmLock =
         [](sqlite3_file* f, int first, int count, int flags) {
-            return unlessFailing(kDiskLock, SQLITE_IOERR_SHMLOCK, [&] {
-                return realOf(f)->pMethods->xShmLock(realOf(f), first, count, flags);
-            });
+            const auto run = [&] { return realOf(f)->pMethods->xShmLock(realOf(f), first, count, flags); };
+            // Giving a lock back does not fail.
+            return (flags & SQLITE_SHM_UNLOCK) != 0 ? run()
+                                                    : unlessFailing(kDiskLock, SQLITE_IOERR_SHMLOCK, run);
         },
     .xShmBarrier = [](sqlite3_file* f) { realOf(f)->pMethods->xShmBarrier(realOf(f)); },
-    .xShmUnmap = [](sqlite3_file* f,
-                    int isDeleted) { return realOf(f)->pMethods->xShmUnmap(realOf(f), isDeleted); },
+    .xShmUnmap = unmapFile,
     .xFetch = nullptr,
     .xUnfetch = nullptr,
 };
@@ -96,15 +232,38 @@ int openFile(sqlite3_vfs* vfs, const char* name, sqlite3_file* file, int flags, 
     auto* opened = reinterpret_cast<File*>(file);
     opened->real = reinterpret_cast<sqlite3_file*>(opened + 1);
     opened->base.pMethods = nullptr;  // nothing to close
-    if (fails(kDiskOpen)) return SQLITE_CANTOPEN;
-    const int code = realOf(vfs)->xOpen(realOf(vfs), name, opened->real, flags, outFlags);
+    opened->real->pMethods = nullptr;
+    opened->name = name;
+    constexpr int kJournals = SQLITE_OPEN_MAIN_JOURNAL | SQLITE_OPEN_SUPER_JOURNAL | SQLITE_OPEN_WAL;
+    std::optional<std::string> before;
+    const auto run = [&] {
+        if (name) before = contentOfFile(name);
+        return realOf(vfs)->xOpen(realOf(vfs), name, opened->real, flags, outFlags);
+    };
+    const auto account = [&] {
+        if (name && opened->real->pMethods) disk->unsynced.open(name, before, (flags & kJournals) != 0);
+    };
+    const int code = changing(kDiskOpen, SQLITE_CANTOPEN, 0, flags, account, run);
     if (code == SQLITE_OK) opened->base.pMethods = &kMethods;
     return code;
 }
 
 int deleteFile(sqlite3_vfs* vfs, const char* name, int syncsFolder) {
-    return unlessFailing(kDiskDelete, SQLITE_IOERR_DELETE,
-                         [&] { return realOf(vfs)->xDelete(realOf(vfs), name, syncsFolder); });
+    return changing(
+        kDiskDelete, SQLITE_IOERR_DELETE, 0, 0, [&] { disk->unsynced.remove(name, syncsFolder != 0); },
+        [&] { return realOf(vfs)->xDelete(realOf(vfs), name, syncsFolder); });
+}
+
+int randomBytes(sqlite3_vfs*, int count, char* out) {
+    const std::lock_guard lock(disk->mutex);
+    std::generate_n(out, count, [] { return static_cast<char>(disk->sqliteRandom()); });
+    return count;
+}
+
+// Nobody is waited for: another connection of the same program goes on at once, or never.
+int sleepShortly(sqlite3_vfs* vfs, int microseconds) {
+    realOf(vfs)->xSleep(realOf(vfs), std::min(microseconds, 100));
+    return microseconds;
 }
 
 }  // namespace
@@ -113,6 +272,8 @@ FaultyDisk::FaultyDisk() {
     sqlite3_initialize();
     sqlite3_vfs* real = sqlite3_vfs_find(nullptr);
     assert(real && "the system has files");
+    assert(!disk && "one at a time");
+    disk = new DiskState;
     vfs_ = std::make_unique<sqlite3_vfs>(*real);
     vfs_->szOsFile = static_cast<int>(sizeof(File)) + real->szOsFile;
     vfs_->pNext = nullptr;
@@ -120,6 +281,8 @@ FaultyDisk::FaultyDisk() {
     vfs_->pAppData = real;
     vfs_->xOpen = openFile;
     vfs_->xDelete = deleteFile;
+    vfs_->xRandomness = randomBytes;
+    vfs_->xSleep = sleepShortly;
     // These look at their own VFS.
     vfs_->xAccess = [](sqlite3_vfs* vfs, const char* name, int flags, int* out) {
         return realOf(vfs)->xAccess(realOf(vfs), name, flags, out);
@@ -127,25 +290,79 @@ FaultyDisk::FaultyDisk() {
     vfs_->xFullPathname = [](sqlite3_vfs* vfs, const char* name, int bytes, char* out) {
         return realOf(vfs)->xFullPathname(realOf(vfs), name, bytes, out);
     };
-    work();
+    setSystemCalls(real, true);
     sqlite3_vfs_register(vfs_.get(), 1);
 }
 
 FaultyDisk::~FaultyDisk() {
+    auto* real = static_cast<sqlite3_vfs*>(vfs_->pAppData);
     sqlite3_vfs_unregister(vfs_.get());
-    sqlite3_vfs_register(static_cast<sqlite3_vfs*>(vfs_->pAppData), 1);
+    sqlite3_vfs_register(real, 1);
+    setSystemCalls(real, false);
+    delete std::exchange(disk, nullptr);
 }
 
-void FaultyDisk::fail(unsigned kinds, long after, long count) {
-    failingKinds = 0;
-    counted = 0;
-    failFrom = after;
-    failUntil = count == LONG_MAX ? LONG_MAX : after + count;
-    failingKinds = kinds;
+void FaultyDisk::fail(unsigned kinds, long after, long count, DiskError error) {
+    const std::lock_guard lock(disk->mutex);
+    disk->counted = disk->failed = 0;
+    disk->failFrom = after;
+    disk->failUntil = count == LONG_MAX ? LONG_MAX : after + count;
+    disk->failingKinds = kinds;
+    disk->error = error;
 }
 
 long FaultyDisk::operations() const {
-    return counted;
+    const std::lock_guard lock(disk->mutex);
+    return disk->counted;
+}
+
+long FaultyDisk::failures() const {
+    const std::lock_guard lock(disk->mutex);
+    return disk->failed;
+}
+
+void FaultyDisk::stopAfter(DiskStop stop, long after, unsigned seed) {
+    const std::lock_guard lock(disk->mutex);
+    disk->stop = stop;
+    disk->changed = 0;
+    disk->stopFrom = after;
+    disk->random.seed(seed);
+}
+
+bool FaultyDisk::hasStopped() const {
+    const std::lock_guard lock(disk->mutex);
+    return disk->hasStopped;
+}
+
+long FaultyDisk::changes() const {
+    const std::lock_guard lock(disk->mutex);
+    return disk->changed;
+}
+
+void FaultyDisk::restart() {
+    work();
+    const std::lock_guard lock(disk->mutex);
+    disk->stopFrom = LONG_MAX;
+    disk->unsynced = {};
+    if (!std::exchange(disk->hasStopped, false)) return;
+    for (const auto& [path, content] : std::exchange(disk->left, {})) {
+        std::filesystem::remove(path);
+        std::filesystem::remove(path + "-shm");
+        if (content) std::ofstream(path, std::ios::binary) << *content;
+    }
+}
+
+std::uint64_t FaultyDisk::history() const {
+    const std::lock_guard lock(disk->mutex);
+    return disk->history;
+}
+
+void FaultyDisk::seedRandomness(unsigned seed) {
+    {
+        const std::lock_guard lock(disk->mutex);
+        disk->sqliteRandom.seed(seed);
+    }
+    sqlite3_randomness(0, nullptr);  // asks the disk again
 }
 
 }  // namespace terrane::store

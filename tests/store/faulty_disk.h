@@ -1,8 +1,10 @@
 // A disk that fails when a test says so, under SQLite: while a FaultyDisk lives, databases are opened through
-// it. It passes everything on to the system's own file system.
+// it. It passes everything on to the system's own file system, but for syncs: what a power loss leaves of
+// writes without one is computed by unsynced_writes.h.
 #pragma once
 
 #include <climits>
+#include <cstdint>
 #include <memory>
 
 struct sqlite3_vfs;
@@ -22,6 +24,17 @@ enum DiskOperation : unsigned {
     kDiskAny = 255,
 };
 
+enum class DiskError : std::uint8_t {
+    Io,
+    Full,   // of what needs room
+    Short,  // reads and writes do half of it at first; nothing fails
+};
+
+enum class DiskStop : std::uint8_t {
+    Kill,       // the program ends: all that was written stays
+    PowerLoss,  // unsynced writes are kept, dropped or torn
+};
+
 class FaultyDisk {
   public:
     FaultyDisk();
@@ -30,9 +43,23 @@ class FaultyDisk {
     FaultyDisk& operator=(const FaultyDisk&) = delete;
 
     // From the next operation of these kinds on `count` of them fail, after `after` that do not.
-    void fail(unsigned kinds, long after = 0, long count = LONG_MAX);
+    void fail(unsigned kinds, long after = 0, long count = LONG_MAX, DiskError error = DiskError::Io);
     void work() { fail(0); }
     long operations() const;  // of the kinds of the last fail(), since then
+    long failures() const;    // since then
+
+    // After `after` operations that change files the next one may be cut short, and nothing reaches the files
+    // any more: all operations fail until restart(). What is left depends on the seed.
+    void stopAfter(DiskStop stop, long after, unsigned seed);
+    bool hasStopped() const;
+    long changes() const;  // operations that change files, since stopAfter()
+    // After all databases were closed: the files are what the stop left, and everything works.
+    void restart();
+
+    // Of all operations so far: their kinds, offsets and sizes.
+    std::uint64_t history() const;
+    // What SQLite's random numbers begin with, so that the same operations have the same history.
+    void seedRandomness(unsigned seed);
 
   private:
     std::unique_ptr<sqlite3_vfs> vfs_;

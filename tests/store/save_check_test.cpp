@@ -62,6 +62,7 @@ class LogCheckTest : public SaveCheckTest {
         }
         save_ = readAll(path_);
         log_ = readAll(logPath());
+        lock_ = readAll(path_.string() + "-lock");
     }
     std::filesystem::path logPath() const { return path_.string() + "-wal"; }
     CheckReport checkWith(const std::string& log) {
@@ -71,7 +72,7 @@ class LogCheckTest : public SaveCheckTest {
         return check();
     }
 
-    std::string save_, log_;
+    std::string save_, log_, lock_;
 };
 
 TEST_F(LogCheckTest, AWholeLogIsGood) {
@@ -100,17 +101,47 @@ TEST_F(LogCheckTest, OneFlippedBitIsNoticed) {
 }
 
 TEST_F(LogCheckTest, AMissingLogIsNoticed) {
-    writeAll(path_.string() + "-lock", "12345");
+    ASSERT_EQ(lock_, fmt::format("{} log", ::getpid()));
+    writeAll(path_.string() + "-lock", lock_);
     EXPECT_FALSE(checkWith(log_).isDamaged());
     EXPECT_FALSE(check().isDamaged());
-    writeAll(path_.string() + "-lock", "12345");
+    writeAll(path_.string() + "-lock", lock_);
     std::filesystem::remove(logPath());
     const CheckReport report = check();
     ASSERT_EQ(report.fileProblems.size(), 1u);
     EXPECT_THAT(report.fileProblems.front(), HasSubstr("a.sqlite-wal: it is gone"));
-    writeAll(path_.string() + "-lock", "12345");
+    writeAll(path_.string() + "-lock", lock_);
     std::filesystem::create_symlink(path_, folder_ / "link.sqlite");
     EXPECT_TRUE(checkSave(folder_ / "link.sqlite", registry_)->isDamaged()) << "by another name";
+}
+
+// A power loss leaves such a log too.
+TEST_F(LogCheckTest, ABrokenLastTransactionMayNeverHaveBeenSaved) {
+    std::string log = log_;
+    log[log.size() - 100] = static_cast<char>(log[log.size() - 100] ^ 1);
+    const CheckReport report = checkWith(log);
+    ASSERT_EQ(report.fileProblems.size(), 1u);
+    EXPECT_THAT(report.fileProblems.front(),
+                testing::ContainsRegex("a.sqlite-wal: broken behind frame [0-9]+: the last transaction is "
+                                       "lost, unless the power went while it was written"));
+}
+
+// A program that is killed before it writes, or after it has closed the save, leaves its lock and no log.
+TEST_F(LogCheckTest, ALogThatWasNotThereIsNotMissed) {
+    std::string before;
+    {
+        const auto store = SqliteStore::open(path_, registry_, {}, kNever);
+        ASSERT_TRUE(store);
+        (*store)->setDerivedRows({[&](auto, const auto&) {
+                                      before = readAll(path_.string() + "-lock");
+                                      return std::vector<ChunkRow>();
+                                  },
+                                  {}});
+        (*store)->save({0, 0}, numberedChunk(1), Provenance::Edited);
+    }
+    ASSERT_NE(before, "") << "a lock is held";
+    writeAll(path_.string() + "-lock", before);
+    EXPECT_FALSE(check().isDamaged());
 }
 
 TEST_F(LogCheckTest, TellsHowMuchIsLost) {

@@ -186,6 +186,17 @@ TEST_F(SaveFileTest, AFolder) {
     EXPECT_THAT(errorOfWriting(), HasSubstr("not a file"));
 }
 
+// The power went while the file was made: its first page did not reach the disk, its journal did.
+TEST_F(SaveFileTest, AMakingThatWasCutShortIsUndone) {
+    std::string journal = journalNaming("", 0);
+    journal.resize(512);
+    writeAll(path_.string() + "-journal", journal);
+    writeAll(path_, std::string(8192, '\0'));
+    EXPECT_THAT(errorOfReading(), HasSubstr("cut short"));
+    EXPECT_EQ(errorOfWriting(), "");
+    EXPECT_EQ(errorOfReading(), "");
+}
+
 // What a program leaves that is killed while it makes the file.
 TEST_F(SaveFileTest, EmptyFilesAreNewOnes) {
     writeAll(path_, "");

@@ -1,5 +1,6 @@
 // Edits and the store: what changed is saved, comes back, and is not mixed up with what is generated.
 #include "terrane/store/memory_store.h"
+#include "terrane/store/save_queue.h"
 #include "tests/stream/pipeline_fixture.h"
 
 namespace terrane::stream {
@@ -55,6 +56,13 @@ TEST_F(PipelineStoreTest, OnlyEditedChunksAreStored) {
     update();
     EXPECT_TRUE(store_.contains({0, 0}));
     EXPECT_FALSE(store_.contains({1, 0}));
+}
+
+TEST_F(PipelineStoreTest, EditsAreInTheFileWithinTwoSeconds) {
+    const auto frame = std::chrono::milliseconds(50);
+    EXPECT_LE(
+        ChunkPipeline::kSaveAfter + ChunkPipeline::kHousekeepingEvery + store::SaveLimits{}.delay + frame,
+        std::chrono::seconds(2));
 }
 
 TEST_F(PipelineStoreTest, GeneratedChunksAreStoredWhereThatIsAskedFor) {

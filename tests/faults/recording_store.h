@@ -1,0 +1,64 @@
+// A store that keeps account of what another one is told, reports and answers, and fails the test where an
+// answer is wrong.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "terrane/stream/pipeline_types.h"
+#include "tests/faults/ledger.h"
+
+namespace terrane::store {
+
+// What a player sees and the save does not have yet: when it was seen.
+struct Unsaved {
+    std::map<world::ChunkPos, stream::Time> edited;  // by the oldest edit that no save has
+    std::map<SaveNumber, stream::Time> queued;       // by save
+};
+
+// What outlives stores: each one is opened after the last one ended.
+struct Account {
+    Ledger ledger;
+    std::vector<world::ChunkPtr> contents;  // 1 is the first
+    Unsaved unsaved;
+    std::function<world::ChunkPtr(world::ChunkPos)> generated;
+    std::uint64_t history = 0xCBF2'9CE4'8422'2325;
+    long loads = 0, saves = 0, unread = 0;
+
+    void note(std::uint64_t value) { history = (history ^ value) * 0x100'0000'01B3; }
+    // The content among those that are possible; -1 where it is none of these.
+    int contentAmong(const std::vector<int>& possible, const world::ChunkPtr& chunk) const;
+};
+
+class RecordingStore : public ChunkStore {
+  public:
+    RecordingStore(std::unique_ptr<ChunkStore> store, Account& account)
+        : store_(std::move(store)), account_(account) {}
+
+    LoadedChunk load(world::ChunkPos pos) override;
+    bool contains(world::ChunkPos pos) override { return store_->contains(pos); }
+    [[nodiscard]] base::Result<std::vector<world::ChunkPos>> editedChunks() override {
+        return store_->editedChunks();
+    }
+    std::optional<std::string> metadata(std::string_view name) override { return store_->metadata(name); }
+    const WorldIdentity& identity() const override { return store_->identity(); }
+
+    SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) override;
+    SaveNumber setMetadata(std::string_view name, std::string value) override {
+        return store_->setMetadata(name, std::move(value));
+    }
+    [[nodiscard]] base::Result<void> flush() override { return store_->flush(); }
+    SaveStatus status() override;
+    void setDerivedRows(DerivedRows rows) override { store_->setDerivedRows(std::move(rows)); }
+    [[nodiscard]] base::Result<void> deriveAll(std::string_view rules) override {
+        return store_->deriveAll(rules);
+    }
+    bool isPersistent() const override { return store_->isPersistent(); }
+
+  private:
+    std::unique_ptr<ChunkStore> store_;
+    Account& account_;
+};
+
+}  // namespace terrane::store
