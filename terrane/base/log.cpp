@@ -4,7 +4,9 @@
 #include <spdlog/sinks/stdout_sinks.h>
 
 #include <cassert>
+#include <cstdio>
 #include <memory>
+#include <new>
 #include <string>
 
 namespace terrane::base {
@@ -47,12 +49,18 @@ namespace detail {
 
 void writeLog(LogLevel level, fmt::string_view format, fmt::format_args args) {
     assert(level != LogLevel::Silent && "Silent is a threshold, not a kind of message");
-    const spdlog::level::level_enum target = spdlogLevel(level);
-    if (!logger().should_log(target)) return;
-    const char* word = level == LogLevel::Warning ? "warning: " : level == LogLevel::Error ? "error: " : "";
-    // As one finished string: the message must not be read as a format again.
-    const std::string line = word + fmt::vformat(format, args);
-    logger().log(target, spdlog::string_view_t(line));
+    try {
+        const spdlog::level::level_enum target = spdlogLevel(level);
+        if (!logger().should_log(target)) return;
+        const char* word = level == LogLevel::Warning ? "warning: "
+                           : level == LogLevel::Error ? "error: "
+                                                      : "";
+        // As one finished string: the message must not be read as a format again.
+        const std::string line = word + fmt::vformat(format, args);
+        logger().log(target, spdlog::string_view_t(line));
+    } catch (const std::bad_alloc&) {
+        std::fputs("terrane: no memory for a message\n", stderr);
+    }
 }
 
 }  // namespace detail

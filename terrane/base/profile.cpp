@@ -127,10 +127,14 @@ void stopTrace() {
     detail::activeTrace().store(0, std::memory_order_release);
 }
 
+// A thread begins with it: without memory it has no name, and works.
 void setThreadName(std::string name) {
-    ThreadBuffer& buffer = threadBuffer();
-    const std::lock_guard lock(registry().mutex);
-    buffer.threadName = std::move(name);
+    try {
+        ThreadBuffer& buffer = threadBuffer();
+        const std::lock_guard lock(registry().mutex);
+        buffer.threadName = std::move(name);
+    } catch (const std::bad_alloc&) {
+    }
 }
 
 Result<void> writeTrace(const std::filesystem::path& path) {
