@@ -81,7 +81,9 @@ class JobHandle {
 
 class JobSystem {
   public:
-    explicit JobSystem(unsigned threadCount);  // at least one
+    // At least one thread. Where the system cannot start that many, those that it can do the work; an
+    // exception where it starts none.
+    explicit JobSystem(unsigned threadCount);
     ~JobSystem();  // cancels queued jobs, lets running ones finish; jobs submitted meanwhile come back
                    // Cancelled
     JobSystem(const JobSystem&) = delete;
