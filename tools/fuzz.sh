@@ -1,13 +1,25 @@
 #!/usr/bin/env bash
-# Feeds the reader of chunks with bytes that libFuzzer thinks up, under the address and undefined-behavior
-# sanitizers. What it finds interesting stays in build-fuzz/ for the next time.
+# Feeds all that reads files from outside with bytes that libFuzzer thinks up, under the address and
+# undefined-behavior sanitizers: saves, chunks, block types, path files, settings, bookmarks, textures. What it finds
+# interesting stays in build-fuzz/corpus for the next time.
 #
-#   tools/fuzz.sh [SECONDS]    10 seconds unless told otherwise; exits with an error when it finds a fault
+#   tools/fuzz.sh [SECONDS] [NAME…]    10 seconds each unless told otherwise, two at a time; NAME as in
+#                                      tests/fuzz/NAME_fuzz.cpp, all of them where none is named. Exits with an
+#                                      error when one finds a fault
+#   build-fuzz/fuzz_NAME FILE          runs one input again
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-readonly BUILD_FOLDER=build-fuzz
-readonly SECONDS_TO_RUN=${1:-10}
+export BUILD_FOLDER=build-fuzz
+export SECONDS_TO_RUN=${1:-10}
+shift || true
+names=("$@")
+if [[ ${#names[@]} -eq 0 ]]; then
+    for source in tests/fuzz/*_fuzz.cpp; do
+        name=${source##*/}
+        names+=("${name%_fuzz.cpp}")
+    done
+fi
 
 if ! command -v clang++ >/dev/null; then
     echo "fuzz: needs clang++: apt-get install clang libclang-rt-dev" >&2
@@ -16,8 +28,33 @@ fi
 cmake -S . -B "$BUILD_FOLDER" -G Ninja --log-level=WARNING -DCMAKE_CXX_COMPILER=clang++ \
     -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=-O1 -DCMAKE_UNITY_BUILD=ON -DTERRANE_WERROR=OFF -DTERRANE_FUZZ=ON \
     -DTERRANE_SANITIZE=fuzzer-no-link,address,undefined -DTERRANE_GRAPHICS=OFF -DTERRANE_TESTS=OFF -DTERRANE_BENCHMARKS=OFF
-cmake --build "$BUILD_FOLDER" --target fuzz_chunk_codec
-mkdir -p "$BUILD_FOLDER/corpus"
-# A thread keeps up to 64 MiB for a chunk that says it is that large, and zstd as much.
-"$BUILD_FOLDER/fuzz_chunk_codec" -max_total_time="$SECONDS_TO_RUN" -max_len=20000 -timeout=10 -rss_limit_mb=1024 \
-    -artifact_prefix="$BUILD_FOLDER/" -print_final_stats=1 "$BUILD_FOLDER/corpus" tests/fuzz/seeds
+cmake --build "$BUILD_FOLDER" --target "${names[@]/#/fuzz_}"
+
+# Files that the library opens by name lie in memory, where a fuzzer that was ended leaves them, too.
+TMPDIR=$(mktemp -d "$([[ -d /dev/shm ]] && echo /dev/shm || echo "${TMPDIR:-/tmp}")/terrane-fuzz.XXXXXX")
+export TMPDIR
+trap 'rm -rf "$TMPDIR"' EXIT
+
+# One fuzzer for its time; its last lines where it found a fault.
+fuzz() {
+    local name=$1 max_length=4096
+    local log="$BUILD_FOLDER/$name.log" corpus="$BUILD_FOLDER/corpus/$name"
+    # Only large enough for chunks of many sections.
+    [[ $name == chunk_codec ]] && max_length=20000
+    local folders=("$corpus") options=()
+    [[ -d tests/fuzz/seeds/$name ]] && folders+=("tests/fuzz/seeds/$name")
+    [[ -f tests/fuzz/$name.dict ]] && options+=("-dict=tests/fuzz/$name.dict")
+    mkdir -p "$corpus"
+    # A thread keeps up to 64 MiB for a chunk that says it is that large, and zstd as much; an image takes 256 MiB.
+    if ! "$BUILD_FOLDER/fuzz_$name" -max_total_time="$SECONDS_TO_RUN" -max_len="$max_length" -timeout=10 \
+        -rss_limit_mb=1536 -artifact_prefix="$BUILD_FOLDER/$name-" -print_final_stats=1 "${options[@]}" \
+        "${folders[@]}" >"$log" 2>&1; then
+        grep -a -B 5 -A 25 -m 1 "ERROR: " "$log" || tail -n 20 "$log"
+        echo "fuzz: $name: found a fault; $log has all of it" >&2
+        return 1
+    fi
+    echo "fuzz: $name: $(grep -a -o 'DONE *cov: [0-9]*' "$log" | grep -o '[0-9]*') places reached by" \
+        "$(grep -a -o 'number_of_executed_units: [0-9]*' "$log" | grep -o '[0-9]*') inputs"
+}
+export -f fuzz
+printf '%s\n' "${names[@]}" | xargs -P 2 -I '{}' bash -c 'fuzz {}'

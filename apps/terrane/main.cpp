@@ -9,6 +9,7 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/former_names.h"
 #include "apps/terrane/options.h"
+#include "terrane/base/exception_text.h"
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
 
@@ -35,7 +36,7 @@ terrane::base::Result<void> run(const terrane::app::CommandEntry& command) {
     try {
         return command.run();
     } catch (const std::exception& error) {
-        return terrane::base::fail("{}: {}", command.parser->get_name(), error.what());
+        return terrane::base::fail("{}: {}", command.parser->get_name(), terrane::base::textOf(error));
     }
 }
 
@@ -58,7 +59,7 @@ int withOutputWritten(int exitCode) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
     using namespace terrane;
     base::setThreadName("main");
     const bool plays = app::defaultCommand() != nullptr;
@@ -73,13 +74,10 @@ int main(int argc, char** argv) {
     const std::vector<std::string> named = app::withCurrentNames({argv, static_cast<std::size_t>(argc)});
     std::vector<const char*> arguments;
     for (const std::string& argument : named) arguments.push_back(argument.c_str());
-    const bool hasCommand = argc > 1 && argv[1][0] != '-';
-    const bool asksForHelp =
-        argc > 1 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h" ||
-                     std::string_view(argv[1]) == "--version");
-    if (!hasCommand && !asksForHelp && app::defaultCommand()) {
+    const std::string_view first = argc > 1 ? argv[1] : "";
+    const bool asksForHelp = first == "--help" || first == "-h" || first == "--version";
+    if ((argc < 2 || first.starts_with('-')) && !asksForHelp && app::defaultCommand())
         arguments.insert(arguments.begin() + 1, app::defaultCommand());
-    }
     try {
         app.parse(static_cast<int>(arguments.size()), arguments.data());
     } catch (const CLI::Success& help) {
@@ -94,5 +92,8 @@ int main(int argc, char** argv) {
         base::logError("{}", result.error().message);
         return kBadInput;
     }
+    return kBadInput;
+} catch (const std::exception& error) {  // memory is too short even for a message
+    std::fprintf(stderr, "terrane: error: %s\n", terrane::base::textOf(error));
     return kBadInput;
 }

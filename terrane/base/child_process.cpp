@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cerrno>
@@ -53,14 +54,16 @@ bool readAll(int from, Clock::time_point until, std::string& text) {
     }
 }
 
+bool isCrash(int status) {
+    constexpr std::array kSignals = {SIGSEGV, SIGABRT, SIGBUS, SIGILL, SIGFPE};
+    return WIFSIGNALED(status) && std::ranges::find(kSignals, WTERMSIG(status)) != kSignals.end();
+}
+
 double secondsOf(const timeval& time) {
     return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
 }
 
-}  // namespace
-
-Result<ChildEnd> runChild(const std::vector<std::string>& command, const ChildOptions& options) {
-    assert(!command.empty() && "a program is named");
+Result<ChildEnd> runOnce(const std::vector<std::string>& command, const ChildOptions& options) {
     std::array<int, 2> ends;
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)
         return fail("{}: cannot be run: {}", command[0], systemReason(errno));
@@ -84,7 +87,23 @@ Result<ChildEnd> runChild(const std::vector<std::string>& command, const ChildOp
     end.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     end.processorSeconds = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
     end.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    end.crashes = isCrash(status) ? 1 : 0;
     return end;
+}
+
+}  // namespace
+
+Result<ChildEnd> runChild(const std::vector<std::string>& command, const ChildOptions& options) {
+    assert(!command.empty() && "a program is named");
+    int crashes = 0;
+    for (int run = 1;; ++run) {
+        auto end = runOnce(command, options);
+        if (!end) return end;
+        crashes += end->crashes;
+        if (end->crashes > 0 && run < options.mostRuns) continue;
+        end->crashes = crashes;
+        return end;
+    }
 }
 
 }  // namespace terrane::base

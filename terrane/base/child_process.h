@@ -16,13 +16,15 @@ struct ChildOptions {
     std::filesystem::path errorOutput;                                  // file for its standard error
     std::chrono::seconds atMost{600};                                   // then it is killed
     std::vector<std::pair<std::string, std::string>> environment = {};  // variables besides one's own
+    int mostRuns = 1;  // a child that crashes is run again until then
 };
 
 struct ChildEnd {
     int exitCode = 0;  // 128 + the signal that ended it
+    int crashes = 0;  // runs that were ended by a fault of the program or of a driver (SIGSEGV, SIGABRT, …)
     bool tookTooLong = false;
-    std::string output;  // its standard output
-    double seconds = 0, processorSeconds = 0;
+    std::string output;                        // its standard output
+    double seconds = 0, processorSeconds = 0;  // of the last run
 };
 
 // Waits. The child ends with the calling thread. For a process that has no other threads. An error where the

@@ -9,8 +9,10 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
+#include "terrane/base/exception_text.h"
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
 
@@ -100,7 +102,7 @@ std::optional<std::string> errorOf(const Call& call) noexcept {
         call();
         return std::nullopt;
     } catch (const std::exception& exception) {
-        return copyOf(exception.what());
+        return copyOf(textOf(exception));
     } catch (...) {
         return copyOf("an exception that is not a std::exception");
     }
@@ -173,7 +175,8 @@ bool runFirst(JobQueue& queue) {
 }
 
 void runWorker(JobQueue& queue, unsigned number) {
-    setThreadName(fmt::format("worker {}", number));
+    // Without memory for a name it has none.
+    static_cast<void>(errorOf([&] { setThreadName(fmt::format("worker {}", number)); }));
     while (const std::shared_ptr<Job> job = takeJob(queue)) runJob(*job);
 }
 
@@ -219,13 +222,17 @@ std::string JobHandle::error() const {
 }
 
 JobSystem::JobSystem(unsigned threadCount) : queue_(std::make_shared<JobQueue>()) {
-    const std::lock_guard lock(queue_->mutex);
     queue_->hasNoThreads = threadCount == 0;
     workers_.reserve(threadCount);
-    for (unsigned number = 1; number <= threadCount; ++number) {
-        workers_.emplace_back([queue = queue_.get(), number] { runWorker(*queue, number); });
-        queue_->workerIds.push_back(workers_.back().get_id());
-    }
+    const std::lock_guard lock(queue_->mutex);
+    queue_->workerIds.reserve(threadCount);
+    const std::optional<std::string> error = errorOf([&] {
+        for (unsigned number = 1; number <= threadCount; ++number) {
+            workers_.emplace_back([queue = queue_.get(), number] { runWorker(*queue, number); });
+            queue_->workerIds.push_back(workers_.back().get_id());
+        }
+    });
+    if (error && workers_.empty()) throw std::runtime_error(*error);
 }
 
 JobSystem::~JobSystem() {

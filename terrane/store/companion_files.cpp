@@ -64,7 +64,8 @@ bool hasLog(const fs::path& path) {
 }
 
 bool hasJournal(const fs::path& path) {
-    return hasContent(companion(path, "-journal"));
+    // SQLite plays back no journal that begins with 0, and leaves it there.
+    return std::ifstream(companion(path, "-journal"), std::ios::binary).get() > 0;
 }
 
 bool hasLostLog(const fs::path& path) {

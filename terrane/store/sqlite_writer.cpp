@@ -23,7 +23,7 @@ base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
     constexpr const char* kStatements[] = {
         "SELECT data, origin FROM chunks WHERE key = ?1",
         "INSERT INTO chunks (key, origin, data) VALUES (?1, ?2, ?3) ON CONFLICT (key) DO UPDATE "
-        "SET origin = excluded.origin, data = excluded.data WHERE excluded.origin >= origin",
+        "SET origin = excluded.origin, data = excluded.data WHERE excluded.origin <> 0 OR origin = 0",
         "DELETE FROM chunks WHERE key = ?1",
         "INSERT OR REPLACE INTO settings (name, value) VALUES (?1, ?2)",
         "DELETE FROM settings WHERE name = ?1",

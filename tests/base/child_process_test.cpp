@@ -40,6 +40,32 @@ TEST_F(ChildProcessTest, TellsSignals) {
     EXPECT_EQ(end->exitCode, 128 + 9);
 }
 
+// Notes each run in a file; those after `crashes` of them succeed.
+std::string crashing(int crashes, const std::string& signal) {
+    return "echo >> runs; [ $(wc -l < runs) -gt " + std::to_string(crashes) + " ] || kill -" + signal +
+           " $$; echo done";
+}
+
+TEST_F(ChildProcessTest, RunsACrashedProgramAgain) {
+    const auto run = [&](const std::string& script, int mostRuns) {
+        std::filesystem::remove(folder / "runs");
+        return runChild({"/bin/sh", "-c", script},
+                        {.folder = folder.path(), .errorOutput = folder / "errors", .mostRuns = mostRuns});
+    };
+    const auto good = run(crashing(2, "SEGV"), 3), bad = run(crashing(3, "ABRT"), 3);
+    const auto single = run(crashing(1, "SEGV"), 1), killed = run(crashing(1, "TERM"), 3);
+    ASSERT_TRUE(good && bad && single && killed);
+    EXPECT_EQ(good->exitCode, 0);
+    EXPECT_EQ(good->crashes, 2);
+    EXPECT_EQ(good->output, "done\n") << "of the last run alone";
+    EXPECT_EQ(bad->exitCode, 128 + 6);
+    EXPECT_EQ(bad->crashes, 3);
+    EXPECT_EQ(single->exitCode, 128 + 11);
+    EXPECT_EQ(killed->exitCode, 128 + 15) << "who asked it to end wants no further run";
+    EXPECT_EQ(killed->crashes, 0);
+    EXPECT_EQ(shell("kill -9 $$")->crashes, 0);
+}
+
 TEST_F(ChildProcessTest, EndsWhatTakesTooLong) {
     const auto end = shell("echo before; exec sleep 1000", std::chrono::seconds(1));
     ASSERT_TRUE(end);

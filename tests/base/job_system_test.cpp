@@ -6,6 +6,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -425,6 +426,29 @@ TEST(ParallelFor, WithoutMemoryNobodyWaitsForEver) {
     }
     EXPECT_GT(n, 10);
     EXPECT_LT(n, 2000) << "in the end memory is enough";
+}
+
+// Wherever memory runs out: it is not there, or works with the threads that it has.
+TEST(JobSystem, WithoutMemoryItHasFewerThreads) {
+    if (!FailingMemory::isPossible()) GTEST_SKIP() << "memory cannot be made to fail here";
+    int started = 0, refused = 0;
+    for (long n = 0; started == 0 || FailingMemory::hasFailed(); ++n) {
+        std::optional<JobSystem> jobs;
+        try {
+            const FailingMemory memory(n);
+            jobs.emplace(4);
+        } catch (const std::exception&) {
+            ++refused;
+            continue;
+        }
+        ++started;
+        EXPECT_GE(jobs->threadCount(), 1u);
+        std::atomic<int> calls = 0;
+        EXPECT_TRUE(parallelFor(*jobs, 20, [&](std::size_t) { ++calls; }));
+        EXPECT_EQ(calls, 20);
+    }
+    EXPECT_GT(refused, 1);
+    EXPECT_GT(started, 2) << "some with fewer than 4 threads";
 }
 
 TEST(JobSystem, AJobWithoutMemoryFails) {

@@ -133,6 +133,15 @@ TEST_F(SaveFileTest, ReadingUndoesNothing) {
     EXPECT_EQ(errorOfReading(), "");
 }
 
+// SQLite neither plays it back nor removes it: reading would be refused for ever.
+TEST_F(SaveFileTest, AJournalThatUndoesNothingIsPassedOver) {
+    makeSave();
+    writeAll(path_.string() + "-journal", std::string(600, '\0'));
+    EXPECT_EQ(errorOfReading(), "");
+    EXPECT_EQ(errorOfWriting(kMustBeThere), "");
+    EXPECT_EQ(errorOfReading(), "");
+}
+
 TEST_F(SaveFileTest, ADoubledSlashIsOne) {
     makeSave();
     EXPECT_TRUE(openToWrite("/" + path_.string(), registry_, kMustBeThere));

@@ -165,6 +165,18 @@ TEST_F(SqliteStoreTest, ARowWithoutBytesIsPutAsideAndReplaced) {
     }
 }
 
+// Such a row counts as edited, and stayed where an edit was reported as saved.
+TEST_F(SqliteStoreTest, AnEditReplacesARowOfAnyOrigin) {
+    for (const char* origin : {"2", "143", "-1", "'abc'"}) {
+        open()->save({0, 0}, numberedChunk(1), Provenance::Edited);
+        runSql(path_, std::string("UPDATE chunks SET origin = ") + origin);
+        open()->save({0, 0}, numberedChunk(2), Provenance::Generated);
+        EXPECT_TRUE(*open()->load({0, 0}).chunk == *numberedChunk(1)) << origin;
+        open()->save({0, 0}, numberedChunk(3), Provenance::Edited);
+        EXPECT_TRUE(*open()->load({0, 0}).chunk == *numberedChunk(3)) << origin;
+    }
+}
+
 TEST_F(SqliteStoreTest, TheIdentityIsNotOverwritten) {
     { open()->setMetadata("seed", "x"); }
     EXPECT_EQ(open()->identity(), kIdentity);

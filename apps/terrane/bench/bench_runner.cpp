@@ -4,6 +4,7 @@
 
 #include "terrane/base/child_process.h"
 #include "terrane/base/files.h"
+#include "terrane/base/log.h"
 #include "terrane/base/machine.h"
 
 namespace terrane::app {
@@ -13,6 +14,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr std::chrono::seconds kLongestRun{1800};  // V=64 at 1920×1080 takes some minutes in software
+constexpr int kMostRuns = 3;                       // of what crashes: Mesa 22.3 does so, rarely
 
 // The last thing that a program said, without its name in front.
 std::string lastLine(const fs::path& file) {
@@ -68,10 +70,12 @@ base::Result<json> BenchRunner::runOnce(const Arguments& arguments) const {
                                      .errorOutput = work_ / "messages.txt",
                                      .atMost = kLongestRun,
                                      // An installed program keeps its saves there too.
-                                     .environment = {{"XDG_DATA_HOME", work_.string()}}};
+                                     .environment = {{"XDG_DATA_HOME", work_.string()}},
+                                     .mostRuns = kMostRuns};
     const double load = base::loadAverage();
     const auto end = base::runChild(command, options);
     if (!end) return tl::unexpected(end.error());
+    if (end->crashes > 0) base::logWarning("{}: crashed {} times", keyOf({arguments}), end->crashes);
     if (end->tookTooLong) return base::fail("took longer than {} s", kLongestRun.count());
     if (end->exitCode != 0)
         return base::fail("exit code {}: {}", end->exitCode, lastLine(options.errorOutput));
@@ -79,6 +83,7 @@ base::Result<json> BenchRunner::runOnce(const Arguments& arguments) const {
     if (!result.is_object()) return base::fail("printed no JSON object");
     result["run"] = {
         {"seconds", end->seconds}, {"processor_seconds", end->processorSeconds}, {"load_average", load}};
+    if (end->crashes > 0) result["run"]["crashes"] = end->crashes;
     return result;
 }
 

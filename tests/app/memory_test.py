@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+"""The program with too little memory: it ends by itself, in one line that says so, and damages no save.
+Usage: memory_test.py PROGRAM
+
+Each command runs under limits of its address space (RLIMIT_AS) from where the system can just load the program to
+where all works. Ten limits each; with TERRANE_MEMORY_STEP=KIB in the environment one every so many KiB. What draws is
+not run here: Mesa's software renderer ends the process by itself where it gets no memory (LLVM: "Unable to allocate
+section memory!"). So does, rarely, the C library, for variables of threads; that is passed over."""
+import os
+import re
+import resource
+import signal
+import subprocess
+
+import support
+from support import ProgramTest
+
+KIB, MIB = 1 << 10, 1 << 20
+HANG_SECONDS = 300  # a guard against hangs: commands take less than a second
+CANNOT_BE_LOADED = 127  # by the dynamic linker, before any code of ours
+COUNT = 10  # of limits
+INFORMATION = re.compile(r"terrane: (?!error: )")  # all but errors
+GLIBC_GAVE_UP = "Fatal glibc error: failed to register TLS destructor: out of memory"
+
+
+class Memory(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.save = self.folder / "save.sqlite"
+
+    def run_within(self, limit, arguments):
+        def set_limit():
+            resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        return subprocess.run([support.program(), *map(str, arguments)], capture_output=True, text=True,
+                              timeout=HANG_SECONDS, env=support.environment(), check=False, preexec_fn=set_limit)
+
+    def first_limit(self, low, high, holds):
+        """A limit for which something holds that does not hold 256 KiB below."""
+        while high - low > 256 * KIB:
+            middle = (low + high) // 2
+            low, high = (low, middle) if holds(middle) else (middle, high)
+        return high
+
+    def limits(self, arguments):
+        """Where all works is not one limit: threads take memory in another order each time."""
+        loads = self.first_limit(4 * MIB, 64 * MIB, lambda limit:
+                                 self.run_within(limit, arguments).returncode != CANNOT_BE_LOADED)
+        works = self.first_limit(loads, 256 * MIB, lambda limit: self.run_within(limit, arguments).returncode == 0)
+        end = works + (works - loads) // 2 + 4 * MIB
+        return range(loads, end, int(os.environ.get("TERRANE_MEMORY_STEP", 0)) * KIB or (end - loads) // COUNT)
+
+    def assertEndsWell(self, done, case):
+        if done.returncode == -signal.SIGABRT and GLIBC_GAVE_UP in done.stderr:
+            return
+        self.assertIn(done.returncode, (0, 2), f"{case}: {done.stderr}")
+        errors = [line for line in done.stderr.splitlines() if not INFORMATION.match(line)]
+        if done.returncode == 0:
+            self.assertEqual(errors, [], case)
+        else:
+            self.assertEqual(len(errors), 1, f"{case}: not one line: {done.stderr}")
+            self.assertRegex(errors[0], r"\Aterrane: error: .*(memory|no thread can be started)", case)
+
+    def assertNoDamage(self, case):
+        """Whatever a run left can be looked through, and is a whole save or none."""
+        if not self.save.exists():
+            return
+        done = support.run("check", self.save)
+        self.assertIn(done.returncode, (0, 2), f"{case}: {done.stdout} {done.stderr}")
+        if done.returncode == 2:
+            self.assertIn("empty, not a save", done.stderr, case)
+
+    def sweep(self, *arguments, keep_save=True):
+        seen = set()
+        for limit in self.limits(arguments):
+            if not keep_save:
+                for file in self.folder.iterdir():
+                    file.unlink()
+            case = f"{limit / MIB:.1f} MiB: {arguments}"
+            done = self.run_within(limit, arguments)
+            self.assertEndsWell(done, case)
+            self.assertNoDamage(case)
+            self.assertEqual(list(self.folder.glob("*.tmp*")), [], f"{case}: half a file is left")
+            seen.add(done.returncode)
+        self.assertIn(0, seen, "the largest is enough")
+
+    def make_save(self):
+        self.succeed("generate", "--radius", 3, "--world", self.save)
+
+    def test_generate(self):
+        self.sweep("generate", "--radius", 4, "--threads", 4, "--backend", "cpu")
+
+    def test_generate_into_a_save(self):
+        self.sweep("generate", "--radius", 4, "--threads", 2, "--backend", "cpu", "--world", self.save, keep_save=False)
+
+    def test_generate_into_a_save_that_is_there(self):
+        self.make_save()
+        self.sweep("generate", "--radius", 5, "--threads", 2, "--backend", "cpu", "--world", self.save)
+
+    def test_map(self):
+        self.sweep("map", "--radius", 3, "--threads", 2, "--output", self.folder / "map.png")
+
+    def test_dump_blocks_of_a_save(self):
+        self.make_save()
+        self.sweep("dump", "--area", "-2,-2,2,2", "--threads", 2, "--world", self.save, "--output",
+                   self.folder / "blocks.npy")
+
+    def test_dump_light(self):
+        self.sweep("dump", "--what", "light", "--backend", "cpu", "--area", "0,0,2,2", "--threads", 2, "--output",
+                   self.folder / "light.npy")
+
+    def test_dump_quads(self):
+        self.sweep("dump", "--what", "quads", "--backend", "cpu", "--area", "0,0,2,2", "--threads", 2, "--output",
+                   self.folder / "quads.npy")
+
+    def test_check(self):
+        self.make_save()
+        self.sweep("check", self.save)
+
+
+if __name__ == "__main__":
+    support.main()

@@ -1,0 +1,47 @@
+// Chunk data of bytes that a fuzzer thinks up, wrapped so that they get past the checksum.
+#pragma once
+
+#include <xxhash.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "terrane/store/chunk_codec.h"
+#include "terrane/store/compression.h"
+
+namespace terrane::fuzz {
+
+inline store::Bytes withChecksum(store::ByteView rest) {
+    store::Bytes bytes;
+    store::appendNumber(bytes, std::uint64_t{XXH64(rest.data(), rest.size(), 0)});
+    store::append(bytes, rest);
+    return bytes;
+}
+
+inline store::Bytes framed(store::ByteView plain) {
+    store::Bytes rest;
+    store::appendNumber(rest, store::kChunkVersion);
+    store::appendNumber(rest, static_cast<std::uint32_t>(plain.size()));
+    store::appendCompressed(rest, plain);
+    return withChecksum(rest);
+}
+
+// How deep the bytes go:
+//   0  the bytes themselves, which the checksum stops nearly always
+//   1  behind a checksum that is right: header and compressed data
+//   2  compressed and framed: the content
+inline store::Bytes chunkData(unsigned depth, std::span<const std::uint8_t> bytes) {
+    const store::ByteView input = std::as_bytes(bytes);
+    switch (depth % 3) {
+        case 0:
+            return {input.begin(), input.end()};
+        case 1:
+            return withChecksum(input);
+        default:
+            return framed(input);
+    }
+}
+
+}  // namespace terrane::fuzz

@@ -1,0 +1,157 @@
+// libFuzzer: a save whose rows and tables another program changed: SQLite finds nothing wrong with it, and
+// checksums of chunks are right. The input is a list of changes to smallSave().
+#include <sqlite3.h>
+
+#include <memory>
+
+#include "tests/fuzz/fuzz_chunks.h"
+#include "tests/fuzz/fuzz_folder.h"
+#include "tests/fuzz/fuzz_input.h"
+#include "tests/fuzz/fuzz_saves.h"
+
+namespace {
+
+using namespace terrane;
+using fuzz::FuzzInput;
+
+struct CloseDatabase {
+    void operator()(sqlite3* database) const { sqlite3_close(database); }
+};
+struct EndStatement {
+    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+};
+using Database = std::unique_ptr<sqlite3, CloseDatabase>;
+using Statement = std::unique_ptr<sqlite3_stmt, EndStatement>;
+
+// What SQLite refuses is left out.
+Statement prepare(sqlite3* database, const char* sql) {
+    sqlite3_stmt* statement = nullptr;
+    sqlite3_prepare_v2(database, sql, -1, &statement, nullptr);
+    return Statement(statement);
+}
+
+void run(const Statement& statement) {
+    for (int steps = 0; statement && steps < 100 && sqlite3_step(statement.get()) == SQLITE_ROW;) ++steps;
+}
+
+// A value of any type.
+void bindAny(const Statement& statement, int at, FuzzInput& input) {
+    if (!statement) return;
+    static constexpr std::uint8_t kSizes[] = {1, 2, 4, 8};
+    switch (input.byte() % 6) {
+        case 0:
+            sqlite3_bind_null(statement.get(), at);
+            return;
+        case 1:
+            sqlite3_bind_int64(statement.get(), at,
+                               static_cast<std::int64_t>(input.number(input.oneOf(kSizes))));
+            return;
+        case 2:
+            sqlite3_bind_double(statement.get(), at, static_cast<double>(input.number(8)) * 1e-3);
+            return;
+        case 3: {
+            const std::string_view text = input.text();
+            sqlite3_bind_text64(statement.get(), at, text.data(), text.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
+            return;
+        }
+        case 4: {
+            const std::string_view bytes = input.text();
+            sqlite3_bind_blob64(statement.get(), at, bytes.data(), bytes.size(), SQLITE_TRANSIENT);
+            return;
+        }
+        default: {  // a number as text
+            const std::string text = std::to_string(static_cast<std::int64_t>(input.number(8)));
+            sqlite3_bind_text(statement.get(), at, text.c_str(), -1, SQLITE_TRANSIENT);
+        }
+    }
+}
+
+void changeChunk(sqlite3* database, FuzzInput& input) {
+    static constexpr std::int64_t kKeys[] = {36028797153181696, 36028797421617152, 36028796884746245};
+    const Statement row =
+        prepare(database, "INSERT OR REPLACE INTO chunks (key, origin, data) VALUES (?1, ?2, ?3)");
+    if (!row) return;
+    const bool isKnown = input.byte() % 2 == 0;
+    if (isKnown) sqlite3_bind_int64(row.get(), 1, input.oneOf(kKeys));
+    if (!isKnown) bindAny(row, 1, input);
+    bindAny(row, 2, input);
+    const std::uint8_t depth = input.byte();
+    if (depth >= 250) {
+        bindAny(row, 3, input);
+    } else {
+        const store::Bytes data = fuzz::chunkData(depth, input.bytes(input.number(2) % 2048));
+        sqlite3_bind_blob64(row.get(), 3, data.data(), data.size(), SQLITE_TRANSIENT);
+    }
+    run(row);
+}
+
+void changeSetting(sqlite3* database, FuzzInput& input) {
+    static constexpr const char* kNames[] = {"seed",  "generator", "generator_version",
+                                             "tiles", "player",    "time"};
+    const Statement row = prepare(database, "INSERT OR REPLACE INTO settings VALUES (?1, ?2)");
+    const std::uint8_t name = input.byte();
+    if (name % 8 < std::size(kNames)) {
+        if (row) sqlite3_bind_text(row.get(), 1, kNames[name % 8], -1, SQLITE_STATIC);
+    } else {
+        bindAny(row, 1, input);
+    }
+    bindAny(row, 2, input);
+    run(row);
+}
+
+void changeRow(sqlite3* database, FuzzInput& input) {
+    static constexpr const char* kStatements[] = {
+        "INSERT OR REPLACE INTO blocks VALUES (?1, ?2)",
+        "UPDATE blocks SET id = ?1 WHERE name = ?2",
+        "UPDATE blocks SET name = ?2 WHERE id = ?1",
+        "INSERT OR REPLACE INTO quarantine VALUES (?1, ?2, ?3, ?4)",
+        "UPDATE chunks SET key = ?1 WHERE key = (SELECT key FROM chunks LIMIT 1 OFFSET ?2)",
+        "UPDATE chunks SET origin = ?1",
+        "UPDATE chunks SET data = ?1",
+        "UPDATE settings SET value = ?1",
+        "DELETE FROM settings WHERE name = ?1",
+        "DELETE FROM blocks WHERE id = ?1",
+        "DELETE FROM blocks",
+        "DELETE FROM settings",
+    };
+    const Statement row = prepare(database, input.oneOf(kStatements));
+    for (int at = 1; row && at <= sqlite3_bind_parameter_count(row.get()); ++at) bindAny(row, at, input);
+    run(row);
+}
+
+void changeMarks(sqlite3* database, FuzzInput& input) {
+    static constexpr const char* kMarks[] = {"application_id", "user_version", "encoding", "journal_mode"};
+    const std::string value =
+        std::to_string(static_cast<std::int32_t>(input.number(2) % 2 ? input.number(4) : input.byte()));
+    const std::string sql = std::string("PRAGMA ") + input.oneOf(kMarks) + " = " + value;
+    run(prepare(database, sql.c_str()));
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    FuzzInput input(data, size);
+    fuzz::writeSave(fuzz::smallSave());
+    {
+        sqlite3* handle = nullptr;
+        fuzz::require(sqlite3_open(fuzz::savePath().c_str(), &handle) == SQLITE_OK);
+        const Database database(handle);
+        run(prepare(handle, "PRAGMA synchronous = OFF"));
+        run(prepare(handle, "BEGIN"));
+        for (int changes = 0; !input.isEmpty() && changes < 64; ++changes) {
+            const std::uint8_t what = input.byte() % 8;
+            if (what < 3) {
+                changeChunk(handle, input);
+            } else if (what < 5) {
+                changeSetting(handle, input);
+            } else if (what < 7) {
+                changeRow(handle, input);
+            } else {
+                changeMarks(handle, input);
+            }
+        }
+        run(prepare(handle, "COMMIT"));
+    }
+    fuzz::useSave();
+    return 0;
+}
