@@ -9,6 +9,9 @@
 namespace terrane::gpu {
 namespace {
 
+// OpenGL 4.5, Implementation Dependent Values. (Mesa 22.3.6's zink says 4 on lavapipe, whose grid has 8.)
+constexpr int kMinSubpixelBits = 4;
+
 std::string glText(GLenum name) {
     const GLubyte* text = glGetString(name);
     return text == nullptr ? std::string() : std::string(reinterpret_cast<const char*>(text));
@@ -66,6 +69,7 @@ DeviceInfo queryDevice() {
     info.uniformAlignmentBytes = glInt(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
     info.storageAlignmentBytes = glInt(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
     info.maxAnisotropy = anisotropyLimit();
+    info.subpixelBits = std::max(kMinSubpixelBits, glInt(GL_SUBPIXEL_BITS));
     GLint64 blockBytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &blockBytes);
     info.maxStorageBlockBytes = blockBytes;

@@ -5,6 +5,9 @@
 namespace terrane::gpu {
 namespace {
 
+// More samples than any driver has, and another value than that of a mask that is off.
+constexpr GLbitfield kAllSamples = 0xffff;
+
 void enable(GLenum capability, bool isOn) {
     (isOn ? glEnable : glDisable)(capability);
 }
@@ -43,6 +46,8 @@ void Pipeline::set(const PipelineState& state) {
         glBlendFunc(GL_ONE, state.blending == Blending::Over ? GL_ONE_MINUS_SRC_ALPHA : GL_ZERO);
     }
     if (differs(&PipelineState::cullsBackFaces)) enable(GL_CULL_FACE, state.cullsBackFaces);
+    if (!isKnown_) glSampleMaski(0, kAllSamples);
+    if (differs(&PipelineState::readsSampleId)) enable(GL_SAMPLE_MASK, state.readsSampleId);
     current_ = state;
     isKnown_ = true;
 }

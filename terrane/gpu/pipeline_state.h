@@ -19,6 +19,11 @@ struct PipelineState {
     glm::vec2 depthRange{0, 1};
     Blending blending = Blending::Off;
     bool cullsBackFaces = false;
+    // The fragment shader reads gl_SampleID into several samples a pixel, so that it runs once for each
+    // sample (GLSL 4.50, Fragment Shader Special Variables). Mesa 22.3.6, zink on lavapipe, runs it for
+    // sample 0 alone when the draw before it ran once a pixel, until the sample mask changes: so such draws
+    // have a mask of their own, with all samples in it.
+    bool readsSampleId = false;
 
     bool operator==(const PipelineState&) const = default;
 };

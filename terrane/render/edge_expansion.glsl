@@ -1,7 +1,8 @@
 // Conservative edge expansion: covers the cracks between quads. Where a corner of one quad lies on the edge
 // of another, the rasterizer moves the corner to its grid of sub-pixels but not the edge with it, and a
-// sample between the two sees what is behind. Every edge moves outward by a few steps of that grid, far less
-// than a pixel, so that neighbors overlap and silhouettes stay where they are.
+// sample between the two sees what is behind. Every edge moves outward by as much as the OpenGL
+// specification lets it be off (edge_expansion.cpp), far less than a pixel, so that neighbors overlap and
+// silhouettes stay where they are.
 
 // Corners of nearly folded quads move no farther along them than this many times the growth.
 const float kLongestMiter = 64.0;
@@ -15,10 +16,9 @@ vec2 screenDirection(vec4 from, vec4 to, vec2 halfViewport) {
 }
 
 // A corner in clip space moved so that the edges toward the neighboring corners move outward by `growth`
-// pixels; the edge toward neighborU stays if `growsV` is 0. Depth stays. Corners behind the camera stay too: the clipped edge grows by what its other end does,
-// and more.
-vec4 expandEdges(vec4 corner, vec4 neighborU, vec4 neighborV, vec2 viewport, float growth,
-                 float growsV) {
+// pixels; the edge toward neighborU stays if `growsV` is 0. Depth stays. Corners behind the camera stay too:
+// the clipped edge grows by what its other end does, and more.
+vec4 expandEdges(vec4 corner, vec4 neighborU, vec4 neighborV, vec2 viewport, float growth, float growsV) {
     if (corner.w <= 0.0) return corner;
     vec2 halfViewport = 0.5 * viewport;
     vec2 u = screenDirection(corner, neighborU, halfViewport),

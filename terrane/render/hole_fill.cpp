@@ -35,7 +35,7 @@ void HoleFill::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const 
     surface_.bind(shared::kGBufferUnit);
     depth_.bind(shared::kDepthUnit);
     targets.gbuffer.bind();
-    fill_.draw(pipeline, {.depthTest = gpu::DepthTest::Always});
+    fill_.draw(pipeline, {.depthTest = gpu::DepthTest::Always, .readsSampleId = targets.msaaSamples > 1});
 }
 
 }  // namespace terrane::render

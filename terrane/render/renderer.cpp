@@ -48,7 +48,6 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     renderer.clearChunks();
     renderer.shaders_ = &shaders;
     renderer.device_ = device;
-    renderer.edgeExpansion_ = edgeExpansion();
     return renderer;
 }
 
@@ -113,9 +112,10 @@ bool Renderer::hasShadows(const FrameInput& input) const {
 }
 
 void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
-    shared::Frame frame = frameUniforms(
-        input, options_,
-        {view, glm::vec2(targets_.size), edgeExpansion_, hasShadows(input) ? passes_.shadowMap.size() : 0});
+    shared::Frame frame =
+        frameUniforms(input, options_,
+                      {view, glm::vec2(targets_.size), edgeExpansion(device_.subpixelBits, targets_.size),
+                       hasShadows(input) ? passes_.shadowMap.size() : 0});
     const world::ChunkPos chunk = cameraChunk(input.camera);
     const int mask = light_.gridChunks() - 1;
     constexpr int kTilesOfChunk = static_cast<int>(shared::kChunkSize / shared::kLightTileSize);

@@ -125,7 +125,6 @@ class Renderer {
 
     const gpu::ShaderLoader* shaders_ = nullptr;
     gpu::DeviceInfo device_;
-    float edgeExpansion_ = 0;  // pixels
     QuadStoreSizes quadSizes_;
     int viewDistance_ = 0;  // chunks
     std::size_t budgetBytes_ = SIZE_MAX, stagingBytes_ = 0, peakBytes_ = 0;

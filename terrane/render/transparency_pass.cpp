@@ -117,7 +117,8 @@ void TransparencyPass::peelLayer(gpu::Pipeline& pipeline, const FrameTargets& ta
     }
     glBeginQuery(GL_ANY_SAMPLES_PASSED, anyDrawn_[index].id());
     (number == 0 ? first_ : next_).use();
-    quads.draw(pipeline, {.depthTest = gpu::DepthTest::Greater}, {mesh::AlphaClass::Blended});
+    quads.draw(pipeline, {.depthTest = gpu::DepthTest::Greater, .readsSampleId = number > 0 && samples_ > 1},
+               {mesh::AlphaClass::Blended});
     glEndQuery(GL_ANY_SAMPLES_PASSED);
     if (number > 0) glEndConditionalRender();
 }

@@ -5,7 +5,9 @@
 #include <map>
 
 #include "terrane/mesh/chunk_mesher.h"
+#include "terrane/render/edge_expansion.h"
 #include "terrane/shared/hash.h"
+#include "tests/gpu/scratch_folder.h"
 #include "tests/render/renderer_fixture.h"
 
 namespace terrane::render {
@@ -103,12 +105,12 @@ class EdgeExpansion : public RendererTest {
 
     // Pixels of which at least one sample shows what is behind the terrain: in the view of depth that is
     // black, and all terrain is nearly white with a fog this far away.
-    std::size_t backgroundPixels(int samples, TJunctions tJunctions) {
+    std::size_t backgroundPixels(int samples, TJunctions tJunctions, int views = kViews) {
         RenderOptions options = plainOptions(samples);
         options.tJunctions = tJunctions;
         EXPECT_TRUE(renderer_->configure(kImage, options));
         std::size_t count = 0;
-        for (int view = 0; view < kViews; ++view) {
+        for (int view = 0; view < views; ++view) {
             renderer_->draw({cameraOf(view), world::environmentAt(0.5f), 4000, 0, View::Depth});
             const base::Image image = renderer_->readImage();
             for (std::size_t k = 0; k < image.rgba.size(); k += 4) count += image.rgba[k] < 195;
@@ -135,6 +137,73 @@ TEST_F(EdgeExpansion, WithoutItCracksAreSeenAndFillingClosesMost) {
         EXPECT_FALSE(isDrawn("fill holes")) << "costs nothing when it is off";
         EXPECT_LT(backgroundPixels(samples, TJunctions::Filled), open / 10) << samples << " samples";
         EXPECT_TRUE(isDrawn("fill holes"));
+    }
+}
+
+constexpr std::string_view kExpansionShader = "terrane/render/edge_expansion.glsl";
+
+// The coarsest rasterizer that OpenGL allows, made of another one: corners lie on a grid of 1/16 pixel.
+constexpr int kCoarsestBits = 4;
+constexpr std::string_view kCoarseGrid = R"(
+vec4 expandEdges(vec4 corner, vec4 neighborU, vec4 neighborV, vec2 viewport, float growth, float growsV) {
+    vec4 moved = expandEdgesExactly(corner, neighborU, neighborV, viewport, growth, growsV);
+    if (moved.w <= 0.0) return moved;
+    vec2 steps = 16.0 * 0.5 * viewport;
+    moved.xy = ROUND(moved.xy / moved.w * steps) / steps * moved.w;
+    return moved;
+}
+)";
+
+class EdgeExpansionOnCoarseGrid : public EdgeExpansion {
+  protected:
+    void TearDown() override {
+        renderer_.reset();  // before its shaders
+        EdgeExpansion::TearDown();
+    }
+
+    // `rounding`: floor or round, as the rasterizer moves corners. `toldBits`: what it says of its grid.
+    void makeRenderer(const std::string& rounding, int toldBits) {
+        std::string shader = contentShaders().find(kExpansionShader).value();
+        constexpr std::string_view kName = "vec4 expandEdges(";
+        const std::size_t at = shader.find(kName);
+        ASSERT_NE(at, std::string::npos);
+        shader.replace(at, kName.size(), "vec4 expandEdgesExactly(");
+        folder_.write(kExpansionShader,
+                      "#define ROUND " + rounding + "\n" + shader + std::string(kCoarseGrid));
+        gpu::DeviceInfo device = gpu::queryDevice();
+        device.subpixelBits = toldBits;
+        auto made = Renderer::create(shaders_, contentBlocks(), contentTexture, device);
+        ASSERT_TRUE(made) << made.error().message;
+        renderer_ = std::move(*made);
+        loadHollow();
+    }
+
+    const gpu::ScratchFolder folder_;
+    const gpu::ShaderLoader shaders_ = gpu::builtInShaders(folder_.path());
+};
+
+TEST_F(EdgeExpansionOnCoarseGrid, NoViewShowsTheBackground) {
+    constexpr int kFewViews = 24;
+    for (const char* rounding : {"floor", "round"}) {
+        makeRenderer(rounding, kCoarsestBits);
+        EXPECT_EQ(backgroundPixels(1, TJunctions::Covered, kFewViews), 0u) << rounding;
+        EXPECT_EQ(backgroundPixels(4, TJunctions::Covered, kFewViews), 0u) << rounding;
+    }
+    makeRenderer("round", 8);
+    EXPECT_GT(backgroundPixels(4, TJunctions::Covered, kFewViews), 100u)
+        << "the grid is as coarse as it says";
+}
+
+TEST(EdgeExpansionPixels, CoverWhatTheGridAndArithmeticMove) {
+    constexpr float kHalfDiagonal = 0.70710678f;  // of a step
+    for (const int side : {64, 1280, 16384}) {
+        for (const int bits : {4, 8, 13}) {
+            const float grid = std::ldexp(1.0f, -bits), arithmetic = 1e-5f * static_cast<float>(side);
+            for (const glm::ivec2 size : {glm::ivec2(side, 16), glm::ivec2(16, side)}) {
+                EXPECT_GE(edgeExpansion(bits, size), kHalfDiagonal * (grid + arithmetic));
+                EXPECT_LE(edgeExpansion(bits, size), 1.5f * (grid + arithmetic)) << "silhouettes stay";
+            }
+        }
     }
 }
 
