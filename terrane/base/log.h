@@ -1,5 +1,5 @@
 // Messages to the user who runs the program, one line each on standard error (standard output belongs to
-// results). Any thread may call, also without memory: then a line says that.
+// results), made printable (printable.h). Any thread may call, also without memory: then a line says that.
 #pragma once
 
 #include <fmt/format.h>

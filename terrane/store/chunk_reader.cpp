@@ -4,12 +4,22 @@
 
 #include "terrane/store/chunk_codec.h"
 #include "terrane/store/chunk_key.h"
+#include "terrane/store/schema.h"
 
 namespace terrane::store {
 
+namespace {
+
+base::Result<world::Chunk> decodeStored(const StoredChunk& stored, const BlockIdMap& ids) {
+    if (!stored.problem.empty()) return base::fail(base::ErrorCode::Damaged, "{}", stored.problem);
+    return decodeChunk(stored.data, ids, stored.seed);
+}
+
+}  // namespace
+
 LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids) {
     if (row && !*row) return {};
-    base::Result<world::Chunk> chunk = row ? decodeChunk((*row)->data, ids) : tl::unexpected(row.error());
+    base::Result<world::Chunk> chunk = row ? decodeStored(**row, ids) : tl::unexpected(row.error());
     if (chunk) {
         return {LoadedChunk::State::Present,
                 std::make_shared<world::Chunk>(std::move(*chunk)),
@@ -22,14 +32,27 @@ LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids) {
     return damaged;
 }
 
-StoredRow readRow(Statement& select, world::ChunkPos pos) {
+std::string rowProblem(const Statement& row, int dataColumn, int originColumn) {
+    if (row.type(dataColumn) != ColumnType::Blob) return "its data is no blob";
+    const bool isNumber = row.type(originColumn) == ColumnType::Integer;
+    if (isNumber && (row.number(originColumn) == 0 || row.number(originColumn) == 1)) return "";
+    return fmt::format("its origin is \"{}\", expected 0 or 1", row.text(originColumn).substr(0, 64));
+}
+
+std::uint64_t seedOf(world::ChunkPos pos, std::int64_t origin, std::int64_t format) {
+    return format < kFirstWithChecksums ? kFormerSeed : checksumSeed(pos, origin != 0);
+}
+
+StoredRow readRow(Statement& select, world::ChunkPos pos, std::int64_t format) {
     select.bind(1, keyOf(pos));
     const auto row = select.step();
     std::optional<StoredChunk> chunk;
     if (row && *row) {
+        std::string problem = rowProblem(select, 0, 1);
         const ByteView data = select.blob(0);
         const Provenance provenance = select.number(1) == 0 ? Provenance::Generated : Provenance::Edited;
-        chunk = StoredChunk{Bytes(data.begin(), data.end()), provenance};
+        chunk = StoredChunk{Bytes(data.begin(), data.end()), provenance, std::move(problem),
+                            seedOf(pos, select.number(1), format)};
     }
     select.reset();
     if (!row) return tl::unexpected(row.error());
@@ -46,7 +69,12 @@ base::Result<std::vector<world::ChunkPos>> readEditedChunks(Database& database) 
         const auto row = select->step();
         if (!row) return tl::unexpected(row.error());
         if (!*row) return edited;
-        edited.push_back(posOf(select->number(0)));
+        const world::ChunkPos pos = posOf(select->number(0));
+        // Pages that lead back to themselves would give rows without end.
+        if (!edited.empty() && keyOf(pos) <= keyOf(edited.back()))
+            return base::fail(base::ErrorCode::Damaged, "{}: damaged: its chunks are out of order",
+                              database.path());
+        edited.push_back(pos);
     }
 }
 
@@ -85,7 +113,7 @@ void ChunkReader::giveBack(std::unique_ptr<Connection> connection) {
 StoredRow ChunkReader::read(world::ChunkPos pos) {
     auto connection = take();
     if (!connection) return tl::unexpected(connection.error());
-    StoredRow row = readRow((*connection)->select, pos);
+    StoredRow row = readRow((*connection)->select, pos, format_);
     giveBack(std::move(*connection));
     return row;
 }
@@ -98,7 +126,7 @@ std::vector<StoredRow> ChunkReader::readMany(std::span<const world::ChunkPos> po
     rows.reserve(positions.size());
     // A transaction that cannot begin makes it slower, not wrong.
     const bool hasBegun = (*connection)->begin.run().has_value();
-    for (const world::ChunkPos pos : positions) rows.push_back(readRow((*connection)->select, pos));
+    for (const world::ChunkPos pos : positions) rows.push_back(readRow((*connection)->select, pos, format_));
     const bool hasEnded = !hasBegun || (*connection)->end.run();
     // One that cannot end goes with its connection.
     if (hasEnded) giveBack(std::move(*connection));

@@ -3,51 +3,58 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "terrane/store/format_3.h"
+#include "terrane/store/metadata_table.h"
+#include "terrane/store/schema_check.h"
+
 namespace terrane::store {
 namespace {
 
 using base::ErrorCode;
 
-constexpr const char* kTables = R"(
-CREATE TABLE settings (name TEXT PRIMARY KEY NOT NULL, value TEXT NOT NULL) WITHOUT ROWID;
-CREATE TABLE blocks (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE);
-CREATE TABLE chunks (key INTEGER PRIMARY KEY, origin INTEGER NOT NULL, data BLOB NOT NULL);
-CREATE TABLE quarantine (number INTEGER PRIMARY KEY, key INTEGER NOT NULL, reason TEXT NOT NULL, data BLOB NOT NULL);
-)";
-
 base::Result<void> writeMetadata(Database& database, const Metadata& metadata) {
-    auto insert = database.prepare("INSERT INTO settings (name, value) VALUES (?1, ?2)");
-    if (!insert) return tl::unexpected(insert.error());
-    for (const auto& [name, value] : metadata) {
-        insert->bind(1, std::string_view(name));
-        insert->bind(2, std::string_view(value));
-        if (auto done = insert->run(); !done) return done;
-    }
+    if (auto done = writeChecksum(database, 0); !done) return done;
+    auto table = MetadataTable::make(database);
+    if (!table) return tl::unexpected(table.error());
+    for (const auto& [name, value] : metadata)
+        if (auto done = table->put(name, value); !done) return done;
     return {};
 }
 
-// The SQL of each step from the save's format to `current`.
-base::Result<std::vector<const char*>> findWay(Database& database, std::span<const Migration> steps,
-                                               std::int64_t current) {
+// Of blocks and settings.
+base::Result<void> checkName(const Database& database, const Statement& row, int column) {
+    const bool isText = row.type(column) == ColumnType::Text;  // text() changes the type
+    const std::string_view name = row.text(column);
+    if (isText && name.size() <= kMaxNameBytes) return {};
+    return base::fail(ErrorCode::Damaged, "{}: damaged: the name {} is no text of at most {} bytes",
+                      database.path(), name.substr(0, 64), kMaxNameBytes);
+}
+
+// Each step from the save's format to `current`.
+base::Result<std::vector<Migration>> findWay(Database& database, std::span<const Migration> steps,
+                                             std::int64_t current) {
     const auto version = database.queryNumber("PRAGMA user_version");
     if (!version) return tl::unexpected(version.error());
-    std::vector<const char*> way;
+    std::vector<Migration> way;
     for (std::int64_t at = **version; at < current; ++at) {
         const auto step =
             std::find_if(steps.begin(), steps.end(), [&](const Migration& m) { return m.from == at; });
         if (step == steps.end())
             return base::fail(ErrorCode::Incompatible, "{}: in format {}, which is unknown", database.path(),
                               at);
-        way.push_back(step->sql);
+        way.push_back(*step);
     }
     return way;
 }
 
-base::Result<void> runSteps(Database& database, const std::vector<const char*>& way, std::int64_t current) {
+base::Result<void> runSteps(Database& database, const std::vector<Migration>& way, std::int64_t current) {
     auto transaction = Transaction::begin(database);
     if (!transaction) return tl::unexpected(transaction.error());
-    for (const char* sql : way)
-        if (auto done = database.execute(sql); !done) return done;
+    for (const Migration& step : way) {
+        if (auto done = database.execute(step.sql); !done) return done;
+        if (!step.run) continue;
+        if (auto done = step.run(database); !done) return done;
+    }
     if (auto done = database.execute(fmt::format("PRAGMA user_version = {}", current)); !done) return done;
     return transaction->commit();
 }
@@ -56,8 +63,8 @@ base::Result<void> runSteps(Database& database, const std::vector<const char*>& 
 
 std::span<const Migration> migrations() {
     // 1 to 2: keys have a level. Those of level 0 are as they were; a program of format 1 must not take
-    // others for damage.
-    static constexpr Migration kSteps[] = {{1, ""}};
+    // others for damage. 2 to 3: checksums cover more.
+    static constexpr Migration kSteps[] = {{1, ""}, {2, "", addChecksums}};
     return kSteps;
 }
 
@@ -84,7 +91,7 @@ base::Result<void> createTables(Database& database, const WorldIdentity& identit
     if (!transaction) return tl::unexpected(transaction.error());
     const std::string marks =
         fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kApplicationId, kFormatVersion);
-    if (auto made = database.execute(kTables + marks); !made) return made;
+    if (auto made = database.execute(std::string(kTables) + marks); !made) return made;
     if (auto written = writeMetadata(database, metadataOf(identity)); !written) return written;
     return transaction->commit();
 }
@@ -113,11 +120,15 @@ base::Result<std::vector<SavedName>> readBlockNames(Database& database) {
         if (!row) return tl::unexpected(row.error());
         if (!*row) return names;
         const std::int64_t id = select->number(0);
+        if (auto isName = checkName(database, *select, 1); !isName) return tl::unexpected(isName.error());
         std::string name(select->text(1));
         if (id < 0 || id > 65535)
             return base::fail(ErrorCode::Damaged,
                               "{}: damaged: the block {} has the id {}, expected 0 to 65535", database.path(),
                               name, id);
+        if (!names.empty() && id <= names.back().id)
+            return base::fail(ErrorCode::Damaged, "{}: damaged: the ids of blocks are out of order at {}",
+                              database.path(), id);
         if (!seen.insert(name).second)
             return base::fail(ErrorCode::Damaged, "{}: damaged: the block {} has two ids", database.path(),
                               name);
@@ -129,11 +140,24 @@ base::Result<Metadata> readMetadata(Database& database) {
     auto select = database.prepare("SELECT name, value FROM settings");
     if (!select) return tl::unexpected(select.error());
     Metadata metadata;
+    std::size_t totalBytes = 0;
     while (true) {
         const auto row = select->step();
         if (!row) return tl::unexpected(row.error());
         if (!*row) return metadata;
-        metadata.emplace(select->text(0), select->text(1));
+        if (auto isName = checkName(database, *select, 0); !isName) return tl::unexpected(isName.error());
+        std::string name(select->text(0));
+        if (select->type(1) != ColumnType::Text)
+            return base::fail(ErrorCode::Damaged, "{}: damaged: the setting {} is no text", database.path(),
+                              name);
+        std::string value(select->text(1));
+        totalBytes += name.size() + value.size();
+        if (totalBytes > kMaxMetadataBytes || metadata.size() == kMaxMetadata)
+            return base::fail(ErrorCode::Damaged,
+                              "{}: damaged: more than {} settings, or more than {} bytes of them",
+                              database.path(), kMaxMetadata, kMaxMetadataBytes);
+        if (!metadata.emplace(std::move(name), std::move(value)).second)
+            return base::fail(ErrorCode::Damaged, "{}: damaged: a setting is there twice", database.path());
     }
 }
 
