@@ -81,8 +81,8 @@ class JobHandle {
 
 class JobSystem {
   public:
-    // Without threads jobs run when the caller says so, by runNext() or by waiting: tests decide when. Where the
-    // system cannot start that many, those that it can do the work; an exception where it starts none.
+    // Without threads jobs run when the caller says so, by runNext() or by waiting: tests decide when. Where
+    // the system cannot start that many, those that it can do the work; an exception where it starts none.
     explicit JobSystem(unsigned threadCount);
     ~JobSystem();  // cancels queued jobs, lets running ones finish; jobs submitted meanwhile come back
                    // Cancelled
