@@ -33,4 +33,4 @@ run_tests() {
 }
 
 [[ $EVERY == 1 ]] || run_tests --tests-regex "$ALWAYS"
-run_tests --tests-regex '^(gpu|gen_gpu|light_gpu|mesh_gpu|render|golden)\.' --tests-information "1,,$EVERY"
+run_tests --tests-regex '^(gpu|gen_gpu|light_gpu|mesh_gpu|render|golden)\.' --tests-information "$((EVERY / 2 + 1)),,$EVERY"
