@@ -146,19 +146,17 @@ void runJob(Job& job) {
     if (idle) queue.becameIdle.notify_all();
 }
 
-// Cancels what is queued, and from now on what is submitted, and lets the workers end.
+// Cancels what is queued, and from now on what is submitted, and lets the workers end. Needs no memory.
 void stopQueue(JobQueue& queue) {
     std::map<detail::QueueKey, std::shared_ptr<Job>> cancelled;
-    std::vector<JobWork> released;  // outlives the lock, as in JobHandle::cancel
     {
         const std::lock_guard lock(queue.mutex);
         queue.stopping = true;
         cancelled.swap(queue.queued);
-        for (const auto& [key, job] : cancelled) {
-            released.push_back(std::exchange(job->work, nullptr));
-            job->state = JobState::Cancelled;
-        }
+        for (const auto& [key, job] : cancelled) job->state = JobState::Cancelled;
     }
+    // Outside of the lock, as in JobHandle::cancel. Nobody else looks at the work of a cancelled job.
+    for (const auto& [key, job] : cancelled) job->work = nullptr;
     queue.workAdded.notify_all();
     for (const auto& [key, job] : cancelled) job->finished.notify_all();
 }

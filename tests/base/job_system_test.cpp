@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -449,6 +450,28 @@ TEST(JobSystem, WithoutMemoryItHasFewerThreads) {
     }
     EXPECT_GT(refused, 1);
     EXPECT_GT(started, 2) << "some with fewer than 4 threads";
+}
+
+TEST(JobSystem, EndsWithoutMemory) {
+    std::atomic<bool> isReleased = false;
+    JobHandle queued;
+    {
+        std::optional<JobSystem> jobs(1);
+        std::atomic<bool> isRunning = false;
+        jobs->submit(0, [&](const CancelToken&) {
+            for (isRunning = true; !isReleased;) std::this_thread::yield();
+        });
+        while (!isRunning) std::this_thread::yield();
+        std::shared_ptr<bool> captured(new bool, [&](const bool* value) {
+            delete value;
+            isReleased = true;
+        });
+        queued = jobs->submit(0, [held = std::move(captured)](const CancelToken&) {});
+        const FailingMemory memory(0);
+        jobs.reset();
+    }
+    EXPECT_TRUE(isReleased);
+    EXPECT_EQ(queued.state(), JobState::Cancelled);
 }
 
 TEST(JobSystem, AJobWithoutMemoryFails) {

@@ -24,8 +24,8 @@ const std::vector<world::ChunkPos>& savedPositions();
 std::filesystem::path savePath();
 void writeSave(const SaveBytes& save);
 
-// Looks through the save, reads it, plays in it. Aborts where reading changes a byte, an error is not one
-// line, or what was reported as saved is not there.
+// Looks through the save, reads it, plays in it. Aborts where reading changes a byte, or what was reported as
+// saved is not there.
 void useSave();
 
 }  // namespace terrane::fuzz
