@@ -56,6 +56,8 @@ class SqliteWriter {
     };
     SqliteWriter(SaveFile& file, Statements statements) : file_(file), use_(std::move(statements)) {}
 
+    base::Result<bool> writeAll(const SaveBatch& batch, const ChunkPosSet& unread,
+                                std::span<const ChunkRow> derived, bool isComplete);
     base::Result<void> commit(Transaction& transaction);
     base::Result<void> writeBatch(const SaveBatch& batch, const ChunkPosSet& unread);
     base::Result<void> writeChunk(world::ChunkPos pos, const WaitingChunk& chunk);
@@ -68,6 +70,7 @@ class SqliteWriter {
     SaveFile& file_;
     Statements use_;
     bool isComplete_ = true;  // of the transaction that runs
+    bool hasFailed_ = false;  // the last one
 };
 
 }  // namespace terrane::store
