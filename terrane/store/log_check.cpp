@@ -81,9 +81,10 @@ std::vector<std::string> logProblems(const std::filesystem::path& save) {
         return {fmt::format("{}: its header is broken: all that it holds is lost", path.string())};
     const Frames frames = readFrames(log, header, sum, pageBytes);
     if (frames.commitsBehind == 0) return {};
-    // Each transaction is on the disk before the next one is written.
+    // Each transaction is on the disk before the next one is written. Of the last one the power may have left
+    // a part.
     const std::string lost = frames.commitsBehind == 1
-                                 ? "the last transaction is lost, unless the power went while it was written"
+                                 ? "the last transaction is lost, unless it was never finished"
                                  : fmt::format("{} transactions are lost", frames.commitsBehind);
     return {fmt::format("{}: broken behind frame {}: {}", path.string(), frames.whole, lost)};
 }

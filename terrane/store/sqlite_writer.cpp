@@ -47,9 +47,20 @@ base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
         file, Statements{take(), take(), take(), take(), take(), take()}, std::move(*metadata)));
 }
 
+// The log may still have what failed. Behind a smaller transaction it would look like a damaged one, so the
+// log is emptied first. Where that fails too, saving comes before.
 base::Result<bool> SqliteWriter::write(const SaveBatch& batch, const ChunkPosSet& unread,
                                        std::span<const ChunkRow> derived, bool isComplete) {
     TERRANE_ZONE("save batch");
+    if (hasFailed_) (void)file_.database.execute("PRAGMA wal_checkpoint(TRUNCATE)");
+    hasFailed_ = true;  // also where something throws
+    auto written = writeAll(batch, unread, derived, isComplete);
+    hasFailed_ = !written;
+    return written;
+}
+
+base::Result<bool> SqliteWriter::writeAll(const SaveBatch& batch, const ChunkPosSet& unread,
+                                          std::span<const ChunkRow> derived, bool isComplete) {
     auto transaction = Transaction::begin(file_.database);
     if (!transaction) return tl::unexpected(transaction.error());
     isComplete_ = isComplete;

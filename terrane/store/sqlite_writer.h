@@ -61,6 +61,8 @@ class SqliteWriter {
           use_(std::move(statements)),
           metadata_(std::move(metadata)) {}
 
+    base::Result<bool> writeAll(const SaveBatch& batch, const ChunkPosSet& unread,
+                                std::span<const ChunkRow> derived, bool isComplete);
     base::Result<void> commit(Transaction& transaction);
     base::Result<void> writeBatch(const SaveBatch& batch, const ChunkPosSet& unread);
     base::Result<void> writeChunk(world::ChunkPos pos, const WaitingChunk& chunk);
@@ -74,6 +76,7 @@ class SqliteWriter {
     Statements use_;
     MetadataTable metadata_;
     bool isComplete_ = true;  // of the transaction that runs
+    bool hasFailed_ = false;  // the last one
 };
 
 }  // namespace terrane::store

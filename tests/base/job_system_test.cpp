@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <memory>
@@ -91,6 +92,27 @@ TEST(JobSystem, RunsSmallestPriorityFirstAndTiesInOrder) {
     jobs.waitIdle();
     EXPECT_THAT(order, ElementsAre("minus three", "one a", "one b", "one c", "five"));
     EXPECT_EQ(jobs.queuedCount(), 0u);
+}
+
+TEST(JobSystem, WithoutThreadsTheCallerRunsTheJobs) {
+    JobSystem jobs(0);
+    std::vector<int> ran;
+    const JobHandle late = jobs.submit(2, [&](const CancelToken&) { ran.push_back(2); });
+    const JobHandle last = jobs.submit(3, [&](const CancelToken&) { ran.push_back(3); });
+    jobs.submit(1, [&](const CancelToken&) { ran.push_back(1); });
+    EXPECT_EQ(jobs.threadCount(), 1u);
+    EXPECT_TRUE(ran.empty());
+    EXPECT_TRUE(jobs.runNext());
+    EXPECT_EQ(ran, (std::vector<int>{1}));
+    late.wait();
+    EXPECT_EQ(ran, (std::vector<int>{1, 2}));
+    EXPECT_EQ(last.state(), JobState::Queued);
+    jobs.waitIdle();
+    EXPECT_EQ(last.state(), JobState::Done);
+    EXPECT_FALSE(jobs.runNext());
+    std::vector<int> done(100);
+    EXPECT_TRUE(parallelFor(jobs, done.size(), [&](std::size_t k) { done[k] = 1; }));
+    EXPECT_EQ(std::count(done.begin(), done.end(), 1), 100);
 }
 
 TEST(JobSystem, CancelledQueuedJobNeverStartsAndReleasesItsCapturesAtOnce) {

@@ -5,6 +5,7 @@
 #include "terrane/store/chunk_key.h"
 #include "terrane/store/schema.h"
 #include "terrane/store/sqlite_store.h"
+#include "tests/store/faulty_disk.h"
 #include "tests/store/store_fixture.h"
 
 namespace terrane::store {
@@ -123,7 +124,31 @@ TEST_F(LogCheckTest, ABrokenLastTransactionMayNeverHaveBeenSaved) {
     ASSERT_EQ(report.fileProblems.size(), 1u);
     EXPECT_THAT(report.fileProblems.front(),
                 testing::ContainsRegex("a.sqlite-wal: broken behind frame [0-9]+: the last transaction is "
-                                       "lost, unless the power went while it was written"));
+                                       "lost, unless it was never finished"));
+}
+
+// Writing fails at the end of a large transaction, then a smaller one takes its place in the log.
+TEST_F(LogCheckTest, WhatFailedToBeWrittenIsNotMissed) {
+    FaultyDisk disk;
+    std::mt19937 random(1);
+    std::string log;
+    {
+        const auto store = SqliteStore::open(path_, registry_, {}, kNever);
+        ASSERT_TRUE(store);
+        (*store)->save({1, 0}, numberedChunk(1), Provenance::Edited);
+        ASSERT_TRUE((*store)->flush());
+        auto large = std::make_shared<world::Chunk>();
+        large->setBlockEntityData(0, randomBytes(random, 200000));
+        (*store)->save({0, 0}, large, Provenance::Edited);
+        disk.fail(kDiskSync);
+        ASSERT_FALSE((*store)->flush());
+        disk.work();
+        (*store)->save({0, 0}, numberedChunk(1), Provenance::Edited);
+        ASSERT_TRUE((*store)->flush());
+        save_ = readAll(path_);
+        log = readAll(logPath());
+    }
+    EXPECT_FALSE(checkWith(log).isDamaged());
 }
 
 // A program that is killed before it writes, or after it has closed the save, leaves its lock and no log.

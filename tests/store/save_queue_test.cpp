@@ -141,6 +141,33 @@ TEST(SaveQueue, WhatFailedStaysAndIsTriedAgain) {
     EXPECT_EQ(recorder.batches[0].chunks.size(), 2u);
 }
 
+TEST(SaveQueue, WithAManualClockItHasNoThread) {
+    Recorder recorder;
+    ManualClock clock;
+    {
+        SaveQueue queue(recorder.write(), {.delay = 100ms, .chunks = 2, .clock = &clock});
+        queue.add({0, 0}, {numberedChunk(1), Provenance::Edited});
+        clock.now += 99ms;
+        clock.writeIfDue();
+        EXPECT_EQ(queue.status().durable, 0u);
+        clock.now += 1ms;
+        recorder.fail("no");
+        clock.writeIfDue();
+        EXPECT_EQ(queue.status().problem, "no");
+        recorder.fail("");
+        clock.now += 100ms * kTryAgainDelays;
+        clock.writeIfDue();
+        EXPECT_EQ(queue.status().durable, 1u);
+        for (int x = 0; x < 2; ++x) queue.add({x, 0}, {numberedChunk(1), Provenance::Edited});
+        clock.writeIfDue();
+        EXPECT_EQ(queue.status().durable, 3u) << "two chunks are due at once";
+        queue.add({5, 0}, {numberedChunk(1), Provenance::Edited});
+        EXPECT_TRUE(queue.flush());
+        queue.add({6, 0}, {numberedChunk(1), Provenance::Edited});
+    }
+    EXPECT_EQ(recorder.batches.size(), 4u);
+}
+
 TEST(SaveQueue, TriedAgainByItself) {
     Recorder recorder;
     SaveQueue queue(recorder.write(), {.delay = 10ms, .chunks = 1});
