@@ -7,6 +7,7 @@
 
 #include "terrane/store/chunk_codec.h"
 #include "terrane/store/chunk_key.h"
+#include "terrane/store/chunk_reader.h"
 #include "terrane/store/companion_files.h"
 #include "terrane/store/log_check.h"
 #include "terrane/store/save_file.h"
