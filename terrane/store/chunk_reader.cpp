@@ -92,10 +92,13 @@ StoredRow ChunkReader::read(world::ChunkPos pos) {
 
 std::vector<StoredRow> ChunkReader::readMany(std::span<const world::ChunkPos> positions) {
     auto connection = take();
-    if (!connection)
-        return std::vector<StoredRow>(positions.size(), StoredRow(tl::unexpected(connection.error())));
     std::vector<StoredRow> rows;
     rows.reserve(positions.size());
+    if (!connection) {
+        // Not as copies of one: copying a result ends the program where there is no memory for its message.
+        while (rows.size() < positions.size()) rows.push_back(tl::unexpected(connection.error()));
+        return rows;
+    }
     // A transaction that cannot begin makes it slower, not wrong.
     const bool hasBegun = (*connection)->begin.run().has_value();
     for (const world::ChunkPos pos : positions) rows.push_back(readRow((*connection)->select, pos));
