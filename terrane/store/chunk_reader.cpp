@@ -122,23 +122,12 @@ StoredRow ChunkReader::read(world::ChunkPos pos) {
     return row;
 }
 
-<<<<<<< HEAD
 void ChunkReader::readMany(std::span<const world::ChunkPos> positions,
                            const std::function<void(std::size_t, StoredRow)>& take) {
     auto connection = takeConnection();
     if (!connection) {
         for (std::size_t k = 0; k < positions.size(); ++k) take(k, tl::unexpected(connection.error()));
         return;
-=======
-std::vector<StoredRow> ChunkReader::readMany(std::span<const world::ChunkPos> positions) {
-    auto connection = take();
-    std::vector<StoredRow> rows;
-    rows.reserve(positions.size());
-    if (!connection) {
-        // Not as copies of one: copying a result ends the program where there is no memory for its message.
-        while (rows.size() < positions.size()) rows.push_back(tl::unexpected(connection.error()));
-        return rows;
->>>>>>> w21-fuzz
     }
     // A transaction that cannot begin makes it slower, not wrong.
     const bool hasBegun = (*connection)->begin.run().has_value();
