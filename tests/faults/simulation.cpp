@@ -134,8 +134,7 @@ void Simulation::expectGoodSave(bool isClosed) {
         return;
     }
     for (const std::string& problem : report->fileProblems)
-        EXPECT_TRUE(isPowerLoss_ && !isClosed &&
-                    problem.find("unless it was never finished") != std::string::npos)
+        EXPECT_TRUE(!isClosed && problem.find("unless it was never finished") != std::string::npos)
             << problem;
     for (const DamagedChunk& chunk : report->damaged) ADD_FAILURE() << nameOf(chunk.pos) << chunk.problem;
 }
