@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "terrane/store/compression.h"
+#include "terrane/store/scratch.h"
 
 namespace terrane::store {
 namespace {
@@ -18,10 +19,6 @@ using Value = Section::Value;
 // A checksum of all that follows it, the version, the length before compression; then a zstd frame.
 constexpr std::size_t kHeaderBytes = sizeof(std::uint64_t) + sizeof(std::uint8_t) + sizeof(std::uint32_t);
 
-// Beyond this a thread's memory for uncompressed chunks is given back. Sections take 9 KB on average, 0.5 MiB
-// at most.
-constexpr std::size_t kKeptBytes = 1u << 20;
-
 // Of an encoded chunk: of all that follows the checksum itself.
 std::uint64_t checksum(ByteView bytes, std::uint64_t seed) {
     const ByteView rest = bytes.subspan(sizeof(std::uint64_t));
@@ -31,24 +28,6 @@ std::uint64_t checksum(ByteView bytes, std::uint64_t seed) {
 constexpr std::size_t wordCount(int bits) {
     return static_cast<std::size_t>(world::kBlocksPerSection * bits / 64);
 }
-
-// One thread's memory for a chunk before compression, empty. Of one such at a time.
-class Scratch {
-  public:
-    Scratch() { memory().clear(); }
-    ~Scratch() {
-        if (memory().capacity() > kKeptBytes) Bytes().swap(memory());
-    }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-    Bytes& bytes() { return memory(); }
-
-  private:
-    static Bytes& memory() {
-        thread_local Bytes bytes;
-        return bytes;
-    }
-};
 
 // Writes values through a function from a value to what stands for it, or to BlockIdMap::kNone.
 template <class Map>
@@ -200,20 +179,6 @@ base::Result<Section> readBlocks(ByteReader& reader, SectionHead head, const Blo
     return section;
 }
 
-tl::unexpected<base::Error> overBudget(const EntityBudget& budget) {
-    return base::fail(base::ErrorCode::OutOfResources,
-                      "its block entity data are more than may be in memory at once ({} bytes of all chunks)",
-                      budget.maxBytes());
-}
-
-base::Result<world::BlockEntityDataPtr> heldData(ByteView bytes, EntityBudget* budget) {
-    world::BlockEntityData data(bytes.begin(), bytes.end());
-    if (!budget) return std::make_shared<const world::BlockEntityData>(std::move(data));
-    auto held = budget->hold(std::move(data));
-    if (!held) return overBudget(*budget);
-    return held;
-}
-
 base::Result<void> readBlockEntityData(ByteReader& reader, world::Chunk& chunk, EntityBudget* budget) {
     const auto count = reader.number<std::uint32_t>();
     if (count > world::kBlocksPerChunk)
@@ -226,9 +191,9 @@ base::Result<void> readBlockEntityData(ByteReader& reader, world::Chunk& chunk, 
         if (index <= last)
             return base::fail(base::ErrorCode::Damaged, "block entity data of blocks is out of order");
         last = index;
-        auto data = heldData(reader.take(entries.number<std::uint32_t>()), budget);
+        auto data = holdData(reader.take(entries.number<std::uint32_t>()), budget);
         if (!data) return tl::unexpected(data.error());
-        chunk.setBlockEntityData(index, std::move(*data));
+        chunk.shareBlockEntityData(index, std::move(*data));
     }
     return {};
 }

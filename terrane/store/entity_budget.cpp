@@ -23,4 +23,18 @@ world::BlockEntityDataPtr EntityBudget::hold(world::BlockEntityData data) {
     return {new world::BlockEntityData(std::move(data)), release};
 }
 
+tl::unexpected<base::Error> overBudget(const EntityBudget& budget) {
+    return base::fail(base::ErrorCode::OutOfResources,
+                      "its block entity data are more than may be in memory at once ({} bytes of all chunks)",
+                      budget.maxBytes());
+}
+
+base::Result<world::BlockEntityDataPtr> holdData(ByteView bytes, EntityBudget* budget) {
+    world::BlockEntityData data(bytes.begin(), bytes.end());
+    if (!budget) return std::make_shared<const world::BlockEntityData>(std::move(data));
+    auto held = budget->hold(std::move(data));
+    if (!held) return overBudget(*budget);
+    return held;
+}
+
 }  // namespace terrane::store

@@ -9,6 +9,8 @@
 #include <memory>
 #include <mutex>
 
+#include "terrane/base/result.h"
+#include "terrane/store/bytes.h"
 #include "terrane/world/chunk.h"
 
 namespace terrane::store {
@@ -37,5 +39,9 @@ class EntityBudget {
     std::mutex largeChunks_;
     std::atomic<bool> hasRefused_ = false;
 };
+
+// A copy of the bytes, by the budget where there is one; OutOfResources where it has no room.
+[[nodiscard]] base::Result<world::BlockEntityDataPtr> holdData(ByteView bytes, EntityBudget* budget);
+[[nodiscard]] tl::unexpected<base::Error> overBudget(const EntityBudget& budget);
 
 }  // namespace terrane::store

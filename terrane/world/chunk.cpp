@@ -26,10 +26,10 @@ const BlockEntityData* Chunk::blockEntityData(BlockIndex i) const {
 }
 
 void Chunk::setBlockEntityData(BlockIndex i, BlockEntityData data) {
-    setBlockEntityData(i, std::make_shared<const BlockEntityData>(std::move(data)));
+    shareBlockEntityData(i, std::make_shared<const BlockEntityData>(std::move(data)));
 }
 
-void Chunk::setBlockEntityData(BlockIndex i, BlockEntityDataPtr data) {
+void Chunk::shareBlockEntityData(BlockIndex i, BlockEntityDataPtr data) {
     assert(data && "clearBlockEntityData() takes data away");
     if (blockEntityData(i)) {
         entitySlots_[blockState(i)].data = std::move(data);

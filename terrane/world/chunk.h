@@ -36,7 +36,8 @@ class Chunk {
     // after.
     const BlockEntityData* blockEntityData(BlockIndex i) const;  // null where the block has none
     void setBlockEntityData(BlockIndex i, BlockEntityData data);
-    void setBlockEntityData(BlockIndex i, BlockEntityDataPtr data);  // not null; copies of the chunk share it
+    void shareBlockEntityData(BlockIndex i,
+                              BlockEntityDataPtr data);  // not null; copies of the chunk share it
     void clearBlockEntityData(BlockIndex i);
     std::vector<BlockIndex> blocksWithBlockEntityData() const;  // in ascending order
 

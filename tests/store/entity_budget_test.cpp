@@ -20,7 +20,7 @@ TEST(EntityBudget, CountsDataUntilNobodyHoldsIt) {
     EntityBudget budget(10000);
     {
         world::Chunk chunk;
-        chunk.setBlockEntityData(7, budget.hold(world::BlockEntityData(6000)));
+        chunk.shareBlockEntityData(7, budget.hold(world::BlockEntityData(6000)));
         EXPECT_GE(budget.usedBytes(), 6000u);
         EXPECT_EQ(budget.hold(world::BlockEntityData(6000)), nullptr);
         EXPECT_TRUE(budget.hold(world::BlockEntityData(1000))) << "what was refused counts no more";
