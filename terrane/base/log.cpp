@@ -7,6 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "terrane/base/printable.h"
+
 namespace terrane::base {
 
 namespace {
@@ -50,8 +52,9 @@ void writeLog(LogLevel level, fmt::string_view format, fmt::format_args args) {
     const spdlog::level::level_enum target = spdlogLevel(level);
     if (!logger().should_log(target)) return;
     const char* word = level == LogLevel::Warning ? "warning: " : level == LogLevel::Error ? "error: " : "";
-    // As one finished string: the message must not be read as a format again.
-    const std::string line = word + fmt::vformat(format, args);
+    // As one finished string: the message must not be read as a format again. Names and texts of files end up
+    // in messages, so what a terminal would obey is escaped here, for all.
+    const std::string line = word + printable(fmt::vformat(format, args));
     logger().log(target, spdlog::string_view_t(line));
 }
 

@@ -1,5 +1,5 @@
 // Messages to the user who runs the program, one line each on standard error (standard output belongs to
-// results). Any thread may call.
+// results), made printable (printable.h). Any thread may call.
 #pragma once
 
 #include <fmt/format.h>

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace terrane::gpu {
 namespace {
@@ -41,6 +42,13 @@ std::string programLog(GLuint id) {
     return trimmedLog(std::move(log));
 }
 
+// A message is one line.
+std::string inOneLine(std::string_view log) {
+    std::string line;
+    for (const char c : log) c == '\n' ? line += " | " : line += c;
+    return line;
+}
+
 base::Result<Handle<ObjectKind::Shader>> compile(const ShaderSource& source, ShaderStage stage) {
     assert(!source.files.empty() && "a source comes from a file");
     Handle<ObjectKind::Shader> shader(glCreateShader(shaderType(stage)));
@@ -53,8 +61,8 @@ base::Result<Handle<ObjectKind::Shader>> compile(const ShaderSource& source, Sha
     GLint compiled = GL_FALSE;
     glGetShaderiv(id, GL_COMPILE_STATUS, &compiled);
     if (compiled == GL_FALSE)
-        return base::fail("{}: the shader does not compile:\n{}", source.files.front(),
-                          nameSources(shaderLog(id), source.files));
+        return base::fail("{}: the shader does not compile: {}", source.files.front(),
+                          inOneLine(nameSources(shaderLog(id), source.files)));
     return shader;
 }
 
@@ -79,7 +87,8 @@ base::Result<Handle<ObjectKind::Program>> linkProgram(const ShaderLoader& loader
     glLinkProgram(id);
     GLint linked = GL_FALSE;
     glGetProgramiv(id, GL_LINK_STATUS, &linked);
-    if (linked == GL_FALSE) return base::fail("{}: the program does not link:\n{}", label, programLog(id));
+    if (linked == GL_FALSE)
+        return base::fail("{}: the program does not link: {}", label, inOneLine(programLog(id)));
     return program;
 }
 

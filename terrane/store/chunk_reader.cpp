@@ -7,9 +7,18 @@
 
 namespace terrane::store {
 
+namespace {
+
+base::Result<world::Chunk> decodeStored(const StoredChunk& stored, const BlockIdMap& ids) {
+    if (!stored.problem.empty()) return base::fail(base::ErrorCode::Damaged, "{}", stored.problem);
+    return decodeChunk(stored.data, ids);
+}
+
+}  // namespace
+
 LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids) {
     if (row && !*row) return {};
-    base::Result<world::Chunk> chunk = row ? decodeChunk((*row)->data, ids) : tl::unexpected(row.error());
+    base::Result<world::Chunk> chunk = row ? decodeStored(**row, ids) : tl::unexpected(row.error());
     if (chunk) {
         return {LoadedChunk::State::Present,
                 std::make_shared<world::Chunk>(std::move(*chunk)),
@@ -22,14 +31,22 @@ LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids) {
     return damaged;
 }
 
+std::string rowProblem(const Statement& row, int dataColumn, int originColumn) {
+    if (row.type(dataColumn) != ColumnType::Blob) return "its data is no blob";
+    const bool isNumber = row.type(originColumn) == ColumnType::Integer;
+    if (isNumber && (row.number(originColumn) == 0 || row.number(originColumn) == 1)) return "";
+    return fmt::format("its origin is \"{}\", expected 0 or 1", row.text(originColumn).substr(0, 64));
+}
+
 StoredRow readRow(Statement& select, world::ChunkPos pos) {
     select.bind(1, keyOf(pos));
     const auto row = select.step();
     std::optional<StoredChunk> chunk;
     if (row && *row) {
+        std::string problem = rowProblem(select, 0, 1);
         const ByteView data = select.blob(0);
         const Provenance provenance = select.number(1) == 0 ? Provenance::Generated : Provenance::Edited;
-        chunk = StoredChunk{Bytes(data.begin(), data.end()), provenance};
+        chunk = StoredChunk{Bytes(data.begin(), data.end()), provenance, std::move(problem)};
     }
     select.reset();
     if (!row) return tl::unexpected(row.error());
@@ -46,7 +63,12 @@ base::Result<std::vector<world::ChunkPos>> readEditedChunks(Database& database) 
         const auto row = select->step();
         if (!row) return tl::unexpected(row.error());
         if (!*row) return edited;
-        edited.push_back(posOf(select->number(0)));
+        const world::ChunkPos pos = posOf(select->number(0));
+        // Pages that lead back to themselves would give rows without end.
+        if (!edited.empty() && keyOf(pos) <= keyOf(edited.back()))
+            return base::fail(base::ErrorCode::Damaged, "{}: damaged: its chunks are out of order",
+                              database.path());
+        edited.push_back(pos);
     }
 }
 

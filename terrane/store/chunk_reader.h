@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "terrane/store/block_id_map.h"
@@ -17,6 +18,7 @@ namespace terrane::store {
 struct StoredChunk {
     Bytes data;
     Provenance provenance = Provenance::Generated;
+    std::string problem;  // what is wrong with the row beside its data; empty where nothing is
 };
 
 // Nothing where the save has no chunk; an error where the file is damaged.
@@ -24,6 +26,9 @@ using StoredRow = base::Result<std::optional<StoredChunk>>;
 
 // By a statement that selects data and origin of the key ?1.
 StoredRow readRow(Statement& select, world::ChunkPos pos);
+
+// What is wrong with the types of a row; empty where nothing is.
+std::string rowProblem(const Statement& row, int dataColumn, int originColumn);
 
 // As ReadableStore::editedChunks().
 [[nodiscard]] base::Result<std::vector<world::ChunkPos>> readEditedChunks(Database& database);

@@ -1,6 +1,7 @@
 // The metadata of a world that stores write themselves, and its identity as texts. Used by the stores.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <string_view>
@@ -8,6 +9,9 @@
 #include "terrane/store/world_identity.h"
 
 namespace terrane::store {
+
+// A save has no more: names of settings and of blocks, how many settings, and all their names and values.
+constexpr std::size_t kMaxNameBytes = 1024, kMaxMetadata = 4096, kMaxMetadataBytes = std::size_t{16} << 20;
 
 using Metadata = std::map<std::string, std::string, std::less<>>;
 

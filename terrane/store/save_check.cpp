@@ -1,9 +1,13 @@
 #include "terrane/store/save_check.h"
 
+#include <optional>
+#include <sstream>
 #include <system_error>
+#include <utility>
 
 #include "terrane/store/chunk_codec.h"
 #include "terrane/store/chunk_key.h"
+#include "terrane/store/chunk_reader.h"
 #include "terrane/store/companion_files.h"
 #include "terrane/store/log_check.h"
 #include "terrane/store/save_file.h"
@@ -12,7 +16,11 @@ namespace terrane::store {
 namespace {
 
 constexpr int kMaxFileProblems = 20;  // one broken page brings many
+constexpr std::size_t kMaxListed = 1000;
 
+// Each line is a problem of its own. Only after all rows were read without an error: what is wrong with the
+// trees of pages, such as a page that is its own ancestor, stops that, while this walks on without an end to
+// its stack.
 base::Result<void> checkPages(Database& database, CheckReport& report) {
     auto check = database.prepare(fmt::format("PRAGMA integrity_check({})", kMaxFileProblems));
     if (!check) return tl::unexpected(check.error());
@@ -20,43 +28,95 @@ base::Result<void> checkPages(Database& database, CheckReport& report) {
         const auto row = check->step();
         if (!row) return tl::unexpected(row.error());
         if (!*row) return {};
-        if (check->text(0) != "ok") report.fileProblems.emplace_back(check->text(0));
+        if (check->text(0) == "ok") continue;
+        std::istringstream lines{std::string(check->text(0))};
+        for (std::string line; std::getline(lines, line);) report.fileProblems.push_back(line);
     }
 }
 
-std::string problemOf(std::int64_t key, ByteView data, const BlockIdMap& ids) {
-    if (!world::isInWorld(posOf(key))) return fmt::format("the key {} is no position", key);
-    const auto chunk = decodeChunk(data, ids);
+std::string problemOf(const Statement& row, const BlockIdMap& ids) {
+    if (!world::isInWorld(posOf(row.number(0))))
+        return fmt::format("the key {} is no position", row.number(0));
+    if (std::string problem = rowProblem(row, 2, 1); !problem.empty()) return problem;
+    const auto chunk = decodeChunk(row.blob(2), ids);
     return chunk ? "" : chunk.error().message;
 }
 
-base::Result<void> checkChunks(SaveFile& file, CheckReport& report) {
-    auto select = file.database.prepare("SELECT key, origin, data FROM chunks ORDER BY key");
+void note(CheckReport& report, const Statement& row, std::string problem) {
+    if (report.damaged.size() < kMaxListed) {
+        report.damaged.push_back({posOf(row.number(0)), std::move(problem)});
+    } else {
+        ++report.unlisted;
+    }
+}
+
+// Calls a function with each row, which is ordered by its first column, a number. Where a page stands in two
+// places, rows come twice, or without end: they are out of order then.
+template <class Visit>
+base::Result<void> forEachRow(Database& database, std::string_view sql, Visit visit) {
+    auto select = database.prepare(sql);
     if (!select) return tl::unexpected(select.error());
+    std::optional<std::int64_t> last;
     while (true) {
         const auto row = select->step();
         if (!row) return tl::unexpected(row.error());
         if (!*row) return {};
-        ++report.chunks;
-        const bool isTile = select->number(0) >= kFirstTileKey;
-        if (isTile) ++report.tiles;
-        if (!isTile && select->number(1) != 0) ++report.editedChunks;
-        report.chunkBytes += select->blob(2).size();
-        std::string problem = problemOf(select->number(0), select->blob(2), file.ids);
-        if (!problem.empty()) report.damaged.push_back({posOf(select->number(0)), std::move(problem)});
+        const std::int64_t number = select->number(0);
+        if (last && number <= *last)
+            return base::fail(base::ErrorCode::Damaged, "{}: damaged: rows are out of order behind {}",
+                              database.path(), *last);
+        last = number;
+        if (auto visited = visit(*select); !visited) return visited;
     }
 }
 
+base::Result<void> checkChunks(SaveFile& file, CheckReport& report) {
+    const auto check = [&](const Statement& row) -> base::Result<void> {
+        ++report.chunks;
+        const bool isTile = row.number(0) >= kFirstTileKey;
+        if (isTile) ++report.tiles;
+        if (!isTile && row.number(1) != 0) ++report.editedChunks;
+        report.chunkBytes += row.blob(2).size();
+        if (report.chunkBytes > report.fileBytes)
+            return base::fail(base::ErrorCode::Damaged, "{}: damaged: chunks share pages",
+                              file.database.path());
+        std::string problem = problemOf(row, file.ids);
+        if (!problem.empty()) note(report, row, std::move(problem));
+        return {};
+    };
+    return forEachRow(file.database, "SELECT key, origin, data FROM chunks ORDER BY key", check);
+}
+
 base::Result<void> countQuarantined(Database& database, CheckReport& report) {
-    const auto count = database.queryNumber("SELECT count(*) FROM quarantine");
-    if (!count) return tl::unexpected(count.error());
-    report.quarantined = static_cast<std::size_t>(count->value_or(0));
-    return {};
+    const auto count = [&](const Statement&) -> base::Result<void> {
+        ++report.quarantined;
+        return {};
+    };
+    return forEachRow(database, "SELECT number FROM quarantine ORDER BY number", count);
+}
+
+// The index by name, which reading blocks does not use.
+base::Result<void> checkIndex(Database& database) {
+    auto select =
+        database.prepare("SELECT name FROM blocks INDEXED BY sqlite_autoindex_blocks_1 ORDER BY name");
+    if (!select) return tl::unexpected(select.error());
+    std::optional<std::string> last;
+    while (true) {
+        const auto row = select->step();
+        if (!row) return tl::unexpected(row.error());
+        if (!*row) return {};
+        std::string name(select->text(0));
+        if (last && name <= *last)
+            return base::fail(base::ErrorCode::Damaged, "{}: damaged: the index of blocks is out of order",
+                              database.path());
+        last = std::move(name);
+    }
 }
 
 // What stops one check is damage too, and does not stop the others.
-void note(CheckReport& report, const base::Result<void>& checked) {
+bool isGood(CheckReport& report, const base::Result<void>& checked) {
     if (!checked) report.fileProblems.push_back(checked.error().message);
+    return checked.has_value();
 }
 
 std::uint64_t sizeOf(std::filesystem::path path, const char* ending) {
@@ -86,9 +146,10 @@ base::Result<CheckReport> checkSave(const std::filesystem::path& path, const wor
             fmt::format("{}-wal: it is gone, though a program that wrote to it was killed: what was saved "
                         "last is missing",
                         file->database.path()));
-    note(report, checkPages(file->database, report));
-    note(report, checkChunks(*file, report));
-    note(report, countQuarantined(file->database, report));
+    const bool hasChunks = isGood(report, checkChunks(*file, report));
+    const bool hasQuarantine = isGood(report, countQuarantined(file->database, report));
+    const bool hasIndex = isGood(report, checkIndex(file->database));
+    if (hasChunks && hasQuarantine && hasIndex) isGood(report, checkPages(file->database, report));
     return report;
 }
 

@@ -25,8 +25,9 @@ struct CheckReport {
     std::uint64_t fileBytes = 0;   // of the file with its log
     std::size_t quarantined = 0;   // rows that were found damaged before and put aside
 
-    std::vector<std::string> fileProblems;  // of SQLite's pages and of the tables
-    std::vector<DamagedChunk> damaged;
+    std::vector<std::string> fileProblems;   // of SQLite's pages and of the tables
+    std::vector<DamagedChunk> damaged;       // the first 1,000
+    std::size_t unlisted = 0;                // damaged ones beyond these
     std::vector<std::string> unknownBlocks;  // names the registry lacks; no damage
 
     bool isDamaged() const { return !fileProblems.empty() || !damaged.empty(); }

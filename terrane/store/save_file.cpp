@@ -12,6 +12,7 @@
 #include "terrane/store/chunk_key.h"
 #include "terrane/store/companion_files.h"
 #include "terrane/store/derived_rows.h"
+#include "terrane/store/schema_check.h"
 
 namespace terrane::store {
 namespace {
@@ -89,6 +90,7 @@ base::Result<void> makeCurrent(SaveFile& file, const fs::path& path, const SaveA
         file.isNew = true;
         return createTables(file.database, *access.create);
     }
+    if (auto same = checkSchema(file.database); !same) return same;
     if (*kind == SaveKind::Old) {
         const fs::path backup = backupPath(path, "before-migration");
         auto migrated = migrate(file.database, migrations(), kFormatVersion, backup);
@@ -106,8 +108,9 @@ base::Result<void> regenerate(SaveFile& file, const fs::path& path, const Regene
     auto transaction = Transaction::begin(file.database);
     if (!transaction) return tl::unexpected(transaction.error());
     // Tiles follow from generated chunks too, also where they have the mark of edits.
+    // Row by row (WHERE): SQLite frees whole trees by recursion, however deep a broken file makes them.
     const std::string deleted = by.chunks == Regenerate::All
-                                    ? "DELETE FROM chunks; DELETE FROM quarantine;"
+                                    ? "DELETE FROM chunks WHERE true; DELETE FROM quarantine WHERE true;"
                                     : fmt::format("DELETE FROM chunks WHERE origin = {} OR key >= {};",
                                                   static_cast<int>(Provenance::Generated), kFirstTileKey);
     const std::string sql = fmt::format(
@@ -260,6 +263,7 @@ base::Result<SaveFile> openToRead(const fs::path& name, const world::BlockRegist
     auto kind = classify(file.database);
     if (!kind) return tl::unexpected(kind.error());
     if (*kind == SaveKind::Empty) return notASave(path);
+    if (auto same = checkSchema(file.database); !same) return tl::unexpected(same.error());
     if (auto done = readFormat(file); !done) return tl::unexpected(done.error());
     if (auto done = readContents(file, registry); !done) return tl::unexpected(done.error());
     reportUnknown(file);

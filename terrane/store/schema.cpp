@@ -3,17 +3,12 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "terrane/store/schema_check.h"
+
 namespace terrane::store {
 namespace {
 
 using base::ErrorCode;
-
-constexpr const char* kTables = R"(
-CREATE TABLE settings (name TEXT PRIMARY KEY NOT NULL, value TEXT NOT NULL) WITHOUT ROWID;
-CREATE TABLE blocks (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE);
-CREATE TABLE chunks (key INTEGER PRIMARY KEY, origin INTEGER NOT NULL, data BLOB NOT NULL);
-CREATE TABLE quarantine (number INTEGER PRIMARY KEY, key INTEGER NOT NULL, reason TEXT NOT NULL, data BLOB NOT NULL);
-)";
 
 base::Result<void> writeMetadata(Database& database, const Metadata& metadata) {
     auto insert = database.prepare("INSERT INTO settings (name, value) VALUES (?1, ?2)");
@@ -24,6 +19,15 @@ base::Result<void> writeMetadata(Database& database, const Metadata& metadata) {
         if (auto done = insert->run(); !done) return done;
     }
     return {};
+}
+
+// Of blocks and settings.
+base::Result<void> checkName(const Database& database, const Statement& row, int column) {
+    const bool isText = row.type(column) == ColumnType::Text;  // text() changes the type
+    const std::string_view name = row.text(column);
+    if (isText && name.size() <= kMaxNameBytes) return {};
+    return base::fail(ErrorCode::Damaged, "{}: damaged: the name {} is no text of at most {} bytes",
+                      database.path(), name.substr(0, 64), kMaxNameBytes);
 }
 
 // The SQL of each step from the save's format to `current`.
@@ -84,7 +88,7 @@ base::Result<void> createTables(Database& database, const WorldIdentity& identit
     if (!transaction) return tl::unexpected(transaction.error());
     const std::string marks =
         fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kApplicationId, kFormatVersion);
-    if (auto made = database.execute(kTables + marks); !made) return made;
+    if (auto made = database.execute(std::string(kTables) + marks); !made) return made;
     if (auto written = writeMetadata(database, metadataOf(identity)); !written) return written;
     return transaction->commit();
 }
@@ -113,11 +117,15 @@ base::Result<std::vector<SavedName>> readBlockNames(Database& database) {
         if (!row) return tl::unexpected(row.error());
         if (!*row) return names;
         const std::int64_t id = select->number(0);
+        if (auto isName = checkName(database, *select, 1); !isName) return tl::unexpected(isName.error());
         std::string name(select->text(1));
         if (id < 0 || id > 65535)
             return base::fail(ErrorCode::Damaged,
                               "{}: damaged: the block {} has the id {}, expected 0 to 65535", database.path(),
                               name, id);
+        if (!names.empty() && id <= names.back().id)
+            return base::fail(ErrorCode::Damaged, "{}: damaged: the ids of blocks are out of order at {}",
+                              database.path(), id);
         if (!seen.insert(name).second)
             return base::fail(ErrorCode::Damaged, "{}: damaged: the block {} has two ids", database.path(),
                               name);
@@ -129,11 +137,24 @@ base::Result<Metadata> readMetadata(Database& database) {
     auto select = database.prepare("SELECT name, value FROM settings");
     if (!select) return tl::unexpected(select.error());
     Metadata metadata;
+    std::size_t totalBytes = 0;
     while (true) {
         const auto row = select->step();
         if (!row) return tl::unexpected(row.error());
         if (!*row) return metadata;
-        metadata.emplace(select->text(0), select->text(1));
+        if (auto isName = checkName(database, *select, 0); !isName) return tl::unexpected(isName.error());
+        std::string name(select->text(0));
+        if (select->type(1) != ColumnType::Text)
+            return base::fail(ErrorCode::Damaged, "{}: damaged: the setting {} is no text", database.path(),
+                              name);
+        std::string value(select->text(1));
+        totalBytes += name.size() + value.size();
+        if (totalBytes > kMaxMetadataBytes || metadata.size() == kMaxMetadata)
+            return base::fail(ErrorCode::Damaged,
+                              "{}: damaged: more than {} settings, or more than {} bytes of them",
+                              database.path(), kMaxMetadata, kMaxMetadataBytes);
+        if (!metadata.emplace(std::move(name), std::move(value)).second)
+            return base::fail(ErrorCode::Damaged, "{}: damaged: a setting is there twice", database.path());
     }
 }
 

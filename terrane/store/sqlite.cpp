@@ -4,6 +4,8 @@
 
 #include <cassert>
 
+#include "terrane/store/sqlite_guard.h"
+
 namespace terrane::store {
 namespace {
 
@@ -20,6 +22,10 @@ std::string describe(int code, const char* message) {
             return "not a SQLite file";
         case SQLITE_CORRUPT:
             return fmt::format("damaged: {}", message);
+        case SQLITE_TOOBIG:
+            return fmt::format("damaged: a value is longer than {} bytes", kMaxValueBytes);
+        case SQLITE_INTERRUPT:
+            return "damaged: reading it does not end";
         case SQLITE_BUSY:
         case SQLITE_LOCKED:
             return "in use by another program";
@@ -49,6 +55,8 @@ base::ErrorCode codeOf(int code) {
         case SQLITE_IOERR:
             return base::ErrorCode::Io;
         case SQLITE_CORRUPT:
+        case SQLITE_TOOBIG:
+        case SQLITE_INTERRUPT:
             return base::ErrorCode::Damaged;
         default:
             return base::ErrorCode::Failed;
@@ -133,6 +141,21 @@ void Statement::reset() {
     sqlite3_reset(statement_.get());
 }
 
+ColumnType Statement::type(int column) const {
+    switch (sqlite3_column_type(statement_.get(), column)) {
+        case SQLITE_INTEGER:
+            return ColumnType::Integer;
+        case SQLITE_FLOAT:
+            return ColumnType::Real;
+        case SQLITE_TEXT:
+            return ColumnType::Text;
+        case SQLITE_BLOB:
+            return ColumnType::Blob;
+        default:
+            return ColumnType::Null;
+    }
+}
+
 std::int64_t Statement::number(int column) const {
     return sqlite3_column_int64(statement_.get(), column);
 }
@@ -161,7 +184,16 @@ base::Result<Database> Database::open(const std::filesystem::path& path, OpenMod
     if (code != SQLITE_OK) return failure(result.path(), handle);
     sqlite3_extended_result_codes(handle, 1);
     sqlite3_busy_timeout(handle, kBusyMilliseconds);
+    guardConnection(handle);
+    if (auto done = result.loadSchema(); !done) return tl::unexpected(done.error());
     return result;
+}
+
+// The file itself names a size of the cache: it could be all memory. A program gets by with 2 MB.
+base::Result<void> Database::loadSchema() {
+    constexpr int kThousandSteps = 5;  // the schema of a save takes about 100 steps
+    const StepLimit limit(database_.get(), kThousandSteps);
+    return execute("PRAGMA cell_size_check = 1; PRAGMA mmap_size = 0; PRAGMA cache_size = -2000");
 }
 
 base::Result<void> Database::execute(const std::string& sql) {

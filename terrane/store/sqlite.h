@@ -1,5 +1,6 @@
 // SQLite's connections and statements as owners of what they hold. Errors read "path: what is wrong".
-// A connection and its statements are used by one thread at a time.
+// A connection and its statements are used by one thread at a time, and trust nothing in the file
+// (sqlite_guard.h).
 #pragma once
 
 #include <cstdint>
@@ -17,6 +18,9 @@ struct sqlite3_stmt;
 
 namespace terrane::store {
 
+// A column's type is what a schema says, and may be another one in a file of somebody else.
+enum class ColumnType : std::uint8_t { Integer, Real, Text, Blob, Null };
+
 class Statement {
   public:
     // Parameters count from 1. Blobs and texts are copied.
@@ -31,6 +35,7 @@ class Statement {
     void reset();  // ready to be bound and stepped again; ends what it reads from the file
 
     // Of the row; columns count from 0. Views hold until the next step or reset.
+    ColumnType type(int column) const;  // asked for first: the others change it
     std::int64_t number(int column) const;
     std::string_view text(int column) const;
     ByteView blob(int column) const;
@@ -73,6 +78,7 @@ class Database {
     struct Close {
         void operator()(sqlite3* database) const;
     };
+    base::Result<void> loadSchema();
     base::Result<void> copyTo(const std::filesystem::path& target);
     explicit Database(std::string path) : path_(std::make_unique<std::string>(std::move(path))) {}
 

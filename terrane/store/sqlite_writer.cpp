@@ -24,13 +24,14 @@ base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
         "SELECT data, origin FROM chunks WHERE key = ?1",
         "INSERT INTO chunks (key, origin, data) VALUES (?1, ?2, ?3) ON CONFLICT (key) DO UPDATE "
         "SET origin = excluded.origin, data = excluded.data WHERE excluded.origin >= origin",
-        "DELETE FROM chunks WHERE key = ?1",
-        "INSERT OR REPLACE INTO settings (name, value) VALUES (?1, ?2)",
+        "DELETE FROM chunks WHERE key = ?1", "INSERT OR REPLACE INTO settings (name, value) VALUES (?1, ?2)",
         "DELETE FROM settings WHERE name = ?1",
-        "INSERT INTO quarantine (key, reason, data) SELECT key, ?2, data FROM chunks WHERE key = ?1",
-        "INSERT INTO quarantine (key, reason, data) SELECT key, ?2, data FROM chunks WHERE key = ?1 AND "
-        "CAST(data AS BLOB) = ?3",
-        "DELETE FROM chunks WHERE key = ?1 AND CAST(data AS BLOB) = ?2"};
+        // In a file of somebody else data may be a text or NULL.
+        "INSERT INTO quarantine (key, reason, data) SELECT key, ?2, coalesce(data, x'') FROM chunks WHERE "
+        "key = ?1",
+        "INSERT INTO quarantine (key, reason, data) SELECT key, ?2, coalesce(data, x'') FROM chunks WHERE "
+        "key = ?1 AND coalesce(CAST(data AS BLOB), x'') = ?3",
+        "DELETE FROM chunks WHERE key = ?1 AND coalesce(CAST(data AS BLOB), x'') = ?2"};
     std::vector<Statement> made;
     for (const char* sql : kStatements) {
         auto statement = file.database.prepare(sql);
@@ -141,9 +142,10 @@ base::Result<void> SqliteWriter::putAsideIfDamaged(world::ChunkPos pos) {
     const auto row = use_.selectChunk.step();
     std::optional<DamagedRow> damaged;
     if (row && *row) {
+        std::string problem = rowProblem(use_.selectChunk, 0, 1);
         const ByteView data = use_.selectChunk.blob(0);
-        if (auto good = verifyChunk(data); !good)
-            damaged = DamagedRow{pos, Bytes(data.begin(), data.end()), good.error().message};
+        if (auto good = verifyChunk(data); problem.empty() && !good) problem = good.error().message;
+        if (!problem.empty()) damaged = DamagedRow{pos, Bytes(data.begin(), data.end()), problem};
     }
     use_.selectChunk.reset();
     if (!row) return tl::unexpected(row.error());

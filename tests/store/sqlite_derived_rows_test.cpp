@@ -67,21 +67,20 @@ TEST_F(SqliteDerivedRowsTest, WhatFailedIsDerivedAgainWithTheNewerChunk) {
                                return deriveSums(edited, saved);
                            },
                            [&](std::span<const ChunkRow>) { ++written; }});
-    // The chunk could be written, its tiles cannot.
-    runSql(path_, fmt::format("CREATE TRIGGER failure BEFORE INSERT ON chunks WHEN NEW.key >= {} BEGIN "
-                              "SELECT RAISE(ABORT, 'no tiles today'); END",
+    // The chunk could be written, its tiles cannot: what their index holds is more than a number can be.
+    runSql(path_, fmt::format("CREATE INDEX failure ON chunks (abs(-9223372036854775807 - (key >= {})))",
                               kFirstTileKey));
     store->save({0, 0}, numberedChunk(1), Provenance::Edited);
     const auto failed = store->flush();
     ASSERT_FALSE(failed);
-    EXPECT_THAT(failed.error().message, HasSubstr("no tiles today"));
+    EXPECT_THAT(failed.error().message, HasSubstr("integer overflow"));
     EXPECT_EQ(store->status().durable, 0u);
     EXPECT_EQ(queryFile(path_, "SELECT count(*) FROM chunks"), 0) << "neither the chunk nor its tiles";
     EXPECT_FALSE(store->contains({0, 0, 1}));
     EXPECT_EQ(written, 0);
 
     store->save({0, 0}, numberedChunk(2), Provenance::Edited);
-    runSql(path_, "DROP TRIGGER failure");
+    runSql(path_, "DROP INDEX failure");
     ASSERT_TRUE(store->flush());
     ASSERT_EQ(derived.size(), 2u);
     EXPECT_EQ(*derived[1][0].chunk, *numberedChunk(2));
@@ -92,11 +91,11 @@ TEST_F(SqliteDerivedRowsTest, WhatFailedIsDerivedAgainWithTheNewerChunk) {
 TEST_F(SqliteDerivedRowsTest, DeriveAllThatFailsChangesNothing) {
     makeSave();
     const auto store = open();
-    runSql(path_, "CREATE TRIGGER failure BEFORE INSERT ON settings BEGIN SELECT RAISE(ABORT, 'no'); END");
+    runSql(path_, "CREATE INDEX failure ON settings (abs(-9223372036854775807 - (value = 'other')))");
     EXPECT_FALSE(store->deriveAll("other"));
     EXPECT_EQ(store->metadata(kDerivedRowsMark), "sums");
     expectTiles(*store, edited_);
-    runSql(path_, "DROP TRIGGER failure");
+    runSql(path_, "DROP INDEX failure");
     EXPECT_TRUE(store->deriveAll("other"));
     expectTiles(*store, edited_);
 }

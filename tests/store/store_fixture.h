@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
 #include <array>
 #include <chrono>
@@ -101,12 +102,15 @@ inline void writeAll(const std::filesystem::path& path, std::string_view bytes) 
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
-// Runs SQL on a file as another program would.
+// Runs SQL on a file as another program would, which keeps to none of this module's rules.
 inline void runSql(const std::filesystem::path& path, const std::string& sql) {
-    auto database = Database::open(path, OpenMode::Create);
-    ASSERT_TRUE(database) << database.error().message;
-    const auto done = database->execute(sql);
-    ASSERT_TRUE(done) << done.error().message;
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
+    char* message = nullptr;
+    const int code = sqlite3_exec(database, sql.c_str(), nullptr, nullptr, &message);
+    EXPECT_EQ(code, SQLITE_OK) << message << ": " << sql;
+    sqlite3_free(message);
+    ASSERT_EQ(sqlite3_close(database), SQLITE_OK);
 }
 
 inline std::int64_t queryFile(const std::filesystem::path& path, const std::string& sql) {

@@ -1,12 +1,11 @@
 // terrane check: looks through a save for damage.
-#include <fmt/format.h>
-
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
+#include "terrane/base/printable.h"
 #include "terrane/content/built_in.h"
 #include "terrane/store/save_check.h"
 #include "terrane/store/world_location.h"
@@ -38,22 +37,26 @@ nlohmann::json toJson(const store::CheckReport& report) {
             {"quarantined", report.quarantined},
             {"unknown_blocks", report.unknownBlocks},
             {"file_problems", report.fileProblems},
-            {"damaged_chunks", std::move(damaged)}};
+            {"damaged_chunks", std::move(damaged)},
+            {"unlisted", report.unlisted}};
 }
 
 void printText(const std::string& file, const store::CheckReport& report) {
     if (report.format > 0) {
-        fmt::print("{}: format {}, generator {} version {}, seed {}\n", file, report.format,
-                   report.identity.generator, report.identity.generatorVersion, report.identity.seed);
-        fmt::print("{} chunks, {} of them edited, {} of them tiles; {} bytes; the file has {} bytes\n",
-                   report.chunks, report.editedChunks, report.tiles, report.chunkBytes, report.fileBytes);
+        base::printLine("{}: format {}, generator {} version {}, seed {}", file, report.format,
+                        report.identity.generator, report.identity.generatorVersion, report.identity.seed);
+        base::printLine("{} chunks, {} of them edited, {} of them tiles; {} bytes; the file has {} bytes",
+                        report.chunks, report.editedChunks, report.tiles, report.chunkBytes,
+                        report.fileBytes);
     }
-    if (report.quarantined > 0) fmt::print("{} damaged chunks were put aside before\n", report.quarantined);
-    for (const std::string& name : report.unknownBlocks) fmt::print("unknown block: {}\n", name);
-    for (const std::string& problem : report.fileProblems) fmt::print("damage: {}\n", problem);
+    if (report.quarantined > 0)
+        base::printLine("{} damaged chunks were put aside before", report.quarantined);
+    for (const std::string& name : report.unknownBlocks) base::printLine("unknown block: {}", name);
+    for (const std::string& problem : report.fileProblems) base::printLine("damage: {}", problem);
     for (const store::DamagedChunk& chunk : report.damaged)
-        fmt::print("damage: {}: {}\n", store::nameOf(chunk.pos), chunk.problem);
-    fmt::print("{}\n", report.isDamaged() ? "damaged" : "good");
+        base::printLine("damage: {}: {}", store::nameOf(chunk.pos), chunk.problem);
+    if (report.unlisted > 0) base::printLine("damage: {} more chunks", report.unlisted);
+    base::printLine("{}", report.isDamaged() ? "damaged" : "good");
 }
 
 base::Result<void> check(CheckOptions& options) {
@@ -65,8 +68,8 @@ base::Result<void> check(CheckOptions& options) {
     if (!report) return tl::unexpected(report.error());
     options.foundDamage = report->isDamaged();
     if (options.json) {
-        // What SQLite says of broken pages need not be text.
-        std::cout << toJson(*report).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+        // What SQLite says of broken pages need not be text. All but ASCII is escaped: names may be anything.
+        std::cout << toJson(*report).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) << '\n';
     } else {
         printText(options.file, *report);
     }
