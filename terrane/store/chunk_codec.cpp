@@ -21,8 +21,10 @@ constexpr std::size_t kHeaderBytes = sizeof(std::uint64_t) + sizeof(std::uint8_t
 // Beyond this a thread's memory for uncompressed chunks is given back. Sections take 9 KB on average.
 constexpr std::size_t kKeptBytes = 1u << 20;
 
-std::uint64_t checksum(ByteView bytes) {
-    return XXH64(bytes.data(), bytes.size(), 0);
+// Of an encoded chunk: of all that follows the checksum itself.
+std::uint64_t checksum(ByteView bytes, std::uint64_t seed) {
+    const ByteView rest = bytes.subspan(sizeof(std::uint64_t));
+    return XXH64(rest.data(), rest.size(), seed);
 }
 
 constexpr std::size_t wordCount(int bits) {
@@ -235,7 +237,7 @@ base::Result<world::Chunk> readPlain(ByteView bytes, const BlockIdMap& ids) {
 
 }  // namespace
 
-base::Result<Bytes> encodeChunk(const world::Chunk& chunk, const BlockIdMap& ids) {
+base::Result<Bytes> encodeChunk(const world::Chunk& chunk, const BlockIdMap& ids, std::uint64_t seed) {
     Bytes& plain = scratch();
     if (auto done = appendPlain(plain, chunk, ids); !done) return tl::unexpected(done.error());
     assert(plain.size() <= kMaxChunkBytes && "block entity data is limited");
@@ -246,26 +248,31 @@ base::Result<Bytes> encodeChunk(const world::Chunk& chunk, const BlockIdMap& ids
     appendNumber(out, kChunkVersion);
     appendNumber(out, static_cast<std::uint32_t>(plain.size()));
     appendCompressed(out, plain);
-    const std::uint64_t sum = checksum(ByteView(out).subspan(sizeof(std::uint64_t)));
-    std::memcpy(out.data(), &sum, sizeof sum);
+    sealChunk(out, seed);
     out.shrink_to_fit();
     return out;
 }
 
-base::Result<void> verifyChunk(ByteView bytes) {
+void sealChunk(std::span<std::byte> bytes, std::uint64_t seed) {
+    assert(bytes.size() >= kHeaderBytes && "an encoded chunk");
+    const std::uint64_t sum = checksum(bytes, seed);
+    std::memcpy(bytes.data(), &sum, sizeof sum);
+}
+
+base::Result<void> verifyChunk(ByteView bytes, std::uint64_t seed) {
     if (bytes.size() < kHeaderBytes)
         return base::fail(base::ErrorCode::Damaged, "{} bytes are too few for a chunk", bytes.size());
     ByteReader reader(bytes);
     const auto sum = reader.number<std::uint64_t>();
-    if (sum != checksum(reader.rest())) return base::fail(base::ErrorCode::Damaged, "the checksum is wrong");
+    if (sum != checksum(bytes, seed)) return base::fail(base::ErrorCode::Damaged, "the checksum is wrong");
     const auto version = reader.number<std::uint8_t>();
     if (version != kChunkVersion)
         return base::fail(base::ErrorCode::Damaged, "chunk version {}, expected {}", version, kChunkVersion);
     return {};
 }
 
-base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids) {
-    if (auto good = verifyChunk(bytes); !good) return tl::unexpected(good.error());
+base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids, std::uint64_t seed) {
+    if (auto good = verifyChunk(bytes, seed); !good) return tl::unexpected(good.error());
     ByteReader reader(bytes.subspan(sizeof(std::uint64_t) + sizeof(std::uint8_t)));
     const auto plainBytes = reader.number<std::uint32_t>();
     if (plainBytes > kMaxChunkBytes)

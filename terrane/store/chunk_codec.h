@@ -17,12 +17,18 @@ constexpr std::uint8_t kChunkVersion = 1;
 constexpr std::size_t kMaxChunkBytes = 64u << 20;
 
 // An error where the chunk's block entity data is more than a save keeps, or a block's id stands for nothing.
-[[nodiscard]] base::Result<Bytes> encodeChunk(const world::Chunk& chunk, const BlockIdMap& ids);
+// `seed`: checksumSeed() of the row.
+[[nodiscard]] base::Result<Bytes> encodeChunk(const world::Chunk& chunk, const BlockIdMap& ids,
+                                              std::uint64_t seed = 0);
 
 // Any bytes may be given: what is no chunk is an error that says why, without a position.
-[[nodiscard]] base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids);
+[[nodiscard]] base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids,
+                                                     std::uint64_t seed = 0);
 
 // Header and checksum alone: whether these are the bytes that were once written. 0.1 µs.
-[[nodiscard]] base::Result<void> verifyChunk(ByteView bytes);
+[[nodiscard]] base::Result<void> verifyChunk(ByteView bytes, std::uint64_t seed = 0);
+
+// The bytes of an encoded chunk get the checksum by this seed.
+void sealChunk(std::span<std::byte> bytes, std::uint64_t seed);
 
 }  // namespace terrane::store

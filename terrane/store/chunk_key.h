@@ -30,4 +30,11 @@ constexpr world::ChunkPos posOf(std::int64_t key) {
             static_cast<std::uint8_t>(key >> kLevelShift)};
 }
 
+// What the checksum of a chunk begins with, so that it covers the key and the origin of its row too. Of saves
+// of formats 1 and 2 it is kFormerSeed.
+constexpr std::uint64_t checksumSeed(world::ChunkPos pos, bool isEdited) {
+    return static_cast<std::uint64_t>(keyOf(pos)) * 2 + (isEdited ? 1 : 0);
+}
+constexpr std::uint64_t kFormerSeed = 0;
+
 }  // namespace terrane::store

@@ -4,6 +4,7 @@
 
 #include "terrane/store/chunk_codec.h"
 #include "terrane/store/chunk_key.h"
+#include "terrane/store/schema.h"
 
 namespace terrane::store {
 
@@ -11,7 +12,7 @@ namespace {
 
 base::Result<world::Chunk> decodeStored(const StoredChunk& stored, const BlockIdMap& ids) {
     if (!stored.problem.empty()) return base::fail(base::ErrorCode::Damaged, "{}", stored.problem);
-    return decodeChunk(stored.data, ids);
+    return decodeChunk(stored.data, ids, stored.seed);
 }
 
 }  // namespace
@@ -38,7 +39,11 @@ std::string rowProblem(const Statement& row, int dataColumn, int originColumn) {
     return fmt::format("its origin is \"{}\", expected 0 or 1", row.text(originColumn).substr(0, 64));
 }
 
-StoredRow readRow(Statement& select, world::ChunkPos pos) {
+std::uint64_t seedOf(world::ChunkPos pos, std::int64_t origin, std::int64_t format) {
+    return format < kFirstWithChecksums ? kFormerSeed : checksumSeed(pos, origin != 0);
+}
+
+StoredRow readRow(Statement& select, world::ChunkPos pos, std::int64_t format) {
     select.bind(1, keyOf(pos));
     const auto row = select.step();
     std::optional<StoredChunk> chunk;
@@ -46,7 +51,8 @@ StoredRow readRow(Statement& select, world::ChunkPos pos) {
         std::string problem = rowProblem(select, 0, 1);
         const ByteView data = select.blob(0);
         const Provenance provenance = select.number(1) == 0 ? Provenance::Generated : Provenance::Edited;
-        chunk = StoredChunk{Bytes(data.begin(), data.end()), provenance, std::move(problem)};
+        chunk = StoredChunk{Bytes(data.begin(), data.end()), provenance, std::move(problem),
+                            seedOf(pos, select.number(1), format)};
     }
     select.reset();
     if (!row) return tl::unexpected(row.error());
@@ -107,7 +113,7 @@ void ChunkReader::giveBack(std::unique_ptr<Connection> connection) {
 StoredRow ChunkReader::read(world::ChunkPos pos) {
     auto connection = take();
     if (!connection) return tl::unexpected(connection.error());
-    StoredRow row = readRow((*connection)->select, pos);
+    StoredRow row = readRow((*connection)->select, pos, format_);
     giveBack(std::move(*connection));
     return row;
 }
@@ -120,7 +126,7 @@ std::vector<StoredRow> ChunkReader::readMany(std::span<const world::ChunkPos> po
     rows.reserve(positions.size());
     // A transaction that cannot begin makes it slower, not wrong.
     const bool hasBegun = (*connection)->begin.run().has_value();
-    for (const world::ChunkPos pos : positions) rows.push_back(readRow((*connection)->select, pos));
+    for (const world::ChunkPos pos : positions) rows.push_back(readRow((*connection)->select, pos, format_));
     const bool hasEnded = !hasBegun || (*connection)->end.run();
     // One that cannot end goes with its connection.
     if (hasEnded) giveBack(std::move(*connection));

@@ -18,14 +18,18 @@ namespace terrane::store {
 struct StoredChunk {
     Bytes data;
     Provenance provenance = Provenance::Generated;
-    std::string problem;  // what is wrong with the row beside its data; empty where nothing is
+    std::string problem;     // what is wrong with the row beside its data; empty where nothing is
+    std::uint64_t seed = 0;  // of its checksum
 };
 
 // Nothing where the save has no chunk; an error where the file is damaged.
 using StoredRow = base::Result<std::optional<StoredChunk>>;
 
-// By a statement that selects data and origin of the key ?1.
-StoredRow readRow(Statement& select, world::ChunkPos pos);
+// By a statement that selects data and origin of the key ?1, of a save of this format.
+StoredRow readRow(Statement& select, world::ChunkPos pos, std::int64_t format);
+
+// With what the checksum of a row begins, whose origin has the type that it should.
+std::uint64_t seedOf(world::ChunkPos pos, std::int64_t origin, std::int64_t format);
 
 // What is wrong with the types of a row; empty where nothing is.
 std::string rowProblem(const Statement& row, int dataColumn, int originColumn);
@@ -38,7 +42,9 @@ LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids);
 
 class ChunkReader {
   public:
-    ChunkReader(std::filesystem::path path, OpenMode mode) : path_(std::move(path)), mode_(mode) {}
+    // `format`: of the save.
+    ChunkReader(std::filesystem::path path, OpenMode mode, std::int64_t format)
+        : path_(std::move(path)), mode_(mode), format_(format) {}
 
     // Any thread.
     [[nodiscard]] StoredRow read(world::ChunkPos pos);
@@ -58,6 +64,7 @@ class ChunkReader {
 
     std::filesystem::path path_;
     OpenMode mode_;
+    std::int64_t format_;
     std::mutex mutex_;
     std::vector<std::unique_ptr<Connection>> idle_;
 };

@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "terrane/store/derived_rows.h"
+#include "terrane/store/metadata_table.h"
 
 namespace terrane::store {
 namespace {
@@ -33,7 +34,8 @@ base::Result<T> numberOf(const Metadata& metadata, const char* name, const std::
 }  // namespace
 
 bool isReserved(std::string_view name) {
-    return name == kSeed || name == kGenerator || name == kGeneratorVersion || name == kDerivedRowsMark;
+    return name == kSeed || name == kGenerator || name == kGeneratorVersion || name == kDerivedRowsMark ||
+           name == kChecksum;
 }
 
 Metadata metadataOf(const WorldIdentity& identity) {

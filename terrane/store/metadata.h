@@ -15,8 +15,8 @@ constexpr std::size_t kMaxNameBytes = 1024, kMaxMetadata = 4096, kMaxMetadataByt
 
 using Metadata = std::map<std::string, std::string, std::less<>>;
 
-// Whether stores alone write it: a world's identity, by creating and regenerating a world, and
-// kDerivedRowsMark.
+// Whether stores alone write it: a world's identity, by creating and regenerating a world, kDerivedRowsMark
+// and kChecksum.
 bool isReserved(std::string_view name);
 
 // The metadata of a new world.

@@ -34,11 +34,12 @@ base::Result<void> checkPages(Database& database, CheckReport& report) {
     }
 }
 
-std::string problemOf(const Statement& row, const BlockIdMap& ids) {
+std::string problemOf(const Statement& row, const SaveFile& file) {
     if (!world::isInWorld(posOf(row.number(0))))
         return fmt::format("the key {} is no position", row.number(0));
     if (std::string problem = rowProblem(row, 2, 1); !problem.empty()) return problem;
-    const auto chunk = decodeChunk(row.blob(2), ids);
+    const std::uint64_t seed = seedOf(posOf(row.number(0)), row.number(1), file.format);
+    const auto chunk = decodeChunk(row.blob(2), file.ids, seed);
     return chunk ? "" : chunk.error().message;
 }
 
@@ -80,7 +81,7 @@ base::Result<void> checkChunks(SaveFile& file, CheckReport& report) {
         if (report.chunkBytes > report.fileBytes)
             return base::fail(base::ErrorCode::Damaged, "{}: damaged: chunks share pages",
                               file.database.path());
-        std::string problem = problemOf(row, file.ids);
+        std::string problem = problemOf(row, file);
         if (!problem.empty()) note(report, row, std::move(problem));
         return {};
     };

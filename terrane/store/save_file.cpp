@@ -10,8 +10,10 @@
 
 #include "terrane/base/log.h"
 #include "terrane/store/chunk_key.h"
+#include "terrane/store/chunk_store.h"
 #include "terrane/store/companion_files.h"
 #include "terrane/store/derived_rows.h"
+#include "terrane/store/metadata_table.h"
 #include "terrane/store/schema_check.h"
 
 namespace terrane::store {
@@ -101,68 +103,83 @@ base::Result<void> makeCurrent(SaveFile& file, const fs::path& path, const SaveA
     return {};
 }
 
+// Chunks that go by this, and what tells that tiles are there.
+base::Result<void> deleteRegenerated(Database& database, const Regeneration& by) {
+    // Tiles follow from generated chunks too, also where they have the mark of edits. Row by row (WHERE):
+    // SQLite frees whole trees by recursion, however deep a broken file makes them.
+    const std::string sql = by.chunks == Regenerate::All
+                                ? "DELETE FROM chunks WHERE true; DELETE FROM quarantine WHERE true;"
+                                : fmt::format("DELETE FROM chunks WHERE origin = {} OR key >= {};",
+                                              static_cast<int>(Provenance::Generated), kFirstTileKey);
+    if (auto done = database.execute(sql); !done) return done;
+    auto metadata = MetadataTable::make(database);
+    if (!metadata) return tl::unexpected(metadata.error());
+    if (auto done = metadata->remove(kDerivedRowsMark); !done) return done;
+    return metadata->put("generator_version", std::to_string(by.generatorVersion));
+}
+
 // The copy is made before anything is deleted.
 base::Result<void> regenerate(SaveFile& file, const fs::path& path, const Regeneration& by) {
     const fs::path backup = backupPath(path, "backup");
     if (auto copied = file.database.backUpTo(backup); !copied) return copied;
     auto transaction = Transaction::begin(file.database);
     if (!transaction) return tl::unexpected(transaction.error());
-    // Tiles follow from generated chunks too, also where they have the mark of edits.
-    // Row by row (WHERE): SQLite frees whole trees by recursion, however deep a broken file makes them.
-    const std::string deleted = by.chunks == Regenerate::All
-                                    ? "DELETE FROM chunks WHERE true; DELETE FROM quarantine WHERE true;"
-                                    : fmt::format("DELETE FROM chunks WHERE origin = {} OR key >= {};",
-                                                  static_cast<int>(Provenance::Generated), kFirstTileKey);
-    const std::string sql = fmt::format(
-        "{} DELETE FROM settings WHERE name = '{}'; "
-        "UPDATE settings SET value = '{}' WHERE name = 'generator_version'",
-        deleted, kDerivedRowsMark, by.generatorVersion);
-    if (auto done = file.database.execute(sql); !done) return done;
+    if (auto done = deleteRegenerated(file.database, by); !done) return done;
     if (auto done = transaction->commit(); !done) return done;
     base::logInfo("{}: regenerated{}; the world as it was is {}", path.string(),
                   by.chunks == Regenerate::All ? "" : " but for chunks with edits", backup.string());
     return {};
 }
 
-base::Result<void> readIdentity(SaveFile& file) {
+// Settings and names of blocks, by their checksum.
+base::Result<std::vector<SavedName>> readNamed(SaveFile& file) {
     auto metadata = readMetadata(file.database);
     if (!metadata) return tl::unexpected(metadata.error());
-    file.metadata = std::move(*metadata);
-    auto identity = identityFrom(file.metadata, file.database.path());
+    auto names = readBlockNames(file.database);
+    if (!names) return names;
+    auto identity = identityFrom(*metadata, file.database.path());
     if (!identity) return tl::unexpected(identity.error());
+    if (file.format >= kFirstWithChecksums)
+        if (auto same = verifyMetadata(*metadata, *names, file.database.path()); !same)
+            return tl::unexpected(same.error());
+    file.metadata = std::move(*metadata);
     file.identity = std::move(*identity);
-    return {};
+    return names;
 }
 
 base::Result<void> regenerateIfAsked(SaveFile& file, const fs::path& path, const SaveAccess& access) {
     if (file.isNew || !access.decide) return {};
-    if (auto read = readIdentity(file); !read) return read;
     const auto by = access.decide(file.identity);
     if (!by) return tl::unexpected(by.error());
     return by->chunks == Regenerate::None ? base::Result<void>() : regenerate(file, path, *by);
 }
 
 base::Result<void> readContents(SaveFile& file, const world::BlockRegistry& registry) {
-    if (auto read = readIdentity(file); !read) return read;
-    auto names = readBlockNames(file.database);
+    const auto names = readNamed(file);
     if (!names) return tl::unexpected(names.error());
     auto ids = BlockIdMap::make(registry, *names);
     if (!ids) return base::fail(ids.error().code, "{}: {}", file.database.path(), ids.error().message);
     file.ids = std::move(*ids);
+    file.metadata.erase(std::string(kChecksum));
     return {};
+}
+
+// Where another program left the checksum to this one.
+base::Result<void> addMissingChecksum(SaveFile& file) {
+    const auto names = readNamed(file);
+    if (!names) return tl::unexpected(names.error());
+    if (!file.metadata.at(std::string(kChecksum)).empty()) return {};
+    return writeChecksum(file.database, metadataChecksum(file.metadata, *names));
 }
 
 base::Result<void> writeNewNames(SaveFile& file) {
     if (file.ids.added().empty()) return {};
     auto transaction = Transaction::begin(file.database);
     if (!transaction) return tl::unexpected(transaction.error());
-    auto insert = file.database.prepare("INSERT INTO blocks (id, name) VALUES (?1, ?2)");
-    if (!insert) return tl::unexpected(insert.error());
-    for (const SavedName& added : file.ids.added()) {
-        insert->bind(1, std::int64_t{added.id});
-        insert->bind(2, std::string_view(added.name));
-        if (auto done = insert->run(); !done) return done;
-    }
+    auto metadata = MetadataTable::make(file.database);
+    if (!metadata) return tl::unexpected(metadata.error());
+    for (const SavedName& added : file.ids.added())
+        if (auto done = metadata->add(added); !done) return done;
     return transaction->commit();
 }
 
@@ -228,6 +245,7 @@ base::Result<SaveFile> openToWrite(const fs::path& name, const world::BlockRegis
     // After the tables: a new file is never seen without them. Each commit waits for the disk.
     const auto set = file.database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
     if (!set) return tl::unexpected(set.error());
+    if (auto done = addMissingChecksum(file); !done) return tl::unexpected(done.error());
     if (auto done = regenerateIfAsked(file, path, access); !done) return tl::unexpected(done.error());
     if (auto done = readContents(file, registry); !done) return tl::unexpected(done.error());
     if (auto done = writeNewNames(file); !done) return tl::unexpected(done.error());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "terrane/store/format_3.h"
+#include "terrane/store/metadata_table.h"
 #include "terrane/store/schema_check.h"
 
 namespace terrane::store {
@@ -11,13 +13,11 @@ namespace {
 using base::ErrorCode;
 
 base::Result<void> writeMetadata(Database& database, const Metadata& metadata) {
-    auto insert = database.prepare("INSERT INTO settings (name, value) VALUES (?1, ?2)");
-    if (!insert) return tl::unexpected(insert.error());
-    for (const auto& [name, value] : metadata) {
-        insert->bind(1, std::string_view(name));
-        insert->bind(2, std::string_view(value));
-        if (auto done = insert->run(); !done) return done;
-    }
+    if (auto done = writeChecksum(database, 0); !done) return done;
+    auto table = MetadataTable::make(database);
+    if (!table) return tl::unexpected(table.error());
+    for (const auto& [name, value] : metadata)
+        if (auto done = table->put(name, value); !done) return done;
     return {};
 }
 
@@ -30,28 +30,31 @@ base::Result<void> checkName(const Database& database, const Statement& row, int
                       database.path(), name.substr(0, 64), kMaxNameBytes);
 }
 
-// The SQL of each step from the save's format to `current`.
-base::Result<std::vector<const char*>> findWay(Database& database, std::span<const Migration> steps,
-                                               std::int64_t current) {
+// Each step from the save's format to `current`.
+base::Result<std::vector<Migration>> findWay(Database& database, std::span<const Migration> steps,
+                                             std::int64_t current) {
     const auto version = database.queryNumber("PRAGMA user_version");
     if (!version) return tl::unexpected(version.error());
-    std::vector<const char*> way;
+    std::vector<Migration> way;
     for (std::int64_t at = **version; at < current; ++at) {
         const auto step =
             std::find_if(steps.begin(), steps.end(), [&](const Migration& m) { return m.from == at; });
         if (step == steps.end())
             return base::fail(ErrorCode::Incompatible, "{}: in format {}, which is unknown", database.path(),
                               at);
-        way.push_back(step->sql);
+        way.push_back(*step);
     }
     return way;
 }
 
-base::Result<void> runSteps(Database& database, const std::vector<const char*>& way, std::int64_t current) {
+base::Result<void> runSteps(Database& database, const std::vector<Migration>& way, std::int64_t current) {
     auto transaction = Transaction::begin(database);
     if (!transaction) return tl::unexpected(transaction.error());
-    for (const char* sql : way)
-        if (auto done = database.execute(sql); !done) return done;
+    for (const Migration& step : way) {
+        if (auto done = database.execute(step.sql); !done) return done;
+        if (!step.run) continue;
+        if (auto done = step.run(database); !done) return done;
+    }
     if (auto done = database.execute(fmt::format("PRAGMA user_version = {}", current)); !done) return done;
     return transaction->commit();
 }
@@ -60,8 +63,8 @@ base::Result<void> runSteps(Database& database, const std::vector<const char*>& 
 
 std::span<const Migration> migrations() {
     // 1 to 2: keys have a level. Those of level 0 are as they were; a program of format 1 must not take
-    // others for damage.
-    static constexpr Migration kSteps[] = {{1, ""}};
+    // others for damage. 2 to 3: checksums cover more.
+    static constexpr Migration kSteps[] = {{1, ""}, {2, "", addChecksums}};
     return kSteps;
 }
 

@@ -13,16 +13,18 @@
 namespace terrane::store {
 
 constexpr std::int64_t kApplicationId = 0x5445524E;  // "TERN"; PRAGMA application_id
-constexpr std::int64_t kFormatVersion = 2;           // PRAGMA user_version
+constexpr std::int64_t kFormatVersion = 3;           // PRAGMA user_version
 
-// Saves of this format can be read as they are: they are saves of the present one with chunks of level 0
-// alone.
+// Saves of this format can be read as they are. Those of format 1 have chunks of level 0 alone.
 constexpr std::int64_t kOldestReadable = 1;
+// From this format on checksums cover keys, origins, settings and names of blocks.
+constexpr std::int64_t kFirstWithChecksums = 3;
 
-// SQL that brings a save from format `from` to `from + 1`.
+// SQL and a function that bring a save from format `from` to `from + 1`.
 struct Migration {
     std::int64_t from;
     const char* sql;
+    base::Result<void> (*run)(Database&) = nullptr;
 };
 
 // All there are. Never changed after a release, only added to.

@@ -15,7 +15,7 @@ base::Result<std::unique_ptr<SqliteReader>> SqliteReader::open(const std::filesy
 }
 
 SqliteReader::SqliteReader(SaveFile file)
-    : file_(std::move(file)), reader_(file_.database.path(), file_.readers) {}
+    : file_(std::move(file)), reader_(file_.database.path(), file_.readers, file_.format) {}
 
 LoadedChunk SqliteReader::decode(const StoredRow& row, world::ChunkPos pos) const {
     LoadedChunk loaded = decodeRow(row, file_.ids);

@@ -22,7 +22,9 @@ base::Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const std::filesyst
 }
 
 SqliteStore::SqliteStore(SaveFile file)
-    : file_(std::move(file)), reader_(file_.database.path(), file_.readers), metadata_(file_.metadata) {}
+    : file_(std::move(file)),
+      reader_(file_.database.path(), file_.readers, file_.format),
+      metadata_(file_.metadata) {}
 
 SqliteStore::~SqliteStore() = default;
 

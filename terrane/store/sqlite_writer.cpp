@@ -24,25 +24,27 @@ base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
         "SELECT data, origin FROM chunks WHERE key = ?1",
         "INSERT INTO chunks (key, origin, data) VALUES (?1, ?2, ?3) ON CONFLICT (key) DO UPDATE "
         "SET origin = excluded.origin, data = excluded.data WHERE excluded.origin >= origin",
-        "DELETE FROM chunks WHERE key = ?1", "INSERT OR REPLACE INTO settings (name, value) VALUES (?1, ?2)",
-        "DELETE FROM settings WHERE name = ?1",
+        "DELETE FROM chunks WHERE key = ?1",
         // In a file of somebody else data may be a text or NULL.
         "INSERT INTO quarantine (key, reason, data) SELECT key, ?2, coalesce(data, x'') FROM chunks WHERE "
         "key = ?1",
         "INSERT INTO quarantine (key, reason, data) SELECT key, ?2, coalesce(data, x'') FROM chunks WHERE "
         "key = ?1 AND coalesce(CAST(data AS BLOB), x'') = ?3",
         "DELETE FROM chunks WHERE key = ?1 AND coalesce(CAST(data AS BLOB), x'') = ?2"};
+    static_assert(std::size(kStatements) == sizeof(Statements) / sizeof(Statement));
     std::vector<Statement> made;
     for (const char* sql : kStatements) {
         auto statement = file.database.prepare(sql);
         if (!statement) return tl::unexpected(statement.error());
         made.push_back(std::move(*statement));
     }
+    auto metadata = MetadataTable::make(file.database);
+    if (!metadata) return tl::unexpected(metadata.error());
     auto next = made.begin();
     const auto take = [&] { return std::move(*next++); };
     // Braces initialize in their order: that of the texts above.
-    return std::unique_ptr<SqliteWriter>(
-        new SqliteWriter(file, Statements{take(), take(), take(), take(), take(), take(), take(), take()}));
+    return std::unique_ptr<SqliteWriter>(new SqliteWriter(
+        file, Statements{take(), take(), take(), take(), take(), take()}, std::move(*metadata)));
 }
 
 base::Result<bool> SqliteWriter::write(const SaveBatch& batch, const ChunkPosSet& unread,
@@ -53,10 +55,8 @@ base::Result<bool> SqliteWriter::write(const SaveBatch& batch, const ChunkPosSet
     isComplete_ = isComplete;
     if (auto done = writeBatch(batch, unread); !done) return tl::unexpected(done.error());
     if (auto done = writeDerived(derived); !done) return tl::unexpected(done.error());
-    if (!isComplete_) {
-        use_.deleteMetadata.bind(1, kDerivedRowsMark);
-        if (auto done = use_.deleteMetadata.run(); !done) return tl::unexpected(done.error());
-    }
+    if (!isComplete_)
+        if (auto done = metadata_.remove(kDerivedRowsMark); !done) return tl::unexpected(done.error());
     if (auto done = transaction->commit(); !done) return tl::unexpected(done.error());
     return isComplete_;
 }
@@ -70,14 +70,15 @@ base::Result<void> SqliteWriter::deriveAll(const DerivedRows& rows, std::string_
     auto edited = readEditedChunks(file_.database);
     if (!edited) return tl::unexpected(edited.error());
     // By the connection that writes: it sees what the transaction has written so far.
-    SavedRows saved([this](world::ChunkPos pos) { return readRow(use_.selectChunk, pos); }, file_.ids);
+    SavedRows saved([this](world::ChunkPos pos) { return readRow(use_.selectChunk, pos, kFormatVersion); },
+                    file_.ids);
     auto derived =
         deriveInGroups(rows, std::move(*edited), saved.reader(), [&](std::span<const ChunkRow> group) {
             return saved.result() ? writeDerived(group) : saved.result();
         });
     if (!derived) return derived;
     if (!saved.result()) return saved.result();
-    if (auto done = writeMetadata(kDerivedRowsMark, rules); !done) return done;
+    if (auto done = metadata_.put(kDerivedRowsMark, rules); !done) return done;
     return transaction->commit();
 }
 
@@ -85,7 +86,7 @@ base::Result<void> SqliteWriter::writeBatch(const SaveBatch& batch, const ChunkP
     for (const DamagedRow& row : batch.damaged)
         if (auto done = quarantine(row); !done) return done;
     for (const auto& [name, value] : batch.metadata)
-        if (auto done = writeMetadata(name, value); !done) return done;
+        if (auto done = metadata_.put(name, value); !done) return done;
     for (const world::ChunkPos pos : unread)
         if (auto done = putAside(pos, "could not be read when it was replaced"); !done) return done;
     for (const auto& [pos, chunk] : batch.chunks)
@@ -93,15 +94,10 @@ base::Result<void> SqliteWriter::writeBatch(const SaveBatch& batch, const ChunkP
     return {};
 }
 
-base::Result<void> SqliteWriter::writeMetadata(std::string_view name, std::string_view value) {
-    use_.putMetadata.bind(1, name);
-    use_.putMetadata.bind(2, value);
-    return use_.putMetadata.run();
-}
-
 base::Result<void> SqliteWriter::writeChunk(world::ChunkPos pos, const WaitingChunk& chunk) {
     if (auto done = putAsideIfDamaged(pos); !done) return done;
-    const auto bytes = encodeChunk(*chunk.chunk, file_.ids);
+    const bool isEdited = chunk.provenance == Provenance::Edited;
+    const auto bytes = encodeChunk(*chunk.chunk, file_.ids, checksumSeed(pos, isEdited));
     if (!bytes) {
         base::logError("{}: {}: {}; it is not saved", file_.database.path(), nameOf(pos),
                        bytes.error().message);
@@ -109,7 +105,7 @@ base::Result<void> SqliteWriter::writeChunk(world::ChunkPos pos, const WaitingCh
         return {};
     }
     use_.putChunk.bind(1, keyOf(pos));
-    use_.putChunk.bind(2, std::int64_t{chunk.provenance == Provenance::Edited});
+    use_.putChunk.bind(2, std::int64_t{isEdited});
     use_.putChunk.bind(3, ByteView(*bytes));
     return use_.putChunk.run();
 }
@@ -144,7 +140,8 @@ base::Result<void> SqliteWriter::putAsideIfDamaged(world::ChunkPos pos) {
     if (row && *row) {
         std::string problem = rowProblem(use_.selectChunk, 0, 1);
         const ByteView data = use_.selectChunk.blob(0);
-        if (auto good = verifyChunk(data); problem.empty() && !good) problem = good.error().message;
+        const std::uint64_t seed = seedOf(pos, use_.selectChunk.number(1), kFormatVersion);
+        if (auto good = verifyChunk(data, seed); problem.empty() && !good) problem = good.error().message;
         if (!problem.empty()) damaged = DamagedRow{pos, Bytes(data.begin(), data.end()), problem};
     }
     use_.selectChunk.reset();

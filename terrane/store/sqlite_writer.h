@@ -9,6 +9,7 @@
 
 #include "terrane/store/chunk_reader.h"
 #include "terrane/store/derived_rows.h"
+#include "terrane/store/metadata_table.h"
 #include "terrane/store/save_file.h"
 #include "terrane/store/save_queue.h"
 
@@ -51,21 +52,21 @@ class SqliteWriter {
 
   private:
     struct Statements {
-        Statement selectChunk, putChunk, deleteChunk, putMetadata, deleteMetadata, quarantineAll,
-            quarantineIfSame, deleteIfSame;
+        Statement selectChunk, putChunk, deleteChunk, quarantineAll, quarantineIfSame, deleteIfSame;
     };
-    SqliteWriter(SaveFile& file, Statements statements) : file_(file), use_(std::move(statements)) {}
+    SqliteWriter(SaveFile& file, Statements statements, MetadataTable metadata)
+        : file_(file), use_(std::move(statements)), metadata_(std::move(metadata)) {}
 
     base::Result<void> writeBatch(const SaveBatch& batch, const ChunkPosSet& unread);
     base::Result<void> writeChunk(world::ChunkPos pos, const WaitingChunk& chunk);
     base::Result<void> writeDerived(std::span<const ChunkRow> rows);
-    base::Result<void> writeMetadata(std::string_view name, std::string_view value);
     base::Result<void> putAside(world::ChunkPos pos, std::string_view reason);
     base::Result<void> putAsideIfDamaged(world::ChunkPos pos);
     base::Result<void> quarantine(const DamagedRow& row);
 
     SaveFile& file_;
     Statements use_;
+    MetadataTable metadata_;
     bool isComplete_ = true;  // of the transaction that runs
 };
 

@@ -62,9 +62,18 @@ class ReadSave(ProgramTest):
 
     def put(self, cx, cy, content):
         rest = struct.pack("<BI", 1, len(content)) + zstandard.ZstdCompressor(level=1).compress(content)
-        data = struct.pack("<Q", xxhash.xxh64_intdigest(rest)) + rest
+        key = (cx + 2**27 << 28) + cy + 2**27
         with sqlite3.connect(self.save) as save:
-            save.execute("UPDATE chunks SET data = ? WHERE key = ?", [data, (cx + 2**27 << 28) + cy + 2**27])
+            save.execute("UPDATE chunks SET data = ? WHERE key = ?", [self.sealed(rest, 2 * key), key])
+
+    @staticmethod
+    def sealed(rest, seed):
+        return struct.pack("<Q", xxhash.xxh64_intdigest(rest, seed)) + rest
+
+    def reseal(self, save, seed_of):
+        """New checksums of all chunks, by a function from key and origin."""
+        for key, origin, data in save.execute("SELECT key, origin, data FROM chunks").fetchall():
+            save.execute("UPDATE chunks SET data = ? WHERE key = ?", [self.sealed(data[8:], seed_of(key, origin)), key])
 
     def test_generated_chunks(self):
         kinds = set()
@@ -79,6 +88,9 @@ class ReadSave(ProgramTest):
             save.execute("UPDATE blocks SET name = 'x' WHERE name = 'stone'")
             save.execute("UPDATE blocks SET name = 'stone' WHERE name = 'snow'")
             save.execute("UPDATE blocks SET name = 'snow' WHERE name = 'x'")
+        self.assertIn("checksum of settings and names", self.reader(self.save, -7, 13).stderr)
+        with sqlite3.connect(self.save) as save:
+            save.execute("UPDATE settings SET value = '' WHERE name = 'checksum'")
         after = self.assertSame(-7, 13)
         self.assertEqual(after.count("snow"), before.count("stone"))
 
@@ -103,12 +115,15 @@ class ReadSave(ProgramTest):
         self.put(-7, 13, heads + bytes(3) * 16 + bodies + bytes(4))
         self.assertGreater(len(set(self.assertSame(-7, 13))), 20)
 
-    def test_format_1_and_levels(self):
+    def test_former_formats_and_levels(self):
         blocks = self.blocks_by_reader(-7, 13)
         with sqlite3.connect(self.save) as save:
-            self.assertEqual(save.execute("PRAGMA user_version").fetchone(), (2,))
+            self.assertEqual(save.execute("PRAGMA user_version").fetchone(), (3,))
             key = (-7 + 2**27 << 28) + 13 + 2**27
             save.execute("UPDATE chunks SET key = ? WHERE key = ?", [(3 << 56) + key, key])
+        self.assertIn("checksum", self.reader(self.save, -7, 13, "", 3).stderr, "the key is another one")
+        with sqlite3.connect(self.save) as save:
+            self.reseal(save, lambda key, origin: 2 * key + origin)
         out = self.folder / "level.bin"
         done = self.reader(self.save, -7, 13, out, 3)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -116,18 +131,21 @@ class ReadSave(ProgramTest):
             names = dict(save.execute("SELECT id, name FROM blocks"))
         self.assertEqual([names[v] for v in struct.unpack("<65536H", out.read_bytes())], blocks)
         self.assertIn("chunk -7,13 of level 0 was not saved", self.reader(self.save, -7, 13).stderr)
-        with sqlite3.connect(self.save) as save:  # as format 1 has the others
-            save.execute("DELETE FROM chunks WHERE key >= ?", [1 << 56])
-            save.execute("PRAGMA user_version = 1")
-        self.assertSame(-6, 12)
-        with sqlite3.connect(self.save) as save:
-            self.assertEqual(save.execute("PRAGMA user_version").fetchone(), (1,), "read by the program as it is")
-        self.succeed("generate", "--area", "-8,12,-5,14", "--world", self.save)
-        self.assertSame(-6, 12)
-        self.assertEqual(self.blocks_by_reader(-7, 13), blocks, "generated again")
-        with sqlite3.connect(self.save) as save:
-            self.assertEqual(save.execute("PRAGMA user_version").fetchone(), (2,))
-        self.assertTrue((self.folder / "w.before-migration-1.sqlite").exists())
+        for number in (2, 1):
+            with sqlite3.connect(self.save) as save:  # as formats 1 and 2 have the others
+                save.execute("DELETE FROM chunks WHERE key >= ?", [1 << 56])
+                save.execute("DELETE FROM settings WHERE name = 'checksum'")
+                self.reseal(save, lambda key, origin: 0)
+                save.execute(f"PRAGMA user_version = {number}")
+            self.assertSame(-6, 12)
+            with sqlite3.connect(self.save) as save:
+                self.assertEqual(save.execute("PRAGMA user_version").fetchone(), (number,), "read by the program as it is")
+            self.succeed("generate", "--area", "-8,12,-5,14", "--world", self.save)
+            self.assertSame(-6, 12)
+            self.assertEqual(self.blocks_by_reader(-7, 13), blocks, "generated again")
+            with sqlite3.connect(self.save) as save:
+                self.assertEqual(save.execute("PRAGMA user_version").fetchone(), (3,))
+        self.assertTrue((self.folder / "w.before-migration-2.sqlite").exists())
 
     def test_what_is_wrong_is_said(self):
         for arguments in ((self.save, 99, 99), (__file__, 0, 0), (self.folder / "none.sqlite", 0, 0), ()):

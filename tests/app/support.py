@@ -64,6 +64,49 @@ class ProgramTest(unittest.TestCase):
         self.assertRegex(done.stderr, r"\Aterrane: error: [^\x00-\x1f]+\n\Z", case)
 
 
+_PRIMES = (11400714785074694791, 14029467366897019727, 1609587929392839161, 9650029242287828579, 2870177450012600261)
+
+
+def _rotate(value, bits):
+    return (value << bits | value >> 64 - bits) & 2**64 - 1
+
+
+def xxh64(data, seed):
+    """xxHash64 by its specification, for changing saves."""
+    p, mask, at = _PRIMES, 2**64 - 1, 0
+
+    def mix(lane, word):
+        return _rotate((lane + word * p[1]) & mask, 31) * p[0] & mask
+
+    if len(data) >= 32:
+        lanes = [(seed + p[0] + p[1]) & mask, (seed + p[1]) & mask, seed, (seed - p[0]) & mask]
+        for at in range(0, len(data) - 31, 32):
+            lanes = [mix(lane, word) for lane, word in zip(lanes, struct.unpack_from("<4Q", data, at))]
+        at += 32
+        result = sum(_rotate(lane, bits) for lane, bits in zip(lanes, (1, 7, 12, 18))) & mask
+        for lane in lanes:
+            result = ((result ^ mix(0, lane)) * p[0] + p[3]) & mask
+    else:
+        result = seed + p[4] & mask
+    result = (result + len(data)) & mask
+    while at + 8 <= len(data):
+        result = (_rotate(result ^ mix(0, struct.unpack_from("<Q", data, at)[0]), 27) * p[0] + p[3]) & mask
+        at += 8
+    if at + 4 <= len(data):
+        result = (_rotate(result ^ struct.unpack_from("<I", data, at)[0] * p[0] & mask, 23) * p[1] + p[2]) & mask
+        at += 4
+    for byte in data[at:]:
+        result = _rotate(result ^ byte * p[4] & mask, 11) * p[0] & mask
+    for shift, prime in ((33, p[1]), (29, p[2]), (32, 1)):
+        result = (result ^ result >> shift) * prime & mask
+    return result
+
+
+def seal(data, key, origin):
+    """Data of a chunk with the checksum of docs/file-format.md."""
+    return struct.pack("<Q", xxh64(data[8:], 2 * key + origin)) + data[8:]
+
+
 def _unfilter(kind, row, above, step):
     """Undoes the filter of one row of a PNG (W3C PNG specification, section 9)."""
     for i in range(len(row)):

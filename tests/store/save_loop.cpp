@@ -89,13 +89,13 @@ base::Result<void> verifyTiles(const char* path, const world::BlockRegistry& reg
             tiles.emplace(pos, store::Bytes(data.begin(), data.end()));
             continue;
         }
-        auto chunk = store::decodeChunk(data, file->ids);
+        auto chunk = store::decodeChunk(data, file->ids, store::checksumSeed(pos, true));
         if (!chunk) return tl::unexpected(chunk.error());
         chunks.push_back({pos, std::make_shared<world::Chunk>(std::move(*chunk))});
     }
     std::map<world::ChunkPos, store::Bytes> expected;
     for (const auto& [pos, tile] : store::tilesOf(chunks))
-        expected.emplace(pos, *store::encodeChunk(*tile, file->ids));
+        expected.emplace(pos, *store::encodeChunk(*tile, file->ids, store::checksumSeed(pos, true)));
     std::printf("%zu chunks, %zu tiles\n", chunks.size(), tiles.size());
     if (tiles == expected) return {};
     return base::fail("{} chunks have {} tiles, expected {} or others", chunks.size(), tiles.size(),

@@ -1,8 +1,9 @@
-// Saves of format 1, made by the SQL of docs/file-format-1.md: opening one to write brings it to the present
-// format, and it can be read as it is.
+// Saves of formats 1 and 2, made by the SQL of docs/file-format-1.md and docs/file-format-2.md: opening one
+// to write brings it to the present format, and it can be read as it is.
 #include <gmock/gmock.h>
 
 #include "terrane/store/chunk_codec.h"
+#include "terrane/store/chunk_key.h"
 #include "terrane/store/save_check.h"
 #include "terrane/store/sqlite_reader.h"
 #include "terrane/store/sqlite_store.h"
@@ -11,13 +12,12 @@
 namespace terrane::store {
 namespace {
 
-constexpr const char* kFormat1 = R"(
+constexpr const char* kFormerTables = R"(
 CREATE TABLE settings   (name TEXT PRIMARY KEY NOT NULL, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE blocks     (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE);
 CREATE TABLE chunks     (key INTEGER PRIMARY KEY, origin INTEGER NOT NULL, data BLOB NOT NULL);
 CREATE TABLE quarantine (number INTEGER PRIMARY KEY, key INTEGER NOT NULL, reason TEXT NOT NULL, data BLOB NOT NULL);
 PRAGMA application_id = 1413829198;
-PRAGMA user_version = 1;
 INSERT INTO settings VALUES ('seed', '7'), ('generator', 'flat'), ('generator_version', '3'), ('player', '1,2,3');
 INSERT INTO quarantine (key, reason, data) VALUES (5, 'broken', x'01');
 )";
@@ -32,10 +32,10 @@ const std::vector<world::ChunkPos>& positions() {
     return all;
 }
 
-class Format1Test : public testing::Test {
+class FormerFormatTest : public testing::TestWithParam<int> {
   protected:
     void SetUp() override {
-        runSql(path_, kFormat1);
+        runSql(path_, kFormerTables + fmt::format("PRAGMA user_version = {}", GetParam()));
         const auto ids = BlockIdMap::make(registry_, {});
         ASSERT_TRUE(ids);
         auto database = Database::open(path_, OpenMode::ReadWrite);
@@ -75,7 +75,7 @@ class Format1Test : public testing::Test {
     world::BlockRegistry registry_ = testRegistry();
 };
 
-TEST_F(Format1Test, OpeningToWriteMigrates) {
+TEST_P(FormerFormatTest, OpeningToWriteMigrates) {
     {
         auto store = SqliteStore::open(path_, registry_, {}, kNever);
         ASSERT_TRUE(store) << store.error().message;
@@ -85,7 +85,7 @@ TEST_F(Format1Test, OpeningToWriteMigrates) {
     EXPECT_EQ(queryFile(path_, "PRAGMA user_version"), kFormatVersion);
     EXPECT_EQ(queryFile(path_, "SELECT count(*) FROM chunks"), 7);
     EXPECT_EQ(queryFile(path_, "SELECT count(*) FROM quarantine"), 1);
-    EXPECT_EQ(queryFile(copy_, "PRAGMA user_version"), 1);
+    EXPECT_EQ(queryFile(copy_, "PRAGMA user_version"), GetParam());
     EXPECT_EQ(queryFile(copy_, "SELECT count(*) FROM chunks"), 6);
     auto store = SqliteStore::open(path_, registry_, {}, kNever);
     ASSERT_TRUE(store) << store.error().message;
@@ -93,7 +93,7 @@ TEST_F(Format1Test, OpeningToWriteMigrates) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "a.before-migration-2.sqlite")) << "migrated once";
 }
 
-TEST_F(Format1Test, ReadingLeavesItAsItIs) {
+TEST_P(FormerFormatTest, ReadingLeavesItAsItIs) {
     const std::string before = readAll(path_);
     {
         auto store = SqliteReader::open(path_, registry_);
@@ -103,11 +103,43 @@ TEST_F(Format1Test, ReadingLeavesItAsItIs) {
     const auto report = checkSave(path_, registry_);
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_FALSE(report->isDamaged());
-    EXPECT_EQ(report->format, 1);
+    EXPECT_EQ(report->format, GetParam());
     EXPECT_EQ(report->chunks, 6u);
     EXPECT_TRUE(readAll(path_) == before);
     EXPECT_EQ(folder_.fileCount(), 1);
 }
+
+// What is wrong before is wrong afterwards, and nothing of it is lost.
+TEST_P(FormerFormatTest, DamagedRowsStayDamaged) {
+    runSql(path_, fmt::format("UPDATE chunks SET data = zeroblob(100) WHERE key = {}; "
+                              "UPDATE chunks SET origin = 'abc' WHERE key = {}",
+                              keyOf({0, 0}), keyOf({-1, 5})));
+    EXPECT_EQ(checkSave(path_, registry_)->damaged.size(), 2u);
+    {
+        auto store = SqliteStore::open(path_, registry_, {}, kNever);
+        ASSERT_TRUE(store) << store.error().message;
+        EXPECT_EQ((*store)->load({1000, -2000}).state, LoadedChunk::State::Present);
+        EXPECT_EQ((*store)->load({0, 0}).state, LoadedChunk::State::Damaged);
+    }
+    EXPECT_EQ(checkSave(path_, registry_)->damaged.size(), 1u);
+    EXPECT_EQ(queryFile(path_, "SELECT count(*) FROM quarantine WHERE data = zeroblob(100)"), 1);
+}
+
+// The step to format 3 is one transaction.
+TEST_P(FormerFormatTest, AMigrationThatFailsChangesNothing) {
+    const std::string name(kMaxNameBytes + 1, 'n');
+    runSql(path_, fmt::format("INSERT INTO blocks VALUES (900, '{}')", name));
+    const auto store = SqliteStore::open(path_, registry_, {}, kNever);
+    ASSERT_FALSE(store);
+    EXPECT_EQ(queryFile(path_, "PRAGMA user_version"), GetParam());
+    EXPECT_FALSE(std::filesystem::exists(copy_));
+    runSql(path_, "DELETE FROM blocks WHERE id = 900");
+    const auto report = checkSave(path_, registry_);
+    ASSERT_TRUE(report);
+    EXPECT_FALSE(report->isDamaged());
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, FormerFormatTest, testing::Values(1, 2));
 
 }  // namespace
 }  // namespace terrane::store

@@ -1,0 +1,73 @@
+#include "terrane/store/format_3.h"
+
+#include <limits>
+#include <optional>
+
+#include "terrane/store/chunk_codec.h"
+#include "terrane/store/chunk_key.h"
+#include "terrane/store/chunk_reader.h"
+#include "terrane/store/metadata_table.h"
+#include "terrane/store/schema.h"
+
+namespace terrane::store {
+namespace {
+
+struct Row {
+    std::int64_t key = 0;
+    Bytes data;  // empty: not to be changed
+};
+
+// The first row at or behind a key, with its new checksum. A row whose old one is wrong keeps it, and is
+// damaged in format 3 too.
+base::Result<std::optional<Row>> nextRow(Statement& select, std::int64_t from) {
+    select.bind(1, from);
+    const auto isThere = select.step();
+    std::optional<Row> row;
+    if (isThere && *isThere) {
+        row.emplace().key = select.number(0);
+        const bool isWhole = rowProblem(select, 2, 1).empty() && world::isInWorld(posOf(row->key));
+        const ByteView data = select.blob(2);
+        if (isWhole && verifyChunk(data, kFormerSeed)) {
+            row->data.assign(data.begin(), data.end());
+            sealChunk(row->data, checksumSeed(posOf(row->key), select.number(1) != 0));
+        }
+    }
+    select.reset();
+    if (!isThere) return tl::unexpected(isThere.error());
+    return row;
+}
+
+// By keys and not by one statement over all rows, since rows change meanwhile.
+base::Result<void> sealChunks(Database& database) {
+    auto select =
+        database.prepare("SELECT key, origin, data FROM chunks WHERE key >= ?1 ORDER BY key LIMIT 1");
+    if (!select) return tl::unexpected(select.error());
+    auto update = database.prepare("UPDATE chunks SET data = ?2 WHERE key = ?1");
+    if (!update) return tl::unexpected(update.error());
+    std::int64_t next = std::numeric_limits<std::int64_t>::min();
+    while (true) {
+        const auto row = nextRow(*select, next);
+        if (!row) return tl::unexpected(row.error());
+        if (!*row) return {};
+        if (!(*row)->data.empty()) {
+            update->bind(1, (*row)->key);
+            update->bind(2, ByteView((*row)->data));
+            if (auto done = update->run(); !done) return done;
+        }
+        if ((*row)->key == std::numeric_limits<std::int64_t>::max()) return {};
+        next = (*row)->key + 1;
+    }
+}
+
+}  // namespace
+
+base::Result<void> addChecksums(Database& database) {
+    if (auto done = sealChunks(database); !done) return done;
+    const auto metadata = readMetadata(database);
+    if (!metadata) return tl::unexpected(metadata.error());
+    const auto names = readBlockNames(database);
+    if (!names) return tl::unexpected(names.error());
+    return writeChecksum(database, metadataChecksum(*metadata, *names));
+}
+
+}  // namespace terrane::store
