@@ -43,15 +43,15 @@ bool isComplete(std::string_view bytes) {
 
 }  // namespace
 
-Result<Image> decodePng(std::string_view bytes, std::string_view name) {
+Result<Image> decodePng(std::string_view bytes, std::string_view name, std::int64_t maxPixels) {
     PngImage png;
     if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) {
         return fail("{}: cannot be read as PNG: {}", name, png.message);
     }
     if (!isComplete(bytes)) return fail("{}: cannot be read as PNG: the file ends early", name);
-    if (std::int64_t{png.width} * png.height > kMaxImagePixels) {
+    if (std::int64_t{png.width} * png.height > maxPixels) {
         return fail("{}: {} × {} pixels are more than the {} allowed", name, png.width, png.height,
-                    kMaxImagePixels);
+                    maxPixels);
     }
     png.format = PNG_FORMAT_RGBA;
     Image image;
@@ -80,10 +80,10 @@ Result<std::string> encodePng(const Image& image) {
     return bytes;
 }
 
-Result<Image> readPng(const std::filesystem::path& path) {
+Result<Image> readPng(const std::filesystem::path& path, std::int64_t maxPixels) {
     const Result<std::string> bytes = readFile(path);
     if (!bytes) return tl::unexpected(bytes.error());
-    return decodePng(*bytes, path.string());
+    return decodePng(*bytes, path.string(), maxPixels);
 }
 
 Result<void> writePng(const std::filesystem::path& path, const Image& image) {

@@ -23,13 +23,15 @@ struct Image {
 constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 26;
 
 // Any kind of PNG, turned into RGBA8. `name` stands in errors for where the bytes come from.
-[[nodiscard]] Result<Image> decodePng(std::string_view bytes, std::string_view name);
+[[nodiscard]] Result<Image> decodePng(std::string_view bytes, std::string_view name,
+                                      std::int64_t maxPixels = kMaxImagePixels);
 
 // The image must have at least one pixel and exactly the bytes its size asks for. The compressed bytes depend
 // on the version of zlib: compare decoded images.
 [[nodiscard]] Result<std::string> encodePng(const Image& image);
 
-[[nodiscard]] Result<Image> readPng(const std::filesystem::path& path);
+[[nodiscard]] Result<Image> readPng(const std::filesystem::path& path,
+                                    std::int64_t maxPixels = kMaxImagePixels);
 [[nodiscard]] Result<void> writePng(const std::filesystem::path& path, const Image& image);
 
 }  // namespace terrane::base

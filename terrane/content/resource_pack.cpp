@@ -32,7 +32,7 @@ base::Result<std::vector<fs::path>> pngFilesIn(const fs::path& folder) {
 }
 
 base::Result<base::Image> readTexture(const fs::path& file) {
-    auto image = base::readPng(file);
+    auto image = base::readPng(file, std::int64_t{kMaxTextureSide} * kMaxTextureSide);
     if (!image) return image;
     if (image->width != image->height || !std::has_single_bit(static_cast<unsigned>(image->width)) ||
         image->width > kMaxTextureSide) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "terrane/store/compression.h"
+#include "terrane/store/scratch.h"
 
 namespace terrane::store {
 namespace {
@@ -18,9 +19,6 @@ using Value = Section::Value;
 // A checksum of all that follows it, the version, the length before compression; then a zstd frame.
 constexpr std::size_t kHeaderBytes = sizeof(std::uint64_t) + sizeof(std::uint8_t) + sizeof(std::uint32_t);
 
-// Beyond this a thread's memory for uncompressed chunks is given back. Sections take 9 KB on average.
-constexpr std::size_t kKeptBytes = 1u << 20;
-
 // Of an encoded chunk: of all that follows the checksum itself.
 std::uint64_t checksum(ByteView bytes, std::uint64_t seed) {
     const ByteView rest = bytes.subspan(sizeof(std::uint64_t));
@@ -29,14 +27,6 @@ std::uint64_t checksum(ByteView bytes, std::uint64_t seed) {
 
 constexpr std::size_t wordCount(int bits) {
     return static_cast<std::size_t>(world::kBlocksPerSection * bits / 64);
-}
-
-// One thread's memory for a chunk before compression, empty.
-Bytes& scratch() {
-    thread_local Bytes bytes;
-    bytes.clear();
-    if (bytes.capacity() > kKeptBytes) bytes.shrink_to_fit();
-    return bytes;
 }
 
 // Writes values through a function from a value to what stands for it, or to BlockIdMap::kNone.
@@ -189,7 +179,7 @@ base::Result<Section> readBlocks(ByteReader& reader, SectionHead head, const Blo
     return section;
 }
 
-base::Result<void> readBlockEntityData(ByteReader& reader, world::Chunk& chunk) {
+base::Result<void> readBlockEntityData(ByteReader& reader, world::Chunk& chunk, EntityBudget* budget) {
     const auto count = reader.number<std::uint32_t>();
     if (count > world::kBlocksPerChunk)
         return base::fail(base::ErrorCode::Damaged, "{} blocks have block entity data", count);
@@ -201,13 +191,14 @@ base::Result<void> readBlockEntityData(ByteReader& reader, world::Chunk& chunk) 
         if (index <= last)
             return base::fail(base::ErrorCode::Damaged, "block entity data of blocks is out of order");
         last = index;
-        const ByteView data = reader.take(entries.number<std::uint32_t>());
-        chunk.setBlockEntityData(index, world::BlockEntityData(data.begin(), data.end()));
+        auto data = holdData(reader.take(entries.number<std::uint32_t>()), budget);
+        if (!data) return tl::unexpected(data.error());
+        chunk.shareBlockEntityData(index, std::move(*data));
     }
     return {};
 }
 
-base::Result<world::Chunk> readPlain(ByteView bytes, const BlockIdMap& ids) {
+base::Result<world::Chunk> readPlain(ByteView bytes, const BlockIdMap& ids, EntityBudget* budget) {
     ByteReader reader(bytes);
     std::array<SectionHead, 2 * world::kSectionsPerChunk> heads;
     for (SectionHead& head : heads) {
@@ -228,7 +219,7 @@ base::Result<world::Chunk> readPlain(ByteView bytes, const BlockIdMap& ids) {
             chunk.setBlockStateSection(n - world::kSectionsPerChunk, std::move(*section));
         }
     }
-    if (auto read = readBlockEntityData(reader, chunk); !read) return tl::unexpected(read.error());
+    if (auto read = readBlockEntityData(reader, chunk, budget); !read) return tl::unexpected(read.error());
     if (reader.isPastEnd()) return base::fail(base::ErrorCode::Damaged, "the chunk ends too early");
     if (!reader.rest().empty())
         return base::fail(base::ErrorCode::Damaged, "{} bytes too many", reader.rest().size());
@@ -238,7 +229,8 @@ base::Result<world::Chunk> readPlain(ByteView bytes, const BlockIdMap& ids) {
 }  // namespace
 
 base::Result<Bytes> encodeChunk(const world::Chunk& chunk, const BlockIdMap& ids, std::uint64_t seed) {
-    Bytes& plain = scratch();
+    Scratch scratch;
+    Bytes& plain = scratch.bytes();
     if (auto done = appendPlain(plain, chunk, ids); !done) return tl::unexpected(done.error());
     assert(plain.size() <= kMaxChunkBytes && "block entity data is limited");
 
@@ -271,17 +263,25 @@ base::Result<void> verifyChunk(ByteView bytes, std::uint64_t seed) {
     return {};
 }
 
-base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids, std::uint64_t seed) {
+base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids, std::uint64_t seed,
+                                       EntityBudget* budget) {
     if (auto good = verifyChunk(bytes, seed); !good) return tl::unexpected(good.error());
     ByteReader reader(bytes.subspan(sizeof(std::uint64_t) + sizeof(std::uint8_t)));
     const auto plainBytes = reader.number<std::uint32_t>();
     if (plainBytes > kMaxChunkBytes)
         return base::fail(base::ErrorCode::Damaged, "the chunk says it has {} bytes, expected at most {}",
                           plainBytes, kMaxChunkBytes);
-    Bytes& plain = scratch();
+    std::unique_lock<std::mutex> alone;
+    if (budget && plainBytes > kKeptBytes) {
+        alone = budget->lockLargeChunks();
+        // All but the sections will be held. Nothing is decompressed only to be refused.
+        if (!budget->hasRoomFor(plainBytes - kKeptBytes)) return overBudget(*budget);
+    }
+    Scratch scratch;
+    Bytes& plain = scratch.bytes();
     plain.resize(plainBytes);
     if (auto done = decompress(reader.rest(), plain); !done) return tl::unexpected(done.error());
-    return readPlain(plain, ids);
+    return readPlain(plain, ids, budget);
 }
 
 }  // namespace terrane::store

@@ -7,6 +7,7 @@
 #include "terrane/base/result.h"
 #include "terrane/store/block_id_map.h"
 #include "terrane/store/bytes.h"
+#include "terrane/store/entity_budget.h"
 #include "terrane/world/chunk.h"
 
 namespace terrane::store {
@@ -21,9 +22,10 @@ constexpr std::size_t kMaxChunkBytes = 64u << 20;
 [[nodiscard]] base::Result<Bytes> encodeChunk(const world::Chunk& chunk, const BlockIdMap& ids,
                                               std::uint64_t seed = 0);
 
-// Any bytes may be given: what is no chunk is an error that says why, without a position.
+// Any bytes may be given: what is no chunk is an error that says why, without a position. OutOfResources
+// where its block entity data do not fit the budget, if there is one.
 [[nodiscard]] base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids,
-                                                     std::uint64_t seed = 0);
+                                                     std::uint64_t seed = 0, EntityBudget* budget = nullptr);
 
 // Header and checksum alone: whether these are the bytes that were once written. 0.1 µs.
 [[nodiscard]] base::Result<void> verifyChunk(ByteView bytes, std::uint64_t seed = 0);

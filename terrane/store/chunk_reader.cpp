@@ -10,25 +10,29 @@ namespace terrane::store {
 
 namespace {
 
-base::Result<world::Chunk> decodeStored(const StoredChunk& stored, const BlockIdMap& ids) {
+base::Result<world::Chunk> decodeStored(const StoredChunk& stored, const BlockIdMap& ids,
+                                        EntityBudget& budget) {
     if (!stored.problem.empty()) return base::fail(base::ErrorCode::Damaged, "{}", stored.problem);
-    return decodeChunk(stored.data, ids, stored.seed);
+    return decodeChunk(stored.data, ids, stored.seed, &budget);
 }
 
 }  // namespace
 
-LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids) {
+LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids, EntityBudget& budget) {
     if (row && !*row) return {};
-    base::Result<world::Chunk> chunk = row ? decodeStored(**row, ids) : tl::unexpected(row.error());
+    base::Result<world::Chunk> chunk = row ? decodeStored(**row, ids, budget) : tl::unexpected(row.error());
     if (chunk) {
-        return {LoadedChunk::State::Present,
-                std::make_shared<world::Chunk>(std::move(*chunk)),
-                (*row)->provenance,
-                {}};
+        LoadedChunk loaded;
+        loaded.state = LoadedChunk::State::Present;
+        loaded.chunk = std::make_shared<world::Chunk>(std::move(*chunk));
+        loaded.provenance = (*row)->provenance;
+        return loaded;
     }
     LoadedChunk damaged;
     damaged.state = LoadedChunk::State::Damaged;
     damaged.problem = chunk.error().message;
+    damaged.isOverBudget = row && chunk.error().code == base::ErrorCode::OutOfResources;
+    damaged.isUnread = !row || damaged.isOverBudget;
     return damaged;
 }
 
@@ -93,7 +97,7 @@ base::Result<std::unique_ptr<ChunkReader::Connection>> ChunkReader::open() const
                                                    std::move(*count), std::move(*begin), std::move(*end)});
 }
 
-base::Result<std::unique_ptr<ChunkReader::Connection>> ChunkReader::take() {
+base::Result<std::unique_ptr<ChunkReader::Connection>> ChunkReader::takeConnection() {
     {
         const std::lock_guard lock(mutex_);
         if (!idle_.empty()) {
@@ -111,30 +115,31 @@ void ChunkReader::giveBack(std::unique_ptr<Connection> connection) {
 }
 
 StoredRow ChunkReader::read(world::ChunkPos pos) {
-    auto connection = take();
+    auto connection = takeConnection();
     if (!connection) return tl::unexpected(connection.error());
     StoredRow row = readRow((*connection)->select, pos, format_);
     giveBack(std::move(*connection));
     return row;
 }
 
-std::vector<StoredRow> ChunkReader::readMany(std::span<const world::ChunkPos> positions) {
-    auto connection = take();
-    if (!connection)
-        return std::vector<StoredRow>(positions.size(), StoredRow(tl::unexpected(connection.error())));
-    std::vector<StoredRow> rows;
-    rows.reserve(positions.size());
+void ChunkReader::readMany(std::span<const world::ChunkPos> positions,
+                           const std::function<void(std::size_t, StoredRow)>& take) {
+    auto connection = takeConnection();
+    if (!connection) {
+        for (std::size_t k = 0; k < positions.size(); ++k) take(k, tl::unexpected(connection.error()));
+        return;
+    }
     // A transaction that cannot begin makes it slower, not wrong.
     const bool hasBegun = (*connection)->begin.run().has_value();
-    for (const world::ChunkPos pos : positions) rows.push_back(readRow((*connection)->select, pos, format_));
+    for (std::size_t k = 0; k < positions.size(); ++k)
+        take(k, readRow((*connection)->select, positions[k], format_));
     const bool hasEnded = !hasBegun || (*connection)->end.run();
     // One that cannot end goes with its connection.
     if (hasEnded) giveBack(std::move(*connection));
-    return rows;
 }
 
 base::Result<bool> ChunkReader::contains(world::ChunkPos pos) {
-    auto connection = take();
+    auto connection = takeConnection();
     if (!connection) return tl::unexpected(connection.error());
     Statement& count = (*connection)->count;
     count.bind(1, keyOf(pos));
@@ -147,7 +152,7 @@ base::Result<bool> ChunkReader::contains(world::ChunkPos pos) {
 }
 
 base::Result<std::vector<world::ChunkPos>> ChunkReader::editedChunks() {
-    auto connection = take();
+    auto connection = takeConnection();
     if (!connection) return tl::unexpected(connection.error());
     auto edited = readEditedChunks((*connection)->database);
     giveBack(std::move(*connection));

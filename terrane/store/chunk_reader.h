@@ -2,6 +2,7 @@
 // and leaves it for the next.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -11,6 +12,7 @@
 
 #include "terrane/store/block_id_map.h"
 #include "terrane/store/chunk_store.h"
+#include "terrane/store/entity_budget.h"
 #include "terrane/store/sqlite.h"
 
 namespace terrane::store {
@@ -38,7 +40,7 @@ std::string rowProblem(const Statement& row, int dataColumn, int originColumn);
 [[nodiscard]] base::Result<std::vector<world::ChunkPos>> readEditedChunks(Database& database);
 
 // The chunk of a row, or what is wrong with it, without the file and the position.
-LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids);
+LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids, EntityBudget& budget);
 
 class ChunkReader {
   public:
@@ -48,8 +50,10 @@ class ChunkReader {
 
     // Any thread.
     [[nodiscard]] StoredRow read(world::ChunkPos pos);
-    // All as they were at one moment, in one transaction.
-    [[nodiscard]] std::vector<StoredRow> readMany(std::span<const world::ChunkPos> positions);
+    // All as they were at one moment, in one transaction. Hands on each with its number in `positions` before
+    // it reads the next: together they may be large.
+    void readMany(std::span<const world::ChunkPos> positions,
+                  const std::function<void(std::size_t, StoredRow)>& take);
     [[nodiscard]] base::Result<bool> contains(world::ChunkPos pos);
     [[nodiscard]] base::Result<std::vector<world::ChunkPos>> editedChunks();
 
@@ -59,7 +63,7 @@ class ChunkReader {
         Statement select, count, begin, end;
     };
     base::Result<std::unique_ptr<Connection>> open() const;
-    base::Result<std::unique_ptr<Connection>> take();
+    base::Result<std::unique_ptr<Connection>> takeConnection();
     void giveBack(std::unique_ptr<Connection> connection);
 
     std::filesystem::path path_;

@@ -30,12 +30,15 @@ struct LoadedChunk {
     enum class State : std::uint8_t {
         Absent,   // never saved: to be generated
         Present,  // `chunk` is it
-        Damaged,  // `problem` says why and is logged. What the save had is kept aside: to be generated.
+        Damaged,  // `problem` says why. What the save had is kept aside: to be generated.
     };
     State state = State::Absent;
     std::shared_ptr<world::Chunk> chunk;  // the caller's alone, to change as it likes
     Provenance provenance = Provenance::Generated;
     std::string problem;
+    // Of a damaged one: it may be whole, but could not be read now. What the save had stays where it is.
+    bool isUnread = false;
+    bool isOverBudget = false;  // and why: SaveLimits::entityBytes
 };
 
 // "chunk 5,-6", of higher levels "chunk 5,-6 of level 2".

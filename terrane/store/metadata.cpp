@@ -38,6 +38,16 @@ bool isReserved(std::string_view name) {
            name == kChecksum;
 }
 
+bool fitsMetadata(const Metadata& metadata, std::string_view name, std::string_view value) {
+    constexpr std::size_t kOwnRows = 2, kOwnBytes = 4096;  // kChecksum, kDerivedRowsMark
+    std::size_t bytes = name.size() + value.size() + kOwnBytes, rows = metadata.size() + kOwnRows;
+    for (const auto& [otherName, otherValue] : metadata)
+        if (otherName != name) bytes += otherName.size() + otherValue.size();
+    const bool isNew = !metadata.contains(name);
+    return name.size() <= kMaxNameBytes && bytes <= kMaxMetadataBytes &&
+           rows + (isNew ? 1 : 0) <= kMaxMetadata;
+}
+
 Metadata metadataOf(const WorldIdentity& identity) {
     return {{kSeed, std::to_string(identity.seed)},
             {kGenerator, identity.generator},

@@ -19,6 +19,9 @@ using Metadata = std::map<std::string, std::string, std::less<>>;
 // and kChecksum.
 bool isReserved(std::string_view name);
 
+// Whether a save keeps the metadata with this value too. The store's own rows count.
+bool fitsMetadata(const Metadata& metadata, std::string_view name, std::string_view value);
+
 // The metadata of a new world.
 Metadata metadataOf(const WorldIdentity& identity);
 

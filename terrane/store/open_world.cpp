@@ -28,7 +28,7 @@ StoreResult openFile(const fs::path& path, const world::BlockRegistry& blocks, c
 
 StoreResult openInMemory(const fs::path& path, const world::BlockRegistry& blocks,
                          const WorldRequest& request) {
-    auto saved = SqliteReader::open(path, blocks);
+    auto saved = SqliteReader::open(path, blocks, request.limits);
     if (!saved) return tl::unexpected(saved.error());
     WorldIdentity identity = (*saved)->identity();
     const auto by = compareWorld(identity, request.wanted, request.versionOf, path.string());

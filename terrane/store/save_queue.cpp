@@ -1,5 +1,7 @@
 #include "terrane/store/save_queue.h"
 
+#include <xxhash.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -82,6 +84,10 @@ SaveNumber SaveQueue::add(world::ChunkPos pos, WaitingChunk chunk) {
 
 SaveNumber SaveQueue::add(const std::string& name, std::string value) {
     return addNumbered([&] { waiting_.metadata[name] = std::move(value); });
+}
+
+std::uint64_t hashOfRow(ByteView data) {
+    return XXH64(data.data(), data.size(), 0);
 }
 
 void SaveQueue::add(DamagedRow row) {

@@ -18,6 +18,7 @@
 
 #include "terrane/store/bytes.h"
 #include "terrane/store/chunk_store.h"
+#include "terrane/store/entity_budget.h"
 
 namespace terrane::store {
 
@@ -26,12 +27,14 @@ struct WaitingChunk {
     Provenance provenance = Provenance::Generated;
 };
 
-// A row that is no chunk: to be moved aside if it still has these bytes.
+// A row that is no chunk: to be moved aside if it still has the same bytes.
 struct DamagedRow {
     world::ChunkPos pos;
-    Bytes data;
+    std::uint64_t hash = 0;  // hashOfRow() of its data, which may be large
     std::string reason;
 };
+
+std::uint64_t hashOfRow(ByteView data);
 
 // The order of the keys in a store.
 struct KeyOrder {
@@ -56,6 +59,8 @@ struct SaveLimits {
     // What is waiting is written after this time, or as soon as there are this many chunks of about 10 KB.
     std::chrono::milliseconds delay{2000};
     std::size_t chunks = 1024;
+    // Of chunks that were loaded and are still held. What goes beyond stays in the save.
+    std::size_t entityBytes = kEntityBudgetBytes;
 };
 
 class SaveQueue {

@@ -8,20 +8,23 @@
 namespace terrane::store {
 
 base::Result<std::unique_ptr<SqliteReader>> SqliteReader::open(const std::filesystem::path& path,
-                                                               const world::BlockRegistry& registry) {
+                                                               const world::BlockRegistry& registry,
+                                                               const SaveLimits& limits) {
     auto file = openToRead(path, registry);
     if (!file) return tl::unexpected(file.error());
-    return std::unique_ptr<SqliteReader>(new SqliteReader(std::move(*file)));
+    return std::unique_ptr<SqliteReader>(new SqliteReader(std::move(*file), limits));
 }
 
-SqliteReader::SqliteReader(SaveFile file)
-    : file_(std::move(file)), reader_(file_.database.path(), file_.readers, file_.format) {}
+SqliteReader::SqliteReader(SaveFile file, const SaveLimits& limits)
+    : file_(std::move(file)),
+      budget_(limits.entityBytes),
+      reader_(file_.database.path(), file_.readers, file_.format) {}
 
-LoadedChunk SqliteReader::decode(const StoredRow& row, world::ChunkPos pos) const {
-    LoadedChunk loaded = decodeRow(row, file_.ids);
+LoadedChunk SqliteReader::decode(const StoredRow& row, world::ChunkPos pos) {
+    LoadedChunk loaded = decodeRow(row, file_.ids, budget_);
     if (loaded.state != LoadedChunk::State::Damaged) return loaded;
     loaded.problem = fmt::format("{}: {}: {}", file_.database.path(), nameOf(pos), loaded.problem);
-    base::logWarning("{}", loaded.problem);
+    if (!loaded.isOverBudget || budget_.isFirstRefusal()) base::logWarning("{}", loaded.problem);
     return loaded;
 }
 
@@ -32,10 +35,9 @@ LoadedChunk SqliteReader::load(world::ChunkPos pos) {
 
 std::vector<LoadedChunk> SqliteReader::loadMany(std::span<const world::ChunkPos> positions) {
     TERRANE_ZONE("load chunks");
-    const std::vector<StoredRow> rows = reader_.readMany(positions);
-    std::vector<LoadedChunk> loaded;
-    loaded.reserve(positions.size());
-    for (std::size_t k = 0; k < positions.size(); ++k) loaded.push_back(decode(rows[k], positions[k]));
+    std::vector<LoadedChunk> loaded(positions.size());
+    reader_.readMany(positions,
+                     [&](std::size_t k, const StoredRow& row) { loaded[k] = decode(row, positions[k]); });
     return loaded;
 }
 

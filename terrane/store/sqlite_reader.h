@@ -6,6 +6,7 @@
 
 #include "terrane/store/chunk_reader.h"
 #include "terrane/store/save_file.h"
+#include "terrane/store/save_queue.h"
 
 namespace terrane::store {
 
@@ -13,7 +14,8 @@ class SqliteReader : public ReadableStore {
   public:
     // As openToRead().
     [[nodiscard]] static base::Result<std::unique_ptr<SqliteReader>> open(
-        const std::filesystem::path& path, const world::BlockRegistry& registry);
+        const std::filesystem::path& path, const world::BlockRegistry& registry,
+        const SaveLimits& limits = {});
 
     LoadedChunk load(world::ChunkPos pos) override;
     std::vector<LoadedChunk> loadMany(std::span<const world::ChunkPos> positions) override;
@@ -25,10 +27,11 @@ class SqliteReader : public ReadableStore {
     const WorldIdentity& identity() const override { return file_.identity; }
 
   private:
-    explicit SqliteReader(SaveFile file);
-    LoadedChunk decode(const StoredRow& row, world::ChunkPos pos) const;
+    SqliteReader(SaveFile file, const SaveLimits& limits);
+    LoadedChunk decode(const StoredRow& row, world::ChunkPos pos);
 
     SaveFile file_;
+    EntityBudget budget_;
     ChunkReader reader_;
 };
 

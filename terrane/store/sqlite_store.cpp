@@ -12,8 +12,8 @@ base::Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const std::filesyst
                                                              const SaveAccess& access, SaveLimits limits) {
     auto file = openToWrite(path, registry, access);
     if (!file) return tl::unexpected(file.error());
-    std::unique_ptr<SqliteStore> store(new SqliteStore(std::move(*file)));
-    auto writer = SqliteWriter::make(store->file_);
+    std::unique_ptr<SqliteStore> store(new SqliteStore(std::move(*file), limits));
+    auto writer = SqliteWriter::make(store->file_, store->budget_);
     if (!writer) return tl::unexpected(writer.error());
     store->writer_ = std::move(*writer);
     store->queue_ = std::make_unique<SaveQueue>(
@@ -21,8 +21,9 @@ base::Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const std::filesyst
     return store;
 }
 
-SqliteStore::SqliteStore(SaveFile file)
+SqliteStore::SqliteStore(SaveFile file, const SaveLimits& limits)
     : file_(std::move(file)),
+      budget_(limits.entityBytes),
       reader_(file_.database.path(), file_.readers, file_.format),
       metadata_(file_.metadata) {}
 
@@ -31,8 +32,11 @@ SqliteStore::~SqliteStore() = default;
 namespace {
 
 LoadedChunk copyOf(const WaitingChunk& waiting) {
-    return {
-        LoadedChunk::State::Present, std::make_shared<world::Chunk>(*waiting.chunk), waiting.provenance, {}};
+    LoadedChunk loaded;
+    loaded.state = LoadedChunk::State::Present;
+    loaded.chunk = std::make_shared<world::Chunk>(*waiting.chunk);
+    loaded.provenance = waiting.provenance;
+    return loaded;
 }
 
 }  // namespace
@@ -59,17 +63,18 @@ ChunkPosSet SqliteStore::unreadOf(const SaveBatch& batch) {
     return found;
 }
 
-LoadedChunk SqliteStore::loadStored(StoredRow row, world::ChunkPos pos) {
-    setUnread(pos, !row);
-    LoadedChunk loaded = decodeRow(row, file_.ids);
+LoadedChunk SqliteStore::loadStored(const StoredRow& row, world::ChunkPos pos) {
+    LoadedChunk loaded = decodeRow(row, file_.ids, budget_);
+    setUnread(pos, loaded.isUnread);
     if (loaded.state != LoadedChunk::State::Damaged) return loaded;
     const std::string reason = std::exchange(
         loaded.problem, fmt::format("{}: {}: {}", file_.database.path(), nameOf(pos), loaded.problem));
-    if (row) {
-        base::logWarning("{}; what it had is kept in the table quarantine", loaded.problem);
-        queue_->add(DamagedRow{pos, std::move((*row)->data), reason});
+    if (loaded.isUnread) {
+        if (!loaded.isOverBudget || budget_.isFirstRefusal())
+            base::logWarning("{}; what it has stays", loaded.problem);
     } else {
-        base::logWarning("{}; what it has stays", loaded.problem);
+        base::logWarning("{}; what it had is kept in the table quarantine", loaded.problem);
+        queue_->add(DamagedRow{pos, hashOfRow((*row)->data), reason});
     }
     return loaded;
 }
@@ -87,12 +92,14 @@ std::vector<LoadedChunk> SqliteStore::loadMany(std::span<const world::ChunkPos> 
     std::vector<world::ChunkPos> stored;
     for (std::size_t k = 0; k < positions.size(); ++k)
         if (!waiting[k]) stored.push_back(positions[k]);
-    std::vector<StoredRow> rows = reader_.readMany(stored);
-    auto next = rows.begin();
+    std::vector<LoadedChunk> read(stored.size());
+    reader_.readMany(stored,
+                     [&](std::size_t k, const StoredRow& row) { read[k] = loadStored(row, stored[k]); });
+    auto next = read.begin();
     std::vector<LoadedChunk> loaded;
     loaded.reserve(positions.size());
     for (std::size_t k = 0; k < positions.size(); ++k)
-        loaded.push_back(waiting[k] ? copyOf(*waiting[k]) : loadStored(std::move(*next++), positions[k]));
+        loaded.push_back(waiting[k] ? copyOf(*waiting[k]) : std::move(*next++));
     return loaded;
 }
 
@@ -121,6 +128,11 @@ SaveNumber SqliteStore::setMetadata(std::string_view name, std::string value) {
         return queue_->status().queued;
     }
     const std::lock_guard lock(metadataMutex_);
+    if (!fitsMetadata(metadata_, name, value)) {
+        base::logError("{}: the setting {} of {} bytes is more than a save keeps, and is not saved",
+                       file_.database.path(), name.substr(0, 64), value.size());
+        return queue_->status().queued;
+    }
     metadata_.insert_or_assign(std::string(name), value);
     return queue_->add(std::string(name), std::move(value));
 }
@@ -134,7 +146,7 @@ void SqliteStore::setDerivedRows(DerivedRows rows) {
 base::Result<void> SqliteStore::write(const SaveBatch& batch) {
     const std::lock_guard writing(writeMutex_);
     const std::vector<ChunkRow> edited = batch.editedChunks();
-    SavedRows saved([this](world::ChunkPos pos) { return reader_.read(pos); }, file_.ids);
+    SavedRows saved([this](world::ChunkPos pos) { return reader_.read(pos); }, file_.ids, budget_);
     std::vector<ChunkRow> derived;
     if (!edited.empty() && derivedRows_.derive) derived = derivedRows_.derive(edited, saved.reader());
     if (!saved.result()) return saved.result();

@@ -39,14 +39,15 @@ class SqliteStore : public ChunkStore {
     bool isPersistent() const override { return true; }
 
   private:
-    explicit SqliteStore(SaveFile file);
-    LoadedChunk loadStored(StoredRow row, world::ChunkPos pos);
+    SqliteStore(SaveFile file, const SaveLimits& limits);
+    LoadedChunk loadStored(const StoredRow& row, world::ChunkPos pos);
     void setUnread(world::ChunkPos pos, bool isUnread);
     bool isUnread(world::ChunkPos pos);
     ChunkPosSet unreadOf(const SaveBatch& batch);
     base::Result<void> write(const SaveBatch& batch);
 
     SaveFile file_;
+    EntityBudget budget_;
     ChunkReader reader_;
     std::mutex metadataMutex_;
     Metadata metadata_;

@@ -13,13 +13,13 @@ namespace terrane::store {
 world::ChunkPtr SavedRows::editedChunk(world::ChunkPos pos) {
     const StoredRow row = read_(pos);
     if (row && (!*row || (*row)->provenance != Provenance::Edited)) return nullptr;
-    LoadedChunk loaded = decodeRow(row, ids_);
+    LoadedChunk loaded = decodeRow(row, ids_, budget_);
     if (loaded.state == LoadedChunk::State::Damaged) metDamage_ = true;
     if (!row && row.error().code != base::ErrorCode::Damaged) result_ = tl::unexpected(row.error());
     return std::move(loaded.chunk);
 }
 
-base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
+base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file, EntityBudget& budget) {
     constexpr const char* kStatements[] = {
         "SELECT data, origin FROM chunks WHERE key = ?1",
         "INSERT INTO chunks (key, origin, data) VALUES (?1, ?2, ?3) ON CONFLICT (key) DO UPDATE "
@@ -28,9 +28,7 @@ base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
         // In a file of somebody else data may be a text or NULL.
         "INSERT INTO quarantine (key, reason, data) SELECT key, ?2, coalesce(data, x'') FROM chunks WHERE "
         "key = ?1",
-        "INSERT INTO quarantine (key, reason, data) SELECT key, ?2, coalesce(data, x'') FROM chunks WHERE "
-        "key = ?1 AND coalesce(CAST(data AS BLOB), x'') = ?3",
-        "DELETE FROM chunks WHERE key = ?1 AND coalesce(CAST(data AS BLOB), x'') = ?2"};
+        "INSERT INTO quarantine (key, reason, data) VALUES (?1, ?2, x'')"};
     static_assert(std::size(kStatements) == sizeof(Statements) / sizeof(Statement));
     std::vector<Statement> made;
     for (const char* sql : kStatements) {
@@ -44,7 +42,7 @@ base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
     const auto take = [&] { return std::move(*next++); };
     // Braces initialize in their order: that of the texts above.
     return std::unique_ptr<SqliteWriter>(new SqliteWriter(
-        file, Statements{take(), take(), take(), take(), take(), take()}, std::move(*metadata)));
+        file, budget, Statements{take(), take(), take(), take(), take()}, std::move(*metadata)));
 }
 
 base::Result<bool> SqliteWriter::write(const SaveBatch& batch, const ChunkPosSet& unread,
@@ -71,7 +69,7 @@ base::Result<void> SqliteWriter::deriveAll(const DerivedRows& rows, std::string_
     if (!edited) return tl::unexpected(edited.error());
     // By the connection that writes: it sees what the transaction has written so far.
     SavedRows saved([this](world::ChunkPos pos) { return readRow(use_.selectChunk, pos, kFormatVersion); },
-                    file_.ids);
+                    file_.ids, budget_);
     auto derived =
         deriveInGroups(rows, std::move(*edited), saved.reader(), [&](std::span<const ChunkRow> group) {
             return saved.result() ? writeDerived(group) : saved.result();
@@ -117,8 +115,7 @@ base::Result<void> SqliteWriter::writeDerived(std::span<const ChunkRow> rows) {
         if (chunk) {
             done = writeChunk(pos, {chunk, Provenance::Edited});
         } else {
-            use_.deleteChunk.bind(1, keyOf(pos));
-            done = use_.deleteChunk.run();
+            done = deleteRow(pos);
         }
         if (!done) return done;
     }
@@ -128,7 +125,13 @@ base::Result<void> SqliteWriter::writeDerived(std::span<const ChunkRow> rows) {
 base::Result<void> SqliteWriter::putAside(world::ChunkPos pos, std::string_view reason) {
     use_.quarantineAll.bind(1, keyOf(pos));
     use_.quarantineAll.bind(2, reason);
-    return use_.quarantineAll.run();
+    auto done = use_.quarantineAll.run();
+    if (done || done.error().code != base::ErrorCode::Damaged) return done;
+    // Longer than a chunk can be: no program reads it. That it was there is noted.
+    use_.noteQuarantine.bind(1, keyOf(pos));
+    use_.noteQuarantine.bind(2, std::string_view(done.error().message));
+    if (auto noted = use_.noteQuarantine.run(); !noted) return noted;
+    return deleteRow(pos);
 }
 
 // What is there is looked at before it is overwritten: a row that was damaged is kept, also where nobody
@@ -142,9 +145,10 @@ base::Result<void> SqliteWriter::putAsideIfDamaged(world::ChunkPos pos) {
         const ByteView data = use_.selectChunk.blob(0);
         const std::uint64_t seed = seedOf(pos, use_.selectChunk.number(1), kFormatVersion);
         if (auto good = verifyChunk(data, seed); problem.empty() && !good) problem = good.error().message;
-        if (!problem.empty()) damaged = DamagedRow{pos, Bytes(data.begin(), data.end()), problem};
+        if (!problem.empty()) damaged = DamagedRow{pos, hashOfRow(data), problem};
     }
     use_.selectChunk.reset();
+    if (!row && row.error().code == base::ErrorCode::Damaged) return putAside(pos, row.error().message);
     if (!row) return tl::unexpected(row.error());
     if (!damaged) return {};
     base::logWarning("{}: {}: {}; what it had is kept in the table quarantine", file_.database.path(),
@@ -154,13 +158,19 @@ base::Result<void> SqliteWriter::putAsideIfDamaged(world::ChunkPos pos) {
 
 base::Result<void> SqliteWriter::quarantine(const DamagedRow& row) {
     isComplete_ = false;
-    use_.quarantineIfSame.bind(1, keyOf(row.pos));
-    use_.quarantineIfSame.bind(2, std::string_view(row.reason));
-    use_.quarantineIfSame.bind(3, ByteView(row.data));
-    if (auto done = use_.quarantineIfSame.run(); !done) return done;
-    use_.deleteIfSame.bind(1, keyOf(row.pos));
-    use_.deleteIfSame.bind(2, ByteView(row.data));
-    return use_.deleteIfSame.run();
+    use_.selectChunk.bind(1, keyOf(row.pos));
+    const auto isThere = use_.selectChunk.step();
+    const bool isSame = isThere && *isThere && hashOfRow(use_.selectChunk.blob(0)) == row.hash;
+    use_.selectChunk.reset();
+    if (!isThere) return tl::unexpected(isThere.error());
+    if (!isSame) return {};
+    if (auto done = putAside(row.pos, row.reason); !done) return done;
+    return deleteRow(row.pos);
+}
+
+base::Result<void> SqliteWriter::deleteRow(world::ChunkPos pos) {
+    use_.deleteChunk.bind(1, keyOf(pos));
+    return use_.deleteChunk.run();
 }
 
 }  // namespace terrane::store

@@ -18,8 +18,8 @@ namespace terrane::store {
 // What DerivedRows::derive() reads of a file, and what goes wrong meanwhile.
 class SavedRows {
   public:
-    SavedRows(std::function<StoredRow(world::ChunkPos)> read, const BlockIdMap& ids)
-        : read_(std::move(read)), ids_(ids) {}
+    SavedRows(std::function<StoredRow(world::ChunkPos)> read, const BlockIdMap& ids, EntityBudget& budget)
+        : read_(std::move(read)), ids_(ids), budget_(budget) {}
 
     world::ChunkPtr editedChunk(world::ChunkPos pos);
     ReadEdited reader() {
@@ -33,14 +33,16 @@ class SavedRows {
   private:
     std::function<StoredRow(world::ChunkPos)> read_;
     const BlockIdMap& ids_;
+    EntityBudget& budget_;
     bool metDamage_ = false;
     base::Result<void> result_;
 };
 
 class SqliteWriter {
   public:
-    // Keeps `file`.
-    [[nodiscard]] static base::Result<std::unique_ptr<SqliteWriter>> make(SaveFile& file);
+    // Keeps both.
+    [[nodiscard]] static base::Result<std::unique_ptr<SqliteWriter>> make(SaveFile& file,
+                                                                          EntityBudget& budget);
 
     // The batch and the rows derived from it. What the chunks of `unread` replace is put aside first. Unless
     // `isComplete`, or where a row is lost, the world has not all derived rows any more: kDerivedRowsMark
@@ -52,10 +54,10 @@ class SqliteWriter {
 
   private:
     struct Statements {
-        Statement selectChunk, putChunk, deleteChunk, quarantineAll, quarantineIfSame, deleteIfSame;
+        Statement selectChunk, putChunk, deleteChunk, quarantineAll, noteQuarantine;
     };
-    SqliteWriter(SaveFile& file, Statements statements, MetadataTable metadata)
-        : file_(file), use_(std::move(statements)), metadata_(std::move(metadata)) {}
+    SqliteWriter(SaveFile& file, EntityBudget& budget, Statements statements, MetadataTable metadata)
+        : file_(file), budget_(budget), use_(std::move(statements)), metadata_(std::move(metadata)) {}
 
     base::Result<void> writeBatch(const SaveBatch& batch, const ChunkPosSet& unread);
     base::Result<void> writeChunk(world::ChunkPos pos, const WaitingChunk& chunk);
@@ -63,8 +65,10 @@ class SqliteWriter {
     base::Result<void> putAside(world::ChunkPos pos, std::string_view reason);
     base::Result<void> putAsideIfDamaged(world::ChunkPos pos);
     base::Result<void> quarantine(const DamagedRow& row);
+    base::Result<void> deleteRow(world::ChunkPos pos);
 
     SaveFile& file_;
+    EntityBudget& budget_;
     Statements use_;
     MetadataTable metadata_;
     bool isComplete_ = true;  // of the transaction that runs

@@ -22,10 +22,15 @@ const BlockEntityData* Chunk::blockEntityData(BlockIndex i) const {
     const std::size_t slot = blockState(i);
     if (slot >= entitySlots_.size() || !entitySlots_[slot].used || entitySlots_[slot].owner != i)
         return nullptr;
-    return &entitySlots_[slot].data;
+    return entitySlots_[slot].data.get();
 }
 
 void Chunk::setBlockEntityData(BlockIndex i, BlockEntityData data) {
+    shareBlockEntityData(i, std::make_shared<const BlockEntityData>(std::move(data)));
+}
+
+void Chunk::shareBlockEntityData(BlockIndex i, BlockEntityDataPtr data) {
+    assert(data && "clearBlockEntityData() takes data away");
     if (blockEntityData(i)) {
         entitySlots_[blockState(i)].data = std::move(data);
         return;
@@ -92,7 +97,8 @@ std::size_t Chunk::memoryBytes() const {
     for (const Section& section : blocks_) bytes += section.memoryBytes();
     for (const Section& section : blockState_) bytes += section.memoryBytes();
     bytes += entitySlots_.capacity() * sizeof(LargeSlot);
-    for (const LargeSlot& slot : entitySlots_) bytes += slot.data.capacity();
+    for (const LargeSlot& slot : entitySlots_)
+        if (slot.used) bytes += slot.data->capacity();
     return bytes;
 }
 

@@ -18,6 +18,7 @@ constexpr BlockId kAir = 0;
 
 // Bytes that a block keeps beyond its 16 bits of block state, for example the text of a sign.
 using BlockEntityData = std::vector<std::byte>;
+using BlockEntityDataPtr = std::shared_ptr<const BlockEntityData>;
 
 // Block access is O(1). Not synchronised; the world shares chunks between threads as `shared_ptr<const
 // Chunk>`.
@@ -35,6 +36,8 @@ class Chunk {
     // after.
     const BlockEntityData* blockEntityData(BlockIndex i) const;  // null where the block has none
     void setBlockEntityData(BlockIndex i, BlockEntityData data);
+    void shareBlockEntityData(BlockIndex i,
+                              BlockEntityDataPtr data);  // not null; copies of the chunk share it
     void clearBlockEntityData(BlockIndex i);
     std::vector<BlockIndex> blocksWithBlockEntityData() const;  // in ascending order
 
@@ -55,7 +58,7 @@ class Chunk {
     std::array<Section, kSectionsPerChunk> blockState_;
     // Slot k holds the block entity data of the block `owner`, whose block state is k.
     struct LargeSlot {
-        BlockEntityData data;
+        BlockEntityDataPtr data;
         BlockIndex owner = 0;
         bool used = false;
     };

@@ -2,8 +2,12 @@
 
 Usage: hostile_save_test.py PROGRAM
 """
+import os
+import resource
 import shutil
 import sqlite3
+import struct
+import subprocess
 
 import support
 from support import ProgramTest, run
@@ -20,6 +24,17 @@ CASES = [
     ("UPDATE settings SET value = '\x1b[31m' WHERE name = 'seed'", r"\x1b[31m"),
     ("UPDATE settings SET value = '6' WHERE name = 'seed'", "the checksum of its settings and block names is wrong"),
 ]
+
+
+def swollen_chunk(key, stone, megabytes):
+    """2 KB for a chunk of that many MiB: its last block has them as block entity data, all zeros (RFC 8878)."""
+    blocks = struct.pack("<BH", 0, stone) * 16 + bytes(3) * 16
+    content = blocks + struct.pack("<IHI", 1, 65535, megabytes << 20)
+    frame = struct.pack("<IBB", 0xFD2FB528, 0, 0x38) + struct.pack("<I", len(content) << 3)[:3] + content
+    for left in range(megabytes * 8 - 1, -1, -1):  # 128 KiB of one byte, repeated
+        frame += struct.pack("<I", (128 << 10) << 3 | 1 << 1 | (left == 0))[:3] + b"\0"
+    data = bytes(8) + struct.pack("<BI", 1, len(content) + (megabytes << 20)) + frame
+    return support.seal(data, key, 1)
 
 
 class HostileSaves(ProgramTest):
@@ -62,6 +77,37 @@ class HostileSaves(ProgramTest):
                 self.assertRegex(done.stdout, r"\Adamage: [^\x00-\x1f]+\ndamaged\n\Z")
                 self.assertEqual(done.stderr, "")
             self.assertEqual(self.save.read_bytes(), before, sql)
+
+    # 48 chunks of 60 MiB each: 2.8 GiB in 120 KB. What does not fit is told once.
+    def test_a_small_file_does_not_take_all_memory(self):
+        self.change("DELETE FROM chunks")
+        with sqlite3.connect(self.save) as database:
+            stone = database.execute("SELECT id FROM blocks WHERE name = 'stone'").fetchone()[0]
+            for k in range(48):
+                key = (k % 8 + 2**27 << 28) + k // 8 + 2**27
+                database.execute("INSERT INTO chunks VALUES (?, 1, ?)", (key, swollen_chunk(key, stone, 60)))
+        database.close()
+        self.assertLess(self.save.stat().st_size, 300 << 10)
+        limit = 9 << 28
+        def bound():
+            resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+        for command in (("dump", "--area", "0,0,8,6", "-o", self.folder / "out.npy"),
+                        ("map", "--area", "0,0,8,6", "-o", self.folder / "out.png"),
+                        ("generate", "--area", "0,0,8,6", "--threads", "2")):
+            words = [support.program(), *map(str, command), "--world", str(self.save)]
+            child = subprocess.Popen(words, stderr=subprocess.PIPE, text=True, preexec_fn=bound, env=support.environment())
+            with self.subTest(command[0]):
+                with child.stderr:
+                    said = child.stderr.read()
+                _, status, used = os.wait4(child.pid, 0)
+                child.returncode = os.waitstatus_to_exitcode(status)
+                self.assertEqual(child.returncode, 0, said)
+                self.assertLess(used.ru_maxrss, 1600 << 10, "KiB at the most")
+                if command[0] == "dump":  # the others hold few chunks at once
+                    self.assertEqual(said.count("more than may be in memory"), 1, said)
+        done = run("check", self.save)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("48 chunks, 48 of them edited", done.stdout)
 
     def test_names_are_printed_safely(self):
         self.change("INSERT INTO blocks VALUES (500, '\x1b[31mred\ngood');"

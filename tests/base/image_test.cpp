@@ -120,6 +120,8 @@ TEST(Image, FilesRoundTrip) {
     const TempFolder folder;
     const Image image = someImage(5, 4);
     ASSERT_TRUE(writePng(folder / "a.png", image));
+    EXPECT_TRUE(readPng(folder / "a.png", 20));
+    EXPECT_FALSE(readPng(folder / "a.png", 19));
     const Result<Image> back = readPng(folder / "a.png");
     ASSERT_TRUE(back);
     expectEqual(*back, image);

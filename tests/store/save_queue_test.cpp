@@ -168,7 +168,7 @@ TEST(SaveQueue, WhatTheLastAttemptLosesIsNamed) {
               "terrane: error: a.sqlite: the disk is full; lost: 0 chunks, the setting time\n");
     EXPECT_EQ(lastWords([](SaveQueue& queue) {
                   queue.add({0, 0}, {numberedChunk(1), Provenance::Edited});
-                  queue.add(DamagedRow{{1, 1}, {}, "cut off"});
+                  queue.add(DamagedRow{{1, 1}, 0, "cut off"});
               }),
               "terrane: error: a.sqlite: the disk is full; lost: 1 chunks, 1 damaged rows put aside\n");
     EXPECT_EQ(lastWords([](SaveQueue& queue) {

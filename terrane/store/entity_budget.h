@@ -1,0 +1,47 @@
+// How much block entity data of a store's chunks may be in memory at once. It compresses without a bound, so
+// a small file could ask for all memory; sections of blocks cannot, a chunk's take 256 KiB at most. Counts
+// from reading a chunk until nobody holds the data: copies of chunks share it. Any thread may call; the data
+// may outlive the budget.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+
+#include "terrane/base/result.h"
+#include "terrane/store/bytes.h"
+#include "terrane/world/chunk.h"
+
+namespace terrane::store {
+
+constexpr std::size_t kEntityBudgetBytes = std::size_t{1} << 30;
+
+class EntityBudget {
+  public:
+    explicit EntityBudget(std::size_t maxBytes = kEntityBudgetBytes)
+        : maxBytes_(maxBytes), used_(std::make_shared<std::atomic<std::size_t>>(0)) {}
+
+    // Null where there is no room.
+    world::BlockEntityDataPtr hold(world::BlockEntityData data);
+    bool hasRoomFor(std::size_t bytes) const { return bytes <= maxBytes_ && *used_ <= maxBytes_ - bytes; }
+    // True the first time: one message tells of all chunks that find no room.
+    bool isFirstRefusal() { return !hasRefused_.exchange(true); }
+    std::size_t usedBytes() const { return *used_; }
+    std::size_t maxBytes() const { return maxBytes_; }
+
+    // While this is held no other large chunk is decompressed: up to 64 MiB each.
+    std::unique_lock<std::mutex> lockLargeChunks() { return std::unique_lock(largeChunks_); }
+
+  private:
+    std::size_t maxBytes_;
+    std::shared_ptr<std::atomic<std::size_t>> used_;
+    std::mutex largeChunks_;
+    std::atomic<bool> hasRefused_ = false;
+};
+
+// A copy of the bytes, by the budget where there is one; OutOfResources where it has no room.
+[[nodiscard]] base::Result<world::BlockEntityDataPtr> holdData(ByteView bytes, EntityBudget* budget);
+[[nodiscard]] tl::unexpected<base::Error> overBudget(const EntityBudget& budget);
+
+}  // namespace terrane::store
