@@ -306,7 +306,7 @@ void FaultyDisk::fail(unsigned kinds, long after, long count, DiskError error) {
     const std::lock_guard lock(disk->mutex);
     disk->counted = disk->failed = 0;
     disk->failFrom = after;
-    disk->failUntil = count == LONG_MAX ? LONG_MAX : after + count;
+    disk->failUntil = count > LONG_MAX - after ? LONG_MAX : after + count;
     disk->failingKinds = kinds;
     disk->error = error;
 }
