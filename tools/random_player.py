@@ -40,7 +40,7 @@ class Player:
 
     def __init__(self, program, folder, seed, display):
         self.random, self.display, self.folder = random.Random(seed), display, folder
-        variables = {**os.environ, "DISPLAY": display.name, "XDG_CONFIG_HOME": str(folder),
+        variables = {**os.environ, "DISPLAY": display.name, "XDG_CONFIG_HOME": str(folder), "XDG_DATA_HOME": str(folder),
                      # Drivers keep memory until the process ends; what the program leaks grows.
                      "ASAN_OPTIONS": "detect_leaks=0:abort_on_error=1", "UBSAN_OPTIONS": "print_stacktrace=1"}
         self.log = open(folder / "log.txt", "w+", encoding="utf-8")

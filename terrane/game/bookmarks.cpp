@@ -28,6 +28,12 @@ base::Result<void> readInto(std::vector<world::Pose>& bookmarks, const std::file
     return {};
 }
 
+// As where the program runs in its data folder.
+bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code ignored;
+    return std::filesystem::equivalent(a, b, ignored);
+}
+
 }  // namespace
 
 BookmarkFiles bookmarkFiles(const std::filesystem::path& dataFolder) {
@@ -37,15 +43,17 @@ BookmarkFiles bookmarkFiles(const std::filesystem::path& dataFolder) {
 void reportFormerFiles(const BookmarkFiles& files) {
     std::error_code ignored;
     for (const std::filesystem::path& former : files.former)
-        if (std::filesystem::exists(former, ignored))
+        if (std::filesystem::exists(former, ignored) && !isSameFile(former, files.file))
             base::logInfo("{}: its bookmarks are read from the working directory; new ones go to {}",
                           former.string(), files.file.string());
 }
 
 base::Result<std::vector<world::Pose>> readBookmarks(const BookmarkFiles& files) {
     std::vector<world::Pose> bookmarks;
-    for (const std::filesystem::path& former : files.former)
+    for (const std::filesystem::path& former : files.former) {
+        if (isSameFile(former, files.file)) continue;
         if (auto read = readInto(bookmarks, former); !read) return tl::unexpected(read.error());
+    }
     if (auto read = readInto(bookmarks, files.file); !read) return tl::unexpected(read.error());
     return bookmarks;
 }

@@ -1,5 +1,5 @@
-// Changes in memory over a store that stays as it is: for saves that cannot be written, and for commands that
-// must not change a world. MemoryStore is one over an empty world.
+// Changes in memory over a store that stays as it is: for playing without saving, and for commands that must
+// not change a world. MemoryStore is one over an empty world.
 #pragma once
 
 #include <map>

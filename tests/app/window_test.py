@@ -345,6 +345,12 @@ class Window(ProgramTest):
             self.addCleanup(game.log.close)
             self.assertEqual(game.process.wait(HANG_SECONDS), 2)
             self.assertRegex(game.output(), r"\Aterrane: error: /dev/null/terrane: .*\(--no-save plays without saving\)\n\Z")
+            # Where that does not help it is not said.
+            self.succeed("generate", "--world", self.folder / "a.sqlite", "--radius", "0", *FLAT)
+            game = Game(display, self.folder, ("--world", "a.sqlite", "--seed", "9"))
+            self.addCleanup(game.log.close)
+            self.assertEqual(game.process.wait(HANG_SECONDS), 2)
+            self.assertRegex(game.output(), r"\Aterrane: error: a.sqlite: made with seed 1, not 9\n\Z")
 
     def test_a_world_of_the_working_directory_is_found(self):
         with Display() as display:

@@ -57,6 +57,12 @@ TEST_F(Bookmarks, TheFileOfTheFormerNameIsRead) {
         << "it comes first: bookmarks keep their numbers";
 }
 
+TEST_F(Bookmarks, OneFileIsReadOnce) {
+    ASSERT_TRUE(appendBookmark(file_, {{1, 2, 3}, 4, 5}));
+    files_.former = {file_.parent_path() / "." / file_.filename()};
+    EXPECT_EQ(readBookmarks(files_).value().size(), 1u);
+}
+
 TEST_F(Bookmarks, AWrongLineIsNamed) {
     write("1 2 3 4 5\n\n1 2 3\n");
     const auto bookmarks = readBookmarks(files_);

@@ -74,7 +74,10 @@ base::Result<game::SessionParts> openWorld(PlayOptions& options) {
     if (name.empty())
         name = fmt::format("{}-{}", options.world.effectiveGenerator(), options.world.effectiveSeed());
     auto parts = openSessionParts(options.world, options.save, WorldAccess::ReadWrite);
-    if (parts || parts.error().code == base::ErrorCode::Damaged) return parts;
+    // Of other errors, such as another generator, playing without saving is no way out.
+    const bool cannotBeWritten = !parts && (parts.error().code == base::ErrorCode::Io ||
+                                            parts.error().code == base::ErrorCode::NotFound);
+    if (!cannotBeWritten) return parts;
     return base::fail(parts.error().code, "{} (--no-save plays without saving)", parts.error().message);
 }
 

@@ -21,7 +21,7 @@ void beginNotice(const char* title, const Screen& screen, float height, ImGuiWin
     ImGui::PopStyleColor();
 }
 
-void textOf(const store::SaveStatus& status) {
+void drawProblem(const store::SaveStatus& status) {
     ImGui::TextWrapped("%s", status.problem.c_str());
     ImGui::TextWrapped(
         "For %.0f s; %zu chunks wait and are tried again. Nothing is lost while the program runs.",
@@ -36,7 +36,7 @@ void drawSaveNotice(const Screen& screen, const store::SaveStatus& status) {
                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
     ImGui::TextUnformatted("The world is not being saved");
-    textOf(status);
+    drawProblem(status);
     ImGui::End();
 }
 
@@ -46,7 +46,7 @@ std::optional<QuitChoice> drawQuitDialog(const Screen& screen, const store::Save
     if (status.problem.empty()) {
         ImGui::TextWrapped("Saving works again.");
     } else {
-        textOf(status);
+        drawProblem(status);
     }
     ImGui::Spacing();
     if (ImGui::Button("Try again and quit")) choice = QuitChoice::TryAgain;
