@@ -78,7 +78,10 @@ std::vector<std::string> logProblems(const std::filesystem::path& save) {
     Checksum sum{.isBigEndian = (magic & 1) != 0};
     sum.add(LogBytes(header).first(24));
     if ((magic & ~1u) != kLogMagic || !isPageSize(pageBytes) || !sum.isAt(header, 24))
-        return {fmt::format("{}: its header is broken: all that it holds is lost", path.string())};
+        // It is on the disk before the first frame is written. Until then nothing is lost with it.
+        return {
+            fmt::format("{}: its header is broken: all that it holds is lost, unless it was never finished",
+                        path.string())};
     const Frames frames = readFrames(log, header, sum, pageBytes);
     if (frames.commitsBehind == 0) return {};
     // Each transaction is on the disk before the next one is written. Of the last one the power may have left

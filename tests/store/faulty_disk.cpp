@@ -30,8 +30,12 @@ struct DiskState {
     DiskStop stop = DiskStop::Kill;
     bool hasStopped = false;
     long changed = 0, stopFrom = LONG_MAX;
-    std::mt19937 random, sqliteRandom;
+    std::mt19937 random;
     std::uint64_t history = 0xCBF2'9CE4'8422'2325;
+
+    // SQLite asks for numbers while it holds a mutex of its own, which other calls take the other way round.
+    std::mutex sqliteMutex;
+    std::mt19937 sqliteRandom;
 };
 DiskState* disk = nullptr;
 thread_local bool isHalved = false;  // the next call of the system
@@ -255,7 +259,7 @@ int deleteFile(sqlite3_vfs* vfs, const char* name, int syncsFolder) {
 }
 
 int randomBytes(sqlite3_vfs*, int count, char* out) {
-    const std::lock_guard lock(disk->mutex);
+    const std::lock_guard lock(disk->sqliteMutex);
     std::generate_n(out, count, [] { return static_cast<char>(disk->sqliteRandom()); });
     return count;
 }
@@ -359,7 +363,7 @@ std::uint64_t FaultyDisk::history() const {
 
 void FaultyDisk::seedRandomness(unsigned seed) {
     {
-        const std::lock_guard lock(disk->mutex);
+        const std::lock_guard lock(disk->sqliteMutex);
         disk->sqliteRandom.seed(seed);
     }
     sqlite3_randomness(0, nullptr);  // asks the disk again

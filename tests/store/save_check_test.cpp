@@ -127,6 +127,17 @@ TEST_F(LogCheckTest, ABrokenLastTransactionMayNeverHaveBeenSaved) {
                                        "lost, unless it was never finished"));
 }
 
+// So does one that is lost while the header is written.
+TEST_F(LogCheckTest, ABrokenHeaderMayNeverHaveBeenSaved) {
+    std::string log = log_;
+    log[20] = static_cast<char>(log[20] ^ 1);
+    const CheckReport report = checkWith(log);
+    ASSERT_EQ(report.fileProblems.size(), 1u);
+    EXPECT_THAT(report.fileProblems.front(),
+                HasSubstr("a.sqlite-wal: its header is broken: all that it holds is "
+                          "lost, unless it was never finished"));
+}
+
 // Writing fails at the end of a large transaction, then a smaller one takes its place in the log.
 TEST_F(LogCheckTest, WhatFailedToBeWrittenIsNotMissed) {
     FaultyDisk disk;
