@@ -77,11 +77,14 @@ std::vector<std::string> logProblems(const std::filesystem::path& save) {
     const std::uint32_t magic = wordAt(header, 0), pageBytes = wordAt(header, 8);
     Checksum sum{.isBigEndian = (magic & 1) != 0};
     sum.add(LogBytes(header).first(24));
-    if ((magic & ~1u) != kLogMagic || !isPageSize(pageBytes) || !sum.isAt(header, 24))
-        // It is on the disk before the first frame is written. Until then nothing is lost with it.
+    // SQLite syncs the header before it writes the first frame: a power loss before that leaves it torn, and
+    // no transaction behind it.
+    const bool isWhole = (magic & ~1u) == kLogMagic && isPageSize(pageBytes) && sum.isAt(header, 24);
+    if (!isWhole) {
         return {
             fmt::format("{}: its header is broken: all that it holds is lost, unless it was never finished",
                         path.string())};
+    }
     const Frames frames = readFrames(log, header, sum, pageBytes);
     if (frames.commitsBehind == 0) return {};
     // Each transaction is on the disk before the next one is written. Of the last one the power may have left
