@@ -69,6 +69,7 @@ std::string cellMistake(const NoiseCall& call) {
 
 std::string noiseMistake(const NoiseCall& call) {
     if (call.size < 1 || call.size > 65536) return fmt::format("size {} is not in 1…65536", call.size);
+    if (call.kind == NoiseKind::Stripes2D) return "";
     return hasCells(call.kind) ? cellMistake(call) : octaveMistake(call);
 }
 

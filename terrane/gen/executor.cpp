@@ -14,6 +14,8 @@ Executor::Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds)
     context_.perlin3D.resize(noises.size());
     context_.voronoi2D.resize(noises.size());
     context_.voronoi3D.resize(noises.size());
+    context_.simplex2D.resize(noises.size());
+    context_.stripes2D.resize(noises.size());
     for (const NoiseCall& call : noises) context_.noiseKinds.push_back(call.kind);
 }
 
@@ -115,6 +117,12 @@ void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
                 break;
             case NoiseKind::Voronoi3D:
                 prepare(context_.voronoi3D[n], call, seed, grid);
+                break;
+            case NoiseKind::Simplex2D:
+                prepare(context_.simplex2D[n], call, seed, grid);
+                break;
+            case NoiseKind::Stripes2D:
+                prepare(context_.stripes2D[n], call, seed, grid);
                 break;
         }
     }

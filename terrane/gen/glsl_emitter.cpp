@@ -44,7 +44,9 @@ std::string_view componentName(NoiseKind kind, std::uint32_t number) {
     static constexpr std::string_view kVoronoi2D[] = {".distance", ".ratio", ".offset.x", ".offset.y"};
     static constexpr std::string_view kVoronoi3D[] = {".nearest", ".second", ".offset.x", ".offset.y",
                                                       ".offset.z"};
+    static constexpr std::string_view kStripes2D[] = {".x", ".y"};
     if (kind == NoiseKind::Voronoi2D) return kVoronoi2D[number];
+    if (kind == NoiseKind::Stripes2D) return kStripes2D[number];
     return kind == NoiseKind::Voronoi3D ? kVoronoi3D[number] : "";
 }
 
@@ -134,6 +136,7 @@ class Emitter {
         }
         name(id, fmt::format("v{}", id));
         if (n.op == Op::Noise) return emitNoise(names_[id], n.imm);
+        if (n.op == Op::Stripes) return emitStripes(id);
         line(fmt::format("{} {} = {};", typeName(n.type), names_[id], expression(n)));
     }
 
@@ -177,8 +180,25 @@ class Emitter {
                 "Voronoi3 {} = voronoi3D(ivec3(columnX, columnY, z), {}, {}, {}u, {}, noiseSeeds[{}]);",
                 result, call.size, literal(Type::Float, inverseSize), call.maxPoints, call.exponent, number));
         }
-        const bool is3D = call.kind == NoiseKind::Perlin3D;
-        const char* function = is3D ? "perlin3D(columnX, columnY, z" : "perlin2D(columnX, columnY";
+        emitOctaves(result, number);
+    }
+
+    void emitStripes(NodeId id) {
+        const Node& n = graph_.node(id);
+        const std::int32_t size = generator_.noises[n.imm].size;
+        const Bits inverseSize = bitsOf(1.0f / static_cast<float>(size));
+        line(fmt::format("precise vec2 {} = stripes2D(columnX, columnY, {}, {}, {}, {}, noiseSeeds[{}]);",
+                         names_[id], arg(n, 0), arg(n, 1), size, literal(Type::Float, inverseSize), n.imm));
+    }
+
+    static const char* octaveFunction(NoiseKind kind) {
+        if (kind == NoiseKind::Perlin3D) return "perlin3D(columnX, columnY, z";
+        return kind == NoiseKind::Simplex2D ? "simplex2D(columnX, columnY" : "perlin2D(columnX, columnY";
+    }
+
+    void emitOctaves(const std::string& result, std::uint32_t number) {
+        const NoiseCall& call = generator_.noises[number];
+        const char* function = octaveFunction(call.kind);
         bool isFirst = true;
         for (const Octave& o : octavesOf(call)) {
             const std::string sample =

@@ -209,6 +209,7 @@ void runOne(const Instruction& i, TileContext& c, const RowList& rows) {
         case Op::Hash3:
             return hash(i, c, rows);
         case Op::Noise:
+        case Op::Stripes:
             return noise(i, c, rows);
         case Op::Field:
             return field(i, c, rows);

@@ -10,6 +10,8 @@
 
 #include "terrane/gen/perlin_tile.h"
 #include "terrane/gen/program.h"
+#include "terrane/gen/simplex_tile.h"
+#include "terrane/gen/stripe_tile.h"
 #include "terrane/gen/voronoi_tile.h"
 
 namespace terrane::gen {
@@ -28,6 +30,8 @@ struct TileContext {
     std::vector<Perlin3DTile> perlin3D;
     std::vector<Voronoi2DTile> voronoi2D;
     std::vector<Voronoi3DTile> voronoi3D;
+    std::vector<Simplex2DTile> simplex2D;
+    std::vector<Stripes2DTile> stripes2D;
     std::vector<const Bits*> fields;         // by field: kTileLanes values
     std::vector<std::vector<Bits>> windows;  // by field: kWindowSize² values where read with an offset
     std::vector<NoiseKind> noiseKinds;

@@ -50,7 +50,7 @@ void LayerRanges::run(const InstructionList& list) {
     for (const Instruction& i : list) {
         if (i.op == Op::Phi) {
             runBranch(program_->branches[i.imm]);
-        } else if (i.op == Op::LoopOut || i.op == Op::Noise) {
+        } else if (i.op == Op::LoopOut || makesNoise(i.op)) {
             forget(i);
         } else {
             write(i.dst, resultOf(i));
@@ -72,7 +72,7 @@ void LayerRanges::runBranch(const Branch& branch) {
 
 // Loops and noise have several results.
 void LayerRanges::forget(const Instruction& i) {
-    if (i.op == Op::Noise) {
+    if (makesNoise(i.op)) {
         for (std::uint32_t k = 0; k < resultCount(noises_[i.imm]); ++k) {
             write({static_cast<std::uint16_t>(i.dst.row + k * kTileSize), i.dst.rowStep}, kAnything);
         }

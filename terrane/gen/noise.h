@@ -17,6 +17,15 @@
 //   3D: the same in cubes; distances are (|x|^p + |y|^p + |z|^p)^(1/p), p the exponent: with larger ones
 //   cells become boxes. The call gives the sums of powers, in cells (d = |blocks| · (1 / size), d·d·…·d from
 //   the left, x and y added before z).
+//
+// Simplex, 2D (K. Perlin, Noise Hardware, 2001; S. Gustavson, Simplex noise demystified, 2005), in about
+// -1…1. `size` is the edge of the skewed lattice's cells before skewing. A corner at the offset o, in cells,
+// with the gradient g (those of Perlin noise) adds max(0, ½ − |o|²)⁴ · (o · g); ½ is where the next simplex
+// begins, so that there is no step. The lattice is skewed by F = 15/41, which differs from (√3 − 1)/2 by
+// 0.05 %: with a rational factor it repeats exactly after 41 cells, so that positions count from there, and
+// it is as exact at 2^31 as at 0. simplex_tile.h states the order of operations.
+//
+// Stripes, 2D: waves across a direction that the caller gives, see stripe_tile.h.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +35,13 @@
 
 namespace terrane::gen {
 
-enum class NoiseKind : std::uint8_t { Perlin2D, Perlin3D, Voronoi2D, Voronoi3D };
+enum class NoiseKind : std::uint8_t { Perlin2D, Perlin3D, Voronoi2D, Voronoi3D, Simplex2D, Stripes2D };
 
 struct NoiseCall {
     NoiseKind kind = NoiseKind::Perlin2D;
     std::string name;            // names the seed: stable when code moves
-    std::int32_t size = 1;       // blocks: smallest lattice (Perlin), 1…65,536; cell, 1…kMaxVoronoiSize
-    std::vector<float> weights;  // Perlin: of octaves size, 2 size, 4 size, …
+    std::int32_t size = 1;       // blocks: smallest lattice, 1…65,536; Voronoi: cell, 1…kMaxVoronoiSize
+    std::vector<float> weights;  // Perlin, simplex: of octaves size, 2 size, 4 size, …
     int maxPoints = 1;           // Voronoi: 1…4
     int exponent = 2;            // Voronoi 3D: of the metric, 2…8
 
@@ -76,6 +85,9 @@ enum Voronoi3DResult : std::uint32_t {
     kVoronoi3DResultCount
 };
 
+// Results of stripes, each in -1…1: cos and sin of the phase.
+enum StripeResult : std::uint32_t { kStripeCos, kStripeSin, kStripeResultCount };
+
 // Squared distances of candidates, at most (1.81 cells + two tile diagonals)², fit 31 bits.
 constexpr std::int32_t kMaxVoronoiSize = 16384;
 
@@ -94,6 +106,7 @@ constexpr std::uint32_t octaveSeedStep(std::size_t octave) {
 
 constexpr std::uint32_t resultCount(NoiseKind kind) {
     if (kind == NoiseKind::Voronoi2D) return kVoronoiResultCount;
+    if (kind == NoiseKind::Stripes2D) return kStripeResultCount;
     return kind == NoiseKind::Voronoi3D ? std::uint32_t{kVoronoi3DResultCount} : 1u;
 }
 
@@ -101,7 +114,7 @@ constexpr bool is3D(NoiseKind kind) {
     return kind == NoiseKind::Perlin3D || kind == NoiseKind::Voronoi3D;
 }
 
-// One octave of a Perlin call. Octaves of weight 0 are not there: nothing is computed for them.
+// One octave of a Perlin or simplex call. Octaves of weight 0 are not there: nothing is computed for them.
 struct Octave {
     std::int32_t size;
     std::uint32_t seedStep;

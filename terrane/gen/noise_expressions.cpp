@@ -93,34 +93,6 @@ std::array<Float, 3> perlinGradient(std::span<const Int> position, std::int32_t 
     return {slopes[0].along[0] * perBlock, slopes[0].along[1] * perBlock, slopes[0].along[2] * perBlock};
 }
 
-Float simplex2D(Int x, Int y, std::int32_t size, const LatticeHash& hash) {
-    constexpr std::int32_t kPeriod = 41,
-                           kShift = 15;  // cells; by what a period of x or y shifts both skewed axes
-    constexpr float kSkew = 15.0f / 41.0f, kUnskew = 15.0f / 71.0f;  // F, F / (1 + 2 F)
-    constexpr float kScale = 70.3f;  // one over the largest sum any gradients can give
-    const Int periodX = floorDivide(x, kPeriod * size), periodY = floorDivide(y, kPeriod * size);
-    const float inverseSize = 1.0f / static_cast<float>(size);
-    const Float fx = Float(x - periodX * (kPeriod * size)) * inverseSize;
-    const Float fy = Float(y - periodY * (kPeriod * size)) * inverseSize;
-    const Float skew = (fx + fy) * kSkew;
-    const Float i = floor(fx + skew), j = floor(fy + skew);
-    const Float unskew = (i + j) * kUnskew;
-    const Float x0 = fx - (i - unskew), y0 = fy - (j - unskew);
-    const Int shift = (periodX + periodY) * kShift;
-    const Int cellX = periodX * kPeriod + shift + Int(i), cellY = periodY * kPeriod + shift + Int(j);
-
-    const auto corner = [&](Int di, Int dj, float unskewed) {
-        const Float ox = x0 - Float(di) + unskewed, oy = y0 - Float(dj) + unskewed;
-        const Float t = max(0.5f - (ox * ox + oy * oy), Float(0.0f));
-        const Int node[] = {cellX + di, cellY + dj};
-        const Vec2 g = gradient2(hash(node));
-        return ((t * t) * (t * t)) * (g.x * ox + g.y * oy);
-    };
-    const Int isRight = select(x0 > y0, Int(1), Int(0));
-    return kScale *
-           ((corner(0, 0, 0.0f) + corner(isRight, 1 - isRight, kUnskew)) + corner(1, 1, 2.0f * kUnskew));
-}
-
 Float simplex3D(Int x, Int y, Int z, std::int32_t size, const LatticeHash& hash) {
     constexpr std::int32_t kPeriod = 3;
     constexpr float kSkew = 1.0f / 3.0f, kUnskew = 1.0f / 6.0f;

@@ -19,15 +19,14 @@ using LatticeHash = std::function<Int(std::span<const Int> node)>;
 std::array<Float, 3> perlinGradient(std::span<const Int> position, std::int32_t size,
                                     const LatticeHash& hash);
 
-// Simplex noise (K. Perlin, Noise Hardware, 2001; S. Gustavson, Simplex noise demystified, 2005) in about
-// -1…1. `size` is the edge of the skewed lattice's cells before skewing, in blocks. A corner at the offset o,
-// in cells, with the gradient g adds max(0, ½ − |o|²)⁴ · (o · g); ½ is where the next simplex begins, so that
-// there is no step. Gradients: in 2D 16 of length √2, in 3D the 12 edges of a cube, as for Perlin noise.
+// Simplex noise in 3D (K. Perlin, Noise Hardware, 2001; S. Gustavson, Simplex noise demystified, 2005) in
+// about -1…1. `size` is the edge of the skewed lattice's cells before skewing, in blocks. A corner at the
+// offset o, in cells, with the gradient g adds max(0, ½ − |o|²)⁴ · (o · g); ½ is where the next simplex
+// begins, so that there is no step. Gradients: the 12 edges of a cube, as for Perlin noise. Noise in 2D has a
+// kernel: noise.h.
 //
-// The lattice is skewed by F = 15/41 in 2D, which differs from (√3 − 1)/2 by 0.05 %, and by 1/3 in 3D. With
-// rational factors it repeats exactly after 41 or 3 cells, so that positions count from there: it is as exact
-// at 2^31 as at 0.
-Float simplex2D(Int x, Int y, std::int32_t size, const LatticeHash& hash);
+// The lattice is skewed by 1/3, so that it repeats exactly after 3 cells and positions count from there: it
+// is as exact at 2^31 as at 0.
 Float simplex3D(Int x, Int y, Int z, std::int32_t size, const LatticeHash& hash);
 
 }  // namespace terrane::gen

@@ -6,24 +6,14 @@
 #define TERRANE_GEN_NOISE_KERNELS_INL_H
 #endif
 
+#include "terrane/gen/hash_rows-inl.h"
+#include "terrane/gen/simplex_kernels-inl.h"
+#include "terrane/gen/stripe_kernels-inl.h"
 #include "terrane/gen/voronoi_kernels-inl.h"
-#include "terrane/shared/hash.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace terrane::gen {
 namespace HWY_NAMESPACE {
-
-HWY_INLINE VU mixBits(VU h) {
-    h = hn::Xor(h, hn::ShiftRight<16>(h));
-    h = hn::Mul(h, hn::Set(du, 0x7FEB352Du));
-    h = hn::Xor(h, hn::ShiftRight<15>(h));
-    h = hn::Mul(h, hn::Set(du, 0x846CA68Bu));
-    return hn::Xor(h, hn::ShiftRight<16>(h));
-}
-
-HWY_INLINE VU mixHalf(VU h) {
-    return hn::Mul(hn::Xor(h, hn::ShiftRight<15>(h)), hn::Set(du, 0x846CA68Bu));
-}
 
 // shared::hash2 or hash3 of the arguments.
 void hash(const Instruction& i, TileContext& c, const RowList& rows) {
@@ -87,6 +77,10 @@ void noise(const Instruction& i, TileContext& c, const RowList& rows) {
             return voronoi2D(i, c, rows);
         case NoiseKind::Voronoi3D:
             return voronoi3D(i, c, rows);
+        case NoiseKind::Simplex2D:
+            return simplex2D(i, c, rows);
+        case NoiseKind::Stripes2D:
+            return stripes2D(i, c, rows);
     }
 }
 

@@ -51,6 +51,7 @@ constexpr OpRecord kRecords[] = {
     {Op::FieldAt, "field at", 2, {I, I}, F, nullptr, ""},
     {Op::BlockInColumn, "block in column", 1, {I}, I, nullptr, "blockInColumn({0})"},
     {Op::BlockAt, "block at", 3, {I, I, I}, I, nullptr, "blockAt({0}, {1}, {2})"},
+    {Op::Stripes, "stripes", 2, {F, F}, F, nullptr, ""},
     {Op::Component, "component", 1, {F}, F, nullptr, ""},
     {Op::Hash2, "hash 2D", 2, {I, I}, I, nullptr, ""},
     {Op::Hash3, "hash 3D", 3, {I, I, I}, I, nullptr, ""},

@@ -63,7 +63,8 @@ enum class Op : std::uint8_t {
     // Blocks of the newest 3D pass before this one; z is absolute and clamped into the world
     BlockInColumn,  // (z), in this column
     BlockAt,        // (dx, dy, z)
-    Component,      // (noise), imm: number of the result
+    Stripes,        // (x, y of the direction across the stripes), imm: noise call; results as of Noise
+    Component,      // (noise or stripes), imm: number of the result
     // 32 bits that depend on position and seed, imm: packHashSeed
     Hash2,  // (x, y)
     Hash3,  // (x, y, z)
@@ -128,5 +129,10 @@ struct OpRecord {
 };
 
 const OpRecord& record(Op op);
+
+// Whether the operation's imm is a noise call, and its results are taken with Component.
+constexpr bool makesNoise(Op op) {
+    return op == Op::Noise || op == Op::Stripes;
+}
 
 }  // namespace terrane::gen

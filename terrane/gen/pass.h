@@ -32,6 +32,11 @@ struct Voronoi3D {
     IVec3 offset;    // blocks, to the nearest point
 };
 
+// A wave's phase as a point of the unit disc; nearer to its middle where waves meet.
+struct Stripes2D {
+    Float cosine, sine;
+};
+
 class Pass {
   public:
     Int x();  // block coordinates; beyond level 0 those of the block behind the middle of the column
@@ -67,6 +72,9 @@ class Pass {
     // Without the directions along the axes that Perlin noise shows.
     Float simplex2D(std::string_view name, int size, std::vector<float> weights);
     Float simplex3D(std::string_view name, int size, std::vector<float> weights);
+    // Waves of about `size` blocks that run across: their phase grows along `direction`, of length 1. 0 where
+    // `size` is less than a column.
+    Stripes2D stripes2D(std::string_view name, int size, Vec2 direction);
     Voronoi2D voronoi2D(std::string_view name, int size, int maxPoints);
     // The metric's exponent: 2…8.
     Voronoi3D voronoi3D(std::string_view name, int size, int maxPoints, int exponent = 2);
@@ -126,7 +134,7 @@ class Pass {
     Value leaf(Op op, Type type, std::uint32_t imm, std::uint8_t dependence);
     Value noise(const NoiseCall& call, std::uint32_t result, Type type);
     NoiseCall checkedNoise(std::string_view kind, NoiseCall call);
-    Float perlin(const NoiseCall& call);
+    Float sumOfOctaves(const NoiseCall& call);
     // A hash of two or three coordinates; `seedName`: see randomSeedName and noiseSeedName.
     Int hash(const std::string& seedName, std::uint32_t octave, std::span<const Int> position);
     std::function<Int(std::span<const Int>)> latticeHash(const NoiseCall& call, std::size_t octave);

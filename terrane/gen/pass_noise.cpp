@@ -38,19 +38,19 @@ Value Pass::noise(const NoiseCall& call, std::uint32_t result, Type type) {
     return applyOp(Op::Component, type, {leaf(Op::Noise, Type::Float, index, dependence)}, result);
 }
 
-Float Pass::perlin(const NoiseCall& call) {
+Float Pass::sumOfOctaves(const NoiseCall& call) {
     return hasOctaves(call) ? Float(noise(call, 0, Type::Float)) : Float(0.0f);
 }
 
 Float Pass::perlin2D(std::string_view name, int size, std::vector<float> weights) {
     const auto call = octaveNoise(NoiseKind::Perlin2D, name, size, std::move(weights));
-    return perlin(checkedNoise("Perlin 2D", call));
+    return sumOfOctaves(checkedNoise("Perlin 2D", call));
 }
 
 Float Pass::perlin3D(std::string_view name, int size, std::vector<float> weights) {
     if (!require3D("perlin3D")) return 0.0f;
     const auto call = octaveNoise(NoiseKind::Perlin3D, name, size, std::move(weights));
-    return perlin(checkedNoise("Perlin 3D", call));
+    return sumOfOctaves(checkedNoise("Perlin 3D", call));
 }
 
 Int Pass::hash(const std::string& seedName, std::uint32_t octave, std::span<const Int> position) {
@@ -92,13 +92,22 @@ Vec3 Pass::perlin3DGradient(std::string_view name, int size, std::vector<float> 
 }
 
 Float Pass::simplex2D(std::string_view name, int size, std::vector<float> weights) {
-    const auto call =
-        checkedNoise("simplex 2D", octaveNoise(NoiseKind::Perlin2D, name, size, std::move(weights)));
-    Float sum = 0.0f;
-    forEachOctave(call, [&](std::size_t octave, int cellSize, float weight) {
-        sum = sum + gen::simplex2D(x(), y(), cellSize, latticeHash(call, octave)) * weight;
-    });
-    return sum;
+    const auto call = octaveNoise(NoiseKind::Simplex2D, name, size, std::move(weights));
+    return sumOfOctaves(checkedNoise("simplex 2D", call));
+}
+
+Stripes2D Pass::stripes2D(std::string_view name, int size, Vec2 direction) {
+    const NoiseCall call = checkedNoise("stripes 2D", {NoiseKind::Stripes2D, std::string(name), size, {}});
+    if (call.size < step()) return {0.0f, 0.0f};
+    const NodeId across[] = {direction.x.nodeIn(graph_.graph, Type::Float),
+                             direction.y.nodeIn(graph_.graph, Type::Float)};
+    const std::uint32_t index = generator_.noiseIndex(call);
+    const Value stripes{&graph_.graph,
+                        graph_.graph.add(Op::Stripes, Type::Float, across, index, kDependsColumn)};
+    const auto result = [&](StripeResult r) {
+        return Float(applyOp(Op::Component, Type::Float, {stripes}, r));
+    };
+    return {result(kStripeCos), result(kStripeSin)};
 }
 
 Float Pass::simplex3D(std::string_view name, int size, std::vector<float> weights) {

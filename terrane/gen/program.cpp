@@ -197,7 +197,7 @@ class Compiler {
         instruction.imm = n.imm;
         readArguments(id, instruction);
         std::uint32_t results = 1;
-        if (n.op == Op::Noise) {
+        if (makesNoise(n.op)) {
             results = resultCount(noises_[n.imm].kind);
             if (std::find(program_.noises.begin(), program_.noises.end(), n.imm) == program_.noises.end()) {
                 program_.noises.push_back(n.imm);

@@ -42,7 +42,8 @@ std::string shaderName(std::size_t pass) {
 }
 
 std::string shaderText(const gen::GeneratorGraph& generator, std::size_t pass) {
-    return "#include \"terrane/gen_gpu/tile.glsl\"\n#include \"terrane/gen_gpu/voronoi.glsl\"\n\n" +
+    return "#include \"terrane/gen_gpu/tile.glsl\"\n#include \"terrane/gen_gpu/voronoi.glsl\"\n"
+           "#include \"terrane/gen_gpu/simplex.glsl\"\n#include \"terrane/gen_gpu/stripes.glsl\"\n\n" +
            gen::emitGlsl(generator, pass);
 }
 

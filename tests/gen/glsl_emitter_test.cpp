@@ -25,7 +25,7 @@ class ScopeCheck {
     void line(const std::string& text) {
         if (text.find('}') != std::string::npos) close();
         static const std::regex kName("\\b(v|next)[0-9]+\\b"),
-            kDeclaration("(bool|int|float|Voronoi3?) ((v|next)[0-9]+)\\b");
+            kDeclaration("(bool|int|float|vec2|Voronoi3?) ((v|next)[0-9]+)\\b");
         std::smatch declared;
         const bool declares = std::regex_search(text, declared, kDeclaration);
         const std::string own = declares ? declared[2].str() : "";

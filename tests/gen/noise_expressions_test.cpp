@@ -71,14 +71,13 @@ double simplexReference(const Position& block, std::size_t dimensions, std::int6
     return noise * (dimensions == 2 ? 70.3 : 76.8);
 }
 
+// In 2D the reference of the kernels: random graphs compare the kernels with it to the bit.
 float simplexAt(const Position& block, std::size_t dimensions, std::int32_t size, std::uint32_t seed) {
     const auto coordinate = [&](std::size_t k) { return Int(static_cast<std::int32_t>(block[k])); };
     const LatticeHash hash = [seed](std::span<const Int> node) {
-        const Bits x = node[0].bits, y = node[1].bits;
-        return Int(
-            asInt(node.size() == 2 ? shared::hash2(x, y, seed) : shared::hash3(x, y, node[2].bits, seed)));
+        return Int(asInt(shared::hash3(node[0].bits, node[1].bits, node[2].bits, seed)));
     };
-    if (dimensions == 2) return asFloat(simplex2D(coordinate(0), coordinate(1), size, hash).bits);
+    if (dimensions == 2) return reference::simplexOctave(size, seed, block[0], block[1]);
     return asFloat(simplex3D(coordinate(0), coordinate(1), coordinate(2), size, hash).bits);
 }
 

@@ -117,6 +117,65 @@ inline float perlin3D(const NoiseCall& call, std::uint32_t seed, std::array<std:
                         [&](std::int64_t size, std::uint32_t s) { return octave3D(size, s, block); });
 }
 
+// Order of operations: simplex_tile.h.
+inline float simplexOctave(std::int64_t size, std::uint32_t seed, std::int64_t xBlock, std::int64_t yBlock) {
+    const std::int64_t period = 41 * size;
+    const std::int64_t periodX = floorDivide(xBlock, period), periodY = floorDivide(yBlock, period);
+    const float inverseSize = 1.0f / static_cast<float>(size);
+    const float fx = static_cast<float>(xBlock - periodX * period) * inverseSize;
+    const float fy = static_cast<float>(yBlock - periodY * period) * inverseSize;
+    const float skew = (fx + fy) * (15.0f / 41.0f), unskewed = 15.0f / 71.0f;
+    const float i = std::floor(fx + skew), j = std::floor(fy + skew);
+    const float unskew = (i + j) * unskewed;
+    const float x0 = fx - (i - unskew), y0 = fy - (j - unskew);
+    const std::int64_t shift = (periodX + periodY) * 15;
+    const auto corner = [&](int di, int dj, float back) {
+        const float x = x0 - static_cast<float>(di) + back, y = y0 - static_cast<float>(dj) + back;
+        const float t = std::max(0.5f - (x * x + y * y), 0.0f);
+        const auto g = gradient2(periodX * 41 + shift + static_cast<std::int64_t>(i) + di,
+                                 periodY * 41 + shift + static_cast<std::int64_t>(j) + dj, seed);
+        return ((t * t) * (t * t)) * (g[0] * x + g[1] * y);
+    };
+    const int right = x0 > y0 ? 1 : 0;
+    return 70.3f *
+           ((corner(0, 0, 0.0f) + corner(right, 1 - right, unskewed)) + corner(1, 1, 2.0f * unskewed));
+}
+
+inline float simplex2D(const NoiseCall& call, std::uint32_t seed, std::int64_t x, std::int64_t y) {
+    return sumOfOctaves(call, seed,
+                        [&](std::int64_t size, std::uint32_t s) { return simplexOctave(size, s, x, y); });
+}
+
+// Cosine and sine. Order of operations: stripe_tile.h.
+inline std::array<float, 2> stripes2D(const NoiseCall& call, std::uint32_t seed,
+                                      std::array<std::int64_t, 2> block, std::array<float, 2> direction) {
+    const std::int64_t size = call.size;
+    const auto wave = [](float turns) {
+        const float q = turns - std::floor(turns + 0.5f);
+        return q * (8.0f - 16.0f * std::abs(q));
+    };
+    const std::int64_t cellX = floorDivide(block[0], size), cellY = floorDivide(block[1], size);
+    float weights = 0, cosine = 0, sine = 0;
+    for (std::int64_t y = cellY - 1; y <= cellY + 1; ++y) {
+        for (std::int64_t x = cellX - 1; x <= cellX + 1; ++x) {
+            const std::uint32_t h = shared::hash2(hashed(x), hashed(y), seed);
+            const auto offset = [&](std::int64_t cell, std::int64_t at, std::uint32_t bits) {
+                return static_cast<float>(cell * size - at) * (1.0f / static_cast<float>(size)) +
+                       (0.25f + static_cast<float>(bits & 1023) * (0.5f / 1024.0f));
+            };
+            const float ox = offset(x, block[0], h), oy = offset(y, block[1], h >> 10);
+            const float t = std::max(1.0f - (ox * ox + oy * oy) * (1.0f / 1.55f), 0.0f), weight = t * t;
+            if (weight == 0.0f) continue;
+            const float turns =
+                static_cast<float>(h >> 20) * (1.0f / 4096.0f) - (ox * direction[0] + oy * direction[1]);
+            weights += weight;
+            cosine += weight * wave(turns + 0.25f);
+            sine += weight * wave(turns);
+        }
+    }
+    return {detDivide(cosine, weights), detDivide(sine, weights)};
+}
+
 struct VoronoiSample {
     float distance = 0, ratio = 0;
     std::int32_t offsetX = 0, offsetY = 0;

@@ -16,6 +16,7 @@ class NoiseTile {
         context_.perlin3D.resize(1);
         context_.voronoi2D.resize(1);
         context_.voronoi3D.resize(1);
+        context_.simplex2D.resize(1);
         context_.noiseKinds = {call.kind};
         context_.arena = arena_.data();
         list_.push_back({Op::Noise, {0, 1}, {}, 0});
@@ -28,6 +29,7 @@ class NoiseTile {
         if (call_.kind == NoiseKind::Perlin3D) prepare(context_.perlin3D[0], call_, seed_, grid);
         if (call_.kind == NoiseKind::Voronoi2D) prepare(context_.voronoi2D[0], call_, seed_, grid);
         if (call_.kind == NoiseKind::Voronoi3D) prepare(context_.voronoi3D[0], call_, seed_, grid);
+        if (call_.kind == NoiseKind::Simplex2D) prepare(context_.simplex2D[0], call_, seed_, grid);
     }
 
     // Samples the columns (2D) or the layer z (3D).

@@ -134,7 +134,7 @@ class Rows {
                 continue;
             }
             for (std::size_t k = 0; k < record(i.op).argCount; ++k) addRead(i.args[k]);
-            addWritten(i.dst, i.op == Op::Noise ? resultCount(noises_[i.imm].kind) : 1);
+            addWritten(i.dst, makesNoise(i.op) ? resultCount(noises_[i.imm].kind) : 1);
         }
     }
 

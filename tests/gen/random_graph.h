@@ -63,7 +63,9 @@ class RandomGraph {
         g.noises = {{NoiseKind::Perlin2D, "a", 5, {1.0f, 0.0f, -0.5f}, 1},
                     {NoiseKind::Perlin3D, "b", 3, {0.75f, 0.25f}, 1},
                     {NoiseKind::Voronoi2D, "c", 7, {}, 3},
-                    {NoiseKind::Voronoi3D, "d", 9, {}, 2, 3}};
+                    {NoiseKind::Voronoi3D, "d", 9, {}, 2, 3},
+                    {NoiseKind::Simplex2D, "e", 6, {0.5f, 1.0f}},
+                    {NoiseKind::Stripes2D, "f", 11, {}}};
         g.hashNames = {"p", "q"};
         if (pass_.is3D) {
             pass_.block = mixed();
@@ -137,7 +139,13 @@ class RandomGraph {
     }
 
     void addRead() {
-        const std::uint32_t choice = below(pass_.is3D ? 10 : 6);
+        const std::uint32_t choice = below(pass_.is3D ? 12 : 8);
+        if (choice == 0) return addStripes();
+        if (choice == 1) return addNoise(4, kDependsColumn, 0, Type::Float);
+        return addReadOf(choice - 2);
+    }
+
+    void addReadOf(std::uint32_t choice) {
         if (choice == 0) return addNoise(0, kDependsColumn, 0, Type::Float);
         if (choice == 1) {
             const std::uint32_t component = below(4);
@@ -169,6 +177,12 @@ class RandomGraph {
     void addNoise(std::uint32_t call, std::uint8_t dependence, std::uint32_t component, Type type) {
         const NodeId noise = pass_.graph.add(Op::Noise, Type::Float, {}, call, dependence);
         add(Op::Component, type, {noise}, component);
+    }
+
+    void addStripes() {
+        const NodeId across[] = {pick(Type::Float), pick(Type::Float)};
+        const NodeId stripes = pass_.graph.add(Op::Stripes, Type::Float, across, 5, kDependsColumn);
+        add(Op::Component, Type::Float, {stripes}, below(2));
     }
 
     void addFieldAt() {

@@ -33,11 +33,20 @@ class SlowEvaluator {
     Bits compute(const Node& n) {
         if (n.op == Op::Phi) return value(asBool(value(n.args[0])) ? n.args[1] : n.args[2]);
         if (n.op == Op::LoopOut) return loopOut(n.imm);
-        if (n.op == Op::Component) return noise(graph_.node(n.args[0]).imm, n.imm);
+        if (n.op == Op::Component) return component(graph_.node(n.args[0]), n.imm);
         std::vector<Bits> args;
         for (const NodeId arg : n.arguments()) args.push_back(value(arg));
         const auto evaluate = record(n.op).evaluate;
         return evaluate ? evaluate(args) : atPlace(n, args);
+    }
+
+    Bits component(const Node& source, std::uint32_t number) {
+        if (source.op == Op::Noise) return noise(source.imm, number);
+        const std::array<float, 2> direction = {asFloat(value(source.args[0])),
+                                                asFloat(value(source.args[1]))};
+        const auto stripes = reference::stripes2D(
+            runner_.graph.noises[source.imm], PassRunner::noiseSeed(source.imm), {at_.x, at_.y}, direction);
+        return bitsOf(stripes[number]);
     }
 
     Bits atPlace(const Node& n, const std::vector<Bits>& args) const {
@@ -133,6 +142,7 @@ class SlowEvaluator {
         const NoiseCall& call = runner_.graph.noises[number];
         const std::uint32_t seed = PassRunner::noiseSeed(number);
         if (call.kind == NoiseKind::Perlin2D) return bitsOf(reference::perlin2D(call, seed, at_.x, at_.y));
+        if (call.kind == NoiseKind::Simplex2D) return bitsOf(reference::simplex2D(call, seed, at_.x, at_.y));
         if (call.kind == NoiseKind::Perlin3D) {
             return bitsOf(reference::perlin3D(call, seed, {at_.x, at_.y, at_.z}));
         }

@@ -88,7 +88,8 @@ void writeEverything(gen::GeneratorBuilder& g) {
         const Vec2 gradient = p.perlin2DGradient("hills", 13, {1.0f, 0.0f, 2.0f});
         const Float hills = p.perlin2D("hills", 13, {1.0f, 0.0f, 2.0f}),
                     turn = p.simplex2D("turn", 11, {1.0f, 3.0f});
-        p.set(slope, length(gradient) + hills);
+        const Stripes2D stripes = p.stripes2D("stripes", 21, {hills, turn});
+        p.set(slope, length(gradient) + hills + stripes.cosine - stripes.sine);
         p.set(wave, sin(turn * 40.0f) + cos(Float(p.x() & 1023)) * pow(abs(hills), 0.85f) + log2(abs(turn)));
         Var<Int> n = p.var((p.x() & 255) + 1), count = p.var(Int(0));
         p.while_([&] { return n != Int(1); },
