@@ -10,12 +10,14 @@ Eroded erode(Pass& p, std::string_view name, Vec2 slope, Float strength, const E
     constexpr float kMinSlope = 1e-4f;  // below it no direction is downhill
     constexpr float kRidgeOctaves = 2;  // those that are seen from afar
     Eroded result = {0.0f, 0.0f};
+    Float most = 1.0f;
     float depth = erosion.depth * static_cast<float>(erosion.size), ridgeShare = 0.65f;
     for (int octave = 0; octave < erosion.octaves; ++octave) {
         const int size = erosion.size >> octave;
         const Float steepness = length(slope);
-        const Float full = min(steepness * (1.0f / erosion.fullSlope), Float(1.0f));
-        const Float whole = full * (2.0f - full) * strength * depth;  // blocks from ridge to gully
+        // Gullies do not grow on the sides of others alone: where the ground was flat it stays flat.
+        most = min(steepness * (1.0f / erosion.fullSlope), most);
+        const Float whole = most * (2.0f - most) * strength * depth;  // blocks from ridge to gully
         result.height = result.height - whole * 0.5f;
         const float left = shareLeft(size, p.step());
         if (left > 0.0f) {

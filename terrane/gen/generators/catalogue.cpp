@@ -12,6 +12,7 @@ struct Entry {
 };
 
 constexpr Entry kGenerators[] = {{"overworld", 2, writeOverworld},
+                                 {"continents", 1, writeContinents},
                                  {"flat", 1, writeFlat},
                                  {"hills3d", 1, writeHills3D},
                                  {"voronoi", 1, writeVoronoi}};

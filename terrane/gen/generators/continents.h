@@ -1,0 +1,92 @@
+// The parts of continents: its passes and what they hand on. The generator itself is in continents.cpp.
+#pragma once
+
+#include "terrane/gen/builder.h"
+#include "terrane/gen/generators/sea_level.h"
+
+namespace terrane::gen::continents {
+
+constexpr float kSea = kSeaLevel;
+
+// Blocks from one warm belt to the next, along y.
+constexpr int kClimatePeriod = 32768;
+
+// In the order of their numbers in Fields::biome.
+enum class Biome {
+    Ocean,
+    Reef,
+    Beach,
+    Meadow,
+    OakForest,
+    BirchForest,
+    OldForest,
+    Taiga,
+    Tundra,
+    Snow,
+    Savanna,
+    Desert,
+    CanyonLand,
+    Swamp,
+    Alpine,
+    RainForest,
+    Count
+};
+const char* biomeName(Biome biome);
+inline Int number(Biome biome) {
+    return Int(static_cast<int>(biome));
+}
+
+// What the passes hand on, by column.
+struct Fields {
+    explicit Fields(GeneratorBuilder& g)
+        : land(g.field<Float>("land")),
+          temperature(g.field<Float>("temperature")),
+          moisture(g.field<Float>("moisture")),
+          mountains(g.field<Float>("mountains")),
+          base(g.field<Float>("base")),
+          height(g.field<Float>("height")),
+          ridge(g.field<Float>("ridge")),
+          rocky(g.field<Float>("rocky")),
+          water(g.field<Int>("water")),
+          surface(g.field<Int>("surface")),
+          biome(g.field<Int>("biome")),
+          top(g.field<Block>("top")),
+          soil(g.field<Block>("soil")),
+          rock(g.field<Block>("rock")) {}
+
+    Field<Float> land;         // above 0: land, rises inland; 1 is about 4 km from the coast
+    Field<Float> temperature;  // -1…1, at sea level
+    Field<Float> moisture;     // -1…1
+    Field<Float> mountains;    // 0…1: part of a range
+    Field<Float> base;         // z of the ground before erosion and rivers
+    Field<Float> height;       // z of the ground
+    Field<Float> ridge;        // -1…1: in a gully … on a ridge
+    Field<Float> rocky;        // 0…1: cliffs of canyon lands, volcanoes, karst: bare whatever their slope
+    Field<Int> water;          // z of the highest water, where the ground is lower
+    Field<Int> surface;        // z of the highest ground block
+    Field<Int> biome;
+    Field<Block> top, soil, rock;  // the highest block, the few below it, and all below these
+};
+
+// The forms of the land where they begin, from the position alone.
+struct Shape {
+    Float land, temperature, moisture, mountains;
+    Float base;
+};
+Shape shape(Pass& p);
+// The part of it that rivers follow: land, ranges and wide hills.
+Float coarseHeight(Pass& p);
+
+// 0…1: how much of the climate's forms there is.
+Float canyonLand(Float temperature, Float moisture);
+Float desert(Float temperature, Float moisture);
+Float karst(Float temperature, Float moisture);
+
+// 2D, in this order.
+void shapePass(Pass& p, const Fields& f);
+void reliefPass(Pass& p, const Fields& f);
+void surfacePass(Pass& p, const Fields& f);
+// 3D
+void groundPass(Pass& p, const Fields& f);
+
+}  // namespace terrane::gen::continents

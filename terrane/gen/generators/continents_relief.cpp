@@ -1,0 +1,88 @@
+// The ground of continents: gullies, terraces, dunes, karst towers, on the forms of continents_shape.cpp.
+#include "terrane/gen/erosion.h"
+#include "terrane/gen/generators/continents.h"
+
+namespace terrane::gen::continents {
+namespace {
+
+// A smooth staircase: flat steps of `rise` blocks with steep risers.
+Float terraces(Float height, float rise, float steepness) {
+    const Float steps = height * (1.0f / rise);
+    const Float whole = floor(steps), part = steps - whole;
+    return (whole + smoothstep(0.5f - 0.5f / steepness, 0.5f + 0.5f / steepness, part)) * rise;
+}
+
+// Blocks above the plain: table mountains with steep sides, and canyons between them.
+Float tables(Pass& p) {
+    const Float tables = p.simplex2D("tables", 32, {.04f, .10f, .25f, .6f, 1.0f});
+    const Float canyons = abs(p.simplex2D("canyons", 64, {.06f, .15f, .45f, 1.0f}));
+    const Float high = smoothstep(-0.35f, 0.75f, tables) * 78.0f;
+    return terraces(high, 15.0f, 4.5f) * smoothstep(0.02f, 0.2f, canyons) + 4.0f;
+}
+
+// Crests across the wind, which comes from the west; steep in the lee.
+Float dunes(Pass& p) {
+    constexpr int kSize = 80;
+    const float left = shareLeft(kSize, p.step());
+    const Float bend = p.simplex2D("wind", 256, {.5f, 1.0f}) * 0.35f;
+    const Stripes2D wave = p.stripes2D("dunes", kSize, {1.0f - bend * bend * 0.5f, bend});
+    const Float crest = wave.cosine * 0.5f + 0.5f;
+    const Float lee = max(wave.sine, Float(0.0f)) * crest * 0.5f;
+    const Float large = smoothstep(-0.3f, 0.6f, p.simplex2D("dune sizes", 256, {.5f, 1.0f}));
+    return lerp(Float(0.4f), crest * crest - lee + 0.1f, left) * (large * 15.0f + 3.0f);
+}
+
+// Towers with steep sides and round tops.
+Float towers(Pass& p) {
+    constexpr int kSize = 72;
+    const float left = shareLeft(kSize, p.step());
+    const Voronoi2D cell = p.voronoi2D("towers", kSize, 1);
+    const Float radius = p.simplex2D("tower sizes", 128, {.5f, 1.0f}) * 9.0f + 23.0f;
+    const Float near = clamp(1.0f - cell.distance / radius, 0.0f, 1.0f);
+    const Float tower = smoothstep(0.0f, 0.35f, near) * 0.7f + near * 0.3f;
+    return lerp(Float(0.2f), tower, left) * (radius * 2.1f);
+}
+
+struct Relief {
+    Float height, ridge, rocky;
+};
+
+Relief relief(Pass& p, const Fields& f) {
+    const Float temperature = p.read(f.temperature), moisture = p.read(f.moisture), land = p.read(f.land);
+    const Float mountains = p.read(f.mountains), base = p.read(f.base);
+    const Float inland = smoothstep(0.015f, 0.09f, land), flat = 1.0f - smoothstep(0.05f, 0.3f, mountains);
+    const Eroded eroded = erode(p, "gullies", p.slope(f.base), inland * smoothstep(kSea + 1.0f, kSea + 24.0f, base) * (mountains * 0.65f + 0.35f),
+                                {.size = 128, .octaves = 5, .depth = 0.22f, .fullSlope = 0.4f});
+    Var<Float> height = p.var(base + eroded.height + smoothstep(0.0f, 0.4f, mountains) * 13.0f);
+    Var<Float> rocky = p.var(Float(0.0f));
+    const Float canyon = canyonLand(temperature, moisture) * inland * flat;
+    p.if_(canyon > 0.0f, [&] {
+        height = height + tables(p) * canyon;
+        rocky = canyon;
+    });
+    const Float sand = desert(temperature, moisture) * inland * flat;
+    p.if_(sand > 0.0f, [&] { height = height + dunes(p) * sand; });
+    const Float limestone = karst(temperature, moisture) * inland * flat *
+                            smoothstep(0.05f, 0.3f, p.simplex2D("karst", 256, {.4f, 1.0f}));
+    p.if_(limestone > 0.0f, [&] {
+        const Float tower = towers(p) * limestone;
+        height = height + tower;
+        rocky = max(rocky, smoothstep(3.0f, 10.0f, tower));
+    });
+    const Float bumps = p.perlin2D("bumps", 8, {.25f, .5f, 1.0f, 1.4f});
+    return {height + bumps * (inland * 0.8f + 0.25f), eroded.ridge, rocky};
+}
+
+}  // namespace
+
+void reliefPass(Pass& p, const Fields& f) {
+    const Relief r = relief(p, f);
+    const Float height = clamp(r.height, 6.0f, 236.0f);
+    p.set(f.height, height);
+    p.set(f.ridge, r.ridge);
+    p.set(f.rocky, r.rocky);
+    p.set(f.water, Int(kSeaLevel));
+    p.set(f.surface, Int(floor(height)));
+}
+
+}  // namespace terrane::gen::continents
