@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "terrane/gen/drainage_maps.h"
 #include "terrane/gen/perlin_tile.h"
 #include "terrane/gen/program.h"
 #include "terrane/gen/voronoi_tile.h"
@@ -28,6 +29,7 @@ struct TileContext {
     std::vector<Perlin3DTile> perlin3D;
     std::vector<Voronoi2DTile> voronoi2D;
     std::vector<Voronoi3DTile> voronoi3D;
+    std::vector<DrainageTile> drainage;
     std::vector<const Bits*> fields;         // by field: kTileLanes values
     std::vector<std::vector<Bits>> windows;  // by field: kWindowSize² values where read with an offset
     std::vector<NoiseKind> noiseKinds;

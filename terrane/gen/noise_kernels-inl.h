@@ -6,6 +6,7 @@
 #define TERRANE_GEN_NOISE_KERNELS_INL_H
 #endif
 
+#include "terrane/gen/drainage_kernels-inl.h"
 #include "terrane/gen/voronoi_kernels-inl.h"
 #include "terrane/shared/hash.h"
 
@@ -87,6 +88,8 @@ void noise(const Instruction& i, TileContext& c, const RowList& rows) {
             return voronoi2D(i, c, rows);
         case NoiseKind::Voronoi3D:
             return voronoi3D(i, c, rows);
+        case NoiseKind::Drainage:
+            return drainage(i, c, rows);
     }
 }
 
