@@ -112,13 +112,15 @@ std::uint32_t GeneratorBuilder::hashSlot(const std::string& seedName) {
 
 // Compiles only what has no other mistakes: a graph that has some may not make sense.
 void GeneratorBuilder::checkRegisters() {
-    for (const PassGraph& pass : generator_.passes) {
-        const std::uint32_t rows = compile(pass, generator_.noises).arenaRows;
-        if (rows <= kMaxArenaRows) continue;
+    const auto check = [this](const PassGraph& pass, const std::vector<NoiseCall>& noises) {
+        const std::uint32_t rows = compile(pass, noises).arenaRows;
+        if (rows <= kMaxArenaRows) return;
         errors_.push_back(fmt::format(
             "pass \"{}\": its values need {} rows of registers, {} are possible: divide it into several",
             pass.name, rows, kMaxArenaRows));
-    }
+    };
+    for (const PassGraph& pass : generator_.passes) check(pass, generator_.noises);
+    for (const DrainageGraph& map : generator_.drainages) check(map.heights, map.noises);
 }
 
 base::Result<GeneratorGraph> GeneratorBuilder::finish() {

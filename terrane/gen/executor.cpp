@@ -7,8 +7,8 @@
 
 namespace terrane::gen {
 
-Executor::Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds)
-    : noises_(noises), seeds_(seeds) {
+Executor::Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds, DrainageMaps* drainages)
+    : noises_(noises), seeds_(seeds), drainages_(drainages) {
     context_.hashSeeds = seeds.hashes;
     context_.perlin2D.resize(noises.size());
     context_.perlin3D.resize(noises.size());
@@ -16,6 +16,7 @@ Executor::Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds)
     context_.voronoi3D.resize(noises.size());
     context_.simplex2D.resize(noises.size());
     context_.stripes2D.resize(noises.size());
+    context_.drainage.resize(noises.size());
     for (const NoiseCall& call : noises) context_.noiseKinds.push_back(call.kind);
 }
 
@@ -123,6 +124,10 @@ void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
                 break;
             case NoiseKind::Stripes2D:
                 prepare(context_.stripes2D[n], call, seed, grid);
+                break;
+            case NoiseKind::Drainage:
+                assert(drainages_ && "a program that reads maps is run with them");
+                drainages_->prepare(context_.drainage[n], static_cast<std::uint32_t>(call.size), grid);
                 break;
         }
     }

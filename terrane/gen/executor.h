@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "terrane/gen/drainage_maps.h"
 #include "terrane/gen/kernels.h"
 #include "terrane/gen/layer_ranges.h"
 #include "terrane/gen/seeds.h"
@@ -30,7 +31,8 @@ struct PassInputs {
 
 class Executor {
   public:
-    Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds);
+    // `drainages`: for programs that read drainage maps. Refers to its arguments.
+    Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds, DrainageMaps* drainages = nullptr);
 
     // Results of a 2D pass, in the order of program.fields.
     void run2D(const Program& program, const PassInputs& inputs, std::span<ColumnValues* const> results);
@@ -53,6 +55,7 @@ class Executor {
 
     const std::vector<NoiseCall>& noises_;
     const Seeds& seeds_;
+    DrainageMaps* drainages_;
     std::vector<AlignedRow> arena_;
     TileContext context_;
     LayerRanges layerRanges_;

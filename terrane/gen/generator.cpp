@@ -15,8 +15,8 @@ namespace terrane::gen {
 struct Generator::Impl {
     // A thread's own: the scratch memory of passes, and the results that no neighbor needs.
     struct Worker {
-        Worker(const GeneratorGraph& graph, const Seeds& seeds)
-            : executor(graph.noises, seeds), fields(graph.fields.size()) {
+        Worker(const GeneratorGraph& graph, const Seeds& seeds, DrainageMaps& drainages)
+            : executor(graph.noises, seeds, &drainages), fields(graph.fields.size()) {
             for (auto& b : blocks) b = std::make_unique_for_overwrite<BlockArray>();
         }
 
@@ -28,6 +28,7 @@ struct Generator::Impl {
     Impl(GeneratorGraph g, std::uint64_t seed, CacheSize size)
         : graph(std::move(g)),
           seeds(makeSeeds(graph, seed)),
+          drainages(graph.drainages, seed),
           shared(sharedPasses(graph)),
           cache(std::max(size.minChunks, size.bytes / workBytes()), graph.fields.size(),
                 static_cast<std::size_t>(shared)) {
@@ -47,7 +48,7 @@ struct Generator::Impl {
     // Workers are expensive to make: each running call borrows one.
     std::unique_ptr<Worker> borrowWorker() {
         const std::lock_guard lock(workerMutex);
-        if (idleWorkers.empty()) return std::make_unique<Worker>(graph, seeds);
+        if (idleWorkers.empty()) return std::make_unique<Worker>(graph, seeds, drainages);
         auto worker = std::move(idleWorkers.back());
         idleWorkers.pop_back();
         return worker;
@@ -73,6 +74,7 @@ struct Generator::Impl {
 
     GeneratorGraph graph;
     Seeds seeds;
+    DrainageMaps drainages;
     std::vector<Program> programs;
     int shared;  // passes
     PassCache cache;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "terrane/gen/drainage.h"
 #include "terrane/gen/graph.h"
 #include "terrane/gen/noise.h"
 #include "terrane/shared/generation.h"
@@ -43,13 +44,24 @@ struct PassGraph {
 // What a pass writes: values of fields with their conditions, then the block.
 std::vector<NodeId> outputsOf(const PassGraph& pass);
 
+// A drainage map: how heights are computed at its nodes, by a pass with one field that calls noises and
+// hashes of its own.
+struct DrainageGraph {
+    std::string name;
+    DrainageSpec spec;
+    std::vector<NoiseCall> noises;
+    std::vector<std::string> hashNames;
+    PassGraph heights;
+};
+
 struct GeneratorGraph {
     std::string name;
     int level = 0;  // of the chunks it makes
     std::vector<FieldInfo> fields;
     std::vector<NoiseCall> noises;
     std::vector<std::string> hashNames;  // of seed slots
-    std::vector<PassGraph> passes;       // the last one is 3D
+    std::vector<DrainageGraph> drainages;
+    std::vector<PassGraph> passes;  // the last one is 3D
 };
 
 // The newest 3D pass before `pass`, whose blocks it reads; -1 where there is none.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "terrane/gen/drainage_maps.h"
 #include "terrane/gen/perlin_tile.h"
 #include "terrane/gen/program.h"
 #include "terrane/gen/simplex_tile.h"
@@ -32,6 +33,7 @@ struct TileContext {
     std::vector<Voronoi3DTile> voronoi3D;
     std::vector<Simplex2DTile> simplex2D;
     std::vector<Stripes2DTile> stripes2D;
+    std::vector<DrainageTile> drainage;
     std::vector<const Bits*> fields;         // by field: kTileLanes values
     std::vector<std::vector<Bits>> windows;  // by field: kWindowSize² values where read with an offset
     std::vector<NoiseKind> noiseKinds;

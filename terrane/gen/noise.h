@@ -35,12 +35,13 @@
 
 namespace terrane::gen {
 
-enum class NoiseKind : std::uint8_t { Perlin2D, Perlin3D, Voronoi2D, Voronoi3D, Simplex2D, Stripes2D };
+enum class NoiseKind : std::uint8_t { Perlin2D, Perlin3D, Voronoi2D, Voronoi3D, Simplex2D, Stripes2D, Drainage };
 
 struct NoiseCall {
     NoiseKind kind = NoiseKind::Perlin2D;
     std::string name;            // names the seed: stable when code moves
-    std::int32_t size = 1;       // blocks: smallest lattice, 1…65,536; Voronoi: cell, 1…kMaxVoronoiSize
+    // Blocks: smallest lattice, 1…65,536; Voronoi: cell, 1…kMaxVoronoiSize. Of Drainage the number of the map.
+    std::int32_t size = 1;
     std::vector<float> weights;  // Perlin, simplex: of octaves size, 2 size, 4 size, …
     int maxPoints = 1;           // Voronoi: 1…4
     int exponent = 2;            // Voronoi 3D: of the metric, 2…8
@@ -87,6 +88,8 @@ enum Voronoi3DResult : std::uint32_t {
 
 // Results of stripes, each in -1…1: cos and sin of the phase.
 enum StripeResult : std::uint32_t { kStripeCos, kStripeSin, kStripeResultCount };
+// Results of a drainage call, all Float: those of DrainageSample in its order (drainage.h).
+constexpr std::uint32_t kDrainageResultCount = 6;
 
 // Squared distances of candidates, at most (1.81 cells + two tile diagonals)², fit 31 bits.
 constexpr std::int32_t kMaxVoronoiSize = 16384;
@@ -107,6 +110,7 @@ constexpr std::uint32_t octaveSeedStep(std::size_t octave) {
 constexpr std::uint32_t resultCount(NoiseKind kind) {
     if (kind == NoiseKind::Voronoi2D) return kVoronoiResultCount;
     if (kind == NoiseKind::Stripes2D) return kStripeResultCount;
+    if (kind == NoiseKind::Drainage) return kDrainageResultCount;
     return kind == NoiseKind::Voronoi3D ? std::uint32_t{kVoronoi3DResultCount} : 1u;
 }
 

@@ -9,6 +9,7 @@
 #include "terrane/gen/hash_rows-inl.h"
 #include "terrane/gen/simplex_kernels-inl.h"
 #include "terrane/gen/stripe_kernels-inl.h"
+#include "terrane/gen/drainage_kernels-inl.h"
 #include "terrane/gen/voronoi_kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -81,6 +82,8 @@ void noise(const Instruction& i, TileContext& c, const RowList& rows) {
             return simplex2D(i, c, rows);
         case NoiseKind::Stripes2D:
             return stripes2D(i, c, rows);
+        case NoiseKind::Drainage:
+            return drainage(i, c, rows);
     }
 }
 

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "terrane/gen/drainage.h"
 #include "terrane/gen/expr_math.h"
 #include "terrane/gen/expr_vec.h"
 #include "terrane/gen/generator_graph.h"
@@ -78,6 +79,8 @@ class Pass {
     Voronoi2D voronoi2D(std::string_view name, int size, int maxPoints);
     // The metric's exponent: 2…8.
     Voronoi3D voronoi3D(std::string_view name, int size, int maxPoints, int exponent = 2);
+
+    DrainageSample drainage(Drainage map);  // 2D passes; see drainage.h
 
     // In [0, 1), by position.
     Float random2D(std::string_view name, Int x, Int y);

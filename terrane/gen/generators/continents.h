@@ -36,6 +36,8 @@ inline Int number(Biome biome) {
     return Int(static_cast<int>(biome));
 }
 
+Drainage rivers(GeneratorBuilder& g);
+
 // What the passes hand on, by column.
 struct Fields {
     explicit Fields(GeneratorBuilder& g)
@@ -52,7 +54,8 @@ struct Fields {
           biome(g.field<Int>("biome")),
           top(g.field<Block>("top")),
           soil(g.field<Block>("soil")),
-          rock(g.field<Block>("rock")) {}
+          rock(g.field<Block>("rock")),
+          rivers(continents::rivers(g)) {}
 
     Field<Float> land;         // above 0: land, rises inland; 1 is about 4 km from the coast
     Field<Float> temperature;  // -1…1, at sea level
@@ -66,6 +69,7 @@ struct Fields {
     Field<Int> surface;        // z of the highest ground block
     Field<Int> biome;
     Field<Block> top, soil, rock;  // the highest block, the few below it, and all below these
+    Drainage rivers;
 };
 
 // The forms of the land where they begin, from the position alone.
@@ -88,5 +92,16 @@ void reliefPass(Pass& p, const Fields& f);
 void surfacePass(Pass& p, const Fields& f);
 // 3D
 void groundPass(Pass& p, const Fields& f);
+
+// Rivers and lakes: continents_rivers.cpp.
+Drainage rivers(GeneratorBuilder& g);
+struct Watered {
+    Float height;   // of the ground
+    Int water;      // z of the highest water where the ground is lower
+    Float isWater;  // 0…1: river, lake or their bank
+};
+// Cuts valleys, beds and basins into ground of the given height.
+Watered cutRivers(Pass& p, const Fields& f, Float height);
+
 
 }  // namespace terrane::gen::continents

@@ -77,11 +77,12 @@ Relief relief(Pass& p, const Fields& f) {
 
 void reliefPass(Pass& p, const Fields& f) {
     const Relief r = relief(p, f);
-    const Float height = clamp(r.height, 6.0f, 236.0f);
+    const Watered w = cutRivers(p, f, r.height);
+    const Float height = clamp(w.height, 6.0f, 236.0f);
     p.set(f.height, height);
     p.set(f.ridge, r.ridge);
     p.set(f.rocky, r.rocky);
-    p.set(f.water, Int(kSeaLevel));
+    p.set(f.water, w.water);
     p.set(f.surface, Int(floor(height)));
 }
 

@@ -1,0 +1,189 @@
+#include "terrane/gen/drainage_curves.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "terrane/shared/det_math.h"
+#include "terrane/shared/hash.h"
+
+namespace terrane::gen {
+namespace {
+
+constexpr int kCurveSegments = 16;
+constexpr int kMargin = 56;  // cells around a region: kNetworkMargin up to a multiple of what heights come in
+static_assert(kMargin >= kNetworkMargin && kMargin % (kTileSize / kCellSamples) == 0);
+
+constexpr float kBlock = 1.0f / static_cast<float>(kPlaceUnits);
+
+// A number in −1…1 that changes smoothly with the place, from random ones at the nodes of a lattice of
+// `size` units of 1/16 block, a power of two.
+float smoothNoise(std::uint32_t x, std::uint32_t y, std::uint32_t size, std::uint32_t seed) {
+    const std::uint32_t cellX = x / size, cellY = y / size;
+    const auto at = [&](std::uint32_t dx, std::uint32_t dy) {
+        // As places, which wrap: the last lattice node is the first.
+        const std::uint32_t h = shared::hash2((cellX + dx) * size, (cellY + dy) * size, seed);
+        return static_cast<float>(h >> 8) * 0x1p-23f - 1.0f;
+    };
+    const auto fade = [size](std::uint32_t v) {
+        const float f = static_cast<float>(v % size) / static_cast<float>(size);
+        return f * f * (3.0f - 2.0f * f);
+    };
+    const float u = fade(x), v = fade(y);
+    const float low = at(0, 0) + u * (at(1, 0) - at(0, 0)), high = at(0, 1) + u * (at(1, 1) - at(0, 1));
+    return low + v * (high - low);
+}
+
+// A point of a curve before it is moved, blocks from the corner of its node's cell: the same numbers in every
+// region.
+struct Control {
+    float x, y, halfWidth, level, flow;
+};
+
+Control middle(const Control& a, const Control& b) {
+    return {(a.x + b.x) * 0.5f, (a.y + b.y) * 0.5f, a.halfWidth, (a.level + b.level) * 0.5f, a.flow};
+}
+
+class CurveMaker {
+  public:
+    CurveMaker(const DrainageHeights& heights, DrainageCell corner)
+        : heights_(heights), spec_(heights.spec()) {
+        region_.corner = corner;
+        const int side = kRegionCells + 2 * kMargin;
+        DrainageNodes nodes = heights.nodes({corner.x - kMargin, corner.y - kMargin}, side);
+        places_ = std::move(nodes.places);
+        network_.side = side;
+        network_.heights = std::move(nodes.heights);
+        findDrainage(network_, spec_);
+        bendSeed_ = heights.hash({0, 0});
+    }
+
+    DrainageRegion make() {
+        for (int y = 0; y < kRegionCells; ++y) {
+            for (int x = 0; x < kRegionCells; ++x) {
+                CellCourses cell;
+                cell.firstSegment = static_cast<std::uint32_t>(region_.segments.size());
+                addCurves(x, y);
+                cell.segmentCount = static_cast<std::uint32_t>(region_.segments.size()) - cell.firstSegment;
+                cell.lake = addLake(x, y);
+                region_.cells.push_back(cell);
+            }
+        }
+        return std::move(region_);
+    }
+
+  private:
+    std::size_t at(int x, int y) const { return network_.at(x + kMargin, y + kMargin); }
+    bool isSea(std::size_t node) const { return network_.heights[node] < heightKey(spec_.seaLevel, 0); }
+    bool isRiver(std::size_t node) const { return !isSea(node) && network_.flows[node] >= spec_.minFlow; }
+
+    // Of the node at an offset from the cell that curves are made for.
+    Control control(int x, int y) const {
+        const std::size_t node = at(cellX_ + x, cellY_ + y);
+        const auto spacing = static_cast<float>(spec_.spacing);
+        const NodePlace place = places_[node];
+        const auto flow = static_cast<float>(network_.flows[node]);
+        const float share = flow / static_cast<float>(spec_.minFlow);
+        return {static_cast<float>(x) * spacing + static_cast<float>(place.x) * kBlock,
+                static_cast<float>(y) * spacing + static_cast<float>(place.y) * kBlock,
+                std::min(spec_.halfWidth * shared::detSqrt(share), spec_.maxHalfWidth),
+                std::max(heightOf(network_.levels[node]), spec_.seaLevel), flow};
+    }
+
+    void addCurves(int x, int y) {
+        cellX_ = x;
+        cellY_ = y;
+        const std::size_t node = at(x, y);
+        const Control here = control(0, 0);
+        const bool isEnd = network_.drains[node] == kNoDrain;
+        if (!isEnd && !isRiver(node)) return;
+        Control out = here;
+        if (!isEnd) {
+            const auto& [dx, dy] = kDirections[network_.drains[node]];
+            out = middle(here, control(dx, dy));
+        }
+        bool isSource = true;
+        for (const auto& [dx, dy] : kDirections) {
+            const std::size_t other = at(x + dx, y + dy);
+            if (!isRiver(other) || network_.drains[other] == kNoDrain || network_.drainOf(other) != node) continue;
+            isSource = false;
+            const Control in = middle(control(dx, dy), here);
+            if (!isEnd) {
+                addCurve(in, here, out);
+                continue;
+            }
+            Control last = here;
+            last.halfWidth = in.halfWidth;
+            last.flow = in.flow;
+            addCurve(in, middle(in, last), last);
+        }
+        if (!isSource || isEnd) return;
+        Control spring = here;
+        spring.halfWidth = here.halfWidth * 0.25f;
+        addCurve(spring, middle(here, out), out);
+    }
+
+    void addCurve(const Control& a, const Control& b, const Control& c) {
+        CoursePoint from = point(a);
+        for (int k = 1; k <= kCurveSegments; ++k) {
+            const float t = static_cast<float>(k) * (1.0f / kCurveSegments), s = 1.0f - t;
+            const auto blend = [&](float p, float q, float r) { return s * s * p + 2.0f * s * t * q + t * t * r; };
+            const CoursePoint to = point({blend(a.x, b.x, c.x), blend(a.y, b.y, c.y), s * a.halfWidth + t * c.halfWidth,
+                                          std::min(blend(a.level, b.level, c.level), from.level), s * a.flow + t * c.flow});
+            if (to.x != from.x || to.y != from.y) region_.segments.push_back({from, to});
+            from = to;
+        }
+    }
+
+    CoursePoint point(const Control& c) const {
+        const auto unitsOf = [](float blocks) {
+            return static_cast<std::int32_t>(std::floor(blocks * static_cast<float>(kPlaceUnits)));
+        };
+        const auto spacing = static_cast<std::uint32_t>(spec_.spacing);
+        const std::int32_t x = cellX_ * spec_.spacing * kPlaceUnits + unitsOf(c.x);
+        const std::int32_t y = cellY_ * spec_.spacing * kPlaceUnits + unitsOf(c.y);
+        // Moved by a noise of its place in the world, so that curves that meet stay together.
+        const std::uint32_t cornerX = static_cast<std::uint32_t>(region_.corner.x) * spacing * kPlaceUnits;
+        const std::uint32_t cornerY = static_cast<std::uint32_t>(region_.corner.y) * spacing * kPlaceUnits;
+        const std::uint32_t worldX = cornerX + static_cast<std::uint32_t>(x), worldY = cornerY + static_cast<std::uint32_t>(y);
+        const float reach = spec_.bend * static_cast<float>(spec_.spacing);
+        const auto bend = [&](std::uint32_t seed) {
+            const float wide = smoothNoise(worldX, worldY, spacing * kPlaceUnits / 2, bendSeed_ + seed);
+            const float narrow = smoothNoise(worldX, worldY, spacing * kPlaceUnits / 4, bendSeed_ + seed + 1);
+            return unitsOf(reach * (wide * 0.7f + narrow * 0.3f));
+        };
+        return {x + bend(1), y + bend(3), c.halfWidth, c.level, c.flow};
+    }
+
+    std::int32_t addLake(int x, int y) {
+        const int covered = network_.lakeNodes[at(x, y)];
+        if (covered == 0) return -1;
+        const Control here = control(0, 0);
+        const CoursePoint place = point(here);
+        const auto spacing = static_cast<float>(spec_.spacing);
+        const float radius = std::min(0.22f + 0.03f * static_cast<float>(covered), 0.5f) * spacing;
+        region_.lakes.push_back({place.x, place.y, radius, here.level});
+        return static_cast<std::int32_t>(region_.lakes.size()) - 1;
+    }
+
+    const DrainageHeights& heights_;
+    const DrainageSpec& spec_;
+    std::vector<NodePlace> places_;
+    DrainageNetwork network_;
+    std::uint32_t bendSeed_ = 0;
+    int cellX_ = 0, cellY_ = 0;
+    DrainageRegion region_;
+};
+
+}  // namespace
+
+std::size_t DrainageRegion::bytes() const {
+    return sizeof(*this) + segments.capacity() * sizeof(CourseSegment) + lakes.capacity() * sizeof(LakeDisc) +
+           cells.capacity() * sizeof(CellCourses);
+}
+
+DrainageRegion makeDrainageRegion(const DrainageHeights& heights, DrainageCell corner) {
+    return CurveMaker(heights, corner).make();
+}
+
+}  // namespace terrane::gen

@@ -1,0 +1,47 @@
+// The drainage maps of a generator for one world seed: rivers and lakes near tiles, from regions that are
+// made when first needed and kept in a cache of bounded size. Both back ends take them from here.
+// Any thread; a region is made by the first one that needs it while others wait.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "terrane/gen/generator_graph.h"
+#include "terrane/gen/sample_grid.h"
+#include "terrane/shared/drainage.h"
+
+namespace terrane::gen {
+
+struct DrainageRegion;
+
+// What can be within reach of some column of a tile, in the order of cells by y, then x: of equals the first
+// counts.
+struct DrainageTile {
+    std::vector<shared::RiverSegment> segments;
+    std::vector<shared::vec4> lakes;
+    float reach = 0;
+    std::int32_t step = 1;  // blocks from column to column
+};
+
+// Regions kept a map. One is 64² cells, 16,384² blocks with the default spacing, and takes 0.1…0.5 MB: a row
+// of tiles of step 32 as far as the horizon crosses four.
+constexpr std::size_t kKeptRegions = 16;
+
+class DrainageMaps {
+  public:
+    DrainageMaps(const std::vector<DrainageGraph>& graphs, std::uint64_t worldSeed);
+    ~DrainageMaps();
+
+    // The tile whose first column is at the grid's place.
+    void prepare(DrainageTile& tile, std::uint32_t map, SampleGrid grid);
+
+    std::size_t bytes() const;  // of kept regions
+
+  private:
+    struct Map;
+    std::vector<std::unique_ptr<Map>> maps_;
+};
+
+}  // namespace terrane::gen
