@@ -24,7 +24,7 @@ void writeContinents(GeneratorBuilder& g) {
     g.pass2D("shape", [&](Pass& p) { shapePass(p, f); });
     g.pass2D("relief", [&](Pass& p) { reliefPass(p, f); });
     g.pass2D("surface", [&](Pass& p) { surfacePass(p, f); });
-    g.pass3D("ground", [&](Pass& p) { groundPass(p, f); });
+    g.pass3D("ground", [&](Pass& p) { p.setBlock(ground(p, f)); });
 }
 
 }  // namespace terrane::gen

@@ -45,36 +45,47 @@ struct Fields {
           temperature(g.field<Float>("temperature")),
           moisture(g.field<Float>("moisture")),
           mountains(g.field<Float>("mountains")),
+          volcanic(g.field<Float>("volcanic")),
           base(g.field<Float>("base")),
           height(g.field<Float>("height")),
           ridge(g.field<Float>("ridge")),
           rocky(g.field<Float>("rocky")),
+          wet(g.field<Float>("wet")),
+          cold(g.field<Float>("cold")),
+          forest(g.field<Float>("forest")),
           water(g.field<Int>("water")),
           surface(g.field<Int>("surface")),
           biome(g.field<Int>("biome")),
           top(g.field<Block>("top")),
           soil(g.field<Block>("soil")),
           rock(g.field<Block>("rock")),
-          rivers(continents::rivers(g)) {}
+          rivers(continents::rivers(g)) {
+        if (g.step() == 1) caveTop = g.field<Int>("cave top");
+    }
 
     Field<Float> land;         // above 0: land, rises inland; 1 is about 4 km from the coast
     Field<Float> temperature;  // -1…1, at sea level
     Field<Float> moisture;     // -1…1
     Field<Float> mountains;    // 0…1: part of a range
+    Field<Float> volcanic;     // 0…1: from a volcano's foot to its middle
     Field<Float> base;         // z of the ground before erosion and rivers
     Field<Float> height;       // z of the ground
     Field<Float> ridge;        // -1…1: in a gully … on a ridge
     Field<Float> rocky;        // 0…1: cliffs of canyon lands, volcanoes, karst: bare whatever their slope
+    Field<Float> wet;          // 0…1: in a river or lake, or on its bank
+    Field<Float> cold;         // the temperature at the ground's height
+    Field<Float> forest;       // 0…1: how much of what could grow here does
     Field<Int> water;          // z of the highest water, where the ground is lower
     Field<Int> surface;        // z of the highest ground block
     Field<Int> biome;
     Field<Block> top, soil, rock;  // the highest block, the few below it, and all below these
+    Field<Int> caveTop;            // z below which caves may be; at level 0
     Drainage rivers;
 };
 
 // The forms of the land where they begin, from the position alone.
 struct Shape {
-    Float land, temperature, moisture, mountains;
+    Float land, temperature, moisture, mountains, volcanic;
     Float base;
 };
 Shape shape(Pass& p);
@@ -90,8 +101,8 @@ Float karst(Float temperature, Float moisture);
 void shapePass(Pass& p, const Fields& f);
 void reliefPass(Pass& p, const Fields& f);
 void surfacePass(Pass& p, const Fields& f);
-// 3D
-void groundPass(Pass& p, const Fields& f);
+// 3D: earth, caves and water at this voxel.
+Block ground(Pass& p, const Fields& f);
 
 // Rivers and lakes: continents_rivers.cpp.
 Drainage rivers(GeneratorBuilder& g);

@@ -83,6 +83,7 @@ void reliefPass(Pass& p, const Fields& f) {
     p.set(f.ridge, r.ridge);
     p.set(f.rocky, r.rocky);
     p.set(f.water, w.water);
+    p.set(f.wet, w.isWater);
     p.set(f.surface, Int(floor(height)));
 }
 

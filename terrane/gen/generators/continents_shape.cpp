@@ -55,12 +55,12 @@ Float plainHeight(Float land) {
     return inland + shelf + deep;
 }
 
-struct Volcano {
-    Float rise;  // blocks
-};
-
 // A cone with a crater where the point of a wide cell is one, from the sea floor up where it stands in the sea.
-Float volcanoHeight(Pass& p) {
+struct Volcano {
+    Float rise;   // blocks
+    Float share;  // 0…1: from its foot to its middle
+};
+Volcano volcanoAt(Pass& p) {
     constexpr int kCell = 3072;
     constexpr float kRadius = 420.0f, kRise = 132.0f, kCrater = 52.0f, kChance = 0.4f;
     const Voronoi2D cell = p.voronoi2D("volcanoes", kCell, 1);
@@ -69,7 +69,7 @@ Float volcanoHeight(Pass& p) {
     const Float outside = clamp(1.0f - cell.distance * (1.0f / kRadius), 0.0f, 1.0f);
     const Float cone = outside * outside * kRise;
     const Float crater = smoothstep(kCrater, kCrater * 0.4f, cell.distance) * 24.0f;
-    return select(isVolcano, cone - crater, Float(0.0f));
+    return {select(isVolcano, cone - crater, Float(0.0f)), select(isVolcano, outside, Float(0.0f))};
 }
 
 }  // namespace
@@ -88,7 +88,9 @@ Float karst(Float temperature, Float moisture) {
 }
 
 Shape shape(Pass& p) {
-    Shape s{0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    Shape s{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    const Volcano volcano = volcanoAt(p);
+    s.volcanic = volcano.share;
     s.land = landNoise(p);
     s.temperature = temperatureAt(p);
     s.moisture = moistureAt(p, s.land);
@@ -97,13 +99,13 @@ Shape shape(Pass& p) {
     const Float hilly = smoothstep(-0.3f, 0.5f, p.simplex2D("hilly", 512, {.3f, 1.0f}));
     const Float hills = p.simplex2D("hills", 128, {.25f, .5f, 1.0f}) + 0.55f;
     s.base = kSea + 1.0f + plainHeight(s.land) + rangeHeight(p, s.mountains) +
-             hills * isLand * (hilly * 17.0f + 2.5f) + volcanoHeight(p);
+             hills * isLand * (hilly * 17.0f + 2.5f) + volcano.rise;
     return s;
 }
 
 Float coarseHeight(Pass& p) {
     const Float land = landNoise(p), mountains = rangesAt(p, land);
-    return kSea + 1.0f + plainHeight(land) + rangeHeight(p, mountains);
+    return kSea + 1.0f + plainHeight(land) + rangeHeight(p, mountains) + volcanoAt(p).rise;
 }
 
 void shapePass(Pass& p, const Fields& f) {
@@ -112,6 +114,7 @@ void shapePass(Pass& p, const Fields& f) {
     p.set(f.temperature, s.temperature);
     p.set(f.moisture, s.moisture);
     p.set(f.mountains, s.mountains);
+    p.set(f.volcanic, s.volcanic);
     p.set(f.base, s.base);
 }
 

@@ -6,16 +6,16 @@ namespace {
 
 // What decides on a column's biome. Borders are as rough as the ground.
 struct Site {
-    Float height, steepness, temperature, moisture, snow;
+    Float height, steepness, temperature, moisture;
+    Float cold;  // the temperature at the ground's height
 };
 
 Site site(Pass& p, const Fields& f) {
     const Float rough = p.perlin2DWithGrain("biome borders", 8, {.03f, .03f, .04f, .05f});
     const Float height = p.read(f.height);
-    const Vec2 slope = p.slope(f.height);
     const Float cooler = max(height - (kSea + 20.0f), Float(0.0f)) * 0.0045f;
     const Float temperature = p.read(f.temperature) + rough;
-    return {height, length(slope), temperature, p.read(f.moisture) + rough, temperature - cooler};
+    return {height, length(p.slope(f.height)), temperature, p.read(f.moisture) + rough, temperature - cooler};
 }
 
 Int biomeOf(Pass& p, const Fields& f, const Site& s) {
@@ -29,21 +29,94 @@ Int biomeOf(Pass& p, const Fields& f, const Site& s) {
                                  {m < -0.06f, is(Biome::CanyonLand)},
                                  {m < 0.22f, is(Biome::Savanna)}},
                                 is(Biome::RainForest));
-    const Bool isWet = s.height < kSea + 8.0f && s.steepness < 0.35f;
+    const Bool isLow = s.height < kSea + 9.0f && s.steepness < 0.35f;
     const Int temperate = multiSelect({{m < -0.18f, is(Biome::Meadow)},
-                                       {isWet && m > 0.1f, is(Biome::Swamp)},
-                                       {m > 0.34f, is(Biome::OldForest)},
-                                       {t < 0.02f, is(Biome::BirchForest)}},
+                                       {isLow && m > 0.02f, is(Biome::Swamp)},
+                                       {m > 0.3f, is(Biome::OldForest)},
+                                       {t < 0.03f, is(Biome::BirchForest)}},
                                       is(Biome::OakForest));
     return multiSelect({{isSea && isReef, is(Biome::Reef)},
                         {isSea, is(Biome::Ocean)},
                         {isBeach, is(Biome::Beach)},
-                        {s.snow < -0.62f, is(Biome::Snow)},
-                        {p.read(f.mountains) > 0.2f && s.snow < t - 0.22f && t < 0.4f, is(Biome::Alpine)},
-                        {s.snow < -0.42f, is(Biome::Tundra)},
-                        {s.snow < -0.16f, is(Biome::Taiga)},
+                        {s.cold < -0.62f, is(Biome::Snow)},
+                        {p.read(f.mountains) > 0.2f && s.cold < t - 0.22f && t < 0.4f, is(Biome::Alpine)},
+                        {s.cold < -0.42f, is(Biome::Tundra)},
+                        {s.cold < -0.16f, is(Biome::Taiga)},
                         {t > 0.26f, hot}},
                        temperate);
+}
+
+struct Ground {
+    Block top, soil, rock;
+};
+
+// By biome on gentle ground. `patches` and `spots` are noise of about 30 and 8 blocks.
+Block biomeTop(Pass& p, const Site& s, Int biome, Float patches, Float spots) {
+    const auto is = [&](Biome b) { return biome == number(b); };
+    const auto block = [&](const char* name) { return p.block(name); };
+    const Block cold = select(spots > 0.25f, block("moss"), select(patches > 0.35f, block("gravel"), block("grass")));
+    const Block alpine = multiSelect({{s.cold < spots * 0.06f - 0.38f, block("snow")},
+                                      {s.cold < spots * 0.2f - 0.22f, block("stone")},
+                                      {spots > 0.45f, block("gravel")}},
+                                     block("grass"));
+    const Block swamp = multiSelect({{spots > 0.3f, block("moss")}, {patches > 0.1f, block("mud")}}, block("grass"));
+    const Block sea = multiSelect({{s.height > kSea - 9.0f, select(s.cold < -0.3f, block("gravel"), block("sand"))},
+                                   {patches > 0.3f, block("clay")},
+                                   {patches < -0.25f, block("gravel")}},
+                                  block("sand"));
+    return multiSelect({{is(Biome::Ocean), sea},
+                        {is(Biome::Reef) || is(Biome::Desert), block("sand")},
+                        {is(Biome::Beach), select(s.cold < -0.25f, block("gravel"), block("sand"))},
+                        {is(Biome::CanyonLand), select(patches > 0.35f, block("grass"), block("red_sand"))},
+                        {is(Biome::Snow), block("snow")},
+                        {is(Biome::Tundra), select(s.cold < spots * 0.12f - 0.54f, block("snow"), cold)},
+                        {is(Biome::Taiga), select(patches > 0.2f && spots > 0.1f, block("moss"), block("grass"))},
+                        {is(Biome::Alpine), alpine},
+                        {is(Biome::Swamp), swamp},
+                        {(is(Biome::OldForest) || is(Biome::RainForest)) && spots > 0.3f, block("moss")}},
+                       block("grass"));
+}
+
+Block rockOf(Pass& p, const Fields& f, Int biome, Float patches) {
+    const auto is = [&](Biome b) { return biome == number(b); };
+    return multiSelect({{p.read(f.volcanic) > patches * 0.1f + 0.15f, p.block("basalt")},
+                        {is(Biome::CanyonLand), p.block("red_sandstone")},
+                        {is(Biome::RainForest), p.block("limestone")},
+                        {is(Biome::Desert), p.block("sandstone")}},
+                       p.block("stone"));
+}
+
+// The beds of rivers and lakes.
+Block bed(Pass& p, Float patches, Float spots) {
+    return multiSelect({{patches > 0.25f, p.block("clay")}, {spots > 0.1f, p.block("gravel")}}, p.block("sand"));
+}
+
+Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
+    const Float patches = p.perlin2DWithGrain("ground patches", 16, {.3f, .4f, .6f});
+    const Float spots = p.perlin2DWithGrain("ground spots", 4, {.35f, .6f});
+    const Block rock = rockOf(p, f, biome, patches);
+    const Block top = biomeTop(p, s, biome, patches, spots);
+    const auto is = [&](Block block, const char* name) { return block == p.block(name); };
+    const Bool isSoil = is(top, "grass") || is(top, "moss") || is(top, "snow");
+    const Block soil = select(isSoil, p.block("dirt"), select(is(top, "red_sand"), p.block("red_sand"), top));
+    const Float bareFrom = spots * 0.25f + patches * 0.2f + 1.05f - smoothstep(0.0f, -0.4f, s.cold) * 0.2f;
+    const Bool isSandy = is(top, "sand") && biome == number(Biome::Desert);
+    const Bool isBare = (s.steepness > bareFrom + select(isSandy, Float(0.4f), Float(0.0f))) ||
+                        (p.read(f.volcanic) > spots * 0.15f + 0.45f) ||
+                        (p.read(f.rocky) > 0.4f && s.steepness > spots * 0.2f + 0.6f);
+    const Bool keepsSnow = is(top, "snow") && s.steepness < patches * 0.5f + 1.5f;
+    const Bool isUnderWater = p.read(f.surface) < p.read(f.water) && p.read(f.wet) > 0.0f;
+    const Block bottom = bed(p, patches, spots);
+    return {multiSelect({{isUnderWater, bottom}, {isBare && !keepsSnow, rock}}, top),
+            multiSelect({{isUnderWater, bottom}, {isBare || s.steepness > bareFrom - 0.25f, rock}}, soil), rock};
+}
+
+// Roofs keep caves closed but for the mouths: spots where the roof is thinner than nothing.
+Int caveTop(Pass& p, const Fields& f, const Site& s) {
+    const Float mouths = smoothstep(0.42f, 0.7f, p.perlin2D("cave mouths", 24, {.2f, 1.0f}));
+    const Bool isDry = s.height > kSea + 5.0f && p.read(f.wet) <= 0.0f;
+    const Float roof = select(isDry, Float(7.0f) - mouths * 14.0f, Float(10.0f)) + s.steepness * 2.0f;
+    return Int(floor(s.height - roof));
 }
 
 }  // namespace
@@ -51,20 +124,16 @@ Int biomeOf(Pass& p, const Fields& f, const Site& s) {
 void surfacePass(Pass& p, const Fields& f) {
     const Site s = site(p, f);
     const Int biome = biomeOf(p, f, s);
-    const auto isIn = [&](Biome b) { return biome == number(b); };
-    const Bool isSandy = isIn(Biome::Beach) || isIn(Biome::Desert) || isIn(Biome::Ocean) || isIn(Biome::Reef);
-    const Block stone = p.block("stone");
-    const Float patches = p.perlin2DWithGrain("ground patches", 8, {.3f, .3f, .6f});
-    const Bool isCliff = s.steepness > 1.05f + patches * 0.25f;
-    const Block top = multiSelect({{isIn(Biome::Snow) && s.steepness < 1.6f, p.block("snow")},
-                                   {isCliff, stone},
-                                   {isSandy, p.block("sand")},
-                                   {s.snow < -0.36f + patches * 0.05f && s.steepness < 1.3f && isIn(Biome::Alpine), p.block("snow")}},
-                                  p.block("grass"));
+    const Ground ground = groundOf(p, f, s, biome);
     p.set(f.biome, biome);
-    p.set(f.top, top);
-    p.set(f.soil, select(isCliff, stone, select(isSandy, p.block("sand"), p.block("dirt"))));
-    p.set(f.rock, stone);
+    p.set(f.top, ground.top);
+    p.set(f.soil, ground.soil);
+    p.set(f.rock, ground.rock);
+    p.set(f.cold, s.cold);
+    const Float gentle = smoothstep(1.1f, 0.75f, s.steepness);
+    const Bool isDry = p.read(f.surface) >= p.read(f.water);
+    p.set(f.forest, select(isDry, gentle, Float(0.0f)));
+    if (p.step() == 1) p.set(f.caveTop, caveTop(p, f, s));
 }
 
 }  // namespace terrane::gen::continents
