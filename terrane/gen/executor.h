@@ -30,7 +30,8 @@ struct PassInputs {
 
 class Executor {
   public:
-    Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds);
+    // Refers to its arguments. `shapes`: needed by passes that stamp.
+    Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds, const ShapeTable* shapes = nullptr);
 
     // Results of a 2D pass, in the order of program.fields.
     void run2D(const Program& program, const PassInputs& inputs, std::span<ColumnValues* const> results);
@@ -41,6 +42,7 @@ class Executor {
   private:
     void prepareTile(const Program& program, const PassInputs& inputs);
     void fillConstants(const Program& program, SampleGrid grid);
+    void paintStamps(const Program& program);
     void fillWindow(std::uint32_t field, const PassInputs& inputs);
     Bits* row(Operand o) { return context_.arena + static_cast<std::size_t>(o.row) * kRowLanes; }
     int fillCertain(int z, BlockArray& result);
@@ -53,6 +55,7 @@ class Executor {
 
     const std::vector<NoiseCall>& noises_;
     const Seeds& seeds_;
+    const ShapeTable* shapes_;
     std::vector<AlignedRow> arena_;
     TileContext context_;
     LayerRanges layerRanges_;
