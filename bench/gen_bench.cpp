@@ -78,7 +78,7 @@ class PassArea {
         seeds_.hashes.resize(graph.hashNames.size());
         for (std::size_t k = 0; k < seeds_.noises.size(); ++k) seeds_.noises[k] = seedOf(k);
         for (std::size_t k = 0; k < seeds_.hashes.size(); ++k) seeds_.hashes[k] = seedOf(k + 1000);
-        executor_ = std::make_unique<gen::Executor>(graph.noises, seeds_);
+        executor_ = std::make_unique<gen::Executor>(graph.noises, seeds_, gen::ExecutorParts{.shapes = graph.shapes.get()});
         for (const gen::PassGraph& pass : graph.passes) programs_.push_back(compile(pass, graph.noises));
         for (int n = 0; n < kChunks; ++n) {
             at(columns_, n).resize(graph.fields.size());

@@ -134,6 +134,7 @@ base::Result<GeneratorGraph> GeneratorBuilder::finish() {
         }
     }
     if (errors_.empty()) checkRegisters();
+    if (errors_.empty()) makeShapeTable();
     if (!errors_.empty()) {
         return base::fail("generator \"{}\": {}", generator_.name, fmt::join(errors_, "; "));
     }

@@ -55,6 +55,9 @@ class GeneratorBuilder {
         addPass(std::move(name), true, body);
     }
 
+    // A shape that passes can stamp. Its number: 0, 1, 2 … in the order of the calls, at most kMaxShapes.
+    int shape(const VoxelShape& shape);
+
     [[nodiscard]] base::Result<GeneratorGraph> finish();
 
   private:
@@ -68,10 +71,12 @@ class GeneratorBuilder {
     std::uint32_t noiseIndex(const NoiseCall& call);
     std::uint32_t hashSlot(const std::string& seedName);
     void checkRegisters();
+    void makeShapeTable();
 
     GeneratorGraph generator_;
     const world::BlockRegistry& blocks_;
     std::map<std::string, std::string> noiseParameters_;  // by name: of which kind, with which parameters
+    std::vector<VoxelShape> shapes_;
     std::vector<std::string> errors_;
 };
 

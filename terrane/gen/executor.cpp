@@ -7,8 +7,8 @@
 
 namespace terrane::gen {
 
-Executor::Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds, DrainageMaps* drainages)
-    : noises_(noises), seeds_(seeds), drainages_(drainages) {
+Executor::Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds, ExecutorParts parts)
+    : noises_(noises), seeds_(seeds), parts_(parts) {
     context_.hashSeeds = seeds.hashes;
     context_.perlin2D.resize(noises.size());
     context_.perlin3D.resize(noises.size());
@@ -42,7 +42,8 @@ void Executor::run3D(const Program& program, const PassInputs& inputs, BlockArra
     runInstructions(program.column, context_);
     // Fields are written from layers too.
     const bool maySkip = program.fields.empty();
-    if (maySkip) layerRanges_.begin(program, context_.arena, context_.noiseKinds, context_.blocks);
+    if (maySkip)
+        layerRanges_.begin(program, context_.arena, context_.noiseKinds, context_.blocks, context_.stamps);
     for (int z = 0; z < world::kChunkHeight;) {
         const int certain = maySkip ? fillCertain(z, result) : 0;
         if (certain > 0) {
@@ -126,8 +127,8 @@ void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
                 prepare(context_.stripes2D[n], call, seed, grid);
                 break;
             case NoiseKind::Drainage:
-                assert(drainages_ && "a program that reads maps is run with them");
-                drainages_->prepare(context_.drainage[n], static_cast<std::uint32_t>(call.size), grid);
+                assert(parts_.drainages && "a program that reads maps is run with them");
+                parts_.drainages->prepare(context_.drainage[n], static_cast<std::uint32_t>(call.size), grid);
                 break;
         }
     }
@@ -138,6 +139,16 @@ void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
         context_.fields[f] = own ? own->data() : nullptr;
     }
     for (const std::uint32_t f : program.readsAt) fillWindow(f, inputs);
+    paintStamps(program);
+}
+
+void Executor::paintStamps(const Program& program) {
+    assert((program.stamps.empty() || parts_.shapes) && "a generator that stamps has shapes");
+    if (context_.stamps.size() < program.stamps.size()) context_.stamps.resize(program.stamps.size());
+    for (std::size_t k = 0; k < program.stamps.size(); ++k) {
+        const StampCall& call = program.stamps[k];
+        context_.stamps[k].paint(*parts_.shapes, context_.windows[call.shape], context_.windows[call.base]);
+    }
 }
 
 void Executor::fillConstants(const Program& program, SampleGrid grid) {

@@ -29,10 +29,16 @@ struct PassInputs {
     std::array<const BlockArray*, 9> blocks{};
 };
 
+// Tables that some programs need.
+struct ExecutorParts {
+    const ShapeTable* shapes = nullptr;  // those that stamp
+    DrainageMaps* drainages = nullptr;   // those that read drainage maps
+};
+
 class Executor {
   public:
-    // `drainages`: for programs that read drainage maps. Refers to its arguments.
-    Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds, DrainageMaps* drainages = nullptr);
+    // Refers to its arguments.
+    Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds, ExecutorParts parts = {});
 
     // Results of a 2D pass, in the order of program.fields.
     void run2D(const Program& program, const PassInputs& inputs, std::span<ColumnValues* const> results);
@@ -43,6 +49,7 @@ class Executor {
   private:
     void prepareTile(const Program& program, const PassInputs& inputs);
     void fillConstants(const Program& program, SampleGrid grid);
+    void paintStamps(const Program& program);
     void fillWindow(std::uint32_t field, const PassInputs& inputs);
     Bits* row(Operand o) { return context_.arena + static_cast<std::size_t>(o.row) * kRowLanes; }
     int fillCertain(int z, BlockArray& result);
@@ -55,7 +62,7 @@ class Executor {
 
     const std::vector<NoiseCall>& noises_;
     const Seeds& seeds_;
-    DrainageMaps* drainages_;
+    ExecutorParts parts_;
     std::vector<AlignedRow> arena_;
     TileContext context_;
     LayerRanges layerRanges_;

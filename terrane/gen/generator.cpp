@@ -16,7 +16,7 @@ struct Generator::Impl {
     // A thread's own: the scratch memory of passes, and the results that no neighbor needs.
     struct Worker {
         Worker(const GeneratorGraph& graph, const Seeds& seeds, DrainageMaps& drainages)
-            : executor(graph.noises, seeds, &drainages), fields(graph.fields.size()) {
+            : executor(graph.noises, seeds, {graph.shapes.get(), &drainages}), fields(graph.fields.size()) {
             for (auto& b : blocks) b = std::make_unique_for_overwrite<BlockArray>();
         }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "terrane/gen/drainage.h"
 #include "terrane/gen/graph.h"
 #include "terrane/gen/noise.h"
+#include "terrane/gen/shape_table.h"
 #include "terrane/shared/generation.h"
 
 namespace terrane::gen {
@@ -30,6 +32,12 @@ struct FieldOutput {
     std::optional<NodeId> isWritten = {};
 };
 
+// Fields that say which shape has its foot in a column, and at which height.
+struct StampCall {
+    std::uint32_t shape, base;
+    bool operator==(const StampCall&) const = default;
+};
+
 // A finished pass: its graph and what it writes.
 struct PassGraph {
     std::string name;
@@ -39,6 +47,7 @@ struct PassGraph {
     std::optional<NodeId> block;         // 3D passes
     std::vector<std::uint32_t> readsAt;  // fields read with an offset
     bool readsBlocksAt = false;          // blocks of the 3D pass before, read with an offset
+    std::vector<StampCall> stamps;       // by imm of Op::Stamp
 };
 
 // What a pass writes: values of fields with their conditions, then the block.
@@ -61,7 +70,8 @@ struct GeneratorGraph {
     std::vector<NoiseCall> noises;
     std::vector<std::string> hashNames;  // of seed slots
     std::vector<DrainageGraph> drainages;
-    std::vector<PassGraph> passes;  // the last one is 3D
+    std::vector<PassGraph> passes;             // the last one is 3D
+    std::shared_ptr<const ShapeTable> shapes;  // null where no pass stamps
 };
 
 // The newest 3D pass before `pass`, whose blocks it reads; -1 where there is none.

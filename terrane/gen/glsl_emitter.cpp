@@ -65,6 +65,7 @@ class Emitter {
         line("void main() {");
         ++depth_;
         line("beginTile();");
+        emitStamps();
         if (pass_.is3D) {
             emitList(columnBoundary(graph_, outputs));
             line("for (int z = firstLayer(); z < lastLayer(); ++z) {");
@@ -91,6 +92,15 @@ class Emitter {
         text_.append(static_cast<std::size_t>(4 * depth_), ' ');
         text_ += content;
         text_ += '\n';
+    }
+
+    void emitStamps() {
+        if (pass_.stamps.empty()) return;
+        line("beginStamps();");
+        for (std::size_t k = 0; k < pass_.stamps.size(); ++k) {
+            line(fmt::format("findFeet({}u, {}u, {}u);", k, pass_.stamps[k].shape, pass_.stamps[k].base));
+        }
+        line("endStamps();");
     }
 
     void nameLeaves() {
@@ -146,6 +156,8 @@ class Emitter {
                 return fromBits(n.type, fmt::format("readField({}u)", n.imm));
             case Op::FieldAt:
                 return fromBits(n.type, fmt::format("readFieldAt({}u, {}, {})", n.imm, arg(n, 0), arg(n, 1)));
+            case Op::Stamp:
+                return fmt::format("stampAt({}u, z)", n.imm);
             case Op::Hash2:
                 return fmt::format("int(hash2(uint({}), uint({}), {}))", arg(n, 0), arg(n, 1),
                                    hashSeed(n.imm));

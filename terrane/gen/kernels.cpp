@@ -215,6 +215,8 @@ void runOne(const Instruction& i, TileContext& c, const RowList& rows) {
             return field(i, c, rows);
         case Op::FieldAt:
             return fieldAt(i, c, rows);
+        case Op::Stamp:
+            return stamp(i, c, rows);
         case Op::BlockHere:
             return blockHere(i, c, rows);
         case Op::BlockInColumn:

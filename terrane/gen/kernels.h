@@ -12,6 +12,7 @@
 #include "terrane/gen/perlin_tile.h"
 #include "terrane/gen/program.h"
 #include "terrane/gen/simplex_tile.h"
+#include "terrane/gen/stamp_tile.h"
 #include "terrane/gen/stripe_tile.h"
 #include "terrane/gen/voronoi_tile.h"
 
@@ -41,7 +42,8 @@ struct TileContext {
     // then x, where the program reads them with an offset.
     const std::uint16_t* blocks = nullptr;
     std::array<const std::uint16_t*, 9> blocksAround{};
-    std::int32_t z = 0;  // of the layer
+    std::vector<StampTile> stamps;  // by the pass's stamps, painted
+    std::int32_t z = 0;             // of the layer
 };
 
 // Runs a list for all rows of the tile.

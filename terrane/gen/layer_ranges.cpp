@@ -8,8 +8,9 @@
 namespace terrane::gen {
 
 void LayerRanges::begin(const Program& program, const Bits* arena, std::span<const NoiseKind> noises,
-                        const std::uint16_t* blocks) {
+                        const std::uint16_t* blocks, std::span<const StampTile> stamps) {
     blocks_ = blocks;
+    stamps_ = stamps;
     program_ = &program;
     arena_ = arena;
     noises_ = noises;
@@ -92,6 +93,11 @@ LayerRanges::Range LayerRanges::blocksOfLayers(Range z) const {
     return isUniform ? Range{*first, *first} : Range{0, UINT16_MAX};
 }
 
+LayerRanges::Range LayerRanges::stampOfLayers(std::uint32_t stamp) const {
+    const bool isPainted = stamps_[stamp].isPainted(static_cast<int>(z_.low), static_cast<int>(z_.high));
+    return {0, isPainted ? UINT16_MAX : 0};
+}
+
 LayerRanges::Range LayerRanges::resultOf(const Instruction& i) {
     const auto arg = [&](std::size_t k) { return read(i.args[k]); };
     const auto condition = [&](std::size_t k) {
@@ -133,6 +139,8 @@ LayerRanges::Range LayerRanges::resultOf(const Instruction& i) {
             if (choice.low == choice.high) return choice.low != 0 ? yes : no;
             return {std::min(yes.low, no.low), std::max(yes.high, no.high)};
         }
+        case Op::Stamp:
+            return stampOfLayers(i.imm);
         case Op::BlockHere:
             return blocksOfLayers(z_);
         case Op::BlockInColumn:

@@ -10,15 +10,16 @@
 
 #include "terrane/gen/noise.h"
 #include "terrane/gen/program.h"
+#include "terrane/gen/stamp_tile.h"
 
 namespace terrane::gen {
 
 class LayerRanges {
   public:
     // For a tile whose `column` instructions have run. Refers to its arguments until begun again.
-    // `blocks`: of the 3D pass before, by world::BlockIndex, or null.
+    // `blocks`: of the 3D pass before, by world::BlockIndex, or null. `stamps`: painted, by the program's.
     void begin(const Program& program, const Bits* arena, std::span<const NoiseKind> noises,
-               const std::uint16_t* blocks);
+               const std::uint16_t* blocks, std::span<const StampTile> stamps = {});
 
     // The block of all voxels of `count` layers, the lowest at height z, where that is certain.
     std::optional<std::uint16_t> blockOfLayers(std::int32_t z, std::int32_t count);
@@ -37,11 +38,13 @@ class LayerRanges {
     void forget(const Instruction& i);
     Range resultOf(const Instruction& i);
     Range blocksOfLayers(Range z) const;
+    Range stampOfLayers(std::uint32_t stamp) const;
 
     const Program* program_ = nullptr;
     const Bits* arena_ = nullptr;
     std::span<const NoiseKind> noises_;
     const std::uint16_t* blocks_ = nullptr;
+    std::span<const StampTile> stamps_;
     Range z_{};
     std::vector<Range> ranges_;  // by the operand's first row
     std::vector<bool> isKnown_;

@@ -47,6 +47,7 @@ constexpr OpRecord kRecords[] = {
     {Op::PosZ, "z", 0, {}, I, nullptr, ""},
     {Op::Field, "field", 0, {}, F, nullptr, ""},
     {Op::Noise, "noise", 0, {}, F, nullptr, ""},
+    {Op::Stamp, "stamp", 0, {}, I, nullptr, ""},
     {Op::BlockHere, "block here", 0, {}, I, nullptr, "blockHere(z)"},
     {Op::FieldAt, "field at", 2, {I, I}, F, nullptr, ""},
     {Op::BlockInColumn, "block in column", 1, {I}, I, nullptr, "blockInColumn({0})"},

@@ -57,6 +57,7 @@ enum class Op : std::uint8_t {
     PosZ,
     Field,      // imm: field; of this column
     Noise,      // imm: noise call; its results are taken with Component
+    Stamp,      // block of the shapes that stand around, imm: stamp of the pass
     BlockHere,  // block of the newest 3D pass before this one, at this voxel
     // Reads with an offset of at most 16 blocks in x and y
     FieldAt,  // (dx, dy), imm: field

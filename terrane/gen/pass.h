@@ -120,6 +120,9 @@ class Pass {
     Block blockInColumn(Int z);
     Block blockAt(IVec2 offset, Int z);
     void setBlock(Block block);  // 3D passes; without it the block stays
+    // The block that shapes put here, air where none (3D passes). In every column where `shape` is the number
+    // of one it has its foot, at height `base`. Where shapes meet, stamp_tile.h says which stays.
+    Block stamp(Field<Int> shape, Field<Int> base);
 
   private:
     template <class T>

@@ -47,6 +47,7 @@ class Compiler {
         program_.is3D = pass_.is3D;
         program_.readsAt = pass_.readsAt;
         program_.readsBlocksAt = pass_.readsBlocksAt;
+        program_.stamps = pass_.stamps;
         placeLeaves();
         const std::vector<NodeId> outputs = outputsOf(pass_);
         if (pass_.is3D) {

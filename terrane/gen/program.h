@@ -78,6 +78,7 @@ struct Program {
     std::vector<std::uint32_t> noises;   // calls it makes
     std::vector<std::uint32_t> readsAt;  // fields it reads with an offset
     bool readsBlocksAt = false;          // reads blocks with an offset
+    std::vector<StampCall> stamps;       // by imm of Op::Stamp
 };
 
 // A program that needs more than kMaxArenaRows cannot run: GeneratorBuilder::finish() refuses it.

@@ -43,9 +43,8 @@ void fieldAt(const Instruction& i, TileContext& c, const RowList& rows) {
     }
 }
 
-void blockLayer(const Instruction& i, TileContext& c, const RowList& rows, std::int32_t z) {
+void layerOf(const std::uint16_t* layer, const Instruction& i, TileContext& c, const RowList& rows) {
     const hn::Rebind<std::uint16_t, DI> d16;
-    const std::uint16_t* layer = c.blocks + static_cast<std::size_t>(z) * kTileLanes;
     for (int k = 0; k < rows.count; ++k) {
         const int row = rows.rows[k];
         for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(di)) {
@@ -53,6 +52,16 @@ void blockLayer(const Instruction& i, TileContext& c, const RowList& rows, std::
             storeBits(hn::PromoteTo(di, ids), rowOf(c.arena, i.dst, row) + lane);
         }
     }
+}
+
+void blockLayer(const Instruction& i, TileContext& c, const RowList& rows, std::int32_t z) {
+    layerOf(c.blocks + static_cast<std::size_t>(z) * kTileLanes, i, c, rows);
+}
+
+void stamp(const Instruction& i, TileContext& c, const RowList& rows) {
+    static constexpr std::uint16_t kNoBlocks[kTileLanes] = {};
+    const StampTile& tile = c.stamps[i.imm];
+    layerOf(tile.isPainted(c.z) ? tile.layer(c.z) : kNoBlocks, i, c, rows);
 }
 
 void blockHere(const Instruction& i, TileContext& c, const RowList& rows) {

@@ -31,7 +31,7 @@ constexpr int kLayersPerGroup =
     64;  // four work groups a chunk: the part that is free of z is computed four times
 constexpr std::size_t kChunkBytes = std::size_t{world::kBlocksPerChunk} * sizeof(std::uint16_t);
 
-gpu::Buffer seedBuffer(const std::vector<std::uint32_t>& seeds, std::string_view label) {
+gpu::Buffer wordBuffer(const std::vector<std::uint32_t>& seeds, std::string_view label) {
     // Buffers are not empty, generators without noise or random numbers are possible.
     const std::vector<std::uint32_t> values = seeds.empty() ? std::vector<std::uint32_t>{0} : seeds;
     return gpu::Buffer(std::as_bytes(std::span(values)), 0, label);
@@ -42,8 +42,10 @@ std::string shaderName(std::size_t pass) {
 }
 
 std::string shaderText(const gen::GeneratorGraph& generator, std::size_t pass) {
+    const bool stamps = !generator.passes[pass].stamps.empty();
     return "#include \"terrane/gen_gpu/tile.glsl\"\n#include \"terrane/gen_gpu/voronoi.glsl\"\n"
-           "#include \"terrane/gen_gpu/simplex.glsl\"\n#include \"terrane/gen_gpu/stripes.glsl\"\n\n" +
+           "#include \"terrane/gen_gpu/simplex.glsl\"\n#include \"terrane/gen_gpu/stripes.glsl\"\n" +
+           std::string(stamps ? "#include \"terrane/gen_gpu/stamps.glsl\"\n\n" : "\n") +
            gen::emitGlsl(generator, pass);
 }
 
@@ -89,7 +91,7 @@ struct GpuGenerator::Impl {
     std::vector<base::EmbeddedFile> files;
     gpu::ShaderLoader shaders;
     std::vector<gpu::Program> programs;
-    gpu::Buffer fields, blocks, result, noiseSeeds, hashSeeds;
+    gpu::Buffer fields, blocks, result, noiseSeeds, hashSeeds, shapes;
     std::array<gpu::ReadbackBuffer, kBatchesInFlight> readbacks;
     std::deque<InFlight> inFlight;
     std::size_t nextReadback = 0;
@@ -114,8 +116,9 @@ base::Result<void> GpuGenerator::Impl::build(std::uint64_t seed) {
         programs.push_back(std::move(*program));
     }
     const gen::Seeds seeds = gen::makeSeeds(generator, seed);
-    noiseSeeds = seedBuffer(seeds.noises, "noise seeds");
-    hashSeeds = seedBuffer(seeds.hashes, "hash seeds");
+    noiseSeeds = wordBuffer(seeds.noises, "noise seeds");
+    hashSeeds = wordBuffer(seeds.hashes, "hash seeds");
+    if (generator.shapes) shapes = wordBuffer(gen::shapeWords(*generator.shapes), "generator shapes");
     const std::size_t fieldCount = std::max<std::size_t>(1, generator.fields.size());
     const auto keptBlocks = static_cast<std::size_t>(std::max(1, blockNumber(generator.passes.size() - 1)));
     fields =
@@ -165,6 +168,7 @@ void GpuGenerator::Impl::runPass(std::size_t pass, const std::vector<ChunkPos>& 
     result.bindStorage(shared::kResultBinding);
     noiseSeeds.bindStorage(shared::kNoiseSeedsBinding);
     hashSeeds.bindStorage(shared::kHashSeedsBinding);
+    if (!generator.passes[pass].stamps.empty()) shapes.bindStorage(shared::kShapesBinding);
     programs[pass].use();
     const GLuint layerGroups = generator.passes[pass].is3D ? world::kChunkHeight / kLayersPerGroup : 1;
     glDispatchCompute(static_cast<GLuint>(chunks.size()), layerGroups, 1);

@@ -19,6 +19,14 @@ const uint kBlocksBinding = 2u;
 const uint kResultBinding = 3u;
 const uint kNoiseSeedsBinding = 4u;
 const uint kHashSeedsBinding = 5u;
+const uint kShapesBinding = 6u;  // 3D passes that stamp
+
+// Shapes of a generator (gen/shape_table.h): a foot names one with 10 bits on the GPU.
+const uint kMaxShapes = 1024u;
+// Pairs of a block and a rank that shapes have; 0 is no block.
+const uint kShapePaletteWords = 256u;
+// Pairs of fields from which a pass stamps: a work group keeps the feet of each in 9 KiB.
+const uint kMaxStampsInPass = 2u;
 
 // One chunk of a dispatch. A slot holds a chunk's fields and blocks on the GPU.
 struct TileJob {

@@ -68,7 +68,7 @@ class PassRunner {
 
   private:
     Executor& executor() {
-        if (!executor_) executor_ = std::make_unique<Executor>(graph.noises, seeds);
+        if (!executor_) executor_ = std::make_unique<Executor>(graph.noises, seeds, ExecutorParts{.shapes = graph.shapes.get()});
         return *executor_;
     }
 

@@ -1,0 +1,149 @@
+// Oak, birch, willow, what is left of dead trees, bushes: crowns that branches divide among each other.
+#include <algorithm>
+
+#include "terrane/gen/generators/trees/branching.h"
+#include "terrane/gen/generators/trees/kinds_internal.h"
+
+namespace terrane::gen::trees {
+namespace {
+
+// Trunks go on below their foot, so that they stand on slopes.
+constexpr Point kRootEnd = {0, 0, -2};
+
+struct Foliage {
+    Point radii;       // of the clump at each end of a branch
+    float edge = .4f;  // how much of its outermost voxels stays
+    int maxTips = 1;   // clumps stand on branches with at most so many ends
+};
+
+void drawFoliage(Canvas& canvas, const Branches& branches, const Foliage& foliage, Canvas::Paint leaves,
+                 Random& random) {
+    for (const BranchNode& n : branches) {
+        if (n.parent < 0 || n.tips > foliage.maxTips) continue;
+        const float size = random.between(0.8f, 1.15f);
+        canvas.clump(n.at, foliage.radii * size, foliage.edge, leaves, random);
+    }
+}
+
+// A trunk that leans and bends a little.
+void growTrunk(Branches& branches, float height, float lean, Random& random) {
+    const Point away = heading(random.unit()) * lean;
+    const Point bend = heading(random.unit()) * (lean * 0.5f);
+    const Point middle = away * 0.35f + bend + Point{0, 0, height * 0.5f};
+    addLine(branches, -1, kRootEnd, {0, 0, 0});
+    addLine(branches, static_cast<int>(branches.size() - 1), {0, 0, 1}, middle);
+    addLine(branches, static_cast<int>(branches.size() - 1), middle, away + Point{0, 0, height});
+}
+
+// Roots that run out from the foot into the earth.
+void drawRoots(Canvas& canvas, int count, float length, float radius, Canvas::Paint wood, Random& random) {
+    const float first = random.unit();
+    for (int k = 0; k < count; ++k) {
+        const float turns = first + (static_cast<float>(k) + random.between(-.25f, .25f)) *
+                                        shared::detReciprocal(static_cast<float>(count));
+        const Point out = heading(turns) * (length * random.between(.8f, 1.2f));
+        canvas.limb({0, 0, 1.5f}, out + Point{0, 0, -2.5f}, radius, 0.5f, wood);
+    }
+}
+
+}  // namespace
+
+void drawOak(Canvas& canvas, Random& random) {
+    const auto wood = canvas.paint("oak_log", kWoodRank), leaves = canvas.paint("oak_leaves", kLeafRank);
+    Branches branches;
+    const float height = random.between(3.0f, 4.5f), width = random.between(3.8f, 4.8f);
+    growTrunk(branches, height, random.between(0.0f, 1.0f), random);
+    const Point top = branches.back().at;
+    const Crown crown = {top + Point{0, 0, random.between(2.2f, 3.0f)},
+                         {width, width * random.between(.85f, 1.1f), random.between(3.0f, 3.8f)},
+                         0.45f,
+                         height - 0.5f};
+    colonize(branches, pointsIn(crown, 70, random), {9, 1.8f, 1, {0, 0, .15f}, .25f}, random);
+    setRadii(branches, 0.7f);
+    drawLimbs(canvas, branches, wood, 2);
+    drawFoliage(canvas, branches, {{1.7f, 1.7f, 1.3f}, .35f, 1}, leaves, random);
+}
+
+void drawOldOak(Canvas& canvas, Random& random) {
+    const auto wood = canvas.paint("oak_log", kWoodRank), leaves = canvas.paint("oak_leaves", kLeafRank);
+    Branches branches;
+    const float height = random.between(6.0f, 8.0f), width = random.between(12.0f, 14.0f);
+    growTrunk(branches, height, random.between(0.5f, 1.5f), random);
+    const Point top = branches.back().at;
+    const Crown crown = {top + Point{0, 0, random.between(4.0f, 5.5f)},
+                         {width, width * random.between(.85f, 1.0f), random.between(7.0f, 8.5f)},
+                         0.5f,
+                         height - 1.0f};
+    colonize(branches, pointsIn(crown, 260, random), {16, 2.6f, 1.4f, {0, 0, .1f}, .35f}, random);
+    setRadii(branches, 2.1f);
+    drawLimbs(canvas, branches, wood, 2);
+    drawRoots(canvas, 6, 4.0f, 1.1f, wood, random);
+    drawFoliage(canvas, branches, {{2.3f, 2.3f, 1.6f}, .3f, 1}, leaves, random);
+}
+
+void drawBirch(Canvas& canvas, Random& random) {
+    const auto wood = canvas.paint("birch_log", kWoodRank), leaves = canvas.paint("birch_leaves", kLeafRank);
+    Branches branches;
+    const float height = random.between(9.0f, 13.0f), width = random.between(2.2f, 2.9f);
+    growTrunk(branches, height, random.between(0.3f, 1.4f), random);
+    const Point top = branches.back().at;
+    const Crown crown = {{top.x * .8f, top.y * .8f, height * 0.72f},
+                         {width, width, height * random.between(.36f, .42f)},
+                         0.4f,
+                         height * 0.35f};
+    colonize(branches, pointsIn(crown, 55, random), {5, 1.5f, 1, {0, 0, .45f}, .2f}, random);
+    setRadii(branches, 0.6f);
+    drawLimbs(canvas, branches, wood, 2);
+    drawFoliage(canvas, branches, {{1.35f, 1.35f, 1.5f}, .3f, 1}, leaves, random);
+}
+
+void drawWillow(Canvas& canvas, Random& random) {
+    const auto wood = canvas.paint("willow_log", kWoodRank),
+               leaves = canvas.paint("willow_leaves", kLeafRank);
+    Branches branches;
+    const float height = random.between(4.5f, 6.0f), width = random.between(5.5f, 7.0f);
+    growTrunk(branches, height, random.between(.5f, 1.5f), random);
+    const Crown crown = {branches.back().at + Point{0, 0, 2.5f}, {width, width, 3.5f}, 0.4f, height};
+    colonize(branches, pointsIn(crown, 90, random), {10, 2.2f, 1, {0, 0, .1f}, .25f}, random);
+    setRadii(branches, 1.15f);
+    drawLimbs(canvas, branches, wood, 2);
+    drawRoots(canvas, 4, 2.2f, .6f, wood, random);
+    drawFoliage(canvas, branches, {{1.6f, 1.6f, 1.1f}, .5f, 1}, leaves, random);
+    // Curtains: below leaves that have nothing under them, longer the farther out they hang.
+    for (int y = -kMaxShapeReach; y <= kMaxShapeReach; ++y) {
+        for (int x = -kMaxShapeReach; x <= kMaxShapeReach; ++x) {
+            int z = 1;
+            while (z < kMaxShapeZ && canvas.at(x, y, z) == 0) ++z;
+            if (canvas.at(x, y, z) != leaves || random.unit() > 0.5f) continue;
+            const int length = random.between(2, static_cast<int>(height) + 1);
+            for (int k = 1; k <= length && z - k >= 1; ++k) canvas.set(x, y, z - k, leaves);
+        }
+    }
+}
+
+void drawDeadTree(Canvas& canvas, Random& random) {
+    const auto wood = canvas.paint("dead_log", kWoodRank);
+    Branches branches;
+    const float height = random.between(4.0f, 7.0f), width = random.between(3.0f, 4.5f);
+    growTrunk(branches, height, random.between(.5f, 2.0f), random);
+    const Crown crown = {branches.back().at + Point{0, 0, 2.0f}, {width, width, 4.0f}, 0.6f, height * .6f};
+    colonize(branches, pointsIn(crown, random.between(9, 14), random), {12, 1.5f, 1, {0, 0, .1f}, .5f},
+             random);
+    setRadii(branches, 0.8f);
+    drawLimbs(canvas, branches, wood);
+    drawRoots(canvas, 3, 1.8f, .5f, wood, random);
+}
+
+void drawBush(Canvas& canvas, Random& random) {
+    const auto wood = canvas.paint("oak_log", kWoodRank), leaves = canvas.paint("oak_leaves", kLeafRank);
+    canvas.limb({0, 0, -1}, {0, 0, 0}, .4f, .4f, wood);
+    const int stems = random.between(2, 4);
+    for (int k = 0; k < stems; ++k) {
+        const Point out = heading(random.unit()) * random.between(.4f, 1.5f);
+        const Point at = out + Point{0, 0, random.between(0.2f, 1.0f)};
+        canvas.clump(at, Point{1.5f, 1.5f, 1.1f} * random.between(.8f, 1.2f), .4f, leaves, random);
+    }
+    canvas.set(0, 0, 1, leaves);
+}
+
+}  // namespace terrane::gen::trees

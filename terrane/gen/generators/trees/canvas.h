@@ -1,0 +1,48 @@
+// The voxels of a shape while it is drawn. One thread at a time.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/gen/generators/trees/tree_math.h"
+#include "terrane/gen/voxel_shape.h"
+
+namespace terrane::gen::trees {
+
+constexpr int kLeafRank = 0, kWoodRank = 1;
+
+class Canvas {
+  public:
+    using Paint = std::uint8_t;  // 0 is empty
+    Canvas();
+
+    Paint paint(std::string_view block, int rank);
+
+    bool isInside(int x, int y, int z) const;
+    Paint at(int x, int y, int z) const;  // 0 outside
+    // Outside of a shape's bounds nothing is drawn, and leaves never take the place of wood.
+    void set(int x, int y, int z, Paint paint);
+    void erase(int x, int y, int z);
+    bool isWood(Paint paint) const { return paint != 0 && blocks_[paint - 1u].rank >= kWoodRank; }
+
+    // A limb whose radius changes from one end to the other; one voxel wide below a radius of 0.75.
+    void limb(Point from, Point to, float fromRadius, float toRadius, Paint paint);
+    // An ellipsoid, of whose outer part voxels are left out by chance: `edge` of the outermost stay.
+    void clump(Point middle, Point radii, float edge, Paint paint, Random& random);
+
+    // Takes away what does not hang together with (0, 0, 0): leaves by faces, wood by corners too.
+    void dropLoose();
+    // What is drawn, by z, y, x.
+    VoxelShape shape(std::string name) const;
+
+  private:
+    static std::size_t index(int x, int y, int z);
+    void ball(Point middle, float radius, Paint paint);
+
+    std::vector<ShapeBlock> blocks_;
+    std::vector<Paint> cells_;
+};
+
+}  // namespace terrane::gen::trees

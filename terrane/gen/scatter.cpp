@@ -1,0 +1,51 @@
+#include "terrane/gen/scatter.h"
+
+#include <algorithm>
+#include <string>
+
+namespace terrane::gen {
+namespace {
+
+constexpr int kMaxSquares = 4;  // along each axis of a column
+
+struct ScatterSize {
+    std::string name;
+    int spacing, jitter;  // blocks; points lie in 0…jitter−1 of their square
+};
+
+// The point of the square in which a block lies.
+IVec2 pointOf(Pass& p, const ScatterSize& size, Int blockX, Int blockY) {
+    const Float spacing(static_cast<float>(size.spacing)), jitter(static_cast<float>(size.jitter));
+    const Int row = floorDivide(blockY, size.spacing);
+    // Any shift of a whole row keeps its distance from other rows, which y alone has.
+    const Int shift(p.random2D(size.name + " row", row, 0) * spacing);
+    const Int column = floorDivide(blockX - shift, size.spacing);
+    const Int dx(p.random2D(size.name + " x", column, row) * jitter);
+    const Int dy(p.random2D(size.name + " y", column, row) * jitter);
+    return {column * size.spacing + shift + dx, row * size.spacing + dy};
+}
+
+}  // namespace
+
+ScatterPoint scatter(Pass& p, std::string_view name, int spacing, int minDistance) {
+    spacing = std::clamp(spacing, 1, kMaxScatterSpacing);
+    const ScatterSize size = {"scatter " + std::string(name), spacing,
+                              spacing - std::clamp(minDistance, 1, spacing) + 1};
+    const int step = p.step();
+    const Int left = p.x() - step / 2, bottom = p.y() - step / 2;  // the column's first block
+    // A wide column meets several squares; of very many the first ones do.
+    const int reach = std::min((step - 1 + spacing - 1) / spacing, kMaxSquares - 1);
+    ScatterPoint found = {false, {p.x(), p.y()}, 0};
+    for (int k = (reach + 1) * (reach + 1); k-- > 0;) {
+        const Int inX = left + std::min(k % (reach + 1) * spacing, step - 1);
+        const Int inY = bottom + std::min(k / (reach + 1) * spacing, step - 1);
+        const IVec2 at = pointOf(p, size, inX, inY);
+        const Bool isHere = at.x >= left && at.x - left < step && at.y >= bottom && at.y - bottom < step;
+        found.isHere = found.isHere || isHere;
+        found.at = {select(isHere, at.x, found.at.x), select(isHere, at.y, found.at.y)};
+    }
+    found.hash = Int(p.random2D(size.name, found.at.x, found.at.y) * 16777216.0f);
+    return found;
+}
+
+}  // namespace terrane::gen

@@ -1,0 +1,173 @@
+#include "terrane/gen/voxel_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace terrane::gen {
+namespace {
+
+// Beyond this step a trunk of one block would be far too thick: leaves reach down to the ground instead.
+constexpr int kMaxWoodStep = 2;
+
+using ColumnAt = std::pair<int, int>;  // y, x: the order in which equal columns are chosen
+
+// What the voxels of a layer of a wide column are.
+struct LayerCount {
+    int filled = 0;
+    std::map<int, int> byBlock;
+};
+
+struct WideColumn {
+    std::set<ColumnAt> covered;  // blocks
+    std::map<int, LayerCount> layers;
+};
+
+using WideColumns = std::map<ColumnAt, WideColumn>;
+
+// The foot stands in the middle of its column, as the block that stands for a column does.
+int columnOf(int blocks, int level) {
+    return (blocks + (1 << level) / 2) >> level;
+}
+
+WideColumns gather(const VoxelShape& shape, int level) {
+    WideColumns columns;
+    for (const ShapeVoxel& v : shape.voxels) {
+        WideColumn& column = columns[{columnOf(v.y, level), columnOf(v.x, level)}];
+        column.covered.insert({v.y, v.x});
+        LayerCount& layer = column.layers[v.z];
+        ++layer.filled;
+        ++layer.byBlock[v.block];
+    }
+    return columns;
+}
+
+// The columns with most of their area covered, as many as have the shape's area; the foot's always.
+std::vector<ColumnAt> fullest(const WideColumns& columns, int level) {
+    const int area = 1 << (2 * level);
+    int covered = 0;
+    std::vector<std::pair<int, ColumnAt>> order;
+    for (const auto& [at, column] : columns) {
+        const int count = static_cast<int>(column.covered.size());
+        covered += count;
+        order.push_back({at == ColumnAt{0, 0} ? -2 * area : -count, at});
+    }
+    std::sort(order.begin(), order.end());
+    const int wanted = std::max(1, (covered + area / 2) / area);
+    std::vector<ColumnAt> chosen;
+    for (int k = 0; k < std::min<int>(wanted, static_cast<int>(order.size())); ++k) {
+        chosen.push_back(order[static_cast<std::size_t>(k)].second);
+    }
+    return chosen;
+}
+
+// The block that most voxels have; of equal ones the first.
+int mostFrequent(const std::map<int, int>& counts) {
+    int best = -1;
+    for (const auto& [block, count] : counts) {
+        if (best < 0 || count > counts.at(best)) best = block;
+    }
+    return best;
+}
+
+class Coarsener {
+  public:
+    Coarsener(const VoxelShape& shape, int level) : shape_(shape), level_(level) {}
+
+    VoxelShape run() {
+        const WideColumns columns = gather(shape_, level_);
+        result_ = {shape_.name, shape_.blocks, {}};
+        for (const ColumnAt& at : fullest(columns, level_)) {
+            const auto found = columns.find(at);
+            if (found == columns.end()) continue;
+            at == ColumnAt{0, 0} ? addFoot(found->second) : addColumn(at, found->second);
+        }
+        dropLoose();
+        return std::move(result_);
+    }
+
+  private:
+    void add(ColumnAt at, int z, int block) {
+        result_.voxels.push_back({static_cast<std::int8_t>(at.second), static_cast<std::int8_t>(at.first),
+                                  static_cast<std::int8_t>(z), static_cast<std::uint8_t>(block)});
+    }
+
+    // A layer is there where a quarter of the covered area is.
+    void addColumn(ColumnAt at, const WideColumn& column) {
+        for (const auto& [z, layer] : column.layers) {
+            if (4 * layer.filled >= static_cast<int>(column.covered.size()))
+                add(at, z, mostFrequent(layer.byBlock));
+        }
+    }
+
+    // Without gaps from the lowest voxel to the highest.
+    void addFoot(const WideColumn& column) {
+        std::map<int, int> crown;
+        for (const ShapeVoxel& v : shape_.voxels) {
+            if (!isWood(v.block)) ++crown[v.block];
+        }
+        int below = mostFrequent(column.layers.begin()->second.byBlock);
+        const bool isLeaves = !crown.empty() && (1 << level_) > kMaxWoodStep;
+        for (int z = column.layers.begin()->first; z <= column.layers.rbegin()->first; ++z) {
+            const auto layer = column.layers.find(z);
+            if (layer != column.layers.end()) below = footBlock(layer->second);
+            add({0, 0}, z, isLeaves && isWood(below) ? mostFrequent(crown) : below);
+        }
+    }
+
+    int footBlock(const LayerCount& layer) const {
+        for (const auto& [block, count] : layer.byBlock) {
+            if (isWood(block)) return block;
+        }
+        return mostFrequent(layer.byBlock);
+    }
+
+    bool isWood(int block) const { return shape_.blocks[static_cast<std::size_t>(block)].rank > 0; }
+
+    // Leaves what hangs together with the foot's column, face to face or over an edge.
+    void dropLoose() {
+        std::map<std::array<int, 3>, bool> reached;
+        for (const ShapeVoxel& v : result_.voxels) reached[{v.x, v.y, v.z}] = v.x == 0 && v.y == 0;
+        std::vector<std::array<int, 3>> open;
+        for (const auto& [at, isReached] : reached) {
+            if (isReached) open.push_back(at);
+        }
+        while (!open.empty()) {
+            const std::array<int, 3> at = open.back();
+            open.pop_back();
+            for (int n = 0; n < 27; ++n) {
+                const auto next = reached.find({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1});
+                if (next == reached.end() || next->second) continue;
+                next->second = true;
+                open.push_back(next->first);
+            }
+        }
+        std::erase_if(result_.voxels, [&](const ShapeVoxel& v) { return !reached.at({v.x, v.y, v.z}); });
+    }
+
+    const VoxelShape& shape_;
+    int level_;
+    VoxelShape result_;
+};
+
+}  // namespace
+
+VoxelShape coarsened(const VoxelShape& shape, int level) {
+    if (level == 0 || shape.voxels.empty()) return shape;
+    return Coarsener(shape, level).run();
+}
+
+ShapeFigures figuresOf(const VoxelShape& shape) {
+    std::set<ColumnAt> covered;
+    ShapeFigures figures;
+    for (const ShapeVoxel& v : shape.voxels) {
+        covered.insert({v.y, v.x});
+        figures.height = std::max<int>(figures.height, v.z);
+    }
+    figures.cover = static_cast<int>(covered.size());
+    return figures;
+}
+
+}  // namespace terrane::gen

@@ -1,0 +1,46 @@
+// Precomputed voxels that a generator puts into the land as a whole: a tree, a boulder. Plain values; any
+// thread. GeneratorBuilder::shape takes them, Pass::stamp says where they stand.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace terrane::gen {
+
+// Offsets from the foot, blocks. Neighbors are read as far as kMaxReadOffset = 16.
+constexpr int kMaxShapeReach = 16;
+constexpr int kMinShapeZ = -8, kMaxShapeZ = 48;
+// Where shapes overlap, the block of the higher rank stays: wood is not cut by a neighbor's leaves.
+constexpr int kMaxShapeRank = 3;
+
+struct ShapeBlock {
+    std::string name;  // of the registry
+    int rank = 0;      // 0…kMaxShapeRank
+    bool operator==(const ShapeBlock&) const = default;
+};
+
+struct ShapeVoxel {
+    std::int8_t x, y, z;
+    std::uint8_t block;  // number in VoxelShape::blocks
+    bool operator==(const ShapeVoxel&) const = default;
+};
+
+struct VoxelShape {
+    std::string name;  // in messages
+    std::vector<ShapeBlock> blocks;
+    std::vector<ShapeVoxel> voxels;  // each place once
+};
+
+// The shape in columns that are 2^level blocks wide; z stays in blocks. Of all columns those stay that are
+// filled most, as many as have the same area. Below the crown the foot's column is filled, with wood as long
+// as columns are at most 2 blocks wide, so that nothing floats.
+VoxelShape coarsened(const VoxelShape& shape, int level);
+
+// Blocks (not columns) seen from above, and the highest voxel's z.
+struct ShapeFigures {
+    int cover = 0, height = 0;
+};
+ShapeFigures figuresOf(const VoxelShape& shape);
+
+}  // namespace terrane::gen
