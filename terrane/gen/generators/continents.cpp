@@ -24,7 +24,9 @@ void writeContinents(GeneratorBuilder& g) {
     g.pass2D("shape", [&](Pass& p) { shapePass(p, f); });
     g.pass2D("relief", [&](Pass& p) { reliefPass(p, f); });
     g.pass2D("surface", [&](Pass& p) { surfacePass(p, f); });
-    g.pass3D("ground", [&](Pass& p) { p.setBlock(ground(p, f)); });
+    g.pass2D("plants", [&](Pass& p) { plantsPass(p, f); });
+    g.pass3D("land", [&](Pass& p) { landPass(p, f); });
+    if (g.step() == 1) g.pass3D("cave life", [&](Pass& p) { caveLifePass(p, f); });
 }
 
 }  // namespace terrane::gen

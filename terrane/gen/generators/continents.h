@@ -3,6 +3,7 @@
 
 #include "terrane/gen/builder.h"
 #include "terrane/gen/generators/sea_level.h"
+#include "terrane/gen/generators/trees/trees.h"
 
 namespace terrane::gen::continents {
 
@@ -60,6 +61,12 @@ struct Fields {
           soil(g.field<Block>("soil")),
           rock(g.field<Block>("rock")),
           rivers(continents::rivers(g)) {
+        kinds = trees::record(g);
+        plant = g.field<Block>("plant");
+        plantHeight = g.field<Int>("plant height");
+        tree = g.field<Int>("tree");
+        treeBase = g.field<Int>("tree base");
+        small = g.field<Int>("small");
         if (g.step() == 1) caveTop = g.field<Int>("cave top");
     }
 
@@ -81,6 +88,12 @@ struct Fields {
     Field<Block> top, soil, rock;  // the highest block, the few below it, and all below these
     Field<Int> caveTop;            // z below which caves may be; at level 0
     Drainage rivers;
+    // What grows; which of these there are depends on the level.
+    trees::TreeKinds kinds;
+    Field<Int> tree, small;  // numbers of the shapes that stand in this column, or -1
+    Field<Int> treeBase;     // z of their feet
+    Field<Block> plant;      // on the ground, or air
+    Field<Int> plantHeight;
 };
 
 // The forms of the land where they begin, from the position alone.
@@ -103,6 +116,11 @@ void reliefPass(Pass& p, const Fields& f);
 void surfacePass(Pass& p, const Fields& f);
 // 3D: earth, caves and water at this voxel.
 Block ground(Pass& p, const Fields& f);
+
+// What grows: continents_plants.cpp.
+void plantsPass(Pass& p, const Fields& f);    // 2D: where
+void landPass(Pass& p, const Fields& f);      // 3D: on the ground
+void caveLifePass(Pass& p, const Fields& f);  // 3D: in caves
 
 // Rivers and lakes: continents_rivers.cpp.
 Drainage rivers(GeneratorBuilder& g);

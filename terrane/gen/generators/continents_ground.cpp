@@ -68,7 +68,7 @@ Block ground(Pass& p, const Fields& f) {
     p.if_(
         z <= p.read(f.surface), [&] { block = earth(p, f); },
         [&] {
-            const Bool isIce = z == water && p.read(f.cold) < -0.66f;
+            const Bool isIce = z == water && p.read(f.cold) < -0.78f;
             const Block liquid = select(isIce, p.block("ice"), p.block("water"));
             block = select(z <= water, liquid, p.block("air"));
         });

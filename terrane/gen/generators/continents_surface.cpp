@@ -102,7 +102,7 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
     const Float bareFrom = spots * 0.25f + patches * 0.2f + 1.05f - smoothstep(0.0f, -0.4f, s.cold) * 0.2f;
     const Bool isSandy = is(top, "sand") && biome == number(Biome::Desert);
     const Bool isBare = (s.steepness > bareFrom + select(isSandy, Float(0.4f), Float(0.0f))) ||
-                        (p.read(f.volcanic) > spots * 0.15f + 0.45f) ||
+                        (p.read(f.volcanic) > spots * 0.15f + patches * 0.1f + 0.62f) ||
                         (p.read(f.rocky) > 0.4f && s.steepness > spots * 0.2f + 0.6f);
     const Bool keepsSnow = is(top, "snow") && s.steepness < patches * 0.5f + 1.5f;
     const Bool isUnderWater = p.read(f.surface) < p.read(f.water) && p.read(f.wet) > 0.0f;

@@ -1,0 +1,195 @@
+// What grows on continents: where trees, bushes, stones and plants stand (2D), and their blocks (3D).
+#include <algorithm>
+
+#include "terrane/gen/generators/continents_groves.h"
+#include "terrane/gen/scatter.h"
+
+namespace terrane::gen::continents {
+namespace {
+
+// Up to this step shapes are stamped; beyond it columns are crowns as often as crowns cover the ground.
+constexpr int kMaxShapeStep = 4;
+// Smaller things than trees vanish beyond this step.
+constexpr int kMaxSmallStep = 2;
+
+std::vector<Grove> grovesOf(std::span<const Grove> groves, Biome biome) {
+    std::vector<Grove> result;
+    for (const Grove& g : groves)
+        if (g.biome == biome) result.push_back(g);
+    return result;
+}
+
+// Woods and clearings: 0…1 of what the tables say.
+Float density(Pass& p, const Fields& f) {
+    const Float woods = p.perlin2DWithGrain("woods", 64, {.1f, .2f, .3f, .5f});
+    const Float clearings = smoothstep(0.42f, 0.56f, p.perlin2DWithGrain("clearings", 32, {.3f, 1.0f}));
+    return p.read(f.forest) * (smoothstep(-0.45f, 0.1f, woods) * 0.75f + 0.25f) * (1.0f - clearings * 0.92f);
+}
+
+// Trees stand on earth that no cave is near. On beaches only where it is warm, in mountains up to the tree line.
+Bool canGrow(Pass& p, const Fields& f) {
+    const Block top = p.read(f.top);
+    const auto is = [&](const char* name) { return top == p.block(name); };
+    const Bool isEarth = is("grass") || is("moss") || is("mud") || is("snow") || is("sand") || is("red_sand") || is("gravel");
+    const Float cold = p.read(f.cold);
+    const Bool isWarmBeach = p.read(f.biome) != number(Biome::Beach) || cold > 0.18f;
+    const Bool isBelowTreeLine = p.read(f.biome) != number(Biome::Alpine) || cold > -0.3f;
+    Bool result = isEarth && isWarmBeach && isBelowTreeLine && p.read(f.surface) >= p.read(f.water);
+    if (p.step() == 1) result = result && p.read(f.caveTop) < p.read(f.surface) - 3;
+    return result;
+}
+
+// The shape at the point, by the groves of its biome; -1 for none.
+Int shapeAt(Pass& p, const Fields& f, std::span<const Grove> groves, const ScatterPoint& point, Float share) {
+    const Float chance = p.random2D("kind", point.at.x, point.at.y);
+    Var<Int> shape = p.var(Int(-1));
+    for (int b = 0; b < static_cast<int>(Biome::Count); ++b) {
+        const std::vector<Grove> own = grovesOf(groves, static_cast<Biome>(b));
+        if (own.empty()) continue;
+        p.if_(point.isHere && p.read(f.biome) == Int(b), [&] {
+            float below = 0;
+            for (const Grove& g : own) below += g.share;
+            Int chosen = -1;
+            for (auto g = own.rbegin(); g != own.rend(); ++g) {
+                chosen = select(chance < share * below, trees::shapeOf(of(f.kinds, g->kind), point.hash), chosen);
+                below -= g->share;
+            }
+            shape = chosen;
+        });
+    }
+    return shape;
+}
+
+struct Growth {
+    Block block;
+    Int height;
+};
+
+Growth plantAt(Pass& p, const Fields& f) {
+    const Float chance = p.random2D("plant", p.x(), p.y());
+    const Float meadows = p.perlin2D("meadows", 16, {.5f, 1.0f}) * 0.8f + 1.0f;
+    const Block top = p.read(f.top);
+    const auto isOn = [&](const char* name) { return top == p.block(name); };
+    const Bool isEarth = isOn("grass") || isOn("moss") || isOn("mud") || isOn("sand") || isOn("red_sand");
+    const Bool isFree = p.read(f.caveTop) < p.read(f.surface) - 3;
+    const Int depth = p.read(f.water) - p.read(f.surface);
+    Var<Block> plant = p.var(p.block("air"));
+    Var<Int> height = p.var(Int(1));
+    for (int b = 0; b < static_cast<int>(Biome::Count); ++b) {
+        const bool growsInWater = b == static_cast<int>(Biome::Reef) || b == static_cast<int>(Biome::Ocean);
+        const Bool isPlace = growsInWater ? depth > 2 && depth < 20 : depth <= 0;
+        p.if_(p.read(f.biome) == Int(b) && isPlace && isEarth && isFree, [&] {
+            float below = 0;
+            for (const Plant& entry : plants())
+                if (entry.biome == static_cast<Biome>(b)) below += entry.share;
+            Block chosen = p.block("air");
+            for (auto entry = plants().rbegin(); entry != plants().rend(); ++entry) {
+                if (entry->biome != static_cast<Biome>(b)) continue;
+                chosen = select(chance < meadows * below, p.block(entry->block), chosen);
+                below -= entry->share;
+            }
+            plant = chosen;
+        });
+    }
+    const Bool isBank = depth <= 0 && depth >= -2 && p.read(f.wet) > 0.5f && p.read(f.cold) > -0.3f;
+    p.if_(isBank && isEarth && isFree && chance > 0.72f, [&] { plant = p.block("reeds"); });
+    p.if_(p.read(f.biome) == number(Biome::Desert) && isFree && depth <= 0 && chance > 0.9985f, [&] {
+        plant = p.block("cactus");
+        height = Int((chance - 0.9985f) * 2600.0f) + 1;
+    });
+    return {plant, height};
+}
+
+// Of a biome's trees the mean crown, and how much of the ground crowns cover.
+struct Canopy {
+    float cover = 0, height = 0;
+    std::string_view leaves;
+};
+
+Canopy canopyOf(const Fields& f, Biome biome) {
+    Canopy canopy;
+    float most = 0;
+    for (const Grove& g : grovesOf(treeGroves(), biome)) {
+        const trees::KindRecord& kind = of(f.kinds, g.kind);
+        const float cover = g.share * kind.cover / static_cast<float>(kTreeSpacing * kTreeSpacing);
+        canopy.cover += cover;
+        canopy.height += cover * kind.height;
+        if (cover > most) canopy.leaves = kind.leaves;
+        most = std::max(most, cover);
+    }
+    if (canopy.cover > 0) canopy.height /= canopy.cover;
+    // Crowns overlap where they are many.
+    canopy.cover = canopy.cover / (1.0f + 0.35f * canopy.cover);
+    return canopy;
+}
+
+// As many columns are crowns as crowns cover at level 0, from the ground to where they end there on average.
+Growth crownAt(Pass& p, const Fields& f, Float share) {
+    const Float chance = p.random2D("crown", p.x(), p.y()), top = p.random2D("crown top", p.x(), p.y());
+    Var<Block> crown = p.var(p.block("air"));
+    Var<Int> height = p.var(Int(0));
+    for (int b = 0; b < static_cast<int>(Biome::Count); ++b) {
+        const Canopy canopy = canopyOf(f, static_cast<Biome>(b));
+        if (canopy.cover < 0.004f) continue;
+        const Bool isHere = p.read(f.biome) == Int(b) && chance < share * canopy.cover;
+        crown = select(isHere, p.block(canopy.leaves), static_cast<Block>(crown));
+        height = select(isHere, Int((top * 0.5f + 0.6f) * canopy.height), static_cast<Int>(height));
+    }
+    return {crown, height};
+}
+
+}  // namespace
+
+void plantsPass(Pass& p, const Fields& f) {
+    const Float share = select(canGrow(p, f), density(p, f), Float(0.0f));
+    if (p.step() > kMaxShapeStep) {
+        const Growth crown = crownAt(p, f, share);
+        p.set(f.plant, crown.block);
+        p.set(f.plantHeight, crown.height);
+        return;
+    }
+    p.set(f.treeBase, p.read(f.surface) + 1);
+    p.set(f.tree, shapeAt(p, f, treeGroves(), scatter(p, "trees", kTreeSpacing, 4), share));
+    if (p.step() > kMaxSmallStep) return;
+    p.set(f.small, shapeAt(p, f, smallGroves(), scatter(p, "small things", kSmallSpacing, 4), share));
+    if (p.step() > 1) return;
+    const Growth plant = plantAt(p, f);
+    p.set(f.plant, plant.block);
+    p.set(f.plantHeight, plant.height);
+}
+
+void landPass(Pass& p, const Fields& f) {
+    const Int surface = p.read(f.surface);
+    const Block air = p.block("air");
+    Var<Block> block = p.var(ground(p, f));
+    p.if_(p.z() > surface, [&] {
+        if (p.step() == 1 || p.step() > kMaxShapeStep) {
+            const Bool isPlant = p.z() <= surface + p.read(f.plantHeight) && p.read(f.plant) != air;
+            block = select(isPlant, p.read(f.plant), static_cast<Block>(block));
+        }
+        if (p.step() <= kMaxSmallStep) {
+            const Block small = p.stamp(f.small, f.treeBase);
+            block = select(small != air, small, static_cast<Block>(block));
+        }
+        if (p.step() <= kMaxShapeStep) {
+            const Block tree = p.stamp(f.tree, f.treeBase);
+            block = select(tree != air, tree, static_cast<Block>(block));
+        }
+    });
+    p.setBlock(block);
+}
+
+void caveLifePass(Pass& p, const Fields& f) {
+    Var<Block> block = p.var(p.blockHere());
+    p.if_(p.z() < p.read(f.caveTop) && p.blockHere() == p.block("air"), [&] {
+        const Block below = p.blockInColumn(p.z() - 1);
+        const Bool isFloor = below != p.block("air") && below != p.block("water");
+        const Float chance = p.random3D("cave life", p.x(), p.y(), p.z());
+        const Block grown = multiSelect({{chance < 0.012f && p.z() < 40, p.block("crystal")}, {chance < 0.04f, p.block("glowing_mushroom")}, {chance < 0.05f, p.block("brown_mushroom")}},
+                                        p.block("air"));
+        block = select(isFloor, grown, static_cast<Block>(block));
+    });
+    p.setBlock(block);
+}
+
+}  // namespace terrane::gen::continents
