@@ -133,7 +133,7 @@ Growth crownAt(Pass& p, const Fields& f, Float share) {
         if (canopy.cover < 0.004f) continue;
         const Bool isHere = p.read(f.biome) == Int(b) && chance < share * canopy.cover;
         crown = select(isHere, p.block(canopy.leaves), static_cast<Block>(crown));
-        height = select(isHere, Int((top * 0.5f + 0.6f) * canopy.height), static_cast<Int>(height));
+        height = select(isHere, Int((top * 0.35f + 0.35f) * canopy.height), static_cast<Int>(height));
     }
     return {crown, height};
 }

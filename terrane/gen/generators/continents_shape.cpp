@@ -43,7 +43,9 @@ Float rangesAt(Pass& p, Float land) {
 
 // Blocks above the plain. Peaks and passes along a range.
 Float rangeHeight(Pass& p, Float mountains) {
-    const Float peaks = 1.0f - abs(p.simplex2D("peaks", 256, {.25f, .6f, 1.0f}));
+    constexpr float kRound = 0.07f;  // crests are round over some 20 blocks: on a crease no way is downhill
+    const Float noise = p.simplex2D("peaks", 256, {.25f, .6f, 1.0f});
+    const Float peaks = 1.0f + kRound - sqrt(noise * noise + kRound * kRound);
     return mountains * (30.0f + peaks * peaks * 108.0f);
 }
 

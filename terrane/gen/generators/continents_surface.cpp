@@ -79,9 +79,11 @@ Block biomeTop(Pass& p, const Site& s, Int biome, Float patches, Float spots) {
 
 Block rockOf(Pass& p, const Fields& f, Int biome, Float patches) {
     const auto is = [&](Biome b) { return biome == number(b); };
+    // As the forms are, not as the biomes: their borders are elsewhere.
+    const Float temperature = p.read(f.temperature), moisture = p.read(f.moisture);
     return multiSelect({{p.read(f.volcanic) > patches * 0.1f + 0.15f, p.block("basalt")},
-                        {is(Biome::CanyonLand), p.block("red_sandstone")},
-                        {is(Biome::RainForest), p.block("limestone")},
+                        {canyonLand(temperature, moisture) > 0.05f || is(Biome::CanyonLand), p.block("red_sandstone")},
+                        {karst(temperature, moisture) > 0.05f || is(Biome::RainForest), p.block("limestone")},
                         {is(Biome::Desert), p.block("sandstone")}},
                        p.block("stone"));
 }
