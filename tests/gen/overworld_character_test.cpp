@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tests/gen/overworld_area.h"
+#include "tests/gen/chunk_area.h"
 
 namespace terrane::gen {
 namespace {

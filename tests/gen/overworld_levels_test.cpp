@@ -11,7 +11,7 @@
 
 #include "bench/level_figures.h"
 #include "terrane/gen/level_generators.h"
-#include "tests/gen/overworld_area.h"
+#include "tests/gen/chunk_area.h"
 
 namespace terrane::gen {
 namespace {

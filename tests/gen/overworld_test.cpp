@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tests/gen/overworld_area.h"
+#include "tests/gen/chunk_area.h"
 
 namespace terrane::gen {
 namespace {

@@ -9,10 +9,9 @@ namespace terrane::gen {
 namespace continents {
 
 const char* biomeName(Biome biome) {
-    constexpr const char* kNames[] = {"ocean",        "reef",       "beach",  "meadow", "oak forest",
-                                      "birch forest", "old forest", "taiga",  "tundra", "snow",
-                                      "savanna",      "desert",     "canyon land", "swamp",  "alpine",
-                                      "rain forest"};
+    constexpr const char* kNames[] = {
+        "ocean",  "reef", "beach",   "meadow", "oak forest",  "birch forest", "old forest", "taiga",
+        "tundra", "snow", "savanna", "desert", "canyon land", "swamp",        "alpine",     "rain forest"};
     static_assert(std::size(kNames) == static_cast<std::size_t>(Biome::Count));
     return kNames[static_cast<std::size_t>(biome)];
 }

@@ -132,5 +132,4 @@ struct Watered {
 // Cuts valleys, beds and basins into ground of the given height.
 Watered cutRivers(Pass& p, const Fields& f, Float height);
 
-
 }  // namespace terrane::gen::continents

@@ -10,7 +10,9 @@ constexpr int kCaveWater = 13;  // z below which caves are lakes
 Block strata(Pass& p, const Fields& f) {
     const Int bend = Int(p.perlin2D("strata", 64, {1.5f, 3.0f}) + 8.0f);
     const Int band = floorModulo(p.z() + bend, 17);
-    const Block stripes = multiSelect({{band < 4, p.block("terracotta")}, {band == 9, p.block("sandstone")}, {band == 13, p.block("terracotta")}},
+    const Block stripes = multiSelect({{band < 4, p.block("terracotta")},
+                                       {band == 9, p.block("sandstone")},
+                                       {band == 13, p.block("terracotta")}},
                                       p.block("red_sandstone"));
     return select(p.read(f.rock) == p.block("red_sandstone"), stripes, p.read(f.rock));
 }
@@ -21,11 +23,13 @@ Bool isCave(Pass& p, const Fields& f) {
     const Float where = p.perlin2D("cave places", 128, {.5f, 1.0f});
     p.if_(p.z() > 2 && p.z() < p.read(f.caveTop), [&] {
         p.if_(where > -0.05f, [&] {
-            const Float a = p.perlin3D("tunnels", 22, {.45f, 1.0f}), b = p.perlin3D("more tunnels", 22, {.45f, 1.0f});
+            const Float a = p.perlin3D("tunnels", 22, {.45f, 1.0f}),
+                        b = p.perlin3D("more tunnels", 22, {.45f, 1.0f});
             result = a * a + b * b * 1.6f < min(where + 0.05f, Float(0.25f)) * 0.10f + 0.006f;
         });
         p.if_(where < -0.12f, [&] {
-            const Float hall = p.perlin3D("halls", 30, {.3f, 1.0f}) - smoothstep(0.0f, 60.0f, Float(p.z()) - 30.0f) * 0.25f;
+            const Float hall =
+                p.perlin3D("halls", 30, {.3f, 1.0f}) - smoothstep(0.0f, 60.0f, Float(p.z()) - 30.0f) * 0.25f;
             const Float column = p.perlin2D("columns", 5, {1.0f, .5f});
             result = hall > 0.30f && column < 0.5f;
         });
@@ -51,7 +55,8 @@ Block earth(Pass& p, const Fields& f) {
         depth <= kSoilDepth,
         [&] {
             const Block top = select(p.read(f.top) == p.block("red_sandstone"), strata(p, f), p.read(f.top));
-            const Block soil = select(p.read(f.soil) == p.block("red_sandstone"), strata(p, f), p.read(f.soil));
+            const Block soil =
+                select(p.read(f.soil) == p.block("red_sandstone"), strata(p, f), p.read(f.soil));
             block = select(depth == 0, top, soil);
         },
         [&] { block = p.step() == 1 ? veins(p, strata(p, f)) : strata(p, f); });

@@ -26,11 +26,13 @@ Float density(Pass& p, const Fields& f) {
     return p.read(f.forest) * (smoothstep(-0.45f, 0.1f, woods) * 0.75f + 0.25f) * (1.0f - clearings * 0.92f);
 }
 
-// Trees stand on earth that no cave is near. On beaches only where it is warm, in mountains up to the tree line.
+// Trees stand on earth that no cave is near. On beaches only where it is warm, in mountains up to the tree
+// line.
 Bool canGrow(Pass& p, const Fields& f) {
     const Block top = p.read(f.top);
     const auto is = [&](const char* name) { return top == p.block(name); };
-    const Bool isEarth = is("grass") || is("moss") || is("mud") || is("snow") || is("sand") || is("red_sand") || is("gravel");
+    const Bool isEarth =
+        is("grass") || is("moss") || is("mud") || is("snow") || is("sand") || is("red_sand") || is("gravel");
     const Float cold = p.read(f.cold);
     const Bool isWarmBeach = p.read(f.biome) != number(Biome::Beach) || cold > 0.18f;
     const Bool isBelowTreeLine = p.read(f.biome) != number(Biome::Alpine) || cold > -0.3f;
@@ -51,7 +53,8 @@ Int shapeAt(Pass& p, const Fields& f, std::span<const Grove> groves, const Scatt
             for (const Grove& g : own) below += g.share;
             Int chosen = -1;
             for (auto g = own.rbegin(); g != own.rend(); ++g) {
-                chosen = select(chance < share * below, trees::shapeOf(of(f.kinds, g->kind), point.hash), chosen);
+                chosen =
+                    select(chance < share * below, trees::shapeOf(of(f.kinds, g->kind), point.hash), chosen);
                 below -= g->share;
             }
             shape = chosen;
@@ -185,7 +188,9 @@ void caveLifePass(Pass& p, const Fields& f) {
         const Block below = p.blockInColumn(p.z() - 1);
         const Bool isFloor = below != p.block("air") && below != p.block("water");
         const Float chance = p.random3D("cave life", p.x(), p.y(), p.z());
-        const Block grown = multiSelect({{chance < 0.012f && p.z() < 40, p.block("crystal")}, {chance < 0.04f, p.block("glowing_mushroom")}, {chance < 0.05f, p.block("brown_mushroom")}},
+        const Block grown = multiSelect({{chance < 0.012f && p.z() < 40, p.block("crystal")},
+                                         {chance < 0.04f, p.block("glowing_mushroom")},
+                                         {chance < 0.05f, p.block("brown_mushroom")}},
                                         p.block("air"));
         block = select(isFloor, grown, static_cast<Block>(block));
     });

@@ -50,10 +50,12 @@ Watered cutRivers(Pass& p, const Fields& f, Float height) {
     p.if_(r.lakeDistance < 48.0f, [&] {
         const Float fromShore = r.lakeDistance + rough * 3.0f;
         const Float shore = r.lakeLevel + 1.2f + clamp(fromShore * 0.1f, 0.0f, 2.0f);
-        const Float outside = lerp(shore, max(static_cast<Float>(ground), shore), smoothstep(0.0f, 40.0f, fromShore));
+        const Float outside =
+            lerp(shore, max(static_cast<Float>(ground), shore), smoothstep(0.0f, 40.0f, fromShore));
         const Float bed = r.lakeLevel - 0.8f - min(fromShore * -0.22f, Float(11.0f));
         ground = select(fromShore < 0.0f, bed, outside);
-        water = select(fromShore < 0.0f, max(Int(floor(r.lakeLevel)), Int(kSeaLevel)), static_cast<Int>(water));
+        water =
+            select(fromShore < 0.0f, max(Int(floor(r.lakeLevel)), Int(kSeaLevel)), static_cast<Int>(water));
         wet = max(static_cast<Float>(wet), smoothstep(10.0f, 2.0f, fromShore));
     });
     return {ground, water, wet};

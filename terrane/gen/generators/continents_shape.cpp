@@ -17,7 +17,8 @@ Float originLand(Pass& p) {
 
 Float landNoise(Pass& p) {
     constexpr float kSeaShare = 0.2f;  // makes 30…45 % land
-    const Float continents = p.simplex2D("continents", 64, {.012f, .02f, .035f, .07f, .11f, .22f, .55f, 1.0f});
+    const Float continents =
+        p.simplex2D("continents", 64, {.012f, .02f, .035f, .07f, .11f, .22f, .55f, 1.0f});
     return continents + originLand(p) - kSeaShare;
 }
 
@@ -57,7 +58,8 @@ Float plainHeight(Float land) {
     return inland + shelf + deep;
 }
 
-// A cone with a crater where the point of a wide cell is one, from the sea floor up where it stands in the sea.
+// A cone with a crater where the point of a wide cell is one, from the sea floor up where it stands in the
+// sea.
 struct Volcano {
     Float rise;   // blocks
     Float share;  // 0…1: from its foot to its middle
@@ -66,8 +68,7 @@ Volcano volcanoAt(Pass& p) {
     constexpr int kCell = 3072;
     constexpr float kRadius = 420.0f, kRise = 132.0f, kCrater = 52.0f, kChance = 0.4f;
     const Voronoi2D cell = p.voronoi2D("volcanoes", kCell, 1);
-    const Bool isVolcano =
-        p.random2D("is volcano", p.x() + cell.offset.x, p.y() + cell.offset.y) < kChance;
+    const Bool isVolcano = p.random2D("is volcano", p.x() + cell.offset.x, p.y() + cell.offset.y) < kChance;
     const Float outside = clamp(1.0f - cell.distance * (1.0f / kRadius), 0.0f, 1.0f);
     const Float cone = outside * outside * kRise;
     const Float crater = smoothstep(kCrater, kCrater * 0.4f, cell.distance) * 24.0f;

@@ -54,43 +54,49 @@ struct Ground {
 Block biomeTop(Pass& p, const Site& s, Int biome, Float patches, Float spots) {
     const auto is = [&](Biome b) { return biome == number(b); };
     const auto block = [&](const char* name) { return p.block(name); };
-    const Block cold = select(spots > 0.25f, block("moss"), select(patches > 0.35f, block("gravel"), block("grass")));
+    const Block cold =
+        select(spots > 0.25f, block("moss"), select(patches > 0.35f, block("gravel"), block("grass")));
     const Block alpine = multiSelect({{s.cold < spots * 0.06f - 0.38f, block("snow")},
                                       {s.cold < spots * 0.2f - 0.22f, block("stone")},
                                       {spots > 0.45f, block("gravel")}},
                                      block("grass"));
-    const Block swamp = multiSelect({{spots > 0.3f, block("moss")}, {patches > 0.1f, block("mud")}}, block("grass"));
-    const Block sea = multiSelect({{s.height > kSea - 9.0f, select(s.cold < -0.3f, block("gravel"), block("sand"))},
-                                   {patches > 0.3f, block("clay")},
-                                   {patches < -0.25f, block("gravel")}},
-                                  block("sand"));
-    return multiSelect({{is(Biome::Ocean), sea},
-                        {is(Biome::Reef) || is(Biome::Desert), block("sand")},
-                        {is(Biome::Beach), select(s.cold < -0.25f, block("gravel"), block("sand"))},
-                        {is(Biome::CanyonLand), select(patches > 0.35f, block("grass"), block("red_sand"))},
-                        {is(Biome::Snow), block("snow")},
-                        {is(Biome::Tundra), select(s.cold < spots * 0.12f - 0.54f, block("snow"), cold)},
-                        {is(Biome::Taiga), select(patches > 0.2f && spots > 0.1f, block("moss"), block("grass"))},
-                        {is(Biome::Alpine), alpine},
-                        {is(Biome::Swamp), swamp},
-                        {(is(Biome::OldForest) || is(Biome::RainForest)) && spots > 0.3f, block("moss")}},
-                       block("grass"));
+    const Block swamp =
+        multiSelect({{spots > 0.3f, block("moss")}, {patches > 0.1f, block("mud")}}, block("grass"));
+    const Block sea =
+        multiSelect({{s.height > kSea - 9.0f, select(s.cold < -0.3f, block("gravel"), block("sand"))},
+                     {patches > 0.3f, block("clay")},
+                     {patches < -0.25f, block("gravel")}},
+                    block("sand"));
+    return multiSelect(
+        {{is(Biome::Ocean), sea},
+         {is(Biome::Reef) || is(Biome::Desert), block("sand")},
+         {is(Biome::Beach), select(s.cold < -0.25f, block("gravel"), block("sand"))},
+         {is(Biome::CanyonLand), select(patches > 0.35f, block("grass"), block("red_sand"))},
+         {is(Biome::Snow), block("snow")},
+         {is(Biome::Tundra), select(s.cold < spots * 0.12f - 0.54f, block("snow"), cold)},
+         {is(Biome::Taiga), select(patches > 0.2f && spots > 0.1f, block("moss"), block("grass"))},
+         {is(Biome::Alpine), alpine},
+         {is(Biome::Swamp), swamp},
+         {(is(Biome::OldForest) || is(Biome::RainForest)) && spots > 0.3f, block("moss")}},
+        block("grass"));
 }
 
 Block rockOf(Pass& p, const Fields& f, Int biome, Float patches) {
     const auto is = [&](Biome b) { return biome == number(b); };
     // As the forms are, not as the biomes: their borders are elsewhere.
     const Float temperature = p.read(f.temperature), moisture = p.read(f.moisture);
-    return multiSelect({{p.read(f.volcanic) > patches * 0.1f + 0.15f, p.block("basalt")},
-                        {canyonLand(temperature, moisture) > 0.05f || is(Biome::CanyonLand), p.block("red_sandstone")},
-                        {karst(temperature, moisture) > 0.05f || is(Biome::RainForest), p.block("limestone")},
-                        {is(Biome::Desert), p.block("sandstone")}},
-                       p.block("stone"));
+    return multiSelect(
+        {{p.read(f.volcanic) > patches * 0.1f + 0.15f, p.block("basalt")},
+         {canyonLand(temperature, moisture) > 0.05f || is(Biome::CanyonLand), p.block("red_sandstone")},
+         {karst(temperature, moisture) > 0.05f || is(Biome::RainForest), p.block("limestone")},
+         {is(Biome::Desert), p.block("sandstone")}},
+        p.block("stone"));
 }
 
 // The beds of rivers and lakes.
 Block bed(Pass& p, Float patches, Float spots) {
-    return multiSelect({{patches > 0.25f, p.block("clay")}, {spots > 0.1f, p.block("gravel")}}, p.block("sand"));
+    return multiSelect({{patches > 0.25f, p.block("clay")}, {spots > 0.1f, p.block("gravel")}},
+                       p.block("sand"));
 }
 
 Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
@@ -110,7 +116,8 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
     const Bool isUnderWater = p.read(f.surface) < p.read(f.water) && p.read(f.wet) > 0.0f;
     const Block bottom = bed(p, patches, spots);
     return {multiSelect({{isUnderWater, bottom}, {isBare && !keepsSnow, rock}}, top),
-            multiSelect({{isUnderWater, bottom}, {isBare || s.steepness > bareFrom - 0.25f, rock}}, soil), rock};
+            multiSelect({{isUnderWater, bottom}, {isBare || s.steepness > bareFrom - 0.25f, rock}}, soil),
+            rock};
 }
 
 // Roofs keep caves closed but for the mouths: spots where the roof is thinner than nothing.

@@ -1,4 +1,4 @@
-// What tests of the overworld share: generators, areas of chunks, block ids.
+// What tests of generated land share: generators, areas of chunks, block ids.
 #pragma once
 
 #include <array>
@@ -8,16 +8,19 @@
 #include <vector>
 
 #include "terrane/gen/generators/catalogue.h"
+#include "terrane/gen/generators/sea_level.h"
 #include "tests/gen/gen_fixture.h"
 
 namespace terrane::gen {
 
-constexpr int kSeaLevel = 80;
+inline Generator generatorOf(std::string_view name, std::uint64_t seed, int level = 0) {
+    auto graph = makeGenerator(name, contentBlocks(), level);
+    EXPECT_TRUE(graph.has_value()) << (graph ? "" : graph.error().message);
+    return Generator(std::move(*graph), seed);
+}
 
 inline Generator overworld(std::uint64_t seed) {
-    auto graph = makeGenerator("overworld", contentBlocks());
-    EXPECT_TRUE(graph.has_value());
-    return Generator(std::move(*graph), seed);
+    return generatorOf("overworld", seed);
 }
 
 inline BlockId idOf(std::string_view name) {
