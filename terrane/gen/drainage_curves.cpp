@@ -77,15 +77,48 @@ class CurveMaker {
     bool isSea(std::size_t node) const { return network_.heights[node] < heightKey(spec_.seaLevel, 0); }
     bool isRiver(std::size_t node) const { return !isSea(node) && network_.flows[node] >= spec_.minFlow; }
 
+    struct Place {
+        float x, y;
+    };
+
+    Place place(int x, int y) const {
+        const auto spacing = static_cast<float>(spec_.spacing);
+        const NodePlace p = places_[at(cellX_ + x, cellY_ + y)];
+        return {static_cast<float>(x) * spacing + static_cast<float>(p.x) * kBlock,
+                static_cast<float>(y) * spacing + static_cast<float>(p.y) * kBlock};
+    }
+
+    // Half way to the middle between the nodes before and after it, which takes the corners out of courses.
+    Place smoothPlace(int x, int y) const {
+        const Place here = place(x, y);
+        const std::size_t node = at(cellX_ + x, cellY_ + y);
+        if (network_.drains[node] == kNoDrain) return here;
+        int before = kNoDrain, flow = spec_.minFlow - 1;
+        for (int k = 0; k < kNoDrain; ++k) {
+            const auto& [dx, dy] = kDirections[static_cast<std::size_t>(k)];
+            const std::size_t other = at(cellX_ + x + dx, cellY_ + y + dy);
+            if (!drainsTo(other, node) || network_.flows[other] <= flow) continue;
+            before = k;
+            flow = network_.flows[other];
+        }
+        if (before == kNoDrain) return here;
+        const auto& [inX, inY] = kDirections[static_cast<std::size_t>(before)];
+        const auto& [outX, outY] = kDirections[network_.drains[node]];
+        const Place in = place(x + inX, y + inY), out = place(x + outX, y + outY);
+        return {here.x * 0.5f + (in.x + out.x) * 0.25f, here.y * 0.5f + (in.y + out.y) * 0.25f};
+    }
+
+    bool drainsTo(std::size_t node, std::size_t to) const {
+        return network_.drains[node] != kNoDrain && network_.drainOf(node) == to;
+    }
+
     // Of the node at an offset from the cell that curves are made for.
     Control control(int x, int y) const {
         const std::size_t node = at(cellX_ + x, cellY_ + y);
-        const auto spacing = static_cast<float>(spec_.spacing);
-        const NodePlace place = places_[node];
+        const Place place = smoothPlace(x, y);
         const auto flow = static_cast<float>(network_.flows[node]);
         const float share = flow / static_cast<float>(spec_.minFlow);
-        return {static_cast<float>(x) * spacing + static_cast<float>(place.x) * kBlock,
-                static_cast<float>(y) * spacing + static_cast<float>(place.y) * kBlock,
+        return {place.x, place.y,
                 std::min(spec_.halfWidth * shared::detSqrt(share), spec_.maxHalfWidth),
                 std::max(heightOf(network_.levels[node]), spec_.seaLevel), flow};
     }
@@ -105,7 +138,7 @@ class CurveMaker {
         bool isSource = true;
         for (const auto& [dx, dy] : kDirections) {
             const std::size_t other = at(x + dx, y + dy);
-            if (!isRiver(other) || network_.drains[other] == kNoDrain || network_.drainOf(other) != node) continue;
+            if (!isRiver(other) || !drainsTo(other, node)) continue;
             isSource = false;
             const Control in = middle(control(dx, dy), here);
             if (!isEnd) {
@@ -148,9 +181,10 @@ class CurveMaker {
         const std::uint32_t worldX = cornerX + static_cast<std::uint32_t>(x), worldY = cornerY + static_cast<std::uint32_t>(y);
         const float reach = spec_.bend * static_cast<float>(spec_.spacing);
         const auto bend = [&](std::uint32_t seed) {
-            const float wide = smoothNoise(worldX, worldY, spacing * kPlaceUnits / 2, bendSeed_ + seed);
-            const float narrow = smoothNoise(worldX, worldY, spacing * kPlaceUnits / 4, bendSeed_ + seed + 1);
-            return unitsOf(reach * (wide * 0.7f + narrow * 0.3f));
+            const float wide = smoothNoise(worldX, worldY, spacing * kPlaceUnits, bendSeed_ + seed);
+            const float narrow = smoothNoise(worldX, worldY, spacing * kPlaceUnits / 2, bendSeed_ + seed + 1);
+            // The sum is seldom near its ends.
+            return unitsOf(reach * std::clamp((wide + narrow) * 0.8f, -1.0f, 1.0f));
         };
         return {x + bend(1), y + bend(3), c.halfWidth, c.level, c.flow};
     }

@@ -112,7 +112,7 @@ void DrainageMaps::prepare(DrainageTile& tile, std::uint32_t map, SampleGrid gri
     tile.reach = spec.reach;
     tile.step = grid.step;
     const std::int32_t spacing = spec.spacing, width = (kTileSize - 1) * grid.step;
-    const std::int32_t around = static_cast<std::int32_t>(spec.reach) + 1 + spacing * 3 / 4;
+    const std::int32_t around = static_cast<std::int32_t>(spec.reach) + 1 + spacing * kCourseReach4 / 4;
     const int shift = std::bit_width(static_cast<unsigned>(spacing)) - 1;
     const std::int32_t cellX = grid.x >> shift, cellY = grid.y >> shift;
     const std::int32_t inX = grid.x & (spacing - 1), inY = grid.y & (spacing - 1);
@@ -129,6 +129,15 @@ void DrainageMaps::prepare(DrainageTile& tile, std::uint32_t map, SampleGrid gri
             addCell(tile, *region->region, region->region->cells[number], square);
         }
     }
+}
+
+std::size_t DrainageMaps::keptRegions() const {
+    std::size_t sum = 0;
+    for (const auto& map : maps_) {
+        const std::lock_guard lock(map->mutex);
+        sum += map->kept.size();
+    }
+    return sum;
 }
 
 std::size_t DrainageMaps::bytes() const {

@@ -23,8 +23,8 @@ namespace terrane::gen {
 constexpr int kFloodReach = 10;   // cells
 constexpr int kMaxUpstream = 32;  // steps
 // Flow looks at drains kMaxUpstream cells away, drains at their neighbors, cuts at pits and pits at nodes
-// kFloodReach away, each flood at one more neighbor. Curves need flow one cell farther.
-constexpr int kNetworkMargin = kMaxUpstream + 1 + 2 * kFloodReach + 1 + 1;
+// kFloodReach away, each flood at one more neighbor. Curves need flow two cells farther.
+constexpr int kNetworkMargin = kMaxUpstream + 1 + 2 * kFloodReach + 1 + 2;
 
 // A node's height with what breaks ties, so that no two neighbors are equal: 2^40 a block. Differences of
 // neighbors are 40 bits or so; 2^63 holds ±2^23 blocks.
@@ -53,7 +53,7 @@ struct DrainageNetwork {
     std::size_t drainOf(std::size_t node) const;  // the node that it drains to
 };
 
-// From heights to the rest. Right for nodes at least kNetworkMargin − 1 cells inside the window.
+// From heights to the rest. Right for nodes at least kNetworkMargin − 2 cells inside the window.
 void findDrainage(DrainageNetwork& network, const DrainageSpec& spec);
 
 }  // namespace terrane::gen

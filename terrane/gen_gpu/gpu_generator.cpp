@@ -12,6 +12,7 @@
 #include "terrane/gen/glsl_emitter.h"
 #include "terrane/gen/sample_grid.h"
 #include "terrane/gen/seeds.h"
+#include "terrane/gen_gpu/drainage_upload.h"
 #include "terrane/gen_gpu/pass_plan.h"
 #include "terrane/gen_gpu/slot_cache.h"
 #include "terrane/gpu/buffer.h"
@@ -42,7 +43,9 @@ std::string shaderName(std::size_t pass) {
 }
 
 std::string shaderText(const gen::GeneratorGraph& generator, std::size_t pass) {
-    return "#include \"terrane/gen_gpu/tile.glsl\"\n#include \"terrane/gen_gpu/voronoi.glsl\"\n\n" +
+    const bool hasDrainage = readsDrainage(generator, generator.passes[pass]);
+    return std::string("#include \"terrane/gen_gpu/tile.glsl\"\n#include \"terrane/gen_gpu/voronoi.glsl\"\n") +
+           (hasDrainage ? "#include \"terrane/gen_gpu/drainage.glsl\"\n\n" : "\n") +
            gen::emitGlsl(generator, pass);
 }
 
@@ -73,8 +76,8 @@ struct GpuGenerator::Impl {
         gpu::Fence fence;
     };
 
-    Impl(const gen::GeneratorGraph& g, const gpu::ShaderLoader& loader)
-        : generator(g), shaders(loader), slots(kSlots) {}
+    Impl(const gen::GeneratorGraph& g, const gpu::ShaderLoader& loader, std::uint64_t seed)
+        : generator(g), shaders(loader), drainages(g.drainages, seed), slots(kSlots) {}
 
     base::Result<void> build(std::uint64_t seed);
     base::Result<gpu::Program> buildPass(std::size_t pass) const;
@@ -88,6 +91,7 @@ struct GpuGenerator::Impl {
     std::vector<base::EmbeddedFile> files;
     gpu::ShaderLoader shaders;
     std::vector<gpu::Program> programs;
+    gen::DrainageMaps drainages;
     gpu::Buffer fields, blocks, result, noiseSeeds, hashSeeds;
     std::array<gpu::ReadbackBuffer, kBatchesInFlight> readbacks;
     std::deque<InFlight> inFlight;
@@ -164,6 +168,12 @@ void GpuGenerator::Impl::runPass(std::size_t pass, const std::vector<ChunkPos>& 
     result.bindStorage(shared::kResultBinding);
     noiseSeeds.bindStorage(shared::kNoiseSeedsBinding);
     hashSeeds.bindStorage(shared::kHashSeedsBinding);
+    DrainageBuffers drainage;  // until the dispatch has begun
+    if (readsDrainage(generator, generator.passes[pass])) {
+        drainage = uploadDrainage(drainages, generator.drainages.size(), chunks);
+        drainage.lists.bindStorage(shared::kDrainageListsBinding);
+        drainage.data.bindStorage(shared::kDrainageDataBinding);
+    }
     programs[pass].use();
     const GLuint layerGroups = generator.passes[pass].is3D ? world::kChunkHeight / kLayersPerGroup : 1;
     glDispatchCompute(static_cast<GLuint>(chunks.size()), layerGroups, 1);
@@ -205,7 +215,7 @@ base::Result<GpuGenerator> GpuGenerator::create(const gpu::ShaderLoader& shaders
             "read around each other",
             generator.name, slotsOfOne, kSlots);
     }
-    auto impl = std::make_unique<Impl>(generator, shaders);
+    auto impl = std::make_unique<Impl>(generator, shaders, seed);
     if (auto built = impl->build(seed); !built) return tl::unexpected(built.error());
     return GpuGenerator(std::move(impl));
 }
