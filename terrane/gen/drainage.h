@@ -15,7 +15,7 @@ namespace terrane::gen {
 struct DrainageSpec {
     int spacing = 256;           // blocks from node to node: a power of two, 64…1024
     float seaLevel = 62.0f;      // a node whose height is below is sea; no water's level is below
-    int minFlow = 8;             // nodes upstream, itself among them, that make a node a river: 1…32
+    int minFlow = 8;             // nodes upstream, itself among them, that make a node a river: 1…64
     float halfWidth = 2.0f;      // blocks, of a river of that flow; grows with the square root of the flow…
     float maxHalfWidth = 14.0f;  // …up to this, at most 64
     float reach = 128.0f;        // blocks: rivers and lakes farther away do not count. 1…spacing

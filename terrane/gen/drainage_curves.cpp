@@ -11,7 +11,7 @@ namespace terrane::gen {
 namespace {
 
 constexpr int kCurveSegments = 16;
-constexpr int kMargin = 56;  // cells around a region: kNetworkMargin up to a multiple of what heights come in
+constexpr int kMargin = 88;  // cells around a region: kNetworkMargin up to a multiple of what heights come in
 static_assert(kMargin >= kNetworkMargin && kMargin % (kTileSize / kCellSamples) == 0);
 
 constexpr float kBlock = 1.0f / static_cast<float>(kPlaceUnits);
@@ -118,8 +118,7 @@ class CurveMaker {
         const Place place = smoothPlace(x, y);
         const auto flow = static_cast<float>(network_.flows[node]);
         const float share = flow / static_cast<float>(spec_.minFlow);
-        return {place.x, place.y,
-                std::min(spec_.halfWidth * shared::detSqrt(share), spec_.maxHalfWidth),
+        return {place.x, place.y, std::min(spec_.halfWidth * shared::detSqrt(share), spec_.maxHalfWidth),
                 std::max(heightOf(network_.levels[node]), spec_.seaLevel), flow};
     }
 
@@ -160,9 +159,12 @@ class CurveMaker {
         CoursePoint from = point(a);
         for (int k = 1; k <= kCurveSegments; ++k) {
             const float t = static_cast<float>(k) * (1.0f / kCurveSegments), s = 1.0f - t;
-            const auto blend = [&](float p, float q, float r) { return s * s * p + 2.0f * s * t * q + t * t * r; };
-            const CoursePoint to = point({blend(a.x, b.x, c.x), blend(a.y, b.y, c.y), s * a.halfWidth + t * c.halfWidth,
-                                          std::min(blend(a.level, b.level, c.level), from.level), s * a.flow + t * c.flow});
+            const auto blend = [&](float p, float q, float r) {
+                return s * s * p + 2.0f * s * t * q + t * t * r;
+            };
+            const CoursePoint to =
+                point({blend(a.x, b.x, c.x), blend(a.y, b.y, c.y), s * a.halfWidth + t * c.halfWidth,
+                       std::min(blend(a.level, b.level, c.level), from.level), s * a.flow + t * c.flow});
             if (to.x != from.x || to.y != from.y) region_.segments.push_back({from, to});
             from = to;
         }
@@ -178,7 +180,8 @@ class CurveMaker {
         // Moved by a noise of its place in the world, so that curves that meet stay together.
         const std::uint32_t cornerX = static_cast<std::uint32_t>(region_.corner.x) * spacing * kPlaceUnits;
         const std::uint32_t cornerY = static_cast<std::uint32_t>(region_.corner.y) * spacing * kPlaceUnits;
-        const std::uint32_t worldX = cornerX + static_cast<std::uint32_t>(x), worldY = cornerY + static_cast<std::uint32_t>(y);
+        const std::uint32_t worldX = cornerX + static_cast<std::uint32_t>(x),
+                            worldY = cornerY + static_cast<std::uint32_t>(y);
         const float reach = spec_.bend * static_cast<float>(spec_.spacing);
         const auto bend = [&](std::uint32_t seed) {
             const float wide = smoothNoise(worldX, worldY, spacing * kPlaceUnits, bendSeed_ + seed);

@@ -1,12 +1,12 @@
 #include "terrane/gen_gpu/drainage_upload.h"
 
-
 namespace terrane::gen_gpu {
 
 bool readsDrainage(const gen::GeneratorGraph& generator, const gen::PassGraph& pass) {
     for (gen::NodeId id = 0; id < pass.graph.size(); ++id) {
         const gen::Node& node = pass.graph.node(id);
-        if (node.op == gen::Op::Noise && generator.noises[node.imm].kind == gen::NoiseKind::Drainage) return true;
+        if (node.op == gen::Op::Noise && generator.noises[node.imm].kind == gen::NoiseKind::Drainage)
+            return true;
     }
     return false;
 }
@@ -19,9 +19,11 @@ DrainageBuffers uploadDrainage(gen::DrainageMaps& maps, std::size_t mapCount,
     for (const world::ChunkPos pos : chunks) {
         for (std::size_t map = 0; map < mapCount; ++map) {
             maps.prepare(tile, static_cast<std::uint32_t>(map), gen::sampleGrid(pos));
-            lists.push_back({static_cast<shared::uint>(data.size()), static_cast<shared::uint>(tile.segments.size()),
+            lists.push_back({static_cast<shared::uint>(data.size()),
+                             static_cast<shared::uint>(tile.segments.size()),
                              static_cast<shared::uint>(tile.lakes.size()), 0u});
-            for (const shared::RiverSegment& s : tile.segments) data.insert(data.end(), {s.line, s.course, s.flow});
+            for (const shared::RiverSegment& s : tile.segments)
+                data.insert(data.end(), {s.line, s.course, s.flow});
             data.insert(data.end(), tile.lakes.begin(), tile.lakes.end());
         }
     }

@@ -1,5 +1,5 @@
-// Rivers and lakes near the tiles of a dispatch as storage buffers (shared/drainage.h): made on the CPU from the maps that it
-// uses itself. On the context's thread.
+// Rivers and lakes near the tiles of a dispatch as storage buffers (shared/drainage.h): made on the CPU from
+// the maps that it uses itself. On the context's thread.
 #pragma once
 
 #include <span>

@@ -44,7 +44,8 @@ std::string shaderName(std::size_t pass) {
 
 std::string shaderText(const gen::GeneratorGraph& generator, std::size_t pass) {
     const bool hasDrainage = readsDrainage(generator, generator.passes[pass]);
-    return std::string("#include \"terrane/gen_gpu/tile.glsl\"\n#include \"terrane/gen_gpu/voronoi.glsl\"\n") +
+    return std::string(
+               "#include \"terrane/gen_gpu/tile.glsl\"\n#include \"terrane/gen_gpu/voronoi.glsl\"\n") +
            (hasDrainage ? "#include \"terrane/gen_gpu/drainage.glsl\"\n\n" : "\n") +
            gen::emitGlsl(generator, pass);
 }

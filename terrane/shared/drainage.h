@@ -38,6 +38,6 @@ SHARED_END
 namespace terrane::shared {
 static_assert(sizeof(DrainageList) == sizeof(uvec4));
 static_assert(sizeof(RiverSegment) == kVectorsPerSegment * sizeof(vec4));
-}
+}  // namespace terrane::shared
 #endif
 #endif

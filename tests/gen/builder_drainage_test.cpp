@@ -13,7 +13,8 @@ std::string mistake(const Write& write) {
 }
 
 std::string mistakeOf(const DrainageSpec& spec) {
-    return mistake([&](GeneratorBuilder& g) { g.drainage("rivers", spec, [](Pass&) { return Float(1.0f); }); });
+    return mistake(
+        [&](GeneratorBuilder& g) { g.drainage("rivers", spec, [](Pass&) { return Float(1.0f); }); });
 }
 
 TEST(BuilderDrainage, RefusesNumbersOutOfRange) {
@@ -21,7 +22,7 @@ TEST(BuilderDrainage, RefusesNumbersOutOfRange) {
     EXPECT_EQ(mistakeOf({}), "");
     EXPECT_EQ(mistakeOf({.spacing = 100}), start + "spacing 100 is not a power of two in 64…1024");
     EXPECT_EQ(mistakeOf({.spacing = 32}), start + "spacing 32 is not a power of two in 64…1024");
-    EXPECT_EQ(mistakeOf({.minFlow = 33}), start + "minFlow 33 is not in 1…32");
+    EXPECT_EQ(mistakeOf({.minFlow = 65}), start + "minFlow 65 is not in 1…64");
     EXPECT_EQ(mistakeOf({.halfWidth = 20.0f}), start + "halfWidth 20 is not in 0.5…14, its maximum");
     EXPECT_EQ(mistakeOf({.maxHalfWidth = 65.0f}), start + "maxHalfWidth 65 is not in 0.5…64");
     EXPECT_EQ(mistakeOf({.reach = 300.0f}), start + "reach 300 is not in 1…256, the spacing");
@@ -42,21 +43,25 @@ TEST(BuilderDrainage, RefusesWhatHeightsCannotUse) {
     EXPECT_EQ(of([](Pass& p, Field<Float>) { return Float(p.z()); }),
               "generator \"test\": drainage \"rivers\": pass \"heights\": z: only in 3D passes");
     EXPECT_EQ(of([](Pass& p, Field<Float> f) { return p.read(f); }),
-              "generator \"test\": drainage \"rivers\": pass \"heights\": field \"ground\" is read, but no earlier pass writes it");
+              "generator \"test\": drainage \"rivers\": pass \"heights\": field \"ground\" is read, but no "
+              "earlier pass writes it");
     EXPECT_EQ(of([](Pass& p, Field<Float> f) {
                   p.set(f, Float(1.0f));
                   return Float(2.0f);
               }),
               "generator \"test\": drainage \"rivers\": its heights write a field");
     EXPECT_EQ(of([](Pass& p, Field<Float>) { return p.drainage({0}).level; }),
-              "generator \"test\": drainage \"rivers\": pass \"heights\": drainage: this generator has no such map");
+              "generator \"test\": drainage \"rivers\": pass \"heights\": drainage: this generator has no "
+              "such map");
 }
 
 TEST(BuilderDrainage, RefusesMapsInTheWrongPlace) {
     const auto flat = [](Pass&) { return Float(1.0f); };
     EXPECT_EQ(mistake([&](GeneratorBuilder& g) {
                   const Drainage map = g.drainage("rivers", {}, flat);
-                  g.pass3D("ground", [&](Pass& p) { p.setBlock(select(p.drainage(map).distance < 1.0f, p.block("water"), p.block("air"))); });
+                  g.pass3D("ground", [&](Pass& p) {
+                      p.setBlock(select(p.drainage(map).distance < 1.0f, p.block("water"), p.block("air")));
+                  });
               }),
               "generator \"test\": pass \"ground\": drainage \"rivers\": only in 2D passes");
     EXPECT_EQ(mistake([&](GeneratorBuilder& g) {

@@ -17,7 +17,8 @@ inline Float drainageLand(Pass& p) {
     return 66.0f + p.perlin2D("land", 128, {4.0f, 10.0f, 20.0f, 30.0f, 20.0f});
 }
 
-constexpr DrainageSpec kDrainageSpec = {.spacing = 64, .seaLevel = 62.0f, .minFlow = 6, .reach = 48.0f, .lakeDepth = 6.0f};
+constexpr DrainageSpec kDrainageSpec = {
+    .spacing = 64, .seaLevel = 62.0f, .minFlow = 6, .reach = 48.0f, .lakeDepth = 6.0f};
 
 using DrainageResults = std::array<ColumnValues, kDrainageResultCount>;
 
@@ -50,13 +51,15 @@ class DrainageRunner {
         const Drainage map = g.drainage("rivers", spec, drainageLand);
         g.pass2D("water", [&](Pass& p) {
             const DrainageSample s = p.drainage(map);
-            const std::array<Float, 6> values = {s.distance, s.halfWidth, s.level, s.flow, s.lakeDistance, s.lakeLevel};
+            const std::array<Float, 6> values = {s.distance, s.halfWidth,    s.level,
+                                                 s.flow,     s.lakeDistance, s.lakeLevel};
             for (std::size_t k = 0; k < fields.size(); ++k) p.set(fields[k], values[k]);
         });
         // Every bit of them counts in some block.
         g.pass3D("blocks", [&](Pass& p) {
             Int sum = p.z() & 1;
-            for (const Field<Float> f : fields) sum = sum * 7 + floatBits(p.read(f)) + (floatBits(p.read(f)) >> 11);
+            for (const Field<Float> f : fields)
+                sum = sum * 7 + floatBits(p.read(f)) + (floatBits(p.read(f)) >> 11);
             p.setBlock(Block(sum ^ (sum >> 16)));
         });
     }

@@ -27,9 +27,12 @@ Reference nearestRiver(const DrainageRegion& region, std::int32_t x, std::int32_
     float bestPower = std::numeric_limits<float>::max();
     const float reach2 = kDrainageSpec.reach * kDrainageSpec.reach;
     for (const CourseSegment& s : region.segments) {
-        const float dx = static_cast<float>(s.to.x - s.from.x) / 16.0f, dy = static_cast<float>(s.to.y - s.from.y) / 16.0f;
-        const float fromX = static_cast<float>(x * 16 - s.from.x) / 16.0f, fromY = static_cast<float>(y * 16 - s.from.y) / 16.0f;
-        const float t = std::clamp((fromX * dx + fromY * dy) * shared::detDivide(1.0f, dx * dx + dy * dy), 0.0f, 1.0f);
+        const float dx = static_cast<float>(s.to.x - s.from.x) / 16.0f,
+                    dy = static_cast<float>(s.to.y - s.from.y) / 16.0f;
+        const float fromX = static_cast<float>(x * 16 - s.from.x) / 16.0f,
+                    fromY = static_cast<float>(y * 16 - s.from.y) / 16.0f;
+        const float t =
+            std::clamp((fromX * dx + fromY * dy) * shared::detDivide(1.0f, dx * dx + dy * dy), 0.0f, 1.0f);
         const float offX = fromX - t * dx, offY = fromY - t * dy, distance2 = offX * offX + offY * offY;
         const float halfWidth = s.from.halfWidth + t * (s.to.halfWidth - s.from.halfWidth);
         const float power = distance2 - halfWidth * halfWidth;
@@ -49,10 +52,12 @@ TEST(DrainageMaps, ColumnsFindTheRiverThatCounts) {
         for (std::uint32_t k = 0; k < kRandomCases; ++k) {
             // Away from the region's border, so that it has all that is near.
             const std::uint32_t h = shared::hash2(k, 0, 5);
-            const ChunkPos chunk = {16 + static_cast<std::int32_t>(h % 224), 16 + static_cast<std::int32_t>(h / 256 % 224)};
+            const ChunkPos chunk = {16 + static_cast<std::int32_t>(h % 224),
+                                    16 + static_cast<std::int32_t>(h / 256 % 224)};
             const DrainageResults results = runner.run(chunk);
             for (std::size_t column = h % 7; column < 256; column += 37) {
-                const auto x = chunk.x * 16 + static_cast<std::int32_t>(column % 16), y = chunk.y * 16 + static_cast<std::int32_t>(column / 16);
+                const auto x = chunk.x * 16 + static_cast<std::int32_t>(column % 16),
+                           y = chunk.y * 16 + static_cast<std::int32_t>(column / 16);
                 const Reference expected = nearestRiver(region, x, y);
                 ASSERT_EQ(asFloat(results[0][column]), expected.distance) << x << "," << y;
                 ASSERT_EQ(asFloat(results[1][column]), expected.halfWidth) << x << "," << y;
@@ -100,7 +105,8 @@ TEST(DrainageMaps, CoursesHaveNoGapsAndNeverRise) {
         // Another river may begin a segment where it crosses this one on its way to the same end.
         EXPECT_TRUE(first == last || std::any_of(first, last, [&](const auto& next) {
                         const CoursePoint& from = next.second->from;
-                        return from.level == s.to.level && from.halfWidth == s.to.halfWidth && from.flow == s.to.flow;
+                        return from.level == s.to.level && from.halfWidth == s.to.halfWidth &&
+                               from.flow == s.to.flow;
                     }));
     }
     EXPECT_EQ(rises, 0);
@@ -110,7 +116,8 @@ TEST(DrainageMaps, CoursesHaveNoGapsAndNeverRise) {
 
 TEST(DrainageMaps, RegionsMeetWithoutSeams) {
     const DrainageHeights heights = heightsOf(kTestSeed);
-    const DrainageRegion whole = makeDrainageRegion(heights, {0, 0}), shifted = makeDrainageRegion(heights, {32, 24});
+    const DrainageRegion whole = makeDrainageRegion(heights, {0, 0}),
+                         shifted = makeDrainageRegion(heights, {32, 24});
     for (std::int32_t y = 24; y < kRegionCells; ++y) {
         for (std::int32_t x = 32; x < kRegionCells; ++x) {
             const CellCourses& a = whole.cells[static_cast<std::size_t>(y * kRegionCells + x)];
@@ -118,7 +125,8 @@ TEST(DrainageMaps, RegionsMeetWithoutSeams) {
             ASSERT_EQ(a.segmentCount, b.segmentCount) << x << "," << y;
             ASSERT_EQ(a.lake < 0, b.lake < 0) << x << "," << y;
             for (std::uint32_t k = 0; k < a.segmentCount; ++k) {
-                const CourseSegment &s = whole.segments[a.firstSegment + k], &t = shifted.segments[b.firstSegment + k];
+                const CourseSegment &s = whole.segments[a.firstSegment + k],
+                                    &t = shifted.segments[b.firstSegment + k];
                 ASSERT_EQ(s.from.x, t.from.x + 32 * 64 * 16);
                 ASSERT_EQ(s.to.y, t.to.y + 24 * 64 * 16);
                 ASSERT_EQ(s.to.level, t.to.level);
@@ -145,7 +153,8 @@ TEST(DrainageMaps, IsTheSameInAnyOrderAndOnAnyThread) {
                 common.maps.prepare(tile, 0, sampleGrid(chunks[n]));
                 one.maps.prepare(other, 0, sampleGrid(chunks[n]));
                 const bool same = tile.segments.size() == other.segments.size() &&
-                                  std::memcmp(tile.segments.data(), other.segments.data(), tile.segments.size() * sizeof(shared::RiverSegment)) == 0;
+                                  std::memcmp(tile.segments.data(), other.segments.data(),
+                                              tile.segments.size() * sizeof(shared::RiverSegment)) == 0;
                 different[t] += !same;
             }
         });
@@ -167,7 +176,9 @@ TEST(DrainageMaps, LevelsAgree) {
             const std::int32_t x = grid.x + k % 16 * step, y = grid.y + k / 16 * step;
             const DrainageResults chunk = near.run({x >> 4, y >> 4});
             for (std::size_t r = 0; r < kDrainageResultCount; ++r) {
-                ASSERT_EQ(chunk[r][static_cast<std::size_t>((x & 15) + 16 * (y & 15))], tile[r][static_cast<std::size_t>(k)]) << x << "," << y;
+                ASSERT_EQ(chunk[r][static_cast<std::size_t>((x & 15) + 16 * (y & 15))],
+                          tile[r][static_cast<std::size_t>(k)])
+                    << x << "," << y;
             }
         }
     }
@@ -180,7 +191,8 @@ TEST(DrainageMaps, NothingBreaksAtTheWorldsEdge) {
     DrainageRunner runner(3);
     int found = 0;
     for (int k = 0; k < 24; ++k) {
-        const ChunkPos west = {world::kMaxChunk, world::kMinChunk + k}, east = {world::kMinChunk, world::kMinChunk + k};
+        const ChunkPos west = {world::kMaxChunk, world::kMinChunk + k},
+                       east = {world::kMinChunk, world::kMinChunk + k};
         const DrainageResults a = runner.run(west), b = runner.run(east);
         for (std::size_t row = 0; row < 16; ++row) {
             const float left = asFloat(a[0][row * 16 + 15]), right = asFloat(b[0][row * 16]);
@@ -211,24 +223,26 @@ TEST(DrainageMaps, KeepsABoundedNumberOfRegions) {
 TEST(DrainageMaps, RiversReachTheSeaOrALake) {
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
         const DrainageHeights heights = heightsOf(seed);
-        constexpr int kSide = 2 * 56 + 48;
+        constexpr int kMargin = 88, kSide = 2 * kMargin + 48;
         DrainageNetwork n;
         n.side = kSide;
         n.heights = heights.nodes({0, 0}, kSide).heights;
         findDrainage(n, kDrainageSpec);
         const HeightKey sea = heightKey(kDrainageSpec.seaLevel, 0);
         int rivers = 0, arrived = 0, left = 0;
-        for (int y = 56; y < kSide - 56; ++y) {
-            for (int x = 56; x < kSide - 56; ++x) {
+        for (int y = kMargin; y < kSide - kMargin; ++y) {
+            for (int x = kMargin; x < kSide - kMargin; ++x) {
                 std::size_t node = n.at(x, y);
                 if (n.heights[node] < sea || n.flows[node] < kDrainageSpec.minFlow) continue;
                 ++rivers;
                 while (n.drains[node] != kNoDrain) {
-                    EXPECT_TRUE(n.flows[n.drainOf(node)] >= kDrainageSpec.minFlow || n.heights[n.drainOf(node)] < sea);
+                    EXPECT_TRUE(n.flows[n.drainOf(node)] >= kDrainageSpec.minFlow ||
+                                n.heights[n.drainOf(node)] < sea);
                     node = n.drainOf(node);
                 }
                 const auto column = static_cast<int>(node % kSide), row = static_cast<int>(node / kSide);
-                const bool isOutside = column < kFloodReach + 1 || row < kFloodReach + 1 || column > kSide - kFloodReach - 2 || row > kSide - kFloodReach - 2;
+                const bool isOutside = column < kFloodReach + 1 || row < kFloodReach + 1 ||
+                                       column > kSide - kFloodReach - 2 || row > kSide - kFloodReach - 2;
                 arrived += n.heights[node] < sea || n.lakeNodes[node] > 0;
                 left += isOutside && n.heights[node] >= sea && n.lakeNodes[node] == 0;
             }

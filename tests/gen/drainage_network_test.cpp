@@ -17,11 +17,13 @@ std::uint32_t hashAt(int x, int y) {
     return shared::hash2(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 77);
 }
 
-DrainageNetwork networkOf(int cornerX, int cornerY, int side, const DrainageSpec& spec, const HeightOf& height) {
+DrainageNetwork networkOf(int cornerX, int cornerY, int side, const DrainageSpec& spec,
+                          const HeightOf& height) {
     DrainageNetwork n;
     n.side = side;
     for (int y = cornerY; y < cornerY + side; ++y) {
-        for (int x = cornerX; x < cornerX + side; ++x) n.heights.push_back(heightKey(height(x, y), hashAt(x, y)));
+        for (int x = cornerX; x < cornerX + side; ++x)
+            n.heights.push_back(heightKey(height(x, y), hashAt(x, y)));
     }
     findDrainage(n, spec);
     return n;
@@ -36,18 +38,19 @@ float roughLand(int x, int y) {
 constexpr int kInside = kNetworkMargin - 2;
 
 TEST(DrainageNetwork, WaysFallToTheSeaOrALake) {
-    const DrainageNetwork n = networkOf(0, 0, 160, kDrainageSpec, roughLand);
+    const DrainageNetwork n = networkOf(0, 0, 220, kDrainageSpec, roughLand);
     const HeightKey sea = heightKey(kDrainageSpec.seaLevel, 0);
     int ends = 0, pits = 0;
     for (int y = 1; y < n.side - 1; ++y) {
         for (int x = 1; x < n.side - 1; ++x) {
             const std::size_t node = n.at(x, y);
-            const bool isInside = x >= kFloodReach + 1 && y >= kFloodReach + 1 && x < n.side - kFloodReach - 1 &&
-                                  y < n.side - kFloodReach - 1;
+            const bool isInside = x >= kFloodReach + 1 && y >= kFloodReach + 1 &&
+                                  x < n.side - kFloodReach - 1 && y < n.side - kFloodReach - 1;
             if (n.heights[node] < sea) {
                 EXPECT_EQ(n.drains[node], kNoDrain);
             } else if (n.drains[node] != kNoDrain) {
-                EXPECT_LT(n.levels[n.drainOf(node)], n.levels[node]) << "a ring is possible at " << x << "," << y;
+                EXPECT_LT(n.levels[n.drainOf(node)], n.levels[node])
+                    << "a ring is possible at " << x << "," << y;
                 pits += n.heights[n.drainOf(node)] > n.heights[node];
             } else if (isInside) {
                 EXPECT_GT(n.lakeNodes[node], 0) << "water ends on land at " << x << "," << y;
@@ -101,7 +104,8 @@ TEST(DrainageNetwork, FlowCountsNodesUpstream) {
 // A slope to the west with a hollow of 5×5 nodes, of which the bottom is in the middle.
 HeightOf slopeWithHollow(float depth) {
     return [depth](int x, int y) {
-        const float slope = 70.0f + 2.0f * static_cast<float>(x), away = static_cast<float>(std::max(std::abs(x - 40), std::abs(y - 40)));
+        const float slope = 70.0f + 2.0f * static_cast<float>(x),
+                    away = static_cast<float>(std::max(std::abs(x - 40), std::abs(y - 40)));
         return away > 2 ? slope : 150.0f - depth + away;
     };
 }
@@ -142,7 +146,8 @@ TEST(DrainageNetwork, HeightKeysAreInTheOrderOfHeights) {
 
 // Flat land: ties are broken by hashes, and still everything drains.
 TEST(DrainageNetwork, FlatLandDrains) {
-    const DrainageNetwork n = networkOf(0, 0, 90, kDrainageSpec, [](int x, int) { return x < 30 ? 60.0f : 70.0f; });
+    const DrainageNetwork n =
+        networkOf(0, 0, 90, kDrainageSpec, [](int x, int) { return x < 30 ? 60.0f : 70.0f; });
     for (int x = 31; x < 36; ++x) {
         std::size_t node = n.at(x, 45);
         while (n.drains[node] != kNoDrain) node = n.drainOf(node);
