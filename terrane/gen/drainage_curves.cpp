@@ -129,6 +129,7 @@ class CurveMaker {
         const Control here = control(0, 0);
         const bool isEnd = network_.drains[node] == kNoDrain;
         if (!isEnd && !isRiver(node)) return;
+        lake_ = {here.x, here.y, lakeRadius(node), here.level};
         Control out = here;
         if (!isEnd) {
             const auto& [dx, dy] = kDirections[network_.drains[node]];
@@ -162,12 +163,39 @@ class CurveMaker {
             const auto blend = [&](float p, float q, float r) {
                 return s * s * p + 2.0f * s * t * q + t * t * r;
             };
-            const CoursePoint to =
-                point({blend(a.x, b.x, c.x), blend(a.y, b.y, c.y), s * a.halfWidth + t * c.halfWidth,
-                       std::min(blend(a.level, b.level, c.level), from.level), s * a.flow + t * c.flow});
+            Control at = {blend(a.x, b.x, c.x), blend(a.y, b.y, c.y), s * a.halfWidth + t * c.halfWidth,
+                          blend(a.level, b.level, c.level), s * a.flow + t * c.flow};
+            if (lake_.radius > 0.0f && k < kCurveSegments)
+                at.level = levelNearLake(at, t < 0.5f ? a : c, a, c);
+            at.level = std::min(at.level, from.level);
+            const CoursePoint to = point(at);
             if (to.x != from.x || to.y != from.y) region_.segments.push_back({from, to});
             from = to;
         }
+    }
+
+    // The lake's level as far as its shore, then evenly to that at the curve's end, so that water meets
+    // without falls. `end` is the one on this side of the lake, unless the course begins or ends in its
+    // middle.
+    float levelNearLake(const Control& at, Control end, const Control& first, const Control& last) const {
+        if (fromLake(first) == 0.0f) end = last;
+        if (fromLake(last) == 0.0f) end = first;
+        const float whole = fromLake(end), shore = std::min(lake_.radius, whole * 0.8f);
+        const float beyond = shared::detDivide(fromLake(at) - shore, whole - shore);
+        return lake_.level + std::clamp(beyond, 0.0f, 1.0f) * (end.level - lake_.level);
+    }
+
+    float fromLake(const Control& c) const {
+        const float dx = c.x - lake_.x, dy = c.y - lake_.y;
+        return shared::detSqrt(dx * dx + dy * dy);
+    }
+
+    // 0 where there is no lake.
+    float lakeRadius(std::size_t node) const {
+        const int covered = network_.lakeNodes[node];
+        if (covered == 0) return 0.0f;
+        return std::min(0.22f + 0.03f * static_cast<float>(covered), 0.5f) *
+               static_cast<float>(spec_.spacing);
     }
 
     CoursePoint point(const Control& c) const {
@@ -193,12 +221,12 @@ class CurveMaker {
     }
 
     std::int32_t addLake(int x, int y) {
-        const int covered = network_.lakeNodes[at(x, y)];
-        if (covered == 0) return -1;
+        const float radius = lakeRadius(at(x, y));
+        if (radius == 0.0f) return -1;
+        cellX_ = x;
+        cellY_ = y;
         const Control here = control(0, 0);
         const CoursePoint place = point(here);
-        const auto spacing = static_cast<float>(spec_.spacing);
-        const float radius = std::min(0.22f + 0.03f * static_cast<float>(covered), 0.5f) * spacing;
         region_.lakes.push_back({place.x, place.y, radius, here.level});
         return static_cast<std::int32_t>(region_.lakes.size()) - 1;
     }
@@ -208,7 +236,11 @@ class CurveMaker {
     std::vector<NodePlace> places_;
     DrainageNetwork network_;
     std::uint32_t bendSeed_ = 0;
+    // Of the node that curves are made for: its cell, and the lake there.
     int cellX_ = 0, cellY_ = 0;
+    struct {
+        float x, y, radius, level;
+    } lake_{};
     DrainageRegion region_;
 };
 

@@ -1,6 +1,7 @@
 #include "terrane/gen/drainage_maps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -90,6 +91,29 @@ TEST(DrainageMaps, LakesHaveTheirShores) {
     EXPECT_GT(looked, 0);
 }
 
+// A river through a lake is as high as the lake, as far as the shore.
+TEST(DrainageMaps, RiversInLakesHaveTheirLevel) {
+    DrainageSpec spec = kDrainageSpec;
+    spec.seaLevel = 20.0f;
+    spec.lakeDepth = 2.0f;
+    spec.bend = 0.0f;
+    const DrainageRegion region =
+        makeDrainageRegion({DrainageRunner(7, 0, spec).graph.drainages[0], 7}, {0, 0});
+    int inside = 0;
+    for (const CellCourses& cell : region.cells) {
+        if (cell.lake < 0) continue;
+        const LakeDisc& lake = region.lakes[static_cast<std::size_t>(cell.lake)];
+        for (std::uint32_t k = 0; k < cell.segmentCount; ++k) {
+            const CoursePoint& p = region.segments[cell.firstSegment + k].to;
+            // The last fifth of a way leads down to the shore where the next node is near.
+            if (std::hypot(p.x - lake.x, p.y - lake.y) > 16.0f * 0.22f * 64.0f * 0.5f) continue;
+            EXPECT_NEAR(p.level, lake.level, 0.01f);
+            ++inside;
+        }
+    }
+    EXPECT_GT(inside, 50);
+}
+
 // Water that flows from a segment's end flows on at another's beginning, as wide and as high.
 TEST(DrainageMaps, CoursesHaveNoGapsAndNeverRise) {
     const DrainageRegion region = makeDrainageRegion(heightsOf(7), {64, -64});
@@ -115,9 +139,12 @@ TEST(DrainageMaps, CoursesHaveNoGapsAndNeverRise) {
 }
 
 TEST(DrainageMaps, RegionsMeetWithoutSeams) {
-    const DrainageHeights heights = heightsOf(kTestSeed);
+    DrainageSpec spec = kDrainageSpec;
+    spec.seaLevel = 20.0f;  // much land: long rivers
+    const DrainageHeights heights(DrainageRunner(7, 0, spec).graph.drainages[0], 7);
     const DrainageRegion whole = makeDrainageRegion(heights, {0, 0}),
                          shifted = makeDrainageRegion(heights, {32, 24});
+    ASSERT_GT(whole.segments.size(), 5000u);
     for (std::int32_t y = 24; y < kRegionCells; ++y) {
         for (std::int32_t x = 32; x < kRegionCells; ++x) {
             const CellCourses& a = whole.cells[static_cast<std::size_t>(y * kRegionCells + x)];
