@@ -43,9 +43,9 @@ class GeneratorBuilder {
     Field<T> field(std::string_view name) {
         return {newField(name, T::kType)};
     }
-    // A map of rivers and lakes for Pass::drainage over the heights, in blocks, that `height` records. It runs
-    // at every spacing / 2 blocks, for which p.step() stands, whatever the generator's level is: positions,
-    // noise and random numbers, no fields.
+    // A map of rivers and lakes for Pass::drainage over the heights, in blocks, that `height` records. It
+    // runs at every spacing / 2 blocks, for which p.step() stands, whatever the generator's level is:
+    // positions, noise and random numbers, no fields.
     Drainage drainage(const std::string& name, const DrainageSpec& spec,
                       const std::function<Float(Pass&)>& height);
     void pass2D(std::string name, const std::function<void(Pass&)>& body) {

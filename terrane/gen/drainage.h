@@ -8,17 +8,18 @@
 #include <cstdint>
 
 #include "terrane/gen/expr.h"
+#include "terrane/shared/drainage.h"
 
 namespace terrane::gen {
 
 struct DrainageSpec {
     int spacing = 256;           // blocks from node to node: a power of two, 64…1024
     float seaLevel = 62.0f;      // a node whose height is below is sea; no water's level is below
-    int minFlow = 8;             // nodes upstream, itself among them, that make a node a river: 1…32
+    int minFlow = 8;             // nodes upstream, itself among them, that make a node a river: 1…64
     float halfWidth = 2.0f;      // blocks, of a river of that flow; grows with the square root of the flow…
     float maxHalfWidth = 14.0f;  // …up to this, at most 64
     float reach = 128.0f;        // blocks: rivers and lakes farther away do not count. 1…spacing
-    float bend = 0.15f;          // how far courses are bent, in spacings: 0…0.25
+    float bend = 0.25f;          // how far courses are bent, in spacings: 0…0.25
     float lakeDepth = 12.0f;     // a pit so many blocks below the lowest way out of it…
     int lakeNodes = 3;           // …with so many nodes below that way out holds a lake
     float maxCut = 64.0f;        // blocks: water from deeper pits stays, in a lake without outlet
@@ -29,8 +30,7 @@ struct Drainage {
     std::uint32_t index;
 };
 
-// Distance where nothing is within reach, blocks.
-constexpr float kNoRiver = 65536.0f;
+using shared::kNoRiver;  // distance where nothing is within reach
 
 // Where a column lies in a map. Of several rivers that one counts which has the column deepest within its
 // width (smallest distance² − halfWidth²), so that confluences have no gaps.

@@ -11,7 +11,7 @@ namespace terrane::gen {
 namespace {
 
 constexpr int kCurveSegments = 16;
-constexpr int kMargin = 56;  // cells around a region: kNetworkMargin up to a multiple of what heights come in
+constexpr int kMargin = 88;  // cells around a region: kNetworkMargin up to a multiple of what heights come in
 static_assert(kMargin >= kNetworkMargin && kMargin % (kTileSize / kCellSamples) == 0);
 
 constexpr float kBlock = 1.0f / static_cast<float>(kPlaceUnits);
@@ -77,16 +77,48 @@ class CurveMaker {
     bool isSea(std::size_t node) const { return network_.heights[node] < heightKey(spec_.seaLevel, 0); }
     bool isRiver(std::size_t node) const { return !isSea(node) && network_.flows[node] >= spec_.minFlow; }
 
+    struct Place {
+        float x, y;
+    };
+
+    Place place(int x, int y) const {
+        const auto spacing = static_cast<float>(spec_.spacing);
+        const NodePlace p = places_[at(cellX_ + x, cellY_ + y)];
+        return {static_cast<float>(x) * spacing + static_cast<float>(p.x) * kBlock,
+                static_cast<float>(y) * spacing + static_cast<float>(p.y) * kBlock};
+    }
+
+    // Half way to the middle between the nodes before and after it, which takes the corners out of courses.
+    Place smoothPlace(int x, int y) const {
+        const Place here = place(x, y);
+        const std::size_t node = at(cellX_ + x, cellY_ + y);
+        if (network_.drains[node] == kNoDrain) return here;
+        int before = kNoDrain, flow = spec_.minFlow - 1;
+        for (int k = 0; k < kNoDrain; ++k) {
+            const auto& [dx, dy] = kDirections[static_cast<std::size_t>(k)];
+            const std::size_t other = at(cellX_ + x + dx, cellY_ + y + dy);
+            if (!drainsTo(other, node) || network_.flows[other] <= flow) continue;
+            before = k;
+            flow = network_.flows[other];
+        }
+        if (before == kNoDrain) return here;
+        const auto& [inX, inY] = kDirections[static_cast<std::size_t>(before)];
+        const auto& [outX, outY] = kDirections[network_.drains[node]];
+        const Place in = place(x + inX, y + inY), out = place(x + outX, y + outY);
+        return {here.x * 0.5f + (in.x + out.x) * 0.25f, here.y * 0.5f + (in.y + out.y) * 0.25f};
+    }
+
+    bool drainsTo(std::size_t node, std::size_t to) const {
+        return network_.drains[node] != kNoDrain && network_.drainOf(node) == to;
+    }
+
     // Of the node at an offset from the cell that curves are made for.
     Control control(int x, int y) const {
         const std::size_t node = at(cellX_ + x, cellY_ + y);
-        const auto spacing = static_cast<float>(spec_.spacing);
-        const NodePlace place = places_[node];
+        const Place place = smoothPlace(x, y);
         const auto flow = static_cast<float>(network_.flows[node]);
         const float share = flow / static_cast<float>(spec_.minFlow);
-        return {static_cast<float>(x) * spacing + static_cast<float>(place.x) * kBlock,
-                static_cast<float>(y) * spacing + static_cast<float>(place.y) * kBlock,
-                std::min(spec_.halfWidth * shared::detSqrt(share), spec_.maxHalfWidth),
+        return {place.x, place.y, std::min(spec_.halfWidth * shared::detSqrt(share), spec_.maxHalfWidth),
                 std::max(heightOf(network_.levels[node]), spec_.seaLevel), flow};
     }
 
@@ -97,6 +129,7 @@ class CurveMaker {
         const Control here = control(0, 0);
         const bool isEnd = network_.drains[node] == kNoDrain;
         if (!isEnd && !isRiver(node)) return;
+        lake_ = {here.x, here.y, lakeRadius(node), here.level};
         Control out = here;
         if (!isEnd) {
             const auto& [dx, dy] = kDirections[network_.drains[node]];
@@ -105,7 +138,7 @@ class CurveMaker {
         bool isSource = true;
         for (const auto& [dx, dy] : kDirections) {
             const std::size_t other = at(x + dx, y + dy);
-            if (!isRiver(other) || network_.drains[other] == kNoDrain || network_.drainOf(other) != node) continue;
+            if (!isRiver(other) || !drainsTo(other, node)) continue;
             isSource = false;
             const Control in = middle(control(dx, dy), here);
             if (!isEnd) {
@@ -127,12 +160,42 @@ class CurveMaker {
         CoursePoint from = point(a);
         for (int k = 1; k <= kCurveSegments; ++k) {
             const float t = static_cast<float>(k) * (1.0f / kCurveSegments), s = 1.0f - t;
-            const auto blend = [&](float p, float q, float r) { return s * s * p + 2.0f * s * t * q + t * t * r; };
-            const CoursePoint to = point({blend(a.x, b.x, c.x), blend(a.y, b.y, c.y), s * a.halfWidth + t * c.halfWidth,
-                                          std::min(blend(a.level, b.level, c.level), from.level), s * a.flow + t * c.flow});
+            const auto blend = [&](float p, float q, float r) {
+                return s * s * p + 2.0f * s * t * q + t * t * r;
+            };
+            Control at = {blend(a.x, b.x, c.x), blend(a.y, b.y, c.y), s * a.halfWidth + t * c.halfWidth,
+                          blend(a.level, b.level, c.level), s * a.flow + t * c.flow};
+            if (lake_.radius > 0.0f && k < kCurveSegments)
+                at.level = levelNearLake(at, t < 0.5f ? a : c, a, c);
+            at.level = std::min(at.level, from.level);
+            const CoursePoint to = point(at);
             if (to.x != from.x || to.y != from.y) region_.segments.push_back({from, to});
             from = to;
         }
+    }
+
+    // The lake's level as far as its shore, then evenly to that at the curve's end, so that water meets
+    // without falls. `end` is the one on this side of the lake, unless the course begins or ends in its
+    // middle.
+    float levelNearLake(const Control& at, Control end, const Control& first, const Control& last) const {
+        if (fromLake(first) == 0.0f) end = last;
+        if (fromLake(last) == 0.0f) end = first;
+        const float whole = fromLake(end), shore = std::min(lake_.radius, whole * 0.8f);
+        const float beyond = shared::detDivide(fromLake(at) - shore, whole - shore);
+        return lake_.level + std::clamp(beyond, 0.0f, 1.0f) * (end.level - lake_.level);
+    }
+
+    float fromLake(const Control& c) const {
+        const float dx = c.x - lake_.x, dy = c.y - lake_.y;
+        return shared::detSqrt(dx * dx + dy * dy);
+    }
+
+    // 0 where there is no lake.
+    float lakeRadius(std::size_t node) const {
+        const int covered = network_.lakeNodes[node];
+        if (covered == 0) return 0.0f;
+        return std::min(0.22f + 0.03f * static_cast<float>(covered), 0.5f) *
+               static_cast<float>(spec_.spacing);
     }
 
     CoursePoint point(const Control& c) const {
@@ -145,23 +208,25 @@ class CurveMaker {
         // Moved by a noise of its place in the world, so that curves that meet stay together.
         const std::uint32_t cornerX = static_cast<std::uint32_t>(region_.corner.x) * spacing * kPlaceUnits;
         const std::uint32_t cornerY = static_cast<std::uint32_t>(region_.corner.y) * spacing * kPlaceUnits;
-        const std::uint32_t worldX = cornerX + static_cast<std::uint32_t>(x), worldY = cornerY + static_cast<std::uint32_t>(y);
+        const std::uint32_t worldX = cornerX + static_cast<std::uint32_t>(x),
+                            worldY = cornerY + static_cast<std::uint32_t>(y);
         const float reach = spec_.bend * static_cast<float>(spec_.spacing);
         const auto bend = [&](std::uint32_t seed) {
-            const float wide = smoothNoise(worldX, worldY, spacing * kPlaceUnits / 2, bendSeed_ + seed);
-            const float narrow = smoothNoise(worldX, worldY, spacing * kPlaceUnits / 4, bendSeed_ + seed + 1);
+            const float wide = smoothNoise(worldX, worldY, spacing * kPlaceUnits, bendSeed_ + seed);
+            const float narrow = smoothNoise(worldX, worldY, spacing * kPlaceUnits / 2, bendSeed_ + seed + 1);
+            // Less than a block a block at the largest bend, 0.25 · (0.7 · 3 + 0.3 · 6): courses do not fold.
             return unitsOf(reach * (wide * 0.7f + narrow * 0.3f));
         };
         return {x + bend(1), y + bend(3), c.halfWidth, c.level, c.flow};
     }
 
     std::int32_t addLake(int x, int y) {
-        const int covered = network_.lakeNodes[at(x, y)];
-        if (covered == 0) return -1;
+        const float radius = lakeRadius(at(x, y));
+        if (radius == 0.0f) return -1;
+        cellX_ = x;
+        cellY_ = y;
         const Control here = control(0, 0);
         const CoursePoint place = point(here);
-        const auto spacing = static_cast<float>(spec_.spacing);
-        const float radius = std::min(0.22f + 0.03f * static_cast<float>(covered), 0.5f) * spacing;
         region_.lakes.push_back({place.x, place.y, radius, here.level});
         return static_cast<std::int32_t>(region_.lakes.size()) - 1;
     }
@@ -171,7 +236,11 @@ class CurveMaker {
     std::vector<NodePlace> places_;
     DrainageNetwork network_;
     std::uint32_t bendSeed_ = 0;
+    // Of the node that curves are made for: its cell, and the lake there.
     int cellX_ = 0, cellY_ = 0;
+    struct {
+        float x, y, radius, level;
+    } lake_{};
     DrainageRegion region_;
 };
 

@@ -1,10 +1,10 @@
 // The courses of rivers and the lakes of one region of a map, as short straight segments sorted by cell.
 //
-// Through each river node runs a quadratic Bézier curve for each river that comes to it: from the middle of
-// the way to it, with the node as control point, to the middle of the way on. All curves of a node end in one
-// point with one direction, so that confluences are smooth. Levels follow the same curve of the nodes'
-// levels, half widths and flows change evenly. Then every point is moved by a noise of two octaves, which
-// makes bends. Pure functions; any thread.
+// Corners of the way from node to node are rounded, then through each river node runs a quadratic Bézier
+// curve for each river that comes to it: from the middle of the way to it, with the node as control point, to
+// the middle of the way on. All curves of a node end in one point with one direction, so that confluences are
+// smooth. Levels follow the same curve of the nodes' levels, half widths and flows change evenly. Then every
+// point is moved by a noise of two octaves, which makes bends. Pure functions; any thread.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,10 @@ struct LakeDisc {
     float radius, level;
 };
 
-// Those of one cell: the curves of its node. They lie within 3/4 of a cell around it.
+// A cell's courses are the curves of its node, which is moved by half a cell at most towards its neighbors.
+// They end half way to the next nodes and are bent by a quarter: they lie within 5/4 of a cell around it.
+constexpr int kCourseReach4 = 5;  // quarters of the spacing
+
 struct CellCourses {
     std::uint32_t firstSegment = 0, segmentCount = 0;
     std::int32_t lake = -1;

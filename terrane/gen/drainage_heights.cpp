@@ -14,7 +14,8 @@ constexpr int kTileCells = kTileSize / kCellSamples;
 // The square around the sample in which the node lies, of `width` blocks, within its middle three quarters.
 std::int32_t placeAlong(int sample, int width, std::uint32_t hash) {
     const std::int32_t square = width * kPlaceUnits;
-    return sample * square + square / 8 + static_cast<std::int32_t>(((hash >> 16) * static_cast<std::uint32_t>(square / 4 * 3)) >> 16);
+    return sample * square + square / 8 +
+           static_cast<std::int32_t>(((hash >> 16) * static_cast<std::uint32_t>(square / 4 * 3)) >> 16);
 }
 
 }  // namespace
@@ -50,7 +51,8 @@ DrainageNodes DrainageHeights::nodes(DrainageCell corner, int side) const {
     ColumnValues values;
     ColumnValues* const results[] = {&values};
     for (int tile = 0; tile < side / kTileCells * (side / kTileCells); ++tile) {
-        const int tileX = tile % (side / kTileCells) * kTileCells, tileY = tile / (side / kTileCells) * kTileCells;
+        const int tileX = tile % (side / kTileCells) * kTileCells,
+                  tileY = tile / (side / kTileCells) * kTileCells;
         PassInputs inputs;
         const DrainageCell first = wrapped({corner.x + tileX, corner.y + tileY}, spacing);
         inputs.chunk = {first.x / kTileCells, first.y / kTileCells, static_cast<std::uint8_t>(level)};
@@ -60,7 +62,8 @@ DrainageNodes DrainageHeights::nodes(DrainageCell corner, int side) const {
             int lowest = 0;
             float height = 0.0f;
             for (int s = 0; s < kCellSamples * kCellSamples; ++s) {
-                const int column = x * kCellSamples + s % kCellSamples + kTileSize * (y * kCellSamples + s / kCellSamples);
+                const int column =
+                    x * kCellSamples + s % kCellSamples + kTileSize * (y * kCellSamples + s / kCellSamples);
                 const float v = asFloat(values[static_cast<std::size_t>(column)]);
                 if (s > 0 && !(v < height)) continue;
                 height = v;
@@ -69,9 +72,10 @@ DrainageNodes DrainageHeights::nodes(DrainageCell corner, int side) const {
             const std::uint32_t h = hash({first.x + x, first.y + y});
             const auto at = static_cast<std::size_t>((tileY + y) * side + tileX + x);
             nodes.heights[at] = heightKey(height, h);
-            nodes.places[at] = {
-                placeAlong(lowest % kCellSamples, spacing / kCellSamples, shared::mixBits(h + shared::kHashX)),
-                placeAlong(lowest / kCellSamples, spacing / kCellSamples, shared::mixBits(h + shared::kHashY))};
+            nodes.places[at] = {placeAlong(lowest % kCellSamples, spacing / kCellSamples,
+                                           shared::mixBits(h + shared::kHashX)),
+                                placeAlong(lowest / kCellSamples, spacing / kCellSamples,
+                                           shared::mixBits(h + shared::kHashY))};
         }
     }
     return nodes;

@@ -1,5 +1,5 @@
-// Distance to rivers and lakes over rows of a tile, with the steps of gen_gpu/drainage.glsl. Included once for
-// each instruction set by kernels.cpp.
+// Distance to rivers and lakes over rows of a tile, with the steps of gen_gpu/drainage.glsl. Included once
+// for each instruction set by kernels.cpp.
 #if defined(TERRANE_GEN_DRAINAGE_KERNELS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TERRANE_GEN_DRAINAGE_KERNELS_INL_H
 #undef TERRANE_GEN_DRAINAGE_KERNELS_INL_H
@@ -71,7 +71,8 @@ void drainage(const Instruction& i, TileContext& c, const RowList& rows) {
         const VF distance = hn::IfThenElse(hn::Lt(w.power, noPower), squareRoot(w.distance2), none);
         const VF shore = hn::Sub(squareRoot(w.lakeDistance2), w.radius);
         const VF lakeDistance = hn::IfThenElse(hn::Lt(w.lakePower, noPower), shore, none);
-        const VF results[kDrainageResultCount] = {distance, w.halfWidth, w.level, w.flow, lakeDistance, w.lakeLevel};
+        const VF results[kDrainageResultCount] = {distance, w.halfWidth,  w.level,
+                                                  w.flow,   lakeDistance, w.lakeLevel};
         for (std::uint32_t k = 0; k < kDrainageResultCount; ++k) {
             const Operand o{static_cast<std::uint16_t>(i.dst.row + k * kTileSize), 1};
             storeBits(results[k], rowOf(c.arena, o, row) + lane);

@@ -69,7 +69,8 @@ std::int32_t gap(std::int32_t first, std::int32_t last, std::int32_t low, std::i
 bool isNear(const TileSquare& tile, const CourseSegment& s, std::int32_t reach) {
     const auto [lowX, highX] = std::minmax(s.from.x, s.to.x);
     const auto [lowY, highY] = std::minmax(s.from.y, s.to.y);
-    return gap(tile.x, tile.x + tile.width, lowX, highX) <= reach && gap(tile.y, tile.y + tile.width, lowY, highY) <= reach;
+    return gap(tile.x, tile.x + tile.width, lowX, highX) <= reach &&
+           gap(tile.y, tile.y + tile.width, lowY, highY) <= reach;
 }
 
 float blocksOf(std::int32_t units) {
@@ -84,7 +85,8 @@ shared::RiverSegment tileSegment(const TileSquare& tile, const CourseSegment& s)
             {s.to.level - s.from.level, s.from.flow, s.to.flow - s.from.flow, 0.0f}};
 }
 
-void addCell(DrainageTile& tile, const DrainageRegion& region, const CellCourses& cell, const TileSquare& square) {
+void addCell(DrainageTile& tile, const DrainageRegion& region, const CellCourses& cell,
+             const TileSquare& square) {
     const auto reach = static_cast<std::int32_t>(tile.reach * static_cast<float>(kPlaceUnits)) + 1;
     for (std::uint32_t k = 0; k < cell.segmentCount; ++k) {
         const CourseSegment& s = region.segments[cell.firstSegment + k];
@@ -92,7 +94,8 @@ void addCell(DrainageTile& tile, const DrainageRegion& region, const CellCourses
     }
     if (cell.lake < 0) return;
     const LakeDisc& lake = region.lakes[static_cast<std::size_t>(cell.lake)];
-    tile.lakes.emplace_back(blocksOf(lake.x - square.x), blocksOf(lake.y - square.y), lake.radius, lake.level);
+    tile.lakes.emplace_back(blocksOf(lake.x - square.x), blocksOf(lake.y - square.y), lake.radius,
+                            lake.level);
 }
 
 }  // namespace
@@ -112,7 +115,7 @@ void DrainageMaps::prepare(DrainageTile& tile, std::uint32_t map, SampleGrid gri
     tile.reach = spec.reach;
     tile.step = grid.step;
     const std::int32_t spacing = spec.spacing, width = (kTileSize - 1) * grid.step;
-    const std::int32_t around = static_cast<std::int32_t>(spec.reach) + 1 + spacing * 3 / 4;
+    const std::int32_t around = static_cast<std::int32_t>(spec.reach) + 1 + spacing * kCourseReach4 / 4;
     const int shift = std::bit_width(static_cast<unsigned>(spacing)) - 1;
     const std::int32_t cellX = grid.x >> shift, cellY = grid.y >> shift;
     const std::int32_t inX = grid.x & (spacing - 1), inY = grid.y & (spacing - 1);
@@ -121,14 +124,26 @@ void DrainageMaps::prepare(DrainageTile& tile, std::uint32_t map, SampleGrid gri
         for (std::int32_t dx = (inX - around) >> shift; dx <= (inX + width + around) >> shift; ++dx) {
             const DrainageCell cell = wrapped({cellX + dx, cellY + dy}, spacing);
             const DrainageCell corner = {cell.x & -kRegionCells, cell.y & -kRegionCells};
-            if (!region || region->corner.x != corner.x || region->corner.y != corner.y) region = m.region(corner);
-            const auto number = static_cast<std::size_t>((cell.y - corner.y) * kRegionCells + cell.x - corner.x);
+            if (!region || region->corner.x != corner.x || region->corner.y != corner.y)
+                region = m.region(corner);
+            const auto number =
+                static_cast<std::size_t>((cell.y - corner.y) * kRegionCells + cell.x - corner.x);
             // From the region's corner to the tile, by way of the cell: both differences are small.
             const TileSquare square = {((cell.x - corner.x - dx) * spacing + inX) * kPlaceUnits,
-                                       ((cell.y - corner.y - dy) * spacing + inY) * kPlaceUnits, width * kPlaceUnits};
+                                       ((cell.y - corner.y - dy) * spacing + inY) * kPlaceUnits,
+                                       width * kPlaceUnits};
             addCell(tile, *region->region, region->region->cells[number], square);
         }
     }
+}
+
+std::size_t DrainageMaps::keptRegions() const {
+    std::size_t sum = 0;
+    for (const auto& map : maps_) {
+        const std::lock_guard lock(map->mutex);
+        sum += map->kept.size();
+    }
+    return sum;
 }
 
 std::size_t DrainageMaps::bytes() const {

@@ -37,7 +37,8 @@ class DrainageMaps {
     // The tile whose first column is at the grid's place.
     void prepare(DrainageTile& tile, std::uint32_t map, SampleGrid grid);
 
-    std::size_t bytes() const;  // of kept regions
+    std::size_t keptRegions() const;  // of all maps
+    std::size_t bytes() const;        // that they take; while none is made
 
   private:
     struct Map;

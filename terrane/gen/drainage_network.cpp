@@ -1,8 +1,10 @@
 #include "terrane/gen/drainage_network.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstdlib>
+#include <limits>
 
 namespace terrane::gen {
 namespace {
@@ -16,6 +18,8 @@ constexpr HeightKey kMinFall = 1024;
 static_assert((2 * kFloodReach + 1) * (2 * kFloodReach + 1) < kMinFall);
 
 constexpr int kLakeDistance = 2;  // cells between lakes
+
+constexpr std::uint8_t kPassed = 255;
 
 // A way out of a pit, and what the water covered before it found it.
 struct Flood {
@@ -153,22 +157,55 @@ void findDrains(DrainageNetwork& n, HeightKey sea) {
     }
 }
 
-// Each round counts one step farther.
+// Of each node the one that it drains to, or kNoNode.
+constexpr std::uint32_t kNoNode = std::numeric_limits<std::uint32_t>::max();
+
+std::vector<std::uint32_t> nextNodes(const DrainageNetwork& n) {
+    std::vector<std::uint32_t> next(n.drains.size(), kNoNode);
+    for (std::size_t node = 0; node < next.size(); ++node) {
+        if (n.drains[node] != kNoDrain) next[node] = static_cast<std::uint32_t>(n.drainOf(node));
+    }
+    return next;
+}
+
+// Nodes upstream of each, itself among them, as far as the window goes.
+std::vector<std::uint32_t> countUpstream(const std::vector<std::uint32_t>& next) {
+    std::vector<std::uint32_t> counts(next.size(), 1);
+    std::vector<std::uint8_t> waiting(next.size(), 0);  // neighbors that drain here and are not counted yet
+    for (const std::uint32_t to : next) {
+        if (to != kNoNode) ++waiting[to];
+    }
+    for (std::uint32_t first = 0; first < next.size(); ++first) {
+        // Down from here as long as all that comes to a node is counted. A node passed is not passed again.
+        std::uint32_t node = first;
+        while (node != kNoNode && waiting[node] == 0) {
+            waiting[node] = kPassed;
+            const std::uint32_t to = next[node];
+            if (to != kNoNode) {
+                counts[to] += counts[node];
+                --waiting[to];
+            }
+            node = to;
+        }
+    }
+    return counts;
+}
+
+// Who is upstream by more steps is upstream of some node kMaxUpstream + 1 steps away.
 void countFlow(DrainageNetwork& n) {
-    struct Edge {
-        std::uint32_t from, to;
-    };
-    std::vector<Edge> edges;
-    for (std::size_t node = 0; node < n.drains.size(); ++node) {
-        if (n.drains[node] == kNoDrain) continue;
-        edges.push_back({static_cast<std::uint32_t>(node), static_cast<std::uint32_t>(n.drainOf(node))});
+    static_assert(std::has_single_bit(static_cast<unsigned>(kMaxUpstream)), "steps are doubled");
+    const std::vector<std::uint32_t> next = nextNodes(n), counts = countUpstream(next);
+    std::vector<std::uint32_t> ahead = next, doubled(next.size());
+    for (int steps = 1; steps < kMaxUpstream; steps *= 2) {
+        for (std::size_t k = 0; k < ahead.size(); ++k)
+            doubled[k] = ahead[k] == kNoNode ? kNoNode : ahead[ahead[k]];
+        ahead.swap(doubled);
     }
-    std::vector<std::uint16_t> next(n.flows.size());
-    for (int step = 0; step < kMaxUpstream; ++step) {
-        std::fill(next.begin(), next.end(), std::uint16_t{1});
-        for (const Edge e : edges) next[e.to] = static_cast<std::uint16_t>(next[e.to] + n.flows[e.from]);
-        n.flows.swap(next);
+    std::vector<std::uint32_t> flows = counts;
+    for (std::size_t k = 0; k < next.size(); ++k) {
+        if (ahead[k] != kNoNode && next[ahead[k]] != kNoNode) flows[next[ahead[k]]] -= counts[k];
     }
+    for (std::size_t k = 0; k < next.size(); ++k) n.flows[k] = static_cast<std::uint16_t>(flows[k]);
 }
 
 // Of lakes too near each other the lowest stays, and those without outlet.

@@ -21,10 +21,10 @@
 namespace terrane::gen {
 
 constexpr int kFloodReach = 10;   // cells
-constexpr int kMaxUpstream = 32;  // steps
+constexpr int kMaxUpstream = 64;  // steps
 // Flow looks at drains kMaxUpstream cells away, drains at their neighbors, cuts at pits and pits at nodes
-// kFloodReach away, each flood at one more neighbor. Curves need flow one cell farther.
-constexpr int kNetworkMargin = kMaxUpstream + 1 + 2 * kFloodReach + 1 + 1;
+// kFloodReach away, each flood at one more neighbor. Curves need flow two cells farther.
+constexpr int kNetworkMargin = kMaxUpstream + 1 + 2 * kFloodReach + 1 + 2;
 
 // A node's height with what breaks ties, so that no two neighbors are equal: 2^40 a block. Differences of
 // neighbors are 40 bits or so; 2^63 holds ±2^23 blocks.
@@ -46,14 +46,16 @@ struct DrainageNetwork {
 
     std::vector<HeightKey> levels;     // heights with the cuts
     std::vector<std::uint8_t> drains;  // number of a direction, or kNoDrain: sea, pit without outlet, margin
-    std::vector<std::uint16_t> flows;
+    std::vector<std::uint16_t> flows;  // at most (2 · kMaxUpstream + 1)²
     std::vector<std::uint8_t> lakeNodes;  // nodes that the lake here would cover; 0 where there is none
 
-    std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x); }
+    std::size_t at(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x);
+    }
     std::size_t drainOf(std::size_t node) const;  // the node that it drains to
 };
 
-// From heights to the rest. Right for nodes at least kNetworkMargin − 1 cells inside the window.
+// From heights to the rest. Right for nodes at least kNetworkMargin − 2 cells inside the window.
 void findDrainage(DrainageNetwork& network, const DrainageSpec& spec);
 
 }  // namespace terrane::gen

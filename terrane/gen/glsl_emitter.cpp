@@ -45,6 +45,9 @@ std::string_view componentName(NoiseKind kind, std::uint32_t number) {
     static constexpr std::string_view kVoronoi3D[] = {".nearest", ".second", ".offset.x", ".offset.y",
                                                       ".offset.z"};
     static constexpr std::string_view kStripes2D[] = {".x", ".y"};
+    static constexpr std::string_view kDrainage[] = {".distance", ".halfWidth",    ".level",
+                                                     ".flow",     ".lakeDistance", ".lakeLevel"};
+    if (kind == NoiseKind::Drainage) return kDrainage[number];
     if (kind == NoiseKind::Voronoi2D) return kVoronoi2D[number];
     if (kind == NoiseKind::Stripes2D) return kStripes2D[number];
     return kind == NoiseKind::Voronoi3D ? kVoronoi3D[number] : "";
@@ -182,6 +185,11 @@ class Emitter {
 
     void emitNoise(const std::string& result, std::uint32_t number) {
         const NoiseCall& call = generator_.noises[number];
+        if (call.kind == NoiseKind::Drainage) {
+            const float reach = generator_.drainages[static_cast<std::size_t>(call.size)].spec.reach;
+            return line(fmt::format("Drainage {} = drainage({}u, {}u, {});", result, call.size,
+                                    generator_.drainages.size(), literal(Type::Float, bitsOf(reach))));
+        }
         if (call.kind == NoiseKind::Voronoi2D) {
             return line(fmt::format("Voronoi {} = voronoi2D(columnX, columnY, {}, {}u, noiseSeeds[{}]);",
                                     result, call.size, call.maxPoints, number));

@@ -39,8 +39,9 @@ enum class NoiseKind : std::uint8_t { Perlin2D, Perlin3D, Voronoi2D, Voronoi3D, 
 
 struct NoiseCall {
     NoiseKind kind = NoiseKind::Perlin2D;
-    std::string name;            // names the seed: stable when code moves
-    // Blocks: smallest lattice, 1…65,536; Voronoi: cell, 1…kMaxVoronoiSize. Of Drainage the number of the map.
+    std::string name;  // names the seed: stable when code moves
+    // Blocks: smallest lattice, 1…65,536; Voronoi: cell, 1…kMaxVoronoiSize. Of Drainage the number of the
+    // map.
     std::int32_t size = 1;
     std::vector<float> weights;  // Perlin, simplex: of octaves size, 2 size, 4 size, …
     int maxPoints = 1;           // Voronoi: 1…4

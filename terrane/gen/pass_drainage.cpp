@@ -18,17 +18,21 @@ std::string mistakeIn(const DrainageSpec& s) {
     if (s.spacing < 64 || s.spacing > 1024 || !std::has_single_bit(static_cast<unsigned>(s.spacing))) {
         return fmt::format("spacing {} is not a power of two in 64…1024", s.spacing);
     }
+    // A node with so many steps of way above it has the next one do so too: rivers never end on land.
     if (s.minFlow < 1 || s.minFlow > kMaxUpstream) {
         return fmt::format("minFlow {} is not in 1…{}", s.minFlow, kMaxUpstream);
     }
-    if (!isWithin(s.maxHalfWidth, 0.5f, 64.0f)) return fmt::format("maxHalfWidth {} is not in 0.5…64", s.maxHalfWidth);
+    if (!isWithin(s.maxHalfWidth, 0.5f, 64.0f))
+        return fmt::format("maxHalfWidth {} is not in 0.5…64", s.maxHalfWidth);
     if (!isWithin(s.halfWidth, 0.5f, s.maxHalfWidth)) {
         return fmt::format("halfWidth {} is not in 0.5…{}, its maximum", s.halfWidth, s.maxHalfWidth);
     }
-    if (!isWithin(s.reach, 1.0f, spacing)) return fmt::format("reach {} is not in 1…{}, the spacing", s.reach, s.spacing);
+    if (!isWithin(s.reach, 1.0f, spacing))
+        return fmt::format("reach {} is not in 1…{}, the spacing", s.reach, s.spacing);
     if (!isWithin(s.bend, 0.0f, 0.25f)) return fmt::format("bend {} is not in 0…0.25", s.bend);
     if (!isWithin(s.seaLevel, 0.0f, 255.0f)) return fmt::format("seaLevel {} is not in 0…255", s.seaLevel);
-    if (!isWithin(s.lakeDepth, 0.0f, 1024.0f)) return fmt::format("lakeDepth {} is not in 0…1024", s.lakeDepth);
+    if (!isWithin(s.lakeDepth, 0.0f, 1024.0f))
+        return fmt::format("lakeDepth {} is not in 0…1024", s.lakeDepth);
     if (!isWithin(s.maxCut, 0.0f, 1024.0f)) return fmt::format("maxCut {} is not in 0…1024", s.maxCut);
     return "";
 }
@@ -53,7 +57,8 @@ Drainage GeneratorBuilder::drainage(const std::string& name, const DrainageSpec&
     // that using them is a mistake with a name.
     GeneratorBuilder heights(name, blocks_, drainageLevel(map.spec));
     heights.noiseParameters_ = noiseParameters_;
-    for (const FieldInfo& info : generator_.fields) heights.generator_.fields.push_back({info.name, info.type});
+    for (const FieldInfo& info : generator_.fields)
+        heights.generator_.fields.push_back({info.name, info.type});
     const Field<Float> result = heights.field<Float>("height of drainage " + name);
     heights.pass2D("heights", [&](Pass& p) { p.set(result, height(p)); });
     for (const std::string& message : heights.errors_) error(message);

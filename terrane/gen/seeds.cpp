@@ -17,8 +17,7 @@ Seeds makeSeeds(const GeneratorGraph& generator, std::uint64_t worldSeed) {
 Seeds makeSeeds(const std::vector<NoiseCall>& noises, const std::vector<std::string>& hashNames,
                 std::uint64_t worldSeed) {
     Seeds seeds;
-    for (const NoiseCall& call : noises)
-        seeds.noises.push_back(seedOf(noiseSeedName(call.name), worldSeed));
+    for (const NoiseCall& call : noises) seeds.noises.push_back(seedOf(noiseSeedName(call.name), worldSeed));
     for (const std::string& name : hashNames) seeds.hashes.push_back(seedOf(name, worldSeed));
     return seeds;
 }

@@ -12,6 +12,7 @@
 #include "terrane/gen/glsl_emitter.h"
 #include "terrane/gen/sample_grid.h"
 #include "terrane/gen/seeds.h"
+#include "terrane/gen_gpu/drainage_upload.h"
 #include "terrane/gen_gpu/pass_plan.h"
 #include "terrane/gen_gpu/slot_cache.h"
 #include "terrane/gpu/buffer.h"
@@ -41,11 +42,17 @@ std::string shaderName(std::size_t pass) {
     return fmt::format("generated/pass{}.comp.glsl", pass);
 }
 
+std::string includeOf(const char* name) {
+    return fmt::format("#include \"terrane/gen_gpu/{}.glsl\"\n", name);
+}
+
 std::string shaderText(const gen::GeneratorGraph& generator, std::size_t pass) {
-    const bool stamps = !generator.passes[pass].stamps.empty();
-    return "#include \"terrane/gen_gpu/tile.glsl\"\n#include \"terrane/gen_gpu/voronoi.glsl\"\n"
-           "#include \"terrane/gen_gpu/simplex.glsl\"\n#include \"terrane/gen_gpu/stripes.glsl\"\n" +
-           std::string(stamps ? "#include \"terrane/gen_gpu/stamps.glsl\"\n\n" : "\n") +
+    const gen::PassGraph& graph = generator.passes[pass];
+    std::string text;
+    for (const char* name : {"tile", "voronoi", "simplex", "stripes"}) text += includeOf(name);
+    if (!graph.stamps.empty()) text += includeOf("stamps");
+    if (readsDrainage(generator, graph)) text += includeOf("drainage");
+    return text + "\n" +
            gen::emitGlsl(generator, pass);
 }
 
@@ -76,8 +83,8 @@ struct GpuGenerator::Impl {
         gpu::Fence fence;
     };
 
-    Impl(const gen::GeneratorGraph& g, const gpu::ShaderLoader& loader)
-        : generator(g), shaders(loader), slots(kSlots) {}
+    Impl(const gen::GeneratorGraph& g, const gpu::ShaderLoader& loader, std::uint64_t seed)
+        : generator(g), shaders(loader), drainages(g.drainages, seed), slots(kSlots) {}
 
     base::Result<void> build(std::uint64_t seed);
     base::Result<gpu::Program> buildPass(std::size_t pass) const;
@@ -91,6 +98,7 @@ struct GpuGenerator::Impl {
     std::vector<base::EmbeddedFile> files;
     gpu::ShaderLoader shaders;
     std::vector<gpu::Program> programs;
+    gen::DrainageMaps drainages;
     gpu::Buffer fields, blocks, result, noiseSeeds, hashSeeds, shapes;
     std::array<gpu::ReadbackBuffer, kBatchesInFlight> readbacks;
     std::deque<InFlight> inFlight;
@@ -169,6 +177,12 @@ void GpuGenerator::Impl::runPass(std::size_t pass, const std::vector<ChunkPos>& 
     noiseSeeds.bindStorage(shared::kNoiseSeedsBinding);
     hashSeeds.bindStorage(shared::kHashSeedsBinding);
     if (!generator.passes[pass].stamps.empty()) shapes.bindStorage(shared::kShapesBinding);
+    DrainageBuffers drainage;  // until the dispatch has begun
+    if (readsDrainage(generator, generator.passes[pass])) {
+        drainage = uploadDrainage(drainages, generator.drainages.size(), chunks);
+        drainage.lists.bindStorage(shared::kDrainageListsBinding);
+        drainage.data.bindStorage(shared::kDrainageDataBinding);
+    }
     programs[pass].use();
     const GLuint layerGroups = generator.passes[pass].is3D ? world::kChunkHeight / kLayersPerGroup : 1;
     glDispatchCompute(static_cast<GLuint>(chunks.size()), layerGroups, 1);
@@ -210,7 +224,7 @@ base::Result<GpuGenerator> GpuGenerator::create(const gpu::ShaderLoader& shaders
             "read around each other",
             generator.name, slotsOfOne, kSlots);
     }
-    auto impl = std::make_unique<Impl>(generator, shaders);
+    auto impl = std::make_unique<Impl>(generator, shaders, seed);
     if (auto built = impl->build(seed); !built) return tl::unexpected(built.error());
     return GpuGenerator(std::move(impl));
 }

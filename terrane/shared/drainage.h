@@ -23,11 +23,21 @@ const uint kVectorsPerSegment = 3u;
 
 // A lake is a vec4: center (x, y) from the first column's sample, radius, level.
 
+// Distance where nothing is within reach, blocks.
+const float kNoRiver = 65536.0f;
+
+// What a tile has of a map: its segments, then its lakes, from vector number `first` of the data on. By tile
+// job, then map.
+struct DrainageList {
+    uint first, segmentCount, lakeCount, unused;
+};
+
 SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
+static_assert(sizeof(DrainageList) == sizeof(uvec4));
 static_assert(sizeof(RiverSegment) == kVectorsPerSegment * sizeof(vec4));
-}
+}  // namespace terrane::shared
 #endif
 #endif

@@ -1,0 +1,62 @@
+// Distance to rivers and lakes for one column, with the steps of gen/drainage_kernels-inl.h in the same order. For 2D passes
+// that read drainage maps.
+#include "terrane/shared/det_math.h"
+#include "terrane/shared/drainage.h"
+
+layout(std430, binding = kDrainageListsBinding) readonly buffer DrainageLists {
+    DrainageList drainageLists[];
+};
+layout(std430, binding = kDrainageDataBinding) readonly buffer DrainageData {
+    vec4 drainageData[];
+};
+
+struct Drainage {
+    float distance, halfWidth, level, flow, lakeDistance, lakeLevel;
+};
+
+const float kNoPower = 3.402823466e38;
+
+Drainage drainage(uint map, uint mapCount, float reach) {
+    DrainageList list = drainageLists[gl_WorkGroupID.x * mapCount + map];
+    int step = jobs[gl_WorkGroupID.x].origin.w;
+    precise float x = float(int(gl_LocalInvocationID.x) * step), y = float(int(gl_LocalInvocationID.y) * step);
+    precise float reach2 = reach * reach;
+    Drainage result = Drainage(kNoRiver, 0.0, 0.0, 0.0, kNoRiver, 0.0);
+    float best = kNoPower, bestDistance2 = 0.0;
+    uint at = list.first;
+    for (uint k = 0u; k < list.segmentCount; ++k) {
+        vec4 line = drainageData[at], course = drainageData[at + 1u], flow = drainageData[at + 2u];
+        at += kVectorsPerSegment;
+        precise float fromX = x - line.x, fromY = y - line.y;
+        precise float along = (fromX * line.z + fromY * line.w) * course.x;
+        along = along < 0.0 ? 0.0 : along;
+        along = 1.0 < along ? 1.0 : along;
+        precise float offX = fromX - along * line.z, offY = fromY - along * line.w;
+        precise float distance2 = offX * offX + offY * offY;
+        precise float halfWidth = course.y + along * course.z;
+        precise float power = distance2 - halfWidth * halfWidth;
+        if (!(distance2 < reach2 && power < best)) continue;
+        best = power;
+        bestDistance2 = distance2;
+        precise float level = course.w + along * flow.x, nodes = flow.y + along * flow.z;
+        result.halfWidth = halfWidth;
+        result.level = level;
+        result.flow = nodes;
+    }
+    if (best < kNoPower) result.distance = detSqrt(bestDistance2);
+    float bestLake = kNoPower;
+    for (uint k = 0u; k < list.lakeCount; ++k) {
+        vec4 lake = drainageData[at + k];
+        precise float fromX = x - lake.x, fromY = y - lake.y;
+        precise float distance2 = fromX * fromX + fromY * fromY;
+        precise float power = distance2 - lake.z * lake.z;
+        precise float far = lake.z + reach;
+        precise float far2 = far * far;
+        if (!(distance2 < far2 && power < bestLake)) continue;
+        bestLake = power;
+        precise float shore = detSqrt(distance2) - lake.z;
+        result.lakeDistance = shore;
+        result.lakeLevel = lake.w;
+    }
+    return result;
+}

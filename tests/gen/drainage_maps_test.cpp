@@ -1,0 +1,284 @@
+#include "terrane/gen/drainage_maps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <thread>
+
+#include "tests/gen/drainage_land.h"
+
+namespace terrane::gen {
+namespace {
+
+constexpr std::int32_t kRegionBlocks = kRegionCells * kDrainageSpec.spacing;
+
+DrainageHeights heightsOf(std::uint64_t seed) {
+    return {DrainageRunner(seed).graph.drainages[0], seed};
+}
+
+// The distance to the course that counts by plain floats from all segments of a region, without tiles.
+struct Reference {
+    float distance = kNoRiver, halfWidth = 0, level = 0, flow = 0;
+};
+
+Reference nearestRiver(const DrainageRegion& region, std::int32_t x, std::int32_t y) {
+    Reference best;
+    float bestPower = std::numeric_limits<float>::max();
+    const float reach2 = kDrainageSpec.reach * kDrainageSpec.reach;
+    for (const CourseSegment& s : region.segments) {
+        const float dx = static_cast<float>(s.to.x - s.from.x) / 16.0f,
+                    dy = static_cast<float>(s.to.y - s.from.y) / 16.0f;
+        const float fromX = static_cast<float>(x * 16 - s.from.x) / 16.0f,
+                    fromY = static_cast<float>(y * 16 - s.from.y) / 16.0f;
+        const float t =
+            std::clamp((fromX * dx + fromY * dy) * shared::detDivide(1.0f, dx * dx + dy * dy), 0.0f, 1.0f);
+        const float offX = fromX - t * dx, offY = fromY - t * dy, distance2 = offX * offX + offY * offY;
+        const float halfWidth = s.from.halfWidth + t * (s.to.halfWidth - s.from.halfWidth);
+        const float power = distance2 - halfWidth * halfWidth;
+        if (distance2 >= reach2 || power >= bestPower) continue;
+        bestPower = power;
+        best = {shared::detSqrt(distance2), halfWidth, s.from.level + t * (s.to.level - s.from.level),
+                s.from.flow + t * (s.to.flow - s.from.flow)};
+    }
+    return best;
+}
+
+TEST(DrainageMaps, ColumnsFindTheRiverThatCounts) {
+    const DrainageRegion region = makeDrainageRegion(heightsOf(kTestSeed), {0, 0});
+    DrainageRunner runner(kTestSeed);
+    int found = 0;
+    onEachTarget([&] {
+        for (std::uint32_t k = 0; k < kRandomCases / 2; ++k) {
+            // Away from the region's border, so that it has all that is near.
+            const std::uint32_t h = shared::hash2(k, 0, 5);
+            const ChunkPos chunk = {16 + static_cast<std::int32_t>(h % 224),
+                                    16 + static_cast<std::int32_t>(h / 256 % 224)};
+            const DrainageResults results = runner.run(chunk);
+            for (std::size_t column = h % 7; column < 256; column += 37) {
+                const auto x = chunk.x * 16 + static_cast<std::int32_t>(column % 16),
+                           y = chunk.y * 16 + static_cast<std::int32_t>(column / 16);
+                const Reference expected = nearestRiver(region, x, y);
+                ASSERT_EQ(asFloat(results[0][column]), expected.distance) << x << "," << y;
+                ASSERT_EQ(asFloat(results[1][column]), expected.halfWidth) << x << "," << y;
+                ASSERT_EQ(asFloat(results[2][column]), expected.level) << x << "," << y;
+                ASSERT_EQ(asFloat(results[3][column]), expected.flow) << x << "," << y;
+                found += expected.distance < kNoRiver;
+            }
+        }
+    });
+    EXPECT_GT(found, 100);
+}
+
+TEST(DrainageMaps, LakesHaveTheirShores) {
+    DrainageSpec spec = kDrainageSpec;
+    spec.lakeDepth = 2.0f;
+    DrainageRunner runner(kTestSeed, 0, spec);
+    const DrainageRegion region = makeDrainageRegion({runner.graph.drainages[0], kTestSeed}, {0, 0});
+    ASSERT_GT(region.lakes.size(), 2u);
+    const auto isWithin = [](std::int32_t v) { return v > 8192 && v < kRegionBlocks * 16 - 8192; };
+    int looked = 0;
+    for (const LakeDisc& lake : region.lakes) {
+        if (!isWithin(lake.x) || !isWithin(lake.y)) continue;
+        const std::int32_t x = lake.x / 16, y = lake.y / 16;
+        const DrainageResults results = runner.run({x >> 4, y >> 4});
+        const auto column = static_cast<std::size_t>((x & 15) + 16 * (y & 15));
+        EXPECT_NEAR(asFloat(results[4][column]), -lake.radius, 1.5f);
+        EXPECT_EQ(asFloat(results[5][column]), lake.level);
+        ++looked;
+    }
+    EXPECT_GT(looked, 0);
+}
+
+// A river through a lake is as high as the lake, as far as the shore.
+TEST(DrainageMaps, RiversInLakesHaveTheirLevel) {
+    DrainageSpec spec = kDrainageSpec;
+    spec.seaLevel = 20.0f;
+    spec.lakeDepth = 2.0f;
+    spec.bend = 0.0f;
+    const DrainageRegion region =
+        makeDrainageRegion({DrainageRunner(7, 0, spec).graph.drainages[0], 7}, {0, 0});
+    int inside = 0;
+    for (const CellCourses& cell : region.cells) {
+        if (cell.lake < 0) continue;
+        const LakeDisc& lake = region.lakes[static_cast<std::size_t>(cell.lake)];
+        for (std::uint32_t k = 0; k < cell.segmentCount; ++k) {
+            const CoursePoint& p = region.segments[cell.firstSegment + k].to;
+            // The last fifth of a way leads down to the shore where the next node is near.
+            if (std::hypot(p.x - lake.x, p.y - lake.y) > 16.0f * 0.22f * 64.0f * 0.5f) continue;
+            EXPECT_NEAR(p.level, lake.level, 0.01f);
+            ++inside;
+        }
+    }
+    EXPECT_GT(inside, 50);
+}
+
+// Water that flows from a segment's end flows on at another's beginning, as wide and as high.
+TEST(DrainageMaps, CoursesHaveNoGapsAndNeverRise) {
+    const DrainageRegion region = makeDrainageRegion(heightsOf(7), {64, -64});
+    ASSERT_GT(region.segments.size(), 500u);
+    std::multimap<std::pair<std::int32_t, std::int32_t>, const CourseSegment*> begins;
+    for (const CourseSegment& s : region.segments) begins.emplace(std::pair(s.from.x, s.from.y), &s);
+    int ends = 0, rises = 0;
+    for (const CourseSegment& s : region.segments) {
+        rises += s.to.level > s.from.level;
+        EXPECT_GE(s.to.level, kDrainageSpec.seaLevel);
+        const auto [first, last] = begins.equal_range({s.to.x, s.to.y});
+        ends += first == last;
+        // Another river may begin a segment where it crosses this one on its way to the same end.
+        EXPECT_TRUE(first == last || std::any_of(first, last, [&](const auto& next) {
+                        const CoursePoint& from = next.second->from;
+                        return from.level == s.to.level && from.halfWidth == s.to.halfWidth &&
+                               from.flow == s.to.flow;
+                    }));
+    }
+    EXPECT_EQ(rises, 0);
+    // At lakes, in the sea and at the region's border.
+    EXPECT_LT(ends, static_cast<int>(region.segments.size() / 60));
+}
+
+TEST(DrainageMaps, RegionsMeetWithoutSeams) {
+    DrainageSpec spec = kDrainageSpec;
+    spec.seaLevel = 20.0f;  // much land: long rivers
+    const DrainageHeights heights(DrainageRunner(7, 0, spec).graph.drainages[0], 7);
+    const DrainageRegion whole = makeDrainageRegion(heights, {0, 0}),
+                         shifted = makeDrainageRegion(heights, {32, 24});
+    ASSERT_GT(whole.segments.size(), 5000u);
+    for (std::int32_t y = 24; y < kRegionCells; ++y) {
+        for (std::int32_t x = 32; x < kRegionCells; ++x) {
+            const CellCourses& a = whole.cells[static_cast<std::size_t>(y * kRegionCells + x)];
+            const CellCourses& b = shifted.cells[static_cast<std::size_t>((y - 24) * kRegionCells + x - 32)];
+            ASSERT_EQ(a.segmentCount, b.segmentCount) << x << "," << y;
+            ASSERT_EQ(a.lake < 0, b.lake < 0) << x << "," << y;
+            for (std::uint32_t k = 0; k < a.segmentCount; ++k) {
+                const CourseSegment &s = whole.segments[a.firstSegment + k],
+                                    &t = shifted.segments[b.firstSegment + k];
+                ASSERT_EQ(s.from.x, t.from.x + 32 * 64 * 16);
+                ASSERT_EQ(s.to.y, t.to.y + 24 * 64 * 16);
+                ASSERT_EQ(s.to.level, t.to.level);
+                ASSERT_EQ(s.to.halfWidth, t.to.halfWidth);
+            }
+        }
+    }
+}
+
+TEST(DrainageMaps, IsTheSameInAnyOrderAndOnAnyThread) {
+    std::vector<ChunkPos> chunks;
+    for (int k = 0; k < 12; ++k) chunks.push_back({k * 20 - 120, 250 + k});
+    DrainageRunner one(kTestSeed);
+    std::vector<DrainageResults> expected;
+    for (const ChunkPos c : chunks) expected.push_back(one.run(c));
+    DrainageRunner common(kTestSeed);
+    std::vector<std::thread> threads;
+    std::vector<int> different(4);
+    for (std::size_t t = 0; t < different.size(); ++t) {
+        threads.emplace_back([&, t] {
+            for (std::size_t k = 0; k < chunks.size(); ++k) {
+                const std::size_t n = t % 2 == 0 ? chunks.size() - 1 - k : (k * 5 + t) % chunks.size();
+                DrainageTile tile, other;
+                common.maps.prepare(tile, 0, sampleGrid(chunks[n]));
+                one.maps.prepare(other, 0, sampleGrid(chunks[n]));
+                const bool same = tile.segments.size() == other.segments.size() &&
+                                  std::memcmp(tile.segments.data(), other.segments.data(),
+                                              tile.segments.size() * sizeof(shared::RiverSegment)) == 0;
+                different[t] += !same;
+            }
+        });
+    }
+    for (std::thread& t : threads) t.join();
+    EXPECT_EQ(different, std::vector<int>(4));
+    DrainageRunner again(kTestSeed);
+    for (std::size_t k = chunks.size(); k-- > 0;) EXPECT_EQ(again.run(chunks[k]), expected[k]);
+}
+
+TEST(DrainageMaps, LevelsAgree) {
+    DrainageRunner near(kTestSeed);
+    for (const int level : {2, 5}) {
+        DrainageRunner far(kTestSeed, level);
+        const int step = 1 << level;
+        const DrainageResults tile = far.run({5, 3, static_cast<std::uint8_t>(level)});
+        const SampleGrid grid = sampleGrid({5, 3, static_cast<std::uint8_t>(level)});
+        for (int k = 0; k < 256; k += 5) {
+            const std::int32_t x = grid.x + k % 16 * step, y = grid.y + k / 16 * step;
+            const DrainageResults chunk = near.run({x >> 4, y >> 4});
+            for (std::size_t r = 0; r < kDrainageResultCount; ++r) {
+                ASSERT_EQ(chunk[r][static_cast<std::size_t>((x & 15) + 16 * (y & 15))],
+                          tile[r][static_cast<std::size_t>(k)])
+                    << x << "," << y;
+            }
+        }
+    }
+    DrainageRunner tooFar(kTestSeed, 6);
+    EXPECT_EQ(asFloat(tooFar.run({0, 0, 6})[0][0]), kNoRiver);
+}
+
+// Neighbors on both sides of the world's edge, and of region borders, see nearly the same.
+TEST(DrainageMaps, NothingBreaksAtTheWorldsEdge) {
+    DrainageRunner runner(3);
+    int found = 0;
+    for (int k = 0; k < 24; ++k) {
+        const ChunkPos west = {world::kMaxChunk, world::kMinChunk + k},
+                       east = {world::kMinChunk, world::kMinChunk + k};
+        const DrainageResults a = runner.run(west), b = runner.run(east);
+        for (std::size_t row = 0; row < 16; ++row) {
+            const float left = asFloat(a[0][row * 16 + 15]), right = asFloat(b[0][row * 16]);
+            if (left > kDrainageSpec.reach - 2 || right > kDrainageSpec.reach - 2) continue;
+            // The river that counts may change from one column to the next.
+            EXPECT_NEAR(left, right, 4.0f) << "chunk row " << k;
+            EXPECT_NEAR(asFloat(a[3][row * 16 + 15]), asFloat(b[3][row * 16]), 40.0f);
+            ++found;
+        }
+    }
+    EXPECT_GT(found, 20);
+}
+
+TEST(DrainageMaps, KeepsABoundedNumberOfRegions) {
+    DrainageMaps maps(DrainageRunner(kTestSeed).graph.drainages, kTestSeed);
+    DrainageTile tile;
+    std::size_t most = 0;
+    for (std::size_t k = 0; k < kKeptRegions + 3; ++k) {
+        const auto x = static_cast<std::int32_t>(k) * kRegionBlocks + kRegionBlocks / 2;
+        maps.prepare(tile, 0, {x, kRegionBlocks / 2, 1});
+        most = std::max(most, maps.bytes() / (k + 1));
+    }
+    EXPECT_LT(maps.bytes(), std::size_t{16} << 20);
+    EXPECT_LE(maps.keptRegions(), kKeptRegions);
+}
+
+// Every river reaches the sea or a lake, whatever the seed.
+TEST(DrainageMaps, RiversReachTheSeaOrALake) {
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+        const DrainageHeights heights = heightsOf(seed);
+        constexpr int kMargin = 88, kSide = 2 * kMargin + 48;
+        DrainageNetwork n;
+        n.side = kSide;
+        n.heights = heights.nodes({0, 0}, kSide).heights;
+        findDrainage(n, kDrainageSpec);
+        const HeightKey sea = heightKey(kDrainageSpec.seaLevel, 0);
+        int rivers = 0, arrived = 0, left = 0;
+        for (int y = kMargin; y < kSide - kMargin; ++y) {
+            for (int x = kMargin; x < kSide - kMargin; ++x) {
+                std::size_t node = n.at(x, y);
+                if (n.heights[node] < sea || n.flows[node] < kDrainageSpec.minFlow) continue;
+                ++rivers;
+                while (n.drains[node] != kNoDrain) {
+                    EXPECT_TRUE(n.flows[n.drainOf(node)] >= kDrainageSpec.minFlow ||
+                                n.heights[n.drainOf(node)] < sea);
+                    node = n.drainOf(node);
+                }
+                const auto column = static_cast<int>(node % kSide), row = static_cast<int>(node / kSide);
+                const bool isOutside = column < kFloodReach + 1 || row < kFloodReach + 1 ||
+                                       column > kSide - kFloodReach - 2 || row > kSide - kFloodReach - 2;
+                arrived += n.heights[node] < sea || n.lakeNodes[node] > 0;
+                left += isOutside && n.heights[node] >= sea && n.lakeNodes[node] == 0;
+            }
+        }
+        EXPECT_GT(rivers, 30) << "seed " << seed;
+        EXPECT_EQ(arrived + left, rivers) << "seed " << seed;
+        EXPECT_GT(arrived * 2, rivers) << "seed " << seed;
+    }
+}
+
+}  // namespace
+}  // namespace terrane::gen
