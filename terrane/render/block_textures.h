@@ -4,8 +4,8 @@
 // sampler and one binding, and a draw may mix them. A smaller texture has its own mipmaps from the level of
 // its own size downward; the levels above repeat its pixels. The shader computes with the texture's own size
 // and reads no level above it, so that a larger texture beside it changes nothing about how it looks.
-// An array for each size would save memory, side² × 4 × 4/3 bytes a texture (for the built-in 33: 12 MB at
-// 256, 46 MB at 512), but needs a sampler for each size and a branch for each in every fragment: a texture
+// An array for each size would save memory, side² × 4 × 4/3 bytes a texture (for the built-in 81: 28 MB at
+// 256, 113 MB at 512), but needs a sampler for each size and a branch for each in every fragment: a texture
 // may not be chosen by an index that differs within a draw.
 #pragma once
 

@@ -23,9 +23,22 @@ BLOCKS = {
     "cactus": (11, [0, 0, 0]), "lamp_white": (15, [15, 13, 13]), "lamp_red": (15, [15, 0, 0]),
     "lamp_green": (15, [0, 15, 0]), "lamp_blue": (15, [0, 0, 15]), "cyan_glass": (3, [0, 0, 0]),
     "water": (1, [0, 0, 0]), "chest": (15, [0, 0, 0]),
+    "birch_log": (15, [0, 0, 0]), "birch_leaves": (3, [0, 0, 0]), "spruce_log": (15, [0, 0, 0]),
+    "spruce_leaves": (3, [0, 0, 0]), "pine_log": (15, [0, 0, 0]), "pine_leaves": (3, [0, 0, 0]),
+    "acacia_log": (15, [0, 0, 0]), "acacia_leaves": (3, [0, 0, 0]), "willow_log": (15, [0, 0, 0]),
+    "willow_leaves": (3, [0, 0, 0]), "palm_log": (15, [0, 0, 0]), "palm_leaves": (3, [0, 0, 0]),
+    "dead_log": (15, [0, 0, 0]), "moss": (15, [0, 0, 0]), "mossy_stone": (15, [0, 0, 0]),
+    "gravel": (15, [0, 0, 0]), "clay": (15, [0, 0, 0]), "mud": (15, [0, 0, 0]), "ice": (15, [0, 0, 0]),
+    "red_sand": (15, [0, 0, 0]), "sandstone": (15, [0, 0, 0]), "red_sandstone": (15, [0, 0, 0]),
+    "terracotta": (15, [0, 0, 0]), "basalt": (15, [0, 0, 0]), "limestone": (15, [0, 0, 0]),
+    "tall_grass": (3, [0, 0, 0]), "savanna_grass": (3, [0, 0, 0]), "fern": (3, [0, 0, 0]),
+    "reeds": (3, [0, 0, 0]), "heather": (3, [0, 0, 0]), "bluebell": (3, [0, 0, 0]), "dead_bush": (2, [0, 0, 0]),
+    "crystal": (0, [6, 8, 13]), "coral_red": (15, [0, 0, 0]), "coral_yellow": (15, [0, 0, 0]),
+    "seagrass": (15, [0, 0, 0]), "mushroom_stem": (15, [0, 0, 0]), "mushroom_cap": (15, [0, 0, 0]),
 }
 NO_COLLISION = {"air", "grass_tuft", "blue_orchid", "poppy", "oxeye_daisy", "wheat", "red_mushroom",
-                "brown_mushroom", "glowing_mushroom", "water"}
+                "brown_mushroom", "glowing_mushroom", "water",
+                "tall_grass", "savanna_grass", "fern", "reeds", "heather", "bluebell", "dead_bush", "crystal"}
 PLACED_ONLY = {"lamp_white", "lamp_red", "lamp_green", "lamp_blue", "cyan_glass", "chest"}
 
 

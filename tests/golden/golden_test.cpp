@@ -14,6 +14,14 @@ TEST_F(Golden, GalleryFromAbove) {
     EXPECT_TRUE(matchesGolden("gallery_above", drawGallery(renderer, galleryOnGround(), kAbove)));
 }
 
+TEST_F(Golden, GalleryOfTheLand) {
+    render::Renderer renderer = makeRenderer();
+    world::World world = flatWorld(2);
+    placeGallery(world, GalleryPart::Land);
+    const render::Camera camera{{0.2, -7.4, 92.2}, 61, -37, 43};
+    EXPECT_TRUE(matchesGolden("gallery_land", drawGallery(renderer, meshWorld(world), camera)));
+}
+
 TEST_F(Golden, GalleryFromBelow) {
     render::Renderer renderer = makeRenderer();
     EXPECT_TRUE(matchesGolden("gallery_below", drawGallery(renderer, galleryInTheAir(), kBelow)));
