@@ -6,6 +6,7 @@
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "tests/gen/batch_generator_cases.h"
+#include "tests/gen/stamp_fixture.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/render/content.h"
 
@@ -131,6 +132,26 @@ TEST_F(GpuGeneratorTest, EveryPartOfTheLanguageEqualsCpu) {
         ASSERT_TRUE(far) << far.error().message;
         compare(*far, gen::chunksInSquare({123, -67, level}, 1), 1);
     }
+}
+
+TEST_F(GpuGeneratorTest, StampsEqualCpu) {
+    const ChunkPos corner = {world::kMinChunk, world::kMaxChunk};
+    for (const std::uint8_t level : {0, 1, 3}) {
+        gen::GeneratorBuilder builder("stamps", contentBlocks(), level);
+        gen::writeStamps(builder, {60}, {8});
+        const auto graph = builder.finish();
+        ASSERT_TRUE(graph) << graph.error().message;
+        compare(*graph, gen::chunksInSquare({-1, -1, level}, 2), 4);
+        compare(*graph, {{corner.x >> level, corner.y >> level, level}}, 1);
+    }
+}
+
+TEST_F(GpuGeneratorTest, StampsInEveryColumnEqualCpu) {
+    gen::GeneratorBuilder builder("stamps", contentBlocks());
+    gen::writeStamps(builder, {4096}, {4096});
+    const auto graph = builder.finish();
+    ASSERT_TRUE(graph) << graph.error().message;
+    compare(*graph, gen::chunksInSquare({5, -9}, 1), 1);
 }
 
 // Each pass reads around what the one before made: 27×27 chunks for one, more than there are slots.
