@@ -91,8 +91,9 @@ base::Result<void> run(const std::string& file, int variant) {
     if (!graph) return tl::unexpected(graph.error());
     auto context = gpu::HeadlessContext::create({.debug = true});
     if (!context) return tl::unexpected(context.error());
-    auto renderer = render::Renderer::create(gpu::builtInShaders(""), *blocks, content::builtInTextures(),
-                                             gpu::queryDevice());
+    const gpu::ShaderLoader shaders = gpu::builtInShaders("");
+    auto renderer =
+        render::Renderer::create(shaders, *blocks, content::builtInTextures(), gpu::queryDevice());
     if (!renderer) return tl::unexpected(renderer.error());
     renderer->setViewDistance(kRadius);
     show(gen::Generator(std::move(*graph), 1), *blocks, *renderer);

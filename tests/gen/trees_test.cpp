@@ -84,7 +84,7 @@ TEST(Trees, GrowTheSameEverywhere) {
             for (const ShapeBlock& b : again[n].blocks) digest.update(std::as_bytes(std::span(b.name)));
         }
     }
-    EXPECT_EQ(digest.hex(), "b232aaa2a952374a77b161f3d3da0d04");
+    EXPECT_EQ(digest.hex(), "DIGEST");
 }
 
 TEST(Trees, AreRecordedWithTheSameNumbersAtEachLevel) {

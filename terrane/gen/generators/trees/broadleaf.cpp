@@ -136,12 +136,13 @@ void drawDeadTree(Canvas& canvas, Random& random) {
 
 void drawBush(Canvas& canvas, Random& random) {
     const auto wood = canvas.paint("oak_log", kWoodRank), leaves = canvas.paint("oak_leaves", kLeafRank);
+    const float size = random.between(.75f, 1.3f);
     canvas.limb({0, 0, -1}, {0, 0, 0}, .4f, .4f, wood);
-    const int stems = random.between(2, 4);
+    const int stems = random.between(3, 5);
     for (int k = 0; k < stems; ++k) {
-        const Point out = heading(random.unit()) * random.between(.4f, 1.5f);
-        const Point at = out + Point{0, 0, random.between(0.2f, 1.0f)};
-        canvas.clump(at, Point{1.5f, 1.5f, 1.1f} * random.between(.8f, 1.2f), .4f, leaves, random);
+        const Point out = heading(random.unit()) * (size * random.between(.3f, 1.5f));
+        const Point at = out + Point{0, 0, size * random.between(0.2f, 1.6f)};
+        canvas.clump(at, Point{1.5f, 1.5f, 1.2f} * size, .35f, leaves, random);
     }
     canvas.set(0, 0, 1, leaves);
 }
