@@ -34,10 +34,10 @@ struct Place {
 
 // Three rows, the highest behind.
 constexpr Place kPlaces[] = {
-    {Kind::Spruce, -45, 20}, {Kind::Larch, -34, 23},  {Kind::Pine, -23, 20},    {Kind::OldOak, 0, 26},
-    {Kind::Cypress, 21, 20}, {Kind::Baobab, 32, 21},  {Kind::Palm, 45, 19},     {Kind::Birch, -38, 6},
-    {Kind::Oak, -26, 4},     {Kind::DeadTree, 19, 5}, {Kind::Willow, -12, 7},   {Kind::Acacia, 33, 4},
-    {Kind::Bush, -20, -7},   {Kind::Boulder, -9, -6}, {Kind::FallenLog, 4, -5}, {Kind::GiantMushroom, 9, 5},
+    {Kind::Spruce, -54, 22}, {Kind::Larch, -37, 25}, {Kind::Pine, -25, 22},        {Kind::OldOak, 0, 26},
+    {Kind::Cypress, 20, 22}, {Kind::Baobab, 35, 24}, {Kind::Palm, 54, 21},         {Kind::Birch, -44, 4},
+    {Kind::Oak, -29, 4},     {Kind::Willow, -14, 4}, {Kind::GiantMushroom, 11, 4}, {Kind::DeadTree, 23, 2},
+    {Kind::Acacia, 43, 2},   {Kind::Bush, -20, -9},  {Kind::Boulder, -3, -8},      {Kind::FallenLog, 18, -7},
 };
 
 void writeArboretum(gen::GeneratorBuilder& g, int variant) {
@@ -95,13 +95,13 @@ base::Result<void> run(const std::string& file, int variant) {
     auto renderer =
         render::Renderer::create(shaders, *blocks, content::builtInTextures(), gpu::queryDevice());
     if (!renderer) return tl::unexpected(renderer.error());
-    renderer->setViewDistance(kRadius);
+    renderer->setViewDistance(3 * kRadius);
     show(gen::Generator(std::move(*graph), 1), *blocks, *renderer);
     render::RenderOptions options;
     options.msaaSamples = 4;
     options.depthOfField = options.godRays = false;
-    if (auto done = renderer->configure({1040, 360}, options); !done) return done;
-    render::FrameInput input{{{0.5, -42.0, 98.0}, 90, -9, 34}, world::environmentAt(0.06f)};
+    if (auto done = renderer->configure({1080, 360}, options); !done) return done;
+    render::FrameInput input{{{0.5, -90.0, 116.0}, 90, -14.5f, 20}, world::environmentAt(0.42f)};
     input.fogDistance = 400;
     renderer->draw(input);
     return base::writePng(file, renderer->readImage());

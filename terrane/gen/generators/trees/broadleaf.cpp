@@ -124,14 +124,14 @@ void drawWillow(Canvas& canvas, Random& random) {
 void drawDeadTree(Canvas& canvas, Random& random) {
     const auto wood = canvas.paint("dead_log", kWoodRank);
     Branches branches;
-    const float height = random.between(4.0f, 7.0f), width = random.between(3.0f, 4.5f);
-    growTrunk(branches, height, random.between(.5f, 2.0f), random);
-    const Crown crown = {branches.back().at + Point{0, 0, 2.0f}, {width, width, 4.0f}, 0.6f, height * .6f};
-    colonize(branches, pointsIn(crown, random.between(9, 14), random), {12, 1.5f, 1, {0, 0, .1f}, .5f},
+    const float height = random.between(4.0f, 7.0f), width = random.between(3.5f, 5.0f);
+    growTrunk(branches, height, random.between(.5f, 1.5f), random);
+    const Crown crown = {branches.back().at + Point{0, 0, 2.0f}, {width, width, 4.5f}, 0.6f, height * .7f};
+    colonize(branches, pointsIn(crown, random.between(11, 16), random), {12, 1.5f, 1, {0, 0, .3f}, .35f},
              random);
-    setRadii(branches, 0.8f);
+    setRadii(branches, 0.7f);
     drawLimbs(canvas, branches, wood);
-    drawRoots(canvas, 3, 1.8f, .5f, wood, random);
+    drawRoots(canvas, 3, 1.5f, .5f, wood, random);
 }
 
 void drawBush(Canvas& canvas, Random& random) {

@@ -75,13 +75,6 @@ void drawGiantMushroom(Canvas& canvas, Random& random) {
     for (int z = height; z <= height + static_cast<int>(rise); ++z) {
         if (canvas.at(mx, my, z) == 0) canvas.set(mx, my, z, stem);
     }
-    // Pale spots.
-    for (int k = 0; k < 3 * reach; ++k) {
-        const int x = mx + random.between(-reach, reach), y = my + random.between(-reach, reach);
-        int z = height + static_cast<int>(rise) + 1;
-        while (z > height && canvas.at(x, y, z) == 0) --z;
-        if (canvas.at(x, y, z) == cap) canvas.set(x, y, z, stem);
-    }
 }
 
 }  // namespace terrane::gen::trees
