@@ -61,6 +61,12 @@ TEST(Stamps, NothingStandsWhereNoShapeIs) {
         ASSERT_EQ(id, world::kAir);
 }
 
+TEST(Stamps, ReachIntoTheWorldFromBelowAndAbove) {
+    expectBlocks(writeStampsAtTheEnds, [](std::int32_t x, std::int32_t, std::int32_t z) {
+        return z == ((x & 1) == 0 ? 0 : 255) ? 1 : 0;
+    });
+}
+
 // A shape with its foot at (x, y) alone, in layers that hold nothing else.
 GeneratorGraph oneFoot(const VoxelShape& shape, int x, int y, int z) {
     return build([&](GeneratorBuilder& g) {

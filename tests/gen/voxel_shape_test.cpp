@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 #include <tuple>
+#include <vector>
 
 #include "tests/gen/stamp_fixture.h"
 
@@ -40,6 +41,15 @@ TEST(VoxelShape, FiguresAreTheAreaFromAboveAndTheHighestVoxel) {
 TEST(VoxelShape, OfLevel0IsTheShapeItself) {
     const VoxelShape shape = randomShape(3, 5, 100);
     EXPECT_EQ(coarsened(shape, 0).voxels, shape.voxels);
+}
+
+// As blocks are: one of two blocks before the middle of a column, one behind it.
+TEST(VoxelShape, TheFootStandsBehindTheMiddleOfItsColumn) {
+    VoxelShape shape = {"slab", {{"stone", 1}}, {}};
+    for (int x = -1; x <= 2; ++x) {
+        for (int y = -1; y <= 0; ++y) shape.voxels.push_back(voxel(x, y, 0));
+    }
+    EXPECT_EQ(coarsened(shape, 1).voxels, (std::vector<ShapeVoxel>{voxel(0, 0, 0), voxel(1, 0, 0)}));
 }
 
 TEST(VoxelShape, CoarsenedKeepsItsAreaAndItsHeight) {

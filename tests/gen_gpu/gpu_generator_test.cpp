@@ -1,6 +1,7 @@
 #include "terrane/gen_gpu/gpu_generator.h"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 
 #include "terrane/gen/generator.h"
@@ -147,11 +148,15 @@ TEST_F(GpuGeneratorTest, StampsEqualCpu) {
 }
 
 TEST_F(GpuGeneratorTest, ManyStampsEqualCpu) {
-    gen::GeneratorBuilder builder("stamps", contentBlocks());
-    gen::writeStamps(builder, {700}, {300});
-    const auto graph = builder.finish();
-    ASSERT_TRUE(graph) << graph.error().message;
-    compare(*graph, gen::chunksInSquare({5, -9}, 1), 1);
+    for (const auto& write :
+         {std::function<void(gen::GeneratorBuilder&)>([](auto& g) { gen::writeStamps(g, {700}, {300}); }),
+          std::function<void(gen::GeneratorBuilder&)>(gen::writeStampsAtTheEnds)}) {
+        gen::GeneratorBuilder builder("stamps", contentBlocks());
+        write(builder);
+        const auto graph = builder.finish();
+        ASSERT_TRUE(graph) << graph.error().message;
+        compare(*graph, gen::chunksInSquare({5, -9}, 1), 1);
+    }
 }
 
 // Each pass reads around what the one before made: 27×27 chunks for one, more than there are slots.
