@@ -40,7 +40,9 @@ ScatterPoint scatter(Pass& p, std::string_view name, int spacing, int minDistanc
         const Int inX = left + std::min(k % (reach + 1) * spacing, step - 1);
         const Int inY = bottom + std::min(k / (reach + 1) * spacing, step - 1);
         const IVec2 at = pointOf(p, size, inX, inY);
-        const Bool isHere = at.x >= left && at.x - left < step && at.y >= bottom && at.y - bottom < step;
+        // Differences, since at the world's edge positions wrap.
+        const Int dx = at.x - left, dy = at.y - bottom;
+        const Bool isHere = dx >= 0 && dx < step && dy >= 0 && dy < step;
         found.isHere = found.isHere || isHere;
         found.at = {select(isHere, at.x, found.at.x), select(isHere, at.y, found.at.y)};
     }

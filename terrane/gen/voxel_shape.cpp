@@ -9,7 +9,7 @@
 namespace terrane::gen {
 namespace {
 
-// Beyond this step a trunk of one block would be far too thick: leaves reach down to the ground instead.
+// Beyond this step leaves reach down to the ground in place of trunks that are much thinner than a column.
 constexpr int kMaxWoodStep = 2;
 
 using ColumnAt = std::pair<int, int>;  // y, x: the order in which equal columns are chosen
@@ -108,13 +108,19 @@ class Coarsener {
         for (const ShapeVoxel& v : shape_.voxels) {
             if (!isWood(v.block)) ++crown[v.block];
         }
-        int below = mostFrequent(column.layers.begin()->second.byBlock);
-        const bool isLeaves = !crown.empty() && (1 << level_) > kMaxWoodStep;
+        LayerCount below = column.layers.begin()->second;
         for (int z = column.layers.begin()->first; z <= column.layers.rbegin()->first; ++z) {
             const auto layer = column.layers.find(z);
-            if (layer != column.layers.end()) below = footBlock(layer->second);
-            add({0, 0}, z, isLeaves && isWood(below) ? mostFrequent(crown) : below);
+            if (layer != column.layers.end()) below = layer->second;
+            add({0, 0}, z, isTooThick(below) && !crown.empty() ? mostFrequent(crown) : footBlock(below));
         }
+    }
+
+    // Whether wood as wide as the column would be far thicker than the trunk is.
+    bool isTooThick(const LayerCount& layer) const {
+        int wood = 0;
+        for (const auto& [block, count] : layer.byBlock) wood += isWood(block) ? count : 0;
+        return (1 << level_) > kMaxWoodStep && 2 * wood < 1 << (2 * level_);
     }
 
     int footBlock(const LayerCount& layer) const {

@@ -33,8 +33,9 @@ struct VoxelShape {
 };
 
 // The shape in columns that are 2^level blocks wide; z stays in blocks. Of all columns those stay that are
-// filled most, as many as have the same area. Below the crown the foot's column is filled, with wood as long
-// as columns are at most 2 blocks wide, so that nothing floats.
+// filled most, as many as have the same area. The foot's column is filled from bottom to top, so that nothing
+// floats: with wood where columns are at most 2 blocks wide or the trunk has half their area, else with
+// leaves.
 VoxelShape coarsened(const VoxelShape& shape, int level);
 
 // Blocks (not columns) seen from above, and the highest voxel's z.

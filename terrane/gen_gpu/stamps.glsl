@@ -16,6 +16,12 @@ shared uint feet[kFeetWindow * kFeetWindow * kMaxStampsInPass];
 shared uint footCount;
 int stampLow, stampHigh;  // layers of this column that shapes may reach
 
+// Those of the feet whose shapes may reach this column. Where they are more, all feet are looked at: a driver without a
+// card may end loops after 65,536 rounds in all, which only more than a thousand feet could need.
+const uint kMaxNearFeet = 24u;
+uint nearFeet[kMaxNearFeet];
+uint nearCount;
+
 struct Foot {
     ivec3 position;  // from the chunk's corner; z absolute
     uint shape, call;
@@ -68,6 +74,7 @@ void endStamps() {
     barrier();
     stampLow = int(kChunkHeight);
     stampHigh = -1;
+    nearCount = 0u;
     for (uint k = 0u; k < footCount; ++k) {
         Foot foot = footOf(feet[k]);
         ivec3 low = shapeLow(foot.shape), size = shapeSize(foot.shape);
@@ -75,6 +82,8 @@ void endStamps() {
         if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size.xy))) continue;
         stampLow = min(stampLow, foot.position.z + low.z);
         stampHigh = max(stampHigh, foot.position.z + low.z + size.z - 1);
+        if (nearCount < kMaxNearFeet) nearFeet[nearCount] = feet[k];
+        ++nearCount;
     }
 }
 
@@ -90,8 +99,10 @@ uint shapeCell(uint shape, ivec3 offset) {
 int stampAt(uint call, int z) {
     if (z < stampLow || z > stampHigh) return 0;
     uint best = 0u, block = 0u;
-    for (uint k = 0u; k < footCount; ++k) {
-        Foot foot = footOf(feet[k]);
+    bool isListed = nearCount <= kMaxNearFeet;
+    uint count = isListed ? nearCount : footCount;
+    for (uint k = 0u; k < count; ++k) {
+        Foot foot = footOf(isListed ? nearFeet[min(k, kMaxNearFeet - 1u)] : feet[k]);
         if (foot.call != call) continue;
         uint cell = shapeCell(foot.shape, ivec3(columnFrom(foot), z - foot.position.z));
         uint order = (cell >> 16 << 12 | (4095u - uint(foot.position.y + kMaxReadOffset) * 64u -

@@ -30,7 +30,7 @@ class DrainageRunner {
           maps(graph.drainages, seed),
           seeds_(makeSeeds(graph, seed)),
           program_(compile(graph.passes[0], graph.noises)),
-          executor_(graph.noises, seeds_, &maps) {}
+          executor_(graph.noises, seeds_, {.drainages = &maps}) {}
 
     DrainageResults run(ChunkPos chunk) {
         DrainageResults results;

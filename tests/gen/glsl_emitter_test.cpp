@@ -18,6 +18,7 @@ namespace terrane::gen {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 // Follows the scopes of a shader that is written one statement a line.
 class ScopeCheck {
@@ -107,6 +108,23 @@ TEST(GlslEmitter, ABranchIsABranch) {
     ASSERT_NE(branch, std::string::npos) << text;
     EXPECT_LT(branch, noise);
     EXPECT_LT(noise, otherwise);
+}
+
+TEST(GlslEmitter, StampsFindTheirFeetFirst) {
+    const GeneratorGraph graph = build([](GeneratorBuilder& g) {
+        const auto shape = g.field<Int>("shape"), base = g.field<Int>("base");
+        g.shape({"post", {{"stone", 1}}, {{0, 0, 0, 0}}});
+        g.pass2D("feet", [&](Pass& p) {
+            p.set(shape, Int(0));
+            p.set(base, Int(9));
+        });
+        g.pass3D("stamps", [&](Pass& p) { p.setBlock(p.stamp(shape, base)); });
+    });
+    const std::string text = emitGlsl(graph, 1);
+    EXPECT_THAT(text,
+                HasSubstr("beginTile();\n    beginStamps();\n    findFeet(0u, 0u, 1u);\n    endStamps();\n"));
+    EXPECT_THAT(text, HasSubstr("= stampAt(0u, z);"));
+    EXPECT_THAT(emitGlsl(graph, 0), Not(HasSubstr("Stamps")));
 }
 
 }  // namespace

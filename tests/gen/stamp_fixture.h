@@ -96,6 +96,19 @@ inline void writeStamps(GeneratorBuilder& g, const StampLand& dense, const Stamp
     });
 }
 
+// Feet as far below and above the world as their shapes reach into it: stone at height 0 where x is even, at
+// 255 where it is odd.
+inline void writeStampsAtTheEnds(GeneratorBuilder& g) {
+    const auto number = g.field<Int>("number"), base = g.field<Int>("base");
+    g.shape({"high", {{"stone", 0}}, {{0, 0, kMaxShapeZ, 0}}});
+    g.shape({"low", {{"stone", 0}}, {{0, 0, kMinShapeZ, 0}}});
+    g.pass2D("feet", [&](Pass& p) {
+        p.set(number, p.x() & 1);
+        p.set(base, select((p.x() & 1) == 0, Int(-kMaxShapeZ), Int(255 - kMinShapeZ)));
+    });
+    g.pass3D("stamps", [&](Pass& p) { p.setBlock(p.stamp(number, base)); });
+}
+
 // The block at one voxel, by a look at every shape that stands within reach.
 class SlowStamps {
   public:

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <random>
+#include <set>
 #include <string>
 
 #include "tests/gen/gen_fixture.h"
@@ -60,6 +61,12 @@ TEST(Stamps, NothingStandsWhereNoShapeIs) {
         ASSERT_EQ(id, world::kAir);
 }
 
+TEST(Stamps, ReachIntoTheWorldFromBelowAndAbove) {
+    expectBlocks(writeStampsAtTheEnds, [](std::int32_t x, std::int32_t, std::int32_t z) {
+        return z == ((x & 1) == 0 ? 0 : 255) ? 1 : 0;
+    });
+}
+
 // A shape with its foot at (x, y) alone, in layers that hold nothing else.
 GeneratorGraph oneFoot(const VoxelShape& shape, int x, int y, int z) {
     return build([&](GeneratorBuilder& g) {
@@ -97,8 +104,20 @@ TEST(Stamps, AShapeOverTheCornerOfFourChunksIsWhole) {
     }
 }
 
+// Ranges find air in all layers but the painted ones, before any is computed.
+void expectCertain(const GeneratorGraph& graph, const StampTile& tile, const std::set<int>& painted) {
+    const Program program = compile(graph.passes.back(), graph.noises);
+    std::vector<Bits> arena(std::size_t{program.arenaRows} * kRowLanes);
+    LayerRanges ranges;
+    ranges.begin(program, arena.data(), {}, nullptr, std::span(&tile, 1));
+    for (int z = 0; z < world::kChunkHeight; ++z) {
+        EXPECT_EQ(ranges.blockOfLayers(z, 1).has_value(), !painted.contains(z)) << z;
+    }
+    EXPECT_EQ(ranges.blockOfLayers(32, 16), world::kAir);
+    EXPECT_EQ(ranges.blockOfLayers(16, 16), std::nullopt);
+}
+
 TEST(Stamps, LayersThatNoShapeReachesAreCertain) {
-    // Nothing of the pass is computed above the highest voxel: the block there is found from ranges alone.
     PassRunner runner(oneFoot({"post", {{"stone", 1}}, {{0, 0, 0, 0}, {0, 0, 3, 0}}}, 5, 5, 20));
     runner.around.resize(2);
     for (std::size_t n = 0; n < 9; ++n) {
@@ -117,6 +136,7 @@ TEST(Stamps, LayersThatNoShapeReachesAreCertain) {
     for (int round = 0; round < 2; ++round) {  // nothing stays of what was painted before
         tile.paint(*runner.graph.shapes, numbers, bases);
         for (int z = 0; z < 256; ++z) EXPECT_EQ(tile.isPainted(z), z == 20 + round || z == 23 + round) << z;
+        expectCertain(runner.graph, tile, {20 + round, 23 + round});
         EXPECT_TRUE(tile.isPainted(0, 255));
         EXPECT_FALSE(tile.isPainted(0, 19 + round));
         EXPECT_FALSE(tile.isPainted(24 + round, 255));

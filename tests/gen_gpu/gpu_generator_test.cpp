@@ -1,11 +1,13 @@
 #include "terrane/gen_gpu/gpu_generator.h"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "tests/gen/batch_generator_cases.h"
+#include "tests/gen/stamp_fixture.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/render/content.h"
 
@@ -131,6 +133,30 @@ TEST_F(GpuGeneratorTest, EveryPartOfTheLanguageEqualsCpu) {
         const auto far = ofLevel.finish();
         ASSERT_TRUE(far) << far.error().message;
         compare(*far, gen::chunksInSquare({123, -67, level}, 1), 1);
+    }
+}
+
+TEST_F(GpuGeneratorTest, StampsEqualCpu) {
+    const ChunkPos corner = {world::kMinChunk, world::kMaxChunk};
+    for (const std::uint8_t level : {0, 1, 3}) {
+        gen::GeneratorBuilder builder("stamps", contentBlocks(), level);
+        gen::writeStamps(builder, {60}, {8});
+        const auto graph = builder.finish();
+        ASSERT_TRUE(graph) << graph.error().message;
+        compare(*graph, gen::chunksInSquare({-1, -1, level}, 2), 4);
+        compare(*graph, {{corner.x >> level, corner.y >> level, level}}, 1);
+    }
+}
+
+TEST_F(GpuGeneratorTest, ManyStampsEqualCpu) {
+    for (const auto& write :
+         {std::function<void(gen::GeneratorBuilder&)>([](auto& g) { gen::writeStamps(g, {700}, {300}); }),
+          std::function<void(gen::GeneratorBuilder&)>(gen::writeStampsAtTheEnds)}) {
+        gen::GeneratorBuilder builder("stamps", contentBlocks());
+        write(builder);
+        const auto graph = builder.finish();
+        ASSERT_TRUE(graph) << graph.error().message;
+        compare(*graph, gen::chunksInSquare({5, -9}, 1), 1);
     }
 }
 

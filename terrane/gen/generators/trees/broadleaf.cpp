@@ -124,24 +124,25 @@ void drawWillow(Canvas& canvas, Random& random) {
 void drawDeadTree(Canvas& canvas, Random& random) {
     const auto wood = canvas.paint("dead_log", kWoodRank);
     Branches branches;
-    const float height = random.between(4.0f, 7.0f), width = random.between(3.0f, 4.5f);
-    growTrunk(branches, height, random.between(.5f, 2.0f), random);
-    const Crown crown = {branches.back().at + Point{0, 0, 2.0f}, {width, width, 4.0f}, 0.6f, height * .6f};
-    colonize(branches, pointsIn(crown, random.between(9, 14), random), {12, 1.5f, 1, {0, 0, .1f}, .5f},
+    const float height = random.between(4.0f, 7.0f), width = random.between(3.5f, 5.0f);
+    growTrunk(branches, height, random.between(.5f, 1.5f), random);
+    const Crown crown = {branches.back().at + Point{0, 0, 2.0f}, {width, width, 4.5f}, 0.6f, height * .7f};
+    colonize(branches, pointsIn(crown, random.between(11, 16), random), {12, 1.5f, 1, {0, 0, .3f}, .35f},
              random);
-    setRadii(branches, 0.8f);
+    setRadii(branches, 0.7f);
     drawLimbs(canvas, branches, wood);
-    drawRoots(canvas, 3, 1.8f, .5f, wood, random);
+    drawRoots(canvas, 3, 1.5f, .5f, wood, random);
 }
 
 void drawBush(Canvas& canvas, Random& random) {
     const auto wood = canvas.paint("oak_log", kWoodRank), leaves = canvas.paint("oak_leaves", kLeafRank);
+    const float size = random.between(.75f, 1.3f);
     canvas.limb({0, 0, -1}, {0, 0, 0}, .4f, .4f, wood);
-    const int stems = random.between(2, 4);
+    const int stems = random.between(3, 5);
     for (int k = 0; k < stems; ++k) {
-        const Point out = heading(random.unit()) * random.between(.4f, 1.5f);
-        const Point at = out + Point{0, 0, random.between(0.2f, 1.0f)};
-        canvas.clump(at, Point{1.5f, 1.5f, 1.1f} * random.between(.8f, 1.2f), .4f, leaves, random);
+        const Point out = heading(random.unit()) * (size * random.between(.3f, 1.5f));
+        const Point at = out + Point{0, 0, size * random.between(0.2f, 1.6f)};
+        canvas.clump(at, Point{1.5f, 1.5f, 1.2f} * size, .35f, leaves, random);
     }
     canvas.set(0, 0, 1, leaves);
 }

@@ -8,13 +8,13 @@ namespace terrane::gen::trees {
 
 void drawBoulder(Canvas& canvas, Random& random) {
     const auto stone = canvas.paint("stone", kWoodRank), moss = canvas.paint("mossy_stone", kWoodRank);
-    const float size = random.between(1.0f, 2.9f);
+    const float size = random.between(1.2f, 3.2f);
     const int lumps = random.between(2, 4);
     for (int k = 0; k < lumps; ++k) {
         const Point at = heading(random.unit()) * (size * random.between(0.0f, .7f));
         const Point radii =
             Point{random.between(.7f, 1.2f), random.between(.7f, 1.2f), random.between(.6f, .95f)} * size;
-        canvas.clump(at + Point{0, 0, random.between(-.4f, .3f)}, radii, .8f, stone, random);
+        canvas.clump(at + Point{0, 0, random.between(-.2f, .8f)}, radii, .8f, stone, random);
     }
     canvas.clump({0, 0, -.5f}, {size, size, 1.5f}, 1.0f, stone, random);
     // Moss lies on what is open to the sky, more on one side.
@@ -33,7 +33,7 @@ void drawFallenLog(Canvas& canvas, Random& random) {
     const bool isBirch = random.unit() < .35f;
     const auto wood = canvas.paint(isBirch ? "birch_log" : "oak_log", kWoodRank);
     const auto moss = canvas.paint("moss", kWoodRank);
-    const int length = random.between(4, 7);
+    const int length = random.between(5, 9);
     const bool isAlongX = random.unit() < .5f;
     const int from = -length / 2;
     for (int k = from; k < from + length; ++k) {
@@ -74,13 +74,6 @@ void drawGiantMushroom(Canvas& canvas, Random& random) {
     }
     for (int z = height; z <= height + static_cast<int>(rise); ++z) {
         if (canvas.at(mx, my, z) == 0) canvas.set(mx, my, z, stem);
-    }
-    // Pale spots.
-    for (int k = 0; k < 3 * reach; ++k) {
-        const int x = mx + random.between(-reach, reach), y = my + random.between(-reach, reach);
-        int z = height + static_cast<int>(rise) + 1;
-        while (z > height && canvas.at(x, y, z) == 0) --z;
-        if (canvas.at(x, y, z) == cap) canvas.set(x, y, z, stem);
     }
 }
 

@@ -70,7 +70,7 @@ void drawBaobab(Canvas& canvas, Random& random) {
     drawLimbs(canvas, branches, wood);
     for (const BranchNode& n : branches) {
         if (n.tips != 1 || n.at.z < height + .5f) continue;
-        canvas.clump(n.at + Point{0, 0, .3f}, {1.5f, 1.5f, .9f}, .2f, leaves, random);
+        canvas.clump(n.at + Point{0, 0, .3f}, {2.0f, 2.0f, 1.0f}, .3f, leaves, random);
     }
 }
 

@@ -1,0 +1,144 @@
+// Grown shapes: whole, in bounds, the same everywhere.
+#include "terrane/gen/generators/trees/trees.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "terrane/base/digest.h"
+#include "terrane/gen/generators/trees/tree_math.h"
+#include "tests/gen/gen_fixture.h"
+
+namespace terrane::gen::trees {
+namespace {
+
+std::vector<Kind> allKinds() {
+    std::vector<Kind> kinds;
+    for (int k = 0; k < static_cast<int>(Kind::Count); ++k) kinds.push_back(static_cast<Kind>(k));
+    return kinds;
+}
+
+using Place = std::array<int, 3>;
+
+// The voxels that hang together with the foot: by faces, of wood by corners too.
+std::size_t joinedVoxels(const VoxelShape& shape) {
+    std::map<Place, bool> isWood;  // by voxel
+    for (const ShapeVoxel& v : shape.voxels) isWood[{v.x, v.y, v.z}] = shape.blocks[v.block].rank > 0;
+    std::set<Place> joined = {{0, 0, 0}};
+    std::vector<Place> open(joined.begin(), joined.end());
+    while (!open.empty()) {
+        const Place at = open.back();
+        open.pop_back();
+        for (int n = 0; n < 27; ++n) {
+            const Place d = {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+            const Place next = {at[0] + d[0], at[1] + d[1], at[2] + d[2]};
+            const bool isFace = std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]) == 1;
+            if (!isWood.contains(next) || (!isFace && !(isWood[at] && isWood[next]))) continue;
+            if (joined.insert(next).second) open.push_back(next);
+        }
+    }
+    return joined.size();
+}
+
+TEST(Trees, AreWholeAndStandOnTheirFoot) {
+    for (const Kind kind : allKinds()) {
+        for (const VoxelShape& shape : shapesOf(kind)) {
+            SCOPED_TRACE(shape.name);
+            EXPECT_EQ(joinedVoxels(shape), shape.voxels.size());
+            EXPECT_EQ(shapeMistake(shape, contentBlocks()), "");
+            // Something of it lies in the earth, so that it stands on slopes.
+            int lowest = 0;
+            for (const ShapeVoxel& v : shape.voxels) lowest = std::min<int>(lowest, v.z);
+            EXPECT_LE(lowest, -1);
+        }
+    }
+}
+
+TEST(Trees, OfEachKindThereAreDifferentOnes) {
+    for (const Kind kind : allKinds()) {
+        const std::vector<VoxelShape>& shapes = shapesOf(kind);
+        EXPECT_GE(shapes.size(), 4u);
+        for (std::size_t k = 1; k < shapes.size(); ++k) {
+            for (std::size_t n = 0; n < k; ++n)
+                EXPECT_NE(shapes[k].voxels, shapes[n].voxels) << shapes[k].name;
+        }
+    }
+}
+
+// The digest stands for every bit of every shape: it is the same on every machine.
+TEST(Trees, GrowTheSameEverywhere) {
+    base::Digest digest;
+    for (const Kind kind : allKinds()) {
+        const std::vector<VoxelShape> again = growShapes(kind);
+        EXPECT_EQ(again.size(), shapesOf(kind).size());
+        for (std::size_t n = 0; n < again.size(); ++n) {
+            EXPECT_EQ(again[n].voxels, shapesOf(kind)[n].voxels);
+            digest.update(std::as_bytes(std::span(again[n].voxels)));
+            for (const ShapeBlock& b : again[n].blocks) digest.update(std::as_bytes(std::span(b.name)));
+        }
+    }
+    EXPECT_EQ(digest.hex(), "ad16ef8f78f6e5d9eae4cca67e718cdc");
+}
+
+TEST(Trees, AreRecordedWithTheSameNumbersAtEachLevel) {
+    TreeKinds kinds[3];
+    for (int level = 0; level < 3; ++level) {
+        GeneratorBuilder builder("trees", contentBlocks(), level);
+        kinds[level] = record(builder);
+        builder.pass3D("none", [](Pass&) {});
+        EXPECT_TRUE(builder.finish().has_value());
+    }
+    int next = 0;
+    for (std::size_t k = 0; k < kinds[0].size(); ++k) {
+        const KindRecord& kind = kinds[0][k];
+        EXPECT_EQ(kind.first, next);
+        EXPECT_EQ(kind.first, kinds[2][k].first);
+        next += kind.count;
+        EXPECT_NE(contentBlocks().find(kind.wood), nullptr);
+        EXPECT_NE(contentBlocks().find(kind.leaves), nullptr);
+        EXPECT_GT(kind.cover, 3.0f) << kind.name;
+        EXPECT_GT(kind.height, 0.5f) << kind.name;
+    }
+    EXPECT_EQ(of(kinds[1], Kind::Palm).name, "palm");
+}
+
+TEST(Trees, AHashChoosesEachVariant) {
+    const KindRecord kind = {"five", 40, 5, 1, 1, "stone", "stone"};
+    std::set<std::int32_t> chosen;
+    for (int k = 0; k < 1000; ++k) chosen.insert(asInt(shapeOf(kind, k * 16777).bits));
+    EXPECT_EQ(chosen, (std::set<std::int32_t>{40, 41, 42, 43, 44}));
+    EXPECT_EQ(asInt(shapeOf(kind, 16777215).bits), 44);
+}
+
+// From level to level the area that crowns cover stays, on average.
+TEST(Trees, CoarsenedKeepTheirCover) {
+    for (const Kind kind : {Kind::Oak, Kind::OldOak, Kind::Spruce, Kind::Acacia, Kind::Willow}) {
+        for (int level = 1; level <= 2; ++level) {
+            int cover = 0, coarse = 0;
+            for (const VoxelShape& shape : shapesOf(kind)) {
+                cover += figuresOf(shape).cover;
+                coarse += figuresOf(coarsened(shape, level)).cover << (2 * level);
+            }
+            EXPECT_NEAR(static_cast<double>(coarse) / cover, 1.0, 0.08)
+                << static_cast<int>(kind) << " " << level;
+        }
+    }
+}
+
+TEST(TreeMath, DirectionsAndRounding) {
+    for (int k = -100; k <= 100; ++k) {
+        const float t = static_cast<float>(k) * 0.037f;
+        EXPECT_NEAR(sinTurns(t), std::sin(6.283185307f * t), 0.0012f);
+        EXPECT_EQ(roundToInt(t), static_cast<int>(std::floor(t + 0.5f)));
+    }
+}
+
+}  // namespace
+}  // namespace terrane::gen::trees
