@@ -58,16 +58,16 @@ inline world::World flatWorld(int radius) {
 
 constexpr int kGalleryZ = 81;  // on the flat world's grass
 
-enum class GalleryPart : std::uint8_t { First, Land };  // the block types to the chest, those after it
+enum class GalleryPart : std::uint8_t { First, Land };  // Land: the block types between water and chest
 
 // Every block type of the part once, plants that grow at each stage, in rows of seven with gaps.
 inline void placeGallery(world::World& world, GalleryPart part = GalleryPart::First) {
     constexpr int kRow = 7;
     int number = 0;
-    const world::BlockId chest = contentBlock("chest");
+    const world::BlockId water = contentBlock("water"), chest = contentBlock("chest");
     for (const world::BlockType& type : contentBlocks().types()) {
         if (type.id == world::kAir || type.id == contentBlocks().missing()) continue;
-        if ((type.id > chest) != (part == GalleryPart::Land)) continue;
+        if ((type.id > water && type.id < chest) != (part == GalleryPart::Land)) continue;
         for (std::size_t left = 0; left <= type.growth.size(); ++left, ++number) {
             const world::BlockPos pos{2 * (number % kRow), 2 * (number / kRow), kGalleryZ};
             if (!world::putBlock(world, pos, type.id))
