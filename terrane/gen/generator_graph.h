@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,13 +44,16 @@ struct PassGraph {
 // What a pass writes: values of fields with their conditions, then the block.
 std::vector<NodeId> outputsOf(const PassGraph& pass);
 
+struct TintGraph;  // tint_graph.h
+
 struct GeneratorGraph {
     std::string name;
     int level = 0;  // of the chunks it makes
     std::vector<FieldInfo> fields;
     std::vector<NoiseCall> noises;
-    std::vector<std::string> hashNames;  // of seed slots
-    std::vector<PassGraph> passes;       // the last one is 3D
+    std::vector<std::string> hashNames;     // of seed slots
+    std::vector<PassGraph> passes;          // the last one is 3D
+    std::shared_ptr<const TintGraph> tint;  // null: the generator has none
 };
 
 // The newest 3D pass before `pass`, whose blocks it reads; -1 where there is none.

@@ -88,17 +88,18 @@ TEST(BlockRegistry, MaterialsAreShared) {
 TEST(BlockRegistry, MaterialsDifferByEveryProperty) {
     std::string file;
     for (const char* look : {"", "alpha = \"test\"\n", "two_sided = true\n", "animation = \"top_waves\"\n",
-                             "wrap = \"clamp\"\n", "sharp = true\n"})
+                             "wrap = \"clamp\"\n", "sharp = true\n", "tint = true\n"})
         file += fmt::format("[[block]]\nname = \"b{}\"\nshape = \"cross\"\ntexture = \"a\"\nopacity = 0\n{}",
                             file.size(), look);
     const BlockRegistry registry = parsed(file);
-    EXPECT_EQ(registry.materials().size(), 6u + 1);
+    EXPECT_EQ(registry.materials().size(), 7u + 1);
     EXPECT_EQ(registry.textures().size(), 2u);
     EXPECT_EQ(registry.materials()[1].alpha, AlphaMode::Test);
     EXPECT_TRUE(registry.materials()[2].twoSided);
     EXPECT_EQ(registry.materials()[3].animation, Animation::TopWaves);
     EXPECT_EQ(registry.materials()[4].wrap, Wrap::Clamp);
     EXPECT_EQ(registry.materials()[5].filtering, Filtering::Sharp);
+    EXPECT_TRUE(registry.materials()[6].tinted);
 }
 
 TEST(BlockRegistry, ErrorsArePassedOn) {
@@ -267,14 +268,15 @@ TEST(Content, Textures) {
 }
 
 TEST(Content, Looks) {
-    const auto expectLook = [](std::string_view name, Face face, Material look) {
+    const auto expectLook = [](std::string_view name, Face face, Material look, bool tinted = false) {
+        look.tinted = tinted;
         look.texture = materialOf(name, face).texture;
         EXPECT_EQ(materialOf(name, face), look) << name << ", face " << int{face};
     };
     for (const Face face : {kFaceNegX, kFacePosX, kFaceNegY, kFacePosY, kFaceNegZ, kFacePosZ}) {
         expectLook("stone", face, {});
-        expectLook("oak_leaves", face, {0, AlphaMode::Test, Animation::WholeWaves, true});
-        expectLook("grass_tuft", face, {0, AlphaMode::Test, Animation::TopWaves, true});
+        expectLook("oak_leaves", face, {0, AlphaMode::Test, Animation::WholeWaves, true}, true);
+        expectLook("grass_tuft", face, {0, AlphaMode::Test, Animation::TopWaves, true}, true);
         expectLook("wheat", face, {0, AlphaMode::Test, Animation::TopWaves, true});
         expectLook("red_mushroom", face, {0, AlphaMode::Test, Animation::None, true});
         expectLook("glowing_mushroom", face, {0, AlphaMode::TestGlow, Animation::None, true});
