@@ -1,4 +1,4 @@
-// The tint of a fragment: the color that the generator gives its place, multiplied into the texture of a tinted face.
+// The tint of a fragment: the color that the generator gives its place changes the texture of a tinted face.
 // TINT: 1 where there is one (tint_clipmap.h). Needs packed faces (packed_face.glsl) and frame_uniforms.glsl.
 #if TINT == 1
 #include "terrane/shared/tint.h"
@@ -27,11 +27,13 @@ vec3 tintAt(vec2 place) {
 }
 #endif
 
+// By a power for each channel (world/tint.h): neutral becomes the tint, black and white stay.
 vec3 tintedColor(uint face, vec4 texel) {
 #if TINT == 1
     if (isTinted(face)) {
         float share = alphaModeOf(face) == kAlphaTint ? texel.a : 1.0;
-        return min(texel.rgb * mix(vec3(1.0), tintAt(inPlace) / kNeutralTint, share), 1.0);
+        vec3 exponent = log(max(tintAt(inPlace), 1.0 / 255.0)) / log(kNeutralTint);
+        return pow(max(texel.rgb, 1e-10), mix(vec3(1.0), exponent, share));
     }
 #endif
     return texel.rgb;

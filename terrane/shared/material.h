@@ -40,7 +40,7 @@ const uint kWaveUnits = 1000u;
 //        4–7    how many times the texture was doubled to the size of the array
 //        8–18   height of a liquid's surface
 //        19–26  amplitude of its waves
-//        27     whether its colors are multiplied with the tint
+//        27     whether it takes the tint
 //
 // Of these, bits 0–7 say how a fragment samples its texture.
 SHARED_FN uint optionsWrap(uint options) {

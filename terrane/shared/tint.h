@@ -1,5 +1,5 @@
-// The tint: a color of each column that the textures of tinted faces are multiplied with, and the clipmap of
-// textures around the camera that shaders read it from.
+// The tint: a color of each column that changes the textures of tinted faces, and the clipmap of textures
+// around the camera that shaders read it from.
 #ifndef TERRANE_SHARED_TINT_H
 #define TERRANE_SHARED_TINT_H
 
@@ -7,8 +7,8 @@
 
 SHARED_BEGIN
 
-// What changes nothing, as sRGB bytes: the mean color of the texture grass_top. A tint is the color that
-// grass has in a place; a face is multiplied with the tint over this, each channel as stored (sRGB).
+// The tint that changes nothing, as sRGB bytes: the mean color of the texture grass_top. A tint is the color
+// that grass has in a place.
 const uint kNeutralTintRed = 95u;
 const uint kNeutralTintGreen = 135u;
 const uint kNeutralTintBlue = 50u;

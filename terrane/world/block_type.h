@@ -70,7 +70,7 @@ struct Material {
     Wrap wrap = Wrap::Quad;
     Filtering filtering = Filtering::Option;
     LiquidSurface surface = {};
-    bool tinted = false;  // colors are multiplied with the column's tint (tint.h)
+    bool tinted = false;  // takes the column's tint (tint.h)
 
     auto operator<=>(const Material&) const = default;
 };

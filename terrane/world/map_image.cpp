@@ -88,7 +88,7 @@ glm::vec3 shade(const Column& column, const Column& northWest, float width, cons
     const float rise = (static_cast<float>(column.height) - static_cast<float>(northWest.height)) / width;
     const float light = std::clamp(0.95f - std::clamp(-rise, -3.0f, 3.0f) * kReliefPerBlock, 0.6f, 1.25f);
     const TopColor& top = palette[column.ground];
-    const glm::vec3 color = top.tinted ? glm::min(top.mean * tintFactor(column.tint), 255.0f) : top.mean;
+    const glm::vec3 color = top.tinted ? 255.0f * tinted(top.mean / 255.0f, column.tint) : top.mean;
     const glm::vec3 ground = color * light;
     if (column.waterDepth == 0) return ground;
     const float depth = static_cast<float>(column.waterDepth);

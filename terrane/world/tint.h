@@ -24,13 +24,9 @@ constexpr PackedColor kNeutralTint =
 // Of the columns of a chunk of any level: x + 16 y.
 using TintTile = std::array<PackedColor, static_cast<std::size_t>(kChunkSize) * kChunkSize>;
 
-// What colors as stored (sRGB) are multiplied with.
-inline glm::vec3 tintFactor(PackedColor tint) {
-    const auto channel = [](PackedColor color, int shift) {
-        return static_cast<float>(color >> shift & 255u);
-    };
-    return {channel(tint, 16) / channel(kNeutralTint, 16), channel(tint, 8) / channel(kNeutralTint, 8),
-            channel(tint, 0) / channel(kNeutralTint, 0)};
-}
+// A color, 0…1 as stored (sRGB), where grass has the tint: each channel c becomes c ^ (log tint / log
+// neutral). Neutral becomes the tint, black and white stay, and no pale color turns white, as it would by a
+// factor. For what is shown; block_tint.glsl does the same.
+glm::vec3 tinted(glm::vec3 color, PackedColor tint);
 
 }  // namespace terrane::world

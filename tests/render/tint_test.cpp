@@ -42,13 +42,13 @@ class TintImages : public RendererTest {
         options.distanceFog = false;
         ASSERT_TRUE(renderer_->configure(kImageSize, options));
     }
-    base::Image imageOf(std::string_view block, std::uint8_t level = 0) {
+    base::Image imageOf(std::string_view block) {
         renderer_->clearChunks();
-        renderer_->setChunk({0, 0, level}, floorOf(block));
+        renderer_->setChunk({0, 0}, floorOf(block));
         return draw(noon(kDown));
     }
     void tintAll(world::PackedColor color) {
-        EXPECT_TRUE(renderer_->useTint(true));
+        EXPECT_TRUE(renderer_->useTint(true));  // forgets those before
         world::TintTile tile;
         tile.fill(color);
         for (const world::ChunkPos pos : renderer_->tintClipmap().missing({0, 0}, 1e6, SIZE_MAX))
@@ -56,8 +56,17 @@ class TintImages : public RendererTest {
     }
 };
 
+// Neither does a neutral or missing one change anything.
 TEST_F(TintImages, TintedBlocksTakeItAndOthersDoNot) {
     const base::Image grass = imageOf("grass"), stone = imageOf("stone");
+    EXPECT_TRUE(renderer_->useTint(true));
+    const auto expectPlain = [&] {
+        const base::Image image = imageOf("grass");
+        for (std::size_t k = 0; k < image.rgba.size(); ++k) ASSERT_NEAR(image.rgba[k], grass.rgba[k], 1);
+    };
+    expectPlain();
+    tintAll(world::kNeutralTint);
+    expectPlain();
     tintAll(world::packColor(130, 110, 60));
     const Mean plain = meanOf(grass), dry = meanOf(imageOf("grass"));
     EXPECT_GT(dry[0], plain[0] + 15);
@@ -67,20 +76,8 @@ TEST_F(TintImages, TintedBlocksTakeItAndOthersDoNot) {
     EXPECT_EQ(imageOf("grass").rgba, grass.rgba) << "none again";
 }
 
-TEST_F(TintImages, TheNeutralTintAndAMissingOneChangeNothing) {
-    const base::Image grass = imageOf("grass");
-    EXPECT_TRUE(renderer_->useTint(true));
-    const auto expectPlain = [&] {
-        const base::Image image = imageOf("grass");
-        for (std::size_t k = 0; k < image.rgba.size(); ++k) ASSERT_NEAR(image.rgba[k], grass.rgba[k], 1);
-    };
-    expectPlain();
-    tintAll(world::kNeutralTint);
-    expectPlain();
-}
-
-// The side of a grass block: its soil keeps its color.
-TEST_F(TintImages, AlphaIsTheShareOfTheTint) {
+// On the side of a grass block soil keeps its color.
+TEST_F(TintImages, AlphaIsTheShareOfTheTintAndTilesHaveTheMeanColor) {
     const auto side = [&] {
         renderer_->clearChunks();
         renderer_->setChunk({0, 0}, floorOf("grass"));
@@ -92,10 +89,8 @@ TEST_F(TintImages, AlphaIsTheShareOfTheTint) {
     const auto change = [&](int y) { return std::abs(pixel(red, 48, y)[0] - pixel(plain, 48, y)[0]); };
     EXPECT_GT(change(10), 40) << "grass";
     EXPECT_LE(change(58), 1) << "soil";
-}
 
-// A tile's texels are small on screen: its color is the mean of what the blocks have nearby.
-TEST_F(TintImages, FarTilesHaveTheMeanColorOfBlocksNearby) {
+    // From afar texels are small on screen: the color of a tile is the mean of what blocks have nearby.
     tintAll(world::packColor(150, 130, 70));
     const Mean near = meanOf(imageOf("grass"));
     renderer_->clearChunks();
@@ -107,7 +102,7 @@ TEST_F(TintImages, FarTilesHaveTheMeanColorOfBlocksNearby) {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(near[c], far[c], 2.5) << c;
 }
 
-// Half of a level's tiles red, half green: nothing jumps where levels meet, nor between tiles' texels.
+// Red and green columns side by side.
 TEST_F(TintImages, ColorsAreBlendedBetweenTexels) {
     EXPECT_TRUE(renderer_->useTint(true));
     for (const world::ChunkPos pos : renderer_->tintClipmap().missing({0, 0}, 1e6, SIZE_MAX)) {
@@ -118,8 +113,6 @@ TEST_F(TintImages, ColorsAreBlendedBetweenTexels) {
         if (pos.level == 2) renderer_->setTint(pos, tile);
     }
     // The edge at block 8 lies in the middle of the floor: the mean of both columns there.
-    renderer_->clearChunks();
-    renderer_->setChunk({0, 0}, floorOf("stone"));
     const base::Image image = imageOf("grass");
     const auto redOfRow = [&](int y) {
         int sum = 0;
