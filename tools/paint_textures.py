@@ -10,7 +10,8 @@ always gives the same pixels, because the only source of variety is hash01(); th
 for stones so even that none stands out where a texture repeats.
 
 What alpha says depends on the texture's kind (see TEXTURES): opaque = 255; test = 0 or 255; glow = share
-of light the texel emits; test+glow = 0 hole, 128 no glow, 255 full glow; blend = coverage.
+of light the texel emits; test+glow = 0 hole, 128 no glow, 255 full glow; blend = coverage; tint = share of the tint
+that the texel takes.
 """
 import argparse
 import math
@@ -65,12 +66,13 @@ def snow():
 
 
 def grass_side() -> Image:
-    """Dirt over which the grass hangs as a ragged fringe. Deep, so that a hillside keeps the color of its ground."""
+    """Dirt over which the grass hangs as a ragged fringe. Deep, so that a hillside keeps the color of its ground.
+    The grass takes the tint, the dirt does not."""
     soil, cover, depth = dirt(), grass_top(), [9 + int(4 * smooth(61, x, 0, 16, 1)) for x in range(SIZE)]
 
     def shade(x, y):
         if y >= depth[x]:
-            return mix(soil[x, y][:3], (40, 24, 20), 0.35 if y == depth[x] else 0.0)
+            return (*mix(soil[x, y][:3], (40, 24, 20), 0.35 if y == depth[x] else 0.0), 0)
         return mix(cover[x, y][:3], GRASS[0], 0.45 if y == depth[x] - 1 else 0.0)
     return Image(shade)
 
@@ -313,7 +315,7 @@ TEXTURES = {
     "stone": (stone, "opaque", True),
     "dirt": (dirt, "opaque", True),
     "grass_top": (grass_top, "opaque", True),
-    "grass_side": (grass_side, "opaque", True),
+    "grass_side": (grass_side, "tint", True),
     "sand": (sand, "opaque", True),
     "snow": (snow, "opaque", True),
     "glowing_ore": (glowing_ore, "glow", True),

@@ -59,6 +59,7 @@ class Session {
     const world::BlockRegistry& blocks() const { return *blocks_; }
     const world::World& world() const { return world_; }
     const gen::Generator& generator() const { return generator_; }  // of level 0
+    const gen::LevelGenerators& generators() const { return generators_; }
     store::ChunkStore& store() { return *store_; }
     stream::ChunkPipeline& pipeline() { return pipeline_; }
     const stream::ChunkPipeline& pipeline() const { return pipeline_; }

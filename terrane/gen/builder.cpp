@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "terrane/gen/program.h"
+#include "terrane/gen/tint_graph.h"
 
 namespace terrane::gen {
 
@@ -32,6 +33,15 @@ std::uint32_t GeneratorBuilder::newField(std::string_view name, Type type) {
     }
     generator_.fields.push_back({std::string(name), type});
     return static_cast<std::uint32_t>(generator_.fields.size() - 1);
+}
+
+void GeneratorBuilder::setTint(std::uint32_t field, Type type) {
+    if (tint_) errors_.push_back("tint is given twice");
+    if (type != Type::Int) {
+        errors_.push_back(fmt::format("tint: field \"{}\" holds no packed colors, which are Int",
+                                      generator_.fields[field].name));
+    }
+    tint_ = field;
 }
 
 void GeneratorBuilder::addPass(std::string name, bool is3D, const std::function<void(Pass&)>& body) {
@@ -134,6 +144,10 @@ base::Result<GeneratorGraph> GeneratorBuilder::finish() {
         }
     }
     if (errors_.empty()) checkRegisters();
+    if (errors_.empty() && tint_) {
+        if (const std::string mistake = cutTint(generator_, *tint_); !mistake.empty())
+            errors_.push_back(mistake);
+    }
     if (errors_.empty()) makeShapeTable();
     if (!errors_.empty()) {
         return base::fail("generator \"{}\": {}", generator_.name, fmt::join(errors_, "; "));

@@ -20,6 +20,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +49,12 @@ class GeneratorBuilder {
     // positions, noise and random numbers, no fields.
     Drainage drainage(const std::string& name, const DrainageSpec& spec,
                       const std::function<Float(Pass&)>& height);
+    // The color of each column that tinted blocks take (docs/worldgen.md): a field of packColor(), once a
+    // generator. It is no part of chunks: nothing but LevelGenerators::tint() computes it.
+    template <class T>
+    void tint(Field<T> colors) {
+        setTint(colors.index, T::kType);
+    }
     void pass2D(std::string name, const std::function<void(Pass&)>& body) {
         addPass(std::move(name), false, body);
     }
@@ -64,6 +71,7 @@ class GeneratorBuilder {
     friend class Pass;
     int newest3D() const;  // number of the newest finished 3D pass, or -1
     std::uint32_t newField(std::string_view name, Type type);
+    void setTint(std::uint32_t field, Type type);
     void addPass(std::string name, bool is3D, const std::function<void(Pass&)>& body);
     // The call with the weights of the level, or where it has a mistake, which is noted, one that has none. A
     // name stands for one noise.
@@ -75,6 +83,7 @@ class GeneratorBuilder {
 
     GeneratorGraph generator_;
     const world::BlockRegistry& blocks_;
+    std::optional<std::uint32_t> tint_;                   // field
     std::map<std::string, std::string> noiseParameters_;  // by name: of which kind, with which parameters
     std::vector<VoxelShape> shapes_;
     std::vector<std::string> errors_;

@@ -76,4 +76,9 @@ Float cos(Float x) {
     return sinOfQuarters(x, 1);
 }
 
+Int packColor(Float red, Float green, Float blue) {
+    const auto byte = [](const Float& channel) { return Int(clamp(channel, 0.0f, 1.0f) * 255.0f + 0.5f); };
+    return byte(red) << 16 | byte(green) << 8 | byte(blue);
+}
+
 }  // namespace terrane::gen

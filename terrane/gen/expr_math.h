@@ -21,4 +21,8 @@ Float pow(Float x, Float y);
 Float sin(Float x);
 Float cos(Float x);
 
+// A color as an integer: red · 2^16 + green · 2^8 + blue (world/tint.h). Each is 0…1, sRGB; others are
+// clamped.
+Int packColor(Float red, Float green, Float blue);
+
 }  // namespace terrane::gen

@@ -184,6 +184,19 @@ std::size_t Generator::cacheBytes() const {
     return impl_->cache.size() * impl_->workBytes();
 }
 
+ColumnValues Generator::columns(world::ChunkPos pos, std::uint32_t field) const {
+    Impl& impl = *impl_;
+    requireGenerated(pos, impl.graph.level);
+    auto worker = impl.borrowWorker();
+    const auto work = impl.cache.get(pos);
+    impl.advance(pos, *work, impl.shared, *worker);
+    const int writer = impl.graph.fields[field].writtenBy;
+    for (int pass = impl.shared; pass <= writer; ++pass) impl.runPass(pos, *work, pass, *worker);
+    const ColumnValues values = impl.fieldOf(field, *work, *worker);
+    impl.giveBack(std::move(worker));
+    return values;
+}
+
 world::Chunk Generator::generate(world::ChunkPos pos) const {
     TERRANE_ZONE("generate chunk");
     Impl& impl = *impl_;

@@ -5,6 +5,7 @@
 // is computed with the chunk itself.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -53,6 +54,10 @@ class Generator {
     // std::invalid_argument unless isGenerated(pos, level()). Beyond the world's edge generation sees
     // coordinates wrap.
     world::Chunk generate(world::ChunkPos pos) const;
+
+    // What 2D passes write to a field in the chunk's columns, x + 16 y, of a graph that has no 3D passes
+    // (tint_graph.h). Threads and errors as generate().
+    std::array<Bits, 256> columns(world::ChunkPos pos, std::uint32_t field) const;
 
     const std::string& name() const;
     int level() const;

@@ -62,6 +62,7 @@ struct DrainageGraph {
     std::vector<std::string> hashNames;
     PassGraph heights;
 };
+struct TintGraph;  // tint_graph.h
 
 struct GeneratorGraph {
     std::string name;
@@ -72,6 +73,7 @@ struct GeneratorGraph {
     std::vector<DrainageGraph> drainages;
     std::vector<PassGraph> passes;             // the last one is 3D
     std::shared_ptr<const ShapeTable> shapes;  // null where no pass stamps
+    std::shared_ptr<const TintGraph> tint;     // null: the generator has none
 };
 
 // The newest 3D pass before `pass`, whose blocks it reads; -1 where there is none.

@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "terrane/base/result.h"
 #include "terrane/gen/generator.h"
+#include "terrane/world/tint.h"
 
 namespace terrane::gen {
 
@@ -30,6 +32,12 @@ class LevelGenerators {
 
     // The chunk of the position's level. Throws std::invalid_argument with the reason where there is none.
     [[nodiscard]] world::Chunk generate(world::ChunkPos pos) const;
+
+    // Whether the generator has a tint. Makes the graph of level 0 where none was made.
+    [[nodiscard]] bool hasTint() const;
+    // The tint of the chunk's columns; none where the generator has none. Makes no blocks, and no generator
+    // of them. Errors as generate().
+    [[nodiscard]] std::optional<world::TintTile> tint(world::ChunkPos pos) const;
 
   private:
     struct Impl;

@@ -152,6 +152,14 @@ void Texture2DArray::upload(int level, int layer, GLenum format, GLenum type,
     glTextureSubImage3D(id(), level, 0, 0, layer, size.x, size.y, 1, format, type, data.data());
 }
 
+void Texture2DArray::uploadPart(int layer, const Part& part, GLenum format, GLenum type,
+                                std::span<const std::byte> data) {
+    assert(layer >= 0 && layer < shape_.layers && "the layer exists");
+    checkData(data, imageBytes(part.size, format, type));
+    glTextureSubImage3D(id(), 0, part.corner.x, part.corner.y, layer, part.size.x, part.size.y, 1, format,
+                        type, data.data());
+}
+
 std::size_t Texture2DArray::sizeBytes() const {
     return id() == 0
                ? 0

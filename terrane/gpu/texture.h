@@ -54,6 +54,11 @@ class Texture2DArray {
     Texture2DArray() = default;
     Texture2DArray(const Shape& shape, GLenum format, std::string_view label);
 
+    struct Part {
+        glm::ivec2 corner, size;
+    };
+    // A rectangle of texels of level 0 of one layer.
+    void uploadPart(int layer, const Part& part, GLenum format, GLenum type, std::span<const std::byte> data);
     // The whole of one level of one layer.
     void upload(int level, int layer, GLenum format, GLenum type, std::span<const std::byte> data);
     void bind(GLuint unit) const;

@@ -1,11 +1,13 @@
 // A layer of blended faces: the nearest of those that lie behind the layer before. NEXT: 0 for the first layer, 1 for the
-// others. MSAA_SAMPLES: of the layers; above 1 the layers behind the first are drawn sample by sample.
+// others. MSAA_SAMPLES: of the layers; above 1 the layers behind the first are drawn sample by sample. TINT: see
+// block_tint.glsl.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/shared/quad.h"
 #include "terrane/shared/shape_face.h"
 #include "terrane/render/packed_face.glsl"
 #define SMOOTH 1
 #include "terrane/render/block_texture.glsl"
+#include "terrane/render/block_tint.glsl"
 #include "terrane/render/packed_layer.glsl"
 
 #if NEXT == 1
@@ -35,5 +37,6 @@ void main() {
     if (isLiquid(inFace.x)) texel = mix(texel, textureLod(blockTextures, vec3(0.5, 0.5, textureOf(inFace.x)), 10.0), 0.7);
     uint direction = directionOfFace(inFace.x);
     if (!gl_FrontFacing && direction < kDirectionPlant) direction ^= 1u;
+    texel.rgb = tintedColor(inFace.x, texel);
     outLayer = packLayer(texel, direction, isFarFace(inFace.x), isLiquid(inFace.x));
 }

@@ -21,16 +21,15 @@ base::Result<FramePasses> FramePasses::create(const gpu::ShaderLoader& shaders,
 }
 
 base::Result<void> FramePasses::configure(const FrameTargets& targets, const RenderOptions& options,
-                                          bool hasFaceSampling) {
+                                          const QuadFeatures& features) {
     const int samples = targets.msaaSamples, light = static_cast<int>(options.light);
-    auto done =
-        shadowMap.configure(options.shading == Shading::Off ? 0 : options.shadowSize, hasFaceSampling);
+    auto done = shadowMap.configure(options.shading == Shading::Off ? 0 : options.shadowSize,
+                                    features.hasFaceSampling);
     const bool hasShadows = shadowMap.size() > 0;
-    if (done)
-        done = gbuffer.select(options.msaaAlphaTest ? samples : 1, options.sharpFiltering, hasFaceSampling);
+    if (done) done = gbuffer.select(options.msaaAlphaTest ? samples : 1, options.sharpFiltering, features);
     if (done) done = holeFill.configure(targets, options.tJunctions == TJunctions::Filled);
     if (done) done = shading.select(options, samples, hasShadows);
-    if (done) done = transparency.configure(targets, options, hasShadows, hasFaceSampling);
+    if (done) done = transparency.configure(targets, options, hasShadows, features);
     if (done) done = debugView.select(defined({{"MSAA_SAMPLES", samples}, {"LIGHT_SMOOTH", light}}));
     if (done)
         done =

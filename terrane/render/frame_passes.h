@@ -23,9 +23,8 @@ struct FramePasses {
 
     // Selects the variants of the shaders and makes the passes' own targets. After a failure some passes are
     // as before: configured as it was before, all are. That compiles nothing.
-    // `hasFaceSampling`: see needsFaceSampling().
     base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options,
-                                 bool hasFaceSampling = false);
+                                 const QuadFeatures& features = {});
 
     // Of the passes' own targets.
     std::size_t targetBytes() const;

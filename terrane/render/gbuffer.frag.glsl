@@ -1,10 +1,12 @@
 // ALPHA_CLASS: 0 opaque, 1 tested. MSAA_SAMPLES: above 1, holes are tested at each sample. SMOOTH: see block_texture.glsl.
+// TINT: see block_tint.glsl.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/shared/hash.h"
 #include "terrane/shared/quad.h"
 #include "terrane/shared/shape_face.h"
 #include "terrane/render/packed_face.glsl"
 #include "terrane/render/block_texture.glsl"
+#include "terrane/render/block_tint.glsl"
 
 layout(location = 0) in vec2 inTexel;
 layout(location = 1) flat in uvec2 inFace;
@@ -59,7 +61,7 @@ void main() {
 #endif
     uint direction = directionOfFace(inFace.x);
     if (!gl_FrontFacing && direction < kDirectionPlant) direction ^= 1u;
-    vec3 color = texel.rgb;
+    vec3 color = tintedColor(inFace.x, texel);
     if (frame.view == kViewMerging) color = mergingColor(color, normalOf(direction));
     outSurface = packSurface(color, direction, glowOf(texel.a), isFarFace(inFace.x));
 }

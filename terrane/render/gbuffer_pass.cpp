@@ -13,13 +13,14 @@ GBufferPass::GBufferPass(const gpu::ShaderLoader& shaders)
     : opaque_(quadShaders(shaders, "gbuffer", "opaque quads")),
       tested_(quadShaders(shaders, "gbuffer", "tested quads")) {}
 
-base::Result<void> GBufferPass::select(int alphaSamples, bool isSmooth, bool hasFaceSampling) {
+base::Result<void> GBufferPass::select(int alphaSamples, bool isSmooth, const QuadFeatures& features) {
     const auto variant = [&](int alphaClass, int samples) {
         return defined({{"PASS", 0},
                         {"ALPHA_CLASS", alphaClass},
                         {"MSAA_SAMPLES", samples},
                         {"SMOOTH", isSmooth},
-                        {"FACE_SAMPLING", hasFaceSampling}});
+                        {"FACE_SAMPLING", features.hasFaceSampling},
+                        {"TINT", features.hasTint}});
     };
     auto selected = opaque_.select(variant(0, 1));
     if (!selected) return selected;

@@ -13,8 +13,8 @@ class GBufferPass {
     explicit GBufferPass(const gpu::ShaderLoader& shaders);
 
     // alphaSamples: at how many places of a pixel holes are tested; 1: in its middle.
-    // isSmooth: textures are filtered. hasFaceSampling: see needsFaceSampling().
-    base::Result<void> select(int alphaSamples, bool isSmooth, bool hasFaceSampling);
+    // isSmooth: textures are filtered.
+    base::Result<void> select(int alphaSamples, bool isSmooth, const QuadFeatures& features);
     // Empties the G-buffer.
     void clear(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
     // Adds to the G-buffer, with the frame's uniforms bound.

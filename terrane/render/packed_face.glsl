@@ -1,5 +1,6 @@
 // What a fragment must know of its quad, packed into 32 bits: bits 0–11 texture, 12–14 alpha mode, 15–17 direction, 18 whether
-// it is the surface of a liquid, 19–22 and 23–26 extents in columns less one, 27–30 level. Needs quad.h, shape_face.h, frame.h.
+// it is the surface of a liquid, 19–22 and 23–26 extents in columns less one, 27–30 level, 31 whether
+// it is tinted. Needs quad.h, shape_face.h, frame.h.
 #include "terrane/shared/material.h"
 #include "terrane/shared/mesh_section.h"
 #include "terrane/render/packed_gbuffer.glsl"
@@ -14,11 +15,16 @@ uint directionOf(uint shapeFace) {
 uint packFace(Quad quad, MaterialRecord material, uint level) {
     uint isLiquid = material.animation == kAnimationLiquidSurface ? 1u : 0u;
     return material.texture | material.alphaMode << 12 | directionOf(quadShapeFace(quad)) << 15 | isLiquid << 18 |
-           (quadExtentU(quad) - 1u) << 19 | (quadExtentV(quad) - 1u) << 23 | level << 27;
+           (quadExtentU(quad) - 1u) << 19 | (quadExtentV(quad) - 1u) << 23 | level << 27 |
+           optionsTinted(material.options) << 31;
 }
 
 uint directionOfFace(uint face) {
     return face >> 15 & 7u;
+}
+
+bool isTinted(uint face) {
+    return (face >> 31) != 0u;
 }
 
 bool isFarFace(uint face) {

@@ -1,5 +1,5 @@
 // PASS: 0 G-buffer, 1 blended layer, 2 shadow map. ALPHA_CLASS: 0 opaque, 1 tested, 2 blended. FACE_SAMPLING: see
-// block_texture.glsl.
+// block_texture.glsl. TINT: see block_tint.glsl.
 // Pulls a quad's corner from the quad buffer. Four vertices a quad; the base vertex of a draw is four times its first
 // quad, its base instance the number of its mesh section.
 #include "terrane/render/edge_expansion.glsl"
@@ -30,6 +30,9 @@ layout(location = 0) out vec2 outTexel;        // in textures; row 0 of the imag
 layout(location = 1) flat out uvec2 outFace;   // see packed_face.glsl; a number of the quad's own
 #if FACE_SAMPLING == 1
 layout(location = 2) flat out uint outSampling;
+#endif
+#if TINT == 1
+layout(location = 3) out vec2 outPlace;  // blocks from the corner of the camera's chunk
 #endif
 #include "terrane/render/packed_face.glsl"
 
@@ -105,6 +108,9 @@ void main() {
     outFace = uvec2(packFace(quad, material, level), quad.word0 ^ seed);
 #if FACE_SAMPLING == 1
     outSampling = optionsSampling(material.options);
+#endif
+#if TINT == 1
+    outPlace = position.xy;
 #endif
     outTexel = vec2(corner.x, 1.0 - corner.y) * extentOf(outFace.x);
 }

@@ -7,6 +7,12 @@
 
 namespace terrane::render {
 
+// What the faces of the world ask of the shaders of quads; without them these are shorter.
+struct QuadFeatures {
+    bool hasFaceSampling = false;  // see needsFaceSampling()
+    bool hasTint = false;          // see TintTextures
+};
+
 struct QuadDraw {
     QuadResources& resources;
     const QuadStore& quads;

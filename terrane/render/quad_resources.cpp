@@ -16,6 +16,7 @@ namespace terrane::render {
 namespace {
 
 static_assert(static_cast<shared::uint>(world::AlphaMode::TestGlow) == shared::kAlphaTestGlow);
+static_assert(static_cast<shared::uint>(world::AlphaMode::Tint) == shared::kAlphaTint);
 static_assert(static_cast<shared::uint>(world::Wrap::Clamp) == shared::kWrapClamp);
 static_assert(static_cast<shared::uint>(world::Filtering::Nearest) == shared::kFilteringNearest);
 static_assert(static_cast<shared::uint>(world::Animation::LiquidSurface) == shared::kAnimationLiquidSurface);
@@ -38,7 +39,8 @@ shared::uint optionsOf(const world::Material& m, std::uint8_t doublings) {
                                 .filtering = static_cast<shared::uint>(m.filtering),
                                 .doublings = doublings,
                                 .surfaceHeight = m.surface.heightUnits,
-                                .waveHeight = m.surface.waveUnits});
+                                .waveHeight = m.surface.waveUnits,
+                                .tinted = m.tinted ? 1u : 0u});
 }
 
 gpu::Buffer materialRecords(const world::BlockRegistry& blocks, const BlockTextures& textures) {

@@ -55,7 +55,8 @@ base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, con
     auto loaded = loadBlockTextures(blocks, textures, device_.maxArrayLayers);
     if (!loaded) return tl::unexpected(loaded.error());
     if (targets_.size.x > 0) {
-        auto done = configurePasses(targets_, options_, needsFaceSampling(blocks, *loaded));
+        auto done =
+            configurePasses(targets_, options_, {needsFaceSampling(blocks, *loaded), tints_.isUsed()});
         if (!done) return done;
     }
     resources_.setTextures(blocks, std::move(*loaded));
@@ -64,10 +65,10 @@ base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, con
 
 // Where it fails the passes are as they were.
 base::Result<void> Renderer::configurePasses(const FrameTargets& targets, const RenderOptions& options,
-                                             bool hasFaceSampling) {
-    auto done = passes_.configure(targets, options, hasFaceSampling);
+                                             const QuadFeatures& features) {
+    auto done = passes_.configure(targets, options, features);
     if (done || targets_.size.x == 0) return done;
-    const auto undone = passes_.configure(targets_, options_, resources_.hasFaceSampling());
+    const auto undone = passes_.configure(targets_, options_, this->features());
     if (!undone) base::logError("options cannot be as they were: {}", undone.error().message);
     return done;
 }
@@ -87,7 +88,7 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
         if (!targets) return tl::unexpected(targets.error());
         made = std::move(*targets);
     }
-    auto done = configurePasses(made ? *made : targets_, options, resources_.hasFaceSampling());
+    auto done = configurePasses(made ? *made : targets_, options, features());
     if (!done) return done;
     if (made) targets_ = std::move(*made);
     options_ = options;
@@ -98,10 +99,18 @@ base::Result<void> Renderer::reloadShaders() {
     auto passes = FramePasses::create(*shaders_, device_);
     if (!passes) return tl::unexpected(passes.error());
     if (targets_.size.x > 0) {
-        if (auto done = passes->configure(targets_, options_, resources_.hasFaceSampling()); !done)
-            return done;
+        if (auto done = passes->configure(targets_, options_, features()); !done) return done;
     }
     passes_ = std::move(*passes);
+    return {};
+}
+
+base::Result<void> Renderer::useTint(bool isUsed) {
+    if (targets_.size.x > 0 && isUsed != tints_.isUsed()) {
+        auto done = configurePasses(targets_, options_, {resources_.hasFaceSampling(), isUsed});
+        if (!done) return done;
+    }
+    tints_ = isUsed ? TintTextures::create() : TintTextures();
     return {};
 }
 
@@ -124,6 +133,7 @@ void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
     const auto slice = ring_.write(std::span<const shared::Frame>(&frame, 1));
     assert(slice && "the ring is empty at the start of a frame");
     ring_.bindUniform(shared::kFrameBinding, *slice);
+    tints_.bind(input.camera, ring_);
 }
 
 CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view) const {

@@ -17,6 +17,7 @@
 #include "terrane/render/light_store.h"
 #include "terrane/render/quad_draw.h"
 #include "terrane/render/shading_inputs.h"
+#include "terrane/render/tint_textures.h"
 
 namespace terrane::render {
 
@@ -62,6 +63,13 @@ class Renderer {
     // setViewDistance is the farthest that light is kept for. `bricks` and result: see LightStore.
     bool setLight(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF);
     void removeChunk(world::ChunkPos pos);
+    // Whether tinted faces take a tint from now on; it is neutral where no tile is set, and all tiles are
+    // forgotten. Fails where the shaders cannot be compiled; then it is as before.
+    base::Result<void> useTint(bool isUsed);
+    bool hasTint() const { return tints_.isUsed(); }
+    // The tint of a tile that TintClipmap::isTile(), after useTint(true).
+    void setTint(world::ChunkPos tile, const world::TintTile& colors) { tints_.set(tile, colors); }
+    const TintClipmap& tintClipmap() const { return tints_.clipmap(); }
     // A chunk that is not shown keeps its quads and its light. Chunks are shown unless told otherwise, which
     // may come before they are set; removeChunk() ends it.
     void setShown(world::ChunkPos pos, bool isShown);
@@ -90,7 +98,8 @@ class Renderer {
 
   private:
     base::Result<void> configurePasses(const FrameTargets& targets, const RenderOptions& options,
-                                       bool hasFaceSampling);
+                                       const QuadFeatures& features);
+    QuadFeatures features() const { return {resources_.hasFaceSampling(), tints_.isUsed()}; }
     void bindFrame(const FrameInput& input, const ViewMatrices& view);
     CullInput cullInput(const FrameInput& input, const ViewMatrices& view) const;
     void cull(CullPhase phase, const CullInput& input);
@@ -116,6 +125,7 @@ class Renderer {
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> hidden_;  // chunks that are not shown
     LightStore light_;
     QuadResources resources_;
+    TintTextures tints_;
     gpu::MappedRing ring_;
     gpu::GpuTimer timer_;
     gpu::Pipeline pipeline_;

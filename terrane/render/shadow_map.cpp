@@ -19,10 +19,11 @@ ShadowMap::ShadowMap(const gpu::ShaderLoader& shaders)
 
 base::Result<void> ShadowMap::configure(int size, bool hasFaceSampling) {
     if (size > 0) {
-        auto selected = opaque_.select(defined({{"PASS", 2}, {"ALPHA_CLASS", 0}, {"FACE_SAMPLING", 0}}));
+        auto selected =
+            opaque_.select(defined({{"PASS", 2}, {"ALPHA_CLASS", 0}, {"FACE_SAMPLING", 0}, {"TINT", 0}}));
         if (selected)
             selected = tested_.select(
-                defined({{"PASS", 2}, {"ALPHA_CLASS", 1}, {"FACE_SAMPLING", hasFaceSampling}}));
+                defined({{"PASS", 2}, {"ALPHA_CLASS", 1}, {"FACE_SAMPLING", hasFaceSampling}, {"TINT", 0}}));
         if (!selected) return selected;
     }
     if (size == this->size()) return {};

@@ -40,14 +40,15 @@ base::Result<TransparencyPass::Target> TransparencyPass::makeTarget(const FrameT
 }
 
 base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOptions& options,
-                                                    bool hasShadows, bool hasFaceSampling) {
+                                                    bool hasShadows, const QuadFeatures& features) {
     const int layers = options.transparencyLayers;
     const auto peeling = [&](int next) {
         return defined({{"PASS", 1},
                         {"ALPHA_CLASS", 2},
                         {"MSAA_SAMPLES", samples},
                         {"NEXT", next},
-                        {"FACE_SAMPLING", hasFaceSampling}});
+                        {"FACE_SAMPLING", features.hasFaceSampling},
+                        {"TINT", features.hasTint}});
     };
     auto selected = first_.select(peeling(0));
     if (selected && layers > 1) selected = next_.select(peeling(1));
@@ -59,7 +60,8 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
                                                 {"OCCLUSION", options.occlusion != Occlusion::Off},
                                                 {"LIGHT_SMOOTH", static_cast<int>(options.light)},
                                                 {"QUADS", shadesQuads_},
-                                                {"FACE_SAMPLING", 0}});
+                                                {"FACE_SAMPLING", 0},
+                                                {"TINT", 0}});
     if (selected) selected = shadesQuads_ ? shadeQuads_.select(shading) : shade_.select(shading);
     if (selected && isMasked_) selected = mask_.select(samples);
     return selected;
@@ -68,12 +70,11 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
 // With one sample a pixel the layers' quads are drawn once more to shade the pixels they cover, and no
 // others. A single layer has a background everywhere.
 base::Result<void> TransparencyPass::configure(const FrameTargets& targets, const RenderOptions& options,
-                                               bool hasShadows, bool hasFaceSampling) {
+                                               bool hasShadows, const QuadFeatures& features) {
     shadesQuads_ = targets.msaaSamples == 1 && options.singleTransparencyLayer == 0;
     isMasked_ = targets.msaaSamples > 1 && options.singleTransparencyLayer == 0;
     if (options.transparencyLayers > 0) {
-        if (auto selected = selectVariants(targets.msaaSamples, options, hasShadows, hasFaceSampling);
-            !selected)
+        if (auto selected = selectVariants(targets.msaaSamples, options, hasShadows, features); !selected)
             return selected;
     }
     const bool isMade =

@@ -22,9 +22,8 @@ class TransparencyPass {
     explicit TransparencyPass(const gpu::ShaderLoader& shaders);
 
     // Makes room for the layers. Comes again whenever the targets are others.
-    // `hasFaceSampling`: see needsFaceSampling().
     base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options, bool hasShadows,
-                                 bool hasFaceSampling);
+                                 const QuadFeatures& features);
 
     // Into textures of its own, behind nothing of the depth in `targets`.
     void peelLayers(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads);
@@ -46,7 +45,7 @@ class TransparencyPass {
     void bindLayers() const;
 
     base::Result<void> selectVariants(int samples, const RenderOptions& options, bool hasShadows,
-                                      bool hasFaceSampling);
+                                      const QuadFeatures& features);
 
     ShaderVariants first_, next_, shadeQuads_;
     FullscreenPass shade_;

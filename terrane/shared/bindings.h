@@ -9,6 +9,7 @@ SHARED_BEGIN
 // Uniform buffers
 const uint kFrameBinding = 0u;
 const uint kCullBinding = 1u;
+const uint kTintBinding = 2u;
 
 // Storage buffers
 const uint kMeshSectionsBinding = 0u;
@@ -38,6 +39,7 @@ const uint kShapeFacesUnit = 19u;
 const uint kMaterialsUnit = 20u;
 const uint kSmoothTexturesUnit = 21u;  // the block textures with one sampler and the other: FACE_SAMPLING
 const uint kNearestTexturesUnit = 22u;
+const uint kTintUnit = 23u;
 
 // Vertex attributes
 const uint kMeshSectionChunkAttribute = 0u;  // chunk and level of a draw's mesh section, by the base instance

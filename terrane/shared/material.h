@@ -14,6 +14,7 @@ const uint kAlphaTest = 1u;
 const uint kAlphaBlend = 2u;
 const uint kAlphaGlow = 3u;
 const uint kAlphaTestGlow = 4u;
+const uint kAlphaTint = 5u;
 
 const uint kAnimationNone = 0u;
 const uint kAnimationTopWaves = 1u;
@@ -39,6 +40,7 @@ const uint kWaveUnits = 1000u;
 //        4–7    how many times the texture was doubled to the size of the array
 //        8–18   height of a liquid's surface
 //        19–26  amplitude of its waves
+//        27     whether it takes the tint
 //
 // Of these, bits 0–7 say how a fragment samples its texture.
 SHARED_FN uint optionsWrap(uint options) {
@@ -59,6 +61,9 @@ SHARED_FN float optionsSurfaceHeight(uint options) {
 SHARED_FN float optionsWaveHeight(uint options) {
     return float((options >> 19) & 255u) / float(kWaveUnits);
 }
+SHARED_FN uint optionsTinted(uint options) {
+    return (options >> 27) & 1u;
+}
 
 SHARED_END
 
@@ -69,10 +74,12 @@ struct MaterialOptions {
     uint wrap = 0, filtering = 0, doublings = 0;
     uint surfaceHeight = 0;  // kSurfaceUnits a block
     uint waveHeight = 0;     // kWaveUnits a block
+    uint tinted = 0;         // 0 or 1
 };
 
 constexpr uint packOptions(const MaterialOptions& o) {
-    return o.wrap | o.filtering << 2 | o.doublings << 4 | o.surfaceHeight << 8 | o.waveHeight << 19;
+    return o.wrap | o.filtering << 2 | o.doublings << 4 | o.surfaceHeight << 8 | o.waveHeight << 19 |
+           o.tinted << 27;
 }
 
 }  // namespace terrane::shared

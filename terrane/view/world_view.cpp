@@ -81,6 +81,9 @@ std::size_t WorldView::upload(double budgetSeconds) {
     while (!far_.upload(deadline) && shortenHorizon()) {
     }
     far_.applyChanges();
+    const bool isHurried = std::isinf(budgetSeconds);
+    tints_.update(center_, double{world::kChunkSize} * sightDistance(),
+                  isHurried ? TintView::kAllTiles : TintView::kTilesAFrame);
     noticeShortView();
     return count;
 }
@@ -221,7 +224,10 @@ void WorldView::warnOfNoRoom(world::ChunkPos pos) {
 }
 
 void WorldView::waitForWorkers(std::chrono::milliseconds atMost) {
-    if (session_.pipeline().progress().isUpToDate()) {
+    const bool hasChunks = session_.pipeline().progress().isUpToDate();
+    if (hasChunks && missingTiles() == 0 && missingTints() > 0) {
+        tints_.wait(atMost);
+    } else if (hasChunks) {
         session_.tiles().waitForWorkers(atMost);
     } else {
         session_.pipeline().waitForWorkers(atMost);
@@ -239,7 +245,8 @@ double loadAll(game::Session& session, WorldView& view, const render::Camera& ca
         const auto start = Clock::now();
         const std::size_t changed = view.upload(std::numeric_limits<double>::infinity());
         uploads += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-        const bool isLoaded = pipeline.progress().isUpToDate() && view.missingTiles() == 0;
+        const bool isLoaded =
+            pipeline.progress().isUpToDate() && view.missingTiles() + view.missingTints() == 0;
         if (isLoaded && changed == 0 && view.waiting() == 0) return uploads;
         if (!isLoaded && changed == 0) view.waitForWorkers(std::chrono::milliseconds(100));
     }

@@ -28,11 +28,12 @@ constexpr std::array<EnumName<Shape>, 5> kShapes{{{"cube", Shape::Cube},
                                                   {"hash", Shape::Hash},
                                                   {"inset", Shape::Inset}}};
 
-constexpr std::array<EnumName<AlphaMode>, 5> kAlphaModes{{{"unused", AlphaMode::Unused},
+constexpr std::array<EnumName<AlphaMode>, 6> kAlphaModes{{{"unused", AlphaMode::Unused},
                                                           {"test", AlphaMode::Test},
                                                           {"blend", AlphaMode::Blend},
                                                           {"glow", AlphaMode::Glow},
-                                                          {"test_glow", AlphaMode::TestGlow}}};
+                                                          {"test_glow", AlphaMode::TestGlow},
+                                                          {"tint", AlphaMode::Tint}}};
 
 constexpr std::array<EnumName<Animation>, 4> kAnimations{{{"none", Animation::None},
                                                           {"top_waves", Animation::TopWaves},
@@ -42,11 +43,11 @@ constexpr std::array<EnumName<Animation>, 4> kAnimations{{{"none", Animation::No
 constexpr std::array<EnumName<Wrap>, 3> kWraps{
     {{"quad", Wrap::Quad}, {"repeat", Wrap::Repeat}, {"clamp", Wrap::Clamp}}};
 
-constexpr std::array<std::string_view, 22> kBlockKeys{
+constexpr std::array<std::string_view, 23> kBlockKeys{
     "name",      "shape",          "texture",     "textures",     "alpha",     "animation",
     "two_sided", "wrap",           "sharp",       "inner_faces",  "opacity",   "emission",
     "collides",  "selection",      "selectable",  "needs_ground", "generated", "growth",
-    "slots",     "surface_height", "wave_height", "behaviors"};
+    "slots",     "surface_height", "wave_height", "behaviors",    "tint"};
 
 // `texture` for all faces or `textures` with one a group: exactly one of them.
 Groups<std::string> readTextures(ContentTable& table) {
@@ -81,9 +82,14 @@ void readFaces(ContentTable& table, BlockDescription& block) {
         "sharp", kGroupNames, Filtering::Option, [&](const toml::node& value, auto key) {
             return table.booleanOf(value, key) ? Filtering::Sharp : Filtering::Nearest;
         });
+    const auto tinted =
+        table.valueEach<bool>("tint", kGroupNames, false,
+                              [&](const toml::node& value, auto key) { return table.booleanOf(value, key); });
     for (std::size_t face = 0; face < kFaceCount; ++face) {
         const Group g = kGroupOfFace[face];
-        block.faces[face] = {textures[g], alpha[g], twoSided[g], wrap[g], filtering[g]};
+        block.faces[face] = {textures[g], alpha[g], twoSided[g], wrap[g], filtering[g], tinted[g]};
+        if (alpha[g] == AlphaMode::Tint && !tinted[g])
+            table.expected(*table.node("alpha"), "alpha", "tint = true for faces with alpha = \"tint\"");
     }
     if (const toml::node* value = table.node("animation"))
         block.animation = table.enumOf(*value, "animation", kAnimations);
@@ -273,7 +279,8 @@ base::Result<std::vector<BlockDescription>> parseBlocks(std::string_view toml, s
 
 bool isOpaqueCube(const BlockDescription& block) {
     const auto opaque = [](const FaceLook& face) {
-        return face.alpha == AlphaMode::Unused || face.alpha == AlphaMode::Glow;
+        return face.alpha == AlphaMode::Unused || face.alpha == AlphaMode::Glow ||
+               face.alpha == AlphaMode::Tint;
     };
     return block.type.shape == Shape::Cube && std::all_of(block.faces.begin(), block.faces.end(), opaque);
 }

@@ -24,6 +24,7 @@ struct FaceLook {
     bool twoSided = false;
     Wrap wrap = Wrap::Quad;
     Filtering filtering = Filtering::Option;
+    bool tinted = false;
 };
 
 struct BlockDescription {

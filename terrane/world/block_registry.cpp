@@ -67,7 +67,8 @@ class Materials {
                                 .twoSided = face.twoSided,
                                 .wrap = face.wrap,
                                 .filtering = face.filtering,
-                                .surface = block.type.surface};
+                                .surface = block.type.surface,
+                                .tinted = face.tinted};
         const auto number = numbers_.try_emplace(material, numbers_.size()).first->second;
         if (texture >= kMaxNumbered || number >= kMaxNumbered) return std::nullopt;
         if (number == materials_.size()) materials_.push_back(material);

@@ -32,6 +32,7 @@ enum class AlphaMode : std::uint8_t {
     Blend,     // coverage
     Glow,      // opaque; alpha is the share of light the texel gives by itself
     TestGlow,  // below one quarter: a hole; above, (alpha − 0.5)·2 clamped is the glow
+    Tint,      // opaque; alpha is the share of the tint that the texel takes, of a tinted face
 };
 
 enum class Animation : std::uint8_t { None, TopWaves, WholeWaves, LiquidSurface };
@@ -69,6 +70,7 @@ struct Material {
     Wrap wrap = Wrap::Quad;
     Filtering filtering = Filtering::Option;
     LiquidSurface surface = {};
+    bool tinted = false;  // takes the column's tint (tint.h)
 
     auto operator<=>(const Material&) const = default;
 };

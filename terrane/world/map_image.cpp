@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "terrane/world/coords.h"
 
@@ -17,7 +18,12 @@ constexpr float kWaterFade = 14.0f;       // blocks of water after which the gro
 // Of a row, about 10 KB each in memory.
 constexpr std::size_t kChunksAtOnce = 512;
 
-using Palette = std::vector<glm::vec3>;  // by block id: mean color of the top face, 0…255
+// Of a block's top face.
+struct TopColor {
+    glm::vec3 mean{0.0f};  // 0…255
+    bool tinted = false;
+};
+using Palette = std::vector<TopColor>;  // by block id
 
 // What a map shows of a column.
 struct Column {
@@ -25,6 +31,7 @@ struct Column {
     std::uint8_t height = 0;      // of the ground
     std::uint8_t waterDepth = 0;  // blocks of liquid above it
     BlockId liquid = kAir;
+    PackedColor tint = kNeutralTint;
 };
 
 glm::vec3 meanColor(const base::Image& image) {
@@ -38,21 +45,21 @@ glm::vec3 meanColor(const base::Image& image) {
     return weight > 0.0f ? sum / weight : sum;
 }
 
-// Glow maps use alpha for light: there a hole in the coverage is none.
+// Where alpha stands for light or for a share of the tint, a hole in the coverage is none.
 base::Result<Palette> makePalette(const BlockRegistry& blocks, const TextureSource& textures) {
     Palette palette;
     for (const BlockType& type : blocks.types()) {
         if (type.shape == Shape::None) {
-            palette.emplace_back(0.0f);
+            palette.emplace_back();
             continue;
         }
         const Material& material = blocks.materials()[type.material[kFacePosZ]];
         auto image = textures(blocks.textures()[material.texture]);
         if (!image) return tl::unexpected(image.error());
-        if (material.alpha == AlphaMode::Glow) {
+        if (material.alpha == AlphaMode::Glow || material.alpha == AlphaMode::Tint) {
             for (std::size_t k = 3; k < image->rgba.size(); k += 4) image->rgba[k] = 255;
         }
-        palette.push_back(meanColor(*image));
+        palette.push_back({meanColor(*image), material.tinted});
     }
     return palette;
 }
@@ -80,10 +87,12 @@ Column lookDown(const Chunk& chunk, const BlockRegistry& blocks, int x, int y) {
 glm::vec3 shade(const Column& column, const Column& northWest, float width, const Palette& palette) {
     const float rise = (static_cast<float>(column.height) - static_cast<float>(northWest.height)) / width;
     const float light = std::clamp(0.95f - std::clamp(-rise, -3.0f, 3.0f) * kReliefPerBlock, 0.6f, 1.25f);
-    const glm::vec3 ground = palette[column.ground] * light;
+    const TopColor& top = palette[column.ground];
+    const glm::vec3 color = top.tinted ? 255.0f * tinted(top.mean / 255.0f, column.tint) : top.mean;
+    const glm::vec3 ground = color * light;
     if (column.waterDepth == 0) return ground;
     const float depth = static_cast<float>(column.waterDepth);
-    const glm::vec3 water = palette[column.liquid] * (0.6f + 0.4f * std::exp(-depth / kWaterFade));
+    const glm::vec3 water = palette[column.liquid].mean * (0.6f + 0.4f * std::exp(-depth / kWaterFade));
     return glm::mix(water, ground, 0.5f * std::exp(-depth / (0.4f * kWaterFade)));
 }
 
@@ -108,10 +117,13 @@ base::Result<base::Image> drawMap(const MapSource& source, const BlockRegistry& 
             const auto chunks = source.chunks(positions);
             if (!chunks) return tl::unexpected(chunks.error());
             auto done = base::parallelFor(jobs, chunks->size(), [&](std::size_t n) {
+                const auto tints = source.tint ? std::optional(source.tint(positions[n])) : std::nullopt;
                 for (int k = 0; k < kChunkSize * kChunkSize; ++k) {
                     const std::size_t x = (first + n) * kChunkSize + static_cast<std::size_t>(k & 15);
                     const std::size_t y = cy * kChunkSize + static_cast<std::size_t>(k >> 4);
-                    columns[y * width + x] = lookDown((*chunks)[n], blocks, k & 15, k >> 4);
+                    Column& column = columns[y * width + x];
+                    column = lookDown((*chunks)[n], blocks, k & 15, k >> 4);
+                    if (tints) column.tint = (*tints)[static_cast<std::size_t>(k)];
                 }
             });
             if (!done) return tl::unexpected(done.error());

@@ -12,6 +12,7 @@
 #include "terrane/world/chunk.h"
 #include "terrane/world/coords.h"
 #include "terrane/world/texture_source.h"
+#include "terrane/world/tint.h"
 
 namespace terrane::world {
 
@@ -20,6 +21,8 @@ struct MapSource {
     ChunkArea area;  // of chunks of the level
     std::uint8_t level = 0;
     std::function<base::Result<std::vector<Chunk>>(std::span<const ChunkPos>)> chunks;
+    // The tint of a chunk's columns, from any thread; null where the generator has none.
+    std::function<TintTile(ChunkPos)> tint = {};
 };
 
 // One pixel a column; y points up. `onRow` is called with the number of chunk rows done.

@@ -35,7 +35,7 @@ constexpr std::string_view kAllKeys =
     "name, shape, texture, textures, alpha, animation, two_sided, wrap, sharp, inner_faces, opacity, "
     "emission, "
     "collides, selection, selectable, needs_ground, generated, growth, slots, surface_height, wave_height, "
-    "behaviors";
+    "behaviors, tint";
 
 TEST(BlockParser, BadLines) {
     constexpr BadLine kCases[] = {
@@ -54,9 +54,9 @@ TEST(BlockParser, BadLines) {
         {"two_sided = \"yes\"", "blocks.toml:5: two_sided: expected true or false, got \"yes\""},
         {"two_sided = { top = 1 }", "blocks.toml:5: two_sided.top: expected true or false, got 1"},
         {"alpha = \"holes\"",
-         "blocks.toml:5: alpha: expected one of unused, test, blend, glow, test_glow, got \"holes\""},
+         "blocks.toml:5: alpha: expected one of unused, test, blend, glow, test_glow, tint, got \"holes\""},
         {"alpha = { side = 3 }",
-         "blocks.toml:5: alpha.side: expected one of unused, test, blend, glow, test_glow, got 3"},
+         "blocks.toml:5: alpha.side: expected one of unused, test, blend, glow, test_glow, tint, got 3"},
         {"alpha = { north = \"test\" }",
          "blocks.toml:5: alpha.north: unknown key, expected one of top, bottom, side"},
         {"animation = \"spins\"",
@@ -67,6 +67,10 @@ TEST(BlockParser, BadLines) {
         {"wrap = \"mirror\"", "blocks.toml:5: wrap: expected one of quad, repeat, clamp, got \"mirror\""},
         {"sharp = \"off\"", "blocks.toml:5: sharp: expected true or false, got \"off\""},
         {"sharp = { top = 1 }", "blocks.toml:5: sharp.top: expected true or false, got 1"},
+        {"tint = \"green\"", "blocks.toml:5: tint: expected true or false, got \"green\""},
+        {"tint = { side = 2 }", "blocks.toml:5: tint.side: expected true or false, got 2"},
+        {"alpha = { side = \"tint\" }\ntint = { top = true }",
+         "blocks.toml:5: alpha: expected tint = true for faces with alpha = \"tint\", got a table"},
         {"surface_height = 0.5",
          "blocks.toml:5: surface_height: expected surface_height only for the shape liquid, got 0.5"},
         {"wave_height = 0.1",
@@ -254,7 +258,17 @@ TEST(BlockParser, Defaults) {
         EXPECT_FALSE(face.twoSided);
         EXPECT_EQ(face.wrap, Wrap::Quad);
         EXPECT_EQ(face.filtering, Filtering::Option);
+        EXPECT_FALSE(face.tinted);
     }
+}
+
+TEST(BlockParser, Tint) {
+    const BlockDescription grass =
+        only(cubeWith("tint = { top = true, side = true }\nalpha = { side = \"tint\" }"));
+    EXPECT_TRUE(grass.faces[kFacePosZ].tinted && grass.faces[kFaceNegY].tinted);
+    EXPECT_FALSE(grass.faces[kFaceNegZ].tinted);
+    EXPECT_EQ(grass.faces[kFaceNegY].alpha, AlphaMode::Tint);
+    EXPECT_TRUE(isOpaqueCube(grass));
 }
 
 TEST(BlockParser, FaceGroups) {

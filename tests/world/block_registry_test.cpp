@@ -88,17 +88,18 @@ TEST(BlockRegistry, MaterialsAreShared) {
 TEST(BlockRegistry, MaterialsDifferByEveryProperty) {
     std::string file;
     for (const char* look : {"", "alpha = \"test\"\n", "two_sided = true\n", "animation = \"top_waves\"\n",
-                             "wrap = \"clamp\"\n", "sharp = true\n"})
+                             "wrap = \"clamp\"\n", "sharp = true\n", "tint = true\n"})
         file += fmt::format("[[block]]\nname = \"b{}\"\nshape = \"cross\"\ntexture = \"a\"\nopacity = 0\n{}",
                             file.size(), look);
     const BlockRegistry registry = parsed(file);
-    EXPECT_EQ(registry.materials().size(), 6u + 1);
+    EXPECT_EQ(registry.materials().size(), 7u + 1);
     EXPECT_EQ(registry.textures().size(), 2u);
     EXPECT_EQ(registry.materials()[1].alpha, AlphaMode::Test);
     EXPECT_TRUE(registry.materials()[2].twoSided);
     EXPECT_EQ(registry.materials()[3].animation, Animation::TopWaves);
     EXPECT_EQ(registry.materials()[4].wrap, Wrap::Clamp);
     EXPECT_EQ(registry.materials()[5].filtering, Filtering::Sharp);
+    EXPECT_TRUE(registry.materials()[6].tinted);
 }
 
 TEST(BlockRegistry, ErrorsArePassedOn) {
@@ -200,44 +201,6 @@ constexpr Row kRows[] = {
     {"mushroom_stem", Shape::Cube, 15, kDark, true, true},
     {"mushroom_cap", Shape::Cube, 15, kDark, true, true},
     {"chest", Shape::Cube, 15, kDark, true, false},
-    {"birch_log", Shape::Cube, 15, kDark, true, true},
-    {"birch_leaves", Shape::Cube, 3, kDark, true, true},
-    {"spruce_log", Shape::Cube, 15, kDark, true, true},
-    {"spruce_leaves", Shape::Cube, 3, kDark, true, true},
-    {"pine_log", Shape::Cube, 15, kDark, true, true},
-    {"pine_leaves", Shape::Cube, 3, kDark, true, true},
-    {"acacia_log", Shape::Cube, 15, kDark, true, true},
-    {"acacia_leaves", Shape::Cube, 3, kDark, true, true},
-    {"willow_log", Shape::Cube, 15, kDark, true, true},
-    {"willow_leaves", Shape::Cube, 3, kDark, true, true},
-    {"palm_log", Shape::Cube, 15, kDark, true, true},
-    {"palm_leaves", Shape::Cube, 3, kDark, true, true},
-    {"dead_log", Shape::Cube, 15, kDark, true, true},
-    {"moss", Shape::Cube, 15, kDark, true, true},
-    {"mossy_stone", Shape::Cube, 15, kDark, true, true},
-    {"gravel", Shape::Cube, 15, kDark, true, true},
-    {"clay", Shape::Cube, 15, kDark, true, true},
-    {"mud", Shape::Cube, 15, kDark, true, true},
-    {"ice", Shape::Cube, 15, kDark, true, true},
-    {"red_sand", Shape::Cube, 15, kDark, true, true},
-    {"sandstone", Shape::Cube, 15, kDark, true, true},
-    {"red_sandstone", Shape::Cube, 15, kDark, true, true},
-    {"terracotta", Shape::Cube, 15, kDark, true, true},
-    {"basalt", Shape::Cube, 15, kDark, true, true},
-    {"limestone", Shape::Cube, 15, kDark, true, true},
-    {"tall_grass", Shape::Cross, 3, kDark, false, true},
-    {"savanna_grass", Shape::Cross, 3, kDark, false, true},
-    {"fern", Shape::Cross, 3, kDark, false, true},
-    {"reeds", Shape::Cross, 3, kDark, false, true},
-    {"heather", Shape::Cross, 3, kDark, false, true},
-    {"bluebell", Shape::Cross, 3, kDark, false, true},
-    {"dead_bush", Shape::Cross, 2, kDark, false, true},
-    {"crystal", Shape::Cross, 0, {6, 8, 13}, false, true},
-    {"coral_red", Shape::Cube, 15, kDark, true, true},
-    {"coral_yellow", Shape::Cube, 15, kDark, true, true},
-    {"seagrass", Shape::Cube, 15, kDark, true, true},
-    {"mushroom_stem", Shape::Cube, 15, kDark, true, true},
-    {"mushroom_cap", Shape::Cube, 15, kDark, true, true},
 };
 
 TEST(Content, MatchesTheSpecification) {
@@ -305,14 +268,15 @@ TEST(Content, Textures) {
 }
 
 TEST(Content, Looks) {
-    const auto expectLook = [](std::string_view name, Face face, Material look) {
+    const auto expectLook = [](std::string_view name, Face face, Material look, bool tinted = false) {
+        look.tinted = tinted;
         look.texture = materialOf(name, face).texture;
         EXPECT_EQ(materialOf(name, face), look) << name << ", face " << int{face};
     };
     for (const Face face : {kFaceNegX, kFacePosX, kFaceNegY, kFacePosY, kFaceNegZ, kFacePosZ}) {
         expectLook("stone", face, {});
-        expectLook("oak_leaves", face, {0, AlphaMode::Test, Animation::WholeWaves, true});
-        expectLook("grass_tuft", face, {0, AlphaMode::Test, Animation::TopWaves, true});
+        expectLook("oak_leaves", face, {0, AlphaMode::Test, Animation::WholeWaves, true}, true);
+        expectLook("grass_tuft", face, {0, AlphaMode::Test, Animation::TopWaves, true}, true);
         expectLook("wheat", face, {0, AlphaMode::Test, Animation::TopWaves, true});
         expectLook("red_mushroom", face, {0, AlphaMode::Test, Animation::None, true});
         expectLook("glowing_mushroom", face, {0, AlphaMode::TestGlow, Animation::None, true});

@@ -57,11 +57,13 @@ base::Result<void> writeMap(MapOptions& options) {
     base::Result<base::Image> image;
     {
         base::ProgressBar bar("mapping", static_cast<std::size_t>(area.y1 - area.y0));
-        image = world::drawMap({area, static_cast<std::uint8_t>(options.level),
+        world::MapSource source{area, static_cast<std::uint8_t>(options.level),
                                 [&](std::span<const world::ChunkPos> row) {
                                     return stream::chunksAt(row, store.get(), **generator, jobs);
-                                }},
-                               *blocks, *textures, jobs, [&](std::size_t rows) { bar.set(rows); });
+                                }};
+        if (generators->hasTint())
+            source.tint = [&](world::ChunkPos pos) { return generators->tint(pos).value(); };
+        image = world::drawMap(source, *blocks, *textures, jobs, [&](std::size_t rows) { bar.set(rows); });
     }
     if (!image) return tl::unexpected(image.error());
     if (auto written = base::writePng(options.output, *image); !written) return written;

@@ -1,0 +1,32 @@
+// The tint of columns: the color that grass has there. Made by generators (gen/builder.h), multiplied into
+// the textures of tinted faces (docs/blocks.md). Plain values; any thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "terrane/shared/tint.h"
+#include "terrane/world/chunk.h"
+
+namespace terrane::world {
+
+// A packed color: red · 2^16 + green · 2^8 + blue, each 0…255, sRGB.
+using PackedColor = std::uint32_t;
+
+constexpr PackedColor packColor(std::uint32_t red, std::uint32_t green, std::uint32_t blue) {
+    return red << 16 | green << 8 | blue;
+}
+
+constexpr PackedColor kNeutralTint =
+    packColor(shared::kNeutralTintRed, shared::kNeutralTintGreen, shared::kNeutralTintBlue);
+
+// Of the columns of a chunk of any level: x + 16 y.
+using TintTile = std::array<PackedColor, static_cast<std::size_t>(kChunkSize) * kChunkSize>;
+
+// A color, 0…1 as stored (sRGB), where grass has the tint: each channel c becomes c ^ (log tint / log
+// neutral). Neutral becomes the tint, black and white stay, and no pale color turns white, as it would by a
+// factor. For what is shown; block_tint.glsl does the same.
+glm::vec3 tinted(glm::vec3 color, PackedColor tint);
+
+}  // namespace terrane::world
