@@ -66,6 +66,19 @@ std::vector<std::uint32_t> paletteOf(const ShapeTable& table) {
     return {words.begin(), words.end()};
 }
 
+// Of a run's first voxel, from the shape's first cell.
+std::uint32_t cellOf(const ShapeRecord& shape, const ShapeRun& run) {
+    const auto from = [&](int at, std::size_t axis) {
+        return static_cast<std::uint32_t>(at - shape.low[axis]);
+    };
+    return (from(run.z, 2) * sizeOf(shape, 1) + from(run.y, 1)) * sizeOf(shape, 0) + from(run.x, 0);
+}
+
+void writeCells(std::vector<std::uint32_t>& words, std::uint32_t at, std::uint32_t count,
+                std::uint32_t number) {
+    for (std::uint32_t k = at; k < at + count; ++k) words[k / 4] |= number << k % 4 * 8;
+}
+
 std::string voxelMistake(const VoxelShape& shape, const ShapeVoxel& v) {
     const auto place = [&] { return fmt::format("voxel ({}, {}, {})", v.x, v.y, v.z); };
     if (std::max(std::abs(v.x), std::abs(v.y)) > kMaxShapeReach)
@@ -148,20 +161,15 @@ std::vector<std::uint32_t> shapeWords(const ShapeTable& table) {
     }
     words.resize((cell + 3) / 4);
     for (std::size_t n = 0; n < table.shapes.size(); ++n) {
-        const ShapeRecord& s = table.shapes[n];
+        const ShapeRecord& shape = table.shapes[n];
         const std::uint32_t first = words[1 + shared::kShapePaletteWords + 4 * n + 2];
         for (std::size_t rank = 0; rank <= kMaxShapeRank; ++rank) {
-            for (std::uint32_t k = s.firstRun[rank]; k < s.firstRun[rank + 1]; ++k) {
+            for (std::uint32_t k = shape.firstRun[rank]; k < shape.firstRun[rank + 1]; ++k) {
                 const ShapeRun& run = table.runs[k];
                 const auto entry =
                     std::lower_bound(palette.begin(), palette.end(), paletteWord(run.block, rank));
                 const auto number = static_cast<std::uint32_t>(entry - palette.begin() + 1);
-                const auto layer = static_cast<std::uint32_t>(run.z - s.low[2]) * sizeOf(s, 1);
-                const auto row = (layer + static_cast<std::uint32_t>(run.y - s.low[1])) * sizeOf(s, 0);
-                for (std::uint32_t x = 0; x < run.length; ++x) {
-                    const std::uint32_t at = first + row + static_cast<std::uint32_t>(run.x - s.low[0]) + x;
-                    words[at / 4] |= number << at % 4 * 8;
-                }
+                writeCells(words, first + cellOf(shape, run), run.length, number);
             }
         }
     }

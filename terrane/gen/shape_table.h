@@ -39,7 +39,7 @@ void addShape(ShapeTable& table, const VoxelShape& shape, int level, const world
 // What is wrong with a shape, one line; empty where nothing is.
 std::string shapeMistake(const VoxelShape& shape, const world::BlockRegistry& blocks);
 
-// The table for shaders: number of shapes, bytes of cells before …; see gen_gpu/stamps.glsl.
+// The table for shaders, as gen_gpu/stamps.glsl reads it.
 std::vector<std::uint32_t> shapeWords(const ShapeTable& table);
 // How many bytes of cells that has.
 std::size_t shapeCellBytes(const ShapeTable& table);

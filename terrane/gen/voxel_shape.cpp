@@ -1,10 +1,11 @@
 #include "terrane/gen/voxel_shape.h"
 
 #include <algorithm>
-#include <array>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace terrane::gen {
 namespace {
@@ -12,16 +13,37 @@ namespace {
 // Beyond this step leaves reach down to the ground in place of trunks that are much thinner than a column.
 constexpr int kMaxWoodStep = 2;
 
+// Of all places and one more on each side.
+constexpr int kGridSide = 2 * kMaxShapeReach + 3, kGridLayers = kMaxShapeZ - kMinShapeZ + 3;
+
 using ColumnAt = std::pair<int, int>;  // y, x: the order in which equal columns are chosen
+
+// Blocks and how often they are there.
+using BlockCounts = std::vector<std::pair<int, int>>;
+
+void count(BlockCounts& counts, int block) {
+    const auto known =
+        std::find_if(counts.begin(), counts.end(), [&](const auto& entry) { return entry.first == block; });
+    if (known == counts.end()) return static_cast<void>(counts.emplace_back(block, 1));
+    ++known->second;
+}
+
+// The block that most voxels have; of equal ones the first of the shape.
+int mostFrequent(const BlockCounts& counts) {
+    const auto isLess = [](const auto& a, const auto& b) {
+        return a.second != b.second ? a.second < b.second : a.first > b.first;
+    };
+    return std::max_element(counts.begin(), counts.end(), isLess)->first;
+}
 
 // What the voxels of a layer of a wide column are.
 struct LayerCount {
     int filled = 0;
-    std::map<int, int> byBlock;
+    BlockCounts byBlock;
 };
 
 struct WideColumn {
-    std::set<ColumnAt> covered;  // blocks
+    std::vector<ColumnAt> covered;  // blocks
     std::map<int, LayerCount> layers;
 };
 
@@ -36,10 +58,15 @@ WideColumns gather(const VoxelShape& shape, int level) {
     WideColumns columns;
     for (const ShapeVoxel& v : shape.voxels) {
         WideColumn& column = columns[{columnOf(v.y, level), columnOf(v.x, level)}];
-        column.covered.insert({v.y, v.x});
+        column.covered.push_back({v.y, v.x});
         LayerCount& layer = column.layers[v.z];
         ++layer.filled;
-        ++layer.byBlock[v.block];
+        count(layer.byBlock, v.block);
+    }
+    for (auto& [at, column] : columns) {
+        auto& covered = column.covered;
+        std::sort(covered.begin(), covered.end());
+        covered.erase(std::unique(covered.begin(), covered.end()), covered.end());
     }
     return columns;
 }
@@ -61,15 +88,6 @@ std::vector<ColumnAt> fullest(const WideColumns& columns, int level) {
         chosen.push_back(order[static_cast<std::size_t>(k)].second);
     }
     return chosen;
-}
-
-// The block that most voxels have; of equal ones the first.
-int mostFrequent(const std::map<int, int>& counts) {
-    int best = -1;
-    for (const auto& [block, count] : counts) {
-        if (best < 0 || count > counts.at(best)) best = block;
-    }
-    return best;
 }
 
 class Coarsener {
@@ -104,9 +122,9 @@ class Coarsener {
 
     // Without gaps from the lowest voxel to the highest.
     void addFoot(const WideColumn& column) {
-        std::map<int, int> crown;
+        BlockCounts crown;
         for (const ShapeVoxel& v : shape_.voxels) {
-            if (!isWood(v.block)) ++crown[v.block];
+            if (!isWood(v.block)) count(crown, v.block);
         }
         LayerCount below = column.layers.begin()->second;
         for (int z = column.layers.begin()->first; z <= column.layers.rbegin()->first; ++z) {
@@ -134,23 +152,30 @@ class Coarsener {
 
     // Leaves what hangs together with the foot's column, face to face or over an edge.
     void dropLoose() {
-        std::map<std::array<int, 3>, bool> reached;
-        for (const ShapeVoxel& v : result_.voxels) reached[{v.x, v.y, v.z}] = v.x == 0 && v.y == 0;
-        std::vector<std::array<int, 3>> open;
-        for (const auto& [at, isReached] : reached) {
-            if (isReached) open.push_back(at);
+        enum State : std::uint8_t { kEmpty, kLoose, kJoined };
+        std::vector<State> states(std::size_t{kGridSide} * kGridSide * kGridLayers, kEmpty);
+        const auto stateAt = [&](int x, int y, int z) -> State& {
+            const int row = (z - kMinShapeZ + 1) * kGridSide + y + kMaxShapeReach + 1;
+            return states[static_cast<std::size_t>(row * kGridSide + x + kMaxShapeReach + 1)];
+        };
+        std::vector<ShapeVoxel> open;
+        for (const ShapeVoxel& v : result_.voxels) {
+            const bool isFoot = v.x == 0 && v.y == 0;
+            stateAt(v.x, v.y, v.z) = isFoot ? kJoined : kLoose;
+            if (isFoot) open.push_back(v);
         }
         while (!open.empty()) {
-            const std::array<int, 3> at = open.back();
+            const ShapeVoxel at = open.back();
             open.pop_back();
             for (int n = 0; n < 27; ++n) {
-                const auto next = reached.find({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1});
-                if (next == reached.end() || next->second) continue;
-                next->second = true;
-                open.push_back(next->first);
+                const int x = at.x + n % 3 - 1, y = at.y + n / 3 % 3 - 1, z = at.z + n / 9 - 1;
+                if (stateAt(x, y, z) != kLoose) continue;
+                stateAt(x, y, z) = kJoined;
+                open.push_back({static_cast<std::int8_t>(x), static_cast<std::int8_t>(y),
+                                static_cast<std::int8_t>(z), 0});
             }
         }
-        std::erase_if(result_.voxels, [&](const ShapeVoxel& v) { return !reached.at({v.x, v.y, v.z}); });
+        std::erase_if(result_.voxels, [&](const ShapeVoxel& v) { return stateAt(v.x, v.y, v.z) == kLoose; });
     }
 
     const VoxelShape& shape_;

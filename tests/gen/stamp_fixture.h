@@ -41,14 +41,15 @@ inline std::vector<VoxelShape> stampShapes() {
 
 // Which shape has its foot in a column, and where: -1, a shape, or a number that is none.
 struct StampLand {
-    std::int32_t share;  // of 4096 columns
+    std::int32_t share;      // of 4096 columns
+    std::int32_t place = 0;  // lands of different ones have different feet
     std::int32_t number(std::uint32_t x, std::uint32_t y) const {
-        const std::uint32_t h = mix(x, y);
+        const std::uint32_t h = mix(x + static_cast<std::uint32_t>(place), y);
         if (static_cast<std::int32_t>(h >> 8 & 4095) >= share) return -1;
         return static_cast<std::int32_t>(h >> 24 & 7) - 1;
     }
     std::int32_t base(std::uint32_t x, std::uint32_t y) const {
-        const std::uint32_t h = mix(x + 77, y);
+        const std::uint32_t h = mix(x + static_cast<std::uint32_t>(place) + 77, y);
         // Some stand across the world's lowest and highest layers, some far outside.
         switch (h >> 28 & 7) {
             case 0:
@@ -63,7 +64,7 @@ struct StampLand {
     }
 
     void write(Pass& p, Field<Int> number, Field<Int> base) const {
-        const Int h = mix(p.x(), p.y()), g = mix(p.x() + 77, p.y());
+        const Int x = p.x() + place, h = mix(x, p.y()), g = mix(x + 77, p.y());
         p.set(number, select(((h >> 8) & 4095) >= share, Int(-1), ((h >> 24) & 7) - 1));
         const Int kind = (g >> 28) & 7;
         p.set(base, multiSelect<Int>({{kind == 0, ((g >> 8) & 63) - 55},

@@ -19,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr StampLand kDense = {60}, kSparse = {8}, kNowhere = {0}, kEverywhere = {4096};
+constexpr StampLand kDense = {60}, kSparse = {8, 1000}, kNowhere = {0}, kEverywhere = {4096};
 
 Generator stampGenerator(int level, const StampLand& first, const StampLand& second) {
     GeneratorBuilder builder("stamps", testBlocks(), level);
