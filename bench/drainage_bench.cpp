@@ -26,8 +26,8 @@ gen::Float land(gen::Pass& p) {
 }
 
 // A generator of one 2D pass that reads a map with this spacing.
-gen::GeneratorGraph drainedLand(int spacing) {
-    gen::GeneratorBuilder g("drained", bench::blocks());
+gen::GeneratorGraph drainedLand(int spacing, int level = 0) {
+    gen::GeneratorBuilder g("drained", bench::blocks(), level);
     const auto field = g.field<gen::Float>("water");
     const gen::DrainageSpec spec = {
         .spacing = spacing, .seaLevel = 80.0f, .reach = 0.5f * static_cast<float>(spacing)};
@@ -53,10 +53,12 @@ void region(benchmark::State& state) {
 }
 BENCHMARK(region)->Arg(128)->Arg(256)->Unit(benchmark::kMicrosecond);
 
-// The pass alone over a view of 65×65 chunks; `isNew`: with the regions, which no one has made yet.
+// The pass alone over a view of 65×65 chunks of a level, the second argument; `isNew`: with the regions,
+// which no one has made yet.
 void viewOfChunks(benchmark::State& state, bool isNew) {
     constexpr int kSide = 65;
-    const gen::GeneratorGraph graph = drainedLand(static_cast<int>(state.range(0)));
+    const int level = static_cast<int>(state.range(1));
+    const gen::GeneratorGraph graph = drainedLand(static_cast<int>(state.range(0)), level);
     const gen::Seeds seeds = gen::makeSeeds(graph, kSeed);
     const gen::Program program = compile(graph.passes[0], graph.noises);
     auto maps = std::make_unique<gen::DrainageMaps>(graph.drainages, kSeed);
@@ -70,7 +72,7 @@ void viewOfChunks(benchmark::State& state, bool isNew) {
         gen::Executor executor(graph.noises, seeds, maps.get());
         digest = {};
         for (int k = 0; k < kSide * kSide; ++k) {
-            inputs.chunk = {k % kSide + 100, k / kSide + 200};
+            inputs.chunk = {k % kSide + 100, k / kSide + 200, static_cast<std::uint8_t>(level)};
             executor.run2D(program, inputs, results);
             digest.update(std::as_bytes(std::span(values)));
         }
@@ -79,8 +81,17 @@ void viewOfChunks(benchmark::State& state, bool isNew) {
         kSide * kSide, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
     state.SetLabel(digest.hex());
 }
-BENCHMARK_CAPTURE(viewOfChunks, new, true)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(viewOfChunks, kept, false)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(viewOfChunks, new, true)
+    ->Args({128, 0})
+    ->Args({256, 0})
+    ->Args({128, 5})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(viewOfChunks, kept, false)
+    ->Args({128, 0})
+    ->Args({256, 0})
+    ->Args({128, 3})
+    ->Args({256, 5})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

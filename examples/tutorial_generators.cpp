@@ -88,4 +88,50 @@ void writeStep4(GeneratorBuilder& g) {
     });
 }
 
+namespace {
+
+constexpr float kSea = 80.0f;
+
+// Land without its details: what rivers follow.
+Float wideLand(Pass& p) {
+    return 100.0f + p.perlin2D("wide land", 128, {5.0f, 10.0f, 20.0f, 30.0f, 40.0f});
+}
+
+struct Land {
+    Float ground, water;  // z
+};
+
+// Near water the ground goes to the height of the banks, whether it is higher or lower. Lakes come first, so
+// that a river keeps its banks where it comes to one.
+Land landWithRivers(Pass& p, const DrainageSample& s) {
+    const Float land = wideLand(p) + p.perlin2D("small hills", 16, {1.0f, 2.0f, 3.0f});
+    const Float shore = s.lakeDistance + p.perlin2D("shores", 16, {3.0f, 6.0f});
+    const Float bank = s.distance - s.halfWidth;
+    Float ground = lerp(s.lakeLevel + 1.0f, land, smoothstep(0.0f, 60.0f, shore));
+    ground = lerp(s.level + 1.0f, ground, smoothstep(0.0f, 60.0f, bank));
+    ground = select(land < kSea, min(land, ground), ground);  // no banks in the sea
+    const Float across = min(s.distance / max(s.halfWidth, 1.0f), 1.0f);
+    const Float riverBed = s.level - 1.0f - (1.0f - across * across) * s.halfWidth * 0.3f;
+    const Float lakeBed = s.lakeLevel - 1.0f + max(shore, -40.0f) * 0.2f;
+    return {multiSelect({{shore < 0.0f, lakeBed}, {bank < 0.0f, min(ground, riverBed)}}, ground),
+            multiSelect({{shore < 0.0f, s.lakeLevel}, {bank < 0.0f, s.level}}, Float(kSea))};
+}
+
+}  // namespace
+
+void writeRivers(GeneratorBuilder& g) {
+    const auto ground = g.field<Int>("ground"), water = g.field<Int>("water");
+    const Drainage rivers = g.drainage("rivers", {.spacing = 128, .seaLevel = kSea}, wideLand);
+    g.pass2D("land", [&](Pass& p) {
+        const Land land = landWithRivers(p, p.drainage(rivers));
+        p.set(ground, Int(floor(land.ground)));
+        p.set(water, Int(floor(max(land.water, kSea))));
+    });
+    g.pass3D("blocks", [&](Pass& p) {
+        const Block soil = select(p.z() < p.read(ground) - 3, p.block("stone"), p.block("grass"));
+        const Block open = select(p.z() <= p.read(water), p.block("water"), p.block("air"));
+        p.setBlock(select(p.z() <= p.read(ground), soil, open));
+    });
+}
+
 }  // namespace terrane::examples

@@ -14,6 +14,10 @@ constexpr int kCurveSegments = 16;
 constexpr int kMargin = 88;  // cells around a region: kNetworkMargin up to a multiple of what heights come in
 static_assert(kMargin >= kNetworkMargin && kMargin % (kTileSize / kCellSamples) == 0);
 
+// A node beside the sea that is no higher than this above it has water at sea level: an estuary. Without it
+// rivers would stand above the sea where the coast lies far from the next node.
+constexpr float kEstuary = 8.0f;  // blocks
+
 constexpr float kBlock = 1.0f / static_cast<float>(kPlaceUnits);
 
 // A number in −1…1 that changes smoothly with the place, from random ones at the nodes of a lattice of
@@ -119,7 +123,12 @@ class CurveMaker {
         const auto flow = static_cast<float>(network_.flows[node]);
         const float share = flow / static_cast<float>(spec_.minFlow);
         return {place.x, place.y, std::min(spec_.halfWidth * shared::detSqrt(share), spec_.maxHalfWidth),
-                std::max(heightOf(network_.levels[node]), spec_.seaLevel), flow};
+                levelOf(node), flow};
+    }
+
+    float levelOf(std::size_t node) const {
+        const bool isMouth = network_.drains[node] != kNoDrain && isSea(network_.drainOf(node));
+        return std::max(heightOf(network_.levels[node]) - (isMouth ? kEstuary : 0.0f), spec_.seaLevel);
     }
 
     void addCurves(int x, int y) {

@@ -14,7 +14,9 @@
 
 namespace terrane::gen {
 
-constexpr int kRegionCells = 64;  // along x and along y
+// Along x and along y. A region looks at kNetworkMargin cells around it, so small ones are most margin: of 64
+// cells they cost four times as much a cell.
+constexpr int kRegionCells = 128;
 
 // A point of a river's course.
 struct CoursePoint {

@@ -42,5 +42,26 @@ TEST(Tutorial, LaterStepsAddWhatTheyPromise) {
     EXPECT_TRUE(has(examples::writeStep4, "glowing_mushroom"));
 }
 
+// Water above the sea, which nearly always has water or ground at its sides.
+TEST(Tutorial, RiversRunInTheirBeds) {
+    GeneratorBuilder builder("rivers", contentBlocks());
+    examples::writeRivers(builder);
+    auto graph = builder.finish();
+    ASSERT_TRUE(graph) << graph.error().message;
+    const Generator generator(std::move(*graph), 1);
+    int river = 0, open = 0;
+    for (std::int32_t k = 0; k < 64; ++k) {
+        const std::vector<BlockId> blocks = blocksOf(generator.generate({20 + k % 4, k / 4 - 4}));
+        for (std::size_t i = 81 * 256; i + 1 < blocks.size(); ++i) {
+            if (blocks[i] != id("water")) continue;
+            ++river;
+            open += (i % 16 != 15 && blocks[i + 1] == world::kAir) +
+                    (i % 256 < 240 && blocks[i + 16] == world::kAir);
+        }
+    }
+    EXPECT_GT(river, 100);
+    EXPECT_LT(open * 30, river);
+}
+
 }  // namespace
 }  // namespace terrane::gen
