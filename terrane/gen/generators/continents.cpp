@@ -21,6 +21,8 @@ const char* biomeName(Biome biome) {
 void writeContinents(GeneratorBuilder& g) {
     const continents::Fields f(g);
     g.pass2D("shape", [&](Pass& p) { shapePass(p, f); });
+    g.pass2D("color", [&](Pass& p) { colorPass(p, f); });
+    g.tint(f.color);
     g.pass2D("relief", [&](Pass& p) { reliefPass(p, f); });
     g.pass2D("surface", [&](Pass& p) { surfacePass(p, f); });
     g.pass2D("plants", [&](Pass& p) { plantsPass(p, f); });

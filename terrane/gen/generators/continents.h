@@ -60,6 +60,7 @@ struct Fields {
           top(g.field<Block>("top")),
           soil(g.field<Block>("soil")),
           rock(g.field<Block>("rock")),
+          color(g.field<Int>("color")),
           rivers(continents::rivers(g)) {
         kinds = trees::record(g);
         plant = g.field<Block>("plant");
@@ -86,6 +87,7 @@ struct Fields {
     Field<Int> surface;        // z of the highest ground block
     Field<Int> biome;
     Field<Block> top, soil, rock;  // the highest block, the few below it, and all below these
+    Field<Int> color;              // of grass and leaves, as a tint has it
     Field<Int> caveTop;            // z below which caves may be; at level 0
     Drainage rivers;
     // What grows; which of these there are depends on the level.
@@ -114,6 +116,8 @@ Float karst(Float temperature, Float moisture);
 void shapePass(Pass& p, const Fields& f);
 void reliefPass(Pass& p, const Fields& f);
 void surfacePass(Pass& p, const Fields& f);
+// 2D, for the tint alone.
+void colorPass(Pass& p, const Fields& f);
 // 3D: earth, caves and water at this voxel.
 Block ground(Pass& p, const Fields& f);
 
