@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "terrane/gen/kernels.h"
-#include "terrane/gen/layer_ranges.h"
 #include "terrane/gen/seeds.h"
+#include "terrane/gen/voxel_pass.h"
 #include "terrane/world/coords.h"
 
 namespace terrane::gen {
@@ -28,6 +28,20 @@ struct PassInputs {
     std::array<const BlockArray*, 9> blocks{};
 };
 
+// How the layers of a slab were made.
+struct SlabRun {
+    enum class Way : std::uint8_t {
+        Filled,     // one block
+        Copied,     // from the 3D pass before
+        Repeated,   // one layer was computed
+        Short,      // every layer was, by a short pass
+        Whole
+    };
+    Way way;
+    int count;                 // layers
+    std::size_t instructions;  // of a layer
+};
+
 class Executor {
   public:
     Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds);
@@ -35,15 +49,28 @@ class Executor {
     // Results of a 2D pass, in the order of program.fields.
     void run2D(const Program& program, const PassInputs& inputs, std::span<ColumnValues* const> results);
     // `fieldResults`: of the fields that the pass writes, in the order of program.fields.
-    void run3D(const Program& program, const PassInputs& inputs, BlockArray& result,
+    void run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result,
                std::span<ColumnValues* const> fieldResults = {});
+    // Of the last run3D, from the bottom.
+    std::span<const SlabRun> slabs() const { return slabs_; }
 
   private:
     void prepareTile(const Program& program, const PassInputs& inputs);
     void fillConstants(const Program& program, SampleGrid grid);
     void fillWindow(std::uint32_t field, const PassInputs& inputs);
     Bits* row(Operand o) { return context_.arena + static_cast<std::size_t>(o.row) * kRowLanes; }
-    int fillCertain(int z, BlockArray& result);
+    void prepareNoise(std::uint32_t noise);
+
+    // What the layers of a tile are made of, while run3D runs.
+    struct TileRun {
+        const VoxelPass& pass;
+        const PassInputs& inputs;
+        BlockArray& result;
+        std::span<ColumnValues* const> fieldResults;
+    };
+    int runSlab(TileRun& run, int z, int count);
+    void runLayers(TileRun& run, const Program& program, int z, int count);
+    void runShort(TileRun& run, const ShortPass& pass, int z, int count);
     void writeLayer(Operand block, std::uint16_t* layer);
     void addToField(Operand value, ColumnValues& field);
 
@@ -55,7 +82,10 @@ class Executor {
     const Seeds& seeds_;
     std::vector<AlignedRow> arena_;
     TileContext context_;
-    LayerRanges layerRanges_;
+    SampleGrid grid_;
+    std::vector<bool> isPrepared_;  // by noise: for this tile
+    SlabRanges ranges_;
+    std::vector<SlabRun> slabs_;
 };
 
 }  // namespace terrane::gen

@@ -32,9 +32,22 @@ struct Generator::Impl {
           cache(std::max(size.minChunks, size.bytes / workBytes()), graph.fields.size(),
                 static_cast<std::size_t>(shared)) {
         for (const PassGraph& pass : graph.passes) {
-            programs.push_back(compile(pass, graph.noises));
-            assert(programs.back().arenaRows <= kMaxArenaRows && "GeneratorBuilder::finish() refuses others");
+            Program program;
+            std::unique_ptr<const VoxelPass> voxelPass;
+            if (pass.is3D) {
+                voxelPass = std::make_unique<VoxelPass>(pass, graph.noises);
+            } else {
+                program = compile(pass, graph.noises);
+            }
+            programs.push_back(std::move(program));
+            voxelPasses.push_back(std::move(voxelPass));
+            assert(programOf(programs.size() - 1).arenaRows <= kMaxArenaRows &&
+                   "GeneratorBuilder::finish() refuses others");
         }
+    }
+
+    const Program& programOf(std::size_t pass) const {
+        return voxelPasses[pass] ? voxelPasses[pass]->program() : programs[pass];
     }
 
     std::size_t workBytes() const {
@@ -73,7 +86,8 @@ struct Generator::Impl {
 
     GeneratorGraph graph;
     Seeds seeds;
-    std::vector<Program> programs;
+    std::vector<Program> programs;                               // by pass: of 2D ones
+    std::vector<std::unique_ptr<const VoxelPass>> voxelPasses;  // by pass: of 3D ones
     int shared;  // passes
     PassCache cache;
     std::mutex workerMutex;
@@ -108,7 +122,7 @@ void Generator::Impl::advanceNeighbors(world::ChunkPos pos, int pass, Works& wor
 
 PassInputs Generator::Impl::inputsOf(world::ChunkPos pos, ChunkWork& work, int pass, const Works& works,
                                      Worker& worker) {
-    const Program& program = programs[static_cast<std::size_t>(pass)];
+    const Program& program = programOf(static_cast<std::size_t>(pass));
     PassInputs inputs;
     inputs.chunk = pos;
     inputs.fields.resize(graph.fields.size());
@@ -132,11 +146,12 @@ void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Wo
     advanceNeighbors(pos, pass, works, worker);
     TERRANE_ZONE("generator pass");
     const PassInputs inputs = inputsOf(pos, work, pass, works, worker);
-    const Program& program = programs[static_cast<std::size_t>(pass)];
+    const Program& program = programOf(static_cast<std::size_t>(pass));
     std::vector<ColumnValues*> results;
     for (const Program::FieldResult& f : program.fields) results.push_back(&fieldOf(f.field, work, worker));
     if (program.is3D) {
-        worker.executor.run3D(program, inputs, blocksOf(pass, work, worker), results);
+        const VoxelPass& voxelPass = *voxelPasses[static_cast<std::size_t>(pass)];
+        worker.executor.run3D(voxelPass, inputs, blocksOf(pass, work, worker), results);
     } else {
         worker.executor.run2D(program, inputs, results);
     }
