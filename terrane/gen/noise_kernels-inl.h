@@ -63,9 +63,32 @@ void perlin2D(const Instruction& i, TileContext& c, const RowList& rows) {
     });
 }
 
+HWY_INLINE VF lerp(VF a, VF b, VF t) {
+    return hn::Add(a, hn::Mul(t, hn::Sub(b, a)));
+}
+
+// Makes the octave's levels into one for its layer, as noise.h has it.
+void blendLevels(Perlin3DTile::Octave& o) {
+    const PerlinLevel &low = o.levels[0], &high = o.levels[1];
+    const VF f = hn::Set(df, o.zOffset), f1 = hn::Set(df, o.zOffset - 1.0f), t = hn::Set(df, o.zFade);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(o.layer.nodeRows); ++j) {
+        for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(df)) {
+            const auto load = [&](const std::array<TileRow, kMaxNodeRows>& rows)
+                                  HWY_ATTR { return hn::Load(df, rows[j].data() + lane); };
+            const VF below = hn::Add(load(low.one), hn::Mul(load(low.z), f));
+            const VF above = hn::Add(load(high.one), hn::Mul(load(high.z), f1));
+            hn::Store(lerp(below, above, t), df, o.layer.a[j].data() + lane);
+            hn::Store(lerp(load(low.y), load(high.y), t), df, o.layer.b[j].data() + lane);
+        }
+    }
+}
+
 void perlin3D(const Instruction& i, TileContext& c, const RowList& rows) {
     Perlin3DTile& tile = c.perlin3D[i.imm];
-    if (tile.layer != c.z) moveToLayer(tile, c.z);
+    if (tile.layer != c.z) {
+        moveToCellsOf(tile, c.z);
+        for (Perlin3DTile::Octave& o : tile.octaves) blendLevels(o);
+    }
     forEachVector(rows, i.dst, [&](int row, std::size_t lane) {
         const PerlinOctave& first = tile.octaves[0].layer;
         VF sum = hn::Mul(perlinSample(first, row, lane), hn::Set(df, first.weight));

@@ -57,16 +57,19 @@ struct AxisCells {
 AxisCells axisCells(std::int32_t first, std::int32_t step, std::int32_t size, float inverseSize) {
     assert(size >= step && "from one column to the next at most one cell ends");
     AxisCells axis{};
-    for (int k = 0; k < kTileSize; ++k) {
-        const auto at = static_cast<std::size_t>(k);
-        const std::int32_t position = first + k * step;
-        // The start of a cell may lie before the first block of the world: no int32 holds it.
-        const std::int32_t quotient = position / size, rest = position % size;
-        const bool isBelow = rest < 0;
-        axis.cell[at] = static_cast<uint>(quotient) - (isBelow ? 1u : 0u);
-        axis.offset[at] = static_cast<float>(isBelow ? rest + size : rest) * inverseSize;
-        axis.fadeOf[at] = fade(axis.offset[at]);
+    // The start of a cell may lie before the first block of the world: no int32 holds it.
+    const bool isBelow = first % size < 0;
+    uint cell = static_cast<uint>(first / size) - (isBelow ? 1u : 0u);
+    std::int32_t rest = isBelow ? first % size + size : first % size;
+    for (std::size_t k = 0; k < kTileSize; ++k) {
+        axis.cell[k] = cell;
+        axis.offset[k] = static_cast<float>(rest) * inverseSize;
+        rest += step;
+        cell += rest >= size ? 1u : 0u;
+        rest -= rest >= size ? size : 0;
     }
+    // Loops of their own become SIMD instructions.
+    for (std::size_t k = 0; k < kTileSize; ++k) axis.fadeOf[k] = fade(axis.offset[k]);
     return axis;
 }
 
@@ -100,12 +103,18 @@ void fillLevel(const Perlin3DTile::Octave& o, std::int32_t zCell, PerlinLevel& l
         const auto lookup = [&](uint cell) {
             return gradient3(cell, o.yCell + row, static_cast<uint>(zCell), o.seed);
         };
+        TileRow leftX, leftY, leftZ, rightX, rightY, rightZ;
         forEachX(o.xCell, lookup, [&](std::size_t k, Gradient3 left, Gradient3 right) {
-            const float f = o.xOffset[k], t = o.xFade[k];
-            level.one[row][k] = lerp(left.x * f, right.x * (f - 1.0f), t);
-            level.y[row][k] = lerp(left.y, right.y, t);
-            level.z[row][k] = lerp(left.z, right.z, t);
+            leftX[k] = left.x, leftY[k] = left.y, leftZ[k] = left.z;
+            rightX[k] = right.x, rightY[k] = right.y, rightZ[k] = right.z;
         });
+        TileRow &one = level.one[row], &y = level.y[row], &z = level.z[row];
+        for (std::size_t k = 0; k < kTileSize; ++k) {
+            const float f = o.xOffset[k], t = o.xFade[k];
+            one[k] = lerp(leftX[k] * f, rightX[k] * (f - 1.0f), t);
+            y[k] = lerp(leftY[k], rightY[k], t);
+            z[k] = lerp(leftZ[k], rightZ[k], t);
+        }
     }
 }
 
@@ -126,11 +135,17 @@ void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, Samp
             const auto lookup = [&](uint cell) {
                 return gradient2(cell, y.cell[0] + row, seed + octaves[o].seedStep);
             };
+            TileRow leftX, leftY, rightX, rightY;
             forEachX(x.cell, lookup, [&](std::size_t k, Gradient2 left, Gradient2 right) {
-                const float f = x.offset[k], t = x.fadeOf[k];
-                octave.a[row][k] = lerp(left.x * f, right.x * (f - 1.0f), t);
-                octave.b[row][k] = lerp(left.y, right.y, t);
+                leftX[k] = left.x, leftY[k] = left.y;
+                rightX[k] = right.x, rightY[k] = right.y;
             });
+            TileRow &a = octave.a[row], &b = octave.b[row];
+            for (std::size_t k = 0; k < kTileSize; ++k) {
+                const float f = x.offset[k], t = x.fadeOf[k];
+                a[k] = lerp(leftX[k] * f, rightX[k] * (f - 1.0f), t);
+                b[k] = lerp(leftY[k], rightY[k], t);
+            }
         }
     }
 }
@@ -155,7 +170,7 @@ void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, Samp
     }
 }
 
-void moveToLayer(Perlin3DTile& tile, std::int32_t z) {
+void moveToCellsOf(Perlin3DTile& tile, std::int32_t z) {
     assert(z >= 0 && "layers count from the bottom of the world");
     const bool first = tile.layer < 0;
     for (Perlin3DTile::Octave& o : tile.octaves) {
@@ -168,15 +183,8 @@ void moveToLayer(Perlin3DTile& tile, std::int32_t z) {
             fillLevel(o, zCell + 1, o.levels[1]);
         }
         o.zCell = zCell;
-        const float f = static_cast<float>(z - zCell * o.size) * o.inverseSize, t = fade(f);
-        const PerlinLevel &low = o.levels[0], &high = o.levels[1];
-        for (std::size_t j = 0; j < static_cast<std::size_t>(o.layer.nodeRows); ++j) {
-            for (std::size_t k = 0; k < kTileSize; ++k) {
-                o.layer.a[j][k] =
-                    lerp(low.one[j][k] + low.z[j][k] * f, high.one[j][k] + high.z[j][k] * (f - 1.0f), t);
-                o.layer.b[j][k] = lerp(low.y[j][k], high.y[j][k], t);
-            }
-        }
+        o.zOffset = static_cast<float>(z - zCell * o.size) * o.inverseSize;
+        o.zFade = fade(o.zOffset);
     }
     tile.layer = z;
 }

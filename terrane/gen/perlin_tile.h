@@ -51,12 +51,13 @@ struct PerlinLevel {
 
 struct Perlin3DTile {
     struct Octave {
-        PerlinOctave layer;  // blended along z for the current layer
+        PerlinOctave layer;  // levels blended along z for the current layer, by perlin3D in noise_kernels-inl.h
         TileRow xOffset, xFade;
         std::array<std::uint32_t, kTileSize> xCell;  // modulo 2^32
         std::uint32_t yCell = 0;
         std::int32_t size = 1, zCell = 0;
         float inverseSize = 1;
+        float zOffset = 0, zFade = 0;  // of the layer, in zCell
         std::uint32_t seed = 0;
         std::array<PerlinLevel, 2> levels;  // zCell, zCell + 1
     };
@@ -65,7 +66,7 @@ struct Perlin3DTile {
 };
 
 void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid);
-// Cheapest when called for each z in order.
-void moveToLayer(Perlin3DTile& tile, std::int32_t z);
+// Fills the levels around the layer z. Cheapest when called for each z in order.
+void moveToCellsOf(Perlin3DTile& tile, std::int32_t z);
 
 }  // namespace terrane::gen

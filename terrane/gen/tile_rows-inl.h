@@ -52,13 +52,18 @@ struct RowsOf {
 };
 
 // Calls f(row, lane) for each vector of the destination's rows: one row where the value is the same in every
-// column.
+// column. All rows are a loop of their own, in which addresses are counted up instead of multiplied.
 template <class Function>
 HWY_INLINE void forEachVector(const RowList& rows, Operand dst, Function f) {
-    const int count = dst.rowStep ? rows.count : 1;
-    for (int k = 0; k < count; ++k) {
-        const int row = dst.rowStep ? rows.rows[k] : 0;
+    const auto eachLane = [&](int row) HWY_ATTR {
         for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(di)) f(row, lane);
+    };
+    if (dst.rowStep == 0) {
+        eachLane(0);
+    } else if (rows.count == kTileSize) {
+        for (int row = 0; row < kTileSize; ++row) eachLane(row);
+    } else {
+        for (int k = 0; k < rows.count; ++k) eachLane(rows.rows[k]);
     }
 }
 
