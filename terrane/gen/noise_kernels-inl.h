@@ -13,18 +13,6 @@ HWY_BEFORE_NAMESPACE();
 namespace terrane::gen {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE VU mixBits(VU h) {
-    h = hn::Xor(h, hn::ShiftRight<16>(h));
-    h = hn::Mul(h, hn::Set(du, 0x7FEB352Du));
-    h = hn::Xor(h, hn::ShiftRight<15>(h));
-    h = hn::Mul(h, hn::Set(du, 0x846CA68Bu));
-    return hn::Xor(h, hn::ShiftRight<16>(h));
-}
-
-HWY_INLINE VU mixHalf(VU h) {
-    return hn::Mul(hn::Xor(h, hn::ShiftRight<15>(h)), hn::Set(du, 0x846CA68Bu));
-}
-
 // shared::hash2 or hash3 of the arguments.
 void hash(const Instruction& i, TileContext& c, const RowList& rows) {
     constexpr std::uint32_t kFactors[] = {shared::kHashX, shared::kHashY, shared::kHashZ};
@@ -69,7 +57,7 @@ HWY_INLINE VF lerp(VF a, VF b, VF t) {
 
 // Makes the octave's levels into one for its layer, as noise.h has it.
 void blendLevels(Perlin3DTile::Octave& o) {
-    const PerlinLevel &low = o.levels[0], &high = o.levels[1];
+    const PerlinLevel &low = o.levels[o.low], &high = o.levels[1 - o.low];
     const VF f = hn::Set(df, o.zOffset), f1 = hn::Set(df, o.zOffset - 1.0f), t = hn::Set(df, o.zFade);
     for (std::size_t j = 0; j < static_cast<std::size_t>(o.layer.nodeRows); ++j) {
         for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(df)) {

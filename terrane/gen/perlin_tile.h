@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "terrane/gen/lattice_kernels.h"
 #include "terrane/gen/noise.h"
 #include "terrane/gen/program.h"
 #include "terrane/gen/sample_grid.h"
@@ -19,8 +20,6 @@ namespace terrane::gen {
 // Rows of lattice nodes around 16 columns: 16 cells and one more with a lattice as wide as a column. At
 // higher levels smaller ones have faded (fadedWeights, noise.h).
 constexpr int kMaxNodeRows = kTileSize + 1;
-
-using TileRow = std::array<float, kTileSize>;
 
 // The blend along y: row r lies between node rows node[r] and node[r] + 1, at the fractions `offset`.
 struct RowBlend {
@@ -52,14 +51,14 @@ struct PerlinLevel {
 struct Perlin3DTile {
     struct Octave {
         PerlinOctave layer;  // levels blended along z for the current layer, by perlin3D in noise_kernels-inl.h
-        TileRow xOffset, xFade;
-        std::array<std::uint32_t, kTileSize> xCell;  // modulo 2^32
+        AxisCells x;
         std::uint32_t yCell = 0;
         std::int32_t size = 1, zCell = 0;
         float inverseSize = 1;
         float zOffset = 0, zFade = 0;  // of the layer, in zCell
         std::uint32_t seed = 0;
-        std::array<PerlinLevel, 2> levels;  // zCell, zCell + 1
+        std::array<PerlinLevel, 2> levels;
+        std::size_t low = 0;  // the one of zCell; the other is of zCell + 1
     };
     std::vector<Octave> octaves;
     std::int32_t layer = -1;

@@ -35,7 +35,7 @@ struct RowList {
     int count;
 };
 
-Bits* rowOf(Bits* arena, Operand o, int row) {
+HWY_INLINE Bits* rowOf(Bits* arena, Operand o, int row) {
     return arena + static_cast<std::size_t>(o.row + o.rowStep * row) * kRowLanes;
 }
 
@@ -82,6 +82,19 @@ HWY_INLINE void storeBits(V v, Bits* p) {
 template <class D, class M>
 HWY_INLINE auto maskBits(D d, M mask) {
     return hn::VecFromMask(d, mask);
+}
+
+// The same steps as in hash.h.
+HWY_INLINE VU mixBits(VU h) {
+    h = hn::Xor(h, hn::ShiftRight<16>(h));
+    h = hn::Mul(h, hn::Set(du, 0x7FEB352Du));
+    h = hn::Xor(h, hn::ShiftRight<15>(h));
+    h = hn::Mul(h, hn::Set(du, 0x846CA68Bu));
+    return hn::Xor(h, hn::ShiftRight<16>(h));
+}
+
+HWY_INLINE VU mixHalf(VU h) {
+    return hn::Mul(hn::Xor(h, hn::ShiftRight<15>(h)), hn::Set(du, 0x846CA68Bu));
 }
 
 // The same steps as detDivide in det_math.h.
