@@ -55,7 +55,7 @@ void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray
     prepareTile(program, inputs);
     for (ColumnValues* field : fieldResults) field->fill(0);
     runInstructions(program.column, context_);
-    ranges_.begin(pass.plan(), context_.arena, context_.blocks);
+    ranges_.begin(pass.plan(), context_.arena, context_.blocks, inputs.layerRanges);
     slabs_.clear();
     TileRun run{pass, inputs, result, fieldResults};
     int height = kFirstSlab;
@@ -82,6 +82,7 @@ int Executor::runSlab(TileRun& run, int z, int count) {
     const std::optional<std::uint16_t> block = ranges_.block();
     if (block && writesNothing) {
         fillLayers(layers, count, *block);
+        std::fill_n(layerRanges_.begin() + z, count, BlockRange{*block, *block});
         slabs_.push_back({SlabRun::Way::Filled, count, 0});
         return count;
     }
@@ -97,11 +98,12 @@ int Executor::runSlab(TileRun& run, int z, int count) {
 
 void Executor::runShort(TileRun& run, const ShortPass& pass, int z, int count) {
     const Program& program = pass.program;
-    const std::size_t instructions = instructionCount(program, program.layer);
+    const std::size_t instructions = pass.layerInstructions;
     std::uint16_t* layers = run.result.data() + z * kTileLanes;
     const std::size_t layerBytes = kTileLanes * sizeof(*layers);
     if (pass.kind == ShortPass::Kind::CopyBlocks) {
         std::memcpy(layers, context_.blocks + z * kTileLanes, static_cast<std::size_t>(count) * layerBytes);
+        for (int k = z; k < z + count; ++k) layerRanges_[static_cast<std::size_t>(k)] = ranges_.layerBefore(k);
         slabs_.push_back({SlabRun::Way::Copied, count, 0});
         return;
     }
@@ -118,6 +120,7 @@ void Executor::runShort(TileRun& run, const ShortPass& pass, int z, int count) {
     if (pass.kind == ShortPass::Kind::OneLayer) {
         runLayers(run, program, z, 1);
         for (int k = 1; k < count; ++k) std::memcpy(layers + k * kTileLanes, layers, layerBytes);
+        std::fill_n(layerRanges_.begin() + z, count, layerRanges_[static_cast<std::size_t>(z)]);
         slabs_.push_back({SlabRun::Way::Repeated, count, instructions});
     } else {
         runLayers(run, program, z, count);
@@ -132,7 +135,8 @@ void Executor::runLayers(TileRun& run, const Program& program, int z, int count)
         context_.z = z;
         std::fill_n(row(program.z), kRowLanes, bitsOf(z));
         runInstructions(program.layer, context_);
-        writeLayer(*program.block, run.result.data() + z * kTileLanes);
+        layerRanges_[static_cast<std::size_t>(z)] =
+            writeLayer(*program.block, run.result.data() + z * kTileLanes);
         for (std::size_t k = 0; k < run.fieldResults.size(); ++k) {
             addToField(program.fields[k].value, *run.fieldResults[k]);
         }
@@ -147,16 +151,12 @@ void Executor::addToField(Operand value, ColumnValues& field) {
     }
 }
 
-void Executor::writeLayer(Operand block, std::uint16_t* layer) {
+BlockRange Executor::writeLayer(Operand block, std::uint16_t* layer) {
     const Bits* values = row(block);
-    if (block.rowStep == 0) {
-        std::fill_n(layer, kTileLanes, static_cast<std::uint16_t>(*values));
-        return;
-    }
-    std::array<std::uint16_t, kTileLanes> blocks;
-    for (std::size_t lane = 0; lane < kTileLanes; ++lane)
-        blocks[lane] = static_cast<std::uint16_t>(values[lane]);
-    std::memcpy(layer, blocks.data(), sizeof(blocks));
+    if (block.rowStep != 0) return packLayer(values, layer);
+    const auto one = static_cast<std::uint16_t>(*values);
+    fillLayers(layer, 1, one);
+    return {one, one};
 }
 
 void Executor::prepareTile(const Program& program, const PassInputs& inputs) {

@@ -26,6 +26,8 @@ struct PassInputs {
     // Of the newest earlier 3D pass, in the same order; the middle one alone where the pass reads blocks
     // without an offset.
     std::array<const BlockArray*, 9> blocks{};
+    // Of the layers of blocks[4], where they are known.
+    const LayerRanges* layerRanges = nullptr;
 };
 
 // How the layers of a slab were made.
@@ -53,6 +55,7 @@ class Executor {
                std::span<ColumnValues* const> fieldResults = {});
     // Of the last run3D, from the bottom.
     std::span<const SlabRun> slabs() const { return slabs_; }
+    const LayerRanges& layerRanges() const { return layerRanges_; }
 
   private:
     void prepareTile(const Program& program, const PassInputs& inputs);
@@ -71,7 +74,7 @@ class Executor {
     int runSlab(TileRun& run, int z, int count);
     void runLayers(TileRun& run, const Program& program, int z, int count);
     void runShort(TileRun& run, const ShortPass& pass, int z, int count);
-    void writeLayer(Operand block, std::uint16_t* layer);
+    BlockRange writeLayer(Operand block, std::uint16_t* layer);
     void addToField(Operand value, ColumnValues& field);
 
     struct AlignedRow {
@@ -85,6 +88,7 @@ class Executor {
     SampleGrid grid_;
     std::vector<bool> isPrepared_;  // by noise: for this tile
     SlabRanges ranges_;
+    LayerRanges layerRanges_{};
     std::vector<SlabRun> slabs_;
 };
 

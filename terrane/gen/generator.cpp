@@ -23,6 +23,7 @@ struct Generator::Impl {
         Executor executor;
         std::vector<ColumnValues> fields;                   // by field
         std::array<std::unique_ptr<BlockArray>, 2> blocks;  // of the newest two 3D passes, in turn
+        LayerRanges layerRanges{};                          // of the newest one
     };
 
     Impl(GeneratorGraph g, std::uint64_t seed, CacheSize size)
@@ -132,6 +133,7 @@ PassInputs Generator::Impl::inputsOf(world::ChunkPos pos, ChunkWork& work, int p
     }
     const int source = newest3DBefore(graph, pass);
     if (source >= 0) inputs.blocks[kOwn] = &blocksOf(source, work, worker);
+    if (source >= shared) inputs.layerRanges = &worker.layerRanges;
     for (std::size_t n = 0; n < works.size(); ++n) {
         if (n == kOwn) continue;
         for (const std::uint32_t f : program.readsAt) inputs.fields[f][n] = &works[n]->fields[f];
@@ -152,6 +154,7 @@ void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Wo
     if (program.is3D) {
         const VoxelPass& voxelPass = *voxelPasses[static_cast<std::size_t>(pass)];
         worker.executor.run3D(voxelPass, inputs, blocksOf(pass, work, worker), results);
+        if (pass >= shared) worker.layerRanges = worker.executor.layerRanges();
     } else {
         worker.executor.run2D(program, inputs, results);
     }

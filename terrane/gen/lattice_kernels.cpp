@@ -1,5 +1,7 @@
 #include "terrane/gen/lattice_kernels.h"
 
+#include <cassert>
+
 #include "terrane/shared/hash.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -61,11 +63,11 @@ struct Columns {
 };
 
 HWY_INLINE Columns columnsOf(const AxisCells& x) {
-    const VU cell = hn::Load(du, x.cell.data());
+    const VU cell = hn::LoadU(du, x.cell.data());
     const VI left = hn::BitCast(di, hn::Sub(cell, hn::Set(du, x.cell[0])));
-    const VF offset = hn::Load(df, x.offset.data());
+    const VF offset = hn::LoadU(df, x.offset.data());
     return {left, hn::Add(left, hn::Set(di, 1)), offset, hn::Sub(offset, hn::Set(df, 1.0f)),
-            hn::Load(df, x.fadeOf.data())};
+            hn::LoadU(df, x.fadeOf.data())};
 }
 
 HWY_INLINE bool fits(const AxisCells& x) {
@@ -75,6 +77,31 @@ HWY_INLINE bool fits(const AxisCells& x) {
 HWY_INLINE VU nodeHash(const AxisCells& x, std::uint32_t seed) {
     const VU nodes = hn::Add(hn::Iota(du, 0), hn::Set(du, x.cell[0]));
     return hn::Xor(hn::Set(du, seed), hn::Mul(nodes, hn::Set(du, shared::kHashX)));
+}
+
+// `rest`: blocks from the start of `cell` to the first column.
+void cellsAlong(std::int32_t rest, std::uint32_t cell, std::int32_t step, std::int32_t size, AxisCells& axis) {
+    const VF inverse = hn::Set(df, 1.0f / static_cast<float>(size));
+    const VI blocks = hn::Set(di, size), one = hn::Set(di, 1);
+    for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(di)) {
+        const VI index = hn::Iota(di, static_cast<std::int32_t>(lane));
+        const VI at = hn::Add(hn::Mul(index, hn::Set(di, step)), hn::Set(di, rest));
+        // At most 17 · 65,536 blocks: the rounded quotient is the right one or one beside it.
+        VI cells = hn::ConvertTo(di, hn::Mul(hn::ConvertTo(df, at), inverse));
+        cells = hn::Sub(cells, hn::IfThenElseZero(hn::Lt(at, hn::Mul(cells, blocks)), one));
+        VI inside = hn::Sub(at, hn::Mul(cells, blocks));
+        const auto isBeyond = hn::Not(hn::Lt(inside, blocks));
+        cells = hn::Add(cells, hn::IfThenElseZero(isBeyond, one));
+        inside = hn::Sub(inside, hn::IfThenElseZero(isBeyond, blocks));
+        const VF f = hn::Mul(hn::ConvertTo(df, inside), inverse);
+        // f³(f(6f − 15) + 10)
+        const VF cube = hn::Mul(hn::Mul(f, f), f);
+        const VF square = hn::Add(
+            hn::Mul(f, hn::Sub(hn::Mul(f, hn::Set(df, 6.0f)), hn::Set(df, 15.0f))), hn::Set(df, 10.0f));
+        hn::StoreU(hn::Add(hn::BitCast(du, cells), hn::Set(du, cell)), du, axis.cell.data() + lane);
+        hn::StoreU(f, df, axis.offset.data() + lane);
+        hn::StoreU(hn::Mul(cube, square), df, axis.fadeOf.data() + lane);
+    }
 }
 
 // Returns false where the gradients do not fit into a vector.
@@ -108,6 +135,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace terrane::gen {
 
+HWY_EXPORT(cellsAlong);
 HWY_EXPORT(nodeRow2D);
 HWY_EXPORT(nodeRow3D);
 
@@ -132,6 +160,17 @@ void forEachX(const std::array<std::uint32_t, kTileSize>& cells, Lookup lookup, 
 }
 
 }  // namespace
+
+AxisCells axisCells(std::int32_t first, std::int32_t step, std::int32_t size) {
+    assert(size >= step && "from one column to the next at most one cell ends");
+    // The start of a cell may lie before the first block of the world: no int32 holds it.
+    const std::int32_t quotient = first / size, rest = first % size;
+    const bool isBelow = rest < 0;
+    AxisCells axis;
+    HWY_DYNAMIC_DISPATCH(cellsAlong)
+    (isBelow ? rest + size : rest, static_cast<std::uint32_t>(quotient) - (isBelow ? 1u : 0u), step, size, axis);
+    return axis;
+}
 
 void fillNodeRow2D(const AxisCells& x, std::uint32_t y, std::uint32_t seed, TileRow& one, TileRow& yFactor) {
     if (HWY_DYNAMIC_DISPATCH(nodeRow2D)(x, y, seed, one.data(), yFactor.data())) return;

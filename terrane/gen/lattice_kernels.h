@@ -12,15 +12,19 @@ using TileRow = std::array<float, kTileSize>;
 
 // Cells and fractions of the coordinates of 16 columns in a row.
 struct AxisCells {
-    alignas(64) std::array<std::uint32_t, kTileSize> cell;  // modulo 2^32
-    alignas(64) TileRow offset;                             // 0…1 from the lower node
-    alignas(64) TileRow fadeOf;
+    std::array<std::uint32_t, kTileSize> cell;  // modulo 2^32
+    TileRow offset;                             // 0…1 from the lower node
+    TileRow fadeOf;
 };
 
-// The coefficients of 1 and of the y offset along the node row `y`, blended along x.
+// Of columns `step` blocks apart from `first` on, in cells of `size` blocks, which is `step` or more.
+AxisCells axisCells(std::int32_t first, std::int32_t step, std::int32_t size);
+
+// The coefficients of 1 and of the y offset along the node row `y`, blended along x. Rows of results are
+// 64-byte aligned.
 void fillNodeRow2D(const AxisCells& x, std::uint32_t y, std::uint32_t seed, TileRow& one, TileRow& yFactor);
 
-// The same of 1, y and z along the node row `y` of the level `z`. All rows are 64-byte aligned.
+// The same of 1, y and z along the node row `y` of the level `z`.
 struct NodeRow3D {
     TileRow &one, &y, &z;
 };

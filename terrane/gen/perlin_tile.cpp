@@ -13,25 +13,6 @@ float fade(float f) {
     return ((f * f) * f) * (f * (f * 6.0f - 15.0f) + 10.0f);
 }
 
-AxisCells axisCells(std::int32_t first, std::int32_t step, std::int32_t size, float inverseSize) {
-    assert(size >= step && "from one column to the next at most one cell ends");
-    AxisCells axis{};
-    // The start of a cell may lie before the first block of the world: no int32 holds it.
-    const bool isBelow = first % size < 0;
-    uint cell = static_cast<uint>(first / size) - (isBelow ? 1u : 0u);
-    std::int32_t rest = isBelow ? first % size + size : first % size;
-    for (std::size_t k = 0; k < kTileSize; ++k) {
-        axis.cell[k] = cell;
-        axis.offset[k] = static_cast<float>(rest) * inverseSize;
-        rest += step;
-        cell += rest >= size ? 1u : 0u;
-        rest -= rest >= size ? size : 0;
-    }
-    // Loops of their own become SIMD instructions.
-    for (std::size_t k = 0; k < kTileSize; ++k) axis.fadeOf[k] = fade(axis.offset[k]);
-    return axis;
-}
-
 int setRows(PerlinOctave& octave, const AxisCells& y) {
     for (std::size_t r = 0; r < kTileSize; ++r) {
         octave.rows.node[r] = static_cast<std::uint8_t>(y.cell[r] - y.cell[0]);
@@ -59,9 +40,8 @@ void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, Samp
     for (std::size_t o = 0; o < octaves.size(); ++o) {
         PerlinOctave& octave = tile.octaves[o];
         const std::int32_t size = octaves[o].size;
-        const float inverseSize = 1.0f / static_cast<float>(size);
-        const AxisCells x = axisCells(grid.x, grid.step, size, inverseSize);
-        const AxisCells y = axisCells(grid.y, grid.step, size, inverseSize);
+        const AxisCells x = axisCells(grid.x, grid.step, size);
+        const AxisCells y = axisCells(grid.y, grid.step, size);
         octave.weight = octaves[o].weight;
         const auto nodeRows = static_cast<uint>(setRows(octave, y));
         for (uint row = 0; row < nodeRows; ++row) {
@@ -79,8 +59,8 @@ void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, Samp
         o.size = octaves[n].size;
         o.inverseSize = 1.0f / static_cast<float>(o.size);
         o.seed = seed + octaves[n].seedStep;
-        o.x = axisCells(grid.x, grid.step, o.size, o.inverseSize);
-        const AxisCells y = axisCells(grid.y, grid.step, o.size, o.inverseSize);
+        o.x = axisCells(grid.x, grid.step, o.size);
+        const AxisCells y = axisCells(grid.y, grid.step, o.size);
         o.yCell = y.cell[0];
         o.layer.weight = octaves[n].weight;
         setRows(o.layer, y);
@@ -91,16 +71,19 @@ void moveToCellsOf(Perlin3DTile& tile, std::int32_t z) {
     assert(z >= 0 && "layers count from the bottom of the world");
     const bool first = tile.layer < 0;
     for (Perlin3DTile::Octave& o : tile.octaves) {
-        const std::int32_t zCell = z / o.size;
-        if (first || (zCell != o.zCell && zCell != o.zCell + 1)) {
-            fillLevel(o, zCell, o.levels[o.low]);
+        // A division takes as long as blending a level.
+        const bool isInCell = !first && z >= o.zStart && z - o.zStart < o.size;
+        if (!isInCell) {
+            const std::int32_t zCell = z / o.size;
+            if (!first && z - o.zStart >= o.size && z - o.zStart < 2 * o.size) {
+                o.low = 1 - o.low;
+            } else {
+                fillLevel(o, zCell, o.levels[o.low]);
+            }
             fillLevel(o, zCell + 1, o.levels[1 - o.low]);
-        } else if (zCell == o.zCell + 1) {
-            o.low = 1 - o.low;
-            fillLevel(o, zCell + 1, o.levels[1 - o.low]);
+            o.zStart = zCell * o.size;
         }
-        o.zCell = zCell;
-        o.zOffset = static_cast<float>(z - zCell * o.size) * o.inverseSize;
+        o.zOffset = static_cast<float>(z - o.zStart) * o.inverseSize;
         o.zFade = fade(o.zOffset);
     }
     tile.layer = z;

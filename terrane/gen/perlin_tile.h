@@ -53,12 +53,13 @@ struct Perlin3DTile {
         PerlinOctave layer;  // levels blended along z for the current layer, by perlin3D in noise_kernels-inl.h
         AxisCells x;
         std::uint32_t yCell = 0;
-        std::int32_t size = 1, zCell = 0;
+        std::int32_t size = 1;
+        std::int32_t zStart = 0;  // of the cell that holds the layer
         float inverseSize = 1;
-        float zOffset = 0, zFade = 0;  // of the layer, in zCell
+        float zOffset = 0, zFade = 0;  // of the layer, in its cell
         std::uint32_t seed = 0;
         std::array<PerlinLevel, 2> levels;
-        std::size_t low = 0;  // the one of zCell; the other is of zCell + 1
+        std::size_t low = 0;  // the one at zStart; the other is above it
     };
     std::vector<Octave> octaves;
     std::int32_t layer = -1;

@@ -49,6 +49,20 @@ bool rangeOfFloats(const Bits* values, float& lowest, float& highest) {
     return true;
 }
 
+void packBlocks(const Bits* values, std::uint16_t* layer, std::uint16_t& lowest, std::uint16_t& highest) {
+    constexpr hn::CappedTag<std::uint32_t, kRowLanes> du;
+    constexpr hn::Rebind<std::uint16_t, decltype(du)> half;
+    auto low = hn::Set(half, UINT16_MAX), high = hn::Zero(half);
+    for (std::size_t k = 0; k < kTileLanes; k += hn::Lanes(du)) {
+        const auto v = hn::TruncateTo(half, hn::Load(du, values + k));
+        hn::StoreU(v, half, layer + k);
+        low = hn::Min(low, v);
+        high = hn::Max(high, v);
+    }
+    lowest = hn::GetLane(hn::MinOfLanes(half, low));
+    highest = hn::GetLane(hn::MaxOfLanes(half, high));
+}
+
 void rangeOfBlocks(const std::uint16_t* layer, std::uint16_t& lowest, std::uint16_t& highest) {
     auto low = hn::LoadU(d16, layer), high = low;
     for (std::size_t k = hn::Lanes(d16); k < kTileLanes; k += hn::Lanes(d16)) {
@@ -70,6 +84,7 @@ namespace terrane::gen {
 HWY_EXPORT(rangeOfInts);
 HWY_EXPORT(rangeOfFloats);
 HWY_EXPORT(rangeOfBlocks);
+HWY_EXPORT(packBlocks);
 
 ValueRange rangeOfTile(Type type, const Bits* values) {
     ValueRange r;
@@ -78,6 +93,12 @@ ValueRange rangeOfTile(Type type, const Bits* values) {
     } else if (HWY_DYNAMIC_DISPATCH(rangeOfFloats)(values, r.lowF, r.highF)) {
         r.mayBeNaN = false;
     }
+    return r;
+}
+
+BlockRange packLayer(const Bits* values, std::uint16_t* blocks) {
+    BlockRange r{};
+    HWY_DYNAMIC_DISPATCH(packBlocks)(values, blocks, r.low, r.high);
     return r;
 }
 

@@ -32,6 +32,7 @@ ShortPass shortenPass(const SlabPlan& plan, const Decisions& decisions) {
     ShortPass result;
     result.kind = kindOf(pass);
     result.program = compileAfter(plan.program, pass, plan.noises, result.constants);
+    result.layerInstructions = instructionCount(result.program, result.program.layer);
     return result;
 }
 

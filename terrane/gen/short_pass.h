@@ -15,6 +15,7 @@ struct ShortPass {
     Kind kind = Kind::EachLayer;
     Program program;  // to run after the pass's whole program has run its `column`
     std::vector<RowConstant> constants;  // to fill before
+    std::size_t layerInstructions = 0;
 };
 
 // The whole pass's graph, program and noises are the plan's.

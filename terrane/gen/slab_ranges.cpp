@@ -62,7 +62,9 @@ SlabPlan::SlabPlan(const PassGraph& passGraph, const Program& passProgram,
     }
 }
 
-void SlabRanges::begin(const SlabPlan& plan, const Bits* arena, const std::uint16_t* blocks) {
+void SlabRanges::begin(const SlabPlan& plan, const Bits* arena, const std::uint16_t* blocks,
+                       const LayerRanges* layers) {
+    given_ = layers;
     plan_ = &plan;
     arena_ = arena;
     blocks_ = blocks;
@@ -193,6 +195,14 @@ ValueRange SlabRanges::component(const Node& n) const {
     return unknownRange(n.type);
 }
 
+BlockRange SlabRanges::layerBefore(int z) {
+    const auto k = static_cast<std::size_t>(z);
+    if (given_) return (*given_)[k];
+    if (!isLayerKnown_[k]) layers_[k] = rangeOfLayer(blocks_ + k * kTileLanes);
+    isLayerKnown_[k] = true;
+    return layers_[k];
+}
+
 // Of the pass before; heights beyond the world are clamped into it.
 ValueRange SlabRanges::blocksBetween(const ValueRange& z) {
     if (!blocks_) return intRange(0, UINT16_MAX);
@@ -203,10 +213,9 @@ ValueRange SlabRanges::blocksBetween(const ValueRange& z) {
     BlockRange all{UINT16_MAX, 0};
     bool isAlike = true;
     for (std::size_t k = first; k <= last; ++k) {
-        if (!isLayerKnown_[k]) layers_[k] = rangeOfLayer(blocks_ + k * kTileLanes);
-        isLayerKnown_[k] = true;
-        all = {std::min(all.low, layers_[k].low), std::max(all.high, layers_[k].high)};
-        isAlike = isAlike && layers_[k] == layers_[first];
+        const BlockRange layer = layerBefore(static_cast<int>(k));
+        isAlike = isAlike && (k == first || layer == all);
+        all = {std::min(all.low, layer.low), std::max(all.high, layer.high)};
     }
     ValueRange range = intRange(all.low, all.high);
     range.mayNarrow = !isAlike;

@@ -39,7 +39,9 @@ class SlabRanges {
   public:
     // For a tile whose `column` instructions have run. Refers to its arguments until begun again.
     // `blocks`: of the 3D pass before, by world::BlockIndex, or null.
-    void begin(const SlabPlan& plan, const Bits* arena, const std::uint16_t* blocks);
+    // `layers`: of them, or null where they are to be found.
+    void begin(const SlabPlan& plan, const Bits* arena, const std::uint16_t* blocks,
+               const LayerRanges* layers = nullptr);
 
     // The same values, moved to another place.
     void moveArena(const Bits* arena) { arena_ = arena; }
@@ -55,6 +57,9 @@ class SlabRanges {
     bool writesNothing(std::size_t fieldOutput) const;
     // and whether slabs of fewer layers would decide no more choices than it.
     bool isSettled() const { return isSettled_; }
+
+    // Of the blocks of the 3D pass before in the layer z.
+    BlockRange layerBefore(int z);
 
   private:
     struct Entry {
@@ -83,7 +88,8 @@ class SlabRanges {
     bool isSettled_ = true;
     ValueRange block_;
     std::vector<ValueRange> fields_;
-    std::array<BlockRange, world::kChunkHeight> layers_{};  // of the pass before
+    const LayerRanges* given_ = nullptr;
+    LayerRanges layers_{};  // of the pass before
     std::array<bool, world::kChunkHeight> isLayerKnown_{};
 };
 
