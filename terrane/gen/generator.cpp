@@ -164,6 +164,31 @@ void Generator::Impl::advance(world::ChunkPos pos, ChunkWork& work, int passes, 
     work.advance(passes, [&](int pass) { runPass(pos, work, pass, worker); });
 }
 
+namespace {
+
+// `ranges` of the blocks' layers, or null: sections of one block need no look at their blocks.
+world::Chunk packChunk(const BlockArray& blocks, const LayerRanges* ranges) {
+    world::Chunk chunk;
+    for (int s = 0; s < world::kSectionsPerChunk; ++s) {
+        const auto first = static_cast<std::size_t>(s) * world::kSectionSize;
+        const auto isLikeFirst = [&](const BlockRange& r) {
+            return r == BlockRange{(*ranges)[first].low, (*ranges)[first].low};
+        };
+        if (ranges && std::all_of(ranges->begin() + static_cast<long>(first),
+                                  ranges->begin() + static_cast<long>(first) + world::kSectionSize, isLikeFirst)) {
+            chunk.setSection(s, world::Section((*ranges)[first].low));
+            continue;
+        }
+        const auto section = std::span(blocks)
+                                 .subspan(static_cast<std::size_t>(s) * world::kBlocksPerSection)
+                                 .first<world::kBlocksPerSection>();
+        chunk.setSection(s, world::Section::fromValues(section));
+    }
+    return chunk;
+}
+
+}  // namespace
+
 base::Result<void> checkGenerated(world::ChunkPos pos, int level) {
     if (isGenerated(pos, level)) return {};
     if (pos.level != level) {
@@ -211,13 +236,8 @@ world::Chunk Generator::generate(world::ChunkPos pos) const {
     for (int pass = impl.shared; pass < passCount; ++pass) impl.runPass(pos, *work, pass, *worker);
 
     const BlockArray& blocks = impl.blocksOf(passCount - 1, *work, *worker);
-    world::Chunk chunk;
-    for (int s = 0; s < world::kSectionsPerChunk; ++s) {
-        const std::span values(blocks);
-        const auto section = values.subspan(static_cast<std::size_t>(s) * world::kBlocksPerSection)
-                                 .first<world::kBlocksPerSection>();
-        chunk.setSection(s, world::Section::fromValues(section));
-    }
+    const LayerRanges* ranges = passCount > impl.shared ? &worker->layerRanges : nullptr;
+    world::Chunk chunk = packChunk(blocks, ranges);
     impl.giveBack(std::move(worker));
     return chunk;
 }
