@@ -65,6 +65,8 @@ void generateArea(benchmark::State& state, std::string_view name) {
 
 BENCHMARK_CAPTURE(generateArea, overworld, "overworld")->Unit(benchmark::kMillisecond)->MinTime(3);
 BENCHMARK_CAPTURE(generateArea, flat, "flat")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(generateArea, hills3d, "hills3d")->Unit(benchmark::kMillisecond)->Iterations(2);
+BENCHMARK_CAPTURE(generateArea, voronoi, "voronoi")->Unit(benchmark::kMillisecond)->Iterations(2);
 
 // All passes of a generator over a square of chunks, pass after pass, with everything kept. At the edge of
 // the square the chunk itself stands for neighbors that are missing.
@@ -78,8 +80,13 @@ class PassArea {
         seeds_.hashes.resize(graph.hashNames.size());
         for (std::size_t k = 0; k < seeds_.noises.size(); ++k) seeds_.noises[k] = seedOf(k);
         for (std::size_t k = 0; k < seeds_.hashes.size(); ++k) seeds_.hashes[k] = seedOf(k + 1000);
-        executor_ = std::make_unique<gen::Executor>(graph.noises, seeds_, gen::ExecutorParts{.shapes = graph.shapes.get()});
-        for (const gen::PassGraph& pass : graph.passes) programs_.push_back(compile(pass, graph.noises));
+        executor_ = std::make_unique<gen::Executor>(graph.noises, seeds_,
+                                                     gen::ExecutorParts{.shapes = graph.shapes.get()});
+        for (const gen::PassGraph& pass : graph.passes) {
+            programs_.push_back(compile(pass, graph.noises));
+            voxelPasses_.push_back(pass.is3D ? std::make_unique<gen::VoxelPass>(pass, graph.noises)
+                                             : nullptr);
+        }
         for (int n = 0; n < kChunks; ++n) {
             at(columns_, n).resize(graph.fields.size());
             at(solid_, n).resize(graph.passes.size());
@@ -96,7 +103,7 @@ class PassArea {
         if (program.is3D) {
             auto& result = at(solid_, n)[pass];
             if (!result) result = std::make_unique<BlockArray>();
-            return executor_->run3D(program, inputs, *result);
+            return executor_->run3D(*voxelPasses_[pass], inputs, *result);
         }
         std::vector<ColumnValues*> results;
         for (const auto& f : program.fields) results.push_back(&at(columns_, n)[f.field]);
@@ -145,6 +152,7 @@ class PassArea {
 
     gen::Seeds seeds_;
     std::vector<gen::Program> programs_;
+    std::vector<std::unique_ptr<gen::VoxelPass>> voxelPasses_;  // by pass; null for 2D ones
     std::unique_ptr<gen::Executor> executor_;
     std::vector<std::vector<ColumnValues>> columns_;               // by chunk, by field
     std::vector<std::vector<std::unique_ptr<BlockArray>>> solid_;  // by chunk, by pass

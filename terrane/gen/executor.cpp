@@ -34,44 +34,116 @@ void Executor::run2D(const Program& program, const PassInputs& inputs,
     }
 }
 
-void Executor::run3D(const Program& program, const PassInputs& inputs, BlockArray& result,
+namespace {
+
+// Slabs begin as high as a section. They double where that decides all choices, and are split as far as
+// kLowestSlab where fewer layers may decide more: analyzing each layer would cost more than it saves.
+constexpr int kLowestSlab = 4, kFirstSlab = world::kSectionSize, kHighestSlab = 64;
+
+// Five times as fast as std::fill.
+void fillLayers(std::uint16_t* layers, int count, std::uint16_t block) {
+    std::uint64_t four = block * 0x0001000100010001u;
+    constexpr int kWords = kTileLanes / 4;
+    std::uint64_t words[kWords];
+    for (std::uint64_t& word : words) word = four;
+    for (int k = 0; k < count; ++k) std::memcpy(layers + k * kTileLanes, words, sizeof(words));
+}
+
+}  // namespace
+
+void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result,
                      std::span<ColumnValues* const> fieldResults) {
+    const Program& program = pass.program();
     assert(program.is3D && program.block && fieldResults.size() == program.fields.size());
     prepareTile(program, inputs);
     for (ColumnValues* field : fieldResults) field->fill(0);
     runInstructions(program.column, context_);
-    // Fields are written from layers too.
-    const bool maySkip = program.fields.empty();
-    if (maySkip)
-        layerRanges_.begin(program, context_.arena, context_.noiseKinds, context_.blocks, context_.stamps);
+    ranges_.begin(pass.plan(), context_.arena, context_.blocks, context_.stamps, inputs.layerRanges);
+    slabs_.clear();
+    TileRun run{pass, inputs, result, fieldResults};
+    int height = kFirstSlab;
     for (int z = 0; z < world::kChunkHeight;) {
-        const int certain = maySkip ? fillCertain(z, result) : 0;
-        if (certain > 0) {
-            z += certain;
+        height = std::min(height, world::kChunkHeight - z);
+        ranges_.analyze(z, height);
+        if (!ranges_.isSettled() && height > kLowestSlab) {
+            height = std::max(height / 4, kLowestSlab);
             continue;
         }
-        context_.z = z;
-        std::fill_n(row(program.z), kRowLanes, bitsOf(z));
-        runInstructions(program.layer, context_);
-        writeLayer(*program.block, result.data() + z * kTileLanes);
-        for (std::size_t k = 0; k < fieldResults.size(); ++k) {
-            addToField(program.fields[k].value, *fieldResults[k]);
-        }
-        ++z;
+        runSlab(run, z, height);
+        z += height;
+        if (ranges_.isSettled()) height = std::min(2 * height, kHighestSlab);
     }
 }
 
-// A section's layers at once, where z begins one, else the layer z. Returns how many layers that were.
-int Executor::fillCertain(int z, BlockArray& result) {
-    int count = z % world::kSectionSize == 0 ? world::kSectionSize : 1;
-    std::optional<std::uint16_t> block = layerRanges_.blockOfLayers(z, count);
-    if (!block && count > 1) block = layerRanges_.blockOfLayers(z, count = 1);
-    if (!block) return 0;
-    std::uint16_t* layers = result.data() + z * kTileLanes;
-    std::fill_n(layers, kTileLanes, *block);
-    for (int k = 1; k < count; ++k)
-        std::memcpy(layers + k * kTileLanes, layers, kTileLanes * sizeof(*layers));
+// As ranges_ has it. 
+int Executor::runSlab(TileRun& run, int z, int count) {
+    bool writesNothing = true;
+    for (std::size_t k = 0; k < run.fieldResults.size(); ++k) {
+        writesNothing = writesNothing && ranges_.writesNothing(k);
+    }
+    std::uint16_t* layers = run.result.data() + z * kTileLanes;
+    const std::optional<std::uint16_t> block = ranges_.block();
+    if (block && writesNothing) {
+        fillLayers(layers, count, *block);
+        std::fill_n(layerRanges_.begin() + z, count, BlockRange{*block, *block});
+        slabs_.push_back({SlabRun::Way::Filled, count, 0});
+        return count;
+    }
+    const ShortPass* pass = run.pass.find(ranges_.decisions());
+    if (pass) {
+        runShort(run, *pass, z, count);
+    } else {
+        runLayers(run, run.pass.program(), z, count);
+        slabs_.push_back({SlabRun::Way::Whole, count, run.pass.layerInstructions()});
+    }
     return count;
+}
+
+void Executor::runShort(TileRun& run, const ShortPass& pass, int z, int count) {
+    const Program& program = pass.program;
+    const std::size_t instructions = pass.layerInstructions;
+    std::uint16_t* layers = run.result.data() + z * kTileLanes;
+    const std::size_t layerBytes = kTileLanes * sizeof(*layers);
+    if (pass.kind == ShortPass::Kind::CopyBlocks) {
+        std::memcpy(layers, context_.blocks + z * kTileLanes, static_cast<std::size_t>(count) * layerBytes);
+        for (int k = z; k < z + count; ++k) layerRanges_[static_cast<std::size_t>(k)] = ranges_.layerBefore(k);
+        slabs_.push_back({SlabRun::Way::Copied, count, 0});
+        return;
+    }
+    if (arena_.size() < program.arenaRows) {
+        arena_.resize(program.arenaRows);
+        context_.arena = arena_.front().lanes.data();
+        ranges_.moveArena(context_.arena);
+    }
+    context_.program = &program;
+    for (const RowConstant& c : pass.constants) arena_[c.row.row].lanes.fill(c.value);
+    for (const std::uint32_t n : program.noises) prepareNoise(n);
+    context_.z = z;
+    runInstructions(program.column, context_);
+    if (pass.kind == ShortPass::Kind::OneLayer) {
+        runLayers(run, program, z, 1);
+        for (int k = 1; k < count; ++k) std::memcpy(layers + k * kTileLanes, layers, layerBytes);
+        std::fill_n(layerRanges_.begin() + z, count, layerRanges_[static_cast<std::size_t>(z)]);
+        slabs_.push_back({SlabRun::Way::Repeated, count, instructions});
+    } else {
+        runLayers(run, program, z, count);
+        slabs_.push_back({SlabRun::Way::Short, count, instructions});
+    }
+    context_.program = &run.pass.program();
+}
+
+void Executor::runLayers(TileRun& run, const Program& program, int z, int count) {
+    for (const std::uint32_t n : program.noises) prepareNoise(n);
+    for (int end = z + count; z < end; ++z) {
+        context_.z = z;
+        std::fill_n(row(program.z), kRowLanes, bitsOf(z));
+        runInstructions(program.layer, context_);
+        layerRanges_[static_cast<std::size_t>(z)] =
+            writeLayer(*program.block, run.result.data() + z * kTileLanes);
+        for (std::size_t k = 0; k < run.fieldResults.size(); ++k) {
+            addToField(program.fields[k].value, *run.fieldResults[k]);
+        }
+    }
 }
 
 // A column's value is 0 in all layers but one.
@@ -82,16 +154,12 @@ void Executor::addToField(Operand value, ColumnValues& field) {
     }
 }
 
-void Executor::writeLayer(Operand block, std::uint16_t* layer) {
+BlockRange Executor::writeLayer(Operand block, std::uint16_t* layer) {
     const Bits* values = row(block);
-    if (block.rowStep == 0) {
-        std::fill_n(layer, kTileLanes, static_cast<std::uint16_t>(*values));
-        return;
-    }
-    std::array<std::uint16_t, kTileLanes> blocks;
-    for (std::size_t lane = 0; lane < kTileLanes; ++lane)
-        blocks[lane] = static_cast<std::uint16_t>(values[lane]);
-    std::memcpy(layer, blocks.data(), sizeof(blocks));
+    if (block.rowStep != 0) return packLayer(values, layer);
+    const auto one = static_cast<std::uint16_t>(*values);
+    fillLayers(layer, 1, one);
+    return {one, one};
 }
 
 void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
@@ -102,35 +170,12 @@ void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
         context_.blocksAround[n] = inputs.blocks[n] ? inputs.blocks[n]->data() : nullptr;
     }
     context_.blocks = context_.blocksAround[4];
-    const SampleGrid grid = sampleGrid(inputs.chunk);
-    fillConstants(program, grid);
+    grid_ = sampleGrid(inputs.chunk);
+    fillConstants(program, grid_);
+    isPrepared_.assign(noises_.size(), false);
+    // Noise in space waits until some layer needs it.
     for (const std::uint32_t n : program.noises) {
-        const NoiseCall& call = noises_[n];
-        const std::uint32_t seed = seeds_.noises[n];
-        switch (call.kind) {
-            case NoiseKind::Perlin2D:
-                prepare(context_.perlin2D[n], call, seed, grid);
-                break;
-            case NoiseKind::Perlin3D:
-                prepare(context_.perlin3D[n], call, seed, grid);
-                break;
-            case NoiseKind::Voronoi2D:
-                prepare(context_.voronoi2D[n], call, seed, grid);
-                break;
-            case NoiseKind::Voronoi3D:
-                prepare(context_.voronoi3D[n], call, seed, grid);
-                break;
-            case NoiseKind::Simplex2D:
-                prepare(context_.simplex2D[n], call, seed, grid);
-                break;
-            case NoiseKind::Stripes2D:
-                prepare(context_.stripes2D[n], call, seed, grid);
-                break;
-            case NoiseKind::Drainage:
-                assert(parts_.drainages && "a program that reads maps is run with them");
-                parts_.drainages->prepare(context_.drainage[n], static_cast<std::uint32_t>(call.size), grid);
-                break;
-        }
+        if (!gen::is3D(noises_[n].kind)) prepareNoise(n);
     }
     context_.fields.resize(inputs.fields.size());
     context_.windows.resize(inputs.fields.size());
@@ -148,6 +193,31 @@ void Executor::paintStamps(const Program& program) {
     for (std::size_t k = 0; k < program.stamps.size(); ++k) {
         const StampCall& call = program.stamps[k];
         context_.stamps[k].paint(*parts_.shapes, context_.windows[call.shape], context_.windows[call.base]);
+    }
+}
+
+void Executor::prepareNoise(std::uint32_t noise) {
+    if (isPrepared_[noise]) return;
+    isPrepared_[noise] = true;
+    const NoiseCall& call = noises_[noise];
+    const std::uint32_t seed = seeds_.noises[noise];
+    switch (call.kind) {
+        case NoiseKind::Perlin2D:
+            return prepare(context_.perlin2D[noise], call, seed, grid_);
+        case NoiseKind::Perlin3D:
+            return prepare(context_.perlin3D[noise], call, seed, grid_);
+        case NoiseKind::Voronoi2D:
+            return prepare(context_.voronoi2D[noise], call, seed, grid_);
+        case NoiseKind::Voronoi3D:
+            return prepare(context_.voronoi3D[noise], call, seed, grid_);
+        case NoiseKind::Simplex2D:
+            return prepare(context_.simplex2D[noise], call, seed, grid_);
+        case NoiseKind::Stripes2D:
+            return prepare(context_.stripes2D[noise], call, seed, grid_);
+        case NoiseKind::Drainage:
+            assert(parts_.drainages && "a program that reads maps is run with them");
+            return parts_.drainages->prepare(context_.drainage[noise],
+                                             static_cast<std::uint32_t>(call.size), grid_);
     }
 }
 

@@ -8,8 +8,8 @@
 
 #include "terrane/gen/drainage_maps.h"
 #include "terrane/gen/kernels.h"
-#include "terrane/gen/layer_ranges.h"
 #include "terrane/gen/seeds.h"
+#include "terrane/gen/voxel_pass.h"
 #include "terrane/world/coords.h"
 
 namespace terrane::gen {
@@ -27,6 +27,22 @@ struct PassInputs {
     // Of the newest earlier 3D pass, in the same order; the middle one alone where the pass reads blocks
     // without an offset.
     std::array<const BlockArray*, 9> blocks{};
+    // Of the layers of blocks[4], where they are known.
+    const LayerRanges* layerRanges = nullptr;
+};
+
+// How the layers of a slab were made.
+struct SlabRun {
+    enum class Way : std::uint8_t {
+        Filled,     // one block
+        Copied,     // from the 3D pass before
+        Repeated,   // one layer was computed
+        Short,      // every layer was, by a short pass
+        Whole
+    };
+    Way way;
+    int count;                 // layers
+    std::size_t instructions;  // of a layer
 };
 
 // Tables that some programs need.
@@ -43,8 +59,11 @@ class Executor {
     // Results of a 2D pass, in the order of program.fields.
     void run2D(const Program& program, const PassInputs& inputs, std::span<ColumnValues* const> results);
     // `fieldResults`: of the fields that the pass writes, in the order of program.fields.
-    void run3D(const Program& program, const PassInputs& inputs, BlockArray& result,
+    void run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result,
                std::span<ColumnValues* const> fieldResults = {});
+    // Of the last run3D, from the bottom.
+    std::span<const SlabRun> slabs() const { return slabs_; }
+    const LayerRanges& layerRanges() const { return layerRanges_; }
 
   private:
     void prepareTile(const Program& program, const PassInputs& inputs);
@@ -52,8 +71,19 @@ class Executor {
     void paintStamps(const Program& program);
     void fillWindow(std::uint32_t field, const PassInputs& inputs);
     Bits* row(Operand o) { return context_.arena + static_cast<std::size_t>(o.row) * kRowLanes; }
-    int fillCertain(int z, BlockArray& result);
-    void writeLayer(Operand block, std::uint16_t* layer);
+    void prepareNoise(std::uint32_t noise);
+
+    // What the layers of a tile are made of, while run3D runs.
+    struct TileRun {
+        const VoxelPass& pass;
+        const PassInputs& inputs;
+        BlockArray& result;
+        std::span<ColumnValues* const> fieldResults;
+    };
+    int runSlab(TileRun& run, int z, int count);
+    void runLayers(TileRun& run, const Program& program, int z, int count);
+    void runShort(TileRun& run, const ShortPass& pass, int z, int count);
+    BlockRange writeLayer(Operand block, std::uint16_t* layer);
     void addToField(Operand value, ColumnValues& field);
 
     struct AlignedRow {
@@ -65,7 +95,11 @@ class Executor {
     ExecutorParts parts_;
     std::vector<AlignedRow> arena_;
     TileContext context_;
-    LayerRanges layerRanges_;
+    SampleGrid grid_;
+    std::vector<bool> isPrepared_;  // by noise: for this tile
+    SlabRanges ranges_;
+    LayerRanges layerRanges_{};
+    std::vector<SlabRun> slabs_;
 };
 
 }  // namespace terrane::gen

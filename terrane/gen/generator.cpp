@@ -23,6 +23,7 @@ struct Generator::Impl {
         Executor executor;
         std::vector<ColumnValues> fields;                   // by field
         std::array<std::unique_ptr<BlockArray>, 2> blocks;  // of the newest two 3D passes, in turn
+        LayerRanges layerRanges{};                          // of the newest one
     };
 
     Impl(GeneratorGraph g, std::uint64_t seed, CacheSize size)
@@ -33,9 +34,22 @@ struct Generator::Impl {
           cache(std::max(size.minChunks, size.bytes / workBytes()), graph.fields.size(),
                 static_cast<std::size_t>(shared)) {
         for (const PassGraph& pass : graph.passes) {
-            programs.push_back(compile(pass, graph.noises));
-            assert(programs.back().arenaRows <= kMaxArenaRows && "GeneratorBuilder::finish() refuses others");
+            Program program;
+            std::unique_ptr<const VoxelPass> voxelPass;
+            if (pass.is3D) {
+                voxelPass = std::make_unique<VoxelPass>(pass, graph.noises);
+            } else {
+                program = compile(pass, graph.noises);
+            }
+            programs.push_back(std::move(program));
+            voxelPasses.push_back(std::move(voxelPass));
+            assert(programOf(programs.size() - 1).arenaRows <= kMaxArenaRows &&
+                   "GeneratorBuilder::finish() refuses others");
         }
+    }
+
+    const Program& programOf(std::size_t pass) const {
+        return voxelPasses[pass] ? voxelPasses[pass]->program() : programs[pass];
     }
 
     std::size_t workBytes() const {
@@ -75,7 +89,8 @@ struct Generator::Impl {
     GeneratorGraph graph;
     Seeds seeds;
     DrainageMaps drainages;
-    std::vector<Program> programs;
+    std::vector<Program> programs;                               // by pass: of 2D ones
+    std::vector<std::unique_ptr<const VoxelPass>> voxelPasses;  // by pass: of 3D ones
     int shared;  // passes
     PassCache cache;
     std::mutex workerMutex;
@@ -110,7 +125,7 @@ void Generator::Impl::advanceNeighbors(world::ChunkPos pos, int pass, Works& wor
 
 PassInputs Generator::Impl::inputsOf(world::ChunkPos pos, ChunkWork& work, int pass, const Works& works,
                                      Worker& worker) {
-    const Program& program = programs[static_cast<std::size_t>(pass)];
+    const Program& program = programOf(static_cast<std::size_t>(pass));
     PassInputs inputs;
     inputs.chunk = pos;
     inputs.fields.resize(graph.fields.size());
@@ -120,6 +135,7 @@ PassInputs Generator::Impl::inputsOf(world::ChunkPos pos, ChunkWork& work, int p
     }
     const int source = newest3DBefore(graph, pass);
     if (source >= 0) inputs.blocks[kOwn] = &blocksOf(source, work, worker);
+    if (source >= shared) inputs.layerRanges = &worker.layerRanges;
     for (std::size_t n = 0; n < works.size(); ++n) {
         if (n == kOwn) continue;
         for (const std::uint32_t f : program.readsAt) inputs.fields[f][n] = &works[n]->fields[f];
@@ -134,11 +150,13 @@ void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Wo
     advanceNeighbors(pos, pass, works, worker);
     TERRANE_ZONE("generator pass");
     const PassInputs inputs = inputsOf(pos, work, pass, works, worker);
-    const Program& program = programs[static_cast<std::size_t>(pass)];
+    const Program& program = programOf(static_cast<std::size_t>(pass));
     std::vector<ColumnValues*> results;
     for (const Program::FieldResult& f : program.fields) results.push_back(&fieldOf(f.field, work, worker));
     if (program.is3D) {
-        worker.executor.run3D(program, inputs, blocksOf(pass, work, worker), results);
+        const VoxelPass& voxelPass = *voxelPasses[static_cast<std::size_t>(pass)];
+        worker.executor.run3D(voxelPass, inputs, blocksOf(pass, work, worker), results);
+        if (pass >= shared) worker.layerRanges = worker.executor.layerRanges();
     } else {
         worker.executor.run2D(program, inputs, results);
     }
@@ -147,6 +165,31 @@ void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Wo
 void Generator::Impl::advance(world::ChunkPos pos, ChunkWork& work, int passes, Worker& worker) {
     work.advance(passes, [&](int pass) { runPass(pos, work, pass, worker); });
 }
+
+namespace {
+
+// `ranges` of the blocks' layers, or null: sections of one block need no look at their blocks.
+world::Chunk packChunk(const BlockArray& blocks, const LayerRanges* ranges) {
+    world::Chunk chunk;
+    for (int s = 0; s < world::kSectionsPerChunk; ++s) {
+        const auto first = static_cast<std::size_t>(s) * world::kSectionSize;
+        const auto isLikeFirst = [&](const BlockRange& r) {
+            return r == BlockRange{(*ranges)[first].low, (*ranges)[first].low};
+        };
+        if (ranges && std::all_of(ranges->begin() + static_cast<long>(first),
+                                  ranges->begin() + static_cast<long>(first) + world::kSectionSize, isLikeFirst)) {
+            chunk.setSection(s, world::Section((*ranges)[first].low));
+            continue;
+        }
+        const auto section = std::span(blocks)
+                                 .subspan(static_cast<std::size_t>(s) * world::kBlocksPerSection)
+                                 .first<world::kBlocksPerSection>();
+        chunk.setSection(s, world::Section::fromValues(section));
+    }
+    return chunk;
+}
+
+}  // namespace
 
 base::Result<void> checkGenerated(world::ChunkPos pos, int level) {
     if (isGenerated(pos, level)) return {};
@@ -208,13 +251,8 @@ world::Chunk Generator::generate(world::ChunkPos pos) const {
     for (int pass = impl.shared; pass < passCount; ++pass) impl.runPass(pos, *work, pass, *worker);
 
     const BlockArray& blocks = impl.blocksOf(passCount - 1, *work, *worker);
-    world::Chunk chunk;
-    for (int s = 0; s < world::kSectionsPerChunk; ++s) {
-        const std::span values(blocks);
-        const auto section = values.subspan(static_cast<std::size_t>(s) * world::kBlocksPerSection)
-                                 .first<world::kBlocksPerSection>();
-        chunk.setSection(s, world::Section::fromValues(section));
-    }
+    const LayerRanges* ranges = passCount > impl.shared ? &worker->layerRanges : nullptr;
+    world::Chunk chunk = packChunk(blocks, ranges);
     impl.giveBack(std::move(worker));
     return chunk;
 }

@@ -151,6 +151,78 @@ void Graph::endLoop(NodeId condition, std::span<const NodeId> next) {
     openLoop_ = loop.parent;
 }
 
+namespace {
+
+// Whether a node depends on z through its arguments alone. Of operations not named here nothing is known.
+bool hasZOfArgumentsOnly(Op op) {
+    switch (op) {
+        case Op::BlockInColumn:
+        case Op::BlockAt:
+        case Op::FieldAt:
+        case Op::Component:
+        case Op::Hash2:
+        case Op::Hash3:
+            return true;
+        default:
+            return record(op).evaluate != nullptr;
+    }
+}
+
+}  // namespace
+
+Graph Graph::withKnown(std::span<const Known> known, std::vector<NodeId>& standIn) const {
+    Graph copy;
+    copy.nodes_ = nodes_;
+    copy.ifCount_ = ifCount_;
+    copy.loops_ = loops_;
+    copy.loopVariables_ = loopVariables_;
+    for (const Known& k : known) {
+        Node n;
+        n.type = Type::Bool;
+        n.imm = bitsOf(k.holds);
+        copy.nodes_[k.condition] = n;
+    }
+    standIn.resize(nodes_.size());
+    for (NodeId id = 0; id < nodes_.size(); ++id) {
+        standIn[id] = id;
+        if (copy.nodes_[id].dependence & kDependsZ) standIn[id] = copy.simplifyAgain(id, standIn);
+    }
+    for (Loop& l : copy.loops_) l.condition = standIn[l.condition];
+    for (LoopVariable& v : copy.loopVariables_) {
+        v.initial = standIn[v.initial];
+        v.next = standIn[v.next];
+    }
+    return copy;
+}
+
+// With arguments that were simplified before it. Returns the node that has its value.
+NodeId Graph::simplifyAgain(NodeId id, const std::vector<NodeId>& standIn) {
+    Node& n = nodes_[id];
+    const std::size_t count = n.arguments().size();
+    std::uint8_t ofArguments = kDependsNone;
+    std::array<Bits, 3> values{};
+    bool allConstant = count > 0 && record(n.op).evaluate != nullptr;
+    for (std::size_t k = 0; k < count; ++k) {
+        n.args[k] = standIn[n.args[k]];
+        const Node& arg = nodes_[n.args[k]];
+        ofArguments |= arg.dependence;
+        allConstant = allConstant && arg.op == Op::Constant;
+        values[k] = arg.imm;
+    }
+    if (allConstant) {
+        Node folded;
+        folded.type = n.type;
+        folded.imm = record(n.op).evaluate(std::span(values).first(count));
+        n = folded;
+        return id;
+    }
+    if (hasZOfArgumentsOnly(n.op) && !(ofArguments & kDependsZ)) {
+        n.dependence = static_cast<std::uint8_t>(n.dependence & ~kDependsZ);
+    }
+    if (isCommutative(n.op) && isConstant(n.args[0])) std::swap(n.args[0], n.args[1]);
+    return simplified(*this, n).value_or(id);
+}
+
 NodeId Graph::intern(const Node& node) {
     const auto [it, inserted] = ids_.try_emplace(node, static_cast<NodeId>(nodes_.size()));
     if (inserted) nodes_.push_back(node);

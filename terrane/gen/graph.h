@@ -70,6 +70,15 @@ class Graph {
     // Whether some node outside of a loop depends on a node inside otherwise than through a variable's `out`.
     bool leaksOutOfLoop() const { return leaksOutOfLoop_; }
 
+    // A copy, with the numbers of this graph, for where some conditions are known: these nodes are constants,
+    // and what depends on z is simplified. `standIn`, by node: the one that has its value there. Nothing can
+    // be added to the copy.
+    struct Known {
+        NodeId condition;
+        bool holds;
+    };
+    Graph withKnown(std::span<const Known> known, std::vector<NodeId>& standIn) const;
+
   private:
     struct KeyHash {
         std::size_t operator()(const Node& n) const;
@@ -79,6 +88,7 @@ class Graph {
     };
 
     NodeId intern(const Node& node);
+    NodeId simplifyAgain(NodeId id, const std::vector<NodeId>& standIn);
     int depth(std::int32_t loop) const;
     bool isOpen(std::int32_t loop) const;
 

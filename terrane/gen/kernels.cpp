@@ -131,16 +131,20 @@ void loop(const Instruction& i, TileContext& c, const RowList& rows) {
 void branch(const Instruction& i, TileContext& c, const RowList& rows) {
     const Branch& b = c.program->branches[i.imm];
     RowList taken{{}, 0}, notTaken{{}, 0};
+    const RowsOf condition(c.arena, b.condition);
     for (int k = 0; k < rows.count; ++k) {
-        const Bits* condition = rowOf(c.arena, b.condition, rows.rows[k]);
+        const std::uint8_t row = rows.rows[k];
         bool all = true, none = true;
         for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(di)) {
-            const auto mask = hn::MaskFromVec(loadI(condition + lane));
+            const auto mask = hn::MaskFromVec(loadI(condition.at(row, lane)));
             all = all && hn::AllTrue(di, mask);
             none = none && hn::AllFalse(di, mask);
         }
-        if (!none) taken.rows[taken.count++] = rows.rows[k];
-        if (!all) notTaken.rows[notTaken.count++] = rows.rows[k];
+        // Without branches, which nobody could predict.
+        taken.rows[taken.count] = row;
+        notTaken.rows[notTaken.count] = row;
+        taken.count += none ? 0 : 1;
+        notTaken.count += all ? 0 : 1;
     }
     if (taken.count > 0) run(b.then, c, taken);
     if (notTaken.count > 0) run(b.otherwise, c, notTaken);

@@ -6,7 +6,6 @@
 #define TERRANE_GEN_NOISE_KERNELS_INL_H
 #endif
 
-#include "terrane/gen/hash_rows-inl.h"
 #include "terrane/gen/simplex_kernels-inl.h"
 #include "terrane/gen/stripe_kernels-inl.h"
 #include "terrane/gen/drainage_kernels-inl.h"
@@ -54,18 +53,64 @@ void perlin2D(const Instruction& i, TileContext& c, const RowList& rows) {
     });
 }
 
+HWY_INLINE VF lerp(VF a, VF b, VF t) {
+    return hn::Add(a, hn::Mul(t, hn::Sub(b, a)));
+}
+
+// Makes the octave's levels into one for its layer, as noise.h has it.
+void blendLevels(Perlin3DTile::Octave& o) {
+    const PerlinLevel &low = o.levels[o.low], &high = o.levels[1 - o.low];
+    const VF f = hn::Set(df, o.zOffset), f1 = hn::Set(df, o.zOffset - 1.0f), t = hn::Set(df, o.zFade);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(o.layer.nodeRows); ++j) {
+        for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(df)) {
+            const auto load = [&](const std::array<TileRow, kMaxNodeRows>& rows)
+                                  HWY_ATTR { return hn::Load(df, rows[j].data() + lane); };
+            const VF below = hn::Add(load(low.one), hn::Mul(load(low.z), f));
+            const VF above = hn::Add(load(high.one), hn::Mul(load(high.z), f1));
+            hn::Store(lerp(below, above, t), df, o.layer.a[j].data() + lane);
+            hn::Store(lerp(load(low.y), load(high.y), t), df, o.layer.b[j].data() + lane);
+        }
+    }
+}
+
+// Rows between the same two node rows share their coefficients.
+template <bool kIsFirst>
+void addOctave(const PerlinOctave& o, Operand dst, TileContext& c, const RowList& rows) {
+    const VF weight = hn::Set(df, o.weight), one = hn::Set(df, 1.0f);
+    for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(df)) {
+        std::size_t node = kMaxNodeRows;
+        VF a0 = weight, b0 = weight, a1 = weight, b1 = weight;
+        for (int k = 0; k < rows.count; ++k) {
+            const std::size_t r = rows.rows[k];
+            if (o.rows.node[r] != node) {
+                node = o.rows.node[r];
+                a0 = hn::Load(df, o.a[node].data() + lane), b0 = hn::Load(df, o.b[node].data() + lane);
+                a1 = hn::Load(df, o.a[node + 1].data() + lane), b1 = hn::Load(df, o.b[node + 1].data() + lane);
+            }
+            const VF f = hn::Set(df, o.rows.offset[r]);
+            const VF low = hn::Add(a0, hn::Mul(b0, f)), high = hn::Add(a1, hn::Mul(b1, hn::Sub(f, one)));
+            const VF value =
+                hn::Mul(hn::Add(low, hn::Mul(hn::Set(df, o.rows.fade[r]), hn::Sub(high, low))), weight);
+            Bits* sum = rowOf(c.arena, dst, rows.rows[k]) + lane;
+            storeBits(kIsFirst ? value : hn::Add(loadF(sum), value), sum);
+        }
+    }
+}
+
 void perlin3D(const Instruction& i, TileContext& c, const RowList& rows) {
     Perlin3DTile& tile = c.perlin3D[i.imm];
-    if (tile.layer != c.z) moveToLayer(tile, c.z);
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) {
-        const PerlinOctave& first = tile.octaves[0].layer;
-        VF sum = hn::Mul(perlinSample(first, row, lane), hn::Set(df, first.weight));
-        for (std::size_t n = 1; n < tile.octaves.size(); ++n) {
-            const PerlinOctave& o = tile.octaves[n].layer;
-            sum = hn::Add(sum, hn::Mul(perlinSample(o, row, lane), hn::Set(df, o.weight)));
+    if (tile.layer != c.z) {
+        moveToCellsOf(tile, c.z);
+        for (Perlin3DTile::Octave& o : tile.octaves) blendLevels(o);
+    }
+    for (std::size_t n = 0; n < tile.octaves.size(); ++n) {
+        const PerlinOctave& o = tile.octaves[n].layer;
+        if (n == 0) {
+            addOctave<true>(o, i.dst, c, rows);
+        } else {
+            addOctave<false>(o, i.dst, c, rows);
         }
-        storeBits(sum, rowOf(c.arena, i.dst, row) + lane);
-    });
+    }
 }
 
 void noise(const Instruction& i, TileContext& c, const RowList& rows) {

@@ -2,72 +2,15 @@
 
 #include <cassert>
 
-#include "terrane/shared/hash.h"
+#include "terrane/shared/language.h"
 
 namespace terrane::gen {
 namespace {
 
 using shared::uint;
 
-struct Gradient2 {
-    float x, y;
-};
-
-// √2·(cos, sin) of (k + ½)·22.5°.
-constexpr float kG0 = 1.38703990f, kG1 = 1.17587554f, kG2 = 0.785694957f, kG3 = 0.275899380f;
-constexpr Gradient2 kGradients2[16] = {
-    {kG0, kG3},  {kG1, kG2},  {kG2, kG1},   {kG3, kG0},   {-kG3, kG0},  {-kG2, kG1},
-    {-kG1, kG2}, {-kG0, kG3}, {-kG0, -kG3}, {-kG1, -kG2}, {-kG2, -kG1}, {-kG3, -kG0},
-    {kG3, -kG0}, {kG2, -kG1}, {kG1, -kG2},  {kG0, -kG3},
-};
-
-struct Gradient3 {
-    float x, y, z;
-};
-
-constexpr Gradient3 kGradients3[12] = {
-    {1, 1, 0},  {-1, 1, 0},  {1, -1, 0}, {-1, -1, 0}, {1, 0, 1},  {-1, 0, 1},
-    {1, 0, -1}, {-1, 0, -1}, {0, 1, 1},  {0, -1, 1},  {0, 1, -1}, {0, -1, -1},
-};
-
-// Nodes count modulo 2^32: the one behind the last block of the world is the one before the first.
-Gradient2 gradient2(uint x, uint y, std::uint32_t seed) {
-    return kGradients2[shared::hash2(x, y, seed) >> 28];
-}
-
-Gradient3 gradient3(uint x, uint y, uint z, std::uint32_t seed) {
-    const uint h = shared::hash3(x, y, z, seed);
-    return kGradients3[((h >> 16) * 12u) >> 16];
-}
-
 float fade(float f) {
     return ((f * f) * f) * (f * (f * 6.0f - 15.0f) + 10.0f);
-}
-
-float lerp(float a, float b, float t) {
-    return a + t * (b - a);
-}
-
-// Cells and fractions of the coordinates of 16 columns in a row.
-struct AxisCells {
-    std::array<uint, kTileSize> cell;
-    TileRow offset, fadeOf;
-};
-
-AxisCells axisCells(std::int32_t first, std::int32_t step, std::int32_t size, float inverseSize) {
-    assert(size >= step && "from one column to the next at most one cell ends");
-    AxisCells axis{};
-    for (int k = 0; k < kTileSize; ++k) {
-        const auto at = static_cast<std::size_t>(k);
-        const std::int32_t position = first + k * step;
-        // The start of a cell may lie before the first block of the world: no int32 holds it.
-        const std::int32_t quotient = position / size, rest = position % size;
-        const bool isBelow = rest < 0;
-        axis.cell[at] = static_cast<uint>(quotient) - (isBelow ? 1u : 0u);
-        axis.offset[at] = static_cast<float>(isBelow ? rest + size : rest) * inverseSize;
-        axis.fadeOf[at] = fade(axis.offset[at]);
-    }
-    return axis;
 }
 
 int setRows(PerlinOctave& octave, const AxisCells& y) {
@@ -81,31 +24,11 @@ int setRows(PerlinOctave& octave, const AxisCells& y) {
     return octave.nodeRows;
 }
 
-// The gradients left and right of each x, looked up once a cell.
-template <class Lookup, class Use>
-void forEachX(const std::array<uint, kTileSize>& cells, Lookup lookup, Use useAt) {
-    auto left = lookup(cells[0]);
-    auto right = lookup(cells[0] + 1);
-    for (std::size_t k = 0; k < kTileSize; ++k) {
-        if (k > 0 && cells[k] != cells[k - 1]) {
-            left = right;
-            right = lookup(cells[k] + 1);
-        }
-        useAt(k, left, right);
-    }
-}
-
+// Nodes count modulo 2^32: the one behind the last block of the world is the one before the first.
 void fillLevel(const Perlin3DTile::Octave& o, std::int32_t zCell, PerlinLevel& level) {
     for (uint row = 0; row < static_cast<uint>(o.layer.nodeRows); ++row) {
-        const auto lookup = [&](uint cell) {
-            return gradient3(cell, o.yCell + row, static_cast<uint>(zCell), o.seed);
-        };
-        forEachX(o.xCell, lookup, [&](std::size_t k, Gradient3 left, Gradient3 right) {
-            const float f = o.xOffset[k], t = o.xFade[k];
-            level.one[row][k] = lerp(left.x * f, right.x * (f - 1.0f), t);
-            level.y[row][k] = lerp(left.y, right.y, t);
-            level.z[row][k] = lerp(left.z, right.z, t);
-        });
+        fillNodeRow3D(o.x, {o.yCell + row, static_cast<uint>(zCell)}, o.seed,
+                      {level.one[row], level.y[row], level.z[row]});
     }
 }
 
@@ -117,20 +40,12 @@ void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, Samp
     for (std::size_t o = 0; o < octaves.size(); ++o) {
         PerlinOctave& octave = tile.octaves[o];
         const std::int32_t size = octaves[o].size;
-        const float inverseSize = 1.0f / static_cast<float>(size);
-        const AxisCells x = axisCells(grid.x, grid.step, size, inverseSize);
-        const AxisCells y = axisCells(grid.y, grid.step, size, inverseSize);
+        const AxisCells x = axisCells(grid.x, grid.step, size);
+        const AxisCells y = axisCells(grid.y, grid.step, size);
         octave.weight = octaves[o].weight;
         const auto nodeRows = static_cast<uint>(setRows(octave, y));
         for (uint row = 0; row < nodeRows; ++row) {
-            const auto lookup = [&](uint cell) {
-                return gradient2(cell, y.cell[0] + row, seed + octaves[o].seedStep);
-            };
-            forEachX(x.cell, lookup, [&](std::size_t k, Gradient2 left, Gradient2 right) {
-                const float f = x.offset[k], t = x.fadeOf[k];
-                octave.a[row][k] = lerp(left.x * f, right.x * (f - 1.0f), t);
-                octave.b[row][k] = lerp(left.y, right.y, t);
-            });
+            fillNodeRow2D(x, y.cell[0] + row, seed + octaves[o].seedStep, octave.a[row], octave.b[row]);
         }
     }
 }
@@ -144,39 +59,32 @@ void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, Samp
         o.size = octaves[n].size;
         o.inverseSize = 1.0f / static_cast<float>(o.size);
         o.seed = seed + octaves[n].seedStep;
-        const AxisCells x = axisCells(grid.x, grid.step, o.size, o.inverseSize);
-        const AxisCells y = axisCells(grid.y, grid.step, o.size, o.inverseSize);
-        o.xCell = x.cell;
-        o.xOffset = x.offset;
-        o.xFade = x.fadeOf;
+        o.x = axisCells(grid.x, grid.step, o.size);
+        const AxisCells y = axisCells(grid.y, grid.step, o.size);
         o.yCell = y.cell[0];
         o.layer.weight = octaves[n].weight;
         setRows(o.layer, y);
     }
 }
 
-void moveToLayer(Perlin3DTile& tile, std::int32_t z) {
+void moveToCellsOf(Perlin3DTile& tile, std::int32_t z) {
     assert(z >= 0 && "layers count from the bottom of the world");
     const bool first = tile.layer < 0;
     for (Perlin3DTile::Octave& o : tile.octaves) {
-        const std::int32_t zCell = z / o.size;
-        if (first || (zCell != o.zCell && zCell != o.zCell + 1)) {
-            fillLevel(o, zCell, o.levels[0]);
-            fillLevel(o, zCell + 1, o.levels[1]);
-        } else if (zCell == o.zCell + 1) {
-            o.levels[0] = o.levels[1];
-            fillLevel(o, zCell + 1, o.levels[1]);
-        }
-        o.zCell = zCell;
-        const float f = static_cast<float>(z - zCell * o.size) * o.inverseSize, t = fade(f);
-        const PerlinLevel &low = o.levels[0], &high = o.levels[1];
-        for (std::size_t j = 0; j < static_cast<std::size_t>(o.layer.nodeRows); ++j) {
-            for (std::size_t k = 0; k < kTileSize; ++k) {
-                o.layer.a[j][k] =
-                    lerp(low.one[j][k] + low.z[j][k] * f, high.one[j][k] + high.z[j][k] * (f - 1.0f), t);
-                o.layer.b[j][k] = lerp(low.y[j][k], high.y[j][k], t);
+        // A division takes as long as blending a level.
+        const bool isInCell = !first && z >= o.zStart && z - o.zStart < o.size;
+        if (!isInCell) {
+            const std::int32_t zCell = z / o.size;
+            if (!first && z - o.zStart >= o.size && z - o.zStart < 2 * o.size) {
+                o.low = 1 - o.low;
+            } else {
+                fillLevel(o, zCell, o.levels[o.low]);
             }
+            fillLevel(o, zCell + 1, o.levels[1 - o.low]);
+            o.zStart = zCell * o.size;
         }
+        o.zOffset = static_cast<float>(z - o.zStart) * o.inverseSize;
+        o.zFade = fade(o.zOffset);
     }
     tile.layer = z;
 }

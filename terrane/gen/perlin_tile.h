@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "terrane/gen/lattice_kernels.h"
 #include "terrane/gen/noise.h"
 #include "terrane/gen/program.h"
 #include "terrane/gen/sample_grid.h"
@@ -19,8 +20,6 @@ namespace terrane::gen {
 // Rows of lattice nodes around 16 columns: 16 cells and one more with a lattice as wide as a column. At
 // higher levels smaller ones have faded (fadedWeights, noise.h).
 constexpr int kMaxNodeRows = kTileSize + 1;
-
-using TileRow = std::array<float, kTileSize>;
 
 // The blend along y: row r lies between node rows node[r] and node[r] + 1, at the fractions `offset`.
 struct RowBlend {
@@ -51,21 +50,23 @@ struct PerlinLevel {
 
 struct Perlin3DTile {
     struct Octave {
-        PerlinOctave layer;  // blended along z for the current layer
-        TileRow xOffset, xFade;
-        std::array<std::uint32_t, kTileSize> xCell;  // modulo 2^32
+        PerlinOctave layer;  // levels blended along z for the current layer, by perlin3D in noise_kernels-inl.h
+        AxisCells x;
         std::uint32_t yCell = 0;
-        std::int32_t size = 1, zCell = 0;
+        std::int32_t size = 1;
+        std::int32_t zStart = 0;  // of the cell that holds the layer
         float inverseSize = 1;
+        float zOffset = 0, zFade = 0;  // of the layer, in its cell
         std::uint32_t seed = 0;
-        std::array<PerlinLevel, 2> levels;  // zCell, zCell + 1
+        std::array<PerlinLevel, 2> levels;
+        std::size_t low = 0;  // the one at zStart; the other is above it
     };
     std::vector<Octave> octaves;
     std::int32_t layer = -1;
 };
 
 void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid);
-// Cheapest when called for each z in order.
-void moveToLayer(Perlin3DTile& tile, std::int32_t z);
+// Fills the levels around the layer z. Cheapest when called for each z in order.
+void moveToCellsOf(Perlin3DTile& tile, std::int32_t z);
 
 }  // namespace terrane::gen

@@ -13,6 +13,8 @@ constexpr std::uint32_t kNeverFreed = std::numeric_limits<std::uint32_t>::max();
 // Rows of the arena that come free are used again, by size: one row or a whole tile.
 class RowAllocator {
   public:
+    explicit RowAllocator(std::uint32_t first = 0) : next_(first) {}
+
     Operand allocate(bool varies, std::uint32_t results = 1) {
         auto& free = varies ? freeTiles_ : freeRows_;
         const std::uint32_t rows = varies ? kTileSize * results : 1;
@@ -34,7 +36,7 @@ class RowAllocator {
     }
 
   private:
-    std::uint32_t next_ = 0;
+    std::uint32_t next_;
     std::vector<std::uint32_t> freeTiles_, freeRows_;
 };
 
@@ -44,15 +46,31 @@ class Compiler {
         : pass_(pass), graph_(pass.graph), noises_(noises), operands_(graph_.size()), known_(graph_.size()) {}
 
     Program run() {
+        placeLeaves();
+        return compileLists();
+    }
+
+    Program runAfter(const Program& base, std::vector<RowConstant>& constants) {
+        rows_ = RowAllocator(base.layerRows);
+        placeLeavesAfter(base, constants);
+        return compileLists();
+    }
+
+  private:
+    Program compileLists() {
         program_.is3D = pass_.is3D;
         program_.readsAt = pass_.readsAt;
         program_.readsBlocksAt = pass_.readsBlocksAt;
         program_.stamps = pass_.stamps;
-        placeLeaves();
         const std::vector<NodeId> outputs = outputsOf(pass_);
         if (pass_.is3D) {
-            program_.column = compileList(columnBoundary(graph_, outputs));
+            const std::vector<NodeId> boundary = columnBoundary(graph_, outputs);
+            program_.column = compileList(boundary);
+            for (const NodeId id : boundary) {
+                if (graph_.node(id).op != Op::Constant) program_.inputs.push_back({id, operands_[id]});
+            }
             rows_.seal();
+            program_.layerRows = rows_.rows();
         }
         auto& last = pass_.is3D ? program_.layer : program_.column;
         last = compileList(outputs);
@@ -62,7 +80,6 @@ class Compiler {
         return std::move(program_);
     }
 
-  private:
     void placeLeaves() {
         for (NodeId id = 0; id < graph_.size(); ++id) {
             if (graph_.node(id).op != Op::Constant) continue;
@@ -72,6 +89,35 @@ class Compiler {
         program_.x = rows_.allocate(true);
         program_.y = rows_.allocate(true);
         program_.z = rows_.allocate(false);
+        placePositions();
+    }
+
+    // In the rows of `base`, and of constants that are none there in rows of their own.
+    void placeLeavesAfter(const Program& base, std::vector<RowConstant>& constants) {
+        for (std::size_t row = 0; row < base.constants.size(); ++row) {
+            constants.push_back({{static_cast<std::uint16_t>(row), 0}, base.constants[row]});
+        }
+        for (NodeId id = 0; id < graph_.size(); ++id) {
+            if (graph_.node(id).op != Op::Constant) continue;
+            const Bits value = graph_.node(id).imm;
+            auto found = std::find_if(constants.begin(), constants.end(),
+                                      [&](const RowConstant& c) { return c.value == value; });
+            if (found == constants.end()) {
+                found = constants.insert(found, {rows_.allocate(false), value});
+            }
+            setOperand(id, found->row);
+        }
+        constants.erase(constants.begin(), constants.begin() + static_cast<long>(base.constants.size()));
+        program_.x = base.x;
+        program_.y = base.y;
+        program_.z = base.z;
+        placePositions();
+        for (const Program::Input& input : base.inputs) {
+            if (!known_[input.node]) setOperand(input.node, input.value);
+        }
+    }
+
+    void placePositions() {
         for (NodeId id = 0; id < graph_.size(); ++id) {
             const Op op = graph_.node(id).op;
             if (op == Op::PosX) setOperand(id, program_.x);
@@ -276,6 +322,11 @@ class Compiler {
 
 Program compile(const PassGraph& pass, const std::vector<NoiseCall>& noises) {
     return Compiler(pass, noises).run();
+}
+
+Program compileAfter(const Program& base, const PassGraph& pass, const std::vector<NoiseCall>& noises,
+                     std::vector<RowConstant>& constants) {
+    return Compiler(pass, noises).runAfter(base, constants);
 }
 
 }  // namespace terrane::gen

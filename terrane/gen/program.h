@@ -69,6 +69,14 @@ struct Program {
     Operand x, y, z;              // filled by the executor
     std::uint32_t arenaRows = 0;
 
+    // 3D passes: what `column` leaves for `layer`, which writes no row below `layerRows`.
+    struct Input {
+        NodeId node;
+        Operand value;
+    };
+    std::vector<Input> inputs;
+    std::uint32_t layerRows = 0;
+
     struct FieldResult {
         std::uint32_t field;
         Operand value;  // in a 3D pass 0 but for one layer of each column
@@ -83,5 +91,17 @@ struct Program {
 
 // A program that needs more than kMaxArenaRows cannot run: GeneratorBuilder::finish() refuses it.
 Program compile(const PassGraph& pass, const std::vector<NoiseCall>& noises);
+
+// A constant's row in the arena, all 16 lanes of it.
+struct RowConstant {
+    Operand row;
+    Bits value;
+};
+
+// Of a 3D pass whose graph has the numbers of another one's (Graph::withKnown), to run in the arena after the
+// other's program, `base`, has run its `column`: this one's takes only what depends on z no more.
+// `constants`: rows to fill before; base.constants are there. Program::constants stays empty.
+Program compileAfter(const Program& base, const PassGraph& pass, const std::vector<NoiseCall>& noises,
+                     std::vector<RowConstant>& constants);
 
 }  // namespace terrane::gen

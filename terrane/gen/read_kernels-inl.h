@@ -31,6 +31,16 @@ int clampedOffset(Bits offset) {
 
 void fieldAt(const Instruction& i, TileContext& c, const RowList& rows) {
     const Bits* window = c.windows[i.imm].data();
+    if (i.args[0].rowStep == 0 && i.args[1].rowStep == 0) {
+        const int ox = clampedOffset(*rowOf(c.arena, i.args[0], 0)),
+                  oy = clampedOffset(*rowOf(c.arena, i.args[1], 0));
+        const Bits* first = window + (oy + kMaxReadOffset) * kWindowSize + ox + kMaxReadOffset;
+        for (int k = 0; k < rows.count; ++k) {
+            const int row = rows.rows[k];
+            std::memcpy(rowOf(c.arena, i.dst, row), first + row * kWindowSize, kRowLanes * sizeof(Bits));
+        }
+        return;
+    }
     for (int k = 0; k < rows.count; ++k) {
         const int row = rows.rows[k];
         const Bits* dx = rowOf(c.arena, i.args[0], row);

@@ -6,11 +6,17 @@
 #define TERRANE_GEN_SIMPLEX_KERNELS_INL_H
 #endif
 
-#include "terrane/gen/hash_rows-inl.h"
+#include "terrane/gen/tile_rows-inl.h"
+#include "terrane/shared/hash.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace terrane::gen {
 namespace HWY_NAMESPACE {
+
+HWY_INLINE VU hash2Lanes(VU x, VU y, VU seed) {
+    const VU half = mixHalf(hn::Xor(hn::Mul(x, hn::Set(du, shared::kHashX)), seed));
+    return mixBits(hn::Xor(half, hn::Mul(y, hn::Set(du, shared::kHashY))));
+}
 
 // √2·(cos, sin) of (k + ½)·22.5°, k the upper four bits, times (x, y): the first quadrant's four directions,
 // then turned.

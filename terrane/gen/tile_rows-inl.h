@@ -35,7 +35,7 @@ struct RowList {
     int count;
 };
 
-Bits* rowOf(Bits* arena, Operand o, int row) {
+HWY_INLINE Bits* rowOf(Bits* arena, Operand o, int row) {
     return arena + static_cast<std::size_t>(o.row + o.rowStep * row) * kRowLanes;
 }
 
@@ -52,13 +52,18 @@ struct RowsOf {
 };
 
 // Calls f(row, lane) for each vector of the destination's rows: one row where the value is the same in every
-// column.
+// column. All rows are a loop of their own, in which addresses are counted up instead of multiplied.
 template <class Function>
 HWY_INLINE void forEachVector(const RowList& rows, Operand dst, Function f) {
-    const int count = dst.rowStep ? rows.count : 1;
-    for (int k = 0; k < count; ++k) {
-        const int row = dst.rowStep ? rows.rows[k] : 0;
+    const auto eachLane = [&](int row) HWY_ATTR {
         for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(di)) f(row, lane);
+    };
+    if (dst.rowStep == 0) {
+        eachLane(0);
+    } else if (rows.count == kTileSize) {
+        for (int row = 0; row < kTileSize; ++row) eachLane(row);
+    } else {
+        for (int k = 0; k < rows.count; ++k) eachLane(rows.rows[k]);
     }
 }
 
@@ -77,6 +82,19 @@ HWY_INLINE void storeBits(V v, Bits* p) {
 template <class D, class M>
 HWY_INLINE auto maskBits(D d, M mask) {
     return hn::VecFromMask(d, mask);
+}
+
+// The same steps as in hash.h.
+HWY_INLINE VU mixBits(VU h) {
+    h = hn::Xor(h, hn::ShiftRight<16>(h));
+    h = hn::Mul(h, hn::Set(du, 0x7FEB352Du));
+    h = hn::Xor(h, hn::ShiftRight<15>(h));
+    h = hn::Mul(h, hn::Set(du, 0x846CA68Bu));
+    return hn::Xor(h, hn::ShiftRight<16>(h));
+}
+
+HWY_INLINE VU mixHalf(VU h) {
+    return hn::Mul(hn::Xor(h, hn::ShiftRight<15>(h)), hn::Set(du, 0x846CA68Bu));
 }
 
 // The same steps as detDivide in det_math.h.

@@ -121,24 +121,38 @@ int findPalette(ConstValues values, std::array<Section::Value, kMaxPalette>& pal
     // that nothing needs clearing between calls (Briggs, Torczon: An Efficient Representation for Sparse
     // Sets, 1993). 64 KiB, of which a call touches one byte a distinct value.
     thread_local std::array<std::uint8_t, 65536> position;
-    constexpr int kRun = 4;  // values compared at once: most blocks are like the one before
+    // Most blocks are like those before: 16 are compared at once, then four, then each alone.
+    constexpr int kRun = 4, kLongRun = 16;
     int count = 0, at = 0;
     std::uint64_t run = ~std::uint64_t{0};  // the last value, kRun times
-    for (int i = 0; i < kBlocksPerSection; i += kRun) {
+    const auto differs = [&](int i) {
         std::uint64_t next;
         std::memcpy(&next, &values[static_cast<std::size_t>(i)], sizeof next);
-        if (next == run && count > 0) {
+        return next ^ run;
+    };
+    for (int i = 0; i < kBlocksPerSection; i += kRun) {
+        if (i % kLongRun == 0) {
+            while (count > 0 && i < kBlocksPerSection &&
+                   (differs(i) | differs(i + 4) | differs(i + 8) | differs(i + 12)) == 0) {
+                std::memset(&indices[static_cast<std::size_t>(i)], at, kLongRun);
+                i += kLongRun;
+            }
+            if (i == kBlocksPerSection) break;
+        }
+        if (count > 0 && differs(i) == 0) {
             std::memset(&indices[static_cast<std::size_t>(i)], at, kRun);
             continue;
         }
         for (int k = i; k < i + kRun; ++k) {
             const Section::Value value = values[static_cast<std::size_t>(k)];
-            at = position[value];
-            if (at >= count || palette[static_cast<std::size_t>(at)] != value) {
-                if (count == kMaxPalette) return kMaxPalette + 1;
-                at = count++;
-                position[value] = static_cast<std::uint8_t>(at);
-                palette[static_cast<std::size_t>(at)] = value;
+            if (count == 0 || palette[static_cast<std::size_t>(at)] != value) {
+                at = position[value];
+                if (at >= count || palette[static_cast<std::size_t>(at)] != value) {
+                    if (count == kMaxPalette) return kMaxPalette + 1;
+                    at = count++;
+                    position[value] = static_cast<std::uint8_t>(at);
+                    palette[static_cast<std::size_t>(at)] = value;
+                }
             }
             indices[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(at);
         }

@@ -48,12 +48,12 @@ class PassRunner {
     }
 
     std::unique_ptr<BlockArray> run3D(std::size_t pass) {
-        const Program program = compile(graph.passes[pass], graph.noises);
+        const VoxelPass voxelPass(graph.passes[pass], graph.noises);
         auto result = std::make_unique<BlockArray>();
-        writtenFields.resize(program.fields.size());
+        writtenFields.resize(graph.passes[pass].fields.size());
         std::vector<ColumnValues*> pointers;
         for (ColumnValues& values : writtenFields) pointers.push_back(&values);
-        executor().run3D(program, inputs(), *result, pointers);
+        executor().run3D(voxelPass, inputs(), *result, pointers);
         return result;
     }
 

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "terrane/gen/slab_ranges.h"
 #include "tests/gen/gen_fixture.h"
 #include "tests/gen/pass_runner.h"
 #include "tests/gen/stamp_fixture.h"
@@ -108,13 +109,18 @@ TEST(Stamps, AShapeOverTheCornerOfFourChunksIsWhole) {
 void expectCertain(const GeneratorGraph& graph, const StampTile& tile, const std::set<int>& painted) {
     const Program program = compile(graph.passes.back(), graph.noises);
     std::vector<Bits> arena(std::size_t{program.arenaRows} * kRowLanes);
-    LayerRanges ranges;
-    ranges.begin(program, arena.data(), {}, nullptr, std::span(&tile, 1));
+    const SlabPlan plan(graph.passes.back(), program, graph.noises);
+    SlabRanges ranges;
+    ranges.begin(plan, arena.data(), nullptr, std::span(&tile, 1));
+    const auto blockOf = [&](int z, int count) {
+        ranges.analyze(z, count);
+        return ranges.block();
+    };
     for (int z = 0; z < world::kChunkHeight; ++z) {
-        EXPECT_EQ(ranges.blockOfLayers(z, 1).has_value(), !painted.contains(z)) << z;
+        EXPECT_EQ(blockOf(z, 1).has_value(), !painted.contains(z)) << z;
     }
-    EXPECT_EQ(ranges.blockOfLayers(32, 16), world::kAir);
-    EXPECT_EQ(ranges.blockOfLayers(16, 16), std::nullopt);
+    EXPECT_EQ(blockOf(32, 16), world::kAir);
+    EXPECT_EQ(blockOf(16, 16), std::nullopt);
 }
 
 TEST(Stamps, LayersThatNoShapeReachesAreCertain) {
