@@ -53,6 +53,10 @@ TEST(Stamps, EqualALookAtEveryShapeAround) {
     }
 }
 
+TEST(Stamps, AreTheSameOnEveryInstructionSet) {
+    onEachTarget([] { expectSlowStamps({-7, 4}, kDense, kSparse, kRandomCases / 2); });
+}
+
 TEST(Stamps, StandInEveryColumn) {
     expectSlowStamps({3, -2}, kEverywhere, kNowhere, kRandomCases / 10);
 }
