@@ -23,10 +23,13 @@ struct Reference {
     float distance = kNoRiver, halfWidth = 0, level = 0, flow = 0;
 };
 
+// Shorter than courses leave their node's cell.
+constexpr float kShortReach = 18.0f;
+
 Reference nearestRiver(const DrainageRegion& region, std::int32_t x, std::int32_t y) {
     Reference best;
     float bestPower = std::numeric_limits<float>::max();
-    const float reach2 = kDrainageSpec.reach * kDrainageSpec.reach;
+    const float reach2 = kShortReach * kShortReach;
     for (const CourseSegment& s : region.segments) {
         const float dx = static_cast<float>(s.to.x - s.from.x) / 16.0f,
                     dy = static_cast<float>(s.to.y - s.from.y) / 16.0f;
@@ -47,7 +50,9 @@ Reference nearestRiver(const DrainageRegion& region, std::int32_t x, std::int32_
 
 TEST(DrainageMaps, ColumnsFindTheRiverThatCounts) {
     const DrainageRegion region = makeDrainageRegion(heightsOf(kTestSeed), {0, 0});
-    DrainageRunner runner(kTestSeed);
+    DrainageSpec spec = kDrainageSpec;
+    spec.reach = kShortReach;
+    DrainageRunner runner(kTestSeed, 0, spec);
     int found = 0;
     const auto isInside = [](std::int32_t v) { return v > 200 && v < kRegionBlocks - 200; };
     onEachTarget([&] {
@@ -56,8 +61,8 @@ TEST(DrainageMaps, ColumnsFindTheRiverThatCounts) {
             // that is near.
             const std::uint32_t h = shared::hash2(k, 0, 5);
             const CourseSegment& s = region.segments[h % region.segments.size()];
-            const std::int32_t x = s.from.x / 16 + static_cast<std::int32_t>(h >> 8 & 127) % 95 - 47;
-            const std::int32_t y = s.from.y / 16 + static_cast<std::int32_t>(h >> 16 & 127) % 95 - 47;
+            const std::int32_t x = s.from.x / 16 + static_cast<std::int32_t>(h >> 8 & 127) % 37 - 18;
+            const std::int32_t y = s.from.y / 16 + static_cast<std::int32_t>(h >> 16 & 127) % 37 - 18;
             if (!isInside(x) || !isInside(y)) continue;
             const DrainageResults results = runner.run({x >> 4, y >> 4});
             for (std::int32_t column = ((x & 15) + 16 * (y & 15)) % 61; column < 256; column += 61) {
