@@ -58,6 +58,10 @@ void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray
     ranges_.begin(pass.plan(), context_.arena, context_.blocks, inputs.layerRanges);
     slabs_.clear();
     TileRun run{pass, inputs, result, fieldResults};
+    if (!shortens_) {
+        slabs_.push_back({SlabRun::Way::Whole, world::kChunkHeight, pass.layerInstructions()});
+        return runLayers(run, program, 0, world::kChunkHeight);
+    }
     int height = kFirstSlab;
     for (int z = 0; z < world::kChunkHeight;) {
         height = std::min(height, world::kChunkHeight - z);
@@ -72,8 +76,8 @@ void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray
     }
 }
 
-// As ranges_ has it. 
-int Executor::runSlab(TileRun& run, int z, int count) {
+// As far as needed by what ranges_ found of it.
+void Executor::runSlab(TileRun& run, int z, int count) {
     bool writesNothing = true;
     for (std::size_t k = 0; k < run.fieldResults.size(); ++k) {
         writesNothing = writesNothing && ranges_.writesNothing(k);
@@ -84,7 +88,7 @@ int Executor::runSlab(TileRun& run, int z, int count) {
         fillLayers(layers, count, *block);
         std::fill_n(layerRanges_.begin() + z, count, BlockRange{*block, *block});
         slabs_.push_back({SlabRun::Way::Filled, count, 0});
-        return count;
+        return;
     }
     const ShortPass* pass = run.pass.find(ranges_.decisions());
     if (pass) {
@@ -93,7 +97,6 @@ int Executor::runSlab(TileRun& run, int z, int count) {
         runLayers(run, run.pass.program(), z, count);
         slabs_.push_back({SlabRun::Way::Whole, count, run.pass.layerInstructions()});
     }
-    return count;
 }
 
 void Executor::runShort(TileRun& run, const ShortPass& pass, int z, int count) {

@@ -53,6 +53,8 @@ class Executor {
     // `fieldResults`: of the fields that the pass writes, in the order of program.fields.
     void run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result,
                std::span<ColumnValues* const> fieldResults = {});
+    // Whether run3D leaves out what cannot change the result. Tests compare.
+    void setShortens(bool shortens) { shortens_ = shortens; }
     // Of the last run3D, from the bottom.
     std::span<const SlabRun> slabs() const { return slabs_; }
     const LayerRanges& layerRanges() const { return layerRanges_; }
@@ -71,7 +73,7 @@ class Executor {
         BlockArray& result;
         std::span<ColumnValues* const> fieldResults;
     };
-    int runSlab(TileRun& run, int z, int count);
+    void runSlab(TileRun& run, int z, int count);
     void runLayers(TileRun& run, const Program& program, int z, int count);
     void runShort(TileRun& run, const ShortPass& pass, int z, int count);
     BlockRange writeLayer(Operand block, std::uint16_t* layer);
@@ -89,6 +91,7 @@ class Executor {
     std::vector<bool> isPrepared_;  // by noise: for this tile
     SlabRanges ranges_;
     LayerRanges layerRanges_{};
+    bool shortens_ = true;
     std::vector<SlabRun> slabs_;
 };
 

@@ -63,7 +63,7 @@ class SlabRanges {
 
   private:
     struct Entry {
-        ValueRange range;
+        ValueRange range = kAnyInt;
         std::uint32_t slab = 0;  // for which it was found; 0: none
         bool isOfTile = false;   // the same for all slabs
     };
@@ -86,7 +86,7 @@ class SlabRanges {
     std::vector<Entry> entries_;  // by node
     Decisions decisions_;
     bool isSettled_ = true;
-    ValueRange block_;
+    ValueRange block_ = kAnyInt;
     std::vector<ValueRange> fields_;
     const LayerRanges* given_ = nullptr;
     LayerRanges layers_{};  // of the pass before
