@@ -106,7 +106,8 @@ void Executor::runShort(TileRun& run, const ShortPass& pass, int z, int count) {
     const std::size_t layerBytes = kTileLanes * sizeof(*layers);
     if (pass.kind == ShortPass::Kind::CopyBlocks) {
         std::memcpy(layers, context_.blocks + z * kTileLanes, static_cast<std::size_t>(count) * layerBytes);
-        for (int k = z; k < z + count; ++k) layerRanges_[static_cast<std::size_t>(k)] = ranges_.layerBefore(k);
+        for (int k = z; k < z + count; ++k)
+            layerRanges_[static_cast<std::size_t>(k)] = ranges_.layerBefore(k);
         slabs_.push_back({SlabRun::Way::Copied, count, 0});
         return;
     }

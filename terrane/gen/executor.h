@@ -33,10 +33,10 @@ struct PassInputs {
 // How the layers of a slab were made.
 struct SlabRun {
     enum class Way : std::uint8_t {
-        Filled,     // one block
-        Copied,     // from the 3D pass before
-        Repeated,   // one layer was computed
-        Short,      // every layer was, by a short pass
+        Filled,    // one block
+        Copied,    // from the 3D pass before
+        Repeated,  // one layer was computed
+        Short,     // every layer was, by a short pass
         Whole
     };
     Way way;

@@ -25,7 +25,8 @@ struct SlabPlan {
     const PassGraph& pass;
     const Program& program;
     const std::vector<NoiseCall>& noises;
-    std::vector<std::optional<Operand>> columnValues;  // by node: what lies in the arena before the layers run
+    std::vector<std::optional<Operand>>
+        columnValues;  // by node: what lies in the arena before the layers run
     // Conditions that a slab may decide: those of choices, and what they are made of.
     std::vector<NodeId> choices;
     std::vector<std::int32_t> choiceOf;  // by node; -1: none

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "terrane/gen/generators/catalogue.h"
 #include "tests/gen/pass_runner.h"
 #include "tests/gen/random_graph.h"
 
@@ -96,7 +97,8 @@ TEST_F(SlabRangesTest, BlocksOfThePassBeforeAreLookedAt) {
     std::fill(before_.begin(), before_.end(), std::uint16_t{2});
     before_[40 * 256 + 255] = 1;
     const auto slabs = run([](Pass& p, Field<Int>) {
-        const Bool isStone = p.blockHere() == p.block("stone") || p.blockInColumn(p.z() - 70) == p.block("stone");
+        const Bool isStone =
+            p.blockHere() == p.block("stone") || p.blockInColumn(p.z() - 70) == p.block("stone");
         p.setBlock(select(isStone, p.block("air"), p.block("water")));
     });
     EXPECT_GE(layers(slabs, Way::Filled), 240);
@@ -137,6 +139,24 @@ TEST(ShortPasses, OfRandomGraphsGiveTheBlocksOfTheWholeOnes) {
         }
     }
     EXPECT_GT(shortLayers, 0);
+}
+
+// What `terrane generate --explain` prints.
+TEST(PassReport, CountsTheLayersOfEvery3DPass) {
+    const Generator generator(makeGenerator("overworld", contentBlocks()).value(), kTestSeed);
+    std::vector<PassReport> reports;
+    generator.generate({3, 4}, reports);
+    ASSERT_EQ(reports.size(), 2u);
+    for (const PassReport& report : reports) {
+        int layers = 0, isFilled = 0;
+        for (const SlabRun& slab : report.slabs) {
+            layers += slab.count;
+            isFilled += slab.way == Way::Filled ? slab.count : 0;
+            EXPECT_LE(slab.instructions, report.wholeInstructions);
+        }
+        EXPECT_EQ(layers, world::kChunkHeight);
+        EXPECT_GT(isFilled, world::kChunkHeight / 4) << "there is mostly air above the ground";
+    }
 }
 
 }  // namespace
