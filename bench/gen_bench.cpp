@@ -64,6 +64,7 @@ void generateArea(benchmark::State& state, std::string_view name) {
 }
 
 BENCHMARK_CAPTURE(generateArea, overworld, "overworld")->Unit(benchmark::kMillisecond)->MinTime(3);
+BENCHMARK_CAPTURE(generateArea, continents, "continents")->Unit(benchmark::kMillisecond)->MinTime(3);
 BENCHMARK_CAPTURE(generateArea, flat, "flat")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(generateArea, hills3d, "hills3d")->Unit(benchmark::kMillisecond)->Iterations(2);
 BENCHMARK_CAPTURE(generateArea, voronoi, "voronoi")->Unit(benchmark::kMillisecond)->Iterations(2);

@@ -61,6 +61,10 @@ void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray
     ranges_.begin(pass.plan(), context_.arena, context_.blocks, context_.stamps, inputs.layerRanges);
     slabs_.clear();
     TileRun run{pass, inputs, result, fieldResults};
+    if (!shortens_) {
+        slabs_.push_back({SlabRun::Way::Whole, world::kChunkHeight, pass.layerInstructions()});
+        return runLayers(run, program, 0, world::kChunkHeight);
+    }
     int height = kFirstSlab;
     for (int z = 0; z < world::kChunkHeight;) {
         height = std::min(height, world::kChunkHeight - z);
@@ -75,8 +79,8 @@ void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray
     }
 }
 
-// As ranges_ has it. 
-int Executor::runSlab(TileRun& run, int z, int count) {
+// As far as needed by what ranges_ found of it.
+void Executor::runSlab(TileRun& run, int z, int count) {
     bool writesNothing = true;
     for (std::size_t k = 0; k < run.fieldResults.size(); ++k) {
         writesNothing = writesNothing && ranges_.writesNothing(k);
@@ -87,7 +91,7 @@ int Executor::runSlab(TileRun& run, int z, int count) {
         fillLayers(layers, count, *block);
         std::fill_n(layerRanges_.begin() + z, count, BlockRange{*block, *block});
         slabs_.push_back({SlabRun::Way::Filled, count, 0});
-        return count;
+        return;
     }
     const ShortPass* pass = run.pass.find(ranges_.decisions());
     if (pass) {
@@ -96,7 +100,6 @@ int Executor::runSlab(TileRun& run, int z, int count) {
         runLayers(run, run.pass.program(), z, count);
         slabs_.push_back({SlabRun::Way::Whole, count, run.pass.layerInstructions()});
     }
-    return count;
 }
 
 void Executor::runShort(TileRun& run, const ShortPass& pass, int z, int count) {
@@ -106,7 +109,8 @@ void Executor::runShort(TileRun& run, const ShortPass& pass, int z, int count) {
     const std::size_t layerBytes = kTileLanes * sizeof(*layers);
     if (pass.kind == ShortPass::Kind::CopyBlocks) {
         std::memcpy(layers, context_.blocks + z * kTileLanes, static_cast<std::size_t>(count) * layerBytes);
-        for (int k = z; k < z + count; ++k) layerRanges_[static_cast<std::size_t>(k)] = ranges_.layerBefore(k);
+        for (int k = z; k < z + count; ++k)
+            layerRanges_[static_cast<std::size_t>(k)] = ranges_.layerBefore(k);
         slabs_.push_back({SlabRun::Way::Copied, count, 0});
         return;
     }

@@ -34,10 +34,10 @@ struct PassInputs {
 // How the layers of a slab were made.
 struct SlabRun {
     enum class Way : std::uint8_t {
-        Filled,     // one block
-        Copied,     // from the 3D pass before
-        Repeated,   // one layer was computed
-        Short,      // every layer was, by a short pass
+        Filled,    // one block
+        Copied,    // from the 3D pass before
+        Repeated,  // one layer was computed
+        Short,     // every layer was, by a short pass
         Whole
     };
     Way way;
@@ -61,6 +61,8 @@ class Executor {
     // `fieldResults`: of the fields that the pass writes, in the order of program.fields.
     void run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result,
                std::span<ColumnValues* const> fieldResults = {});
+    // Whether run3D leaves out what cannot change the result. Tests compare.
+    void setShortens(bool shortens) { shortens_ = shortens; }
     // Of the last run3D, from the bottom.
     std::span<const SlabRun> slabs() const { return slabs_; }
     const LayerRanges& layerRanges() const { return layerRanges_; }
@@ -80,7 +82,7 @@ class Executor {
         BlockArray& result;
         std::span<ColumnValues* const> fieldResults;
     };
-    int runSlab(TileRun& run, int z, int count);
+    void runSlab(TileRun& run, int z, int count);
     void runLayers(TileRun& run, const Program& program, int z, int count);
     void runShort(TileRun& run, const ShortPass& pass, int z, int count);
     BlockRange writeLayer(Operand block, std::uint16_t* layer);
@@ -99,6 +101,7 @@ class Executor {
     std::vector<bool> isPrepared_;  // by noise: for this tile
     SlabRanges ranges_;
     LayerRanges layerRanges_{};
+    bool shortens_ = true;
     std::vector<SlabRun> slabs_;
 };
 

@@ -24,6 +24,8 @@ struct Generator::Impl {
         std::vector<ColumnValues> fields;                   // by field
         std::array<std::unique_ptr<BlockArray>, 2> blocks;  // of the newest two 3D passes, in turn
         LayerRanges layerRanges{};                          // of the newest one
+        std::vector<PassReport>* report = nullptr;          // of reportedChunk, where somebody asks
+        world::ChunkPos reportedChunk;
     };
 
     Impl(GeneratorGraph g, std::uint64_t seed, CacheSize size)
@@ -88,10 +90,14 @@ struct Generator::Impl {
 
     GeneratorGraph graph;
     Seeds seeds;
+<<<<<<< HEAD
     DrainageMaps drainages;
     std::vector<Program> programs;                               // by pass: of 2D ones
+=======
+    std::vector<Program> programs;                              // by pass: of 2D ones
+>>>>>>> w22-speed
     std::vector<std::unique_ptr<const VoxelPass>> voxelPasses;  // by pass: of 3D ones
-    int shared;  // passes
+    int shared;                                                 // passes
     PassCache cache;
     std::mutex workerMutex;
     std::vector<std::unique_ptr<Worker>> idleWorkers;
@@ -157,6 +163,10 @@ void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Wo
         const VoxelPass& voxelPass = *voxelPasses[static_cast<std::size_t>(pass)];
         worker.executor.run3D(voxelPass, inputs, blocksOf(pass, work, worker), results);
         if (pass >= shared) worker.layerRanges = worker.executor.layerRanges();
+        if (worker.report && worker.reportedChunk == pos) {
+            const std::span<const SlabRun> slabs = worker.executor.slabs();
+            worker.report->push_back({pass, {slabs.begin(), slabs.end()}, voxelPass.layerInstructions()});
+        }
     } else {
         worker.executor.run2D(program, inputs, results);
     }
@@ -176,8 +186,9 @@ world::Chunk packChunk(const BlockArray& blocks, const LayerRanges* ranges) {
         const auto isLikeFirst = [&](const BlockRange& r) {
             return r == BlockRange{(*ranges)[first].low, (*ranges)[first].low};
         };
-        if (ranges && std::all_of(ranges->begin() + static_cast<long>(first),
-                                  ranges->begin() + static_cast<long>(first) + world::kSectionSize, isLikeFirst)) {
+        if (ranges &&
+            std::all_of(ranges->begin() + static_cast<long>(first),
+                        ranges->begin() + static_cast<long>(first) + world::kSectionSize, isLikeFirst)) {
             chunk.setSection(s, world::Section((*ranges)[first].low));
             continue;
         }
@@ -241,10 +252,20 @@ ColumnValues Generator::columns(world::ChunkPos pos, std::uint32_t field) const 
 }
 
 world::Chunk Generator::generate(world::ChunkPos pos) const {
+    return generate(pos, nullptr);
+}
+
+world::Chunk Generator::generate(world::ChunkPos pos, std::vector<PassReport>& report) const {
+    return generate(pos, &report);
+}
+
+world::Chunk Generator::generate(world::ChunkPos pos, std::vector<PassReport>* report) const {
     TERRANE_ZONE("generate chunk");
     Impl& impl = *impl_;
     requireGenerated(pos, impl.graph.level);
     auto worker = impl.borrowWorker();
+    worker->report = report;
+    worker->reportedChunk = pos;
     const auto work = impl.cache.get(pos);
     impl.advance(pos, *work, impl.shared, *worker);
     const int passCount = static_cast<int>(impl.programs.size());
@@ -253,6 +274,7 @@ world::Chunk Generator::generate(world::ChunkPos pos) const {
     const BlockArray& blocks = impl.blocksOf(passCount - 1, *work, *worker);
     const LayerRanges* ranges = passCount > impl.shared ? &worker->layerRanges : nullptr;
     world::Chunk chunk = packChunk(blocks, ranges);
+    worker->report = nullptr;
     impl.giveBack(std::move(worker));
     return chunk;
 }

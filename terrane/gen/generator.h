@@ -9,8 +9,10 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "terrane/base/result.h"
+#include "terrane/gen/executor.h"
 #include "terrane/gen/generator_graph.h"
 #include "terrane/world/chunk.h"
 #include "terrane/world/coords.h"
@@ -42,6 +44,13 @@ base::Result<void> checkGenerated(world::ChunkPos pos, int level = 0);
 // Throws std::invalid_argument with the reason.
 void requireGenerated(world::ChunkPos pos, int level = 0);
 
+// How a 3D pass went over a chunk.
+struct PassReport {
+    int pass;
+    std::vector<SlabRun> slabs;     // from the bottom
+    std::size_t wholeInstructions;  // of a layer, when nothing is left out
+};
+
 class Generator {
   public:
     Generator(GeneratorGraph graph, std::uint64_t seed);  // with the cache of the graph's level
@@ -55,15 +64,22 @@ class Generator {
     // coordinates wrap.
     world::Chunk generate(world::ChunkPos pos) const;
 
+<<<<<<< HEAD
     // What 2D passes write to a field in the chunk's columns, x + 16 y, of a graph that has no 3D passes
     // (tint_graph.h). Threads and errors as generate().
     std::array<Bits, 256> columns(world::ChunkPos pos, std::uint32_t field) const;
+=======
+    // The same, and how its 3D passes went as far as neighbors had not asked for them.
+    world::Chunk generate(world::ChunkPos pos, std::vector<PassReport>& report) const;
+>>>>>>> w22-speed
 
     const std::string& name() const;
     int level() const;
     std::size_t cacheBytes() const;  // in use
 
   private:
+    world::Chunk generate(world::ChunkPos pos, std::vector<PassReport>* report) const;
+
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -80,7 +80,8 @@ HWY_INLINE VU nodeHash(const AxisCells& x, std::uint32_t seed) {
 }
 
 // `rest`: blocks from the start of `cell` to the first column.
-void cellsAlong(std::int32_t rest, std::uint32_t cell, std::int32_t step, std::int32_t size, AxisCells& axis) {
+void cellsAlong(std::int32_t rest, std::uint32_t cell, std::int32_t step, std::int32_t size,
+                AxisCells& axis) {
     const VF inverse = hn::Set(df, 1.0f / static_cast<float>(size));
     const VI blocks = hn::Set(di, size), one = hn::Set(di, 1);
     for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(di)) {
@@ -96,8 +97,8 @@ void cellsAlong(std::int32_t rest, std::uint32_t cell, std::int32_t step, std::i
         const VF f = hn::Mul(hn::ConvertTo(df, inside), inverse);
         // f³(f(6f − 15) + 10)
         const VF cube = hn::Mul(hn::Mul(f, f), f);
-        const VF square = hn::Add(
-            hn::Mul(f, hn::Sub(hn::Mul(f, hn::Set(df, 6.0f)), hn::Set(df, 15.0f))), hn::Set(df, 10.0f));
+        const VF square = hn::Add(hn::Mul(f, hn::Sub(hn::Mul(f, hn::Set(df, 6.0f)), hn::Set(df, 15.0f))),
+                                  hn::Set(df, 10.0f));
         hn::StoreU(hn::Add(hn::BitCast(du, cells), hn::Set(du, cell)), du, axis.cell.data() + lane);
         hn::StoreU(f, df, axis.offset.data() + lane);
         hn::StoreU(hn::Mul(cube, square), df, axis.fadeOf.data() + lane);
@@ -168,7 +169,8 @@ AxisCells axisCells(std::int32_t first, std::int32_t step, std::int32_t size) {
     const bool isBelow = rest < 0;
     AxisCells axis;
     HWY_DYNAMIC_DISPATCH(cellsAlong)
-    (isBelow ? rest + size : rest, static_cast<std::uint32_t>(quotient) - (isBelow ? 1u : 0u), step, size, axis);
+    (isBelow ? rest + size : rest, static_cast<std::uint32_t>(quotient) - (isBelow ? 1u : 0u), step, size,
+     axis);
     return axis;
 }
 

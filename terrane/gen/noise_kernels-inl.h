@@ -85,7 +85,8 @@ void addOctave(const PerlinOctave& o, Operand dst, TileContext& c, const RowList
             if (o.rows.node[r] != node) {
                 node = o.rows.node[r];
                 a0 = hn::Load(df, o.a[node].data() + lane), b0 = hn::Load(df, o.b[node].data() + lane);
-                a1 = hn::Load(df, o.a[node + 1].data() + lane), b1 = hn::Load(df, o.b[node + 1].data() + lane);
+                a1 = hn::Load(df, o.a[node + 1].data() + lane),
+                b1 = hn::Load(df, o.b[node + 1].data() + lane);
             }
             const VF f = hn::Set(df, o.rows.offset[r]);
             const VF low = hn::Add(a0, hn::Mul(b0, f)), high = hn::Add(a1, hn::Mul(b1, hn::Sub(f, one)));

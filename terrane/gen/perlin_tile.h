@@ -50,7 +50,8 @@ struct PerlinLevel {
 
 struct Perlin3DTile {
     struct Octave {
-        PerlinOctave layer;  // levels blended along z for the current layer, by perlin3D in noise_kernels-inl.h
+        PerlinOctave
+            layer;  // levels blended along z for the current layer, by perlin3D in noise_kernels-inl.h
         AxisCells x;
         std::uint32_t yCell = 0;
         std::int32_t size = 1;

@@ -87,13 +87,13 @@ HWY_EXPORT(rangeOfBlocks);
 HWY_EXPORT(packBlocks);
 
 ValueRange rangeOfTile(Type type, const Bits* values) {
-    ValueRange r;
-    if (type != Type::Float) {
-        HWY_DYNAMIC_DISPATCH(rangeOfInts)(values, r.low, r.high);
-    } else if (HWY_DYNAMIC_DISPATCH(rangeOfFloats)(values, r.lowF, r.highF)) {
-        r.mayBeNaN = false;
+    std::int32_t low = 0, high = 0;
+    float lowF = 0, highF = 0;
+    if (type == Type::Float) {
+        return HWY_DYNAMIC_DISPATCH(rangeOfFloats)(values, lowF, highF) ? floatRange(lowF, highF) : kAnyFloat;
     }
-    return r;
+    HWY_DYNAMIC_DISPATCH(rangeOfInts)(values, low, high);
+    return intRange(low, high);
 }
 
 BlockRange packLayer(const Bits* values, std::uint16_t* blocks) {

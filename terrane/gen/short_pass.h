@@ -13,7 +13,7 @@ struct ShortPass {
         EachLayer
     };
     Kind kind = Kind::EachLayer;
-    Program program;  // to run after the pass's whole program has run its `column`
+    Program program;                     // to run after the pass's whole program has run its `column`
     std::vector<RowConstant> constants;  // to fill before
     std::size_t layerInstructions = 0;
 };

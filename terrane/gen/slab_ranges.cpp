@@ -70,7 +70,7 @@ void SlabRanges::begin(const SlabPlan& plan, const Bits* arena, const std::uint1
     arena_ = arena;
     blocks_ = blocks;
     slab_ = 0;
-    entries_.assign(plan.pass.graph.size(), {});
+    entries_.assign(plan.pass.graph.size(), Entry());
     decisions_.assign(plan.choices.size(), Decision::Open);
     isLayerKnown_.fill(false);
 }
@@ -82,8 +82,8 @@ void SlabRanges::analyze(std::int32_t z, std::int32_t count) {
     isSettled_ = true;
     std::fill(decisions_.begin(), decisions_.end(), Decision::Open);
     const PassGraph& pass = plan_->pass;
-    fields_.assign(pass.fields.size(), {});
-    block_ = {};
+    fields_.assign(pass.fields.size(), kAnyBool);
+    block_ = kAnyInt;
     if (plan_->isTooDeep) return;
     block_ = find(*pass.block);
     for (std::size_t k = 0; k < fields_.size(); ++k) {
@@ -129,8 +129,11 @@ ValueRange SlabRanges::compute(NodeId id) {
             z.mayNarrow = count_ > 1;
             return z;
         }
-        case Op::BlockHere:
-            return blocksBetween(intRange(z_, z_ + count_ - 1));
+        case Op::BlockHere: {
+            ValueRange z = intRange(z_, z_ + count_ - 1);
+            z.mayNarrow = count_ > 1;
+            return blocksBetween(z);
+        }
         case Op::BlockInColumn:
             return blocksBetween(find(n.args[0]));
         case Op::BlockAt:
@@ -149,7 +152,7 @@ ValueRange SlabRanges::compute(NodeId id) {
             break;
     }
     if (!record(n.op).evaluate) return unknownRange(n.type);
-    std::array<ValueRange, 3> args;
+    std::array<ValueRange, 3> args{kAnyInt, kAnyInt, kAnyInt};
     const std::size_t count = n.arguments().size();
     for (std::size_t k = 0; k < count; ++k) args[k] = find(n.args[k]);
     return resultRange(n.op, n.type, std::span(args).first(count));
@@ -220,7 +223,11 @@ ValueRange SlabRanges::blocksBetween(const ValueRange& z) {
     const auto first = static_cast<std::size_t>(std::clamp(z.low, 0, world::kChunkHeight - 1));
     const auto last = static_cast<std::size_t>(std::clamp(z.high, 0, world::kChunkHeight - 1));
     // A height that differs from column to column may be anywhere.
-    if (last - first >= 2 * world::kSectionSize) return intRange(0, UINT16_MAX);
+    if (last - first >= 5 * world::kSectionSize) {
+        ValueRange any = intRange(0, UINT16_MAX);
+        any.mayNarrow = z.mayNarrow;
+        return any;
+    }
     BlockRange all{UINT16_MAX, 0};
     bool isAlike = true;
     for (std::size_t k = first; k <= last; ++k) {

@@ -27,7 +27,8 @@ struct SlabPlan {
     const PassGraph& pass;
     const Program& program;
     const std::vector<NoiseCall>& noises;
-    std::vector<std::optional<Operand>> columnValues;  // by node: what lies in the arena before the layers run
+    std::vector<std::optional<Operand>>
+        columnValues;  // by node: what lies in the arena before the layers run
     // Conditions that a slab may decide: those of choices, and what they are made of.
     std::vector<NodeId> choices;
     std::vector<std::int32_t> choiceOf;  // by node; -1: none
@@ -66,7 +67,7 @@ class SlabRanges {
 
   private:
     struct Entry {
-        ValueRange range;
+        ValueRange range = kAnyInt;
         std::uint32_t slab = 0;  // for which it was found; 0: none
         bool isOfTile = false;   // the same for all slabs
     };
@@ -90,7 +91,7 @@ class SlabRanges {
     std::vector<Entry> entries_;  // by node
     Decisions decisions_;
     bool isSettled_ = true;
-    ValueRange block_;
+    ValueRange block_ = kAnyInt;
     std::vector<ValueRange> fields_;
     const LayerRanges* given_ = nullptr;
     std::span<const StampTile> stamps_;

@@ -21,7 +21,7 @@ ValueRange truth(bool always, bool never) {
 }
 
 ValueRange unlessWrapped(std::int64_t low, std::int64_t high) {
-    if (low < Ints::min() || high > Ints::max()) return {};
+    if (low < Ints::min() || high > Ints::max()) return kAnyInt;
     return intRange(static_cast<std::int32_t>(low), static_cast<std::int32_t>(high));
 }
 
@@ -35,7 +35,7 @@ ValueRange cornersOf(Args a, Function f) {
 
 template <class Function>
 ValueRange cornersOfF(Args a, Function f) {
-    if (!isFinite(a[0]) || !isFinite(a[1])) return {};
+    if (!isFinite(a[0]) || !isFinite(a[1])) return kAnyFloat;
     const float r[] = {f(a[0].lowF, a[1].lowF), f(a[0].lowF, a[1].highF), f(a[0].highF, a[1].lowF),
                        f(a[0].highF, a[1].highF)};
     return floatRange(*std::min_element(r, r + 4), *std::max_element(r, r + 4));
@@ -53,18 +53,18 @@ ValueRange widened(float low, float high) {
 ValueRange divide(Args a) {
     const auto isMedium = [](const ValueRange& r) { return r.lowF >= -kLargest && r.highF <= kLargest; };
     const bool isAway = a[1].lowF >= 1 / kLargest || a[1].highF <= -1 / kLargest;
-    if (a[0].mayBeNaN || a[1].mayBeNaN || !isMedium(a[0]) || !isMedium(a[1]) || !isAway) return {};
+    if (a[0].mayBeNaN || a[1].mayBeNaN || !isMedium(a[0]) || !isMedium(a[1]) || !isAway) return kAnyFloat;
     const ValueRange exact = cornersOfF(a, [](float p, float q) { return p / q; });
     return widened(exact.lowF, exact.highF);
 }
 
 ValueRange squareRoot(const ValueRange& a) {
-    if (a.mayBeNaN || a.lowF < 0 || a.highF > kLargest) return {};
+    if (a.mayBeNaN || a.lowF < 0 || a.highF > kLargest) return kAnyFloat;
     return widened(std::sqrt(a.lowF), std::sqrt(a.highF));
 }
 
 ValueRange absolute(const ValueRange& a) {
-    if (a.low == Ints::min()) return {};
+    if (a.low == Ints::min()) return kAnyInt;
     const std::int32_t low = std::abs(a.low), high = std::abs(a.high);
     const bool crosses = a.low < 0 && a.high > 0;
     return intRange(crosses ? 0 : std::min(low, high), std::max(low, high));
@@ -81,25 +81,25 @@ ValueRange absoluteF(const ValueRange& a) {
 // Where one is NaN the result is the first.
 template <class Function>
 ValueRange minOrMax(Args a, Function f) {
-    if (a[0].mayBeNaN || a[1].mayBeNaN) return unite(a[0], a[1]);
+    if (a[0].mayBeNaN || a[1].mayBeNaN) return unite(Type::Float, a[0], a[1]);
     return floatRange(f(a[0].lowF, a[1].lowF), f(a[0].highF, a[1].highF));
 }
 
 ValueRange bitAnd(const ValueRange& a, const ValueRange& b) {
     if (a.low >= 0 && b.low >= 0) return intRange(0, std::min(a.high, b.high));
     if (a.low >= 0) return intRange(0, a.high);
-    return b.low >= 0 ? intRange(0, b.high) : ValueRange{};
+    return b.low >= 0 ? intRange(0, b.high) : kAnyInt;
 }
 
 // Or and exclusive or: no bit above the highest one of both.
 ValueRange bitOr(const ValueRange& a, const ValueRange& b) {
-    if (a.low < 0 || b.low < 0) return {};
+    if (a.low < 0 || b.low < 0) return kAnyInt;
     const auto highest = static_cast<std::uint32_t>(std::max(a.high, b.high));
     return intRange(0, static_cast<std::int32_t>((std::uint64_t{1} << std::bit_width(highest)) - 1));
 }
 
 ValueRange shift(Op op, Args a) {
-    if (!isCertain(a[1])) return {};
+    if (!isCertain(a[1])) return kAnyInt;
     const int by = a[1].low & 31;
     if (op == Op::ShiftRightI) return intRange(a[0].low >> by, a[0].high >> by);
     return unlessWrapped(std::int64_t{a[0].low} * (std::int64_t{1} << by),
@@ -107,18 +107,18 @@ ValueRange shift(Op op, Args a) {
 }
 
 ValueRange toInt(const ValueRange& a) {
-    if (a.mayBeNaN || a.lowF < -2147483648.0f || a.highF >= 2147483648.0f) return {};
+    if (a.mayBeNaN || a.lowF < -2147483648.0f || a.highF >= 2147483648.0f) return kAnyInt;
     return intRange(static_cast<std::int32_t>(a.lowF), static_cast<std::int32_t>(a.highF));
 }
 
 // Bits rise with floats that are not negative. -0 is no such float.
 ValueRange floatBits(const ValueRange& a) {
-    if (a.mayBeNaN || a.lowF <= 0) return {};
+    if (a.mayBeNaN || a.lowF <= 0) return kAnyInt;
     return intRange(asInt(bitsOf(a.lowF)), asInt(bitsOf(a.highF)));
 }
 
 ValueRange bitsFloat(const ValueRange& a) {
-    if (a.low < 0 || a.high > asInt(bitsOf(kInfinity))) return {};
+    if (a.low < 0 || a.high > asInt(bitsOf(kInfinity))) return kAnyFloat;
     return floatRange(asFloat(bitsOf(a.low)), asFloat(bitsOf(a.high)));
 }
 
@@ -147,7 +147,7 @@ ValueRange floatResult(Op op, Args a) {
         case Op::AbsF:
             return absoluteF(a[0]);
         case Op::FloorF:
-            return isFinite(a[0]) ? floatRange(std::floor(a[0].lowF), std::floor(a[0].highF)) : ValueRange{};
+            return isFinite(a[0]) ? floatRange(std::floor(a[0].lowF), std::floor(a[0].highF)) : kAnyFloat;
         case Op::SqrtF:
             return squareRoot(a[0]);
         case Op::IntToFloat:
@@ -155,7 +155,7 @@ ValueRange floatResult(Op op, Args a) {
         case Op::BitsFloat:
             return bitsFloat(a[0]);
         default:
-            return {};
+            return kAnyFloat;
     }
 }
 
@@ -174,7 +174,7 @@ ValueRange intResult(Op op, Args a) {
         case Op::AbsI:
             return absolute(a[0]);
         case Op::FloorDivideI:
-            if (a[1].low < 1) return {};
+            if (a[1].low < 1) return kAnyInt;
             return cornersOf(a, [](std::int64_t p, std::int64_t q) { return p / q - (p % q < 0 ? 1 : 0); });
         case Op::AndI:
             return bitAnd(a[0], a[1]);
@@ -189,7 +189,7 @@ ValueRange intResult(Op op, Args a) {
         case Op::FloatBits:
             return floatBits(a[0]);
         default:
-            return {};
+            return kAnyInt;
     }
 }
 
@@ -213,7 +213,7 @@ ValueRange boolResult(Op op, Args a) {
         case Op::Not:
             return intRange(-1 - a[0].high, -1 - a[0].low);
         default:
-            return unknownRange(Type::Bool);
+            return kAnyBool;
     }
 }
 
@@ -222,12 +222,12 @@ ValueRange boolResult(Op op, Args a) {
 ValueRange rangeOf(Type type, Bits value) {
     if (type != Type::Float) return intRange(asInt(value), asInt(value));
     const float f = asFloat(value);
-    return std::isnan(f) ? ValueRange{} : floatRange(f, f);
+    return std::isnan(f) ? kAnyFloat : floatRange(f, f);
 }
 
 ValueRange rangeOf(Type type, std::span<const Bits> values) {
     ValueRange r = rangeOf(type, values[0]);
-    for (const Bits value : values.subspan(1)) r = unite(r, rangeOf(type, value));
+    for (const Bits value : values.subspan(1)) r = unite(type, r, rangeOf(type, value));
     return r;
 }
 
@@ -237,20 +237,19 @@ bool contains(const ValueRange& range, Type type, Bits value) {
     return std::isnan(f) ? range.mayBeNaN : f >= range.lowF && f <= range.highF;
 }
 
-ValueRange unite(const ValueRange& a, const ValueRange& b) {
-    ValueRange r = intRange(std::min(a.low, b.low), std::max(a.high, b.high));
-    r.lowF = std::min(a.lowF, b.lowF);
-    r.highF = std::max(a.highF, b.highF);
+ValueRange unite(Type type, const ValueRange& a, const ValueRange& b) {
+    ValueRange r = type == Type::Float ? floatRange(std::min(a.lowF, b.lowF), std::max(a.highF, b.highF))
+                                       : intRange(std::min(a.low, b.low), std::max(a.high, b.high));
     r.mayBeNaN = a.mayBeNaN || b.mayBeNaN;
     r.mayNarrow = a.mayNarrow || b.mayNarrow;
     return r;
 }
 
 ValueRange resultRange(Op op, Type type, std::span<const ValueRange> args) {
-    ValueRange r;
+    ValueRange r = kAnyInt;
     if (op == Op::Select || op == Op::Phi) {
         if (isCertain(args[0])) return args[0].low != 0 ? args[1] : args[2];
-        r = unite(args[1], args[2]);
+        r = unite(type, args[1], args[2]);
     } else if (type == Type::Float) {
         r = floatResult(op, args);
     } else {
@@ -266,7 +265,7 @@ ValueRange perlin3DRange(const NoiseCall& call) {
     float sum = 0;
     for (const float weight : call.weights) sum += std::abs(weight);
     const float most = sum * 1.5f * 1.001f;
-    return most < kInfinity ? floatRange(-most, most) : ValueRange{};
+    return most < kInfinity ? floatRange(-most, most) : kAnyFloat;
 }
 
 }  // namespace terrane::gen

@@ -15,33 +15,37 @@
 namespace terrane::gen {
 
 struct ValueRange {
-    // Int: as they are. Bool: 0 and -1, a lane's bits as a number.
-    std::int32_t low = std::numeric_limits<std::int32_t>::min();
-    std::int32_t high = std::numeric_limits<std::int32_t>::max();
-    // Float: what is not NaN. Zeros are equal whatever their signs.
-    float lowF = -std::numeric_limits<float>::infinity();
-    float highF = std::numeric_limits<float>::infinity();
-    bool mayBeNaN = true;
-    // Fewer layers may have a smaller range.
-    bool mayNarrow = false;
-
-    bool operator==(const ValueRange&) const = default;
+    // Which ones hold is the type of the value's node to know.
+    union {
+        std::int32_t low;  // Int: as it is. Bool: 0 and -1, a lane's bits as a number.
+        float lowF;        // of what is not NaN; zeros are equal whatever their signs
+    };
+    union {
+        std::int32_t high;
+        float highF;
+    };
+    bool mayBeNaN;
+    bool mayNarrow;  // fewer layers may have a smaller range
 };
 
-inline ValueRange unknownRange(Type type) {
-    ValueRange r;
-    if (type == Type::Bool) r.low = -1, r.high = 0;
-    return r;
+constexpr ValueRange intRange(std::int32_t low, std::int32_t high) {
+    return {.low = low, .high = high, .mayBeNaN = false, .mayNarrow = false};
 }
-inline ValueRange intRange(std::int32_t low, std::int32_t high) {
-    ValueRange r;
-    r.low = low, r.high = high;
-    return r;
+constexpr ValueRange floatRange(float low, float high) {
+    return {.lowF = low, .highF = high, .mayBeNaN = false, .mayNarrow = false};
 }
-inline ValueRange floatRange(float low, float high) {
-    ValueRange r;
-    r.lowF = low, r.highF = high, r.mayBeNaN = false;
-    return r;
+
+constexpr ValueRange kAnyInt =
+    intRange(std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max());
+constexpr ValueRange kAnyBool = intRange(-1, 0);
+constexpr ValueRange kAnyFloat = {.lowF = -std::numeric_limits<float>::infinity(),
+                                  .highF = std::numeric_limits<float>::infinity(),
+                                  .mayBeNaN = true,
+                                  .mayNarrow = false};
+
+constexpr ValueRange unknownRange(Type type) {
+    if (type == Type::Float) return kAnyFloat;
+    return type == Type::Int ? kAnyInt : kAnyBool;
 }
 // Of one value.
 ValueRange rangeOf(Type type, Bits value);
@@ -53,8 +57,8 @@ inline bool isCertain(const ValueRange& intOrBool) {
 }
 bool contains(const ValueRange& range, Type type, Bits value);
 
-// Of either.
-ValueRange unite(const ValueRange& a, const ValueRange& b);
+// Of either of two values of a type.
+ValueRange unite(Type type, const ValueRange& a, const ValueRange& b);
 
 // The result of an operation that is a function of its arguments (record(op).evaluate). `type` is its
 // result's. Select and Phi: the condition, then both sides.

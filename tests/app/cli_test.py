@@ -308,7 +308,11 @@ class Generate(ProgramTest):
         self.assertNotIn("digest", json.loads(self.succeed("generate", "--radius", "0", "--json")))
 
     def test_explain(self):
-        self.assertIn("pass 0", self.succeed("generate", "--explain", *FLAT))
+        text = self.succeed("generate", "--explain", "--area", "3,4,4,5", *FLAT)
+        self.assertIn("pass 0", text)
+        self.assertIn("chunk 3,4", text)
+        layers = [line for line in text.splitlines() if ": layers: " in line]
+        self.assertEqual(sum(int(n) for n in re.findall(r"(?:: |, )(\d+) [a-z]", layers[0])), 256)
 
 
 class Map(ProgramTest):

@@ -47,15 +47,19 @@ class PassRunner {
         return results;
     }
 
-    std::unique_ptr<BlockArray> run3D(std::size_t pass) {
+    std::unique_ptr<BlockArray> run3D(std::size_t pass, bool shortens = true) {
         const VoxelPass voxelPass(graph.passes[pass], graph.noises);
         auto result = std::make_unique<BlockArray>();
         writtenFields.resize(graph.passes[pass].fields.size());
         std::vector<ColumnValues*> pointers;
         for (ColumnValues& values : writtenFields) pointers.push_back(&values);
+        executor().setShortens(shortens);
         executor().run3D(voxelPass, inputs(), *result, pointers);
         return result;
     }
+
+    std::vector<SlabRun> slabs() const { return {executor_->slabs().begin(), executor_->slabs().end()}; }
+    const LayerRanges& layerRanges() const { return executor_->layerRanges(); }
 
     GeneratorGraph graph;
     Seeds seeds;

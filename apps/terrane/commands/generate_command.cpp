@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +15,7 @@
 #include "terrane/base/log.h"
 #include "terrane/base/progress_bar.h"
 #include "terrane/content/built_in.h"
+#include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/glsl_emitter.h"
 #include "terrane/gen/kernels.h"
@@ -114,8 +116,45 @@ class AreaGenerator {
     Generated result_;
 };
 
+// "ground: 155 layers filled, 6 copied, 95 computed with 11 of 24 instructions" of a chunk's 3D pass.
+std::string described(const gen::PassReport& report, const std::string& name) {
+    using Way = gen::SlabRun::Way;
+    std::map<Way, int> layers;
+    std::size_t instructions = 0;
+    for (const gen::SlabRun& slab : report.slabs) {
+        layers[slab.way] += slab.count;
+        if (slab.way == Way::Short) instructions += slab.instructions * static_cast<std::size_t>(slab.count);
+    }
+    std::vector<std::string> parts;
+    const auto add = [&](Way way, const std::string& words) {
+        if (layers[way] > 0) parts.push_back(fmt::format("{} {}", layers[way], words));
+    };
+    add(Way::Filled, "filled");
+    add(Way::Copied, "copied from the pass before");
+    add(Way::Repeated, "like the layer below");
+    if (const int count = layers[Way::Short]) {
+        const double mean = static_cast<double>(instructions) / count;
+        add(Way::Short,
+            fmt::format("computed with {:.0f} of {} instructions", mean, report.wholeInstructions));
+    }
+    add(Way::Whole, fmt::format("computed with all {} instructions", report.wholeInstructions));
+    return fmt::format("{}: layers: {}", name, fmt::join(parts, ", "));
+}
+
+// How much of each 3D pass the CPU leaves out, in one chunk.
+void explainChunk(const gen::GeneratorGraph& graph, std::uint64_t seed, world::ChunkPos pos) {
+    std::vector<gen::PassReport> reports;
+    gen::Generator(graph, seed).generate(pos, reports);
+    fmt::print("// chunk {},{}\n", pos.x, pos.y);
+    for (const gen::PassReport& report : reports) {
+        const std::string& name = graph.passes[static_cast<std::size_t>(report.pass)].name;
+        fmt::print("// {}\n", described(report, name));
+    }
+}
+
 // The passes, what they read and write, and their GLSL.
-base::Result<void> explain(const WorldOptions& options, const world::BlockRegistry& blocks) {
+base::Result<void> explain(const WorldOptions& options, const world::BlockRegistry& blocks,
+                           world::ChunkPos chunk) {
     auto graph = gen::makeGenerator(options.effectiveGenerator(), blocks);
     if (!graph) return tl::unexpected(graph.error());
     for (std::size_t k = 0; k < graph->passes.size(); ++k) {
@@ -128,6 +167,7 @@ base::Result<void> explain(const WorldOptions& options, const world::BlockRegist
             fmt::print("// reads around field {}\n", graph->fields[f].name);
         fmt::print("{}\n", gen::emitGlsl(*graph, k));
     }
+    explainChunk(*graph, options.effectiveSeed(), chunk);
     return {};
 }
 
@@ -161,7 +201,12 @@ base::Result<void> generate(GenerateOptions& options) {
     const world::ChunkArea area = options.area.value_or(world::ChunkArea{-r, -r, r + 1, r + 1});
     auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
-    if (options.explain) return explain(options.world, *blocks);
+    if (options.explain) {
+        // The first chunk of the area asked for.
+        const world::ChunkPos chunk =
+            options.area ? world::ChunkPos{area.x0, area.y0} : world::ChunkPos{0, 0};
+        return explain(options.world, *blocks, chunk);
+    }
     if (!gen::chooseSimdTarget(options.simd)) {
         return base::fail("--simd: this machine has no {}, but {}", options.simd,
                           fmt::join(gen::simdTargets(), ", "));
@@ -190,7 +235,9 @@ CommandEntry addGenerate(CLI::App& app) {
     command->get_option("--area")->excludes(radius);
     command->add_flag("--digest", options->digest, "Print one hash over all blocks");
     command->add_flag("--json", options->json, "Print the result as JSON");
-    command->add_flag("--explain", options->explain, "Print the generator's passes and their GLSL instead");
+    command->add_flag(
+        "--explain", options->explain,
+        "Print the generator's passes, their GLSL and what the CPU leaves out in a chunk instead");
     addBackendOption(*command, options->backend, "Where to generate");
     command->add_option("--simd", options->simd, "Instruction set, as info lists them (default: the best)");
     addWorldOptions(*command, options->world);

@@ -1,0 +1,80 @@
+#include "terrane/gen/value_range.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "terrane/gen/perlin_tile.h"
+#include "tests/gen/random_graph.h"
+
+namespace terrane::gen {
+namespace {
+
+// Values of a type: a few near each other, or anything.
+std::vector<Bits> randomValues(Type type, std::mt19937& random) {
+    std::vector<Bits> values(1 + random() % 4);
+    for (Bits& v : values) v = randomBits(type, random);
+    if (type == Type::Int && random() % 2 == 0) {
+        for (Bits& v : values) v = values[0] + random() % 9;
+    }
+    return values;
+}
+
+// Whatever arguments are taken from what the ranges were made of: the result lies in its range.
+TEST(ValueRange, HoldsTheResultOfEveryOperation) {
+    std::mt19937 random(7);
+    int certain = 0;
+    for (auto k = static_cast<int>(Op::AddF); k <= static_cast<int>(Op::Phi); ++k) {
+        const OpRecord& r = record(static_cast<Op>(k));
+        for (int round = 0; round < 3000; ++round) {
+            const bool isChoice = r.op == Op::Select || r.op == Op::Phi;
+            const Type type = isChoice ? static_cast<Type>(random() % 3) : r.result;
+            std::vector<std::vector<Bits>> values;
+            std::vector<ValueRange> ranges;
+            for (std::size_t a = 0; a < r.argCount; ++a) {
+                const Type argType = isChoice && a > 0 ? type : r.argTypes[a];
+                values.push_back(randomValues(argType, random));
+                ranges.push_back(rangeOf(argType, values.back()));
+            }
+            const ValueRange range = resultRange(r.op, type, ranges);
+            if (type != Type::Float && isCertain(range)) ++certain;
+            for (int n = 0; n < 8; ++n) {
+                std::vector<Bits> args;
+                for (const auto& v : values) args.push_back(v[random() % v.size()]);
+                const Bits result = r.evaluate(args);
+                ASSERT_TRUE(contains(range, type, result)) << r.name << ", round " << round << ": " << result;
+            }
+        }
+    }
+    EXPECT_GT(certain, 5000) << "ranges that always say \"anything\" are of no use";
+}
+
+TEST(ValueRange, SumsThatMayWrapAreUnknown) {
+    const ValueRange sum[] = {intRange(0, std::numeric_limits<std::int32_t>::max()), intRange(0, 1)};
+    EXPECT_EQ(resultRange(Op::AddI, Type::Int, sum).low, std::numeric_limits<std::int32_t>::min());
+}
+
+TEST(ValueRange, ComparisonsWithNaNAreNeverCertainlyTrue) {
+    ValueRange maybe = floatRange(1, 2);
+    maybe.mayBeNaN = true;
+    const ValueRange args[] = {maybe, floatRange(5, 6)};
+    EXPECT_FALSE(isCertain(resultRange(Op::LessF, Type::Bool, args)));
+    const ValueRange never[] = {floatRange(5, 6), maybe};
+    EXPECT_EQ(resultRange(Op::LessF, Type::Bool, never).high, 0);
+    EXPECT_TRUE(isCertain(resultRange(Op::LessF, Type::Bool, never)));
+}
+
+// The blend at the middle of a cell with the worst gradients gives 1.0; none may pass the bound.
+TEST(ValueRange, BoundsPerlinNoise) {
+    const NoiseCall call{NoiseKind::Perlin3D, "n", 8, {1.0f, -0.5f}};
+    const ValueRange range = perlin3DRange(call);
+    EXPECT_GE(range.highF, 1.5f * 1.5f);
+    EXPECT_EQ(range.lowF, -range.highF);
+    EXPECT_FALSE(range.mayBeNaN);
+}
+
+}  // namespace
+}  // namespace terrane::gen
