@@ -90,12 +90,8 @@ struct Generator::Impl {
 
     GeneratorGraph graph;
     Seeds seeds;
-<<<<<<< HEAD
     DrainageMaps drainages;
-    std::vector<Program> programs;                               // by pass: of 2D ones
-=======
     std::vector<Program> programs;                              // by pass: of 2D ones
->>>>>>> w22-speed
     std::vector<std::unique_ptr<const VoxelPass>> voxelPasses;  // by pass: of 3D ones
     int shared;                                                 // passes
     PassCache cache;

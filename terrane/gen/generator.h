@@ -64,14 +64,12 @@ class Generator {
     // coordinates wrap.
     world::Chunk generate(world::ChunkPos pos) const;
 
-<<<<<<< HEAD
+    // The same, and how its 3D passes went as far as neighbors had not asked for them.
+    world::Chunk generate(world::ChunkPos pos, std::vector<PassReport>& report) const;
+
     // What 2D passes write to a field in the chunk's columns, x + 16 y, of a graph that has no 3D passes
     // (tint_graph.h). Threads and errors as generate().
     std::array<Bits, 256> columns(world::ChunkPos pos, std::uint32_t field) const;
-=======
-    // The same, and how its 3D passes went as far as neighbors had not asked for them.
-    world::Chunk generate(world::ChunkPos pos, std::vector<PassReport>& report) const;
->>>>>>> w22-speed
 
     const std::string& name() const;
     int level() const;
