@@ -18,9 +18,12 @@ HWY_INLINE VU hash2Lanes(VU x, VU y, VU seed) {
     return mixBits(hn::Xor(half, hn::Mul(y, hn::Set(du, shared::kHashY))));
 }
 
-// √2·(cos, sin) of (k + ½)·22.5°, k the upper four bits, times (x, y): the first quadrant's four directions,
-// then turned.
-HWY_INLINE VF gradientDot(VU hash, VF x, VF y) {
+struct Gradients {
+    VF x, y;
+};
+
+// √2·(cos, sin) of (k + ½)·22.5°, k the upper four bits: the first quadrant's four directions, then turned.
+HWY_INLINE Gradients gradients(VU hash) {
     const auto bit = [&](int n) {
         return hn::RebindMask(df, hn::TestBit(hash, hn::Set(du, 1u << (28 + n))));
     };
@@ -35,54 +38,111 @@ HWY_INLINE VF gradientDot(VU hash, VF x, VF y) {
     const VF turnedX = hn::IfThenElse(isTurned, hn::Neg(gy), gx), turnedY = hn::IfThenElse(isTurned, gx, gy);
     const VF signedX = hn::IfThenElse(isOpposite, hn::Neg(turnedX), turnedX);
     const VF signedY = hn::IfThenElse(isOpposite, hn::Neg(turnedY), turnedY);
-    return hn::Add(hn::Mul(signedX, x), hn::Mul(signedY, y));
+    return {signedX, signedY};
 }
 
-HWY_INLINE VF simplexCorner(VU hash, VF x, VF y) {
+HWY_INLINE VF simplexCorner(const Gradients& g, VF x, VF y) {
     const VF left = hn::Sub(hn::Set(df, 0.5f), hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
     const VF t = hn::Max(left, hn::Zero(df)), t2 = hn::Mul(t, t);
-    return hn::Mul(hn::Mul(t2, t2), gradientDot(hash, x, y));
+    return hn::Mul(hn::Mul(t2, t2), hn::Add(hn::Mul(g.x, x), hn::Mul(g.y, y)));
 }
 
-HWY_INLINE VF simplexSample(const Simplex2DTile::Octave& o, int row, std::size_t lane) {
-    const auto r = static_cast<std::size_t>(row);
-    const VF fx = hn::Load(df, o.x.cells.data() + lane), fy = hn::Set(df, o.y.cells[r]);
+HWY_INLINE Gradients gradientsAt(VU x, VU y, VU seed) {
+    return gradients(hash2Lanes(x, y, seed));
+}
+
+HWY_INLINE Gradients choose(hn::Mask<DF> first, const Gradients& a, const Gradients& b) {
+    return {hn::IfThenElse(first, a.x, b.x), hn::IfThenElse(first, a.y, b.y)};
+}
+
+// Where a row of columns lies in the lattice.
+struct SimplexCells {
+    VF x0, y0;  // from the cell's corner
+    VU x, y;    // cells, modulo 2^32
+};
+
+HWY_INLINE SimplexCells simplexCells(const Simplex2DTile::Octave& o, std::size_t row, std::size_t lane) {
+    const VF fx = hn::Load(df, o.x.cells.data() + lane), fy = hn::Set(df, o.y.cells[row]);
     const VF skew = hn::Mul(hn::Add(fx, fy), hn::Set(df, kSimplexSkew));
     const VF i = hn::Floor(hn::Add(fx, skew)), j = hn::Floor(hn::Add(fy, skew));
     const VF unskew = hn::Mul(hn::Add(i, j), hn::Set(df, kSimplexUnskew));
-    const VF x0 = hn::Sub(fx, hn::Sub(i, unskew)), y0 = hn::Sub(fy, hn::Sub(j, unskew));
-    const VI periodX = hn::Load(di, o.x.period.data() + lane), periodY = hn::Set(di, o.y.period[r]);
+    const VI periodX = hn::Load(di, o.x.period.data() + lane), periodY = hn::Set(di, o.y.period[row]);
     const VI shift = hn::Mul(hn::Add(periodX, periodY), hn::Set(di, kSimplexShift));
     const auto cell = [&](VI period, VF whole) HWY_ATTR {
         const VI before = hn::Add(hn::Mul(period, hn::Set(di, kSimplexPeriod)), shift);
         return hn::BitCast(du, hn::Add(before, hn::ConvertTo(di, whole)));
     };
-    const VU cellX = cell(periodX, i), cellY = cell(periodY, j), one = hn::Set(du, 1u),
-             seed = hn::Set(du, o.seed);
-    const VF oneF = hn::Set(df, 1.0f);
-    const auto isRight = hn::Gt(x0, y0);
-    const VF rightF = hn::IfThenElseZero(isRight, oneF), upF = hn::Sub(oneF, rightF);
-    const VU right = hn::And(hn::BitCast(du, hn::VecFromMask(df, isRight)), one), up = hn::Sub(one, right);
+    return {hn::Sub(fx, hn::Sub(i, unskew)), hn::Sub(fy, hn::Sub(j, unskew)), cell(periodX, i),
+            cell(periodY, j)};
+}
+
+// The gradients at the corners of a cell: its own, those to its right and above, and the opposite one.
+struct SimplexCorners {
+    Gradients own, right, up, opposite;
+};
+
+HWY_INLINE SimplexCorners simplexCorners(VU x, VU y, VU seed) {
+    const VU one = hn::Set(du, 1u), x1 = hn::Add(x, one), y1 = hn::Add(y, one);
+    return {gradientsAt(x, y, seed), gradientsAt(x1, y, seed), gradientsAt(x, y1, seed),
+            gradientsAt(x1, y1, seed)};
+}
+
+HWY_INLINE VF simplexSum(const SimplexCells& cells, hn::Mask<DF> isRight, const Gradients& own,
+                         const Gradients& middle, const Gradients& opposite) {
+    const VF one = hn::Set(df, 1.0f), right = hn::IfThenElseZero(isRight, one), up = hn::Sub(one, right);
     const auto from = [&](VF offset, VF steps, float unskewed)
                           HWY_ATTR { return hn::Add(hn::Sub(offset, steps), hn::Set(df, unskewed)); };
-    const VF first = simplexCorner(hash2Lanes(cellX, cellY, seed), x0, y0);
-    const VF second = simplexCorner(hash2Lanes(hn::Add(cellX, right), hn::Add(cellY, up), seed),
-                                    from(x0, rightF, kSimplexUnskew), from(y0, upF, kSimplexUnskew));
-    const VF third =
-        simplexCorner(hash2Lanes(hn::Add(cellX, one), hn::Add(cellY, one), seed),
-                      from(x0, oneF, 2.0f * kSimplexUnskew), from(y0, oneF, 2.0f * kSimplexUnskew));
+    const VF first = simplexCorner(own, cells.x0, cells.y0);
+    const VF second =
+        simplexCorner(middle, from(cells.x0, right, kSimplexUnskew), from(cells.y0, up, kSimplexUnskew));
+    const VF third = simplexCorner(opposite, from(cells.x0, one, 2.0f * kSimplexUnskew),
+                                   from(cells.y0, one, 2.0f * kSimplexUnskew));
     return hn::Mul(hn::Set(df, kSimplexScale), hn::Add(hn::Add(first, second), third));
+}
+
+// Gives write(row, lane, value) for each vector. Wide cells hold whole rows: their gradients are found once
+// for many rows.
+template <class Write>
+HWY_INLINE void simplexOctave(const Simplex2DTile::Octave& o, const RowList& rows, Operand dst, Write write) {
+    const VU seed = hn::Set(du, o.seed);
+    std::uint32_t knownX = 0, knownY = 0;
+    bool isKnown = false;
+    SimplexCorners corners{};
+    forEachVector(rows, dst, [&](int row, std::size_t lane) HWY_ATTR {
+        const SimplexCells cells = simplexCells(o, static_cast<std::size_t>(row), lane);
+        const auto isRight = hn::Gt(cells.x0, cells.y0);
+        const std::uint32_t x = hn::GetLane(cells.x), y = hn::GetLane(cells.y);
+        const bool isOneCell =
+            hn::AllTrue(du, hn::And(hn::Eq(cells.x, hn::Set(du, x)), hn::Eq(cells.y, hn::Set(du, y))));
+        if (isOneCell) {
+            if (!isKnown || x != knownX || y != knownY) corners = simplexCorners(cells.x, cells.y, seed);
+            isKnown = true;
+            knownX = x;
+            knownY = y;
+            const Gradients middle = choose(isRight, corners.right, corners.up);
+            return write(row, lane, simplexSum(cells, isRight, corners.own, middle, corners.opposite));
+        }
+        const VU one = hn::Set(du, 1u);
+        const VU right = hn::And(hn::BitCast(du, hn::VecFromMask(df, isRight)), one),
+                 up = hn::Sub(one, right);
+        write(row, lane,
+              simplexSum(cells, isRight, gradientsAt(cells.x, cells.y, seed),
+                         gradientsAt(hn::Add(cells.x, right), hn::Add(cells.y, up), seed),
+                         gradientsAt(hn::Add(cells.x, one), hn::Add(cells.y, one), seed)));
+    });
 }
 
 void simplex2D(const Instruction& i, TileContext& c, const RowList& rows) {
     const auto& octaves = c.simplex2D[i.imm].octaves;
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) HWY_ATTR {
-        VF sum = hn::Mul(simplexSample(octaves[0], row, lane), hn::Set(df, octaves[0].weight));
-        for (std::size_t o = 1; o < octaves.size(); ++o) {
-            sum = hn::Add(sum, hn::Mul(simplexSample(octaves[o], row, lane), hn::Set(df, octaves[o].weight)));
-        }
-        storeBits(sum, rowOf(c.arena, i.dst, row) + lane);
-    });
+    const RowsOf out(c.arena, i.dst);
+    for (std::size_t n = 0; n < octaves.size(); ++n) {
+        const VF weight = hn::Set(df, octaves[n].weight);
+        simplexOctave(octaves[n], rows, i.dst, [&](int row, std::size_t lane, VF noise) HWY_ATTR {
+            const VF term = hn::Mul(noise, weight);
+            Bits* const sum = out.at(row, lane);
+            storeBits(n == 0 ? term : hn::Add(loadF(sum), term), sum);
+        });
+    }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,5 +1,7 @@
 #include "terrane/gen/simplex_tile.h"
 
+#include <limits>
+
 namespace terrane::gen {
 namespace {
 
@@ -8,15 +10,24 @@ SimplexAxis simplexAxis(std::int32_t first, std::int32_t step, std::int32_t size
     const std::int32_t periodBlocks = kSimplexPeriod * size;
     const float inverseSize = 1.0f / static_cast<float>(size);
     SimplexAxis axis;
+    std::uint32_t position = static_cast<std::uint32_t>(first);
+    std::int32_t period = 0, rest = 0;
     for (std::size_t k = 0; k < kTileSize; ++k) {
-        // Coordinates wrap at the world's edge.
-        const auto position =
-            static_cast<std::int32_t>(static_cast<std::uint32_t>(first) +
-                                      static_cast<std::uint32_t>(k) * static_cast<std::uint32_t>(step));
-        const std::int32_t quotient = position / periodBlocks, rest = position % periodBlocks;
-        const bool isBelow = rest < 0;
-        axis.period[k] = quotient - (isBelow ? 1 : 0);
-        axis.cells[k] = static_cast<float>(isBelow ? rest + periodBlocks : rest) * inverseSize;
+        const auto at = static_cast<std::int32_t>(position);
+        const bool wraps = at < std::numeric_limits<std::int32_t>::min() + step;  // at the world's edge
+        if (k == 0 || wraps) {
+            period = at / periodBlocks;
+            rest = at % periodBlocks;
+        }
+        if (rest < 0 || rest >= periodBlocks) {
+            const std::int32_t by = rest < 0 ? -1 : 1;
+            period += by;
+            rest -= by * periodBlocks;
+        }
+        axis.period[k] = period;
+        axis.cells[k] = static_cast<float>(rest) * inverseSize;
+        position += static_cast<std::uint32_t>(step);
+        rest += step;
     }
     return axis;
 }
