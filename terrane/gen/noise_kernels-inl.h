@@ -20,7 +20,7 @@ void hash(const Instruction& i, TileContext& c, const RowList& rows) {
     constexpr std::uint32_t kFactors[] = {shared::kHashX, shared::kHashY, shared::kHashZ};
     const std::size_t argCount = i.op == Op::Hash2 ? 2 : 3;
     const VU seed = hn::Set(du, c.hashSeeds[hashSlot(i.imm)] + octaveSeedStep(hashOctave(i.imm)));
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) {
+    forEachCostlyVector(rows, i.dst, [&](int row, std::size_t lane) {
         VU h = seed;
         for (std::size_t k = 0; k < argCount; ++k) {
             const VU v = hn::Load(du, rowOf(c.arena, i.args[k], row) + lane);
@@ -44,7 +44,7 @@ HWY_INLINE VF perlinSample(const PerlinOctave& o, int row, std::size_t lane) {
 
 void perlin2D(const Instruction& i, TileContext& c, const RowList& rows) {
     const auto& octaves = c.perlin2D[i.imm].octaves;
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) {
+    forEachCostlyVector(rows, i.dst, [&](int row, std::size_t lane) {
         VF sum = hn::Mul(perlinSample(octaves[0], row, lane), hn::Set(df, octaves[0].weight));
         for (std::size_t o = 1; o < octaves.size(); ++o) {
             sum = hn::Add(sum, hn::Mul(perlinSample(octaves[o], row, lane), hn::Set(df, octaves[o].weight)));

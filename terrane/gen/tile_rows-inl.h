@@ -67,6 +67,16 @@ HWY_INLINE void forEachVector(const RowList& rows, Operand dst, Function f) {
     }
 }
 
+// The same for costly functions, which become part of this loop only where it is the only one.
+template <class Function>
+HWY_INLINE void forEachCostlyVector(const RowList& rows, Operand dst, Function f) {
+    const int count = dst.rowStep ? rows.count : 1;
+    for (int k = 0; k < count; ++k) {
+        const int row = dst.rowStep ? rows.rows[k] : 0;
+        for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(di)) f(row, lane);
+    }
+}
+
 HWY_INLINE VF loadF(const Bits* p) {
     return hn::BitCast(df, hn::Load(du, p));
 }

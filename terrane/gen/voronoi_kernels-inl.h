@@ -28,7 +28,7 @@ HWY_INLINE void voronoi2DColumns(const Instruction& i, TileContext& c, const Row
         const Operand o{static_cast<std::uint16_t>(i.dst.row + number * kTileSize), 1};
         return rowOf(c.arena, o, row) + lane;
     };
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) {
+    forEachCostlyVector(rows, i.dst, [&](int row, std::size_t lane) {
         const std::int32_t firstX = static_cast<std::int32_t>(lane) * step, rowY = row * step;
         const std::int32_t lastX = firstX + (static_cast<std::int32_t>(hn::Lanes(di)) - 1) * step;
         VI x = hn::Iota(di, static_cast<std::int32_t>(lane));
@@ -78,7 +78,7 @@ void voronoi3D(const Instruction& i, TileContext& c, const RowList& rows) {
         const Operand o{static_cast<std::uint16_t>(i.dst.row + number * kTileSize), 1};
         return rowOf(c.arena, o, row) + lane;
     };
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) HWY_ATTR {
+    forEachCostlyVector(rows, i.dst, [&](int row, std::size_t lane) HWY_ATTR {
         const VI x = hn::Mul(hn::Iota(di, static_cast<std::int32_t>(lane)), hn::Set(di, step));
         const std::int32_t rowY = row * step;
         VF best = hn::Set(df, std::numeric_limits<float>::max()), second = best;
