@@ -69,7 +69,7 @@ void viewOfChunks(benchmark::State& state, bool isNew) {
     base::Digest digest;
     for (auto _ : state) {
         if (isNew) maps = std::make_unique<gen::DrainageMaps>(graph.drainages, kSeed);
-        gen::Executor executor(graph.noises, seeds, maps.get());
+        gen::Executor executor(graph.noises, seeds, {.drainages = maps.get()});
         digest = {};
         for (int k = 0; k < kSide * kSide; ++k) {
             inputs.chunk = {k % kSide + 100, k / kSide + 200, static_cast<std::uint8_t>(level)};

@@ -21,14 +21,15 @@ namespace terrane::app {
 struct WorldOptions {
     // Where none is given: those of the world that is opened, or these of a new one.
     static constexpr std::uint64_t kDefaultSeed = 1;
-    static constexpr const char* kDefaultGenerator = "overworld";
+    static constexpr const char* kDefaultGenerator = "continents";
 
     std::optional<std::uint64_t> seed;
     std::optional<std::string> generator;
+    std::string otherwise = kDefaultGenerator;  // a scene's, where a command draws one
     unsigned threads = 0;  // 0: as many as the machine has
 
     std::uint64_t effectiveSeed() const { return seed.value_or(kDefaultSeed); }
-    std::string effectiveGenerator() const { return generator.value_or(kDefaultGenerator); }
+    std::string effectiveGenerator() const { return generator.value_or(otherwise); }
 };
 
 // --world, --recreate, --regenerate, --store-generated.

@@ -55,4 +55,9 @@ base::Result<content::Scene> placeOf(const PlaceOptions& options, const content:
     return place;
 }
 
+WorldOptions worldOf(const PlaceOptions& place, WorldOptions world) {
+    if (place.scene) world.otherwise = content::kSceneGenerator;
+    return world;
+}
+
 }  // namespace terrane::app

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/terrane/option_values.h"
 #include "terrane/base/result.h"
 #include "terrane/content/scenes.h"
 
@@ -24,5 +25,8 @@ void addPlaceOptions(CLI::App& command, PlaceOptions& options);
 
 // `otherwise`: what the options do not say. Fails for a place outside the world.
 base::Result<content::Scene> placeOf(const PlaceOptions& options, const content::Scene& otherwise);
+
+// Where no generator is named, a scene's is meant.
+WorldOptions worldOf(const PlaceOptions& place, WorldOptions world);
 
 }  // namespace terrane::app

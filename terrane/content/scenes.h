@@ -1,4 +1,4 @@
-// The reference scenes: fixed places in the world of seed 1 with the character that measurements and images
+// The reference scenes: fixed places in the overworld of seed 1 with the character that measurements and images
 // need.
 #pragma once
 
@@ -14,6 +14,8 @@ struct Scene {
     world::Pose pose;
     float timeDay;
 };
+
+constexpr const char* kSceneGenerator = "overworld";
 
 std::span<const Scene> scenes();
 const Scene* findScene(std::string_view name);  // null where there is none

@@ -349,7 +349,7 @@ class Dump(ProgramTest):
             self.assertEqual(blocks.column(x, y), expected)
         self.assertEqual(sum(blocks.volume()), 32 * 48 * sum(expected))
 
-    def test_blocks_of_the_overworld_are_known(self):
+    def test_blocks_of_the_land_are_known(self):
         blocks = self.dump("blocks", "3,-2,5,0")
         self.assertEqual(blocks.shape, (32, 32, 256))
         found = set(blocks.volume())
@@ -370,7 +370,7 @@ class Dump(ProgramTest):
             self.assertEqual([value >> 12 for value in column], [0] * 81 + [15] * 175)
             self.assertEqual({value & 0xFFF for value in column}, {0}, "nothing shines")
 
-    def test_light_of_the_overworld_is_dark_in_stone(self):
+    def test_light_of_the_land_is_dark_in_stone(self):
         stone = self.ids()["stone"]
         blocks, light = self.dump("blocks", "0,0,1,1"), self.dump("light", "0,0,1,1")
         for block, level in zip(blocks.volume(), light.volume()):
@@ -396,7 +396,7 @@ class Dump(ProgramTest):
         top = (0, 0, 80, 5, 16, 16, material, 0, 5)  # the grass: a square of 16 × 16 that looks up
         self.assertEqual(values, [(-3, 5, *top), (-2, 5, *top)])
 
-    def test_quads_of_the_overworld(self):
+    def test_quads_of_the_land(self):
         quads = self.dump("quads", "0,0,2,2")
         self.assertGreater(quads.shape[0], 500)
         for k in range(quads.shape[0]):
@@ -460,7 +460,7 @@ class Saves(ProgramTest):
     def test_another_world_is_refused(self):
         self.generate("--world", self.save, "--seed", "5", "--radius", "0")
         before = self.save.read_bytes()
-        for arguments, hint in ((("--seed", "6"), "seed 5, not 6"), (FLAT, "generator overworld, not flat")):
+        for arguments, hint in ((("--seed", "6"), "seed 5, not 6"), (FLAT, "generator continents, not flat")):
             for more in ((), ("--recreate",)):
                 done = run("generate", "--world", self.save, "--radius", "0", *arguments, *more)
                 self.assertRefused(done, (arguments, more))
@@ -597,7 +597,7 @@ class Saves(ProgramTest):
         self.assertTrue(self.succeed("check", self.save).endswith("\ngood\n"))
         report = json.loads(self.succeed("check", self.save, "--json"))
         self.assertEqual((report["damaged"], report["chunks"], report["seed"]), (False, 9, 5))
-        self.assertEqual((report["format"], report["generator"]), (3, "overworld"))
+        self.assertEqual((report["format"], report["generator"]), (3, "continents"))
 
     def test_check_damaged(self):
         self.succeed("generate", "--world", self.save, "--radius", "1", *FLAT)
@@ -651,7 +651,7 @@ class Info(ProgramTest):
         self.assertEqual(text.count("\n"), 1)
         info = json.loads(text)
         self.assertLessEqual({"version", "processors", "simd", "generators", "graphics"}, set(info))
-        self.assertLessEqual({"overworld", "flat"}, set(info["generators"]))
+        self.assertLessEqual({"overworld", "continents", "flat"}, set(info["generators"]))
         self.assertGreaterEqual(info["processors"], 1)
         self.assertTrue(info["graphics"]["version"].startswith("4."))
         self.assertGreaterEqual(info["graphics"]["max_samples"], 4)

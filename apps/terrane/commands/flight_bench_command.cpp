@@ -90,7 +90,7 @@ base::Result<void> runFlightBench(const FlightBenchOptions& options) {
     if (options.output.empty() && !options.json) return base::fail("flight-bench needs --output or --json");
     auto flight = flightOf(options);
     if (!flight) return tl::unexpected(flight.error());
-    auto world = Offscreen::create({.world = options.world,
+    auto world = Offscreen::create({.world = worldOf(options.place, options.world),
                                     .save = options.save,
                                     .graphics = options.graphics,
                                     .backend = options.backend,

@@ -129,7 +129,7 @@ base::Result<void> renderImage(const RenderCommandOptions& options) {
     if (!options.place.scene && !options.place.at) return base::fail("render needs --scene or --at");
     const auto place = placeOf(options.place, {"", {}, content::scenes().front().timeDay});
     if (!place) return tl::unexpected(place.error());
-    auto world = Offscreen::create({.world = options.world,
+    auto world = Offscreen::create({.world = worldOf(options.place, options.world),
                                     .save = options.save,
                                     .graphics = options.graphics,
                                     .backend = options.backend});
