@@ -12,7 +12,7 @@ struct Color {
 
 // From cold to hot, dry and wet.
 constexpr Color kDry[] = {{0.52f, 0.53f, 0.36f}, {0.50f, 0.56f, 0.24f}, {0.72f, 0.64f, 0.33f}};
-constexpr Color kWet[] = {{0.31f, 0.47f, 0.30f}, {0.31f, 0.51f, 0.17f}, {0.27f, 0.53f, 0.12f}};
+constexpr Color kWet[] = {{0.31f, 0.47f, 0.30f}, {0.31f, 0.51f, 0.17f}, {0.25f, 0.48f, 0.13f}};
 
 }  // namespace
 

@@ -26,7 +26,7 @@ Float landNoise(Pass& p) {
 Float temperatureAt(Pass& p) {
     const Int inBelt = floorModulo(p.y(), kClimatePeriod);
     const Float belt = sin(Float(inBelt) * (2.0f * std::numbers::pi_v<float> / kClimatePeriod));
-    return belt * 0.78f + p.simplex2D("temperature", 512, {.05f, .1f, .2f, .5f}) * 0.55f;
+    return belt * 0.72f + p.simplex2D("temperature", 512, {.05f, .1f, .2f, .5f}) * 0.55f;
 }
 
 Float moistureAt(Pass& p, Float land) {

@@ -30,16 +30,16 @@ Int biomeOf(Pass& p, const Fields& f, const Site& s) {
                                  {m < 0.22f, is(Biome::Savanna)}},
                                 is(Biome::RainForest));
     const Bool isLow = s.height < kSea + 9.0f && s.steepness < 0.35f;
-    const Int temperate = multiSelect({{m < -0.18f, is(Biome::Meadow)},
-                                       {isLow && m > 0.02f, is(Biome::Swamp)},
-                                       {m > 0.3f, is(Biome::OldForest)},
-                                       {t < 0.03f, is(Biome::BirchForest)}},
+    const Int temperate = multiSelect({{m < -0.24f, is(Biome::Meadow)},
+                                       {isLow && m > 0.0f, is(Biome::Swamp)},
+                                       {m > 0.36f, is(Biome::OldForest)},
+                                       {t < 0.07f, is(Biome::BirchForest)}},
                                       is(Biome::OakForest));
     return multiSelect({{isSea && isReef, is(Biome::Reef)},
                         {isSea, is(Biome::Ocean)},
                         {isBeach, is(Biome::Beach)},
-                        {s.cold < -0.62f, is(Biome::Snow)},
-                        {p.read(f.mountains) > 0.2f && s.cold < t - 0.22f && t < 0.4f, is(Biome::Alpine)},
+                        {s.cold < -0.64f, is(Biome::Snow)},
+                        {p.read(f.mountains) > 0.2f && s.cold < t - 0.17f && t < 0.4f, is(Biome::Alpine)},
                         {s.cold < -0.42f, is(Biome::Tundra)},
                         {s.cold < -0.16f, is(Biome::Taiga)},
                         {t > 0.26f, hot}},
