@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "bench/bench_content.h"
+#include "terrane/gen/drainage_heights.h"
+#include "terrane/gen/drainage_network.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/generators/continents.h"
@@ -147,14 +149,48 @@ void addFine(Statistics& s, std::uint64_t seed) {
     }
 }
 
+struct Rivers {
+    long rivers = 0, reachSea = 0, reachLake = 0, rings = 0, leave = 0;  // nodes; `leave`: the window
+};
+
+// Follows the water of each river node of a window of 256×256 nodes, the same square as the columns.
+void addRivers(Rivers& r, std::uint64_t seed) {
+    constexpr int kNodes = 256, kMargin = gen::kNetworkMargin + 2, kWindow = (kNodes + 2 * kMargin) / 8 * 8;
+    const gen::GeneratorGraph graph = bench::orExit(gen::makeGenerator("continents", bench::blocks()));
+    const gen::DrainageHeights heights(graph.drainages.front(), seed);
+    gen::DrainageNetwork n;
+    n.side = kWindow;
+    n.heights = heights.nodes({-kWindow / 16 * 8, -kWindow / 16 * 8}, kWindow).heights;
+    gen::findDrainage(n, heights.spec());
+    for (int k = 0; k < kNodes * kNodes; ++k) {
+        std::size_t node = n.at(kMargin + k % kNodes, kMargin + k / kNodes);
+        if (n.flows[node] < heights.spec().minFlow || n.drains[node] == gen::kNoDrain) continue;
+        ++r.rivers;
+        int steps = 0;
+        while (n.drains[node] != gen::kNoDrain && ++steps < kWindow * kWindow) node = n.drainOf(node);
+        const int x = static_cast<int>(node) % kWindow, y = static_cast<int>(node) / kWindow;
+        if (steps == kWindow * kWindow) {
+            ++r.rings;
+        } else if (gen::heightOf(n.heights[node]) < heights.spec().seaLevel) {
+            ++r.reachSea;
+        } else if (n.lakeNodes[node] > 0) {
+            ++r.reachLake;
+        } else if (std::min({x, y, kWindow - 1 - x, kWindow - 1 - y}) <= gen::kFloodReach) {
+            ++r.leave;
+        }
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     const int seeds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 16;
     Statistics s;
+    Rivers r;
     for (int seed = 1; seed <= seeds; ++seed) {
         addCoarse(s, static_cast<std::uint64_t>(seed));
         addFine(s, static_cast<std::uint64_t>(seed));
+        addRivers(r, static_cast<std::uint64_t>(seed));
     }
     std::printf("%d seeds, %.0f km2 of columns 64 blocks wide\n", seeds, s.columns * 64 * 64 / 1e6);
     std::printf("land %.1f %%\n", 100 * s.land / s.columns);
@@ -167,6 +203,11 @@ int main(int argc, char** argv) {
                 100 * s.slopes[0] / s.slopes[4], 100 * s.slopes[1] / s.slopes[4],
                 100 * s.slopes[2] / s.slopes[4], 100 * s.slopes[3] / s.slopes[4]);
     std::printf("correlation of heights 12 to 32 km apart: at most %.3f\n", s.correlation);
+    std::printf(
+        "rivers: %ld nodes; %.2f %% reach the sea, %.2f %% a lake, %.2f %% leave the area; %ld rings\n",
+        r.rivers, 100.0 * static_cast<double>(r.reachSea) / static_cast<double>(r.rivers),
+        100.0 * static_cast<double>(r.reachLake) / static_cast<double>(r.rivers),
+        100.0 * static_cast<double>(r.leave) / static_cast<double>(r.rivers), r.rings);
     std::printf("longest straight border: of biomes %d blocks, of gullies %d blocks\n", s.straightBorder,
                 s.straightNoise);
 }

@@ -46,7 +46,7 @@ class Memory(ProgramTest):
         """Where all works is not one limit: threads take memory in another order each time."""
         loads = self.first_limit(4 * MIB, 64 * MIB, lambda limit:
                                  self.run_within(limit, arguments).returncode != CANNOT_BE_LOADED)
-        works = self.first_limit(loads, 256 * MIB, lambda limit: self.run_within(limit, arguments).returncode == 0)
+        works = self.first_limit(loads, 512 * MIB, lambda limit: self.run_within(limit, arguments).returncode == 0)
         end = works + (works - loads) // 2 + 4 * MIB
         return range(loads, end, int(os.environ.get("TERRANE_MEMORY_STEP", 0)) * KIB or (end - loads) // COUNT)
 

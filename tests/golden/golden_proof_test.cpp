@@ -8,20 +8,22 @@ namespace {
 class GoldenProof : public GoldenTest {
   protected:
     struct Gallery {
-        base::Image above, below;
+        base::Image above, below, land;
     };
 
-    Gallery drawBoth(const render::TextureSource& textures) {
+    Gallery drawAll(const render::TextureSource& textures) {
         render::Renderer renderer = makeRenderer(textures);
         Gallery gallery;
         gallery.above = drawGallery(renderer, galleryOnGround(), kAbove);
         render::Renderer inTheAir = makeRenderer(textures);
         gallery.below = drawGallery(inTheAir, galleryInTheAir(), kBelow);
+        render::Renderer ofTheLand = makeRenderer(textures);
+        gallery.land = drawGallery(ofTheLand, galleryOfTheLand(), kLand);
         return gallery;
     }
 
     static bool isSameGallery(const Gallery& a, const Gallery& b) {
-        return isSame(a.above, b.above) && isSame(a.below, b.below);
+        return isSame(a.above, b.above) && isSame(a.below, b.below) && isSame(a.land, b.land);
     }
 
     base::Image drawCube(const render::TextureSource& textures, const render::Camera& camera) {
@@ -43,29 +45,29 @@ render::TextureSource swapped(std::string_view a, std::string_view b) {
 }
 
 TEST_F(GoldenProof, TheSameIsTheSame) {
-    const Gallery a = drawBoth(render::contentTexture), b = drawBoth(render::contentTexture);
+    const Gallery a = drawAll(render::contentTexture), b = drawAll(render::contentTexture);
     EXPECT_TRUE(isSameGallery(a, b));
     EXPECT_EQ(difference(a.above, b.above).max, 0);
 }
 
 TEST_F(GoldenProof, AnyWrongTextureIsNoticed) {
-    const Gallery right = drawBoth(render::contentTexture);
+    const Gallery right = drawAll(render::contentTexture);
     const auto names = contentBlocks().textures();
     for (std::size_t k = 0; k < names.size(); ++k) {
         if (names[k] == "missing") continue;  // of unknown blocks, which the gallery has not
         const std::string& other = names[(k + 1) % names.size()];
-        EXPECT_FALSE(isSameGallery(right, drawBoth(replaced(names[k], other))))
+        EXPECT_FALSE(isSameGallery(right, drawAll(replaced(names[k], other))))
             << other << " for " << names[k];
     }
 }
 
 TEST_F(GoldenProof, SwappedSidesAreNoticed) {
-    const Gallery right = drawBoth(render::contentTexture);
+    const Gallery right = drawAll(render::contentTexture);
     for (const auto& [a, b] : {std::pair("oak_log_top", "oak_log_side"),
                                {"grass_top", "grass_side"},
                                {"cactus_top", "cactus_side"},
                                {"cactus_top", "cactus_bottom"}}) {
-        EXPECT_FALSE(isSameGallery(right, drawBoth(swapped(a, b)))) << a << " and " << b;
+        EXPECT_FALSE(isSameGallery(right, drawAll(swapped(a, b)))) << a << " and " << b;
     }
 }
 

@@ -16,10 +16,7 @@ TEST_F(Golden, GalleryFromAbove) {
 
 TEST_F(Golden, GalleryOfTheLand) {
     render::Renderer renderer = makeRenderer();
-    world::World world = flatWorld(2);
-    placeGallery(world, GalleryPart::Land);
-    const render::Camera camera{{0.2, -7.4, 92.2}, 61, -37, 43};
-    EXPECT_TRUE(matchesGolden("gallery_land", drawGallery(renderer, meshWorld(world), camera)));
+    EXPECT_TRUE(matchesGolden("gallery_land", drawGallery(renderer, galleryOfTheLand(), kLand)));
 }
 
 TEST_F(Golden, GalleryFromBelow) {

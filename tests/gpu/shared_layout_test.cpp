@@ -10,6 +10,7 @@
 
 #include "terrane/base/files.h"
 #include "terrane/gpu/program.h"
+#include "terrane/shared/drainage.h"
 #include "terrane/shared/frame.h"
 #include "terrane/shared/generation.h"
 #include "terrane/shared/light_solver.h"
@@ -18,6 +19,7 @@
 #include "terrane/shared/packed_section.h"
 #include "terrane/shared/quad.h"
 #include "terrane/shared/shape_face.h"
+#include "terrane/shared/tint.h"
 #include "tests/gpu/gl_fixture.h"
 
 namespace terrane::gpu {
@@ -204,9 +206,30 @@ std::vector<StructLayout> otherLayouts() {
               {"unused", offsetof(SolverRound, unused)}}}};
 }
 
+std::vector<StructLayout> landLayouts() {
+    using shared::DrainageList, shared::RiverSegment, shared::TintFrame;
+    return {{"RiverSegment",
+             "drainage.h",
+             false,
+             sizeof(RiverSegment),
+             {{"line", offsetof(RiverSegment, line)},
+              {"course", offsetof(RiverSegment, course)},
+              {"flow", offsetof(RiverSegment, flow)}}},
+            {"DrainageList",
+             "drainage.h",
+             false,
+             sizeof(DrainageList),
+             {{"first", offsetof(DrainageList, first)},
+              {"segmentCount", offsetof(DrainageList, segmentCount)},
+              {"lakeCount", offsetof(DrainageList, lakeCount)},
+              {"unused", offsetof(DrainageList, unused)}}},
+            {"TintFrame", "tint.h", true, sizeof(TintFrame), {{"levels[0]", offsetof(TintFrame, levels)}}}};
+}
+
 std::vector<StructLayout> allLayouts() {
     std::vector<StructLayout> all;
-    for (const auto& layouts : {frameLayouts(), meshSectionLayouts(), mesherLayouts(), otherLayouts()}) {
+    for (const auto& layouts :
+         {frameLayouts(), meshSectionLayouts(), mesherLayouts(), otherLayouts(), landLayouts()}) {
         all.insert(all.end(), layouts.begin(), layouts.end());
     }
     return all;

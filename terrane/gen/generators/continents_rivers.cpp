@@ -16,7 +16,8 @@ Drainage rivers(GeneratorBuilder& g) {
                        .halfWidth = 2.2f,
                        .maxHalfWidth = 13.0f,
                        .reach = kReach,
-                       .lakeDepth = 9.0f},
+                       .lakeDepth = 3.0f,
+                       .lakeNodes = 2},
                       coarseHeight);
 }
 
