@@ -66,7 +66,9 @@ void generateArea(benchmark::State& state, std::string_view name, ChunkPos corne
 
 BENCHMARK_CAPTURE(generateArea, overworld, "overworld")->Unit(benchmark::kMillisecond)->MinTime(3);
 // A range, a volcano, forests, rivers and a shore, within one region of the drainage map.
-BENCHMARK_CAPTURE(generateArea, continents, "continents", ChunkPos{195, -125})->Unit(benchmark::kMillisecond)->MinTime(3);
+BENCHMARK_CAPTURE(generateArea, continents, "continents", ChunkPos{195, -125})
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(3);
 BENCHMARK_CAPTURE(generateArea, flat, "flat")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(generateArea, hills3d, "hills3d")->Unit(benchmark::kMillisecond)->Iterations(2);
 BENCHMARK_CAPTURE(generateArea, voronoi, "voronoi")->Unit(benchmark::kMillisecond)->Iterations(2);
@@ -84,7 +86,7 @@ class PassArea {
         for (std::size_t k = 0; k < seeds_.noises.size(); ++k) seeds_.noises[k] = seedOf(k);
         for (std::size_t k = 0; k < seeds_.hashes.size(); ++k) seeds_.hashes[k] = seedOf(k + 1000);
         executor_ = std::make_unique<gen::Executor>(graph.noises, seeds_,
-                                                     gen::ExecutorParts{.shapes = graph.shapes.get()});
+                                                    gen::ExecutorParts{.shapes = graph.shapes.get()});
         for (const gen::PassGraph& pass : graph.passes) {
             programs_.push_back(compile(pass, graph.noises));
             voxelPasses_.push_back(pass.is3D ? std::make_unique<gen::VoxelPass>(pass, graph.noises)

@@ -288,11 +288,11 @@ def slab(seed: int, colors: list, mean: tuple) -> Image:
 
 
 def sandstone_side():
-    return strata(581, SANDSTONE, (206, 182, 138), ((4, 0.6), (2, 0.42), (5, 0.66), (1, 0.3), (4, 0.52)))
+    return strata(581, SANDSTONE, (192, 165, 120), ((4, 0.6), (2, 0.42), (5, 0.66), (1, 0.3), (4, 0.52)))
 
 
 def red_sandstone_side():
-    return strata(585, RED_SANDSTONE, (170, 92, 52), ((3, 0.62), (4, 0.46), (1, 0.24), (5, 0.6), (3, 0.42)))
+    return strata(585, RED_SANDSTONE, (158, 80, 43), ((3, 0.62), (4, 0.46), (1, 0.24), (5, 0.6), (3, 0.42)))
 
 
 def terracotta():
@@ -308,11 +308,11 @@ def basalt_side():
         joint = (y + int(SIZE * hash01(593, column))) % SIZE
         value -= 0.3 if joint == 0 else -0.1 if joint == 1 else 0
         return tone(BASALT, value + 0.12 * (hash01(594, x, y) - 0.5))
-    return settled(Image(shade), (72, 72, 77))
+    return settled(Image(shade), (60, 60, 66))
 
 
 def basalt_top():
-    return settled(cobbles(Patches(597, 3, 4, 0.25, 0.0, 0.0), BASALT, spread=0.24, gap=0.3, lit=0.14), (76, 76, 80))
+    return settled(cobbles(Patches(597, 3, 4, 0.25, 0.0, 0.0), BASALT, spread=0.24, gap=0.3, lit=0.14), (80, 80, 84))
 
 
 def limestone():

@@ -26,7 +26,7 @@ struct WorldOptions {
     std::optional<std::uint64_t> seed;
     std::optional<std::string> generator;
     std::string otherwise = kDefaultGenerator;  // a scene's, where a command draws one
-    unsigned threads = 0;  // 0: as many as the machine has
+    unsigned threads = 0;                       // 0: as many as the machine has
 
     std::uint64_t effectiveSeed() const { return seed.value_or(kDefaultSeed); }
     std::string effectiveGenerator() const { return generator.value_or(otherwise); }

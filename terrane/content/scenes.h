@@ -1,5 +1,5 @@
-// The reference scenes: fixed places in the overworld of seed 1 with the character that measurements and images
-// need.
+// The reference scenes: fixed places in the overworld of seed 1 with the character that measurements and
+// images need.
 #pragma once
 
 #include <span>

@@ -220,8 +220,8 @@ void Executor::prepareNoise(std::uint32_t noise) {
             return prepare(context_.stripes2D[noise], call, seed, grid_);
         case NoiseKind::Drainage:
             assert(parts_.drainages && "a program that reads maps is run with them");
-            return parts_.drainages->prepare(context_.drainage[noise],
-                                             static_cast<std::uint32_t>(call.size), grid_);
+            return parts_.drainages->prepare(context_.drainage[noise], static_cast<std::uint32_t>(call.size),
+                                             grid_);
     }
 }
 

@@ -35,7 +35,15 @@
 
 namespace terrane::gen {
 
-enum class NoiseKind : std::uint8_t { Perlin2D, Perlin3D, Voronoi2D, Voronoi3D, Simplex2D, Stripes2D, Drainage };
+enum class NoiseKind : std::uint8_t {
+    Perlin2D,
+    Perlin3D,
+    Voronoi2D,
+    Voronoi3D,
+    Simplex2D,
+    Stripes2D,
+    Drainage
+};
 
 struct NoiseCall {
     NoiseKind kind = NoiseKind::Perlin2D;

@@ -6,9 +6,9 @@
 #define TERRANE_GEN_NOISE_KERNELS_INL_H
 #endif
 
+#include "terrane/gen/drainage_kernels-inl.h"
 #include "terrane/gen/simplex_kernels-inl.h"
 #include "terrane/gen/stripe_kernels-inl.h"
-#include "terrane/gen/drainage_kernels-inl.h"
 #include "terrane/gen/voronoi_kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();

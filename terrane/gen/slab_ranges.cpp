@@ -205,7 +205,8 @@ ValueRange SlabRanges::component(const Node& n) const {
 ValueRange SlabRanges::stampBlocks(const StampTile& stamp) const {
     if (!stamp.isPainted(z_, z_ + count_ - 1)) return intRange(0, 0);
     ValueRange blocks = intRange(0, UINT16_MAX);
-    for (std::int32_t z = z_; z < z_ + count_; ++z) blocks.mayNarrow = blocks.mayNarrow || !stamp.isPainted(z);
+    for (std::int32_t z = z_; z < z_ + count_; ++z)
+        blocks.mayNarrow = blocks.mayNarrow || !stamp.isPainted(z);
     return blocks;
 }
 

@@ -14,9 +14,8 @@ bool readsField(const PassGraph& pass, std::uint32_t field) {
         const Node& node = pass.graph.node(id);
         if ((node.op == Op::Field || node.op == Op::FieldAt) && node.imm == field) return true;
     }
-    return std::ranges::any_of(pass.stamps, [&](const StampCall& call) {
-        return call.shape == field || call.base == field;
-    });
+    return std::ranges::any_of(
+        pass.stamps, [&](const StampCall& call) { return call.shape == field || call.base == field; });
 }
 
 bool readsBlocks(const PassGraph& pass) {

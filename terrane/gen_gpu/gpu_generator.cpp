@@ -52,8 +52,7 @@ std::string shaderText(const gen::GeneratorGraph& generator, std::size_t pass) {
     for (const char* name : {"tile", "voronoi", "simplex", "stripes"}) text += includeOf(name);
     if (!graph.stamps.empty()) text += includeOf("stamps");
     if (readsDrainage(generator, graph)) text += includeOf("drainage");
-    return text + "\n" +
-           gen::emitGlsl(generator, pass);
+    return text + "\n" + gen::emitGlsl(generator, pass);
 }
 
 // The GPU keeps a column's layers together, the chunk keeps layers together.

@@ -59,11 +59,10 @@ TEST(OpRecord, EveryOperationHasItsOwnRecord) {
 
 // What depends on the position or the world's seed must never be folded.
 TEST(OpRecord, OnlyFunctionsOfTheArgumentsAloneCanBeEvaluated) {
-    const std::set<Op> notPure = {Op::Constant,      Op::PosX,      Op::PosY,    Op::PosZ,
-                                  Op::Field,         Op::Noise,     Op::FieldAt, Op::BlockHere,
-                                  Op::BlockInColumn, Op::Component, Op::BlockAt, Op::Stripes,
-                                  Op::Hash2,         Op::Hash3,     Op::LoopIn,  Op::LoopOut,
-                                  Op::Stamp};
+    const std::set<Op> notPure = {Op::Constant, Op::PosX,    Op::PosY,      Op::PosZ,          Op::Field,
+                                  Op::Noise,    Op::FieldAt, Op::BlockHere, Op::BlockInColumn, Op::Component,
+                                  Op::BlockAt,  Op::Stripes, Op::Hash2,     Op::Hash3,         Op::LoopIn,
+                                  Op::LoopOut,  Op::Stamp};
     for (std::size_t n = 0; n < static_cast<std::size_t>(Op::Count); ++n) {
         const OpRecord& r = record(static_cast<Op>(n));
         EXPECT_EQ(r.evaluate == nullptr, notPure.contains(r.op)) << r.name;

@@ -72,7 +72,9 @@ class PassRunner {
 
   private:
     Executor& executor() {
-        if (!executor_) executor_ = std::make_unique<Executor>(graph.noises, seeds, ExecutorParts{.shapes = graph.shapes.get()});
+        if (!executor_)
+            executor_ =
+                std::make_unique<Executor>(graph.noises, seeds, ExecutorParts{.shapes = graph.shapes.get()});
         return *executor_;
     }
 

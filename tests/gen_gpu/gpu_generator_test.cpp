@@ -149,9 +149,10 @@ TEST_F(GpuGeneratorTest, StampsEqualCpu) {
 }
 
 TEST_F(GpuGeneratorTest, ManyStampsEqualCpu) {
-    for (const auto& write :
-         {std::function<void(gen::GeneratorBuilder&)>([](auto& g) { gen::writeStamps(g, {700}, {300, 1000}); }),
-          std::function<void(gen::GeneratorBuilder&)>(gen::writeStampsAtTheEnds)}) {
+    for (const auto& write : {std::function<void(gen::GeneratorBuilder&)>([](auto& g) {
+                                  gen::writeStamps(g, {700}, {300, 1000});
+                              }),
+                              std::function<void(gen::GeneratorBuilder&)>(gen::writeStampsAtTheEnds)}) {
         gen::GeneratorBuilder builder("stamps", contentBlocks());
         write(builder);
         const auto graph = builder.finish();

@@ -14,7 +14,7 @@ constexpr int kSamples = 4;
 
 // From above the gallery shows the sides -x, -y and +z, from below the others.
 inline const render::Camera kAbove{{0.6, -6.2, 89.9}, 59, -38.5, 37};
-inline const render::Camera kLand{{0.2, -7.4, 92.2}, 61, -37, 43};
+inline const render::Camera kLand{{0.2, -7.4, 92.2}, 61.5, -43, 33};
 inline const render::Camera kBelow{{14.3, 12.2, 72.9}, 229.0, 39.5, 33};
 
 class GoldenTest : public gpu::GlTest {

@@ -52,7 +52,11 @@ Cell loading(const std::string& scene, int distance) {
     const world::ChunkPos c = world::chunkOf(content::findScene(scene)->pose.position);
     const int radius = distance + 1;
     cell.before = {
-        "generate", "--world", save, "--generator", content::kSceneGenerator,
+        "generate",
+        "--world",
+        save,
+        "--generator",
+        content::kSceneGenerator,
         fmt::format("--area={},{},{},{}", c.x - radius, c.y - radius, c.x + radius + 1, c.y + radius + 1)};
     return cell;
 }
