@@ -194,6 +194,14 @@ TEST_F(GpuGeneratorTest, OverworldEqualsCpuFarAway) {
 }
 
 // Around the origin and at corners of the world, ±2^31 blocks away.
+// Land and sea near the origin and afar, and corners of the world.
+TEST_F(GpuGeneratorTest, ContinentsEqualCpu) {
+    compare("continents", gen::chunksInSquare({226, -122}, 4), 16);
+    compare("continents", gen::chunksInSquare({-158, 160}, 3), 9);
+    compare("continents", gen::chunksInSquare({world::kMinChunk, world::kMaxChunk - 1}, 2), 4);
+    compare("continents", gen::chunksInSquare({world::kMaxChunk - 1, world::kMinChunk}, 2), 4);
+}
+
 TEST_F(GpuGeneratorTest, LevelsEqualCpu) {
     for (const std::string& name : gen::generatorNames()) {
         for (const std::uint8_t level : {1, 2, 3, 5, 10, 15}) {
