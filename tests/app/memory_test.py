@@ -42,11 +42,10 @@ class Memory(ProgramTest):
             low, high = (low, middle) if holds(middle) else (middle, high)
         return high
 
-    def limits(self, arguments):
+    def limits(self, run):
         """Where all works is not one limit: threads take memory in another order each time."""
-        loads = self.first_limit(4 * MIB, 64 * MIB, lambda limit:
-                                 self.run_within(limit, arguments).returncode != CANNOT_BE_LOADED)
-        works = self.first_limit(loads, 512 * MIB, lambda limit: self.run_within(limit, arguments).returncode == 0)
+        loads = self.first_limit(4 * MIB, 64 * MIB, lambda limit: run(limit).returncode != CANNOT_BE_LOADED)
+        works = self.first_limit(loads, 512 * MIB, lambda limit: run(limit).returncode == 0)
         end = works + (works - loads) // 2 + 4 * MIB
         return range(loads, end, int(os.environ.get("TERRANE_MEMORY_STEP", 0)) * KIB or (end - loads) // COUNT)
 
@@ -71,13 +70,16 @@ class Memory(ProgramTest):
             self.assertIn("empty, not a save", done.stderr, case)
 
     def sweep(self, *arguments, keep_save=True):
-        seen = set()
-        for limit in self.limits(arguments):
+        def run(limit):
             if not keep_save:
                 for file in self.folder.iterdir():
                     file.unlink()
+            return self.run_within(limit, arguments)
+
+        seen = set()
+        for limit in self.limits(run):
             case = f"{limit / MIB:.1f} MiB: {arguments}"
-            done = self.run_within(limit, arguments)
+            done = run(limit)
             self.assertEndsWell(done, case)
             self.assertNoDamage(case)
             self.assertEqual(list(self.folder.glob("*.tmp*")), [], f"{case}: half a file is left")

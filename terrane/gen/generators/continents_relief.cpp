@@ -43,6 +43,13 @@ Float towers(Pass& p) {
     return lerp(Float(0.2f), tower, left) * (radius * 2.1f);
 }
 
+// Peaks stay below the top of the world, however much comes together in one place.
+Float belowTheTop(Float height) {
+    constexpr float kFrom = 205.0f, kRoom = 38.0f;  // z, blocks
+    const Float above = max(height - kFrom, Float(0.0f));
+    return min(height, Float(kFrom)) + above * kRoom / (above + kRoom);
+}
+
 struct Relief {
     Float height, ridge, rocky;
 };
@@ -79,8 +86,8 @@ Relief relief(Pass& p, const Fields& f) {
 
 void reliefPass(Pass& p, const Fields& f) {
     const Relief r = relief(p, f);
-    const Watered w = cutRivers(p, f, r.height);
-    const Float height = clamp(w.height, 6.0f, 236.0f);
+    const Watered w = cutRivers(p, f, belowTheTop(r.height));
+    const Float height = max(w.height, Float(6.0f));
     p.set(f.height, height);
     p.set(f.ridge, r.ridge);
     p.set(f.rocky, r.rocky);
