@@ -25,7 +25,7 @@ struct DrainageTile {
     std::int32_t step = 1;  // blocks from column to column
 };
 
-// Regions kept a map. One is 128² cells, 32,768² blocks with the default spacing, and takes 0.2…1.5 MB: a row
+// Regions kept a map. One is 128² cells, 32,768² blocks with the default spacing, and takes up to 3 MB: a row
 // of 64 tiles of step 32 crosses three of half that spacing.
 constexpr std::size_t kKeptRegions = 8;
 
