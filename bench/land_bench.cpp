@@ -131,10 +131,9 @@ void addFine(Statistics& s, std::uint64_t seed) {
     for (const int corner : {-300, -100, 60, 250}) {
         const auto biomes = columns.square("biome", corner, kFine);
         const auto heights = columns.square("height", corner, kFine);
-        const auto temperatures = columns.square("ridge", corner, kFine);
         s.straightBorder = std::max(s.straightBorder, longestStraight(biomes, kFineSide));
         std::vector<Bits> noise;
-        for (const Bits t : temperatures) noise.push_back(gen::asFloat(t) > 0.1f ? 1 : 0);
+        for (const Bits h : heights) noise.push_back(gen::asFloat(h) > 100.0f ? 1 : 0);
         s.straightNoise = std::max(s.straightNoise, longestStraight(noise, kFineSide));
         for (int k = 0; k + kFineSide + 1 < kFineSide * kFineSide; ++k) {
             const auto at = static_cast<std::size_t>(k);
@@ -208,6 +207,6 @@ int main(int argc, char** argv) {
         r.rivers, 100.0 * static_cast<double>(r.reachSea) / static_cast<double>(r.rivers),
         100.0 * static_cast<double>(r.reachLake) / static_cast<double>(r.rivers),
         100.0 * static_cast<double>(r.leave) / static_cast<double>(r.rivers), r.rings);
-    std::printf("longest straight border: of biomes %d blocks, of gullies %d blocks\n", s.straightBorder,
-                s.straightNoise);
+    std::printf("longest straight border: of biomes %d blocks, of a contour line of the ground %d blocks\n",
+                s.straightBorder, s.straightNoise);
 }

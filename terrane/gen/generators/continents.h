@@ -37,7 +37,17 @@ inline Int number(Biome biome) {
     return Int(static_cast<int>(biome));
 }
 
+// The map that rivers and lakes follow: continents_rivers.cpp.
 Drainage rivers(GeneratorBuilder& g);
+
+// Up to this step shapes are stamped; beyond it columns are crowns as often as crowns cover the ground.
+constexpr int kMaxShapeStep = 4;
+// Smaller things than trees vanish beyond this step.
+constexpr int kMaxSmallStep = 2;
+// Whether columns hold a plant, or a crown, of their own.
+constexpr bool hasPlants(int step) {
+    return step == 1 || step > kMaxShapeStep;
+}
 
 // What the passes hand on, by column.
 struct Fields {
@@ -49,7 +59,6 @@ struct Fields {
           volcanic(g.field<Float>("volcanic")),
           base(g.field<Float>("base")),
           height(g.field<Float>("height")),
-          ridge(g.field<Float>("ridge")),
           rocky(g.field<Float>("rocky")),
           wet(g.field<Float>("wet")),
           cold(g.field<Float>("cold")),
@@ -63,11 +72,15 @@ struct Fields {
           color(g.field<Int>("color")),
           rivers(continents::rivers(g)) {
         kinds = trees::record(g);
-        plant = g.field<Block>("plant");
-        plantHeight = g.field<Int>("plant height");
-        tree = g.field<Int>("tree");
-        treeBase = g.field<Int>("tree base");
-        small = g.field<Int>("small");
+        if (hasPlants(g.step())) {
+            plant = g.field<Block>("plant");
+            plantHeight = g.field<Int>("plant height");
+        }
+        if (g.step() <= kMaxShapeStep) {
+            tree = g.field<Int>("tree");
+            treeBase = g.field<Int>("tree base");
+        }
+        if (g.step() <= kMaxSmallStep) small = g.field<Int>("small");
         if (g.step() == 1) caveTop = g.field<Int>("cave top");
     }
 
@@ -78,7 +91,6 @@ struct Fields {
     Field<Float> volcanic;     // 0…1: from a volcano's foot to its middle
     Field<Float> base;         // z of the ground before erosion and rivers
     Field<Float> height;       // z of the ground
-    Field<Float> ridge;        // -1…1: in a gully … on a ridge
     Field<Float> rocky;        // 0…1: cliffs of canyon lands, volcanoes, karst: bare whatever their slope
     Field<Float> wet;          // 0…1: in a river or lake, or on its bank
     Field<Float> cold;         // the temperature at the ground's height
@@ -127,7 +139,6 @@ void landPass(Pass& p, const Fields& f);      // 3D: on the ground
 void caveLifePass(Pass& p, const Fields& f);  // 3D: in caves
 
 // Rivers and lakes: continents_rivers.cpp.
-Drainage rivers(GeneratorBuilder& g);
 struct Watered {
     Float height;   // of the ground
     Int water;      // z of the highest water where the ground is lower

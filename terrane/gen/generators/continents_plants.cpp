@@ -7,11 +7,6 @@
 namespace terrane::gen::continents {
 namespace {
 
-// Up to this step shapes are stamped; beyond it columns are crowns as often as crowns cover the ground.
-constexpr int kMaxShapeStep = 4;
-// Smaller things than trees vanish beyond this step.
-constexpr int kMaxSmallStep = 2;
-
 std::vector<Grove> grovesOf(std::span<const Grove> groves, Biome biome) {
     std::vector<Grove> result;
     for (const Grove& g : groves)
@@ -166,7 +161,7 @@ void landPass(Pass& p, const Fields& f) {
     const Block air = p.block("air");
     Var<Block> block = p.var(ground(p, f));
     p.if_(p.z() > surface, [&] {
-        if (p.step() == 1 || p.step() > kMaxShapeStep) {
+        if (hasPlants(p.step())) {
             const Bool isPlant = p.z() <= surface + p.read(f.plantHeight) && p.read(f.plant) != air;
             block = select(isPlant, p.read(f.plant), static_cast<Block>(block));
         }

@@ -51,7 +51,7 @@ Float belowTheTop(Float height) {
 }
 
 struct Relief {
-    Float height, ridge, rocky;
+    Float height, rocky;
 };
 
 Relief relief(Pass& p, const Fields& f) {
@@ -79,7 +79,7 @@ Relief relief(Pass& p, const Fields& f) {
         rocky = max(rocky, smoothstep(3.0f, 10.0f, tower));
     });
     const Float bumps = p.perlin2D("bumps", 8, {.25f, .5f, 1.0f, 1.4f});
-    return {height + bumps * (inland * 0.8f + 0.25f), eroded.ridge, rocky};
+    return {height + bumps * (inland * 0.8f + 0.25f), rocky};
 }
 
 }  // namespace
@@ -89,7 +89,6 @@ void reliefPass(Pass& p, const Fields& f) {
     const Watered w = cutRivers(p, f, belowTheTop(r.height));
     const Float height = max(w.height, Float(6.0f));
     p.set(f.height, height);
-    p.set(f.ridge, r.ridge);
     p.set(f.rocky, r.rocky);
     p.set(f.water, w.water);
     p.set(f.wet, w.isWater);
