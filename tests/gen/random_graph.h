@@ -18,7 +18,7 @@ namespace terrane::gen {
 inline Bits randomBits(Type type, std::mt19937& random) {
     constexpr float kInf = std::numeric_limits<float>::infinity();
     constexpr std::array<float, 10> kFloats = {
-        0.0f,   -0.0f,   1.0f,      -1.0f,  0.5f,
+        0.0f,   -0.0f,   1.0f, -1.0f,  0.5f,
         3.0e9f, -3.0e9f, kInf, 1e-40f, std::numeric_limits<float>::quiet_NaN()};
     constexpr std::array<std::int32_t, 8> kInts = {
         0, 1, -1, 16, 2147483647, std::numeric_limits<std::int32_t>::min(), 31, -17};
