@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
+#include <span>
 #include <thread>
 
 #include "tests/gen/drainage_land.h"
@@ -195,9 +195,8 @@ TEST(DrainageMaps, IsTheSameInAnyOrderAndOnAnyThread) {
                 DrainageTile tile, other;
                 common.maps.prepare(tile, 0, sampleGrid(chunks[n]));
                 one.maps.prepare(other, 0, sampleGrid(chunks[n]));
-                const bool same = tile.segments.size() == other.segments.size() &&
-                                  std::memcmp(tile.segments.data(), other.segments.data(),
-                                              tile.segments.size() * sizeof(shared::RiverSegment)) == 0;
+                const auto bytes = std::as_bytes(std::span(tile.segments));
+                const bool same = std::ranges::equal(bytes, std::as_bytes(std::span(other.segments)));
                 different[t] += !same;
             }
         });

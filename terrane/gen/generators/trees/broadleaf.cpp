@@ -140,7 +140,8 @@ void drawBush(Canvas& canvas, Random& random) {
     canvas.limb({0, 0, -1}, {0, 0, 0}, .4f, .4f, wood);
     const int stems = random.between(3, 5);
     for (int k = 0; k < stems; ++k) {
-        const Point out = heading(random.unit()) * (size * random.between(.3f, 1.5f));
+        const Point way = heading(random.unit());
+        const Point out = way * (size * random.between(.3f, 1.5f));
         const Point at = out + Point{0, 0, size * random.between(0.2f, 1.6f)};
         canvas.clump(at, Point{1.5f, 1.5f, 1.2f} * size, .35f, leaves, random);
     }

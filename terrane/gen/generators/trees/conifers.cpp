@@ -80,7 +80,8 @@ void drawPine(Canvas& canvas, Random& random) {
     const auto wood = canvas.paint("pine_log", kWoodRank), leaves = canvas.paint("pine_leaves", kLeafRank);
     const float height = random.between(11.0f, 17.0f), lean = random.between(.3f, 2.0f);
     const Point top = heading(random.unit()) * lean + Point{0, 0, height};
-    const Point bend = heading(random.unit()) * random.between(.2f, .9f) + top * .5f;
+    const Point aside = heading(random.unit());
+    const Point bend = aside * random.between(.2f, .9f) + top * .5f;
     canvas.limb({0, 0, -2}, {0, 0, 0}, .6f, .6f, wood);
     canvas.limb({0, 0, 0}, bend, .6f, .5f, wood);
     canvas.limb(bend, top, .5f, .4f, wood);
@@ -90,8 +91,8 @@ void drawPine(Canvas& canvas, Random& random) {
         const float t = shared::detDivide(static_cast<float>(k), static_cast<float>(pads));
         turns += .382f;  // the golden angle
         const Point from = bend + (top - bend) * (.35f + .6f * t);
-        const Point out = heading(turns) * (random.between(2.4f, 3.8f) * (1.0f - .35f * t)) +
-                          Point{0, 0, random.between(.8f, 1.8f)};
+        const float reach = random.between(2.4f, 3.8f) * (1.0f - .35f * t), rise = random.between(.8f, 1.8f);
+        const Point out = heading(turns) * reach + Point{0, 0, rise};
         canvas.limb(from, from + out, .4f, .4f, wood);
         canvas.clump(from + out + Point{0, 0, .5f}, Point{2.5f, 2.5f, 1.2f} * random.between(.8f, 1.1f), .25f,
                      leaves, random);

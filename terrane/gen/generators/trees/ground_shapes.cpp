@@ -11,7 +11,8 @@ void drawBoulder(Canvas& canvas, Random& random) {
     const float size = random.between(1.2f, 3.2f);
     const int lumps = random.between(2, 4);
     for (int k = 0; k < lumps; ++k) {
-        const Point at = heading(random.unit()) * (size * random.between(0.0f, .7f));
+        const Point way = heading(random.unit());
+        const Point at = way * (size * random.between(0.0f, .7f));
         const Point radii =
             Point{random.between(.7f, 1.2f), random.between(.7f, 1.2f), random.between(.6f, .95f)} * size;
         canvas.clump(at + Point{0, 0, random.between(-.2f, .8f)}, radii, .8f, stone, random);
@@ -52,7 +53,8 @@ void drawGiantMushroom(Canvas& canvas, Random& random) {
     const auto stem = canvas.paint("mushroom_stem", kWoodRank), cap = canvas.paint("mushroom_cap", kWoodRank);
     const int height = random.between(4, 9);
     const float radius = random.between(2.2f, 4.0f), rise = radius * random.between(.55f, .8f);
-    const Point lean = heading(random.unit()) * random.between(0.0f, 1.2f);
+    const Point way = heading(random.unit());
+    const Point lean = way * random.between(0.0f, 1.2f);
     const Point top = lean + Point{0, 0, static_cast<float>(height)};
     canvas.limb({0, 0, -2}, {0, 0, 0}, .5f, .5f, stem);
     canvas.limb({0, 0, 0}, top, .5f, .5f, stem);

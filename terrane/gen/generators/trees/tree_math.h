@@ -49,6 +49,7 @@ class Random {
   public:
     explicit Random(std::uint32_t seed) : seed_(seed) {}
 
+    // One call an expression: compilers evaluate operands in orders of their own.
     float unit() {  // [0, 1)
         return static_cast<float>(shared::hash2(count_++, 0, seed_) >> 8) * (1.0f / 16777216.0f);
     }

@@ -44,10 +44,10 @@ void drawAcacia(Canvas& canvas, Random& random) {
         const float turn = turns + .5f +
                            (static_cast<float>(k) + random.between(-.2f, .2f)) *
                                shared::detReciprocal(static_cast<float>(boughs));
-        const Point knee =
-            low + heading(turn) * random.between(1.2f, 2.2f) + Point{0, 0, random.between(1.f, 2.f)};
-        const Point end = knee + heading(turn + random.between(-.08f, .08f)) * random.between(1.0f, 2.4f) +
-                          Point{0, 0, random.between(1.2f, 2.6f)};
+        const float reach = random.between(1.2f, 2.2f), rise = random.between(1.f, 2.f);
+        const Point knee = low + heading(turn) * reach + Point{0, 0, rise};
+        const float bent = turn + random.between(-.08f, .08f), length = random.between(1.0f, 2.4f);
+        const Point end = knee + heading(bent) * length + Point{0, 0, random.between(1.2f, 2.6f)};
         canvas.limb(low, knee, .5f, .4f, wood);
         canvas.limb(knee, end, .4f, .4f, wood);
         drawTable(canvas, end + Point{0, 0, .6f}, random.between(2.6f, 3.9f), leaves, random);
