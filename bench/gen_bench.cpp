@@ -15,6 +15,7 @@
 #include "bench/bench_content.h"
 #include "terrane/base/digest.h"
 #include "terrane/gen/builder.h"
+#include "terrane/gen/erosion.h"
 #include "terrane/gen/executor.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
@@ -217,10 +218,22 @@ void registerNoises() {
                 "/size:" + std::to_string(size) + "/octaves:" + std::to_string(weights.size());
             registerNoise2D("perlin2D" + suffix,
                             [&](gen::Pass& p) { return p.perlin2D("noise", size, weights); });
+            registerNoise2D("simplex2D" + suffix,
+                            [&](gen::Pass& p) { return p.simplex2D("noise", size, weights); });
             registerNoise3D("perlin3D" + suffix,
                             [&](gen::Pass& p) { return p.perlin3D("noise", size, weights); });
         }
     }
+    for (const int size : {8, 128}) {
+        registerNoise2D("stripes2D/size:" + std::to_string(size), [&](gen::Pass& p) {
+            return p.stripes2D("noise", size, {0.6f, 0.8f}).cosine;
+        });
+    }
+    // What the slope costs comes from elsewhere.
+    registerNoise2D("erode/octaves:5", [&](gen::Pass& p) {
+        const gen::Float x(p.x() & 15), y(p.y() & 15);
+        return gen::erode(p, "gullies", {x * 0.05f, y * 0.03f}, 1.0f, {}).height;
+    });
     for (const int size : {10, 64, 512}) {
         registerNoise2D("voronoi2D/size:" + std::to_string(size),
                         [&](gen::Pass& p) { return p.voronoi2D("noise", size, 2).distance; });

@@ -16,7 +16,7 @@ fly() {
     local name=$1 distance=$2
     shift 2
     echo "$name" >&2
-    "$program" flight-bench --size 320x180 --preset low --view-distance "$distance" --trace "$name.json" -o "$name.csv" "$@"
+    "$program" flight-bench --generator overworld --size 320x180 --preset low --view-distance "$distance" --trace "$name.json" -o "$name.csv" "$@"
 }
 
 # What the land alone takes to draw where the flight is after 0, 2, … 20 s.
@@ -24,7 +24,7 @@ stand() {
     local distance=$1 at frame
     for second in {0..20..2}; do
         at=$((8 + 424 * second / 10))
-        frame=$("$program" render --at "$at,$at,120" --look 45,0 --time 0.4 --size 320x180 --preset low \
+        frame=$("$program" render --generator overworld --at "$at,$at,120" --look 45,0 --time 0.4 --size 320x180 --preset low \
             --view-distance "$distance" --frames 9 --json -o place.png | grep -o '"frame":[0-9.]*')
         echo "$second,${frame#*:}"
     done >"standing_$distance.csv"

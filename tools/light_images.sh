@@ -8,5 +8,5 @@ out=${2:-$root/docs/images}
 
 "$build/light_images" "$out"
 "$build/terrane" render --scene landscape --time 0.815 --size 640x360 --view-distance 12 -o "$out/light_dusk.png"
-"$build/terrane" render --at 992,1092,89 --look 176,5 --time 0.085 --size 640x360 --view-distance 12 \
+"$build/terrane" render --generator overworld --at 992,1092,89 --look 176,5 --time 0.085 --size 640x360 --view-distance 12 \
     -o "$out/light_night.png"

@@ -12,7 +12,7 @@ cd "$work"
 draw() {
     local name=$1
     shift
-    "$program" render --preset high --view-distance 24 --size 960x540 --seconds 3 "$@" -o "$name.png"
+    "$program" render --generator overworld --preset high --view-distance 24 --size 960x540 --seconds 3 "$@" -o "$name.png"
 }
 save() {
     convert "$1.png" -quality 88 "$folder/render_$1.jpg"

@@ -55,6 +55,12 @@ base::Result<content::Scene> placeOf(const PlaceOptions& options, const content:
     return place;
 }
 
+void nameSceneGenerator(CLI::App& command) {
+    command.get_option("--generator")
+        ->default_str(
+            fmt::format("{}, {} with --scene", WorldOptions::kDefaultGenerator, content::kSceneGenerator));
+}
+
 WorldOptions worldOf(const PlaceOptions& place, WorldOptions world) {
     if (place.scene) world.otherwise = content::kSceneGenerator;
     return world;

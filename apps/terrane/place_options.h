@@ -26,7 +26,8 @@ void addPlaceOptions(CLI::App& command, PlaceOptions& options);
 // `otherwise`: what the options do not say. Fails for a place outside the world.
 base::Result<content::Scene> placeOf(const PlaceOptions& options, const content::Scene& otherwise);
 
-// Where no generator is named, a scene's is meant.
+// Where no generator is named, a scene's is meant; the help of --generator says so.
+void nameSceneGenerator(CLI::App& command);
 WorldOptions worldOf(const PlaceOptions& place, WorldOptions world);
 
 }  // namespace terrane::app

@@ -15,28 +15,12 @@
 #include "terrane/gen/expr_math.h"
 #include "terrane/gen/expr_vec.h"
 #include "terrane/gen/generator_graph.h"
+#include "terrane/gen/noise_values.h"
 #include "terrane/gen/var.h"
 
 namespace terrane::gen {
 
 class GeneratorBuilder;
-
-struct Voronoi2D {
-    Float distance;  // blocks
-    Float ratio;     // nearest / second nearest, 0…1
-    IVec2 offset;    // blocks, to the nearest point
-};
-
-struct Voronoi3D {
-    Float distance;  // blocks, by the metric asked for
-    Float ratio;     // nearest / second nearest, 0…1
-    IVec3 offset;    // blocks, to the nearest point
-};
-
-// A wave's phase as a point of the unit disc; nearer to its middle where waves meet.
-struct Stripes2D {
-    Float cosine, sine;
-};
 
 class Pass {
   public:

@@ -36,9 +36,8 @@ HWY_INLINE Gradients gradients(VU hash) {
     const VF gx = pick(kG[0], kG[1], kG[2], kG[3]), gy = pick(kG[3], kG[2], kG[1], kG[0]);
     const auto isTurned = bit(2), isOpposite = bit(3);
     const VF turnedX = hn::IfThenElse(isTurned, hn::Neg(gy), gx), turnedY = hn::IfThenElse(isTurned, gx, gy);
-    const VF signedX = hn::IfThenElse(isOpposite, hn::Neg(turnedX), turnedX);
-    const VF signedY = hn::IfThenElse(isOpposite, hn::Neg(turnedY), turnedY);
-    return {signedX, signedY};
+    return {hn::IfThenElse(isOpposite, hn::Neg(turnedX), turnedX),
+            hn::IfThenElse(isOpposite, hn::Neg(turnedY), turnedY)};
 }
 
 HWY_INLINE VF simplexCorner(const Gradients& g, VF x, VF y) {

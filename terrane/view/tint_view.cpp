@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <system_error>
 
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
@@ -42,7 +43,12 @@ TintView::TintView(const game::Session& session, render::Renderer& renderer)
         base::logError("blocks have no tint: {}", used.error().message);
         return;
     }
-    if (hasTint) thread_ = std::jthread([this] { run(); });
+    if (!hasTint) return;
+    try {
+        thread_ = std::jthread([this] { run(); });
+    } catch (const std::system_error& error) {  // colors are neutral then
+        base::logWarning("no thread can be started for the tint of blocks: {}", error.what());
+    }
 }
 
 TintView::~TintView() {

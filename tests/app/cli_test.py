@@ -178,6 +178,13 @@ class Render(ProgramTest):
         two, _ = self.render("two.png", "--scene", "desert", "--threads", "2")
         self.assertEqual(one.rows, two.rows)
 
+    def test_scenes_are_places_of_the_overworld(self):
+        scene, _ = self.render("scene.png", "--scene", "ocean")
+        named, _ = self.render("named.png", "--scene", "ocean", "--generator", "overworld")
+        other, _ = self.render("other.png", "--scene", "ocean", "--generator", "flat")
+        self.assertEqual(scene.rows, named.rows)
+        self.assertNotEqual(scene.rows, other.rows)
+
     def test_merging_changes_the_count_of_triangles_only(self):
         scene = ("--scene", "landscape", "--json")
         quads = {}

@@ -80,7 +80,7 @@ def flight(s, is_from_save):
 
 
 def generate_one_thread(s):
-    return command_line("generate", radius=6 if s.is_quick else 16, threads=1, backend="cpu")
+    return command_line("generate", generator="overworld", radius=6 if s.is_quick else 16, threads=1, backend="cpu")
 
 
 def view_distances(s):

@@ -79,8 +79,8 @@ std::vector<int> upTo(int farthest, std::vector<int> numbers) {
 }
 
 Cells goals(const BenchSettings& s) {
-    Cells cells =
-        expandLine(fmt::format("generate --radius {} --threads 1 --backend cpu", s.isQuick ? 6 : 16));
+    Cells cells = expandLine(fmt::format("generate --generator {} --radius {} --threads 1 --backend cpu",
+                                         content::kSceneGenerator, s.isQuick ? 6 : 16));
     append(cells, generating("landscape", fmt::to_string(s.viewDistance)));
     cells.push_back(loading("landscape", s.viewDistance));
     append(cells, frames(s, "--merging greedy,squares-ext --occlusion-culling off"));

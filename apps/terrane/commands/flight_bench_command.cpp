@@ -124,6 +124,7 @@ CommandEntry addFlightBench(CLI::App& app) {
     command->get_option("--output")->required(false);
     command->add_flag("--json", options->json, "Print statistics of the flight as JSON");
     addWorldOptions(*command, options->world);
+    nameSceneGenerator(*command);
     addBackendOption(*command, options->backend, "Where to generate, light and mesh");
     addGraphicsOptions(*command, options->graphics, "auto");
     addSaveGameOptions(*command, options->save);

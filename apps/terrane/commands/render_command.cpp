@@ -182,6 +182,7 @@ CommandEntry addRender(CLI::App& app) {
     addOutputOption(*command, options->output, "The PNG file");
     command->add_flag("--json", options->json, "Print timings and counts as JSON");
     addWorldOptions(*command, options->world);
+    nameSceneGenerator(*command);
     addBackendOption(*command, options->backend, "Where to generate, light and mesh");
     addGraphicsOptions(*command, options->graphics, "high");
     addWorldOption(*command, options->save, "World to draw, left as it is; what it lacks is generated");
