@@ -18,10 +18,14 @@ layout(std430, binding = kMeshSectionOrderBinding) readonly buffer Order {
     uint order[];
 };
 layout(std430, binding = kVisibleLastFrameBinding) buffer VisibleLastFrame {
-    uint visibleLastFrame[];  // by slot: 1 where the mesh section was not hidden by others
+    uint visibleLastFrame[];  // by slot: directions in which the mesh section has quads that were not hidden
 };
 layout(std430, binding = kVisibleBinding) writeonly buffer Visible {
     uint visible[];  // in the order of mesh sections
+};
+layout(std430, binding = kTestedMeshSectionsBinding) buffer Tested {
+    TestedMeshSections tested;
+    uint testedNumbers[];
 };
 
 bool isOutside(vec4 plane, vec3 low, vec3 high) {
@@ -93,13 +97,15 @@ void main() {
         word |= directions << kCameraDirectionBits | directions << kBlendedDirectionBits |
                 casting << kShadowDirectionBits;
     } else if (cull.phase == kCullEarly) {
-        word |= (visibleLastFrame[slot] == 1u ? directions << kCameraDirectionBits : 0u) |
-                casting << kShadowDirectionBits;
+        word |= (directions & visibleLastFrame[slot]) << kCameraDirectionBits | casting << kShadowDirectionBits;
     } else {
-        bool isNew = visibleLastFrame[slot] != 1u, isVisible = isInView && !isHidden(wavingLow, wavingHigh);
-        if (!isVisible) directions = 0u;
-        word |= (isNew ? directions << kCameraDirectionBits : 0u) | directions << kBlendedDirectionBits;
-        visibleLastFrame[slot] = isVisible ? 1u : 0u;
+        uint drawnEarly = directions & visibleLastFrame[slot];
+        visibleLastFrame[slot] = 0u;
+        if (directions != 0u && !isHidden(wavingLow, wavingHigh)) {
+            // The test of its quads adds the directions that it finds some in.
+            word |= directions << kBlendedDirectionBits | drawnEarly << kDrawnEarlyBits;
+            testedNumbers[atomicAdd(tested.count, 1u)] = number;
+        }
     }
     visible[number] = word;
 }

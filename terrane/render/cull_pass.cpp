@@ -38,6 +38,9 @@ shared::CullFrame frameOf(CullPhase phase, const CullInput& input, std::uint32_t
     frame.hiZLevels = input.hiZ ? input.hiZ->levels() : 0;
     frame.meshSectionCount = meshSections;
     frame.phase = static_cast<shared::uint>(phase);
+    frame.edgeExpansion = input.edgeExpansion;
+    frame.blockPixels = input.blockPixels;
+    frame.samples = static_cast<shared::uint>(input.samples);
     return frame;
 }
 
@@ -69,6 +72,9 @@ base::Result<CullPass> CullPass::create(const gpu::ShaderLoader& shaders, const 
     if (!cull) return tl::unexpected(cull.error());
     auto compact = gpu::Program::compute(shaders, "terrane/render/compact.comp.glsl", {}, "compact");
     if (!compact) return tl::unexpected(compact.error());
+    auto quadCull = QuadCull::create(shaders);
+    if (!quadCull) return tl::unexpected(quadCull.error());
+    pass.quadCull_ = std::move(*quadCull);
     pass.cull_ = std::move(*cull);
     pass.compact_ = std::move(*compact);
     pass.hasIndirectCount_ = device.indirectCount;
@@ -108,7 +114,7 @@ std::size_t CullPass::gpuBytes(const MeshSectionTable& meshSections) const {
     return bytesWhileGrowing(commands_, commandBytesOf(meshSections)) +
            bytesWhileGrowing(visible_, meshSections.count() * sizeof(std::uint32_t)) +
            bytesWhileGrowing(visibleLastFrame_, meshSections.slots() * sizeof(std::uint32_t)) +
-           countBuffer_.sizeBytes();
+           countBuffer_.sizeBytes() + quadCull_.gpuBytes();
 }
 
 // Mesh sections that were never tested count as hidden: the late pass draws them.
@@ -129,9 +135,11 @@ void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSect
     visibleLastFrame_.bindStorage(shared::kVisibleLastFrameBinding);
     commands_.bindStorage(shared::kCommandsBinding);
     countBuffer_.bindStorage(shared::kCountsBinding);
+    quadCull_.begin(meshSections.count());
     cull_.use();
     glDispatchCompute((meshSections.count() + shared::kCullThreads - 1) / shared::kCullThreads, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    if (phase_ == CullPhase::Late) quadCull_.run(*input.quads, *input.resources);
     compact_.use();
     glDispatchCompute(input.shadow ? shared::kDrawLists : shared::kCameraLists,
                       static_cast<GLuint>(lists_.size()), 1);

@@ -14,6 +14,7 @@
 #include "terrane/gpu/readback_buffer.h"
 #include "terrane/render/hi_z.h"
 #include "terrane/render/mesh_section_table.h"
+#include "terrane/render/quad_cull.h"
 
 namespace terrane::render {
 
@@ -26,10 +27,16 @@ struct CullInput {
     glm::mat4 viewProjection{1};
     glm::vec2 size{1};         // of the image in pixels
     const HiZ* hiZ = nullptr;  // for the late pass
+    // With it the late pass tests quads, too.
+    const QuadStore* quads = nullptr;
+    const QuadResources* resources = nullptr;
+    float edgeExpansion = 0;  // pixels that edges of quads move
+    float blockPixels = 0;    // that a block takes, one block ahead
+    int samples = 1;          // of a pixel
 };
 
 // All in view at once, or in two passes: early, what was visible in the frame before, then late, what its
-// depth does not hide.
+// depth does not hide. Mesh sections first, then their quads: quad_cull.h.
 enum class CullPhase : std::uint8_t { All, Early, Late };
 
 // Which quads a draw takes: of an alpha class, of the camera's view or of the shadow map's.
@@ -81,6 +88,7 @@ class CullPass {
     static constexpr std::size_t kReadbacks = 4;
 
     gpu::Program cull_, compact_;
+    QuadCull quadCull_;
     gpu::Buffer visible_, visibleLastFrame_, commands_, countBuffer_;
     CullPhase phase_ = CullPhase::All;
     std::vector<ArenaLists> lists_;  // by arena

@@ -16,6 +16,10 @@ layout(binding = kMaterialsUnit) uniform usamplerBuffer materials;
 
 layout(location = kMeshSectionChunkAttribute) in ivec3 meshSectionChunk;  // of the draw's mesh section; z: its level
 
+#if PASS == 0
+layout(location = kDrawnQuadsLocation) uniform uint drawnQuads;  // bits of word 1 that a quad needs; 0: none
+#endif
+
 // Layers are peeled by comparing depths of two programs.
 invariant gl_Position;
 
@@ -103,8 +107,10 @@ void main() {
     gl_Position = expandEdges(gl_Position, gl_Position + alongU, gl_Position + alongV, frame.viewportSize,
                               frame.edgeExpansion, growsV);
     if (isTileSide) gl_Position.z *= gl_Position.w / (gl_Position.w + kTileSideDepth * columnBlocks(level));
+    // Outside of the view: the rasterizer never hears of it.
+    if (drawnQuads != 0u && (quad.word1 & drawnQuads) == 0u) gl_Position = vec4(2.0, 2.0, 0.0, 1.0);
 #endif
-    uint seed = hash2(uint(chunk.x), uint(chunk.y), quad.word1);
+    uint seed = hash2(uint(chunk.x), uint(chunk.y), quadMaterial(quad));
     outFace = uvec2(packFace(quad, material, level), quad.word0 ^ seed);
 #if FACE_SAMPLING == 1
     outSampling = optionsSampling(material.options);

@@ -144,6 +144,11 @@ CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view)
                    {},
                    view.viewProjection,
                    glm::vec2(targets_.size)};
+    cull.quads = &quads_;
+    cull.resources = &resources_;
+    cull.edgeExpansion = edgeExpansion(device_.subpixelBits, targets_.size);
+    cull.blockPixels = 0.5f * cull.size.y / glm::length(view.up);
+    cull.samples = targets_.msaaSamples;
     if (input.culledFor) {
         cull.camera = frustumOf(viewMatrices(*input.culledFor, aspectOf(targets_.size)).viewProjection);
     }
@@ -171,10 +176,10 @@ void Renderer::drawShadows() {
     passes_.shadowMap.draw(pipeline_, quadDraw());
 }
 
-void Renderer::drawSurfaces() {
+void Renderer::drawSurfaces(bool leavesOutHidden) {
     const TimerZone zone(timer_, "surfaces");
     passes_.gbuffer.clear(pipeline_, targets_);
-    passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
+    passes_.gbuffer.draw(pipeline_, targets_, quadDraw(), leavesOutHidden ? shared::kQuadSeen : 0);
 }
 
 // What was hidden in the frame before and is not now.
@@ -187,7 +192,7 @@ void Renderer::drawLate(const CullInput& cullInput) {
     again.shadow.reset();
     cull(CullPhase::Late, again);
     const TimerZone zone(timer_, "surfaces again");
-    passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
+    passes_.gbuffer.draw(pipeline_, targets_, quadDraw(), shared::kQuadNew);
 }
 
 void Renderer::shadeSurfaces(float fogDistance) {
@@ -267,7 +272,7 @@ void Renderer::draw(const FrameInput& input) {
     if (leavesOutHidden) culling.hiZ = &passes_.hiZ;
     cull(leavesOutHidden ? CullPhase::Early : CullPhase::All, culling);
     if (hasShadows(input)) drawShadows();
-    drawSurfaces();
+    drawSurfaces(leavesOutHidden);
     if (leavesOutHidden) drawLate(culling);
     if (passes_.holeFill.isOn()) {
         const TimerZone zone(timer_, "fill holes");

@@ -104,7 +104,7 @@ class Renderer {
     CullInput cullInput(const FrameInput& input, const ViewMatrices& view) const;
     void cull(CullPhase phase, const CullInput& input);
     void drawShadows();
-    void drawSurfaces();
+    void drawSurfaces(bool leavesOutHidden);
     void drawLate(const CullInput& cullInput);
     void shadeSurfaces(float fogDistance);
     bool drawTransparency(const FrameInput& input);

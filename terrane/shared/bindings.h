@@ -18,6 +18,8 @@ const uint kVisibleBinding = 2u;
 const uint kCommandsBinding = 3u;
 const uint kCountsBinding = 4u;
 const uint kVisibleLastFrameBinding = 5u;
+const uint kTestedMeshSectionsBinding = 6u;
+const uint kQuadsBinding = 7u;
 
 // Texture units
 const uint kBlockTexturesUnit = 0u;
@@ -47,6 +49,10 @@ const uint kMeshSectionChunkAttribute = 0u;  // chunk and level of a draw's mesh
 // Image units
 const uint kHiZFromImage = 0u;
 const uint kHiZToImage = 1u;
+
+// Plain uniforms
+const uint kDrawnQuadsLocation = 0u;  // of quad.vert.glsl
+const uint kArenaLocation = 0u;       // of quad_cull.comp.glsl
 
 SHARED_END
 #endif

@@ -71,6 +71,7 @@ struct DrawCounts {
 // and of blended faces, then the arena of its quads.
 const uint kCameraDirectionBits = 0u;
 const uint kShadowDirectionBits = 8u;
+const uint kDrawnEarlyBits = 8u;  // of the late pass: directions that the early one drew
 const uint kBlendedDirectionBits = 16u;
 const uint kArenaBits = 24u;
 
@@ -83,13 +84,15 @@ const uint kCullLate = 2u;
 // How far leaves and plants may leave the box of their mesh section, in blocks.
 const float kWaving = 0.25f;
 
-// Threads of a work group: mesh sections of cull.comp.glsl, texels a side of hi_z.comp.glsl.
+// Threads of a work group: mesh sections of cull.comp.glsl, quads of quad_cull.comp.glsl, texels a side of
+// hi_z.comp.glsl.
 const uint kCullThreads = 64u;
+const uint kQuadCullThreads = 32u;
 const uint kHiZThreads = 8u;
 
 // Hi-Z, the pyramid of farthest depths: its finest texels are as many pixels a side, each next level twice as
 // many.
-const uint kHiZTexelPixels = 8u;
+const uint kHiZTexelPixels = 2u;
 
 // What culling needs to know. A plane (a, w) holds the points p with dot(a, p) + w ≥ 0.
 struct CullFrame {
@@ -106,7 +109,16 @@ struct CullFrame {
     uint meshSectionCount;
     uint phase;       // kCullAll and so on
     uint arenaQuads;  // addresses of an arena
-    uint unused0, unused1, unused2;
+    float edgeExpansion;  // pixels, as in Frame
+    float blockPixels;    // pixels that a block takes, one block ahead
+    uint samples;         // of a pixel
+};
+
+// Mesh sections whose quads are to be tested: how many, as glDispatchComputeIndirect reads it, and their
+// places in the order, which follow.
+struct TestedMeshSections {
+    uint count;
+    uint one1, one2;
 };
 
 SHARED_END
