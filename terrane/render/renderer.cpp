@@ -6,6 +6,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
+#include "terrane/render/direct_image.h"
 #include "terrane/render/edge_expansion.h"
 #include "terrane/render/frame_uniforms.h"
 #include "terrane/render/shadow_volume.h"
@@ -239,6 +240,7 @@ void Renderer::drawImage(const FrameInput& input) {
     shadeSurfaces(input.fogDistance);
     // Water is as far away as its surface, not as its ground.
     const bool hasLayers = drawTransparency(input);
+    if (isDirectImage(options_, targets_.msaaSamples)) return;
     const MsaaTexture& depth = hasLayers ? passes_.transparency.nearestDepth() : targets_.depth;
     if (passes_.godRays.isOn()) {
         const TimerZone zone(timer_, "god rays");

@@ -1,6 +1,7 @@
 #include "terrane/render/shading_pass.h"
 
 #include "terrane/render/camera.h"
+#include "terrane/render/direct_image.h"
 #include "terrane/render/shader_variants.h"
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/frame.h"
@@ -21,7 +22,8 @@ ShadingPass::ShadingPass(const gpu::ShaderLoader& shaders)
 base::Result<void> ShadingPass::select(const RenderOptions& options, int samples, bool hasShadows) {
     fadesOverSky_ = samples > 1 || options.clouds;
     hasDistanceFog_ = options.distanceFog;
-    auto selected = sky_.select(defined({{"CLOUDS", options.clouds}}));
+    isDirect_ = isDirectImage(options, samples);
+    auto selected = sky_.select(defined({{"CLOUDS", options.clouds}, {"DIRECT", isDirect_}}));
     if (selected && samples > 1) selected = skyMask_.select(samples);
     if (selected && samples > 1) selected = surfaceMask_.select(samples);
     if (!selected) return selected;
@@ -30,7 +32,8 @@ base::Result<void> ShadingPass::select(const RenderOptions& options, int samples
                                   {"LIGHT_SMOOTH", static_cast<int>(options.light)},
                                   {"SHADOW", hasShadows},
                                   {"OCCLUSION", options.occlusion != Occlusion::Off},
-                                  {"OVER_SKY", fadesOverSky_}}));
+                                  {"OVER_SKY", fadesOverSky_},
+                                  {"DIRECT", isDirect_}}));
 }
 
 // By the depth test: of the mask, or of surfaces, where the triangle lies where they begin to fade.
@@ -46,7 +49,7 @@ void ShadingPass::drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, 
         state.depthTest = gpu::DepthTest::Greater;
     }
     inputs.bind();
-    targets.scene.bind();
+    (isDirect_ ? targets.direct : targets.scene).bind();
     sky_.draw(pipeline, state);
 }
 
@@ -57,7 +60,7 @@ void ShadingPass::drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targ
     targets.bindGBuffer();
     inputs.bind();
     if (occlusion.isOn()) occlusion.result().bind(shared::kOcclusionUnit);
-    targets.scene.bind();
+    (isDirect_ ? targets.direct : targets.scene).bind();
     shade_.draw(pipeline, {.depthTest = gpu::DepthTest::Less,
                            .writesDepth = false,
                            .blending = fadesOverSky_ ? gpu::Blending::Over : gpu::Blending::Off});

@@ -1,4 +1,5 @@
-// From the G-buffer to the light that reaches the camera, over the sky. Used by the renderer on the context's
+// From the G-buffer to the light that reaches the camera, over the sky; or to what the screen shows: see
+// direct_image.h. Used by the renderer on the context's
 // thread.
 #pragma once
 
@@ -28,7 +29,7 @@ class ShadingPass {
   private:
     FullscreenPass sky_, shade_;
     PixelMask skyMask_, surfaceMask_;
-    bool fadesOverSky_ = false, hasDistanceFog_ = false;
+    bool fadesOverSky_ = false, hasDistanceFog_ = false, isDirect_ = false;
 };
 
 }  // namespace terrane::render

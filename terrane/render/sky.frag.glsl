@@ -1,7 +1,8 @@
-// The sky where it can be seen, behind surfaces that fade too. CLOUDS: 1 draws clouds.
+// The sky where it can be seen, behind surfaces that fade too. CLOUDS: 1 draws clouds. DIRECT: 1 writes what the screen shows.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/sky_color.glsl"
 #include "terrane/render/clouds.glsl"
+#include "terrane/render/tone.glsl"
 
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
@@ -37,5 +38,9 @@ void main() {
 #endif
     // From within water the sky is seen through a round window above, beyond which the surface mirrors what is below.
     if (frame.isUnderWater != 0u) color = mix(murk(), color, 0.8 * smoothstep(0.5, 0.8, direction.z));
+#if DIRECT == 1
+    outColor = vec4(screenColor(color, ivec2(gl_FragCoord.xy)), 1.0);
+#else
     outColor = vec4(color, 0.0);
+#endif
 }

@@ -1,7 +1,7 @@
 // The light of all layers of blended faces over the image: color times coverage, and coverage.
 // MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW, OCCLUSION: 1 where there is a shadow map, ambient
 // occlusion of the nearest layer. QUADS: 1 draws over the
-// quads of the first layer, 0 over the whole screen.
+// quads of the first layer, 0 over the whole screen. DIRECT: 1 with QUADS writes what the screen shows (direct_image.h).
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
 #include "terrane/render/sky_color.glsl"
@@ -10,9 +10,7 @@
 #include "terrane/render/distance_fog.glsl"
 #include "terrane/render/lighting.glsl"
 #include "terrane/render/water.glsl"
-#if SHADOW == 1
-#include "terrane/render/shadow_sample.glsl"
-#endif
+#include "terrane/render/tone.glsl"
 
 #if MSAA_SAMPLES > 1
 layout(binding = kTransparencyColorUnit) uniform sampler2DMS layerColors[LAYERS];
@@ -31,6 +29,8 @@ vec3 inRay;
 layout(location = 1) in vec3 inRay;
 #endif
 layout(location = 0) out vec4 outColor;
+
+#include "terrane/render/surface_shade.glsl"
 
 const vec3 kBackground = vec3(0.35);  // of a single layer
 
@@ -127,11 +127,23 @@ vec4 shadeSamples(ivec2 pixel) {
     return frame.singleTransparencyLayer > 0 ? vec4(color.rgb + (1.0 - color.a) * kBackground, 1.0) : color;
 }
 
+#if DIRECT == 1
+// What is opaque, or the sky, as it is in the image already but for the curve.
+vec3 colorBehind(ivec2 pixel) {
+    float depth = depthAt(pixel, 0);
+    vec4 color = depth > 0.0 ? shadeAt(unpackSurface(packedSurfaceAt(pixel, 0)), depth, 1.0) : vec4(0.0);
+    return color.rgb + (1.0 - color.a) * skyColor(normalize(inRay));
+}
+#endif
+
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
 #if QUADS == 1
     inRay = rayAt(2.0 * gl_FragCoord.xy / frame.viewportSize - 1.0);
     outColor = shadeLayers(pixel, 0);
+#if DIRECT == 1
+    outColor = vec4(screenColor(outColor.rgb + (1.0 - outColor.a) * colorBehind(pixel), pixel), 1.0);
+#endif
 #else
     outColor = shadeSamples(pixel);
 #endif

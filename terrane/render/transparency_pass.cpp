@@ -1,6 +1,7 @@
 #include "terrane/render/transparency_pass.h"
 
 #include "terrane/gpu/debug.h"
+#include "terrane/render/direct_image.h"
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
@@ -60,6 +61,7 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
                                                 {"OCCLUSION", options.occlusion != Occlusion::Off},
                                                 {"LIGHT_SMOOTH", static_cast<int>(options.light)},
                                                 {"QUADS", shadesQuads_},
+                                                {"DIRECT", isDirect_},
                                                 {"FACE_SAMPLING", 0},
                                                 {"TINT", 0}});
     if (selected) selected = shadesQuads_ ? shadeQuads_.select(shading) : shade_.select(shading);
@@ -72,6 +74,7 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
 base::Result<void> TransparencyPass::configure(const FrameTargets& targets, const RenderOptions& options,
                                                bool hasShadows, const QuadFeatures& features) {
     shadesQuads_ = targets.msaaSamples == 1 && options.singleTransparencyLayer == 0;
+    isDirect_ = isDirectImage(options, targets.msaaSamples);
     isMasked_ = targets.msaaSamples > 1 && options.singleTransparencyLayer == 0;
     if (options.transparencyLayers > 0) {
         if (auto selected = selectVariants(targets.msaaSamples, options, hasShadows, features); !selected)
@@ -82,6 +85,7 @@ base::Result<void> TransparencyPass::configure(const FrameTargets& targets, cons
     if (options.transparencyLayers == layers_ && isMade) return {};
     targets_ = {};
     overQuads_ = {};
+    overQuadsDirect_ = {};
     layers_ = 0;
     for (int k = 0; k < options.transparencyLayers; ++k) {
         auto target = makeTarget(targets);
@@ -89,10 +93,14 @@ base::Result<void> TransparencyPass::configure(const FrameTargets& targets, cons
         targets_[static_cast<std::size_t>(k)] = std::move(*target);
     }
     if (options.transparencyLayers > 0 && targets.msaaSamples == 1) {
-        auto over =
-            gpu::Framebuffer::create({{targets.sceneColor}, targets_[0].depth.attachment()}, "over layers");
+        const auto makeOver = [&](const gpu::Texture2D& color) {
+            return gpu::Framebuffer::create({{color}, targets_[0].depth.attachment()}, "over layers");
+        };
+        auto over = makeOver(targets.sceneColor), overDirect = makeOver(targets.ldrColor);
         if (!over) return tl::unexpected(over.error());
+        if (!overDirect) return tl::unexpected(overDirect.error());
         overQuads_ = std::move(*over);
+        overQuadsDirect_ = std::move(*overDirect);
     }
     layers_ = options.transparencyLayers;
     size_ = targets.size;
@@ -158,7 +166,8 @@ void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& target
     targets.bindGBuffer();
     inputs.bind();
     if (shadesQuads_) {
-        overQuads_.bind();
+        (isDirect_ ? overQuadsDirect_ : overQuads_).bind();
+        if (isDirect_) state.blending = gpu::Blending::Off;
         quads.bind();
         shadeQuads_.use();
         state.depthTest = gpu::DepthTest::Equal;

@@ -51,8 +51,9 @@ class TransparencyPass {
     FullscreenPass shade_;
     PixelMask mask_;
     bool shadesQuads_ = false;    // instead of the whole screen
+    bool isDirect_ = false;       // see direct_image.h
     bool isMasked_ = false;       // the whole screen but for pixels without layers
-    gpu::Framebuffer overQuads_;  // the scene with the first layer's depth
+    gpu::Framebuffer overQuads_, overQuadsDirect_;  // the scene, the LDR target with the first layer's depth
     int layers_ = 0;
     glm::ivec2 size_{0};
     int samples_ = 0;

@@ -1,0 +1,17 @@
+// The light of an opaque surface that reaches the camera: color times coverage, and coverage. SHADOW: see shade.frag.glsl.
+// Needs lighting.glsl, distance_fog.glsl, gbuffer_read.glsl, and `inRay`.
+#if SHADOW == 1
+#include "terrane/render/shadow_sample.glsl"
+#endif
+
+vec4 shadeAt(Surface s, float depth, float visibility) {
+    vec3 toPoint = inRay * blocksOfDepth(depth);
+    vec3 position = frame.cameraPosition.xyz + toPoint;
+    if ((frame.switches & kSwitchUnlit) != 0) return throughAir(s.albedo, toPoint, 1.0);
+    float shadow = 1.0;
+#if SHADOW == 1
+    shadow = lightShare(position, s.normal, length(toPoint));
+#endif
+    vec4 levels = levelsAt(position, s);
+    return throughAir(shade(s, levels, shadow, visibility), toPoint, levels.a);
+}
