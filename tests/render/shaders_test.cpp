@@ -68,10 +68,11 @@ const std::map<std::string, Values>& variantValues() {
           {"OCCLUSION", {"0", "1"}},
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"QUADS", {"0", "1"}},
+          {"DIRECT", {"0", "1"}},
           {"FACE_SAMPLING", {"0"}},
           {"TINT", {"0"}}}},
         {"pixel_mask.frag", {{"MSAA_SAMPLES", {"4"}}, {"OF", {"0", "1", "2"}}}},
-        {"sky.frag", {{"CLOUDS", {"0", "1"}}}},
+        {"sky.frag", {{"CLOUDS", {"0", "1"}}, {"DIRECT", {"0", "1"}}}},
         {"hole_fill.frag", {{"MSAA_SAMPLES", {"1", "4"}}}},
         {"depth_of_field.frag", {{"AXIS", {"0", "1"}}, {"MSAA_SAMPLES", {"1", "4"}}}},
         {"ambient_occlusion.frag", {{"MSAA_SAMPLES", {"1", "4"}}, {"NEAREST_LAYER", {"0", "1"}}}},
@@ -90,7 +91,8 @@ const std::map<std::string, Values>& variantValues() {
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"SHADOW", {"0", "1"}},
           {"OCCLUSION", {"0", "1"}},
-          {"OVER_SKY", {"0", "1"}}}},
+          {"OVER_SKY", {"0", "1"}},
+          {"DIRECT", {"0", "1"}}}},
     };
     return values;
 }
@@ -99,10 +101,13 @@ bool has(const gpu::ShaderDefines& defines, const char* name, const char* value)
     return std::ranges::find(defines, std::pair<std::string, std::string>(name, value)) != defines.end();
 }
 
-// What no options lead to: with several samples a pixel layers are shaded over the whole screen, and surfaces
-// over the sky.
+// What no options lead to: with several samples a pixel layers are shaded over the whole screen, surfaces
+// over the sky, and neither as the screen shows them; nor is this where there is ambient occlusion.
 bool isNeverSelected(const gpu::ShaderDefines& defines) {
-    return has(defines, "MSAA_SAMPLES", "4") && (has(defines, "QUADS", "1") || has(defines, "OVER_SKY", "0"));
+    const bool isDirect = has(defines, "DIRECT", "1");
+    return (has(defines, "MSAA_SAMPLES", "4") &&
+            (has(defines, "QUADS", "1") || has(defines, "OVER_SKY", "0") || isDirect)) ||
+           (isDirect && (has(defines, "QUADS", "0") || has(defines, "OCCLUSION", "1")));
 }
 
 std::vector<gpu::ShaderDefines> variantsOf(std::string_view path) {
