@@ -50,7 +50,9 @@ base::Result<void> HiZ::configure(const FrameTargets& targets, bool isOn) {
         samples_ = targets.msaaSamples;
     }
     const glm::ivec2 size = finestSize(targets.size);
-    if (texture_.id() == 0 || texture_.size() != size) {
+    // What lay over an image of another size is not near any more.
+    if (texture_.id() == 0 || imageSize_ != targets.size) {
+        imageSize_ = targets.size;
         texture_ = gpu::Texture2D(size, GL_R32F, gpu::fullLevels(size), "Hi-Z");
         constexpr float kNear = 1;
         for (int level = 0; level < levels(); ++level)
