@@ -32,16 +32,6 @@ vec3 encodeSrgb(vec3 c) {
     return mix(c * 12.92, 0.585122381 * s1 + 0.783140355 * s2 - 0.368262736 * s3, greaterThan(c, vec3(0.0031308)));
 }
 
-#if GOD_RAYS == 1
-// The mean over the pixels that the steps are distributed among.
-float raysAt(vec2 at) {
-    vec2 texel = 1.0 / vec2(textureSize(godRays, 0));
-    float sum = 0.0;
-    for (int k = 0; k < 4; ++k) sum += textureLod(godRays, at + texel * (vec2(k & 1, k >> 1) * 2.0 - 1.0), 0.0).r;
-    return 0.25 * sum;
-}
-#endif
-
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec2 at = gl_FragCoord.xy / frame.viewportSize;
@@ -58,7 +48,7 @@ void main() {
     color = mix(color, textureLod(blurred, at, 0.0).rgb, amount);
 #endif
 #if GOD_RAYS == 1
-    color += 1.2 * raysAt(at) * (frame.lightColor.rgb + 0.3 * frame.glowColor.rgb);
+    color += 1.2 * textureLod(godRays, at, 0.0).r * (frame.lightColor.rgb + 0.3 * frame.glowColor.rgb);
 #endif
     color = encodeSrgb(clamp(compressHighlights(color * frame.exposure), 0.0, 1.0));
     uint noise = hash2(uint(pixel.x), uint(pixel.y), 0u);

@@ -42,6 +42,7 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     renderer.resources_ = QuadResources(blocks, std::move(*blockTextures), anisotropy);
     renderer.passes_ = std::move(*passes);
     renderer.noise_ = SkyNoise::create();
+    renderer.sky_ = SkyTexture::create();
     renderer.ring_ = gpu::MappedRing(kRingBytes, "frame data");
     renderer.viewDistance_ = kLightViewDistance;
     renderer.quadSizes_ = quads;
@@ -134,6 +135,7 @@ void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
     assert(slice && "the ring is empty at the start of a frame");
     ring_.bindUniform(shared::kFrameBinding, *slice);
     tints_.bind(input.camera, ring_);
+    sky_.bind(input.environment, view.cameraPosition.z, ring_);
 }
 
 CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view) const {
@@ -190,10 +192,11 @@ void Renderer::drawLate(const CullInput& cullInput) {
     passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
 }
 
-void Renderer::shadeSurfaces(float fogDistance) {
+void Renderer::shadeSurfaces(const FrameInput& input) {
     {
         const TimerZone zone(timer_, "sky");
-        passes_.shading.drawSky(pipeline_, targets_, shadingInputs(), fogDistance);
+        passes_.shading.drawSky(pipeline_, targets_, shadingInputs(),
+                                {input.fogDistance, input.environment.starLight > 0});
     }
     const TimerZone zone(timer_, "shade");
     passes_.shading.drawSurfaces(pipeline_, targets_, shadingInputs(), passes_.occlusion);
@@ -231,7 +234,7 @@ void Renderer::drawImage(const FrameInput& input) {
         const TimerZone zone(timer_, "ambient occlusion");
         passes_.occlusion.draw(pipeline_, targets_);
     }
-    shadeSurfaces(input.fogDistance);
+    shadeSurfaces(input);
     // Water is as far away as its surface, not as its ground.
     const bool hasLayers = drawTransparency(input);
     const MsaaTexture& depth = hasLayers ? passes_.transparency.nearestDepth() : targets_.depth;

@@ -71,7 +71,7 @@ const std::map<std::string, Values>& variantValues() {
           {"FACE_SAMPLING", {"0"}},
           {"TINT", {"0"}}}},
         {"pixel_mask.frag", {{"MSAA_SAMPLES", {"4"}}, {"OF", {"0", "1", "2"}}}},
-        {"sky.frag", {{"CLOUDS", {"0", "1"}}}},
+        {"sky.frag", {{"CLOUDS", {"0", "1"}}, {"NIGHT", {"0", "1"}}}},
         {"hole_fill.frag", {{"MSAA_SAMPLES", {"1", "4"}}}},
         {"depth_of_field.frag", {{"AXIS", {"0", "1"}}, {"MSAA_SAMPLES", {"1", "4"}}}},
         {"ambient_occlusion.frag", {{"MSAA_SAMPLES", {"1", "4"}}, {"NEAREST_LAYER", {"0", "1"}}}},
