@@ -18,16 +18,24 @@ layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
 
+vec4 throughAirOf(vec3 color, vec3 toPoint, float daylight) {
+#if OVER_SKY == 0
+    return vec4(throughAirToSky(color, toPoint, daylight), 1.0);
+#else
+    return throughAir(color, toPoint, daylight);
+#endif
+}
+
 vec4 shadeAt(Surface s, float depth, float visibility) {
     vec3 toPoint = inRay * blocksOfDepth(depth);
     vec3 position = frame.cameraPosition.xyz + toPoint;
-    if ((frame.switches & kSwitchUnlit) != 0) return throughAir(s.albedo, toPoint, 1.0);
+    if ((frame.switches & kSwitchUnlit) != 0) return throughAirOf(s.albedo, toPoint, 1.0);
     float shadow = 1.0;
 #if SHADOW == 1
     shadow = lightShare(position, s.normal, length(toPoint));
 #endif
     vec4 levels = levelsAt(position, s);
-    return throughAir(shade(s, levels, shadow, visibility), toPoint, levels.a);
+    return throughAirOf(shade(s, levels, shadow, visibility), toPoint, levels.a);
 }
 
 #if MSAA_SAMPLES > 1 && PER_SAMPLE == 1
@@ -85,7 +93,4 @@ void main() {
     visibility = texelFetch(occlusion, pixel, 0).r;
 #endif
     outColor = shadePixel(pixel, visibility);
-#if OVER_SKY == 0
-    outColor.rgb += (1.0 - outColor.a) * skyColor(normalize(inRay));
-#endif
 }

@@ -90,6 +90,51 @@ TEST(Environment, DayIsBrightAndBlue) {
     EXPECT_GT(environmentAt(0.2f).lightColor.x, 2 * environmentAt(0.2f).lightColor.z) << "dawn is red";
 }
 
+// As bright as a painter would have it: what scenes and presets were made for.
+TEST(Environment, NoonKeepsItsLevels) {
+    const Environment noon = environmentAt(0.5f);
+    EXPECT_NEAR(noon.lightColor.y, 0.79f, 0.1f);
+    EXPECT_NEAR(noon.ambientColor.y, 0.58f, 0.08f);
+    EXPECT_NEAR(noon.horizonColor.y, 0.6f, 0.15f);
+}
+
+TEST(Environment, UnderTheHorizonThereIsNoLightButTheSky) {
+    for (int step = 0; step < kSteps; ++step) {
+        const Environment e = environmentAt(timeOf(step));
+        if (e.lightDirection.z > -kDiscFade) continue;
+        ASSERT_EQ(largest(e.lightColor), 0) << timeOf(step);
+        ASSERT_GT(e.ambientColor.y, 0.01f) << timeOf(step);
+    }
+}
+
+// From the table as from the colors of the environment, at all times but where the light changes.
+TEST(Environment, TableOfTheSkyHasItsColors) {
+    for (const float time : {0.0f, 0.1f, 0.19f, 0.3f, 0.5f, 0.79f}) {
+        const Environment e = environmentAt(time);
+        const glm::vec3 zenith =
+            sampled(skyColorTable(e.lightDirection.z, e.isMoon), {0, 0, 1}, e.lightDirection);
+        EXPECT_LT(largest(zenith - e.zenithColor), 0.01f * largest(e.zenithColor)) << time;
+        EXPECT_EQ(ambientGreen(e.lightDirection.z, e.isMoon), e.ambientColor.y);
+    }
+}
+
+// Half a minute of a day of a quarter of an hour: the whole sky may change no more than a screen can just
+// show in a second.
+TEST(Environment, SkyChangesWithoutJumps) {
+    constexpr int kTimes = 2000;
+    const auto tableAt = [](int k) {
+        const Environment e = environmentAt(static_cast<float>(k) / kTimes);
+        return skyColorTable(e.lightDirection.z, e.isMoon);
+    };
+    SkyTable now = tableAt(200);
+    for (int k = 200; k < 460; ++k) {  // moonset, dawn, sunrise
+        const SkyTable next = tableAt(k + 1);
+        for (std::size_t t = 0; t < now.radiance.size(); ++t)
+            ASSERT_LT(largest(next.radiance[t] - now.radiance[t]), 0.045f) << "at " << k << " texel " << t;
+        now = next;
+    }
+}
+
 TEST(Environment, OnlyTheFractionOfTheTimeCounts) {
     for (const float time : {0.0f, 0.25f, 0.5f, 0.75f}) {
         EXPECT_EQ(colorsOf(environmentAt(time)), colorsOf(environmentAt(time + 1)));
