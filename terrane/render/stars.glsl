@@ -42,6 +42,6 @@ vec3 milkyWayColor(vec3 direction) {
 
 vec3 nightSky(vec3 direction, float pixel) {
     vec3 d = starDirection(direction), band = milkyWayColor(d);
-    vec3 color = 0.13 * band + stars(d, pixel, 1u + uint(step(0.12, band.g)));
+    vec3 color = 0.2 * band + stars(d, pixel, 1u + uint(step(0.12, band.g)));
     return color * frame.starBrightness * smoothstep(0.0, 0.2, direction.z);
 }

@@ -46,7 +46,7 @@ vec4 shadeLayer(Layer layer, float depth, float behind, float visibility, bool h
     vec4 levels = levelsAt(position, layer.surface);
     vec4 color;
     if (layer.isLiquid) {
-        float thickness = (min(blocksOfDepth(behind), 1e4) - blocks) * length(inRay);
+        float thickness = min(blocksOfDepth(behind) - blocks, 1e4) * length(inRay);
         if (frame.isUnderWater != 0u) thickness = 0.3;  // seen from within: the water is on this side
         color = shadeWater(layer.surface, position, toPoint, thickness, levels, shadow, visibility, hasFarFloor);
     } else {

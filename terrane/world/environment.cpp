@@ -28,11 +28,11 @@ struct LightScales {
 };
 constexpr LightScales kSun{glm::vec3(kSunScale), glm::vec3(kAmbientScale), glm::vec3(kSkyScale)};
 constexpr glm::vec3 kMoonColor{0.62f, 0.92f, 1.6f};
-constexpr LightScales kMoon{kSunScale * 0.125f * kMoonColor, kAmbientScale * 0.035f * kMoonColor,
+constexpr LightScales kMoon{kSunScale * 0.125f * kMoonColor, kAmbientScale * 0.03f * kMoonColor,
                             kSkyScale * 0.028f * kMoonColor};
 
 // What is left without sun and moon: faint light of the air itself and of stars.
-constexpr glm::vec3 kNightAmbient{0.012f, 0.016f, 0.034f};
+constexpr glm::vec3 kNightAmbient{0.018f, 0.024f, 0.046f};
 constexpr glm::vec3 kNightZenith{0.0016f, 0.0024f, 0.0070f}, kNightHorizon{0.0048f, 0.0070f, 0.0165f};
 
 float fraction(float v) {

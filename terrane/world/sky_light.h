@@ -14,7 +14,7 @@ constexpr float kEyeAltitude =
 // Share of the light of the sun or moon that reaches the eye, by the sine of its elevation. Through the
 // horizon it fades with the share of a disc of the radius kDiscFade that stands above.
 glm::vec3 directLight(float sine);
-constexpr float kDiscFade = 0.05f;  // radians
+constexpr float kDiscFade = 0.055f;  // radians
 
 // Radiance of the sky in a direction (unit length, z ≥ 0), lit by a light of irradiance 1 on a surface that
 // faces it, in the direction `toLight` (unit length).
