@@ -18,15 +18,6 @@ layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
 
-#if GOD_RAYS == 1
-// The mean over the pixels that the steps are distributed among.
-float raysAt(vec2 at) {
-    vec2 texel = 1.0 / vec2(textureSize(godRays, 0));
-    float sum = 0.0;
-    for (int k = 0; k < 4; ++k) sum += textureLod(godRays, at + texel * (vec2(k & 1, k >> 1) * 2.0 - 1.0), 0.0).r;
-    return 0.25 * sum;
-}
-#endif
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -44,7 +35,7 @@ void main() {
     color = mix(color, textureLod(blurred, at, 0.0).rgb, amount);
 #endif
 #if GOD_RAYS == 1
-    color += 1.2 * raysAt(at) * (frame.lightColor.rgb + 0.3 * frame.glowColor.rgb);
+    color += 1.2 * textureLod(godRays, at, 0.0).r * (frame.lightColor.rgb + 0.3 * frame.glowColor.rgb);
 #endif
     outColor = vec4(screenColor(color, pixel), 1.0);
 }

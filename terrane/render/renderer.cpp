@@ -43,6 +43,7 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     renderer.resources_ = QuadResources(blocks, std::move(*blockTextures), anisotropy);
     renderer.passes_ = std::move(*passes);
     renderer.noise_ = SkyNoise::create();
+    renderer.sky_ = SkyTexture::create();
     renderer.ring_ = gpu::MappedRing(kRingBytes, "frame data");
     renderer.viewDistance_ = kLightViewDistance;
     renderer.quadSizes_ = quads;
@@ -135,6 +136,7 @@ void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
     assert(slice && "the ring is empty at the start of a frame");
     ring_.bindUniform(shared::kFrameBinding, *slice);
     tints_.bind(input.camera, ring_);
+    sky_.bind(input.environment, view.cameraPosition.z, ring_);
 }
 
 CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view) const {
@@ -196,10 +198,11 @@ void Renderer::drawLate(const CullInput& cullInput) {
     passes_.gbuffer.draw(pipeline_, targets_, quadDraw(), shared::kQuadNew);
 }
 
-void Renderer::shadeSurfaces(float fogDistance) {
+void Renderer::shadeSurfaces(const FrameInput& input) {
     {
         const TimerZone zone(timer_, "sky");
-        passes_.shading.drawSky(pipeline_, targets_, shadingInputs(), fogDistance);
+        passes_.shading.drawSky(pipeline_, targets_, shadingInputs(),
+                                {input.fogDistance, input.environment.starLight > 0});
     }
     const TimerZone zone(timer_, "shade");
     passes_.shading.drawSurfaces(pipeline_, targets_, shadingInputs(), passes_.occlusion);
@@ -237,7 +240,7 @@ void Renderer::drawImage(const FrameInput& input) {
         const TimerZone zone(timer_, "ambient occlusion");
         passes_.occlusion.draw(pipeline_, targets_);
     }
-    shadeSurfaces(input.fogDistance);
+    shadeSurfaces(input);
     // Water is as far away as its surface, not as its ground.
     const bool hasLayers = drawTransparency(input);
     if (isDirectImage(options_, targets_.msaaSamples)) return;

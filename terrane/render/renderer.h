@@ -17,6 +17,7 @@
 #include "terrane/render/light_store.h"
 #include "terrane/render/quad_draw.h"
 #include "terrane/render/shading_inputs.h"
+#include "terrane/render/sky_texture.h"
 #include "terrane/render/tint_textures.h"
 
 namespace terrane::render {
@@ -106,7 +107,7 @@ class Renderer {
     void drawShadows();
     void drawSurfaces(bool leavesOutHidden);
     void drawLate(const CullInput& cullInput);
-    void shadeSurfaces(float fogDistance);
+    void shadeSurfaces(const FrameInput& input);
     bool drawTransparency(const FrameInput& input);
     void drawImage(const FrameInput& input);
     void drawFinal(const MsaaTexture& depth);
@@ -132,6 +133,7 @@ class Renderer {
 
     FramePasses passes_;
     SkyNoise noise_;
+    SkyTexture sky_;
 
     const gpu::ShaderLoader* shaders_ = nullptr;
     gpu::DeviceInfo device_;

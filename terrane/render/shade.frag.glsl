@@ -74,9 +74,6 @@ void main() {
     visibility = texelFetch(occlusion, pixel, 0).r;
 #endif
     outColor = shadePixel(pixel, visibility);
-#if OVER_SKY == 0
-    outColor.rgb += (1.0 - outColor.a) * skyColor(normalize(inRay));
-#endif
 #if DIRECT == 1
     outColor = vec4(screenColor(outColor.rgb, pixel), 1.0);
 #endif

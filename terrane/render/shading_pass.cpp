@@ -15,6 +15,7 @@ constexpr float kSkyDistance = 1e6f;  // blocks: nothing but the sky is farther
 
 ShadingPass::ShadingPass(const gpu::ShaderLoader& shaders)
     : sky_(shaders, "sky"),
+      nightSky_(shaders, "sky"),
       shade_(shaders, "shade"),
       skyMask_(shaders, PixelMask::Of::Sky),
       surfaceMask_(shaders, PixelMask::Of::Surfaces) {}
@@ -23,7 +24,11 @@ base::Result<void> ShadingPass::select(const RenderOptions& options, int samples
     fadesOverSky_ = samples > 1 || options.clouds;
     hasDistanceFog_ = options.distanceFog;
     isDirect_ = isDirectImage(options, samples);
-    auto selected = sky_.select(defined({{"CLOUDS", options.clouds}, {"DIRECT", isDirect_}}));
+    const auto sky = [&](int night) {
+        return defined({{"CLOUDS", options.clouds}, {"NIGHT", night}, {"DIRECT", isDirect_}});
+    };
+    auto selected = sky_.select(sky(0));
+    if (selected) selected = nightSky_.select(sky(1));
     if (selected && samples > 1) selected = skyMask_.select(samples);
     if (selected && samples > 1) selected = surfaceMask_.select(samples);
     if (!selected) return selected;
@@ -38,19 +43,20 @@ base::Result<void> ShadingPass::select(const RenderOptions& options, int samples
 
 // By the depth test: of the mask, or of surfaces, where the triangle lies where they begin to fade.
 void ShadingPass::drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
-                          float fogDistance) const {
+                          const Sky& sky) const {
     gpu::PipelineState state{.depthTest = gpu::DepthTest::Less, .writesDepth = false};
     if (targets.msaaSamples > 1) {
         skyMask_.draw(pipeline, targets);
     } else {
         const float distance =
-            fadesOverSky_ && hasDistanceFog_ ? shared::kFadingBegins * fogDistance : kSkyDistance;
+            fadesOverSky_ && hasDistanceFog_ ? shared::kFadingBegins * sky.fogDistance : kSkyDistance;
         state.depthRange.x = kNearPlane / distance;
         state.depthTest = gpu::DepthTest::Greater;
     }
     inputs.bind();
     (isDirect_ ? targets.direct : targets.scene).bind();
-    sky_.draw(pipeline, state);
+    // By day the shader without stars: software renderers run what a branch leaves out.
+    (sky.hasStars ? nightSky_ : sky_).draw(pipeline, state);
 }
 
 // The triangle lies at the far end: surfaces are all nearer, and so is the mask.

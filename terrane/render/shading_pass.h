@@ -19,15 +19,19 @@ class ShadingPass {
     explicit ShadingPass(const gpu::ShaderLoader& shaders);
 
     base::Result<void> select(const RenderOptions& options, int samples, bool hasShadows);
-    // The part of the sky that can be seen, or that surfaces fade into. `fogDistance`: blocks.
+    struct Sky {
+        float fogDistance;  // blocks
+        bool hasStars;
+    };
+    // The part of the sky that can be seen, or that surfaces fade into.
     void drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
-                 float fogDistance) const;
+                 const Sky& sky) const;
     // After the sky. `occlusion` is read where select() was told so.
     void drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
                       const AmbientOcclusion& occlusion) const;
 
   private:
-    FullscreenPass sky_, shade_;
+    FullscreenPass sky_, nightSky_, shade_;
     PixelMask skyMask_, surfaceMask_;
     bool fadesOverSky_ = false, hasDistanceFog_ = false, isDirect_ = false;
 };

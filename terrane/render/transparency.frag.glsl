@@ -46,7 +46,7 @@ vec4 shadeLayer(Layer layer, float depth, float behind, float visibility, bool h
     vec4 levels = levelsAt(position, layer.surface);
     vec4 color;
     if (layer.isLiquid) {
-        float thickness = (min(blocksOfDepth(behind), 1e4) - blocks) * length(inRay);
+        float thickness = min(blocksOfDepth(behind) - blocks, 1e4) * length(inRay);
         if (frame.isUnderWater != 0u) thickness = 0.3;  // seen from within: the water is on this side
         color = shadeWater(layer.surface, position, toPoint, thickness, levels, shadow, visibility, hasFarFloor);
     } else {
@@ -131,8 +131,8 @@ vec4 shadeSamples(ivec2 pixel) {
 // What is opaque, or the sky, as it is in the image already but for the curve.
 vec3 colorBehind(ivec2 pixel) {
     float depth = depthAt(pixel, 0);
-    vec4 color = depth > 0.0 ? shadeAt(unpackSurface(packedSurfaceAt(pixel, 0)), depth, 1.0) : vec4(0.0);
-    return color.rgb + (1.0 - color.a) * skyColor(normalize(inRay));
+    if (depth <= 0.0) return skyColor(normalize(inRay));
+    return shadeAt(unpackSurface(packedSurfaceAt(pixel, 0)), depth, 1.0).rgb;
 }
 #endif
 

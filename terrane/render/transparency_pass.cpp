@@ -62,6 +62,7 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
                                                 {"LIGHT_SMOOTH", static_cast<int>(options.light)},
                                                 {"QUADS", shadesQuads_},
                                                 {"DIRECT", isDirect_},
+                                                {"OVER_SKY", !isDirect_},
                                                 {"FACE_SAMPLING", 0},
                                                 {"TINT", 0}});
     if (selected) selected = shadesQuads_ ? shadeQuads_.select(shading) : shade_.select(shading);

@@ -69,10 +69,11 @@ const std::map<std::string, Values>& variantValues() {
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"QUADS", {"0", "1"}},
           {"DIRECT", {"0", "1"}},
+          {"OVER_SKY", {"0", "1"}},
           {"FACE_SAMPLING", {"0"}},
           {"TINT", {"0"}}}},
         {"pixel_mask.frag", {{"MSAA_SAMPLES", {"4"}}, {"OF", {"0", "1", "2"}}}},
-        {"sky.frag", {{"CLOUDS", {"0", "1"}}, {"DIRECT", {"0", "1"}}}},
+        {"sky.frag", {{"CLOUDS", {"0", "1"}}, {"NIGHT", {"0", "1"}}, {"DIRECT", {"0", "1"}}}},
         {"hole_fill.frag", {{"MSAA_SAMPLES", {"1", "4"}}}},
         {"depth_of_field.frag", {{"AXIS", {"0", "1"}}, {"MSAA_SAMPLES", {"1", "4"}}}},
         {"ambient_occlusion.frag", {{"MSAA_SAMPLES", {"1", "4"}}, {"NEAREST_LAYER", {"0", "1"}}}},
@@ -104,10 +105,12 @@ bool has(const gpu::ShaderDefines& defines, const char* name, const char* value)
 // What no options lead to: with several samples a pixel layers are shaded over the whole screen, surfaces
 // over the sky, and neither as the screen shows them; nor is this where there is ambient occlusion.
 bool isNeverSelected(const gpu::ShaderDefines& defines) {
-    const bool isDirect = has(defines, "DIRECT", "1");
-    return (has(defines, "MSAA_SAMPLES", "4") &&
-            (has(defines, "QUADS", "1") || has(defines, "OVER_SKY", "0") || isDirect)) ||
-           (isDirect && (has(defines, "QUADS", "0") || has(defines, "OCCLUSION", "1")));
+    const bool isDirect = has(defines, "DIRECT", "1"), isOverSky = has(defines, "OVER_SKY", "1");
+    const bool isOfLayers = has(defines, "QUADS", "0") || has(defines, "QUADS", "1");
+    if (has(defines, "MSAA_SAMPLES", "4") && (has(defines, "QUADS", "1") || has(defines, "OVER_SKY", "0")))
+        return true;
+    if (isOfLayers && isDirect == isOverSky) return true;
+    return isDirect && (isOverSky || has(defines, "QUADS", "0") || has(defines, "OCCLUSION", "1"));
 }
 
 std::vector<gpu::ShaderDefines> variantsOf(std::string_view path) {
