@@ -24,7 +24,7 @@ GpuMemory Renderer::memory() const {
     return {.quads = quads_.bufferBytes(),
             .light = light_.textureBytes(),
             .meshSections = meshSections_.gpuBytes() + passes_.cull.gpuBytes(meshSections_),
-            .textures = resources_.gpuBytes() + noise_.gpuBytes() + tints_.gpuBytes(),
+            .textures = resources_.gpuBytes() + noise_.gpuBytes() + tints_.gpuBytes() + land_.gpuBytes(),
             .targets = targets_.gpuBytes() + passes_.targetBytes(),
             .staging = stagingBytes_};
 }

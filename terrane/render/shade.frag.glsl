@@ -1,12 +1,13 @@
 // From the G-buffer to the light that reaches the camera: color times coverage, and coverage, over the sky.
 // MSAA_SAMPLES: of the G-buffer. PER_SAMPLE: 1 shades each sample of a pixel with several surfaces, 0 their mean.
-// SHADOW, OCCLUSION: 1 where there is a shadow map, ambient occlusion. OVER_SKY: 1 blends what fades with the sky that was
+// SHADOW, OCCLUSION: 1 where there is a shadow map, ambient occlusion. LAND: see land_light.glsl. OVER_SKY: 1 blends what fades with the sky that was
 // drawn behind it, 0 does so here: without clouds the sky's color is known, and nothing behind need be drawn or read.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
 #include "terrane/render/sky_color.glsl"
 #include "terrane/render/gbuffer_read.glsl"
 #include "terrane/render/distance_fog.glsl"
+#include "terrane/render/land_light.glsl"
 #include "terrane/render/lighting.glsl"
 #if SHADOW == 1
 #include "terrane/render/shadow_sample.glsl"
@@ -27,7 +28,7 @@ vec4 shadeAt(Surface s, float depth, float visibility) {
     shadow = lightShare(position, s.normal, length(toPoint));
 #endif
     vec4 levels = levelsAt(position, s);
-    return throughAir(shade(s, levels, shadow, visibility), toPoint, levels.a);
+    return throughAir(shade(s, position, levels, shadow, visibility), toPoint, levels.a);
 }
 
 #if MSAA_SAMPLES > 1 && PER_SAMPLE == 1

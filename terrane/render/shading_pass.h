@@ -17,7 +17,10 @@ class ShadingPass {
     ShadingPass() = default;
     explicit ShadingPass(const gpu::ShaderLoader& shaders);
 
-    base::Result<void> select(const RenderOptions& options, int samples, bool hasShadows);
+    struct Light {
+        bool hasShadows = false, knowsLand = false;
+    };
+    base::Result<void> select(const RenderOptions& options, int samples, const Light& light);
     // The part of the sky that can be seen, or that surfaces fade into. `fogDistance`: blocks.
     void drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
                  float fogDistance) const;

@@ -65,6 +65,7 @@ const std::map<std::string, Values>& variantValues() {
           {"MSAA_SAMPLES", {"1", "4"}},
           {"LAYERS", {"1", "2", "3"}},
           {"SHADOW", {"0", "1"}},
+          {"LAND", {"0", "1"}},
           {"OCCLUSION", {"0", "1"}},
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"QUADS", {"0", "1"}},
@@ -89,6 +90,7 @@ const std::map<std::string, Values>& variantValues() {
           {"PER_SAMPLE", {"0", "1"}},
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"SHADOW", {"0", "1"}},
+          {"LAND", {"0", "1"}},
           {"OCCLUSION", {"0", "1"}},
           {"OVER_SKY", {"0", "1"}}}},
     };
@@ -100,8 +102,9 @@ bool has(const gpu::ShaderDefines& defines, const char* name, const char* value)
 }
 
 // What no options lead to: with several samples a pixel layers are shaded over the whole screen, and surfaces
-// over the sky.
+// over the sky. Without shadows light knows no land.
 bool isNeverSelected(const gpu::ShaderDefines& defines) {
+    if (has(defines, "LAND", "1") && has(defines, "SHADOW", "0")) return true;
     return has(defines, "MSAA_SAMPLES", "4") && (has(defines, "QUADS", "1") || has(defines, "OVER_SKY", "0"));
 }
 
