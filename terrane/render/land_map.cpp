@@ -75,11 +75,12 @@ void forBorder(const F& f) {
     }
 }
 
-// The disc of the light has set behind an edge far away over `edge` blocks.
+// Half of the disc is seen at the height of the shadow. Heights may be off: what lies as much below is lit
+// too.
 LandEdge edgeOf(const LandShadow& shadow, float roughness, float discRadius) {
     const float error = roughness + kBlockError;
-    const float begin = std::max(shadow.height - error, shared::kLandLowest);
-    return {begin, std::min(error + 2 * std::tan(discRadius) * shadow.distance, shared::kLandMaxEdge)};
+    const float half = std::min(std::tan(discRadius) * shadow.distance, (shared::kLandMaxEdge - error) / 2);
+    return {std::max(shadow.height - error - half, shared::kLandLowest), error + 2 * half};
 }
 
 }  // namespace
@@ -91,8 +92,10 @@ void LandMap::setReach(double blocks) {
     reach_ = blocks;
     const int used = clipmap_.levelsFor(blocks);
     if (used == used_) return;
-    for (std::size_t level = static_cast<std::size_t>(used); level < levels_.size(); ++level)
+    for (std::size_t level = static_cast<std::size_t>(used); level < levels_.size(); ++level) {
         levels_[level] = {};
+        hasNewTiles_[level] = true;  // those that the clipmap still has
+    }
     used_ = used;
     needsSweep_.fill(true);
 }
@@ -132,10 +135,9 @@ glm::ivec2 LandMap::cornerAt(int level, world::ChunkPos camera) const {
     return world::kChunkSize * (glm::ivec2(middle.x, middle.y) - Clipmap::kTiles / 2);
 }
 
-bool LandMap::needsTiles(int level, world::ChunkPos camera) const {
-    const LandLevel& made = this->level(level);
-    return !made.isThere() || hasNewTiles_[static_cast<std::size_t>(level)] ||
-           made.corner != cornerAt(level, camera);
+// Where the camera has moved to other tiles, some of them are new.
+bool LandMap::canTakeColumns(int number, world::ChunkPos camera) const {
+    return hasNewTiles_[static_cast<std::size_t>(number)] && isComplete(number, camera);
 }
 
 void LandMap::takeColumns(int number, glm::ivec2 corner) {
@@ -216,17 +218,18 @@ void LandMap::blendGround(int number) {
     });
 }
 
-std::vector<int> LandMap::update(world::ChunkPos camera, const LandLight& light, int limit) {
+std::vector<LandChange> LandMap::update(world::ChunkPos camera, const LandLight& light, int limit) {
     if (glm::distance(light.direction, light_.direction) > kLightStep ||
         light.discRadius != light_.discRadius) {
         light_ = light;
         needsSweep_.fill(true);
     }
-    std::vector<int> changed;
+    std::vector<LandChange> changed;
     for (int number = used_ - 1; number >= 0 && static_cast<int>(changed.size()) < limit; --number) {
         const auto n = static_cast<std::size_t>(number);
         if (number + 1 < used_ && !levels_[n + 1].isThere()) break;
-        if (needsTiles(number, camera) && isComplete(number, camera)) {
+        const bool hasNewGround = canTakeColumns(number, camera);
+        if (hasNewGround) {
             takeColumns(number, cornerAt(number, camera));
             hasNewTiles_[n] = false;
             needsSweep_[n] = true;
@@ -235,16 +238,16 @@ std::vector<int> LandMap::update(world::ChunkPos camera, const LandLight& light,
         sweep(number);
         needsSweep_[n] = false;
         if (number > 0) needsSweep_[n - 1] = true;
-        changed.push_back(number);
+        changed.push_back({number, hasNewGround});
     }
     return changed;
 }
 
 bool LandMap::isUpToDate(world::ChunkPos camera) const {
     for (int number = 0; number < used_; ++number) {
-        const bool canTake = needsTiles(number, camera) && isComplete(number, camera);
         const bool canSweep = !level(number).heights.empty();
-        if (canTake || (canSweep && needsSweep_[static_cast<std::size_t>(number)])) return false;
+        if (canSweep && needsSweep_[static_cast<std::size_t>(number)]) return false;
+        if (canTakeColumns(number, camera)) return false;
     }
     return true;
 }

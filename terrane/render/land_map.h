@@ -44,6 +44,12 @@ struct LandLevel {
     bool isThere() const { return !edges.empty(); }
 };
 
+struct LandChange {
+    int level = 0;
+    bool hasNewGround = false;  // its place and its ground too, not the shadows alone
+    bool operator==(const LandChange&) const = default;
+};
+
 class LandMap {
   public:
     explicit LandMap(world::TopColors colors);
@@ -55,8 +61,8 @@ class LandMap {
     double reach() const { return reach_; }
     void set(world::ChunkPos tile, const world::LandTile& land);
     // Computes up to `limit` levels anew that the camera's place, new tiles or another light ask for. Which
-    // ones.
-    std::vector<int> update(world::ChunkPos camera, const LandLight& light, int limit);
+    // ones, the coarsest first.
+    std::vector<LandChange> update(world::ChunkPos camera, const LandLight& light, int limit);
     // Whether update() has nothing to compute; levels whose tiles are missing do not count.
     bool isUpToDate(world::ChunkPos camera) const;
 
@@ -68,7 +74,7 @@ class LandMap {
     };
 
     bool isComplete(int level, world::ChunkPos camera) const;
-    bool needsTiles(int level, world::ChunkPos camera) const;
+    bool canTakeColumns(int level, world::ChunkPos camera) const;
     glm::ivec2 cornerAt(int level, world::ChunkPos camera) const;
     void takeColumns(int level, glm::ivec2 corner);
     void sweep(int level);

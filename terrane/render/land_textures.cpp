@@ -57,10 +57,11 @@ LandTextures LandTextures::create(world::TopColors colors) {
 void LandTextures::update(const Camera& camera, const LandLight& light, int limit) {
     if (!isUsed()) return;
     TERRANE_ZONE("land light");
-    for (const int number : map_.update(cameraChunk(camera), light, limit)) {
+    for (const auto& [number, hasNewGround] : map_.update(cameraChunk(camera), light, limit)) {
         const LandLevel& level = map_.level(number);
         const auto shadows = shadowTexels(level);
         shadows_.upload(0, number, GL_RG, GL_UNSIGNED_SHORT, std::as_bytes(std::span(shadows)));
+        if (!hasNewGround) continue;
         const auto ground = groundTexels(level);
         ground_.upload(0, number, GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(ground)));
     }
