@@ -4,7 +4,7 @@
 //
 // A level is computed anew when all its tiles are there, the coarsest first, since it gives finer ones what
 // comes from beside them. Until then it stays where it was: around a camera that moved on it covers a little
-// less. Some 1.5 ms a level.
+// less. 1 ms a level where the light moved, 5 ms where the land is new.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // The light of a surface: lamps, sky, sun or moon. Needs frame_uniforms.glsl, packed_gbuffer.glsl, light_sample.glsl,
 // land_light.glsl.
 
-const vec3 kMinLight = vec3(0.02);  // of the darkest cave: shapes can just be seen
+const vec3 kMinLight = vec3(0.006);  // of the darkest cave: shapes can just be seen
 
 // Levels of light as sampled before the surface. Plants stand inside their block and take its light. The position comes
 // from the depth and is off by less than kOff within some hundred blocks: moved by that along the normal it is on the
