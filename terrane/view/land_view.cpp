@@ -36,7 +36,7 @@ LandView::LandView(const game::Session& session, render::Renderer& renderer) : r
         return tileOf(generators, blocks, pos);
     };
     try {
-        maker_.emplace(make);
+        maker_.emplace(2 * kTilesAFrame, make);
     } catch (const std::system_error& error) {
         base::logWarning("no thread can be started for the light of the land: {}", error.what());
     }
@@ -47,7 +47,7 @@ void LandView::update(world::ChunkPos camera, double reach, std::size_t limit) {
     TERRANE_ZONE("take land");
     renderer_.setLandReach(reach);
     for (const auto& [pos, land] : maker_->takeFinished(limit)) renderer_.setLand(pos, land);
-    maker_->request(renderer_.landClipmap().missing(camera, reach, maker_->kMaxRequested));
+    maker_->request(renderer_.landClipmap().missing(camera, reach, maker_->maxRequested()));
     if (limit == kAllTiles) renderer_.completeLand();
 }
 

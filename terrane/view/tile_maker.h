@@ -20,14 +20,13 @@ namespace terrane::view {
 template <class T>
 class TileMaker {
   public:
-    // Asked for at once: the thread follows a camera that moves on.
-    static constexpr std::size_t kMaxRequested = 64;
     using Tile = std::pair<world::ChunkPos, T>;
 
-    // Throws std::system_error where no thread can be started. `make` is called by the thread and throws
+    // `maxRequested`: tiles asked for at once; the fewer, the sooner the thread follows a camera that moves
+    // on. Throws std::system_error where no thread can be started. `make` is called by the thread and throws
     // nothing.
-    explicit TileMaker(std::function<T(world::ChunkPos)> make)
-        : make_(std::move(make)), thread_([this] { run(); }) {}
+    TileMaker(std::size_t maxRequested, std::function<T(world::ChunkPos)> make)
+        : maxRequested_(maxRequested), make_(std::move(make)), thread_([this] { run(); }) {}
     ~TileMaker() {
         const std::lock_guard lock(mutex_);
         isEnding_ = true;
@@ -36,11 +35,11 @@ class TileMaker {
     TileMaker(const TileMaker&) = delete;
     TileMaker& operator=(const TileMaker&) = delete;
 
-    // Of these those that were not asked for yet, as far as kMaxRequested.
+    // Of these those that were not asked for yet, up to the limit.
     void request(const std::vector<world::ChunkPos>& tiles) {
         std::vector<world::ChunkPos> more;
         for (const world::ChunkPos tile : tiles) {
-            if (requested_.size() == kMaxRequested) break;
+            if (requested_.size() == maxRequested_) break;
             if (requested_.insert(tile).second) more.push_back(tile);
         }
         if (more.empty()) return;
@@ -56,6 +55,7 @@ class TileMaker {
         for (const Tile& tile : tiles) requested_.erase(tile.first);
         return tiles;
     }
+    std::size_t maxRequested() const { return maxRequested_; }
     // Requested and not taken.
     std::size_t pending() const { return requested_.size(); }
     // Blocks until a tile is finished, or the time is over.
@@ -80,6 +80,7 @@ class TileMaker {
         }
     }
 
+    std::size_t maxRequested_;
     std::function<T(world::ChunkPos)> make_;
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> requested_;
 

@@ -10,6 +10,8 @@
 namespace terrane::view {
 namespace {
 
+constexpr std::size_t kMaxRequested = 64;
+
 bool hasTintedBlock(const world::BlockRegistry& blocks) {
     return std::ranges::any_of(blocks.materials(), [](const world::Material& m) { return m.tinted; });
 }
@@ -42,7 +44,7 @@ TintView::TintView(const game::Session& session, render::Renderer& renderer)
     }
     if (!hasTint) return;
     try {
-        maker_.emplace([this](world::ChunkPos pos) {
+        maker_.emplace(kMaxRequested, [this](world::ChunkPos pos) {
             TERRANE_ZONE("tint");
             return tileOf(generators_, pos);
         });
@@ -55,7 +57,7 @@ void TintView::update(world::ChunkPos camera, double reach, std::size_t limit) {
     if (!maker_) return;
     TERRANE_ZONE("upload tint");
     for (const auto& [pos, colors] : maker_->takeFinished(limit)) renderer_.setTint(pos, colors);
-    maker_->request(renderer_.tintClipmap().missing(camera, reach, maker_->kMaxRequested));
+    maker_->request(renderer_.tintClipmap().missing(camera, reach, maker_->maxRequested()));
 }
 
 }  // namespace terrane::view
