@@ -102,6 +102,7 @@ base::Result<void> BackgroundCompiler::State::compileUntilIdle() {
     if (!context) return tl::unexpected(context.error());
     auto renderer = Renderer::create(shaders, blocks, textures, gpu::queryDevice());
     if (!renderer) return tl::unexpected(renderer.error());
+    if (auto used = renderer->useLand(true); !used) return used;
     renderer->setViewDistance(1);
     renderer->setChunk({0, 0}, mesh::meshAlone(sampleChunk(blocks), blocks));
     renderer->setLight({0, 0}, light::ChunkLight());

@@ -28,7 +28,7 @@ base::Result<void> FramePasses::configure(const FrameTargets& targets, const Ren
     const bool hasShadows = shadowMap.size() > 0;
     if (done) done = gbuffer.select(options.msaaAlphaTest ? samples : 1, options.sharpFiltering, features);
     if (done) done = holeFill.configure(targets, options.tJunctions == TJunctions::Filled);
-    if (done) done = shading.select(options, samples, hasShadows);
+    if (done) done = shading.select(options, samples, {hasShadows, features.hasLand});
     if (done) done = transparency.configure(targets, options, hasShadows, features);
     if (done) done = debugView.select(defined({{"MSAA_SAMPLES", samples}, {"LIGHT_SMOOTH", light}}));
     if (done)

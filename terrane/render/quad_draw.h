@@ -11,6 +11,7 @@ namespace terrane::render {
 struct QuadFeatures {
     bool hasFaceSampling = false;  // see needsFaceSampling()
     bool hasTint = false;          // see TintTextures
+    bool hasLand = false;          // light knows the land to the horizon: see LandTextures
 };
 
 struct QuadDraw {

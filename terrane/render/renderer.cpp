@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <span>
+#include <utility>
 
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
@@ -34,10 +35,13 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
                                         const QuadStoreSizes& quads) {
     auto blockTextures = loadBlockTextures(blocks, textures, device.maxArrayLayers);
     if (!blockTextures) return tl::unexpected(blockTextures.error());
+    auto topColors = world::topColors(blocks, textures);
+    if (!topColors) return tl::unexpected(topColors.error());
     auto passes = FramePasses::create(shaders, device);
     if (!passes) return tl::unexpected(passes.error());
 
     Renderer renderer;
+    renderer.topColors_ = std::move(*topColors);
     // A software renderer pays for each of the samples.
     const float anisotropy = device.software ? 1.0f : std::min(kMaxAnisotropy, device.maxAnisotropy);
     renderer.resources_ = QuadResources(blocks, std::move(*blockTextures), anisotropy);
@@ -57,10 +61,11 @@ base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, con
     auto loaded = loadBlockTextures(blocks, textures, device_.maxArrayLayers);
     if (!loaded) return tl::unexpected(loaded.error());
     if (targets_.size.x > 0) {
-        auto done =
-            configurePasses(targets_, options_, {needsFaceSampling(blocks, *loaded), tints_.isUsed()});
+        auto done = configurePasses(targets_, options_,
+                                    {needsFaceSampling(blocks, *loaded), tints_.isUsed(), land_.isUsed()});
         if (!done) return done;
     }
+    if (auto colors = world::topColors(blocks, textures)) topColors_ = std::move(*colors);
     resources_.setTextures(blocks, std::move(*loaded));
     return {};
 }
@@ -109,10 +114,21 @@ base::Result<void> Renderer::reloadShaders() {
 
 base::Result<void> Renderer::useTint(bool isUsed) {
     if (targets_.size.x > 0 && isUsed != tints_.isUsed()) {
-        auto done = configurePasses(targets_, options_, {resources_.hasFaceSampling(), isUsed});
+        auto done =
+            configurePasses(targets_, options_, {resources_.hasFaceSampling(), isUsed, land_.isUsed()});
         if (!done) return done;
     }
     tints_ = isUsed ? TintTextures::create() : TintTextures();
+    return {};
+}
+
+base::Result<void> Renderer::useLand(bool isUsed) {
+    if (targets_.size.x > 0 && isUsed != land_.isUsed()) {
+        auto done =
+            configurePasses(targets_, options_, {resources_.hasFaceSampling(), tints_.isUsed(), isUsed});
+        if (!done) return done;
+    }
+    land_ = isUsed ? LandTextures::create(topColors_) : LandTextures();
     return {};
 }
 
@@ -137,6 +153,9 @@ void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
     ring_.bindUniform(shared::kFrameBinding, *slice);
     tints_.bind(input.camera, ring_);
     sky_.bind(input.environment, view.cameraPosition.z, ring_);
+    land_.update(input.camera, {input.environment.lightDirection, input.environment.discRadius},
+                 std::exchange(completesLand_, false) ? LandTextures::kAllLevels : 1);
+    land_.bind(input.camera, ring_);
 }
 
 CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view) const {

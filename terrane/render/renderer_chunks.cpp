@@ -24,7 +24,8 @@ GpuMemory Renderer::memory() const {
     return {.quads = quads_.bufferBytes(),
             .light = light_.textureBytes(),
             .meshSections = meshSections_.gpuBytes() + passes_.cull.gpuBytes(meshSections_),
-            .textures = resources_.gpuBytes() + noise_.gpuBytes() + sky_.gpuBytes() + tints_.gpuBytes(),
+            .textures = resources_.gpuBytes() + noise_.gpuBytes() + sky_.gpuBytes() + tints_.gpuBytes() +
+                        land_.gpuBytes(),
             .targets = targets_.gpuBytes() + passes_.targetBytes(),
             .staging = stagingBytes_};
 }

@@ -20,7 +20,7 @@ ShadingPass::ShadingPass(const gpu::ShaderLoader& shaders)
       skyMask_(shaders, PixelMask::Of::Sky),
       surfaceMask_(shaders, PixelMask::Of::Surfaces) {}
 
-base::Result<void> ShadingPass::select(const RenderOptions& options, int samples, bool hasShadows) {
+base::Result<void> ShadingPass::select(const RenderOptions& options, int samples, const Light& light) {
     fadesOverSky_ = samples > 1 || options.clouds;
     hasDistanceFog_ = options.distanceFog;
     isDirect_ = isDirectImage(options, samples);
@@ -35,7 +35,8 @@ base::Result<void> ShadingPass::select(const RenderOptions& options, int samples
     return shade_.select(defined({{"MSAA_SAMPLES", samples},
                                   {"PER_SAMPLE", options.shading != Shading::Pixel},
                                   {"LIGHT_SMOOTH", static_cast<int>(options.light)},
-                                  {"SHADOW", hasShadows},
+                                  {"SHADOW", light.hasShadows},
+                                  {"LAND", light.hasShadows && light.knowsLand},
                                   {"OCCLUSION", options.occlusion != Occlusion::Off},
                                   {"OVER_SKY", fadesOverSky_},
                                   {"DIRECT", isDirect_}}));

@@ -18,7 +18,10 @@ class ShadingPass {
     ShadingPass() = default;
     explicit ShadingPass(const gpu::ShaderLoader& shaders);
 
-    base::Result<void> select(const RenderOptions& options, int samples, bool hasShadows);
+    struct Light {
+        bool hasShadows = false, knowsLand = false;
+    };
+    base::Result<void> select(const RenderOptions& options, int samples, const Light& light);
     struct Sky {
         float fogDistance;  // blocks
         bool hasStars;

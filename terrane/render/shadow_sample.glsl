@@ -10,5 +10,9 @@ float lightShare(vec3 position, vec3 normal, float distance) {
     vec3 onMap = (frame.toShadowMap * vec4(at, 1.0)).xyz;
     float lit = texture(shadowMap, onMap);
     float fade = frame.shadowStrength * (1.0 - smoothstep(0.8, 1.0, distance / frame.shadowReach));
+#if LAND == 1
+    return mix(landShare(position), lit, fade);
+#else
     return mix(1.0, lit, fade);
+#endif
 }

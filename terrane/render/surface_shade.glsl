@@ -1,6 +1,6 @@
 // The light of an opaque surface that reaches the camera: color times coverage, and coverage. SHADOW, OVER_SKY: see
 // shade.frag.glsl.
-// Needs lighting.glsl, distance_fog.glsl, gbuffer_read.glsl, and `inRay`.
+// Needs land_light.glsl, lighting.glsl, distance_fog.glsl, gbuffer_read.glsl, and `inRay`.
 #if SHADOW == 1
 #include "terrane/render/shadow_sample.glsl"
 #endif
@@ -22,5 +22,5 @@ vec4 shadeAt(Surface s, float depth, float visibility) {
     shadow = lightShare(position, s.normal, length(toPoint));
 #endif
     vec4 levels = levelsAt(position, s);
-    return throughAirOf(shade(s, levels, shadow, visibility), toPoint, levels.a);
+    return throughAirOf(shade(s, position, levels, shadow, visibility), toPoint, levels.a);
 }

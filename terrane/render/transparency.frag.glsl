@@ -1,6 +1,6 @@
 // The light of all layers of blended faces over the image: color times coverage, and coverage.
 // MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW, OCCLUSION: 1 where there is a shadow map, ambient
-// occlusion of the nearest layer. QUADS: 1 draws over the
+// occlusion of the nearest layer. LAND: see land_light.glsl. QUADS: 1 draws over the
 // quads of the first layer, 0 over the whole screen. DIRECT: 1 with QUADS writes what the screen shows (direct_image.h).
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
@@ -8,6 +8,7 @@
 #include "terrane/render/gbuffer_read.glsl"
 #include "terrane/render/packed_layer.glsl"
 #include "terrane/render/distance_fog.glsl"
+#include "terrane/render/land_light.glsl"
 #include "terrane/render/lighting.glsl"
 #include "terrane/render/water.glsl"
 #include "terrane/render/tone.glsl"
@@ -50,7 +51,7 @@ vec4 shadeLayer(Layer layer, float depth, float behind, float visibility, bool h
         if (frame.isUnderWater != 0u) thickness = 0.3;  // seen from within: the water is on this side
         color = shadeWater(layer.surface, position, toPoint, thickness, levels, shadow, visibility, hasFarFloor);
     } else {
-        color = vec4(shade(layer.surface, levels, shadow, visibility) * layer.alpha, layer.alpha);
+        color = vec4(shade(layer.surface, position, levels, shadow, visibility) * layer.alpha, layer.alpha);
     }
     vec4 air = throughAir(color.rgb / max(color.a, 1e-3), toPoint, levels.a);
     return air * color.a;

@@ -58,6 +58,7 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
                                                 {"MSAA_SAMPLES", samples},
                                                 {"LAYERS", layers},
                                                 {"SHADOW", hasShadows},
+                                                {"LAND", hasShadows && features.hasLand},
                                                 {"OCCLUSION", options.occlusion != Occlusion::Off},
                                                 {"LIGHT_SMOOTH", static_cast<int>(options.light)},
                                                 {"QUADS", shadesQuads_},

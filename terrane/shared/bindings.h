@@ -11,6 +11,7 @@ const uint kFrameBinding = 0u;
 const uint kCullBinding = 1u;
 const uint kTintBinding = 2u;
 const uint kAirBinding = 6u;
+const uint kLandBinding = 3u;
 
 // Storage buffers
 const uint kMeshSectionsBinding = 0u;
@@ -45,6 +46,8 @@ const uint kNearestTexturesUnit = 22u;
 const uint kTintUnit = 23u;
 const uint kSkyTableUnit = 28u;
 const uint kMilkyWayUnit = 29u;
+const uint kLandShadowUnit = 24u;
+const uint kLandGroundUnit = 25u;
 
 // Vertex attributes
 const uint kMeshSectionChunkAttribute = 0u;  // chunk and level of a draw's mesh section, by the base instance

@@ -70,7 +70,7 @@ class Pilot {
     bool isAllThere() const {
         const stream::ChunkPipeline& pipeline = session_.pipeline();
         return pipeline.progress().complete() && pipeline.waitingChanges() == 0 && view_.waiting() == 0 &&
-               view_.missingTiles() + view_.missingTints() == 0;
+               view_.missingTiles() + view_.missingClipmapTiles() == 0;
     }
 
     void frame(const game::MoveKeys& keys) {

@@ -65,6 +65,7 @@ const std::map<std::string, Values>& variantValues() {
           {"MSAA_SAMPLES", {"1", "4"}},
           {"LAYERS", {"1", "2", "3"}},
           {"SHADOW", {"0", "1"}},
+          {"LAND", {"0", "1"}},
           {"OCCLUSION", {"0", "1"}},
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"QUADS", {"0", "1"}},
@@ -91,6 +92,7 @@ const std::map<std::string, Values>& variantValues() {
           {"PER_SAMPLE", {"0", "1"}},
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"SHADOW", {"0", "1"}},
+          {"LAND", {"0", "1"}},
           {"OCCLUSION", {"0", "1"}},
           {"OVER_SKY", {"0", "1"}},
           {"DIRECT", {"0", "1"}}}},
@@ -104,7 +106,9 @@ bool has(const gpu::ShaderDefines& defines, const char* name, const char* value)
 
 // What no options lead to: with several samples a pixel layers are shaded over the whole screen, surfaces
 // over the sky, and neither as the screen shows them; nor is this where there is ambient occlusion.
+// Without shadows light knows no land.
 bool isNeverSelected(const gpu::ShaderDefines& defines) {
+    if (has(defines, "LAND", "1") && has(defines, "SHADOW", "0")) return true;
     const bool isDirect = has(defines, "DIRECT", "1"), isOverSky = has(defines, "OVER_SKY", "1");
     const bool isOfLayers = has(defines, "QUADS", "0") || has(defines, "QUADS", "1");
     if (has(defines, "MSAA_SAMPLES", "4") && (has(defines, "QUADS", "1") || has(defines, "OVER_SKY", "0")))
