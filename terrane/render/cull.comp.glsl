@@ -1,4 +1,4 @@
-// Which face directions of each mesh section the camera may see, and which of them may throw a shadow.
+// Which face directions of each mesh section the camera may see.
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/mesh_section.h"
 
@@ -78,27 +78,23 @@ void main() {
     float width = float(kChunkSize) * columnBlocks(level);
     vec3 low = vec3(corner, float(heights & 0xFFFFu)), high = vec3(corner + width, float(heights >> 16));
 
-    bool isInView = true, isCasting = true;
+    bool isInView = true;
     vec3 wavingLow = low - kWaving, wavingHigh = high + kWaving;
     for (int k = 0; k < 5; ++k) {
         if (isOutside(cull.cameraPlanes[k], wavingLow, wavingHigh)) isInView = false;
-        if (isOutside(cull.shadowPlanes[k], wavingLow, wavingHigh)) isCasting = false;
     }
     // Every face that looks to -x is seen from behind where the camera is beyond the last of them, and so on.
-    vec3 camera = cull.cameraPosition.xyz, light = cull.lightDirection.xyz;
+    vec3 camera = cull.cameraPosition.xyz;
     uint directions = isInView ? bitsOf(lessThan(camera, high), greaterThan(camera, low)) : 0u;
-    uint casting = isCasting ? bitsOf(lessThan(light, vec3(0.0)), greaterThan(light, vec3(0.0))) : 0u;
     uint word = (meshSections[slot].ranges[0].x / cull.arenaQuads) << kArenaBits;
     if (cull.phase == kCullAll) {
-        word |= directions << kCameraDirectionBits | directions << kBlendedDirectionBits |
-                casting << kShadowDirectionBits;
+        word |= directions << kOpaqueDirectionBits | directions << kBlendedDirectionBits;
     } else if (cull.phase == kCullEarly) {
-        word |= (visibleLastFrame[slot] == 1u ? directions << kCameraDirectionBits : 0u) |
-                casting << kShadowDirectionBits;
+        word |= visibleLastFrame[slot] == 1u ? directions << kOpaqueDirectionBits : 0u;
     } else {
         bool isNew = visibleLastFrame[slot] != 1u, isVisible = isInView && !isHidden(wavingLow, wavingHigh);
         if (!isVisible) directions = 0u;
-        word |= (isNew ? directions << kCameraDirectionBits : 0u) | directions << kBlendedDirectionBits;
+        word |= (isNew ? directions << kOpaqueDirectionBits : 0u) | directions << kBlendedDirectionBits;
         visibleLastFrame[slot] = isVisible ? 1u : 0u;
     }
     visible[number] = word;

@@ -1,10 +1,8 @@
-// Decides on the GPU what is drawn: mesh sections in the view of the camera and of the shadow map, without
-// the face directions that look away, become indirect draw commands, nearest first. Used by the renderer on
-// the context's thread.
+// Decides on the GPU what is drawn: mesh sections in the view of the camera, without the face directions that
+// look away, become indirect draw commands, nearest first. Used by the renderer on the context's thread.
 #pragma once
 
 #include <array>
-#include <optional>
 
 #include "terrane/gpu/device_info.h"
 #include "terrane/gpu/fence.h"
@@ -21,8 +19,6 @@ struct CullInput {
     world::ChunkPos cameraChunk;
     glm::vec3 cameraPosition;  // from its corner
     Frustum camera;
-    glm::vec3 lightDirection;
-    std::optional<Frustum> shadow;  // none: no shadow map
     glm::mat4 viewProjection{1};
     glm::vec2 size{1};         // of the image in pixels
     const HiZ* hiZ = nullptr;  // for the late pass
@@ -31,12 +27,6 @@ struct CullInput {
 // All in view at once, or in two passes: early, what was visible in the frame before, then late, what its
 // depth does not hide.
 enum class CullPhase : std::uint8_t { All, Early, Late };
-
-// Which quads a draw takes: of an alpha class, of the camera's view or of the shadow map's.
-struct DrawClass {
-    mesh::AlphaClass alphaClass = mesh::AlphaClass::Opaque;
-    bool forShadows = false;
-};
 
 class CullPass {
   public:
@@ -49,7 +39,7 @@ class CullPass {
     // Draws the quads that the last pass chose, one draw call for each draw bucket and arena of `quads`. The
     // shader and what it reads but the quads are bound. Culls the back faces of one-sided quads.
     void drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const QuadStore& quads,
-                     const DrawClass& drawn) const;
+                     mesh::AlphaClass alphaClass) const;
 
     // Of the newest frame that the GPU has finished, all runs together; does not wait. Ends the frame.
     void queueCounts();

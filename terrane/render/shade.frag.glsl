@@ -1,6 +1,6 @@
 // From the G-buffer to the light that reaches the camera: color times coverage, and coverage, over the sky.
 // MSAA_SAMPLES: of the G-buffer. PER_SAMPLE: 1 shades each sample of a pixel with several surfaces, 0 their mean.
-// SHADOW, OCCLUSION: 1 where there is a shadow map, ambient occlusion. OVER_SKY: 1 blends what fades with the sky that was
+// SHADOW: 0 without shadows, else see shadow_sample.glsl. OCCLUSION: 1 where there is ambient occlusion. OVER_SKY: 1 blends what fades with the sky that was
 // drawn behind it, 0 does so here: without clouds the sky's color is known, and nothing behind need be drawn or read.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
@@ -8,7 +8,7 @@
 #include "terrane/render/gbuffer_read.glsl"
 #include "terrane/render/distance_fog.glsl"
 #include "terrane/render/lighting.glsl"
-#if SHADOW == 1
+#if SHADOW > 0
 #include "terrane/render/shadow_sample.glsl"
 #endif
 #if OCCLUSION == 1
@@ -23,7 +23,7 @@ vec4 shadeAt(Surface s, float depth, float visibility) {
     vec3 position = frame.cameraPosition.xyz + toPoint;
     if ((frame.switches & kSwitchUnlit) != 0) return throughAir(s.albedo, toPoint, 1.0);
     float shadow = 1.0;
-#if SHADOW == 1
+#if SHADOW > 0
     shadow = lightShare(position, s.normal, length(toPoint));
 #endif
     vec4 levels = levelsAt(position, s);

@@ -10,12 +10,12 @@ namespace terrane::render {
 
 struct ShadingInputs {
     const LightStore& light;
-    const ShadowMap& shadowMap;  // of size 0 where there are no shadows
+    const ShadowMap& shadowMap;
     const SkyNoise& noise;
 
     void bind() const {
         light.bind();
-        if (shadowMap.size() > 0) shadowMap.bind();
+        if (shadowMap.isOn()) shadowMap.bind();
         noise.bind();
     }
 };

@@ -18,7 +18,7 @@ ShadingPass::ShadingPass(const gpu::ShaderLoader& shaders)
       skyMask_(shaders, PixelMask::Of::Sky),
       surfaceMask_(shaders, PixelMask::Of::Surfaces) {}
 
-base::Result<void> ShadingPass::select(const RenderOptions& options, int samples, bool hasShadows) {
+base::Result<void> ShadingPass::select(const RenderOptions& options, int samples, int shadowVariant) {
     fadesOverSky_ = samples > 1 || options.clouds;
     hasDistanceFog_ = options.distanceFog;
     auto selected = sky_.select(defined({{"CLOUDS", options.clouds}}));
@@ -28,7 +28,7 @@ base::Result<void> ShadingPass::select(const RenderOptions& options, int samples
     return shade_.select(defined({{"MSAA_SAMPLES", samples},
                                   {"PER_SAMPLE", options.shading != Shading::Pixel},
                                   {"LIGHT_SMOOTH", static_cast<int>(options.light)},
-                                  {"SHADOW", hasShadows},
+                                  {"SHADOW", shadowVariant},
                                   {"OCCLUSION", options.occlusion != Occlusion::Off},
                                   {"OVER_SKY", fadesOverSky_}}));
 }

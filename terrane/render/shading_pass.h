@@ -17,7 +17,8 @@ class ShadingPass {
     ShadingPass() = default;
     explicit ShadingPass(const gpu::ShaderLoader& shaders);
 
-    base::Result<void> select(const RenderOptions& options, int samples, bool hasShadows);
+    // `shadowVariant`: SHADOW of shadow_sample.glsl.
+    base::Result<void> select(const RenderOptions& options, int samples, int shadowVariant);
     // The part of the sky that can be seen, or that surfaces fade into. `fogDistance`: blocks.
     void drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
                  float fogDistance) const;

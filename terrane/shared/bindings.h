@@ -10,6 +10,8 @@ SHARED_BEGIN
 const uint kFrameBinding = 0u;
 const uint kCullBinding = 1u;
 const uint kTintBinding = 2u;
+const uint kShadowBinding = 6u;
+const uint kShadowDrawBinding = 7u;
 
 // Storage buffers
 const uint kMeshSectionsBinding = 0u;
@@ -40,6 +42,7 @@ const uint kMaterialsUnit = 20u;
 const uint kSmoothTexturesUnit = 21u;  // the block textures with one sampler and the other: FACE_SAMPLING
 const uint kNearestTexturesUnit = 22u;
 const uint kTintUnit = 23u;
+const uint kShadowDepthsUnit = 28u;  // the maps of kShadowUnit as numbers
 
 // Vertex attributes
 const uint kMeshSectionChunkAttribute = 0u;  // chunk and level of a draw's mesh section, by the base instance
