@@ -34,6 +34,14 @@ shared::ShadowDraw uniformsOf(const ShadowTiles& tiles) {
     return draw;
 }
 
+// One by one: of an indirect draw of many commands Mesa 22.3.6 (llvmpipe) loses some, and tiles are drawn
+// seldom.
+void drawQuads(const shared::DrawCommand& command) {
+    glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(command.indexCount),
+                                                  GL_UNSIGNED_SHORT, nullptr, 1, command.baseVertex,
+                                                  command.baseInstance);
+}
+
 }  // namespace
 
 ShadowMap::ShadowMap(const gpu::ShaderLoader& shaders)
@@ -77,39 +85,20 @@ void ShadowMap::markChanged(std::span<const CasterBox> boxes) {
     for (const CasterBox& box : boxes) clipmap_.markChanged(box);
 }
 
-void ShadowMap::upload(const std::vector<Drawing>& drawings,
-                       const std::vector<shared::DrawCommand>& commands) {
-    std::vector<AlignedDraw> uniforms;
-    for (const Drawing& drawing : drawings) uniforms.push_back({uniformsOf(drawing.tiles)});
-    const auto write = [](gpu::Buffer& buffer, const auto& values, std::string_view label) {
-        const auto bytes = std::as_bytes(std::span(values));
-        if (bytes.empty()) return;
-        if (const std::size_t grown = grownBytes(buffer, bytes.size()))
-            buffer = gpu::Buffer(grown, GL_DYNAMIC_STORAGE_BIT, label);
-        buffer.upload(0, bytes);
-    };
-    write(commands_, commands, "shadow draw commands");
-    write(uniforms_, uniforms, "shadow tiles");
-}
-
 std::vector<ShadowMap::Drawing> ShadowMap::prepare(const std::vector<ShadowTiles>& tiles,
                                                    const MeshSectionTable& meshSections) {
     std::vector<Drawing> drawings;
-    std::vector<shared::DrawCommand> commands;
-    drawnTriangles_ = 0;
+    std::vector<AlignedDraw> uniforms;
     for (const ShadowTiles& rectangle : tiles) {
-        Drawing drawing{rectangle, {}};
-        const std::vector<CasterList> lists =
-            castersOf(rectangle, meshSections.slotRecords(), meshSections.arenaQuads());
-        for (std::size_t k = 0; k < lists.size(); ++k) {
-            if (lists[k].commands.empty()) continue;
-            drawing.lists.push_back({k, commands.size(), lists[k].commands.size()});
-            commands.insert(commands.end(), lists[k].commands.begin(), lists[k].commands.end());
-            drawnTriangles_ += 2 * lists[k].quads;
-        }
-        drawings.push_back(std::move(drawing));
+        drawings.push_back(
+            {rectangle, castersOf(rectangle, meshSections.slotRecords(), meshSections.arenaQuads())});
+        uniforms.push_back({uniformsOf(rectangle)});
+        for (const CasterList& list : drawings.back().lists) drawnTriangles_ += 2 * list.quads;
     }
-    upload(drawings, commands);
+    const auto bytes = std::as_bytes(std::span(uniforms));
+    if (const std::size_t grown = grownBytes(uniforms_, bytes.size()))
+        uniforms_ = gpu::Buffer(grown, GL_DYNAMIC_STORAGE_BIT, "shadow tiles");
+    uniforms_.upload(0, bytes);
     return drawings;
 }
 
@@ -122,26 +111,25 @@ void ShadowMap::clear(const ShadowTiles& tiles) const {
     glEnable(GL_SCISSOR_TEST);
     glScissor(corner.x, corner.y, size.x, size.y);
     layer.clearDepth(0.0f);
-    glDisable(GL_SCISSOR_TEST);
 }
 
-// Depth grows toward the light. What lies beyond the range casts too: its depth is clamped.
+// Depth grows toward the light. What lies beyond the range casts too: its depth is clamped. The scissor test
+// stays on: no triangle leaves its tiles, whatever the driver clips to.
 void ShadowMap::draw(gpu::Pipeline& pipeline, const Drawing& drawing, const QuadStore& quads) const {
     constexpr gpu::PipelineState kNearestToLight{.depthTest = gpu::DepthTest::Greater, .clampsDepth = true};
     pipeline.set(kNearestToLight);
     clear(drawing.tiles);
-    for (const ListRange& range : drawing.lists) {
-        const int bucket = static_cast<int>(range.list) % kCasterBuckets;
+    for (std::size_t k = 0; k < drawing.lists.size(); ++k) {
+        if (drawing.lists[k].commands.empty()) continue;
+        const int bucket = static_cast<int>(k) % kCasterBuckets;
         gpu::PipelineState state = kNearestToLight;
         state.cullsBackFaces = !mesh::bucketTwoSided(bucket);
         pipeline.set(state);
         (mesh::bucketAlphaClass(bucket) == mesh::AlphaClass::Opaque ? opaque_ : tested_).use();
-        quads.texels(range.list / kCasterBuckets).bind(shared::kQuadsUnit);
-        glMultiDrawElementsIndirect(
-            GL_TRIANGLES, GL_UNSIGNED_SHORT,
-            reinterpret_cast<const void*>(range.firstCommand * sizeof(shared::DrawCommand)),
-            static_cast<GLsizei>(range.count), 0);
+        quads.texels(k / kCasterBuckets).bind(shared::kQuadsUnit);
+        for (const shared::DrawCommand& command : drawing.lists[k].commands) drawQuads(command);
     }
+    glDisable(GL_SCISSOR_TEST);
 }
 
 void ShadowMap::update(gpu::Pipeline& pipeline, const Casters& casters, const Camera& camera,
@@ -152,7 +140,6 @@ void ShadowMap::update(gpu::Pipeline& pipeline, const Casters& casters, const Ca
     if (tiles.empty()) return;
     const std::vector<Drawing> drawings = prepare(tiles, casters.meshSections);
     casters.resources.bind(casters.meshSections, false);
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
     for (std::size_t k = 0; k < drawings.size(); ++k) {
         uniforms_.bindUniform(shared::kShadowDrawBinding, k * sizeof(AlignedDraw),
                               sizeof(shared::ShadowDraw));

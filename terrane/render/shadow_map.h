@@ -49,16 +49,11 @@ class ShadowMap {
     std::size_t gpuBytes() const { return depths_.sizeBytes(); }
 
   private:
-    // Commands of one rectangle: where each list lies in the buffer.
-    struct ListRange {
-        std::size_t list = 0, firstCommand = 0, count = 0;
-    };
     struct Drawing {
         ShadowTiles tiles;
-        std::vector<ListRange> lists;
+        std::vector<CasterList> lists;
     };
     std::vector<Drawing> prepare(const std::vector<ShadowTiles>& tiles, const MeshSectionTable& meshSections);
-    void upload(const std::vector<Drawing>& drawings, const std::vector<shared::DrawCommand>& commands);
     void draw(gpu::Pipeline& pipeline, const Drawing& drawing, const QuadStore& quads) const;
     void clear(const ShadowTiles& tiles) const;
 
@@ -68,7 +63,7 @@ class ShadowMap {
     gpu::Texture2DArray depths_;
     std::vector<gpu::Framebuffer> layers_;
     gpu::Sampler compared_, plain_;
-    gpu::Buffer commands_, uniforms_;
+    gpu::Buffer uniforms_;
     std::size_t drawnTriangles_ = 0;
 };
 

@@ -64,7 +64,7 @@ const std::map<std::string, Values>& variantValues() {
           {"ALPHA_CLASS", {"2"}},
           {"MSAA_SAMPLES", {"1", "4"}},
           {"LAYERS", {"1", "2", "3"}},
-          {"SHADOW", {"0", "1"}},
+          {"SHADOW", {"0", "1", "2"}},
           {"OCCLUSION", {"0", "1"}},
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"QUADS", {"0", "1"}},
@@ -88,7 +88,7 @@ const std::map<std::string, Values>& variantValues() {
          {{"MSAA_SAMPLES", {"1", "4"}},
           {"PER_SAMPLE", {"0", "1"}},
           {"LIGHT_SMOOTH", {"0", "1"}},
-          {"SHADOW", {"0", "1"}},
+          {"SHADOW", {"0", "1", "2"}},
           {"OCCLUSION", {"0", "1"}},
           {"OVER_SKY", {"0", "1"}}}},
     };
