@@ -149,6 +149,8 @@ std::string valueNamesOf(const GraphicsRow& row) {
 }
 
 std::optional<int> choiceOf(const GraphicsRow& row, std::string_view name) {
+    // The row once named the size of a map that reached so far.
+    if (row.name == "shadows" && (name == "1024" || name == "2048" || name == "4096")) name = "near";
     const auto found = std::ranges::find(row.valueNames, name);
     if (found == row.valueNames.end()) return std::nullopt;
     return static_cast<int>(found - row.valueNames.begin());

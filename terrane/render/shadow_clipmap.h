@@ -61,7 +61,8 @@ struct ShadowTiles {
 
 class ShadowClipmap {
   public:
-    static constexpr std::size_t kAllTiles = SIZE_MAX;
+    // Of a frame in a window: a light that moves asks for 3 × 64 tiles about once a second, a walk for few.
+    static constexpr std::size_t kTilesAFrame = 4, kAllTiles = SIZE_MAX;
 
     explicit ShadowClipmap(int cascades = 0)
         : cascades_(cascades), spare_(static_cast<std::size_t>(cascades)) {}

@@ -56,7 +56,6 @@ EFFECTS = (
     ("shading", "shading", "sample", "off", "on"),
     ("smooth light", "light", "smooth", "classic", "off"),
     ("shadows, 50 blocks", "shadows", "near", "off", "off"),
-    ("shadows, 800 blocks", "shadows", "far", "off", "off"),
     ("ambient occlusion", "ssao", "on", "off", "off"),
     ("depth of field", "depth_of_field", "on", "off", "off"),
     ("atmosphere", "distance_fog", "on", "off", "on"),

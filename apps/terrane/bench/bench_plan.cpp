@@ -141,7 +141,7 @@ Cells resolutions(const BenchSettings& s) {
 Cells effectCosts(const BenchSettings& s) {
     Cells cells;
     for (const char* flag :
-         {"", "--samples 4", "--shading off", "--light smooth", "--shadows near,far", "--ssao on",
+         {"", "--samples 4", "--shading off", "--light smooth", "--shadows near", "--ssao on",
           "--depth-of-field on", "--distance-fog off", "--god-rays on", "--clouds on", "--animation off",
           "--sharp-filtering on", "--layers 0,3", "--t-junctions open", "--occlusion-culling off"})
         append(cells, plainFrames(s, flag));

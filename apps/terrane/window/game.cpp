@@ -26,9 +26,6 @@ namespace {
 // Between frames that show no world, so that the compiler has the CPU.
 constexpr std::chrono::milliseconds kCompilePause{15};
 
-// A light that moves asks for 3 cascades × 64 tiles about once a second, a walk for few.
-constexpr std::size_t kShadowTilesAFrame = 4;
-
 }  // namespace
 
 Game::Game(const GameParts& parts, const GameOptions& options)
@@ -197,7 +194,7 @@ render::FrameInput Game::frameInput() const {
     input.timeSeconds = static_cast<float>(seconds_);
     input.view = settings_.view;
     input.isUnderWater = game::isUnderWater(parts_.session, player_.pose().position);
-    input.maxShadowTiles = kShadowTilesAFrame;
+    input.maxShadowTiles = render::ShadowClipmap::kTilesAFrame;
     if (isAbove_) {
         input.culledFor = input.camera;
         input.camera = debugTopCamera(camera(), parts_.view.viewDistance());
