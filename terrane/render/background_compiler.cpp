@@ -22,6 +22,8 @@ namespace {
 // Then the context goes, with what it takes of memory.
 constexpr std::chrono::seconds kIdle{10};
 
+constexpr int kSmallShadowMap = 256;  // texels a side: programs do not depend on it
+
 // Drivers may compile apart for textures whose sides are powers of two.
 int smallSide(int pixels) {
     return std::has_single_bit(static_cast<unsigned>(pixels)) ? 64 : 96;
@@ -108,7 +110,9 @@ base::Result<void> BackgroundCompiler::State::compileUntilIdle() {
     renderer->setLight({0, 0}, light::ChunkLight());
     while (const std::optional<Wanted> wanted = takeNext()) {
         TERRANE_ZONE("compile shaders");
-        if (renderer->configure(wanted->size, wanted->options)) {
+        RenderOptions options = wanted->options;
+        options.shadowSize = kSmallShadowMap;
+        if (renderer->configure(wanted->size, options)) {
             // The second frame draws what was hidden in the first, by other passes.
             for (int frame = 0; frame < 2; ++frame) renderer->draw(sampleInput());
             glFinish();

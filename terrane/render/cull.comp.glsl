@@ -1,4 +1,4 @@
-// Which face directions of each mesh section the camera may see, and which of them may throw a shadow.
+// Which face directions of each mesh section the camera may see.
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/mesh_section.h"
 
@@ -82,22 +82,19 @@ void main() {
     float width = float(kChunkSize) * columnBlocks(level);
     vec3 low = vec3(corner, float(heights & 0xFFFFu)), high = vec3(corner + width, float(heights >> 16));
 
-    bool isInView = true, isCasting = true;
+    bool isInView = true;
     vec3 wavingLow = low - kWaving, wavingHigh = high + kWaving;
     for (int k = 0; k < 5; ++k) {
         if (isOutside(cull.cameraPlanes[k], wavingLow, wavingHigh)) isInView = false;
-        if (isOutside(cull.shadowPlanes[k], wavingLow, wavingHigh)) isCasting = false;
     }
     // Every face that looks to -x is seen from behind where the camera is beyond the last of them, and so on.
-    vec3 camera = cull.cameraPosition.xyz, light = cull.lightDirection.xyz;
+    vec3 camera = cull.cameraPosition.xyz;
     uint directions = isInView ? bitsOf(lessThan(camera, high), greaterThan(camera, low)) : 0u;
-    uint casting = isCasting ? bitsOf(lessThan(light, vec3(0.0)), greaterThan(light, vec3(0.0))) : 0u;
     uint word = (meshSections[slot].ranges[0].x / cull.arenaQuads) << kArenaBits;
     if (cull.phase == kCullAll) {
-        word |= directions << kCameraDirectionBits | directions << kBlendedDirectionBits |
-                casting << kShadowDirectionBits;
+        word |= directions << kOpaqueDirectionBits | directions << kBlendedDirectionBits;
     } else if (cull.phase == kCullEarly) {
-        word |= (directions & visibleLastFrame[slot]) << kCameraDirectionBits | casting << kShadowDirectionBits;
+        word |= (directions & visibleLastFrame[slot]) << kOpaqueDirectionBits;
     } else {
         uint drawnEarly = directions & visibleLastFrame[slot];
         visibleLastFrame[slot] = 0u;

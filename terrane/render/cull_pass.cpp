@@ -21,16 +21,10 @@ gpu::Buffer gpuOnly(std::size_t bytes, std::string_view label) {
 static_assert(static_cast<shared::uint>(CullPhase::Early) == shared::kCullEarly &&
               static_cast<shared::uint>(CullPhase::Late) == shared::kCullLate);
 
-// Without a shadow map: no point is inside of such a plane.
-constexpr glm::vec4 kNothing(0, 0, 0, -1);
-constexpr Frustum kEmptyVolume{kNothing, kNothing, kNothing, kNothing, kNothing};
-
 shared::CullFrame frameOf(CullPhase phase, const CullInput& input, std::uint32_t meshSections) {
     shared::CullFrame frame{};
     std::ranges::copy(input.camera, frame.cameraPlanes);
-    std::ranges::copy(input.shadow.value_or(kEmptyVolume), frame.shadowPlanes);
     frame.cameraPosition = glm::vec4(input.cameraPosition, 0);
-    frame.lightDirection = glm::vec4(input.lightDirection, 0);
     frame.viewProjection = input.viewProjection;
     frame.cameraChunk = {input.cameraChunk.x, input.cameraChunk.y};
     frame.viewportSize = input.size;
@@ -52,15 +46,11 @@ void add(shared::DrawCounts& sum, const shared::DrawCounts& counts) {
     sum.meshSections += counts.meshSections;
 }
 
-std::uint32_t bucketOf(std::uint32_t list) {
-    return list < shared::kCameraLists ? list : list - shared::kCameraLists;
-}
-
 // Room for all faces of each list's draw bucket, so that none can overflow.
 std::size_t commandBytesOf(const MeshSectionTable& meshSections) {
     std::size_t sum = 0;
     for (const MeshSectionTable::BucketCommands& buckets : meshSections.maxCommands())
-        for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) sum += buckets[bucketOf(list)];
+        for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) sum += buckets[list];
     return std::max<std::size_t>(sum, 1) * sizeof(shared::DrawCommand);
 }
 
@@ -92,7 +82,7 @@ void CullPass::reserve(const MeshSectionTable& meshSections) {
     assert(lists_.size() <= shared::kMaxArenas && "the store has no more arenas");
     for (std::size_t arena = 0; arena < lists_.size(); ++arena) {
         for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
-            lists_[arena][list] = {sum, meshSections.maxCommands()[arena][bucketOf(list)]};
+            lists_[arena][list] = {sum, meshSections.maxCommands()[arena][list]};
             sum += lists_[arena][list].max;
         }
     }
@@ -141,8 +131,7 @@ void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSect
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     if (phase_ == CullPhase::Late) quadCull_.run(*input.quads, *input.resources);
     compact_.use();
-    glDispatchCompute(input.shadow ? shared::kDrawLists : shared::kCameraLists,
-                      static_cast<GLuint>(lists_.size()), 1);
+    glDispatchCompute(shared::kDrawLists, static_cast<GLuint>(lists_.size()), 1);
     // The late pass overwrites what the early one read.
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -184,13 +173,12 @@ void CullPass::drawList(shared::uint list, std::size_t arena) const {
 }
 
 void CullPass::drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const QuadStore& quads,
-                           const DrawClass& drawn) const {
+                           mesh::AlphaClass alphaClass) const {
     for (const bool isTwoSided : {false, true}) {
         gpu::PipelineState bucketState = state;
         bucketState.cullsBackFaces = !isTwoSided;
         pipeline.set(bucketState);
-        const auto bucket = static_cast<shared::uint>(mesh::drawBucket(drawn.alphaClass, isTwoSided));
-        const shared::uint list = drawn.forShadows ? shared::kCameraLists + bucket : bucket;
+        const auto list = static_cast<shared::uint>(mesh::drawBucket(alphaClass, isTwoSided));
         for (std::size_t arena = 0; arena < lists_.size(); ++arena) {
             if (lists_[arena][list].max == 0) continue;
             quads.texels(arena).bind(shared::kQuadsUnit);

@@ -1,10 +1,8 @@
-// Decides on the GPU what is drawn: mesh sections in the view of the camera and of the shadow map, without
-// the face directions that look away, become indirect draw commands, nearest first. Used by the renderer on
-// the context's thread.
+// Decides on the GPU what is drawn: mesh sections in the view of the camera, without the face directions that
+// look away, become indirect draw commands, nearest first. Used by the renderer on the context's thread.
 #pragma once
 
 #include <array>
-#include <optional>
 
 #include "terrane/gpu/device_info.h"
 #include "terrane/gpu/fence.h"
@@ -22,8 +20,6 @@ struct CullInput {
     world::ChunkPos cameraChunk;
     glm::vec3 cameraPosition;  // from its corner
     Frustum camera;
-    glm::vec3 lightDirection;
-    std::optional<Frustum> shadow;  // none: no shadow map
     glm::mat4 viewProjection{1};
     glm::vec2 size{1};         // of the image in pixels
     const HiZ* hiZ = nullptr;  // for the late pass
@@ -39,12 +35,6 @@ struct CullInput {
 // depth does not hide. Mesh sections first, then their quads: quad_cull.h.
 enum class CullPhase : std::uint8_t { All, Early, Late };
 
-// Which quads a draw takes: of an alpha class, of the camera's view or of the shadow map's.
-struct DrawClass {
-    mesh::AlphaClass alphaClass = mesh::AlphaClass::Opaque;
-    bool forShadows = false;
-};
-
 class CullPass {
   public:
     static base::Result<CullPass> create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device);
@@ -56,7 +46,7 @@ class CullPass {
     // Draws the quads that the last pass chose, one draw call for each draw bucket and arena of `quads`. The
     // shader and what it reads but the quads are bound. Culls the back faces of one-sided quads.
     void drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const QuadStore& quads,
-                     const DrawClass& drawn) const;
+                     mesh::AlphaClass alphaClass) const;
 
     // Of the newest frame that the GPU has finished, all runs together; does not wait. Ends the frame.
     void queueCounts();

@@ -135,6 +135,6 @@ void main() {
             isAnyNew = isAnyNew || isNew;
         }
         if (isAnySeen) atomicOr(visibleLastFrame[slot], 1u << direction);
-        if (isAnyNew) atomicOr(visible[number], 1u << (kCameraDirectionBits + direction));
+        if (isAnyNew) atomicOr(visible[number], 1u << (kOpaqueDirectionBits + direction));
     }
 }

@@ -23,8 +23,8 @@ struct QuadDraw {
 
     void bind() const { resources.bind(meshSections, isSmooth); }
     // With a shader and what bind() binds.
-    void draw(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const DrawClass& drawn) const {
-        culled.drawBuckets(pipeline, state, quads, drawn);
+    void draw(gpu::Pipeline& pipeline, const gpu::PipelineState& state, mesh::AlphaClass alphaClass) const {
+        culled.drawBuckets(pipeline, state, quads, alphaClass);
     }
 };
 

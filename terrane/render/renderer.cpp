@@ -67,6 +67,7 @@ base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, con
     }
     if (auto colors = world::topColors(blocks, textures)) topColors_ = std::move(*colors);
     resources_.setTextures(blocks, std::move(*loaded));
+    passes_.shadowMap.forget();
     return {};
 }
 
@@ -135,14 +136,13 @@ base::Result<void> Renderer::useLand(bool isUsed) {
 bool Renderer::hasShadows(const FrameInput& input) const {
     const glm::vec3 light = input.environment.lightColor;
     const bool isLit = std::max({light.x, light.y, light.z}) > kMinShadowedLight;
-    return passes_.shadowMap.size() > 0 && input.view == View::Color && isLit;
+    return passes_.shadowMap.isOn() && input.view == View::Color && isLit;
 }
 
 void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
     shared::Frame frame =
         frameUniforms(input, options_,
-                      {view, glm::vec2(targets_.size), edgeExpansion(device_.subpixelBits, targets_.size),
-                       hasShadows(input) ? passes_.shadowMap.size() : 0});
+                      {view, glm::vec2(targets_.size), edgeExpansion(device_.subpixelBits, targets_.size)});
     const world::ChunkPos chunk = cameraChunk(input.camera);
     const int mask = light_.gridChunks() - 1;
     constexpr int kTilesOfChunk = static_cast<int>(shared::kChunkSize / shared::kLightTileSize);
@@ -159,13 +159,8 @@ void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
 }
 
 CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view) const {
-    CullInput cull{cameraChunk(input.camera),
-                   view.cameraPosition,
-                   frustumOf(view.viewProjection),
-                   input.environment.lightDirection,
-                   {},
-                   view.viewProjection,
-                   glm::vec2(targets_.size)};
+    CullInput cull{cameraChunk(input.camera), view.cameraPosition, frustumOf(view.viewProjection),
+                   view.viewProjection, glm::vec2(targets_.size)};
     cull.quads = &quads_;
     cull.resources = &resources_;
     cull.edgeExpansion = edgeExpansion(device_.subpixelBits, targets_.size);
@@ -173,9 +168,6 @@ CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view)
     cull.samples = targets_.msaaSamples;
     if (input.culledFor) {
         cull.camera = frustumOf(viewMatrices(*input.culledFor, aspectOf(targets_.size)).viewProjection);
-    }
-    if (hasShadows(input)) {
-        cull.shadow = planesOf(shadowVolume(view, input.environment.lightDirection, kShadowReach));
     }
     return cull;
 }
@@ -193,9 +185,14 @@ ShadingInputs Renderer::shadingInputs() const {
     return {light_, passes_.shadowMap, noise_};
 }
 
-void Renderer::drawShadows() {
-    const TimerZone zone(timer_, "shadow map");
-    passes_.shadowMap.draw(pipeline_, quadDraw());
+void Renderer::drawShadows(const FrameInput& input) {
+    passes_.shadowMap.markChanged(meshSections_.takeChanges());
+    if (hasShadows(input)) {
+        const TimerZone zone(timer_, "shadow map");
+        passes_.shadowMap.update(pipeline_, {resources_, quads_, meshSections_}, input.camera,
+                                 input.environment.lightDirection, input.maxShadowTiles);
+    }
+    passes_.shadowMap.bindUniforms(input.camera, hasShadows(input), ring_);
 }
 
 void Renderer::drawSurfaces(bool leavesOutHidden) {
@@ -210,9 +207,7 @@ void Renderer::drawLate(const CullInput& cullInput) {
         const TimerZone zone(timer_, "depth pyramid");
         passes_.hiZ.build(targets_);
     }
-    CullInput again = cullInput;
-    again.shadow.reset();
-    cull(CullPhase::Late, again);
+    cull(CullPhase::Late, cullInput);
     const TimerZone zone(timer_, "surfaces again");
     passes_.gbuffer.draw(pipeline_, targets_, quadDraw(), shared::kQuadNew);
 }
@@ -295,7 +290,7 @@ void Renderer::draw(const FrameInput& input) {
     const bool leavesOutHidden = passes_.hiZ.isOn() && !input.culledFor;
     if (leavesOutHidden) culling.hiZ = &passes_.hiZ;
     cull(leavesOutHidden ? CullPhase::Early : CullPhase::All, culling);
-    if (hasShadows(input)) drawShadows();
+    drawShadows(input);
     drawSurfaces(leavesOutHidden);
     if (leavesOutHidden) drawLate(culling);
     if (passes_.holeFill.isOn()) {

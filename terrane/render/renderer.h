@@ -98,7 +98,9 @@ class Renderer {
     const gpu::Texture2D& ldrTexture() const { return targets_.ldrColor; }
 
     // Of the newest frame that the GPU has finished.
-    FrameStatistics statistics() { return statisticsOf(passes_.cull.counts()); }
+    FrameStatistics statistics() {
+        return statisticsOf(passes_.cull.counts(), passes_.shadowMap.drawnTriangles());
+    }
     const std::vector<gpu::GpuTiming>& passTimes() const { return timer_.results(); }
     // What a shadow map for this frame would draw.
     std::size_t shadowTriangles(const FrameInput& input) const;
@@ -115,7 +117,7 @@ class Renderer {
     void bindFrame(const FrameInput& input, const ViewMatrices& view);
     CullInput cullInput(const FrameInput& input, const ViewMatrices& view) const;
     void cull(CullPhase phase, const CullInput& input);
-    void drawShadows();
+    void drawShadows(const FrameInput& input);
     void drawSurfaces(bool leavesOutHidden);
     void drawLate(const CullInput& cullInput);
     void shadeSurfaces(const FrameInput& input);

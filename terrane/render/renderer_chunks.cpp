@@ -117,6 +117,7 @@ void Renderer::clearChunks() {
     quads_ = QuadStore(quadSizes_);
     hidden_.clear();
     meshSections_ = MeshSectionTable(quads_.ranges().arenaSize());
+    passes_.shadowMap.forget();
     setViewDistance(viewDistance_);
 }
 

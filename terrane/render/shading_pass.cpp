@@ -35,8 +35,8 @@ base::Result<void> ShadingPass::select(const RenderOptions& options, int samples
     return shade_.select(defined({{"MSAA_SAMPLES", samples},
                                   {"PER_SAMPLE", options.shading != Shading::Pixel},
                                   {"LIGHT_SMOOTH", static_cast<int>(options.light)},
-                                  {"SHADOW", light.hasShadows},
-                                  {"LAND", light.hasShadows && light.knowsLand},
+                                  {"SHADOW", light.shadowVariant},
+                                  {"LAND", light.knowsLand},
                                   {"OCCLUSION", options.occlusion != Occlusion::Off},
                                   {"OVER_SKY", fadesOverSky_},
                                   {"DIRECT", isDirect_}}));

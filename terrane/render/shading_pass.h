@@ -18,10 +18,7 @@ class ShadingPass {
     ShadingPass() = default;
     explicit ShadingPass(const gpu::ShaderLoader& shaders);
 
-    struct Light {
-        bool hasShadows = false, knowsLand = false;
-    };
-    base::Result<void> select(const RenderOptions& options, int samples, const Light& light);
+    base::Result<void> select(const RenderOptions& options, int samples, const LightVariant& light);
     struct Sky {
         float fogDistance;  // blocks
         bool hasStars;

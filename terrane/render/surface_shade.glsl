@@ -1,7 +1,7 @@
 // The light of an opaque surface that reaches the camera: color times coverage, and coverage. SHADOW, OVER_SKY: see
 // shade.frag.glsl.
 // Needs land_light.glsl, lighting.glsl, distance_fog.glsl, gbuffer_read.glsl, and `inRay`.
-#if SHADOW == 1
+#if SHADOW > 0
 #include "terrane/render/shadow_sample.glsl"
 #endif
 
@@ -18,7 +18,7 @@ vec4 shadeAt(Surface s, float depth, float visibility) {
     vec3 position = frame.cameraPosition.xyz + toPoint;
     if ((frame.switches & kSwitchUnlit) != 0) return throughAirOf(s.albedo, toPoint, 1.0);
     float shadow = 1.0;
-#if SHADOW == 1
+#if SHADOW > 0
     shadow = lightShare(position, s.normal, length(toPoint));
 #endif
     vec4 levels = levelsAt(position, s);

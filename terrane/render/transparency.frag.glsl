@@ -1,6 +1,6 @@
 // The light of all layers of blended faces over the image: color times coverage, and coverage.
-// MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW, OCCLUSION: 1 where there is a shadow map, ambient
-// occlusion of the nearest layer. LAND: see land_light.glsl. QUADS: 1 draws over the
+// MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW: 0 without shadows, else see shadow_sample.glsl.
+// OCCLUSION: 1 where there is ambient occlusion of the nearest layer. LAND: see land_light.glsl. QUADS: 1 draws over the
 // quads of the first layer, 0 over the whole screen. DIRECT: 1 with QUADS writes what the screen shows (direct_image.h).
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
@@ -41,7 +41,7 @@ vec4 shadeLayer(Layer layer, float depth, float behind, float visibility, bool h
     vec3 toPoint = inRay * blocks, position = frame.cameraPosition.xyz + toPoint;
     if ((frame.switches & kSwitchUnlit) != 0) return throughAir(layer.surface.albedo, toPoint, 1.0) * layer.alpha;
     float shadow = 1.0;
-#if SHADOW == 1
+#if SHADOW > 0
     shadow = lightShare(position, layer.surface.normal, length(toPoint));
 #endif
     vec4 levels = levelsAt(position, layer.surface);

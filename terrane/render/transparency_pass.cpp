@@ -41,7 +41,7 @@ base::Result<TransparencyPass::Target> TransparencyPass::makeTarget(const FrameT
 }
 
 base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOptions& options,
-                                                    bool hasShadows, const QuadFeatures& features) {
+                                                    const LightVariant& light, const QuadFeatures& features) {
     const int layers = options.transparencyLayers;
     const auto peeling = [&](int next) {
         return defined({{"PASS", 1},
@@ -57,8 +57,8 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
                                                 {"ALPHA_CLASS", 2},
                                                 {"MSAA_SAMPLES", samples},
                                                 {"LAYERS", layers},
-                                                {"SHADOW", hasShadows},
-                                                {"LAND", hasShadows && features.hasLand},
+                                                {"SHADOW", light.shadowVariant},
+                                                {"LAND", light.knowsLand},
                                                 {"OCCLUSION", options.occlusion != Occlusion::Off},
                                                 {"LIGHT_SMOOTH", static_cast<int>(options.light)},
                                                 {"QUADS", shadesQuads_},
@@ -74,12 +74,12 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
 // With one sample a pixel the layers' quads are drawn once more to shade the pixels they cover, and no
 // others. A single layer has a background everywhere.
 base::Result<void> TransparencyPass::configure(const FrameTargets& targets, const RenderOptions& options,
-                                               bool hasShadows, const QuadFeatures& features) {
+                                               const LightVariant& light, const QuadFeatures& features) {
     shadesQuads_ = targets.msaaSamples == 1 && options.singleTransparencyLayer == 0;
     isDirect_ = isDirectImage(options, targets.msaaSamples);
     isMasked_ = targets.msaaSamples > 1 && options.singleTransparencyLayer == 0;
     if (options.transparencyLayers > 0) {
-        if (auto selected = selectVariants(targets.msaaSamples, options, hasShadows, features); !selected)
+        if (auto selected = selectVariants(targets.msaaSamples, options, light, features); !selected)
             return selected;
     }
     const bool isMade =

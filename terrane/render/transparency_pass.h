@@ -22,7 +22,7 @@ class TransparencyPass {
     explicit TransparencyPass(const gpu::ShaderLoader& shaders);
 
     // Makes room for the layers. Comes again whenever the targets are others.
-    base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options, bool hasShadows,
+    base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options, const LightVariant& light,
                                  const QuadFeatures& features);
 
     // Into textures of its own, behind nothing of the depth in `targets`.
@@ -44,7 +44,7 @@ class TransparencyPass {
     void peelLayer(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads, int number);
     void bindLayers() const;
 
-    base::Result<void> selectVariants(int samples, const RenderOptions& options, bool hasShadows,
+    base::Result<void> selectVariants(int samples, const RenderOptions& options, const LightVariant& light,
                                       const QuadFeatures& features);
 
     ShaderVariants first_, next_, shadeQuads_;
