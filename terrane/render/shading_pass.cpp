@@ -20,7 +20,7 @@ ShadingPass::ShadingPass(const gpu::ShaderLoader& shaders)
       skyMask_(shaders, PixelMask::Of::Sky),
       surfaceMask_(shaders, PixelMask::Of::Surfaces) {}
 
-base::Result<void> ShadingPass::select(const RenderOptions& options, int samples, const Light& light) {
+base::Result<void> ShadingPass::select(const RenderOptions& options, int samples, const LightVariant& light) {
     fadesOverSky_ = samples > 1 || options.clouds;
     hasDistanceFog_ = options.distanceFog;
     isDirect_ = isDirectImage(options, samples);

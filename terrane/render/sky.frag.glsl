@@ -3,10 +3,10 @@
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/sky_color.glsl"
 #include "terrane/render/clouds.glsl"
+#include "terrane/render/tone.glsl"
 #if NIGHT == 1
 #include "terrane/render/stars.glsl"
 #endif
-#include "terrane/render/tone.glsl"
 
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
