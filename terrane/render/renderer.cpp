@@ -202,15 +202,16 @@ void Renderer::shadeSurfaces(float fogDistance) {
 // Costs nothing where no mesh section in view has blended faces; false then.
 bool Renderer::drawTransparency(const FrameInput& input) {
     const ViewMatrices view = viewMatrices(input.camera, aspectOf(targets_.size));
-    const Frustum frustum = frustumOf(view.viewProjection);
-    if (options_.transparencyLayers == 0 || !meshSections_.hasBlended(cameraChunk(input.camera), frustum))
-        return false;
+    if (options_.transparencyLayers == 0) return false;
+    const std::vector<ScreenRect> rects =
+        meshSections_.blendedRects(cameraChunk(input.camera), view.viewProjection, targets_.size);
+    if (rects.empty()) return false;
     {
         const TimerZone zone(timer_, "peel");
-        passes_.transparency.peelLayers(pipeline_, targets_, quadDraw());
+        passes_.transparency.peelLayers(pipeline_, targets_, quadDraw(), rects);
     }
     const TimerZone zone(timer_, "shade layers");
-    passes_.transparency.shade(pipeline_, targets_, quadDraw(), shadingInputs(), passes_.occlusion);
+    passes_.transparency.shade(pipeline_, targets_, quadDraw(), shadingInputs(), passes_.occlusion, rects);
     return true;
 }
 

@@ -1,6 +1,7 @@
 #include "terrane/render/transparency_pass.h"
 
 #include "terrane/gpu/debug.h"
+#include "terrane/gpu/scissor.h"
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
@@ -73,6 +74,8 @@ base::Result<void> TransparencyPass::configure(const FrameTargets& targets, cons
                                                bool hasShadows, const QuadFeatures& features) {
     shadesQuads_ = targets.msaaSamples == 1 && options.singleTransparencyLayer == 0;
     isMasked_ = targets.msaaSamples > 1 && options.singleTransparencyLayer == 0;
+    isBounded_ = options.singleTransparencyLayer == 0;
+    hasWholeDepth_ = options.occlusion != Occlusion::Off || options.depthOfField;
     if (options.transparencyLayers > 0) {
         if (auto selected = selectVariants(targets.msaaSamples, options, hasShadows, features); !selected)
             return selected;
@@ -103,13 +106,18 @@ base::Result<void> TransparencyPass::configure(const FrameTargets& targets, cons
 
 // A layer starts with the depth of what is opaque: faces behind that fail the depth test, and where none is
 // drawn the depth tells so.
-void TransparencyPass::peelLayer(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
-                                 int number) {
+void TransparencyPass::copyDepth(const FrameTargets& targets, int number,
+                                 std::span<const ScreenRect> rects) const {
+    const Target& target = targets_[static_cast<std::size_t>(number)];
+    const GLenum kind = targetOf(samples_);
+    for (const ScreenRect& rect : rects)
+        glCopyImageSubData(targets.depth.id(), kind, 0, rect.min.x, rect.min.y, 0, target.depth.id(), kind, 0,
+                           rect.min.x, rect.min.y, 0, rect.size().x, rect.size().y, 1);
+}
+
+void TransparencyPass::peelLayer(gpu::Pipeline& pipeline, const QuadDraw& quads, int number) {
     const auto index = static_cast<std::size_t>(number);
     Target& target = targets_[index];
-    const GLenum kind = targetOf(samples_);
-    glCopyImageSubData(targets.depth.id(), kind, 0, 0, 0, 0, target.depth.id(), kind, 0, 0, 0, 0, size_.x,
-                       size_.y, 1);
     target.framebuffer.bind();
     // Behind a layer without faces there are none: the GPU leaves out their drawing, not the copy above.
     if (number > 0) {
@@ -124,11 +132,16 @@ void TransparencyPass::peelLayer(gpu::Pipeline& pipeline, const FrameTargets& ta
     if (number > 0) glEndConditionalRender();
 }
 
-void TransparencyPass::peelLayers(gpu::Pipeline& pipeline, const FrameTargets& targets,
-                                  const QuadDraw& quads) {
+void TransparencyPass::peelLayers(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
+                                  std::span<const ScreenRect> rects) {
     const gpu::DebugGroup group("layers");
+    const ScreenRect all{{0, 0}, size_};
     quads.bind();
-    for (int number = 0; number < layers_; ++number) peelLayer(pipeline, targets, quads, number);
+    for (int number = 0; number < layers_; ++number) {
+        const bool needsAll = !isBounded_ || (number == 0 && hasWholeDepth_);
+        copyDepth(targets, number, needsAll ? std::span(&all, 1) : rects);
+        peelLayer(pipeline, quads, number);
+    }
 }
 
 std::size_t TransparencyPass::gpuBytes() const {
@@ -145,28 +158,43 @@ void TransparencyPass::bindLayers() const {
     }
 }
 
+// The whole screen shades so where quads are not drawn again.
+void TransparencyPass::shadeWithin(gpu::Pipeline& pipeline, const FrameTargets& targets,
+                                   const ScreenRect& rect, const AmbientOcclusion& occlusion) const {
+    const gpu::Scissor scissor(rect.min, rect.size());
+    if (isMasked_) mask_.draw(pipeline, targets);
+    if (occlusion.isOn()) occlusion.result().bind(shared::kOcclusionUnit);
+    targets.scene.bind();
+    shade_.draw(pipeline, {.depthTest = isMasked_ ? gpu::DepthTest::Less : gpu::DepthTest::Off,
+                           .writesDepth = false,
+                           .blending = gpu::Blending::Over});
+}
+
 void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
-                             const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const {
-    gpu::PipelineState state{.writesDepth = false, .blending = gpu::Blending::Over};
+                             const ShadingInputs& inputs, const AmbientOcclusion& occlusion,
+                             std::span<const ScreenRect> rects) const {
+    const ScreenRect all{{0, 0}, size_};
+    if (!isBounded_) rects = std::span(&all, 1);
     glBeginConditionalRender(anyDrawn_[0].id(), GL_QUERY_WAIT);
     bindLayers();
     if (occlusion.isOn()) {
+        const ScreenRect bounds = boundsOf(rects);  // one: its blur reads beyond a rectangle
+        const gpu::Scissor scissor(bounds.min, bounds.size());
         occlusion.drawNearestLayer(pipeline, targets);
         occlusion.result().bind(shared::kOcclusionUnit);
     }
-    if (isMasked_) mask_.draw(pipeline, targets);
     targets.bindGBuffer();
     inputs.bind();
     if (shadesQuads_) {
         overQuads_.bind();
         quads.bind();
         shadeQuads_.use();
-        state.depthTest = gpu::DepthTest::Equal;
-        quads.draw(pipeline, state, {mesh::AlphaClass::Blended});
+        quads.draw(
+            pipeline,
+            {.depthTest = gpu::DepthTest::Equal, .writesDepth = false, .blending = gpu::Blending::Over},
+            {mesh::AlphaClass::Blended});
     } else {
-        targets.scene.bind();
-        if (isMasked_) state.depthTest = gpu::DepthTest::Less;
-        shade_.draw(pipeline, state);
+        for (const ScreenRect& rect : rects) shadeWithin(pipeline, targets, rect, occlusion);
     }
     glEndConditionalRender();
 }

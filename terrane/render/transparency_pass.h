@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "terrane/render/ambient_occlusion.h"
 #include "terrane/render/frame_targets.h"
@@ -10,6 +11,7 @@
 #include "terrane/render/pixel_mask.h"
 #include "terrane/render/quad_draw.h"
 #include "terrane/render/render_options.h"
+#include "terrane/render/screen_rect.h"
 #include "terrane/render/shading_inputs.h"
 
 namespace terrane::render {
@@ -25,13 +27,17 @@ class TransparencyPass {
     base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options, bool hasShadows,
                                  const QuadFeatures& features);
 
-    // Into textures of its own, behind nothing of the depth in `targets`.
-    void peelLayers(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads);
+    // Into textures of its own, behind nothing of the depth in `targets`. All of it happens within `rects`,
+    // which hold all pixels with blended faces and do not overlap; there is one at least.
+    void peelLayers(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
+                    std::span<const ScreenRect> rects);
     // Over the scene, where peel found anything. Of the same quads.
     void shade(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
-               const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const;
+               const ShadingInputs& inputs, const AmbientOcclusion& occlusion,
+               std::span<const ScreenRect> rects) const;
 
-    // After peelLayers(): of what is nearest in each sample, opaque or blended.
+    // After peelLayers(): of what is nearest in each sample, opaque or blended. Whole with ambient occlusion
+    // or depth of field, which read it beside the layers; else of the rectangles.
     const MsaaTexture& nearestDepth() const { return targets_[0].depth; }
     std::size_t gpuBytes() const;
 
@@ -41,7 +47,10 @@ class TransparencyPass {
         gpu::Framebuffer framebuffer;
     };
     static base::Result<Target> makeTarget(const FrameTargets& targets);
-    void peelLayer(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads, int number);
+    void peelLayer(gpu::Pipeline& pipeline, const QuadDraw& quads, int number);
+    void copyDepth(const FrameTargets& targets, int number, std::span<const ScreenRect> rects) const;
+    void shadeWithin(gpu::Pipeline& pipeline, const FrameTargets& targets, const ScreenRect& rect,
+                     const AmbientOcclusion& occlusion) const;
     void bindLayers() const;
 
     base::Result<void> selectVariants(int samples, const RenderOptions& options, bool hasShadows,
@@ -52,6 +61,8 @@ class TransparencyPass {
     PixelMask mask_;
     bool shadesQuads_ = false;    // instead of the whole screen
     bool isMasked_ = false;       // the whole screen but for pixels without layers
+    bool isBounded_ = true;       // by rectangles: a single layer has a background everywhere
+    bool hasWholeDepth_ = false;  // others read the first layer's depth all over the screen
     gpu::Framebuffer overQuads_;  // the scene with the first layer's depth
     int layers_ = 0;
     glm::ivec2 size_{0};
