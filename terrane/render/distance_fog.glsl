@@ -1,15 +1,11 @@
 // How distance changes colors. Needs frame_uniforms.glsl and sky_color.glsl.
 
-// Seen by a camera in the water: nothing is farther than some thirty blocks.
-vec4 throughWater(vec3 color, float blocks) {
-    vec3 left = exp(-vec3(0.16, 0.075, 0.06) * blocks);
-    return vec4(mix(murk(), color, left), 1.0);
-}
+#include "terrane/render/underwater.glsl"
 
 // Toward the color of the sky behind, and from 5/6 of the view on toward nothing, so that chunks come and go unseen:
 // color times what is left of it, and what is left. Where no daylight comes (0…1) there is no haze: caves stay dark.
 vec4 throughAir(vec3 color, vec3 toPoint, float daylight) {
-    if (frame.isUnderWater != 0u) return throughWater(color, length(toPoint));
+    if (frame.isUnderWater != 0u) return seenUnderWater(color, toPoint, daylight);
     if ((frame.switches & kSwitchDistanceFog) == 0) return vec4(color, 1.0);
     float share = length(toPoint.xy) / frame.fogDistance;
     float haze = (1.0 - exp(-0.9 * share * share * share)) * smoothstep(-0.1, 0.5, daylight);

@@ -16,7 +16,7 @@ struct FrameInput {
     float fogDistance = 256;  // blocks: from here on everything is sky
     float timeSeconds = 0;    // for animations
     View view = View::Color;
-    bool isUnderWater = false;
+    int waterAbove = 0;  // blocks of water over the camera, its own included; 0 in air
     // Draws only what this camera would see, whatever is hidden from it: to look at culling from outside. It
     // is in the same chunk as `camera`.
     std::optional<Camera> culledFor = std::nullopt;

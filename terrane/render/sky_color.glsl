@@ -12,7 +12,8 @@ vec3 skyColor(vec3 direction) {
     return color + frame.glowColor.rgb * halo + frame.lightColor.rgb * 0.35 * near3 * near3;
 }
 
-// What one sees in water where there is nothing.
+// What one sees in water where there is nothing: bluer and darker the more of it is above.
 vec3 murk() {
-    return vec3(0.02, 0.13, 0.19) * (frame.ambientColor.rgb + 0.6 * frame.lightColor.rgb) + 0.002;
+    vec3 fromAbove = exp(-vec3(0.10, 0.055, 0.035) * float(max(int(frame.isUnderWater) - 1, 0)));
+    return vec3(0.02, 0.13, 0.19) * fromAbove * (frame.ambientColor.rgb + 0.6 * frame.lightColor.rgb) + 0.002;
 }

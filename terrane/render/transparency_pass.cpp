@@ -62,7 +62,8 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
                                                 {"LIGHT_SMOOTH", static_cast<int>(options.light)},
                                                 {"QUADS", shadesQuads_},
                                                 {"FACE_SAMPLING", 0},
-                                                {"TINT", 0}});
+                                                {"TINT", 0},
+                                                {"WATER_DETAIL", options.water == Water::Full}});
     if (selected) selected = shadesQuads_ ? shadeQuads_.select(shading) : shade_.select(shading);
     if (selected && isMasked_) selected = mask_.select(samples);
     return selected;
@@ -167,7 +168,7 @@ void TransparencyPass::shadeWithin(gpu::Pipeline& pipeline, const FrameTargets& 
     targets.scene.bind();
     shade_.draw(pipeline, {.depthTest = isMasked_ ? gpu::DepthTest::Less : gpu::DepthTest::Off,
                            .writesDepth = false,
-                           .blending = gpu::Blending::Over});
+                           .blending = gpu::Blending::Through});
 }
 
 void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
@@ -184,6 +185,7 @@ void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& target
         occlusion.result().bind(shared::kOcclusionUnit);
     }
     targets.bindGBuffer();
+    targets.sceneColor.bind(shared::kSceneUnit);  // of pixels without layers: see water_reflection.glsl
     inputs.bind();
     if (shadesQuads_) {
         overQuads_.bind();
@@ -191,7 +193,7 @@ void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& target
         shadeQuads_.use();
         quads.draw(
             pipeline,
-            {.depthTest = gpu::DepthTest::Equal, .writesDepth = false, .blending = gpu::Blending::Over},
+            {.depthTest = gpu::DepthTest::Equal, .writesDepth = false, .blending = gpu::Blending::Through},
             {mesh::AlphaClass::Blended});
     } else {
         for (const ScreenRect& rect : rects) shadeWithin(pipeline, targets, rect, occlusion);

@@ -55,7 +55,7 @@ struct Frame {
     float shadowStrength;     // 0 without a map
     float shadowTexelBlocks;  // blocks a texel
     float shadowReach;        // distance in blocks from which there are no shadows
-    uint isUnderWater;        // 1 where the camera is
+    uint isUnderWater;        // blocks of water over the camera, its own included; 0 in air
 };
 
 // Along the view, as the depth has it, surfaces may fade from this share of the distance of the fog on: they

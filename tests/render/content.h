@@ -32,6 +32,7 @@ inline RenderOptions plainOptions(int samples) {
     options.msaaSamples = samples;
     options.shadowSize = 0;
     options.depthOfField = options.godRays = options.clouds = false;
+    options.water = Water::Plain;
     options.animation = options.msaaAlphaTest = false;
     return options;
 }

@@ -68,6 +68,7 @@ const std::map<std::string, Values>& variantValues() {
           {"OCCLUSION", {"0", "1"}},
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"QUADS", {"0", "1"}},
+          {"WATER_DETAIL", {"0", "1"}},
           {"FACE_SAMPLING", {"0"}},
           {"TINT", {"0"}}}},
         {"pixel_mask.frag", {{"MSAA_SAMPLES", {"4"}}, {"OF", {"0", "1", "2"}}}},
