@@ -84,6 +84,9 @@ Passed shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 lev
     seen *= 1.0 - foam;
     mirror *= 1.0 - foam;
 #endif
+#if WATER_DETAIL == 1
+    waves = withRipples(waves, position, toPoint);
+#endif
     vec3 glint = isTop ? glitter(view, waves) * shadow * open : vec3(0.0);
     float left = dot(seen, vec3(1.0 / 3.0)) * (1.0 - mirror);
     return Passed(vec4(mix(body, mirrored, mirror) + glint, 1.0 - left), vec4(seen * (1.0 - mirror), left));
