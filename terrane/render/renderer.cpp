@@ -162,8 +162,8 @@ QuadDraw Renderer::quadDraw() {
     return {resources_, quads_, meshSections_, passes_.cull, options_.sharpFiltering};
 }
 
-ShadingInputs Renderer::shadingInputs() const {
-    return {light_, passes_.shadowMap, noise_};
+ShadingInputs Renderer::shadingInputs(const FrameInput& input) const {
+    return {light_, passes_.shadowMap, noise_, input.waterAbove > 0};
 }
 
 void Renderer::drawShadows() {
@@ -190,13 +190,13 @@ void Renderer::drawLate(const CullInput& cullInput) {
     passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
 }
 
-void Renderer::shadeSurfaces(float fogDistance) {
+void Renderer::shadeSurfaces(const FrameInput& input) {
     {
         const TimerZone zone(timer_, "sky");
-        passes_.shading.drawSky(pipeline_, targets_, shadingInputs(), fogDistance);
+        passes_.shading.drawSky(pipeline_, targets_, shadingInputs(input), input.fogDistance);
     }
     const TimerZone zone(timer_, "shade");
-    passes_.shading.drawSurfaces(pipeline_, targets_, shadingInputs(), passes_.occlusion);
+    passes_.shading.drawSurfaces(pipeline_, targets_, shadingInputs(input), passes_.occlusion);
 }
 
 // Costs nothing where no mesh section in view has blended faces; false then.
@@ -211,7 +211,8 @@ bool Renderer::drawTransparency(const FrameInput& input) {
         passes_.transparency.peelLayers(pipeline_, targets_, quadDraw(), rects);
     }
     const TimerZone zone(timer_, "shade layers");
-    passes_.transparency.shade(pipeline_, targets_, quadDraw(), shadingInputs(), passes_.occlusion, rects);
+    passes_.transparency.shade(pipeline_, targets_, quadDraw(), shadingInputs(input), passes_.occlusion,
+                               rects);
     return true;
 }
 
@@ -232,7 +233,7 @@ void Renderer::drawImage(const FrameInput& input) {
         const TimerZone zone(timer_, "ambient occlusion");
         passes_.occlusion.draw(pipeline_, targets_);
     }
-    shadeSurfaces(input.fogDistance);
+    shadeSurfaces(input);
     // Water is as far away as its surface, not as its ground.
     const bool hasLayers = drawTransparency(input);
     const MsaaTexture& depth = hasLayers ? passes_.transparency.nearestDepth() : targets_.depth;

@@ -106,13 +106,13 @@ class Renderer {
     void drawShadows();
     void drawSurfaces();
     void drawLate(const CullInput& cullInput);
-    void shadeSurfaces(float fogDistance);
+    void shadeSurfaces(const FrameInput& input);
     bool drawTransparency(const FrameInput& input);
     void drawImage(const FrameInput& input);
     void drawFinal(const MsaaTexture& depth);
     void drawDebugView();
     QuadDraw quadDraw();
-    ShadingInputs shadingInputs() const;
+    ShadingInputs shadingInputs(const FrameInput& input) const;
     bool hasShadows(const FrameInput& input) const;
     void showQuads(world::ChunkPos pos, mesh::MeshSectionSet changed);
     void shareBudget();

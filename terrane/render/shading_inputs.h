@@ -12,6 +12,7 @@ struct ShadingInputs {
     const LightStore& light;
     const ShadowMap& shadowMap;  // of size 0 where there are no shadows
     const SkyNoise& noise;
+    bool isUnderWater = false;  // where the camera is: shaders have variants for it
 
     void bind() const {
         light.bind();

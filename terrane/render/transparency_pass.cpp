@@ -22,8 +22,9 @@ GLenum targetOf(int samples) {
 TransparencyPass::TransparencyPass(const gpu::ShaderLoader& shaders)
     : first_(quadShaders(shaders, "depth_peel", "first layer")),
       next_(quadShaders(shaders, "depth_peel", "next layer")),
-      shadeQuads_(quadShaders(shaders, "transparency", "shade layers")),
-      shade_(shaders, "transparency"),
+      shadeQuads_{quadShaders(shaders, "transparency", "shade layers"),
+                  quadShaders(shaders, "transparency", "shade layers")},
+      shade_{FullscreenPass(shaders, "transparency"), FullscreenPass(shaders, "transparency")},
       mask_(shaders, PixelMask::Of::Layers) {
     for (auto& query : anyDrawn_) query = makeQuery();
 }
@@ -53,18 +54,22 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
     };
     auto selected = first_.select(peeling(0));
     if (selected && layers > 1) selected = next_.select(peeling(1));
-    const gpu::ShaderDefines shading = defined({{"PASS", 1},
-                                                {"ALPHA_CLASS", 2},
-                                                {"MSAA_SAMPLES", samples},
-                                                {"LAYERS", layers},
-                                                {"SHADOW", hasShadows},
-                                                {"OCCLUSION", options.occlusion != Occlusion::Off},
-                                                {"LIGHT_SMOOTH", static_cast<int>(options.light)},
-                                                {"QUADS", shadesQuads_},
-                                                {"FACE_SAMPLING", 0},
-                                                {"TINT", 0},
-                                                {"WATER_DETAIL", options.water == Water::Full}});
-    if (selected) selected = shadesQuads_ ? shadeQuads_.select(shading) : shade_.select(shading);
+    for (int isUnderWater = 0; selected && isUnderWater < 2; ++isUnderWater) {
+        const auto index = static_cast<std::size_t>(isUnderWater);
+        const gpu::ShaderDefines shading = defined({{"PASS", 1},
+                                                    {"ALPHA_CLASS", 2},
+                                                    {"MSAA_SAMPLES", samples},
+                                                    {"LAYERS", layers},
+                                                    {"SHADOW", hasShadows},
+                                                    {"OCCLUSION", options.occlusion != Occlusion::Off},
+                                                    {"LIGHT_SMOOTH", static_cast<int>(options.light)},
+                                                    {"QUADS", shadesQuads_},
+                                                    {"FACE_SAMPLING", 0},
+                                                    {"TINT", 0},
+                                                    {"WATER_DETAIL", options.water == Water::Full},
+                                                    {"UNDER_WATER", isUnderWater}});
+        selected = shadesQuads_ ? shadeQuads_[index].select(shading) : shade_[index].select(shading);
+    }
     if (selected && isMasked_) selected = mask_.select(samples);
     return selected;
 }
@@ -161,14 +166,16 @@ void TransparencyPass::bindLayers() const {
 
 // The whole screen shades so where quads are not drawn again.
 void TransparencyPass::shadeWithin(gpu::Pipeline& pipeline, const FrameTargets& targets,
-                                   const ScreenRect& rect, const AmbientOcclusion& occlusion) const {
+                                   const ScreenRect& rect, const ShadingInputs& inputs,
+                                   const AmbientOcclusion& occlusion) const {
     const gpu::Scissor scissor(rect.min, rect.size());
     if (isMasked_) mask_.draw(pipeline, targets);
     if (occlusion.isOn()) occlusion.result().bind(shared::kOcclusionUnit);
     targets.scene.bind();
-    shade_.draw(pipeline, {.depthTest = isMasked_ ? gpu::DepthTest::Less : gpu::DepthTest::Off,
-                           .writesDepth = false,
-                           .blending = gpu::Blending::Through});
+    shade_[inputs.isUnderWater ? 1 : 0].draw(
+        pipeline, {.depthTest = isMasked_ ? gpu::DepthTest::Less : gpu::DepthTest::Off,
+                   .writesDepth = false,
+                   .blending = gpu::Blending::Through});
 }
 
 void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
@@ -190,13 +197,13 @@ void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& target
     if (shadesQuads_) {
         overQuads_.bind();
         quads.bind();
-        shadeQuads_.use();
+        shadeQuads_[inputs.isUnderWater ? 1 : 0].use();
         quads.draw(
             pipeline,
             {.depthTest = gpu::DepthTest::Equal, .writesDepth = false, .blending = gpu::Blending::Through},
             {mesh::AlphaClass::Blended});
     } else {
-        for (const ScreenRect& rect : rects) shadeWithin(pipeline, targets, rect, occlusion);
+        for (const ScreenRect& rect : rects) shadeWithin(pipeline, targets, rect, inputs, occlusion);
     }
     glEndConditionalRender();
 }

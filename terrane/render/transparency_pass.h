@@ -50,14 +50,15 @@ class TransparencyPass {
     void peelLayer(gpu::Pipeline& pipeline, const QuadDraw& quads, int number);
     void copyDepth(const FrameTargets& targets, int number, std::span<const ScreenRect> rects) const;
     void shadeWithin(gpu::Pipeline& pipeline, const FrameTargets& targets, const ScreenRect& rect,
-                     const AmbientOcclusion& occlusion) const;
+                     const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const;
     void bindLayers() const;
 
     base::Result<void> selectVariants(int samples, const RenderOptions& options, bool hasShadows,
                                       const QuadFeatures& features);
 
-    ShaderVariants first_, next_, shadeQuads_;
-    FullscreenPass shade_;
+    ShaderVariants first_, next_;
+    std::array<ShaderVariants, 2> shadeQuads_;  // in air, under water
+    std::array<FullscreenPass, 2> shade_;
     PixelMask mask_;
     bool shadesQuads_ = false;    // instead of the whole screen
     bool isMasked_ = false;       // the whole screen but for pixels without layers

@@ -1,5 +1,5 @@
 // Water: waves in its normals, sky and shore in its mirror, glitter toward the sun or moon, darker and bluer the more of it one
-// looks through. Needs frame_uniforms.glsl, sky_color.glsl, lighting.glsl, underwater.glsl. WATER_DETAIL: 1 adds the mirror
+// looks through. Needs frame_uniforms.glsl, sky_color.glsl, lighting.glsl, bundled_light.glsl. WATER_DETAIL: 1 adds the mirror
 // image of the shore, foam and light that waves bundle on the ground.
 #include "terrane/render/water_waves.glsl"
 #if WATER_DETAIL == 1
@@ -63,7 +63,9 @@ Passed shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 lev
     float below = blocks * abs(view.z);
     Waves waves = wavesAt(position, toPoint, smoothstep(1.5, 8.0, below));
     vec3 normal = isTop ? normalize(vec3(waves.slope, 1.0)) * sign(s.normal.z) : s.normal;
-    if (frame.isUnderWater != 0u) return shadeFromBelow(view, normal);
+#if UNDER_WATER == 1
+    return shadeFromBelow(view, normal);
+#else
     vec3 direct = frame.lightColor.rgb * max(frame.lightDirection.z, 0.0) * shadow;
     vec3 lamps = light.rgb * (1.0 - frame.hiddenLampShare * light.a);
     vec3 lit = light.a * (frame.ambientColor.rgb * visibility + direct) + (lamps + kMinLight) * visibility;
@@ -90,4 +92,5 @@ Passed shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 lev
     vec3 glint = isTop ? glitter(view, waves) * shadow * open : vec3(0.0);
     float left = dot(seen, vec3(1.0 / 3.0)) * (1.0 - mirror);
     return Passed(vec4(mix(body, mirrored, mirror) + glint, 1.0 - left), vec4(seen * (1.0 - mirror), left));
+#endif
 }

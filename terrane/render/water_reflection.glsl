@@ -42,24 +42,26 @@ vec4 shoreReflection(vec3 position, vec3 direction, float mirror) {
     vec3 start = from.xyz / from.w, way = along.xyz / max(along.w, 0.02) - start;
     vec2 toEdge = (sign(way.xy) - start.xy) / (way.xy + vec2(lessThan(abs(way.xy), vec2(1e-5))) * 2e-5);
     way *= clamp(min(toEdge.x, toEdge.y), 0.0, 1.0);
-    vec4 result = vec4(0.0);
     float before = 0.0;
     int count = mirror > kLeastMirror && along.w > 0.02 ? kMarchSteps : 0;
-    for (int k = 1; k <= count; ++k) {
-        float share = float(k) / float(kMarchSteps), here = share * share;
-        if (!isBehind(start + here * way)) {
-            before = here;
-            continue;
-        }
-        for (int r = 0; r < kRefineSteps; ++r) {
-            float middle = 0.5 * (before + here);
-            bool isIn = isBehind(start + middle * way);
-            here = isIn ? middle : here;
-            before = isIn ? before : middle;
-        }
-        result = seenBehind(start + before * way, start + here * way, way.xy);
-        break;
+    // Two loops one after the other, and all else behind them: software renderers run nested ones for every step.
+    int k = 1;
+    float here = 0.0;
+    bool isHit = false;
+    for (; k <= count && !isHit; ++k) {
+        float share = float(k) / float(kMarchSteps);
+        before = here;
+        here = share * share;
+        isHit = isBehind(start + here * way);
     }
+    int refined = isHit ? kRefineSteps : 0;
+    for (int r = 0; r < refined; ++r) {
+        float middle = 0.5 * (before + here);
+        bool isIn = isBehind(start + middle * way);
+        here = isIn ? middle : here;
+        before = isIn ? before : middle;
+    }
+    vec4 result = isHit ? seenBehind(start + before * way, start + here * way, way.xy) : vec4(0.0);
     result.a *= smoothstep(kLeastMirror, 2.0 * kLeastMirror, mirror);
     return result;
 }

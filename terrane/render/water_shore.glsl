@@ -1,4 +1,4 @@
-// Where water meets the ground: foam along the shore, and light that waves bundle on the ground below. Needs underwater.glsl,
+// Where water meets the ground: foam along the shore, and light that waves bundle on the ground below. Needs bundled_light.glsl,
 // gbuffer_read.glsl and water_waves.glsl.
 
 const float kShoreReach = 48.0;  // blocks from the camera: beyond, foam is thinner than a pixel
@@ -20,8 +20,7 @@ float foamAt(vec3 position, vec3 toPoint, float blocks) {
     float tide = 0.5 + 0.5 * sin(0.9 * waveSeconds() + 40.0 * textureLod(noiseTexture, at / 64.0, 4.0).r);
     float width = (0.12 + 0.3 * tide) * smoothstep(0.3, 0.65, noise) + 0.04;
     vec4 clip = frame.viewProjection * vec4(position + vec3(0.0, 0.0, 0.1), 1.0);
-    int count = away < kShoreReach ? 4 : 0;
-    for (int k = 0; k < count; ++k) {
+    for (int k = 0; k < 4; ++k) {
         float side = (k & 1) == 0 ? width : -width;
         sum += groundAt(clip + side * frame.viewProjection[k >> 1]);
     }
@@ -35,10 +34,7 @@ float bundlesBehind(vec3 position, vec3 toPoint, vec3 view, float blocks, float 
     float below = min(blocks, 64.0) * abs(view.z), share = 1.0, away = length(toPoint);
     float strength = 1.8 * sunInWater() * lit * (1.0 - smoothstep(24.0, 60.0, away)) * exp(-0.2 * below) *
                      smoothstep(0.05, 0.6, below);
-    int count = strength > 0.02 ? 1 : 0;
-    for (int k = 0; k < count; ++k) {
-        vec3 ground = position + view * min(blocks, 64.0);
-        share += strength * (bundledLight(bundlePlace(ground, below)) - kMeanBundle);
-    }
+    vec3 ground = position + view * min(blocks, 64.0);
+    share += strength * (bundledLight(bundlePlace(ground, below)) - kMeanBundle);
     return max(share, 0.2);
 }

@@ -69,6 +69,7 @@ const std::map<std::string, Values>& variantValues() {
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"QUADS", {"0", "1"}},
           {"WATER_DETAIL", {"0", "1"}},
+          {"UNDER_WATER", {"0", "1"}},
           {"FACE_SAMPLING", {"0"}},
           {"TINT", {"0"}}}},
         {"pixel_mask.frag", {{"MSAA_SAMPLES", {"4"}}, {"OF", {"0", "1", "2"}}}},
@@ -91,7 +92,8 @@ const std::map<std::string, Values>& variantValues() {
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"SHADOW", {"0", "1"}},
           {"OCCLUSION", {"0", "1"}},
-          {"OVER_SKY", {"0", "1"}}}},
+          {"OVER_SKY", {"0", "1"}},
+          {"UNDER_WATER", {"0", "1"}}}},
     };
     return values;
 }
