@@ -81,13 +81,14 @@ Passed shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 lev
     vec4 shore = shoreReflection(position, reflect(view, calmer), isTop && isNearest ? mirror : 0.0);
     mirrored = mix(mirrored, shore.rgb, shore.a);
     seen *= bundlesBehind(position, toPoint, view, blocks, shadow * light.a);
-    float foam = isTop ? foamAt(position, toPoint, blocks) : 0.0;
+    vec4 fine = fineNoise(position);
+    float foam = isTop ? foamAt(position, toPoint, blocks, fine.r) : 0.0;
     body = mix(body, 0.85 * lit, foam);
     seen *= 1.0 - foam;
     mirror *= 1.0 - foam;
 #endif
 #if WATER_DETAIL == 1
-    waves = withRipples(waves, position, toPoint);
+    waves = withRipples(waves, fine, toPoint);
 #endif
     vec3 glint = isTop ? glitter(view, waves) * shadow * open : vec3(0.0);
     float left = dot(seen, vec3(1.0 / 3.0)) * (1.0 - mirror);

@@ -4,7 +4,7 @@
 // 9.3, "Rendering Feedback Loops").
 layout(binding = kSceneUnit) uniform sampler2D scene;
 
-const int kMarchSteps = 14, kRefineSteps = 4;
+const int kMarchSteps = 12, kRefineSteps = 3;
 const float kLeastMirror = 0.04;  // below that a mirror image is not seen
 
 ivec2 pixelAt(vec2 screen) {

@@ -11,21 +11,17 @@ float groundAt(vec4 clip) {
     return !isOutside && inFront > 0.02 + 0.002 * clip.w && inFront < 3.0 ? 1.0 : 0.0;
 }
 
-// The share of foam, in a line that comes and goes: within part of a block from ground at the four sides, or before ground that
-// is seen through little water.
-float foamAt(vec3 position, vec3 toPoint, float blocks) {
-    float away = length(toPoint), sum = 0.0;
+// The share of foam, in a line that comes and goes: where ground lies within part of a block toward the camera, or
+// behind it, seen through little water. `noise`: 0…1.
+float foamAt(vec3 position, vec3 toPoint, float blocks, float noise) {
+    float away = length(toPoint);
     vec2 at = wavePosition(position);
-    float noise = textureLod(noiseTexture, at / 8.0 + 0.02 * kWind * waveSeconds(), 2.0).r;
-    float tide = 0.5 + 0.5 * sin(0.9 * waveSeconds() + 40.0 * textureLod(noiseTexture, at / 64.0, 4.0).r);
+    float tide = 0.5 + 0.5 * sin(0.9 * waveSeconds() + 6.2831853 / 32.0 * (at.x + 2.0 * at.y));
     float width = (0.12 + 0.3 * tide) * smoothstep(0.3, 0.65, noise) + 0.04;
-    vec4 clip = frame.viewProjection * vec4(position + vec3(0.0, 0.0, 0.1), 1.0);
-    for (int k = 0; k < 4; ++k) {
-        float side = (k & 1) == 0 ? width : -width;
-        sum += groundAt(clip + side * frame.viewProjection[k >> 1]);
-    }
+    vec2 nearer = position.xy - width * toPoint.xy / max(length(toPoint.xy), 1e-3);
+    float ground = groundAt(frame.viewProjection * vec4(nearer, position.z + 0.1, 1.0));
     float thin = 1.0 - smoothstep(0.5 * width, 1.2 * width, blocks);
-    float share = max(min(sum, 1.0), thin) * (0.35 + 0.65 * smoothstep(0.35, 0.6, noise));
+    float share = max(ground, thin) * (0.35 + 0.65 * smoothstep(0.35, 0.6, noise));
     return 0.55 * share * (1.0 - smoothstep(0.5 * kShoreReach, kShoreReach, away));
 }
 

@@ -60,12 +60,14 @@ Waves wavesAt(vec3 position, vec3 toPoint, float open) {
 }
 
 #if WATER_DETAIL == 1
-// Ripples that break the light of the sun into sparks. With distance they spread slopes instead.
-Waves withRipples(Waves waves, vec3 position, vec3 toPoint) {
+// Noise that repeats after 4 blocks: slopes of ripples in b and a, foam in r.
+vec4 fineNoise(vec3 position) {
+    return textureLod(noiseTexture, wavePosition(position) / 4.0 + vec2(0.13, 0.05) * waveSeconds(), 0.0);
+}
+
+// Ripples break the light of the sun into sparks. With distance they spread slopes instead.
+Waves withRipples(Waves waves, vec4 fine, vec3 toPoint) {
     float shown = 1.0 / (1.0 + 0.0025 * dot(toPoint, toPoint));
-    vec2 at = wavePosition(position) / 4.0;
-    vec2 fine = textureLod(noiseTexture, at + vec2(0.13, 0.05) * waveSeconds(), 0.0).ba +
-                textureLod(noiseTexture, vec2(at.y, -at.x) - vec2(0.07, -0.11) * waveSeconds(), 0.0).ba - 1.0;
-    return Waves(waves.slope + 0.35 * shown * fine, waves.variance + 0.006 * (1.0 - shown * shown));
+    return Waves(waves.slope + 0.45 * shown * (fine.ba - 0.5), waves.variance + 0.006 * (1.0 - shown * shown));
 }
 #endif
