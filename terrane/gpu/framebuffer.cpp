@@ -17,7 +17,11 @@ GLenum depthPoint(GLenum format) {
 
 void attach(GLuint framebuffer, GLenum point, const Attachment& attachment) {
     assert(attachment.texture != 0 && "an empty texture cannot be drawn into");
-    glNamedFramebufferTexture(framebuffer, point, attachment.texture, 0);
+    if (attachment.layer < 0) {
+        glNamedFramebufferTexture(framebuffer, point, attachment.texture, 0);
+    } else {
+        glNamedFramebufferTextureLayer(framebuffer, point, attachment.texture, 0, attachment.layer);
+    }
 }
 
 // Draws write all colors, in the order of their attachments.
@@ -52,6 +56,9 @@ Attachment::Attachment(const Texture2D& source)
 
 Attachment::Attachment(const Texture2DMultisample& source)
     : texture(source.id()), format(source.format()), size(source.size()), samples(source.samples()) {}
+
+Attachment::Attachment(const Texture2DArray& source, int layerNumber)
+    : texture(source.id()), format(source.format()), size(source.shape().size), layer(layerNumber) {}
 
 base::Result<Framebuffer> Framebuffer::create(const FramebufferOptions& options, std::string_view label) {
     assert((!options.colors.empty() || options.depth.texture != 0) && "a framebuffer has an attachment");

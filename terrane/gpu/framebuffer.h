@@ -14,16 +14,18 @@
 
 namespace terrane::gpu {
 
-// Level 0 of a texture, for a short while: refers to the texture by its GL name.
+// Level 0 of a texture, or of one layer of an array, for a short while: refers to the texture by its GL name.
 struct Attachment {
     Attachment() = default;
     Attachment(const Texture2D& texture);
     Attachment(const Texture2DMultisample& texture);
+    Attachment(const Texture2DArray& texture, int layer);
 
     GLuint texture = 0;
     GLenum format = GL_NONE;
     glm::ivec2 size = {0, 0};
     int samples = 0;
+    int layer = -1;  // −1: the texture is no array
 };
 
 struct FramebufferOptions {

@@ -22,6 +22,8 @@ namespace {
 // Then the context goes, with what it takes of memory.
 constexpr std::chrono::seconds kIdle{10};
 
+constexpr int kSmallShadowMap = 256;  // texels a side: programs do not depend on it
+
 // Drivers may compile apart for textures whose sides are powers of two.
 int smallSide(int pixels) {
     return std::has_single_bit(static_cast<unsigned>(pixels)) ? 64 : 96;
@@ -102,12 +104,15 @@ base::Result<void> BackgroundCompiler::State::compileUntilIdle() {
     if (!context) return tl::unexpected(context.error());
     auto renderer = Renderer::create(shaders, blocks, textures, gpu::queryDevice());
     if (!renderer) return tl::unexpected(renderer.error());
+    if (auto used = renderer->useLand(true); !used) return used;
     renderer->setViewDistance(1);
     renderer->setChunk({0, 0}, mesh::meshAlone(sampleChunk(blocks), blocks));
     renderer->setLight({0, 0}, light::ChunkLight());
     while (const std::optional<Wanted> wanted = takeNext()) {
         TERRANE_ZONE("compile shaders");
-        if (renderer->configure(wanted->size, wanted->options)) {
+        RenderOptions options = wanted->options;
+        options.shadowSize = kSmallShadowMap;
+        if (renderer->configure(wanted->size, options)) {
             // The second frame draws what was hidden in the first, by other passes.
             for (int frame = 0; frame < 2; ++frame) renderer->draw(sampleInput());
             glFinish();

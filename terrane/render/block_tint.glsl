@@ -1,5 +1,5 @@
 // The tint of a fragment: the color that the generator gives its place changes the texture of a tinted face.
-// TINT: 1 where there is one (tint_clipmap.h). Needs packed faces (packed_face.glsl) and frame_uniforms.glsl.
+// TINT: 1 where there is one (tint_textures.h). Needs packed faces (packed_face.glsl) and frame_uniforms.glsl.
 #if TINT == 1
 #include "terrane/shared/tint.h"
 

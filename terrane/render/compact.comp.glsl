@@ -85,9 +85,7 @@ uint scan(uint thread, uint value) {
 
 void main() {
     uint thread = gl_LocalInvocationID.x, list = gl_WorkGroupID.x, arena = gl_WorkGroupID.y;
-    bool isShadow = list >= kCameraLists;
-    uint bucket = isShadow ? list - kCameraLists : list;
-    uint shift = isShadow ? kShadowDirectionBits : bucket >= 4u ? kBlendedDirectionBits : kCameraDirectionBits;
+    uint shift = list >= 4u ? kBlendedDirectionBits : kOpaqueDirectionBits;
     uint all = cull.meshSectionCount, each = (all + kThreads - 1u) / kThreads;
     uint begin = min(thread * each, all), end = min(begin + each, all);
     if (thread == 0u) quadSum = meshSectionSum = 0u;
@@ -98,7 +96,7 @@ void main() {
         uint directions = directionsOf(k, shift);
         if (directions == 0u) continue;
         ++meshSectionCount;
-        own = visit(order[k], bucket, directions, own, false, quads);
+        own = visit(order[k], list, directions, own, false, quads);
     }
     atomicAdd(quadSum, quads);
     atomicAdd(meshSectionSum, meshSectionCount);
@@ -108,7 +106,7 @@ void main() {
     uint ignored = 0u;
     for (uint k = begin; k < end; ++k) {
         uint directions = directionsOf(k, shift);
-        if (directions != 0u) at = visit(order[k], bucket, directions, at, true, ignored);
+        if (directions != 0u) at = visit(order[k], list, directions, at, true, ignored);
     }
     if (thread == kThreads - 1u) {
         uint into = 2u * arena + (cull.phase == kCullLate ? 1u : 0u);

@@ -1,4 +1,4 @@
-// Which face directions of each mesh section the camera may see, and which of them may throw a shadow.
+// Which face directions of each mesh section the camera may see.
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/mesh_section.h"
 
@@ -18,10 +18,14 @@ layout(std430, binding = kMeshSectionOrderBinding) readonly buffer Order {
     uint order[];
 };
 layout(std430, binding = kVisibleLastFrameBinding) buffer VisibleLastFrame {
-    uint visibleLastFrame[];  // by slot: 1 where the mesh section was not hidden by others
+    uint visibleLastFrame[];  // by slot: directions in which the mesh section has quads that were not hidden
 };
 layout(std430, binding = kVisibleBinding) writeonly buffer Visible {
     uint visible[];  // in the order of mesh sections
+};
+layout(std430, binding = kTestedMeshSectionsBinding) buffer Tested {
+    TestedMeshSections tested;
+    uint testedNumbers[];
 };
 
 bool isOutside(vec4 plane, vec3 low, vec3 high) {
@@ -78,28 +82,27 @@ void main() {
     float width = float(kChunkSize) * columnBlocks(level);
     vec3 low = vec3(corner, float(heights & 0xFFFFu)), high = vec3(corner + width, float(heights >> 16));
 
-    bool isInView = true, isCasting = true;
+    bool isInView = true;
     vec3 wavingLow = low - kWaving, wavingHigh = high + kWaving;
     for (int k = 0; k < 5; ++k) {
         if (isOutside(cull.cameraPlanes[k], wavingLow, wavingHigh)) isInView = false;
-        if (isOutside(cull.shadowPlanes[k], wavingLow, wavingHigh)) isCasting = false;
     }
     // Every face that looks to -x is seen from behind where the camera is beyond the last of them, and so on.
-    vec3 camera = cull.cameraPosition.xyz, light = cull.lightDirection.xyz;
+    vec3 camera = cull.cameraPosition.xyz;
     uint directions = isInView ? bitsOf(lessThan(camera, high), greaterThan(camera, low)) : 0u;
-    uint casting = isCasting ? bitsOf(lessThan(light, vec3(0.0)), greaterThan(light, vec3(0.0))) : 0u;
     uint word = (meshSections[slot].ranges[0].x / cull.arenaQuads) << kArenaBits;
     if (cull.phase == kCullAll) {
-        word |= directions << kCameraDirectionBits | directions << kBlendedDirectionBits |
-                casting << kShadowDirectionBits;
+        word |= directions << kOpaqueDirectionBits | directions << kBlendedDirectionBits;
     } else if (cull.phase == kCullEarly) {
-        word |= (visibleLastFrame[slot] == 1u ? directions << kCameraDirectionBits : 0u) |
-                casting << kShadowDirectionBits;
+        word |= (directions & visibleLastFrame[slot]) << kOpaqueDirectionBits;
     } else {
-        bool isNew = visibleLastFrame[slot] != 1u, isVisible = isInView && !isHidden(wavingLow, wavingHigh);
-        if (!isVisible) directions = 0u;
-        word |= (isNew ? directions << kCameraDirectionBits : 0u) | directions << kBlendedDirectionBits;
-        visibleLastFrame[slot] = isVisible ? 1u : 0u;
+        uint drawnEarly = directions & visibleLastFrame[slot];
+        visibleLastFrame[slot] = 0u;
+        if (directions != 0u && !isHidden(wavingLow, wavingHigh)) {
+            // The test of its quads adds the directions that it finds some in.
+            word |= directions << kBlendedDirectionBits | drawnEarly << kDrawnEarlyBits;
+            testedNumbers[atomicAdd(tested.count, 1u)] = number;
+        }
     }
     visible[number] = word;
 }

@@ -21,16 +21,10 @@ gpu::Buffer gpuOnly(std::size_t bytes, std::string_view label) {
 static_assert(static_cast<shared::uint>(CullPhase::Early) == shared::kCullEarly &&
               static_cast<shared::uint>(CullPhase::Late) == shared::kCullLate);
 
-// Without a shadow map: no point is inside of such a plane.
-constexpr glm::vec4 kNothing(0, 0, 0, -1);
-constexpr Frustum kEmptyVolume{kNothing, kNothing, kNothing, kNothing, kNothing};
-
 shared::CullFrame frameOf(CullPhase phase, const CullInput& input, std::uint32_t meshSections) {
     shared::CullFrame frame{};
     std::ranges::copy(input.camera, frame.cameraPlanes);
-    std::ranges::copy(input.shadow.value_or(kEmptyVolume), frame.shadowPlanes);
     frame.cameraPosition = glm::vec4(input.cameraPosition, 0);
-    frame.lightDirection = glm::vec4(input.lightDirection, 0);
     frame.viewProjection = input.viewProjection;
     frame.cameraChunk = {input.cameraChunk.x, input.cameraChunk.y};
     frame.viewportSize = input.size;
@@ -38,6 +32,9 @@ shared::CullFrame frameOf(CullPhase phase, const CullInput& input, std::uint32_t
     frame.hiZLevels = input.hiZ ? input.hiZ->levels() : 0;
     frame.meshSectionCount = meshSections;
     frame.phase = static_cast<shared::uint>(phase);
+    frame.edgeExpansion = input.edgeExpansion;
+    frame.blockPixels = input.blockPixels;
+    frame.samples = static_cast<shared::uint>(input.samples);
     return frame;
 }
 
@@ -49,15 +46,11 @@ void add(shared::DrawCounts& sum, const shared::DrawCounts& counts) {
     sum.meshSections += counts.meshSections;
 }
 
-std::uint32_t bucketOf(std::uint32_t list) {
-    return list < shared::kCameraLists ? list : list - shared::kCameraLists;
-}
-
 // Room for all faces of each list's draw bucket, so that none can overflow.
 std::size_t commandBytesOf(const MeshSectionTable& meshSections) {
     std::size_t sum = 0;
     for (const MeshSectionTable::BucketCommands& buckets : meshSections.maxCommands())
-        for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) sum += buckets[bucketOf(list)];
+        for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) sum += buckets[list];
     return std::max<std::size_t>(sum, 1) * sizeof(shared::DrawCommand);
 }
 
@@ -69,6 +62,9 @@ base::Result<CullPass> CullPass::create(const gpu::ShaderLoader& shaders, const 
     if (!cull) return tl::unexpected(cull.error());
     auto compact = gpu::Program::compute(shaders, "terrane/render/compact.comp.glsl", {}, "compact");
     if (!compact) return tl::unexpected(compact.error());
+    auto quadCull = QuadCull::create(shaders);
+    if (!quadCull) return tl::unexpected(quadCull.error());
+    pass.quadCull_ = std::move(*quadCull);
     pass.cull_ = std::move(*cull);
     pass.compact_ = std::move(*compact);
     pass.hasIndirectCount_ = device.indirectCount;
@@ -86,7 +82,7 @@ void CullPass::reserve(const MeshSectionTable& meshSections) {
     assert(lists_.size() <= shared::kMaxArenas && "the store has no more arenas");
     for (std::size_t arena = 0; arena < lists_.size(); ++arena) {
         for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
-            lists_[arena][list] = {sum, meshSections.maxCommands()[arena][bucketOf(list)]};
+            lists_[arena][list] = {sum, meshSections.maxCommands()[arena][list]};
             sum += lists_[arena][list].max;
         }
     }
@@ -108,7 +104,7 @@ std::size_t CullPass::gpuBytes(const MeshSectionTable& meshSections) const {
     return bytesWhileGrowing(commands_, commandBytesOf(meshSections)) +
            bytesWhileGrowing(visible_, meshSections.count() * sizeof(std::uint32_t)) +
            bytesWhileGrowing(visibleLastFrame_, meshSections.slots() * sizeof(std::uint32_t)) +
-           countBuffer_.sizeBytes();
+           countBuffer_.sizeBytes() + quadCull_.gpuBytes();
 }
 
 // Mesh sections that were never tested count as hidden: the late pass draws them.
@@ -129,12 +125,13 @@ void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSect
     visibleLastFrame_.bindStorage(shared::kVisibleLastFrameBinding);
     commands_.bindStorage(shared::kCommandsBinding);
     countBuffer_.bindStorage(shared::kCountsBinding);
+    quadCull_.begin(meshSections.count());
     cull_.use();
     glDispatchCompute((meshSections.count() + shared::kCullThreads - 1) / shared::kCullThreads, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    if (phase_ == CullPhase::Late) quadCull_.run(*input.quads, *input.resources);
     compact_.use();
-    glDispatchCompute(input.shadow ? shared::kDrawLists : shared::kCameraLists,
-                      static_cast<GLuint>(lists_.size()), 1);
+    glDispatchCompute(shared::kDrawLists, static_cast<GLuint>(lists_.size()), 1);
     // The late pass overwrites what the early one read.
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -176,13 +173,12 @@ void CullPass::drawList(shared::uint list, std::size_t arena) const {
 }
 
 void CullPass::drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const QuadStore& quads,
-                           const DrawClass& drawn) const {
+                           mesh::AlphaClass alphaClass) const {
     for (const bool isTwoSided : {false, true}) {
         gpu::PipelineState bucketState = state;
         bucketState.cullsBackFaces = !isTwoSided;
         pipeline.set(bucketState);
-        const auto bucket = static_cast<shared::uint>(mesh::drawBucket(drawn.alphaClass, isTwoSided));
-        const shared::uint list = drawn.forShadows ? shared::kCameraLists + bucket : bucket;
+        const auto list = static_cast<shared::uint>(mesh::drawBucket(alphaClass, isTwoSided));
         for (std::size_t arena = 0; arena < lists_.size(); ++arena) {
             if (lists_[arena][list].max == 0) continue;
             quads.texels(arena).bind(shared::kQuadsUnit);

@@ -1,10 +1,8 @@
-// Decides on the GPU what is drawn: mesh sections in the view of the camera and of the shadow map, without
-// the face directions that look away, become indirect draw commands, nearest first. Used by the renderer on
-// the context's thread.
+// Decides on the GPU what is drawn: mesh sections in the view of the camera, without the face directions that
+// look away, become indirect draw commands, nearest first. Used by the renderer on the context's thread.
 #pragma once
 
 #include <array>
-#include <optional>
 
 #include "terrane/gpu/device_info.h"
 #include "terrane/gpu/fence.h"
@@ -14,6 +12,7 @@
 #include "terrane/gpu/readback_buffer.h"
 #include "terrane/render/hi_z.h"
 #include "terrane/render/mesh_section_table.h"
+#include "terrane/render/quad_cull.h"
 
 namespace terrane::render {
 
@@ -21,22 +20,20 @@ struct CullInput {
     world::ChunkPos cameraChunk;
     glm::vec3 cameraPosition;  // from its corner
     Frustum camera;
-    glm::vec3 lightDirection;
-    std::optional<Frustum> shadow;  // none: no shadow map
     glm::mat4 viewProjection{1};
     glm::vec2 size{1};         // of the image in pixels
     const HiZ* hiZ = nullptr;  // for the late pass
+    // With it the late pass tests quads, too.
+    const QuadStore* quads = nullptr;
+    const QuadResources* resources = nullptr;
+    float edgeExpansion = 0;  // pixels that edges of quads move
+    float blockPixels = 0;    // that a block takes, one block ahead
+    int samples = 1;          // of a pixel
 };
 
 // All in view at once, or in two passes: early, what was visible in the frame before, then late, what its
-// depth does not hide.
+// depth does not hide. Mesh sections first, then their quads: quad_cull.h.
 enum class CullPhase : std::uint8_t { All, Early, Late };
-
-// Which quads a draw takes: of an alpha class, of the camera's view or of the shadow map's.
-struct DrawClass {
-    mesh::AlphaClass alphaClass = mesh::AlphaClass::Opaque;
-    bool forShadows = false;
-};
 
 class CullPass {
   public:
@@ -49,7 +46,7 @@ class CullPass {
     // Draws the quads that the last pass chose, one draw call for each draw bucket and arena of `quads`. The
     // shader and what it reads but the quads are bound. Culls the back faces of one-sided quads.
     void drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const QuadStore& quads,
-                     const DrawClass& drawn) const;
+                     mesh::AlphaClass alphaClass) const;
 
     // Of the newest frame that the GPU has finished, all runs together; does not wait. Ends the frame.
     void queueCounts();
@@ -81,6 +78,7 @@ class CullPass {
     static constexpr std::size_t kReadbacks = 4;
 
     gpu::Program cull_, compact_;
+    QuadCull quadCull_;
     gpu::Buffer visible_, visibleLastFrame_, commands_, countBuffer_;
     CullPhase phase_ = CullPhase::All;
     std::vector<ArenaLists> lists_;  // by arena

@@ -1,8 +1,7 @@
-// From light to the screen: blur of what is far, rays of the sun, exposure, a filmic curve, sRGB, and noise of one step
-// against bands in the sky. DEPTH_OF_FIELD, GOD_RAYS: 1 adds them. RAW_OCCLUSION: 1 shows the ambient occlusion instead.
+// From light to the screen: blur of what is far, rays of the sun, then tone.glsl. DEPTH_OF_FIELD, GOD_RAYS: 1 adds them. RAW_OCCLUSION: 1 shows the ambient occlusion instead.
 // MSAA_SAMPLES: of the depth.
 #include "terrane/render/frame_uniforms.glsl"
-#include "terrane/shared/hash.h"
+#include "terrane/render/tone.glsl"
 
 layout(binding = kSceneUnit) uniform sampler2D scene;
 #if DEPTH_OF_FIELD == 1
@@ -19,28 +18,6 @@ layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
 
-// Linear up to kStart, from there an exponential shoulder that meets it with equal slope and ends at white.
-vec3 compressHighlights(vec3 c) {
-    const float kStart = 0.6;
-    vec3 over = max(c - kStart, 0.0);
-    return min(c, kStart) + (1.0 - kStart) * (1.0 - exp(-over / (1.0 - kStart)));
-}
-
-// Linear to sRGB by roots, off by half a step of 8 bits at most (I. Taylor, sRGB approximations for HLSL, 2012).
-vec3 encodeSrgb(vec3 c) {
-    vec3 s1 = sqrt(c), s2 = sqrt(s1), s3 = sqrt(s2);
-    return mix(c * 12.92, 0.585122381 * s1 + 0.783140355 * s2 - 0.368262736 * s3, greaterThan(c, vec3(0.0031308)));
-}
-
-#if GOD_RAYS == 1
-// The mean over the pixels that the steps are distributed among.
-float raysAt(vec2 at) {
-    vec2 texel = 1.0 / vec2(textureSize(godRays, 0));
-    float sum = 0.0;
-    for (int k = 0; k < 4; ++k) sum += textureLod(godRays, at + texel * (vec2(k & 1, k >> 1) * 2.0 - 1.0), 0.0).r;
-    return 0.25 * sum;
-}
-#endif
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -58,9 +35,7 @@ void main() {
     color = mix(color, textureLod(blurred, at, 0.0).rgb, amount);
 #endif
 #if GOD_RAYS == 1
-    color += 1.2 * raysAt(at) * (frame.lightColor.rgb + 0.3 * frame.glowColor.rgb);
+    color += 1.2 * textureLod(godRays, at, 0.0).r * (frame.lightColor.rgb + 0.3 * frame.glowColor.rgb);
 #endif
-    color = encodeSrgb(clamp(compressHighlights(color * frame.exposure), 0.0, 1.0));
-    uint noise = hash2(uint(pixel.x), uint(pixel.y), 0u);
-    outColor = vec4(color + (float(noise >> 16) / 65536.0 - 0.5) / 255.0, 1.0);
+    outColor = vec4(screenColor(color, pixel), 1.0);
 }

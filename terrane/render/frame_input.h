@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "terrane/render/camera.h"
+#include "terrane/render/shadow_clipmap.h"
 #include "terrane/world/environment.h"
 
 namespace terrane::render {
@@ -17,6 +18,8 @@ struct FrameInput {
     float timeSeconds = 0;    // for animations
     View view = View::Color;
     int waterAbove = 0;  // blocks of water over the camera, its own included; 0 in air
+    // Most shadow tiles to draw: others follow in later frames. Images that stand alone have all.
+    std::size_t maxShadowTiles = ShadowClipmap::kAllTiles;
     // Draws only what this camera would see, whatever is hidden from it: to look at culling from outside. It
     // is in the same chunk as `camera`.
     std::optional<Camera> culledFor = std::nullopt;

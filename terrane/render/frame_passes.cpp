@@ -1,6 +1,25 @@
 #include "terrane/render/frame_passes.h"
 
 namespace terrane::render {
+namespace {
+
+bool castsShadows(const RenderOptions& options) {
+    return options.shadows != ShadowReach::Off && options.shading != Shading::Off;
+}
+
+ShadowMap::Shape shadowShape(const RenderOptions& options) {
+    if (!castsShadows(options)) return {};
+    const int cascades = options.shadows == ShadowReach::Near ? 1 : static_cast<int>(shared::kShadowCascades);
+    return {cascades, options.shadowSize};
+}
+
+// SHADOW of shadow_sample.glsl.
+int shadowVariant(const RenderOptions& options) {
+    if (!castsShadows(options)) return 0;
+    return options.softShadows ? 2 : 1;
+}
+
+}  // namespace
 
 base::Result<FramePasses> FramePasses::create(const gpu::ShaderLoader& shaders,
                                               const gpu::DeviceInfo& device) {
@@ -23,13 +42,13 @@ base::Result<FramePasses> FramePasses::create(const gpu::ShaderLoader& shaders,
 base::Result<void> FramePasses::configure(const FrameTargets& targets, const RenderOptions& options,
                                           const QuadFeatures& features) {
     const int samples = targets.msaaSamples, light = static_cast<int>(options.light);
-    auto done = shadowMap.configure(options.shading == Shading::Off ? 0 : options.shadowSize,
-                                    features.hasFaceSampling);
-    const bool hasShadows = shadowMap.size() > 0;
+    const int shadows = shadowVariant(options);
+    auto done = shadowMap.configure(shadowShape(options), features.hasFaceSampling);
     if (done) done = gbuffer.select(options.msaaAlphaTest ? samples : 1, options.sharpFiltering, features);
     if (done) done = holeFill.configure(targets, options.tJunctions == TJunctions::Filled);
-    if (done) done = shading.select(options, samples, hasShadows);
-    if (done) done = transparency.configure(targets, options, hasShadows, features);
+    const bool knowsLand = shadows > 0 && features.hasLand && options.shadows == ShadowReach::Horizon;
+    if (done) done = shading.select(options, samples, {shadows, knowsLand});
+    if (done) done = transparency.configure(targets, options, {shadows, knowsLand}, features);
     if (done) done = debugView.select(defined({{"MSAA_SAMPLES", samples}, {"LIGHT_SMOOTH", light}}));
     if (done)
         done =

@@ -18,9 +18,9 @@ constexpr std::array<std::string_view, 15> kPassNames = {
 struct FrameStatistics {
     std::size_t meshSections = 0, quads = 0, drawCommands = 0;
     std::size_t opaqueTriangles = 0, transparentTriangles = 0;  // of these, alpha-tested ones are opaque
-    std::size_t shadowTriangles = 0;                            // of the shadow map, without those above
+    std::size_t shadowTriangles = 0;                            // drawn into shadow maps, without those above
 };
 
-FrameStatistics statisticsOf(const shared::DrawCounts& counts);
+FrameStatistics statisticsOf(const shared::DrawCounts& counts, std::size_t shadowTriangles);
 
 }  // namespace terrane::render

@@ -50,6 +50,11 @@ base::Result<FrameTargets> FrameTargets::create(glm::ivec2 size, int samples) {
     if (!scene) return tl::unexpected(scene.error());
     auto ldr = gpu::Framebuffer::create({{t.ldrColor}, {}}, "LDR");
     if (!ldr) return tl::unexpected(ldr.error());
+    if (t.msaaSamples == 1) {
+        auto direct = gpu::Framebuffer::create({{t.ldrColor}, t.depth.attachment()}, "direct image");
+        if (!direct) return tl::unexpected(direct.error());
+        t.direct = std::move(*direct);
+    }
     // No sky is drawn behind what is near; there the scene is blended with a share of 0 of what was before,
     // which must be a number.
     scene->clearColor(0, glm::vec4(0));

@@ -51,6 +51,7 @@ struct FrameTargets {
     gpu::Framebuffer scene;    // light, and coverage in alpha; depth: that of the one sample, or the mask
     gpu::Framebuffer mask;     // where a pixel has several samples: see pixel_mask.h
     gpu::Framebuffer ldr;      // LDR target: as the screen shows it
+    gpu::Framebuffer direct;   // with one sample a pixel, the same with the depth: see direct_image.h
 };
 
 }  // namespace terrane::render

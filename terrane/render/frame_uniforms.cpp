@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "terrane/render/shadow_volume.h"
-
 namespace terrane::render {
 namespace {
 
@@ -53,16 +51,6 @@ void setLightOnScreen(shared::Frame& frame, const ViewMatrices& view, glm::vec3 
     frame.lightRayShare = 1 - glm::smoothstep(0.0f, 0.6f, outside);
 }
 
-void setShadows(shared::Frame& frame, const FrameInput& input, const FrameSetup& setup) {
-    frame.shadowReach = kShadowReach;
-    if (setup.shadowSize == 0) return;
-    const ShadowFit fit = fitShadowMap(input.camera, setup.size.x / setup.size.y,
-                                       input.environment.lightDirection, setup.shadowSize);
-    frame.toShadowMap = fit.toMap;
-    frame.shadowStrength = 1;
-    frame.shadowTexelBlocks = fit.texelBlocks;
-}
-
 }  // namespace
 
 shared::Frame frameUniforms(const FrameInput& input, const RenderOptions& options, const FrameSetup& setup) {
@@ -70,7 +58,6 @@ shared::Frame frameUniforms(const FrameInput& input, const RenderOptions& option
     setView(frame, setup.view);
     setEnvironment(frame, input.environment);
     setLightOnScreen(frame, setup.view, input.environment.lightDirection);
-    setShadows(frame, input, setup);
     frame.viewportSize = setup.size;
     frame.edgeExpansion = options.tJunctions == TJunctions::Covered ? setup.edgeExpansion : 0.0f;
     frame.fogDistance = input.fogDistance;

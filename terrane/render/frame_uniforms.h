@@ -11,7 +11,6 @@ struct FrameSetup {
     ViewMatrices view;
     glm::vec2 size;           // pixels
     float edgeExpansion = 0;  // pixels
-    int shadowSize = 0;       // texels; 0: no shadows
 };
 
 // All but the place in the light grid.

@@ -1,6 +1,7 @@
 #include "terrane/render/gbuffer_pass.h"
 
 #include "terrane/gpu/debug.h"
+#include "terrane/shared/bindings.h"
 
 namespace terrane::render {
 namespace {
@@ -33,13 +34,16 @@ void GBufferPass::clear(gpu::Pipeline& pipeline, const FrameTargets& targets) co
     targets.gbuffer.clearDepth(0.0f);
 }
 
-void GBufferPass::draw(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads) const {
+void GBufferPass::draw(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
+                       shared::uint drawn) const {
     const gpu::DebugGroup group("G-buffer");
     targets.gbuffer.bind();
     quads.bind();
     opaque_.use();
+    glUniform1ui(shared::kDrawnQuadsLocation, drawn);
     quads.draw(pipeline, kNearest, {mesh::AlphaClass::Opaque});
     tested_.use();
+    glUniform1ui(shared::kDrawnQuadsLocation, drawn);
     quads.draw(pipeline, kNearest, {mesh::AlphaClass::Tested});
 }
 

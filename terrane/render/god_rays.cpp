@@ -5,10 +5,13 @@
 namespace terrane::render {
 
 GodRays::GodRays(const gpu::ShaderLoader& shaders)
-    : sample_(shaders, "god_rays"), smooth_(shaders, "god_rays_smooth"), linear_({}, "smooth") {}
+    : sample_(shaders, "god_rays"),
+      smooth_(shaders, "god_rays_smooth"),
+      linear_({}, "smooth"),
+      nearest_({.minFilter = GL_NEAREST, .magFilter = GL_NEAREST}, "nearest") {}
 
 base::Result<void> GodRays::configure(glm::ivec2 size, bool isOn) {
-    const glm::ivec2 wanted = isOn ? (size + 1) / 2 : glm::ivec2(0);
+    const glm::ivec2 wanted = isOn ? (size + 2) / 3 : glm::ivec2(0);
     if (wanted == size_) return {};
     sampled_ = {};
     smoothed_ = {};
@@ -26,10 +29,11 @@ base::Result<void> GodRays::configure(glm::ivec2 size, bool isOn) {
 }
 
 void GodRays::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
-    linear_.bind(shared::kSceneUnit);
+    nearest_.bind(shared::kSceneUnit);
     sampled_.framebuffer.bind();
     targets.sceneColor.bind(shared::kSceneUnit);
     sample_.draw(pipeline, {});
+    linear_.bind(shared::kSceneUnit);
     smoothed_.framebuffer.bind();
     sampled_.texture.bind(shared::kSceneUnit);
     smooth_.draw(pipeline, {});

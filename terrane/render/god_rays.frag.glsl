@@ -1,4 +1,4 @@
-// Rays of the sun or moon on the screen, at half its size: how much of its disc is open on the way from a pixel to it (K.
+// Rays of the sun or moon on the screen, at a third of its size: how much of its disc is open on the way from a pixel to it (K.
 // Mitchell, Volumetric Light Scattering as a Post-Process, 2007). Only the disc and the glow around it shine, so that what
 // stands before them cuts the light into shafts.
 #include "terrane/render/frame_uniforms.glsl"

@@ -13,7 +13,7 @@ class GodRays {
     GodRays() = default;
     explicit GodRays(const gpu::ShaderLoader& shaders);
 
-    // Makes room for rays at half the size, or none.
+    // Makes room for rays at a third of the size, or none.
     base::Result<void> configure(glm::ivec2 size, bool isOn);
     // From the scene's coverage.
     void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
@@ -23,7 +23,7 @@ class GodRays {
 
   private:
     FullscreenPass sample_, smooth_;
-    gpu::Sampler linear_;
+    gpu::Sampler linear_, nearest_;
     ColorTarget sampled_, smoothed_;
     glm::ivec2 size_{0};
 };

@@ -7,7 +7,7 @@ layout(binding = kSceneUnit) uniform sampler2D rays;
 layout(location = 0) in vec2 inScreen;
 layout(location = 0) out vec4 outRays;
 
-const int kTaps = 4;  // to each side
+const int kTaps = 3;  // to each side
 
 void main() {
     vec2 size = vec2(textureSize(rays, 0)), at = 0.5 + 0.5 * inScreen;

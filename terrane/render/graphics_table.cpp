@@ -9,7 +9,7 @@ namespace terrane::render {
 namespace {
 
 constexpr std::array kSamples = {1, 2, 4, 8};
-constexpr std::array kShadowSizes = {0, 1024, 2048, 4096};
+constexpr std::array kShadowSizes = {1024, 2048, 4096};
 constexpr std::array kMeshSectionHeights = {8, 16, 32, 64, 128};
 constexpr std::array kHorizons = {0, 128, 256, 512, 1024, 2048, 4096};
 constexpr std::array kDetails = {8, 12, 16, 20, 24, 28, 32};
@@ -59,12 +59,19 @@ std::vector<GraphicsRow> makeTable() {
          getMember<&RenderOptions::light>,
          setMember<&RenderOptions::light>},
         {"shadows",
-         "Shadows of the sun and moon: texels along a side of the shadow map",
-         {"off", "1024", "2048", "4096"},
+         "How far the sun and moon cast shadows: 50 blocks, 800, or as far as one sees",
+         {"off", "near", "far", "horizon"},
+         getMember<&RenderOptions::shadows>,
+         setMember<&RenderOptions::shadows>},
+        {"shadow-size",
+         "Texels along a side of each shadow map",
+         {"1024", "2048", "4096"},
          [](const GraphicsSettings& s) { return indexOf(kShadowSizes, s.render.shadowSize); },
          [](GraphicsSettings& s, int value) {
              s.render.shadowSize = kShadowSizes[static_cast<std::size_t>(value)];
          }},
+        switchOf<&RenderOptions::softShadows>("soft-shadows",
+                                              "Edges of shadows widen with the distance of what casts them"),
         {"ssao",
          "Ambient occlusion in screen space",
          {"off", "on", "raw"},
@@ -147,6 +154,8 @@ std::string valueNamesOf(const GraphicsRow& row) {
 }
 
 std::optional<int> choiceOf(const GraphicsRow& row, std::string_view name) {
+    // The row once named the size of a map that reached so far.
+    if (row.name == "shadows" && (name == "1024" || name == "2048" || name == "4096")) name = "near";
     const auto found = std::ranges::find(row.valueNames, name);
     if (found == row.valueNames.end()) return std::nullopt;
     return static_cast<int>(found - row.valueNames.begin());

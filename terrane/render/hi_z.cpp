@@ -18,6 +18,12 @@ glm::ivec2 finestSize(glm::ivec2 pixels) {
     return {side(pixels.x), side(pixels.y)};
 }
 
+// Texels of the finest level that lie over the image. The others stay as near as they were made.
+glm::ivec2 used(glm::ivec2 pixels) {
+    constexpr int kPixels = shared::kHiZTexelPixels;
+    return (pixels + kPixels - 1) / kPixels;
+}
+
 void dispatch(glm::ivec2 size) {
     constexpr int kGroup = shared::kHiZThreads;
     glDispatchCompute(static_cast<GLuint>((size.x + kGroup - 1) / kGroup),
@@ -44,8 +50,13 @@ base::Result<void> HiZ::configure(const FrameTargets& targets, bool isOn) {
         samples_ = targets.msaaSamples;
     }
     const glm::ivec2 size = finestSize(targets.size);
-    if (texture_.id() == 0 || texture_.size() != size) {
+    // What lay over an image of another size is not near any more.
+    if (texture_.id() == 0 || imageSize_ != targets.size) {
+        imageSize_ = targets.size;
         texture_ = gpu::Texture2D(size, GL_R32F, gpu::fullLevels(size), "Hi-Z");
+        constexpr float kNear = 1;
+        for (int level = 0; level < levels(); ++level)
+            glClearTexImage(texture_.id(), level, GL_RED, GL_FLOAT, &kNear);
     }
     return {};
 }
@@ -56,14 +67,16 @@ void HiZ::build(const FrameTargets& targets) const {
     glBindImageTexture(shared::kHiZToImage, texture_.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
     targets.depth.bind(shared::kDepthUnit);
     finest_.use();
-    dispatch(texture_.size());
+    dispatch(used(targets.size));
     next_.use();
+    glm::ivec2 drawn = used(targets.size);
     for (int level = 1; level < levels(); ++level) {
+        drawn = (drawn + 1) / 2;
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
         glBindImageTexture(shared::kHiZFromImage, texture_.id(), level - 1, GL_FALSE, 0, GL_READ_ONLY,
                            GL_R32F);
         glBindImageTexture(shared::kHiZToImage, texture_.id(), level, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
-        dispatch(gpu::levelSize(texture_.size(), level));
+        dispatch(drawn);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }

@@ -25,6 +25,7 @@ class HiZ {
     const gpu::ShaderLoader* shaders_ = nullptr;
     gpu::Program finest_, next_;
     int samples_ = 0;
+    glm::ivec2 imageSize_{0};
     gpu::Texture2D texture_;
 };
 

@@ -1,6 +1,7 @@
-// The light of a surface: lamps, sky, sun or moon. Needs frame_uniforms.glsl, packed_gbuffer.glsl, light_sample.glsl.
+// The light of a surface: lamps, sky, sun or moon. Needs frame_uniforms.glsl, packed_gbuffer.glsl, light_sample.glsl,
+// land_light.glsl.
 
-const vec3 kMinLight = vec3(0.02);  // of the darkest cave: shapes can just be seen
+const vec3 kMinLight = vec3(0.006);  // of the darkest cave: shapes can just be seen
 
 // Levels of light as sampled before the surface. Plants stand inside their block and take its light. The position comes
 // from the depth and is off by less than kOff within some hundred blocks: moved by that along the normal it is on the
@@ -17,14 +18,25 @@ vec4 brightnessOf(vec4 levels) {
     return mix(levels, sqrt(levels), 0.23);
 }
 
-// Lamps, hidden by day where daylight reaches; the sky from above; the sun or moon where the sky is seen. `shadow` is
-// the share of direct light, `visibility` that of light from all around.
-vec3 shade(Surface s, vec4 levels, float shadow, float visibility) {
+// From the sky, and from the ground that sun and sky light: on a face that looks down or aside all or half of it.
+vec3 lightAround(vec3 position, vec3 normal) {
+    float up = 0.5 + 0.5 * normal.z;
+#if LAND == 1
+    vec4 ground = landGround(position);
+    vec3 sky = frame.ambientColor.rgb * ground.a;
+    vec3 sun = frame.lightColor.rgb * (max(frame.lightDirection.z, 0.0) * landShare(position));
+    return mix(ground.rgb * (sun + sky), sky, up);
+#else
+    return frame.ambientColor.rgb * mix(frame.ambientFromBelow, 1.0, up);
+#endif
+}
+
+// Lamps, hidden by day where daylight reaches; sky and ground from all around; the sun or moon where the sky is seen.
+// `shadow` is the share of direct light, `visibility` that of light from all around.
+vec3 shade(Surface s, vec3 position, vec4 levels, float shadow, float visibility) {
     vec4 light = brightnessOf(levels);
-    float up = 0.5 + 0.5 * s.normal.z;
-    vec3 sky = frame.ambientColor.rgb * mix(frame.ambientFromBelow, 1.0, up);
     float facing = max(dot(s.normal, frame.lightDirection.xyz), 0.0);
     vec3 lamps = light.rgb * (1.0 - frame.hiddenLampShare * light.a);
-    vec3 around = (lamps + kMinLight + light.a * sky) * visibility;
+    vec3 around = (lamps + kMinLight + light.a * lightAround(position, s.normal)) * visibility;
     return s.albedo * (around + s.glow + light.a * frame.lightColor.rgb * facing * shadow);
 }

@@ -76,6 +76,11 @@ void MeshSectionTable::addCommands(const shared::MeshSectionRecord& record, std:
     }
 }
 
+void MeshSectionTable::noteChange(const shared::MeshSectionRecord& record) {
+    changes_.push_back(
+        {posOf(record), static_cast<int>(record.heights & 0xFFFFu), static_cast<int>(record.heights >> 16)});
+}
+
 void MeshSectionTable::set(world::ChunkPos pos, std::span<const mesh::MeshSection> meshSections,
                            mesh::MeshSectionSet changed) {
     if (chunks_[pos].size() != meshSections.size()) {
@@ -94,12 +99,14 @@ void MeshSectionTable::set(world::ChunkPos pos, std::span<const mesh::MeshSectio
 // whatever their quads are.
 void MeshSectionTable::setMeshSection(std::uint32_t& slot, const shared::MeshSectionRecord& record) {
     if (slot != kNoSlot) {
+        noteChange(cpuRecords_[slot]);
         addCommands(cpuRecords_[slot], -1);
         if (hasBlendedQuads(cpuRecords_[slot])) std::erase(blended_, slot);
     }
     const bool hadSlot = slot != kNoSlot, needsSlot = !isEmpty(record);
     if (hadSlot && !needsSlot) {
         order_.remove(slot);
+        cpuRecords_[slot] = {};
         free_.push_back(slot);
         slot = kNoSlot;
         --count_;
@@ -110,6 +117,7 @@ void MeshSectionTable::setMeshSection(std::uint32_t& slot, const shared::MeshSec
         ++count_;
     }
     if (!needsSlot) return;
+    noteChange(record);
     cpuRecords_[slot] = record;
     changed_.push_back(slot);
     if (hasBlendedQuads(record)) blended_.push_back(slot);

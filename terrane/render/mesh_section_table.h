@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "terrane/gpu/buffer.h"
@@ -13,6 +14,7 @@
 #include "terrane/render/mesh_section_order.h"
 #include "terrane/render/quad_store.h"
 #include "terrane/render/screen_rect.h"
+#include "terrane/render/shadow_clipmap.h"
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/mesh_section.h"
 
@@ -37,6 +39,12 @@ class MeshSectionTable {
     const gpu::Buffer& records() const { return records_; }  // shared::MeshSectionRecord by slot
     void bindOrder() const { orderBuffer_.bindStorage(shared::kMeshSectionOrderBinding); }
 
+    // By slot; heights are 0 where the slot is free.
+    std::span<const shared::MeshSectionRecord> slotRecords() const { return cpuRecords_; }
+    // The mesh sections that were replaced, removed or added since the last call, as they were and as they
+    // are.
+    std::vector<CasterBox> takeChanges() { return std::exchange(changes_, {}); }
+
     // Mesh sections that have quads; the order has as many entries.
     std::uint32_t count() const { return count_; }
     // Slots of records, free ones included.
@@ -58,6 +66,7 @@ class MeshSectionTable {
 
     std::uint32_t allocateSlot();
     void setMeshSection(std::uint32_t& slot, const shared::MeshSectionRecord& record);
+    void noteChange(const shared::MeshSectionRecord& record);
     void addCommands(const shared::MeshSectionRecord& record, std::int32_t sign);
     void uploadRecords();
     void uploadOrder();
@@ -66,6 +75,7 @@ class MeshSectionTable {
     std::unordered_map<world::ChunkPos, std::vector<std::uint32_t>, world::ChunkPosHash> chunks_;
     std::vector<shared::MeshSectionRecord> cpuRecords_;
     std::vector<std::uint32_t> free_, changed_, blended_;  // slots
+    std::vector<CasterBox> changes_;
     std::uint32_t arenaQuads_;
     std::vector<BucketCommands> maxCommands_{1};
     std::uint32_t count_ = 0;

@@ -9,12 +9,27 @@
 #include "terrane/shared/quad.h"
 #include "terrane/shared/mesh_section.h"
 #include "terrane/shared/shape_face.h"
+#if PASS == 2
+#include "terrane/shared/shadow.h"
+
+layout(std140, binding = kShadowDrawBinding) uniform ShadowDrawBlock {
+    ShadowDraw shadowDraw;
+};
+
+// Shadows of what waves stand still: what casts them lies so many blocks farther from the light than at rest, so that it never
+// shades itself.
+const float kWaveSink = 0.14;
+#endif
 
 layout(binding = kQuadsUnit) uniform usamplerBuffer quads;
 layout(binding = kShapeFacesUnit) uniform samplerBuffer shapeFaces;  // four texels a face
 layout(binding = kMaterialsUnit) uniform usamplerBuffer materials;
 
 layout(location = kMeshSectionChunkAttribute) in ivec3 meshSectionChunk;  // of the draw's mesh section; z: its level
+
+#if PASS == 0
+layout(location = kDrawnQuadsLocation) uniform uint drawnQuads;  // bits of word 1 that a quad needs; 0: none
+#endif
 
 // Layers are peeled by comparing depths of two programs.
 invariant gl_Position;
@@ -78,6 +93,12 @@ void main() {
     uint level = uint(meshSectionChunk.z);
     vec3 cellBlocks = vec3(vec2(columnBlocks(level)), 1.0);
     vec3 inChunk = cellBlocks * shapeFaceCorner(face, cell, corner, extent).xyz;
+#if PASS == 2
+    if (ALPHA_CLASS == 1 && level == 0u && (material.animation == kAnimationTopWaves || material.animation == kAnimationWholeWaves))
+        inChunk -= kWaveSink * shadowDraw.toLight.xyz;
+    vec3 position = inChunk + vec3(chunkCorner(chunk, level, shadowDraw.anchorChunk), 0.0);
+    gl_Position = shadowDraw.toClip * vec4(position, 1.0);
+#else
     if ((frame.switches & kSwitchAnimation) != 0 && level == 0u) {
         inChunk += waveOffset(material, isOnSurface(quad, corner), chunk, cell.xyz, inChunk, corner.y, frame.timeSeconds);
     }
@@ -85,10 +106,6 @@ void main() {
     if (material.animation == kAnimationLiquidSurface) inChunk -= kLiquidInset * normalOfFace(quad);
 #endif
     vec3 position = inChunk + vec3(chunkCorner(chunk, level, frame.cameraChunk), 0.0);
-#if PASS == 2
-    vec3 onMap = (frame.toShadowMap * vec4(position, 1.0)).xyz;
-    gl_Position = vec4(2.0 * onMap.xy - 1.0, onMap.z, 1.0);
-#else
     gl_Position = frame.viewProjection * vec4(position, 1.0);
 #endif
 #if PASS == 0
@@ -103,8 +120,10 @@ void main() {
     gl_Position = expandEdges(gl_Position, gl_Position + alongU, gl_Position + alongV, frame.viewportSize,
                               frame.edgeExpansion, growsV);
     if (isTileSide) gl_Position.z *= gl_Position.w / (gl_Position.w + kTileSideDepth * columnBlocks(level));
+    // Outside of the view: the rasterizer never hears of it.
+    if (drawnQuads != 0u && (quad.word1 & drawnQuads) == 0u) gl_Position = vec4(2.0, 2.0, 0.0, 1.0);
 #endif
-    uint seed = hash2(uint(chunk.x), uint(chunk.y), quad.word1);
+    uint seed = hash2(uint(chunk.x), uint(chunk.y), quadMaterial(quad));
     outFace = uvec2(packFace(quad, material, level), quad.word0 ^ seed);
 #if FACE_SAMPLING == 1
     outSampling = optionsSampling(material.options);

@@ -11,6 +11,7 @@ namespace terrane::render {
 struct QuadFeatures {
     bool hasFaceSampling = false;  // see needsFaceSampling()
     bool hasTint = false;          // see TintTextures
+    bool hasLand = false;          // light knows the land to the horizon: see LandTextures
 };
 
 struct QuadDraw {
@@ -22,8 +23,8 @@ struct QuadDraw {
 
     void bind() const { resources.bind(meshSections, isSmooth); }
     // With a shader and what bind() binds.
-    void draw(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const DrawClass& drawn) const {
-        culled.drawBuckets(pipeline, state, quads, drawn);
+    void draw(gpu::Pipeline& pipeline, const gpu::PipelineState& state, mesh::AlphaClass alphaClass) const {
+        culled.drawBuckets(pipeline, state, quads, alphaClass);
     }
 };
 

@@ -87,9 +87,13 @@ std::size_t QuadResources::gpuBytes() const {
            materials_.sizeBytes();
 }
 
-void QuadResources::bind(const MeshSectionTable& meshSections, bool isSmooth) {
+void QuadResources::bindTables() const {
     shapeFaceTexels_.bind(shared::kShapeFacesUnit);
     materialTexels_.bind(shared::kMaterialsUnit);
+}
+
+void QuadResources::bind(const MeshSectionTable& meshSections, bool isSmooth) {
+    bindTables();
     constexpr GLint kChunkAndLevel = 3;
     static_assert(offsetof(shared::MeshSectionRecord, level) == 2 * sizeof(GLint));
     vertexArray_.setInstanceIntegers(shared::kMeshSectionChunkAttribute, meshSections.records(),

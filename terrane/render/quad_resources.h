@@ -24,6 +24,8 @@ class QuadResources {
 
     // isSmooth: textures are filtered.
     void bind(const MeshSectionTable& meshSections, bool isSmooth);
+    // Shapes and materials alone.
+    void bindTables() const;
     std::size_t gpuBytes() const;
 
   private:

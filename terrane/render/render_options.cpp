@@ -10,7 +10,7 @@ namespace {
 constexpr RenderOptions low() {
     RenderOptions o;
     o.msaaSamples = 1;
-    o.shadowSize = 0;
+    o.shadows = ShadowReach::Off;
     o.depthOfField = o.godRays = o.msaaAlphaTest = o.sharpFiltering = o.clouds = false;
     o.transparencyLayers = 1;
     o.water = Water::Plain;
@@ -21,7 +21,7 @@ constexpr RenderOptions medium() {
     RenderOptions o;
     o.msaaSamples = 2;
     o.light = LightSampling::Smooth;
-    o.shadowSize = 2048;
+    o.shadows = ShadowReach::Horizon;
     o.depthOfField = false;
     o.transparencyLayers = 2;
     return o;
@@ -31,7 +31,9 @@ constexpr RenderOptions high() {
     RenderOptions o;
     o.msaaSamples = 4;
     o.light = LightSampling::Smooth;
+    o.shadows = ShadowReach::Horizon;
     o.shadowSize = 4096;
+    o.softShadows = true;
     o.occlusion = Occlusion::On;
     o.depthOfField = false;
     return o;

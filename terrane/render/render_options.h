@@ -32,11 +32,21 @@ enum class TJunctions : std::uint8_t {
     Covered,  // quads overlap by a little, so that there are none: edge_expansion.glsl
 };
 
+// How far from the camera the sun and moon cast shadows.
+enum class ShadowReach : std::uint8_t {
+    Off,
+    Near,     // 50 blocks
+    Far,      // 800 blocks
+    Horizon,  // as far as one sees
+};
+
 struct RenderOptions {
     int msaaSamples = 2;  // a pixel: 1, 2, 4, 8; the driver may take the next number it has
     Shading shading = Shading::Sample;
     LightSampling light = LightSampling::Classic;
-    int shadowSize = 2048;  // texels a side of the shadow map: 1024, 2048, 4096; 0: no shadows
+    ShadowReach shadows = ShadowReach::Near;
+    int shadowSize = 2048;     // texels a side of each shadow map: 1024, 2048, 4096
+    bool softShadows = false;  // edges widen with the distance of what casts them
     Occlusion occlusion = Occlusion::Off;
     bool depthOfField = true;
     bool distanceFog = true;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <span>
+#include <utility>
 
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
+#include "terrane/render/direct_image.h"
 #include "terrane/render/edge_expansion.h"
 #include "terrane/render/frame_uniforms.h"
 #include "terrane/render/shadow_volume.h"
@@ -33,15 +35,19 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
                                         const QuadStoreSizes& quads) {
     auto blockTextures = loadBlockTextures(blocks, textures, device.maxArrayLayers);
     if (!blockTextures) return tl::unexpected(blockTextures.error());
+    auto topColors = world::topColors(blocks, textures);
+    if (!topColors) return tl::unexpected(topColors.error());
     auto passes = FramePasses::create(shaders, device);
     if (!passes) return tl::unexpected(passes.error());
 
     Renderer renderer;
+    renderer.topColors_ = std::move(*topColors);
     // A software renderer pays for each of the samples.
     const float anisotropy = device.software ? 1.0f : std::min(kMaxAnisotropy, device.maxAnisotropy);
     renderer.resources_ = QuadResources(blocks, std::move(*blockTextures), anisotropy);
     renderer.passes_ = std::move(*passes);
     renderer.noise_ = SkyNoise::create();
+    renderer.sky_ = SkyTexture::create();
     renderer.ring_ = gpu::MappedRing(kRingBytes, "frame data");
     renderer.viewDistance_ = kLightViewDistance;
     renderer.quadSizes_ = quads;
@@ -55,11 +61,13 @@ base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, con
     auto loaded = loadBlockTextures(blocks, textures, device_.maxArrayLayers);
     if (!loaded) return tl::unexpected(loaded.error());
     if (targets_.size.x > 0) {
-        auto done =
-            configurePasses(targets_, options_, {needsFaceSampling(blocks, *loaded), tints_.isUsed()});
+        auto done = configurePasses(targets_, options_,
+                                    {needsFaceSampling(blocks, *loaded), tints_.isUsed(), land_.isUsed()});
         if (!done) return done;
     }
+    if (auto colors = world::topColors(blocks, textures)) topColors_ = std::move(*colors);
     resources_.setTextures(blocks, std::move(*loaded));
+    passes_.shadowMap.forget();
     return {};
 }
 
@@ -107,24 +115,34 @@ base::Result<void> Renderer::reloadShaders() {
 
 base::Result<void> Renderer::useTint(bool isUsed) {
     if (targets_.size.x > 0 && isUsed != tints_.isUsed()) {
-        auto done = configurePasses(targets_, options_, {resources_.hasFaceSampling(), isUsed});
+        auto done =
+            configurePasses(targets_, options_, {resources_.hasFaceSampling(), isUsed, land_.isUsed()});
         if (!done) return done;
     }
     tints_ = isUsed ? TintTextures::create() : TintTextures();
     return {};
 }
 
+base::Result<void> Renderer::useLand(bool isUsed) {
+    if (targets_.size.x > 0 && isUsed != land_.isUsed()) {
+        auto done =
+            configurePasses(targets_, options_, {resources_.hasFaceSampling(), tints_.isUsed(), isUsed});
+        if (!done) return done;
+    }
+    land_ = isUsed ? LandTextures::create(topColors_) : LandTextures();
+    return {};
+}
+
 bool Renderer::hasShadows(const FrameInput& input) const {
     const glm::vec3 light = input.environment.lightColor;
     const bool isLit = std::max({light.x, light.y, light.z}) > kMinShadowedLight;
-    return passes_.shadowMap.size() > 0 && input.view == View::Color && isLit;
+    return passes_.shadowMap.isOn() && input.view == View::Color && isLit;
 }
 
 void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
     shared::Frame frame =
         frameUniforms(input, options_,
-                      {view, glm::vec2(targets_.size), edgeExpansion(device_.subpixelBits, targets_.size),
-                       hasShadows(input) ? passes_.shadowMap.size() : 0});
+                      {view, glm::vec2(targets_.size), edgeExpansion(device_.subpixelBits, targets_.size)});
     const world::ChunkPos chunk = cameraChunk(input.camera);
     const int mask = light_.gridChunks() - 1;
     constexpr int kTilesOfChunk = static_cast<int>(shared::kChunkSize / shared::kLightTileSize);
@@ -134,21 +152,22 @@ void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
     assert(slice && "the ring is empty at the start of a frame");
     ring_.bindUniform(shared::kFrameBinding, *slice);
     tints_.bind(input.camera, ring_);
+    sky_.bind(input.environment, view.cameraPosition.z, ring_);
+    land_.update(input.camera, {input.environment.lightDirection, input.environment.discRadius},
+                 std::exchange(completesLand_, false) ? LandTextures::kAllLevels : 1);
+    land_.bind(input.camera, ring_);
 }
 
 CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view) const {
-    CullInput cull{cameraChunk(input.camera),
-                   view.cameraPosition,
-                   frustumOf(view.viewProjection),
-                   input.environment.lightDirection,
-                   {},
-                   view.viewProjection,
-                   glm::vec2(targets_.size)};
+    CullInput cull{cameraChunk(input.camera), view.cameraPosition, frustumOf(view.viewProjection),
+                   view.viewProjection, glm::vec2(targets_.size)};
+    cull.quads = &quads_;
+    cull.resources = &resources_;
+    cull.edgeExpansion = edgeExpansion(device_.subpixelBits, targets_.size);
+    cull.blockPixels = 0.5f * cull.size.y / glm::length(view.up);
+    cull.samples = targets_.msaaSamples;
     if (input.culledFor) {
         cull.camera = frustumOf(viewMatrices(*input.culledFor, aspectOf(targets_.size)).viewProjection);
-    }
-    if (hasShadows(input)) {
-        cull.shadow = planesOf(shadowVolume(view, input.environment.lightDirection, kShadowReach));
     }
     return cull;
 }
@@ -166,15 +185,20 @@ ShadingInputs Renderer::shadingInputs(const FrameInput& input) const {
     return {light_, passes_.shadowMap, noise_, input.waterAbove > 0};
 }
 
-void Renderer::drawShadows() {
-    const TimerZone zone(timer_, "shadow map");
-    passes_.shadowMap.draw(pipeline_, quadDraw());
+void Renderer::drawShadows(const FrameInput& input) {
+    passes_.shadowMap.markChanged(meshSections_.takeChanges());
+    if (hasShadows(input)) {
+        const TimerZone zone(timer_, "shadow map");
+        passes_.shadowMap.update(pipeline_, {resources_, quads_, meshSections_}, input.camera,
+                                 input.environment.lightDirection, input.maxShadowTiles);
+    }
+    passes_.shadowMap.bindUniforms(input.camera, hasShadows(input), ring_);
 }
 
-void Renderer::drawSurfaces() {
+void Renderer::drawSurfaces(bool leavesOutHidden) {
     const TimerZone zone(timer_, "surfaces");
     passes_.gbuffer.clear(pipeline_, targets_);
-    passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
+    passes_.gbuffer.draw(pipeline_, targets_, quadDraw(), leavesOutHidden ? shared::kQuadSeen : 0);
 }
 
 // What was hidden in the frame before and is not now.
@@ -183,17 +207,16 @@ void Renderer::drawLate(const CullInput& cullInput) {
         const TimerZone zone(timer_, "depth pyramid");
         passes_.hiZ.build(targets_);
     }
-    CullInput again = cullInput;
-    again.shadow.reset();
-    cull(CullPhase::Late, again);
+    cull(CullPhase::Late, cullInput);
     const TimerZone zone(timer_, "surfaces again");
-    passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
+    passes_.gbuffer.draw(pipeline_, targets_, quadDraw(), shared::kQuadNew);
 }
 
 void Renderer::shadeSurfaces(const FrameInput& input) {
     {
         const TimerZone zone(timer_, "sky");
-        passes_.shading.drawSky(pipeline_, targets_, shadingInputs(input), input.fogDistance);
+        passes_.shading.drawSky(pipeline_, targets_, shadingInputs(input),
+                                {input.fogDistance, input.environment.starLight > 0});
     }
     const TimerZone zone(timer_, "shade");
     passes_.shading.drawSurfaces(pipeline_, targets_, shadingInputs(input), passes_.occlusion);
@@ -236,6 +259,7 @@ void Renderer::drawImage(const FrameInput& input) {
     shadeSurfaces(input);
     // Water is as far away as its surface, not as its ground.
     const bool hasLayers = drawTransparency(input);
+    if (isDirectImage(options_, targets_.msaaSamples)) return;
     const MsaaTexture& depth = hasLayers ? passes_.transparency.nearestDepth() : targets_.depth;
     if (passes_.godRays.isOn()) {
         const TimerZone zone(timer_, "god rays");
@@ -268,8 +292,8 @@ void Renderer::draw(const FrameInput& input) {
     const bool leavesOutHidden = passes_.hiZ.isOn() && !input.culledFor;
     if (leavesOutHidden) culling.hiZ = &passes_.hiZ;
     cull(leavesOutHidden ? CullPhase::Early : CullPhase::All, culling);
-    if (hasShadows(input)) drawShadows();
-    drawSurfaces();
+    drawShadows(input);
+    drawSurfaces(leavesOutHidden);
     if (leavesOutHidden) drawLate(culling);
     if (passes_.holeFill.isOn()) {
         const TimerZone zone(timer_, "fill holes");

@@ -14,9 +14,11 @@
 #include "terrane/render/frame_passes.h"
 #include "terrane/render/frame_statistics.h"
 #include "terrane/render/gpu_memory.h"
+#include "terrane/render/land_textures.h"
 #include "terrane/render/light_store.h"
 #include "terrane/render/quad_draw.h"
 #include "terrane/render/shading_inputs.h"
+#include "terrane/render/sky_texture.h"
 #include "terrane/render/tint_textures.h"
 
 namespace terrane::render {
@@ -67,9 +69,19 @@ class Renderer {
     // forgotten. Fails where the shaders cannot be compiled; then it is as before.
     base::Result<void> useTint(bool isUsed);
     bool hasTint() const { return tints_.isUsed(); }
-    // The tint of a tile that TintClipmap::isTile(), after useTint(true).
+    // The tint of a tile that tintClipmap().isTile(), after useTint(true).
     void setTint(world::ChunkPos tile, const world::TintTile& colors) { tints_.set(tile, colors); }
-    const TintClipmap& tintClipmap() const { return tints_.clipmap(); }
+    const Clipmap& tintClipmap() const { return tints_.clipmap(); }
+    // Whether light knows the land as far as the horizon from now on (land_map.h); all of its tiles are
+    // forgotten. Fails as useTint().
+    base::Result<void> useLand(bool isUsed);
+    bool hasLand() const { return land_.isUsed(); }
+    // After useLand(true): the surface of a tile that the clipmap has; how far one sees, blocks.
+    void setLand(world::ChunkPos tile, const world::LandTile& land) { land_.map().set(tile, land); }
+    void setLandReach(double blocks) { land_.map().setReach(blocks); }
+    const Clipmap& landClipmap() const { return land_.map().clipmap(); }
+    // The next frame takes in all that was set, whatever it takes; others compute a level at most.
+    void completeLand() { completesLand_ = true; }
     // A chunk that is not shown keeps its quads and its light. Chunks are shown unless told otherwise, which
     // may come before they are set; removeChunk() ends it.
     void setShown(world::ChunkPos pos, bool isShown);
@@ -86,7 +98,9 @@ class Renderer {
     const gpu::Texture2D& ldrTexture() const { return targets_.ldrColor; }
 
     // Of the newest frame that the GPU has finished.
-    FrameStatistics statistics() { return statisticsOf(passes_.cull.counts()); }
+    FrameStatistics statistics() {
+        return statisticsOf(passes_.cull.counts(), passes_.shadowMap.drawnTriangles());
+    }
     const std::vector<gpu::GpuTiming>& passTimes() const { return timer_.results(); }
     // What a shadow map for this frame would draw.
     std::size_t shadowTriangles(const FrameInput& input) const;
@@ -99,12 +113,12 @@ class Renderer {
   private:
     base::Result<void> configurePasses(const FrameTargets& targets, const RenderOptions& options,
                                        const QuadFeatures& features);
-    QuadFeatures features() const { return {resources_.hasFaceSampling(), tints_.isUsed()}; }
+    QuadFeatures features() const { return {resources_.hasFaceSampling(), tints_.isUsed(), land_.isUsed()}; }
     void bindFrame(const FrameInput& input, const ViewMatrices& view);
     CullInput cullInput(const FrameInput& input, const ViewMatrices& view) const;
     void cull(CullPhase phase, const CullInput& input);
-    void drawShadows();
-    void drawSurfaces();
+    void drawShadows(const FrameInput& input);
+    void drawSurfaces(bool leavesOutHidden);
     void drawLate(const CullInput& cullInput);
     void shadeSurfaces(const FrameInput& input);
     bool drawTransparency(const FrameInput& input);
@@ -126,12 +140,16 @@ class Renderer {
     LightStore light_;
     QuadResources resources_;
     TintTextures tints_;
+    LandTextures land_;
+    world::TopColors topColors_;
+    bool completesLand_ = false;
     gpu::MappedRing ring_;
     gpu::GpuTimer timer_;
     gpu::Pipeline pipeline_;
 
     FramePasses passes_;
     SkyNoise noise_;
+    SkyTexture sky_;
 
     const gpu::ShaderLoader* shaders_ = nullptr;
     gpu::DeviceInfo device_;

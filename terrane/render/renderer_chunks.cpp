@@ -24,7 +24,8 @@ GpuMemory Renderer::memory() const {
     return {.quads = quads_.bufferBytes(),
             .light = light_.textureBytes(),
             .meshSections = meshSections_.gpuBytes() + passes_.cull.gpuBytes(meshSections_),
-            .textures = resources_.gpuBytes() + noise_.gpuBytes() + tints_.gpuBytes(),
+            .textures = resources_.gpuBytes() + noise_.gpuBytes() + sky_.gpuBytes() + tints_.gpuBytes() +
+                        land_.gpuBytes(),
             .targets = targets_.gpuBytes() + passes_.targetBytes(),
             .staging = stagingBytes_};
 }
@@ -116,6 +117,7 @@ void Renderer::clearChunks() {
     quads_ = QuadStore(quadSizes_);
     hidden_.clear();
     meshSections_ = MeshSectionTable(quads_.ranges().arenaSize());
+    passes_.shadowMap.forget();
     setViewDistance(viewDistance_);
 }
 

@@ -1,16 +1,16 @@
 // From the G-buffer to the light that reaches the camera: color times coverage, and coverage, over the sky.
 // MSAA_SAMPLES: of the G-buffer. PER_SAMPLE: 1 shades each sample of a pixel with several surfaces, 0 their mean.
-// SHADOW, OCCLUSION: 1 where there is a shadow map, ambient occlusion. OVER_SKY: 1 blends what fades with the sky that was
-// drawn behind it, 0 does so here: without clouds the sky's color is known, and nothing behind need be drawn or read.
+// SHADOW: 0 without shadows, else see shadow_sample.glsl. OCCLUSION: 1 where there is ambient occlusion. LAND: see
+// land_light.glsl. OVER_SKY: 1 blends what fades with the sky that was drawn behind it, 0 does so here: without clouds the sky's
+// color is known, and nothing behind need be drawn or read. DIRECT: 1 writes what the screen shows (direct_image.h).
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
 #include "terrane/render/sky_color.glsl"
 #include "terrane/render/gbuffer_read.glsl"
 #include "terrane/render/distance_fog.glsl"
+#include "terrane/render/land_light.glsl"
 #include "terrane/render/lighting.glsl"
-#if SHADOW == 1
-#include "terrane/render/shadow_sample.glsl"
-#endif
+#include "terrane/render/tone.glsl"
 #if OCCLUSION == 1
 layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
 #endif
@@ -18,17 +18,7 @@ layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
 
-vec4 shadeAt(Surface s, float depth, float visibility) {
-    vec3 toPoint = inRay * blocksOfDepth(depth);
-    vec3 position = frame.cameraPosition.xyz + toPoint;
-    if ((frame.switches & kSwitchUnlit) != 0) return throughAir(s.albedo, toPoint, 1.0);
-    float shadow = 1.0;
-#if SHADOW == 1
-    shadow = lightShare(position, s.normal, length(toPoint));
-#endif
-    vec4 levels = levelsAt(position, s);
-    return throughAir(shade(s, levels, shadow, visibility), toPoint, levels.a);
-}
+#include "terrane/render/surface_shade.glsl"
 
 #if MSAA_SAMPLES > 1 && PER_SAMPLE == 1
 // Each surface once, with the share of its samples: at most edges there are two.
@@ -85,7 +75,7 @@ void main() {
     visibility = texelFetch(occlusion, pixel, 0).r;
 #endif
     outColor = shadePixel(pixel, visibility);
-#if OVER_SKY == 0
-    outColor.rgb += (1.0 - outColor.a) * skyColor(normalize(inRay));
+#if DIRECT == 1
+    outColor = vec4(screenColor(outColor.rgb, pixel), 1.0);
 #endif
 }

@@ -8,15 +8,21 @@
 
 namespace terrane::render {
 
+// Which light their shaders know: values of defines.
+struct LightVariant {
+    int shadowVariant = 0;   // SHADOW of shadow_sample.glsl; 0: none
+    bool knowsLand = false;  // LAND of land_light.glsl
+};
+
 struct ShadingInputs {
     const LightStore& light;
-    const ShadowMap& shadowMap;  // of size 0 where there are no shadows
+    const ShadowMap& shadowMap;
     const SkyNoise& noise;
     bool isUnderWater = false;  // where the camera is: shaders have variants for it
 
     void bind() const {
         light.bind();
-        if (shadowMap.size() > 0) shadowMap.bind();
+        if (shadowMap.isOn()) shadowMap.bind();
         noise.bind();
     }
 };

@@ -1,6 +1,7 @@
 #include "terrane/render/shading_pass.h"
 
 #include "terrane/render/camera.h"
+#include "terrane/render/direct_image.h"
 #include "terrane/render/shader_variants.h"
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/frame.h"
@@ -14,14 +15,20 @@ constexpr float kSkyDistance = 1e6f;  // blocks: nothing but the sky is farther
 
 ShadingPass::ShadingPass(const gpu::ShaderLoader& shaders)
     : sky_(shaders, "sky"),
+      nightSky_(shaders, "sky"),
       shade_{FullscreenPass(shaders, "shade"), FullscreenPass(shaders, "shade")},
       skyMask_(shaders, PixelMask::Of::Sky),
       surfaceMask_(shaders, PixelMask::Of::Surfaces) {}
 
-base::Result<void> ShadingPass::select(const RenderOptions& options, int samples, bool hasShadows) {
+base::Result<void> ShadingPass::select(const RenderOptions& options, int samples, const LightVariant& light) {
     fadesOverSky_ = samples > 1 || options.clouds;
     hasDistanceFog_ = options.distanceFog;
-    auto selected = sky_.select(defined({{"CLOUDS", options.clouds}}));
+    isDirect_ = isDirectImage(options, samples);
+    const auto sky = [&](int night) {
+        return defined({{"CLOUDS", options.clouds}, {"NIGHT", night}, {"DIRECT", isDirect_}});
+    };
+    auto selected = sky_.select(sky(0));
+    if (selected) selected = nightSky_.select(sky(1));
     if (selected && samples > 1) selected = skyMask_.select(samples);
     if (selected && samples > 1) selected = surfaceMask_.select(samples);
     for (int isUnderWater = 0; selected && isUnderWater < 2; ++isUnderWater)
@@ -29,28 +36,31 @@ base::Result<void> ShadingPass::select(const RenderOptions& options, int samples
             defined({{"MSAA_SAMPLES", samples},
                      {"PER_SAMPLE", options.shading != Shading::Pixel},
                      {"LIGHT_SMOOTH", static_cast<int>(options.light)},
-                     {"SHADOW", hasShadows},
+                     {"SHADOW", light.shadowVariant},
+                     {"LAND", light.knowsLand},
                      {"OCCLUSION", options.occlusion != Occlusion::Off},
                      {"OVER_SKY", fadesOverSky_},
+                     {"DIRECT", isDirect_},
                      {"UNDER_WATER", isUnderWater}}));
     return selected;
 }
 
 // By the depth test: of the mask, or of surfaces, where the triangle lies where they begin to fade.
 void ShadingPass::drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
-                          float fogDistance) const {
+                          const Sky& sky) const {
     gpu::PipelineState state{.depthTest = gpu::DepthTest::Less, .writesDepth = false};
     if (targets.msaaSamples > 1) {
         skyMask_.draw(pipeline, targets);
     } else {
         const float distance =
-            fadesOverSky_ && hasDistanceFog_ ? shared::kFadingBegins * fogDistance : kSkyDistance;
+            fadesOverSky_ && hasDistanceFog_ ? shared::kFadingBegins * sky.fogDistance : kSkyDistance;
         state.depthRange.x = kNearPlane / distance;
         state.depthTest = gpu::DepthTest::Greater;
     }
     inputs.bind();
-    targets.scene.bind();
-    sky_.draw(pipeline, state);
+    (isDirect_ ? targets.direct : targets.scene).bind();
+    // By day the shader without stars: software renderers run what a branch leaves out.
+    (sky.hasStars ? nightSky_ : sky_).draw(pipeline, state);
 }
 
 // The triangle lies at the far end: surfaces are all nearer, and so is the mask.
@@ -60,7 +70,7 @@ void ShadingPass::drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targ
     targets.bindGBuffer();
     inputs.bind();
     if (occlusion.isOn()) occlusion.result().bind(shared::kOcclusionUnit);
-    targets.scene.bind();
+    (isDirect_ ? targets.direct : targets.scene).bind();
     shade_[inputs.isUnderWater ? 1 : 0].draw(
         pipeline, {.depthTest = gpu::DepthTest::Less,
                    .writesDepth = false,

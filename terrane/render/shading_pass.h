@@ -1,4 +1,5 @@
-// From the G-buffer to the light that reaches the camera, over the sky. Used by the renderer on the context's
+// From the G-buffer to the light that reaches the camera, over the sky; or to what the screen shows: see
+// direct_image.h. Used by the renderer on the context's
 // thread.
 #pragma once
 
@@ -19,19 +20,23 @@ class ShadingPass {
     ShadingPass() = default;
     explicit ShadingPass(const gpu::ShaderLoader& shaders);
 
-    base::Result<void> select(const RenderOptions& options, int samples, bool hasShadows);
-    // The part of the sky that can be seen, or that surfaces fade into. `fogDistance`: blocks.
+    base::Result<void> select(const RenderOptions& options, int samples, const LightVariant& light);
+    struct Sky {
+        float fogDistance;  // blocks
+        bool hasStars;
+    };
+    // The part of the sky that can be seen, or that surfaces fade into.
     void drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
-                 float fogDistance) const;
+                 const Sky& sky) const;
     // After the sky. `occlusion` is read where select() was told so.
     void drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
                       const AmbientOcclusion& occlusion) const;
 
   private:
-    FullscreenPass sky_;
+    FullscreenPass sky_, nightSky_;
     std::array<FullscreenPass, 2> shade_;  // in air, under water
     PixelMask skyMask_, surfaceMask_;
-    bool fadesOverSky_ = false, hasDistanceFog_ = false;
+    bool fadesOverSky_ = false, hasDistanceFog_ = false, isDirect_ = false;
 };
 
 }  // namespace terrane::render

@@ -1,24 +1,59 @@
 #include "terrane/render/shadow_map.h"
 
+#include <cassert>
+#include <glm/matrix.hpp>
+
 #include "terrane/gpu/debug.h"
+#include "terrane/render/growing_buffer.h"
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
 namespace {
 
-// Depth along the light is linear: 16 bits over little more than twice kShadowReach at most are steps of a
-// few thousandths of a block, in half the memory of more.
-constexpr GLenum kFormat = GL_DEPTH_COMPONENT16;
+constexpr int kMapTiles = static_cast<int>(shared::kShadowTiles);
+
+// OpenGL asks uniforms to begin at multiples of at most so much.
+struct alignas(256) AlignedDraw {
+    shared::ShadowDraw draw;
+};
+
+shared::ShadowDraw uniformsOf(const ShadowTiles& tiles) {
+    const double blocks = shadowTileBlocks(tiles.cascade);
+    const glm::dmat3 axes = glm::transpose(tiles.plane.toLight);
+    glm::dmat4 rows(0);  // of the matrix
+    for (int axis = 0; axis < 2; ++axis) {
+        const double half = 0.5 * blocks * tiles.size[axis];
+        rows[axis] = {axes[axis] / half, -1 - tiles.place[axis] * blocks / half};
+    }
+    rows[2] = {axes[2] / double{shared::kShadowRange}, 0.5};
+    rows[3] = {0, 0, 0, 1};
+    shared::ShadowDraw draw{};
+    draw.toClip = glm::mat4(glm::transpose(rows));
+    draw.toLight = glm::vec4(axes[2], 0);
+    draw.anchorChunk = {tiles.plane.anchor.x, tiles.plane.anchor.y};
+    return draw;
+}
+
+// One by one: of an indirect draw of many commands Mesa 22.3.6 (llvmpipe) loses some, and tiles are drawn
+// seldom.
+void drawQuads(const shared::DrawCommand& command) {
+    glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(command.indexCount),
+                                                  GL_UNSIGNED_SHORT, nullptr, 1, command.baseVertex,
+                                                  command.baseInstance);
+}
 
 }  // namespace
 
 ShadowMap::ShadowMap(const gpu::ShaderLoader& shaders)
     : opaque_(quadShaders(shaders, "shadow", "opaque shadows")),
       tested_(quadShaders(shaders, "shadow", "tested shadows")),
-      sampler_({.compare = GL_GEQUAL}, "shadow map") {}
+      compared_({.wrapS = GL_REPEAT, .wrapT = GL_REPEAT, .compare = GL_GEQUAL}, "shadow map"),
+      plain_({.minFilter = GL_NEAREST, .magFilter = GL_NEAREST, .wrapS = GL_REPEAT, .wrapT = GL_REPEAT},
+             "depths of the shadow map") {}
 
-base::Result<void> ShadowMap::configure(int size, bool hasFaceSampling) {
-    if (size > 0) {
+base::Result<void> ShadowMap::configure(const Shape& shape, bool hasFaceSampling) {
+    assert(shape.texels % kMapTiles == 0 && "tiles have whole texels");
+    if (shape.cascades > 0) {
         auto selected =
             opaque_.select(defined({{"PASS", 2}, {"ALPHA_CLASS", 0}, {"FACE_SAMPLING", 0}, {"TINT", 0}}));
         if (selected)
@@ -26,35 +61,107 @@ base::Result<void> ShadowMap::configure(int size, bool hasFaceSampling) {
                 defined({{"PASS", 2}, {"ALPHA_CLASS", 1}, {"FACE_SAMPLING", hasFaceSampling}, {"TINT", 0}}));
         if (!selected) return selected;
     }
-    if (size == this->size()) return {};
-    framebuffer_ = {};
-    depth_ = {};
-    if (size == 0) return {};
-    gpu::Texture2D depth({size, size}, kFormat, 1, "shadow map");
-    auto framebuffer = gpu::Framebuffer::create({{}, depth}, "shadow map");
-    if (!framebuffer) return tl::unexpected(framebuffer.error());
-    depth_ = std::move(depth);
-    framebuffer_ = std::move(*framebuffer);
+    if (shape == shape_) return {};
+    layers_.clear();
+    depths_ = {};
+    shape_ = {};
+    clipmap_ = ShadowClipmap(shape.cascades);
+    if (shape.cascades == 0) return {};
+    gpu::Texture2DArray depths({{shape.texels, shape.texels}, clipmap_.layers(), 1}, GL_DEPTH_COMPONENT32F,
+                               "shadow map");
+    std::vector<gpu::Framebuffer> layers;
+    for (int layer = 0; layer < clipmap_.layers(); ++layer) {
+        auto framebuffer = gpu::Framebuffer::create({{}, {depths, layer}}, "shadow map");
+        if (!framebuffer) return tl::unexpected(framebuffer.error());
+        layers.push_back(std::move(*framebuffer));
+    }
+    depths_ = std::move(depths);
+    layers_ = std::move(layers);
+    shape_ = shape;
     return {};
 }
 
-// Depth grows toward the light. What stands nearer to it than the map begins casts too: its depth is clamped.
-void ShadowMap::draw(gpu::Pipeline& pipeline, const QuadDraw& quads) const {
-    const gpu::DebugGroup group("shadow map");
+void ShadowMap::markChanged(std::span<const CasterBox> boxes) {
+    for (const CasterBox& box : boxes) clipmap_.markChanged(box);
+}
+
+std::vector<ShadowMap::Drawing> ShadowMap::prepare(const std::vector<ShadowTiles>& tiles,
+                                                   const MeshSectionTable& meshSections) {
+    std::vector<Drawing> drawings;
+    std::vector<AlignedDraw> uniforms;
+    for (const ShadowTiles& rectangle : tiles) {
+        drawings.push_back(
+            {rectangle, castersOf(rectangle, meshSections.slotRecords(), meshSections.arenaQuads())});
+        uniforms.push_back({uniformsOf(rectangle)});
+        for (const CasterList& list : drawings.back().lists) drawnTriangles_ += 2 * list.quads;
+    }
+    const auto bytes = std::as_bytes(std::span(uniforms));
+    if (const std::size_t grown = grownBytes(uniforms_, bytes.size()))
+        uniforms_ = gpu::Buffer(grown, GL_DYNAMIC_STORAGE_BIT, "shadow tiles");
+    uniforms_.upload(0, bytes);
+    return drawings;
+}
+
+void ShadowMap::clear(const ShadowTiles& tiles) const {
+    const int texels = shape_.texels / kMapTiles;
+    const glm::ivec2 corner = texels * tiles.slot(), size = texels * tiles.size;
+    const gpu::Framebuffer& layer = layers_[static_cast<std::size_t>(tiles.layer)];
+    layer.bind();
+    glViewport(corner.x, corner.y, size.x, size.y);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(corner.x, corner.y, size.x, size.y);
+    layer.clearDepth(0.0f);
+}
+
+// Depth grows toward the light. What lies beyond the range casts too: its depth is clamped. The scissor test
+// stays on: no triangle leaves its tiles, whatever the driver clips to.
+void ShadowMap::draw(gpu::Pipeline& pipeline, const Drawing& drawing, const QuadStore& quads) const {
     constexpr gpu::PipelineState kNearestToLight{.depthTest = gpu::DepthTest::Greater, .clampsDepth = true};
     pipeline.set(kNearestToLight);
-    framebuffer_.bind();
-    framebuffer_.clearDepth(0.0f);
-    quads.bind();
-    opaque_.use();
-    quads.draw(pipeline, kNearestToLight, {mesh::AlphaClass::Opaque, true});
-    tested_.use();
-    quads.draw(pipeline, kNearestToLight, {mesh::AlphaClass::Tested, true});
+    clear(drawing.tiles);
+    for (std::size_t k = 0; k < drawing.lists.size(); ++k) {
+        if (drawing.lists[k].commands.empty()) continue;
+        const int bucket = static_cast<int>(k) % kCasterBuckets;
+        gpu::PipelineState state = kNearestToLight;
+        state.cullsBackFaces = !mesh::bucketTwoSided(bucket);
+        pipeline.set(state);
+        (mesh::bucketAlphaClass(bucket) == mesh::AlphaClass::Opaque ? opaque_ : tested_).use();
+        quads.texels(k / kCasterBuckets).bind(shared::kQuadsUnit);
+        for (const shared::DrawCommand& command : drawing.lists[k].commands) drawQuads(command);
+    }
+    glDisable(GL_SCISSOR_TEST);
+}
+
+void ShadowMap::update(gpu::Pipeline& pipeline, const Casters& casters, const Camera& camera,
+                       glm::vec3 lightDirection, std::size_t maxTiles) {
+    const gpu::DebugGroup group("shadow map");
+    const std::vector<ShadowTiles> tiles = clipmap_.update(camera, lightDirection, maxTiles);
+    drawnTriangles_ = 0;
+    if (tiles.empty()) return;
+    const std::vector<Drawing> drawings = prepare(tiles, casters.meshSections);
+    casters.resources.bind(casters.meshSections, false);
+    for (std::size_t k = 0; k < drawings.size(); ++k) {
+        uniforms_.bindUniform(shared::kShadowDrawBinding, k * sizeof(AlignedDraw),
+                              sizeof(shared::ShadowDraw));
+        draw(pipeline, drawings[k], casters.quads);
+    }
+}
+
+void ShadowMap::bindUniforms(const Camera& camera, bool isLit, gpu::MappedRing& ring) const {
+    if (!isOn()) return;
+    shared::ShadowFrame frame{};
+    if (isLit) frame = clipmap_.frame(camera, shape_.texels);
+    frame.strength = isLit ? 1.0f : 0.0f;
+    const auto slice = ring.write(std::span<const shared::ShadowFrame>(&frame, 1));
+    assert(slice && "the ring has room for the uniforms of a frame");
+    ring.bindUniform(shared::kShadowBinding, *slice);
 }
 
 void ShadowMap::bind() const {
-    depth_.bind(shared::kShadowUnit);
-    sampler_.bind(shared::kShadowUnit);
+    depths_.bind(shared::kShadowUnit);
+    compared_.bind(shared::kShadowUnit);
+    depths_.bind(shared::kShadowDepthsUnit);
+    plain_.bind(shared::kShadowDepthsUnit);
 }
 
 }  // namespace terrane::render

@@ -1,11 +1,15 @@
-// The depth of the world near the camera as the sun or moon sees it. Used by the renderer on the context's
-// thread.
+// The depth of the world around the camera as the sun or moon sees it, in cascades (shadow_clipmap.h) that
+// are kept from frame to frame: only tiles that came into reach, or whose casters changed, are drawn. Used by
+// the renderer on the context's thread.
 #pragma once
 
 #include "terrane/gpu/framebuffer.h"
+#include "terrane/gpu/mapped_ring.h"
+#include "terrane/gpu/pipeline_state.h"
 #include "terrane/gpu/sampler.h"
-#include "terrane/render/quad_draw.h"
+#include "terrane/render/quad_resources.h"
 #include "terrane/render/shader_variants.h"
+#include "terrane/render/shadow_casters.h"
 
 namespace terrane::render {
 
@@ -14,19 +18,53 @@ class ShadowMap {
     ShadowMap() = default;
     explicit ShadowMap(const gpu::ShaderLoader& shaders);
 
-    // Texels a side; 0: none.
-    base::Result<void> configure(int size, bool hasFaceSampling);
-    int size() const { return depth_.size().x; }
-    // Draws what is culled for shadows, with the frame's uniforms bound.
-    void draw(gpu::Pipeline& pipeline, const QuadDraw& quads) const;
+    struct Shape {
+        int cascades = 0;  // 0: no shadows
+        int texels = 0;    // along a side of each map; a multiple of kShadowTiles
+
+        bool operator==(const Shape&) const = default;
+    };
+    base::Result<void> configure(const Shape& shape, bool hasFaceSampling);
+    bool isOn() const { return shape_.cascades > 0; }
+
+    // The casters there are others than before.
+    void markChanged(std::span<const CasterBox> boxes);
+    // All must be drawn again: what casts looks different.
+    void forget() { clipmap_ = ShadowClipmap(shape_.cascades); }
+
+    struct Casters {
+        QuadResources& resources;
+        const QuadStore& quads;
+        const MeshSectionTable& meshSections;  // up to date
+    };
+    // Draws up to `maxTiles` tiles of what is missing or changed.
+    void update(gpu::Pipeline& pipeline, const Casters& casters, const Camera& camera,
+                glm::vec3 lightDirection, std::size_t maxTiles);
+    // After update(), for a frame from the camera. Without light that casts shadows `isLit` is false, and
+    // update() need not have come before.
+    void bindUniforms(const Camera& camera, bool isLit, gpu::MappedRing& ring) const;
     void bind() const;
-    std::size_t gpuBytes() const { return depth_.sizeBytes(); }
+
+    std::size_t drawnTriangles() const { return drawnTriangles_; }  // by the last update()
+    std::size_t gpuBytes() const { return depths_.sizeBytes(); }
 
   private:
+    struct Drawing {
+        ShadowTiles tiles;
+        std::vector<CasterList> lists;
+    };
+    std::vector<Drawing> prepare(const std::vector<ShadowTiles>& tiles, const MeshSectionTable& meshSections);
+    void draw(gpu::Pipeline& pipeline, const Drawing& drawing, const QuadStore& quads) const;
+    void clear(const ShadowTiles& tiles) const;
+
     ShaderVariants opaque_, tested_;
-    gpu::Texture2D depth_;
-    gpu::Framebuffer framebuffer_;
-    gpu::Sampler sampler_;
+    Shape shape_;
+    ShadowClipmap clipmap_;
+    gpu::Texture2DArray depths_;
+    std::vector<gpu::Framebuffer> layers_;
+    gpu::Sampler compared_, plain_;
+    gpu::Buffer uniforms_;
+    std::size_t drawnTriangles_ = 0;
 };
 
 }  // namespace terrane::render

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "terrane/mesh/draw_bucket.h"
+#include "terrane/render/shadow_casters.h"
 #include "terrane/shared/mesh_section.h"
 
 namespace terrane::render {
@@ -18,12 +19,6 @@ glm::mat3 lightAxes(glm::vec3 toward) {
     const glm::vec3 other = std::abs(toward.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
     const glm::vec3 across = glm::normalize(glm::cross(other, toward));
     return glm::transpose(glm::mat3(across, glm::cross(toward, across), toward));
-}
-
-bool facesLight(int direction, glm::vec3 light) {
-    if (direction == mesh::kAnyDirection) return true;
-    const float along = light[direction / 2];
-    return direction % 2 == 0 ? along < 0 : along > 0;
 }
 
 std::size_t castingQuads(const mesh::MeshSection& meshSection, glm::vec3 light) {
@@ -67,51 +62,13 @@ bool mayBeInVolume(const ShadowVolume& volume, glm::vec3 boxMin, glm::vec3 boxMa
            low.y <= volume.max.y && high.z >= volume.farthest;
 }
 
-Frustum planesOf(const ShadowVolume& volume) {
-    const glm::mat3 axes = glm::transpose(volume.toLight);  // columns: across, up, toward the light
-    return {glm::vec4(axes[0], -volume.min.x), glm::vec4(-axes[0], volume.max.x),
-            glm::vec4(axes[1], -volume.min.y), glm::vec4(-axes[1], volume.max.y),
-            glm::vec4(axes[2], -volume.farthest)};
-}
-
-ShadowFit fitShadowMap(const Camera& camera, float aspect, glm::vec3 lightDirection, int texels) {
-    const float half = std::tan(glm::radians(camera.fieldOfView) * 0.5f);
-    const float corner = std::atan(half * std::sqrt(1 + aspect * aspect));  // from the view's axis
-    const bool isWide = corner > glm::radians(45.0f);
-    const float radius = isWide ? kShadowReach * std::sin(corner) : kShadowReach / (2 * std::cos(corner));
-    const float ahead = isWide ? kShadowReach * std::cos(corner) : radius;
-
-    // Texels are counted from a corner of the world that the camera seldom leaves: numbers stay small, and
-    // places that are alike have shadows that are.
-    constexpr int kAnchorChunks = 64;
-    const world::ChunkPos chunk = cameraChunk(camera);
-    const glm::vec3 anchor(-world::kChunkSize * (chunk.x & (kAnchorChunks - 1)),
-                           -world::kChunkSize * (chunk.y & (kAnchorChunks - 1)), 0);
-    const glm::mat3 toLight = lightAxes(glm::normalize(lightDirection));
-    const glm::vec3 middle = viewMatrices(camera, aspect).cameraPosition + ahead * lookDirection(camera);
-    const float texel = 2 * radius / static_cast<float>(texels - 1);  // room for the step
-    glm::vec3 low = toLight * (middle - anchor) - radius;
-    low.x = std::floor(low.x / texel) * texel;
-    low.y = std::floor(low.y / texel) * texel;
-    low += toLight * anchor;
-
-    const glm::vec3 size(texel * static_cast<float>(texels), texel * static_cast<float>(texels), 2 * radius);
-    glm::mat4 toMap(toLight);
-    toMap[3] = glm::vec4(-low, 1);
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 3; ++row) toMap[column][row] /= size[row];
-    }
-    return {toMap, texel};
-}
-
-std::array<glm::dvec3, 8> cornersOf(const ShadowFit& fit, const Camera& camera) {
-    const world::ChunkPos chunk = cameraChunk(camera);
-    const glm::dvec3 origin(double{world::kChunkSize} * chunk.x, double{world::kChunkSize} * chunk.y, 0);
-    const glm::mat4 fromMap = glm::inverse(fit.toMap);
+std::array<glm::dvec3, 8> nearShadowBox(const Camera& camera, glm::vec3 lightDirection) {
+    const glm::dmat3 axes = glm::transpose(shadowPlane(cameraChunk(camera), lightDirection).toLight);
+    const double reach = 0.5 * shared::kShadowTiles * shadowTileBlocks(0);
     std::array<glm::dvec3, 8> corners;
     for (int k = 0; k < 8; ++k) {
-        const glm::vec4 at(k & 1, k >> 1 & 1, k >> 2, 1);
-        corners[static_cast<std::size_t>(k)] = origin + glm::dvec3(fromMap * at);
+        const glm::dvec3 side(k & 1, k >> 1 & 1, k >> 2);
+        corners[static_cast<std::size_t>(k)] = camera.position + axes * ((2.0 * side - 1.0) * reach);
     }
     return corners;
 }

@@ -27,18 +27,9 @@ ShadowVolume shadowVolume(const ViewMatrices& view, glm::vec3 lightDirection, fl
 // False only where no point of the box is in the volume. Coordinates as in ViewMatrices.
 bool mayBeInVolume(const ShadowVolume& volume, glm::vec3 boxMin, glm::vec3 boxMax);
 
-Frustum planesOf(const ShadowVolume& volume);
-
-// A square map over the bounding sphere of what the camera sees within `reach` blocks, which keeps its size
-// while the camera turns, moved in steps of whole texels: edges of shadows do not crawl.
-struct ShadowFit {
-    glm::mat4 toMap;  // x, y: 0…1; z: 0 at the far end of the sphere to 1 at the end toward the light
-    float texelBlocks;
-};
-ShadowFit fitShadowMap(const Camera& camera, float aspect, glm::vec3 lightDirection, int texels);
-// What the map covers, in the world. Bits of a corner's number: 1 for the map's x, 2 for y, 4 for toward the
-// light.
-std::array<glm::dvec3, 8> cornersOf(const ShadowFit& fit, const Camera& camera);
+// What the nearest cascade may cover, in the world, as far along the light as across. Bits of a corner's
+// number: 1 for the map's x, 2 for y, 4 for toward the light.
+std::array<glm::dvec3, 8> nearShadowBox(const Camera& camera, glm::vec3 lightDirection);
 
 // Triangles of a shadow map of these chunks: mesh sections in the volume, without blended quads and without
 // the face directions that look away from the light.

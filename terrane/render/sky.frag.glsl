@@ -1,41 +1,55 @@
-// The sky where it can be seen, behind surfaces that fade too. CLOUDS: 1 draws clouds.
+// The sky where it can be seen, behind surfaces that fade too. CLOUDS: 1 draws clouds. NIGHT: 1 draws stars. DIRECT: 1 writes
+// what the screen shows (direct_image.h).
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/sky_color.glsl"
 #include "terrane/render/clouds.glsl"
+#include "terrane/render/tone.glsl"
+#if NIGHT == 1
+#include "terrane/render/stars.glsl"
+#endif
 
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
 
-// The sun is plain; the moon has plains, brighter and darker.
-vec3 discColor(vec2 at) {
-    float isMoon = float(frame.isMoon);
+// Plains of the moon, brighter and darker.
+float moonFace(vec2 at, float rim) {
     float pattern = texture(cloudNoise, 0.12 * at + 0.3).r + 0.5 * texture(cloudNoise, 0.3 * at).g;
-    float rim = sqrt(max(1.0 - dot(at, at), 0.0));
-    return frame.discColor.rgb * mix(1.0, (0.35 + 0.65 * smoothstep(0.5, 1.0, pattern)) * (0.6 + 0.4 * rim), isMoon);
+    return (0.35 + 0.65 * smoothstep(0.5, 1.0, pattern)) * (0.6 + 0.4 * rim);
 }
 
+// The sun is darker and redder toward its rim (D. Hestroffer, C. Magnan, Wavelength dependency of the solar limb
+// darkening, 1998); its edge is soft, and the horizon cuts it off.
 vec4 disc(vec3 direction) {
     vec3 light = frame.lightDirection.xyz;
     vec3 across = normalize(cross(light, vec3(0.0, 0.0, 1.0))), up = cross(across, light);
     vec2 at = vec2(dot(direction, across), dot(direction, up)) / frame.discSine;  // from the middle, 1 at the rim
-    float pixel = length(fwidth(at));
-    float share = dot(direction, light) > 0.0 ? 1.0 - smoothstep(1.0 - pixel, 1.0, length(at)) : 0.0;
-    return vec4(discColor(at), share);
+    float away = length(at), pixel = length(fwidth(at)), rim = sqrt(max(1.0 - away * away, 0.0));
+    float isFacing = step(0.0, dot(direction, light));
+    float share = isFacing * (1.0 - smoothstep(1.0 - max(pixel, 0.06), 1.0, away));
+    vec3 sun = mix(vec3(0.45, 0.34, 0.22), vec3(1.0), rim);
+    vec3 face = frame.isMoon != 0u ? vec3(moonFace(at, rim)) : sun;
+    return vec4(frame.discColor.rgb * face, share * smoothstep(-0.004, 0.004, direction.z));
 }
 
 void main() {
     vec3 direction = normalize(inRay);
     vec4 sun = disc(direction);
-    vec3 color = skyColor(direction);
-    float pixel = length(fwidth(direction)), night = frame.starBrightness;
-    if (night > 0.0)
-        color += stars(starDirection(direction), pixel) * night * (1.0 - sun.a) * smoothstep(0.0, 0.2, direction.z);
-    color = mix(color, max(color, sun.rgb), sun.a);
+    vec3 sky = skyColor(direction), color = sky;
 #if CLOUDS == 1
-    vec4 cloud = clouds(direction);
-    color = mix(color, cloud.rgb, cloud.a * 0.92);
+    vec4 cloud = clouds(direction, sky);
+#else
+    vec4 cloud = vec4(0.0);
 #endif
-    // From within water the sky is seen through a round window above, beyond which the surface mirrors what is below.
-    if (frame.isUnderWater != 0u) color = mix(murk(), color, 0.8 * smoothstep(0.5, 0.8, direction.z));
+#if NIGHT == 1
+    float clear = 1.0 - cloud.a;
+    color += nightSky(direction, length(fwidth(direction))) * ((1.0 - sun.a) * clear * clear * clear);
+#endif
+    color = mix(color, max(color, sun.rgb), sun.a);
+    color = mix(color, cloud.rgb, cloud.a * 0.92);
+    if (frame.isUnderWater != 0u) color = throughWindow(color, direction);
+#if DIRECT == 1
+    outColor = vec4(screenColor(color, ivec2(gl_FragCoord.xy)), 1.0);
+#else
     outColor = vec4(color, 0.0);
+#endif
 }

@@ -24,7 +24,7 @@ void TintTextures::set(world::ChunkPos tile, const world::TintTile& colors) {
             rgba[4 * k + channel] = static_cast<std::uint8_t>(colors[k] >> (16 - 8 * channel));
         rgba[4 * k + 3] = 255;
     }
-    const TintPlace place = TintClipmap::placeOf(tile);
+    const ClipmapPlace place = clipmap_.placeOf(tile);
     textures_.uploadPart(place.level, {place.texel, {world::kChunkSize, world::kChunkSize}}, GL_RGBA,
                          GL_UNSIGNED_BYTE, std::as_bytes(std::span(rgba)));
     clipmap_.set(tile);
@@ -32,7 +32,7 @@ void TintTextures::set(world::ChunkPos tile, const world::TintTile& colors) {
 
 void TintTextures::bind(const Camera& camera, gpu::MappedRing& ring) const {
     if (!isUsed()) return;
-    const shared::TintFrame frame = clipmap_.frame(camera);
+    const shared::TintFrame frame = tintFrame(clipmap_, camera);
     const auto slice = ring.write(std::span<const shared::TintFrame>(&frame, 1));
     assert(slice && "the ring has room for the uniforms of a frame");
     ring.bindUniform(shared::kTintBinding, *slice);

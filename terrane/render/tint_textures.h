@@ -1,4 +1,4 @@
-// The tint around the camera as textures: the clipmap's levels (tint_clipmap.h), one layer each. Takes no
+// The tint around the camera as textures: a clipmap's levels (clipmap.h), one layer each. Takes no
 // memory where there is no tint. Used by the renderer on the context's thread.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include "terrane/gpu/mapped_ring.h"
 #include "terrane/gpu/sampler.h"
 #include "terrane/gpu/texture.h"
-#include "terrane/render/tint_clipmap.h"
+#include "terrane/render/clipmap.h"
 #include "terrane/world/tint.h"
 
 namespace terrane::render {
@@ -17,7 +17,7 @@ class TintTextures {
     TintTextures() = default;      // none
     static TintTextures create();  // 1.3 MB
     bool isUsed() const { return textures_.id() != 0; }
-    const TintClipmap& clipmap() const { return clipmap_; }
+    const Clipmap& clipmap() const { return clipmap_; }
 
     void set(world::ChunkPos tile, const world::TintTile& colors);
     // For a frame from the camera; nothing where there is no tint.
@@ -25,7 +25,7 @@ class TintTextures {
     std::size_t gpuBytes() const { return textures_.sizeBytes(); }
 
   private:
-    TintClipmap clipmap_;
+    Clipmap clipmap_{kTintClipmap};
     gpu::Texture2DArray textures_;
     gpu::Sampler sampler_;
 };

@@ -1,18 +1,18 @@
 // The light of all layers of blended faces over the image: what they add, and the share of what lies behind that they let
 // through, for each channel.
-// MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW, OCCLUSION: 1 where there is a shadow map, ambient
-// occlusion of the nearest layer. WATER_DETAIL: see water.glsl. QUADS: 1 draws over the
-// quads of the first layer, 0 over the whole screen.
+// MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW: 0 without shadows, else see shadow_sample.glsl.
+// OCCLUSION: 1 where there is ambient occlusion of the nearest layer. LAND: see land_light.glsl. WATER_DETAIL: see water.glsl.
+// QUADS: 1 draws over the quads of the first layer, 0 over the whole screen. DIRECT: 1 with QUADS writes what the screen shows
+// (direct_image.h).
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
 #include "terrane/render/sky_color.glsl"
 #include "terrane/render/gbuffer_read.glsl"
 #include "terrane/render/packed_layer.glsl"
 #include "terrane/render/distance_fog.glsl"
+#include "terrane/render/land_light.glsl"
 #include "terrane/render/lighting.glsl"
-#if SHADOW == 1
-#include "terrane/render/shadow_sample.glsl"
-#endif
+#include "terrane/render/tone.glsl"
 
 #if MSAA_SAMPLES > 1
 layout(binding = kTransparencyColorUnit) uniform sampler2DMS layerColors[LAYERS];
@@ -30,10 +30,15 @@ vec3 inRay;
 #else
 layout(location = 1) in vec3 inRay;
 #endif
+#if DIRECT == 1
+layout(location = 0) out vec4 outColor;
+#else
 layout(location = 0, index = 0) out vec4 outColor;
 layout(location = 0, index = 1) out vec4 outThrough;
+#endif
 
 #include "terrane/render/water.glsl"
+#include "terrane/render/surface_shade.glsl"
 
 const vec3 kBackground = vec3(0.35);  // of a single layer
 
@@ -48,17 +53,17 @@ Passed shadeLayer(Layer layer, float depth, float behind, float visibility, bool
     if ((frame.switches & kSwitchUnlit) != 0) 
         return over(throughAir(layer.surface.albedo, toPoint, 1.0) * layer.alpha);
     float shadow = 1.0;
-#if SHADOW == 1
+#if SHADOW > 0
     shadow = lightShare(position, layer.surface.normal, length(toPoint));
 #endif
     vec4 levels = levelsAt(position, layer.surface);
     Passed passed;
     if (layer.isLiquid) {
-        float thickness = (min(blocksOfDepth(behind), 1e4) - blocks) * length(inRay);
+        float thickness = min(blocksOfDepth(behind) - blocks, 1e4) * length(inRay);
         passed = shadeWater(layer.surface, position, toPoint, thickness, levels, shadow, visibility, hasFarFloor,
                             isNearest);
     } else {
-        passed = over(vec4(shade(layer.surface, levels, shadow, visibility) * layer.alpha, layer.alpha));
+        passed = over(vec4(shade(layer.surface, position, levels, shadow, visibility) * layer.alpha, layer.alpha));
     }
     // Of what fades away in the distance, so much is left.
     float share = max(passed.color.a, 1e-3);
@@ -143,6 +148,23 @@ Passed shadeSamples(ivec2 pixel) {
     return mean;
 }
 
+#if DIRECT == 1
+vec3 skyBehind(vec3 direction) {
+    vec3 color = skyColor(direction);
+#if UNDER_WATER == 1
+    color = throughWindow(color, direction);
+#endif
+    return color;
+}
+
+// What is opaque, or the sky, as it is in the image already but for the curve.
+vec3 colorBehind(ivec2 pixel) {
+    float depth = depthAt(pixel, 0);
+    if (depth <= 0.0) return skyBehind(normalize(inRay));
+    return shadeAt(unpackSurface(packedSurfaceAt(pixel, 0)), depth, 1.0).rgb;
+}
+#endif
+
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
 #if QUADS == 1
@@ -151,6 +173,10 @@ void main() {
 #else
     Passed passed = shadeSamples(pixel);
 #endif
+#if DIRECT == 1
+    outColor = vec4(screenColor(passed.color.rgb + passed.through.rgb * colorBehind(pixel), pixel), 1.0);
+#else
     outColor = passed.color;
     outThrough = passed.through;
+#endif
 }

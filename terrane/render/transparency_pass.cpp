@@ -2,6 +2,7 @@
 
 #include "terrane/gpu/debug.h"
 #include "terrane/gpu/scissor.h"
+#include "terrane/render/direct_image.h"
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
@@ -42,7 +43,7 @@ base::Result<TransparencyPass::Target> TransparencyPass::makeTarget(const FrameT
 }
 
 base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOptions& options,
-                                                    bool hasShadows, const QuadFeatures& features) {
+                                                    const LightVariant& light, const QuadFeatures& features) {
     const int layers = options.transparencyLayers;
     const auto peeling = [&](int next) {
         return defined({{"PASS", 1},
@@ -60,10 +61,13 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
                                                     {"ALPHA_CLASS", 2},
                                                     {"MSAA_SAMPLES", samples},
                                                     {"LAYERS", layers},
-                                                    {"SHADOW", hasShadows},
+                                                    {"SHADOW", light.shadowVariant},
+                                                    {"LAND", light.knowsLand},
                                                     {"OCCLUSION", options.occlusion != Occlusion::Off},
                                                     {"LIGHT_SMOOTH", static_cast<int>(options.light)},
                                                     {"QUADS", shadesQuads_},
+                                                    {"DIRECT", isDirect_},
+                                                    {"OVER_SKY", !isDirect_},
                                                     {"FACE_SAMPLING", 0},
                                                     {"TINT", 0},
                                                     {"WATER_DETAIL", options.water == Water::Full},
@@ -77,13 +81,14 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
 // With one sample a pixel the layers' quads are drawn once more to shade the pixels they cover, and no
 // others. A single layer has a background everywhere.
 base::Result<void> TransparencyPass::configure(const FrameTargets& targets, const RenderOptions& options,
-                                               bool hasShadows, const QuadFeatures& features) {
+                                               const LightVariant& light, const QuadFeatures& features) {
     shadesQuads_ = targets.msaaSamples == 1 && options.singleTransparencyLayer == 0;
+    isDirect_ = isDirectImage(options, targets.msaaSamples);
     isMasked_ = targets.msaaSamples > 1 && options.singleTransparencyLayer == 0;
     isBounded_ = options.singleTransparencyLayer == 0;
     hasWholeDepth_ = options.occlusion != Occlusion::Off || options.depthOfField;
     if (options.transparencyLayers > 0) {
-        if (auto selected = selectVariants(targets.msaaSamples, options, hasShadows, features); !selected)
+        if (auto selected = selectVariants(targets.msaaSamples, options, light, features); !selected)
             return selected;
     }
     const bool isMade =
@@ -91,6 +96,7 @@ base::Result<void> TransparencyPass::configure(const FrameTargets& targets, cons
     if (options.transparencyLayers == layers_ && isMade) return {};
     targets_ = {};
     overQuads_ = {};
+    overQuadsDirect_ = {};
     layers_ = 0;
     for (int k = 0; k < options.transparencyLayers; ++k) {
         auto target = makeTarget(targets);
@@ -98,10 +104,14 @@ base::Result<void> TransparencyPass::configure(const FrameTargets& targets, cons
         targets_[static_cast<std::size_t>(k)] = std::move(*target);
     }
     if (options.transparencyLayers > 0 && targets.msaaSamples == 1) {
-        auto over =
-            gpu::Framebuffer::create({{targets.sceneColor}, targets_[0].depth.attachment()}, "over layers");
+        const auto makeOver = [&](const gpu::Texture2D& color) {
+            return gpu::Framebuffer::create({{color}, targets_[0].depth.attachment()}, "over layers");
+        };
+        auto over = makeOver(targets.sceneColor), overDirect = makeOver(targets.ldrColor);
         if (!over) return tl::unexpected(over.error());
+        if (!overDirect) return tl::unexpected(overDirect.error());
         overQuads_ = std::move(*over);
+        overQuadsDirect_ = std::move(*overDirect);
     }
     layers_ = options.transparencyLayers;
     size_ = targets.size;
@@ -195,13 +205,14 @@ void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& target
     targets.sceneColor.bind(shared::kSceneUnit);  // of pixels without layers: see water_reflection.glsl
     inputs.bind();
     if (shadesQuads_) {
-        overQuads_.bind();
+        (isDirect_ ? overQuadsDirect_ : overQuads_).bind();
         quads.bind();
         shadeQuads_[inputs.isUnderWater ? 1 : 0].use();
-        quads.draw(
-            pipeline,
-            {.depthTest = gpu::DepthTest::Equal, .writesDepth = false, .blending = gpu::Blending::Through},
-            {mesh::AlphaClass::Blended});
+        quads.draw(pipeline,
+                   {.depthTest = gpu::DepthTest::Equal,
+                    .writesDepth = false,
+                    .blending = isDirect_ ? gpu::Blending::Off : gpu::Blending::Through},
+                   {mesh::AlphaClass::Blended});
     } else {
         for (const ScreenRect& rect : rects) shadeWithin(pipeline, targets, rect, inputs, occlusion);
     }

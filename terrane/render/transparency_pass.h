@@ -24,8 +24,8 @@ class TransparencyPass {
     explicit TransparencyPass(const gpu::ShaderLoader& shaders);
 
     // Makes room for the layers. Comes again whenever the targets are others.
-    base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options, bool hasShadows,
-                                 const QuadFeatures& features);
+    base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options,
+                                 const LightVariant& light, const QuadFeatures& features);
 
     // Into textures of its own, behind nothing of the depth in `targets`. All of it happens within `rects`,
     // which hold all pixels with blended faces and do not overlap; there is one at least.
@@ -53,7 +53,7 @@ class TransparencyPass {
                      const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const;
     void bindLayers() const;
 
-    base::Result<void> selectVariants(int samples, const RenderOptions& options, bool hasShadows,
+    base::Result<void> selectVariants(int samples, const RenderOptions& options, const LightVariant& light,
                                       const QuadFeatures& features);
 
     ShaderVariants first_, next_;
@@ -61,10 +61,11 @@ class TransparencyPass {
     std::array<FullscreenPass, 2> shade_;
     PixelMask mask_;
     bool shadesQuads_ = false;    // instead of the whole screen
+    bool isDirect_ = false;       // see direct_image.h
     bool isMasked_ = false;       // the whole screen but for pixels without layers
     bool isBounded_ = true;       // by rectangles: a single layer has a background everywhere
     bool hasWholeDepth_ = false;  // others read the first layer's depth all over the screen
-    gpu::Framebuffer overQuads_;  // the scene with the first layer's depth
+    gpu::Framebuffer overQuads_, overQuadsDirect_;  // the scene, the LDR target with the first layer's depth
     int layers_ = 0;
     glm::ivec2 size_{0};
     int samples_ = 0;

@@ -10,6 +10,10 @@ SHARED_BEGIN
 const uint kFrameBinding = 0u;
 const uint kCullBinding = 1u;
 const uint kTintBinding = 2u;
+const uint kLandBinding = 3u;
+const uint kShadowBinding = 4u;
+const uint kShadowDrawBinding = 5u;
+const uint kAirBinding = 6u;
 
 // Storage buffers
 const uint kMeshSectionsBinding = 0u;
@@ -18,6 +22,8 @@ const uint kVisibleBinding = 2u;
 const uint kCommandsBinding = 3u;
 const uint kCountsBinding = 4u;
 const uint kVisibleLastFrameBinding = 5u;
+const uint kTestedMeshSectionsBinding = 6u;
+const uint kQuadsBinding = 7u;
 
 // Texture units
 const uint kBlockTexturesUnit = 0u;
@@ -40,6 +46,11 @@ const uint kMaterialsUnit = 20u;
 const uint kSmoothTexturesUnit = 21u;  // the block textures with one sampler and the other: FACE_SAMPLING
 const uint kNearestTexturesUnit = 22u;
 const uint kTintUnit = 23u;
+const uint kLandShadowUnit = 24u;
+const uint kLandGroundUnit = 25u;
+const uint kShadowDepthsUnit = 26u;  // the maps of kShadowUnit as numbers
+const uint kSkyTableUnit = 28u;
+const uint kMilkyWayUnit = 29u;
 
 // Vertex attributes
 const uint kMeshSectionChunkAttribute = 0u;  // chunk and level of a draw's mesh section, by the base instance
@@ -47,6 +58,10 @@ const uint kMeshSectionChunkAttribute = 0u;  // chunk and level of a draw's mesh
 // Image units
 const uint kHiZFromImage = 0u;
 const uint kHiZToImage = 1u;
+
+// Plain uniforms
+const uint kDrawnQuadsLocation = 0u;  // of quad.vert.glsl
+const uint kArenaLocation = 0u;       // of quad_cull.comp.glsl
 
 SHARED_END
 #endif

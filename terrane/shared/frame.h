@@ -12,7 +12,6 @@ SHARED_BEGIN
 // Of vec4 positions, directions and colors x, y, z count; w is 0.
 struct Frame {
     mat4 viewProjection;  // to clip space; depth 1 at the near plane, 0 at infinity
-    mat4 toShadowMap;     // x, y: 0…1 over the map; z: its depth
 
     vec4 rayAhead;   // from the camera to the middle of the image one block ahead
     vec4 rayAcross;  // from there to its right edge
@@ -52,10 +51,8 @@ struct Frame {
     float lightRayShare;   // how much of the light's rays is seen, 0…1
     uint isMoon;           // 1 at night, when the light is the moon
 
-    float shadowStrength;     // 0 without a map
-    float shadowTexelBlocks;  // blocks a texel
-    float shadowReach;        // distance in blocks from which there are no shadows
-    uint isUnderWater;        // blocks of water over the camera, its own included; 0 in air
+    uint isUnderWater;  // blocks of water over the camera, its own included; 0 in air
+    uint unused0, unused1, unused2;
 };
 
 // Along the view, as the depth has it, surfaces may fade from this share of the distance of the fog on: they
@@ -84,7 +81,7 @@ SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(Frame) == 2 * 64 + 18 * 16, "members lie in groups of 16 bytes, as in std140");
+static_assert(sizeof(Frame) == 64 + 18 * 16, "members lie in groups of 16 bytes, as in std140");
 static_assert(sizeof(MaterialRecord) == 16);
 }  // namespace terrane::shared
 #endif

@@ -49,16 +49,13 @@ struct DrawCommand {
 // Quads that a command can draw: four vertices each within 16-bit indices.
 const uint kMaxQuadsPerCommand = 16384u;
 
-// Lists of commands: those of the camera by draw bucket, then those of the shadow map, which has none of
-// blended faces.
-const uint kCameraLists = 6u;
-const uint kShadowLists = 4u;
-const uint kDrawLists = 10u;
+// Lists of commands, one for each draw bucket.
+const uint kDrawLists = 6u;
 
 // Quads lie in several buffers (arenas). Each arena has commands and counts of its own, since a draw call
 // reads one buffer. 32 × 2²⁷ quads (1 GiB) are all that 32 bits can name.
 const uint kMaxArenas = 32u;
-const uint kFirstCommandVectors = 80u;  // kMaxArenas × kDrawLists / 4
+const uint kFirstCommandVectors = 48u;  // kMaxArenas × kDrawLists / 4
 
 // Commands and quads of each list, then mesh sections in sight; of one arena.
 struct DrawCounts {
@@ -67,10 +64,10 @@ struct DrawCounts {
     uint meshSections;
 };
 
-// Bits of a mesh section's word of visibility: face directions to draw for the camera, for the shadow map,
-// and of blended faces, then the arena of its quads.
-const uint kCameraDirectionBits = 0u;
-const uint kShadowDirectionBits = 8u;
+// Bits of a mesh section's word of visibility: face directions to draw of opaque and tested faces and of
+// blended faces, then the arena of its quads.
+const uint kOpaqueDirectionBits = 0u;
+const uint kDrawnEarlyBits = 8u;  // of the late pass: directions that the early one drew
 const uint kBlendedDirectionBits = 16u;
 const uint kArenaBits = 24u;
 
@@ -83,20 +80,20 @@ const uint kCullLate = 2u;
 // How far leaves and plants may leave the box of their mesh section, in blocks.
 const float kWaving = 0.25f;
 
-// Threads of a work group: mesh sections of cull.comp.glsl, texels a side of hi_z.comp.glsl.
+// Threads of a work group: mesh sections of cull.comp.glsl, quads of quad_cull.comp.glsl, texels a side of
+// hi_z.comp.glsl.
 const uint kCullThreads = 64u;
+const uint kQuadCullThreads = 32u;
 const uint kHiZThreads = 8u;
 
 // Hi-Z, the pyramid of farthest depths: its finest texels are as many pixels a side, each next level twice as
 // many.
-const uint kHiZTexelPixels = 8u;
+const uint kHiZTexelPixels = 2u;
 
 // What culling needs to know. A plane (a, w) holds the points p with dot(a, p) + w ≥ 0.
 struct CullFrame {
     vec4 cameraPlanes[5];
-    vec4 shadowPlanes[5];
     vec4 cameraPosition;                       // from the corner of its chunk
-    vec4 lightDirection;                       // to the light
     uvec4 firstCommand[kFirstCommandVectors];  // of arena × kDrawLists + list, in the buffer of commands
     mat4 viewProjection;
     ivec2 cameraChunk;
@@ -106,7 +103,16 @@ struct CullFrame {
     uint meshSectionCount;
     uint phase;       // kCullAll and so on
     uint arenaQuads;  // addresses of an arena
-    uint unused0, unused1, unused2;
+    float edgeExpansion;  // pixels, as in Frame
+    float blockPixels;    // pixels that a block takes, one block ahead
+    uint samples;         // of a pixel
+};
+
+// Mesh sections whose quads are to be tested: how many, as glDispatchComputeIndirect reads it, and their
+// places in the order, which follow.
+struct TestedMeshSections {
+    uint count;
+    uint one1, one2;
 };
 
 SHARED_END
@@ -115,7 +121,7 @@ SHARED_END
 namespace terrane::shared {
 static_assert(sizeof(MeshSectionRecord) == 16 + 8 * kRangesPerMeshSection);
 static_assert(sizeof(DrawCommand) == 20);
-static_assert(sizeof(CullFrame) == (19 + kFirstCommandVectors) * 16);
+static_assert(sizeof(CullFrame) == (13 + kFirstCommandVectors) * 16);
 static_assert(4 * kFirstCommandVectors == kMaxArenas * kDrawLists);
 }  // namespace terrane::shared
 #endif

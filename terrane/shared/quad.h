@@ -7,7 +7,9 @@
 //                 24–27 extent along the face's u axis, minus one (1…16 blocks)
 //                 28–31 extent along the face's v axis, minus one
 //   word 1, bits  0–15  material: index into the material table (texture, animation, …)
-//                 16–31 zero
+//                 16–29 zero
+//                 30    zero from the mesher; on the GPU: the quad could be seen when it was tested last
+//                 31    zero from the mesher; on the GPU: it can be seen and is not drawn yet in this frame
 #ifndef TERRANE_SHARED_QUAD_H
 #define TERRANE_SHARED_QUAD_H
 
@@ -16,6 +18,10 @@
 SHARED_BEGIN
 
 const uint kQuadBytes = 8u;
+
+// Of word 1: see quad_cull.h.
+const uint kQuadSeen = 1u << 30;
+const uint kQuadNew = 1u << 31;
 
 struct Quad {
     uint word0;

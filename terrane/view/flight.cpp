@@ -70,7 +70,7 @@ class Pilot {
     bool isAllThere() const {
         const stream::ChunkPipeline& pipeline = session_.pipeline();
         return pipeline.progress().complete() && pipeline.waitingChanges() == 0 && view_.waiting() == 0 &&
-               view_.missingTiles() + view_.missingTints() == 0;
+               view_.missingTiles() + view_.missingClipmapTiles() == 0;
     }
 
     void frame(const game::MoveKeys& keys) {
@@ -109,7 +109,8 @@ class Pilot {
     void draw(float seconds) {
         const render::Camera from = camera();
         renderer_.draw({from, world::environmentAt(flight_.timeDay), fogDistance(view_.sightDistance()),
-                        seconds, render::View::Color, game::waterAbove(session_, from.position)});
+                        seconds, render::View::Color, game::waterAbove(session_, from.position),
+                        render::ShadowClipmap::kTilesAFrame});
         glFinish();
     }
 

@@ -10,7 +10,6 @@
 namespace terrane::view {
 namespace {
 
-// Asked for at once: the thread follows a camera that moves on.
 constexpr std::size_t kMaxRequested = 64;
 
 bool hasTintedBlock(const world::BlockRegistry& blocks) {
@@ -45,65 +44,20 @@ TintView::TintView(const game::Session& session, render::Renderer& renderer)
     }
     if (!hasTint) return;
     try {
-        thread_ = std::jthread([this] { run(); });
+        maker_.emplace(kMaxRequested, [this](world::ChunkPos pos) {
+            TERRANE_ZONE("tint");
+            return tileOf(generators_, pos);
+        });
     } catch (const std::system_error& error) {  // colors are neutral then
         base::logWarning("no thread can be started for the tint of blocks: {}", error.what());
     }
 }
 
-TintView::~TintView() {
-    const std::lock_guard lock(mutex_);
-    isEnding_ = true;
-    hasWork_.notify_all();
-}
-
-void TintView::run() {
-    std::unique_lock lock(mutex_);
-    for (;;) {
-        hasWork_.wait(lock, [this] { return isEnding_ || !waiting_.empty(); });
-        if (isEnding_) return;
-        const world::ChunkPos pos = waiting_.front();
-        waiting_.pop_front();
-        lock.unlock();
-        const world::TintTile tile = [&] {
-            TERRANE_ZONE("tint");
-            return tileOf(generators_, pos);
-        }();
-        lock.lock();
-        finished_.emplace_back(pos, tile);
-        hasFinished_.notify_all();
-    }
-}
-
-std::vector<TintView::Tile> TintView::takeFinished(std::size_t limit) {
-    const std::lock_guard lock(mutex_);
-    const auto end = finished_.begin() + static_cast<std::ptrdiff_t>(std::min(limit, finished_.size()));
-    std::vector<Tile> tiles(finished_.begin(), end);
-    finished_.erase(finished_.begin(), end);
-    return tiles;
-}
-
 void TintView::update(world::ChunkPos camera, double reach, std::size_t limit) {
-    if (!thread_.joinable()) return;
+    if (!maker_) return;
     TERRANE_ZONE("upload tint");
-    for (const auto& [pos, colors] : takeFinished(limit)) {
-        renderer_.setTint(pos, colors);
-        requested_.erase(pos);
-    }
-    std::vector<world::ChunkPos> more;
-    for (const world::ChunkPos tile : renderer_.tintClipmap().missing(camera, reach, kMaxRequested)) {
-        if (requested_.size() == kMaxRequested) break;
-        if (requested_.insert(tile).second) more.push_back(tile);
-    }
-    if (more.empty()) return;
-    const std::lock_guard lock(mutex_);
-    waiting_.insert(waiting_.end(), more.begin(), more.end());
-    hasWork_.notify_all();
-}
-
-void TintView::wait(std::chrono::milliseconds atMost) {
-    std::unique_lock lock(mutex_);
-    hasFinished_.wait_for(lock, atMost, [this] { return !finished_.empty(); });
+    for (const auto& [pos, colors] : maker_->takeFinished(limit)) renderer_.setTint(pos, colors);
+    maker_->request(renderer_.tintClipmap().missing(camera, reach, maker_->maxRequested()));
 }
 
 }  // namespace terrane::view

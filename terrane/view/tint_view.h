@@ -1,21 +1,15 @@
 // Brings the tint around the camera to the renderer: a thread asks the generator for tiles (render/
-// tint_clipmap.h), near ones first, and each frame hands on what is finished. Does nothing where the
+// clipmap.h), near ones first, and each frame hands on what is finished. Does nothing where the
 // generator has no tint. Used by WorldView on the thread of the OpenGL context.
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
-#include <deque>
-#include <memory>
-#include <mutex>
-#include <thread>
-#include <unordered_set>
-#include <utility>
-#include <vector>
+#include <optional>
 
 #include "terrane/game/session.h"
 #include "terrane/render/renderer.h"
+#include "terrane/view/tile_maker.h"
 #include "terrane/world/tint.h"
 
 namespace terrane::view {
@@ -27,32 +21,20 @@ class TintView {
 
     // Both outlive this. Tells the renderer whether there is a tint.
     TintView(const game::Session& session, render::Renderer& renderer);
-    ~TintView();
-    TintView(const TintView&) = delete;
-    TintView& operator=(const TintView&) = delete;
 
     // Hands on up to `limit` tiles, and asks for those that are missing within `reach` blocks of the camera.
     void update(world::ChunkPos camera, double reach, std::size_t limit);
     // As of the last update().
-    std::size_t missing() const { return requested_.size(); }
+    std::size_t missing() const { return maker_ ? maker_->pending() : 0; }
     // Blocks until a tile is finished, or the time is over.
-    void wait(std::chrono::milliseconds atMost);
+    void wait(std::chrono::milliseconds atMost) {
+        if (maker_) maker_->wait(atMost);
+    }
 
   private:
-    using Tile = std::pair<world::ChunkPos, world::TintTile>;
-    void run();
-    std::vector<Tile> takeFinished(std::size_t limit);
-
     const gen::LevelGenerators& generators_;
     render::Renderer& renderer_;
-    std::unordered_set<world::ChunkPos, world::ChunkPosHash> requested_;  // until the renderer has them
-
-    std::mutex mutex_;  // of all below
-    std::condition_variable hasWork_, hasFinished_;
-    std::deque<world::ChunkPos> waiting_;
-    std::deque<Tile> finished_;
-    bool isEnding_ = false;
-    std::jthread thread_;  // ends first
+    std::optional<TileMaker<world::TintTile>> maker_;
 };
 
 }  // namespace terrane::view

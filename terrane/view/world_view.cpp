@@ -82,8 +82,9 @@ std::size_t WorldView::upload(double budgetSeconds) {
     }
     far_.applyChanges();
     const bool isHurried = std::isinf(budgetSeconds);
-    tints_.update(center_, double{world::kChunkSize} * sightDistance(),
-                  isHurried ? TintView::kAllTiles : TintView::kTilesAFrame);
+    const double reach = double{world::kChunkSize} * sightDistance();
+    tints_.update(center_, reach, isHurried ? TintView::kAllTiles : TintView::kTilesAFrame);
+    land_.update(center_, reach, isHurried ? LandView::kAllTiles : LandView::kTilesAFrame);
     noticeShortView();
     return count;
 }
@@ -225,8 +226,8 @@ void WorldView::warnOfNoRoom(world::ChunkPos pos) {
 
 void WorldView::waitForWorkers(std::chrono::milliseconds atMost) {
     const bool hasChunks = session_.pipeline().progress().isUpToDate();
-    if (hasChunks && missingTiles() == 0 && missingTints() > 0) {
-        tints_.wait(atMost);
+    if (hasChunks && missingTiles() == 0 && missingClipmapTiles() > 0) {
+        tints_.missing() > 0 ? tints_.wait(atMost) : land_.wait(atMost);
     } else if (hasChunks) {
         session_.tiles().waitForWorkers(atMost);
     } else {
@@ -246,7 +247,7 @@ double loadAll(game::Session& session, WorldView& view, const render::Camera& ca
         const std::size_t changed = view.upload(std::numeric_limits<double>::infinity());
         uploads += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
         const bool isLoaded =
-            pipeline.progress().isUpToDate() && view.missingTiles() + view.missingTints() == 0;
+            pipeline.progress().isUpToDate() && view.missingTiles() + view.missingClipmapTiles() == 0;
         if (isLoaded && changed == 0 && view.waiting() == 0) return uploads;
         if (!isLoaded && changed == 0) view.waitForWorkers(std::chrono::milliseconds(100));
     }

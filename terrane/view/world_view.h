@@ -16,6 +16,7 @@
 #include "terrane/mesh_gpu/mesh_queue.h"
 #include "terrane/render/renderer.h"
 #include "terrane/view/far_view.h"
+#include "terrane/view/land_view.h"
 #include "terrane/view/tint_view.h"
 
 namespace terrane::view {
@@ -43,7 +44,11 @@ class WorldView {
 
     // Both outlive this.
     WorldView(game::Session& session, render::Renderer& renderer)
-        : session_(session), renderer_(renderer), far_(session, renderer), tints_(session, renderer) {}
+        : session_(session),
+          renderer_(renderer),
+          far_(session, renderer),
+          tints_(session, renderer),
+          land_(session, renderer) {}
 
     // For a session whose pipeline leaves whole chunks to its caller (stream::MeshPolicy): meshes them on the
     // GPU, where they are drawn from, for so long a frame. Comes before the first upload.
@@ -75,7 +80,8 @@ class WorldView {
     void updateTiles() { far_.update(); }
     // Tiles that are not on screen yet.
     std::size_t missingTiles() const { return far_.missing(); }
-    std::size_t missingTints() const { return tints_.missing(); }
+    // Tiles of the tint and of the land that are asked for.
+    std::size_t missingClipmapTiles() const { return tints_.missing() + land_.missing(); }
     // Blocks until workers may have finished something, or the time is over.
     void waitForWorkers(std::chrono::milliseconds atMost);
 
@@ -98,6 +104,7 @@ class WorldView {
     render::Renderer& renderer_;
     FarView far_;
     TintView tints_;
+    LandView land_;
     Horizon requestedHorizon_, horizon_;  // horizon_: what memory allows of it
     std::optional<mesh_gpu::MeshQueue> queue_;
     world::ChunkPos center_;

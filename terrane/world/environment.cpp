@@ -4,62 +4,65 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <span>
 
 namespace terrane::world {
 namespace {
 
-// The moon waits at the horizon from kMoonSets on while its light fades; at kSunRises, in the dark, the sun
-// takes its place. From kSunSets to kMoonRises the other way round.
+// The moon waits under the horizon from kMoonSets on; at kSunRises, in the dark, the sun takes its place.
+// From kSunSets to kMoonRises the other way round.
 constexpr float kMoonSets = 0.12f, kSunRises = 0.15f, kSunSets = 0.85f, kMoonRises = 0.88f;
 
-struct ColorKey {
-    float time;
-    glm::vec3 color;
-};
+// The eye sees a light that is a hundredth as strong as a sixteenth: brightness grows with the power 0.6 of
+// luminance (near the exponents of S. S. Stevens, On the Psychophysical Law, 1957). So twilight and the
+// zenith are not black.
+constexpr float kEyePower = 0.6f;
+// From the curve to colors in which noon is as bright as it should be.
+constexpr float kSunScale = 0.90f, kAmbientScale = 2.75f, kSkyScale = 2.3f;
+// Colors of the sky are this much farther from grey than three samples of the spectrum give.
+constexpr float kVividness = 1.35f;
 
-// Colors as seen on a screen (sRGB, 0…255), by time of day; linear in between, around midnight too.
-constexpr std::array kLight = {
-    ColorKey{.12f, {72, 90, 126}},   ColorKey{.15f, {0, 0, 0}},       ColorKey{.2f, {255, 160, 90}},
-    ColorKey{.27f, {255, 236, 200}}, ColorKey{.73f, {255, 240, 208}}, ColorKey{.8f, {255, 140, 80}},
-    ColorKey{.85f, {0, 0, 0}},       ColorKey{.88f, {72, 90, 126}},
+// Light of the moon as the eye sees it, to that of the sun: far brighter than it is, so that one finds one's
+// way. The sky is darker than that, for the stars.
+struct LightScales {
+    glm::vec3 direct, ambient, sky;
 };
-constexpr std::array kAmbient = {
-    ColorKey{.13f, {46, 54, 80}},    ColorKey{.2f, {120, 116, 132}}, ColorKey{.27f, {190, 200, 214}},
-    ColorKey{.73f, {190, 200, 214}}, ColorKey{.8f, {128, 112, 130}}, ColorKey{.87f, {46, 54, 80}},
-};
-constexpr std::array kZenith = {
-    ColorKey{.13f, {8, 12, 28}},    ColorKey{.2f, {58, 84, 132}}, ColorKey{.27f, {44, 112, 214}},
-    ColorKey{.73f, {44, 112, 214}}, ColorKey{.8f, {56, 66, 120}}, ColorKey{.87f, {8, 12, 28}},
-};
-constexpr std::array kHorizon = {
-    ColorKey{.13f, {24, 32, 54}},    ColorKey{.2f, {214, 168, 140}}, ColorKey{.27f, {182, 212, 236}},
-    ColorKey{.73f, {182, 212, 236}}, ColorKey{.8f, {214, 142, 122}}, ColorKey{.87f, {24, 32, 54}},
-};
-constexpr std::array kGlow = {
-    ColorKey{.13f, {10, 14, 26}},   ColorKey{.2f, {255, 150, 70}}, ColorKey{.27f, {120, 104, 76}},
-    ColorKey{.73f, {120, 104, 76}}, ColorKey{.8f, {255, 120, 56}}, ColorKey{.87f, {10, 14, 26}},
-};
+constexpr LightScales kSun{glm::vec3(kSunScale), glm::vec3(kAmbientScale), glm::vec3(kSkyScale)};
+constexpr glm::vec3 kMoonColor{0.62f, 0.92f, 1.6f};
+constexpr LightScales kMoon{kSunScale * 0.125f * kMoonColor, kAmbientScale * 0.03f * kMoonColor,
+                            kSkyScale * 0.028f * kMoonColor};
+
+// What is left without sun and moon: faint light of the air itself and of stars.
+constexpr glm::vec3 kNightAmbient{0.018f, 0.024f, 0.046f};
+constexpr glm::vec3 kNightZenith{0.0016f, 0.0024f, 0.0070f}, kNightHorizon{0.0048f, 0.0070f, 0.0165f};
 
 float fraction(float v) {
     return v - std::floor(v);
 }
 
-glm::vec3 linearFromSrgb(glm::vec3 color) {
-    const auto channel = [](float v) {
-        v /= 255.0f;
-        return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-    };
-    return {channel(color.x), channel(color.y), channel(color.z)};
+float luminance(glm::vec3 v) {
+    return glm::dot(v, glm::vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
-glm::vec3 colorAt(std::span<const ColorKey> keys, float time) {
-    std::size_t next = 0;
-    while (next < keys.size() && keys[next].time <= time) ++next;
-    const ColorKey& from = keys[(next + keys.size() - 1) % keys.size()];
-    const ColorKey& to = keys[next % keys.size()];
-    const float span = fraction(to.time - from.time), passed = fraction(time - from.time);
-    return linearFromSrgb(glm::mix(from.color, to.color, passed / span));
+glm::vec3 asSeen(glm::vec3 light) {
+    const float bright = luminance(light);
+    return bright > 1e-12f ? light * std::pow(bright, kEyePower - 1) : glm::vec3(0);
+}
+
+const LightScales& scalesOf(bool isMoon) {
+    return isMoon ? kMoon : kSun;
+}
+
+// A quarter as colorful as the sky: clouds and ground send back light of all colors.
+glm::vec3 ambientOf(float sine, bool isMoon) {
+    const glm::vec3 sky = asSeen(skyIrradiance(sine));
+    return scalesOf(isMoon).ambient * glm::mix(glm::vec3(luminance(sky)), sky, 0.25f) + kNightAmbient;
+}
+
+glm::vec3 colorOf(glm::vec3 radiance, float sine, bool isMoon) {
+    const float nearHorizon = std::exp(-5.5f * sine);
+    const glm::vec3 seen = asSeen(radiance);
+    const glm::vec3 vivid = glm::max(glm::mix(glm::vec3(luminance(seen)), seen, kVividness), 0.05f * seen);
+    return scalesOf(isMoon).sky * vivid + glm::mix(kNightZenith, kNightHorizon, nearHorizon);
 }
 
 // Sun and moon share one path from east (-x) to west, tilted to the south (-y … +y); the moon runs it
@@ -75,25 +78,54 @@ glm::vec3 lightDirection(float time) {
         glm::vec3(-std::cos(angle), 0.5f * std::sin(angle), 1.25f * std::sin(angle) - 0.25f));
 }
 
+void setSkyColors(Environment& e) {
+    const glm::vec3 ahead = glm::normalize(glm::vec3(e.lightDirection.x, e.lightDirection.y, 0));
+    const glm::vec3 aside(-ahead.y, ahead.x, 0);
+    const auto at = [&](glm::vec3 level) {
+        return skyColor(glm::normalize(level + glm::vec3(0, 0, 0.08f)), e.lightDirection, e.isMoon);
+    };
+    const glm::vec3 under = at(ahead), beside = at(aside), opposite = at(-ahead);
+    e.zenithColor = skyColor({0, 0, 1}, e.lightDirection, e.isMoon);
+    e.horizonColor = 0.25f * (under + 2.0f * beside + opposite);
+    e.glowColor = glm::max(under - beside, glm::vec3(0));
+}
+
 }  // namespace
+
+glm::vec3 skyColor(glm::vec3 direction, glm::vec3 toLight, bool isMoon) {
+    return colorOf(skyRadiance(direction, toLight), direction.z, isMoon);
+}
+
+SkyTable skyColorTable(float sine, bool isMoon) {
+    SkyTable table = skyTable(sine);
+    for (std::size_t k = 0; k < table.radiance.size(); ++k) {
+        const float root = static_cast<float>(k / SkyTable::kColumns) / (SkyTable::kRows - 1);
+        table.radiance[k] = colorOf(table.radiance[k], root * root, isMoon);
+    }
+    return table;
+}
+
+float ambientGreen(float sine, bool isMoon) {
+    return ambientOf(sine, isMoon).y;
+}
 
 Environment environmentAt(float timeDay) {
     const float time = fraction(timeDay);
     const bool isSun = time >= kSunRises && time < kSunSets;
     Environment e{};
     e.lightDirection = lightDirection(time);
-    e.lightColor = colorAt(kLight, time) * (isSun ? 0.9f : 1.0f);
-    e.ambientColor = colorAt(kAmbient, time);
-    e.zenithColor = colorAt(kZenith, time);
-    e.horizonColor = colorAt(kHorizon, time);
-    e.glowColor = colorAt(kGlow, time);
     e.isMoon = !isSun;
+    const float sine = e.lightDirection.z;
+    e.lightColor = scalesOf(e.isMoon).direct * asSeen(directLight(sine));
+    e.ambientColor = ambientOf(sine, e.isMoon);
+    setSkyColors(e);
     e.starTurn = time;
-    e.discColor = (isSun ? 8.0f : 9.0f) * e.lightColor;
+    // Unlike its light on the ground the disc keeps its color down to the horizon, which hides it.
+    const glm::vec3 disc = asSeen(directLight(std::max(sine, kDiscFade)));
+    e.discColor = (isSun ? 8.0f : 9.0f) * scalesOf(e.isMoon).direct * disc;
     e.starLight = glm::smoothstep(0.0f, 1.0f, glm::clamp((std::abs(time - 0.5f) - 0.29f) / 0.1f, 0.0f, 1.0f));
     e.discRadius = isSun ? 0.045f : 0.03f;
-    const glm::vec3 noon = linearFromSrgb(kAmbient[2].color);
-    e.lampShare = 0.8f * glm::clamp(e.ambientColor.y / noon.y, 0.0f, 1.0f);
+    e.lampShare = 0.8f * glm::clamp(e.ambientColor.y / 0.56f, 0.0f, 1.0f);
     return e;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "terrane/world/coords.h"
+#include "terrane/world/top_colors.h"
 
 namespace terrane::world {
 namespace {
@@ -18,13 +19,6 @@ constexpr float kWaterFade = 14.0f;       // blocks of water after which the gro
 // Of a row, about 10 KB each in memory.
 constexpr std::size_t kChunksAtOnce = 512;
 
-// Of a block's top face.
-struct TopColor {
-    glm::vec3 mean{0.0f};  // 0…255
-    bool tinted = false;
-};
-using Palette = std::vector<TopColor>;  // by block id
-
 // What a map shows of a column.
 struct Column {
     BlockId ground = kAir;
@@ -33,36 +27,6 @@ struct Column {
     BlockId liquid = kAir;
     PackedColor tint = kNeutralTint;
 };
-
-glm::vec3 meanColor(const base::Image& image) {
-    glm::vec3 sum(0.0f);
-    float weight = 0.0f;
-    for (std::size_t k = 0; k + 3 < image.rgba.size(); k += 4) {
-        if (image.rgba[k + 3] == 0) continue;
-        sum += glm::vec3(image.rgba[k], image.rgba[k + 1], image.rgba[k + 2]);
-        weight += 1.0f;
-    }
-    return weight > 0.0f ? sum / weight : sum;
-}
-
-// Where alpha stands for light or for a share of the tint, a hole in the coverage is none.
-base::Result<Palette> makePalette(const BlockRegistry& blocks, const TextureSource& textures) {
-    Palette palette;
-    for (const BlockType& type : blocks.types()) {
-        if (type.shape == Shape::None) {
-            palette.emplace_back();
-            continue;
-        }
-        const Material& material = blocks.materials()[type.material[kFacePosZ]];
-        auto image = textures(blocks.textures()[material.texture]);
-        if (!image) return tl::unexpected(image.error());
-        if (material.alpha == AlphaMode::Glow || material.alpha == AlphaMode::Tint) {
-            for (std::size_t k = 3; k < image->rgba.size(); k += 4) image->rgba[k] = 255;
-        }
-        palette.push_back({meanColor(*image), material.tinted});
-    }
-    return palette;
-}
 
 // Plants are too small for a map: the ground under them is shown.
 Column lookDown(const Chunk& chunk, const BlockRegistry& blocks, int x, int y) {
@@ -84,7 +48,7 @@ Column lookDown(const Chunk& chunk, const BlockRegistry& blocks, int x, int y) {
 }
 
 // `width`: of a column, blocks.
-glm::vec3 shade(const Column& column, const Column& northWest, float width, const Palette& palette) {
+glm::vec3 shade(const Column& column, const Column& northWest, float width, const TopColors& palette) {
     const float rise = (static_cast<float>(column.height) - static_cast<float>(northWest.height)) / width;
     const float light = std::clamp(0.95f - std::clamp(-rise, -3.0f, 3.0f) * kReliefPerBlock, 0.6f, 1.25f);
     const TopColor& top = palette[column.ground];
@@ -102,7 +66,7 @@ base::Result<base::Image> drawMap(const MapSource& source, const BlockRegistry& 
                                   const TextureSource& textures, base::JobSystem& jobs,
                                   const std::function<void(std::size_t)>& onRow) {
     const ChunkArea& area = source.area;
-    auto palette = makePalette(blocks, textures);
+    auto palette = topColors(blocks, textures);
     if (!palette) return tl::unexpected(palette.error());
     const auto chunksX = static_cast<std::size_t>(area.x1 - area.x0);
     const auto chunksY = static_cast<std::size_t>(area.y1 - area.y0);

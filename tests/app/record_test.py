@@ -145,9 +145,9 @@ class Frames(RecordTest):
     def test_the_same_every_time(self):
         text = shot(1, "[[shot.key]]\ntime = 1\nat = [-1040, -100, 118]\nlook = [150, -20]\nday = 0.6\n",
                     "[[shot.key]]\nat = [-1048, -108, 122]\nlook = [136, -6]\nday = 0.4\n")
-        one = self.frames(text, "--fps", "4", "--threads", "1", "--shadows", "1024")
-        two = self.frames(text, "--fps", "4", "--threads", "2", "--shadows", "1024")
-        part = self.frames(text, "--fps", "4", "--from", "0.5", "--shadows", "1024")
+        one = self.frames(text, "--fps", "4", "--threads", "1", "--shadows", "near")
+        two = self.frames(text, "--fps", "4", "--threads", "2", "--shadows", "near")
+        part = self.frames(text, "--fps", "4", "--from", "0.5", "--shadows", "near")
         self.assertEqual(len(one), 4)
         self.assertEqual([p.rows for p in one], [p.rows for p in two])
         self.assertEqual([p.rows for p in one[2:]], [p.rows for p in part])

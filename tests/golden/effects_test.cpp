@@ -49,8 +49,14 @@ TEST_F(Effects, InTheGlade) {
     loadOverworld(*renderer_, kGlade, kGladeDistance);
     const render::FrameInput afternoon = gladeFrame(kGlade, 0.62f), night = gladeFrame(kGlade, 0.97f);
     EXPECT_TRUE(matchesGolden("glade", imageOf(afternoon, [](RenderOptions&) {})));
-    expectEffect("glade_shadows", afternoon, [](RenderOptions& o) { o.shadowSize = 1024; });
-    expectEffect("glade_moon_shadows", night, [](RenderOptions& o) { o.shadowSize = 2048; });
+    expectEffect("glade_shadows", afternoon, [](RenderOptions& o) {
+        o.shadows = ShadowReach::Near;
+        o.shadowSize = 1024;
+    });
+    expectEffect("glade_moon_shadows", night, [](RenderOptions& o) {
+        o.shadows = ShadowReach::Far;
+        o.softShadows = true;
+    });
     expectEffect("glade_ssao", afternoon, [](RenderOptions& o) { o.occlusion = Occlusion::On; });
     expectEffect("glade_ssao_raw", afternoon, [](RenderOptions& o) { o.occlusion = Occlusion::Raw; });
     expectEffect("glade_no_atmosphere", afternoon, [](RenderOptions& o) { o.distanceFog = false; });

@@ -18,6 +18,7 @@
 #include "terrane/shared/mesher.h"
 #include "terrane/shared/packed_section.h"
 #include "terrane/shared/quad.h"
+#include "terrane/shared/shadow.h"
 #include "terrane/shared/shape_face.h"
 #include "terrane/shared/tint.h"
 #include "tests/gpu/gl_fixture.h"
@@ -45,7 +46,6 @@ std::vector<StructLayout> frameLayouts() {
              true,
              sizeof(Frame),
              {{"viewProjection", offsetof(Frame, viewProjection)},
-              {"toShadowMap", offsetof(Frame, toShadowMap)},
               {"rayAhead", offsetof(Frame, rayAhead)},
               {"rayAcross", offsetof(Frame, rayAcross)},
               {"rayUp", offsetof(Frame, rayUp)},
@@ -77,10 +77,10 @@ std::vector<StructLayout> frameLayouts() {
               {"starTurn", offsetof(Frame, starTurn)},
               {"lightRayShare", offsetof(Frame, lightRayShare)},
               {"isMoon", offsetof(Frame, isMoon)},
-              {"shadowStrength", offsetof(Frame, shadowStrength)},
-              {"shadowTexelBlocks", offsetof(Frame, shadowTexelBlocks)},
-              {"shadowReach", offsetof(Frame, shadowReach)},
-              {"isUnderWater", offsetof(Frame, isUnderWater)}}},
+              {"isUnderWater", offsetof(Frame, isUnderWater)},
+              {"unused0", offsetof(Frame, unused0)},
+              {"unused1", offsetof(Frame, unused1)},
+              {"unused2", offsetof(Frame, unused2)}}},
             {"MaterialRecord",
              "frame.h",
              false,
@@ -122,9 +122,7 @@ std::vector<StructLayout> meshSectionLayouts() {
              true,
              sizeof(CullFrame),
              {{"cameraPlanes", offsetof(CullFrame, cameraPlanes)},
-              {"shadowPlanes", offsetof(CullFrame, shadowPlanes)},
               {"cameraPosition", offsetof(CullFrame, cameraPosition)},
-              {"lightDirection", offsetof(CullFrame, lightDirection)},
               {"firstCommand", offsetof(CullFrame, firstCommand)},
               {"viewProjection", offsetof(CullFrame, viewProjection)},
               {"cameraChunk", offsetof(CullFrame, cameraChunk)},
@@ -207,7 +205,8 @@ std::vector<StructLayout> otherLayouts() {
 }
 
 std::vector<StructLayout> landLayouts() {
-    using shared::DrainageList, shared::RiverSegment, shared::TintFrame;
+    using shared::DrainageList, shared::RiverSegment, shared::ShadowDraw, shared::ShadowFrame,
+        shared::TintFrame;
     return {{"RiverSegment",
              "drainage.h",
              false,
@@ -223,7 +222,26 @@ std::vector<StructLayout> landLayouts() {
               {"segmentCount", offsetof(DrainageList, segmentCount)},
               {"lakeCount", offsetof(DrainageList, lakeCount)},
               {"unused", offsetof(DrainageList, unused)}}},
-            {"TintFrame", "tint.h", true, sizeof(TintFrame), {{"levels[0]", offsetof(TintFrame, levels)}}}};
+            {"TintFrame", "tint.h", true, sizeof(TintFrame), {{"levels[0]", offsetof(TintFrame, levels)}}},
+            {"ShadowFrame",
+             "shadow.h",
+             true,
+             sizeof(ShadowFrame),
+             {{"toMap[0]", offsetof(ShadowFrame, toMap)},
+              {"windows[0]", offsetof(ShadowFrame, windows)},
+              {"texels", offsetof(ShadowFrame, texels)},
+              {"strength", offsetof(ShadowFrame, strength)},
+              {"mapTexels", offsetof(ShadowFrame, mapTexels)},
+              {"unused0", offsetof(ShadowFrame, unused0)},
+              {"unused1", offsetof(ShadowFrame, unused1)}}},
+            {"ShadowDraw",
+             "shadow.h",
+             true,
+             sizeof(ShadowDraw),
+             {{"toClip", offsetof(ShadowDraw, toClip)},
+              {"toLight", offsetof(ShadowDraw, toLight)},
+              {"anchorChunk", offsetof(ShadowDraw, anchorChunk)},
+              {"unused", offsetof(ShadowDraw, unused)}}}};
 }
 
 std::vector<StructLayout> allLayouts() {

@@ -76,7 +76,8 @@ TEST_F(ArenasTest, ManyArenasMakeTheSameImages) {
     compare(options, "plain");
     options.occlusionCulling = true;
     compare(options, "occlusion culling");
-    options.shadowSize = 1024;
+    options.shadows = ShadowReach::Far;
+    options.shadowSize = 512;
     compare(options, "shadows");
     options.transparencyLayers = 1;
     compare(options, "one layer");

@@ -30,7 +30,7 @@ inline const gpu::ShaderLoader& contentShaders() {
 inline RenderOptions plainOptions(int samples) {
     RenderOptions options;
     options.msaaSamples = samples;
-    options.shadowSize = 0;
+    options.shadows = ShadowReach::Off;
     options.depthOfField = options.godRays = options.clouds = false;
     options.water = Water::Plain;
     options.animation = options.msaaAlphaTest = false;

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "terrane/mesh/mesh_section_quads.h"
-#include "terrane/render/shadow_volume.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/render/content.h"
 
@@ -50,7 +49,7 @@ mesh::ChunkMesh meshOfParts(const std::vector<Part>& parts) {
 
 // What the GPU chose, read back.
 struct Drawn {
-    std::array<std::vector<shared::DrawCommand>, mesh::kDrawBucketCount> commands, shadowCommands;
+    std::array<std::vector<shared::DrawCommand>, mesh::kDrawBucketCount> commands;
     std::size_t quadCount = 0, meshSectionCount = 0;
 };
 
@@ -82,12 +81,11 @@ class CullPassTest : public gpu::GlTest {
         meshSections_->set(pos, quads_->meshSectionsOf(pos));
     }
 
-    Drawn& build(const Camera& camera, std::optional<Frustum> shadow = {}, glm::vec3 light = {0, 0, 1}) {
+    Drawn& build(const Camera& camera) {
         const ViewMatrices view = viewMatrices(camera, 1.0f);
         meshSections_->update(cameraChunk(camera));
         ring_->beginFrame();
-        pass_->run(CullPhase::All,
-                   {cameraChunk(camera), view.cameraPosition, frustumOf(view.viewProjection), light, shadow},
+        pass_->run(CullPhase::All, {cameraChunk(camera), view.cameraPosition, frustumOf(view.viewProjection)},
                    *meshSections_, *ring_);
         pass_->queueCounts();
         ring_->endFrame();
@@ -96,11 +94,9 @@ class CullPassTest : public gpu::GlTest {
         list_ = {};
         list_.meshSectionCount = counts.meshSections;
         for (shared::uint list = 0; list < shared::kDrawLists; ++list) {
-            const bool isShadow = list >= shared::kCameraLists;
-            auto& commands = isShadow ? list_.shadowCommands : list_.commands;
-            commands[isShadow ? list - shared::kCameraLists : list] = pass_->readCommands(list);
+            list_.commands[list] = pass_->readCommands(list);
             EXPECT_EQ(counts.commands[list], pass_->readCommands(list).size());
-            if (!isShadow) list_.quadCount += counts.quads[list];
+            list_.quadCount += counts.quads[list];
         }
         return list_;
     }
@@ -336,24 +332,6 @@ TEST_F(CullPassTest, BoxesOfHigherLevelsAreWider) {
         }
         EXPECT_EQ(build(camera).meshSectionCount, expected);
     }
-}
-
-TEST_F(CullPassTest, ShadowsAreCastByWhatFacesTheLight) {
-    std::vector<Part> parts;
-    for (int direction = 0; direction < mesh::kFaceDirectionCount; ++direction)
-        parts.push_back({1, kOpaque, direction, 10});
-    parts.push_back({1, kBlended, mesh::kAnyDirection, 10});
-    set({0, 0}, meshOfParts(parts));
-    set({40, 0}, meshOfParts(parts));
-    const Camera camera{.position = {-20, 8, 100}, .yaw = 180};  // away from both
-    const glm::vec3 light = glm::normalize(glm::vec3(-1, 0.5f, 2));
-    const Frustum volume = planesOf({glm::mat3(1), {-60, -60}, {60, 60}, 0});
-    const Drawn& drawn = build(camera, volume, light);
-    EXPECT_EQ(drawn.meshSectionCount, 0u);
-    std::size_t quads = 0;
-    for (const auto& command : drawn.shadowCommands[kOpaque]) quads += command.indexCount / 6;
-    EXPECT_EQ(quads, 40u) << "-x, +y, +z and those that may look anywhere, of the near chunk";
-    EXPECT_TRUE(build(camera).shadowCommands[kOpaque].empty()) << "without shadows";
 }
 
 TEST_F(CullPassTest, BlendedFacesInViewAreKnown) {

@@ -42,7 +42,8 @@ class FramePassesTest : public gpu::GlTest {
     static RenderOptions fullOptions(int samples) {
         RenderOptions options;
         options.msaaSamples = samples;
-        options.shadowSize = 512;
+        options.shadows = ShadowReach::Far;
+        options.shadowSize = 256;
         options.occlusion = Occlusion::On;
         return options;
     }
@@ -74,7 +75,8 @@ TEST_F(FramePassesTest, OptionsThatFailLeaveAllAsItWas) {
         {"terrane/render/transparency.frag.glsl", "LAYERS == 1"},
     };
     RenderOptions other = fullOptions(4);
-    other.shadowSize = 1024;
+    other.shadowSize = 512;
+    other.softShadows = true;
     other.shading = Shading::Pixel;
     other.transparencyLayers = 1;
     other.occlusion = Occlusion::Raw;

@@ -1,4 +1,6 @@
-// What lies behind other things is not drawn.
+// What lies behind other things is not drawn, and nothing else is missing.
+#include <random>
+
 #include "terrane/mesh/chunk_mesher.h"
 #include "tests/render/renderer_fixture.h"
 
@@ -23,6 +25,33 @@ class OcclusionCulling : public RendererTest {
         return mesh::meshAlone(chunk, contentBlocks());
     }
 
+    // Hills of random columns with plants that wave, leaves, water and a tile of land behind them.
+    void setRandomLand(std::mt19937& random) {
+        const auto pick = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
+        const std::array tops = {"oak_leaves", "grass_tuft", "poppy", "water", "cyan_glass", "stone"};
+        for (int tile = 0; tile < 9; ++tile) {
+            world::Chunk chunk;
+            for (int column = 0; column < 256; ++column) {
+                const int height = 4 + pick(3) + (column / 16 + tile) % 5 * pick(2);
+                for (int z = 0; z < height; ++z)
+                    chunk.setBlock(world::blockIndex(column % 16, column / 16, z), contentBlock("stone"));
+                if (pick(3) > 0)
+                    chunk.setBlock(world::blockIndex(column % 16, column / 16, height),
+                                   contentBlock(tops[static_cast<std::size_t>(pick(6))]));
+            }
+            const world::ChunkPos pos{tile % 3 - 1, tile / 3 - 1, static_cast<std::uint8_t>(tile > 5 ? 2 : 0)};
+            ASSERT_TRUE(renderer_->setChunk(pos, mesh::meshAlone(chunk, contentBlocks())));
+        }
+    }
+
+    base::Image drawWith(bool culls, int samples, const FrameInput& input) {
+        RenderOptions options = plainOptions(samples);
+        options.occlusionCulling = culls;
+        options.animation = true;
+        EXPECT_TRUE(renderer_->configure({192, 128}, options));
+        return draw(input);
+    }
+
     // Of a later frame: what was visible in the one before is drawn first.
     std::size_t quadsSeenBy(const Camera& camera) {
         for (int frame = 0; frame < 8; ++frame) draw(noon(camera));
@@ -41,7 +70,33 @@ TEST_F(OcclusionCulling, LowLandBehindAWallIsHidden) {
     for (int x = -2; x <= 2; ++x) ASSERT_TRUE(renderer_->setChunk({x, 1, 3}, rowMesh(0, kEyes + 2)));
     EXPECT_EQ(quadsSeenBy(camera), wall);
     camera.position.z += 20;
-    EXPECT_GT(quadsSeenBy(camera), wall);
+    const std::size_t both = quadsSeenBy(camera);
+    for (int x = -2; x <= 2; ++x) renderer_->removeChunk({x, 1, 3});
+    EXPECT_GT(both, quadsSeenBy(camera));
+}
+
+// Each frame of a walk whose steps are large and small, with edits on the way.
+TEST_F(OcclusionCulling, EveryPixelIsAsWithout) {
+    std::mt19937 random(7);
+    const auto between = [&](double low, double high) {
+        return std::uniform_real_distribution(low, high)(random);
+    };
+    for (const int samples : {1, 4}) {
+        setRandomLand(random);
+        Camera camera{{8, 8, 12}};
+        for (int step = 0; step < 40; ++step) {
+            const double size = step % 4 == 0 ? 8 : 0.2;
+            camera.position += glm::dvec3(between(-size, size), between(-size, size), 0);
+            camera.position.z = between(6, 18);
+            camera.yaw += static_cast<float>(between(-10 * size, 10 * size));
+            camera.pitch = static_cast<float>(between(-40, 10));
+            if (step % 10 == 9) setRandomLand(random);
+            FrameInput input = noon(camera);
+            input.timeSeconds = static_cast<float>(step);
+            const base::Image culled = drawWith(true, samples, input);
+            ASSERT_TRUE(culled.rgba == drawWith(false, samples, input).rgba) << samples << ", " << step;
+        }
+    }
 }
 
 }  // namespace

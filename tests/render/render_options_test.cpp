@@ -11,6 +11,7 @@ TEST(RenderOptions, ThesisIsWhatItMeasuredWith) {
     EXPECT_EQ(o.msaaSamples, 2);
     EXPECT_EQ(o.shading, Shading::Sample);
     EXPECT_TRUE(o.msaaAlphaTest && o.depthOfField && o.godRays && o.animation && o.sharpFiltering);
+    EXPECT_EQ(o.shadows, ShadowReach::Near);
     EXPECT_EQ(o.shadowSize, 2048);
     EXPECT_EQ(o.occlusion, Occlusion::Off);
     EXPECT_EQ(o.transparencyLayers, 3);
@@ -36,7 +37,7 @@ TEST(RenderOptions, OtherPresetsLeaveWhatIsSeenHowFar) {
 TEST(RenderOptions, LowHasNoEffects) {
     const RenderOptions o = findPreset("low", false)->options;
     EXPECT_EQ(o.msaaSamples, 1);
-    EXPECT_EQ(o.shadowSize, 0);
+    EXPECT_EQ(o.shadows, ShadowReach::Off);
     EXPECT_EQ(o.occlusion, Occlusion::Off);
     EXPECT_FALSE(o.depthOfField || o.godRays || o.clouds);
     EXPECT_GT(o.transparencyLayers, 0) << "water is seen";

@@ -39,7 +39,7 @@ TEST_F(RendererTest, AnEmptyWorldIsSky) {
     }
     for (int y = 1; y < kImageSize.y; ++y) {
         const int step = std::abs(pixel(image, 5, y)[0] - pixel(image, 5, y - 1)[0]);
-        EXPECT_LE(step, 8) << "row " << y << " has an edge";
+        EXPECT_LE(step, 12) << "row " << y << " has an edge";
     }
 }
 

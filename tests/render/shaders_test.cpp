@@ -64,16 +64,19 @@ const std::map<std::string, Values>& variantValues() {
           {"ALPHA_CLASS", {"2"}},
           {"MSAA_SAMPLES", {"1", "4"}},
           {"LAYERS", {"1", "2", "3"}},
-          {"SHADOW", {"0", "1"}},
+          {"SHADOW", {"0", "1", "2"}},
+          {"LAND", {"0", "1"}},
           {"OCCLUSION", {"0", "1"}},
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"QUADS", {"0", "1"}},
           {"WATER_DETAIL", {"0", "1"}},
           {"UNDER_WATER", {"0", "1"}},
+          {"DIRECT", {"0", "1"}},
+          {"OVER_SKY", {"0", "1"}},
           {"FACE_SAMPLING", {"0"}},
           {"TINT", {"0"}}}},
         {"pixel_mask.frag", {{"MSAA_SAMPLES", {"4"}}, {"OF", {"0", "1", "2"}}}},
-        {"sky.frag", {{"CLOUDS", {"0", "1"}}}},
+        {"sky.frag", {{"CLOUDS", {"0", "1"}}, {"NIGHT", {"0", "1"}}, {"DIRECT", {"0", "1"}}}},
         {"hole_fill.frag", {{"MSAA_SAMPLES", {"1", "4"}}}},
         {"depth_of_field.frag", {{"AXIS", {"0", "1"}}, {"MSAA_SAMPLES", {"1", "4"}}}},
         {"ambient_occlusion.frag", {{"MSAA_SAMPLES", {"1", "4"}}, {"NEAREST_LAYER", {"0", "1"}}}},
@@ -90,9 +93,11 @@ const std::map<std::string, Values>& variantValues() {
          {{"MSAA_SAMPLES", {"1", "4"}},
           {"PER_SAMPLE", {"0", "1"}},
           {"LIGHT_SMOOTH", {"0", "1"}},
-          {"SHADOW", {"0", "1"}},
+          {"SHADOW", {"0", "1", "2"}},
+          {"LAND", {"0", "1"}},
           {"OCCLUSION", {"0", "1"}},
           {"OVER_SKY", {"0", "1"}},
+          {"DIRECT", {"0", "1"}},
           {"UNDER_WATER", {"0", "1"}}}},
     };
     return values;
@@ -102,10 +107,19 @@ bool has(const gpu::ShaderDefines& defines, const char* name, const char* value)
     return std::ranges::find(defines, std::pair<std::string, std::string>(name, value)) != defines.end();
 }
 
-// What no options lead to: with several samples a pixel layers are shaded over the whole screen, and surfaces
-// over the sky.
+// What no options lead to: with several samples a pixel layers are shaded over the whole screen, surfaces
+// over the sky, and neither as the screen shows them; nor is this where there is ambient occlusion
+// or mirrored shores.
+// Without shadows light knows no land.
 bool isNeverSelected(const gpu::ShaderDefines& defines) {
-    return has(defines, "MSAA_SAMPLES", "4") && (has(defines, "QUADS", "1") || has(defines, "OVER_SKY", "0"));
+    if (has(defines, "LAND", "1") && has(defines, "SHADOW", "0")) return true;
+    const bool isDirect = has(defines, "DIRECT", "1"), isOverSky = has(defines, "OVER_SKY", "1");
+    const bool isOfLayers = has(defines, "QUADS", "0") || has(defines, "QUADS", "1");
+    if (has(defines, "MSAA_SAMPLES", "4") && (has(defines, "QUADS", "1") || has(defines, "OVER_SKY", "0")))
+        return true;
+    if (isOfLayers && isDirect == isOverSky) return true;
+    const bool readsLight = has(defines, "OCCLUSION", "1") || has(defines, "WATER_DETAIL", "1");
+    return isDirect && (isOverSky || has(defines, "QUADS", "0") || readsLight);
 }
 
 std::vector<gpu::ShaderDefines> variantsOf(std::string_view path) {

@@ -48,47 +48,5 @@ TEST(ShadowVolume, LeavesOutTheRest) {
     EXPECT_FALSE(isIn(camera + 120.0f * forward)) << "too far";
 }
 
-glm::vec3 onMap(const ShadowFit& fit, glm::vec3 point) {
-    return glm::vec3(fit.toMap * glm::vec4(point, 1));
-}
-
-TEST(ShadowFit, HoldsWhatIsSeenNearby) {
-    const ViewMatrices view = viewMatrices(kCamera, 16.0f / 9);
-    const Frustum frustum = frustumOf(view.viewProjection);
-    const ShadowFit fit = fitShadowMap(kCamera, 16.0f / 9, {0.3f, 0.5f, 0.8f}, 2048);
-    for (unsigned k = 0; k < 4000; ++k) {
-        const glm::vec3 random(unit(k, 0), unit(k, 1), unit(k, 2));
-        const glm::vec3 point = view.cameraPosition + 100.0f * (random - 0.5f);
-        if (glm::distance(point, view.cameraPosition) > kShadowReach || !mayBeVisible(frustum, point, point))
-            continue;
-        const glm::vec3 at = onMap(fit, point);
-        for (int axis = 0; axis < 3; ++axis) {
-            EXPECT_GE(at[axis], 0);
-            EXPECT_LE(at[axis], 1);
-        }
-    }
-}
-
-// A place of the world lies at the same point of a texel wherever the camera goes and looks: shadows do not
-// crawl.
-TEST(ShadowFit, TexelsStayWhereTheyAre) {
-    constexpr int kTexels = 1024;
-    const glm::dvec3 place(220.3, 211.7, 95.2);
-    glm::vec2 first{-1};
-    for (int step = 0; step < 50; ++step) {
-        Camera camera = kCamera;
-        camera.position += glm::dvec3(200 + 0.37 * step, 200 - 0.21 * step, 0.05 * step);
-        camera.yaw += static_cast<float>(3 * step);
-        const world::ChunkPos chunk = cameraChunk(camera);
-        const glm::vec3 relative(place - glm::dvec3(16.0 * chunk.x, 16.0 * chunk.y, 0));
-        const ShadowFit fit = fitShadowMap(camera, 1.5f, {0.3f, 0.5f, 0.8f}, kTexels);
-        const glm::vec2 texel = glm::vec2(onMap(fit, relative)) * static_cast<float>(kTexels);
-        const glm::vec2 part = texel - glm::floor(texel);
-        if (step == 0) first = part;
-        EXPECT_NEAR(part.x, first.x, 0.02f) << step;
-        EXPECT_NEAR(part.y, first.y, 0.02f) << step;
-    }
-}
-
 }  // namespace
 }  // namespace terrane::render

@@ -21,7 +21,9 @@ class Tour : public gpu::GlTest {
         RenderOptions o;
         o.msaaSamples = 1 << pick(3);
         o.shading = static_cast<Shading>(pick(3));
-        o.shadowSize = pick(2) * 512;
+        o.shadows = static_cast<ShadowReach>(pick(4));
+        o.shadowSize = 256;
+        o.softShadows = pick(2) == 0;
         o.occlusion = static_cast<Occlusion>(pick(3));
         o.depthOfField = pick(2) == 0;
         o.distanceFog = pick(4) > 0;

@@ -40,10 +40,10 @@ base::Image imageOf(DrawnSession& drawn) {
 
 TEST_F(TintViewTest, GrassHasTheColorOfItsPlace) {
     const auto drawn = sessionOf(true);
-    EXPECT_EQ(drawn->view->missingTints(), 0u) << "not asked for yet";
+    EXPECT_EQ(drawn->view->missingClipmapTiles(), 0u) << "not asked for yet";
     const base::Image image = imageOf(*drawn);
     EXPECT_TRUE(drawn->renderer.hasTint());
-    EXPECT_EQ(drawn->view->missingTints(), 0u);
+    EXPECT_EQ(drawn->view->missingClipmapTiles(), 0u);
     const auto at = [&](int x, int channel) {
         return int{image.rgba[static_cast<std::size_t>(4 * (x + 32 * image.width) + channel)]};
     };

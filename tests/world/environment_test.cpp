@@ -90,6 +90,55 @@ TEST(Environment, DayIsBrightAndBlue) {
     EXPECT_GT(environmentAt(0.2f).lightColor.x, 2 * environmentAt(0.2f).lightColor.z) << "dawn is red";
 }
 
+// As bright as a painter would have it: what scenes and presets were made for.
+TEST(Environment, NoonKeepsItsLevels) {
+    const Environment noon = environmentAt(0.5f);
+    EXPECT_NEAR(noon.lightColor.y, 0.79f, 0.1f);
+    EXPECT_NEAR(noon.ambientColor.y, 0.58f, 0.08f);
+    EXPECT_NEAR(noon.horizonColor.y, 0.6f, 0.15f);
+}
+
+TEST(Environment, UnderTheHorizonThereIsNoLightButTheSky) {
+    for (int step = 0; step < kSteps; ++step) {
+        const Environment e = environmentAt(timeOf(step));
+        if (e.lightDirection.z > -kDiscFade) continue;
+        ASSERT_EQ(largest(e.lightColor), 0) << timeOf(step);
+        ASSERT_GT(e.ambientColor.y, 0.01f) << timeOf(step);
+    }
+}
+
+// From the table as from the colors of the environment, at all times but where the light changes.
+TEST(Environment, TableOfTheSkyHasItsColors) {
+    for (const float time : {0.0f, 0.1f, 0.19f, 0.3f, 0.5f, 0.79f}) {
+        const Environment e = environmentAt(time);
+        const glm::vec3 zenith =
+            sampled(skyColorTable(e.lightDirection.z, e.isMoon), {0, 0, 1}, e.lightDirection);
+        EXPECT_LT(largest(zenith - e.zenithColor), 0.01f * largest(e.zenithColor)) << time;
+        EXPECT_EQ(ambientGreen(e.lightDirection.z, e.isMoon), e.ambientColor.y);
+    }
+}
+
+// A step is 0.6 seconds of a day of 20 minutes. At sunrise the horizon under the sun gets brighter by a tenth
+// of white in one, but no texel's change may set in or end within a step.
+TEST(Environment, SkyChangesWithoutJumps) {
+    constexpr int kTimes = 2000;
+    const auto tableAt = [](int k) {
+        const Environment e = environmentAt(static_cast<float>(k) / kTimes);
+        return skyColorTable(e.lightDirection.z, e.isMoon);
+    };
+    SkyTable before = tableAt(199), now = tableAt(200);
+    for (int k = 200; k < 460; ++k) {  // moonset, dawn, sunrise
+        const SkyTable next = tableAt(k + 1);
+        for (std::size_t t = 0; t < now.radiance.size(); ++t) {
+            const glm::vec3 a = before.radiance[t], b = now.radiance[t], c = next.radiance[t];
+            ASSERT_LT(largest(c - b - (b - a)), 0.03f) << "at " << k << " texel " << t;
+            ASSERT_LT(largest(c - b), 0.12f) << "at " << k << " texel " << t;
+        }
+        before = now;
+        now = next;
+    }
+}
+
 TEST(Environment, OnlyTheFractionOfTheTimeCounts) {
     for (const float time : {0.0f, 0.25f, 0.5f, 0.75f}) {
         EXPECT_EQ(colorsOf(environmentAt(time)), colorsOf(environmentAt(time + 1)));

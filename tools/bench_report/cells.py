@@ -46,7 +46,8 @@ def frame(s, scene, **flags):
     """Frames of a scene with the options that the thesis measured with, `flags` apart."""
     return command_line("render", **{
         "scene": scene, "preset": "thesis", "view_distance": s.view_distance, "size": s.size, "frames": s.frames,
-        "samples": 2, "shading": "sample", "shadows": 1024 if s.is_quick else 2048, "layers": 3,
+        "samples": 2, "shading": "sample", "shadows": "near",
+        "shadow_size": 1024 if s.is_quick else 2048, "layers": 3,
         "merging": "squares-ext", "mesh_section_height": 64, **flags})
 
 

@@ -117,7 +117,8 @@ def shadow_maps(s):
             continue
         rows.append([samples])
         for size, figure in zip(sizes, thesis):
-            cell = frame(s, "landscape", samples=samples, shadows=size, time="0.2")
+            changed = {"shadows": "off"} if size == "off" else {"shadow_size": size}
+            cell = frame(s, "landscape", samples=samples, time="0.2", **changed)
             ours = "not offered" if samples > s.most_samples else value(cell, FRAMES_PER_SECOND)
             rows[-1] += [ours, figure]
     return Table(

@@ -55,7 +55,7 @@ EFFECTS = (
     ("4 samples a pixel", "samples", "4", "1", "off"),
     ("shading", "shading", "sample", "off", "on"),
     ("smooth light", "light", "smooth", "classic", "off"),
-    ("shadows, 2048²", "shadows", "2048", "off", "off"),
+    ("shadows, 50 blocks", "shadows", "near", "off", "off"),
     ("ambient occlusion", "ssao", "on", "off", "off"),
     ("depth of field", "depth_of_field", "on", "off", "off"),
     ("atmosphere", "distance_fog", "on", "off", "on"),

@@ -27,7 +27,7 @@ Cells frames(const BenchSettings& s, const std::string& flags) {
     return expandLine(fmt::format(
         "render --scene landscape --preset thesis --view-distance {} --size {} --frames {} --samples 2 "
         "--shading sample "
-        "--shadows {} --layers 3 --merging squares-ext --mesh-section-height 64 {}",
+        "--shadows near --shadow-size {} --layers 3 --merging squares-ext --mesh-section-height 64 {}",
         s.viewDistance, s.size, s.frames, s.isQuick ? 1024 : 2048, flags));
 }
 
@@ -103,8 +103,10 @@ Cells meshSectionHeights(const BenchSettings& s) {
 
 Cells shadowMaps(const BenchSettings& s) {
     const auto samples = upTo(s.maxSamples, s.isQuick ? std::vector{1, 4} : std::vector{1, 2, 4, 8});
-    return frames(s, fmt::format("--samples {} --shadows {} --time 0.2", fmt::join(samples, ","),
-                                 s.isQuick ? "off,1024" : "off,1024,2048,4096"));
+    const std::string flags = fmt::format("--samples {} --time 0.2 ", fmt::join(samples, ","));
+    Cells cells = frames(s, flags + "--shadows off");
+    append(cells, frames(s, flags + "--shadow-size " + (s.isQuick ? "1024" : "1024,2048,4096")));
+    return cells;
 }
 
 Cells effects(const BenchSettings& s) {
@@ -139,7 +141,7 @@ Cells resolutions(const BenchSettings& s) {
 Cells effectCosts(const BenchSettings& s) {
     Cells cells;
     for (const char* flag :
-         {"", "--samples 4", "--shading off", "--light smooth", "--shadows 2048", "--ssao on",
+         {"", "--samples 4", "--shading off", "--light smooth", "--shadows near", "--ssao on",
           "--depth-of-field on", "--distance-fog off", "--god-rays on", "--clouds on", "--animation off",
           "--sharp-filtering on", "--layers 0,3", "--t-junctions open", "--occlusion-culling off"})
         append(cells, plainFrames(s, flag));

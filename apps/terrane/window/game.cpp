@@ -194,6 +194,7 @@ render::FrameInput Game::frameInput() const {
     input.timeSeconds = static_cast<float>(seconds_);
     input.view = settings_.view;
     input.waterAbove = game::waterAbove(parts_.session, player_.pose().position);
+    input.maxShadowTiles = render::ShadowClipmap::kTilesAFrame;
     if (isAbove_) {
         input.culledFor = input.camera;
         input.camera = debugTopCamera(camera(), parts_.view.viewDistance());
@@ -203,15 +204,12 @@ render::FrameInput Game::frameInput() const {
     return input;
 }
 
-// None where there are no shadows.
-std::optional<render::ShadowFit> Game::shadowFit(const render::Camera& camera) const {
+// To the sun or moon; none where there are no shadows.
+std::optional<glm::vec3> Game::shadowLight() const {
     const render::RenderOptions& options = parts_.renderer.options();
-    const glm::vec2 size(parts_.renderer.size());
-    if (options.shadowSize == 0 || options.shading == render::Shading::Off || size.y == 0)
+    if (options.shadows == render::ShadowReach::Off || options.shading == render::Shading::Off)
         return std::nullopt;
-    const auto timeDay = static_cast<float>(parts_.session.clock.timeDay);
-    return render::fitShadowMap(camera, size.x / size.y, world::environmentAt(timeDay).lightDirection,
-                                options.shadowSize);
+    return world::environmentAt(static_cast<float>(parts_.session.clock.timeDay)).lightDirection;
 }
 
 void Game::drawInterface() {
@@ -223,7 +221,7 @@ void Game::drawInterface() {
     if (isAbove_) {
         const int viewDistance = parts_.view.viewDistance();
         drawDebugTopView(screen, debugTopCamera(camera, viewDistance), camera,
-                         view::fogDistance(viewDistance), shadowFit(camera));
+                         view::fogDistance(viewDistance), shadowLight());
     } else if (const auto& target = interaction_.target()) {
         drawTarget(screen, camera, *target, session.world(), session.blocks());
     }

@@ -86,7 +86,7 @@ class Game {
     render::FrameInput frameInput() const;
     void drawInterface();
     void drawOpenContainer(const Screen& screen);
-    std::optional<render::ShadowFit> shadowFit(const render::Camera& camera) const;
+    std::optional<glm::vec3> shadowLight() const;
     Statistics statistics();
     MemoryStatistics memoryStatistics() const;
     game::PlayerState playerState() const;

@@ -90,7 +90,7 @@ render::Camera debugTopCamera(const render::Camera& camera, int viewDistance) {
 }
 
 void drawDebugTopView(const Screen& screen, const render::Camera& above, const render::Camera& camera,
-                      float farBlocks, const std::optional<render::ShadowFit>& shadows) {
+                      float farBlocks, const std::optional<glm::vec3>& shadowLight) {
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const auto line = [&](glm::dvec3 a, glm::dvec3 b, ImU32 color) {
         const auto from = projected(screen, above, a), to = projected(screen, above, b);
@@ -108,8 +108,8 @@ void drawDebugTopView(const Screen& screen, const render::Camera& above, const r
         line(camera.position, far[k], IM_COL32(255, 220, 60, 255));
         line(far[k], far[(k + 1) % 4], IM_COL32(255, 220, 60, 255));
     }
-    if (!shadows) return;
-    const std::array<glm::dvec3, 8> map = render::cornersOf(*shadows, camera);
+    if (!shadowLight) return;
+    const std::array<glm::dvec3, 8> map = render::nearShadowBox(camera, *shadowLight);
     constexpr ImU32 kShadowColor = IM_COL32(120, 190, 255, 255);
     for (std::size_t k = 0; k < map.size(); ++k) {
         for (const std::size_t axis : {1u, 2u, 4u})

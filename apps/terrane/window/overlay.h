@@ -25,9 +25,10 @@ void drawTarget(const Screen& screen, const render::Camera& camera, const world:
                 const world::World& world, const world::BlockRegistry& blocks);
 // Straight over a camera, so high that all within the view distance (chunks) is seen.
 render::Camera debugTopCamera(const render::Camera& camera, int viewDistance);
-// What the camera sees, up to `farBlocks`, and what its shadow map covers, if it has one, as seen from above.
+// What the camera sees, up to `farBlocks`, and what its nearest shadow map covers, if there is a light that
+// casts shadows, as seen from above.
 void drawDebugTopView(const Screen& screen, const render::Camera& above, const render::Camera& camera,
-                      float farBlocks, const std::optional<render::ShadowFit>& shadows);
+                      float farBlocks, const std::optional<glm::vec3>& shadowLight);
 void drawCrosshair(const Screen& screen);
 
 // The block in the hand, bottom left. `image`: an OpenGL texture, 0: none.

@@ -1,4 +1,4 @@
-#include "terrane/render/tint_clipmap.h"
+#include "terrane/render/clipmap.h"
 
 #include <gtest/gtest.h>
 
@@ -19,43 +19,43 @@ world::ChunkPos chunkAt(const glm::dvec3& position) {
     return cameraChunk({.position = position});
 }
 
-void fill(TintClipmap& clipmap, world::ChunkPos camera) {
+void fill(Clipmap& clipmap, world::ChunkPos camera) {
     for (const world::ChunkPos tile : clipmap.missing(camera, kFar, SIZE_MAX)) clipmap.set(tile);
     EXPECT_TRUE(clipmap.missing(camera, kFar, SIZE_MAX).empty());
 }
 
-TEST(TintClipmap, HasEverySecondLevel) {
+TEST(Clipmap, HasEverySecondLevel) {
     for (int level = 0; level < 16; ++level) {
         const bool expected = level == 2 || level == 4 || level == 6 || level == 8 || level == 10;
-        EXPECT_EQ(TintClipmap::isTile({0, 0, static_cast<std::uint8_t>(level)}), expected) << level;
+        EXPECT_EQ(Clipmap(kTintClipmap).isTile({0, 0, static_cast<std::uint8_t>(level)}), expected) << level;
     }
 }
 
-TEST(TintClipmap, AFullOneReachesSevenTiles) {
-    TintClipmap clipmap;
+TEST(Clipmap, AFullOneReachesSevenTiles) {
+    Clipmap clipmap(kTintClipmap);
     for (const glm::dvec3 position :
          {glm::dvec3(0), {31.5, -20.25, 90}, {-kEdge, -kEdge, 0}, {kEdge - 1, 5e8, 0}}) {
         fill(clipmap, chunkAt(position));
-        const shared::TintFrame frame = clipmap.frame({.position = position});
+        const shared::TintFrame frame = tintFrame(clipmap, {.position = position});
         for (int level = 0; level < 5; ++level)
             EXPECT_EQ(frame.levels[level].w, static_cast<float>(7 * 16 * std::pow(4, level + 1))) << level;
     }
 }
 
-TEST(TintClipmap, AMissingTileEndsWhatIsComplete) {
-    TintClipmap clipmap;
-    EXPECT_EQ(clipmap.frame({}).levels[0].w, 0.0f);
+TEST(Clipmap, AMissingTileEndsWhatIsComplete) {
+    Clipmap clipmap(kTintClipmap);
+    EXPECT_EQ(tintFrame(clipmap, {}).levels[0].w, 0.0f);
     fill(clipmap, {0, 0});
     clipmap.set({2 + 16, 0, 2});  // in place of the tile 128 to 192 blocks away along x
-    const shared::TintFrame frame = clipmap.frame({.position = {10, 20, 0}});
+    const shared::TintFrame frame = tintFrame(clipmap, {.position = {10, 20, 0}});
     EXPECT_EQ(frame.levels[0].w, 128 - 10 - 4) << "up to a texel before it";
     EXPECT_EQ(frame.levels[1].w, 7 * 256);
     clipmap.set({16, 0, 2});
-    EXPECT_EQ(clipmap.frame({.position = {10, 20, 0}}).levels[0].w, 0.0f) << "the camera's own tile";
+    EXPECT_EQ(tintFrame(clipmap, {.position = {10, 20, 0}}).levels[0].w, 0.0f) << "the camera's own tile";
 }
 
-TEST(TintClipmap, ACameraThatMovesOnNeedsARowOfTiles) {
-    TintClipmap clipmap;
+TEST(Clipmap, ACameraThatMovesOnNeedsARowOfTiles) {
+    Clipmap clipmap(kTintClipmap);
     fill(clipmap, {0, 0});
     EXPECT_TRUE(clipmap.missing({1, -2}, kFar, SIZE_MAX).empty()) << "less than half a tile";
     const auto row = clipmap.missing({2, 0}, kFar, SIZE_MAX);
@@ -63,8 +63,8 @@ TEST(TintClipmap, ACameraThatMovesOnNeedsARowOfTiles) {
     for (const world::ChunkPos tile : row) EXPECT_EQ(std::tuple(tile.x, tile.level), std::tuple(8, 2));
 }
 
-TEST(TintClipmap, NearAndFineTilesComeFirst) {
-    const TintClipmap clipmap;
+TEST(Clipmap, NearAndFineTilesComeFirst) {
+    const Clipmap clipmap(kTintClipmap);
     const auto tiles = clipmap.missing({0, 0}, kFar, 30);
     ASSERT_EQ(tiles.size(), 30u);
     for (std::size_t k = 0; k < 20; ++k) {
@@ -74,8 +74,8 @@ TEST(TintClipmap, NearAndFineTilesComeFirst) {
     EXPECT_EQ(tiles[20].level, 2);
 }
 
-TEST(TintClipmap, LevelsBeyondTheViewAreNotAskedFor) {
-    const TintClipmap clipmap;
+TEST(Clipmap, LevelsBeyondTheViewAreNotAskedFor) {
+    const Clipmap clipmap(kTintClipmap);
     const auto levels = [&](double reach) {
         std::set<int> found;
         for (const world::ChunkPos tile : clipmap.missing({0, 0}, reach, SIZE_MAX)) found.insert(tile.level);
@@ -91,7 +91,7 @@ TEST(TintClipmap, LevelsBeyondTheViewAreNotAskedFor) {
 class SlowTextures {
   public:
     void set(world::ChunkPos tile) {
-        const TintPlace place = TintClipmap::placeOf(tile);
+        const ClipmapPlace place = Clipmap(kTintClipmap).placeOf(tile);
         for (int k = 0; k < 256; ++k)
             texels_[{place.level, place.texel.x + k % 16, place.texel.y + k / 16}] = {
                 std::int64_t{tile.x} * 16 + k % 16, std::int64_t{tile.y} * 16 + k / 16};
@@ -107,12 +107,12 @@ class SlowTextures {
 
 // Wherever the camera was before, and with some tiles still to come: every place that a level reaches shows
 // the column it lies in, found as the shader finds it.
-TEST(TintClipmap, RandomFlightsShowTheRightColumns) {
+TEST(Clipmap, RandomFlightsShowTheRightColumns) {
     std::mt19937 random(3);
     const auto between = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
     };
-    TintClipmap clipmap;
+    Clipmap clipmap(kTintClipmap);
     SlowTextures textures;
     glm::dvec3 camera(0);
     int compared = 0;
@@ -129,7 +129,7 @@ TEST(TintClipmap, RandomFlightsShowTheRightColumns) {
             clipmap.set(tile);
             textures.set(tile);
         }
-        const shared::TintFrame frame = clipmap.frame({.position = camera});
+        const shared::TintFrame frame = tintFrame(clipmap, {.position = camera});
         const world::ChunkPos chunk = chunkAt(camera);
         for (int level = 0; level < 5; ++level) {
             const glm::vec4 l = frame.levels[level];

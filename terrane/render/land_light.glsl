@@ -1,0 +1,45 @@
+// Light that the land around the camera leaves, as far as the horizon (shared/land.h). LAND: 1 where there
+// are its textures (land_textures.h), 0 for none. Needs frame_uniforms.glsl.
+#if LAND == 1
+#include "terrane/shared/land.h"
+
+layout(std140, binding = kLandBinding) uniform LandBlock {
+    LandFrame landFrame;
+};
+layout(binding = kLandShadowUnit) uniform sampler2DArray landShadows;
+layout(binding = kLandGroundUnit) uniform sampler2DArray landGrounds;
+
+const vec4 kOpenLand = vec4(0.12, 0.16, 0.07, 1.0);  // where no level is there
+
+// Texture coordinates and layer of the finest level that has the place; layer -1 for none. One level is
+// enough: where it ends it has the values of the next one.
+vec3 landPlace(vec2 place) {
+    vec3 found = vec3(0.5, 0.5, -1.0);
+    for (int k = int(kLandLevels) - 1; k >= 0; --k) {
+        vec4 level = landFrame.levels[k];
+        vec2 at = level.xy + place * level.z, away = abs(at - 0.5);
+        found = max(away.x, away.y) < 0.5 * kLandUsed * level.w ? vec3(at, float(k)) : found;
+    }
+    return found;
+}
+
+// The share of the sun's or moon's disc that land does not hide, for a point of the surface.
+float landShare(vec3 position) {
+    vec3 at = landPlace(position.xy);
+    vec2 texel = textureLod(landShadows, at, 0.0).rg;
+    float begin = kLandLowest + kLandHeights * texel.r, edge = kLandMaxEdge * texel.g;
+    float share = clamp((position.z - begin) / max(edge, 0.01), 0.0, 1.0);
+    return at.z < 0.0 ? 1.0 : share * share * (3.0 - 2.0 * share);
+}
+
+// Red, green, blue: the ground's color, linear; alpha: the share of the sky that is seen from it.
+vec4 landGround(vec3 position) {
+    vec3 at = landPlace(position.xy);
+    vec4 texel = textureLod(landGrounds, at, 0.0);
+    return at.z < 0.0 ? kOpenLand : texel;
+}
+
+float landSky(vec3 position) {
+    return landGround(position).a;
+}
+#endif

@@ -1,0 +1,255 @@
+#include "terrane/render/land_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <unordered_map>
+
+namespace terrane::render {
+namespace {
+
+constexpr int kSide = Clipmap::kTexels;
+// The sun passes it in 0.3 s of a day of 20 minutes; 1/50 of its own width.
+constexpr float kLightStep = 0.0018f;  // radians
+constexpr float kMinForm = 16;         // blocks: smaller ones have light and occlusion of their own
+constexpr float kBlockError = 0.75f;   // blocks: heights are whole ones
+constexpr float kBlendBegins = 0.75f;  // share of half a side from which a level goes over into the next one
+constexpr float kBlendEnds = 0.92f;    // before kLandUsed: filters read beside
+
+float linearOf(float srgb) {
+    return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+}
+
+// Where a texel of a level lies in the next one, in its texels from the middle of the first one.
+glm::vec2 inCoarser(const LandLevel& fine, const LandLevel& coarse, glm::vec2 texel) {
+    return (glm::vec2(fine.corner - 2 * coarse.corner) + texel + 0.5f) / 2.0f - 0.5f;
+}
+
+// Calls f(index, weight) for the four texels around a place; beside the level those of its border.
+template <class F>
+void forFourAround(glm::vec2 place, const F& f) {
+    const glm::vec2 at = glm::clamp(place, glm::vec2(0), glm::vec2(kSide - 1.001f));
+    const glm::ivec2 low(at);
+    const glm::vec2 share = at - glm::vec2(low);
+    for (int k = 0; k < 4; ++k) {
+        const int dx = k & 1, dy = k >> 1;
+        const float weight = (dx == 1 ? share.x : 1 - share.x) * (dy == 1 ? share.y : 1 - share.y);
+        f(static_cast<std::size_t>((low.y + dy) * kSide + low.x + dx), weight);
+    }
+}
+
+LandShadow shadowAt(const LandLevel& level, glm::vec2 place) {
+    LandShadow sum{0, 0};
+    forFourAround(place, [&](std::size_t k, float weight) {
+        const LandShadow& s = level.shadows[k];
+        const bool isLand = level.heights[k] >= s.height;
+        sum.height += weight * std::max(level.heights[k], s.height);
+        sum.distance += weight * (isLand ? 0.0f : s.distance);
+    });
+    return sum;
+}
+
+// Half of how much land rises or falls within a texel, at most: as far as heights there may be off.
+float roughnessAt(std::span<const float> heights, int x, int y) {
+    float low = 1e9f, high = -1e9f;
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, kSide - 1); ++v) {
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, kSide - 1); ++u) {
+            const float h = heights[static_cast<std::size_t>(v * kSide + u)];
+            low = std::min(low, h);
+            high = std::max(high, h);
+        }
+    }
+    return (high - low) / 4;
+}
+
+// Calls f(x, y, share) for texels that go over into the next level, so that no ring is seen.
+template <class F>
+void forBorder(const F& f) {
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const glm::vec2 away = glm::abs(glm::vec2(x, y) + 0.5f - 0.5f * kSide) / (0.5f * kSide);
+            const float share = glm::smoothstep(kBlendBegins, kBlendEnds, std::max(away.x, away.y));
+            if (share > 0) f(x, y, share);
+        }
+    }
+}
+
+// Half of the disc is seen at the height of the shadow. Heights may be off: what lies as much below is lit
+// too.
+LandEdge edgeOf(const LandShadow& shadow, float roughness, float discRadius) {
+    const float error = roughness + kBlockError;
+    const float half = std::min(std::tan(discRadius) * shadow.distance, (shared::kLandMaxEdge - error) / 2);
+    return {std::max(shadow.height - error - half, shared::kLandLowest), error + 2 * half};
+}
+
+}  // namespace
+
+LandMap::LandMap(world::TopColors colors)
+    : colors_(std::move(colors)), columns_(kTexels * shared::kLandLevels) {}
+
+void LandMap::setReach(double blocks) {
+    reach_ = blocks;
+    const int used = clipmap_.levelsFor(blocks);
+    if (used == used_) return;
+    for (std::size_t level = static_cast<std::size_t>(used); level < levels_.size(); ++level) {
+        levels_[level] = {};
+        hasNewTiles_[level] = true;  // those that the clipmap still has
+    }
+    used_ = used;
+    needsSweep_.fill(true);
+}
+
+void LandMap::set(world::ChunkPos tile, const world::LandTile& land) {
+    const ClipmapPlace place = clipmap_.placeOf(tile);
+    std::unordered_map<world::BlockId, std::array<std::uint8_t, 3>> seen;
+    const auto colorOf = [&](world::BlockId id) {
+        const auto [found, isNew] = seen.try_emplace(id);
+        if (!isNew || id >= colors_.size()) return found->second;
+        const world::TopColor& top = colors_[id];
+        const glm::vec3 srgb = top.tinted ? world::tinted(top.mean / 255.0f, land.tint) : top.mean / 255.0f;
+        for (std::size_t c = 0; c < 3; ++c)
+            found->second[c] = static_cast<std::uint8_t>(255 * linearOf(srgb[static_cast<int>(c)]) + 0.5f);
+        return found->second;
+    };
+    const std::size_t first = kTexels * static_cast<std::size_t>(place.level);
+    for (std::size_t k = 0; k < world::LandTile::kColumns; ++k) {
+        const auto x = static_cast<std::size_t>(place.texel.x) + k % 16;
+        const auto y = static_cast<std::size_t>(place.texel.y) + k / 16;
+        columns_[first + y * kSide + x] = {land.height[k], colorOf(land.ground[k])};
+    }
+    clipmap_.set(tile);
+    hasNewTiles_[static_cast<std::size_t>(place.level)] = true;
+}
+
+bool LandMap::isComplete(int level, world::ChunkPos camera) const {
+    const world::ChunkPos middle = clipmap_.middleTile(level, camera);
+    for (int dy = -Clipmap::kTiles / 2; dy < Clipmap::kTiles / 2; ++dy)
+        for (int dx = -Clipmap::kTiles / 2; dx < Clipmap::kTiles / 2; ++dx)
+            if (!clipmap_.contains(world::offsetBy(middle, dx, dy))) return false;
+    return true;
+}
+
+glm::ivec2 LandMap::cornerAt(int level, world::ChunkPos camera) const {
+    const world::ChunkPos middle = clipmap_.middleTile(level, camera);
+    return world::kChunkSize * (glm::ivec2(middle.x, middle.y) - Clipmap::kTiles / 2);
+}
+
+// Where the camera has moved to other tiles, some of them are new.
+bool LandMap::canTakeColumns(int number, world::ChunkPos camera) const {
+    return hasNewTiles_[static_cast<std::size_t>(number)] && isComplete(number, camera);
+}
+
+void LandMap::takeColumns(int number, glm::ivec2 corner) {
+    LandLevel& level = levels_[static_cast<std::size_t>(number)];
+    level.corner = corner;
+    level.heights.resize(kTexels);
+    level.ground.resize(kTexels);
+    const Column* columns = columns_.data() + kTexels * static_cast<std::size_t>(number);
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const int wrapped = ((corner.y + y) & (kSide - 1)) * kSide + ((corner.x + x) & (kSide - 1));
+            const Column& column = columns[wrapped];
+            const auto k = static_cast<std::size_t>(y * kSide + x);
+            level.heights[k] = column.height;
+            level.ground[k] = glm::vec3(column.ground[0], column.ground[1], column.ground[2]) / 255.0f;
+        }
+    }
+    level.sky.resize(kTexels);
+    const LandHeights land{kSide, static_cast<float>(kLandClipmap.texelBlocks(number)), level.heights};
+    skyVisibility(land, kMinForm, level.sky);
+    level.roughness.resize(kTexels);
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x)
+            level.roughness[static_cast<std::size_t>(y * kSide + x)] = roughnessAt(level.heights, x, y);
+    blendGround(number);
+}
+
+void LandMap::sweep(int number) {
+    LandLevel& level = levels_[static_cast<std::size_t>(number)];
+    const LandLevel* coarser = coarserThan(number);
+    const auto outside = [&](glm::vec2 place) {
+        return coarser ? shadowAt(*coarser, inCoarser(level, *coarser, place)) : LandShadow{kNoShadow, 0};
+    };
+    level.shadows.resize(kTexels);
+    const LandHeights land{kSide, static_cast<float>(kLandClipmap.texelBlocks(number)), level.heights};
+    sweepShadows(land, light_.direction, outside, level.shadows);
+    level.edges.resize(kTexels);
+    for (std::size_t k = 0; k < kTexels; ++k)
+        level.edges[k] = edgeOf(level.shadows[k], level.roughness[k], light_.discRadius);
+    blendEdges(number);
+}
+
+const LandLevel* LandMap::coarserThan(int number) const {
+    return number + 1 < used_ ? &levels_[static_cast<std::size_t>(number) + 1] : nullptr;
+}
+
+// Beyond the last level is open land.
+void LandMap::blendEdges(int number) {
+    LandLevel& level = levels_[static_cast<std::size_t>(number)];
+    const LandLevel* coarser = coarserThan(number);
+    forBorder([&](int x, int y, float share) {
+        LandEdge edge{0, 0};
+        if (!coarser) edge = LandEdge{};
+        if (coarser) {
+            forFourAround(inCoarser(level, *coarser, {x, y}), [&](std::size_t k, float weight) {
+                edge.begin += weight * coarser->edges[k].begin;
+                edge.edge += weight * coarser->edges[k].edge;
+            });
+        }
+        LandEdge& own = level.edges[static_cast<std::size_t>(y * kSide + x)];
+        own = {glm::mix(own.begin, edge.begin, share), glm::mix(own.edge, edge.edge, share)};
+    });
+}
+
+void LandMap::blendGround(int number) {
+    LandLevel& level = levels_[static_cast<std::size_t>(number)];
+    const LandLevel* coarser = coarserThan(number);
+    forBorder([&](int x, int y, float share) {
+        const auto k = static_cast<std::size_t>(y * kSide + x);
+        glm::vec4 next(coarser ? glm::vec3(0) : level.ground[k], coarser ? 0.0f : 1.0f);
+        if (coarser) {
+            forFourAround(inCoarser(level, *coarser, {x, y}), [&](std::size_t at, float weight) {
+                next += weight * glm::vec4(coarser->ground[at], coarser->sky[at]);
+            });
+        }
+        level.ground[k] = glm::mix(level.ground[k], glm::vec3(next), share);
+        level.sky[k] = glm::mix(level.sky[k], next.w, share);
+    });
+}
+
+std::vector<LandChange> LandMap::update(world::ChunkPos camera, const LandLight& light, int limit) {
+    if (glm::distance(light.direction, light_.direction) > kLightStep ||
+        light.discRadius != light_.discRadius) {
+        light_ = light;
+        needsSweep_.fill(true);
+    }
+    std::vector<LandChange> changed;
+    for (int number = used_ - 1; number >= 0 && static_cast<int>(changed.size()) < limit; --number) {
+        const auto n = static_cast<std::size_t>(number);
+        if (number + 1 < used_ && !levels_[n + 1].isThere()) break;
+        const bool hasNewGround = canTakeColumns(number, camera);
+        if (hasNewGround) {
+            takeColumns(number, cornerAt(number, camera));
+            hasNewTiles_[n] = false;
+            needsSweep_[n] = true;
+        }
+        if (levels_[n].heights.empty() || !needsSweep_[n]) continue;
+        sweep(number);
+        needsSweep_[n] = false;
+        if (number > 0) needsSweep_[n - 1] = true;
+        changed.push_back({number, hasNewGround});
+    }
+    return changed;
+}
+
+bool LandMap::isUpToDate(world::ChunkPos camera) const {
+    for (int number = 0; number < used_; ++number) {
+        const bool canSweep = !level(number).heights.empty();
+        if (canSweep && needsSweep_[static_cast<std::size_t>(number)]) return false;
+        if (canTakeColumns(number, camera)) return false;
+    }
+    return true;
+}
+
+}  // namespace terrane::render

@@ -1,0 +1,95 @@
+// The land around the camera on the CPU: a clipmap of heights and colors (world/land_tile.h), and what is
+// computed from it for shaders: shadows to the horizon, sky visibility, the color of the ground. Without
+// OpenGL; used by LandTextures on one thread.
+//
+// A level is computed anew when all its tiles are there, the coarsest first, since it gives finer ones what
+// comes from beside them. Until then it stays where it was: around a camera that moved on it covers a little
+// less. 1 ms a level where the light moved, 5 ms where the land is new.
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "terrane/render/clipmap.h"
+#include "terrane/render/land_sweep.h"
+#include "terrane/shared/land.h"
+#include "terrane/world/land_tile.h"
+#include "terrane/world/top_colors.h"
+
+namespace terrane::render {
+
+constexpr ClipmapShape kLandClipmap{static_cast<int>(shared::kLandLevels), shared::kLandFirstGeneratorLevel,
+                                    1, TileOrder::CoarseFirst};
+
+struct LandLight {
+    glm::vec3 direction{0, 0, 1};  // to the sun or moon, unit length
+    float discRadius = 0;          // radians
+};
+
+// Light begins at the height `begin` and is whole `edge` blocks above.
+struct LandEdge {
+    float begin = shared::kLandLowest, edge = 1;
+};
+
+// 256 × 256 texels row after row, in no wrapped order. Empty where the level is not there.
+struct LandLevel {
+    glm::ivec2 corner{0};             // of the world, in texels of the level
+    std::vector<float> heights, sky;  // blocks; share that is seen
+    std::vector<float> roughness;     // blocks that heights may be off
+    std::vector<glm::vec3> ground;    // linear
+    std::vector<LandShadow> shadows;
+    std::vector<LandEdge> edges;  // of shadows, at the border those of the next level
+    bool isThere() const { return !edges.empty(); }
+};
+
+struct LandChange {
+    int level = 0;
+    bool hasNewGround = false;  // its place and its ground too, not the shadows alone
+    bool operator==(const LandChange&) const = default;
+};
+
+class LandMap {
+  public:
+    explicit LandMap(world::TopColors colors);
+    const Clipmap& clipmap() const { return clipmap_; }
+    const LandLevel& level(int level) const { return levels_[static_cast<std::size_t>(level)]; }
+
+    // Levels for so far a view, blocks; coarser ones go.
+    void setReach(double blocks);
+    double reach() const { return reach_; }
+    void set(world::ChunkPos tile, const world::LandTile& land);
+    // Computes up to `limit` levels anew that the camera's place, new tiles or another light ask for. Which
+    // ones, the coarsest first.
+    std::vector<LandChange> update(world::ChunkPos camera, const LandLight& light, int limit);
+    // Whether update() has nothing to compute; levels whose tiles are missing do not count.
+    bool isUpToDate(world::ChunkPos camera) const;
+
+  private:
+    static constexpr std::size_t kTexels = static_cast<std::size_t>(Clipmap::kTexels) * Clipmap::kTexels;
+    struct Column {
+        std::uint16_t height = 0;
+        std::array<std::uint8_t, 3> ground{};  // linear, 255 is 1
+    };
+
+    bool isComplete(int level, world::ChunkPos camera) const;
+    bool canTakeColumns(int level, world::ChunkPos camera) const;
+    glm::ivec2 cornerAt(int level, world::ChunkPos camera) const;
+    void takeColumns(int level, glm::ivec2 corner);
+    void sweep(int level);
+    void blendEdges(int level);
+    void blendGround(int level);
+    const LandLevel* coarserThan(int level) const;
+
+    Clipmap clipmap_{kLandClipmap};
+    world::TopColors colors_;
+    std::vector<Column> columns_;  // wrapped, level after level
+    std::array<LandLevel, shared::kLandLevels> levels_;
+    std::array<bool, shared::kLandLevels> hasNewTiles_{}, needsSweep_{};
+    LandLight light_;
+    double reach_ = 0;
+    int used_ = 1;  // levels
+};
+
+}  // namespace terrane::render

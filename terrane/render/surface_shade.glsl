@@ -1,0 +1,26 @@
+// The light of an opaque surface that reaches the camera: color times coverage, and coverage. SHADOW, OVER_SKY: see
+// shade.frag.glsl.
+// Needs land_light.glsl, lighting.glsl, distance_fog.glsl, gbuffer_read.glsl, and `inRay`.
+#if SHADOW > 0
+#include "terrane/render/shadow_sample.glsl"
+#endif
+
+vec4 throughAirOf(vec3 color, vec3 toPoint, float daylight) {
+#if OVER_SKY == 0
+    return vec4(throughAirToSky(color, toPoint, daylight), 1.0);
+#else
+    return throughAir(color, toPoint, daylight);
+#endif
+}
+
+vec4 shadeAt(Surface s, float depth, float visibility) {
+    vec3 toPoint = inRay * blocksOfDepth(depth);
+    vec3 position = frame.cameraPosition.xyz + toPoint;
+    if ((frame.switches & kSwitchUnlit) != 0) return throughAirOf(s.albedo, toPoint, 1.0);
+    float shadow = 1.0;
+#if SHADOW > 0
+    shadow = lightShare(position, s.normal, length(toPoint));
+#endif
+    vec4 levels = levelsAt(position, s);
+    return throughAirOf(shade(s, position, levels, shadow, visibility), toPoint, levels.a);
+}

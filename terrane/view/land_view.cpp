@@ -1,0 +1,54 @@
+#include "terrane/view/land_view.h"
+
+#include <exception>
+#include <system_error>
+
+#include "terrane/base/log.h"
+#include "terrane/base/profile.h"
+
+namespace terrane::view {
+namespace {
+
+// Beyond the world's edge there is none.
+world::LandTile tileOf(const gen::LevelGenerators& generators, const world::BlockRegistry& blocks,
+                       world::ChunkPos pos) {
+    if (!world::isInWorld(pos)) return {};
+    try {
+        world::LandTile tile = world::landTileOf(generators.generate(pos), blocks);
+        constexpr std::size_t kMiddle = world::LandTile::kColumns / 2 + world::kChunkSize / 2;
+        if (const auto tint = generators.tint(pos)) tile.tint = (*tint)[kMiddle];
+        return tile;
+    } catch (const std::exception& error) {
+        base::logWarning("the land around {},{} is not known: {}", pos.x, pos.y, error.what());
+        return {};
+    }
+}
+
+}  // namespace
+
+LandView::LandView(const game::Session& session, render::Renderer& renderer) : renderer_(renderer) {
+    if (const auto used = renderer.useLand(true); !used) {
+        base::logError("land in the distance throws no shadows: {}", used.error().message);
+        return;
+    }
+    const auto make = [&generators = session.generators(), &blocks = session.blocks()](world::ChunkPos pos) {
+        TERRANE_ZONE("land tile");
+        return tileOf(generators, blocks, pos);
+    };
+    try {
+        maker_.emplace(2 * kTilesAFrame, make);
+    } catch (const std::system_error& error) {
+        base::logWarning("no thread can be started for the light of the land: {}", error.what());
+    }
+}
+
+void LandView::update(world::ChunkPos camera, double reach, std::size_t limit) {
+    if (!maker_) return;
+    TERRANE_ZONE("take land");
+    renderer_.setLandReach(reach);
+    for (const auto& [pos, land] : maker_->takeFinished(limit)) renderer_.setLand(pos, land);
+    maker_->request(renderer_.landClipmap().missing(camera, reach, maker_->maxRequested()));
+    if (limit == kAllTiles) renderer_.completeLand();
+}
+
+}  // namespace terrane::view
