@@ -50,11 +50,11 @@ TEST_F(Effects, InTheGlade) {
     const render::FrameInput afternoon = gladeFrame(kGlade, 0.62f), night = gladeFrame(kGlade, 0.97f);
     EXPECT_TRUE(matchesGolden("glade", imageOf(afternoon, [](RenderOptions&) {})));
     expectEffect("glade_shadows", afternoon, [](RenderOptions& o) {
-        o.shadows = ShadowReach::Near;
+        o.shadows = render::ShadowReach::Near;
         o.shadowSize = 1024;
     });
     expectEffect("glade_moon_shadows", night, [](RenderOptions& o) {
-        o.shadows = ShadowReach::Far;
+        o.shadows = render::ShadowReach::Far;
         o.softShadows = true;
     });
     expectEffect("glade_ssao", afternoon, [](RenderOptions& o) { o.occlusion = Occlusion::On; });

@@ -132,9 +132,9 @@ std::vector<StructLayout> meshSectionLayouts() {
               {"meshSectionCount", offsetof(CullFrame, meshSectionCount)},
               {"phase", offsetof(CullFrame, phase)},
               {"arenaQuads", offsetof(CullFrame, arenaQuads)},
-              {"unused0", offsetof(CullFrame, unused0)},
-              {"unused1", offsetof(CullFrame, unused1)},
-              {"unused2", offsetof(CullFrame, unused2)}}}};
+              {"edgeExpansion", offsetof(CullFrame, edgeExpansion)},
+              {"blockPixels", offsetof(CullFrame, blockPixels)},
+              {"samples", offsetof(CullFrame, samples)}}}};
 }
 
 std::vector<StructLayout> mesherLayouts() {
