@@ -115,4 +115,14 @@ bool isUnderWater(const Session& session, const glm::dvec3& point) {
     return isFull || point.z - at.z < surface;
 }
 
+int waterAbove(const Session& session, const glm::dvec3& point) {
+    if (!isUnderWater(session, point)) return 0;
+    const world::BlockId water = session.blocks().find("water")->id;
+    const glm::ivec3 at(glm::floor(point));
+    constexpr int kMost = 64;
+    int blocks = 1;
+    while (blocks < kMost && session.world().block({at.x, at.y, at.z + blocks}) == water) ++blocks;
+    return blocks;
+}
+
 }  // namespace terrane::game

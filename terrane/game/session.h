@@ -96,5 +96,7 @@ class Session {
 
 // Whether a point is in water: below its surface, where that is in the same block.
 bool isUnderWater(const Session& session, const glm::dvec3& point);
+// Blocks of water over a point, its own included, 64 at most; 0 where it is in air.
+int waterAbove(const Session& session, const glm::dvec3& point);
 
 }  // namespace terrane::game

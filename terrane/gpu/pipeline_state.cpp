@@ -27,6 +27,12 @@ GLenum functionOf(DepthTest test) {
     return GL_ALWAYS;
 }
 
+// Of what is there, what stays.
+GLenum shareOfTarget(Blending blending) {
+    if (blending == Blending::Over) return GL_ONE_MINUS_SRC_ALPHA;
+    return blending == Blending::Through ? GL_SRC1_COLOR : GL_ZERO;
+}
+
 }  // namespace
 
 void Pipeline::set(const PipelineState& state) {
@@ -43,7 +49,7 @@ void Pipeline::set(const PipelineState& state) {
     if (differs(&PipelineState::depthRange)) glDepthRangef(state.depthRange.x, state.depthRange.y);
     if (differs(&PipelineState::blending)) {
         enable(GL_BLEND, state.blending != Blending::Off);
-        glBlendFunc(GL_ONE, state.blending == Blending::Over ? GL_ONE_MINUS_SRC_ALPHA : GL_ZERO);
+        glBlendFunc(GL_ONE, shareOfTarget(state.blending));
     }
     if (differs(&PipelineState::cullsBackFaces)) enable(GL_CULL_FACE, state.cullsBackFaces);
     if (!isKnown_) glSampleMaski(0, kAllSamples);

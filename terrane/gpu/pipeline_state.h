@@ -10,7 +10,8 @@ namespace terrane::gpu {
 // Passes where the new depth compares so with that of the target. Off also writes no depth.
 enum class DepthTest : std::uint8_t { Off, Always, Less, Equal, Greater };
 // Over: color that is multiplied by its alpha, over what is there.
-enum class Blending : std::uint8_t { Off, Over };
+// Through: color, over what is there times the second output of the shader, for each channel.
+enum class Blending : std::uint8_t { Off, Over, Through };
 
 struct PipelineState {
     DepthTest depthTest = DepthTest::Off;

@@ -1,10 +1,10 @@
 // Clouds on a plane high above the world. Needs frame_uniforms.glsl; the noise of SkyNoise bound.
+#include "terrane/render/wind.glsl"
 
 layout(binding = kSkyNoiseUnit) uniform sampler2D cloudNoise;
 
 const float kCloudHeight = 360.0;    // blocks
 const float kCloudTile = 4096.0;     // blocks: clouds repeat after that, as 256 chunks do
-const vec2 kWind = vec2(5.0, 2.0);   // blocks a second
 
 // Thickness at a place of the plane in tiles: large shapes with ragged edges.
 float cloudThickness(vec2 at) {

@@ -1,14 +1,18 @@
-// How distance changes colors. Needs frame_uniforms.glsl and sky_color.glsl.
+// How distance changes colors. Needs frame_uniforms.glsl and sky_color.glsl. UNDER_WATER: 1 where the camera is.
 
-// In water nothing is farther than some thirty blocks: natural logarithm of what a block takes of each color.
-const vec3 kWaterDepth = vec3(0.16, 0.075, 0.06);
-const float kLog2E = 1.442695;
+#include "terrane/render/bundled_light.glsl"
+#if UNDER_WATER == 1
+#include "terrane/render/underwater.glsl"
 
-// Seen by a camera in the water.
-vec4 throughWater(vec3 color, float blocks) {
-    vec3 left = exp(-kWaterDepth * blocks);
-    return vec4(mix(murk(), color, left), 1.0);
+vec4 throughAir(vec3 color, vec3 toPoint, float daylight) {
+    return seenUnderWater(color, toPoint, daylight);
 }
+
+vec3 throughAirToSky(vec3 color, vec3 toPoint, float daylight) {
+    return seenUnderWater(color, toPoint, daylight).rgb;
+}
+#else
+const float kLog2E = 1.442695;
 
 // Powers of ½ that the air leaves of each color of what lies behind it (world/air.h). Molecules take half as many of red as
 // of green and a fifth as many as of blue. Haze takes all colors alike: its mean density on the way is the closed form of
@@ -30,19 +34,17 @@ struct Seen {
 };
 
 // Toward the color of the sky behind, from 5/6 of the view on toward nothing. Where no daylight comes (0…1) there is no
-// haze: caves stay dark. Air and water share the powers: software renderers run both sides of a branch.
+// haze: caves stay dark.
 Seen seenThroughAir(vec3 color, vec3 toPoint, float daylight) {
-    bool isWater = frame.isUnderWater != 0u;
     float blocks2 = dot(toPoint, toPoint), inverse = inversesqrt(blocks2), blocks = blocks2 * inverse;
     float share2 = dot(toPoint.xy, toPoint.xy) / (frame.fogDistance * frame.fogDistance);
     vec3 depth = airDepth(toPoint, blocks, share2) * smoothstep(-0.1, 0.5, daylight);
-    if (isWater) depth = kLog2E * kWaterDepth * blocks;
-    vec3 sky = skyColor(toPoint * inverse), behind = isWater ? murk() : sky;
+    vec3 sky = skyColor(toPoint * inverse);
     // Loaded chunks fill a square around the camera's.
     float border = max(abs(toPoint.x), abs(toPoint.y)) / frame.fogDistance;
     float fading = smoothstep(5.0 / 6.0, 1.0, max(border, 0.85 * sqrt(share2)));
-    bool isClear = !isWater && (frame.switches & kSwitchDistanceFog) == 0;
-    return Seen(isClear ? color : mix(behind, color, exp2(-depth)), sky, isWater || isClear ? 1.0 : 1.0 - fading);
+    bool isClear = (frame.switches & kSwitchDistanceFog) == 0;
+    return Seen(isClear ? color : mix(sky, color, exp2(-depth)), sky, isClear ? 1.0 : 1.0 - fading);
 }
 
 // Color times what is left of it, and what is left.
@@ -56,3 +58,4 @@ vec3 throughAirToSky(vec3 color, vec3 toPoint, float daylight) {
     Seen seen = seenThroughAir(color, toPoint, daylight);
     return mix(seen.behind, seen.color, seen.left);
 }
+#endif

@@ -17,7 +17,7 @@ struct FrameInput {
     float fogDistance = 256;  // blocks: from here on everything is sky
     float timeSeconds = 0;    // for animations
     View view = View::Color;
-    bool isUnderWater = false;
+    int waterAbove = 0;  // blocks of water over the camera, its own included; 0 in air
     // Most shadow tiles to draw: others follow in later frames. Images that stand alone have all.
     std::size_t maxShadowTiles = ShadowClipmap::kAllTiles;
     // Draws only what this camera would see, whatever is hidden from it: to look at culling from outside. It

@@ -163,14 +163,23 @@ void MeshSectionTable::update(world::ChunkPos center) {
     if (order_.update(center)) uploadOrder();
 }
 
-bool MeshSectionTable::hasBlended(world::ChunkPos center, std::span<const glm::vec4> planes) const {
-    return std::ranges::any_of(blended_, [&](std::uint32_t slot) {
+std::vector<ScreenRect> MeshSectionTable::blendedRects(world::ChunkPos center,
+                                                       const glm::mat4& viewProjection,
+                                                       glm::ivec2 size) const {
+    const Frustum planes = frustumOf(viewProjection);
+    ScreenGrid covered(size);
+    for (const std::uint32_t slot : blended_) {
         const shared::MeshSectionRecord& r = cpuRecords_[slot];
         const glm::vec2 corner = shared::chunkCorner(r.chunk, r.level, {center.x, center.y});
-        const glm::vec3 min(corner, r.heights & 0xFFFF);
-        const glm::vec3 max(corner + world::kChunkSize * shared::columnBlocks(r.level), r.heights >> 16);
-        return mayBeVisible(planes, min - shared::kWaving, max + shared::kWaving);  // as in cull.comp.glsl
-    });
+        const glm::vec3 min =
+            glm::vec3(corner, r.heights & 0xFFFF) - shared::kWaving;  // as in cull.comp.glsl
+        const glm::vec3 max =
+            glm::vec3(corner + world::kChunkSize * shared::columnBlocks(r.level), r.heights >> 16) +
+            shared::kWaving;
+        if (mayBeVisible(planes, min, max)) covered.cover(screenRectOf(min, max, viewProjection, size));
+        if (covered.isFull()) break;
+    }
+    return covered.rects();
 }
 
 }  // namespace terrane::render

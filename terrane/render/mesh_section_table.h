@@ -13,6 +13,7 @@
 #include "terrane/render/camera.h"
 #include "terrane/render/mesh_section_order.h"
 #include "terrane/render/quad_store.h"
+#include "terrane/render/screen_rect.h"
 #include "terrane/render/shadow_clipmap.h"
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/mesh_section.h"
@@ -54,9 +55,11 @@ class MeshSectionTable {
     std::uint32_t arenaQuads() const { return arenaQuads_; }
     // On the GPU as of the next update(). A buffer that update() replaces counts too.
     std::size_t gpuBytes() const;
-    // Whether a mesh section within the planes has blended faces. The planes are in blocks from the corner of
-    // the chunk `center`.
-    bool hasBlended(world::ChunkPos center, std::span<const glm::vec4> planes) const;
+    // Rectangles without overlap that hold all pixels of an image of `size` that blended faces may cover,
+    // waves included; none where no mesh section in view has any. `viewProjection`: from blocks from the
+    // corner of the chunk `center`.
+    std::vector<ScreenRect> blendedRects(world::ChunkPos center, const glm::mat4& viewProjection,
+                                         glm::ivec2 size) const;
 
   private:
     static constexpr std::uint32_t kNoSlot = UINT32_MAX;

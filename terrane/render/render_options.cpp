@@ -13,6 +13,7 @@ constexpr RenderOptions low() {
     o.shadows = ShadowReach::Off;
     o.depthOfField = o.godRays = o.msaaAlphaTest = o.sharpFiltering = o.clouds = false;
     o.transparencyLayers = 1;
+    o.water = Water::Plain;
     return o;
 }
 
@@ -41,6 +42,7 @@ constexpr RenderOptions high() {
 // sections of 64 blocks, T-junctions hidden after the image, 65 x 65 chunks and nothing beyond.
 constexpr Preset thesis() {
     Preset preset{.name = "thesis", .options = {}};
+    preset.options.water = Water::Plain;
     preset.options.tJunctions = TJunctions::Filled;
     preset.mesh = {.method = mesh::MergeMethod::SquaresExt, .meshSectionHeight = 64};
     preset.viewDistance = 32;

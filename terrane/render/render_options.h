@@ -22,6 +22,9 @@ enum class LightSampling : std::uint8_t { Classic, Smooth };
 
 enum class Occlusion : std::uint8_t { Off, On, Raw };  // Raw shows it instead of the image
 
+// Full adds what is mirrored of the shore, a swell, foam and light that waves bundle on the ground.
+enum class Water : std::uint8_t { Plain, Full };
+
 // What is done about the cracks between quads of different sizes.
 enum class TJunctions : std::uint8_t {
     Open,     // nothing
@@ -50,8 +53,9 @@ struct RenderOptions {
     bool godRays = true;
     bool clouds = true;
     bool animation = true;
-    bool sharpFiltering = true;       // magnified texels with sharp and smooth edges
-    bool msaaAlphaTest = true;        // holes in leaves and plants are found for each sample
+    bool sharpFiltering = true;  // magnified texels with sharp and smooth edges
+    bool msaaAlphaTest = true;   // holes in leaves and plants are found for each sample
+    Water water = Water::Full;
     int transparencyLayers = 3;       // of blended faces, 0 to 3
     int singleTransparencyLayer = 0;  // shows this one alone, 1 to 3; 0: all
     TJunctions tJunctions = TJunctions::Covered;

@@ -181,8 +181,8 @@ QuadDraw Renderer::quadDraw() {
     return {resources_, quads_, meshSections_, passes_.cull, options_.sharpFiltering};
 }
 
-ShadingInputs Renderer::shadingInputs() const {
-    return {light_, passes_.shadowMap, noise_};
+ShadingInputs Renderer::shadingInputs(const FrameInput& input) const {
+    return {light_, passes_.shadowMap, noise_, input.waterAbove > 0};
 }
 
 void Renderer::drawShadows(const FrameInput& input) {
@@ -215,25 +215,27 @@ void Renderer::drawLate(const CullInput& cullInput) {
 void Renderer::shadeSurfaces(const FrameInput& input) {
     {
         const TimerZone zone(timer_, "sky");
-        passes_.shading.drawSky(pipeline_, targets_, shadingInputs(),
+        passes_.shading.drawSky(pipeline_, targets_, shadingInputs(input),
                                 {input.fogDistance, input.environment.starLight > 0});
     }
     const TimerZone zone(timer_, "shade");
-    passes_.shading.drawSurfaces(pipeline_, targets_, shadingInputs(), passes_.occlusion);
+    passes_.shading.drawSurfaces(pipeline_, targets_, shadingInputs(input), passes_.occlusion);
 }
 
 // Costs nothing where no mesh section in view has blended faces; false then.
 bool Renderer::drawTransparency(const FrameInput& input) {
     const ViewMatrices view = viewMatrices(input.camera, aspectOf(targets_.size));
-    const Frustum frustum = frustumOf(view.viewProjection);
-    if (options_.transparencyLayers == 0 || !meshSections_.hasBlended(cameraChunk(input.camera), frustum))
-        return false;
+    if (options_.transparencyLayers == 0) return false;
+    const std::vector<ScreenRect> rects =
+        meshSections_.blendedRects(cameraChunk(input.camera), view.viewProjection, targets_.size);
+    if (rects.empty()) return false;
     {
         const TimerZone zone(timer_, "peel");
-        passes_.transparency.peelLayers(pipeline_, targets_, quadDraw());
+        passes_.transparency.peelLayers(pipeline_, targets_, quadDraw(), rects);
     }
     const TimerZone zone(timer_, "shade layers");
-    passes_.transparency.shade(pipeline_, targets_, quadDraw(), shadingInputs(), passes_.occlusion);
+    passes_.transparency.shade(pipeline_, targets_, quadDraw(), shadingInputs(input), passes_.occlusion,
+                               rects);
     return true;
 }
 

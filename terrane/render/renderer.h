@@ -126,7 +126,7 @@ class Renderer {
     void drawFinal(const MsaaTexture& depth);
     void drawDebugView();
     QuadDraw quadDraw();
-    ShadingInputs shadingInputs() const;
+    ShadingInputs shadingInputs(const FrameInput& input) const;
     bool hasShadows(const FrameInput& input) const;
     void showQuads(world::ChunkPos pos, mesh::MeshSectionSet changed);
     void shareBudget();

@@ -18,6 +18,7 @@ struct ShadingInputs {
     const LightStore& light;
     const ShadowMap& shadowMap;
     const SkyNoise& noise;
+    bool isUnderWater = false;  // where the camera is: shaders have variants for it
 
     void bind() const {
         light.bind();

@@ -16,7 +16,7 @@ constexpr float kSkyDistance = 1e6f;  // blocks: nothing but the sky is farther
 ShadingPass::ShadingPass(const gpu::ShaderLoader& shaders)
     : sky_(shaders, "sky"),
       nightSky_(shaders, "sky"),
-      shade_(shaders, "shade"),
+      shade_{FullscreenPass(shaders, "shade"), FullscreenPass(shaders, "shade")},
       skyMask_(shaders, PixelMask::Of::Sky),
       surfaceMask_(shaders, PixelMask::Of::Surfaces) {}
 
@@ -31,15 +31,18 @@ base::Result<void> ShadingPass::select(const RenderOptions& options, int samples
     if (selected) selected = nightSky_.select(sky(1));
     if (selected && samples > 1) selected = skyMask_.select(samples);
     if (selected && samples > 1) selected = surfaceMask_.select(samples);
-    if (!selected) return selected;
-    return shade_.select(defined({{"MSAA_SAMPLES", samples},
-                                  {"PER_SAMPLE", options.shading != Shading::Pixel},
-                                  {"LIGHT_SMOOTH", static_cast<int>(options.light)},
-                                  {"SHADOW", light.shadowVariant},
-                                  {"LAND", light.knowsLand},
-                                  {"OCCLUSION", options.occlusion != Occlusion::Off},
-                                  {"OVER_SKY", fadesOverSky_},
-                                  {"DIRECT", isDirect_}}));
+    for (int isUnderWater = 0; selected && isUnderWater < 2; ++isUnderWater)
+        selected = shade_[static_cast<std::size_t>(isUnderWater)].select(
+            defined({{"MSAA_SAMPLES", samples},
+                     {"PER_SAMPLE", options.shading != Shading::Pixel},
+                     {"LIGHT_SMOOTH", static_cast<int>(options.light)},
+                     {"SHADOW", light.shadowVariant},
+                     {"LAND", light.knowsLand},
+                     {"OCCLUSION", options.occlusion != Occlusion::Off},
+                     {"OVER_SKY", fadesOverSky_},
+                     {"DIRECT", isDirect_},
+                     {"UNDER_WATER", isUnderWater}}));
+    return selected;
 }
 
 // By the depth test: of the mask, or of surfaces, where the triangle lies where they begin to fade.
@@ -68,9 +71,10 @@ void ShadingPass::drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targ
     inputs.bind();
     if (occlusion.isOn()) occlusion.result().bind(shared::kOcclusionUnit);
     (isDirect_ ? targets.direct : targets.scene).bind();
-    shade_.draw(pipeline, {.depthTest = gpu::DepthTest::Less,
-                           .writesDepth = false,
-                           .blending = fadesOverSky_ ? gpu::Blending::Over : gpu::Blending::Off});
+    shade_[inputs.isUnderWater ? 1 : 0].draw(
+        pipeline, {.depthTest = gpu::DepthTest::Less,
+                   .writesDepth = false,
+                   .blending = fadesOverSky_ ? gpu::Blending::Over : gpu::Blending::Off});
 }
 
 }  // namespace terrane::render

@@ -3,6 +3,8 @@
 // thread.
 #pragma once
 
+#include <array>
+
 #include "terrane/base/result.h"
 #include "terrane/render/ambient_occlusion.h"
 #include "terrane/render/frame_targets.h"
@@ -31,7 +33,8 @@ class ShadingPass {
                       const AmbientOcclusion& occlusion) const;
 
   private:
-    FullscreenPass sky_, nightSky_, shade_;
+    FullscreenPass sky_, nightSky_;
+    std::array<FullscreenPass, 2> shade_;  // in air, under water
     PixelMask skyMask_, surfaceMask_;
     bool fadesOverSky_ = false, hasDistanceFog_ = false, isDirect_ = false;
 };

@@ -46,8 +46,7 @@ void main() {
 #endif
     color = mix(color, max(color, sun.rgb), sun.a);
     color = mix(color, cloud.rgb, cloud.a * 0.92);
-    // From within water the sky is seen through a round window above, beyond which the surface mirrors what is below.
-    if (frame.isUnderWater != 0u) color = mix(murk(), color, 0.8 * smoothstep(0.5, 0.8, direction.z));
+    if (frame.isUnderWater != 0u) color = throughWindow(color, direction);
 #if DIRECT == 1
     outColor = vec4(screenColor(color, ivec2(gl_FragCoord.xy)), 1.0);
 #else

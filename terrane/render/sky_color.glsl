@@ -16,7 +16,13 @@ vec3 skyColor(vec3 direction) {
     return color * air.lightAzimuth.z + air.aureole.rgb / (away * away);
 }
 
-// What one sees in water where there is nothing.
+// What one sees in water where there is nothing: bluer and darker the more of it is above.
 vec3 murk() {
-    return vec3(0.02, 0.13, 0.19) * (frame.ambientColor.rgb + 0.6 * frame.lightColor.rgb) + 0.002;
+    vec3 fromAbove = exp(-vec3(0.10, 0.055, 0.035) * float(max(int(frame.isUnderWater) - 1, 0)));
+    return vec3(0.02, 0.13, 0.19) * fromAbove * (frame.ambientColor.rgb + 0.6 * frame.lightColor.rgb) + 0.002;
+}
+
+// From within water the sky is seen through a round window above, beyond which the surface mirrors what is below.
+vec3 throughWindow(vec3 sky, vec3 direction) {
+    return mix(murk(), sky, 0.8 * smoothstep(0.5, 0.8, direction.z));
 }

@@ -1,7 +1,9 @@
-// The light of all layers of blended faces over the image: color times coverage, and coverage.
+// The light of all layers of blended faces over the image: what they add, and the share of what lies behind that they let
+// through, for each channel.
 // MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW: 0 without shadows, else see shadow_sample.glsl.
-// OCCLUSION: 1 where there is ambient occlusion of the nearest layer. LAND: see land_light.glsl. QUADS: 1 draws over the
-// quads of the first layer, 0 over the whole screen. DIRECT: 1 with QUADS writes what the screen shows (direct_image.h).
+// OCCLUSION: 1 where there is ambient occlusion of the nearest layer. LAND: see land_light.glsl. WATER_DETAIL: see water.glsl.
+// QUADS: 1 draws over the quads of the first layer, 0 over the whole screen. DIRECT: 1 with QUADS writes what the screen shows
+// (direct_image.h).
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
 #include "terrane/render/sky_color.glsl"
@@ -10,7 +12,6 @@
 #include "terrane/render/distance_fog.glsl"
 #include "terrane/render/land_light.glsl"
 #include "terrane/render/lighting.glsl"
-#include "terrane/render/water.glsl"
 #include "terrane/render/tone.glsl"
 
 #if MSAA_SAMPLES > 1
@@ -29,32 +30,45 @@ vec3 inRay;
 #else
 layout(location = 1) in vec3 inRay;
 #endif
+#if DIRECT == 1
 layout(location = 0) out vec4 outColor;
+#else
+layout(location = 0, index = 0) out vec4 outColor;
+layout(location = 0, index = 1) out vec4 outThrough;
+#endif
 
+#include "terrane/render/water.glsl"
 #include "terrane/render/surface_shade.glsl"
 
 const vec3 kBackground = vec3(0.35);  // of a single layer
 
-// `behind`: depth of what comes next. `visibility`: of light from all around. `hasFarFloor`: see water.glsl.
-vec4 shadeLayer(Layer layer, float depth, float behind, float visibility, bool hasFarFloor) {
+Passed over(vec4 color) {
+    return Passed(color, vec4(1.0 - color.a));
+}
+
+// `behind`: depth of what comes next. `visibility`: of light from all around. `hasFarFloor`, `isNearest`: see water.glsl.
+Passed shadeLayer(Layer layer, float depth, float behind, float visibility, bool hasFarFloor, bool isNearest) {
     float blocks = blocksOfDepth(depth);
     vec3 toPoint = inRay * blocks, position = frame.cameraPosition.xyz + toPoint;
-    if ((frame.switches & kSwitchUnlit) != 0) return throughAir(layer.surface.albedo, toPoint, 1.0) * layer.alpha;
+    if ((frame.switches & kSwitchUnlit) != 0) 
+        return over(throughAir(layer.surface.albedo, toPoint, 1.0) * layer.alpha);
     float shadow = 1.0;
 #if SHADOW > 0
     shadow = lightShare(position, layer.surface.normal, length(toPoint));
 #endif
     vec4 levels = levelsAt(position, layer.surface);
-    vec4 color;
+    Passed passed;
     if (layer.isLiquid) {
         float thickness = min(blocksOfDepth(behind) - blocks, 1e4) * length(inRay);
-        if (frame.isUnderWater != 0u) thickness = 0.3;  // seen from within: the water is on this side
-        color = shadeWater(layer.surface, position, toPoint, thickness, levels, shadow, visibility, hasFarFloor);
+        passed = shadeWater(layer.surface, position, toPoint, thickness, levels, shadow, visibility, hasFarFloor,
+                            isNearest);
     } else {
-        color = vec4(shade(layer.surface, position, levels, shadow, visibility) * layer.alpha, layer.alpha);
+        passed = over(vec4(shade(layer.surface, position, levels, shadow, visibility) * layer.alpha, layer.alpha));
     }
-    vec4 air = throughAir(color.rgb / max(color.a, 1e-3), toPoint, levels.a);
-    return air * color.a;
+    // Of what fades away in the distance, so much is left.
+    float share = max(passed.color.a, 1e-3);
+    vec4 air = throughAir(passed.color.rgb / share, toPoint, levels.a);
+    return Passed(air * share, 1.0 - air.a * (1.0 - passed.through));
 }
 
 // Of one of the layers. Which one may differ from pixel to pixel: such an index of textures would be undefined.
@@ -90,8 +104,8 @@ float visibilityAt(ivec2 pixel, int n) {
 }
 
 // A loop over the layers that are there: software renderers run what a branch leaves out.
-vec4 shadeLayers(ivec2 pixel, int k) {
-    vec4 sum = vec4(0.0);
+Passed shadeLayers(ivec2 pixel, int k) {
+    Passed sum = Passed(vec4(0.0), vec4(1.0));
     float behind = depthAt(pixel, k);
     int last = layersAt(pixel, k) - 1;
     bool isFloorFar = packedIsFar(packedSurfaceAt(pixel, k));
@@ -100,8 +114,9 @@ vec4 shadeLayers(ivec2 pixel, int k) {
         bool isShown = frame.singleTransparencyLayer == 0 || frame.singleTransparencyLayer == n + 1;
         Layer layer = unpackLayer(packedLayerAt(pixel, k, n));
         bool hasFarFloor = isFloorFar && n == last;
-        vec4 color = isShown ? shadeLayer(layer, depth, behind, visibilityAt(pixel, n), hasFarFloor) : vec4(0.0);
-        sum = color + (1.0 - color.a) * sum;
+        Passed one = shadeLayer(layer, depth, behind, visibilityAt(pixel, n), hasFarFloor, n == 0);
+        if (!isShown) one = over(vec4(0.0));
+        sum = Passed(one.color + one.through * sum.color, one.through * sum.through);
         behind = depth;
     }
     return sum;
@@ -120,19 +135,32 @@ bool isOneLayer(ivec2 pixel) {
     return isSame;
 }
 
-vec4 shadeSamples(ivec2 pixel) {
+Passed shadeSamples(ivec2 pixel) {
     int count = isOneLayer(pixel) ? 1 : MSAA_SAMPLES;
-    vec4 sum = vec4(0.0);
-    for (int k = 0; k < count; ++k) sum += shadeLayers(pixel, k);
-    vec4 color = sum / float(count);
-    return frame.singleTransparencyLayer > 0 ? vec4(color.rgb + (1.0 - color.a) * kBackground, 1.0) : color;
+    Passed sum = Passed(vec4(0.0), vec4(0.0));
+    for (int k = 0; k < count; ++k) {
+        Passed one = shadeLayers(pixel, k);
+        sum = Passed(sum.color + one.color, sum.through + one.through);
+    }
+    Passed mean = Passed(sum.color / float(count), sum.through / float(count));
+    if (frame.singleTransparencyLayer > 0)
+        mean = Passed(vec4(mean.color.rgb + mean.through.rgb * kBackground, 1.0), vec4(0.0));
+    return mean;
 }
 
 #if DIRECT == 1
+vec3 skyBehind(vec3 direction) {
+    vec3 color = skyColor(direction);
+#if UNDER_WATER == 1
+    color = throughWindow(color, direction);
+#endif
+    return color;
+}
+
 // What is opaque, or the sky, as it is in the image already but for the curve.
 vec3 colorBehind(ivec2 pixel) {
     float depth = depthAt(pixel, 0);
-    if (depth <= 0.0) return skyColor(normalize(inRay));
+    if (depth <= 0.0) return skyBehind(normalize(inRay));
     return shadeAt(unpackSurface(packedSurfaceAt(pixel, 0)), depth, 1.0).rgb;
 }
 #endif
@@ -141,11 +169,14 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
 #if QUADS == 1
     inRay = rayAt(2.0 * gl_FragCoord.xy / frame.viewportSize - 1.0);
-    outColor = shadeLayers(pixel, 0);
-#if DIRECT == 1
-    outColor = vec4(screenColor(outColor.rgb + (1.0 - outColor.a) * colorBehind(pixel), pixel), 1.0);
-#endif
+    Passed passed = shadeLayers(pixel, 0);
 #else
-    outColor = shadeSamples(pixel);
+    Passed passed = shadeSamples(pixel);
+#endif
+#if DIRECT == 1
+    outColor = vec4(screenColor(passed.color.rgb + passed.through.rgb * colorBehind(pixel), pixel), 1.0);
+#else
+    outColor = passed.color;
+    outThrough = passed.through;
 #endif
 }

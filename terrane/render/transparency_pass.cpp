@@ -1,6 +1,7 @@
 #include "terrane/render/transparency_pass.h"
 
 #include "terrane/gpu/debug.h"
+#include "terrane/gpu/scissor.h"
 #include "terrane/render/direct_image.h"
 #include "terrane/shared/bindings.h"
 
@@ -22,8 +23,9 @@ GLenum targetOf(int samples) {
 TransparencyPass::TransparencyPass(const gpu::ShaderLoader& shaders)
     : first_(quadShaders(shaders, "depth_peel", "first layer")),
       next_(quadShaders(shaders, "depth_peel", "next layer")),
-      shadeQuads_(quadShaders(shaders, "transparency", "shade layers")),
-      shade_(shaders, "transparency"),
+      shadeQuads_{quadShaders(shaders, "transparency", "shade layers"),
+                  quadShaders(shaders, "transparency", "shade layers")},
+      shade_{FullscreenPass(shaders, "transparency"), FullscreenPass(shaders, "transparency")},
       mask_(shaders, PixelMask::Of::Layers) {
     for (auto& query : anyDrawn_) query = makeQuery();
 }
@@ -53,20 +55,25 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
     };
     auto selected = first_.select(peeling(0));
     if (selected && layers > 1) selected = next_.select(peeling(1));
-    const gpu::ShaderDefines shading = defined({{"PASS", 1},
-                                                {"ALPHA_CLASS", 2},
-                                                {"MSAA_SAMPLES", samples},
-                                                {"LAYERS", layers},
-                                                {"SHADOW", light.shadowVariant},
-                                                {"LAND", light.knowsLand},
-                                                {"OCCLUSION", options.occlusion != Occlusion::Off},
-                                                {"LIGHT_SMOOTH", static_cast<int>(options.light)},
-                                                {"QUADS", shadesQuads_},
-                                                {"DIRECT", isDirect_},
-                                                {"OVER_SKY", !isDirect_},
-                                                {"FACE_SAMPLING", 0},
-                                                {"TINT", 0}});
-    if (selected) selected = shadesQuads_ ? shadeQuads_.select(shading) : shade_.select(shading);
+    for (int isUnderWater = 0; selected && isUnderWater < 2; ++isUnderWater) {
+        const auto index = static_cast<std::size_t>(isUnderWater);
+        const gpu::ShaderDefines shading = defined({{"PASS", 1},
+                                                    {"ALPHA_CLASS", 2},
+                                                    {"MSAA_SAMPLES", samples},
+                                                    {"LAYERS", layers},
+                                                    {"SHADOW", light.shadowVariant},
+                                                    {"LAND", light.knowsLand},
+                                                    {"OCCLUSION", options.occlusion != Occlusion::Off},
+                                                    {"LIGHT_SMOOTH", static_cast<int>(options.light)},
+                                                    {"QUADS", shadesQuads_},
+                                                    {"DIRECT", isDirect_},
+                                                    {"OVER_SKY", !isDirect_},
+                                                    {"FACE_SAMPLING", 0},
+                                                    {"TINT", 0},
+                                                    {"WATER_DETAIL", options.water == Water::Full},
+                                                    {"UNDER_WATER", isUnderWater}});
+        selected = shadesQuads_ ? shadeQuads_[index].select(shading) : shade_[index].select(shading);
+    }
     if (selected && isMasked_) selected = mask_.select(samples);
     return selected;
 }
@@ -78,6 +85,8 @@ base::Result<void> TransparencyPass::configure(const FrameTargets& targets, cons
     shadesQuads_ = targets.msaaSamples == 1 && options.singleTransparencyLayer == 0;
     isDirect_ = isDirectImage(options, targets.msaaSamples);
     isMasked_ = targets.msaaSamples > 1 && options.singleTransparencyLayer == 0;
+    isBounded_ = options.singleTransparencyLayer == 0;
+    hasWholeDepth_ = options.occlusion != Occlusion::Off || options.depthOfField;
     if (options.transparencyLayers > 0) {
         if (auto selected = selectVariants(targets.msaaSamples, options, light, features); !selected)
             return selected;
@@ -113,13 +122,18 @@ base::Result<void> TransparencyPass::configure(const FrameTargets& targets, cons
 
 // A layer starts with the depth of what is opaque: faces behind that fail the depth test, and where none is
 // drawn the depth tells so.
-void TransparencyPass::peelLayer(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
-                                 int number) {
+void TransparencyPass::copyDepth(const FrameTargets& targets, int number,
+                                 std::span<const ScreenRect> rects) const {
+    const Target& target = targets_[static_cast<std::size_t>(number)];
+    const GLenum kind = targetOf(samples_);
+    for (const ScreenRect& rect : rects)
+        glCopyImageSubData(targets.depth.id(), kind, 0, rect.min.x, rect.min.y, 0, target.depth.id(), kind, 0,
+                           rect.min.x, rect.min.y, 0, rect.size().x, rect.size().y, 1);
+}
+
+void TransparencyPass::peelLayer(gpu::Pipeline& pipeline, const QuadDraw& quads, int number) {
     const auto index = static_cast<std::size_t>(number);
     Target& target = targets_[index];
-    const GLenum kind = targetOf(samples_);
-    glCopyImageSubData(targets.depth.id(), kind, 0, 0, 0, 0, target.depth.id(), kind, 0, 0, 0, 0, size_.x,
-                       size_.y, 1);
     target.framebuffer.bind();
     // Behind a layer without faces there are none: the GPU leaves out their drawing, not the copy above.
     if (number > 0) {
@@ -134,11 +148,16 @@ void TransparencyPass::peelLayer(gpu::Pipeline& pipeline, const FrameTargets& ta
     if (number > 0) glEndConditionalRender();
 }
 
-void TransparencyPass::peelLayers(gpu::Pipeline& pipeline, const FrameTargets& targets,
-                                  const QuadDraw& quads) {
+void TransparencyPass::peelLayers(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
+                                  std::span<const ScreenRect> rects) {
     const gpu::DebugGroup group("layers");
+    const ScreenRect all{{0, 0}, size_};
     quads.bind();
-    for (int number = 0; number < layers_; ++number) peelLayer(pipeline, targets, quads, number);
+    for (int number = 0; number < layers_; ++number) {
+        const bool needsAll = !isBounded_ || (number == 0 && hasWholeDepth_);
+        copyDepth(targets, number, needsAll ? std::span(&all, 1) : rects);
+        peelLayer(pipeline, quads, number);
+    }
 }
 
 std::size_t TransparencyPass::gpuBytes() const {
@@ -155,29 +174,47 @@ void TransparencyPass::bindLayers() const {
     }
 }
 
+// The whole screen shades so where quads are not drawn again.
+void TransparencyPass::shadeWithin(gpu::Pipeline& pipeline, const FrameTargets& targets,
+                                   const ScreenRect& rect, const ShadingInputs& inputs,
+                                   const AmbientOcclusion& occlusion) const {
+    const gpu::Scissor scissor(rect.min, rect.size());
+    if (isMasked_) mask_.draw(pipeline, targets);
+    if (occlusion.isOn()) occlusion.result().bind(shared::kOcclusionUnit);
+    targets.scene.bind();
+    shade_[inputs.isUnderWater ? 1 : 0].draw(
+        pipeline, {.depthTest = isMasked_ ? gpu::DepthTest::Less : gpu::DepthTest::Off,
+                   .writesDepth = false,
+                   .blending = gpu::Blending::Through});
+}
+
 void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
-                             const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const {
-    gpu::PipelineState state{.writesDepth = false, .blending = gpu::Blending::Over};
+                             const ShadingInputs& inputs, const AmbientOcclusion& occlusion,
+                             std::span<const ScreenRect> rects) const {
+    const ScreenRect all{{0, 0}, size_};
+    if (!isBounded_) rects = std::span(&all, 1);
     glBeginConditionalRender(anyDrawn_[0].id(), GL_QUERY_WAIT);
     bindLayers();
     if (occlusion.isOn()) {
+        const ScreenRect bounds = boundsOf(rects);  // one: its blur reads beyond a rectangle
+        const gpu::Scissor scissor(bounds.min, bounds.size());
         occlusion.drawNearestLayer(pipeline, targets);
         occlusion.result().bind(shared::kOcclusionUnit);
     }
-    if (isMasked_) mask_.draw(pipeline, targets);
     targets.bindGBuffer();
+    targets.sceneColor.bind(shared::kSceneUnit);  // of pixels without layers: see water_reflection.glsl
     inputs.bind();
     if (shadesQuads_) {
         (isDirect_ ? overQuadsDirect_ : overQuads_).bind();
-        if (isDirect_) state.blending = gpu::Blending::Off;
         quads.bind();
-        shadeQuads_.use();
-        state.depthTest = gpu::DepthTest::Equal;
-        quads.draw(pipeline, state, {mesh::AlphaClass::Blended});
+        shadeQuads_[inputs.isUnderWater ? 1 : 0].use();
+        quads.draw(pipeline,
+                   {.depthTest = gpu::DepthTest::Equal,
+                    .writesDepth = false,
+                    .blending = isDirect_ ? gpu::Blending::Off : gpu::Blending::Through},
+                   {mesh::AlphaClass::Blended});
     } else {
-        targets.scene.bind();
-        if (isMasked_) state.depthTest = gpu::DepthTest::Less;
-        shade_.draw(pipeline, state);
+        for (const ScreenRect& rect : rects) shadeWithin(pipeline, targets, rect, inputs, occlusion);
     }
     glEndConditionalRender();
 }

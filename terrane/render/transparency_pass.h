@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "terrane/render/ambient_occlusion.h"
 #include "terrane/render/frame_targets.h"
@@ -10,6 +11,7 @@
 #include "terrane/render/pixel_mask.h"
 #include "terrane/render/quad_draw.h"
 #include "terrane/render/render_options.h"
+#include "terrane/render/screen_rect.h"
 #include "terrane/render/shading_inputs.h"
 
 namespace terrane::render {
@@ -22,16 +24,20 @@ class TransparencyPass {
     explicit TransparencyPass(const gpu::ShaderLoader& shaders);
 
     // Makes room for the layers. Comes again whenever the targets are others.
-    base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options, const LightVariant& light,
-                                 const QuadFeatures& features);
+    base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options,
+                                 const LightVariant& light, const QuadFeatures& features);
 
-    // Into textures of its own, behind nothing of the depth in `targets`.
-    void peelLayers(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads);
+    // Into textures of its own, behind nothing of the depth in `targets`. All of it happens within `rects`,
+    // which hold all pixels with blended faces and do not overlap; there is one at least.
+    void peelLayers(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
+                    std::span<const ScreenRect> rects);
     // Over the scene, where peel found anything. Of the same quads.
     void shade(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
-               const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const;
+               const ShadingInputs& inputs, const AmbientOcclusion& occlusion,
+               std::span<const ScreenRect> rects) const;
 
-    // After peelLayers(): of what is nearest in each sample, opaque or blended.
+    // After peelLayers(): of what is nearest in each sample, opaque or blended. Whole with ambient occlusion
+    // or depth of field, which read it beside the layers; else of the rectangles.
     const MsaaTexture& nearestDepth() const { return targets_[0].depth; }
     std::size_t gpuBytes() const;
 
@@ -41,18 +47,24 @@ class TransparencyPass {
         gpu::Framebuffer framebuffer;
     };
     static base::Result<Target> makeTarget(const FrameTargets& targets);
-    void peelLayer(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads, int number);
+    void peelLayer(gpu::Pipeline& pipeline, const QuadDraw& quads, int number);
+    void copyDepth(const FrameTargets& targets, int number, std::span<const ScreenRect> rects) const;
+    void shadeWithin(gpu::Pipeline& pipeline, const FrameTargets& targets, const ScreenRect& rect,
+                     const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const;
     void bindLayers() const;
 
     base::Result<void> selectVariants(int samples, const RenderOptions& options, const LightVariant& light,
                                       const QuadFeatures& features);
 
-    ShaderVariants first_, next_, shadeQuads_;
-    FullscreenPass shade_;
+    ShaderVariants first_, next_;
+    std::array<ShaderVariants, 2> shadeQuads_;  // in air, under water
+    std::array<FullscreenPass, 2> shade_;
     PixelMask mask_;
     bool shadesQuads_ = false;    // instead of the whole screen
     bool isDirect_ = false;       // see direct_image.h
     bool isMasked_ = false;       // the whole screen but for pixels without layers
+    bool isBounded_ = true;       // by rectangles: a single layer has a background everywhere
+    bool hasWholeDepth_ = false;  // others read the first layer's depth all over the screen
     gpu::Framebuffer overQuads_, overQuadsDirect_;  // the scene, the LDR target with the first layer's depth
     int layers_ = 0;
     glm::ivec2 size_{0};

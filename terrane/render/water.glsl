@@ -1,42 +1,26 @@
-// Water: waves in its normals, the sky in its mirror, darker and bluer the more of it one looks through. Needs
-// frame_uniforms.glsl, sky_color.glsl, lighting.glsl.
-layout(binding = kSkyNoiseUnit) uniform sampler2D noiseTexture;
+// Water: waves in its normals, sky and shore in its mirror, glitter toward the sun or moon, darker and bluer the more of it one
+// looks through. Needs frame_uniforms.glsl, sky_color.glsl, lighting.glsl, bundled_light.glsl. WATER_DETAIL: 1 adds the mirror
+// image of the shore, foam and light that waves bundle on the ground.
+#include "terrane/render/water_waves.glsl"
+#if WATER_DETAIL == 1
+#include "terrane/render/water_reflection.glsl"
+#include "terrane/render/water_shore.glsl"
+#endif
 
-// Positions repeat every 64 blocks, so that they are exact anywhere in the world.
-vec2 wavePosition(vec3 position) {
-    return position.xy + vec2((frame.cameraChunk & 3) * int(kChunkSize));
+// Color that a layer adds, and the share of what lies behind that it lets through.
+struct Passed {
+    vec4 color, through;
+};
+
+// Of the light that goes through so many blocks: red is lost first. Rather murkier than clear water is.
+vec3 throughBody(float blocks) {
+    return exp(-vec3(0.34, 0.19, 0.165) * blocks);
 }
 
-// How far it is over level water from one pixel to the next, whose rays differ so: pixels beside may show other things, so
-// their positions do not tell.
-vec2 stepOnWater(vec3 toPoint, vec3 rayStep) {
-    float ahead = dot(toPoint, frame.rayAhead.xyz), down = abs(toPoint.z) < 1e-3 ? 1e-3 : toPoint.z;
-    return ahead * (rayStep.xy - toPoint.xy * (rayStep.z / down));
-}
-
-vec2 turned(vec2 v) {
-    return vec2(v.x + v.y, v.x - v.y);
-}
-
-// Two patterns that move through each other; flatter with distance, where a pixel holds many waves.
-vec3 waveNormal(vec3 position, vec3 toPoint) {
-    float seconds = (frame.switches & kSwitchAnimation) != 0 ? frame.timeSeconds : 0.0;
-    vec2 at = wavePosition(position);
-    vec2 dx = stepOnWater(toPoint, frame.rayAcross.xyz * (2.0 / frame.viewportSize.x));
-    vec2 dy = stepOnWater(toPoint, frame.rayUp.xyz * (2.0 / frame.viewportSize.y));
-    vec2 slowAt = at / 32.0 + vec2(0.011, 0.007) * seconds;
-    vec2 fastAt = turned(at) / 16.0 - vec2(0.031, -0.023) * seconds;
-    vec2 slow = textureGrad(noiseTexture, slowAt, dx / 32.0, dy / 32.0).ba - 0.5;
-    vec2 fast = textureGrad(noiseTexture, fastAt, turned(dx) / 16.0, turned(dy) / 16.0).ba - 0.5;
-    float strength = 0.55 / (1.0 + 0.02 * length(toPoint));
-    return normalize(vec3(strength * (slow + 0.6 * fast), 1.0));
-}
-
-// Light that comes back from within a thickness of water of a color, and the share of what lies behind it that is seen.
-vec4 waterBody(vec3 color, vec3 lit, float blocks) {
-    vec3 shallow = color * vec3(0.9, 1.1, 0.95) + vec3(0.0, 0.05, 0.03), deep = color * vec3(0.10, 0.28, 0.42);
-    vec3 body = mix(shallow, deep, 1.0 - exp(-0.10 * blocks));
-    return vec4(body * lit, exp(-0.22 * blocks));
+// Light that comes back from within so much water of a color: turquoise where it is shallow, dark where it is deep.
+vec3 waterBody(vec3 color, vec3 lit, float blocks) {
+    vec3 shallow = color * vec3(0.75, 1.15, 1.0) + vec3(0.0, 0.06, 0.045), deep = color * vec3(0.07, 0.24, 0.38);
+    return mix(deep, shallow, exp(-0.13 * blocks)) * lit;
 }
 
 // Schlick's approximation with the reflectance of water seen from above, 0.02.
@@ -49,29 +33,65 @@ float lightUnder(float blocks) {
     return brightnessOf(vec4(clamp(1.0 - blocks / 15.0, 0.0, 1.0))).a;
 }
 
-// Color times coverage, and coverage, of a surface of water before `blocks` of it. `levels`: of light; `shadow`: the
-// share of direct light; `visibility`: that of light from all around. `hasFarFloor`: what lies behind belongs to a far tile, whose
-// light knows nothing of the water.
-vec4 shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 levels, float shadow, float visibility,
-                bool hasFarFloor) {
+// The sun or moon in all the small mirrors of a rough surface, whose slopes are spread normally (C. Cox, W. Munk, Measurement of
+// the Roughness of the Sea Surface from Photographs of the Sun's Glitter, 1954). Not brighter than the disc.
+vec3 glitter(vec3 view, Waves waves) {
+    vec3 toLight = frame.lightDirection.xyz, between = normalize(toLight - view);
+    float up = max(between.z, 0.05), spread = waves.variance + 0.25 * frame.discSine * frame.discSine;
+    vec2 off = between.xy / up - waves.slope;
+    float share = exp(-dot(off, off) / spread) / spread;
+    float up4 = up * up * up * up, steep = max(max(-view.z, toLight.z), 0.15);
+    vec3 light = frame.lightColor.rgb * (0.25 * waterMirror(dot(-view, between)) * share / (steep * up4));
+    return min(light, 0.6 * frame.discColor.rgb) * smoothstep(-0.02, 0.05, toLight.z);
+}
+
+// From below: the world above through a round window, beyond which the surface mirrors the water (Snell's law).
+Passed shadeFromBelow(vec3 view, vec3 normal) {
+    float facing = clamp(dot(-view, normal), 0.0, 1.0), bent = 1.77 * (1.0 - facing * facing);
+    float mirror = mix(waterMirror(sqrt(max(1.0 - bent, 0.0))), 1.0, smoothstep(0.9, 1.02, bent));
+    return Passed(vec4(murk() * mirror * (0.8 + 0.7 * facing), mirror), vec4(1.0 - mirror));
+}
+
+// A surface of water before `blocks` of it. `levels`: of light; `shadow`: the share of direct light; `visibility`: that of light
+// from all around. `hasFarFloor`: what lies behind belongs to a far tile, whose light knows nothing of the water. `isNearest`:
+// no other layer is before it.
+Passed shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 levels, float shadow, float visibility,
+                  bool hasFarFloor, bool isNearest) {
     vec4 light = brightnessOf(levels);
     vec3 view = normalize(toPoint);
     bool isTop = abs(s.normal.z) > 0.5;
-    vec3 normal = isTop ? waveNormal(position, toPoint) * sign(s.normal.z) : s.normal;
+    float below = blocks * abs(view.z);
+    Waves waves = wavesAt(position, toPoint, smoothstep(1.5, 8.0, below));
+    vec3 normal = isTop ? normalize(vec3(waves.slope, 1.0)) * sign(s.normal.z) : s.normal;
+#if UNDER_WATER == 1
+    return shadeFromBelow(view, normal);
+#else
     vec3 direct = frame.lightColor.rgb * max(frame.lightDirection.z, 0.0) * shadow;
     vec3 lamps = light.rgb * (1.0 - frame.hiddenLampShare * light.a);
     vec3 lit = light.a * (frame.ambientColor.rgb * visibility + direct) + (lamps + kMinLight) * visibility;
-    vec4 body = waterBody(s.albedo, lit, blocks);
-
-    float mirror = isTop ? waterMirror(dot(-view, normal)) : 0.03;
-    if (frame.isUnderWater != 0u) mirror = 0.0;
+    vec3 seen = throughBody(blocks), body = waterBody(s.albedo, lit, blocks) * (1.0 - seen);
+    float open = light.a * light.a, mirror = isTop ? waterMirror(dot(-view, normal)) : 0.03;
+    mirror *= smoothstep(0.0, 0.2, blocks);  // no hard edge along the shore
     vec3 reflected = reflect(view, normal);
-    reflected.z = abs(reflected.z) + 0.01;
-    reflected = normalize(reflected);
-    float toLight = max(dot(reflected, frame.lightDirection.xyz), 0.0);
-    vec3 glint = frame.discColor.rgb * smoothstep(0.9985, 0.9998, toLight) * shadow;
-    vec3 sky = (skyColor(reflected) + glint) * light.a * light.a;
-    float seen = hasFarFloor ? body.a * lightUnder(blocks * abs(view.z)) : body.a;
-    float coverage = 1.0 - (1.0 - mirror) * seen;
-    return vec4(mix(body.rgb * (1.0 - body.a), sky, mirror), coverage);
+    reflected = normalize(vec3(reflected.xy, abs(reflected.z) + 0.01));
+    vec3 mirrored = skyColor(reflected) * open;
+    if (hasFarFloor) seen *= lightUnder(below);
+#if WATER_DETAIL == 1
+    vec3 calmer = normalize(vec3(0.4 * waves.slope, 1.0));
+    vec4 shore = shoreReflection(position, reflect(view, calmer), isTop && isNearest ? mirror : 0.0);
+    mirrored = mix(mirrored, shore.rgb, shore.a);
+    seen *= bundlesBehind(position, toPoint, view, blocks, shadow * light.a);
+    vec4 fine = fineNoise(position);
+    float foam = isTop ? foamAt(position, toPoint, blocks, fine.r) : 0.0;
+    body = mix(body, 0.85 * lit, foam);
+    seen *= 1.0 - foam;
+    mirror *= 1.0 - foam;
+#endif
+#if WATER_DETAIL == 1
+    waves = withRipples(waves, fine, toPoint);
+#endif
+    vec3 glint = isTop ? glitter(view, waves) * shadow * open : vec3(0.0);
+    float left = dot(seen, vec3(1.0 / 3.0)) * (1.0 - mirror);
+    return Passed(vec4(mix(body, mirrored, mirror) + glint, 1.0 - left), vec4(seen * (1.0 - mirror), left));
+#endif
 }

@@ -51,7 +51,7 @@ struct Frame {
     float lightRayShare;   // how much of the light's rays is seen, 0…1
     uint isMoon;           // 1 at night, when the light is the moon
 
-    uint isUnderWater;  // 1 where the camera is
+    uint isUnderWater;  // blocks of water over the camera, its own included; 0 in air
     uint unused0, unused1, unused2;
 };
 

@@ -109,7 +109,7 @@ class Pilot {
     void draw(float seconds) {
         const render::Camera from = camera();
         renderer_.draw({from, world::environmentAt(flight_.timeDay), fogDistance(view_.sightDistance()),
-                        seconds, render::View::Color, game::isUnderWater(session_, from.position),
+                        seconds, render::View::Color, game::waterAbove(session_, from.position),
                         render::ShadowClipmap::kTilesAFrame});
         glFinish();
     }

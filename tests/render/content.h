@@ -32,6 +32,7 @@ inline RenderOptions plainOptions(int samples) {
     options.msaaSamples = samples;
     options.shadows = ShadowReach::Off;
     options.depthOfField = options.godRays = options.clouds = false;
+    options.water = Water::Plain;
     options.animation = options.msaaAlphaTest = false;
     return options;
 }

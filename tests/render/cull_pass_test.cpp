@@ -1,5 +1,6 @@
 #include "terrane/render/cull_pass.h"
 
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <map>
 #include <set>
@@ -338,15 +339,19 @@ TEST_F(CullPassTest, BlendedFacesInViewAreKnown) {
     set({-3, 0}, meshOfParts({{1, kOpaque, mesh::kAnyDirection, 5}}));
     const auto isKnown = [&](float yaw) {
         const Camera camera{.position = {8, 8, 100}, .yaw = yaw};
-        return meshSections_->hasBlended(cameraChunk(camera),
-                                         frustumOf(viewMatrices(camera, 1).viewProjection));
+        return !meshSections_
+                    ->blendedRects(cameraChunk(camera), viewMatrices(camera, 1).viewProjection, {64, 64})
+                    .empty();
     };
     EXPECT_TRUE(isKnown(0));
     EXPECT_FALSE(isKnown(180));
     const auto isKnownBeyond = [&](float x) {
-        return meshSections_->hasBlended({}, std::vector{glm::vec4(1, 0, 0, -x)});
+        const Camera camera{.position = {x, 8, 100}, .yaw = 0};
+        const glm::mat4 atOrigin = viewMatrices(camera, 1).viewProjection *
+                                   glm::translate(glm::mat4(1), glm::vec3(-16 * cameraChunk(camera).x, 0, 0));
+        return !meshSections_->blendedRects({}, atOrigin, {64, 64}).empty();
     };
-    EXPECT_TRUE(isKnownBeyond(64.0f + 0.9f * shared::kWaving)) << "waves leave the box";
+    EXPECT_TRUE(isKnownBeyond(64.0f + 0.6f * shared::kWaving)) << "waves leave the box";
     EXPECT_FALSE(isKnownBeyond(64.0f + 1.1f * shared::kWaving));
     meshSections_->remove({3, 0});
     EXPECT_FALSE(isKnown(0));

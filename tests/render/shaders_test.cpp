@@ -69,6 +69,8 @@ const std::map<std::string, Values>& variantValues() {
           {"OCCLUSION", {"0", "1"}},
           {"LIGHT_SMOOTH", {"0", "1"}},
           {"QUADS", {"0", "1"}},
+          {"WATER_DETAIL", {"0", "1"}},
+          {"UNDER_WATER", {"0", "1"}},
           {"DIRECT", {"0", "1"}},
           {"OVER_SKY", {"0", "1"}},
           {"FACE_SAMPLING", {"0"}},
@@ -95,7 +97,8 @@ const std::map<std::string, Values>& variantValues() {
           {"LAND", {"0", "1"}},
           {"OCCLUSION", {"0", "1"}},
           {"OVER_SKY", {"0", "1"}},
-          {"DIRECT", {"0", "1"}}}},
+          {"DIRECT", {"0", "1"}},
+          {"UNDER_WATER", {"0", "1"}}}},
     };
     return values;
 }
@@ -105,7 +108,8 @@ bool has(const gpu::ShaderDefines& defines, const char* name, const char* value)
 }
 
 // What no options lead to: with several samples a pixel layers are shaded over the whole screen, surfaces
-// over the sky, and neither as the screen shows them; nor is this where there is ambient occlusion.
+// over the sky, and neither as the screen shows them; nor is this where there is ambient occlusion
+// or mirrored shores.
 // Without shadows light knows no land.
 bool isNeverSelected(const gpu::ShaderDefines& defines) {
     if (has(defines, "LAND", "1") && has(defines, "SHADOW", "0")) return true;
@@ -114,7 +118,8 @@ bool isNeverSelected(const gpu::ShaderDefines& defines) {
     if (has(defines, "MSAA_SAMPLES", "4") && (has(defines, "QUADS", "1") || has(defines, "OVER_SKY", "0")))
         return true;
     if (isOfLayers && isDirect == isOverSky) return true;
-    return isDirect && (isOverSky || has(defines, "QUADS", "0") || has(defines, "OCCLUSION", "1"));
+    const bool readsLight = has(defines, "OCCLUSION", "1") || has(defines, "WATER_DETAIL", "1");
+    return isDirect && (isOverSky || has(defines, "QUADS", "0") || readsLight);
 }
 
 std::vector<gpu::ShaderDefines> variantsOf(std::string_view path) {

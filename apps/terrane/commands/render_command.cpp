@@ -152,7 +152,7 @@ base::Result<void> renderImage(const RenderCommandOptions& options) {
                                    view::fogDistance((*world)->view->sightDistance()),
                                    options.seconds,
                                    options.graphics.view,
-                                   game::isUnderWater(session, camera.position)};
+                                   game::waterAbove(session, camera.position)};
     renderer.draw(input);
     const base::Image image = renderer.readImage();
     timings.draw = millisecondsSince(drawStart);

@@ -76,7 +76,7 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     input.fogDistance = view::fogDistance(parts_.world.view->sightDistance());
     input.timeSeconds = static_cast<float>(seconds);
     input.view = graphics.view;
-    input.isUnderWater = game::isUnderWater(session, point.camera.position);
+    input.waterAbove = game::waterAbove(session, point.camera.position);
     parts_.world.renderer.draw(input);
     base::Image image = parts_.world.renderer.readImage();
     for (const TitleCue& title : shot.titles) {

@@ -193,13 +193,13 @@ render::FrameInput Game::frameInput() const {
     input.fogDistance = view::fogDistance(parts_.view.sightDistance());
     input.timeSeconds = static_cast<float>(seconds_);
     input.view = settings_.view;
-    input.isUnderWater = game::isUnderWater(parts_.session, player_.pose().position);
+    input.waterAbove = game::waterAbove(parts_.session, player_.pose().position);
     input.maxShadowTiles = render::ShadowClipmap::kTilesAFrame;
     if (isAbove_) {
         input.culledFor = input.camera;
         input.camera = debugTopCamera(camera(), parts_.view.viewDistance());
         input.fogDistance = 16 * view::fogDistance(parts_.view.viewDistance());
-        input.isUnderWater = false;
+        input.waterAbove = 0;
     }
     return input;
 }

@@ -1,0 +1,25 @@
+// Light that waves bundle under water. Needs frame_uniforms.glsl; the noise of SkyNoise bound.
+layout(binding = kSkyNoiseUnit) uniform sampler2D bundleNoise;
+
+// Bright lines where two moving patterns are equal, 0…1, in the mean kMeanBundle. `at`: of the water's surface, repeats after 64
+// blocks.
+const float kMeanBundle = 0.2;
+float bundledLight(vec2 at) {
+    float seconds = (frame.switches & kSwitchAnimation) != 0 ? frame.timeSeconds : 0.0;
+    float a = textureLod(bundleNoise, at / 16.0 + vec2(0.021, 0.013) * seconds, 2.0).r;
+    float b = textureLod(bundleNoise, vec2(at.y, -at.x) / 16.0 - vec2(0.017, -0.023) * seconds, 2.0).r;
+    float line = max(1.0 - 9.0 * abs(a - b), 0.0);
+    return line * line;
+}
+
+// Where light that reaches a point, `position` from the corner of the camera's chunk, came through a surface so many blocks above.
+// Water bends it toward the vertical.
+vec2 bundlePlace(vec3 position, float above) {
+    vec2 lean = 0.7 * frame.lightDirection.xy / max(frame.lightDirection.z, 0.35);
+    return position.xy + vec2((frame.cameraChunk & 3) * int(kChunkSize)) + lean * above;
+}
+
+// How strong bundles and shafts are: by day, when the sun is up.
+float sunInWater() {
+    return frame.isMoon != 0u ? 0.0 : smoothstep(0.05, 0.3, frame.lightDirection.z);
+}

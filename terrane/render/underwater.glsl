@@ -1,0 +1,29 @@
+// What a camera in the water sees: colors that fade, light that waves bundle on the ground, shafts of it. Needs
+// frame_uniforms.glsl, sky_color.glsl and bundled_light.glsl.
+
+// How much brighter the ground is than without waves. Daylight loses a level of 15 a block, and bundles with it.
+float bundlesOnGround(vec3 position, float blocks, float daylight) {
+    float strength = 2.2 * sunInWater() * daylight * (1.0 - smoothstep(12.0, 30.0, blocks));
+    return max(1.0 + strength * (bundledLight(bundlePlace(position, -position.z)) - kMeanBundle), 0.0);
+}
+
+// Bundles along the view, more than in the mean, brighter toward the light.
+float shafts(vec3 direction, float blocks) {
+    float sum = 0.0, reach = min(blocks, 16.0);
+    for (int k = 0; k < 6; ++k) {
+        vec3 at = frame.cameraPosition.xyz + direction * (reach * (float(k) + 0.5) / 6.0);
+        sum += bundledLight(bundlePlace(at, -at.z)) - kMeanBundle;
+    }
+    float toLight = 0.5 + 0.5 * dot(direction, frame.lightDirection.xyz);
+    return sum / 6.0 * (reach / 16.0) * (0.4 + 1.6 * toLight * toLight);
+}
+
+// Nothing is farther than some thirty blocks.
+vec4 seenUnderWater(vec3 color, vec3 toPoint, float daylight) {
+    float blocks = length(toPoint);
+    vec3 direction = toPoint / max(blocks, 1e-4);
+    color *= bundlesOnGround(frame.cameraPosition.xyz + toPoint, blocks, daylight);
+    vec3 left = exp(-vec3(0.16, 0.075, 0.06) * blocks);
+    vec3 water = murk() * max(1.0 + 2.0 * sunInWater() * shafts(direction, blocks), 0.0);
+    return vec4(mix(water, color, left), 1.0);
+}

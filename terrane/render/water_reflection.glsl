@@ -1,0 +1,67 @@
+// What stands at the shore, mirrored in water: a march over the depth of what is opaque, in screen space. Needs
+// frame_uniforms.glsl, gbuffer_read.glsl and the functions of transparency.frag.glsl's layers.
+// The scene is read while layers are drawn over it: only pixels without any layer, which nothing writes (OpenGL 4.5, section
+// 9.3, "Rendering Feedback Loops").
+layout(binding = kSceneUnit) uniform sampler2D scene;
+
+const int kMarchSteps = 12, kRefineSteps = 3;
+const float kLeastMirror = 0.04;  // below that a mirror image is not seen
+
+ivec2 pixelAt(vec2 screen) {
+    return ivec2(clamp((0.5 + 0.5 * screen) * frame.viewportSize, vec2(0.0), frame.viewportSize - 1.0));
+}
+
+bool hasLayer(ivec2 pixel) {
+    bool isAny = false;
+    for (int k = 0; k < MSAA_SAMPLES; ++k) isAny = isAny || texelFetch(layerDepths[0], pixel, k).r > depthAt(pixel, k);
+    return isAny;
+}
+
+bool isBehind(vec3 at) {
+    return at.z < depthAt(pixelAt(at.xy), 0);
+}
+
+// Color, and the share of it: 0 where the ray leaves the image. `at`: a ray's end behind something, a step after `before`.
+vec4 seenBehind(vec3 before, vec3 at, vec2 onScreen) {
+    float seen = blocksOfDepth(depthAt(pixelAt(at.xy), 0)), blocks = blocksOfDepth(at.z);
+    // The ray may pass far behind what stands near.
+    float thickness = 1.0 + 0.05 * seen + abs(blocks - blocksOfDepth(before.z));
+    float share = blocks - seen < thickness ? 1.0 : 0.0;
+    // Where the shore meets the water pixels have both: those above are taken.
+    ivec2 pixel = pixelAt(at.xy), up = ivec2(sign(onScreen));
+    for (int k = 0; k < 3 && hasLayer(pixel); ++k) pixel = clamp(pixel + up, ivec2(0), ivec2(frame.viewportSize) - 1);
+    if (hasLayer(pixel)) share = 0.0;
+    vec2 edge = 1.0 - smoothstep(0.8, 1.0, abs(at.xy));
+    vec3 color = share > 0.0 ? texelFetch(scene, pixel, 0).rgb : vec3(0.0);
+    return vec4(color, share * edge.x * edge.y);
+}
+
+// Positions on the screen and depths are linear along the ray (depth is near / distance), up to where it goes at infinity.
+vec4 shoreReflection(vec3 position, vec3 direction, float mirror) {
+    vec4 from = frame.viewProjection * vec4(position, 1.0), along = frame.viewProjection * vec4(direction, 0.0);
+    vec3 start = from.xyz / from.w, way = along.xyz / max(along.w, 0.02) - start;
+    vec2 toEdge = (sign(way.xy) - start.xy) / (way.xy + vec2(lessThan(abs(way.xy), vec2(1e-5))) * 2e-5);
+    way *= clamp(min(toEdge.x, toEdge.y), 0.0, 1.0);
+    float before = 0.0;
+    int count = mirror > kLeastMirror && along.w > 0.02 ? kMarchSteps : 0;
+    // Two loops one after the other, and all else behind them: software renderers run nested ones for every step.
+    int k = 1;
+    float here = 0.0;
+    bool isHit = false;
+    for (; k <= count && !isHit; ++k) {
+        float share = float(k) / float(kMarchSteps);
+        before = here;
+        here = share * share;
+        isHit = isBehind(start + here * way);
+    }
+    int refined = isHit ? kRefineSteps : 0;
+    for (int r = 0; r < refined; ++r) {
+        float middle = 0.5 * (before + here);
+        bool isIn = isBehind(start + middle * way);
+        here = isIn ? middle : here;
+        before = isIn ? before : middle;
+    }
+    vec4 result = isHit ? seenBehind(start + before * way, start + here * way, way.xy) : vec4(0.0);
+    result.a *= smoothstep(kLeastMirror, 2.0 * kLeastMirror, mirror);
+    return result;
+}
