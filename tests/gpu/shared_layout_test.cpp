@@ -92,7 +92,8 @@ std::vector<StructLayout> frameLayouts() {
 }
 
 std::vector<StructLayout> meshSectionLayouts() {
-    using shared::MeshSectionRecord, shared::DrawCommand, shared::DrawCounts, shared::CullFrame, shared::TestedMeshSections;
+    using shared::MeshSectionRecord, shared::DrawCommand, shared::DrawCounts, shared::CullFrame,
+        shared::TestedMeshSections;
     return {{"MeshSectionRecord",
              "mesh_section.h",
              false,
