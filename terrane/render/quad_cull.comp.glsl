@@ -86,15 +86,25 @@ Footprint footprintOf(Quad quad, vec2 chunkCorner, float columnWidth) {
     return print;
 }
 
+// What is hidden by so little of its distance, or lies so little beside the image, may come into sight with the next frames:
+// then it is among what the early pass draws, and the late pass has less to draw.
+const float kSoon = 0.99;
+const float kSoonPixels = 32.0;
+
 // A pixel of one sample is drawn where its middle is covered.
 bool hasSample(Footprint print) {
     if (cull.samples > 1u) return true;
     return all(lessThanEqual(ceil(print.low - 0.5), floor(print.high - 0.5)));
 }
 
-bool isBehind(Footprint print) {
-    ivec2 first = ivec2(max(print.low, vec2(0.0))) / int(kHiZTexelPixels);
-    ivec2 last = ivec2(min(print.high, cull.viewportSize - 1.0)) / int(kHiZTexelPixels);
+bool isInView(Footprint print, float margin) {
+    return all(greaterThanEqual(print.high, vec2(-margin))) && all(lessThanEqual(print.low, cull.viewportSize + margin));
+}
+
+// Whether what was drawn hides it now, and whether it still does in the next frames.
+bvec2 isBehind(Footprint print) {
+    ivec2 first = ivec2(clamp(print.low, vec2(0.0), cull.viewportSize - 1.0)) / int(kHiZTexelPixels);
+    ivec2 last = ivec2(clamp(print.high, vec2(0.0), cull.viewportSize - 1.0)) / int(kHiZTexelPixels);
     ivec2 size = last - first;
     // Two or three texels a side, or one.
     int level = clamp(findMSB(max(max(size.x, size.y), 1)), 0, cull.hiZLevels - 1);
@@ -104,14 +114,15 @@ bool isBehind(Footprint print) {
     for (int y = first.y; y <= last.y; ++y) {
         for (int x = first.x; x <= last.x; ++x) farthest = min(farthest, texelFetch(hiZ, ivec2(x, y), level).r);
     }
-    return print.nearest < farthest;
+    return bvec2(print.nearest < farthest, print.nearest < kSoon * farthest);
 }
 
-bool isVisible(Quad quad, vec2 chunkCorner, float columnWidth) {
+// Whether a quad can be seen now, and whether it may be soon.
+bvec2 isVisible(Quad quad, vec2 chunkCorner, float columnWidth) {
     Footprint print = footprintOf(quad, chunkCorner, columnWidth);
-    if (!print.isBefore) return true;
-    if (any(lessThan(print.high, vec2(0.0))) || any(greaterThan(print.low, cull.viewportSize))) return false;
-    return hasSample(print) && !isBehind(print);
+    if (!print.isBefore) return bvec2(true);
+    bvec2 behind = isBehind(print);
+    return bvec2(isInView(print, 0.0) && hasSample(print) && !behind.x, isInView(print, kSoonPixels) && !behind.y);
 }
 
 void main() {
@@ -127,8 +138,8 @@ void main() {
         for (uint k = gl_LocalInvocationID.x; k < part.y; k += kQuadCullThreads) {
             uint at = part.x - arena * cull.arenaQuads + k;
             Quad quad = quads[at];
-            bool isSeen = isVisible(quad, corner, columnBlocks(level));
-            bool isNew = isSeen && !(isDrawnEarly && (quad.word1 & kQuadSeen) != 0u);
+            bvec2 nowAndSoon = isVisible(quad, corner, columnBlocks(level));
+            bool isSeen = any(nowAndSoon), isNew = nowAndSoon.x && !(isDrawnEarly && (quad.word1 & kQuadSeen) != 0u);
             uint bits = (isSeen ? kQuadSeen : 0u) | (isNew ? kQuadNew : 0u);
             if ((quad.word1 & (kQuadSeen | kQuadNew)) != bits) quads[at].word1 = quadMaterial(quad) | bits;
             isAnySeen = isAnySeen || isSeen;

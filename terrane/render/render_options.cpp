@@ -32,7 +32,6 @@ constexpr RenderOptions high() {
     o.msaaSamples = 4;
     o.light = LightSampling::Smooth;
     o.shadows = ShadowReach::Horizon;
-    o.shadowSize = 4096;
     o.softShadows = true;
     o.occlusion = Occlusion::On;
     o.depthOfField = false;

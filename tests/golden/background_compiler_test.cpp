@@ -59,6 +59,7 @@ TEST_F(BackgroundCompilerTest, FramesThatFollowCompileNextToNothing) {
     // renderer has is to be read, as it is in all runs of a program but the first one.
     waitFor(compiler_, render::plainOptions(kSamples));
     render::Renderer renderer = makeRenderer();
+    ASSERT_TRUE(renderer.useLand(true));  // as every world has it
     world::World world = flatWorld(2);
     placeGallery(world);
     placePool(world);

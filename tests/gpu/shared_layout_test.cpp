@@ -92,7 +92,8 @@ std::vector<StructLayout> frameLayouts() {
 }
 
 std::vector<StructLayout> meshSectionLayouts() {
-    using shared::MeshSectionRecord, shared::DrawCommand, shared::DrawCounts, shared::CullFrame;
+    using shared::MeshSectionRecord, shared::DrawCommand, shared::DrawCounts, shared::CullFrame,
+        shared::TestedMeshSections;
     return {{"MeshSectionRecord",
              "mesh_section.h",
              false,
@@ -117,6 +118,13 @@ std::vector<StructLayout> meshSectionLayouts() {
              {{"commands", offsetof(DrawCounts, commands)},
               {"quads", offsetof(DrawCounts, quads)},
               {"meshSections", offsetof(DrawCounts, meshSections)}}},
+            {"TestedMeshSections",
+             "mesh_section.h",
+             false,
+             sizeof(TestedMeshSections),
+             {{"count", offsetof(TestedMeshSections, count)},
+              {"one1", offsetof(TestedMeshSections, one1)},
+              {"one2", offsetof(TestedMeshSections, one2)}}},
             {"CullFrame",
              "mesh_section.h",
              true,

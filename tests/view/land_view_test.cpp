@@ -22,29 +22,35 @@ base::Result<gen::GeneratorGraph> plain(int level, bool hasWall) {
     return g.finish();
 }
 
-constexpr render::Camera kLooksBack{.position = {8, 8, 100}, .yaw = 180, .pitch = -12, .fieldOfView = 60};
+constexpr render::Camera kLooksBack{.position = {8, 8, 200}, .yaw = 225, .pitch = -4.6f, .fieldOfView = 20};
 
-// Of the ground some 60 blocks away, where the shadow map has ended.
-double groundBrightness(bool hasWall, float elevation, int shadowSize = 1024) {
+// Of the ground some 1,500 blocks away and 1,060 beside the light's way, where the shadow maps have ended.
+double groundBrightness(bool hasWall, float elevation,
+                        render::ShadowReach shadows = render::ShadowReach::Horizon) {
     DrawnSessionOptions options{.makeGraph = [=](int level) { return plain(level, hasWall); }};
-    options.render.shadowSize = shadowSize;
+    options.render.shadows = shadows;
+    options.render.distanceFog = false;
     const auto drawn = makeDrawnSession(std::move(options));
     EXPECT_EQ(drawn->view->missingClipmapTiles(), 0u) << "not asked for yet";
     EXPECT_TRUE(drawn->renderer.hasLand());
+    drawn->view->setHorizon({128, 8});
     loadAll(*drawn->session, *drawn->view, kLooksBack, 4, std::chrono::steady_clock::now());
     EXPECT_EQ(drawn->view->missingClipmapTiles(), 0u);
     world::Environment light = world::environmentAt(0.5f);
     light.lightDirection = {std::cos(elevation), 0, std::sin(elevation)};
-    const base::Image image = drawn->draw({kLooksBack, light, 400, 0, render::View::Color});
+    light.ambientColor *= 0.1f;  // so that direct light tells
+    const base::Image image = drawn->draw({kLooksBack, light, 1e5f, 0, render::View::Color});
     double sum = 0;
-    for (int x = 30; x < 66; ++x) sum += image.rgba[static_cast<std::size_t>(4 * (x + 37 * image.width) + 1)];
+    for (int x = 30; x < 66; ++x) sum += image.rgba[static_cast<std::size_t>(4 * (x + 32 * image.width) + 1)];
     return sum / 36;
 }
 
 TEST_F(LandViewTest, AWallBeyondTheShadowMapDarkensTheGround) {
-    EXPECT_LT(groundBrightness(true, 0.4f), 0.9 * groundBrightness(false, 0.4f));
-    EXPECT_NEAR(groundBrightness(true, 1.2f), groundBrightness(false, 1.2f), 12) << "the sun is above it";
-    EXPECT_NEAR(groundBrightness(true, 0.4f, 0), groundBrightness(false, 0.4f, 0), 1) << "shadows are off";
+    constexpr float kLow = 0.09f, kAboveTheWall = 1.2f;
+    EXPECT_LT(groundBrightness(true, kLow), 0.9 * groundBrightness(false, kLow));
+    EXPECT_NEAR(groundBrightness(true, kAboveTheWall), groundBrightness(false, kAboveTheWall), 12);
+    for (const render::ShadowReach shadows : {render::ShadowReach::Off, render::ShadowReach::Far})
+        EXPECT_NEAR(groundBrightness(true, kLow, shadows), groundBrightness(false, kLow, shadows), 1);
 }
 
 }  // namespace

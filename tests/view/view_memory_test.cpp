@@ -100,7 +100,8 @@ TEST_F(ViewMemoryTest, AlsoWhereTheGpuMeshes) {
     EXPECT_LE(small->renderer.peakMemory(), 2 * kBudgetBytes);
     const auto large = makePlayer(SIZE_MAX, reached, false);
     loadAll(*large->session, *large->view, kCamera, reached, std::chrono::steady_clock::now());
-    EXPECT_EQ(draw(*small, kCamera).rgba, draw(*large, kCamera).rgba);
+    // At edges another order of quads may decide: not a hole.
+    EXPECT_LE(largestDifference(draw(*small, kCamera), draw(*large, kCamera)), 3);
 }
 
 // The budget counts the targets too.
