@@ -1,5 +1,7 @@
 // terrane: reads the command line, runs one command, reports. Exit codes: 0 done, 1 a save is damaged
 // (check) or a measurement failed (bench), 2 bad input or a missing means.
+#include <execinfo.h>
+
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -57,9 +59,17 @@ int withOutputWritten(int exitCode) {
     return kBadInput;
 }
 
+// glibc loads the unwinder of threads when it needs it first, and ends the process where there is no memory
+// for that any more.
+void loadUnwinder() {
+    void* frame = nullptr;
+    backtrace(&frame, 1);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
+    loadUnwinder();
     using namespace terrane;
     base::setThreadName("main");
     const bool plays = app::defaultCommand() != nullptr;

@@ -50,7 +50,7 @@ class CasterWriter {
 };
 
 void addCasters(CasterWriter& writer, std::uint32_t slot, const shared::MeshSectionRecord& record,
-              glm::vec3 light) {
+                glm::vec3 light) {
     for (std::uint32_t bucket = 0; bucket < kCasterBuckets; ++bucket) {
         const bool isTwoSided = mesh::bucketTwoSided(static_cast<int>(bucket));
         const std::uint32_t count = isTwoSided ? 1 : shared::kFaceDirections;

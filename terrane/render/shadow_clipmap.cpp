@@ -101,8 +101,8 @@ double ShadowClipmap::drawnReach(const Layer& layer, int cascade, const Camera& 
     double reach = kReachTiles * blocks;
     forEachPlace(middleOf(layer, cascade, camera), [&](glm::ivec2 place) {
         if (tileAt(layer, place).place == place) return;
-        reach =
-            std::min(reach, std::max(distanceToTile(at.x, place.x, blocks), distanceToTile(at.y, place.y, blocks)));
+        reach = std::min(
+            reach, std::max(distanceToTile(at.x, place.x, blocks), distanceToTile(at.y, place.y, blocks)));
     });
     return reach;
 }

@@ -101,8 +101,8 @@ struct CullFrame {
     float nearPlane;    // blocks
     int hiZLevels;
     uint meshSectionCount;
-    uint phase;       // kCullAll and so on
-    uint arenaQuads;  // addresses of an arena
+    uint phase;           // kCullAll and so on
+    uint arenaQuads;      // addresses of an arena
     float edgeExpansion;  // pixels, as in Frame
     float blockPixels;    // pixels that a block takes, one block ahead
     uint samples;         // of a pixel

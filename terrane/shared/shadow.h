@@ -6,30 +6,33 @@
 
 SHARED_BEGIN
 
-// Cascades are squares across the light, each four times as wide as the one before, in kShadowTiles × kShadowTiles tiles of
-// texels. A point of a cascade is found in its map by its place modulo the map's width.
+// Cascades are squares across the light, each four times as wide as the one before, in kShadowTiles ×
+// kShadowTiles tiles of texels. A point of a cascade is found in its map by its place modulo the map's width.
 const uint kShadowCascades = 3u;
 const uint kShadowTiles = 8u;
 
-// Blocks along the light that all maps hold, half of them on each side of the anchor: depths of 32 bits are exact to 1/2000
-// block. Casters beyond are clamped into the range. Receivers are at most kShadowSight blocks from the camera, which is at
-// most 1,024 √2 blocks from the anchor.
+// Blocks along the light that all maps hold, half of them on each side of the anchor: depths of 32 bits are
+// exact to 1/2000 block. Casters beyond are clamped into the range. Receivers are at most kShadowSight blocks
+// from the camera, which is at most 1,024 √2 blocks from the anchor.
 const float kShadowRange = 8192.0f;
 const float kShadowSight = 2048.0f;
 
-// From positions of the frame (see Frame) to the maps. Where a new map is being drawn for another direction of the light, the
-// cascades differ in it.
+// From positions of the frame (see Frame) to the maps. Where a new map is being drawn for another direction
+// of the light, the cascades differ in it.
 struct ShadowFrame {
-    vec4 toMap[9];  // of each cascade three rows: x and y in widths of the map, not wrapped; depth, 1 toward the light
-    // By cascade: x, y: the camera on the map; z: 1 / widths of the map from the camera that are drawn; w: the map's layer.
+    vec4 toMap[9];  // of each cascade three rows: x and y in widths of the map, not wrapped; depth, 1 toward
+                    // the light
+    // By cascade: x, y: the camera on the map; z: 1 / widths of the map from the camera that are drawn; w:
+    // the map's layer.
     vec4 windows[kShadowCascades];
-    vec4 texels;  // x, y, z: blocks a texel of each cascade; w: most texels to each side of a soft edge
-    float strength;  // 0 where no light casts shadows
-    float mapTexels; // along a side of a map
+    vec4 texels;      // x, y, z: blocks a texel of each cascade; w: most texels to each side of a soft edge
+    float strength;   // 0 where no light casts shadows
+    float mapTexels;  // along a side of a map
     float unused0, unused1;
 };
 
-// For drawing a rectangle of tiles. Positions count from the corner of the anchor's chunk: they do not depend on the camera.
+// For drawing a rectangle of tiles. Positions count from the corner of the anchor's chunk: they do not depend
+// on the camera.
 struct ShadowDraw {
     mat4 toClip;
     vec4 toLight;  // unit length; w is 0

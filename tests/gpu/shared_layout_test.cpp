@@ -10,9 +10,11 @@
 
 #include "terrane/base/files.h"
 #include "terrane/gpu/program.h"
+#include "terrane/shared/air.h"
 #include "terrane/shared/drainage.h"
 #include "terrane/shared/frame.h"
 #include "terrane/shared/generation.h"
+#include "terrane/shared/land.h"
 #include "terrane/shared/light_solver.h"
 #include "terrane/shared/mesh_section.h"
 #include "terrane/shared/mesher.h"
@@ -213,9 +215,17 @@ std::vector<StructLayout> otherLayouts() {
 }
 
 std::vector<StructLayout> landLayouts() {
-    using shared::DrainageList, shared::RiverSegment, shared::ShadowDraw, shared::ShadowFrame,
-        shared::TintFrame;
-    return {{"RiverSegment",
+    using shared::AirFrame, shared::DrainageList, shared::LandFrame, shared::RiverSegment, shared::ShadowDraw,
+        shared::ShadowFrame, shared::TintFrame;
+    return {{"AirFrame",
+             "air.h",
+             true,
+             sizeof(AirFrame),
+             {{"lightAzimuth", offsetof(AirFrame, lightAzimuth)},
+              {"aureole", offsetof(AirFrame, aureole)},
+              {"depth", offsetof(AirFrame, depth)}}},
+            {"LandFrame", "land.h", true, sizeof(LandFrame), {{"levels[0]", offsetof(LandFrame, levels)}}},
+            {"RiverSegment",
              "drainage.h",
              false,
              sizeof(RiverSegment),

@@ -27,7 +27,9 @@ class OcclusionCulling : public RendererTest {
 
     // Hills of random columns with plants that wave, leaves, water and a tile of land behind them.
     void setRandomLand(std::mt19937& random) {
-        const auto pick = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
+        const auto pick = [&](int count) {
+            return static_cast<int>(random() % static_cast<unsigned>(count));
+        };
         const std::array tops = {"oak_leaves", "grass_tuft", "poppy", "water", "cyan_glass", "stone"};
         for (int tile = 0; tile < 9; ++tile) {
             world::Chunk chunk;
@@ -39,7 +41,8 @@ class OcclusionCulling : public RendererTest {
                     chunk.setBlock(world::blockIndex(column % 16, column / 16, height),
                                    contentBlock(tops[static_cast<std::size_t>(pick(6))]));
             }
-            const world::ChunkPos pos{tile % 3 - 1, tile / 3 - 1, static_cast<std::uint8_t>(tile > 5 ? 2 : 0)};
+            const world::ChunkPos pos{tile % 3 - 1, tile / 3 - 1,
+                                      static_cast<std::uint8_t>(tile > 5 ? 2 : 0)};
             ASSERT_TRUE(renderer_->setChunk(pos, mesh::meshAlone(chunk, contentBlocks())));
         }
     }

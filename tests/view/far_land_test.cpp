@@ -74,8 +74,8 @@ TEST_F(FarLandTest, FlatLandHasNoLattice) {
     EXPECT_LE(dots, 3);
 }
 
-// From so far above that a block is much smaller than a pixel, it has one color. (Through air, which is thicker toward
-// the corners, it would not.)
+// From so far above that a block is much smaller than a pixel, it has one color. (Through air, which is
+// thicker toward the corners, it would not.)
 TEST_F(FarLandTest, FlatLandHasOneColor) {
     const base::Image image = imageOf(plain, {{8, 8, 4000}, 30, -90}, 512, false);
     for (std::size_t c = 0; c < 3; ++c) {
