@@ -526,7 +526,7 @@ class Window(ProgramTest):
             game = self.play(display, *FLAT, size=size)
             pause = game.pause_after("F2")
             for name in ("no", "pk"):  # the first is not there: a message says so, and all stays
-                game.click(1, 258, 607, pause)  # the field of the folder
+                game.click(1, 258, 676, pause)  # the field of the folder
                 for key in ("BackSpace", "BackSpace", *name, "Return"):
                     game.hold(key, pause / 2)
                 time.sleep(2 * pause)
@@ -538,7 +538,7 @@ class Window(ProgramTest):
 
     def test_shaders_are_read_again_while_one_plays(self):
         root = self.folder / "root"
-        shader = root / "terrane" / "render" / "final.frag.glsl"
+        shader = root / "terrane" / "render" / "shade.frag.glsl"
         shader.parent.mkdir(parents=True)
         red = "layout(location = 0) out vec4 picture;\nvoid main() { picture = vec4(1, 0, 0, 1); }\n"
 
