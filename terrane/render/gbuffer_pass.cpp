@@ -41,10 +41,10 @@ void GBufferPass::draw(gpu::Pipeline& pipeline, const FrameTargets& targets, con
     quads.bind();
     opaque_.use();
     glUniform1ui(shared::kDrawnQuadsLocation, drawn);
-    quads.draw(pipeline, kNearest, {mesh::AlphaClass::Opaque});
+    quads.draw(pipeline, kNearest, mesh::AlphaClass::Opaque);
     tested_.use();
     glUniform1ui(shared::kDrawnQuadsLocation, drawn);
-    quads.draw(pipeline, kNearest, {mesh::AlphaClass::Tested});
+    quads.draw(pipeline, kNearest, mesh::AlphaClass::Tested);
 }
 
 }  // namespace terrane::render

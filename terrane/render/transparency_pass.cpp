@@ -143,7 +143,7 @@ void TransparencyPass::peelLayer(gpu::Pipeline& pipeline, const QuadDraw& quads,
     glBeginQuery(GL_ANY_SAMPLES_PASSED, anyDrawn_[index].id());
     (number == 0 ? first_ : next_).use();
     quads.draw(pipeline, {.depthTest = gpu::DepthTest::Greater, .readsSampleId = number > 0 && samples_ > 1},
-               {mesh::AlphaClass::Blended});
+               mesh::AlphaClass::Blended);
     glEndQuery(GL_ANY_SAMPLES_PASSED);
     if (number > 0) glEndConditionalRender();
 }
@@ -212,7 +212,7 @@ void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& target
                    {.depthTest = gpu::DepthTest::Equal,
                     .writesDepth = false,
                     .blending = isDirect_ ? gpu::Blending::Off : gpu::Blending::Through},
-                   {mesh::AlphaClass::Blended});
+                   mesh::AlphaClass::Blended);
     } else {
         for (const ScreenRect& rect : rects) shadeWithin(pipeline, targets, rect, inputs, occlusion);
     }
