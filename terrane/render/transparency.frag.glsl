@@ -8,19 +8,12 @@
 #include "terrane/render/light_sample.glsl"
 #include "terrane/render/sky_color.glsl"
 #include "terrane/render/gbuffer_read.glsl"
-#include "terrane/render/packed_layer.glsl"
+#include "terrane/render/layer_read.glsl"
 #include "terrane/render/distance_fog.glsl"
 #include "terrane/render/land_light.glsl"
 #include "terrane/render/lighting.glsl"
 #include "terrane/render/tone.glsl"
 
-#if MSAA_SAMPLES > 1
-layout(binding = kTransparencyColorUnit) uniform sampler2DMS layerColors[LAYERS];
-layout(binding = kTransparencyDepthUnit) uniform sampler2DMS layerDepths[LAYERS];
-#else
-layout(binding = kTransparencyColorUnit) uniform sampler2D layerColors[LAYERS];
-layout(binding = kTransparencyDepthUnit) uniform sampler2D layerDepths[LAYERS];
-#endif
 #if OCCLUSION == 1
 layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
 #endif
@@ -50,7 +43,7 @@ Passed over(vec4 color) {
 Passed shadeLayer(Layer layer, float depth, float behind, float visibility, bool hasFarFloor, bool isNearest) {
     float blocks = blocksOfDepth(depth);
     vec3 toPoint = inRay * blocks, position = frame.cameraPosition.xyz + toPoint;
-    if ((frame.switches & kSwitchUnlit) != 0) 
+    if ((frame.switches & kSwitchUnlit) != 0)
         return over(throughAir(layer.surface.albedo, toPoint, 1.0) * layer.alpha);
     float shadow = 1.0;
 #if SHADOW > 0
@@ -69,30 +62,6 @@ Passed shadeLayer(Layer layer, float depth, float behind, float visibility, bool
     float share = max(passed.color.a, 1e-3);
     vec4 air = throughAir(passed.color.rgb / share, toPoint, levels.a);
     return Passed(air * share, 1.0 - air.a * (1.0 - passed.through));
-}
-
-// Of one of the layers. Which one may differ from pixel to pixel: such an index of textures would be undefined.
-vec4 packedLayerAt(ivec2 pixel, int k, int n) {
-    vec4 packedLayer = texelFetch(layerColors[0], pixel, k);
-    for (int m = 1; m < LAYERS; ++m) packedLayer = m == n ? texelFetch(layerColors[m], pixel, k) : packedLayer;
-    return packedLayer;
-}
-
-float layerDepthAt(ivec2 pixel, int k, int n) {
-    float depth = texelFetch(layerDepths[0], pixel, k).r;
-    for (int m = 1; m < LAYERS; ++m) depth = m == n ? texelFetch(layerDepths[m], pixel, k).r : depth;
-    return depth;
-}
-
-// A layer that has no face there has the depth of what is opaque, and behind it there are none.
-bool isThere(ivec2 pixel, int k, int n) {
-    return layerDepthAt(pixel, k, n) > depthAt(pixel, k);
-}
-
-int layersAt(ivec2 pixel, int k) {
-    int count = 0;
-    for (int n = 0; n < LAYERS; ++n) count += count == n && isThere(pixel, k, n) ? 1 : 0;
-    return count;
 }
 
 // Found for the nearest layer alone.
@@ -120,19 +89,6 @@ Passed shadeLayers(ivec2 pixel, int k) {
         behind = depth;
     }
     return sum;
-}
-
-// Whether all samples show the same.
-bool isOneLayer(ivec2 pixel) {
-    bool isSame = isOneSurface(pixel, packedSurfaceAt(pixel, 0));
-    int count = layersAt(pixel, 0);
-    for (int k = 1; k < MSAA_SAMPLES; ++k) isSame = isSame && layersAt(pixel, k) == count;
-    for (int n = 0; n < LAYERS; ++n) {
-        vec4 first = texelFetch(layerColors[n], pixel, 0);
-        for (int k = 1; k < MSAA_SAMPLES; ++k)
-            isSame = isSame && (n >= count || texelFetch(layerColors[n], pixel, k) == first);
-    }
-    return isSame;
 }
 
 Passed shadeSamples(ivec2 pixel) {
