@@ -64,7 +64,10 @@ base::Result<CullPass> CullPass::create(const gpu::ShaderLoader& shaders, const 
     if (!compact) return tl::unexpected(compact.error());
     auto quadCull = QuadCull::create(shaders);
     if (!quadCull) return tl::unexpected(quadCull.error());
+    auto quadList = QuadList::create(shaders);
+    if (!quadList) return tl::unexpected(quadList.error());
     pass.quadCull_ = std::move(*quadCull);
+    pass.quadList_ = std::move(*quadList);
     pass.cull_ = std::move(*cull);
     pass.compact_ = std::move(*compact);
     pass.hasIndirectCount_ = device.indirectCount;
@@ -104,7 +107,7 @@ std::size_t CullPass::gpuBytes(const MeshSectionTable& meshSections) const {
     return bytesWhileGrowing(commands_, commandBytesOf(meshSections)) +
            bytesWhileGrowing(visible_, meshSections.count() * sizeof(std::uint32_t)) +
            bytesWhileGrowing(visibleLastFrame_, meshSections.slots() * sizeof(std::uint32_t)) +
-           countBuffer_.sizeBytes() + quadCull_.gpuBytes();
+           countBuffer_.sizeBytes() + quadCull_.gpuBytes() + quadList_.gpuBytes();
 }
 
 // Mesh sections that were never tested count as hidden: the late pass draws them.
@@ -132,6 +135,8 @@ void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSect
     if (phase_ == CullPhase::Late) quadCull_.run(*input.quads, *input.resources);
     compact_.use();
     glDispatchCompute(shared::kDrawLists, static_cast<GLuint>(lists_.size()), 1);
+    if (phase_ != CullPhase::All)
+        quadList_.run(*input.quads, phase_ == CullPhase::Early ? shared::kQuadSeen : shared::kQuadNew);
     // The late pass overwrites what the early one read.
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -182,6 +187,7 @@ void CullPass::drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& st
         for (std::size_t arena = 0; arena < lists_.size(); ++arena) {
             if (lists_[arena][list].max == 0) continue;
             quads.texels(arena).bind(shared::kQuadsUnit);
+            quadList_.bind();
             drawList(list, arena);
         }
     }

@@ -13,6 +13,7 @@
 #include "terrane/render/hi_z.h"
 #include "terrane/render/mesh_section_table.h"
 #include "terrane/render/quad_cull.h"
+#include "terrane/render/quad_list.h"
 
 namespace terrane::render {
 
@@ -23,7 +24,7 @@ struct CullInput {
     glm::mat4 viewProjection{1};
     glm::vec2 size{1};         // of the image in pixels
     const HiZ* hiZ = nullptr;  // for the late pass
-    // With it the late pass tests quads, too.
+    // With Hi-Z the late pass tests quads, too.
     const QuadStore* quads = nullptr;
     const QuadResources* resources = nullptr;
     float edgeExpansion = 0;  // pixels that edges of quads move
@@ -79,6 +80,7 @@ class CullPass {
 
     gpu::Program cull_, compact_;
     QuadCull quadCull_;
+    QuadList quadList_;
     gpu::Buffer visible_, visibleLastFrame_, commands_, countBuffer_;
     CullPhase phase_ = CullPhase::All;
     std::vector<ArenaLists> lists_;  // by arena

@@ -3,6 +3,7 @@
 #include "terrane/render/light_sample.glsl"
 #include "terrane/render/gbuffer_read.glsl"
 #define LAND 0
+#define FAR 0
 #include "terrane/render/lighting.glsl"
 
 layout(location = 1) in vec3 inRay;

@@ -34,16 +34,13 @@ void GBufferPass::clear(gpu::Pipeline& pipeline, const FrameTargets& targets) co
     targets.gbuffer.clearDepth(0.0f);
 }
 
-void GBufferPass::draw(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
-                       shared::uint drawn) const {
+void GBufferPass::draw(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads) const {
     const gpu::DebugGroup group("G-buffer");
     targets.gbuffer.bind();
     quads.bind();
     opaque_.use();
-    glUniform1ui(shared::kDrawnQuadsLocation, drawn);
     quads.draw(pipeline, kNearest, mesh::AlphaClass::Opaque);
     tested_.use();
-    glUniform1ui(shared::kDrawnQuadsLocation, drawn);
     quads.draw(pipeline, kNearest, mesh::AlphaClass::Tested);
 }
 

@@ -17,10 +17,8 @@ class GBufferPass {
     base::Result<void> select(int alphaSamples, bool isSmooth, const QuadFeatures& features);
     // Empties the G-buffer.
     void clear(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
-    // Adds to the G-buffer, with the frame's uniforms bound. `drawn`: the bit that a quad needs
-    // (quad_cull.h); 0 draws all.
-    void draw(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
-              shared::uint drawn) const;
+    // Adds to the G-buffer, with the frame's uniforms bound.
+    void draw(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads) const;
 
   private:
     ShaderVariants opaque_, tested_;

@@ -1,5 +1,12 @@
 // Light that the land around the camera leaves, as far as the horizon (shared/land.h). LAND: 1 where there
 // are its textures (land_textures.h), 0 for none. Needs frame_uniforms.glsl.
+struct Land {
+    vec4 ground;  // red, green, blue: its color, linear; alpha: the share of the sky that is seen from it
+    float share;  // of the sun's or moon's disc that land does not hide
+};
+
+const Land kOpenLand = Land(vec4(0.12, 0.16, 0.07, 1.0), 1.0);  // where nothing is known
+
 #if LAND == 1
 #include "terrane/shared/land.h"
 
@@ -8,8 +15,6 @@ layout(std140, binding = kLandBinding) uniform LandBlock {
 };
 layout(binding = kLandShadowUnit) uniform sampler2DArray landShadows;
 layout(binding = kLandGroundUnit) uniform sampler2DArray landGrounds;
-
-const vec4 kOpenLand = vec4(0.12, 0.16, 0.07, 1.0);  // where no level is there
 
 // Texture coordinates and layer of the finest level that has the place; layer -1 for none. One level is
 // enough: where it ends it has the values of the next one.
@@ -23,23 +28,18 @@ vec3 landPlace(vec2 place) {
     return found;
 }
 
-// The share of the sun's or moon's disc that land does not hide, for a point of the surface.
-float landShare(vec3 position) {
+// For a point of the surface.
+Land landAt(vec3 position) {
     vec3 at = landPlace(position.xy);
+    vec4 ground = textureLod(landGrounds, at, 0.0);
     vec2 texel = textureLod(landShadows, at, 0.0).rg;
     float begin = kLandLowest + kLandHeights * texel.r, edge = kLandMaxEdge * texel.g;
     float share = clamp((position.z - begin) / max(edge, 0.01), 0.0, 1.0);
-    return at.z < 0.0 ? 1.0 : share * share * (3.0 - 2.0 * share);
+    if (at.z < 0.0) return kOpenLand;
+    return Land(ground, share * share * (3.0 - 2.0 * share));
 }
-
-// Red, green, blue: the ground's color, linear; alpha: the share of the sky that is seen from it.
-vec4 landGround(vec3 position) {
-    vec3 at = landPlace(position.xy);
-    vec4 texel = textureLod(landGrounds, at, 0.0);
-    return at.z < 0.0 ? kOpenLand : texel;
-}
-
-float landSky(vec3 position) {
-    return landGround(position).a;
+#else
+Land landAt(vec3 position) {
+    return kOpenLand;
 }
 #endif

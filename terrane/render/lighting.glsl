@@ -1,5 +1,6 @@
-// The light of a surface: lamps, sky, sun or moon. Needs frame_uniforms.glsl, packed_gbuffer.glsl, light_sample.glsl,
-// land_light.glsl.
+// The light of a surface: lamps, sky, sun or moon. Needs frame_uniforms.glsl, packed_gbuffer.glsl, light_sample.glsl.
+// FAR: 1 where all surfaces belong to far tiles.
+#include "terrane/render/land_light.glsl"
 
 const vec3 kMinLight = vec3(0.006);  // of the darkest cave: shapes can just be seen
 
@@ -7,10 +8,14 @@ const vec3 kMinLight = vec3(0.006);  // of the darkest cave: shapes can just be 
 // from the depth and is off by less than kOff within some hundred blocks: moved by that along the normal it is on the
 // near side of the plane between two layers of nodes, everywhere on a face. Far tiles lie under the open sky.
 vec4 levelsAt(vec3 position, Surface s) {
+#if FAR == 1
+    return vec4(0.0, 0.0, 0.0, 1.0);
+#else
     if (s.isFar) return vec4(0.0, 0.0, 0.0, 1.0);
     const float kOff = 1.0 / 256.0;
     vec3 normal = s.direction == kDirectionPlant ? vec3(0.0) : s.normal;
     return sampleLight(position + kOff * normal, normal);
+#endif
 }
 
 // A level's brightness, near level^0.85: half of all levels are of use.
@@ -19,13 +24,12 @@ vec4 brightnessOf(vec4 levels) {
 }
 
 // From the sky, and from the ground that sun and sky light: on a face that looks down or aside all or half of it.
-vec3 lightAround(vec3 position, vec3 normal) {
+vec3 lightAround(Land land, vec3 normal) {
     float up = 0.5 + 0.5 * normal.z;
 #if LAND == 1
-    vec4 ground = landGround(position);
-    vec3 sky = frame.ambientColor.rgb * ground.a;
-    vec3 sun = frame.lightColor.rgb * (max(frame.lightDirection.z, 0.0) * landShare(position));
-    return mix(ground.rgb * (sun + sky), sky, up);
+    vec3 sky = frame.ambientColor.rgb * land.ground.a;
+    vec3 sun = frame.lightColor.rgb * (max(frame.lightDirection.z, 0.0) * land.share);
+    return mix(land.ground.rgb * (sun + sky), sky, up);
 #else
     return frame.ambientColor.rgb * mix(frame.ambientFromBelow, 1.0, up);
 #endif
@@ -33,10 +37,10 @@ vec3 lightAround(vec3 position, vec3 normal) {
 
 // Lamps, hidden by day where daylight reaches; sky and ground from all around; the sun or moon where the sky is seen.
 // `shadow` is the share of direct light, `visibility` that of light from all around.
-vec3 shade(Surface s, vec3 position, vec4 levels, float shadow, float visibility) {
+vec3 shade(Surface s, Land land, vec4 levels, float shadow, float visibility) {
     vec4 light = brightnessOf(levels);
     float facing = max(dot(s.normal, frame.lightDirection.xyz), 0.0);
     vec3 lamps = light.rgb * (1.0 - frame.hiddenLampShare * light.a);
-    vec3 around = (lamps + kMinLight + light.a * lightAround(position, s.normal)) * visibility;
+    vec3 around = (lamps + kMinLight + light.a * lightAround(land, s.normal)) * visibility;
     return s.albedo * (around + s.glow + light.a * frame.lightColor.rgb * facing * shadow);
 }

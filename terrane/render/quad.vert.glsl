@@ -28,7 +28,7 @@ layout(binding = kMaterialsUnit) uniform usamplerBuffer materials;
 layout(location = kMeshSectionChunkAttribute) in ivec3 meshSectionChunk;  // of the draw's mesh section; z: its level
 
 #if PASS == 0
-layout(location = kDrawnQuadsLocation) uniform uint drawnQuads;  // bits of word 1 that a quad needs; 0: none
+layout(binding = kListedQuadsUnit) uniform usamplerBuffer listedQuads;
 #endif
 
 // Layers are peeled by comparing depths of two programs.
@@ -51,8 +51,14 @@ layout(location = 3) out vec2 outPlace;  // blocks from the corner of the camera
 #endif
 #include "terrane/render/packed_face.glsl"
 
+// By its number in the arena, or from a list of those to be drawn.
 Quad quadOf(int vertex) {
-    uvec2 words = texelFetch(quads, vertex >> 2).rg;
+    int number = vertex >> 2;
+#if PASS == 0
+    int place = number - int(kFirstListedQuad);
+    if (place >= 0) number = int(texelFetch(listedQuads, place).r);
+#endif
+    uvec2 words = texelFetch(quads, number).rg;
     return Quad(words.x, words.y);
 }
 
@@ -120,8 +126,6 @@ void main() {
     gl_Position = expandEdges(gl_Position, gl_Position + alongU, gl_Position + alongV, frame.viewportSize,
                               frame.edgeExpansion, growsV);
     if (isTileSide) gl_Position.z *= gl_Position.w / (gl_Position.w + kTileSideDepth * columnBlocks(level));
-    // Outside of the view: the rasterizer never hears of it.
-    if (drawnQuads != 0u && (quad.word1 & drawnQuads) == 0u) gl_Position = vec4(2.0, 2.0, 0.0, 1.0);
 #endif
     uint seed = hash2(uint(chunk.x), uint(chunk.y), quadMaterial(quad));
     outFace = uvec2(packFace(quad, material, level), quad.word0 ^ seed);

@@ -1,7 +1,7 @@
 // Which quads can be seen, on the GPU: those that are in view, cover a sample and are not hidden by what was
 // drawn early (cull_pass.h). Most quads of mesh sections in view are hidden: of a landscape four in five.
 //
-// Two bits of a quad (shared/quad.h) carry the answer to the vertex shader, which leaves the others out:
+// Two bits of a quad (shared/quad.h) carry the answer to those who list what is drawn (quad_list.h):
 // *seen* is what the early pass of the next frame draws, *new* what the late pass of this frame adds. A quad
 // that comes from the mesher has neither, so it is tested before it is drawn. As with mesh sections nothing
 // that can be seen is missing, in any frame. Used by the renderer on the context's thread.

@@ -195,10 +195,10 @@ void Renderer::drawShadows(const FrameInput& input) {
     passes_.shadowMap.bindUniforms(input.camera, hasShadows(input), ring_);
 }
 
-void Renderer::drawSurfaces(bool leavesOutHidden) {
+void Renderer::drawSurfaces() {
     const TimerZone zone(timer_, "surfaces");
     passes_.gbuffer.clear(pipeline_, targets_);
-    passes_.gbuffer.draw(pipeline_, targets_, quadDraw(), leavesOutHidden ? shared::kQuadSeen : 0);
+    passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
 }
 
 // What was hidden in the frame before and is not now.
@@ -209,7 +209,7 @@ void Renderer::drawLate(const CullInput& cullInput) {
     }
     cull(CullPhase::Late, cullInput);
     const TimerZone zone(timer_, "surfaces again");
-    passes_.gbuffer.draw(pipeline_, targets_, quadDraw(), shared::kQuadNew);
+    passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
 }
 
 void Renderer::shadeSurfaces(const FrameInput& input) {
@@ -293,7 +293,7 @@ void Renderer::draw(const FrameInput& input) {
     if (leavesOutHidden) culling.hiZ = &passes_.hiZ;
     cull(leavesOutHidden ? CullPhase::Early : CullPhase::All, culling);
     drawShadows(input);
-    drawSurfaces(leavesOutHidden);
+    drawSurfaces();
     if (leavesOutHidden) drawLate(culling);
     if (passes_.holeFill.isOn()) {
         const TimerZone zone(timer_, "fill holes");

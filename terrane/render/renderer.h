@@ -118,7 +118,7 @@ class Renderer {
     CullInput cullInput(const FrameInput& input, const ViewMatrices& view) const;
     void cull(CullPhase phase, const CullInput& input);
     void drawShadows(const FrameInput& input);
-    void drawSurfaces(bool leavesOutHidden);
+    void drawSurfaces();
     void drawLate(const CullInput& cullInput);
     void shadeSurfaces(const FrameInput& input);
     bool drawTransparency(const FrameInput& input);

@@ -1,14 +1,13 @@
 // From the G-buffer to the light that reaches the camera: color times coverage, and coverage, over the sky.
 // MSAA_SAMPLES: of the G-buffer. PER_SAMPLE: 1 shades each sample of a pixel with several surfaces, 0 their mean.
-// SHADOW: 0 without shadows, else see shadow_sample.glsl. OCCLUSION: 1 where there is ambient occlusion. LAND: see
-// land_light.glsl. OVER_SKY: 1 blends what fades with the sky that was drawn behind it, 0 does so here: without clouds the sky's
-// color is known, and nothing behind need be drawn or read. DIRECT: 1 writes what the screen shows (direct_image.h).
+// SHADOW: 0 without shadows, else see shadow_sample.glsl. OCCLUSION: 1 where there is ambient occlusion. LAND, FAR:
+// see land_light.glsl, lighting.glsl. OVER_SKY: 1 blends what fades with the sky that was drawn behind it, 0 does so here: without
+// clouds the sky's color is known, and nothing behind need be drawn or read. DIRECT: 1 writes what the screen shows (direct_image.h).
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
 #include "terrane/render/sky_color.glsl"
 #include "terrane/render/gbuffer_read.glsl"
 #include "terrane/render/distance_fog.glsl"
-#include "terrane/render/land_light.glsl"
 #include "terrane/render/lighting.glsl"
 #include "terrane/render/tone.glsl"
 #if OCCLUSION == 1

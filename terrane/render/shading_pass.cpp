@@ -17,6 +17,7 @@ ShadingPass::ShadingPass(const gpu::ShaderLoader& shaders)
     : sky_(shaders, "sky"),
       nightSky_(shaders, "sky"),
       shade_{FullscreenPass(shaders, "shade"), FullscreenPass(shaders, "shade")},
+      shadeFar_(shaders, "shade"),
       skyMask_(shaders, PixelMask::Of::Sky),
       surfaceMask_(shaders, PixelMask::Of::Surfaces) {}
 
@@ -31,17 +32,21 @@ base::Result<void> ShadingPass::select(const RenderOptions& options, int samples
     if (selected) selected = nightSky_.select(sky(1));
     if (selected && samples > 1) selected = skyMask_.select(samples);
     if (selected && samples > 1) selected = surfaceMask_.select(samples);
+    const auto shade = [&](int isUnderWater, int isFar) {
+        return defined({{"MSAA_SAMPLES", samples},
+                        {"PER_SAMPLE", options.shading != Shading::Pixel},
+                        {"LIGHT_SMOOTH", static_cast<int>(options.light)},
+                        {"SHADOW", light.shadowVariant},
+                        {"LAND", light.knowsLand},
+                        {"OCCLUSION", options.occlusion != Occlusion::Off},
+                        {"OVER_SKY", fadesOverSky_},
+                        {"DIRECT", isDirect_},
+                        {"UNDER_WATER", isUnderWater},
+                        {"FAR", isFar}});
+    };
     for (int isUnderWater = 0; selected && isUnderWater < 2; ++isUnderWater)
-        selected = shade_[static_cast<std::size_t>(isUnderWater)].select(
-            defined({{"MSAA_SAMPLES", samples},
-                     {"PER_SAMPLE", options.shading != Shading::Pixel},
-                     {"LIGHT_SMOOTH", static_cast<int>(options.light)},
-                     {"SHADOW", light.shadowVariant},
-                     {"LAND", light.knowsLand},
-                     {"OCCLUSION", options.occlusion != Occlusion::Off},
-                     {"OVER_SKY", fadesOverSky_},
-                     {"DIRECT", isDirect_},
-                     {"UNDER_WATER", isUnderWater}}));
+        selected = shade_[static_cast<std::size_t>(isUnderWater)].select(shade(isUnderWater, 0));
+    if (selected && samples > 1) selected = shadeFar_.select(shade(0, 1));
     return selected;
 }
 
@@ -63,18 +68,25 @@ void ShadingPass::drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, 
     (sky.hasStars ? nightSky_ : sky_).draw(pipeline, state);
 }
 
-// The triangle lies at the far end: surfaces are all nearer, and so is the mask.
+// The triangle lies at the far end: surfaces are all nearer, and so is the mask. Where that tells far tiles apart
+// they have a shader of their own, which reads no light.
 void ShadingPass::drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targets,
                                const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const {
-    if (targets.msaaSamples > 1) surfaceMask_.draw(pipeline, targets);
+    const bool isMasked = targets.msaaSamples > 1, drawsFar = isMasked && !inputs.isUnderWater;
+    if (isMasked) surfaceMask_.draw(pipeline, targets);
     targets.bindGBuffer();
     inputs.bind();
     if (occlusion.isOn()) occlusion.result().bind(shared::kOcclusionUnit);
     (isDirect_ ? targets.direct : targets.scene).bind();
-    shade_[inputs.isUnderWater ? 1 : 0].draw(
-        pipeline, {.depthTest = gpu::DepthTest::Less,
-                   .writesDepth = false,
-                   .blending = fadesOverSky_ ? gpu::Blending::Over : gpu::Blending::Off});
+    gpu::PipelineState state{.depthTest = gpu::DepthTest::Less,
+                             .writesDepth = false,
+                             .blending = fadesOverSky_ ? gpu::Blending::Over : gpu::Blending::Off};
+    if (drawsFar) state.depthRange.x = 0.5f;
+    shade_[inputs.isUnderWater ? 1 : 0].draw(pipeline, state);
+    if (!drawsFar) return;
+    state.depthTest = gpu::DepthTest::Equal;
+    state.depthRange.x = shared::kFarSurfacesDepth;
+    shadeFar_.draw(pipeline, state);
 }
 
 }  // namespace terrane::render

@@ -35,6 +35,7 @@ class ShadingPass {
   private:
     FullscreenPass sky_, nightSky_;
     std::array<FullscreenPass, 2> shade_;  // in air, under water
+    FullscreenPass shadeFar_;              // far tiles alone, in air
     PixelMask skyMask_, surfaceMask_;
     bool fadesOverSky_ = false, hasDistanceFog_ = false, isDirect_ = false;
 };

@@ -252,21 +252,19 @@ shared::ShadowFrame ShadowClipmap::frame(const Camera& camera, int texels) const
         const double blocks = kTiles * shadowTileBlocks(cascade), texel = blocks / texels;
         const glm::dmat3 rows = glm::transpose(layer.plane->toLight);
         const glm::dvec3 zero = onPlane(*layer.plane, corner);
-        const glm::dvec3 at = layer.plane->toLight * (camera.position - corner);
         for (int axis = 0; axis < 2; ++axis) {
             const double offset = zero[axis] / blocks - std::floor(zero[axis] / blocks);
             frame.toMap[3 * cascade + axis] = glm::vec4(rows[axis] / blocks, offset);
-            frame.windows[cascade][axis] = static_cast<float>(at[axis] / blocks + offset);
         }
         const double range = shared::kShadowRange;
         frame.toMap[3 * cascade + 2] = glm::vec4(rows[2] / range, 0.5 + zero.z / range);
         const double reach = drawnReach(layer, cascade, camera) - kFilterTexels * texel;
-        frame.windows[cascade].z = static_cast<float>(reach > 0 ? blocks / reach : 1e9);
-        frame.windows[cascade].w = static_cast<float>(inUse_[static_cast<std::size_t>(cascade)]);
+        frame.reach[cascade] = static_cast<float>(reach > 0 ? 1 / reach : 1e9);
+        frame.layers[cascade] = static_cast<float>(inUse_[static_cast<std::size_t>(cascade)]);
         frame.texels[cascade] = static_cast<float>(texel);
     }
-    for (std::size_t cascade = static_cast<std::size_t>(cascades_); cascade < kMaxCascades; ++cascade)
-        frame.windows[cascade] = {1, 1, 1e9f, 0};  // nothing is within
+    for (int cascade = cascades_; cascade < static_cast<int>(kMaxCascades); ++cascade)
+        frame.reach[cascade] = 1e9f;  // it holds nothing
     frame.mapTexels = static_cast<float>(texels);
     return frame;
 }

@@ -10,14 +10,8 @@ layout(std140, binding = kShadowBinding) uniform ShadowBlock {
     ShadowFrame shadows;
 };
 
-const float kBlendFrom = 0.9;  // of a cascade's reach: there it goes over into the next one
-
-// 0 at the camera to 1 where the cascade ends.
-float reachShare(uint cascade, vec4 position) {
-    vec2 at = vec2(dot(shadows.toMap[3u * cascade], position), dot(shadows.toMap[3u * cascade + 1u], position));
-    vec2 away = abs(at - shadows.windows[cascade].xy);
-    return max(away.x, away.y) * shadows.windows[cascade].z;
-}
+// Of a cascade's reach: from there on more and more pixels take the next one.
+const float kChangeFrom = 0.9;
 
 // Of values of the cascades. Software renderers look up an array number by number.
 float ofCascade(int cascade, vec3 values) {
@@ -66,7 +60,7 @@ float cascadeShare(int cascade, vec3 position, vec3 normal, float slope) {
     float texels = 1.5;
 #endif
     vec4 moved = vec4(position + normal * (0.02 + texels * texel * slope), 1.0);
-    float layer = ofCascade(cascade, vec3(shadows.windows[0].w, shadows.windows[1].w, shadows.windows[2].w));
+    float layer = ofCascade(cascade, shadows.layers.xyz);
     vec4 at = vec4(alongRow(cascade, 0u, moved), alongRow(cascade, 1u, moved), layer, alongRow(cascade, 2u, moved));
 #if SHADOW == 2
     return softShare(at, texel);
@@ -75,23 +69,19 @@ float cascadeShare(int cascade, vec3 position, vec3 normal, float slope) {
 #endif
 }
 
-// By the finest cascade that holds the point; by two where one goes over into the next. Loops, since software renderers run
-// both sides of a branch.
-float lightShare(vec3 position, vec3 normal, float distance) {
-    float facing = max(dot(normal, frame.lightDirection.xyz), 0.0);
-    float slope = sqrt(max(1.0 - facing * facing, 0.0));
-    vec4 point = vec4(position, 1.0);
-    vec3 reach = max(vec3(reachShare(0u, point), reachShare(1u, point), reachShare(2u, point)), distance / kShadowSight);
+// 0…1, spread evenly over neighboring pixels (J. Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare,
+// 2014).
+float pixelNoise() {
+    return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+}
+
+// By the finest cascade that reaches so far from the camera, beyond all by the land. Faces that look away from the light need
+// not ask.
+float lightShare(vec3 position, vec3 normal, float distance, float landShare) {
+    float facing = dot(normal, frame.lightDirection.xyz), slope = sqrt(max(1.0 - facing * facing, 0.0));
+    vec3 reach = distance * shadows.reach.xyz + (1.0 - kChangeFrom) * pixelNoise();
     int cascade = reach.x < 1.0 ? 0 : reach.y < 1.0 ? 1 : reach.z < 1.0 ? 2 : 3;
-    float share = 0.0, left = shadows.strength;
-    for (; cascade < 3 && left > 0.0; ++cascade) {
-        float own = left * (1.0 - smoothstep(kBlendFrom, 1.0, ofCascade(cascade, reach)));
-        if (own > 0.0) share += own * cascadeShare(cascade, position, normal, slope);
-        left -= own;
-    }
-    float beyond = left;
-#if LAND == 1
-    for (; left > 0.0; left = 0.0) beyond = left * landShare(position);
-#endif
-    return 1.0 - shadows.strength + share + beyond;
+    float share = cascade == 3 ? landShare : 1.0;
+    if (facing > 0.0 && cascade < 3) share = cascadeShare(cascade, position, normal, slope);
+    return mix(1.0, share, shadows.strength);
 }

@@ -1,6 +1,6 @@
 // The light of an opaque surface that reaches the camera: color times coverage, and coverage. SHADOW, OVER_SKY: see
 // shade.frag.glsl.
-// Needs land_light.glsl, lighting.glsl, distance_fog.glsl, gbuffer_read.glsl, and `inRay`.
+// Needs lighting.glsl, distance_fog.glsl, gbuffer_read.glsl, and `inRay`.
 #if SHADOW > 0
 #include "terrane/render/shadow_sample.glsl"
 #endif
@@ -17,10 +17,11 @@ vec4 shadeAt(Surface s, float depth, float visibility) {
     vec3 toPoint = inRay * blocksOfDepth(depth);
     vec3 position = frame.cameraPosition.xyz + toPoint;
     if ((frame.switches & kSwitchUnlit) != 0) return throughAirOf(s.albedo, toPoint, 1.0);
+    Land land = landAt(position);
     float shadow = 1.0;
 #if SHADOW > 0
-    shadow = lightShare(position, s.normal, length(toPoint));
+    shadow = lightShare(position, s.normal, length(toPoint), land.share);
 #endif
     vec4 levels = levelsAt(position, s);
-    return throughAirOf(shade(s, position, levels, shadow, visibility), toPoint, levels.a);
+    return throughAirOf(shade(s, land, levels, shadow, visibility), toPoint, levels.a);
 }

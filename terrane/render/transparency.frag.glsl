@@ -10,7 +10,6 @@
 #include "terrane/render/gbuffer_read.glsl"
 #include "terrane/render/layer_read.glsl"
 #include "terrane/render/distance_fog.glsl"
-#include "terrane/render/land_light.glsl"
 #include "terrane/render/lighting.glsl"
 #include "terrane/render/tone.glsl"
 
@@ -45,9 +44,10 @@ Passed shadeLayer(Layer layer, float depth, float behind, float visibility, bool
     vec3 toPoint = inRay * blocks, position = frame.cameraPosition.xyz + toPoint;
     if ((frame.switches & kSwitchUnlit) != 0)
         return over(throughAir(layer.surface.albedo, toPoint, 1.0) * layer.alpha);
+    Land land = landAt(position);
     float shadow = 1.0;
 #if SHADOW > 0
-    shadow = lightShare(position, layer.surface.normal, length(toPoint));
+    shadow = lightShare(position, layer.surface.normal, length(toPoint), land.share);
 #endif
     vec4 levels = levelsAt(position, layer.surface);
     Passed passed;
@@ -56,7 +56,7 @@ Passed shadeLayer(Layer layer, float depth, float behind, float visibility, bool
         passed = shadeWater(layer.surface, position, toPoint, thickness, levels, shadow, visibility, hasFarFloor,
                             isNearest);
     } else {
-        passed = over(vec4(shade(layer.surface, position, levels, shadow, visibility) * layer.alpha, layer.alpha));
+        passed = over(vec4(shade(layer.surface, land, levels, shadow, visibility) * layer.alpha, layer.alpha));
     }
     // Of what fades away in the distance, so much is left.
     float share = max(passed.color.a, 1e-3);

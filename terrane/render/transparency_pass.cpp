@@ -71,7 +71,8 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
                                                     {"FACE_SAMPLING", 0},
                                                     {"TINT", 0},
                                                     {"WATER_DETAIL", options.water == Water::Full},
-                                                    {"UNDER_WATER", isUnderWater}});
+                                                    {"UNDER_WATER", isUnderWater},
+                                                    {"FAR", 0}});
         selected = shadesQuads_ ? shadeQuads_[index].select(shading) : shade_[index].select(shading);
     }
     if (selected && isMasked_) selected = mask_.select(samples);

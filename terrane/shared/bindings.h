@@ -24,6 +24,7 @@ const uint kCountsBinding = 4u;
 const uint kVisibleLastFrameBinding = 5u;
 const uint kTestedMeshSectionsBinding = 6u;
 const uint kQuadsBinding = 7u;
+const uint kListedQuadsBinding = 2u;  // where visible mesh sections are not read any more
 
 // Texture units
 const uint kBlockTexturesUnit = 0u;
@@ -51,6 +52,7 @@ const uint kLandGroundUnit = 25u;
 const uint kShadowDepthsUnit = 26u;  // the maps of kShadowUnit as numbers
 const uint kSkyTableUnit = 28u;
 const uint kMilkyWayUnit = 29u;
+const uint kListedQuadsUnit = 30u;  // a buffer as a texture
 
 // Vertex attributes
 const uint kMeshSectionChunkAttribute = 0u;  // chunk and level of a draw's mesh section, by the base instance
@@ -60,8 +62,8 @@ const uint kHiZFromImage = 0u;
 const uint kHiZToImage = 1u;
 
 // Plain uniforms
-const uint kDrawnQuadsLocation = 0u;  // of quad.vert.glsl
-const uint kArenaLocation = 0u;       // of quad_cull.comp.glsl
+const uint kArenaLocation = 0u;      // of quad_cull.comp.glsl and quad_list.comp.glsl
+const uint kListedBitLocation = 1u;  // of quad_list.comp.glsl
 
 SHARED_END
 #endif

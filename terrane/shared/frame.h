@@ -59,6 +59,9 @@ struct Frame {
 // do from 5/6 over the ground, and more at the sides of a wide image.
 const float kFadingBegins = 0.4f;
 
+// Depth of a mask where all surfaces belong to far tiles: a step of 16 bits.
+const float kFarSurfacesDepth = 21845.0f / 65535.0f;
+
 const uint kViewNormal = 1u;
 const uint kViewDepth = 2u;
 const uint kViewMerging = 3u;  // each quad in a color of its own

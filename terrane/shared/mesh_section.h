@@ -42,7 +42,7 @@ struct DrawCommand {
     uint indexCount;
     uint instanceCount;
     uint firstIndex;
-    int baseVertex;     // 4 × first quad in its arena
+    int baseVertex;     // 4 × first quad in its arena, or see kFirstListedQuad
     uint baseInstance;  // number of the mesh section
 };
 
@@ -51,6 +51,11 @@ const uint kMaxQuadsPerCommand = 16384u;
 
 // Lists of commands, one for each draw bucket.
 const uint kDrawLists = 6u;
+
+// Of those the first ones, of opaque and tested faces, draw lists of quads (render/quad_list.h): their base
+// vertex is 4 × (kFirstListedQuad + place in the list). No arena has as many quads.
+const uint kListedDrawLists = 4u;
+const uint kFirstListedQuad = 1u << 28;
 
 // Quads lie in several buffers (arenas). Each arena has commands and counts of its own, since a draw call
 // reads one buffer. 32 × 2²⁷ quads (1 GiB) are all that 32 bits can name.

@@ -12,20 +12,19 @@ const uint kShadowCascades = 3u;
 const uint kShadowTiles = 8u;
 
 // Blocks along the light that all maps hold, half of them on each side of the anchor: depths of 32 bits are
-// exact to 1/2000 block. Casters beyond are clamped into the range. Receivers are at most kShadowSight blocks
+// exact to 1/2000 block. Casters beyond are clamped into the range. Receivers are at most some 800 blocks
 // from the camera, which is at most 1,024 √2 blocks from the anchor.
 const float kShadowRange = 8192.0f;
-const float kShadowSight = 2048.0f;
 
 // From positions of the frame (see Frame) to the maps. Where a new map is being drawn for another direction
 // of the light, the cascades differ in it.
 struct ShadowFrame {
     vec4 toMap[9];  // of each cascade three rows: x and y in widths of the map, not wrapped; depth, 1 toward
                     // the light
-    // By cascade: x, y: the camera on the map; z: 1 / widths of the map from the camera that are drawn; w:
-    // the map's layer.
-    vec4 windows[kShadowCascades];
-    vec4 texels;      // x, y, z: blocks a texel of each cascade; w: most texels to each side of a soft edge
+    // x, y, z of each cascade:
+    vec4 reach;       // 1 / blocks from the camera that it holds
+    vec4 layers;      // its map
+    vec4 texels;      // blocks a texel; w: most texels to each side of a soft edge
     float strength;   // 0 where no light casts shadows
     float mapTexels;  // along a side of a map
     float unused0, unused1;
@@ -44,7 +43,7 @@ SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(ShadowFrame) == (9 + kShadowCascades + 2) * 16);
+static_assert(sizeof(ShadowFrame) == (9 + 4) * 16);
 static_assert(sizeof(ShadowDraw) == 96);
 }  // namespace terrane::shared
 #endif

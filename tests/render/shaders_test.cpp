@@ -73,6 +73,7 @@ const std::map<std::string, Values>& variantValues() {
           {"UNDER_WATER", {"0", "1"}},
           {"DIRECT", {"0", "1"}},
           {"OVER_SKY", {"0", "1"}},
+          {"FAR", {"0"}},
           {"FACE_SAMPLING", {"0"}},
           {"TINT", {"0"}}}},
         {"pixel_mask.frag", {{"MSAA_SAMPLES", {"4"}}, {"OF", {"0", "1", "2"}}}},
@@ -98,7 +99,8 @@ const std::map<std::string, Values>& variantValues() {
           {"OCCLUSION", {"0", "1"}},
           {"OVER_SKY", {"0", "1"}},
           {"DIRECT", {"0", "1"}},
-          {"UNDER_WATER", {"0", "1"}}}},
+          {"UNDER_WATER", {"0", "1"}},
+          {"FAR", {"0", "1"}}}},
     };
     return values;
 }
@@ -110,8 +112,10 @@ bool has(const gpu::ShaderDefines& defines, const char* name, const char* value)
 // What no options lead to: with several samples a pixel layers are shaded over the whole screen, surfaces
 // over the sky, and neither as the screen shows them; nor is this where there is ambient occlusion
 // or mirrored shores.
-// Without shadows light knows no land.
+// Without shadows light knows no land. Far tiles have a shader of their own with several samples, in air.
 bool isNeverSelected(const gpu::ShaderDefines& defines) {
+    if (has(defines, "FAR", "1") && (has(defines, "MSAA_SAMPLES", "1") || has(defines, "UNDER_WATER", "1")))
+        return true;
     if (has(defines, "LAND", "1") && has(defines, "SHADOW", "0")) return true;
     const bool isDirect = has(defines, "DIRECT", "1"), isOverSky = has(defines, "OVER_SKY", "1");
     const bool isOfLayers = has(defines, "QUADS", "0") || has(defines, "QUADS", "1");

@@ -41,7 +41,7 @@ TEST(ShadowClipmap, AllIsDrawnWithinTheLimitNearTilesFirst) {
     ShadowClipmap clipmap(3);
     const Camera camera{.position = {500, 500, 100}};
     EXPECT_GE(clipmap.update(camera, kLight, 5).size(), 1u);
-    EXPECT_GT(clipmap.frame(camera, 1024).windows[0].z, 1.0f);
+    EXPECT_GT(clipmap.frame(camera, 1024).reach[0], 1.0f);
     int drawn = 5;
     for (int frame = 0; frame < 60; ++frame) {
         const int tiles = tilesOf(clipmap.update(camera, kLight, 5));
@@ -65,11 +65,11 @@ TEST(ShadowClipmap, NoMapMixesTwoDirections) {
     const glm::vec3 later = glm::normalize(kLight + glm::vec3(0.05f, 0, 0));
     for (int frame = 0; frame < 15; ++frame) {
         for (const ShadowTiles& tiles : clipmap.update(camera, later, 4))
-            EXPECT_NE(tiles.layer, static_cast<int>(before.windows[0].w)) << frame;
-        EXPECT_EQ(clipmap.frame(camera, 1024).windows[0].w, before.windows[0].w) << frame;
+            EXPECT_NE(tiles.layer, static_cast<int>(before.layers[0])) << frame;
+        EXPECT_EQ(clipmap.frame(camera, 1024).layers[0], before.layers[0]) << frame;
     }
     clipmap.update(camera, later, 4);
-    EXPECT_NE(clipmap.frame(camera, 1024).windows[0].w, before.windows[0].w);
+    EXPECT_NE(clipmap.frame(camera, 1024).layers[0], before.layers[0]);
     EXPECT_NE(clipmap.frame(camera, 1024).toMap[0], before.toMap[0]);
     EXPECT_EQ(clipmap.frame(camera, 1024).toMap[3], before.toMap[3]) << "the other cascade follows";
 }
