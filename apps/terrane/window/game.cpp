@@ -103,7 +103,7 @@ void Game::advance(double seconds) {
 // What changed since the last frame; the renderer sees to its own options with the frame's size.
 void Game::applySettings() {
     if (settings_ == applied_) return;
-    if (settings_.graphics != applied_.graphics) endMeasurement();  // the player chose
+    if (settings_.preset != applied_.preset || settings_.graphics != applied_.graphics) endMeasurement();
     if (settings_.graphics.mesh != applied_.graphics.mesh)
         parts_.session.pipeline().setMeshOptions(settings_.graphics.mesh);
     if (settings_.graphics.viewDistance != applied_.graphics.viewDistance) {

@@ -18,9 +18,9 @@ double sumOf(const std::vector<gpu::GpuTiming>& passes) {
 
 }  // namespace
 
-// Those of low while it is measured.
+// Those of the preset that is measured while one is.
 const render::RenderOptions& Game::renderOptions() const {
-    return measurement_ ? render::presets().front().options : settings_.graphics.render;
+    return measurement_ ? measurement_->preset().options : settings_.graphics.render;
 }
 
 // Frames do not wait for the screen meanwhile: a graphics card that waits lowers its clock.
@@ -36,7 +36,7 @@ void Game::endMeasurement() {
 }
 
 void Game::measurePreset(double seconds) {
-    if (!measurement_) return;
+    if (!measurement_ || renderOptions() != parts_.renderer.options()) return;
     const bool isComplete = parts_.session.pipeline().progress().complete() && parts_.view.waiting() == 0;
     const auto choice = measurement_->add({seconds, sumOf(parts_.renderer.passTimes()), isComplete});
     if (!choice) return;

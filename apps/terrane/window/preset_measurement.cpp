@@ -9,20 +9,35 @@
 namespace terrane::app {
 
 std::optional<render::PresetChoice> PresetMeasurement::add(const Frame& frame) {
-    if (frame.isViewComplete != isViewComplete_) beginRound();
-    isViewComplete_ = frame.isViewComplete;
+    if (frame.isViewComplete && !isViewComplete_) beginRound();
+    isViewComplete_ |= frame.isViewComplete;
     seconds_ += frame.seconds;
     roundSeconds_ += frame.seconds;
     const double milliseconds = frame.gpuMilliseconds > 0 ? frame.gpuMilliseconds : frame.seconds * 1000;
     if (milliseconds > 0) milliseconds_.push_back(milliseconds);
     if (roundSeconds_ < kSeconds || milliseconds_.size() < kLeastFrames) return std::nullopt;
-
-    const render::PresetChoice choice = render::choosePreset(base::medianOf(milliseconds_));
+    const double median = base::medianOf(milliseconds_);
     beginRound();
-    // Frames get dearer until the view is complete: low is certain before, others are not.
-    const bool isLow = choice.preset == &render::presets().front();
-    if (isLow || isViewComplete_ || seconds_ >= kMostSeconds) return choice;
-    return std::nullopt;
+    return preset_ == &render::presets().front() ? judgeLow(median) : judgeExpected(median);
+}
+
+// Frames get dearer until the view is complete: an earlier round tells only that low is too dear already.
+std::optional<render::PresetChoice> PresetMeasurement::judgeLow(double milliseconds) {
+    const bool isKnown = isViewComplete_ || seconds_ >= kMostSeconds;
+    if (milliseconds <= render::kTargetMilliseconds && !isKnown) return std::nullopt;
+    lowMilliseconds_ = milliseconds;
+    const render::PresetChoice choice = render::choosePreset(milliseconds);
+    preset_ = choice.preset;
+    return preset_ == &render::presets().front() ? std::optional(choice) : std::nullopt;
+}
+
+// Relative costs differ from device to device: a preset that is too dear gives way to the next cheaper one.
+std::optional<render::PresetChoice> PresetMeasurement::judgeExpected(double milliseconds) {
+    const double framesPerSecond = 1000 / milliseconds;
+    if (framesPerSecond >= render::kTargetFramesPerSecond) return {{preset_, framesPerSecond}};
+    --preset_;  // they go from cheap to dear
+    if (preset_ != &render::presets().front()) return std::nullopt;
+    return {{preset_, 1000 / lowMilliseconds_}};
 }
 
 void PresetMeasurement::beginRound() {

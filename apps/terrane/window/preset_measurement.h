@@ -1,5 +1,5 @@
-// Measures at the first start what frames of the preset low take, and picks a preset by it. The window's loop
-// hands it each frame while the world comes in; it takes no frames of its own.
+// Picks a preset at the first start by measuring frames: first with low while the world comes in, then with
+// the preset that this lets expect. The window's loop draws and hands over each frame; nothing waits.
 #pragma once
 
 #include <cstddef>
@@ -15,23 +15,28 @@ namespace terrane::app {
 class PresetMeasurement {
   public:
     static constexpr double kSeconds = 1;           // of frames whose median counts
-    static constexpr double kMostSeconds = 10;      // then a view that is not complete counts, too
     static constexpr std::size_t kLeastFrames = 5;  // where a second has fewer
+    static constexpr double kMostSeconds = 10;      // until a view counts that is not complete
 
     struct Frame {
         double seconds = 0;          // since the frame before
         double gpuMilliseconds = 0;  // 0: not known, its seconds count
         bool isViewComplete = false;
     };
-    // A frame with low. Null until the preset is known; then there is nothing more to add.
+
+    const render::Preset& preset() const { return *preset_; }  // to draw with
+    // A frame drawn with preset(). Null until the choice is known; then there is nothing more to add.
     std::optional<render::PresetChoice> add(const Frame& frame);
 
   private:
     void beginRound();
+    std::optional<render::PresetChoice> judgeLow(double milliseconds);
+    std::optional<render::PresetChoice> judgeExpected(double milliseconds);
 
+    const render::Preset* preset_ = &render::presets().front();
     std::vector<double> milliseconds_;  // of the round's frames
-    double roundSeconds_ = 0, seconds_ = 0;
-    bool isViewComplete_ = false;
+    double roundSeconds_ = 0, seconds_ = 0, lowMilliseconds_ = 0;
+    bool isViewComplete_ = false;  // it was once
 };
 
 // "graphics: medium, for 74 frames/s on llvmpipe (…)". `renderer` is the driver's name of the device.
