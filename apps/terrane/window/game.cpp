@@ -127,17 +127,6 @@ base::Result<void> Game::useResourcePack(const std::string& folder) {
     return parts_.preview.setTextures(*textures);
 }
 
-// While developing, a shader is seen as soon as it is written. One that is wrong changes nothing.
-void Game::reloadWrittenShaders() {
-    const WriteTime written = shadersWritten_.at(seconds_, [&] { return parts_.shaders.newestWrite(); });
-    if (written == shadersRead_) return;
-    shadersRead_ = written;
-    auto done = parts_.renderer.reloadShaders();
-    if (done) done = parts_.preview.reloadShaders();
-    if (!done) base::logWarning("{}", done.error().message);
-    say(done ? "shaders are read again" : done.error().message);
-}
-
 base::Result<void> Game::drawFrame(double seconds) {
     const glm::ivec2 size = parts_.window.framebufferSize();
     if (size.x == 0 || size.y == 0) return {};  // minimised

@@ -1,5 +1,5 @@
-// How the window's loop draws: options whose shaders are ready, and the preset that the first start picks by
-// a measurement.
+// Graphics options of the window's loop: their shaders, and the measurement that picks a preset at the first
+// start.
 #include <utility>
 
 #include "apps/terrane/window/game.h"
@@ -18,7 +18,7 @@ double sumOf(const std::vector<gpu::GpuTiming>& passes) {
 
 }  // namespace
 
-// Those of the preset that is measured while one is.
+// The options to draw with: during the measurement those of the measured preset.
 const render::RenderOptions& Game::renderOptions() const {
     return measurement_ ? measurement_->preset().options : settings_.graphics.render;
 }
@@ -47,11 +47,22 @@ void Game::measurePreset(double seconds) {
     base::logInfo("{}", presetMessage_);
 }
 
-// Once it is seen: until the shaders are compiled, another message is.
+// Waits until the preset's shaders are compiled: another message tells so before.
 void Game::sayPreset() {
     if (presetMessage_.empty() || renderOptions() != parts_.renderer.options()) return;
     say(std::exchange(presetMessage_, {}));
     messageSeconds_ = kPresetMessageSeconds;
+}
+
+// While developing, a shader is seen as soon as it is written. One that is wrong changes nothing.
+void Game::reloadWrittenShaders() {
+    const WriteTime written = shadersWritten_.at(seconds_, [&] { return parts_.shaders.newestWrite(); });
+    if (written == shadersRead_) return;
+    shadersRead_ = written;
+    auto done = parts_.renderer.reloadShaders();
+    if (done) done = parts_.preview.reloadShaders();
+    if (!done) base::logWarning("{}", done.error().message);
+    say(done ? "shaders are read again" : done.error().message);
 }
 
 bool Game::shadersAreReady(glm::ivec2 size) {
@@ -77,6 +88,7 @@ base::Result<void> Game::configureRenderer(glm::ivec2 size) {
     base::logWarning("{}", configured.error().message);
     say(configured.error().message);
     settings_.graphics.render = renderer.options();
+    endMeasurement();
     return {};
 }
 
