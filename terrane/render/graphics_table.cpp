@@ -130,8 +130,7 @@ std::vector<GraphicsRow> makeTable() {
          "Detail of the land beyond the view distance: tiles from the camera to the edge of each level",
          {"8", "12", "16", "20", "24", "28", "32"},
          [](const GraphicsSettings& s) { return indexOf(kDetails, s.detail); },
-         [](GraphicsSettings& s, int value) { s.detail = kDetails[static_cast<std::size_t>(value)]; },
-         false},
+         [](GraphicsSettings& s, int value) { s.detail = kDetails[static_cast<std::size_t>(value)]; }},
     };
 }
 

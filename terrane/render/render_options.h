@@ -64,13 +64,15 @@ struct RenderOptions {
     bool operator==(const RenderOptions&) const = default;
 };
 
+constexpr int kDefaultDetail = 12;
+
 // All that a user sets about what is on screen: how it is drawn, out of which meshes, and how far.
 struct GraphicsSettings {
     RenderOptions render;
     mesh::MeshOptions mesh;
-    int viewDistance = 16;  // chunks
-    int horizon = 1024;     // how far land goes on beyond them, chunks; 0: not at all
-    int detail = 12;        // tiles a ring of a level of detail: see stream::TileView
+    int viewDistance = 16;        // chunks
+    int horizon = 1024;           // how far land goes on beyond them, chunks; 0: not at all
+    int detail = kDefaultDetail;  // tiles a ring of a level of detail: see stream::TileView
 
     bool operator==(const GraphicsSettings&) const = default;
 };
@@ -79,11 +81,14 @@ struct Preset {
     std::string_view name;
     RenderOptions options;
     mesh::MeshOptions mesh = {};
+    int detail = kDefaultDetail;
     std::optional<int> viewDistance = {}, horizon = {};  // none: as they are
+    // GPU time of a frame, low's is 1: docs/rendering.md. None: no measurement picks it.
+    std::optional<double> relativeCost = {};
 };
 
-// low, medium, high, thesis.
-const std::array<Preset, 4>& presets();
+// low, medium, high, ultra, thesis.
+const std::array<Preset, 5>& presets();
 // Null where there is none of the name. "auto" is high on a graphics card and low without one.
 const Preset* findPreset(std::string_view name, bool isSoftwareRenderer);
 // There is a preset of the name.

@@ -216,7 +216,8 @@ class Render(ProgramTest):
     def test_presets_and_the_flags_that_change_them(self):
         scene = ("--scene", "landscape")
         low, _ = self.render("low.png", *scene, "--preset", "low")
-        self.assertTrue(self.render("thesis.png", *scene, "--preset", "thesis")[0].rows != low.rows)
+        for preset in ("medium", "high", "ultra", "thesis"):
+            self.assertTrue(self.render("a.png", *scene, "--preset", preset)[0].rows != low.rows, preset)
         self.assertEqual(self.render("a.png", *scene, "--preset", "low", "--shadows", "off")[0].rows, low.rows)
         for flag, word, look in (("--shading", "off", "136,-6"), ("--distance-fog", "off", "136,-6"),
                                  ("--god-rays", "on", "40,45"), ("--ssao", "raw", "136,-6"), ("--clouds", "on", "40,45")):

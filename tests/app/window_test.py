@@ -465,6 +465,41 @@ class Window(ProgramTest):
             self.assertEqual(self.close(again), end)
             self.assertEqual(settings.read_text(), written)
 
+    def test_the_first_start_measures_which_preset_to_take(self):
+        message = r"graphics: (low|medium|high|ultra), for \d+ frames/s on .+ \(measured; "
+
+        def play():
+            game = Game(display, self.folder, ("--size", f"{SIZE[0]}x{SIZE[1]}", *FLAT))
+            self.addCleanup(game.log.close)
+            self.addCleanup(game.process.kill)
+            game.open()
+            game.wait_for_image(SIZE)
+            return game
+
+        with Display() as display:
+            game = play()
+            preset = game.wait_for(lambda: re.search(message, game.output()))[1]
+            self.close(game)
+            self.assertEqual(self.lines_of_settings(), [f"preset = '{preset}'"])
+            game = play()
+            time.sleep(3)  # longer than a measurement
+            self.close(game)
+            self.assertNotRegex(game.output(), message)
+            self.assertEqual(self.lines_of_settings(), [f"preset = '{preset}'"])
+
+    def test_who_chooses_a_preset_is_not_measured(self):
+        with Display() as display:
+            for options in (("--preset", "low"), ("--clouds", "off"), ("--settings", "")):
+                game = Game(display, self.folder, ("--size", f"{SIZE[0]}x{SIZE[1]}", *options, *FLAT))
+                self.addCleanup(game.log.close)
+                self.addCleanup(game.process.kill)
+                game.open()
+                game.wait_for_image(SIZE)
+                time.sleep(3)  # longer than a measurement
+                self.close(game)
+                self.assertNotIn("graphics: ", game.output())
+                self.assertFalse((self.folder / "terrane" / "settings.toml").exists())
+
     def lines_of_settings(self):
         path = self.folder / "terrane" / "settings.toml"
         return [line for line in path.read_text().splitlines() if line and not line.startswith("#")]

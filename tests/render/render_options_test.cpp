@@ -24,7 +24,7 @@ TEST(RenderOptions, ThesisIsWhatItMeasuredWith) {
 }
 
 TEST(RenderOptions, OtherPresetsLeaveWhatIsSeenHowFar) {
-    for (const char* name : {"low", "medium", "high", "auto"}) {
+    for (const char* name : {"low", "medium", "high", "ultra", "auto"}) {
         const GraphicsSettings settings = withPreset(
             {.render = {}, .mesh = {mesh::MergeMethod::None, 8}, .viewDistance = 7, .horizon = 256}, name,
             true);
@@ -32,6 +32,16 @@ TEST(RenderOptions, OtherPresetsLeaveWhatIsSeenHowFar) {
         EXPECT_EQ(settings.horizon, 256) << name;
         EXPECT_EQ(settings.mesh, mesh::MeshOptions{}) << name;
     }
+}
+
+TEST(RenderOptions, UltraHasMoreThanHigh) {
+    const GraphicsSettings high = withPreset({}, "high", false), ultra = withPreset({}, "ultra", false);
+    EXPECT_GT(ultra.render.shadowSize, high.render.shadowSize);
+    EXPECT_GT(ultra.detail, high.detail);
+    RenderOptions same = ultra.render;
+    same.shadowSize = high.render.shadowSize;
+    EXPECT_EQ(same, high.render) << "nothing is worse";
+    EXPECT_EQ(withPreset(ultra, "high", false), high) << "no detail stays behind";
 }
 
 TEST(RenderOptions, LowHasNoEffects) {
@@ -50,7 +60,7 @@ TEST(RenderOptions, AutoGoesByTheRenderer) {
 
 TEST(RenderOptions, OtherNamesAreNone) {
     EXPECT_FALSE(findPreset("", false));
-    EXPECT_FALSE(findPreset("ultra", false));
+    EXPECT_FALSE(findPreset("best", false));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // terrane play: a window to walk, fly and build in.
+#include <algorithm>
 #include <memory>
 
 #include "apps/terrane/choose_back_ends.h"
@@ -105,6 +106,16 @@ PlaySettings settingsOf(const PlayOptions& options, bool isSoftwareRenderer) {
     return settings;
 }
 
+// Neither the command line nor the settings say anything about graphics. Without a file of settings nothing
+// is measured, as it would be again at each start.
+bool isFirstStart(const PlayOptions& options, const CLI::App& command) {
+    const auto isGiven = [&](std::string_view name) {
+        return command.get_option("--" + std::string(name))->count() > 0;
+    };
+    return !options.settingsFile.empty() && !isGiven("preset") && !isGiven("view-distance") &&
+           std::ranges::none_of(render::graphicsTable(), isGiven, &render::GraphicsRow::name);
+}
+
 base::Result<void> play(PlayOptions& options, CLI::App& command) {
     if (auto read = applySettings(options.settingsFile, command, render::namesOfPreset()); !read) return read;
     // The window first: without one no world is made.
@@ -139,6 +150,8 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
     game.start = *start;
     game.perfData = options.perfData;
     game.isSoftwareRenderer = device.software;
+    game.deviceName = device.renderer;
+    game.measuresPreset = isFirstStart(options, command);
     view::WorldView view(session, *renderer);
     if (*backEnds) {
         const auto meshes = view.meshOnGpu(gpu::builtInShaders(""), view::WorldView::kFrameMilliseconds);

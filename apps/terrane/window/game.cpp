@@ -39,7 +39,9 @@ Game::Game(const GameParts& parts, const GameOptions& options)
       shadersRead_(parts.shaders.newestWrite()),
       screenshots_(options.dataFolder / "screenshots"),
       bookmarks_(game::bookmarkFiles(options.dataFolder)),
-      perfData_(options.perfData) {
+      perfData_(options.perfData),
+      deviceName_(options.deviceName) {
+    if (options.measuresPreset) beginMeasurement();
     if (const world::BlockType* hand = parts_.session.blocks().find(options.hand))
         interaction_.choose(hand->id);
     parts_.session.pipeline().setMeshOptions(settings_.graphics.mesh);
@@ -101,6 +103,7 @@ void Game::advance(double seconds) {
 // What changed since the last frame; the renderer sees to its own options with the frame's size.
 void Game::applySettings() {
     if (settings_ == applied_) return;
+    if (settings_.preset != applied_.preset || settings_.graphics != applied_.graphics) endMeasurement();
     if (settings_.graphics.mesh != applied_.graphics.mesh)
         parts_.session.pipeline().setMeshOptions(settings_.graphics.mesh);
     if (settings_.graphics.viewDistance != applied_.graphics.viewDistance) {
@@ -124,43 +127,6 @@ base::Result<void> Game::useResourcePack(const std::string& folder) {
     return parts_.preview.setTextures(*textures);
 }
 
-// While developing, a shader is seen as soon as it is written. One that is wrong changes nothing.
-void Game::reloadWrittenShaders() {
-    const WriteTime written = shadersWritten_.at(seconds_, [&] { return parts_.shaders.newestWrite(); });
-    if (written == shadersRead_) return;
-    shadersRead_ = written;
-    auto done = parts_.renderer.reloadShaders();
-    if (done) done = parts_.preview.reloadShaders();
-    if (!done) base::logWarning("{}", done.error().message);
-    say(done ? "shaders are read again" : done.error().message);
-}
-
-bool Game::shadersAreReady(glm::ivec2 size) {
-    constexpr glm::ivec2 kPreview(view::BlockPreview::kSize);
-    if (hasWorldImage() && settings_.graphics.render == parts_.renderer.options()) return true;
-    if (!hasWorldImage() && !parts_.compiler.isReady(kPreview, view::BlockPreview::options())) return false;
-    return parts_.compiler.isReady(size, settings_.graphics.render);
-}
-
-// Other options come once their shaders are compiled; until then frames are drawn as before, and at first
-// none. Options that cannot be drawn are taken back.
-base::Result<void> Game::configureRenderer(glm::ivec2 size) {
-    render::Renderer& renderer = parts_.renderer;
-    render::RenderOptions options = settings_.graphics.render;
-    if (!shadersAreReady(size)) {
-        say("shaders are being compiled");
-        if (!hasWorldImage()) return {};
-        options = renderer.options();
-    }
-    if (size == renderer.size() && options == renderer.options()) return {};
-    const auto configured = renderer.configure(size, options);
-    if (configured || !hasWorldImage() || options == renderer.options()) return configured;
-    base::logWarning("{}", configured.error().message);
-    say(configured.error().message);
-    settings_.graphics.render = renderer.options();
-    return {};
-}
-
 base::Result<void> Game::drawFrame(double seconds) {
     const glm::ivec2 size = parts_.window.framebufferSize();
     if (size.x == 0 || size.y == 0) return {};  // minimised
@@ -170,6 +136,8 @@ base::Result<void> Game::drawFrame(double seconds) {
         if (auto notice = parts_.view.takeNotice()) say(std::move(*notice));
         parts_.renderer.draw(frameInput());
         parts_.renderer.presentToWindow(size);
+        measurePreset(seconds);
+        sayPreset();
     } else {
         const glm::vec3 sky =
             world::environmentAt(static_cast<float>(parts_.session.clock.timeDay)).horizonColor;

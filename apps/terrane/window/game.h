@@ -8,6 +8,7 @@
 #include "apps/terrane/window/pad_reader.h"
 #include "apps/terrane/window/perf_log.h"
 #include "apps/terrane/window/play_settings.h"
+#include "apps/terrane/window/preset_measurement.h"
 #include "apps/terrane/window/save_notice.h"
 #include "apps/terrane/window/window.h"
 #include "terrane/base/stop_signals.h"
@@ -41,7 +42,9 @@ struct GameOptions {
     std::string hand;                  // name of a block type; empty: the first one
     std::filesystem::path dataFolder;  // for bookmarks and screenshots
     bool isSoftwareRenderer = false;
-    std::string perfData;  // file; empty: none
+    std::string deviceName;       // of the graphics driver
+    bool measuresPreset = false;  // the settings get the preset that a measurement picks
+    std::string perfData;         // file; empty: none
 };
 
 class Game {
@@ -80,6 +83,11 @@ class Game {
     base::Result<void> useResourcePack(const std::string& folder);
     void reloadWrittenShaders();
     bool hasWorldImage() const { return parts_.renderer.size().x > 0; }
+    const render::RenderOptions& renderOptions() const;
+    void beginMeasurement();
+    void endMeasurement();
+    void measurePreset(double seconds);
+    void sayPreset();
     bool shadersAreReady(glm::ivec2 size);
     base::Result<void> configureRenderer(glm::ivec2 size);
     base::Result<void> drawFrame(double seconds);
@@ -111,6 +119,8 @@ class Game {
     game::BookmarkFiles bookmarks_;
     std::string perfData_;
     std::optional<PerfLog> perfLog_;
+    std::optional<PresetMeasurement> measurement_;  // while it goes on
+    std::string deviceName_, presetMessage_;
 
     bool isCaptured_ = false, showsPanel_ = false, isAbove_ = false, showsLoading_ = false;
     bool asksToQuit_ = false, quitsUnsaved_ = false;

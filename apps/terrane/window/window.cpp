@@ -161,11 +161,15 @@ base::Result<Window> Window::create(const WindowOptions& options) {
     glfwMakeContextCurrent(state.window);
     if (base::Result<void> fit = gpu::checkRequirements(); !fit) return tl::unexpected(fit.error());
     if (options.debug) state.debugLog = gpu::enableDebugOutput(options.debugFatal);
-    glfwSwapInterval(options.vsync ? 1 : 0);
+    result.setVsync(options.vsync);
     glfwSetTime(0.0);
     state.installCallbacks();
     if (options.fullScreen) state.place = {kLeft, kTop, options.width, options.height};
     return result;
+}
+
+void Window::setVsync(bool isOn) {
+    glfwSwapInterval(isOn ? 1 : 0);
 }
 
 void Window::pollEvents() {

@@ -55,6 +55,8 @@ class Window {
     // The first gamepad, none where there is none.
     [[nodiscard]] std::optional<Gamepad> gamepad() const;
 
+    void setVsync(bool isOn);  // frames wait for the screen
+
     // A captured cursor is hidden and moves without end.
     void setCursorCaptured(bool captured);
     [[nodiscard]] double timeSeconds() const;  // since the window was made

@@ -1,0 +1,55 @@
+#include "apps/terrane/window/preset_measurement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "terrane/base/median.h"
+
+namespace terrane::app {
+
+std::optional<render::PresetChoice> PresetMeasurement::add(const Frame& frame) {
+    if (frame.isViewComplete && !isViewComplete_) beginRound();
+    isViewComplete_ |= frame.isViewComplete;
+    seconds_ += frame.seconds;
+    roundSeconds_ += frame.seconds;
+    const double milliseconds = frame.gpuMilliseconds > 0 ? frame.gpuMilliseconds : frame.seconds * 1000;
+    if (milliseconds > 0) milliseconds_.push_back(milliseconds);
+    if (roundSeconds_ < kSeconds || milliseconds_.size() < kLeastFrames) return std::nullopt;
+    const double median = base::medianOf(milliseconds_);
+    beginRound();
+    return preset_ == &render::presets().front() ? judgeLow(median) : judgeExpected(median);
+}
+
+// Frames get dearer until the view is complete: an earlier round tells only that low is too dear already.
+std::optional<render::PresetChoice> PresetMeasurement::judgeLow(double milliseconds) {
+    const bool isKnown = isViewComplete_ || seconds_ >= kMostSeconds;
+    if (milliseconds <= render::kTargetMilliseconds && !isKnown) return std::nullopt;
+    lowMilliseconds_ = milliseconds;
+    const render::PresetChoice choice = render::choosePreset(milliseconds);
+    preset_ = choice.preset;
+    return preset_ == &render::presets().front() ? std::optional(choice) : std::nullopt;
+}
+
+// Relative costs differ from device to device: a preset that is too dear gives way to the next cheaper one.
+std::optional<render::PresetChoice> PresetMeasurement::judgeExpected(double milliseconds) {
+    const double framesPerSecond = 1000 / milliseconds;
+    if (framesPerSecond >= render::kTargetFramesPerSecond) return {{preset_, framesPerSecond}};
+    --preset_;  // they go from cheap to dear
+    if (preset_ != &render::presets().front()) return std::nullopt;
+    return {{preset_, 1000 / lowMilliseconds_}};
+}
+
+void PresetMeasurement::beginRound() {
+    milliseconds_.clear();
+    roundSeconds_ = 0;
+}
+
+std::string messageOf(const render::PresetChoice& choice, std::string_view renderer) {
+    // Drivers append versions and chips: "llvmpipe (LLVM 15.0.6, 256 bits)", "NVIDIA H100/PCIe/SSE2".
+    const std::size_t end = std::min(renderer.find(" ("), renderer.find('/'));
+    return fmt::format("graphics: {}, for {:.0f} frames/s on {} (measured; change it in the settings, F2)",
+                       choice.preset->name, choice.framesPerSecond, renderer.substr(0, end));
+}
+
+}  // namespace terrane::app
