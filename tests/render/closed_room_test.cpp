@@ -54,7 +54,7 @@ TEST_F(ClosedRoomTest, RoomsAreDarkInEachCascade) {
     }
 }
 
-// As narrow as a person: in the last cascade points are moved into the wall beside, so only what is near is
+// One block wide: in the last cascade points are moved into the wall beside, so only what is near is
 // asked for.
 TEST_F(ClosedRoomTest, NarrowCorridorsAreDarkNearby) {
     showTunnel({1, 2});

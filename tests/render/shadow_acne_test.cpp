@@ -66,7 +66,7 @@ TEST_F(ShadowAcneTest, AWallHasNone) {
 }
 
 // Steps are smaller than the filter of the far cascades, and where a tread meets a riser a texel shows both:
-// there are some dark pixels, no more than were measured (1.7 and 1.1 % of these images, hard and soft).
+// there are some dark pixels (measured: 1.6 and 1.0 % of these images, hard and soft).
 TEST_F(ShadowAcneTest, StairsHaveFewSpots) {
     std::vector<StoneBox> steps;
     int height = kPlainZ;
@@ -79,7 +79,7 @@ TEST_F(ShadowAcneTest, StairsHaveFewSpots) {
     showRises(steps);
     constexpr int kPixels = 3 * kSuns * kSunlitSize.x * kSunlitSize.y;
     for (const bool isSoft : {false, true})
-        EXPECT_LE(spots(isSoft, std::array{kDown, kMiddle, kFarAway}).pixels, kPixels / 40) << isSoft;
+        EXPECT_LE(spots(isSoft, std::array{kDown, kMiddle, kFarAway}).pixels, kPixels / 50) << isSoft;
 }
 
 }  // namespace
