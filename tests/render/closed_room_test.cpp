@@ -1,0 +1,68 @@
+// No sun inside of closed rooms, whichever cascade tells so. Without light of chunks nothing but the shadow
+// map keeps it out.
+#include "tests/render/sunlit_fixture.h"
+
+namespace terrane::render {
+namespace {
+
+constexpr int kRoomFloor = 80, kRoomLength = 704;  // within the reach of the last cascade
+
+class ClosedRoomTest : public SunlitTest {
+  protected:
+    // A tunnel along x in walls one block thick, one of them along the border of chunks. Inner size.
+    struct Tunnel {
+        int width, height;
+    };
+    void showTunnel(Tunnel t) {
+        tunnel_ = t;
+        const StoneBox boxes[] = {
+            {{{0, 0, kRoomFloor}, {kRoomLength - 1, t.width + 1, kRoomFloor + t.height + 1}}},
+            {{{1, 1, kRoomFloor + 1}, {kRoomLength - 2, t.width, kRoomFloor + t.height}}, true}};
+        show(stoneWorld({0, 0}, {kRoomLength / world::kChunkSize - 1, 1}, boxes));
+    }
+    // Steps of the brightest pixel over one without the sun, from one end of the tunnel.
+    int brightestUnderAnySun(float fieldOfView, float yaw = 0) {
+        constexpr int kSuns = 24;
+        const Camera camera{{yaw == 0 ? 3.0 : kRoomLength - 4, 1 + 0.5 * tunnel_.width,
+                             kRoomFloor + 1 + 0.5 * tunnel_.height},
+                            yaw,
+                            0,
+                            fieldOfView};
+        int most = 0;
+        for (int k = 0; k < kSuns; ++k) {
+            const glm::vec3 sun =
+                towardSun(137.5f * static_cast<float>(k), 1.0f + 88.0f * static_cast<float>(k) / (kSuns - 1));
+            const std::vector<int> steps =
+                stepsBrighter(drawUnder(camera, sunAt(sun)), drawUnder(camera, sunAt(sun, 0)));
+            most = std::max(most, std::ranges::max(steps));
+        }
+        return most;
+    }
+    Tunnel tunnel_{};
+};
+
+// Fields of view of 70, 6 and 1 degrees show what lies in the first, second and third cascade.
+TEST_F(ClosedRoomTest, RoomsAreDarkInEachCascade) {
+    for (const Tunnel& tunnel : {Tunnel{14, 10}, {14, 3}, {2, 3}}) {
+        showTunnel(tunnel);
+        for (const bool isSoft : {false, true}) {
+            configure(ShadowReach::Far, isSoft);
+            for (const float field : {70.0f, 6.0f, 1.0f})
+                EXPECT_LE(brightestUnderAnySun(field), 2) << tunnel.width << " " << isSoft << " " << field;
+            EXPECT_LE(brightestUnderAnySun(6, 180), 2) << "toward -x";
+        }
+    }
+}
+
+// One block wide: in the last cascade points are moved into the wall beside, so only what is near is
+// asked for.
+TEST_F(ClosedRoomTest, NarrowCorridorsAreDarkNearby) {
+    showTunnel({1, 2});
+    for (const bool isSoft : {false, true}) {
+        configure(ShadowReach::Far, isSoft);
+        EXPECT_LE(brightestUnderAnySun(70), 1) << isSoft;
+    }
+}
+
+}  // namespace
+}  // namespace terrane::render
