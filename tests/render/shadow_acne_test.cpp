@@ -79,7 +79,7 @@ TEST_F(ShadowAcneTest, StairsHaveFewSpots) {
     showRises(steps);
     constexpr int kPixels = 3 * kSuns * kSunlitSize.x * kSunlitSize.y;
     for (const bool isSoft : {false, true})
-        EXPECT_LE(spots(isSoft, std::array{kDown, kMiddle, kFarAway}).pixels, kPixels / 50) << isSoft;
+        EXPECT_LE(spots(isSoft, std::array{kDown, kMiddle, kFarAway}).pixels, kPixels / 40) << isSoft;
 }
 
 }  // namespace
