@@ -1,5 +1,6 @@
 // Light at a point of a surface, from the light tiles of LightStore. Needs frame_uniforms.glsl. LIGHT_SMOOTH chooses between
-// two ways of sampling, which docs/light.md compares: 0 classic, 1 smooth.
+// two ways of sampling, which docs/light.md compares: 0 classic, 1 smooth, 2 smooth at a distance where nobody sees how round
+// a pool of light is.
 #include "terrane/render/light_nodes.glsl"
 #if LIGHT_SMOOTH
 #include "terrane/render/light_smooth.glsl"

@@ -13,7 +13,7 @@ vec4 levelsAt(vec3 position, Surface s) {
 #else
     if (s.isFar) return vec4(0.0, 0.0, 0.0, 1.0);
     const float kOff = 1.0 / 256.0;
-    vec3 normal = s.direction == kDirectionPlant ? vec3(0.0) : s.normal;
+    vec3 normal = s.direction == kDirectionPlant ? vec3(0.0) : normalOf(s.direction);
     return sampleLight(position + kOff * normal, normal);
 #endif
 }
@@ -35,12 +35,21 @@ vec3 lightAround(Land land, vec3 normal) {
 #endif
 }
 
+// What sun or moon find.
+struct Lit {
+    vec3 albedo;  // times the cosine to the light
+    vec3 normal;
+};
+
+Lit litOf(Surface s) {
+    return Lit(s.albedo * max(dot(s.normal, frame.lightDirection.xyz), 0.0), s.normal);
+}
+
 // Lamps, hidden by day where daylight reaches; sky and ground from all around; the sun or moon where the sky is seen.
 // `shadow` is the share of direct light, `visibility` that of light from all around.
-vec3 shade(Surface s, Land land, vec4 levels, float shadow, float visibility) {
+vec3 shade(Surface s, Lit lit, Land land, vec4 levels, float shadow, float visibility) {
     vec4 light = brightnessOf(levels);
-    float facing = max(dot(s.normal, frame.lightDirection.xyz), 0.0);
     vec3 lamps = light.rgb * (1.0 - frame.hiddenLampShare * light.a);
     vec3 around = (lamps + kMinLight + light.a * lightAround(land, s.normal)) * visibility;
-    return s.albedo * (around + s.glow + light.a * frame.lightColor.rgb * facing * shadow);
+    return s.albedo * (around + s.glow) + lit.albedo * frame.lightColor.rgb * (light.a * shadow);
 }

@@ -1,5 +1,5 @@
 // Leaves out pixels of which no sample has what OF asks for: 0 a surface, 1 the sky or a surface that may fade into it,
-// 2 a layer of blended faces. MSAA_SAMPLES: more than one. Of surfaces the depth tells those of far tiles.
+// 2 a layer of blended faces. MSAA_SAMPLES: more than one. Of surfaces the depth tells distant ones and those of far tiles.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/gbuffer_read.glsl"
 
@@ -8,13 +8,14 @@ layout(binding = kTransparencyDepthUnit) uniform sampler2DMS layerDepth;
 #endif
 
 #if OF == 0
-bool areAllFar(ivec2 pixel) {
-    bool areFar = true;
+float depthOfClass(ivec2 pixel) {
+    bool areFar = true, areDistant = true;
     for (int k = 0; k < MSAA_SAMPLES; ++k) {
         vec4 packedSurface = packedSurfaceAt(pixel, k);
         areFar = areFar && (packedIsFar(packedSurface) || packedDirection(packedSurface) == kDirectionNone);
+        areDistant = areDistant && blocksOfDepth(depthAt(pixel, k)) > kSimpleLightFrom;
     }
-    return areFar;
+    return areFar ? kFarSurfacesDepth : areDistant ? kDistantSurfacesDepth : 1.0;
 }
 #endif
 
@@ -34,6 +35,6 @@ void main() {
     for (int k = 0; k < MSAA_SAMPLES; ++k) isAnyThere = isAnyThere || isThere(pixel, k);
     if (!isAnyThere) discard;
 #if OF == 0
-    gl_FragDepth = areAllFar(pixel) ? kFarSurfacesDepth : 1.0;
+    gl_FragDepth = depthOfClass(pixel);
 #endif
 }

@@ -20,17 +20,54 @@ layout(location = 0) out vec4 outColor;
 #include "terrane/render/surface_shade.glsl"
 
 #if MSAA_SAMPLES > 1 && PER_SAMPLE == 1
-// Each surface once, with the share of its samples: at most edges there are two.
+const float kSameDepth = 1.0 / 64.0;  // of the distance: surfaces so near each other share shadow, light and air
+
+// Neighboring faces at an edge are one surface with their mean color, normal and light: what reaches a surface is linear in
+// them. Then most pixels have one surface, and others two.
+struct Samples {
+    Surface mean;  // direction: of the first
+    Lit lit;       // normal: of a face that looks to the light
+    float depth;   // of the first
+    int count;
+};
+
+bool isLike(Surface s, float depth, Samples group) {
+    return s.direction != kDirectionNone && s.isFar == group.mean.isFar &&
+        abs(depth - group.depth) <= kSameDepth * group.depth;
+}
+
+Samples samplesLike(ivec2 pixel, int first, inout int left) {
+    Surface own = unpackSurface(packedSurfaceAt(pixel, first));
+    Samples group = Samples(own, litOf(own), depthAt(pixel, first), 1);
+    left &= ~(1 << first);
+    for (int k = 1; k < MSAA_SAMPLES; ++k) {
+        Surface s = unpackSurface(packedSurfaceAt(pixel, k));
+        if ((left & 1 << k) == 0 || !isLike(s, depthAt(pixel, k), group)) continue;
+        Lit lit = litOf(s);
+        group.lit.normal = lit.albedo.g > 0.0 && group.lit.albedo.g == 0.0 ? lit.normal : group.lit.normal;
+        group.lit.albedo += lit.albedo;
+        group.mean.albedo += s.albedo;
+        group.mean.normal += s.normal;
+        group.mean.glow += s.glow;
+        ++group.count;
+        left &= ~(1 << k);
+    }
+    float share = 1.0 / float(group.count);
+    group.lit.albedo *= share;
+    group.mean.albedo *= share;
+    group.mean.normal *= share;
+    group.mean.glow *= share;
+    return group;
+}
+
 vec4 shadePixel(ivec2 pixel, float visibility) {
     vec4 sum = vec4(0.0);
-    int left = (1 << MSAA_SAMPLES) - 1;
+    int left = 0;
+    for (int k = 0; k < MSAA_SAMPLES; ++k)
+        left |= packedDirection(packedSurfaceAt(pixel, k)) != kDirectionNone ? 1 << k : 0;
     do {
-        int first = findLSB(left);
-        vec4 packedSurface = packedSurfaceAt(pixel, first);
-        int same = samplesOf(pixel, packedSurface);
-        vec4 color = shadeAt(unpackSurface(packedSurface), depthAt(pixel, first), visibility);
-        if (packedDirection(packedSurface) != kDirectionNone) sum += color * float(bitCount(same));
-        left &= ~same;
+        Samples group = samplesLike(pixel, findLSB(left), left);
+        sum += shadeAt(group.mean, group.lit, group.depth, visibility) * float(group.count);
     } while (left != 0);
     return sum / float(MSAA_SAMPLES);
 }
@@ -58,12 +95,13 @@ vec4 shadePixel(ivec2 pixel, float visibility) {
     mean.albedo *= share;
     mean.normal = normalize(mean.normal + 1e-4);
     mean.glow *= share;
-    return shadeAt(mean, nearest, visibility) * float(covered) / float(MSAA_SAMPLES);
+    return shadeAt(mean, litOf(mean), nearest, visibility) * float(covered) / float(MSAA_SAMPLES);
 }
 #else
 // The depth test has left out the sky.
 vec4 shadePixel(ivec2 pixel, float visibility) {
-    return shadeAt(unpackSurface(packedSurfaceAt(pixel, 0)), depthAt(pixel, 0), visibility);
+    Surface s = unpackSurface(packedSurfaceAt(pixel, 0));
+    return shadeAt(s, litOf(s), depthAt(pixel, 0), visibility);
 }
 #endif
 

@@ -9,6 +9,7 @@
 namespace terrane::render {
 namespace {
 
+constexpr int kSimpleLight = 2;         // see light_sample.glsl
 constexpr float kSkyDistance = 1e6f;  // blocks: nothing but the sky is farther
 
 }  // namespace
@@ -17,14 +18,16 @@ ShadingPass::ShadingPass(const gpu::ShaderLoader& shaders)
     : sky_(shaders, "sky"),
       nightSky_(shaders, "sky"),
       shade_{FullscreenPass(shaders, "shade"), FullscreenPass(shaders, "shade")},
+      shadeDistant_(shaders, "shade"),
       shadeFar_(shaders, "shade"),
       skyMask_(shaders, PixelMask::Of::Sky),
       surfaceMask_(shaders, PixelMask::Of::Surfaces) {}
 
-base::Result<void> ShadingPass::select(const RenderOptions& options, int samples, const LightVariant& light) {
+base::Result<void> ShadingPass::select(const RenderOptions& options, int samples, const LightVariant& sun) {
     fadesOverSky_ = samples > 1 || options.clouds;
     hasDistanceFog_ = options.distanceFog;
     isDirect_ = isDirectImage(options, samples);
+    hasDistant_ = samples > 1 && options.light == LightSampling::Smooth;
     const auto sky = [&](int night) {
         return defined({{"CLOUDS", options.clouds}, {"NIGHT", night}, {"DIRECT", isDirect_}});
     };
@@ -32,21 +35,23 @@ base::Result<void> ShadingPass::select(const RenderOptions& options, int samples
     if (selected) selected = nightSky_.select(sky(1));
     if (selected && samples > 1) selected = skyMask_.select(samples);
     if (selected && samples > 1) selected = surfaceMask_.select(samples);
-    const auto shade = [&](int isUnderWater, int isFar) {
+    const auto shade = [&](int light, int isUnderWater, int isFar) {
         return defined({{"MSAA_SAMPLES", samples},
                         {"PER_SAMPLE", options.shading != Shading::Pixel},
-                        {"LIGHT_SMOOTH", static_cast<int>(options.light)},
-                        {"SHADOW", light.shadowVariant},
-                        {"LAND", light.knowsLand},
+                        {"LIGHT_SMOOTH", light},
+                        {"SHADOW", sun.shadowVariant},
+                        {"LAND", sun.knowsLand},
                         {"OCCLUSION", options.occlusion != Occlusion::Off},
                         {"OVER_SKY", fadesOverSky_},
                         {"DIRECT", isDirect_},
                         {"UNDER_WATER", isUnderWater},
                         {"FAR", isFar}});
     };
+    const int light = static_cast<int>(options.light);
     for (int isUnderWater = 0; selected && isUnderWater < 2; ++isUnderWater)
-        selected = shade_[static_cast<std::size_t>(isUnderWater)].select(shade(isUnderWater, 0));
-    if (selected && samples > 1) selected = shadeFar_.select(shade(0, 1));
+        selected = shade_[static_cast<std::size_t>(isUnderWater)].select(shade(light, isUnderWater, 0));
+    if (selected && hasDistant_) selected = shadeDistant_.select(shade(kSimpleLight, 0, 0));
+    if (selected && samples > 1) selected = shadeFar_.select(shade(0, 0, 1));
     return selected;
 }
 
@@ -68,8 +73,8 @@ void ShadingPass::drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, 
     (sky.hasStars ? nightSky_ : sky_).draw(pipeline, state);
 }
 
-// The triangle lies at the far end: surfaces are all nearer, and so is the mask. Where that tells far tiles apart
-// they have a shader of their own, which reads no light.
+// The triangle lies at the far end: surfaces are all nearer, and so is the mask. Where that tells distant surfaces and far tiles
+// apart they have shaders of their own, which read less light or none.
 void ShadingPass::drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targets,
                                const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const {
     const bool isMasked = targets.msaaSamples > 1, drawsFar = isMasked && !inputs.isUnderWater;
@@ -81,10 +86,11 @@ void ShadingPass::drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targ
     gpu::PipelineState state{.depthTest = gpu::DepthTest::Less,
                              .writesDepth = false,
                              .blending = fadesOverSky_ ? gpu::Blending::Over : gpu::Blending::Off};
-    if (drawsFar) state.depthRange.x = 0.5f;
+    if (drawsFar) state.depthRange.x = hasDistant_ ? shared::kDistantSurfacesDepth : shared::kFarSurfacesDepth;
     shade_[inputs.isUnderWater ? 1 : 0].draw(pipeline, state);
     if (!drawsFar) return;
     state.depthTest = gpu::DepthTest::Equal;
+    if (hasDistant_) shadeDistant_.draw(pipeline, state);
     state.depthRange.x = shared::kFarSurfacesDepth;
     shadeFar_.draw(pipeline, state);
 }

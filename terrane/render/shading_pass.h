@@ -20,7 +20,7 @@ class ShadingPass {
     ShadingPass() = default;
     explicit ShadingPass(const gpu::ShaderLoader& shaders);
 
-    base::Result<void> select(const RenderOptions& options, int samples, const LightVariant& light);
+    base::Result<void> select(const RenderOptions& options, int samples, const LightVariant& sun);
     struct Sky {
         float fogDistance;  // blocks
         bool hasStars;
@@ -35,9 +35,10 @@ class ShadingPass {
   private:
     FullscreenPass sky_, nightSky_;
     std::array<FullscreenPass, 2> shade_;  // in air, under water
+    FullscreenPass shadeDistant_;          // beyond kSimpleLightFrom blocks alone, in air
     FullscreenPass shadeFar_;              // far tiles alone, in air
     PixelMask skyMask_, surfaceMask_;
-    bool fadesOverSky_ = false, hasDistanceFog_ = false, isDirect_ = false;
+    bool fadesOverSky_ = false, hasDistanceFog_ = false, isDirect_ = false, hasDistant_ = false;
 };
 
 }  // namespace terrane::render

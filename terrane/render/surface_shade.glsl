@@ -13,15 +13,15 @@ vec4 throughAirOf(vec3 color, vec3 toPoint, float daylight) {
 #endif
 }
 
-vec4 shadeAt(Surface s, float depth, float visibility) {
+vec4 shadeAt(Surface s, Lit lit, float depth, float visibility) {
     vec3 toPoint = inRay * blocksOfDepth(depth);
     vec3 position = frame.cameraPosition.xyz + toPoint;
     if ((frame.switches & kSwitchUnlit) != 0) return throughAirOf(s.albedo, toPoint, 1.0);
     Land land = landAt(position);
     float shadow = 1.0;
 #if SHADOW > 0
-    shadow = lightShare(position, s.normal, length(toPoint), land.share);
+    shadow = lightShare(position, lit.normal, length(toPoint), land.share);
 #endif
     vec4 levels = levelsAt(position, s);
-    return throughAirOf(shade(s, land, levels, shadow, visibility), toPoint, levels.a);
+    return throughAirOf(shade(s, lit, land, levels, shadow, visibility), toPoint, levels.a);
 }

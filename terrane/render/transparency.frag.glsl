@@ -56,7 +56,7 @@ Passed shadeLayer(Layer layer, float depth, float behind, float visibility, bool
         passed = shadeWater(layer.surface, position, toPoint, thickness, levels, shadow, visibility, hasFarFloor,
                             isNearest);
     } else {
-        passed = over(vec4(shade(layer.surface, land, levels, shadow, visibility) * layer.alpha, layer.alpha));
+        passed = over(vec4(shade(layer.surface, litOf(layer.surface), land, levels, shadow, visibility) * layer.alpha, layer.alpha));
     }
     // Of what fades away in the distance, so much is left.
     float share = max(passed.color.a, 1e-3);
@@ -117,7 +117,8 @@ vec3 skyBehind(vec3 direction) {
 vec3 colorBehind(ivec2 pixel) {
     float depth = depthAt(pixel, 0);
     if (depth <= 0.0) return skyBehind(normalize(inRay));
-    return shadeAt(unpackSurface(packedSurfaceAt(pixel, 0)), depth, 1.0).rgb;
+    Surface s = unpackSurface(packedSurfaceAt(pixel, 0));
+    return shadeAt(s, litOf(s), depth, 1.0).rgb;
 }
 #endif
 

@@ -59,8 +59,11 @@ struct Frame {
 // do from 5/6 over the ground, and more at the sides of a wide image.
 const float kFadingBegins = 0.4f;
 
-// Depth of a mask where all surfaces belong to far tiles: a step of 16 bits.
+// Depths of a mask where all surfaces belong to far tiles, or lie beyond kSimpleLightFrom blocks along the
+// view: steps of 16 bits.
 const float kFarSurfacesDepth = 21845.0f / 65535.0f;
+const float kDistantSurfacesDepth = 43690.0f / 65535.0f;
+const float kSimpleLightFrom = 48.0f;
 
 const uint kViewNormal = 1u;
 const uint kViewDepth = 2u;

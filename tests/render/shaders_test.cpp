@@ -93,7 +93,7 @@ const std::map<std::string, Values>& variantValues() {
         {"shade.frag",
          {{"MSAA_SAMPLES", {"1", "4"}},
           {"PER_SAMPLE", {"0", "1"}},
-          {"LIGHT_SMOOTH", {"0", "1"}},
+          {"LIGHT_SMOOTH", {"0", "1", "2"}},
           {"SHADOW", {"0", "1", "2"}},
           {"LAND", {"0", "1"}},
           {"OCCLUSION", {"0", "1"}},
