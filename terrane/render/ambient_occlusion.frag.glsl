@@ -26,7 +26,8 @@ float occlusionAt(vec3 position, float bias) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    if (!isDrawnAt(pixel)) discard;
+    bool isDrawn = isDrawnAt(pixel);
+    if (!isDrawn) discard;
     float blocks = blocksOfDepth(nearestDepthAt(pixel));
     outVisibility = vec4(1.0);
 #if NEAREST_LAYER == 1
@@ -34,17 +35,17 @@ void main() {
 #else
     Surface surface = unpackSurface(packedSurfaceAt(pixel, 0));
 #endif
-    if (surface.direction == kDirectionNone || blocks > 96.0) return;
+    if (surface.direction == kDirectionNone || blocks > kOcclusionReach) return;
     vec3 normal = surface.normal;
     vec3 position = frame.cameraPosition.xyz + inRay * blocks;
     vec3 tangent = abs(normal.z) > 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 0.0, 1.0), side = cross(normal, tangent);
     float turn = float(hash2(uint(pixel.x) & 3u, uint(pixel.y) & 3u, 3u) >> 8) / 16777216.0;
-    int count = int(clamp(8.0 - 6.0 * blocks / 64.0, 2.0, 8.0));
+    int count = isDrawn ? int(clamp(8.0 - 6.0 * blocks / 64.0, 2.0, 8.0)) : 0;  // as in occlusion_blur.frag.glsl
     float bias = 0.02 + 0.004 * blocks, occluded = 0.0;
     for (int k = 0; k < count; ++k) {
         float way = (float(k) + 0.5) / float(count), angle = 6.2831853 * (turn + 2.0 * way);
         vec3 offset = normalize(normal * (0.35 + 0.5 * way) + cos(angle) * tangent + sin(angle) * side);
         occluded += occlusionAt(position + offset * kRadius * (0.25 + 0.75 * way), bias);
     }
-    outVisibility = vec4(1.0 - 0.85 * occluded / float(count));
+    outVisibility = vec4(1.0 - 0.85 * occluded / float(max(count, 1)));
 }

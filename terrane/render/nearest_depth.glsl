@@ -24,3 +24,5 @@ bool isDrawnAt(ivec2 pixel) {
     return true;
 }
 #endif
+
+const float kOcclusionReach = 96.0;  // blocks along the view

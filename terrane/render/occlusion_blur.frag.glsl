@@ -12,10 +12,13 @@ const float kWeights[5] = float[](0.1509, 0.1427, 0.1208, 0.0915, 0.0620);
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy), step = AXIS == 0 ? ivec2(1, 0) : ivec2(0, 1), last = textureSize(source, 0) - 1;
-    if (!isDrawnAt(pixel)) discard;
+    bool isDrawn = isDrawnAt(pixel);
+    if (!isDrawn) discard;
     float middle = blocksOfDepth(nearestDepthAt(pixel));
     float sum = 0.0, weights = 0.0;
-    for (int k = -4; k <= 4; ++k) {
+    // Beyond it all is open. Software renderers go on after a discard.
+    int reach = isDrawn && middle <= kOcclusionReach ? 4 : 0;
+    for (int k = -reach; k <= reach; ++k) {
         ivec2 at = clamp(pixel + k * step, ivec2(0), last);
         float difference = abs(blocksOfDepth(nearestDepthAt(at)) - middle);
         float weight = kWeights[abs(k)] * clamp(1.0 - difference / (0.5 + 0.02 * middle), 0.001, 1.0);

@@ -18,7 +18,8 @@ class PixelMask {
 
     base::Result<void> select(int samples);
     // With the textures of layers bound, where it is of these. Then the scene has depth 1 in these pixels and
-    // 0 in others; shared::kFarSurfacesDepth and kDistantSurfacesDepth where all surfaces of a pixel are such.
+    // 0 in others; shared::kFarSurfacesDepth and kDistantSurfacesDepth where all surfaces of a pixel are
+    // such.
     void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
 
   private:

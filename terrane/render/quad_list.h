@@ -1,6 +1,6 @@
-// Lists the quads that a pass draws, on the GPU: of each draw command those with a bit that quad_cull.h sets. The
-// command then draws the list, in the order of the quads. Vertex shaders run for what is drawn alone: of the
-// quads of mesh sections in view that is a third. Used by the renderer on the context's thread.
+// Lists the quads that a pass draws, on the GPU: of each draw command those with a bit that quad_cull.h sets.
+// The command then draws the list, in the order of the quads. Vertex shaders run for what is drawn alone: of
+// the quads of mesh sections in view that is a third. Used by the renderer on the context's thread.
 #pragma once
 
 #include <vector>
@@ -15,9 +15,9 @@ class QuadList {
   public:
     static base::Result<QuadList> create(const gpu::ShaderLoader& shaders);
 
-    // Changes the commands of opaque and tested faces that compact.comp.glsl wrote, with what that reads bound:
-    // they draw the quads with `bit` in word 1. A command for which there is no room stays as it is, and draws
-    // more.
+    // Changes the commands of opaque and tested faces that compact.comp.glsl wrote, with what that reads
+    // bound: they draw the quads with `bit` in word 1. A command for which there is no room stays as it is,
+    // and draws more.
     void run(const QuadStore& quads, shared::uint bit);
     // For quad.vert.glsl.
     void bind() const { texels_.bind(shared::kListedQuadsUnit); }

@@ -9,7 +9,7 @@
 namespace terrane::render {
 namespace {
 
-constexpr int kSimpleLight = 2;         // see light_sample.glsl
+constexpr int kSimpleLight = 2;       // see light_sample.glsl
 constexpr float kSkyDistance = 1e6f;  // blocks: nothing but the sky is farther
 
 }  // namespace
@@ -73,8 +73,8 @@ void ShadingPass::drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, 
     (sky.hasStars ? nightSky_ : sky_).draw(pipeline, state);
 }
 
-// The triangle lies at the far end: surfaces are all nearer, and so is the mask. Where that tells distant surfaces and far tiles
-// apart they have shaders of their own, which read less light or none.
+// The triangle lies at the far end: surfaces are all nearer, and so is the mask. Where that tells distant
+// surfaces and far tiles apart they have shaders of their own, which read less light or none.
 void ShadingPass::drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targets,
                                const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const {
     const bool isMasked = targets.msaaSamples > 1, drawsFar = isMasked && !inputs.isUnderWater;
@@ -86,7 +86,8 @@ void ShadingPass::drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targ
     gpu::PipelineState state{.depthTest = gpu::DepthTest::Less,
                              .writesDepth = false,
                              .blending = fadesOverSky_ ? gpu::Blending::Over : gpu::Blending::Off};
-    if (drawsFar) state.depthRange.x = hasDistant_ ? shared::kDistantSurfacesDepth : shared::kFarSurfacesDepth;
+    if (drawsFar)
+        state.depthRange.x = hasDistant_ ? shared::kDistantSurfacesDepth : shared::kFarSurfacesDepth;
     shade_[inputs.isUnderWater ? 1 : 0].draw(pipeline, state);
     if (!drawsFar) return;
     state.depthTest = gpu::DepthTest::Equal;

@@ -100,7 +100,8 @@ TEST_F(ViewMemoryTest, AlsoWhereTheGpuMeshes) {
     EXPECT_LE(small->renderer.peakMemory(), 2 * kBudgetBytes);
     const auto large = makePlayer(SIZE_MAX, reached, false);
     loadAll(*large->session, *large->view, kCamera, reached, std::chrono::steady_clock::now());
-    // The smaller view keeps some chunks beyond its distance, which have faded into the sky: one pixel is two steps off.
+    // The smaller view keeps some chunks beyond its distance, which have faded into the sky: one pixel is two
+    // steps off.
     EXPECT_LE(largestDifference(draw(*small, kCamera), draw(*large, kCamera)), 2);
 }
 
