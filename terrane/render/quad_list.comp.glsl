@@ -16,7 +16,7 @@ layout(std140, binding = kCullBinding) uniform CullBlock {
 layout(std430, binding = kCommandsBinding) buffer Commands {
     DrawCommand commands[];
 };
-layout(std430, binding = kCountsBinding) readonly buffer Counts {
+layout(std430, binding = kCountsBinding) buffer Counts {
     DrawCounts counts[];
 };
 layout(std430, binding = kQuadsBinding) readonly buffer Quads {
@@ -34,7 +34,7 @@ bool isDrawn(uint quad) {
     return (quads[quad].word1 & listedBit) != 0u;
 }
 
-void listCommand(uint at) {
+void listCommand(uint at, uint into) {
     uint thread = gl_LocalInvocationID.x;
     uint first = uint(commands[at].baseVertex) / 4u, count = commands[at].indexCount / 6u;
     uint each = (count + kQuadCullThreads - 1u) / kQuadCullThreads;
@@ -55,6 +55,7 @@ void listCommand(uint at) {
         if (isDrawn(quad)) listed[to++] = quad;
     }
     if (thread == 0u) {
+        atomicAdd(counts[into].quads[gl_WorkGroupID.y], all - count);
         commands[at].indexCount = 6u * all;
         commands[at].baseVertex = int(4u * (kFirstListedQuad + place));
     }
@@ -62,6 +63,6 @@ void listCommand(uint at) {
 
 void main() {
     uint number = arena * kDrawLists + gl_WorkGroupID.y, first = cull.firstCommand[number >> 2][number & 3u];
-    uint count = counts[2u * arena + (cull.phase == kCullLate ? 1u : 0u)].commands[gl_WorkGroupID.y];
-    for (uint k = gl_WorkGroupID.x; k < count; k += gl_NumWorkGroups.x) listCommand(first + k);
+    uint into = 2u * arena + (cull.phase == kCullLate ? 1u : 0u), count = counts[into].commands[gl_WorkGroupID.y];
+    for (uint k = gl_WorkGroupID.x; k < count; k += gl_NumWorkGroups.x) listCommand(first + k, into);
 }
