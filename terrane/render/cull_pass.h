@@ -1,5 +1,6 @@
 // Decides on the GPU what is drawn: mesh sections in the view of the camera, without the face directions that
-// look away, become indirect draw commands, nearest first. Used by the renderer on the context's thread.
+// look away, become indirect draw commands, nearest first; with occlusion culling the commands draw lists of
+// quads (quad_list.h). Used by the renderer on the context's thread.
 #pragma once
 
 #include <array>
@@ -24,7 +25,7 @@ struct CullInput {
     glm::mat4 viewProjection{1};
     glm::vec2 size{1};         // of the image in pixels
     const HiZ* hiZ = nullptr;  // for the late pass
-    // With Hi-Z the late pass tests quads, too.
+    // With Hi-Z the late pass tests quads, and both passes list those that are drawn.
     const QuadStore* quads = nullptr;
     const QuadResources* resources = nullptr;
     float edgeExpansion = 0;  // pixels that edges of quads move
@@ -56,7 +57,8 @@ class CullPass {
     // Of the last run, for tests: waits for the GPU.
     std::vector<shared::DrawCommand> readCommands(shared::uint list, std::size_t arena = 0) const;
 
-    // On the GPU as of the next run. Buffers that it replaces count too.
+    // On the GPU as of the next run. Buffers that it replaces count too; those of QuadCull and QuadList count
+    // as they are.
     std::size_t gpuBytes(const MeshSectionTable& meshSections) const;
 
   private:

@@ -1,5 +1,5 @@
-// From light to the screen: blur of what is far, rays of the sun, then tone.glsl. DEPTH_OF_FIELD, GOD_RAYS: 1 adds them. RAW_OCCLUSION: 1 shows the ambient occlusion instead.
-// MSAA_SAMPLES: of the depth.
+// From light to the screen: blur of what is far, rays of the sun, then tone.glsl. DEPTH_OF_FIELD, GOD_RAYS: 1 adds them.
+// RAW_OCCLUSION: 1 shows the ambient occlusion instead. MSAA_SAMPLES: of the depth.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/tone.glsl"
 
@@ -17,7 +17,6 @@ layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
 
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
-
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);

@@ -15,6 +15,7 @@ constexpr std::array<std::string_view, 15> kPassNames = {
     "fill holes", "ambient occlusion", "sky",      "shade",         "peel",       "shade layers",
     "god rays",   "depth of field",    "final"};
 
+// Of draw commands before quad_list.h shortens them: quads that are tested and left out count too.
 struct FrameStatistics {
     std::size_t meshSections = 0, quads = 0, drawCommands = 0;
     std::size_t opaqueTriangles = 0, transparentTriangles = 0;  // of these, alpha-tested ones are opaque

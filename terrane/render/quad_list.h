@@ -1,6 +1,6 @@
 // Lists the quads that a pass draws, on the GPU: of each draw command those with a bit that quad_cull.h sets.
-// The command then draws the list, in the order of the quads. Vertex shaders run for what is drawn alone: of
-// the quads of mesh sections in view that is a third. Used by the renderer on the context's thread.
+// The command then draws the list, in the order of the quads, so the vertex shader runs for these alone: a
+// third of the quads of mesh sections in view. Used by the renderer on the context's thread.
 #pragma once
 
 #include <vector>

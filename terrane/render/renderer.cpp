@@ -17,8 +17,9 @@
 namespace terrane::render {
 namespace {
 
-constexpr std::size_t kRingBytes = 8192;  // uniforms of a frame and twice those of culling, aligned
-constexpr int kLightViewDistance = 16;    // chunks, until setViewDistance
+// Uniforms of a frame (camera, tint, air, land, shadows) and twice those of culling, aligned.
+constexpr std::size_t kRingBytes = 8192;
+constexpr int kLightViewDistance = 16;  // chunks, until setViewDistance
 constexpr float kMaxAnisotropy = 8.0f;
 
 // Between sun and moon it is dark: light that cannot be seen casts no shadows. Linear.

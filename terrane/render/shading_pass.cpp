@@ -73,8 +73,9 @@ void ShadingPass::drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, 
     (sky.hasStars ? nightSky_ : sky_).draw(pipeline, state);
 }
 
-// The triangle lies at the far end: surfaces are all nearer, and so is the mask. Where that tells distant
-// surfaces and far tiles apart they have shaders of their own, which read less light or none.
+// By the depth test. With one sample a pixel the triangle lies at the far end, and all surfaces are nearer.
+// With more the mask is tested: it tells distant surfaces and far tiles apart, which in air have shaders of
+// their own that read less light or none.
 void ShadingPass::drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targets,
                                const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const {
     const bool isMasked = targets.msaaSamples > 1, drawsFar = isMasked && !inputs.isUnderWater;

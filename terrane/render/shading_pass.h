@@ -1,6 +1,5 @@
 // From the G-buffer to the light that reaches the camera, over the sky; or to what the screen shows: see
-// direct_image.h. Used by the renderer on the context's
-// thread.
+// direct_image.h. Used by the renderer on the context's thread.
 #pragma once
 
 #include <array>
@@ -35,8 +34,8 @@ class ShadingPass {
   private:
     FullscreenPass sky_, nightSky_;
     std::array<FullscreenPass, 2> shade_;  // in air, under water
-    FullscreenPass shadeDistant_;          // beyond kSimpleLightFrom blocks alone, in air
-    FullscreenPass shadeFar_;              // far tiles alone, in air
+    FullscreenPass shadeDistant_;          // pixels beyond kSimpleLightFrom blocks, in air
+    FullscreenPass shadeFar_;              // pixels of far tiles, in air
     PixelMask skyMask_, surfaceMask_;
     bool fadesOverSky_ = false, hasDistanceFog_ = false, isDirect_ = false, hasDistant_ = false;
 };

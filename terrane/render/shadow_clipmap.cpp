@@ -93,7 +93,8 @@ glm::ivec2 ShadowClipmap::middleOf(const Layer& layer, int cascade, const Camera
     return glm::ivec2(glm::floor(at / shadowTileBlocks(cascade) + 0.5));
 }
 
-// Blocks from the camera, along each axis of the plane, without what filters read.
+// Blocks from the camera that are drawn, along each axis of the plane. Filters read farther: frame() takes
+// that off.
 double ShadowClipmap::drawnReach(const Layer& layer, int cascade, const Camera& camera) {
     if (!layer.plane) return 0;
     const double blocks = shadowTileBlocks(cascade);

@@ -32,7 +32,7 @@ const int kTaps = 5;
 const vec2 kTapPlaces[kTaps] = vec2[](vec2(0.0), vec2(0.85, 0.35), vec2(-0.35, 0.85), vec2(-0.85, -0.35), vec2(0.35, -0.85));
 
 // Edges as wide as the sun makes them at the mean distance of what stops the light (Fernando, Percentage-Closer Soft Shadows,
-// 2005), at least a texel and at most `texels.w` to each side.
+// 2005), at least 0.6 texels and at most `texels.w` to each side.
 float softShare(vec4 at, float texel) {
     float toUv = 1.0 / shadows.mapTexels, most = shadows.texels.w;
     float depthSum = 0.0, count = 0.0;

@@ -1,5 +1,6 @@
 // What can throw a shadow onto the part of the world near the camera: everything toward the light from there.
-// Pure functions; any thread.
+// For statistics and the debug top view; what is drawn is chosen by shadow_casters.h. Pure functions; any
+// thread.
 #pragma once
 
 #include <array>
@@ -13,7 +14,8 @@
 
 namespace terrane::render {
 
-constexpr float kShadowReach = 50;  // blocks from the camera: there shadows have faded
+// Blocks from the camera: as far as the nearest cascade reaches, and as the thesis's shadow map.
+constexpr float kShadowReach = 50;
 
 // Beside each other as the light sees them, a rectangle; along its direction, from `farthest` on toward it.
 struct ShadowVolume {
@@ -31,8 +33,8 @@ bool mayBeInVolume(const ShadowVolume& volume, glm::vec3 boxMin, glm::vec3 boxMa
 // number: 1 for the map's x, 2 for y, 4 for toward the light.
 std::array<glm::dvec3, 8> nearShadowBox(const Camera& camera, glm::vec3 lightDirection);
 
-// Triangles of a shadow map of these chunks: mesh sections in the volume, without blended quads and without
-// the face directions that look away from the light.
+// Triangles that one shadow map of the nearest kShadowReach blocks would draw of these chunks: mesh sections
+// in the volume, without blended quads and without the face directions that look away from the light.
 std::size_t countShadowTriangles(const QuadStore& quads, const Camera& camera, const ViewMatrices& view,
                                  glm::vec3 lightDirection);
 

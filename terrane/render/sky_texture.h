@@ -1,6 +1,6 @@
-// The sky and the air as shaders see them: the Milky Way, a small texture that is made anew whenever sun or
-// moon have moved by a step that can just be seen, and the uniforms of a frame. Used by the renderer on the
-// context's thread.
+// The sky and the air as shaders see them: a small texture of the sky, computed anew whenever sun or moon
+// have moved by a step that can just be seen, the Milky Way, and the uniforms of a frame. Used by the
+// renderer on the context's thread.
 #pragma once
 
 #include "terrane/gpu/mapped_ring.h"
