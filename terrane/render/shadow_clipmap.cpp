@@ -19,8 +19,10 @@ constexpr double kLightStep = 1.0 / 128;  // radians, about
 constexpr double kFirstTileBlocks = 14.5;
 // The middle of the tiles is up to half a tile beside the camera.
 constexpr double kReachTiles = kHalfShadowTiles - 0.5;
-// Filters read so many texels beyond a place, the shift along the normal included.
-constexpr double kFilterTexels = 10;
+// A soft edge is at most so wide to each side. Filters read so many texels beyond a place, the shift along the normal
+// included.
+constexpr float kMostEdgeTexels = 5;
+constexpr double kFilterTexels = 8;
 // How long a changed tile of each cascade waits for further changes before it is drawn again, frames: chunks
 // come one after the other.
 constexpr std::array<std::uint64_t, shared::kShadowCascades> kPatience = {0, 8, 24};
@@ -266,6 +268,7 @@ shared::ShadowFrame ShadowClipmap::frame(const Camera& camera, int texels) const
     }
     for (int cascade = cascades_; cascade < static_cast<int>(kMaxCascades); ++cascade)
         frame.reach[cascade] = 1e9f;  // it holds nothing
+    frame.texels[3] = kMostEdgeTexels;
     frame.mapTexels = static_cast<float>(texels);
     return frame;
 }

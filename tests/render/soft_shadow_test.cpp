@@ -1,0 +1,54 @@
+// How wide the edges of shadows are.
+#include <algorithm>
+
+#include "tests/render/sunlit_fixture.h"
+
+namespace terrane::render {
+namespace {
+
+constexpr int kPlainZ = 64;  // highest blocks of the plain
+
+class SoftShadowTest : public SunlitTest {
+  protected:
+    // Of the shadow of a wall so high, in pixels, straight from above: those between dark and light.
+    int edgePixels(int height, bool isSoft) {
+        show(stoneWorld({-2, -2}, {2, 2},
+                        std::array<StoneBox, 2>{{{{{-32, -32, 60}, {47, 47, kPlainZ}}},
+                                                 {{{0, -32, kPlainZ + 1}, {0, 47, kPlainZ + height}}}}}));
+        const Camera above{.position = {1.0 + height, 0.5, kPlainZ + 7.0},
+                           .yaw = 0,
+                           .pitch = -90,
+                           .fieldOfView = 20};
+        const world::Environment sun = sunAt(towardSun(180, 45));
+        configure(ShadowReach::Off);
+        const std::vector<int> bare = column(drawUnder(above, sun));
+        configure(ShadowReach::Near, isSoft);
+        const std::vector<int> shaded = column(drawUnder(above, sun));
+        int count = 0, dark = 0;
+        for (std::size_t k = 0; k < bare.size(); ++k) {
+            dark += 2 * shaded[k] <= bare[k];
+            count += 10 * shaded[k] < 9 * bare[k] && 10 * shaded[k] > 6 * bare[k];
+        }
+        EXPECT_GT(dark, kSunlitSize.y / 4) << "the edge is in the image";
+        return count;
+    }
+
+  private:
+    // Across the edge, in the middle of the image.
+    static std::vector<int> column(const base::Image& image) {
+        std::vector<int> values;
+        for (int y = 0; y < kSunlitSize.y; ++y)
+            values.push_back(image.rgba[4 * static_cast<std::size_t>(y * kSunlitSize.x + kSunlitSize.x / 2)]);
+        return values;
+    }
+};
+
+// The farther away what stops the light, the wider.
+TEST_F(SoftShadowTest, EdgesWidenWithDistance) {
+    const int low = edgePixels(3, true), high = edgePixels(20, true);
+    EXPECT_GE(high, 2 * low);
+    EXPECT_LE(edgePixels(20, false), high / 2) << "a hard edge has the width of a texel";
+}
+
+}  // namespace
+}  // namespace terrane::render
