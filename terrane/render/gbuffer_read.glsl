@@ -21,13 +21,6 @@ float blocksOfDepth(float depth) {
     return frame.nearPlane / max(depth, 1e-9);
 }
 
-// Equal packed values are one surface: its texture is read once a pixel. Bits of its samples.
-int samplesOf(ivec2 pixel, vec4 packedSurface) {
-    int samples = 0;
-    for (int k = 0; k < MSAA_SAMPLES; ++k) samples |= packedSurfaceAt(pixel, k) == packedSurface ? 1 << k : 0;
-    return samples;
-}
-
 bool isOneSurface(ivec2 pixel, vec4 first) {
     bool isSame = true;
     for (int k = 1; k < MSAA_SAMPLES; ++k) isSame = isSame && packedSurfaceAt(pixel, k) == first;

@@ -9,6 +9,7 @@
 
 #include "terrane/base/profile.h"
 #include "terrane/mesh/chunk_mesher.h"
+#include "terrane/stream/sea_floor.h"
 
 namespace terrane::stream {
 
@@ -65,7 +66,8 @@ struct TilePipeline::Results {
 MeshPtr makeTile(const TileParts& parts, ChunkPos pos, mesh::MergeMethod method) {
     TERRANE_ZONE("make tile");
     thread_local mesh::MeshScratch scratch;
-    const world::Chunk chunk = tileBlocks(parts, pos);
+    world::Chunk chunk = tileBlocks(parts, pos);
+    raiseDeepFloor(chunk, parts.blocks);
     return std::make_shared<const mesh::ChunkMesh>(
         mesh::meshTile(chunk, parts.blocks, {method, kMeshSectionHeight}, scratch));
 }
