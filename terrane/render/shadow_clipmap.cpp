@@ -19,8 +19,8 @@ constexpr double kLightStep = 1.0 / 128;  // radians, about
 constexpr double kFirstTileBlocks = 14.5;
 // The middle of the tiles is up to half a tile beside the camera.
 constexpr double kReachTiles = kHalfShadowTiles - 0.5;
-// A soft edge is at most so wide to each side. Filters read so many texels beyond a place, the shift along the normal
-// included.
+// A soft edge is at most so wide to each side. Filters read so many texels beyond a place, the shift along
+// the normal included.
 constexpr float kMostEdgeTexels = 5;
 constexpr double kFilterTexels = 8;
 // How long a changed tile of each cascade waits for further changes before it is drawn again, frames: chunks

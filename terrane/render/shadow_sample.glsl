@@ -28,13 +28,14 @@ float alongRow(int cascade, uint row, vec4 position) {
 // Half the width of the sun, seen from the ground, as a tangent: twice the true one, so that soft edges are seen at the
 // height of a tree.
 const float kSunSize = 0.01;
+const float kMostEdge = 0.4;  // blocks
 const int kTaps = 5;
 const vec2 kTapPlaces[kTaps] = vec2[](vec2(0.0), vec2(0.85, 0.35), vec2(-0.35, 0.85), vec2(-0.85, -0.35), vec2(0.35, -0.85));
 
 // Edges as wide as the sun makes them at the mean distance of what stops the light (Fernando, Percentage-Closer Soft Shadows,
-// 2005), at least 0.6 texels and at most `texels.w` to each side.
+// 2005), at most `texels.w` and kMostEdge to each side: wider ones would look past walls.
 float softShare(vec4 at, float texel) {
-    float toUv = 1.0 / shadows.mapTexels, most = shadows.texels.w;
+    float toUv = 1.0 / shadows.mapTexels, most = min(shadows.texels.w, kMostEdge / texel);
     float depthSum = 0.0, count = 0.0;
     for (int k = 0; k < kTaps; ++k) {
         float depth = texture(shadowDepths, vec3(at.xy + 0.7 * most * toUv * kTapPlaces[k], at.z)).r;
@@ -43,7 +44,7 @@ float softShare(vec4 at, float texel) {
         count += stops;
     }
     float blocks = kShadowRange * depthSum / max(count, 1.0);
-    float radius = clamp(kSunSize * blocks / texel, 0.6, most) * toUv;
+    float radius = min(kSunSize * blocks / texel, most) * toUv;
     float lit = 0.0;
     for (int k = 0; k < kTaps; ++k) lit += texture(shadowMaps, vec4(at.xy + radius * kTapPlaces[k], at.zw));
     return lit / float(kTaps);
@@ -82,6 +83,8 @@ float lightShare(vec3 position, vec3 normal, float distance, float landShare) {
     vec3 reach = distance * shadows.reach.xyz + (1.0 - kChangeFrom) * pixelNoise();
     int cascade = reach.x < 1.0 ? 0 : reach.y < 1.0 ? 1 : reach.z < 1.0 ? 2 : 3;
     float share = cascade == 3 ? landShare : 1.0;
-    if (facing > 0.0 && cascade < 3) share = cascadeShare(cascade, position, normal, slope);
-    return mix(1.0, share, shadows.strength);
+    // Without light there are no maps: what is read then may be no number.
+    bool isLit = shadows.strength > 0.0;
+    if (isLit && facing > 0.0 && cascade < 3) share = cascadeShare(cascade, position, normal, slope);
+    return isLit ? mix(1.0, share, shadows.strength) : 1.0;
 }

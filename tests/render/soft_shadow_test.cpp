@@ -50,5 +50,18 @@ TEST_F(SoftShadowTest, EdgesWidenWithDistance) {
     EXPECT_LE(edgePixels(20, false), high / 2) << "a hard edge has the width of a texel";
 }
 
+// Between sun and moon there are no maps.
+TEST_F(SoftShadowTest, WithoutLightNothingIsShaded) {
+    show(stoneWorld({-2, -2}, {2, 2}, std::array<StoneBox, 1>{{{{{-32, -32, 60}, {47, 47, kPlainZ}}}}}));
+    const Camera camera{.position = {-20, 0, kPlainZ + 9.0}, .yaw = 0, .pitch = -20};
+    world::Environment dark = sunAt(towardSun(180, 45), 0);
+    configure(ShadowReach::Off);
+    const base::Image bare = drawUnder(camera, dark);
+    for (const bool isSoft : {false, true}) {
+        configure(ShadowReach::Far, isSoft);
+        EXPECT_EQ(drawUnder(camera, dark).rgba, bare.rgba) << isSoft;
+    }
+}
+
 }  // namespace
 }  // namespace terrane::render

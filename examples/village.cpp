@@ -1,0 +1,161 @@
+// Builds a lit hamlet by the shore into a world: a program that edits blocks as a player does. Draw it with
+//
+//     village VILLAGE.sqlite X,Y
+//     terrane render --world VILLAGE.sqlite --at X,Y,Z --look YAW,PITCH --time 0.82 -o village.png
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "terrane/content/built_in.h"
+#include "terrane/game/session.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/store/open_world.h"
+
+namespace {
+
+using namespace terrane;
+using world::BlockPos;
+
+constexpr const char* kGenerator = "continents";
+constexpr std::uint64_t kSeed = 1;
+constexpr int kRadius = 4;  // chunks that are loaded
+constexpr int kStep = 11;   // blocks from house to house
+constexpr int kReach = 44;  // blocks from the middle to the last house
+constexpr int kJettyLength = 16;
+
+struct Site {
+    game::Session& session;
+    BlockPos middle;
+
+    world::BlockId id(const char* name) const { return session.blocks().find(name)->id; }
+    const std::string& nameAt(BlockPos pos) const {
+        return session.blocks().type(session.world().block(pos)).name;
+    }
+    void put(BlockPos pos, const char* name) {
+        session.edit({.pos = pos, .change = world::SetBlock{id(name)}, .expected = {}});
+    }
+    // Both corners included.
+    void fill(BlockPos a, BlockPos b, const char* name) {
+        for (int z = a.z; z <= b.z; ++z)
+            for (int y = a.y; y <= b.y; ++y)
+                for (int x = a.x; x <= b.x; ++x) put({x, y, z}, name);
+    }
+    // The highest block of the ground or of the sea.
+    int groundAt(int x, int y) const {
+        int z = world::kChunkHeight - 1;
+        const auto isGround = [&](const std::string& name) {
+            return name == "water" || (session.blocks().find(name)->opaqueCube && !name.ends_with("_log"));
+        };
+        while (z > 0 && !isGround(nameAt({x, y, z}))) --z;
+        return z;
+    }
+    bool isWater(int x, int y) const { return nameAt({x, y, groundAt(x, y)}) == "water"; }
+};
+
+void loadAround(game::Session& session, world::ChunkPos middle) {
+    stream::ChunkPipeline& pipeline = session.pipeline();
+    pipeline.setView(middle, kRadius);
+    for (pipeline.update(); !pipeline.progress().isUpToDate(); pipeline.update())
+        pipeline.waitForWorkers(std::chrono::milliseconds(100));
+}
+
+// Dry and nearly level: 7 × 7 blocks from the corner on.
+bool isGoodGround(const Site& site, int x, int y, int& ground) {
+    int lowest = world::kChunkHeight, highest = 0;
+    for (int k = 0; k < 49; ++k) {
+        const int px = x + k % 7, py = y + k / 7;
+        if (site.isWater(px, py)) return false;
+        lowest = std::min(lowest, site.groundAt(px, py));
+        highest = std::max(highest, site.groundAt(px, py));
+    }
+    ground = highest;
+    return highest - lowest <= 3;
+}
+
+// Seven blocks square, with a gable roof along x, a door to the south, windows, and a lamp in the middle.
+void buildHouse(Site& site, int x, int y, int ground) {
+    const int floor = ground + 1;
+    site.fill({x, y, ground - 3}, {x + 6, y + 6, ground}, "limestone");
+    site.fill({x, y, floor}, {x + 6, y + 6, floor + 9}, "air");
+    site.fill({x, y, floor}, {x + 6, y + 6, floor + 2}, "sandstone");
+    site.fill({x + 1, y + 1, floor}, {x + 5, y + 5, floor + 2}, "air");
+    for (const int dx : {0, 6})
+        for (const int dy : {0, 6})
+            site.fill({x + dx, y + dy, floor}, {x + dx, y + dy, floor + 2}, "oak_log");
+    for (int rise = 0; rise < 4; ++rise) {
+        site.fill({x, y + rise, floor + 3 + rise}, {x + 6, y + 6 - rise, floor + 3 + rise}, "sandstone");
+        for (const int side : {y + rise - 1, y + 7 - rise})
+            site.fill({x - 1, side, floor + 2 + rise}, {x + 7, side, floor + 2 + rise}, "terracotta");
+        if (rise > 0)
+            site.fill({x + 1, y + rise, floor + 2 + rise}, {x + 5, y + 6 - rise, floor + 2 + rise}, "air");
+    }
+    site.fill({x - 1, y + 3, floor + 6}, {x + 7, y + 3, floor + 6}, "terracotta");
+    site.fill({x + 3, y, floor}, {x + 3, y, floor + 1}, "air");
+    for (const int dx : {0, 6})
+        site.fill({x + dx, y + 2, floor + 1}, {x + dx, y + 4, floor + 1}, "cyan_glass");
+    site.put({x + 3, y + 4, floor + 2}, "lamp_white");
+    site.fill({x + 5, y - 2, ground - 2}, {x + 5, y - 2, ground + 2}, "oak_log");
+    site.put({x + 5, y - 2, ground + 3}, "lamp_white");
+}
+
+int buildHouses(Site& site) {
+    int count = 0, ground = 0;
+    for (int dy = -kReach; dy <= kReach; dy += kStep) {
+        for (int dx = -kReach; dx <= kReach; dx += kStep) {
+            const int x = site.middle.x + dx, y = site.middle.y + dy;
+            if (!isGoodGround(site, x, y, ground)) continue;
+            buildHouse(site, x, y, ground);
+            ++count;
+        }
+    }
+    return count;
+}
+
+// From the shore into the sea, along x.
+void buildJetty(Site& site) {
+    int x = site.middle.x;
+    const int y = site.middle.y, toSea = site.isWater(x - kReach, y) ? -1 : 1;
+    while (std::abs(x - site.middle.x) < kReach && !site.isWater(x, y)) x += toSea;
+    const int deck = site.groundAt(x, y) + 1;
+    for (int k = -3; k < kJettyLength; ++k) {
+        const int at = x + toSea * k;
+        site.fill({at, y, deck}, {at, y + 2, deck}, "oak_log");
+        if (k % 5 != 0) continue;
+        site.fill({at, y, deck - 6}, {at, y, deck + 1}, "oak_log");
+        site.put({at, y, deck + 2}, "lamp_white");
+    }
+}
+
+base::Result<int> build(const std::string& path, BlockPos middle) {
+    auto loaded = content::loadBlocks();
+    if (!loaded) return tl::unexpected(loaded.error());
+    auto blocks = std::make_unique<const world::BlockRegistry>(std::move(*loaded));
+    store::WorldRequest request;
+    request.access = store::WorldAccess::ReadWrite;
+    request.create = store::WorldIdentity{kSeed, kGenerator, gen::generatorVersion(kGenerator)};
+    request.versionOf = gen::generatorVersion;
+    auto opened = store::openWorld(store::worldLocation(path), *blocks, request);
+    if (!opened) return tl::unexpected(opened.error());
+    auto generators = gen::makeLevelGenerators(kGenerator, *blocks, kSeed);
+    if (!generators) return tl::unexpected(generators.error());
+    game::Session session({std::move(blocks), std::move(*generators), std::move(*opened), 2});
+    loadAround(session, {middle.x >> 4, middle.y >> 4});
+    Site site{session, middle};
+    buildJetty(site);
+    const int houses = buildHouses(site);
+    loadAround(session, {middle.x >> 4, middle.y >> 4});
+    if (auto saved = session.save(); !saved) return tl::unexpected(saved.error());
+    return houses;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    BlockPos middle{};
+    if (argc != 3 || std::sscanf(argv[2], "%d,%d", &middle.x, &middle.y) != 2)
+        return std::fprintf(stderr, "usage: village VILLAGE.sqlite X,Y\n"), 1;
+    const auto houses = build(argv[1], middle);
+    if (!houses) return std::fprintf(stderr, "%s\n", houses.error().message.c_str()), 1;
+    std::printf("%d houses\n", *houses);
+}
