@@ -35,6 +35,18 @@ save cave
 draw ocean --scene ocean --time 0.79
 save ocean
 
+"$program" render --preset high --view-distance 16 --size 960x540 --at=3650,-2100,200 --look=62,-9 --time 0.225 -o dawn.png
+save dawn
+
+# Where examples are built: their hamlet by the sea.
+village=$(dirname "$program")/village
+if [[ -x "$village" ]]; then
+    "$village" hamlet.sqlite 3466,-1690
+    "$program" render --world hamlet.sqlite --preset high --view-distance 8 --size 960x540 --at=3395,-1712,92 --look=30,-14 \
+        --time 0.81 -o village.png
+    save village
+fi
+
 for time in 0.215 0.5 0.79 0.93; do draw "at_$time" --at -625,128,98 --look 12,6 --time "$time"; done
 montage at_*.png -tile 2x -geometry 640x360+2+2 times.png
 save times
