@@ -39,21 +39,21 @@ struct StoneBox {
 
 // The chunks from `first` to `last`, both included, and a ring of air around them.
 inline world::World stoneWorld(world::ChunkPos first, world::ChunkPos last, std::span<const StoneBox> boxes) {
-    constexpr int kSide = world::kChunkSize;
+    constexpr int kBlocks = world::kChunkSize;
     const world::BlockId stone = contentBlock("stone");
     world::World world;
     for (int cy = first.y - 1; cy <= last.y + 1; ++cy) {
         for (int cx = first.x - 1; cx <= last.x + 1; ++cx) {
             auto chunk = std::make_shared<world::Chunk>();
             for (const StoneBox& b : boxes) {
-                const int x0 = std::max(b.box.min.x, kSide * cx),
-                          x1 = std::min(b.box.max.x, kSide * cx + kSide - 1);
-                const int y0 = std::max(b.box.min.y, kSide * cy),
-                          y1 = std::min(b.box.max.y, kSide * cy + kSide - 1);
+                const int x0 = std::max(b.box.min.x, kBlocks * cx),
+                          x1 = std::min(b.box.max.x, kBlocks * cx + kBlocks - 1);
+                const int y0 = std::max(b.box.min.y, kBlocks * cy),
+                          y1 = std::min(b.box.max.y, kBlocks * cy + kBlocks - 1);
                 for (int z = b.box.min.z; z <= b.box.max.z; ++z)
                     for (int y = y0; y <= y1; ++y)
                         for (int x = x0; x <= x1; ++x)
-                            chunk->setBlock(world::blockIndex(x - kSide * cx, y - kSide * cy, z),
+                            chunk->setBlock(world::blockIndex(x - kBlocks * cx, y - kBlocks * cy, z),
                                             b.isAir ? world::kAir : stone);
             }
             world.insert({cx, cy}, std::move(chunk));
