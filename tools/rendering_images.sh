@@ -62,4 +62,4 @@ draw occluded --at -120,206,108 --look 88,-8 --time 0.5 --ssao on
 beside ssao open occluded
 draw sharp --at -1125,35,168 --look 60,-8 --time 0.4 --depth-of-field off
 draw blurred --at -1125,35,168 --look 60,-8 --time 0.4 --depth-of-field on
-beside far_blur sharp blurred
+beside depth_of_field sharp blurred

@@ -34,7 +34,7 @@ float lightUnder(float blocks) {
 }
 
 // The sun or moon in all the small mirrors of a rough surface, whose slopes are spread normally (C. Cox, W. Munk, Measurement of
-// the Roughness of the Sea Surface from Photographs of the Sun's Glitter, 1954). Not brighter than the disc.
+// the Roughness of the Sea Surface from Photographs of the Sun's Glitter, 1954). Less bright than the disc, without an edge where it would be brighter.
 vec3 glitter(vec3 view, Waves waves) {
     vec3 toLight = frame.lightDirection.xyz, between = normalize(toLight - view);
     float up = max(between.z, 0.05), spread = waves.variance + 0.25 * frame.discSine * frame.discSine;
@@ -42,7 +42,8 @@ vec3 glitter(vec3 view, Waves waves) {
     float share = exp(-dot(off, off) / spread) / spread;
     float up4 = up * up * up * up, steep = max(max(-view.z, toLight.z), 0.15);
     vec3 light = frame.lightColor.rgb * (0.25 * waterMirror(dot(-view, between)) * share / (steep * up4));
-    return min(light, 0.6 * frame.discColor.rgb) * smoothstep(-0.02, 0.05, toLight.z);
+    vec3 most = 0.6 * frame.discColor.rgb;
+    return light * most / (2.0 * light + most + 1e-6) * smoothstep(-0.02, 0.05, toLight.z);
 }
 
 // From below: the world above through a round window, beyond which the surface mirrors the water (Snell's law).
