@@ -64,9 +64,9 @@ constexpr Preset thesis() {
 const std::array<Preset, 5>& presets() {
     static constexpr std::array<Preset, 5> kPresets = {
         {{.name = "low", .options = low(), .relativeCost = 1.0},
-         {.name = "medium", .options = medium(), .relativeCost = 4.5},
-         {.name = "high", .options = high(), .relativeCost = 5.4},
-         {.name = "ultra", .options = ultra(), .detail = kUltraDetail, .relativeCost = 5.6},
+         {.name = "medium", .options = medium(), .relativeCost = 3.8},
+         {.name = "high", .options = high(), .relativeCost = 4.48},
+         {.name = "ultra", .options = ultra(), .detail = kUltraDetail, .relativeCost = 4.54},
          thesis()}};
     return kPresets;
 }

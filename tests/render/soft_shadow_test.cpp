@@ -15,10 +15,8 @@ class SoftShadowTest : public SunlitTest {
         show(stoneWorld({-2, -2}, {2, 2},
                         std::array<StoneBox, 2>{{{{{-32, -32, 60}, {47, 47, kPlainZ}}},
                                                  {{{0, -32, kPlainZ + 1}, {0, 47, kPlainZ + height}}}}}));
-        const Camera above{.position = {1.0 + height, 0.5, kPlainZ + 7.0},
-                           .yaw = 0,
-                           .pitch = -90,
-                           .fieldOfView = 20};
+        const Camera above{
+            .position = {1.0 + height, 0.5, kPlainZ + 7.0}, .yaw = 0, .pitch = -90, .fieldOfView = 20};
         const world::Environment sun = sunAt(towardSun(180, 45));
         configure(ShadowReach::Off);
         const std::vector<int> bare = column(drawUnder(above, sun));

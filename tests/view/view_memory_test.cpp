@@ -100,8 +100,8 @@ TEST_F(ViewMemoryTest, AlsoWhereTheGpuMeshes) {
     EXPECT_LE(small->renderer.peakMemory(), 2 * kBudgetBytes);
     const auto large = makePlayer(SIZE_MAX, reached, false);
     loadAll(*large->session, *large->view, kCamera, reached, std::chrono::steady_clock::now());
-    // The smaller view keeps some chunks beyond its distance, which have all but faded into the sky: which ones
-    // depends on the order they came in. A pixel is two or three steps off; a missing chunk is tens.
+    // The smaller view keeps some chunks beyond its distance, which have all but faded into the sky: which
+    // ones depends on the order they came in. A pixel is two or three steps off; a missing chunk is tens.
     EXPECT_LE(largestDifference(draw(*small, kCamera), draw(*large, kCamera)), 4);
 }
 
