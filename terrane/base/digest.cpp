@@ -32,4 +32,8 @@ void Digest::FreeState::operator()(XXH3_state_s* state) const {
     XXH3_freeState(state);
 }
 
+std::uint64_t hash64(std::string_view text) {
+    return XXH64(text.data(), text.size(), 0);
+}
+
 }  // namespace terrane::base

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -30,5 +31,8 @@ class Digest {
     };
     std::unique_ptr<XXH3_state_s, FreeState> state_;
 };
+
+// 64 bits, the same on every machine: xxHash64 of the bytes with the seed 0, as `xxh64sum` prints it.
+[[nodiscard]] std::uint64_t hash64(std::string_view text);
 
 }  // namespace terrane::base

@@ -18,10 +18,7 @@ constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
 [[nodiscard]] Result<std::string> readFile(const std::filesystem::path& path,
                                            std::size_t maxBytes = kMaxFileBytes);
 
-// Writes a temporary file beside the path, waits until the disk has it, then renames it over the path: a
-// reader finds the old file or the new one, also after a program, or the power, has ended midway. A symbolic
-// link is followed: the file it leads to is replaced, or made, and the link stays. Makes no folders and
-// refuses to replace what is not a regular file, such as a folder or a device.
+// As OutputFile (output_file.h), in one piece.
 [[nodiscard]] Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace terrane::base

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <string_view>
 
@@ -28,20 +29,25 @@ std::string shapeText(const std::vector<std::size_t>& shape) {
 
 }  // namespace
 
-std::string encodeNpy(const NpyArray& array) {
-    assert(!array.descr.empty() && "an array has an element type");
-    assert(fitsShape(array) && "the data is a whole number of bytes for each element");
-    const std::string descr = array.descr.front() == '[' ? array.descr : fmt::format("'{}'", array.descr);
+std::string npyHeader(const std::string& descr, const std::vector<std::size_t>& shape, std::size_t minBytes) {
+    assert(!descr.empty() && "an array has an element type");
+    const std::string type = descr.front() == '[' ? descr : fmt::format("'{}'", descr);
     std::string header =
-        fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': {}, }}", descr, shapeText(array.shape));
+        fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': {}, }}", type, shapeText(shape));
     const std::size_t usedBytes = kMagic.size() + kLengthBytes + header.size() + 1;
-    header.append((kAlignment - usedBytes % kAlignment) % kAlignment, ' ');
+    const std::size_t wholeBytes = (std::max(usedBytes, minBytes) + kAlignment - 1) / kAlignment * kAlignment;
+    header.append(wholeBytes - usedBytes, ' ');
     header += '\n';
     assert(header.size() <= kMaxHeaderBytes && "version 1.0 counts the header in 16 bits");
     std::string bytes(kMagic);
     bytes += static_cast<char>(header.size() & 255);
     bytes += static_cast<char>(header.size() >> 8);
-    return bytes + header + array.data;
+    return bytes + header;
+}
+
+std::string encodeNpy(const NpyArray& array) {
+    assert(fitsShape(array) && "the data is a whole number of bytes for each element");
+    return npyHeader(array.descr, array.shape) + array.data;
 }
 
 }  // namespace terrane::base

@@ -69,5 +69,12 @@ TEST(Digest, Moves) {
     EXPECT_EQ(second.hex(), digestOf("abc"));
 }
 
+// By the specification of xxHash64.
+TEST(Hash64, IsFixed) {
+    EXPECT_EQ(hash64(""), 0xEF46DB3751D8E999u);
+    EXPECT_EQ(hash64("abc"), 0x44BC2CF5AD770999u);
+    EXPECT_NE(hash64(std::string_view("a\0", 2)), hash64("a"));
+}
+
 }  // namespace
 }  // namespace terrane::base

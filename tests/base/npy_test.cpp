@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <string>
 
 namespace terrane::base {
@@ -76,6 +77,15 @@ TEST(Npy, CountsLongHeadersInBothLengthBytes) {
     EXPECT_GT(parts.headerBytes, 256u);
     EXPECT_EQ(parts.header.back(), '\n');
     EXPECT_EQ(parts.data, std::string(50, 'x'));
+}
+
+// The shape of what is written piece by piece is known at the end.
+TEST(Npy, AHeaderLeavesRoomForALargerShape) {
+    const std::string first = npyHeader("<u2", {SIZE_MAX});
+    const std::string last = npyHeader("<u2", {7}, first.size());
+    EXPECT_EQ(last.size(), first.size());
+    EXPECT_EQ(dictionary(split(last)), "{'descr': '<u2', 'fortran_order': False, 'shape': (7,), }");
+    EXPECT_EQ(npyHeader("<u2", {7}, 65).size(), 128u);
 }
 
 }  // namespace

@@ -1,0 +1,129 @@
+#include "terrane/base/output_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cassert>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+namespace terrane::base {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+tl::unexpected<Error> cannotBeWritten(const fs::path& path, int errorNumber) {
+    return fail(ErrorCode::Io, "{}: cannot be written: {}", path.string(), systemReason(errorNumber));
+}
+
+// So that a file's new name survives the power's end. File systems that cannot do it are left to themselves.
+void syncFolder(const fs::path& file) {
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    ::fsync(descriptor);
+    ::close(descriptor);
+}
+
+// Also to what is not there yet. A link still, where they lead in a circle.
+fs::path behindLinks(fs::path file) {
+    constexpr int kMaxLinks = 40;  // as the system follows
+    std::error_code ignored;
+    for (int k = 0; k < kMaxLinks && fs::is_symlink(file, ignored); ++k) {
+        file = file.parent_path() / fs::read_symlink(file, ignored);
+    }
+    return file;
+}
+
+// Whether a file may take the place of what the path names.
+Result<void> checkReplaceable(const fs::path& path) {
+    std::error_code ignored;
+    if (fs::is_symlink(path, ignored)) return cannotBeWritten(path, ELOOP);
+    const fs::file_status status = fs::status(path, ignored);
+    if (fs::is_directory(status)) return cannotBeWritten(path, EISDIR);
+    if (!fs::exists(status) || fs::is_regular_file(status)) return {};
+    return fail(ErrorCode::Io, "{}: cannot be written: it is not a regular file", path.string());
+}
+
+}  // namespace
+
+Result<OutputFile> OutputFile::create(const fs::path& given) {
+    const fs::path path = behindLinks(given);
+    if (auto checked = checkReplaceable(path); !checked) return tl::unexpected(checked.error());
+    // Opened exclusively under a name nobody uses yet, so that two writers of one path never share a
+    // temporary file.
+    constexpr int kMaxAttempts = 1000;  // far more than writers at once and leftovers of crashes together
+    for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
+        fs::path temporary = path;
+        temporary += fmt::format(".tmp{}", attempt);
+        const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor >= 0) return OutputFile(descriptor, path, std::move(temporary));
+        if (errno != EEXIST) return cannotBeWritten(path, errno);
+    }
+    return fail(ErrorCode::Io, "{}: cannot be written: delete the old files {}.tmp* beside it", path.string(),
+                path.filename().string());
+}
+
+OutputFile::~OutputFile() {
+    close();
+    std::error_code ignored;
+    if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      path_(std::move(other.path_)),
+      temporary_(std::exchange(other.temporary_, fs::path())) {}
+
+// Zero, or the error number: closing can be the one to report a full disk.
+int OutputFile::close() {
+    if (descriptor_ < 0) return 0;
+    return ::close(std::exchange(descriptor_, -1)) == 0 ? 0 : errno;
+}
+
+Result<void> OutputFile::reserve(std::uint64_t sizeBytes) {
+    assert(descriptor_ >= 0 && "room is reserved in an open file");
+    const auto doNotFit = [&](int errorNumber) {
+        return fail(ErrorCode::OutOfResources, "{}: {} bytes do not fit: {}", path_.string(), sizeBytes,
+                    systemReason(errorNumber));
+    };
+    if (sizeBytes > static_cast<std::uint64_t>(INT64_MAX)) return doNotFit(EFBIG);
+    const int error =
+        ::fallocate(descriptor_, 0, 0, static_cast<off_t>(sizeBytes)) == 0 || sizeBytes == 0 ? 0 : errno;
+    if (error == 0) return {};
+    if (error == ENOSPC || error == EDQUOT || error == EFBIG) return doNotFit(error);
+    std::error_code unknown;
+    const fs::space_info space = fs::space(temporary_, unknown);
+    if (!unknown && space.available < sizeBytes) return doNotFit(ENOSPC);
+    return {};
+}
+
+Result<void> OutputFile::write(std::uint64_t offsetBytes, std::string_view bytes) {
+    assert(descriptor_ >= 0 && "an open file is written");
+    while (!bytes.empty()) {
+        const ssize_t count =
+            ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offsetBytes));
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return cannotBeWritten(path_, count < 0 ? errno : EIO);
+        bytes.remove_prefix(static_cast<std::size_t>(count));
+        offsetBytes += static_cast<std::uint64_t>(count);
+    }
+    return {};
+}
+
+Result<void> OutputFile::finish() {
+    assert(descriptor_ >= 0 && "a file is finished once");
+    int error = ::fsync(descriptor_) == 0 ? 0 : errno;
+    const int closeError = close();
+    if (error == 0) error = closeError;
+    if (error == 0 && std::rename(temporary_.c_str(), path_.c_str()) != 0) error = errno;
+    if (error != 0) return cannotBeWritten(path_, error);
+    temporary_.clear();
+    syncFolder(path_);
+    return {};
+}
+
+}  // namespace terrane::base

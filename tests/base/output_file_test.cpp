@@ -1,0 +1,73 @@
+#include "terrane/base/output_file.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "terrane/base/files.h"
+#include "tests/base/file_size_limit.h"
+#include "tests/base/temp_folder.h"
+
+namespace terrane::base {
+namespace {
+
+TEST(OutputFile, PiecesMayComeInAnyOrder) {
+    const TempFolder folder;
+    auto file = OutputFile::create(folder / "file");
+    ASSERT_TRUE(file);
+    EXPECT_TRUE(file->write(6, "last"));
+    EXPECT_TRUE(file->write(0, "one"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "file")) << "not before it is finished";
+    EXPECT_TRUE(file->finish());
+    EXPECT_EQ(readFile(folder / "file").value(), std::string("one\0\0\0last", 10));
+    EXPECT_EQ(folder.fileCount(), 1);
+}
+
+TEST(OutputFile, OfAnUnfinishedOneNothingStays) {
+    const TempFolder folder;
+    ASSERT_TRUE(writeFile(folder / "file", "old"));
+    {
+        auto file = OutputFile::create(folder / "file");
+        ASSERT_TRUE(file);
+        EXPECT_TRUE(file->write(0, "new"));
+        const OutputFile moved = std::move(*file);
+        EXPECT_EQ(folder.fileCount(), 2);
+    }
+    EXPECT_EQ(readFile(folder / "file").value(), "old");
+    EXPECT_EQ(folder.fileCount(), 1);
+}
+
+TEST(OutputFile, OfAFullDiskNothingStays) {
+    const TempFolder folder;
+    {
+        auto file = OutputFile::create(folder / "file");
+        ASSERT_TRUE(file);
+        const FileSizeLimit limit(1000);
+        EXPECT_TRUE(file->write(0, std::string(1000, 'x')));
+        const auto more = file->write(1000, "x");
+        ASSERT_FALSE(more);
+        EXPECT_EQ(more.error().message, (folder / "file").string() + ": cannot be written: File too large");
+    }
+    EXPECT_EQ(folder.fileCount(), 0);
+}
+
+TEST(OutputFile, WhatDoesNotFitTheDiskIsToldAtOnce) {
+    const TempFolder folder;
+    auto file = OutputFile::create(folder / "file");
+    ASSERT_TRUE(file);
+    EXPECT_TRUE(file->reserve(0));
+    EXPECT_TRUE(file->reserve(1 << 16));
+    const FileSizeLimit limit(1 << 20);
+    for (const std::uint64_t size : {std::uint64_t{1} << 30, std::uint64_t{1} << 60, ~std::uint64_t{0}}) {
+        const auto reserved = file->reserve(size);
+        ASSERT_FALSE(reserved) << size;
+        EXPECT_EQ(reserved.error().code, ErrorCode::OutOfResources);
+        EXPECT_EQ(reserved.error().message.find((folder / "file").string() + ": " + std::to_string(size) +
+                                                " bytes do not fit: "),
+                  0u)
+            << reserved.error().message;
+    }
+}
+
+}  // namespace
+}  // namespace terrane::base
