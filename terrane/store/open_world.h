@@ -13,7 +13,8 @@
 namespace terrane::store {
 
 enum class WorldAccess {
-    ReadOnly,   // the world must be there, and stays as it is: changes are kept in memory
+    // The world must be there, and stays as it is: changes are kept in memory. Another program may play it.
+    ReadOnly,
     ReadWrite,  // an error where the world cannot be written
 };
 
@@ -27,8 +28,8 @@ struct WorldRequest {
     SaveLimits limits;
 };
 
-// Errors: NotFound where there is no world, Busy where another program has it, Incompatible where it is
-// another world or no world, Damaged, Unsupported for a URL.
+// Errors: NotFound where there is no world, Busy where another program has it and it is to be written,
+// Incompatible where it is another world or no world, Damaged, Unsupported for a URL.
 [[nodiscard]] base::Result<std::unique_ptr<ChunkStore>> openWorld(const WorldLocation& location,
                                                                   const world::BlockRegistry& blocks,
                                                                   const WorldRequest& request);

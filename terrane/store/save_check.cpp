@@ -127,26 +127,33 @@ std::uint64_t sizeOf(std::filesystem::path path, const char* ending) {
     return error ? 0 : size;
 }
 
+void checkLog(const std::string& path, CheckReport& report) {
+    report.fileProblems = logProblems(path);
+    if (hasLostLog(path))
+        report.fileProblems.push_back(
+            fmt::format("{}-wal: it is gone, though a program that wrote to it was killed: what was saved "
+                        "last is missing",
+                        path));
+}
+
 }  // namespace
 
 base::Result<CheckReport> checkSave(const std::filesystem::path& path, const world::BlockRegistry& registry) {
     CheckReport report;
-    report.fileBytes = sizeOf(path, "") + sizeOf(path, "-wal");
+    const auto measure = [&] { report.fileBytes = sizeOf(path, "") + sizeOf(path, "-wal"); };
+    measure();
     auto file = openToRead(path, registry);
     if (!file) {
         if (file.error().code != base::ErrorCode::Damaged) return tl::unexpected(file.error());
         report.fileProblems.push_back(file.error().message);
         return report;
     }
+    measure();  // neither shrinks while the transaction reads them
+    report.inUse = file->inUse;
     report.format = file->format;
     report.identity = file->identity;
     report.unknownBlocks = file->ids.unknown();
-    report.fileProblems = logProblems(file->database.path());
-    if (hasLostLog(file->database.path()))
-        report.fileProblems.push_back(
-            fmt::format("{}-wal: it is gone, though a program that wrote to it was killed: what was saved "
-                        "last is missing",
-                        file->database.path()));
+    if (file->inUse.empty()) checkLog(file->database.path(), report);
     const bool hasChunks = isGood(report, checkChunks(*file, report));
     const bool hasQuarantine = isGood(report, countQuarantined(file->database, report));
     const bool hasIndex = isGood(report, checkIndex(file->database));

@@ -1,5 +1,6 @@
 // Looks through a whole save for damage, changing nothing. Any thread; it runs for as long as reading all of
-// it takes.
+// it takes. A save that another program writes is looked at as it was at one moment; its log is not, since it
+// changes under the eyes of the check.
 #pragma once
 
 #include <filesystem>
@@ -18,6 +19,7 @@ struct DamagedChunk {
 
 struct CheckReport {
     std::int64_t format = 0;
+    std::string inUse;  // as SaveFile::inUse; empty: nobody writes it
     WorldIdentity identity;
     // Stored, damaged ones included: of all levels, of level 0 with edits, of levels above 0.
     std::size_t chunks = 0, editedChunks = 0, tiles = 0;
@@ -33,7 +35,7 @@ struct CheckReport {
     bool isDamaged() const { return !fileProblems.empty() || !damaged.empty(); }
 };
 
-// An error where there is no save to look through, or another program has it open.
+// An error where there is no save to look through, or another program is just making or migrating it.
 [[nodiscard]] base::Result<CheckReport> checkSave(const std::filesystem::path& path,
                                                   const world::BlockRegistry& registry);
 

@@ -210,6 +210,33 @@ base::Result<void> readFormat(SaveFile& file) {
                       file.format);
 }
 
+// What keeps others from writing, or who writes.
+struct ReadLock {
+    std::optional<FileLock> lock;
+    std::string inUse;
+};
+
+base::Result<ReadLock> lockToRead(const fs::path& path) {
+    ReadLock reading;
+    if (isWritable(path)) {
+        auto lock = FileLock::acquire(path, FileLock::Kind::Shared);
+        if (lock) {
+            reading.lock = std::move(*lock);
+        } else if (lock.error().code == ErrorCode::Busy) {
+            reading.inUse = lock.error().message.substr(path.string().size() + 2);  // behind "path: "
+        } else {
+            return tl::unexpected(lock.error());
+        }
+    }
+    if (!hasJournal(path)) return reading;
+    if (!reading.inUse.empty())
+        return base::fail(ErrorCode::Busy, "{}: {}, which is making or migrating it", path.string(),
+                          reading.inUse);
+    return base::fail(ErrorCode::Incompatible,
+                      "{}: its last change was cut short and is undone when it is opened to play",
+                      path.string());
+}
+
 }  // namespace
 
 bool isWritable(const fs::path& path) {
@@ -240,8 +267,7 @@ base::Result<SaveFile> openToWrite(const fs::path& name, const world::BlockRegis
     auto database = Database::open(path, access.create ? OpenMode::Create : OpenMode::ReadWrite);
     if (!database) return tl::unexpected(database.error());
 
-    SaveFile file{
-        std::move(*lock), std::move(*database), OpenMode::ReadOnly, false, kFormatVersion, {}, {}, {}};
+    SaveFile file{std::move(*lock), std::move(*database)};
     if (auto done = makeCurrent(file, path, access); !done) return tl::unexpected(done.error());
     // After the tables: a new file is never seen without them. Each commit waits for the disk.
     const auto set = file.database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
@@ -260,25 +286,16 @@ base::Result<SaveFile> openToRead(const fs::path& name, const world::BlockRegist
     const fs::path& path = *own;
     auto isThere = checkFile(path);
     if (!isThere) return tl::unexpected(isThere.error());
-    if (!*isThere) {
-        return notASave(path);
-    }
+    if (!*isThere) return notASave(path);
     if (auto checked = checkCompanions(path); !checked) return tl::unexpected(checked.error());
-    std::optional<FileLock> lock;
-    if (isWritable(path)) {
-        auto acquired = FileLock::acquire(path, FileLock::Kind::Shared);
-        if (!acquired) return tl::unexpected(acquired.error());
-        lock = std::move(*acquired);
-    }
-    if (hasJournal(path))
-        return base::fail(ErrorCode::Incompatible,
-                          "{}: its last change was cut short and is undone when it is opened to play",
-                          path.string());
+    auto lock = lockToRead(path);
+    if (!lock) return tl::unexpected(lock.error());
     // Without a log nothing needs to be made beside the file, which may be impossible.
-    const OpenMode mode = hasLog(path) ? OpenMode::ReadOnly : OpenMode::Immutable;
+    const OpenMode mode = hasLog(path) || !lock->inUse.empty() ? OpenMode::ReadOnly : OpenMode::Immutable;
     auto database = Database::open(path, mode);
     if (!database) return tl::unexpected(database.error());
-    SaveFile file{std::move(lock), std::move(*database), mode, false, kFormatVersion, {}, {}, {}};
+    SaveFile file{std::move(lock->lock), std::move(*database), mode, false, std::move(lock->inUse)};
+    if (auto begun = file.database.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
     auto kind = classify(file.database);
     if (!kind) return tl::unexpected(kind.error());
     if (*kind == SaveKind::Empty) return notASave(path);

@@ -19,12 +19,14 @@ struct SaveFile {
     Database database;
     OpenMode readers = OpenMode::ReadOnly;  // how further connections are to be opened
     bool isNew = false;
+    // Who writes it meanwhile, "open in another program (process 12)"; empty: nobody can.
+    std::string inUse = {};
 
     // What the save had when it was opened.
     std::int64_t format = kFormatVersion;  // an older one only where it is read alone
-    Metadata metadata;
-    WorldIdentity identity;
-    BlockIdMap ids;
+    Metadata metadata = {};
+    WorldIdentity identity = {};
+    BlockIdMap ids = {};
 };
 
 struct SaveAccess {
@@ -40,7 +42,9 @@ struct SaveAccess {
                                                  const world::BlockRegistry& registry,
                                                  const SaveAccess& access);
 
-// Changes nothing; no other program may write meanwhile.
+// Changes nothing. A save that another program writes is read as it was at one moment, with what is in its
+// log; what nobody writes stays so meanwhile. A transaction of the connection has begun, for more of that
+// moment: COMMIT ends it. Busy where the other program is just making or migrating the save.
 [[nodiscard]] base::Result<SaveFile> openToRead(const std::filesystem::path& path,
                                                 const world::BlockRegistry& registry);
 

@@ -12,6 +12,9 @@ base::Result<std::unique_ptr<SqliteReader>> SqliteReader::open(const std::filesy
                                                                const SaveLimits& limits) {
     auto file = openToRead(path, registry);
     if (!file) return tl::unexpected(file.error());
+    if (auto ended = file->database.execute("COMMIT"); !ended) return tl::unexpected(ended.error());
+    if (!file->inUse.empty())
+        base::logInfo("{}: {}; read as it is saved, and left as it is", file->database.path(), file->inUse);
     return std::unique_ptr<SqliteReader>(new SqliteReader(std::move(*file), limits));
 }
 

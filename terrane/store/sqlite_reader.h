@@ -1,4 +1,5 @@
-// A world in a SQLite file that is read and left as it is, also where it cannot be written.
+// A world in a SQLite file that is read and left as it is, also where it cannot be written. While another
+// program plays it, what that has saved last is read.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,10 @@
 #include "terrane/store/save_check.h"
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
 
 #include "terrane/store/chunk_key.h"
 #include "terrane/store/schema.h"
@@ -46,6 +50,44 @@ TEST_F(SaveCheckTest, GoodSave) {
     EXPECT_TRUE(report.unknownBlocks.empty());
     EXPECT_TRUE(readAll(path_) == before);
     EXPECT_EQ(folder_.fileCount(), 1);
+}
+
+// Saves edits and settings as fast as it can until it is killed.
+[[noreturn]] void saveForEver(const std::filesystem::path& path, const world::BlockRegistry& registry,
+                              int started) {
+    const SaveLimits limits{.delay = std::chrono::milliseconds(1), .chunks = 20};
+    const auto store = SqliteStore::open(path, registry, {}, limits);
+    for (int number = 0; store; ++number) {
+        (*store)->save({number % 50, 3}, numberedChunk(number), Provenance::Edited);
+        (*store)->setMetadata("player_time", std::to_string(number));
+        if (number % 100 == 99 && !(*store)->flush()) break;
+        if (number == 199 && ::write(started, "x", 1) != 1) break;
+    }
+    ::_exit(1);
+}
+
+TEST_F(SaveCheckTest, WhileAnotherProgramSaves) {
+    std::array<int, 2> pipe{};
+    ASSERT_EQ(::pipe(pipe.data()), 0);
+    const pid_t child = ::fork();
+    if (child == 0) saveForEver(path_, registry_, pipe[1]);
+    char started = 0;
+    ASSERT_EQ(::read(pipe[0], &started, 1), 1);
+    std::size_t edited = 0;
+    for (int k = 0; k < 60; ++k) {
+        const CheckReport report = check();
+        EXPECT_FALSE(report.isDamaged()) << testing::PrintToString(report.fileProblems);
+        EXPECT_EQ(report.inUse, fmt::format("open in another program (process {})", child));
+        EXPECT_GE(report.editedChunks, edited);
+        edited = report.editedChunks;
+    }
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    for (const int descriptor : pipe) ::close(descriptor);
+    const CheckReport after = check();
+    EXPECT_FALSE(after.isDamaged());
+    EXPECT_EQ(after.inUse, "");
+    EXPECT_EQ(after.chunks, 80u);
 }
 
 // A save as a killed program leaves it: with a log of one transaction a chunk.

@@ -6,6 +6,7 @@
 
 #include "terrane/store/file_lock.h"
 #include "terrane/store/open_world.h"
+#include "terrane/store/sqlite_reader.h"
 #include "terrane/store/sqlite_store.h"
 #include "tests/store/store_fixture.h"
 
@@ -159,7 +160,7 @@ TEST_F(SaveFileTest, ALinkLeadsToTheSameLockAndLog) {
     ASSERT_TRUE((*store)->flush());
     EXPECT_THAT(openToWrite(link, registry_, kMustBeThere).error().message,
                 HasSubstr("open in another program"));
-    EXPECT_THAT(openToRead(link, registry_).error().message, HasSubstr("open in another program"));
+    EXPECT_THAT(openToRead(link, registry_)->inUse, HasSubstr("open in another program"));
     (*store).reset();
     EXPECT_TRUE(openToRead(link, registry_));
     fs::create_hard_link(path_, folder_ / "other.sqlite");
@@ -289,7 +290,48 @@ TEST_F(SaveFileTest, OneProgramAtATime) {
     const auto first = openToWrite(path_, registry_, kCreate);
     ASSERT_TRUE(first);
     EXPECT_THAT(errorOfWriting(), HasSubstr(fmt::format("open in another program (process {})", ::getpid())));
-    EXPECT_THAT(errorOfReading(), HasSubstr("open in another program"));
+}
+
+TEST_F(SaveFileTest, ReadingWhatAnotherProgramWrites) {
+    makeSave();
+    EXPECT_EQ(openToRead(path_, registry_)->inUse, "");
+    auto writer = SqliteStore::open(path_, registry_, kMustBeThere, kNever);
+    ASSERT_TRUE(writer);
+    const auto beforeFirst = SqliteReader::open(path_, registry_);
+    ASSERT_TRUE(beforeFirst) << beforeFirst.error().message;
+    const auto save = [&](int number) {
+        (*writer)->save({3, 0}, numberedChunk(number), Provenance::Edited);
+        ASSERT_TRUE((*writer)->flush());
+    };
+    save(100);
+    const auto file = openToRead(path_, registry_);
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_EQ(file->inUse, fmt::format("open in another program (process {})", ::getpid()));
+    const std::string saved = readAll(path_), log = readAll(path_.string() + "-wal");
+    EXPECT_EQ(*(*beforeFirst)->load({3, 0}).chunk, *numberedChunk(100));
+    EXPECT_EQ(*(*SqliteReader::open(path_, registry_))->load({3, 0}).chunk, *numberedChunk(100))
+        << "what is in the log alone";
+    EXPECT_TRUE(readAll(path_) == saved && readAll(path_.string() + "-wal") == log);
+    save(101);
+    EXPECT_EQ(*(*beforeFirst)->load({3, 0}).chunk, *numberedChunk(101));
+    (*writer).reset();  // the log stays as long as somebody reads it
+    EXPECT_EQ(*(*beforeFirst)->load({3, 0}).chunk, *numberedChunk(101));
+    EXPECT_EQ(errorOfWriting(kMustBeThere), "");
+    EXPECT_EQ(*(*beforeFirst)->load({3, 0}).chunk, *numberedChunk(101));
+}
+
+// Before it is in WAL mode, nothing but waiting helps.
+TEST_F(SaveFileTest, ASaveThatIsBeingMadeIsBusy) {
+    makeSave();
+    const auto writer = FileLock::acquire(path_, FileLock::Kind::Exclusive);
+    ASSERT_TRUE(writer);
+    std::string journal = journalNaming("", pageCount());
+    journal.resize(512);
+    writeAll(path_.string() + "-journal", journal);
+    const auto file = openToRead(path_, registry_);
+    ASSERT_FALSE(file);
+    EXPECT_EQ(file.error().code, base::ErrorCode::Busy);
+    EXPECT_THAT(file.error().message, HasSubstr("open in another program"));
 }
 
 TEST_F(SaveFileTest, ReadersShare) {
