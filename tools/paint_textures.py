@@ -21,6 +21,7 @@ import sys
 import zlib
 
 sys.dont_write_bytecode = True  # the build runs this script: nothing is written into the source tree
+import building_textures as building  # noqa: E402
 import land_textures as land  # noqa: E402
 from texture_tools import (ALL, BARK, BLADE, CACTUS, CREAM, DIRT, EMBER, GOLD, GRASS, IRON, LAGOON, LEAF,  # noqa: E402
                            NO_GLOW, SAND, SIZE, SNOW, STEM, STONE, WOOD, Image, Patches, apart, bled, cobbles, hash01,
@@ -347,6 +348,7 @@ TEXTURES = {
     "red_sand": (lambda: sand(land.RED_SAND, (186, 106, 60)), "opaque", True),
     "mossy_stone": (lambda: land.mossy_stone(stone()), "opaque", True),
     **land.TEXTURES,
+    **building.TEXTURES,
     "missing": (missing, "opaque", True),
 }
 

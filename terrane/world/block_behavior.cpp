@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "terrane/world/block_edit.h"
+#include "terrane/world/shape_behaviors.h"
 
 namespace terrane::world {
 namespace {
@@ -92,6 +93,7 @@ const BehaviorTable& builtInBehaviors() {
     static const BehaviorTable table = [] {
         BehaviorTable made;
         for (BlockBehavior (*make)() : {plant, crop, falling, container}) made.add(make());
+        for (BlockBehavior& behavior : shapeBehaviors()) made.add(std::move(behavior));
         return made;
     }();
     return table;

@@ -41,6 +41,8 @@ struct BlockBehavior {
     std::function<void(BlockUpdate&, BlockPos pos, const RemovedBlock&)> removed = {};
     // The block beside it on `side` changed.
     std::function<void(BlockUpdate&, BlockPos pos, Face side)> neighborChanged = {};
+    // A player uses the block, as one opens a door.
+    std::function<void(BlockUpdate&, BlockPos pos)> used = {};
     // Time passes: at random, every 68 s on average, while the block's state is not 0 (random_ticks.h).
     std::function<void(BlockUpdate&, BlockPos pos)> tick = {};
     // The items that the block holds; a block whose behavior has this opens. An error where its data is none.
@@ -64,6 +66,7 @@ class BehaviorTable {
 // crop       is placed at its youngest stage of growth and grows by ticks; its state counts the stages left
 // falling    falls through air and liquids when it is placed or when the block below goes
 // container  holds BlockType::slots stacks of items
+// and those of shape_behaviors.h
 const BehaviorTable& builtInBehaviors();
 
 // The first behavior of a type that has the function; null where none has.

@@ -2,19 +2,30 @@
 
 #include <algorithm>
 #include <cassert>
+#include <unordered_set>
 #include <utility>
 
 namespace terrane::world {
+namespace {
+
+constexpr Face kAllFaces[] = {kFaceNegX, kFacePosX, kFaceNegY, kFacePosY, kFaceNegZ, kFacePosZ};
+
+}  // namespace
 
 void BlockUpdate::change(BlockPos pos, const BlockChange& change) {
-    if (const auto* block = std::get_if<SetBlock>(&change)) return setBlock(pos, block->id);
-    if (!std::holds_alternative<RunTick>(change)) return setData(pos, change);
-    calls_.push_back({.simple = &BlockBehavior::tick, .pos = pos, .id = world_.block(pos), .removed = {}});
+    if (const auto* block = std::get_if<SetBlock>(&change)) return setBlock(pos, *block);
+    const bool isTick = std::holds_alternative<RunTick>(change);
+    if (!isTick && !std::holds_alternative<UseBlock>(change)) return setData(pos, change);
+    calls_.push_back({.simple = isTick ? &BlockBehavior::tick : &BlockBehavior::used,
+                      .pos = pos,
+                      .id = world_.block(pos),
+                      .removed = {}});
 }
 
-void BlockUpdate::setBlock(BlockPos pos, BlockId id) {
-    const BlockId before = world_.block(pos);
-    if (before == id || !canStand(pos, id)) return;
+void BlockUpdate::setBlock(BlockPos pos, const SetBlock& block) {
+    const BlockId before = world_.block(pos), id = block.id;
+    const bool isSame = before == id && (block.state == 0 || world_.blockState(pos) == block.state);
+    if (isSame || !canStand(pos, id)) return;
     Chunk* chunk = world_.findWritable(pos);
     if (!chunk) return;
     if (behaviorWith(blocks_.type(before), &BlockBehavior::removed)) {
@@ -24,15 +35,44 @@ void BlockUpdate::setBlock(BlockPos pos, BlockId id) {
             {.pos = pos, .id = id, .removed = {before, state, data ? *data : BlockEntityData{}}});
     }
     write(*chunk, pos, id);
+    if (block.state != 0) chunk->setBlockState(blockIndex(pos), block.state);
     if (behaviorWith(blocks_.type(id), &BlockBehavior::placed))
         calls_.push_back({.simple = &BlockBehavior::placed, .pos = pos, .id = id, .removed = {}});
     noteNeighbors(pos);
+}
+
+void BlockUpdate::restore(std::span<const PlacedBlock> blocks) {
+    std::unordered_set<BlockPos, BlockPosHash> restored;
+    restored.reserve(blocks.size());
+    for (const PlacedBlock& block : blocks) {
+        setValue(block.pos, block.value);
+        restored.insert(block.pos);
+    }
+    for (const PlacedBlock& block : blocks)
+        for (const Face face : kAllFaces) {
+            const BlockPos next = beside(block.pos, face);
+            if (restored.contains(next)) continue;
+            noteChangedSide(block.pos, face);
+            noteChangedSide(next, static_cast<Face>(face ^ 1));
+        }
+}
+
+void BlockUpdate::setValue(BlockPos pos, const BlockValue& value) {
+    Chunk* chunk = world_.findWritable(pos);
+    if (!chunk || blockValue(world_, pos) == value) return;
+    write(*chunk, pos, value.id);
+    if (value.data) {
+        chunk->shareBlockEntityData(blockIndex(pos), value.data);
+    } else if (value.state != 0) {
+        chunk->setBlockState(blockIndex(pos), value.state);
+    }
 }
 
 // The event of the block that is new there tells of its data as well.
 void BlockUpdate::setData(BlockPos pos, const BlockChange& change) {
     Chunk* chunk = world_.findWritable(pos);
     if (!chunk) return;
+    record(pos);
     if (const auto* state = std::get_if<SetState>(&change))
         chunk->setBlockState(blockIndex(pos), state->value);
     if (const auto* data = std::get_if<SetEntityData>(&change))
@@ -66,17 +106,23 @@ bool BlockUpdate::canStand(BlockPos pos, BlockId id) const {
 }
 
 void BlockUpdate::write(Chunk& chunk, BlockPos pos, BlockId id) {
+    record(pos);
     edits_.push_back({pos, chunk.block(blockIndex(pos)), id});
     chunk.setBlock(blockIndex(pos), id);
 }
 
+void BlockUpdate::record(BlockPos pos) {
+    if (recorder_) recorder_->note(pos, blockValue(world_, pos));
+}
+
 void BlockUpdate::noteNeighbors(BlockPos pos) {
-    for (const Face face : {kFaceNegX, kFacePosX, kFaceNegY, kFacePosY, kFaceNegZ, kFacePosZ}) {
-        const BlockPos next = beside(pos, face);
-        const BlockId id = world_.block(next);
-        if (!behaviorWith(blocks_.type(id), &BlockBehavior::neighborChanged)) continue;
-        calls_.push_back({.pos = next, .id = id, .side = static_cast<Face>(face ^ 1), .removed = {}});
-    }
+    for (const Face face : kAllFaces) noteChangedSide(beside(pos, face), static_cast<Face>(face ^ 1));
+}
+
+void BlockUpdate::noteChangedSide(BlockPos pos, Face side) {
+    const BlockId id = world_.block(pos);
+    if (!behaviorWith(blocks_.type(id), &BlockBehavior::neighborChanged)) return;
+    calls_.push_back({.pos = pos, .id = id, .side = side, .removed = {}});
 }
 
 void BlockUpdate::run() {
@@ -101,9 +147,16 @@ void BlockUpdate::runCall(const Call& call) {
 }
 
 void applyChange(World& world, const BlockRegistry& registry, BlockPos pos, const BlockChange& change,
-                 std::vector<BlockEdit>& edits) {
-    BlockUpdate update(world, registry, edits);
+                 std::vector<BlockEdit>& edits, BlockRecorder* recorder) {
+    BlockUpdate update(world, registry, edits, recorder);
     update.change(pos, change);
+    update.run();
+}
+
+void restoreBlocks(World& world, const BlockRegistry& registry, std::span<const PlacedBlock> blocks,
+                   std::vector<BlockEdit>& edits, BlockRecorder* recorder) {
+    BlockUpdate update(world, registry, edits, recorder);
+    update.restore(blocks);
     update.run();
 }
 

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <variant>
 #include <vector>
 
 #include "terrane/world/block_behavior.h"
 #include "terrane/world/block_registry.h"
+#include "terrane/world/block_value.h"
 #include "terrane/world/world.h"
 
 namespace terrane::world {
@@ -16,6 +18,7 @@ namespace terrane::world {
 // What can be done to a block.
 struct SetBlock {
     BlockId id = kAir;
+    std::uint16_t state = 0;  // behaviors may set another; 0 leaves the state of the same block as it is
 };
 struct SetState {  // its 16 bits of block state
     std::uint16_t value = 0;
@@ -23,8 +26,9 @@ struct SetState {  // its 16 bits of block state
 struct SetEntityData {  // the bytes it keeps beyond them
     BlockEntityData data;
 };
-struct RunTick {};  // calls the `tick` of its behaviors
-using BlockChange = std::variant<SetBlock, SetState, SetEntityData, RunTick>;
+struct RunTick {};   // calls the `tick` of its behaviors
+struct UseBlock {};  // calls their `used`
+using BlockChange = std::variant<SetBlock, SetState, SetEntityData, RunTick, UseBlock>;
 
 // Event: a block changed. `before` equals `after` where only its data did. A block that moves has two.
 struct BlockEdit {
@@ -44,8 +48,10 @@ constexpr std::size_t kMaxBehaviorCalls = 16384;
 // thread.
 class BlockUpdate {
   public:
-    BlockUpdate(World& world, const BlockRegistry& blocks, std::vector<BlockEdit>& edits)
-        : world_(world), blocks_(blocks), edits_(edits), firstEdit_(edits.size()) {}
+    // `recorder` may be null.
+    BlockUpdate(World& world, const BlockRegistry& blocks, std::vector<BlockEdit>& edits,
+                BlockRecorder* recorder = nullptr)
+        : world_(world), blocks_(blocks), edits_(edits), recorder_(recorder), firstEdit_(edits.size()) {}
 
     const World& world() const { return world_; }
     const BlockRegistry& blocks() const { return blocks_; }
@@ -54,34 +60,46 @@ class BlockUpdate {
     // Moves a block with its data; `from` becomes air. Calls neither `placed` nor `removed` of it. The block
     // stays where it is if it cannot stand at `to`.
     void move(BlockPos from, BlockPos to);
+    // Exactly these blocks, each once: behaviors are neither asked (`canStand`) nor told (`placed`,
+    // `removed`). `neighborChanged` is called where one of them touches a block that is not: inside nothing
+    // falls or goes.
+    void restore(std::span<const PlacedBlock> blocks);
 
     void run();
 
   private:
     struct Call {
-        std::function<void(BlockUpdate&, BlockPos)> BlockBehavior::*simple = nullptr;  // placed or tick
+        std::function<void(BlockUpdate&, BlockPos)> BlockBehavior::*simple = nullptr;  // placed, tick or used
         BlockPos pos;
         BlockId id = kAir;       // the call is left out where the block is another by then
         Face side = kFaceCount;  // of neighborChanged
         RemovedBlock removed;    // of `removed`
     };
-    void setBlock(BlockPos pos, BlockId id);
+    void setBlock(BlockPos pos, const SetBlock& block);
+    void setValue(BlockPos pos, const BlockValue& value);
     void setData(BlockPos pos, const BlockChange& change);
     bool canStand(BlockPos pos, BlockId id) const;
     void write(Chunk& chunk, BlockPos pos, BlockId id);
     void noteNeighbors(BlockPos pos);
+    void noteChangedSide(BlockPos pos, Face side);
+    void record(BlockPos pos);
     void runCall(const Call& call);
 
     World& world_;
     const BlockRegistry& blocks_;
     std::vector<BlockEdit>& edits_;
+    BlockRecorder* recorder_;
     std::size_t firstEdit_;
     std::vector<Call> calls_;
 };
 
 // Applies a change with all that follows from it, and appends one event for each block that changed, the one
-// at `pos` first; none where it cannot be applied or the block is there already.
+// at `pos` first; none where it cannot be applied or the same block is there already in the same state.
+// `recorder`, where given, gets the values that blocks had.
 void applyChange(World& world, const BlockRegistry& registry, BlockPos pos, const BlockChange& change,
-                 std::vector<BlockEdit>& edits);
+                 std::vector<BlockEdit>& edits, BlockRecorder* recorder = nullptr);
+// The same for BlockUpdate::restore(), as undo and copies of blocks need it.
+void restoreBlocks(World& world, const BlockRegistry& registry, std::span<const PlacedBlock> blocks,
+                   std::vector<BlockEdit>& edits, BlockRecorder* recorder = nullptr);
 
 }  // namespace terrane::world

@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "terrane/world/behavior_parser.h"
 #include "terrane/world/content_table.h"
 
 namespace terrane::world {
@@ -43,11 +44,11 @@ constexpr std::array<EnumName<Animation>, 4> kAnimations{{{"none", Animation::No
 constexpr std::array<EnumName<Wrap>, 3> kWraps{
     {{"quad", Wrap::Quad}, {"repeat", Wrap::Repeat}, {"clamp", Wrap::Clamp}}};
 
-constexpr std::array<std::string_view, 23> kBlockKeys{
+constexpr std::array<std::string_view, 24> kBlockKeys{
     "name",      "shape",          "texture",     "textures",     "alpha",     "animation",
     "two_sided", "wrap",           "sharp",       "inner_faces",  "opacity",   "emission",
     "collides",  "selection",      "selectable",  "needs_ground", "generated", "growth",
-    "slots",     "surface_height", "wave_height", "behaviors",    "tint"};
+    "slots",     "surface_height", "wave_height", "behaviors",    "tint",      "climbable"};
 
 // `texture` for all faces or `textures` with one a group: exactly one of them.
 Groups<std::string> readTextures(ContentTable& table) {
@@ -177,35 +178,29 @@ void readGrowth(ContentTable& table, BlockDescription& block) {
     }
 }
 
-// Behaviors that other keys stand for come first.
-void readBehaviors(ContentTable& table, BlockDescription& block, const BehaviorTable& behaviors) {
-    const auto add = [&](const BehaviorPtr& behavior) {
-        auto& own = block.type.behaviors;
-        if (behavior && std::ranges::find(own, behavior) == own.end()) own.push_back(behavior);
-    };
-    const Shape shape = block.type.shape;
-    const bool isPlant = shape == Shape::Cross || shape == Shape::Hash || shape == Shape::Inset;
-    if (table.boolean("needs_ground", isPlant)) add(behaviors.find("plant"));
-    if (!block.growth.empty()) add(behaviors.find("crop"));
-    if (block.type.slots > 0) add(behaviors.find("container"));
-
-    const toml::node* value = table.node("behaviors");
-    if (!value) return;
-    const toml::array* names = value->as_array();
-    if (!names) return table.expected(*value, "behaviors", "an array of names");
-    for (const toml::node& name : *names) {
-        const auto text = name.value_exact<std::string>();
-        const BehaviorPtr behavior = text ? behaviors.find(*text) : nullptr;
-        if (!behavior) {
-            std::vector<std::string_view> known;
-            for (const BehaviorPtr& one : behaviors.behaviors()) known.push_back(one->name);
-            return table.expected(name, "behaviors", fmt::format("one of {}", fmt::join(known, ", ")));
-        }
-        add(behavior);
+// A built-in shape, or one that the file describes.
+void readShapeName(ContentTable& table, BlockDescription& block, std::span<const ShapePtr> shapes) {
+    const toml::node* node = table.node("shape");
+    if (!node) return table.missing("shape");
+    const auto name = node->value_exact<std::string>();
+    const auto found = std::ranges::find_if(shapes, [&](const ShapePtr& s) { return name == s->name; });
+    if (found != shapes.end()) {
+        block.type.shape = Shape::Model;
+        block.shape = *found;
+        return;
     }
+    std::string expected = listed(kShapes);
+    for (const EnumName<Shape>& entry : kShapes) {
+        if (name != entry.name) continue;
+        block.type.shape = entry.value;
+        return;
+    }
+    for (const ShapePtr& shape : shapes) expected += ", " + shape->name;
+    table.expected(*node, "shape", "one of " + expected);
 }
 
-BlockDescription readBlock(ContentTable& table, const BehaviorTable& behaviors) {
+BlockDescription readBlock(ContentTable& table, const BehaviorTable& behaviors,
+                           std::span<const ShapePtr> shapes) {
     BlockDescription block;
     block.line = table.line();
     table.rejectUnknown(kBlockKeys);
@@ -213,10 +208,7 @@ BlockDescription readBlock(ContentTable& table, const BehaviorTable& behaviors) 
         block.type.name = table.nameOf(*name, "name");
     else
         table.missing("name");
-    if (const toml::node* shape = table.node("shape"))
-        block.type.shape = table.enumOf(*shape, "shape", kShapes);
-    else
-        table.missing("shape");
+    readShapeName(table, block, shapes);
 
     readFaces(table, block);
     readSurface(table, block);
@@ -226,6 +218,7 @@ BlockDescription readBlock(ContentTable& table, const BehaviorTable& behaviors) 
     block.type.selection = readBox(table, "selection", box);
     block.type.selectable = table.boolean("selectable", true);
     block.type.generated = table.boolean("generated", true);
+    block.type.climbable = table.boolean("climbable", false);
     readGrowth(table, block);
     if (const toml::node* slots = table.node("slots"))
         block.type.slots = table.numberOf(*slots, "slots", 0, kMaxSlots);
@@ -240,6 +233,15 @@ base::Error oneLine(std::string message) {
     return {base::ErrorCode::BadInput, std::move(message)};
 }
 
+// The tables of a kind; null where there are none.
+const toml::array* tablesOf(ContentTable& top, std::string_view kind) {
+    const toml::node* found = top.node(kind);
+    const toml::array* tables = found ? found->as_array() : nullptr;
+    if (found && !(tables && tables->is_homogeneous<toml::table>()))
+        top.expected(*found, kind, fmt::format("tables that begin with [[{}]]", kind));
+    return tables;
+}
+
 base::Result<std::vector<BlockDescription>> readBlocks(const toml::table& root, std::string_view file,
                                                        const BehaviorTable& behaviors) {
     std::optional<std::string> error;
@@ -247,17 +249,17 @@ base::Result<std::vector<BlockDescription>> readBlocks(const toml::table& root, 
     std::unordered_set<std::string> names{"air", "missing"};
 
     ContentTable top(root, file, error);
-    top.rejectUnknown(std::initializer_list<std::string_view>{"block"});
-    const toml::node* found = top.node("block");
-    const toml::array* tables = found ? found->as_array() : nullptr;
-    if (found && !(tables && tables->is_homogeneous<toml::table>()))
-        top.expected(*found, "block", "tables that begin with [[block]]");
+    top.rejectUnknown(std::initializer_list<std::string_view>{"block", "shape"});
+    std::vector<std::string_view> builtIn;
+    for (const EnumName<Shape>& entry : kShapes) builtIn.push_back(entry.name);
+    const std::vector<ShapePtr> shapes = readShapes(tablesOf(top, "shape"), builtIn, file, error);
+    const toml::array* tables = tablesOf(top, "block");
     for (std::size_t i = 0; tables && !error && i < tables->size(); ++i) {
         ContentTable table(*(*tables)[i].as_table(), file, error);
         if (i == kMaxDescribedBlocks)
             table.wrong(table.line(), "block",
                         fmt::format("expected at most {}, got more", kMaxDescribedBlocks));
-        blocks.push_back(readBlock(table, behaviors));
+        blocks.push_back(readBlock(table, behaviors, shapes));
         if (!names.insert(blocks.back().type.name).second && !error)
             table.expected(*table.node("name"), "name", "a name not used before");
     }

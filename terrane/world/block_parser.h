@@ -9,6 +9,7 @@
 
 #include "terrane/base/result.h"
 #include "terrane/world/block_behavior.h"
+#include "terrane/world/shape_parser.h"
 
 namespace terrane::world {
 
@@ -32,7 +33,8 @@ struct BlockDescription {
     std::array<FaceLook, kFaceCount> faces;
     std::vector<FaceLook> growth;  // of all faces, youngest stage first
     Animation animation = Animation::None;
-    int line = 0;  // of its table in the file
+    ShapePtr shape;  // of Shape::Model
+    int line = 0;    // of its table in the file
 };
 
 // The file's blocks in its order, names unique. Errors read "file:line: key: what is wrong", always one line.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "terrane/world/block_parser.h"
+#include "terrane/world/model_table.h"
 
 namespace terrane::world {
 namespace {
@@ -93,6 +94,13 @@ void lookFromAfar(BlockDescription& block) {
     block.type.opaqueCube = isOpaqueCube(block);
 }
 
+// Thin models are not seen from afar, others are cubes.
+void simplifyModel(BlockDescription& block) {
+    const bool isBulky = block.type.model->isBulky;
+    block.type.shape = isBulky ? Shape::Cube : Shape::None;
+    block.type.model = nullptr;
+}
+
 auto tooManyFaces(std::string_view name, int line) {
     return base::fail("{}:{}: texture: expected at most {} different faces in all blocks, got more", name,
                       line, kMaxNumbered);
@@ -108,21 +116,28 @@ base::Result<BlockRegistry> BlockRegistry::parse(std::string_view toml, std::str
 
     BlockRegistry registry;
     Materials materials;
+    ModelTable models;
     registry.types_.push_back(describeAir());
     for (BlockDescription& block : *blocks) {
         BlockType& type = block.type;
         type.id = static_cast<BlockId>(registry.types_.size());
         type.opaqueCube = isOpaqueCube(block);
         if (!materials.numberFaces(block)) return tooManyFaces(name, block.line);
+        if (block.shape) type.model = models.modelOf(block.shape);
         registry.types_.push_back(type);
     }
+    if (!models.fits())
+        return base::fail("{}: shape: expected at most {} different faces in all shapes, got {}", name,
+                          ModelTable::kMaxFaces, models.faceCount());
+    registry.modelFaces_ = models.takeFaces();
     assert(registry.types_.size() <= kMaxNumbered && "the parser limits blocks to what ids can tell apart");
     registry.missing_ = registry.types_.back().id;
     registry.farTypes_ = registry.types_;
     for (std::size_t k = 0; k < blocks->size(); ++k) {
         BlockDescription& block = (*blocks)[k];
         block.type = registry.types_[k + 1];
-        if (block.type.shape != Shape::Cube) continue;
+        if (block.type.shape != Shape::Cube && block.type.shape != Shape::Model) continue;
+        if (block.type.shape == Shape::Model) simplifyModel(block);
         lookFromAfar(block);
         if (!materials.numberFaces(block)) return tooManyFaces(name, block.line);
         registry.farTypes_[k + 1] = block.type;

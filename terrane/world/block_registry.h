@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "terrane/base/result.h"
+#include "terrane/shared/shape_face.h"
 #include "terrane/world/block_behavior.h"
 #include "terrane/world/block_type.h"
 
@@ -32,11 +33,14 @@ class BlockRegistry {
 
     std::span<const Material> materials() const { return materials_; }
     std::span<const std::string> textures() const { return textures_; }  // names without folder and ending
+    // Faces of models, numbered from shared::kShapeFaceCount on.
+    std::span<const shared::ShapeFace> modelFaces() const { return modelFaces_; }
 
   private:
     std::vector<BlockType> types_, farTypes_;
     std::vector<Material> materials_;
     std::vector<std::string> textures_;
+    std::vector<shared::ShapeFace> modelFaces_;
     std::unordered_map<std::string, BlockId> byName_;
     BlockId missing_ = 0;
 };

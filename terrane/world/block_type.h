@@ -12,6 +12,7 @@
 
 #include "terrane/shared/material.h"
 #include "terrane/shared/shape_face.h"
+#include "terrane/world/block_geometry.h"
 #include "terrane/world/chunk.h"
 
 namespace terrane::world {
@@ -23,6 +24,7 @@ enum class Shape : std::uint8_t {
     Cross,   // X: two upright planes through the middle
     Hash,    // #: four upright planes, a quarter inside the cell
     Inset,   // #: four upright planes 1/16 inside the cell, and full top and bottom (cactus)
+    Model,   // boxes in the cell, as its block state says (block_model.h)
 };
 
 // What the alpha channel of a face's texture means.
@@ -75,29 +77,14 @@ struct Material {
     auto operator<=>(const Material&) const = default;
 };
 
-struct Box {
-    glm::vec3 min{0}, max{1};  // in block units inside the cell
-};
-
-// Order of faces everywhere: -x, +x, -y, +y, -z, +z.
-enum Face : std::uint8_t { kFaceNegX, kFacePosX, kFaceNegY, kFacePosY, kFaceNegZ, kFacePosZ, kFaceCount };
-
-// The cell beside a face of a block.
-constexpr BlockPos beside(BlockPos pos, Face face) {
-    // Around at the ends of the numbers, where no chunk is.
-    const auto step = [&](std::int32_t at, int axis) {
-        const std::uint32_t by = face / 2 != axis ? 0u : face % 2 == 0 ? ~0u : 1u;
-        return static_cast<std::int32_t>(static_cast<std::uint32_t>(at) + by);
-    };
-    return {step(pos.x, 0), step(pos.y, 1), step(pos.z, 2)};
-}
-
 struct BlockBehavior;
+struct BlockModel;
 
 struct BlockType {
     std::string name;
     BlockId id = 0;
     Shape shape = Shape::Cube;
+    std::shared_ptr<const BlockModel> model;           // of Shape::Model
     std::array<std::uint16_t, kFaceCount> material{};  // index into BlockRegistry::materials()
     bool opaqueCube = false;                           // hides every face that touches it
     // Of a plant that grows: the material by its block state, which counts the stages left; growth[0] for 1.
@@ -110,6 +97,7 @@ struct BlockType {
     Box selection;                           // what a ray from the camera hits
     bool selectable = true;                  // false: rays pass (air, water)
     bool generated = true;                   // appears in generated terrain (else placed only)
+    bool climbable = false;                  // who stands in it climbs
     // What it does (block_behavior.h), in the order in which they are called.
     std::vector<std::shared_ptr<const BlockBehavior>> behaviors;
     int slots = 0;  // of the behavior container: stacks of items it holds

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -29,6 +30,10 @@ void accelerate(Character& c, const CharacterInput& input) {
     } else if (c.isSwimming) {
         steer(c, input, kSwimSpeed, kWaterGrip);
         c.velocity.z = approach(c.velocity.z, upward * kSwimSpeed - 0.6, kWaterGrip);  // sinks slowly
+    } else if (c.isClimbing) {
+        steer(c, input, kClimbSpeed, kGroundGrip);
+        const double wanted = c.isBlocked && upward == 0 ? 1 : upward;  // who walks against a ladder climbs
+        c.velocity.z = approach(c.velocity.z, wanted == 0 ? -0.5 : wanted * kClimbSpeed, kGroundGrip);
     } else {
         steer(c, input, input.runs ? kRunSpeed : kWalkSpeed, c.isOnGround ? kGroundGrip : kAirGrip);
         if (c.isOnGround && input.jumps) c.velocity.z = kJumpSpeed;
@@ -36,13 +41,18 @@ void accelerate(Character& c, const CharacterInput& input) {
     }
 }
 
-// What is in the way and no higher than a step is walked onto: up, along, down again.
-glm::dvec3 steppedOver(const World& world, const BlockRegistry& blocks, glm::dvec3 feet, glm::dvec3 along) {
-    const double rise = sweep(world, blocks, characterBox(feet), {0, 0, kStepHeight}).moved.z;
+// What is in the way and no higher than `height` is walked onto: up, along, down again.
+glm::dvec3 steppedOver(const World& world, const BlockRegistry& blocks, glm::dvec3 feet, glm::dvec3 along,
+                       double height = kStepHeight) {
+    const double rise = sweep(world, blocks, characterBox(feet), {0, 0, height}).moved.z;
     glm::dvec3 at = feet + glm::dvec3(0, 0, rise);
     at += sweep(world, blocks, characterBox(at), along).moved;
     at += sweep(world, blocks, characterBox(at), {0, 0, -rise}).moved;
     return at;
+}
+
+double distanceOver(const glm::dvec3& from, const glm::dvec3& to) {
+    return glm::length(glm::dvec2(to - from));
 }
 
 void move(const World& world, const BlockRegistry& blocks, Character& c) {
@@ -53,17 +63,31 @@ void move(const World& world, const BlockRegistry& blocks, Character& c) {
     bool blockedX = swept.blocked.x, blockedY = swept.blocked.y;
     if ((blockedX || blockedY) && (c.isOnGround || lands)) {
         const glm::dvec3 over = steppedOver(world, blocks, c.feet, {motion.x, motion.y, 0});
-        const auto distance = [&](glm::dvec3 to) { return glm::length(glm::dvec2(to - c.feet)); };
-        if (distance(over) > distance(feet) + kSkin) {
+        if (distanceOver(c.feet, over) > distanceOver(c.feet, feet) + kSkin) {
             feet = over;
             blockedX = blockedY = false;
         }
     }
     c.feet = feet;
+    c.isBlocked = blockedX || blockedY;
     if (blockedX) c.velocity.x = 0;
     if (blockedY) c.velocity.y = 0;
     if (swept.blocked.z) c.velocity.z = 0;
     c.isOnGround = lands;
+}
+
+// Whether a jump brings it farther than it gets now, against a block that is no higher than one.
+bool canJumpOver(const World& world, const BlockRegistry& blocks, const Character& c, glm::dvec2 direction) {
+    constexpr double kBlock = 1.0 + kSkin, kAhead = 0.3;
+    const glm::dvec3 along(direction * kAhead, 0);
+    const glm::dvec3 now = c.feet + sweep(world, blocks, characterBox(c.feet), along).moved;
+    const glm::dvec3 over = steppedOver(world, blocks, c.feet, along, kBlock);
+    return distanceOver(c.feet, over) > distanceOver(c.feet, now) + kSkin;
+}
+
+bool isInClimbable(const World& world, const BlockRegistry& blocks, glm::dvec3 point) {
+    const glm::ivec3 at(glm::floor(point));
+    return isInHeight(at.z) && blocks.type(world.block({at.x, at.y, at.z})).climbable;
 }
 
 // Whether the chunks that the box stands in are there, as far as the world goes.
@@ -96,7 +120,11 @@ Character stepped(const World& world, const BlockRegistry& blocks, const Charact
         return c;
     }
     c.isSwimming = isInLiquid(world, blocks, c.feet + glm::dvec3(0, 0, kCharacterHeight * 0.45));
-    accelerate(c, input);
+    c.isClimbing = isInClimbable(world, blocks, c.feet);
+    const bool meetsBlock = c.isBlocked && c.isOnGround && input.jumpsByItself && input.hasGravity;
+    CharacterInput wanted = input;
+    if (meetsBlock && canJumpOver(world, blocks, c, input.direction)) wanted.jumps = true;
+    accelerate(c, wanted);
     move(world, blocks, c);
     return c;
 }

@@ -12,7 +12,7 @@ namespace terrane::world {
 // Blocks and seconds. A jump reaches kJumpSpeed² / 2 kGravity = 1.28 blocks, enough for one.
 constexpr double kCharacterWidth = 0.6, kCharacterHeight = 1.8, kEyeHeight = 1.62;
 constexpr double kGravity = 26, kJumpSpeed = 8.15, kFallLimit = 55;
-constexpr double kWalkSpeed = 4.5, kRunSpeed = 7.5, kSwimSpeed = 3.2;
+constexpr double kWalkSpeed = 4.5, kRunSpeed = 7.5, kSwimSpeed = 3.2, kClimbSpeed = 3;
 constexpr double kStepHeight = 0.6;  // walked up without a jump
 constexpr double kStepSeconds = 1.0 / 120;
 
@@ -21,13 +21,16 @@ struct Character {
     glm::dvec3 velocity{0};
     bool isOnGround = false;
     bool isSwimming = false;
+    bool isClimbing = false;
+    bool isBlocked = false;  // by what is in its way, on the last step
 };
 
 // What the player wants. `direction`: over the ground, of length 0…1.
 struct CharacterInput {
     glm::dvec2 direction{0};
     bool runs = false, jumps = false, dives = false;
-    bool hasGravity = true;  // else up and down are `jumps` and `dives`, at walking speed
+    bool hasGravity = true;      // else up and down are `jumps` and `dives`, at walking speed
+    bool jumpsByItself = false;  // onto a block that is in the way
 };
 
 // kStepSeconds later. A character that stands inside of a block, as after one was placed on it, is lifted

@@ -25,6 +25,10 @@ const BlockEntityData* Chunk::blockEntityData(BlockIndex i) const {
     return entitySlots_[slot].data.get();
 }
 
+BlockEntityDataPtr Chunk::sharedBlockEntityData(BlockIndex i) const {
+    return blockEntityData(i) ? entitySlots_[blockState(i)].data : nullptr;
+}
+
 void Chunk::setBlockEntityData(BlockIndex i, BlockEntityData data) {
     shareBlockEntityData(i, std::make_shared<const BlockEntityData>(std::move(data)));
 }

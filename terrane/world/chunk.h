@@ -35,6 +35,7 @@ class Chunk {
     // Block entity data of a block: its block state holds the index of a slot, which set and clear look
     // after.
     const BlockEntityData* blockEntityData(BlockIndex i) const;  // null where the block has none
+    BlockEntityDataPtr sharedBlockEntityData(BlockIndex i) const;
     void setBlockEntityData(BlockIndex i, BlockEntityData data);
     void shareBlockEntityData(BlockIndex i,
                               BlockEntityDataPtr data);  // not null; copies of the chunk share it

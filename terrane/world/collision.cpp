@@ -1,5 +1,7 @@
 #include "terrane/world/collision.h"
 
+#include "terrane/world/block_model.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -38,7 +40,8 @@ void forEachCollisionBox(const World& world, const BlockRegistry& blocks, const 
                     continue;
                 }
                 const BlockIndex index = blockIndex({column.x, column.y, static_cast<std::int32_t>(z)});
-                for (const Box& box : blocks.type(chunk->block(index)).collision) {
+                const BlockType& type = blocks.type(chunk->block(index));
+                for (const Box& box : collisionBoxes(type, chunk->blockState(index))) {
                     if (!emit(corner, box)) return;
                 }
             }

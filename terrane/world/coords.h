@@ -86,8 +86,6 @@ constexpr std::int64_t chunkDistance(ChunkPos a, ChunkPos b) {
     return ax > ay ? ax : ay;
 }
 
-// No two positions in the world have the same hash: coordinates have 28 bits and the level 8, and multiplying
-// by an odd number and folding the upper half are reversible.
 // All blocks from corner to corner, both included; in each coordinate low ≤ high. At most 2^63 blocks.
 struct BlockBox {
     BlockPos low, high;
@@ -116,6 +114,8 @@ constexpr ChunkArea areaOver(const ChunkArea& area, int level) {
     return {area.x0 >> level, area.y0 >> level, above(area.x1), above(area.y1)};
 }
 
+// No two positions in the world have the same hash: coordinates have 28 bits and the level 8, and multiplying
+// by an odd number and folding the upper half are reversible.
 struct ChunkPosHash {
     std::size_t operator()(ChunkPos c) const {
         const std::uint64_t mask = (1u << 28) - 1;
@@ -125,6 +125,12 @@ struct ChunkPosHash {
         const std::uint64_t spread =
             key * 0x9E3779B97F4A7C15u;  // 2^64 / golden ratio, which spreads neighbors evenly
         return spread ^ spread >> 32;
+    }
+};
+
+struct BlockPosHash {
+    std::size_t operator()(BlockPos p) const {
+        return ChunkPosHash{}(chunkOf(p)) ^ std::size_t{blockIndex(p.x & 15, p.y & 15, p.z & 0xFF)};
     }
 };
 

@@ -3,19 +3,22 @@
 #include <algorithm>
 
 #include "terrane/shared/hash.h"
+#include "terrane/world/block_model.h"
 
 namespace terrane::world {
 namespace {
 
 using Fill = DownsampleKind::Fill;
 
-Fill fillOf(Shape shape) {
-    switch (shape) {
+Fill fillOf(const BlockType& type) {
+    switch (type.shape) {
         case Shape::Cube:
         case Shape::Inset:
             return Fill::Solid;
         case Shape::Liquid:
             return Fill::Liquid;
+        case Shape::Model:
+            return type.model->isBulky ? Fill::Solid : Fill::Open;
         case Shape::None:
         case Shape::Cross:
         case Shape::Hash:
@@ -115,7 +118,7 @@ DownsampleRule downsampleRule(const BlockRegistry& blocks) {
     DownsampleRule rule;
     rule.kinds.reserve(blocks.types().size());
     for (const BlockType& type : blocks.types()) {
-        rule.kinds.push_back({fillOf(type.shape), type.opaqueCube, glowOf(type.emission)});
+        rule.kinds.push_back({fillOf(type), type.opaqueCube, glowOf(type.emission)});
     }
     return rule;
 }

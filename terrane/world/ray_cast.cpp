@@ -4,6 +4,8 @@
 // that they are as exact far from the world's origin as near it.
 #include "terrane/world/ray_cast.h"
 
+#include "terrane/world/block_model.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -139,7 +141,11 @@ std::optional<RayHit> castRay(const World& world, const BlockRegistry& registry,
         if (!walk.isInWorld()) continue;
         const BlockType& type = registry.type(world.block(walk.pos()));
         if (!type.selectable) continue;
-        const std::optional<BoxHit> hit = enterBox(*local, walk.cell, type.selection);
+        std::optional<BoxHit> hit;
+        for (const Box& box : selectionBoxes(type, world.blockState(walk.pos()))) {
+            const std::optional<BoxHit> entered = enterBox(*local, walk.cell, box);
+            if (entered && (!hit || entered->distance < hit->distance)) hit = entered;
+        }
         if (hit && hit->distance <= maxDistance)
             return RayHit{.block = walk.pos(), .face = hit->face, .distance = hit->distance};
     }

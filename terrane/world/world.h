@@ -7,6 +7,7 @@
 #include <memory>
 #include <unordered_map>
 
+#include "terrane/world/block_value.h"
 #include "terrane/world/chunk.h"
 
 namespace terrane::world {
@@ -39,6 +40,7 @@ class World {
 
   private:
     friend class BlockUpdate;  // of block_edit.h: the only way to a chunk that can be written
+    friend BlockValue blockValue(const World&, BlockPos);
 
     const Chunk* findChunk(BlockPos pos) const;  // null above, below and where none is loaded
     Chunk* findWritable(BlockPos pos);           // the same; no snapshot shows what is written to it

@@ -34,6 +34,14 @@ TEST_F(BlockEditTest, ABlockIsPutAndTaken) {
     EXPECT_EQ(put({1, 2, 3}, "air"), (Edits{{{1, 2, 3}, contentBlock("stone"), kAir}}));
 }
 
+TEST_F(BlockEditTest, ABlockIsPutWithItsState) {
+    EXPECT_EQ(change({1, 2, 3}, SetBlock{contentBlock("stone"), 5}).size(), 1u);
+    EXPECT_EQ(world_.blockState({1, 2, 3}), 5);
+    EXPECT_EQ(change({1, 2, 3}, SetBlock{contentBlock("stone"), 5}), Edits{}) << "it is there already";
+    EXPECT_EQ(change({1, 2, 3}, SetBlock{contentBlock("stone"), 6}).size(), 1u);
+    EXPECT_EQ(world_.blockState({1, 2, 3}), 6);
+}
+
 TEST_F(BlockEditTest, NothingOutsideOfWhatIsLoaded) {
     EXPECT_EQ(put({100, 2, 3}, "stone"), Edits{});
     EXPECT_EQ(put({1, 2, 256}, "stone"), Edits{});

@@ -35,7 +35,7 @@ constexpr std::string_view kAllKeys =
     "name, shape, texture, textures, alpha, animation, two_sided, wrap, sharp, inner_faces, opacity, "
     "emission, "
     "collides, selection, selectable, needs_ground, generated, growth, slots, surface_height, wave_height, "
-    "behaviors, tint";
+    "behaviors, tint, climbable";
 
 TEST(BlockParser, BadLines) {
     constexpr BadLine kCases[] = {
@@ -78,7 +78,8 @@ TEST(BlockParser, BadLines) {
          "\"liquid_surface\", got 0.1"},
         {"behaviors = \"falling\"", "blocks.toml:5: behaviors: expected an array of names, got \"falling\""},
         {"behaviors = [\"plant\",\n \"flies\"]",
-         "blocks.toml:6: behaviors: expected one of plant, crop, falling, container, got \"flies\""},
+         "blocks.toml:6: behaviors: expected one of plant, crop, falling, container, stands, leans, "
+         "stands_or_leans, connects, opens, door, got \"flies\""},
         {"alpha = \"test\"", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
         {"alpha = { top = \"blend\" }", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
         {"[[block]]\nname = \"rock\"\nshape = \"cube\"\ntexture = \"rock\"",
@@ -159,7 +160,7 @@ TEST(BlockParser, UnknownKeys) {
     EXPECT_EQ(errorOf(cubeWith("\"a\\nb\" = 1")),
               fmt::format("blocks.toml:5: a b: unknown key, expected one of {}", kAllKeys))
         << "one line";
-    EXPECT_EQ(errorOf("title = \"x\"\n"), "blocks.toml:1: title: unknown key, expected one of block");
+    EXPECT_EQ(errorOf("title = \"x\"\n"), "blocks.toml:1: title: unknown key, expected one of block, shape");
 }
 
 TEST(BlockParser, MissingKeys) {

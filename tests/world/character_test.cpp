@@ -151,5 +151,31 @@ TEST_F(CharacterTest, NeverEndsInsideABlock) {
     }
 }
 
+TEST_F(CharacterTest, JumpsOntoABlockByItselfWhereItIsToldTo) {
+    fill({4, -3, 10}, {8, 3, 10}, "stone");
+    run(3, {.direction = {1, 0}});
+    EXPECT_NEAR(c_.feet.z, 10, 0.01);
+    run(3, {.direction = {1, 0}, .jumpsByItself = true});
+    EXPECT_GT(c_.feet.x, 6);
+}
+
+TEST_F(CharacterTest, DoesNotJumpAtAWall) {
+    fill({4, -3, 10}, {8, 3, 11}, "stone");
+    run(3, {.direction = {1, 0}, .jumpsByItself = true});
+    EXPECT_NEAR(highest_, 10, 0.02);
+}
+
+TEST_F(CharacterTest, ClimbsALadder) {
+    fill({4, -3, 10}, {4, 3, 14}, "stone");
+    for (int z = 10; z <= 14; ++z) putBlock(world_, {3, 0, z}, contentBlock("ladder"));
+    run(4, {.direction = {1, 0}});
+    EXPECT_GT(highest_, 14.9) << "to the top";
+    c_ = {.feet = {3.5, 0.5, 13}};
+    run(1, {});
+    EXPECT_GT(c_.feet.z, 12) << "and holds on";
+    run(1, {.dives = true});
+    EXPECT_LT(c_.feet.z, 11.5);
+}
+
 }  // namespace
 }  // namespace terrane::world

@@ -2,6 +2,8 @@
 
 #include <fmt/ranges.h>
 
+#include "terrane/base/nearest_name.h"
+
 namespace terrane::gen {
 namespace {
 
@@ -39,7 +41,9 @@ base::Result<GeneratorGraph> makeGenerator(std::string_view name, const world::B
         entry.write(builder);
         return builder.finish();
     }
-    return base::fail("unknown generator \"{}\": known are {}", name, fmt::join(generatorNames(), ", "));
+    const std::vector<std::string> names = generatorNames();
+    return base::fail("unknown generator \"{}\": known are {}{}", name, fmt::join(names, ", "),
+                      base::didYouMean(name, names));
 }
 
 base::Result<LevelGenerators> makeLevelGenerators(std::string_view name, const world::BlockRegistry& blocks,

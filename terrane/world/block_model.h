@@ -1,0 +1,97 @@
+// Shapes that are data: boxes in a cell, in sixteenths of a block, turned as a block's state says. A content
+// file describes them ([[shape]]), block_registry.h makes models of them. Meshers read a model's faces,
+// collision and ray casts its boxes. Plain values; any thread.
+//
+// Bits of the block state that choose a form:
+//
+//   0–1  facing: quarter turns, seen from above against the clock, of what the file says
+//   2    upside down
+//   3    the other form: an open door, a torch on a wall
+//   4–7  an arm toward -x, +x, -y, +y
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "terrane/shared/shape_face.h"
+#include "terrane/world/block_geometry.h"
+
+namespace terrane::world {
+
+constexpr std::uint16_t kStateFacing = 3, kStateUpsideDown = 4, kStateOther = 8;
+constexpr unsigned kStateArmShift = 4;
+constexpr std::uint16_t kStateArms = 15u << kStateArmShift;
+constexpr int kSixteenths = 16;  // of a block
+constexpr std::size_t kMaxShapeBoxes = 16;
+
+// From 0 to kSixteenths, not empty.
+struct ShapeBox {
+    glm::ivec3 min{0}, max{kSixteenths};
+
+    bool operator==(const ShapeBox&) const = default;
+};
+
+struct ShapeDescription {
+    std::string name;
+    bool hasFacing = false, hasHalf = false;
+    std::vector<ShapeBox> boxes;  // as it is at state 0
+    std::vector<ShapeBox> other;  // of the other form; empty: there is none
+    std::vector<ShapeBox> arms;   // what an arm toward +y adds; empty: there are none
+    int line = 0;                 // of its table in the file
+};
+
+struct ModelFace {
+    std::uint16_t shapeFace = 0;  // index into the table of all shape faces
+    Face side = kFacePosZ;        // to which it looks, and whose material it has
+    bool isOnBorder = false;      // in the cell's side: an opaque cube beside hides it
+};
+
+struct ModelForm {
+    std::vector<ModelFace> faces;
+    std::vector<Box> boxes;
+    Box bounds;  // of all boxes
+};
+
+struct BlockModel {
+    std::uint16_t stateMask = 0;   // bits of the state that choose a form
+    std::vector<ModelForm> forms;  // stateMask + 1
+    // Whether it fills at least a quarter of the cell: from afar it is a cube, and otherwise not seen.
+    bool isBulky = false;
+
+    const ModelForm& form(std::uint16_t state) const { return forms[state & stateMask]; }
+};
+
+struct BlockType;
+
+// What stops a body, and what a ray from the camera hits, in a state of the block.
+std::span<const Box> collisionBoxes(const BlockType& type, std::uint16_t state);
+std::span<const Box> selectionBoxes(const BlockType& type, std::uint16_t state);
+// All of the latter.
+Box selectionBounds(const BlockType& type, std::uint16_t state);
+
+// Bits of the state that choose a form.
+std::uint16_t formMask(const ShapeDescription& shape);
+// The boxes that a state stands for.
+std::vector<ShapeBox> boxesOf(const ShapeDescription& shape, std::uint16_t state);
+
+constexpr std::size_t kCellParts = kSixteenths * kSixteenths * kSixteenths;
+std::size_t filledParts(std::span<const ShapeBox> boxes);  // of kCellParts
+
+// A rectangle of the surface, on the plane where min and max are equal.
+struct ShapeRectangle {
+    Face side = kFacePosZ;
+    glm::ivec3 min{0}, max{0};
+
+    bool operator==(const ShapeRectangle&) const = default;
+};
+
+// The outer surface of boxes that may touch and overlap, each part of it once.
+std::vector<ShapeRectangle> surfaceOf(std::span<const ShapeBox> boxes);
+
+shared::ShapeFace shapeFaceOf(const ShapeRectangle& rectangle);
+
+}  // namespace terrane::world

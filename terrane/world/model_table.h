@@ -1,0 +1,34 @@
+// Makes models of shapes and numbers their faces. Called by block_registry.cpp.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "terrane/world/block_model.h"
+#include "terrane/world/shape_parser.h"
+
+namespace terrane::world {
+
+class ModelTable {
+  public:
+    // A quad has 11 bits for its shape face.
+    static constexpr std::size_t kMaxFaces = shared::kMaxShapeFaces - shared::kShapeFaceCount;
+
+    // One model for all blocks of a shape.
+    std::shared_ptr<const BlockModel> modelOf(const ShapePtr& shape);
+
+    bool fits() const { return faces_.size() <= kMaxFaces; }
+    std::size_t faceCount() const { return faces_.size(); }
+    std::vector<shared::ShapeFace> takeFaces() { return std::move(faces_); }
+
+  private:
+    std::uint16_t number(const ShapeRectangle& rectangle);
+    ModelForm formOf(const std::vector<ShapeBox>& boxes);
+
+    std::map<ShapePtr, std::shared_ptr<const BlockModel>> models_;
+    std::vector<ShapeRectangle> rectangles_;  // of faces_
+    std::vector<shared::ShapeFace> faces_;
+};
+
+}  // namespace terrane::world

@@ -1,0 +1,169 @@
+#include "terrane/world/shape_behaviors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "terrane/world/block_edit.h"
+#include "terrane/world/block_model.h"
+
+namespace terrane::world {
+namespace {
+
+constexpr std::array<Face, 4> kSides{kFaceNegX, kFacePosX, kFaceNegY, kFacePosY};
+// By facing: where +y of the shape points.
+constexpr std::array<Face, 4> kAhead{kFacePosY, kFaceNegX, kFaceNegY, kFacePosX};
+
+bool hasBehavior(const BlockType& type, std::string_view name) {
+    return std::ranges::any_of(type.behaviors, [&](const BehaviorPtr& b) { return b->name == name; });
+}
+
+bool supports(const World& world, const BlockRegistry& blocks, BlockPos pos, Face side) {
+    return !blocks.type(world.block(beside(pos, side))).collision.empty();
+}
+
+Face standsAt(std::uint16_t state) {
+    return (state & kStateUpsideDown) != 0 ? kFacePosZ : kFaceNegZ;
+}
+
+Face leansAt(std::uint16_t state) {
+    return kAhead[state & kStateFacing];
+}
+
+Face standsOrLeansAt(std::uint16_t state) {
+    return (state & kStateOther) != 0 ? leansAt(state) : standsAt(state);
+}
+
+// A block that goes when the block at the side that its state names goes. Its state comes with it, so that
+// `placed` finds where there is nothing.
+BlockBehavior supported(std::string name, Face (*sideOf)(std::uint16_t)) {
+    const auto goesWithout = [sideOf](BlockUpdate& update, BlockPos pos) {
+        const Face side = sideOf(update.world().blockState(pos));
+        if (!supports(update.world(), update.blocks(), pos, side)) update.change(pos, SetBlock{kAir});
+    };
+    return {.name = std::move(name),
+            .placed = goesWithout,
+            .neighborChanged = [goesWithout](BlockUpdate& update, BlockPos pos, Face) {
+                goesWithout(update, pos);
+            }};
+}
+
+void updateArms(BlockUpdate& update, BlockPos pos) {
+    const std::uint16_t before = update.world().blockState(pos);
+    std::uint16_t state = before & static_cast<std::uint16_t>(~kStateArms);
+    for (const Face side : kSides) {
+        const BlockType& next = update.blocks().type(update.world().block(beside(pos, side)));
+        if (next.opaqueCube || hasBehavior(next, "connects"))
+            state |= static_cast<std::uint16_t>(1u << (kStateArmShift + side));
+    }
+    if (state != before) update.change(pos, SetState{state});
+}
+
+BlockBehavior connects() {
+    return {.name = "connects",
+            .placed = updateArms,
+            .neighborChanged = [](BlockUpdate& update, BlockPos pos, Face) { updateArms(update, pos); }};
+}
+
+void toggle(BlockUpdate& update, BlockPos pos) {
+    const auto state = static_cast<std::uint16_t>(update.world().blockState(pos) ^ kStateOther);
+    update.change(pos, SetState{state});
+}
+
+BlockBehavior opens() {
+    return {.name = "opens", .used = toggle};
+}
+
+constexpr std::string_view kUpperHalf = "_top";
+
+bool isUpperHalf(const BlockType& type) {
+    return type.name.ends_with(kUpperHalf);
+}
+
+// The other half of a door, air where it has none.
+BlockId otherHalf(const BlockRegistry& blocks, BlockId id) {
+    std::string name = blocks.type(id).name;
+    if (isUpperHalf(blocks.type(id)))
+        name.resize(name.size() - kUpperHalf.size());
+    else
+        name += kUpperHalf;
+    const BlockType* other = blocks.find(name);
+    return other ? other->id : kAir;
+}
+
+BlockPos besideOfHalf(const BlockRegistry& blocks, BlockId id, BlockPos pos) {
+    return beside(pos, isUpperHalf(blocks.type(id)) ? kFaceNegZ : kFacePosZ);
+}
+
+BlockBehavior door() {
+    return {.name = "door",
+            .canStand =
+                [](const World& world, const BlockRegistry& blocks, BlockPos pos, BlockId id) {
+                    if (isUpperHalf(blocks.type(id))) return true;
+                    const BlockId above = world.block(beside(pos, kFacePosZ));
+                    return supports(world, blocks, pos, kFaceNegZ) && pos.z + 1 < kChunkHeight &&
+                           (above == kAir || above == otherHalf(blocks, id));
+                },
+            .placed =
+                [](BlockUpdate& update, BlockPos pos) {
+                    const BlockId id = update.world().block(pos);
+                    if (isUpperHalf(update.blocks().type(id))) return;
+                    update.change(beside(pos, kFacePosZ),
+                                  SetBlock{otherHalf(update.blocks(), id), update.world().blockState(pos)});
+                },
+            .removed =
+                [](BlockUpdate& update, BlockPos pos, const RemovedBlock& removed) {
+                    const BlockPos half = besideOfHalf(update.blocks(), removed.id, pos);
+                    if (update.world().block(half) == otherHalf(update.blocks(), removed.id))
+                        update.change(half, SetBlock{kAir});
+                },
+            .neighborChanged =
+                [](BlockUpdate& update, BlockPos pos, Face side) {
+                    const bool isLower = !isUpperHalf(update.blocks().type(update.world().block(pos)));
+                    if (isLower && side == kFaceNegZ && !supports(update.world(), update.blocks(), pos, side))
+                        update.change(pos, SetBlock{kAir});
+                },
+            .used =
+                [](BlockUpdate& update, BlockPos pos) {
+                    const BlockId id = update.world().block(pos);
+                    const BlockPos half = besideOfHalf(update.blocks(), id, pos);
+                    toggle(update, pos);
+                    if (update.world().block(half) == otherHalf(update.blocks(), id)) toggle(update, half);
+                }};
+}
+
+// Quarter turns against the clock from +y; yaw 90 looks along +y.
+std::uint16_t facingOf(float yaw) {
+    const int quarters = static_cast<int>(std::floor((yaw - 90) / 90 + 0.5f));
+    return static_cast<std::uint16_t>(((quarters % 4) + 4) % 4);
+}
+
+}  // namespace
+
+std::vector<BlockBehavior> shapeBehaviors() {
+    return {supported("stands", standsAt),
+            supported("leans", leansAt),
+            supported("stands_or_leans", standsOrLeansAt),
+            connects(),
+            opens(),
+            door()};
+}
+
+std::uint16_t placedState(const BlockType& type, const Placement& placement) {
+    if (!type.model) return 0;
+    const std::uint16_t mask = type.model->stateMask;
+    const bool isAgainstSide = placement.face < kFaceNegZ;
+    const bool mayLean = hasBehavior(type, "leans") || hasBehavior(type, "stands_or_leans");
+    std::uint16_t state = facingOf(placement.yaw);
+    if (isAgainstSide && mayLean) {
+        // The wall lies against the face that is built on.
+        const auto wall = static_cast<Face>(placement.face ^ 1);
+        const auto facing = std::ranges::find(kAhead, wall) - kAhead.begin();
+        state = static_cast<std::uint16_t>(facing | kStateOther);
+    }
+    const bool isUpperHalfOfSide = isAgainstSide && placement.heightInCell > 0.5f;
+    if (placement.face == kFaceNegZ || isUpperHalfOfSide) state |= kStateUpsideDown;
+    return state & mask;
+}
+
+}  // namespace terrane::world

@@ -1,0 +1,22 @@
+// Reads the shapes of a content file ([[shape]] tables, see assets/blocks.toml). Called by block_parser.cpp.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/world/block_model.h"
+#include "terrane/world/content_table.h"
+
+namespace terrane::world {
+
+using ShapePtr = std::shared_ptr<const ShapeDescription>;
+
+// `tables` may be null. Names must not be among `taken`. What is wrong goes to `error`.
+std::vector<ShapePtr> readShapes(const toml::array* tables, std::span<const std::string_view> taken,
+                                 std::string_view file, std::optional<std::string>& error);
+
+}  // namespace terrane::world

@@ -1,0 +1,23 @@
+// Block states of blocks that are turned or mirrored with what they are part of. Plain functions; any thread.
+#pragma once
+
+#include <cstdint>
+
+#include "terrane/world/block_type.h"
+
+namespace terrane::world {
+
+enum class MirrorAxis : std::uint8_t { X, Y };  // the coordinate that changes its sign
+
+// Bits of the state that follow from the blocks beside it (`connects`), not from what somebody built.
+std::uint16_t armBits(const BlockType& type);
+
+// The state of the block after `turns` quarter turns about z, against the clock seen from above: +x becomes
+// +y. Facing and arms turn, all else stays. Any number of turns, also below 0.
+std::uint16_t turnedState(const BlockType& type, std::uint16_t state, int turns);
+
+// The state of the block seen in a mirror. A shape that is not its own mirror image (an open door) faces the
+// mirrored way and keeps its hinge.
+std::uint16_t mirroredState(const BlockType& type, std::uint16_t state, MirrorAxis axis);
+
+}  // namespace terrane::world
