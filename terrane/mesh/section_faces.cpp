@@ -8,6 +8,7 @@
 #include "terrane/mesh/bit_cube.h"
 #include "terrane/mesh/face_rules.h"
 #include "terrane/mesh/face_writer.h"
+#include "terrane/mesh/model_faces.h"
 #include "terrane/mesh/section_bits.h"
 #include "terrane/mesh/section_side.h"
 
@@ -85,7 +86,8 @@ class SectionFaces {
         : view_(view),
           around_(around),
           bits_(*view.center),
-          writer_(view.blocks->materials(), view.target, out) {
+          writer_(view.blocks->materials(), view.target, out),
+          out_(out) {
         findUncovered();
     }
 
@@ -109,6 +111,7 @@ class SectionFaces {
     const Surroundings& around_;
     SectionBits bits_;
     FaceWriter writer_;
+    QuadCollector& out_;
     std::array<BitCube, world::kFaceCount> uncovered_;  // blocks whose neighbor on a side is no opaque cube
     BitCube uncoveredAnywhere_;                         // on some side; rows along x
 };
@@ -171,6 +174,9 @@ void SectionFaces::add(const TypeBlocks& blocks) {
             addPlanes(blocks, shared::kShapeFaceInset, 4);
             addSide(blocks, world::kFaceNegZ);
             addSide(blocks, world::kFacePosZ);
+            return;
+        case Shape::Model:
+            addModelFaces({view_, blocks.type, blocks.alongX, blocks.layers}, uncovered_, out_);
     }
 }
 

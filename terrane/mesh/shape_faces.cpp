@@ -71,6 +71,12 @@ std::span<const ShapeFace> shapeFaces() {
     return kTable;
 }
 
+std::vector<ShapeFace> shapeFaces(const world::BlockRegistry& blocks) {
+    std::vector<ShapeFace> table(kTable.begin(), kTable.end());
+    table.insert(table.end(), blocks.modelFaces().begin(), blocks.modelFaces().end());
+    return table;
+}
+
 world::Face shapeFaceSide(uint shapeFace) {
     assert(shapeFace < shared::kShapeFaceCount && "index into the table");
     const vec4& normal = kTable[shapeFace].normal;

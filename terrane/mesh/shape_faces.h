@@ -3,16 +3,19 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "terrane/shared/shape_face.h"
-#include "terrane/world/block_type.h"
+#include "terrane/world/block_registry.h"
 
 namespace terrane::mesh {
 
 // kShapeFaceCount faces; the index is the one in a quad.
 std::span<const shared::ShapeFace> shapeFaces();
+// These and the faces of the blocks' models.
+std::vector<shared::ShapeFace> shapeFaces(const world::BlockRegistry& blocks);
 
-// The side a face looks to, or kFaceCount where its normal is not along an axis.
+// The side a face that is none of a model looks to, or kFaceCount where its normal is not along an axis.
 world::Face shapeFaceSide(shared::uint shapeFace);
 
 // The side that looks at `side`.

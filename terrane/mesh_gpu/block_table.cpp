@@ -1,7 +1,11 @@
 #include "terrane/mesh_gpu/block_table.h"
 
+#include <cassert>
+#include <map>
+
 #include "terrane/mesh/draw_bucket.h"
 #include "terrane/mesh/face_rules.h"
+#include "terrane/world/block_model.h"
 
 namespace terrane::mesh_gpu {
 namespace {
@@ -15,7 +19,8 @@ static_assert(static_cast<uint>(Shape::Cube) == shared::kMeshShapeCube &&
               static_cast<uint>(Shape::Liquid) == shared::kMeshShapeLiquid &&
               static_cast<uint>(Shape::Cross) == shared::kMeshShapeCross &&
               static_cast<uint>(Shape::Hash) == shared::kMeshShapeHash &&
-              static_cast<uint>(Shape::Inset) == shared::kMeshShapeInset);
+              static_cast<uint>(Shape::Inset) == shared::kMeshShapeInset &&
+              static_cast<uint>(Shape::Model) == shared::kMeshShapeModel);
 
 uint faceOf(std::uint16_t material, const world::BlockRegistry& blocks) {
     return material | static_cast<uint>(mesh::drawBucket(blocks.materials()[material])) << 16;
@@ -31,22 +36,51 @@ uint flagsOf(const BlockType& type, const world::BlockRegistry& blocks) {
     return flags;
 }
 
+uint faceOf(const world::ModelFace& face) {
+    return face.shapeFace | uint{face.side} << shared::kMeshFaceSideShift |
+           (face.isOnBorder ? shared::kMeshFaceOnBorderBit : 0);
+}
+
+// The index of the first form. Faces of all forms follow the forms.
+uint addModel(std::vector<uint>& forms, const world::BlockModel& model) {
+    const std::size_t first = forms.size();
+    forms.resize(first + model.forms.size());
+    std::map<std::vector<uint>, std::size_t> known;  // states of bits that do not matter give equal forms
+    for (std::size_t k = 0; k < model.forms.size(); ++k) {
+        std::vector<uint> faces;
+        for (const world::ModelFace& face : model.forms[k].faces) faces.push_back(faceOf(face));
+        assert(faces.size() < 256 && forms.size() < (1u << 24) && "within their bits");
+        const auto [same, isNew] = known.try_emplace(faces, forms.size());
+        if (isNew) forms.insert(forms.end(), faces.begin(), faces.end());
+        forms[first + k] = static_cast<uint>(same->second | faces.size() << 24);
+    }
+    return static_cast<uint>(first);
+}
+
 }  // namespace
 
 BlockTable::BlockTable(const world::BlockRegistry& blocks) {
+    std::map<const world::BlockModel*, uint> models;  // the same for all blocks of a shape
+    const auto formsOf = [&](const BlockType& type) {
+        if (!type.model) return static_cast<uint>(forms.size()) | static_cast<uint>(type.growth.size()) << 16;
+        const auto [known, isNew] = models.try_emplace(type.model.get());
+        if (isNew) known->second = addModel(forms, *type.model);
+        return known->second | uint{type.model->stateMask} << 16;
+    };
     const auto add = [&](const BlockType& type) {
         shared::MeshType entry{};
         entry.flags = flagsOf(type, blocks);
-        entry.growth = static_cast<uint>(growth.size()) | static_cast<uint>(type.growth.size()) << 16;
+        entry.forms = formsOf(type);
         for (std::size_t side = 0; side < world::kFaceCount; ++side) {
             entry.faces[side] = faceOf(type.material[side], blocks);
         }
-        for (const std::uint16_t material : type.growth) growth.push_back(faceOf(material, blocks));
+        for (const std::uint16_t material : type.growth) forms.push_back(faceOf(material, blocks));
         types.push_back(entry);
     };
     for (const BlockType& type : blocks.types()) add(type);
     add(blocks.type(blocks.missing()));
-    if (growth.empty()) growth.push_back(0);
+    if (forms.empty()) forms.push_back(0);
+    assert(forms.size() < 65536 && "a type has 16 bits for where its forms begin");
 }
 
 }  // namespace terrane::mesh_gpu

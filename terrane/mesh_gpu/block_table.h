@@ -17,7 +17,7 @@ struct BlockTable {
     }
 
     std::vector<shared::MeshType> types;  // by id; the last stands for all ids from there on
-    std::vector<shared::uint> growth;     // never empty: OpenGL has no empty buffers
+    std::vector<shared::uint> forms;      // see MeshType; never empty: OpenGL has no empty buffers
 };
 
 }  // namespace terrane::mesh_gpu

@@ -69,7 +69,7 @@ struct GpuMesher::Impl {
         : table(blocks),
           upload(table),
           types(bufferOf(std::span<const shared::MeshType>(table.types), "mesh types")),
-          growth(bufferOf(std::span<const uint>(table.growth), "mesh growth")),
+          forms(bufferOf(std::span<const uint>(table.forms), "mesh forms")),
           counts(kMaxMeshSections * sizeof(shared::MeshSectionCounts), GL_DYNAMIC_STORAGE_BIT, "mesh counts"),
           places(kMaxMeshSections * shared::kRangesPerMeshSection * sizeof(uint), GL_DYNAMIC_STORAGE_BIT,
                  "mesh places"),
@@ -85,7 +85,7 @@ struct GpuMesher::Impl {
     gpu::Buffer sections, data, units, unitCounts;
 
     gpu::Program countProgram, writeProgram;
-    gpu::Buffer types, growth;   // kept
+    gpu::Buffer types, forms;    // kept
     gpu::Buffer counts, places;  // by mesh section
     gpu::ReadbackBuffer readback;
     gpu::Fence counted;
@@ -96,7 +96,7 @@ void GpuMesher::Impl::bind() const {
     sections.bindStorage(shared::kPackedSectionsBinding);
     data.bindStorage(shared::kPackedDataBinding);
     types.bindStorage(shared::kMeshTypesBinding);
-    growth.bindStorage(shared::kMeshGrowthBinding);
+    forms.bindStorage(shared::kMeshFormsBinding);
     units.bindStorage(shared::kMeshUnitsBinding);
     unitCounts.bindStorage(shared::kMeshUnitCountsBinding);
 }
@@ -176,7 +176,7 @@ std::size_t GpuMesher::gpuBytes() const {
     const Impl& m = *impl_;
     std::size_t bytes = m.counts.sizeBytes();  // as much again to read them back
     for (const gpu::Buffer* buffer :
-         {&m.sections, &m.data, &m.units, &m.unitCounts, &m.types, &m.growth, &m.counts, &m.places})
+         {&m.sections, &m.data, &m.units, &m.unitCounts, &m.types, &m.forms, &m.counts, &m.places})
         bytes += buffer->sizeBytes();
     return bytes;
 }

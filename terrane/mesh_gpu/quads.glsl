@@ -23,13 +23,33 @@ shared uint lowest, highest;  // layers with faces
 #endif
 
 // face: material and draw bucket. direction: as in mesh/draw_bucket.h, of a one-sided face.
-void addQuad(uint word0, uint face, uint direction) {
+void addQuad(uint word0, uint shapeFace, uint face, uint direction) {
     uint bucket = face >> 16;
     uint range = firstRange(bucket) + ((bucket & 1u) != 0u ? 0u : direction);
     uint at = atomicAdd(counters[range], 1u);
 #if WRITES_QUADS
-    quads[at] = uvec2(word0, face & 0xFFFFu);
+    quads[at] = uvec2(word0 | (shapeFace & 255u) << 16, (face & 0xFFFFu) | (shapeFace >> 8) << 16);
 #endif
+}
+
+uint packCell(MeshUnit unit, uvec3 cell) {
+    return cell.x | cell.y << 4 | (unit.baseZ + cell.z) << 8;
+}
+
+bool isCovered(uvec3 cell, uint side) {
+    ivec3 at = ivec3(cell) + kToward[side] + 1;
+    return (opaqueRows[at.y + int(kPaddedSize) * at.z] >> at.x & 1u) != 0u;
+}
+
+// The faces of the form that the block's state chooses, but those that opaque cubes hide.
+void addModel(MeshUnit unit, uvec3 cell, MeshType type) {
+    uint state = blockStateAt(unit.blockState, blockIndex(cell)) & type.forms >> 16;
+    uint form = forms[(type.forms & 0xFFFFu) + state];
+    for (uint k = 0u; k < form >> 24; ++k) {
+        uint face = forms[(form & 0xFFFFFFu) + k], side = face >> kMeshFaceSideShift & 7u;
+        if ((face & kMeshFaceOnBorderBit) != 0u && isCovered(cell, side)) continue;
+        addQuad(packCell(unit, cell), face & (kMaxShapeFaces - 1u), type.faces[side], side);
+    }
 }
 
 // One a block and plane. Their direction is the side they look to; none for those of a cross.
@@ -37,15 +57,18 @@ void addPlanes(MeshUnit unit, uint planes, uint local) {
     for (uint left = planes; left != 0u; left &= left - 1u) {
         uvec3 cell = uvec3(findLSB(left), local % kSectionSize, local / kSectionSize);
         MeshType type = types[typeOf(idAt(cell))];
-        uint shape = type.flags & kMeshShapeMask, stages = type.growth >> 16, stage = 0u;
+        uint shape = type.flags & kMeshShapeMask, stages = type.forms >> 16, stage = 0u;
+        if (shape == kMeshShapeModel) {
+            addModel(unit, cell, type);
+            continue;
+        }
         if (stages > 0u) stage = min(blockStateAt(unit.blockState, blockIndex(cell)), stages);
         uint firstFace = shape == kMeshShapeCross  ? kShapeFaceCross
                          : shape == kMeshShapeHash ? kShapeFaceHash
                                                    : kShapeFaceInset;
         for (uint k = 0u; k < (shape == kMeshShapeCross ? 2u : 4u); ++k) {
-            uint face = stage == 0u ? type.faces[k] : growth[(type.growth & 0xFFFFu) + stage - 1u];
-            uint word0 = cell.x | cell.y << 4 | (unit.baseZ + cell.z) << 8 | (firstFace + k) << 16;
-            addQuad(word0, face, shape == kMeshShapeCross ? kFaceDirections - 1u : k);
+            uint face = stage == 0u ? type.faces[k] : forms[(type.forms & 0xFFFFu) + stage - 1u];
+            addQuad(packCell(unit, cell), firstFace + k, face, shape == kMeshShapeCross ? kFaceDirections - 1u : k);
         }
     }
 }
@@ -59,6 +82,6 @@ void addFaces(MeshUnit unit, uint side, uvec3 cell, uvec2 extent) {
         if (side == 5u) shapeFace = kShapeFaceLiquidTop;
         if (side < 4u && isSurface) shapeFace = kShapeFaceLiquidSide + side;
     }
-    uint word0 = cell.x | cell.y << 4 | (unit.baseZ + cell.z) << 8 | shapeFace << 16;
-    addQuad(word0 | (extent.x - 1u) << 24 | (extent.y - 1u) << 28, type.faces[side], side);
+    uint word0 = packCell(unit, cell) | (extent.x - 1u) << 24 | (extent.y - 1u) << 28;
+    addQuad(word0, shapeFace, type.faces[side], side);
 }

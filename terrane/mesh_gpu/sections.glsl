@@ -5,8 +5,8 @@
 layout(std430, binding = kMeshTypesBinding) readonly buffer Types {
     MeshType types[];  // by id, the last stands for all ids from there on
 };
-layout(std430, binding = kMeshGrowthBinding) readonly buffer Growth {
-    uint growth[];
+layout(std430, binding = kMeshFormsBinding) readonly buffer Forms {
+    uint forms[];  // see MeshType
 };
 layout(std430, binding = kMeshUnitsBinding) readonly buffer Units {
     MeshUnit units[];

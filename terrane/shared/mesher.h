@@ -10,7 +10,7 @@ SHARED_BEGIN
 
 // Storage buffers, after those of shared/packed_section.h
 const uint kMeshTypesBinding = 2u;
-const uint kMeshGrowthBinding = 3u;
+const uint kMeshFormsBinding = 3u;
 const uint kMeshUnitsBinding = 4u;
 const uint kMeshUnitCountsBinding = 5u;
 const uint kMeshSectionCountsBinding = 6u;  // counts, or where the next quad goes
@@ -37,11 +37,16 @@ struct MeshUnit {
     uint unused;
 };
 
-// A block type: its flags, and for each side the material and, from bit 16 on, its draw bucket. Of plants
-// that grow the same for each stage, `count` << 16 of them from `first` on in the list of growth.
+// A block type: its flags, and for each side the material and, from bit 16 on, its draw bucket. In the list
+// of forms it has from `forms` & 0xFFFF on:
+//   - a plant that grows: material and bucket of each stage, `forms` >> 16 of them,
+//   - a model: for each value of the state's bits in the mask `forms` >> 16 where its faces begin in the
+//   list,
+//     and from bit 24 on how many there are.
+// A face of a model: bits 0–10 the shape face, 11–13 the side, 14 whether it lies in the cell's side.
 struct MeshType {
     uint flags;
-    uint growth;
+    uint forms;
     uint faces[6];
 };
 
@@ -55,6 +60,10 @@ const uint kMeshShapeLiquid = 2u;
 const uint kMeshShapeCross = 3u;
 const uint kMeshShapeHash = 4u;
 const uint kMeshShapeInset = 5u;
+const uint kMeshShapeModel = 6u;
+
+const uint kMeshFaceSideShift = 11u;
+const uint kMeshFaceOnBorderBit = 1u << 14;
 
 // Quads of a unit by range, and 0 where there are none.
 const uint kMeshUnitWords = 25u;

@@ -3,11 +3,12 @@
 //   word 0, bits  0–3   x of the quad's lowest block in its chunk
 //                 4–7   y
 //                 8–15  z
-//                 16–23 shape face: index into the table of mesh/shape_faces.h
+//                 16–23 shape face, its low bits: index into the table of mesh/shape_faces.h
 //                 24–27 extent along the face's u axis, minus one (1…16 blocks)
 //                 28–31 extent along the face's v axis, minus one
 //   word 1, bits  0–15  material: index into the material table (texture, animation, …)
-//                 16–29 zero
+//                 16–18 shape face, its high bits
+//                 19–29 zero
 //                 30    zero from the mesher; on the GPU: the quad could be seen when it was tested last
 //                 31    zero from the mesher; on the GPU: it can be seen and is not drawn yet in this frame
 #ifndef TERRANE_SHARED_QUAD_H
@@ -38,7 +39,7 @@ SHARED_FN uint quadZ(Quad q) {
     return (q.word0 >> 8) & 255u;
 }
 SHARED_FN uint quadShapeFace(Quad q) {
-    return (q.word0 >> 16) & 255u;
+    return ((q.word0 >> 16) & 255u) | ((q.word1 >> 8) & 0x700u);
 }
 SHARED_FN uint quadExtentU(Quad q) {
     return ((q.word0 >> 24) & 15u) + 1u;
@@ -59,14 +60,15 @@ static_assert(sizeof(Quad) == kQuadBytes);
 
 struct QuadFields {
     uint x, y, z;                   // lowest block of the quad, in the chunk
-    uint shapeFace;                 // 0…255
+    uint shapeFace;                 // 0…2047
     uint extentU = 1, extentV = 1;  // 1…16 blocks
     uint material = 0;              // 0…65535
 };
 
 constexpr Quad packQuad(const QuadFields& f) {
-    return {f.x | f.y << 4 | f.z << 8 | f.shapeFace << 16 | (f.extentU - 1) << 24 | (f.extentV - 1) << 28,
-            f.material};
+    return {
+        f.x | f.y << 4 | f.z << 8 | (f.shapeFace & 255) << 16 | (f.extentU - 1) << 24 | (f.extentV - 1) << 28,
+        f.material | (f.shapeFace >> 8) << 16};
 }
 
 constexpr bool operator==(const Quad& a, const Quad& b) {

@@ -15,7 +15,8 @@ const uint kShapeFaceHash = 8u;         // 8–11  upright planes a quarter insi
 const uint kShapeFaceInset = 12u;       // 12–15 upright planes 1/16 inside the cell
 const uint kShapeFaceLiquidTop = 16u;   // 16    the lowered top of a liquid
 const uint kShapeFaceLiquidSide = 17u;  // 17–20 the sides under that top
-const uint kShapeFaceCount = 21u;
+const uint kShapeFaceCount = 21u;   // faces of models follow: rectangles in the cell (world/block_model.h)
+const uint kMaxShapeFaces = 2048u;  // in all; a quad has 11 bits
 
 // Where the top of a liquid lies in its cell, in sixteenths of a block; an integer, since C++ takes no `const
 // float` for a constant expression.

@@ -165,7 +165,7 @@ std::vector<StructLayout> mesherLayouts() {
              false,
              sizeof(MeshType),
              {{"flags", offsetof(MeshType, flags)},
-              {"growth", offsetof(MeshType, growth)},
+              {"forms", offsetof(MeshType, forms)},
               {"faces", offsetof(MeshType, faces)}}},
             {"MeshSectionCounts",
              "mesher.h",

@@ -40,7 +40,8 @@ struct Area {
         for (int i = 0; i < world::kBlocksPerChunk; ++i) {
             const unsigned hash = shared::hash2(static_cast<unsigned>(i), 0, seed);
             if (hash % 8 != 0 || (hash >> 8) % 16 < seed % 16) continue;
-            center.setBlockState(static_cast<world::BlockIndex>(i), static_cast<std::uint16_t>(hash / 8 % 5));
+            const unsigned state = hash >> 24 & 1 ? hash / 8 % 5 : hash >> 12 & 255;
+            center.setBlockState(static_cast<world::BlockIndex>(i), static_cast<std::uint16_t>(state));
         }
     }
 

@@ -9,19 +9,20 @@
 #include <vector>
 
 #include "terrane/mesh/chunk_mesher.h"
+#include "terrane/world/block_model.h"
 
 namespace terrane::mesh {
 
-// One face of one block in a number, which sorts faster than a struct: x 4 bits, y 4, z 8, shape face 8,
+// One face of one block in a number, which sorts faster than a struct: x 4 bits, y 4, z 8, shape face 16,
 // material 16, from the lowest.
 using CellFace = std::uint64_t;
 
 inline CellFace cellFace(unsigned x, unsigned y, unsigned z, unsigned shapeFace, unsigned material) {
-    return x | y << 4 | z << 8 | shapeFace << 16 | CellFace{material} << 24;
+    return x | y << 4 | z << 8 | CellFace{shapeFace} << 16 | CellFace{material} << 32;
 }
 
 inline std::string describe(CellFace face) {
-    return fmt::format("shape face {}, material {} at {} {} {}", face >> 16 & 255, face >> 24, face & 15,
+    return fmt::format("shape face {}, material {} at {} {} {}", face >> 16 & 65535, face >> 32, face & 15,
                        face >> 4 & 15, face >> 8 & 255);
 }
 
@@ -66,6 +67,24 @@ class ReferenceFaces {
 
     bool isTwoSided(const world::BlockType& type, int side) const {
         return input_.blocks->materials()[type.material[static_cast<std::size_t>(side)]].twoSided;
+    }
+
+    bool touchesOpaqueCube(int x, int y, int z, int side) const {
+        const int step = side % 2 == 0 ? -1 : 1;
+        const int nx = x + (side / 2 == 0 ? step : 0), ny = y + (side / 2 == 1 ? step : 0);
+        const int nz = z + (side / 2 == 2 ? step : 0);
+        if (nz < 0) return true;
+        return chunkAt(nx, ny) && typeOf(idAt(nx, ny, nz)).opaqueCube;
+    }
+
+    void addModel(int x, int y, int z) {
+        const world::BlockType& type = typeOf(idAt(x, y, z));
+        const std::uint16_t state = input_.center->blockState(world::blockIndex(x, y, z));
+        for (const world::ModelFace& face : type.model->form(state).faces) {
+            if (face.isOnBorder && touchesOpaqueCube(x, y, z, face.side)) continue;
+            faces_.push_back(cellFace(static_cast<unsigned>(x), static_cast<unsigned>(y),
+                                      static_cast<unsigned>(z), face.shapeFace, type.material[face.side]));
+        }
     }
 
     // Whether the side of the cell toward its neighbor is drawn.
@@ -129,6 +148,9 @@ class ReferenceFaces {
             case world::Shape::Inset:
                 addPlanes(x, y, z, 12, 4);
                 addSides(x, y, z, 4, 0);
+                return;
+            case world::Shape::Model:
+                addModel(x, y, z);
         }
     }
 
@@ -137,10 +159,12 @@ class ReferenceFaces {
 };
 
 // All faces the quads cover, in ascending order; a face covered twice stands twice.
-inline std::vector<CellFace> coveredFaces(const std::vector<shared::Quad>& quads) {
+inline std::vector<CellFace> coveredFaces(const std::vector<shared::Quad>& quads,
+                                          const world::BlockRegistry& blocks) {
+    const std::vector<shared::ShapeFace> table = shapeFaces(blocks);
     std::vector<CellFace> faces;
     for (const shared::Quad q : quads) {
-        const shared::ShapeFace& shape = shapeFaces()[quadShapeFace(q)];
+        const shared::ShapeFace& shape = table[quadShapeFace(q)];
         // The axes of merged faces lie along coordinates; steps go up whichever way the texture runs.
         const auto step = [](float a) { return a != 0 ? 1u : 0u; };
         const shared::vec4 u = shape.axisU, v = shape.axisV;

@@ -114,8 +114,9 @@ TEST(ShapeFaces, TexturesStartAtTheLowerLeft) {
 
 // A merged quad spans exactly what the faces of its blocks span.
 TEST(ShapeFaces, QuadsSpanTheFacesOfTheirBlocks) {
+    const std::vector<ShapeFace> table = shapeFaces(testBlocks());
     for (const shared::Quad q : meshOf(Area(randomBlocks(Mix::Lumps, 5))).quads) {
-        const ShapeFace& face = shapeFaces()[quadShapeFace(q)];
+        const ShapeFace& face = table[quadShapeFace(q)];
         const vec4 cell(quadX(q), quadY(q), quadZ(q), 0);
         const auto up = [](vec4 axis) { return vec4(glm::notEqual(axis, vec4(0))); };
         Bounds expected;

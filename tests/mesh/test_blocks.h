@@ -11,6 +11,20 @@ namespace terrane::mesh {
 
 // Every shape, alpha mode and animation, one- and two-sided, with and without inner faces.
 inline constexpr std::string_view kTestBlocks = R"(
+[[shape]]
+name = "stairs"
+facing = true
+half = true
+boxes = [[0, 0, 0, 16, 16, 8], [0, 8, 8, 16, 16, 16]]
+[[shape]]
+name = "post"
+boxes = [[6, 6, 0, 10, 10, 16]]
+arms = [[7, 10, 6, 9, 16, 9]]
+[[shape]]
+name = "door"
+facing = true
+boxes = [[0, 0, 0, 16, 3, 16]]
+other = [[0, 0, 0, 3, 16, 16]]
 [[block]]
 name = "stone"
 shape = "cube"
@@ -118,6 +132,29 @@ shape = "inset"
 texture = "pillar"
 inner_faces = true
 opacity = 11
+[[block]]
+name = "oak_stairs"
+shape = "stairs"
+textures = { top = "oak_top", bottom = "oak_bottom", side = "oak" }
+opacity = 15
+[[block]]
+name = "post"
+shape = "post"
+texture = "oak"
+opacity = 0
+[[block]]
+name = "gate"
+shape = "door"
+texture = "grate"
+alpha = "test"
+two_sided = true
+opacity = 0
+[[block]]
+name = "ice_stairs"
+shape = "stairs"
+texture = "glass"
+alpha = "blend"
+opacity = 3
 )";
 
 inline const world::BlockRegistry& testBlocks() {

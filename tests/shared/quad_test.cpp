@@ -25,7 +25,7 @@ TEST(Quad, RoundTripOfExtremes) {
         expectRoundTrip({.x = pick(0, 0, 15),
                          .y = pick(1, 0, 15),
                          .z = pick(2, 0, 255),
-                         .shapeFace = pick(3, 0, 255),
+                         .shapeFace = pick(3, 0, 2047),
                          .extentU = pick(4, 1, 16),
                          .extentV = pick(5, 1, 16),
                          .material = pick(6, 0, 65535)});
@@ -39,7 +39,7 @@ TEST(Quad, RoundTripOfRandomFields) {
         expectRoundTrip({.x = below(16),
                          .y = below(16),
                          .z = below(256),
-                         .shapeFace = below(256),
+                         .shapeFace = below(2048),
                          .extentU = 1 + below(16),
                          .extentV = 1 + below(16),
                          .material = below(65536)});

@@ -1,0 +1,25 @@
+// Faces of blocks whose shape is a model, one quad a face. Used by section_faces.cpp on the meshing worker's
+// thread.
+#pragma once
+
+#include <array>
+
+#include "terrane/mesh/bit_cube.h"
+#include "terrane/mesh/quad_collector.h"
+#include "terrane/mesh/section_faces.h"
+
+namespace terrane::mesh {
+
+// The blocks of one type in a section.
+struct ModelBlocks {
+    const SectionView& view;
+    const world::BlockType& type;
+    const BitCube& alongX;
+    LayerRange layers;
+};
+
+// `uncovered`: blocks whose neighbor on a side is no opaque cube, with rows along y for -x and +x.
+void addModelFaces(const ModelBlocks& blocks, const std::array<BitCube, world::kFaceCount>& uncovered,
+                   QuadCollector& out);
+
+}  // namespace terrane::mesh
