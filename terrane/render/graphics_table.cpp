@@ -1,9 +1,12 @@
 #include "terrane/render/graphics_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+
+#include "terrane/base/nearest_name.h"
 
 namespace terrane::render {
 namespace {
@@ -160,15 +163,23 @@ std::optional<int> choiceOf(const GraphicsRow& row, std::string_view name) {
     return static_cast<int>(found - row.valueNames.begin());
 }
 
-std::string presetNames() {
-    std::string names = "auto";
-    for (const Preset& preset : presets()) names += ", " + std::string(preset.name);
+namespace {
+
+std::vector<std::string> allPresetNames() {
+    std::vector<std::string> names = {"auto"};
+    for (const Preset& preset : presets()) names.emplace_back(preset.name);
     return names;
+}
+
+}  // namespace
+
+std::string presetNames() {
+    return fmt::format("{}", fmt::join(allPresetNames(), ", "));
 }
 
 std::string isPresetName(const std::string& preset) {
     if (findPreset(preset, false)) return {};
-    return fmt::format("expected one of {}, got \"{}\"", presetNames(), preset);
+    return base::notOneOf(allPresetNames(), preset);
 }
 
 GraphicsSettings settingsOf(const GraphicsChoices& choices, bool isSoftwareRenderer) {

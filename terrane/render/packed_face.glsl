@@ -5,6 +5,13 @@
 #include "terrane/shared/mesh_section.h"
 #include "terrane/render/packed_gbuffer.glsl"
 
+// -x, +x, -y, +y, -z, +z as 0 … 5.
+uint directionOfAxis(vec3 axis) {
+    vec3 along = abs(axis);
+    return 2u * uint(along.y + 2.0 * along.z + 0.5) + (axis.x + axis.y + axis.z > 0.0 ? 1u : 0u);
+}
+
+// Of a face that is none of a model.
 uint directionOf(uint shapeFace) {
     if (shapeFace < kShapeFaceCross) return shapeFace;
     if (shapeFace < kShapeFaceInset) return kDirectionPlant;
@@ -12,9 +19,9 @@ uint directionOf(uint shapeFace) {
     return shapeFace == kShapeFaceLiquidTop ? 5u : shapeFace - kShapeFaceLiquidSide;
 }
 
-uint packFace(Quad quad, MaterialRecord material, uint level) {
+uint packFace(Quad quad, MaterialRecord material, uint level, uint direction) {
     uint isLiquid = material.animation == kAnimationLiquidSurface ? 1u : 0u;
-    return material.texture | material.alphaMode << 12 | directionOf(quadShapeFace(quad)) << 15 | isLiquid << 18 |
+    return material.texture | material.alphaMode << 12 | direction << 15 | isLiquid << 18 |
            (quadExtentU(quad) - 1u) << 19 | (quadExtentV(quad) - 1u) << 23 | level << 27 |
            optionsTinted(material.options) << 31;
 }

@@ -69,18 +69,33 @@ ShapeFace shapeFaceOf(Quad quad, MaterialRecord material) {
     ShapeFace face = ShapeFace(texelFetch(shapeFaces, first), texelFetch(shapeFaces, first + 1),
                                texelFetch(shapeFaces, first + 2), vec4(0.0));
     if (number == kShapeFaceLiquidTop) face.base.z = optionsSurfaceHeight(material.options);
-    if (number >= kShapeFaceLiquidSide) face.axisV.z = optionsSurfaceHeight(material.options);
+    if (number >= kShapeFaceLiquidSide && number < kShapeFaceCount) face.axisV.z = optionsSurfaceHeight(material.options);
     return face;
 }
 
 // Whether a corner belongs to the surface of a liquid.
 bool isOnSurface(Quad quad, vec2 corner) {
     uint number = quadShapeFace(quad);
-    return number == kShapeFaceLiquidTop || (number >= kShapeFaceLiquidSide && corner.y == 1.0);
+    return number == kShapeFaceLiquidTop || (number >= kShapeFaceLiquidSide && number < kShapeFaceCount && corner.y == 1.0);
 }
 
 vec3 normalOfFace(Quad quad) {
     return texelFetch(shapeFaces, 4 * int(quadShapeFace(quad)) + 3).xyz;
+}
+
+// In the quad, 0 to 1. A face of a model shows the part of the texture in front of which it lies.
+vec2 texelOf(Quad quad, ShapeFace face, vec2 corner) {
+    if (quadShapeFace(quad) < kShapeFaceCount) return vec2(corner.x, 1.0 - corner.y);
+    vec3 inCell = shapeFaceCorner(face, vec4(0.0), corner, vec2(1.0)).xyz;
+    vec2 along = vec2(dot(inCell, sign(face.axisU.xyz)), dot(inCell, sign(face.axisV.xyz)));
+    vec2 from = vec2(dot(face.axisU.xyz, vec3(1.0)), dot(face.axisV.xyz, vec3(1.0)));
+    along += vec2(lessThan(from, vec2(0.0)));
+    return vec2(along.x, 1.0 - along.y);
+}
+
+uint directionOfQuad(Quad quad) {
+    uint number = quadShapeFace(quad);
+    return number < kShapeFaceCount ? directionOf(number) : directionOfAxis(normalOfFace(quad));
 }
 
 MaterialRecord materialOf(Quad quad) {
@@ -128,12 +143,12 @@ void main() {
     if (isTileSide) gl_Position.z *= gl_Position.w / (gl_Position.w + kTileSideDepth * columnBlocks(level));
 #endif
     uint seed = hash2(uint(chunk.x), uint(chunk.y), quadMaterial(quad));
-    outFace = uvec2(packFace(quad, material, level), quad.word0 ^ seed);
+    outFace = uvec2(packFace(quad, material, level, directionOfQuad(quad)), quad.word0 ^ seed);
 #if FACE_SAMPLING == 1
     outSampling = optionsSampling(material.options);
 #endif
 #if TINT == 1
     outPlace = position.xy;
 #endif
-    outTexel = vec2(corner.x, 1.0 - corner.y) * extentOf(outFace.x);
+    outTexel = texelOf(quad, face, corner) * extentOf(outFace.x);
 }

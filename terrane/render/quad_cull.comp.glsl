@@ -141,7 +141,7 @@ void main() {
             bvec2 nowAndSoon = isVisible(quad, corner, columnBlocks(level));
             bool isSeen = any(nowAndSoon), isNew = nowAndSoon.x && !(isDrawnEarly && (quad.word1 & kQuadSeen) != 0u);
             uint bits = (isSeen ? kQuadSeen : 0u) | (isNew ? kQuadNew : 0u);
-            if ((quad.word1 & (kQuadSeen | kQuadNew)) != bits) quads[at].word1 = quadMaterial(quad) | bits;
+            if ((quad.word1 & (kQuadSeen | kQuadNew)) != bits) quads[at].word1 = (quad.word1 & ~(kQuadSeen | kQuadNew)) | bits;
             isAnySeen = isAnySeen || isSeen;
             isAnyNew = isAnyNew || isNew;
         }

@@ -68,7 +68,8 @@ QuadResources::QuadResources(const world::BlockRegistry& blocks, BlockTextures t
                 .wrapT = GL_REPEAT},
                "block textures, nearest"),
       indices_(quadIndices()),
-      shapeFaces_(std::as_bytes(mesh::shapeFaces()), 0, "shape faces"),
+      shapeFaces_(std::as_bytes(std::span<const shared::ShapeFace>(mesh::shapeFaces(blocks))), 0,
+                  "shape faces"),
       shapeFaceTexels_(shapeFaces_, GL_RGBA32F, "shape faces"),
       vertexArray_("quads") {
     vertexArray_.setElementBuffer(indices_);

@@ -17,14 +17,20 @@ float moonFace(vec2 at, float rim) {
     return (0.35 + 0.65 * smoothstep(0.5, 1.0, pattern)) * (0.6 + 0.4 * rim);
 }
 
-// The sun is darker and redder toward its rim (D. Hestroffer, C. Magnan, Wavelength dependency of the solar limb
-// darkening, 1998); its edge is soft, and the horizon cuts it off.
+// Where a direction before the camera meets the plane of the image, one block ahead.
+vec2 onImagePlane(vec3 direction) {
+    vec3 at = direction / max(dot(direction, frame.rayAhead.xyz), 0.01) - frame.rayAhead.xyz;
+    return vec2(dot(at, normalize(frame.rayAcross.xyz)), dot(at, normalize(frame.rayUp.xyz)));
+}
+
+// Round everywhere in the image: a perspective view stretches a disc toward the edges, which nobody sees as a sun. The sun is
+// darker and redder toward its rim (D. Hestroffer, C. Magnan, Wavelength dependency of the solar limb darkening, 1998); its
+// edge is soft, and the horizon cuts it off.
 vec4 disc(vec3 direction) {
     vec3 light = frame.lightDirection.xyz;
-    vec3 across = normalize(cross(light, vec3(0.0, 0.0, 1.0))), up = cross(across, light);
-    vec2 at = vec2(dot(direction, across), dot(direction, up)) / frame.discSine;  // from the middle, 1 at the rim
+    vec2 at = (onImagePlane(direction) - onImagePlane(light)) / frame.discSine;  // from the middle, 1 at the rim
     float away = length(at), pixel = length(fwidth(at)), rim = sqrt(max(1.0 - away * away, 0.0));
-    float isFacing = step(0.0, dot(direction, light));
+    float isFacing = step(0.0, dot(light, frame.rayAhead.xyz));
     float share = isFacing * (1.0 - smoothstep(1.0 - max(pixel, 0.06), 1.0, away));
     vec3 sun = mix(vec3(0.45, 0.34, 0.22), vec3(1.0), rim);
     vec3 face = frame.isMoon != 0u ? vec3(moonFace(at, rim)) : sun;

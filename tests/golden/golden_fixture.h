@@ -15,6 +15,7 @@ constexpr int kSamples = 4;
 // From above the gallery shows the sides -x, -y and +z, from below the others.
 inline const render::Camera kAbove{{0.6, -6.2, 89.9}, 59, -38.5, 37};
 inline const render::Camera kLand{{0.2, -7.4, 92.2}, 61.5, -43, 33};
+inline const render::Camera kShapes{{0, -9.4, 94.2}, 60.5, -40, 36};
 inline const render::Camera kBelow{{14.3, 12.2, 72.9}, 229.0, 39.5, 33};
 
 class GoldenTest : public gpu::GlTest {
@@ -50,9 +51,9 @@ class GoldenTest : public gpu::GlTest {
         placeGallery(world);
         return meshWorld(world);
     }
-    static Meshes galleryOfTheLand() {
-        world::World world = flatWorld(2);
-        placeGallery(world, GalleryPart::Land);
+    static Meshes galleryOf(GalleryPart part) {
+        world::World world = flatWorld(3);
+        placeGallery(world, part);
         return meshWorld(world);
     }
     static Meshes galleryInTheAir() {

@@ -16,7 +16,18 @@ TEST_F(Golden, GalleryFromAbove) {
 
 TEST_F(Golden, GalleryOfTheLand) {
     render::Renderer renderer = makeRenderer();
-    EXPECT_TRUE(matchesGolden("gallery_land", drawGallery(renderer, galleryOfTheLand(), kLand)));
+    EXPECT_TRUE(matchesGolden("gallery_land", drawGallery(renderer, galleryOf(GalleryPart::Land), kLand)));
+}
+
+TEST_F(Golden, GalleryOfCubesToBuildWith) {
+    render::Renderer renderer = makeRenderer();
+    EXPECT_TRUE(matchesGolden("gallery_cubes", drawGallery(renderer, galleryOf(GalleryPart::Cubes), kLand)));
+}
+
+TEST_F(Golden, GalleryOfShapes) {
+    render::Renderer renderer = makeRenderer();
+    EXPECT_TRUE(
+        matchesGolden("gallery_shapes", drawGallery(renderer, galleryOf(GalleryPart::Shapes), kShapes)));
 }
 
 TEST_F(Golden, GalleryFromBelow) {

@@ -8,6 +8,7 @@
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/mesh/chunk_mesher.h"
+#include "terrane/world/block_model.h"
 #include "terrane/world/world.h"
 #include "tests/world/content_blocks.h"
 #include "tests/world/put_block.h"
@@ -58,21 +59,32 @@ inline world::World flatWorld(int radius) {
 
 constexpr int kGalleryZ = 81;  // on the flat world's grass
 
-enum class GalleryPart : std::uint8_t { First, Land };  // Land: the block types between water and chest
+// By the place in the file of blocks: land is between water and chest; what people build with comes after it,
+// first cubes, then shapes.
+enum class GalleryPart : std::uint8_t { First, Land, Cubes, Shapes };
+
+inline GalleryPart partOf(const world::BlockType& type) {
+    if (type.id > contentBlock("chest")) return type.model ? GalleryPart::Shapes : GalleryPart::Cubes;
+    return type.id > contentBlock("water") && type.name != "chest" ? GalleryPart::Land : GalleryPart::First;
+}
+
+// The block state at which a block stands in the gallery: shapes take turns at theirs.
+inline std::uint16_t galleryState(const world::BlockType& type, int number, std::size_t stagesLeft) {
+    return static_cast<std::uint16_t>(type.model ? 7 * number % 256 & type.model->stateMask : stagesLeft);
+}
 
 // Every block type of the part once, plants that grow at each stage, in rows of seven with gaps.
 inline void placeGallery(world::World& world, GalleryPart part = GalleryPart::First) {
     constexpr int kRow = 7;
     int number = 0;
-    const world::BlockId water = contentBlock("water"), chest = contentBlock("chest");
     for (const world::BlockType& type : contentBlocks().types()) {
         if (type.id == world::kAir || type.id == contentBlocks().missing()) continue;
-        if ((type.id > water && type.id < chest) != (part == GalleryPart::Land)) continue;
+        if (partOf(type) != part) continue;
         for (std::size_t left = 0; left <= type.growth.size(); ++left, ++number) {
             const world::BlockPos pos{2 * (number % kRow), 2 * (number / kRow), kGalleryZ};
             if (!world::putBlock(world, pos, type.id))
                 throw std::runtime_error("the gallery is not in the world");
-            world::putState(world, pos, static_cast<std::uint16_t>(left));
+            world::putState(world, pos, galleryState(type, number, left));
         }
     }
 }

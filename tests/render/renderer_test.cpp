@@ -54,6 +54,33 @@ TEST_F(RendererTest, TheSunStandsWhereItShould) {
     EXPECT_LT(sky[0], 180);
 }
 
+// Width and height of the part of an image that is brighter than the light's middle less a step.
+glm::ivec2 sizeOfDisc(const base::Image& image) {
+    glm::ivec2 low = kImageSize, high(0);
+    for (int y = 0; y < kImageSize.y; ++y) {
+        for (int x = 0; x < kImageSize.x; ++x) {
+            if (pixel(image, x, y)[2] < 200) continue;
+            low = glm::min(low, glm::ivec2(x, y));
+            high = glm::max(high, glm::ivec2(x + 1, y + 1));
+        }
+    }
+    return high - low;
+}
+
+TEST_F(RendererTest, TheMoonIsRoundAtTheEdgeOfTheImage) {
+    world::Environment night = world::environmentAt(0.0f);
+    night.discRadius = 0.12f;
+    night.discColor = glm::vec3(3);
+    const float yaw = std::atan2(night.lightDirection.y, night.lightDirection.x) * 57.29578f;
+    const float pitch = std::asin(night.lightDirection.z) * 57.29578f;
+    for (const float aside : {0.0f, 32.0f}) {
+        const Camera camera{.position = {8, 8, 100}, .yaw = yaw, .pitch = pitch - aside, .fieldOfView = 90};
+        const glm::vec2 size(sizeOfDisc(draw({camera, night, 256, 0, View::Color})));
+        ASSERT_GT(size.x, 4) << aside;
+        EXPECT_NEAR(size.y / size.x, 1, 0.13f) << aside;
+    }
+}
+
 // How many steps brighter the brightest pixel is than the darkest.
 int rangeOfGreen(const base::Image& image, glm::ivec2 from, glm::ivec2 to) {
     int least = 255, most = 0;
