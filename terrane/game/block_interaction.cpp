@@ -4,6 +4,9 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "terrane/world/block_model.h"
+#include "terrane/world/shape_behaviors.h"
+
 namespace terrane::game {
 namespace {
 
@@ -12,11 +15,17 @@ bool overlap(const world::Aabb& a, const world::Aabb& b) {
 }
 
 // Whether a block of this kind would stand in the body.
-bool isInTheWay(const world::BlockType& type, world::BlockPos pos, const std::optional<world::Aabb>& body) {
+bool isInTheWay(const world::BlockType& type, std::uint16_t state, world::BlockPos pos,
+                const std::optional<world::Aabb>& body) {
     const glm::dvec3 corner(pos.x, pos.y, pos.z);
-    return body && std::ranges::any_of(type.collision, [&](const world::Box& box) {
+    return body && std::ranges::any_of(world::collisionBoxes(type, state), [&](const world::Box& box) {
                return overlap({corner + glm::dvec3(box.min), corner + glm::dvec3(box.max)}, *body);
            });
+}
+
+world::Placement placementAt(const world::RayHit& target, const world::Ray& ray, float yaw) {
+    const double z = ray.origin.z + ray.direction.z * target.distance;
+    return {target.face, static_cast<float>(z - target.block.z), yaw};
 }
 
 }  // namespace
@@ -37,6 +46,14 @@ void BlockInteraction::choose(world::BlockId kind) {
     if (found != kinds_.end()) chosen_ = static_cast<std::size_t>(found - kinds_.begin());
 }
 
+bool BlockInteraction::use(Session& session, PlayerId id) {
+    if (!target_) return false;
+    const world::BlockId there = session.world().block(target_->block);
+    if (!world::behaviorWith(session.blocks().type(there), &world::BlockBehavior::used)) return false;
+    session.edit({id, target_->block, world::UseBlock{}, there});
+    return true;
+}
+
 void BlockInteraction::act(Session& session, PlayerId id, const Player& player, double seconds) {
     const world::World& world = session.world();
     const world::BlockRegistry& blocks = session.blocks();
@@ -52,8 +69,9 @@ void BlockInteraction::act(Session& session, PlayerId id, const Player& player, 
     } else {
         // Into air and liquids, not into plants and the like.
         const bool isFree = there == world::kAir || blocks.type(there).shape == world::Shape::Liquid;
-        if (isFree && !isInTheWay(blocks.type(block()), pos, player.body())) {
-            session.edit({id, pos, world::SetBlock{block()}, there});
+        const std::uint16_t state = placedState(blocks.type(block()), placementAt(*target_, ray, pose.yaw));
+        if (isFree && !isInTheWay(blocks.type(block()), state, pos, player.body())) {
+            session.edit({id, pos, world::SetBlock{block(), state}, there});
         }
     }
     target_ = world::castRay(world, blocks, ray, kReach);

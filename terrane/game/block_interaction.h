@@ -26,6 +26,9 @@ class BlockInteraction {
     // The block that the player looks at and can reach, as of the last act().
     const std::optional<world::RayHit>& target() const { return target_; }
 
+    // Uses the block that the player looks at, as a door is opened. False where it cannot be used.
+    bool use(Session& session, PlayerId id);
+
     // Breaks or builds where a button is held, by commands to the session; never into the player.
     void act(Session& session, PlayerId id, const Player& player, double seconds);
 

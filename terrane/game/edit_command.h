@@ -2,6 +2,7 @@
 // changes the world and tells the pipeline by a world::BlockEdit what became of it. Plain values.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -29,6 +30,19 @@ enum class EditResult : std::uint8_t {
     NotLoaded,   // no chunk is loaded, or the position is above or below the world
     OutOfReach,  // or the player is unknown
     Conflict,    // there is another block than expected
+    Protected,   // the lowest layer of the world, which holds all else: no player breaks it
+};
+
+// What became of a step that was to be undone or done again.
+struct TakenBack {
+    enum class Outcome : std::uint8_t {
+        Done,
+        NoStep,
+        NotLoaded,  // some chunk of it is not loaded: nothing changes, and the step stays the next one
+    };
+    Outcome outcome = Outcome::NoStep;
+    std::size_t blocks = 0;  // that are again what they were
+    std::size_t kept = 0;    // that others changed since, and that stay
 };
 
 }  // namespace terrane::game

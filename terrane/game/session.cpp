@@ -19,6 +19,10 @@ constexpr double kBlockRadius = 1;
 // After a stall ticks come as if it had been shorter.
 constexpr double kMaxTickSeconds = 1;
 
+bool isLoaded(const world::World& world, world::BlockPos pos) {
+    return world::isInHeight(pos.z) && world.maybeChunkAt(world::chunkOf(pos));
+}
+
 }  // namespace
 
 // Loading is about ten times as fast as generating (docs/performance.md): stores that last keep generated
@@ -56,21 +60,50 @@ EditResult Session::edit(const EditCommand& command) {
 std::vector<EditResult> Session::edit(std::span<const EditCommand> commands) {
     std::vector<EditResult> results;
     std::vector<world::BlockEdit> edits;
+    std::unordered_map<PlayerId, world::BlockRecorder> recorders;
     results.reserve(commands.size());
-    for (const EditCommand& command : commands) results.push_back(apply(command, edits));
+    for (const EditCommand& command : commands)
+        results.push_back(apply(command, edits, recorders[command.player]));
+    for (auto& [player, recorder] : recorders)
+        if (const auto found = players_.find(player); found != players_.end())
+            found->second.history.add(stepSince(world_, recorder));
     pipeline_.onEdits(edits);
     return results;
 }
 
-EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEdit>& edits) {
+EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEdit>& edits,
+                          world::BlockRecorder& recorder) {
     if (!canReach(command.player, command.pos)) return EditResult::OutOfReach;
-    if (!world::isInHeight(command.pos.z) || !world_.maybeChunkAt(world::chunkOf(command.pos))) {
-        return EditResult::NotLoaded;
-    }
+    if (!isLoaded(world_, command.pos)) return EditResult::NotLoaded;
     if (command.expected && *command.expected != world_.block(command.pos)) return EditResult::Conflict;
+    if (isProtected(command)) return EditResult::Protected;
     const std::size_t before = edits.size();
-    world::applyChange(world_, *blocks_, command.pos, command.change, edits);
+    const bool isStep =
+        command.player != kNoPlayer && std::holds_alternative<world::SetBlock>(command.change);
+    world::applyChange(world_, *blocks_, command.pos, command.change, edits, isStep ? &recorder : nullptr);
     return edits.size() > before ? EditResult::Applied : EditResult::Unchanged;
+}
+
+TakenBack Session::takeBack(PlayerId player, HistoryWay way) {
+    using Outcome = TakenBack::Outcome;
+    const auto found = players_.find(player);
+    const EditStep* step = found == players_.end() ? nullptr : found->second.history.next(way);
+    if (!step) return {Outcome::NoStep};
+    if (!std::ranges::all_of(*step, [&](const ChangedBlock& block) { return isLoaded(world_, block.pos); }))
+        return {Outcome::NotLoaded};
+    const std::vector<world::PlacedBlock> blocks = blocksBefore(world_, *step);
+    const TakenBack result{Outcome::Done, blocks.size(), step->size() - blocks.size()};
+    std::vector<world::BlockEdit> edits;
+    world::BlockRecorder recorder;
+    world::restoreBlocks(world_, *blocks_, blocks, edits, &recorder);
+    found->second.history.takenBack(way, stepSince(world_, recorder));
+    pipeline_.onEdits(edits);
+    return result;
+}
+
+bool Session::isProtected(const EditCommand& command) const {
+    return command.player != kNoPlayer && command.pos.z == 0 && world_.block(command.pos) != world::kAir &&
+           std::holds_alternative<world::SetBlock>(command.change);
 }
 
 bool Session::canReach(PlayerId player, world::BlockPos pos) const {
@@ -78,7 +111,7 @@ bool Session::canReach(PlayerId player, world::BlockPos pos) const {
     const auto found = players_.find(player);
     if (found == players_.end()) return false;
     const glm::dvec3 middle(pos.x + 0.5, pos.y + 0.5, pos.z + 0.5);
-    return glm::distance(middle, found->second.position) <= kReach + kBlockRadius;
+    return glm::distance(middle, found->second.pose.position) <= kReach + kBlockRadius;
 }
 
 void Session::advance(double seconds, world::ChunkPos center) {

@@ -1,6 +1,6 @@
 // A world that is played: its chunks, the pipeline that loads, lights and meshes them, its store, its players
-// and its clock. Commands come in through edit(), which is the only way to change a block; events go out to
-// the pipeline and so to screens and disk. Free of OpenGL. Used on one thread, the world's.
+// and its clock. Commands come in through edit() and takeBack(), the only ways to change a block; events go
+// out to the pipeline and so to screens and disk. Free of OpenGL. Used on one thread, the world's.
 #pragma once
 
 #include <memory>
@@ -11,6 +11,7 @@
 #include "terrane/base/job_system.h"
 #include "terrane/game/day_clock.h"
 #include "terrane/game/edit_command.h"
+#include "terrane/game/edit_history.h"
 #include "terrane/gen/level_generators.h"
 #include "terrane/light/light_table.h"
 #include "terrane/store/chunk_store.h"
@@ -46,8 +47,13 @@ class Session {
     // The same for many, in their order: one result each. Time grows with the number of blocks.
     std::vector<EditResult> edit(std::span<const EditCommand> commands);
 
-    // Where a player stands: its edits are checked against that.
-    void setPlayer(PlayerId player, const world::Pose& pose) { players_[player] = pose; }
+    // Undoes the player's last edits, or does again what was undone last. One call of edit() is one step,
+    // with all that followed from it at once; what was used (doors, containers) is none. From anywhere: these
+    // blocks were in reach once.
+    TakenBack takeBack(PlayerId player, HistoryWay way);
+
+    // Where a player stands: its edits are checked against that. Its history begins with the first call.
+    void setPlayer(PlayerId player, const world::Pose& pose) { players_[player].pose = pose; }
     void removePlayer(PlayerId player) { players_.erase(player); }
 
     // Game time passes: the day, and blocks near `center` get their ticks (plants grow).
@@ -74,8 +80,14 @@ class Session {
     DayClock clock;
 
   private:
-    EditResult apply(const EditCommand& command, std::vector<world::BlockEdit>& edits);
+    struct PlayerEntry {
+        world::Pose pose;
+        EditHistory history;
+    };
+    EditResult apply(const EditCommand& command, std::vector<world::BlockEdit>& edits,
+                     world::BlockRecorder& recorder);
     bool canReach(PlayerId player, world::BlockPos pos) const;
+    bool isProtected(const EditCommand& command) const;
 
     // They refer to each other: destroyed in reverse order.
     std::unique_ptr<const world::BlockRegistry> blocks_;
@@ -89,7 +101,7 @@ class Session {
     stream::ChunkPipeline pipeline_;
     stream::TilePipeline tiles_;
 
-    std::unordered_map<PlayerId, world::Pose> players_;
+    std::unordered_map<PlayerId, PlayerEntry> players_;
     double untilTick_ = 0;  // seconds of game time that made no tick yet
     std::uint64_t ticks_ = 0;
 };

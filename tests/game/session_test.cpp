@@ -35,6 +35,17 @@ TEST_F(SessionTest, PlayersReachEightBlocks) {
     EXPECT_EQ(session_.world().block(kOnGround), contentBlock("sand"));
 }
 
+// It holds all else: who dug through it would fall for ever.
+TEST_F(SessionTest, NoPlayerBreaksTheLowestLayer) {
+    session_.setPlayer(7, {.position = {5.5, 5.5, 2}});
+    EXPECT_EQ(session_.edit(put({5, 5, 1}, "air", 7)), EditResult::Applied);
+    EXPECT_EQ(session_.edit(put({5, 5, 0}, "air", 7)), EditResult::Protected);
+    EXPECT_EQ(session_.edit(put({5, 5, 0}, "sand", 7)), EditResult::Protected);
+    EXPECT_EQ(session_.world().block({5, 5, 0}), contentBlock("stone"));
+    EXPECT_EQ(session_.edit(put({5, 5, 0}, "air")), EditResult::Applied) << "a script may";
+    EXPECT_EQ(session_.edit(put({5, 5, 0}, "sand", 7)), EditResult::Applied) << "and a player may fill it";
+}
+
 // Two players see the same block and break it: the second one breaks nothing that it did not see.
 TEST_F(SessionTest, AnotherBlockThanExpectedIsAConflict) {
     EditCommand command = put(kOnGround, "sand");
