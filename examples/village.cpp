@@ -11,6 +11,7 @@
 #include "terrane/game/session.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/open_world.h"
+#include "terrane/world/block_model.h"
 
 namespace {
 
@@ -20,7 +21,7 @@ using world::BlockPos;
 constexpr const char* kGenerator = "continents";
 constexpr std::uint64_t kSeed = 1;
 constexpr int kRadius = 4;  // chunks that are loaded
-constexpr int kStep = 11;   // blocks from house to house
+constexpr int kStep = 13;   // blocks from house to house
 constexpr int kReach = 44;  // blocks from the middle to the last house
 constexpr int kJettyLength = 16;
 
@@ -32,14 +33,15 @@ struct Site {
     const std::string& nameAt(BlockPos pos) const {
         return session.blocks().type(session.world().block(pos)).name;
     }
-    void put(BlockPos pos, const char* name) {
-        session.edit({.pos = pos, .change = world::SetBlock{id(name)}, .expected = {}});
+    // `state`: world/block_model.h.
+    void put(BlockPos pos, const char* name, std::uint16_t state = 0) {
+        session.edit({.pos = pos, .change = world::SetBlock{id(name), state}, .expected = {}});
     }
     // Both corners included.
-    void fill(BlockPos a, BlockPos b, const char* name) {
+    void fill(BlockPos a, BlockPos b, const char* name, std::uint16_t state = 0) {
         for (int z = a.z; z <= b.z; ++z)
             for (int y = a.y; y <= b.y; ++y)
-                for (int x = a.x; x <= b.x; ++x) put({x, y, z}, name);
+                for (int x = a.x; x <= b.x; ++x) put({x, y, z}, name, state);
     }
     // The highest block of the ground or of the sea.
     int groundAt(int x, int y) const {
@@ -73,30 +75,59 @@ bool isGoodGround(const Site& site, int x, int y, int& ground) {
     return highest - lowest <= 3;
 }
 
-// Seven blocks square, with a gable roof along x, a door to the south, windows, and a lamp in the middle.
+// States of what has a facing.
+constexpr std::uint16_t kTowardPosY = 0, kTowardNegY = 2, kTowardPosX = 3;
+
+// A gable roof along x over a house of seven blocks: steps that rise to the ridge from both sides.
+void buildRoof(Site& site, int x, int y, int eaves) {
+    for (int rise = 0; rise < 4; ++rise) {
+        const int z = eaves + rise;
+        site.fill({x, y + rise, z + 1}, {x + 6, y + 6 - rise, z + 1}, "oak_planks");
+        site.fill({x - 1, y + rise - 1, z}, {x + 7, y + rise - 1, z}, "roof_tiles_stairs", kTowardPosY);
+        site.fill({x - 1, y + 7 - rise, z}, {x + 7, y + 7 - rise, z}, "roof_tiles_stairs", kTowardNegY);
+        if (rise > 0) site.fill({x + 1, y + rise, z}, {x + 5, y + 6 - rise, z}, "air");
+    }
+    site.fill({x - 1, y + 3, eaves + 4}, {x + 7, y + 3, eaves + 4}, "roof_tiles_slab");
+}
+
+// A fence around the garden, with a gate before the door.
+void buildGarden(Site& site, int x, int y, int ground) {
+    const int floor = ground + 1;
+    site.fill({x - 1, y - 4, ground - 2}, {x + 7, y - 1, ground}, "grass");
+    site.fill({x - 1, y - 4, floor}, {x + 7, y - 2, floor + 3}, "air");
+    site.fill({x - 1, y - 4, floor}, {x + 7, y - 4, floor}, "oak_fence");
+    for (const int side : {x - 1, x + 7}) site.fill({side, y - 3, floor}, {side, y - 1, floor}, "oak_fence");
+    site.put({x + 3, y - 4, floor}, "oak_gate", kTowardPosY);
+    site.fill({x + 3, y - 3, ground}, {x + 3, y - 1, ground}, "gravel");
+    site.put({x + 1, y - 2, floor}, "poppy");
+    site.put({x + 5, y - 2, floor}, "oxeye_daisy");
+    site.put({x - 1, y - 4, floor + 1}, "torch");
+    site.put({x + 7, y - 4, floor + 1}, "torch");
+}
+
+// Seven blocks square, with a door to the south, windows, and a lantern under the roof.
 void buildHouse(Site& site, int x, int y, int ground) {
     const int floor = ground + 1;
-    site.fill({x, y, ground - 3}, {x + 6, y + 6, ground}, "limestone");
+    site.fill({x, y, ground - 3}, {x + 6, y + 6, ground}, "cobble");
+    site.fill({x + 1, y + 1, ground}, {x + 5, y + 5, ground}, "spruce_planks");
     site.fill({x, y, floor}, {x + 6, y + 6, floor + 9}, "air");
-    site.fill({x, y, floor}, {x + 6, y + 6, floor + 2}, "sandstone");
+    site.fill({x, y, floor}, {x + 6, y + 6, floor + 2}, "plaster");
+    site.fill({x, y, floor}, {x + 6, y + 6, floor}, "cobble");
     site.fill({x + 1, y + 1, floor}, {x + 5, y + 5, floor + 2}, "air");
     for (const int dx : {0, 6})
         for (const int dy : {0, 6})
             site.fill({x + dx, y + dy, floor}, {x + dx, y + dy, floor + 2}, "oak_log");
-    for (int rise = 0; rise < 4; ++rise) {
-        site.fill({x, y + rise, floor + 3 + rise}, {x + 6, y + 6 - rise, floor + 3 + rise}, "sandstone");
-        for (const int side : {y + rise - 1, y + 7 - rise})
-            site.fill({x - 1, side, floor + 2 + rise}, {x + 7, side, floor + 2 + rise}, "terracotta");
-        if (rise > 0)
-            site.fill({x + 1, y + rise, floor + 2 + rise}, {x + 5, y + 6 - rise, floor + 2 + rise}, "air");
-    }
-    site.fill({x - 1, y + 3, floor + 6}, {x + 7, y + 3, floor + 6}, "terracotta");
+    buildRoof(site, x, y, floor + 2);
     site.fill({x + 3, y, floor}, {x + 3, y, floor + 1}, "air");
+    site.put({x + 3, y, floor}, "oak_door", kTowardPosY);
     for (const int dx : {0, 6})
-        site.fill({x + dx, y + 2, floor + 1}, {x + dx, y + 4, floor + 1}, "cyan_glass");
-    site.put({x + 3, y + 4, floor + 2}, "lamp_white");
-    site.fill({x + 5, y - 2, ground - 2}, {x + 5, y - 2, ground + 2}, "oak_log");
-    site.put({x + 5, y - 2, ground + 3}, "lamp_white");
+        site.fill({x + dx, y + 2, floor + 1}, {x + dx, y + 4, floor + 1}, "glass_pane");
+    site.put({x + 3, y + 3, floor + 4}, "lantern", world::kStateUpsideDown);
+    site.fill({x + 5, y + 2, floor}, {x + 5, y + 4, floor}, "oak_stairs", kTowardPosX);
+    site.fill({x + 1, y + 5, floor}, {x + 1, y + 5, floor + 1}, "bookshelf");
+    site.fill({x + 2, y + 2, floor}, {x + 4, y + 4, floor}, "red_carpet");
+    site.put({x + 2, y - 1, floor + 1}, "torch", kTowardPosY | world::kStateOther);
+    buildGarden(site, x, y, ground);
 }
 
 int buildHouses(Site& site) {
@@ -120,10 +151,10 @@ void buildJetty(Site& site) {
     const int deck = site.groundAt(x, y) + 1;
     for (int k = -3; k < kJettyLength; ++k) {
         const int at = x + toSea * k;
-        site.fill({at, y, deck}, {at, y + 2, deck}, "oak_log");
+        site.fill({at, y, deck}, {at, y + 2, deck}, "oak_planks");
         if (k % 5 != 0) continue;
         site.fill({at, y, deck - 6}, {at, y, deck + 1}, "oak_log");
-        site.put({at, y, deck + 2}, "lamp_white");
+        site.put({at, y, deck + 2}, "lantern");
     }
 }
 

@@ -21,12 +21,12 @@ void addGraphicsChoices(CLI::App& command, render::GraphicsChoices& choices, std
     for (std::size_t k = 0; k < render::graphicsTable().size(); ++k) {
         const render::GraphicsRow& row = render::graphicsTable()[k];
         const std::string flag = "--" + std::string(row.name), words = render::valueNamesOf(row);
-        const auto take = [&choices, k, flag, words](const std::string& text) {
-            if (const auto choice = render::choiceOf(render::graphicsTable()[k], text)) {
-                choices.changed.emplace_back(k, *choice);
-                return;
-            }
-            throw CLI::ValidationError(flag, fmt::format("expected one of {}, got \"{}\"", words, text));
+        const auto take = [&choices, k, flag](const std::string& text) {
+            const render::GraphicsRow& chosen = render::graphicsTable()[k];
+            const auto choice = render::choiceOf(chosen, text);
+            const std::vector<std::string> names(chosen.valueNames.begin(), chosen.valueNames.end());
+            if (!choice) throw CLI::ValidationError(flag, base::notOneOf(names, text));
+            choices.changed.emplace_back(k, *choice);
         };
         command.add_option_function<std::string>(flag, take, std::string(row.description) + ": " + words)
             ->type_name("CHOICE");

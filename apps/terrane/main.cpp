@@ -5,11 +5,13 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/former_names.h"
+#include "apps/terrane/help/argument_errors.h"
 #include "apps/terrane/options.h"
 #include "terrane/base/exception_text.h"
 #include "terrane/base/log.h"
@@ -17,37 +19,27 @@
 
 namespace {
 
+using namespace terrane;
+
 constexpr int kBadInput = 2;
 
-// The parser words some mistakes for programmers.
-std::string describe(const CLI::ParseError& error) {
-    const std::string text = error.what();
-    if (error.get_name() != "ArgumentMismatch") return text;
-    const std::string option = text.substr(0, text.find(':'));
-    return option + (text.ends_with("missing") ? ": its value is missing" : ": given more than once");
-}
-
-// One line, where the parser would print its help as well.
-int reportBadArguments(const CLI::ParseError& error) {
-    terrane::base::logError("{} (see terrane --help)", describe(error));
-    return kBadInput;
-}
-
 // What is thrown, as by a system without memory or threads left, is reported like any other failure.
-terrane::base::Result<void> run(const terrane::app::CommandEntry& command) {
+base::Result<void> run(const app::CommandEntry& command) {
     try {
         return command.run();
     } catch (const std::exception& error) {
-        return terrane::base::fail("{}: {}", command.parser->get_name(), terrane::base::textOf(error));
+        // Text that is longer than the buffer fails while it is printed.
+        if (std::ferror(stdout) != 0) return base::fail("standard output cannot be written");
+        return base::fail("{}: {}", command.parser->get_name(), base::textOf(error));
     }
 }
 
-terrane::base::Result<void> runTraced(const terrane::app::CommandEntry& command, const std::string& trace) {
+base::Result<void> runTraced(const app::CommandEntry& command, const std::string& trace) {
     if (trace.empty()) return run(command);
-    terrane::base::startTrace();
-    const terrane::base::Result<void> result = run(command);
-    terrane::base::stopTrace();
-    const terrane::base::Result<void> written = terrane::base::writeTrace(trace);
+    base::startTrace();
+    const base::Result<void> result = run(command);
+    base::stopTrace();
+    const base::Result<void> written = base::writeTrace(trace);
     return result ? written : result;
 }
 
@@ -55,7 +47,7 @@ terrane::base::Result<void> runTraced(const terrane::app::CommandEntry& command,
 int withOutputWritten(int exitCode) {
     std::cout.flush();
     if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exitCode;
-    terrane::base::logError("standard output cannot be written");
+    base::logError("standard output cannot be written");
     return kBadInput;
 }
 
@@ -66,35 +58,52 @@ void loadUnwinder() {
     backtrace(&frame, 1);
 }
 
+// With the command that is meant where none is named.
+std::vector<std::string> argumentsOf(int argc, char** argv) {
+    std::vector<std::string> named = app::withCurrentNames({argv, static_cast<std::size_t>(argc)});
+    const std::string_view first = argc > 1 ? argv[1] : "";
+    const bool asksForHelp = first == "--help" || first == "-h" || first == "--version";
+    if ((argc < 2 || first.starts_with('-')) && !asksForHelp && app::defaultCommand())
+        named.insert(named.begin() + 1, app::defaultCommand());
+    return named;
+}
+
+// The exit code, where the arguments say all: help, or a mistake.
+std::optional<int> parse(CLI::App& parser, const std::vector<std::string>& named) {
+    if (named.size() > 1 && !named[1].starts_with('-')) {
+        if (const auto unknown = app::unknownCommand(parser, named[1])) {
+            base::logError("{}", *unknown);
+            return kBadInput;
+        }
+    }
+    std::vector<const char*> arguments;
+    for (const std::string& argument : named) arguments.push_back(argument.c_str());
+    try {
+        parser.parse(static_cast<int>(arguments.size()), arguments.data());
+    } catch (const CLI::Success& help) {
+        return withOutputWritten(parser.exit(help));
+    } catch (const CLI::ParseError& error) {
+        base::logError("{}", app::describe(parser, error));
+        return kBadInput;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
     loadUnwinder();
-    using namespace terrane;
     base::setThreadName("main");
     const bool plays = app::defaultCommand() != nullptr;
-    CLI::App app(plays ? "Terrane: large voxel worlds. Without a command it plays."
-                       : "Terrane: large voxel worlds. This build has no graphics.",
-                 "terrane");
-    app.set_version_flag("--version", TERRANE_VERSION);
-    app.require_subcommand(plays ? 0 : 1, 1);
-    const std::vector<app::CommandEntry> commands = app::addCommands(app);
+    CLI::App parser(plays ? "Terrane: large voxel worlds. Without a command it plays."
+                          : "Terrane: large voxel worlds. This build has no graphics.",
+                    "terrane");
+    parser.set_version_flag("--version", TERRANE_VERSION);
+    parser.require_subcommand(plays ? 0 : 1, 1);
+    const std::vector<app::CommandEntry> commands = app::addCommands(parser);
     std::string trace;
     for (const app::CommandEntry& command : commands) app::addTraceOption(*command.parser, trace);
-    const std::vector<std::string> named = app::withCurrentNames({argv, static_cast<std::size_t>(argc)});
-    std::vector<const char*> arguments;
-    for (const std::string& argument : named) arguments.push_back(argument.c_str());
-    const std::string_view first = argc > 1 ? argv[1] : "";
-    const bool asksForHelp = first == "--help" || first == "-h" || first == "--version";
-    if ((argc < 2 || first.starts_with('-')) && !asksForHelp && app::defaultCommand())
-        arguments.insert(arguments.begin() + 1, app::defaultCommand());
-    try {
-        app.parse(static_cast<int>(arguments.size()), arguments.data());
-    } catch (const CLI::Success& help) {
-        return withOutputWritten(app.exit(help));
-    } catch (const CLI::ParseError& error) {
-        return reportBadArguments(error);
-    }
+    if (const auto exitCode = parse(parser, argumentsOf(argc, argv))) return *exitCode;
     for (const app::CommandEntry& command : commands) {
         if (!command.parser->parsed()) continue;
         const base::Result<void> result = runTraced(command, trace);
@@ -104,6 +113,6 @@ int main(int argc, char** argv) try {
     }
     return kBadInput;
 } catch (const std::exception& error) {  // memory is too short even for a message
-    std::fprintf(stderr, "terrane: error: %s\n", terrane::base::textOf(error));
+    std::fprintf(stderr, "terrane: error: %s\n", base::textOf(error));
     return kBadInput;
 }

@@ -1,5 +1,6 @@
 #include "apps/terrane/open_session.h"
 
+#include "terrane/base/log.h"
 #include "terrane/content/built_in.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/memory_store.h"
@@ -14,6 +15,8 @@ store::WorldIdentity identityOf(const WorldOptions& options) {
 base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options, const SaveOptions& save,
                                                           store::WorldAccess access,
                                                           const world::BlockRegistry& blocks) {
+    if (!options.seedText.empty())
+        base::logInfo("the seed \"{}\" is the number {}", options.seedText, options.effectiveSeed());
     if (save.world.empty()) {
         if (save.regenerate != store::Regenerate::None)
             return base::fail(base::ErrorCode::BadInput, "--recreate and --regenerate require --world");

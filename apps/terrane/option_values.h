@@ -24,6 +24,7 @@ struct WorldOptions {
     static constexpr const char* kDefaultGenerator = "continents";
 
     std::optional<std::uint64_t> seed;
+    std::string seedText;  // that the seed was made from; empty where a number was given
     std::optional<std::string> generator;
     std::string otherwise = kDefaultGenerator;  // a scene's, where a command draws one
     unsigned threads = 0;                       // 0: as many as the machine has

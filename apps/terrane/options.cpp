@@ -2,25 +2,37 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <filesystem>
 #include <thread>
 
+#include "terrane/base/digest.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/world_location.h"
 
 namespace terrane::app {
 namespace {
 
-// The parser's own reading takes -1 and what is too large for the largest seed.
-std::uint64_t parseSeed(const std::string& text) {
+bool isWholeNumber(std::string_view text) {
+    if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+    return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+}
+
+// The parser's own reading takes -1 and what is too large for the largest seed. A number that is no seed is
+// not a text either: nobody would find the world again.
+void parseSeed(const std::string& text, WorldOptions& options) {
     std::uint64_t seed = 0;
     const char* end = text.data() + text.size();
     const auto [next, error] = std::from_chars(text.data(), end, seed);
-    if (error == std::errc() && next == end) return seed;
-    throw CLI::ValidationError(
-        "--seed", fmt::format("expected a whole number from 0 to {}, got \"{}\"", UINT64_MAX, text));
+    const bool isNumber = error == std::errc() && next == end;
+    if (!isNumber && (text.empty() || isWholeNumber(text)))
+        throw CLI::ValidationError(
+            "--seed", fmt::format("expected a whole number from 0 to {}, or another text, got \"{}\"",
+                                  UINT64_MAX, text));
+    options.seed = isNumber ? seed : base::hash64(text);
+    options.seedText = isNumber ? "" : text;
 }
 
 world::ChunkArea parseArea(const std::string& text) {
@@ -80,6 +92,18 @@ CLI::Validator newFile() {
     return CLI::Validator(check, "");
 }
 
+// The name of a file says what is in it.
+CLI::Validator endingIn(const std::vector<std::string>& endings) {
+    const auto check = [=](const std::string& text) -> std::string {
+        const std::string name = CLI::detail::to_lower(text);
+        const auto isItsEnd = [&](const std::string& ending) { return name.ends_with(ending); };
+        if (endings.empty() || std::ranges::any_of(endings, isItsEnd)) return {};
+        return fmt::format("\"{}\" does not end in {} (no other format is written)", text,
+                           fmt::join(endings, " or "));
+    };
+    return CLI::Validator(check, "");
+}
+
 }  // namespace
 
 CLI::Validator existingFolder() {
@@ -119,19 +143,26 @@ CLI::Validator numberFrom(double low, double high) {
 void addWorldOptions(CLI::App& command, WorldOptions& options) {
     command
         .add_option_function<std::string>(
-            "--seed", [&](const std::string& text) { options.seed = parseSeed(text); }, "Seed of the world")
-        ->type_name("NUMBER")
+            "--seed", [&](const std::string& text) { parseSeed(text, options); },
+            "Seed of the world: a whole number, or any other text, which stands for its xxHash64")
+        ->type_name("NUMBER|TEXT")
         ->default_str(std::to_string(WorldOptions::kDefaultSeed));
     command
         .add_option("--generator", options.generator,
                     fmt::format("Generator of the world: {}", fmt::join(gen::generatorNames(), ", ")))
+        ->type_name("CHOICE")
         ->default_str(WorldOptions::kDefaultGenerator);
     command.add_option("--threads", options.threads, "Worker threads (default: one for each CPU core)")
         ->check(numberFrom(1, 256));
 }
 
-void addOutputOption(CLI::App& command, std::string& output, const std::string& description) {
-    command.add_option("-o,--output", output, description)->check(newFile())->type_name("FILE")->required();
+void addOutputOption(CLI::App& command, std::string& output, const std::vector<std::string>& endings,
+                     const std::string& description) {
+    command.add_option("-o,--output", output, description)
+        ->check(newFile())
+        ->check(endingIn(endings))
+        ->type_name("FILE")
+        ->required();
 }
 
 void addResourcePackOption(CLI::App& command, std::string& folder) {

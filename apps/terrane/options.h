@@ -1,6 +1,8 @@
 // Options that several commands share, as the command line has them.
 #pragma once
 
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
@@ -9,6 +11,7 @@
 
 #include "apps/terrane/former_names.h"
 #include "apps/terrane/option_values.h"
+#include "terrane/base/nearest_name.h"
 
 namespace terrane::app {
 
@@ -23,8 +26,10 @@ void addWorldOption(CLI::App& command, SaveOptions& save, const std::string& des
 void addSaveGameOptions(CLI::App& command, SaveOptions& save);
 void addRecreateOption(CLI::App& command, SaveOptions& save);
 
-// -o: the file to write. Refused before the work starts where it cannot be written later.
-void addOutputOption(CLI::App& command, std::string& output, const std::string& description);
+// -o: the file to write. Refused before the work starts where it cannot be written later, or where its name
+// has none of these endings, whatever the case; no endings: any name.
+void addOutputOption(CLI::App& command, std::string& output, const std::vector<std::string>& endings,
+                     const std::string& description);
 
 // --resource-pack: a folder; empty: none.
 void addResourcePackOption(CLI::App& command, std::string& folder);
@@ -40,9 +45,10 @@ CLI::Validator existingFolder();  // empty: none
 template <class T>
 void addChoice(CLI::App& command, const std::string& name, T& value,
                const std::vector<std::pair<std::string, T>>& choices, const std::string& description) {
-    std::string valueNames, defaultValue;
+    std::vector<std::string> valueNames;
+    std::string defaultValue;
     for (const auto& [valueName, choice] : choices) {
-        valueNames += (valueNames.empty() ? "" : ", ") + valueName;
+        valueNames.push_back(valueName);
         if (choice == value) defaultValue = valueName;
     }
     const auto take = [name, &value, choices, valueNames](const std::string& text) {
@@ -51,9 +57,11 @@ void addChoice(CLI::App& command, const std::string& name, T& value,
             value = choice;
             return;
         }
-        throw CLI::ValidationError(name, fmt::format("expected one of {}, got \"{}\"", valueNames, text));
+        throw CLI::ValidationError(name, base::notOneOf(valueNames, text));
     };
-    command.add_option_function<std::string>(name, take, description + ": " + valueNames)
+    command
+        .add_option_function<std::string>(name, take,
+                                          fmt::format("{}: {}", description, fmt::join(valueNames, ", ")))
         ->type_name("CHOICE")
         ->default_str(defaultValue);
 }

@@ -7,17 +7,16 @@
 namespace terrane::app {
 namespace {
 
-std::string sceneNames() {
-    std::string names;
-    for (const content::Scene& scene : content::scenes())
-        names += (names.empty() ? "" : ", ") + std::string(scene.name);
+std::vector<std::string> sceneNames() {
+    std::vector<std::string> names;
+    for (const content::Scene& scene : content::scenes()) names.emplace_back(scene.name);
     return names;
 }
 
 const content::Scene* sceneNamed(const std::string& name) {
     const content::Scene* found = content::findScene(name);
     if (found) return found;
-    throw CLI::ValidationError("--scene", fmt::format("expected one of {}, got \"{}\"", sceneNames(), name));
+    throw CLI::ValidationError("--scene", base::notOneOf(sceneNames(), name));
 }
 
 }  // namespace
@@ -27,7 +26,7 @@ void addPlaceOptions(CLI::App& command, PlaceOptions& options) {
         command
             .add_option_function<std::string>(
                 "--scene", [&options](const std::string& name) { options.scene = sceneNamed(name); },
-                "A reference scene: " + sceneNames())
+                fmt::format("A reference scene: {}", fmt::join(sceneNames(), ", ")))
             ->type_name("CHOICE");
     const auto addNumbers = [&](const std::string& name, auto& numbers, std::size_t count,
                                 const std::string& form, const std::string& unit, const std::string& help) {

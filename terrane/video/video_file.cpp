@@ -3,7 +3,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -25,7 +27,8 @@ using File = std::unique_ptr<std::FILE, FileCloser>;
 
 // What ffmpeg calls the container of a file; empty where it is none that is known to work.
 std::string containerOf(const std::filesystem::path& file) {
-    const std::string ending = file.extension().string();
+    std::string ending = file.extension().string();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
     return ending == ".mp4" ? "mp4" : ending == ".mkv" ? "matroska" : "";
 }
 

@@ -9,12 +9,12 @@ import subprocess
 import support
 from support import ProgramTest, run
 
-RENDER = ("render", "--scene", "ocean", "-o", "{out}")
+RENDER = ("render", "--scene", "ocean", "-o", "{png}")
 GENERATE = ("generate", "--radius", "0")
-DUMP = ("dump", "--area", "0,0,1,1", "-o", "{out}")
-MAP = ("map", "--radius", "0", "-o", "{out}")
+DUMP = ("dump", "--area", "0,0,1,1", "-o", "{npy}")
+MAP = ("map", "--radius", "0", "-o", "{png}")
 
-# Arguments, and what the line must say. {out} is a file that could be written, {folder} the folder it is in.
+# Arguments, and what the line must say. {out}, {png} and {npy} are files that could be written, {folder} the folder they are in.
 CASES = [
     # Commands
     (("frobnicate",), "frobnicate"),
@@ -22,20 +22,46 @@ CASES = [
     (("blocks", "extra"), "extra"),
     (("info", "--frobnicate"), "--frobnicate"),
     (("generate", "--radius", "0", "render"), "render"),
+    # Misspelled names: all of them, in their order, before what else is wrong or missing
+    (("rendr",), "error: unknown command rendr; did you mean render? (see terrane --help)"),
+    (("rendr", "--scene", "ocean", "--help"), "unknown command rendr; did you mean render?"),
+    (("genrate", "--radius", "0"), "unknown command genrate; did you mean generate?"),
+    (("frobnicate",), "error: unknown command frobnicate (see terrane --help)"),
+    (("",), 'unknown command ""'),
+    ((*GENERATE, "--sed", "5"), "error: unknown option --sed; did you mean --seed? (see terrane generate --help)"),
+    ((*GENERATE, "--sed=5"), "unknown option --sed; did you mean --seed?"),
+    ((*GENERATE, "-seed", "5"), "unknown option -seed; did you mean --seed?"),
+    (("render", "--scen", "ocean"), "unknown option --scen; did you mean --scene? (see terrane render --help)"),
+    (("render", "--scene", "ocean", "--otput", "a.png"), "unknown option --otput; did you mean --output?"),
+    (("--sed", "5"), "unknown option --sed; did you mean --seed? (see terrane play --help)"),
+    ((*GENERATE, "first", "--frob", "--seeed", "5", "--jsn", "last", "--frob"),
+     "error: unknown argument first; unknown option --frob; unknown option --seeed; did you mean --seed? unknown option --jsn; "
+     "did you mean --json? unknown argument last; unknown option --frob (see"),
+    (("blocks", "extra"), "unknown argument extra"),
+    (("info", "-x"), "unknown option -x (see"),
+    ((*RENDER, "--preset", "hihg"), "got \"hihg\"; did you mean high?"),
+    ((*RENDER, "--merging", "greddy"), "got \"greddy\"; did you mean greedy?"),
+    ((*RENDER, "--god-rays", "onn"), "got \"onn\"; did you mean on?"),
+    ((*RENDER, "--generator", "contients"), "did you mean continents?"),
+    ((*GENERATE, "--generator", "flt"), '"flt"'),
+    ((*GENERATE, "--generator", "flt"), "did you mean flat?"),
+    (("render", "--scene", "oceann", "-o", "{png}"), "got \"oceann\"; did you mean ocean?"),
+    (("bench", "-o", "{folder}/bench", "--only", "dsk"), "got \"dsk\"; did you mean disk?"),
+    (("completion", "bsh"), "got \"bsh\"; did you mean bash?"),
     # Scenes and places
-    (("render", "-o", "{out}"), "--scene or --at"),
-    (("render", "--scene", "nowhere", "-o", "{out}"), '"nowhere"'),
-    (("render", "--scene", "", "-o", "{out}"), "--scene"),
-    (("render", "--at", "1,2", "-o", "{out}"), '"1,2"'),
-    (("render", "--at", "1,2,3,4", "-o", "{out}"), '"1,2,3,4"'),
-    (("render", "--at", "1,2,x", "-o", "{out}"), '"1,2,x"'),
-    (("render", "--at", "1,,3", "-o", "{out}"), '"1,,3"'),
-    (("render", "--at", "1,2,3,", "-o", "{out}"), '"1,2,3,"'),
-    (("render", "--at", "", "-o", "{out}"), '""'),
-    (("render", "--at", "nan,0,0", "-o", "{out}"), '"nan,0,0"'),
-    (("render", "--at", "inf,0,0", "-o", "{out}"), '"inf,0,0"'),
-    (("render", "--at", "3e9,0,80", "-o", "{out}"), "outside the world"),
-    (("render", "--at", "0,-1e14,80", "-o", "{out}"), "outside the world"),
+    (("render", "-o", "{png}"), "--scene or --at"),
+    (("render", "--scene", "nowhere", "-o", "{png}"), '"nowhere"'),
+    (("render", "--scene", "", "-o", "{png}"), "--scene"),
+    (("render", "--at", "1,2", "-o", "{png}"), '"1,2"'),
+    (("render", "--at", "1,2,3,4", "-o", "{png}"), '"1,2,3,4"'),
+    (("render", "--at", "1,2,x", "-o", "{png}"), '"1,2,x"'),
+    (("render", "--at", "1,,3", "-o", "{png}"), '"1,,3"'),
+    (("render", "--at", "1,2,3,", "-o", "{png}"), '"1,2,3,"'),
+    (("render", "--at", "", "-o", "{png}"), '""'),
+    (("render", "--at", "nan,0,0", "-o", "{png}"), '"nan,0,0"'),
+    (("render", "--at", "inf,0,0", "-o", "{png}"), '"inf,0,0"'),
+    (("render", "--at", "3e9,0,80", "-o", "{png}"), "outside the world"),
+    (("render", "--at", "0,-1e14,80", "-o", "{png}"), "outside the world"),
     ((*RENDER, "--at", "1,2,3"), "--at"),
     ((*RENDER, "--look", "1"), '"1"'),
     ((*RENDER, "--look", "a,b"), '"a,b"'),
@@ -47,7 +73,8 @@ CASES = [
     ((*GENERATE, "--simd", "MMX"), "MMX"),
     ((*DUMP, "--generator", "nope"), '"nope"'),
     ((*MAP, "--generator", "nope"), '"nope"'),
-    ((*GENERATE, "--seed", "abc"), "abc"),
+    ((*GENERATE, "--seed", ""), '""'),
+    ((*GENERATE, "--seed", "+1"), '"+1"'),
     ((*GENERATE, "--seed", "-1"), '"-1"'),
     ((*GENERATE, "--seed", "99999999999999999999999"), "99999999999999999999999"),
     ((*GENERATE, "--threads", "0"), '"0"'),
@@ -117,14 +144,15 @@ CASES = [
     (("generate", "--area", "134217728,0,134217729,1"), "134217727"),
     (("generate", "--area", "0,-134217729,1,1"), "-134217728"),
     (("generate", "--area", "0,0,1e14,1"), "134217727"),
-    (("dump", "-o", "{out}"), "--area"),
-    (("dump", "--area", "0,0,100,100", "-o", "{out}"), "10000"),
+    (("dump", "-o", "{npy}"), "--area"),
+    (("dump", "--area", "0,0,100000000,100000000", "-o", "{npy}"), "10000000000000000 chunks are more than a file can have"),
+    (("dump", "--area", "0,0,4000000,4000000", "-o", "{npy}"), "out.npy: 2097152000000000128 bytes do not fit"),
     ((*DUMP, "--what", "nothing"), '"nothing"'),
     ((*DUMP, "--backend", "abacus"), '"abacus"'),
-    (("map", "-o", "{out}"), "--radius"),
-    (("map", "--radius", "512", "-o", "{out}"), "1050625 chunks"),
-    (("map", "--radius", "8191", "--level", "3", "-o", "{out}"), "4194304 chunks"),
-    (("map", "--radius", "1", "--level", "16", "-o", "{out}"), '"16"'),
+    (("map", "-o", "{png}"), "--radius"),
+    (("map", "--radius", "512", "-o", "{png}"), "1050625 chunks"),
+    (("map", "--radius", "8191", "--level", "3", "-o", "{png}"), "4194304 chunks"),
+    (("map", "--radius", "1", "--level", "16", "-o", "{png}"), '"16"'),
     # Saves
     (("check",), "file"),
     (("check", "{out}"), "no such file"),
@@ -151,14 +179,24 @@ CASES = [
     (("map", "--radius", "0", "-o", "{folder}/missing/a.png"), "{folder}/missing"),
     (("map", "--radius", "0", "-o", "/dev/null"), '"/dev/null" is not a regular file'),
     (("render", "--scene", "cave", "-o", "/dev/full"), '"/dev/full" is not a regular file'),
+    *(((*command, "-o", "{folder}/" + name), f'/{name}" does not end in .png (no other format is written)')
+      for command in (("render", "--scene", "ocean"), ("map", "--radius", "0"))
+      for name in ("x.jpg", "x.png.jpeg", "png", "x.")),
+    *((("dump", "--area", "0,0,1,1", "-o", "{folder}/" + name), f'/{name}" does not end in .npy (no')
+      for name in ("x.npz", "x.png", "x")),
+    (("record", "--path", "{program}", "-o", "{folder}/x.gif"), '/x.gif" does not end in .mp4 or .mkv'),
     (("blocks", "--trace", "/dev/full"), '"/dev/full" is not a regular file'),
 ]
 
 
 class BadInput(ProgramTest):
+    def names(self):
+        return {"out": self.folder / "out", "png": self.folder / "out.png", "npy": self.folder / "out.npy",
+                "folder": self.folder}
+
     def test_every_case(self):
         for arguments, hint in CASES:
-            names = {"out": self.folder / "out", "folder": self.folder, "program": support.program()}
+            names = {**self.names(), "program": support.program()}
             filled = [argument.format(**names) for argument in arguments]
             with self.subTest(" ".join(arguments)):
                 done = run(*filled)
@@ -169,16 +207,16 @@ class BadInput(ProgramTest):
 
     # Nobody means an empty value. Some options mean their default by it.
     def test_an_empty_value_of_every_option(self):
-        enough = {"render": ("--scene", "cave", "-o", "{out}"), "record": ("--path", "{out}", "--frames-dir", "{folder}/f"),
-                  "flight-bench": ("--json",), "generate": ("--radius", "0"), "map": ("--radius", "0", "-o", "{out}"),
-                  "dump": ("--area", "0,0,1,1", "-o", "{out}"), "bench": ("-o", "{folder}/bench")}
+        enough = {"render": ("--scene", "cave", "-o", "{png}"), "record": ("--path", "{out}", "--frames-dir", "{folder}/f"),
+                  "flight-bench": ("--json",), "generate": ("--radius", "0"), "map": ("--radius", "0", "-o", "{png}"),
+                  "dump": ("--area", "0,0,1,1", "-o", "{npy}"), "bench": ("-o", "{folder}/bench")}
         taken = {"--resource-pack", "--shader-root", "--simd", "--settings", "--collect-perf-data"}
         tried = 0
         for command in re.findall(r"^  ([a-z-]+)  ", run("--help").stdout, re.M):
             for option, kind in re.findall(r"^  (?:-\w,)?(--[a-z-]+) ([A-Z]\S*)", run(command, "--help").stdout, re.M):
                 if option in taken or kind in ("Excludes:", "REQUIRED"):
                     continue
-                names = {"out": self.folder / "out", "folder": self.folder}
+                names = self.names()
                 others = [text.format(**names) for text in enough.get(command, ())]
                 if option in others:
                     del others[others.index(option):others.index(option) + 2]

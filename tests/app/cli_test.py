@@ -1,8 +1,12 @@
 #!/usr/bin/env python3
 """Every command of the program, end to end. Usage: cli_test.py PROGRAM"""
+import fcntl
 import json
+import os
 import re
+import resource
 import shutil
+import signal
 import sqlite3
 import struct
 import subprocess
@@ -299,6 +303,26 @@ class Generate(ProgramTest):
         self.assertNotEqual(self.digest("--radius", "1", "--seed", "2"), small)
         self.assertNotEqual(self.digest("--radius", "1", *FLAT), small)
 
+    def test_a_seed_may_be_a_text(self):
+        for text in ("abc", "1.5", "0x10", "gr\u00fc\u00dfe und \u8272", "12 "):
+            number = support.xxh64(text.encode(), 0)
+            done = run("generate", "--digest", "--backend", "cpu", "--radius", "0", "--seed", text)
+            self.assertEqual((done.returncode, done.stdout), (0, self.digest("--radius", "0", "--seed", number)), done.stderr)
+            self.assertIn(f'terrane: the seed "{text}" is the number {number}\n', done.stderr)
+        self.assertEqual(support.xxh64(b"abc", 0), 0x44BC2CF5AD770999)  # as xxh64sum prints it
+        self.assertNotIn("the number", run("generate", "--digest", "--radius", "0", "--seed", "007").stderr)
+        self.assertEqual(self.digest("--radius", "0", "--seed", "007"), self.digest("--radius", "0", "--seed", "7"))
+
+    def test_a_save_keeps_the_number_of_a_seed(self):
+        save, area = self.folder / "a.sqlite", ("--radius", "0", *FLAT)
+        self.succeed("generate", "--world", save, *area, "--seed", "abc")
+        self.assertEqual(json.loads(self.succeed("check", save, "--json"))["seed"], 0x44BC2CF5AD770999)
+        for seed in ("abc", 0x44BC2CF5AD770999):
+            self.succeed("generate", "--world", save, *area, "--seed", seed)
+        done = run("generate", "--world", save, *area, "--seed", "abd")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(f"seed {0x44BC2CF5AD770999}, not {support.xxh64(b'abd', 0)}", done.stderr)
+
     def test_the_corners_of_the_world(self):
         low, high = -2**27, 2**27
         self.digest("--area", f"{low},{low},{low + 1},{low + 1}")
@@ -330,6 +354,11 @@ class Map(ProgramTest):
         image = Image(path)
         self.assertEqual((image.width, image.height), (48, 48))
         self.assertGreater(len(image.colors()), 1)
+
+    def test_an_ending_may_be_written_large(self):
+        path = self.folder / "MAP.PNG"
+        self.succeed("map", *FLAT, "--radius", "0", "-o", path)
+        self.assertEqual(Image(path).width, 16)
 
     def test_a_pixel_of_a_level_is_as_wide_as_its_columns(self):
         path = self.folder / "map.png"
@@ -370,6 +399,70 @@ class Dump(ProgramTest):
         for x, y in ((0, 0), (15, 15), (9, 4)):
             self.assertEqual(both.column(16 + x, y), second.column(x, y))
 
+    # Areas are written in squares of 32 chunks.
+    def test_an_area_of_several_squares(self):
+        small = {pos: self.dump("blocks", "{0},{1},{2},{3}".format(*pos, pos[0] + 1, pos[1] + 1))
+                 for pos in ((-20, 5), (11, 5), (12, 5), (13, 6))}
+        large = self.dump("blocks", "-20,5,14,7")
+        self.assertEqual(large.shape, (34 * 16, 32, 256))
+        for (x, y), chunk in small.items():
+            for block_x, block_y in ((0, 0), (15, 15), (3, 9)):
+                self.assertEqual(large.column((x + 20) * 16 + block_x, (y - 5) * 16 + block_y), chunk.column(block_x, block_y))
+        lights = self.dump("light", "-4,-30,-3,4"), self.dump("light", "-4,1,-3,3")
+        for x, y in ((0, 0), (15, 31), (8, 16)):
+            self.assertEqual(lights[0].column(x, 31 * 16 + y), lights[1].column(x, y), "across the end of a square")
+
+    # One quad a chunk: 65 x 64 chunks are more than an area could have when it was held in memory.
+    def test_an_area_may_be_large(self):
+        quads = self.dump("quads", "-3,-2,62,62", *FLAT)
+        self.assertEqual(quads.shape, (65 * 64,))
+        found = {struct.unpack_from("<ii", quads.data, k * 19) for k in range(65 * 64)}
+        self.assertEqual(found, {(x, y) for x in range(-3, 62) for y in range(-2, 62)})
+
+    def test_memory_does_not_grow_with_the_area(self):
+        def peak(area):
+            words = ("dump", "--area", area, *FLAT, "--threads", "2", "-o", self.folder / "blocks.npy")
+            child = subprocess.Popen([support.program(), *map(str, words)], stderr=subprocess.DEVNULL,
+                                     env=support.environment())
+            _, status, used = os.wait4(child.pid, 0)
+            child.returncode = os.waitstatus_to_exitcode(status)
+            self.assertEqual(child.returncode, 0, area)
+            return used.ru_maxrss
+        small, large = peak("0,0,1,1"), peak("0,0,33,33")
+        self.assertEqual((self.folder / "blocks.npy").stat().st_size, 128 + 33 * 33 * 131072)
+        self.assertLess(large - small, 64 << 10, "KiB more; the file has 136 MiB")
+
+    def limited(self, limit_bytes, *arguments):
+        """Runs where no file may grow larger, as on a full disk."""
+        def bound():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit_bytes, limit_bytes))
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        words = [support.program(), *map(str, arguments)]
+        return subprocess.run(words, capture_output=True, text=True, timeout=support.HANG_SECONDS, preexec_fn=bound,
+                              restore_signals=False, env=support.environment(), check=False)
+
+    def test_a_full_disk_leaves_nothing(self):
+        path = self.folder / "a.npy"
+        for what, area, hint in (("blocks", "0,0,8,8", "8388736 bytes do not fit"), ("quads", "0,0,2,2", "cannot be written")):
+            done = self.limited(8192, "dump", "--what", what, "--area", area, "-o", path)
+            self.assertRefused(done, what)
+            self.assertIn(f"{path}: {hint}", done.stderr)
+            self.assertEqual(list(self.folder.iterdir()), [], what)
+
+    def test_stopped_it_leaves_nothing(self):
+        path = self.folder / "a.npy"
+        words = ("dump", "--what", "quads", "--area", "0,0,100000,100000", *FLAT, "--threads", "1", "-o", path)
+        child = subprocess.Popen([support.program(), *map(str, words)], stderr=subprocess.PIPE, text=True,
+                                 env=support.environment())
+        with child.stderr:
+            while not list(self.folder.iterdir()):
+                self.assertIsNone(child.poll())
+            child.send_signal(signal.SIGTERM)
+            said = child.stderr.read()
+        self.assertEqual(child.wait(support.HANG_SECONDS), 2, said)
+        self.assertRegex(said, r"stopped after \d+ of 10000000000 chunks\n")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
     def test_light_of_the_flat_world(self):
         light = self.dump("light", "0,0,2,1", *FLAT)
         self.assertEqual((light.descr, light.shape), ("<u2", (32, 16, 256)))
@@ -396,8 +489,8 @@ class Dump(ProgramTest):
         names = [name for name, _ in quads.descr]
         self.assertEqual(names, ["chunk_x", "chunk_y", "x", "y", "z", "shape_face", "extent_u", "extent_v", "material",
                                  "context", "group"])
-        record = struct.Struct("<ii6BH2B")
-        self.assertEqual("".join(kind for _, kind in quads.descr), "<i4" * 2 + "|u1" * 6 + "<u2" + "|u1" * 2)
+        record = struct.Struct("<ii3BH2BH2B")
+        self.assertEqual("".join(kind for _, kind in quads.descr), "<i4" * 2 + "|u1" * 3 + "<u2" + "|u1" * 2 + "<u2" + "|u1" * 2)
         self.assertEqual(len(quads.data), quads.shape[0] * record.size)
         values = [record.unpack_from(quads.data, k * record.size) for k in range(quads.shape[0])]
         material = values[0][8]
@@ -408,7 +501,7 @@ class Dump(ProgramTest):
         quads = self.dump("quads", "0,0,2,2")
         self.assertGreater(quads.shape[0], 500)
         for k in range(quads.shape[0]):
-            chunk_x, chunk_y, x, y, z, face, u, v, _, context, group = struct.unpack_from("<ii6BH2B", quads.data, k * 18)
+            chunk_x, chunk_y, x, y, z, face, u, v, _, context, group = struct.unpack_from("<ii3BH2BH2B", quads.data, k * 19)
             self.assertTrue(0 <= chunk_x < 2 and 0 <= chunk_y < 2 and x < 16 and y < 16 and z < 256)
             self.assertTrue(face < 21 and 1 <= u <= 16 and 1 <= v <= 16 and context < 6 and group < 7)
 
@@ -550,6 +643,33 @@ class Saves(ProgramTest):
                      "--view-distance", "1", "--preset", "low", "--world", self.save)
         self.assertEqual(self.save.read_bytes(), before)
 
+    def edit_chunk(self, key, data):
+        """Puts what an editor made into the save in place of a chunk."""
+        with sqlite3.connect(self.save) as database:
+            database.execute("INSERT OR REPLACE INTO chunks VALUES (?, 1, ?)", (key, support.seal(data, key, 1)))
+        database.close()
+
+    def test_a_map_shows_edits_and_generates_the_rest(self):
+        land = self.folder / "land.sqlite"
+        self.succeed("generate", "--world", land, "--area", "0,0,1,1", "--generator", "overworld")
+        with sqlite3.connect(land) as database:
+            hill = database.execute("SELECT data FROM chunks").fetchone()[0]
+        database.close()
+        self.succeed("generate", "--world", self.save, "--area", "0,0,1,1", *FLAT)
+        self.edit_chunk((1 + 2**27 << 28) + 2**27, hill)  # chunk 1,0
+        before = self.save.read_bytes()
+        for level, size in (("0", 16), ("1", 8)):
+            area = ("--area", "-2,-2,4,4", "--level", level)
+            self.succeed("map", *area, *FLAT, "-o", self.folder / "plain.png")
+            self.succeed("map", *area, "--world", self.save, "-o", self.folder / "edited.png")
+            plain, edited = Image(self.folder / "plain.png").rows, Image(self.folder / "edited.png").rows
+            changed = {(x // size, y // size) for y, row in enumerate(plain) for x, pixel in enumerate(row)
+                       if edited[y][x] != pixel}
+            places = {(x - 2, 3 - y) for x, y in changed}  # y points up in a map
+            self.assertIn((1, 0), places)
+            self.assertTrue(all(abs(x - 1) <= 1 and abs(y) <= 1 for x, y in places), "shade may reach a neighbor")
+        self.assertEqual(self.save.read_bytes(), before)
+
     def run_here(self, *arguments):
         """Runs where worlds by name lie in the folder of the test."""
         variables = {**support.environment(), "XDG_DATA_HOME": str(self.folder)}
@@ -573,7 +693,7 @@ class Saves(ProgramTest):
         url = "postgresql://me:secret@host/name"
         out = self.folder / "out.png"
         for command in (("generate", "--radius", "0"), ("map", "--radius", "0", "-o", out),
-                        ("dump", "--area", "0,0,1,1", "-o", out), ("render", "--scene", "landscape", "-o", out),
+                        ("dump", "--area", "0,0,1,1", "-o", self.folder / "out.npy"), ("render", "--scene", "landscape", "-o", out),
                         ("flight-bench", "--json")):
             done = run(*command, "--world", url)
             self.assertRefused(done, command)
@@ -631,10 +751,109 @@ class Saves(ProgramTest):
         self.assertIn("cut off", done.stdout)
 
 
+class PlayedSaves(ProgramTest):
+    """A save that another process has open to write."""
+
+    def setUp(self):
+        super().setUp()
+        self.save = self.folder / "a.sqlite"
+        self.succeed("generate", "--world", self.save, "--radius", "1", *FLAT)
+        self.area = ("--area", "-2,-2,3,3")
+
+    def look(self):
+        """What each command writes: name, arguments."""
+        return {"check": ("check", self.save),
+                "dump": ("dump", *self.area, "--world", self.save, "-o", self.folder / "out.npy"),
+                "map": ("map", *self.area, "--world", self.save, "-o", self.folder / "out.png"),
+                "render": ("render", "--at", "8,8,90", "--look", "0,-60", "--size", "32x24", "--view-distance", "1",
+                           "--preset", "low", "--world", self.save, "-o", self.folder / "out.png")}
+
+    def hold_open(self):
+        """Keeps the lock and a connection as the program does, with an edit that is in the log alone."""
+        lock = open(f"{self.save}-lock", "w", encoding="ascii")
+        self.addCleanup(lock.close)
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        lock.write(str(os.getpid()))
+        lock.flush()
+        database = sqlite3.connect(self.save)
+        self.addCleanup(database.close)
+        database.execute("PRAGMA journal_mode = WAL")
+        database.execute("PRAGMA wal_autocheckpoint = 0")
+        self.assertEqual(database.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchone()[0], 0)
+        return database
+
+    def files(self):
+        """Not read by this process: that would end SQLite's locks."""
+        names = [str(self.save), f"{self.save}-wal", f"{self.save}-lock"]
+        return subprocess.run(["cksum", *names], capture_output=True, check=True).stdout
+
+    def test_it_is_read_and_left_as_it_is(self):
+        ids = {block["name"]: block["id"] for block in json.loads(self.succeed("blocks", "--json"))}
+        key = 2**27 << 28 | 2**27
+        database = self.hold_open()
+        data = database.execute("SELECT data FROM chunks WHERE key = ?", (key,)).fetchone()[0]
+        for kept in (None, "in the log"):
+            if kept:
+                with database:
+                    database.execute("UPDATE chunks SET origin = 1, data = ? WHERE key = ?", (support.seal(data, key, 1), key))
+            before = self.files()
+            for name, words in self.look().items():
+                done = run(*words)
+                self.assertEqual(done.returncode, 0, (name, done.stderr))
+                told = done.stdout + done.stderr
+                self.assertEqual(told.count(f"open in another program (process {os.getpid()})"), 1, (name, told))
+                if name == "check":
+                    self.assertEqual(done.stderr, "")
+                    self.assertIn(f"9 chunks, {1 if kept else 0} of them edited", done.stdout)
+                    self.assertIn("without its log; nothing is changed", done.stdout)
+                    self.assertTrue(done.stdout.endswith("\ngood\n"))
+            self.assertEqual(self.files(), before)
+            self.assertIs(json.loads(self.succeed("check", self.save, "--json"))["in_use"], True)
+        self.assertEqual(Npy(self.folder / "out.npy").column(40, 40)[80], ids["grass"])
+        for words in (("generate", "--radius", "1", "--world", self.save), ("flight-bench", "--world", self.save, "--json")):
+            done = run(*words)
+            self.assertRefused(done, "two would write")
+            self.assertIn("open in another program", done.stderr)
+
+    def test_one_that_is_being_made_or_migrated_is_refused(self):
+        self.hold_open()
+        (self.folder / "a.sqlite-journal").write_bytes(b"\xd9\xd5\x05\xf9" + bytes(600))
+        for name, words in self.look().items():
+            done = run(*words)
+            self.assertRefused(done, name)
+            self.assertIn("which is making or migrating it", done.stderr)
+
+    def test_while_the_program_itself_flies_through_it(self):
+        words = ("flight-bench", "--world", self.save, "--view-distance", "3", "--size", "32x18", "--preset", "low",
+                 "--threads", "1", "--duration", "6", "--json")
+        flight = subprocess.Popen([support.program(), *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                  text=True, env=support.environment())
+        self.addCleanup(flight.kill)
+        chunks, in_use = [], 0
+        look = self.look()
+        while flight.poll() is None:
+            done = run("check", self.save, "--json")
+            self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+            report = json.loads(done.stdout)
+            chunks.append(report["chunks"])
+            in_use += report["in_use"]
+            for name in ("dump", "map"):
+                done = run(*look[name])
+                self.assertEqual(done.returncode, 0, done.stderr)
+        said = flight.communicate()[1]
+        self.assertEqual(flight.returncode, 0, said)
+        self.assertGreater(in_use, 0)
+        self.assertEqual(chunks, sorted(chunks))
+        self.assertGreater(json.loads(self.succeed("check", self.save, "--json"))["chunks"], 9)
+
+
 class Blocks(ProgramTest):
     def test_json_lists_every_block(self):
         blocks = {block["name"]: block for block in json.loads(self.succeed("blocks", "--json"))}
-        self.assertEqual(set(blocks), set(BLOCKS) | {"missing"})
+        self.assertLess(set(BLOCKS) | {"missing"}, set(blocks))
+        for name in set(blocks) - set(BLOCKS):
+            self.assertFalse(blocks[name]["generated"], name)
+        self.assertEqual((blocks["oak_stairs"]["shape"], blocks["torch"]["emission"]), ("model", [14, 11, 6]))
         for name, (opacity, emission) in BLOCKS.items():
             block = blocks[name]
             self.assertEqual((block["opacity"], block["emission"]), (opacity, emission), name)

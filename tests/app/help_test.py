@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
 """Completions and the manual page against --help. Usage: help_test.py PROGRAM"""
+import json
+import os
 import re
 import shutil
 import subprocess
@@ -9,7 +11,22 @@ import support
 from support import ProgramTest, run
 
 
+def generators(test):
+    return set(json.loads(test.succeed("info", "--json"))["generators"])
+
+
 class HelpTest(ProgramTest):
+    variables = {}
+
+    def make_worlds(self, *names):
+        """After the script was made: worlds are looked for at completion time."""
+        folder = self.folder / "data" / "terrane"
+        folder.mkdir(parents=True, exist_ok=True)
+        for name in names:
+            (folder / f"{name}.sqlite").write_text("")
+        (folder / "bookmarks.txt").write_text("")
+        self.variables = {"XDG_DATA_HOME": str(self.folder / "data"), "HOME": "/nowhere"}
+
     def setUp(self):
         super().setUp()
         text = self.succeed("--help")
@@ -25,7 +42,7 @@ class HelpTest(ProgramTest):
         if not shutil.which(name):
             self.skipTest(f"{name} is not installed")
         done = subprocess.run([name, *arguments], capture_output=True, text=True, timeout=support.HANG_SECONDS,
-                              check=False, cwd=self.folder)
+                              check=False, cwd=self.folder, env={**os.environ, **self.variables})
         self.assertEqual((done.returncode, done.stderr), (0, ""), arguments)
         return done.stdout.split("\n")
 
@@ -67,6 +84,28 @@ class Bash(HelpTest):
         self.assertEqual(sorted(self.complete("terrane", "play", "--world", "a ")), ["a folder", "a picture.png"])
 
 
+    def test_generators(self):
+        for command in ("render", "generate", "play"):
+            self.assertEqual(self.complete("terrane", command, "--generator", "f"), ["flat"])
+        self.assertEqual(set(self.complete("terrane", "map", "--generator", "")), generators(self))
+
+    def test_worlds(self):
+        for words in (("render", "--world"), ("play", "--world"), ("check",)):
+            self.variables = {"XDG_DATA_HOME": str(self.folder / "nothing")}
+            self.assertEqual(self.complete("terrane", *words, "h"), [])
+            self.make_worlds("home", "hills 2", "castle", "a'b")
+            (self.folder / "house.sqlite").write_text("")
+            self.assertEqual(sorted(self.complete("terrane", *words, "h")), ["hills 2", "home", "house.sqlite"])
+            self.assertEqual(self.complete("terrane", *words, "a"), ["a'b"])
+            (self.folder / "house.sqlite").unlink()
+            shutil.rmtree(self.folder / "data")
+        self.make_worlds("home")
+        (self.folder / ".local").mkdir()
+        shutil.move(self.folder / "data", self.folder / ".local" / "share")
+        self.variables = {"XDG_DATA_HOME": "no/absolute/path", "HOME": str(self.folder)}
+        self.assertEqual(self.complete("terrane", "map", "--world", "h"), ["home"])
+
+
 class Fish(HelpTest):
     def complete(self, line):
         return [x.split("\t")[0] for x in self.shell(
@@ -82,6 +121,15 @@ class Fish(HelpTest):
         self.assertEqual(self.complete("terrane render --merging s"), ["squares", "squares-ext"])
         self.assertEqual(self.complete("terrane --merging g"), ["greedy"])
         self.assertEqual(self.complete("terrane completion z"), ["zsh"])
+        self.assertEqual(self.complete("terrane render --generator f"), ["flat"])
+
+    def test_worlds(self):
+        self.make_worlds("home", "hills 2", "castle")
+        for words in ("render --world", "--world", "check"):
+            self.assertEqual(sorted(self.complete(f"terrane {words} h")), ["hills 2", "home"])
+        self.make_worlds()
+        self.variables["XDG_DATA_HOME"] = str(self.folder / "nothing")
+        self.assertEqual({"home", "hills 2"} & set(self.complete("terrane render --world h")), set())
 
 
 class Zsh(HelpTest):
@@ -95,6 +143,18 @@ class Zsh(HelpTest):
             for name in self.names(command):
                 self.assertIn(f"'{name}[", part, command)
         self.assertIn(":CHOICE:(none lines squares squares-ext greedy)'", text)
+
+    def test_worlds(self):
+        self.make_worlds("home", "hills 2", "castle")
+        text = self.script("zsh").read_text()
+        for command in ("play", "render", "map"):
+            part = re.search(rf"^ +{command}\) _arguments(.*?) ;;$", text, re.MULTILINE | re.DOTALL)[1]
+            self.assertIn(":NAME|FILE|URL:_terrane_worlds'", part)
+            self.assertRegex(part, r":CHOICE:\([a-z0-9 ]*\bflat\b[a-z0-9 ]*\)'")
+        found = self.shell("zsh", "-f", "-c", "autoload -U compinit; compinit -u -D; "
+                           f"source {self.script('zsh')}; _wanted() {{ shift 3; $@; }}; _files() {{ :; }}; "
+                           "compadd() { print -l ${(P)2}; }; _terrane_worlds")
+        self.assertEqual(sorted(found), ["", "castle", "hills 2", "home"])
 
     # The shell's own check of specifications, without a terminal: it reports wrong ones.
     def test_specifications_are_understood(self):

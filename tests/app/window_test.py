@@ -157,14 +157,20 @@ class Game:
         self.display.xdotool("click", button)
         time.sleep(pause)
 
-    def close(self):
+    def close(self, open_things=0):
         """The exit code, and where the camera was at the end."""
-        self.press("Escape")
+        self.quit(open_things)
         code = self.process.wait(HANG_SECONDS)
         found = re.search(r"closed after (\d+) frames at (\S+),(\S+),(\S+)$", self.output(), re.MULTILINE)
         if not found:
             raise RuntimeError(f"no word of the camera: {self.output()}")
         return code, int(found[1]), tuple(float(found[k]) for k in (2, 3, 4))
+
+    def quit(self, open_things=0):
+        """By the menu. What is open (the panel, a chest) is closed first, each by an Escape of its own."""
+        for _ in range(open_things + 1):
+            self.pause_after("Escape")
+        self.press("q")
 
     def output(self):
         self.log.seek(0)
@@ -182,9 +188,9 @@ class Window(ProgramTest):
         game.wait_for_image(size)
         return game
 
-    def close(self, game):
+    def close(self, game, open_things=0):
         """Where the camera was at the end."""
-        code, frames, place = game.close()
+        code, frames, place = game.close(open_things)
         self.assertEqual(code, 0, game.output())
         self.assertGreater(frames, 0)
         self.assertNotIn("error", game.output())
@@ -220,7 +226,7 @@ class Window(ProgramTest):
             self.assertEqual(self.screenshots(), [])  # of what was not there yet
             # Again and again: the panel's image comes before the world's.
             game.wait_for(lambda: game.press("F12") or self.screenshots())
-            self.close(game)
+            self.close(game, open_things=1)
 
     # Above the flat world, whose ground is grass at z = 80 on earth: one block fills the middle of the image.
     def look_down(self, display, *arguments):
@@ -294,6 +300,10 @@ class Window(ProgramTest):
             game = self.play(display, *options)
             game.click(1)  # takes the mouse
             display.xdotool("click", 1)  # breaks what is in the middle: pressed and released at once
+            # Others see what is saved, while it is played.
+            game.wait_for(lambda: self.highest_block(save) == top - 1)
+            self.assertRegex(self.succeed("check", save), r"(?s)\Aopen in another program \(process \d+\): .*\ngood\n\Z")
+            self.succeed("map", "--radius", "1", "--world", save, "-o", self.folder / "map.png")
             first = self.close(game)
             self.assertEqual(self.highest_block(save), top - 1)
 
@@ -374,10 +384,11 @@ class Window(ProgramTest):
             game = self.play(display, *options, size=size)
             save.rename(away)
             game.wait_for(lambda: is_warned(game, 18))
-            game.press("Escape")
+            game.quit()
             game.wait_for(lambda: is_warned(game, 194))  # asks instead of closing
             game.press("Escape")
             game.wait_for(lambda: not is_warned(game, 194))  # stays
+            game.press("Escape")  # leaves the menu
             game.wait_for(lambda: is_warned(game, 18))
             away.rename(save)
             game.wait_for(lambda: not is_warned(game, 18))
@@ -389,7 +400,7 @@ class Window(ProgramTest):
             game = self.play(display, *options, size=size)
             save.rename(away)
             game.wait_for(lambda: is_warned(game, 18))
-            game.press("Escape")
+            game.quit()
             game.wait_for(lambda: is_warned(game, 194))
             game.click(1, 365, 241)
             self.assertEqual(game.process.wait(HANG_SECONDS), 2)
@@ -403,10 +414,10 @@ class Window(ProgramTest):
             self.close(self.play(display, *options, size=size))
             top = self.highest_block(save)
             self.set_setting(save, "camera", f"8.5 8.5 {top + 5} 0 -89")
+            self.set_setting(save, "hand", "chest")
             game = self.play(display, *options, size=size)
             pause = game.pause_after("F1")
             game.tap(1, *middle, pause)  # takes the mouse
-            game.tap(4, *middle, pause)  # the wheel, back from the first kind of block to the last, the chest
             game.tap(3, *middle, pause)  # builds it
             game.tap(3, *middle, pause)  # opens it
             game.tap(1, *slot, pause)  # puts a chest into the chest
@@ -445,7 +456,7 @@ class Window(ProgramTest):
             pause = game.pause_after("F2")
             for y in range(275, 430, 23):  # down the column of the panel's switches
                 game.click(1, 203, y, pause)
-            end = self.close(game)
+            end = self.close(game, open_things=1)
 
             self.assertEqual(len((self.folder / "terrane" / "bookmarks.txt").read_text().splitlines()), 1)
             image = Image(self.folder / "terrane" / "screenshots" / "terrane-0001.png")
@@ -486,6 +497,29 @@ class Window(ProgramTest):
             self.close(game)
             self.assertNotRegex(game.output(), message)
             self.assertEqual(self.lines_of_settings(), [f"preset = '{preset}'"])
+
+    def test_escape_closes_one_thing_at_a_time(self):
+        options = ("--world", "home", "--movement", "medium", *FLAT)
+        with Display() as display:
+            start = self.close(self.play(display, *options, size=SCREEN))
+            game = self.play(display, *options, size=SCREEN)
+            before = self.brightness(display, game)
+            pause = game.pause_after("F2")  # the panel
+            game.press("Escape")  # closes it
+            time.sleep(pause)
+            self.assertIsNone(game.process.poll())
+            game.press("Escape")
+            game.wait_for(lambda: self.brightness(display, game) < 0.8 * before)  # the menu, the world behind it is dark
+            display.xdotool("keydown", "w")
+            time.sleep(pause)
+            display.xdotool("keyup", "w")
+            game.press("Escape")
+            game.wait_for(lambda: self.brightness(display, game) > 0.95 * before)
+            self.assertEqual(self.close(game), start)  # nobody moved in the menu
+
+    def brightness(self, display, game):
+        """Of the sky's corner, over which nothing is drawn."""
+        return max(1, sum(display.screenshot(game.window).color(4, 4)))
 
     def test_who_chooses_a_preset_is_not_measured(self):
         with Display() as display:
@@ -550,7 +584,7 @@ class Window(ProgramTest):
             display.xdotool("keyup", "Control_L")
             for key in ("m", "9", "Return", "m"):
                 game.hold(key)
-            self.close(game)
+            self.close(game, open_things=1)
             self.assertEqual(self.lines_of_settings(), ["field-of-view = '40'", "movement = 'fast'"])
 
     def test_a_resource_pack_is_loaded_while_one_plays(self):
@@ -568,7 +602,7 @@ class Window(ProgramTest):
             # The ground at the window's lower left, beside what is in the hand.
             red, green, blue = display.screenshot(game.window).color(150, size[1] - 4)
             self.assertGreater(red, 2 * max(blue, green))
-            self.close(game)
+            self.close(game, open_things=1)
         self.assertEqual(self.lines_of_settings(), ["resource-pack = 'pk'"])
 
     def test_shaders_are_read_again_while_one_plays(self):
@@ -618,7 +652,7 @@ class Window(ProgramTest):
             pause = game.pause_after("F2")
             # The slider of the view distance lies twice as far from the panel's corner as on other screens.
             game.click(1, 120, 186, pause)
-            self.close(game)
+            self.close(game, open_things=1)
         self.assertRegex(self.lines_of_settings()[0], r"\Aview-distance = '1[0-9]'\Z")
 
     def test_wrong_settings_are_named(self):

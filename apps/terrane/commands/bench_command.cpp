@@ -1,5 +1,6 @@
 // terrane bench: all measurements of docs/performance.md in one run. tools/bench_report.py makes tables and
 // plots from what it writes.
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
+#include "terrane/base/nearest_name.h"
 #include "terrane/base/progress_bar.h"
 #include "terrane/base/temporary_folder.h"
 
@@ -35,9 +37,9 @@ struct BenchOptions {
     bool anyFailed = false;  // of the last run
 };
 
-std::string tableNames() {
-    std::string names;
-    for (const CellGroup& group : planGroups({})) names += (names.empty() ? "" : ", ") + group.name;
+std::vector<std::string> tableNames() {
+    std::vector<std::string> names;
+    for (const CellGroup& group : planGroups({})) names.push_back(group.name);
     return names;
 }
 
@@ -211,11 +213,12 @@ CommandEntry addBench(CLI::App& app) {
                      "The folder for results.jsonl, made where it is not there")
         ->type_name("DIR");
     const auto isTable = [](const std::string& text) -> std::string {
-        for (const CellGroup& group : planGroups({}))
-            if (group.name == text) return {};
-        return fmt::format("expected some of {}, got \"{}\"", tableNames(), text);
+        const std::vector<std::string> names = tableNames();
+        return std::ranges::find(names, text) != names.end() ? "" : base::notOneOf(names, text);
     };
-    command->add_option("--only,TABLE", options->only, "Only what these tables need: " + tableNames())
+    command
+        ->add_option("--only,TABLE", options->only,
+                     fmt::format("Only what these tables need: {}", fmt::join(tableNames(), ", ")))
         ->delimiter(',')
         ->check(CLI::Validator(isTable, ""))
         ->type_name("TABLE");

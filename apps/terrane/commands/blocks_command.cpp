@@ -24,6 +24,8 @@ const char* shapeName(world::Shape shape) {
             return "cross";
         case world::Shape::Hash:
             return "hash";
+        case world::Shape::Model:
+            return "model";
         case world::Shape::Inset:
             return "inset";
     }

@@ -25,6 +25,7 @@ nlohmann::json toJson(const store::CheckReport& report) {
         damaged.push_back(
             {{"x", chunk.pos.x}, {"y", chunk.pos.y}, {"level", chunk.pos.level}, {"problem", chunk.problem}});
     return {{"damaged", report.isDamaged()},
+            {"in_use", !report.inUse.empty()},
             {"format", report.format},
             {"seed", report.identity.seed},
             {"generator", report.identity.generator},
@@ -42,6 +43,9 @@ nlohmann::json toJson(const store::CheckReport& report) {
 }
 
 void printText(const std::string& file, const store::CheckReport& report) {
+    if (!report.inUse.empty())
+        base::printLine("{}: looked at as it was at one moment, without its log; nothing is changed",
+                        report.inUse);
     if (report.format > 0) {
         base::printLine("{}: format {}, generator {} version {}, seed {}", file, report.format,
                         report.identity.generator, report.identity.generatorVersion, report.identity.seed);

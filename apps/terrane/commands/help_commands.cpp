@@ -5,6 +5,7 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/help/completion.h"
 #include "apps/terrane/help/man_page.h"
+#include "terrane/base/nearest_name.h"
 
 namespace terrane::app {
 
@@ -24,7 +25,9 @@ CommandEntry addCompletion(CLI::App& app) {
                     std::cout << known.script(commandList(app));
                     return {};
                 }
-                return base::fail("completion: expected one of bash, zsh, fish, got \"{}\"", *shell);
+                std::vector<std::string> names;
+                for (const Shell& known : kShells) names.emplace_back(known.name);
+                return base::fail("completion: {}", base::notOneOf(names, *shell));
             }};
 }
 

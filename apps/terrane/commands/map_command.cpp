@@ -83,7 +83,7 @@ CommandEntry addMap(CLI::App& app) {
     command->get_option("--area")->excludes(radius);
     command->add_option("--level", options->level, "A pixel is 2^LEVEL blocks wide")
         ->check(numberFrom(0, world::kMaxLevel));
-    addOutputOption(*command, options->output, "The PNG file");
+    addOutputOption(*command, options->output, {".png"}, "The PNG file");
     addWorldOptions(*command, options->world);
     addWorldOption(*command, options->save, "World to take the chunks from; what it lacks is generated");
     addResourcePackOption(*command, options->resourcePack);

@@ -8,6 +8,7 @@
 #include "apps/terrane/options.h"
 #include "apps/terrane/window/game.h"
 #include "apps/terrane/window/icon.h"
+#include "apps/terrane/window/key_help.h"
 #include "terrane/base/log.h"
 #include "terrane/base/stop_signals.h"
 #include "terrane/content/built_in.h"
@@ -22,21 +23,12 @@
 namespace terrane::app {
 namespace {
 
-constexpr const char* kKeys = R"(Keys:
-  click, middle button    look around with the mouse; the middle button gives the cursor back
-  W A S D, Space, Shift   walk, jump, run; E, Q: up, down where one flies or swims
-  left, right button      break a block, build one or open a chest; wheel: choose the block
-  M                       how one moves: on foot, fast or slowly through everything, not through walls
-  O, P, I                 time of day back, forth; let it pass or stand still
-  F1, F2                  help; settings and statistics
-  F3, F4                  debug top view; a map of how far chunks are
-  F5, F6                  save a bookmark, go to the next one
-  F11, F12, L             full screen; screenshot; light classic or smooth
-  Esc                     end typing, close the chest, quit; Ctrl+C in the terminal quits, too
+constexpr const char* kWhereSaved =
+    R"(
 
 The world, the place, the time of day and the block in the hand are saved while one plays, in
 $XDG_DATA_HOME/terrane/NAME.sqlite ($HOME/.local/share/terrane where that is not set); bookmarks.txt and
-screenshots/ lie beside it.)";
+screenshots/ lie beside it. Ctrl+C in the terminal saves and quits, too.)";
 
 struct PlayOptions {
     WorldOptions world;
@@ -209,7 +201,7 @@ CommandEntry addPlay(CLI::App& app) {
         ->add_option("--settings", options->settingsFile,
                      "File of settings that the panel writes; \"\": none")
         ->type_name("FILE");
-    command->footer(kKeys);
+    command->footer(std::string("Keys:\n") + kKeyHelp + kWhereSaved);
     return {command, [options, command] { return play(*options, *command); }};
 }
 

@@ -114,7 +114,7 @@ CommandEntry addRecord(CLI::App& app) {
     command->add_option("--path", options->path, "The path: keys, titles, edits (TOML, see docs/video.md)")
         ->type_name("FILE")
         ->required();
-    addOutputOption(*command, options->output, "The video, .mp4 or .mkv; made by ffmpeg");
+    addOutputOption(*command, options->output, {".mp4", ".mkv"}, "The video, .mp4 or .mkv; made by ffmpeg");
     command->get_option("--output")->required(false);
     command
         ->add_option("--frames-dir", options->framesFolder,

@@ -179,7 +179,7 @@ CommandEntry addRender(CLI::App& app) {
         ->add_option("--frames", options->frames,
                      "Draws the image so often again and tells how long that takes")
         ->check(numberFrom(0, 100000));
-    addOutputOption(*command, options->output, "The PNG file");
+    addOutputOption(*command, options->output, {".png"}, "The PNG file");
     command->add_flag("--json", options->json, "Print timings and counts as JSON");
     addWorldOptions(*command, options->world);
     nameSceneGenerator(*command);

@@ -14,8 +14,9 @@ struct FlagEntry {
     std::vector<std::string> valueNames;  // what the value can be; empty: anything
     std::string description, defaultText;
     bool isRequired = false;
-    // Also "NAME|FILE|URL".
-    bool takesFile() const { return value.find("FILE") != std::string::npos; }
+    bool takesFile() const { return value == "FILE"; }
+    // "NAME|FILE", "NAME|FILE|URL": a file, too.
+    bool takesWorld() const { return value.starts_with("NAME|FILE"); }
     bool takesFolder() const { return value == "DIR"; }
 };
 

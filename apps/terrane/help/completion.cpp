@@ -22,10 +22,11 @@ std::vector<std::string> namesOf(const CommandListEntry& command) {
     return names;
 }
 
-bool takesPlainFiles(const CommandListEntry& command) {
+// The argument that is no flag's, where the shell has to look for what it can be.
+const FlagEntry* plainArgument(const CommandListEntry& command) {
     for (const FlagEntry& flag : command.flags)
-        if (flag.names.empty() && flag.takesFile()) return true;
-    return false;
+        if (flag.names.empty() && (flag.takesFile() || flag.takesWorld())) return &flag;
+    return nullptr;
 }
 
 // For single quotes of all three shells.
@@ -35,6 +36,7 @@ std::string inQuotes(std::string text) {
 
 // What follows a flag that takes a value, in bash.
 std::string bashValues(const FlagEntry& flag) {
+    if (flag.takesWorld()) return "_terrane_worlds";
     if (flag.takesFile()) return "_terrane_files -f";
     if (flag.takesFolder()) return "_terrane_files -d";
     return flag.valueNames.empty() ? ":"
@@ -42,6 +44,7 @@ std::string bashValues(const FlagEntry& flag) {
 }
 
 std::string zshAction(const FlagEntry& flag) {
+    if (flag.takesWorld()) return "_terrane_worlds";
     if (flag.takesFile()) return "_files";
     if (flag.takesFolder()) return "_files -/";
     return flag.valueNames.empty() ? " " : "(" + joined(flag.valueNames) + ")";
@@ -60,7 +63,9 @@ std::string fishFlag(const FlagEntry& flag, const std::string& condition) {
     std::string line = fmt::format("complete -c terrane -n {}", inQuotes(condition));
     for (const std::string& name : flag.names)
         line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
-    if (flag.takesFile() || flag.takesFolder()) {
+    if (flag.takesWorld()) {
+        line += " -r -F -a '(__terrane_worlds)'";
+    } else if (flag.takesFile() || flag.takesFolder()) {
         line += " -r -F";
     } else if (!flag.value.empty()) {
         line += " -x";
@@ -75,13 +80,48 @@ std::vector<std::string> commandNames(const Commands& commands) {
     return names;
 }
 
+// What the scripts begin with. Worlds are looked for in the data folder (store/save_path.h) when one
+// completes.
+constexpr std::string_view kBashBegin = R"(# bash completion for terrane, made by: terrane completion bash
+_terrane_words() { mapfile -t COMPREPLY < <(compgen -W "$1" -- "$cur"); }
+_terrane_files() { compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen "$1" -- "$cur"); }
+_terrane_worlds() {
+    _terrane_files -f
+    local data=${XDG_DATA_HOME-} world
+    [[ $data == /* ]] || data=${HOME-}/.local/share
+    for world in "$data"/terrane/*.sqlite; do
+        world=${world##*/} world=${world%.sqlite}
+        if [[ $world != '*' && $world == "$cur"* ]]; then COMPREPLY+=("$world"); fi
+    done
+}
+)";
+
+constexpr std::string_view kZshBegin = R"(#compdef terrane
+# zsh completion for terrane, made by: terrane completion zsh
+_terrane_worlds() {
+    local data=$XDG_DATA_HOME expl
+    [[ $data == /* ]] || data=$HOME/.local/share
+    local -a worlds=($data/terrane/*.sqlite(N:t:r))
+    _wanted worlds expl world compadd -a worlds
+    _files
+}
+)";
+
+constexpr std::string_view kFishBegin = R"(# fish completion for terrane, made by: terrane completion fish
+function __terrane_worlds
+    set -l data "$XDG_DATA_HOME"
+    string match -q '/*' -- $data; or set data "$HOME/.local/share"
+    for file in $data/terrane/*.sqlite
+        string replace -r '.*/(.*)\.sqlite$' '$1' -- $file
+    end
+end
+)";
+
 }  // namespace
 
 std::string bashCompletion(const Commands& commands) {
-    std::string script = R"(# bash completion for terrane, made by: terrane completion bash
-_terrane_words() { mapfile -t COMPREPLY < <(compgen -W "$1" -- "$cur"); }
-_terrane_files() { compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen "$1" -- "$cur"); }
-_terrane() {
+    std::string script(kBashBegin);
+    script += R"(_terrane() {
     local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command=)";
     script += kDefaultCommand;
     script += R"( more=
@@ -100,8 +140,9 @@ _terrane() {
     }
     script += "    esac\n    case $command in\n";
     for (const CommandListEntry& command : commands) {
+        const FlagEntry* plain = plainArgument(command);
         const std::string files =
-            takesPlainFiles(command) ? "if [[ $cur != -* ]]; then _terrane_files -f; return; fi; " : "";
+            plain ? fmt::format("if [[ $cur != -* ]]; then {}; return; fi; ", bashValues(*plain)) : "";
         script += fmt::format("        {}) {}_terrane_words \"$more {}\" ;;\n", command.name, files,
                               joined(namesOf(command)));
     }
@@ -109,9 +150,8 @@ _terrane() {
 }
 
 std::string zshCompletion(const Commands& commands) {
-    std::string script = R"(#compdef terrane
-# zsh completion for terrane, made by: terrane completion zsh
-_terrane() {
+    std::string script(kZshBegin);
+    script += R"(_terrane() {
     local command=)";
     script += kDefaultCommand;
     script += "\n    local -a commands=(\n";
@@ -145,8 +185,8 @@ _terrane() {
 }
 
 std::string fishCompletion(const Commands& commands) {
-    std::string script =
-        "# fish completion for terrane, made by: terrane completion fish\ncomplete -c terrane -f\n";
+    std::string script(kFishBegin);
+    script += "complete -c terrane -f\n";
     const std::string names = joined(commandNames(commands));
     const std::string none = fmt::format("not __fish_seen_subcommand_from {}", names);
     script += fmt::format("complete -c terrane -n {} -l version -d 'Print the version'\n", inQuotes(none));
@@ -161,6 +201,9 @@ std::string fishCompletion(const Commands& commands) {
         for (const FlagEntry& flag : command.flags) {
             if (!flag.names.empty()) {
                 script += fishFlag(flag, condition);
+            } else if (flag.takesWorld()) {
+                script += fmt::format("complete -c terrane -n {} -F -a '(__terrane_worlds)'\n",
+                                      inQuotes(condition));
             } else if (flag.takesFile()) {
                 script += fmt::format("complete -c terrane -n {} -F\n", inQuotes(condition));
             } else {

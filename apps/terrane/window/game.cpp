@@ -6,17 +6,11 @@
 #include <chrono>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
-#include <glm/geometric.hpp>
 #include <thread>
 
-#include "apps/terrane/window/container_panel.h"
-#include "apps/terrane/window/loading_map.h"
-#include "apps/terrane/window/overlay.h"
-#include "apps/terrane/window/panel.h"
 #include "terrane/base/log.h"
-#include "terrane/base/process_statistics.h"
 #include "terrane/content/resource_pack.h"
-#include "terrane/game/container.h"
+#include "terrane/game/spawn.h"
 #include "terrane/gpu/framebuffer.h"
 #include "terrane/view/camera_pose.h"
 
@@ -91,13 +85,24 @@ void Game::advance(double seconds) {
     messageSeconds_ -= seconds;
     session.clock.dayMinutes = settings_.dayMinutes;
     onPad(seconds);
-    player_.move(session.world(), session.blocks(), moveKeys(), seconds);
+    const double gameSeconds = isInMenu() ? 0 : seconds;
+    player_.move(session.world(), session.blocks(), moveKeys(), gameSeconds);
+    liftFromBelow();
     session.setPlayer(game::kLocalPlayer, player_.pose());
     interaction_.act(session, game::kLocalPlayer, player_, seconds);
-    session.advance(seconds, world::chunkOf(player_.pose().position));
+    session.advance(gameSeconds, world::chunkOf(player_.pose().position));
     game::savePlayer(session.store(), playerState(), saved_);
     parts_.view.setHorizon({settings_.graphics.horizon, settings_.graphics.detail});
     parts_.view.follow(camera(), settings_.graphics.viewDistance);
+}
+
+// A player on foot who is below the world would fall for ever.
+void Game::liftFromBelow() {
+    if (settings_.movement == game::Movement::Fast || settings_.movement == game::Movement::Medium) return;
+    const auto lifted = game::backOnSurface(parts_.session.world(), parts_.session.blocks(), player_.pose());
+    if (!lifted) return;
+    player_.placeAt(*lifted, settings_.movement);
+    say("you were below the world, and are back on the ground");
 }
 
 // What changed since the last frame; the renderer sees to its own options with the frame's size.
@@ -170,95 +175,6 @@ render::FrameInput Game::frameInput() const {
         input.waterAbove = 0;
     }
     return input;
-}
-
-// To the sun or moon; none where there are no shadows.
-std::optional<glm::vec3> Game::shadowLight() const {
-    const render::RenderOptions& options = parts_.renderer.options();
-    if (options.shadows == render::ShadowReach::Off || options.shading == render::Shading::Off)
-        return std::nullopt;
-    return world::environmentAt(static_cast<float>(parts_.session.clock.timeDay)).lightDirection;
-}
-
-void Game::drawInterface() {
-    game::Session& session = parts_.session;
-    const stream::Progress progress = session.pipeline().progress();
-    imgui_.beginFrame(isCaptured_);
-    const Screen screen{imgui_.size().x, imgui_.size().y};
-    const render::Camera camera = this->camera();
-    if (isAbove_) {
-        const int viewDistance = parts_.view.viewDistance();
-        drawDebugTopView(screen, debugTopCamera(camera, viewDistance), camera,
-                         view::fogDistance(viewDistance), shadowLight());
-    } else if (const auto& target = interaction_.target()) {
-        drawTarget(screen, camera, *target, session.world(), session.blocks());
-    }
-    if (isCaptured_ && !isAbove_) drawCrosshair(screen);
-    drawHand(screen, session.blocks().type(interaction_.block()).name,
-             hasWorldImage() ? parts_.preview.image(interaction_.block()) : 0);
-    if (hintSeconds_ > 0) drawHint(screen, static_cast<float>(std::min(hintSeconds_, 1.0)));
-    if (messageSeconds_ > 0)
-        drawMessage(screen, message_, static_cast<float>(std::min(messageSeconds_, 1.0)));
-    if (!progress.complete()) drawProgress(screen, progress);
-    if (showsLoading_) drawLoadingMap(screen, session.pipeline(), session.tiles().table());
-    if (showsPanel_) drawStatistics(statistics());
-    if (showsPanel_) drawPanel(settings_, session.clock, {isSoftwareRenderer_, screen.width, screen.height});
-    if (container_) drawOpenContainer(screen);
-    const store::SaveStatus status = session.store().status();
-    if (!asksToQuit_) {
-        drawSaveNotice(screen, status);
-    } else if (const auto choice = drawQuitDialog(screen, status)) {
-        answerQuitDialog(*choice);
-    }
-    imgui_.endFrame();
-}
-
-// A chest that is gone or out of reach closes.
-void Game::drawOpenContainer(const Screen& screen) {
-    game::Session& session = parts_.session;
-    const glm::dvec3 middle(container_->x + 0.5, container_->y + 0.5, container_->z + 0.5);
-    const bool isNear = glm::distance(middle, player_.pose().position) <= game::kReach + 1;
-    if (!isNear || !game::isContainer(session.world(), session.blocks(), *container_))
-        return closeContainer();
-    auto items = game::itemsOf(session.world(), session.blocks(), *container_);
-    if (!items) {
-        say(items.error().message);
-        return closeContainer();
-    }
-    const auto image = [&](const std::string& item) {
-        const world::BlockType* kind = session.blocks().find(item);
-        return kind ? parts_.preview.image(kind->id) : 0;
-    };
-    const auto click = drawContainer(screen, *items, image);
-    world::BlockId inHand = interaction_.block();
-    if (!click || !game::clickSlot(*items, session.blocks(), *click, inHand)) return;
-    interaction_.choose(inHand);
-    game::putItems(session, game::kLocalPlayer, *container_, *items);
-}
-
-MemoryStatistics Game::memoryStatistics() const {
-    return {.blocks = parts_.session.world().memoryBytes(),
-            .light = parts_.session.pipeline().lightBytes(),
-            .quads = parts_.renderer.quadBytes(),
-            .lightOnGpu = parts_.renderer.lightBytes(),
-            .onGpu = parts_.renderer.memory().total(),
-            .gpuBudget = parts_.renderer.memoryBudget(),
-            .resident = base::residentBytes()};
-}
-
-Statistics Game::statistics() {
-    const game::Session& session = parts_.session;
-    return {.frames = &meter_,
-            .camera = camera(),
-            .timeDay = parts_.session.clock.timeDay,
-            .progress = session.pipeline().progress(),
-            .tiles = &session.tiles().table(),
-            .activeChunks = session.world().chunkCount(),
-            .queuedChunks = session.pipeline().queuedCount() + parts_.view.waiting(),
-            .frame = parts_.renderer.statistics(),
-            .memory = memory_.at(seconds_, [&] { return memoryStatistics(); }),
-            .tasks = session.taskTimes(),
-            .passes = &parts_.renderer.passTimes()};
 }
 
 game::PlayerState Game::playerState() const {

@@ -6,6 +6,7 @@
 
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/pad_reader.h"
+#include "apps/terrane/window/pause_menu.h"
 #include "apps/terrane/window/perf_log.h"
 #include "apps/terrane/window/play_settings.h"
 #include "apps/terrane/window/preset_measurement.h"
@@ -66,9 +67,15 @@ class Game {
     void onKey(Key key);
     void onPad(double seconds);
     void onButton(MouseButton button, bool isPress);
+    bool useTarget();
     bool openContainer();
     void closeContainer();
     void capture(bool isCaptured);
+    void closeOne();
+    void pause();
+    void resume();
+    void answerPauseMenu(PauseChoice choice);
+    bool isInMenu() const { return isPaused_ || asksToQuit_; }
     void saveBookmark();
     void nextBookmark();
     void takeScreenshot();
@@ -79,6 +86,7 @@ class Game {
     render::Camera camera() const;
     base::Result<void> drawFrames();
     void advance(double seconds);
+    void liftFromBelow();
     void applySettings();
     base::Result<void> useResourcePack(const std::string& folder);
     void reloadWrittenShaders();
@@ -123,7 +131,8 @@ class Game {
     std::string deviceName_, presetMessage_;
 
     bool isCaptured_ = false, showsPanel_ = false, isAbove_ = false, showsLoading_ = false;
-    bool asksToQuit_ = false, quitsUnsaved_ = false;
+    bool isPaused_ = false, asksToQuit_ = false, quitsUnsaved_ = false;
+    bool wasComplete_ = false;  // all in view has been there once
     double hintSeconds_ = 12, messageSeconds_ = 0;
     std::string message_;
     std::size_t nextBookmark_ = 0, frames_ = 0;

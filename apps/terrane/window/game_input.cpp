@@ -41,7 +41,7 @@ void Game::handleEvents() {
                 onButton(event.button, event.type == Type::ButtonPress);
                 break;
             case Type::Wheel:
-                if (isCaptured_) interaction_.choose(event.y > 0 ? -1 : 1);
+                if (isCaptured_ || container_) interaction_.choose(event.y > 0 ? -1 : 1);
                 break;
             case Type::CursorMove:
                 if (!wasCaptured || !isCaptured_) break;
@@ -53,10 +53,15 @@ void Game::handleEvents() {
 
 void Game::onKey(Key key) {
     if (imgui_.takesKeys()) return;  // Escape ends the typing
+    // What opens nothing is for the game, which stands still in a menu.
+    const bool isForMenu = key == Key::Escape || key == Key::Q || (key >= Key::F1 && key <= Key::F12);
+    if ((isInMenu() || container_) && !isForMenu) return;
     switch (key) {
         case Key::Escape:
-            if (asksToQuit_) return answerQuitDialog(QuitChoice::Stay);
-            return container_ ? closeContainer() : parts_.window.requestClose();
+            return closeOne();
+        case Key::Q:
+            if (isPaused_) parts_.window.requestClose();
+            break;
         case Key::F1:
             hintSeconds_ = hintSeconds_ > 0 ? 0 : 20;
             break;
@@ -103,6 +108,44 @@ void Game::onKey(Key key) {
     }
 }
 
+// One press of Escape closes one thing, the last that opened; where nothing is open the game pauses.
+void Game::closeOne() {
+    if (imgui_.hasPopup()) return imgui_.endTyping();
+    if (asksToQuit_) return answerQuitDialog(QuitChoice::Stay);
+    if (container_) return closeContainer();
+    if (showsPanel_) {
+        showsPanel_ = false;
+        if (!isPaused_) capture(true);
+        return;
+    }
+    isPaused_ ? resume() : pause();
+}
+
+void Game::pause() {
+    isPaused_ = true;
+    capture(false);
+}
+
+void Game::resume() {
+    isPaused_ = false;
+    capture(true);
+}
+
+void Game::answerPauseMenu(PauseChoice choice) {
+    switch (choice) {
+        case PauseChoice::Resume:
+            return resume();
+        case PauseChoice::Settings:
+            showsPanel_ = !showsPanel_;
+            return;
+        case PauseChoice::Help:
+            hintSeconds_ = 20;
+            return;
+        case PauseChoice::Quit:
+            return parts_.window.requestClose();
+    }
+}
+
 void Game::nextMovement() {
     const auto words = movementNames();
     const std::size_t next = (static_cast<std::size_t>(settings_.movement) + 1) % words.size();
@@ -113,6 +156,8 @@ void Game::nextMovement() {
 // The sticks move and turn, as moveKeys() and this see them; buttons do what keys and the mouse do.
 void Game::onPad(double seconds) {
     pad_.read(parts_.window.gamepad());
+    if (pad_.isPressed(&Gamepad::start)) closeOne();
+    if (isInMenu() || container_) return;
     player_.turn(double{pad_.now().rightX} * kStickDegrees * seconds,
                  -double{pad_.now().rightY} * kStickDegrees * seconds);
     pad_.drive(interaction_.breaking, &Gamepad::rightTrigger);
@@ -134,18 +179,23 @@ void Game::onButton(MouseButton button, bool isPress) {
     }
     if (button == MouseButton::Middle) {
         // The middle button turns mouse look on and off, wherever the cursor is.
-        return capture(!isCaptured_);
+        if (!isInMenu() && !container_) capture(!isCaptured_);
+        return;
     }
-    if (isCaptured_ && button == MouseButton::Right && openContainer()) return;
+    if (isCaptured_ && button == MouseButton::Right && useTarget()) return;
     if (isCaptured_) return held->press();
-    if (!imgui_.takesMouse()) capture(true);
+    if (!imgui_.takesMouse() && !isInMenu() && !container_) capture(true);
 }
 
-// That which is looked at, unless one runs: then one builds against it.
+// What is looked at, unless the player runs: then it builds against that.
+bool Game::useTarget() {
+    if (parts_.window.keyDown(Key::Shift)) return false;
+    return openContainer() || interaction_.use(parts_.session, game::kLocalPlayer);
+}
+
 bool Game::openContainer() {
     const auto& target = interaction_.target();
-    if (!target || parts_.window.keyDown(Key::Shift) ||
-        !game::isContainer(parts_.session.world(), parts_.session.blocks(), target->block)) {
+    if (!target || !game::isContainer(parts_.session.world(), parts_.session.blocks(), target->block)) {
         return false;
     }
     container_ = target->block;
@@ -195,6 +245,7 @@ void Game::takeScreenshot() {
 }
 
 game::MoveKeys Game::moveKeys() const {
+    if (isInMenu() || container_) return {};
     const Gamepad& pad = pad_.now();
     const bool isTyping = imgui_.takesKeys(), walks = settings_.movement == game::Movement::Gravity;
     const auto isDown = [&](Key key) { return !isTyping && parts_.window.keyDown(key); };

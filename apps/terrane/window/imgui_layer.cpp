@@ -54,8 +54,10 @@ ImguiLayer::~ImguiLayer() {
     ImGui::DestroyContext();
 }
 
-void ImguiLayer::beginFrame(bool isCursorCaptured) {
+void ImguiLayer::beginFrame(bool isCursorCaptured, bool isInMenu) {
     ImGuiIO& io = ImGui::GetIO();
+    constexpr int kNavigation = ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad;
+    io.ConfigFlags = isInMenu ? io.ConfigFlags | kNavigation : io.ConfigFlags & ~kNavigation;
     if (isCursorCaptured) {
         io.ConfigFlags |= ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange;
     } else {
@@ -95,6 +97,10 @@ bool ImguiLayer::takesMouse() const {
 
 bool ImguiLayer::takesKeys() const {
     return ImGui::GetIO().WantTextInput;
+}
+
+bool ImguiLayer::hasPopup() const {
+    return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup);
 }
 
 void ImguiLayer::endTyping() {

@@ -15,8 +15,8 @@ class ImguiLayer {
     ImguiLayer(const ImguiLayer&) = delete;
     ImguiLayer& operator=(const ImguiLayer&) = delete;
 
-    // While the cursor is captured the mouse belongs to the game.
-    void beginFrame(bool isCursorCaptured);
+    // While the cursor is captured the mouse belongs to the game; in a menu keys and gamepad choose.
+    void beginFrame(bool isCursorCaptured, bool isInMenu);
     // Of the window in the units in which Dear ImGui and the cursor count: the pixels of its framebuffer on
     // some systems, fewer on others. Since beginFrame().
     glm::vec2 size() const;
@@ -25,7 +25,8 @@ class ImguiLayer {
 
     bool takesMouse() const;  // the cursor is over something of the user interface
     bool takesKeys() const;   // a text is being typed
-    void endTyping();
+    bool hasPopup() const;    // a list or menu is open
+    void endTyping();         // closes what is open, too
 
   private:
     struct Scale {

@@ -37,6 +37,7 @@ struct Gamepad {
     bool leftBumper = false, rightBumper = false;
     bool leftTrigger = false, rightTrigger = false;
     bool up = false, down = false;
+    bool start = false;
 };
 
 }  // namespace terrane::app

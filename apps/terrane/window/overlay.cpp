@@ -10,9 +10,11 @@
 #include <glm/trigonometric.hpp>
 
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/key_help.h"
 #include "terrane/base/process_statistics.h"
 #include "terrane/game/block_interaction.h"
 #include "terrane/render/shadow_volume.h"
+#include "terrane/world/block_model.h"
 
 namespace terrane::app {
 namespace {
@@ -65,8 +67,9 @@ void drawTarget(const Screen& screen, const render::Camera& camera, const world:
     const world::BlockType& type = blocks.type(world.block(target.block));
     constexpr double kGrow = 1.0 / 256;  // outside of the block's own faces
     const glm::dvec3 corner(target.block.x, target.block.y, target.block.z);
-    const glm::dvec3 min = corner + glm::dvec3(type.selection.min) - kGrow;
-    const glm::dvec3 max = corner + glm::dvec3(type.selection.max) + kGrow;
+    const world::Box box = world::selectionBounds(type, world.blockState(target.block));
+    const glm::dvec3 min = corner + glm::dvec3(box.min) - kGrow;
+    const glm::dvec3 max = corner + glm::dvec3(box.max) + kGrow;
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     for (int face = 0; face < world::kFaceCount; ++face) {
         const int axis = face / 2;
@@ -141,10 +144,11 @@ void drawHand(const Screen& screen, const std::string& name, unsigned image) {
     ImGui::End();
 }
 
-void drawStatistics(const Statistics& f) {
+void drawStatistics(const Statistics& f, float width) {
     ImGui::SetNextWindowPos({10 * uiScale(), 10 * uiScale()});
     ImGui::SetNextWindowBgAlpha(0.5f);
     ImGui::Begin("statistics", nullptr, kBare);
+    ImGui::PushTextWrapPos(width);
     const glm::dvec3& p = f.camera.position;
     ImGui::Text("%.1f frames/s (%.1f to %.1f), %d in the last second", f.frames->now(), f.frames->min(),
                 f.frames->max(), f.frames->lastSecond());
@@ -167,6 +171,7 @@ void drawStatistics(const Statistics& f) {
     }
     for (const gpu::GpuTiming& pass : *f.passes)
         ImGui::Text("%s: %.2f ms", pass.name.c_str(), pass.milliseconds);
+    ImGui::PopTextWrapPos();
     ImGui::End();
 }
 
@@ -181,11 +186,10 @@ void drawProgress(const Screen& screen, const stream::Progress& progress) {
 
 void drawHint(const Screen& screen, float share) {
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, share);
-    centered("hint", screen, screen.height * 0.3f);
-    ImGui::TextUnformatted(
-        "click: look around    W A S D: move    Space: jump    Shift: run\n"
-        "left button: break    right button: build, open a chest    wheel: choose a block\n"
-        "F1: this help    F2: settings and statistics    M: way to move    Esc: quit");
+    centered("hint", screen, screen.height * 0.35f);
+    ImGui::PushTextWrapPos(screen.width - 40 * uiScale());
+    ImGui::TextUnformatted(kKeyHelp);
+    ImGui::PopTextWrapPos();
     ImGui::End();
     ImGui::PopStyleVar();
 }
@@ -194,8 +198,10 @@ void drawMessage(const Screen& screen, const std::string& message, float share) 
     const ImVec2 size = ImGui::CalcTextSize(message.c_str());
     // Long messages begin where they can be read.
     const ImVec2 at(std::max(0.0f, (screen.width - size.x) / 2), screen.height * 0.75f);
+    const float margin = 6 * uiScale();
     ImDrawList& draw = *ImGui::GetForegroundDrawList();
-    draw.AddText({at.x + uiScale(), at.y + uiScale()}, withAlpha(0, 0, 0, share), message.c_str());
+    draw.AddRectFilled({at.x - margin, at.y - margin}, {at.x + size.x + margin, at.y + size.y + margin},
+                       withAlpha(10, 12, 16, 0.7f * share), margin);
     draw.AddText(at, withAlpha(255, 255, 255, share), message.c_str());
 }
 

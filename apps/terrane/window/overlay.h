@@ -53,7 +53,8 @@ struct Statistics {
     std::vector<stream::TaskTime> tasks;
     const std::vector<gpu::GpuTiming>* passes = nullptr;
 };
-void drawStatistics(const Statistics& statistics);
+// `width`: of the column at the left in which they are written.
+void drawStatistics(const Statistics& statistics, float width);
 
 // While chunks in view are missing.
 void drawProgress(const Screen& screen, const stream::Progress& progress);

@@ -103,8 +103,12 @@ void drawPlayer(PlaySettings& s, game::DayClock& day) {
 
 }  // namespace
 
+float panelWidth() {
+    return 280 * uiScale();
+}
+
 void drawPanel(PlaySettings& settings, game::DayClock& day, const PanelInput& input) {
-    const float scale = uiScale(), width = 280 * scale, margin = 10 * scale;
+    const float scale = uiScale(), width = panelWidth(), margin = 10 * scale;
     ImGui::SetNextWindowPos({input.width - width - margin, margin});
     ImGui::SetNextWindowSize({width, 0});
     ImGui::SetNextWindowSizeConstraints({width, 0}, {width, input.height - 2 * margin});

@@ -11,6 +11,7 @@ struct PanelInput {
     float width = 0, height = 0;  // of the window
 };
 
+float panelWidth();  // at the right of the screen; during a frame
 void drawPanel(PlaySettings& settings, game::DayClock& day, const PanelInput& input);
 
 }  // namespace terrane::app

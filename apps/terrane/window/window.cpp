@@ -215,8 +215,7 @@ glm::ivec2 Window::framebufferSize() const {
 }
 
 float Window::contentScale() const {
-    float scaleX = 1.0F;
-    float scaleY = 1.0F;
+    float scaleX = 1.0F, scaleY = 1.0F;
     glfwGetWindowContentScale(state_->window, &scaleX, &scaleY);
     return scaleX;
 }
@@ -276,7 +275,8 @@ std::optional<Gamepad> Window::gamepad() const {
                    state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER] > 0,
                    state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] > 0,
                    isDown(GLFW_GAMEPAD_BUTTON_DPAD_UP),
-                   isDown(GLFW_GAMEPAD_BUTTON_DPAD_DOWN)};
+                   isDown(GLFW_GAMEPAD_BUTTON_DPAD_DOWN),
+                   isDown(GLFW_GAMEPAD_BUTTON_START)};
 }
 
 void Window::setCursorCaptured(bool captured) {

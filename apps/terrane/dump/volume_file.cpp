@@ -1,0 +1,56 @@
+#include "apps/terrane/dump/volume_file.h"
+
+#include <bit>
+#include <vector>
+
+#include "terrane/base/npy.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr std::uint64_t kColumnBytes = world::kChunkHeight * sizeof(std::uint16_t);
+constexpr std::uint64_t kChunkBytes = world::kChunkSize * world::kChunkSize * kColumnBytes;  // 128 KiB
+
+static_assert(std::endian::native == std::endian::little, "values are written as they lie in memory");
+
+std::size_t blocksOver(std::int32_t first, std::int32_t end) {
+    return static_cast<std::size_t>(std::int64_t{end} - first) * world::kChunkSize;
+}
+
+}  // namespace
+
+base::Result<VolumeFile> VolumeFile::create(const std::filesystem::path& path, const world::ChunkArea& area) {
+    constexpr auto kMaxChunks = static_cast<std::int64_t>(INT64_MAX / kChunkBytes) - 1;
+    if (area.chunkCount() > kMaxChunks)
+        return base::fail("--area: {} chunks are more than a file can have", area.chunkCount());
+    const std::string header = base::npyHeader(
+        "<u2", {blocksOver(area.x0, area.x1), blocksOver(area.y0, area.y1), world::kChunkHeight});
+    auto file = base::OutputFile::create(path);
+    if (!file) return tl::unexpected(file.error());
+    const std::uint64_t sizeBytes =
+        header.size() + static_cast<std::uint64_t>(area.chunkCount()) * kChunkBytes;
+    if (auto reserved = file->reserve(sizeBytes); !reserved) return tl::unexpected(reserved.error());
+    if (auto written = file->write(0, header); !written) return tl::unexpected(written.error());
+    return VolumeFile(std::move(*file), area, header.size());
+}
+
+// The columns of one x are a piece of the file.
+base::Result<void> VolumeFile::write(const world::ChunkArea& square, const ColumnOf& columnOf) {
+    const std::size_t sizeX = blocksOver(square.x0, square.x1), sizeY = blocksOver(square.y0, square.y1);
+    const std::size_t areaSizeY = blocksOver(area_.y0, area_.y1);
+    const std::size_t firstX = blocksOver(area_.x0, square.x0), firstY = blocksOver(area_.y0, square.y0);
+    std::vector<std::uint16_t> values(sizeY * world::kChunkHeight);
+    for (std::size_t x = 0; x < sizeX; ++x) {
+        for (std::size_t y = 0; y < sizeY; ++y) {
+            const auto column = std::span(values).subspan(y * world::kChunkHeight);
+            columnOf(static_cast<int>(x), static_cast<int>(y), column.first<world::kChunkHeight>());
+        }
+        const std::uint64_t offset = headerBytes_ + ((firstX + x) * areaSizeY + firstY) * kColumnBytes;
+        const std::string_view bytes(reinterpret_cast<const char*>(values.data()),
+                                     values.size() * sizeof(std::uint16_t));
+        if (auto written = file_.write(offset, bytes); !written) return written;
+    }
+    return {};
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,32 @@
+// A NumPy file of one value a block of an area, uint16 [x, y, z], written square by square. One thread.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "terrane/base/output_file.h"
+#include "terrane/world/coords.h"
+
+namespace terrane::app {
+
+class VolumeFile {
+  public:
+    // Fails where the whole volume does not fit the disk.
+    static base::Result<VolumeFile> create(const std::filesystem::path& path, const world::ChunkArea& area);
+
+    // The 256 values of a column from below; x and y count from the square's first block.
+    using ColumnOf = std::function<void(int x, int y, std::span<std::uint16_t, world::kChunkHeight> values)>;
+    base::Result<void> write(const world::ChunkArea& square, const ColumnOf& columnOf);
+
+    base::Result<void> finish() { return file_.finish(); }
+
+  private:
+    VolumeFile(base::OutputFile file, const world::ChunkArea& area, std::size_t headerBytes)
+        : file_(std::move(file)), area_(area), headerBytes_(headerBytes) {}
+
+    base::OutputFile file_;
+    world::ChunkArea area_;
+    std::size_t headerBytes_;
+};
+
+}  // namespace terrane::app

@@ -1,0 +1,19 @@
+// The keys, as the help of `terrane play` and the window tell them.
+#pragma once
+
+namespace terrane::app {
+
+constexpr const char* kKeyHelp =
+    R"(  click, middle button    look around with the mouse; the middle button gives the cursor back
+  W A S D, Space, Shift   walk, jump, run; E, Q: up, down where one flies or swims
+  left, right button      break a block; build one, open a door or a chest (Shift: build against it)
+  wheel                   choose the block
+  M                       how one moves: on foot, fast or slowly through everything, not through walls
+  O, P, I                 time of day back, forth; let it pass or stand still
+  F1, F2                  these keys; settings and statistics
+  F3, F4                  debug top view; a map of how far chunks are
+  F5, F6                  save a bookmark, go to the next one
+  F11, F12, L             full screen; screenshot; light classic or smooth
+  Esc                     close what is open, else the menu: settings, save and quit)";
+
+}  // namespace terrane::app

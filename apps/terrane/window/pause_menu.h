@@ -1,0 +1,16 @@
+// The menu over a game that stands still. Immediate mode: drawn each frame.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "apps/terrane/window/overlay.h"
+
+namespace terrane::app {
+
+enum class PauseChoice : std::uint8_t { Resume, Settings, Help, Quit };
+
+// Nothing until a button is clicked, or chosen with the arrow keys and Enter.
+std::optional<PauseChoice> drawPauseMenu(const Screen& screen);
+
+}  // namespace terrane::app
