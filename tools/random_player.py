@@ -105,7 +105,7 @@ class Player:
                 next_look = time.monotonic() + 1
 
     def close(self):
-        """Esc may end the typing or close a chest first."""
+        """By the menu. Esc may end the typing or close a chest first."""
         for key in self.down:
             self.display.xdotool("keyup", key)
         deadline = time.monotonic() + 2 * HANG_SECONDS
@@ -115,7 +115,7 @@ class Player:
                 raise RuntimeError("the program does not answer")
             self.display.xdotool("windowfocus", self.window, "keydown", "Escape")
             time.sleep(1)
-            self.display.xdotool("keyup", "Escape")
+            self.display.xdotool("keyup", "Escape", "key", "q")  # quits where the menu is open now
             time.sleep(1)
         return self.process.returncode
 
