@@ -30,22 +30,6 @@ world::Placement placementAt(const world::RayHit& target, const world::Ray& ray,
 
 }  // namespace
 
-BlockInteraction::BlockInteraction(const world::BlockRegistry& blocks) {
-    for (const world::BlockType& type : blocks.types()) {
-        if (type.id != world::kAir && type.id != blocks.missing()) kinds_.push_back(type.id);
-    }
-}
-
-void BlockInteraction::choose(int steps) {
-    const int count = static_cast<int>(kinds_.size());
-    chosen_ = static_cast<std::size_t>(((static_cast<int>(chosen_) + steps) % count + count) % count);
-}
-
-void BlockInteraction::choose(world::BlockId kind) {
-    const auto found = std::ranges::find(kinds_, kind);
-    if (found != kinds_.end()) chosen_ = static_cast<std::size_t>(found - kinds_.begin());
-}
-
 bool BlockInteraction::use(Session& session, PlayerId id) {
     if (!target_) return false;
     const world::BlockId there = session.world().block(target_->block);
@@ -54,27 +38,46 @@ bool BlockInteraction::use(Session& session, PlayerId id) {
     return true;
 }
 
-void BlockInteraction::act(Session& session, PlayerId id, const Player& player, double seconds) {
-    const world::World& world = session.world();
+bool BlockInteraction::pick(const Session& session) {
+    if (!target_) return false;
     const world::BlockRegistry& blocks = session.blocks();
+    const world::BlockType* type = &blocks.type(session.world().block(target_->block));
+    constexpr std::string_view kUpperHalf = "_top";  // of a door: the door is taken
+    if (type->name.ends_with(kUpperHalf))
+        type = blocks.find(type->name.substr(0, type->name.size() - kUpperHalf.size()));
+    if (!type || !isBuilt(*type, blocks)) return false;
+    takeInHand(hotbar, type->id);
+    return true;
+}
+
+// Into air and liquids, not into plants and the like.
+std::optional<EditResult> BlockInteraction::build(Session& session, PlayerId id, const Player& player,
+                                                  const world::Ray& ray) const {
+    const world::BlockType& type = session.blocks().type(block());
+    const world::BlockPos pos = world::beside(target_->block, target_->face);
+    const world::BlockId there = session.world().block(pos);
+    const bool isFree = there == world::kAir || session.blocks().type(there).shape == world::Shape::Liquid;
+    const std::uint16_t state = placedState(type, placementAt(*target_, ray, player.pose().yaw));
+    if (block() == world::kAir || !isFree || isInTheWay(type, state, pos, player.body())) return std::nullopt;
+    return session.edit({id, pos, world::SetBlock{block(), state}, there});
+}
+
+std::optional<EditResult> BlockInteraction::act(Session& session, PlayerId id, const Player& player,
+                                                double seconds) {
     const world::Pose& pose = player.pose();
     const world::Ray ray{pose.position, glm::dvec3(world::lookDirection(pose.yaw, pose.pitch))};
-    target_ = world::castRay(world, blocks, ray, kReach);
+    const auto look = [&] { return world::castRay(session.world(), session.blocks(), ray, kReach); };
+    target_ = look();
     const bool breaks = breaking.acts(seconds), builds = building.acts(seconds);
-    if (!target_ || (!breaks && !builds)) return;
-    const world::BlockPos pos = breaks ? target_->block : world::beside(target_->block, target_->face);
-    const world::BlockId there = world.block(pos);
-    if (breaks) {
-        session.edit({id, pos, world::SetBlock{world::kAir}, there});
-    } else {
-        // Into air and liquids, not into plants and the like.
-        const bool isFree = there == world::kAir || blocks.type(there).shape == world::Shape::Liquid;
-        const std::uint16_t state = placedState(blocks.type(block()), placementAt(*target_, ray, pose.yaw));
-        if (isFree && !isInTheWay(blocks.type(block()), state, pos, player.body())) {
-            session.edit({id, pos, world::SetBlock{block(), state}, there});
-        }
-    }
-    target_ = world::castRay(world, blocks, ray, kReach);
+    if (!target_ || (!breaks && !builds)) return std::nullopt;
+    std::optional<EditResult> result;
+    if (breaks)
+        result = session.edit(
+            {id, target_->block, world::SetBlock{world::kAir}, session.world().block(target_->block)});
+    else
+        result = build(session, id, player, ray);
+    target_ = look();
+    return result;
 }
 
 }  // namespace terrane::game

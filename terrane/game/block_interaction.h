@@ -2,9 +2,9 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "terrane/game/held_button.h"
+#include "terrane/game/hotbar.h"
 #include "terrane/game/player.h"
 #include "terrane/game/session.h"
 #include "terrane/world/ray_cast.h"
@@ -13,15 +13,13 @@ namespace terrane::game {
 
 class BlockInteraction {
   public:
-    explicit BlockInteraction(const world::BlockRegistry& blocks);
+    explicit BlockInteraction(const world::BlockRegistry& blocks) : hotbar(firstHotbar(blocks)) {}
 
     HeldButton breaking, building;
 
-    world::BlockId block() const { return kinds_[chosen_]; }
-    // Steps through the kinds of blocks, around in a circle.
-    void choose(int steps);
-    // The kind of a block that is looked at.
-    void choose(world::BlockId kind);
+    Hotbar hotbar;  // its chosen block is built
+
+    world::BlockId block() const { return hotbar.block(); }
 
     // The block that the player looks at and can reach, as of the last act().
     const std::optional<world::RayHit>& target() const { return target_; }
@@ -29,12 +27,17 @@ class BlockInteraction {
     // Uses the block that the player looks at, as a door is opened. False where it cannot be used.
     bool use(Session& session, PlayerId id);
 
-    // Breaks or builds where a button is held, by commands to the session; never into the player.
-    void act(Session& session, PlayerId id, const Player& player, double seconds);
+    // Takes the block that the player looks at in the hand. False where there is none.
+    bool pick(const Session& session);
+
+    // Breaks or builds where a button is held, by commands to the session; never into the player. What became
+    // of the command; nothing where none was sent.
+    std::optional<EditResult> act(Session& session, PlayerId id, const Player& player, double seconds);
 
   private:
-    std::vector<world::BlockId> kinds_;
-    std::size_t chosen_ = 0;
+    std::optional<EditResult> build(Session& session, PlayerId id, const Player& player,
+                                    const world::Ray& ray) const;
+
     std::optional<world::RayHit> target_;
 };
 

@@ -79,7 +79,8 @@ void Player::walk(const world::World& world, const world::BlockRegistry& blocks,
                                       .runs = keys.run,
                                       .jumps = keys.jump || keys.up,
                                       .dives = keys.down,
-                                      .hasGravity = movement_ == Movement::Gravity};
+                                      .hasGravity = movement_ == Movement::Gravity,
+                                      .jumpsByItself = keys.jumpsByItself};
     untilStep_ += seconds;
     for (; untilStep_ >= world::kStepSeconds; untilStep_ -= world::kStepSeconds) {
         before_ = now_;

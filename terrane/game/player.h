@@ -19,6 +19,7 @@ enum class Movement : std::uint8_t {
 struct MoveKeys {
     bool forward = false, back = false, left = false, right = false, up = false, down = false;
     bool jump = false, run = false;
+    bool jumpsByItself = false;  // onto a block that is in the way, on foot
     glm::vec2 stick{0};  // of a gamepad: right, forward
 };
 

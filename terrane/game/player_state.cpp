@@ -10,14 +10,16 @@ namespace terrane::game {
 namespace {
 
 // Names of metadata. The pose is that of the player's camera.
-constexpr std::string_view kPose = "camera", kTime = "time", kHand = "hand";
+constexpr std::string_view kPose = "camera", kTime = "time", kHotbar = "hotbar";
+constexpr std::string_view kFormerHand = "hand";  // one block's name, before there was a hotbar
 
 }  // namespace
 
 SavedPlayer savedPlayer(store::ReadableStore& store) {
     const auto pose = store.metadata(kPose), time = store.metadata(kTime);
     SavedPlayer player;
-    player.hand = store.metadata(kHand);
+    player.hotbar = store.metadata(kHotbar);
+    if (const auto hand = store.metadata(kFormerHand); hand && !player.hotbar) player.hotbar = "0 " + *hand;
     if (pose) player.pose = poseFrom(*pose);
     if (pose && !player.pose)
         base::logWarning("the save's camera is no place and direction in the world: {:?}", *pose);
@@ -30,7 +32,7 @@ SavedPlayer savedPlayer(store::ReadableStore& store) {
 void savePlayer(store::ChunkStore& store, const PlayerState& now, std::optional<PlayerState>& saved) {
     if (!saved || saved->pose != now.pose) store.setMetadata(kPose, textOf(now.pose));
     if (!saved || saved->timeDay != now.timeDay) store.setMetadata(kTime, fmt::format("{:.5f}", now.timeDay));
-    if (!saved || saved->hand != now.hand) store.setMetadata(kHand, now.hand);
+    if (!saved || saved->hotbar != now.hotbar) store.setMetadata(kHotbar, now.hotbar);
     saved = now;
 }
 

@@ -13,7 +13,7 @@ namespace terrane::game {
 struct PlayerState {
     world::Pose pose;
     double timeDay = 0;  // of the world, 0 to 1
-    std::string hand;    // name of the block type in the hand
+    std::string hotbar;  // as textOf(Hotbar) says it
 
     bool operator==(const PlayerState&) const = default;
 };
@@ -22,7 +22,7 @@ struct PlayerState {
 struct SavedPlayer {
     std::optional<world::Pose> pose;
     std::optional<double> timeDay;
-    std::optional<std::string> hand;  // may name a type that this program does not have
+    std::optional<std::string> hotbar;  // any text
 };
 
 SavedPlayer savedPlayer(store::ReadableStore& store);

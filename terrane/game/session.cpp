@@ -76,7 +76,7 @@ EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEd
     if (!canReach(command.player, command.pos)) return EditResult::OutOfReach;
     if (!isLoaded(world_, command.pos)) return EditResult::NotLoaded;
     if (command.expected && *command.expected != world_.block(command.pos)) return EditResult::Conflict;
-    if (isProtected(command)) return EditResult::Protected;
+    if (const auto refusal = refusalOfBreaking(command)) return *refusal;
     const std::size_t before = edits.size();
     const bool isStep =
         command.player != kNoPlayer && std::holds_alternative<world::SetBlock>(command.change);
@@ -101,9 +101,18 @@ TakenBack Session::takeBack(PlayerId player, HistoryWay way) {
     return result;
 }
 
-bool Session::isProtected(const EditCommand& command) const {
-    return command.player != kNoPlayer && command.pos.z == 0 && world_.block(command.pos) != world::kAir &&
-           std::holds_alternative<world::SetBlock>(command.change);
+std::optional<EditResult> Session::refusalOfBreaking(const EditCommand& command) const {
+    const world::BlockId there = world_.block(command.pos);
+    const bool isPlayers = command.player != kNoPlayer;
+    if (!isPlayers || there == world::kAir || !std::holds_alternative<world::SetBlock>(command.change))
+        return std::nullopt;
+    if (command.pos.z == 0) return EditResult::Protected;
+    const auto* holder = world::behaviorWith(blocks_->type(there), &world::BlockBehavior::items);
+    if (!holder) return std::nullopt;
+    const auto items = holder->items(world_, *blocks_, command.pos);
+    const bool isEmpty =
+        items && std::ranges::all_of(*items, [](const world::ItemStack& s) { return s.count == 0; });
+    return isEmpty ? std::nullopt : std::optional(EditResult::NotEmpty);
 }
 
 bool Session::canReach(PlayerId player, world::BlockPos pos) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -87,7 +88,7 @@ class Session {
     EditResult apply(const EditCommand& command, std::vector<world::BlockEdit>& edits,
                      world::BlockRecorder& recorder);
     bool canReach(PlayerId player, world::BlockPos pos) const;
-    bool isProtected(const EditCommand& command) const;
+    std::optional<EditResult> refusalOfBreaking(const EditCommand& command) const;
 
     // They refer to each other: destroyed in reverse order.
     std::unique_ptr<const world::BlockRegistry> blocks_;

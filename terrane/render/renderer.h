@@ -106,6 +106,7 @@ class Renderer {
     std::size_t shadowTriangles(const FrameInput& input) const;
     std::size_t quadBytes() const { return quads_.usedBytes(); }
     std::uint64_t uploadedQuadBytes() const { return quads_.uploadedBytes(); }  // since the beginning
+    const world::TopColors& topColors() const { return topColors_; }            // of the textures in use
     std::size_t lightBytes() const { return light_.usedBytes(); }
     std::size_t chunkCount() const { return std::max(light_.chunkCount(), quads_.chunks().size()); }
     glm::ivec2 size() const { return targets_.size; }

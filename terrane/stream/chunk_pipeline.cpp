@@ -338,6 +338,13 @@ ChunkPtr ChunkPipeline::chunkAt(ChunkPos pos) {
     }
 }
 
+std::optional<light::LightValue> ChunkPipeline::lightAt(world::BlockPos pos) const {
+    if (!world::isInHeight(pos.z)) return std::nullopt;
+    const ChunkRecord* record = findRecord(table_, world::chunkOf(pos));
+    if (!record || !record->light) return std::nullopt;
+    return record->light->at(world::blockIndex(pos));
+}
+
 std::size_t ChunkPipeline::queuedCount() const {
     return countOf(table_, ChunkStage::Loading) + countOf(table_, ChunkStage::Lighting) + table_.meshJobCount;
 }

@@ -69,6 +69,8 @@ class ChunkPipeline {
 
     // None where the chunk is absent.
     std::optional<ChunkStage> stageAt(world::ChunkPos pos) const { return stream::stageAt(table_, pos); }
+    // The light in a block; none where its chunk is not visible, above and below the world.
+    std::optional<light::LightValue> lightAt(world::BlockPos pos) const;
     std::vector<TaskTime> taskTimes() const { return workers_.taskTimes(); }
     std::size_t queuedCount() const;  // chunks that are loaded, lit or meshed now
     Progress progress() const;

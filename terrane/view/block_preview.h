@@ -1,5 +1,5 @@
 // Lit images of single blocks, for the corner that shows what is in the hand and for slots of chests. Each
-// is drawn once and kept: 83 KB a kind of block. Used on the thread of the OpenGL context.
+// is drawn once and kept: 83 KB a kind of block, 16 MB for all. Used on the thread of the OpenGL context.
 #pragma once
 
 #include <map>
@@ -13,6 +13,7 @@ namespace terrane::view {
 class BlockPreview {
   public:
     static constexpr int kSize = 144;  // pixels
+    static constexpr int kImagesAFrame = 2;
     static render::RenderOptions options();
 
     // `shaders` and `blocks` outlive this.
@@ -23,8 +24,10 @@ class BlockPreview {
     base::Result<void> setTextures(const render::TextureSource& textures);
     base::Result<void> reloadShaders();  // of images as they are asked for from then on
 
-    // The OpenGL texture with the block's image. Its rows run from below.
+    // The OpenGL texture with the block's image. Its rows run from below. 0 where it was not drawn yet and
+    // kImagesAFrame were drawn since beginFrame(): it comes with a later frame.
     unsigned image(world::BlockId block);
+    void beginFrame() { drawnInFrame_ = 0; }
 
   private:
     BlockPreview(const world::BlockRegistry& blocks, render::Renderer renderer)
@@ -34,6 +37,7 @@ class BlockPreview {
     const world::BlockRegistry* blocks_;
     render::Renderer renderer_;
     std::map<world::BlockId, gpu::Texture2D> images_;
+    int drawnInFrame_ = 0;
 };
 
 }  // namespace terrane::view

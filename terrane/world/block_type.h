@@ -98,6 +98,7 @@ struct BlockType {
     bool selectable = true;                  // false: rays pass (air, water)
     bool generated = true;                   // appears in generated terrain (else placed only)
     bool climbable = false;                  // who stands in it climbs
+    std::string group;                       // of the palette of blocks
     // What it does (block_behavior.h), in the order in which they are called.
     std::vector<std::shared_ptr<const BlockBehavior>> behaviors;
     int slots = 0;  // of the behavior container: stacks of items it holds

@@ -28,7 +28,7 @@ TEST_F(BlockInteractionTest, BreaksTheBlockThatIsLookedAt) {
 }
 
 TEST_F(BlockInteractionTest, BuildsOnTheFaceThatIsLookedAt) {
-    interaction_.choose(contentBlock("sand"));
+    takeInHand(interaction_.hotbar, contentBlock("sand"));
     act(interaction_.building);
     EXPECT_EQ(session_.world().block({5, 5, kGroundHeight}), contentBlock("sand"));
 }
@@ -37,7 +37,7 @@ TEST_F(BlockInteractionTest, NeverBuildsIntoThePlayer) {
     player_.placeAt({.position = {5.5, 5.5, kGroundHeight + world::kEyeHeight}, .pitch = -89.9f},
                     Movement::Walls);
     session_.setPlayer(kLocalPlayer, player_.pose());
-    interaction_.choose(contentBlock("stone"));
+    takeInHand(interaction_.hotbar, contentBlock("stone"));
     act(interaction_.building);
     EXPECT_EQ(session_.world().block({5, 5, kGroundHeight}), world::kAir);
 }
@@ -50,12 +50,23 @@ TEST_F(BlockInteractionTest, NothingWithinReachChangesNothing) {
     EXPECT_EQ(session_.world().block({5, 5, kGroundHeight - 1}), contentBlock("stone"));
 }
 
-TEST_F(BlockInteractionTest, ChoosingGoesAroundInACircle) {
-    const world::BlockId first = interaction_.block();
-    interaction_.choose(-1);
-    EXPECT_NE(interaction_.block(), first);
-    interaction_.choose(1);
-    EXPECT_EQ(interaction_.block(), first);
+TEST_F(BlockInteractionTest, PicksTheBlockThatIsLookedAt) {
+    EXPECT_FALSE(interaction_.pick(session_)) << "nothing was looked at yet";
+    act(interaction_.breaking);
+    EXPECT_TRUE(interaction_.pick(session_));
+    EXPECT_EQ(interaction_.block(), contentBlock("stone"));
+}
+
+TEST_F(BlockInteractionTest, TellsWhatBecameOfTheCommand) {
+    EXPECT_EQ(interaction_.act(session_, kLocalPlayer, player_, 0.01), std::nullopt);
+    interaction_.breaking.press();
+    EXPECT_EQ(interaction_.act(session_, kLocalPlayer, player_, 0.01), EditResult::Applied);
+}
+
+TEST_F(BlockInteractionTest, AnEmptySlotBuildsNothing) {
+    interaction_.hotbar.blocks[interaction_.hotbar.chosen] = world::kAir;
+    act(interaction_.building);
+    EXPECT_EQ(session_.world().block({5, 5, kGroundHeight}), world::kAir);
 }
 
 }  // namespace

@@ -7,17 +7,17 @@
 namespace terrane::game {
 namespace {
 
-const PlayerState kState{{{1.5, -2, 80.25}, 30, -5}, 0.625, "lamp"};
+const PlayerState kState{{{1.5, -2, 80.25}, 30, -5}, 0.625, "0 lamp"};
 
 TEST(PlayerState, ComesBack) {
     store::MemoryStore store({1, "flat", 1});
-    EXPECT_FALSE(savedPlayer(store).pose || savedPlayer(store).timeDay || savedPlayer(store).hand);
+    EXPECT_FALSE(savedPlayer(store).pose || savedPlayer(store).timeDay || savedPlayer(store).hotbar);
     std::optional<PlayerState> saved;
     savePlayer(store, kState, saved);
     const SavedPlayer again = savedPlayer(store);
     EXPECT_EQ(again.pose, kState.pose);
     EXPECT_EQ(again.timeDay, kState.timeDay);
-    EXPECT_EQ(again.hand, kState.hand);
+    EXPECT_EQ(again.hotbar, kState.hotbar);
 }
 
 // A player who stands still writes nothing.
@@ -29,10 +29,18 @@ TEST(PlayerState, OnlyWhatChangedIsSaved) {
     savePlayer(store, kState, saved);
     EXPECT_EQ(store.status().queued, all);
     PlayerState other = kState;
-    other.hand = "sand";
+    other.hotbar = "0 sand";
     savePlayer(store, other, saved);
     EXPECT_EQ(store.status().queued, all + 1);
-    EXPECT_EQ(savedPlayer(store).hand, "sand");
+    EXPECT_EQ(savedPlayer(store).hotbar, "0 sand");
+}
+
+TEST(PlayerState, TheHandOfFormerSavesIsTheFirstSlot) {
+    store::MemoryStore store({1, "flat", 1});
+    store.setMetadata("hand", "chest");
+    EXPECT_EQ(savedPlayer(store).hotbar, "0 chest");
+    store.setMetadata("hotbar", "1 sand");
+    EXPECT_EQ(savedPlayer(store).hotbar, "1 sand");
 }
 
 TEST(PlayerState, WhatIsNoneIsLeftOut) {

@@ -1,5 +1,6 @@
 #include "terrane/game/session.h"
 
+#include "terrane/game/container.h"
 #include "terrane/light/light_chunk.h"
 #include "tests/game/session_fixture.h"
 
@@ -33,6 +34,18 @@ TEST_F(SessionTest, PlayersReachEightBlocks) {
     session_.removePlayer(7);
     EXPECT_EQ(session_.edit(put(kOnGround, "air", 7)), EditResult::OutOfReach);
     EXPECT_EQ(session_.world().block(kOnGround), contentBlock("sand"));
+}
+
+TEST_F(SessionTest, AChestIsBrokenOnlyWhenItIsEmpty) {
+    session_.setPlayer(7, {.position = {5.5, 5.5, kGroundHeight + 2.0}});
+    ASSERT_EQ(session_.edit(put(kOnGround, "chest", 7)), EditResult::Applied);
+    world::Inventory items(27);
+    items[3] = {"stone", 2};
+    ASSERT_EQ(putItems(session_, 7, kOnGround, items), EditResult::Applied);
+    EXPECT_EQ(session_.edit(put(kOnGround, "air", 7)), EditResult::NotEmpty);
+    EXPECT_EQ(itemsOf(session_.world(), session_.blocks(), kOnGround).value(), items);
+    ASSERT_EQ(putItems(session_, 7, kOnGround, world::Inventory(27)), EditResult::Applied);
+    EXPECT_EQ(session_.edit(put(kOnGround, "air", 7)), EditResult::Applied);
 }
 
 // It holds all else: who dug through it would fall for ever.

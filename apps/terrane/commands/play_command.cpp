@@ -137,7 +137,7 @@ base::Result<void> play(PlayOptions& options, CLI::App& command) {
     if (!start) return tl::unexpected(start.error());
     session.clock.timeDay = options.time ? *options.time : saved.timeDay.value_or(session.clock.timeDay);
 
-    game.hand = saved.hand.value_or("");
+    game.hotbar = saved.hotbar.value_or("");
     game.settings = settingsOf(options, device.software);
     game.start = *start;
     game.perfData = options.perfData;

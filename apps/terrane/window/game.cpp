@@ -36,8 +36,10 @@ Game::Game(const GameParts& parts, const GameOptions& options)
       perfData_(options.perfData),
       deviceName_(options.deviceName) {
     if (options.measuresPreset) beginMeasurement();
-    if (const world::BlockType* hand = parts_.session.blocks().find(options.hand))
-        interaction_.choose(hand->id);
+    interaction_.hotbar = game::hotbarFrom(options.hotbar, parts_.session.blocks());
+    const store::WorldIdentity& identity = parts_.session.store().identity();
+    hud_.biomes = gen::BiomeMap::create(identity.generator, parts_.session.blocks(), identity.seed);
+    hud_.places = game::savedPlaces(parts_.session.store());
     parts_.session.pipeline().setMeshOptions(settings_.graphics.mesh);
     parts_.renderer.setViewDistance(settings_.graphics.viewDistance);
 }
@@ -89,7 +91,8 @@ void Game::advance(double seconds) {
     player_.move(session.world(), session.blocks(), moveKeys(), gameSeconds);
     liftFromBelow();
     session.setPlayer(game::kLocalPlayer, player_.pose());
-    interaction_.act(session, game::kLocalPlayer, player_, seconds);
+    act(seconds);
+    advanceHud(seconds);
     session.advance(gameSeconds, world::chunkOf(player_.pose().position));
     game::savePlayer(session.store(), playerState(), saved_);
     parts_.view.setHorizon({settings_.graphics.horizon, settings_.graphics.detail});
@@ -149,7 +152,7 @@ base::Result<void> Game::drawFrame(double seconds) {
         gpu::clearWindow(glm::pow(glm::min(sky, 1.0f), glm::vec3(1 / 2.2f)));
         std::this_thread::sleep_for(kCompilePause);
     }
-    drawInterface();
+    drawInterface(seconds);
     parts_.window.swapBuffers();
     ++frames_;
     return {};
@@ -179,7 +182,7 @@ render::FrameInput Game::frameInput() const {
 
 game::PlayerState Game::playerState() const {
     return {player_.pose(), parts_.session.clock.timeDay,
-            parts_.session.blocks().type(interaction_.block()).name};
+            game::textOf(interaction_.hotbar, parts_.session.blocks())};
 }
 
 base::Result<void> Game::save() {

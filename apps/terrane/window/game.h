@@ -4,10 +4,12 @@
 
 #include <string>
 
+#include "apps/terrane/window/hud.h"
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/pad_reader.h"
 #include "apps/terrane/window/pause_menu.h"
 #include "apps/terrane/window/perf_log.h"
+#include "apps/terrane/window/place_overlay.h"
 #include "apps/terrane/window/play_settings.h"
 #include "apps/terrane/window/preset_measurement.h"
 #include "apps/terrane/window/save_notice.h"
@@ -40,7 +42,7 @@ struct GameParts {
 struct GameOptions {
     PlaySettings settings;
     world::Pose start;
-    std::string hand;                  // name of a block type; empty: the first one
+    std::string hotbar;                // as game::textOf() says it; any text
     std::filesystem::path dataFolder;  // for bookmarks and screenshots
     bool isSoftwareRenderer = false;
     std::string deviceName;       // of the graphics driver
@@ -76,6 +78,23 @@ class Game {
     void resume();
     void answerPauseMenu(PauseChoice choice);
     bool isInMenu() const { return isPaused_ || asksToQuit_; }
+    // Keys and buttons are for something other than the game.
+    bool isInDialog() const { return isInMenu() || container_ || hud_.hasDialog(); }
+    void onGameKey(Key key);
+    void onControlKey(Key key);
+    void openPalette();
+    void openPlaces();
+    void takeBack(game::HistoryWay way);
+    void goToSpawn();
+    void act(double seconds);
+    void advanceHud(double seconds);
+    void drawHud(const Screen& screen, const render::Camera& camera, double seconds);
+    void drawPaletteDialog(const Screen& screen);
+    void drawPlacesDialog(const Screen& screen);
+    BlockFace blockFace();
+    glm::vec3 lightOnHand() const;
+    std::string targetText() const;
+    PlaceFacts placeFacts();
     void saveBookmark();
     void nextBookmark();
     void takeScreenshot();
@@ -100,7 +119,7 @@ class Game {
     base::Result<void> configureRenderer(glm::ivec2 size);
     base::Result<void> drawFrame(double seconds);
     render::FrameInput frameInput() const;
-    void drawInterface();
+    void drawInterface(double seconds);
     void drawOpenContainer(const Screen& screen);
     std::optional<glm::vec3> shadowLight() const;
     Statistics statistics();
@@ -116,6 +135,7 @@ class Game {
     ImguiLayer imgui_;
     game::Player player_;
     game::BlockInteraction interaction_;
+    Hud hud_;
     PadReader pad_;
     view::FrameMeter meter_;
     base::TimedValue<MemoryStatistics> memory_{kMemoryPause};

@@ -41,7 +41,7 @@ void Game::handleEvents() {
                 onButton(event.button, event.type == Type::ButtonPress);
                 break;
             case Type::Wheel:
-                if (isCaptured_ || container_) interaction_.choose(event.y > 0 ? -1 : 1);
+                if (isCaptured_ || container_) game::stepSlot(interaction_.hotbar, event.y > 0 ? -1 : 1);
                 break;
             case Type::CursorMove:
                 if (!wasCaptured || !isCaptured_) break;
@@ -55,7 +55,12 @@ void Game::onKey(Key key) {
     if (imgui_.takesKeys()) return;  // Escape ends the typing
     // What opens nothing is for the game, which stands still in a menu.
     const bool isForMenu = key == Key::Escape || key == Key::Q || (key >= Key::F1 && key <= Key::F12);
-    if ((isInMenu() || container_) && !isForMenu) return;
+    if (isInDialog() && !isForMenu && !(hud_.palette.isOpen && key == Key::Tab)) return;
+    if (parts_.window.keyDown(Key::Control)) return onControlKey(key);
+    if (key >= Key::Digit1 && key <= Key::Digit9) {
+        interaction_.hotbar.chosen = static_cast<std::size_t>(key) - static_cast<std::size_t>(Key::Digit1);
+        return;
+    }
     switch (key) {
         case Key::Escape:
             return closeOne();
@@ -79,6 +84,12 @@ void Game::onKey(Key key) {
             return saveBookmark();
         case Key::F6:
             return nextBookmark();
+        case Key::F7:
+            hud_.showsFacts = !hud_.showsFacts;
+            break;
+        case Key::F8:
+            hud_.isHidden = !hud_.isHidden;
+            break;
         case Key::F11:
             settings_.fullScreen = !settings_.fullScreen;
             break;
@@ -104,8 +115,38 @@ void Game::onKey(Key key) {
         case Key::M:
             return nextMovement();
         default:
+            return onGameKey(key);
+    }
+}
+
+void Game::onGameKey(Key key) {
+    switch (key) {
+        case Key::Tab:
+            return openPalette();
+        case Key::N:
+            return openPlaces();
+        case Key::H:
+            return goToSpawn();
+        default:
             break;
     }
+}
+
+void Game::onControlKey(Key key) {
+    const bool isShift = parts_.window.keyDown(Key::Shift);
+    if (key == Key::Z) return takeBack(isShift ? game::HistoryWay::Redo : game::HistoryWay::Undo);
+    if (key == Key::Y) return takeBack(game::HistoryWay::Redo);
+}
+
+void Game::openPalette() {
+    if (hud_.palette.isOpen) return capture(true);
+    capture(false);
+    hud_.palette.open();
+}
+
+void Game::openPlaces() {
+    capture(false);
+    hud_.placesDialog.open();
 }
 
 // One press of Escape closes one thing, the last that opened; where nothing is open the game pauses.
@@ -113,6 +154,7 @@ void Game::closeOne() {
     if (imgui_.hasPopup()) return imgui_.endTyping();
     if (asksToQuit_) return answerQuitDialog(QuitChoice::Stay);
     if (container_) return closeContainer();
+    if (hud_.hasDialog()) return capture(true);
     if (showsPanel_) {
         showsPanel_ = false;
         if (!isPaused_) capture(true);
@@ -157,13 +199,13 @@ void Game::nextMovement() {
 void Game::onPad(double seconds) {
     pad_.read(parts_.window.gamepad());
     if (pad_.isPressed(&Gamepad::start)) closeOne();
-    if (isInMenu() || container_) return;
+    if (isInDialog()) return;
     player_.turn(double{pad_.now().rightX} * kStickDegrees * seconds,
                  -double{pad_.now().rightY} * kStickDegrees * seconds);
     pad_.drive(interaction_.breaking, &Gamepad::rightTrigger);
     pad_.drive(interaction_.building, &Gamepad::leftTrigger);
-    if (pad_.isPressed(&Gamepad::leftBumper)) interaction_.choose(-1);
-    if (pad_.isPressed(&Gamepad::rightBumper)) interaction_.choose(1);
+    if (pad_.isPressed(&Gamepad::leftBumper)) game::stepSlot(interaction_.hotbar, -1);
+    if (pad_.isPressed(&Gamepad::rightBumper)) game::stepSlot(interaction_.hotbar, 1);
     if (pad_.isPressed(&Gamepad::north)) nextMovement();
     if (pad_.isPressed(&Gamepad::up)) parts_.session.clock.shift(kDayStep);
     if (pad_.isPressed(&Gamepad::down)) parts_.session.clock.shift(-kDayStep);
@@ -178,13 +220,15 @@ void Game::onButton(MouseButton button, bool isPress) {
         return;
     }
     if (button == MouseButton::Middle) {
-        // The middle button turns mouse look on and off, wherever the cursor is.
-        if (!isInMenu() && !container_) capture(!isCaptured_);
+        if (isCaptured_)
+            interaction_.pick(parts_.session);
+        else if (!isInDialog())
+            capture(true);
         return;
     }
     if (isCaptured_ && button == MouseButton::Right && useTarget()) return;
     if (isCaptured_) return held->press();
-    if (!imgui_.takesMouse() && !isInMenu() && !container_) capture(true);
+    if (!imgui_.takesMouse() && !isInDialog()) capture(true);
 }
 
 // What is looked at, unless the player runs: then it builds against that.
@@ -213,6 +257,7 @@ void Game::capture(bool isCaptured) {
     if (isCaptured) {
         imgui_.endTyping();
         container_.reset();
+        hud_.closeDialog();
     }
     interaction_.breaking.cancel();
     interaction_.building.cancel();
@@ -240,12 +285,14 @@ void Game::takeScreenshot() {
     std::error_code ignored;  // writing tells
     std::filesystem::create_directories(screenshots_, ignored);
     const std::filesystem::path file = freeScreenshot(screenshots_);
-    const auto done = base::writePng(file, parts_.renderer.readImage());
+    const base::Image image = parts_.renderer.readImage();
+    const auto done = base::writePng(file, image);
+    if (done) hud_.screenshot.show(image);
     say(done ? "screenshot " + file.string() : done.error().message);
 }
 
 game::MoveKeys Game::moveKeys() const {
-    if (isInMenu() || container_) return {};
+    if (isInDialog()) return {};
     const Gamepad& pad = pad_.now();
     const bool isTyping = imgui_.takesKeys(), walks = settings_.movement == game::Movement::Gravity;
     const auto isDown = [&](Key key) { return !isTyping && parts_.window.keyDown(key); };
@@ -257,6 +304,7 @@ game::MoveKeys Game::moveKeys() const {
             .down = isDown(Key::Q) || isDown(Key::Control) || pad.east,
             .jump = isDown(Key::Space) || pad.south,
             .run = (walks && isDown(Key::Shift)) || pad.west,
+            .jumpsByItself = settings_.autoJump,
             .stick = {pad.leftX, pad.leftY}};
 }
 

@@ -21,10 +21,10 @@ std::optional<glm::vec3> Game::shadowLight() const {
     return world::environmentAt(static_cast<float>(parts_.session.clock.timeDay)).lightDirection;
 }
 
-void Game::drawInterface() {
+void Game::drawInterface(double seconds) {
     game::Session& session = parts_.session;
     const stream::Progress progress = session.pipeline().progress();
-    imgui_.beginFrame(isCaptured_, isInMenu());
+    imgui_.beginFrame(isCaptured_, isInMenu() || hud_.hasDialog());
     const Screen screen{imgui_.size().x, imgui_.size().y};
     const render::Camera camera = this->camera();
     if (isAbove_) {
@@ -35,8 +35,7 @@ void Game::drawInterface() {
         drawTarget(screen, camera, *target, session.world(), session.blocks());
     }
     if (isCaptured_ && !isAbove_) drawCrosshair(screen);
-    drawHand(screen, session.blocks().type(interaction_.block()).name,
-             hasWorldImage() ? parts_.preview.image(interaction_.block()) : 0);
+    drawHud(screen, camera, seconds);
     if (hintSeconds_ > 0) drawHint(screen, static_cast<float>(std::min(hintSeconds_, 1.0)));
     if (messageSeconds_ > 0)
         drawMessage(screen, message_, static_cast<float>(std::min(messageSeconds_, 1.0)));
@@ -76,7 +75,7 @@ void Game::drawOpenContainer(const Screen& screen) {
     const auto click = drawContainer(screen, *items, image);
     world::BlockId inHand = interaction_.block();
     if (!click || !game::clickSlot(*items, session.blocks(), *click, inHand)) return;
-    interaction_.choose(inHand);
+    game::takeInHand(interaction_.hotbar, inHand);
     game::putItems(session, game::kLocalPlayer, *container_, *items);
 }
 

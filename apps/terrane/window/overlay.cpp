@@ -27,18 +27,11 @@ ImU32 withAlpha(int red, int green, int blue, float alpha) {
     return IM_COL32(red, green, blue, static_cast<int>(255 * glm::clamp(alpha, 0.0f, 1.0f)));
 }
 
-// Where a point of the world is on the screen; none behind the camera.
-std::optional<ImVec2> projected(const Screen& screen, const render::Camera& camera, glm::dvec3 point) {
-    const world::ChunkPos chunk = render::cameraChunk(camera);
-    const glm::dvec3 corner(16.0 * chunk.x, 16.0 * chunk.y, 0);
-    const render::ViewMatrices view = render::viewMatrices(camera, screen.width / screen.height);
-    const glm::vec4 clip = view.viewProjection * glm::vec4(glm::vec3(point - corner), 1.0f);
-    if (clip.w <= render::kNearPlane) return std::nullopt;
-    return ImVec2((clip.x / clip.w * 0.5f + 0.5f) * screen.width,
-                  (0.5f - clip.y / clip.w * 0.5f) * screen.height);
-}
+using Corners = std::array<std::optional<glm::vec2>, 4>;
 
-using Corners = std::array<std::optional<ImVec2>, 4>;
+ImVec2 at(const glm::vec2& point) {
+    return {point.x, point.y};
+}
 
 Corners faceCorners(const Screen& screen, const render::Camera& camera, glm::dvec3 min, glm::dvec3 max,
                     int face) {
@@ -62,6 +55,16 @@ void centered(const char* name, const Screen& screen, float height) {
 
 }  // namespace
 
+std::optional<glm::vec2> projected(const Screen& screen, const render::Camera& camera, glm::dvec3 point) {
+    const world::ChunkPos chunk = render::cameraChunk(camera);
+    const glm::dvec3 corner(16.0 * chunk.x, 16.0 * chunk.y, 0);
+    const render::ViewMatrices view = render::viewMatrices(camera, screen.width / screen.height);
+    const glm::vec4 clip = view.viewProjection * glm::vec4(glm::vec3(point - corner), 1.0f);
+    if (clip.w <= render::kNearPlane) return std::nullopt;
+    return glm::vec2((clip.x / clip.w * 0.5f + 0.5f) * screen.width,
+                     (0.5f - clip.y / clip.w * 0.5f) * screen.height);
+}
+
 void drawTarget(const Screen& screen, const render::Camera& camera, const world::RayHit& target,
                 const world::World& world, const world::BlockRegistry& blocks) {
     const world::BlockType& type = blocks.type(world.block(target.block));
@@ -79,8 +82,9 @@ void drawTarget(const Screen& screen, const render::Camera& camera, const world:
         const bool isCovered = type.shape == world::Shape::Cube && blocks.type(world.block(next)).opaqueCube;
         const Corners c = faceCorners(screen, camera, min, max, face);
         if (!isSeen || isCovered || !c[0] || !c[1] || !c[2] || !c[3]) continue;
-        if (face == target.face) draw.AddQuadFilled(*c[0], *c[1], *c[2], *c[3], IM_COL32(255, 255, 255, 28));
-        draw.AddQuad(*c[0], *c[1], *c[2], *c[3], IM_COL32(0, 0, 0, 190), 1.5f * uiScale());
+        if (face == target.face)
+            draw.AddQuadFilled(at(*c[0]), at(*c[1]), at(*c[2]), at(*c[3]), IM_COL32(255, 255, 255, 28));
+        draw.AddQuad(at(*c[0]), at(*c[1]), at(*c[2]), at(*c[3]), IM_COL32(0, 0, 0, 190), 1.5f * uiScale());
     }
 }
 
@@ -97,7 +101,7 @@ void drawDebugTopView(const Screen& screen, const render::Camera& above, const r
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const auto line = [&](glm::dvec3 a, glm::dvec3 b, ImU32 color) {
         const auto from = projected(screen, above, a), to = projected(screen, above, b);
-        if (from && to) draw.AddLine(*from, *to, color, 2 * uiScale());
+        if (from && to) draw.AddLine(at(*from), at(*to), color, 2 * uiScale());
     };
     const glm::dvec3 ahead(render::lookDirection(camera)), right(render::rightDirection(camera));
     const glm::dvec3 up = glm::cross(right, ahead);
@@ -128,20 +132,6 @@ void drawCrosshair(const Screen& screen) {
         draw.AddLine({x - r, y}, {x + r, y}, color, thick * uiScale());
         draw.AddLine({x, y - r}, {x, y + r}, color, thick * uiScale());
     }
-}
-
-void drawHand(const Screen& screen, const std::string& name, unsigned image) {
-    const float margin = 12 * uiScale(), size = 72 * uiScale();
-    ImGui::SetNextWindowPos({margin, screen.height - margin}, ImGuiCond_Always, {0, 1});
-    ImGui::SetNextWindowBgAlpha(0.45f);
-    ImGui::Begin("hand", nullptr, kBare);
-    if (image != 0) {
-        // Rows of a texture run from below.
-        ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(image)), {size, size}, {0, 1},
-                     {1, 0});
-    }
-    ImGui::TextUnformatted(name.c_str());
-    ImGui::End();
 }
 
 void drawStatistics(const Statistics& f, float width) {
@@ -178,7 +168,7 @@ void drawStatistics(const Statistics& f, float width) {
 void drawProgress(const Screen& screen, const stream::Progress& progress) {
     const float share =
         static_cast<float>(progress.visible) / static_cast<float>(std::max<std::size_t>(progress.inView, 1));
-    centered("progress", screen, screen.height - 40 * uiScale());
+    centered("progress", screen, screen.height - 90 * uiScale());
     ImGui::Text("the world comes into view");
     ImGui::ProgressBar(share, {240 * uiScale(), 8 * uiScale()}, "");
     ImGui::End();

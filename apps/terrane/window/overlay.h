@@ -1,6 +1,7 @@
 // What is drawn over the image: crosshair, what is looked at, the block in the hand, statistics, hints.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ struct Screen {
     float width = 0, height = 0;  // in Dear ImGui's units
 };
 
+// Where a point of the world is on the screen; none behind the camera.
+std::optional<glm::vec2> projected(const Screen& screen, const render::Camera& camera, glm::dvec3 point);
+
 // The edges of the block that is looked at, of its faces that nothing covers, and the face under the
 // crosshair.
 void drawTarget(const Screen& screen, const render::Camera& camera, const world::RayHit& target,
@@ -30,9 +34,6 @@ render::Camera debugTopCamera(const render::Camera& camera, int viewDistance);
 void drawDebugTopView(const Screen& screen, const render::Camera& above, const render::Camera& camera,
                       float farBlocks, const std::optional<glm::vec3>& shadowLight);
 void drawCrosshair(const Screen& screen);
-
-// The block in the hand, bottom left. `image`: an OpenGL texture, 0: none.
-void drawHand(const Screen& screen, const std::string& name, unsigned image);
 
 // Bytes by owner. Finding them goes through all chunks.
 struct MemoryStatistics {

@@ -20,6 +20,7 @@ struct PlaySettings {
     float fieldOfView = 70;          // degrees
     float mouseSensitivity = 0.15f;  // degrees a screen unit
     double dayMinutes = 20;
+    bool autoJump = false;
     bool fullScreen = false;
     std::string resourcePack;  // folder; empty: none
 

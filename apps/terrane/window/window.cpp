@@ -30,6 +30,7 @@ struct KeyCode {
 constexpr KeyCode kOtherKeys[] = {
     {Key::Escape, GLFW_KEY_ESCAPE},
     {Key::Space, GLFW_KEY_SPACE},
+    {Key::Tab, GLFW_KEY_TAB},
     {Key::Shift, GLFW_KEY_LEFT_SHIFT},
     {Key::Shift, GLFW_KEY_RIGHT_SHIFT},
     {Key::Control, GLFW_KEY_LEFT_CONTROL},

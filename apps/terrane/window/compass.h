@@ -1,0 +1,13 @@
+// A strip with the directions and the named places in them, at the top of the image. Immediate mode.
+#pragma once
+
+#include <span>
+
+#include "apps/terrane/window/overlay.h"
+#include "terrane/game/places.h"
+
+namespace terrane::app {
+
+void drawCompass(const Screen& screen, const world::Pose& pose, std::span<const game::Place> places);
+
+}  // namespace terrane::app

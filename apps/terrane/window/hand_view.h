@@ -1,0 +1,27 @@
+// The player's arm with the block in the hand, at the right edge of the image. It sways as one walks and
+// swings when the hand does something. Immediate mode: drawn each frame.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "apps/terrane/window/overlay.h"
+
+namespace terrane::app {
+
+class HandView {
+  public:
+    void swing() { swingSeconds_ = kSwingSeconds; }
+    // `walked`: blocks over the ground since the last frame. Without `sways` the arm keeps still.
+    void advance(double seconds, double walked, bool sways);
+    // `image`: of the block, an OpenGL texture, 0: none. `light`: what falls on the arm, 0…1 a color.
+    void draw(const Screen& screen, unsigned image, const glm::vec3& light) const;
+
+  private:
+    static constexpr double kSwingSeconds = 0.25;
+
+    double swingSeconds_ = 0;  // left of it
+    double stride_ = 0;        // radians
+    double swayShare_ = 0;     // 0 at rest … 1 while walking
+};
+
+}  // namespace terrane::app

@@ -1,0 +1,90 @@
+#include "apps/terrane/window/palette.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "apps/terrane/window/imgui_layer.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr float kSide = 44, kGap = 4;  // of a block's square, before scaling
+
+// The digit that is pressed over a block, as a slot.
+std::optional<std::size_t> pressedSlot() {
+    for (int slot = 0; slot < static_cast<int>(game::Hotbar::kSlots); ++slot)
+        if (ImGui::IsKeyPressed(static_cast<ImGuiKey>(ImGuiKey_1 + slot), false))
+            return static_cast<std::size_t>(slot);
+    return std::nullopt;
+}
+
+void drawGroups(PaletteState& state, const std::vector<std::string>& groups) {
+    for (std::size_t k = 0; k <= groups.size(); ++k) {
+        const std::string label = k == 0 ? "All" : groups[k - 1];
+        const float width = ImGui::CalcTextSize(label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
+        if (k > 0 &&
+            ImGui::GetItemRectMax().x + width + ImGui::GetStyle().ItemSpacing.x <
+                ImGui::GetWindowPos().x + ImGui::GetWindowWidth() - ImGui::GetStyle().WindowPadding.x)
+            ImGui::SameLine();
+        const bool isChosen = state.group == k;
+        if (isChosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+        if (ImGui::Button(label.c_str())) state.group = k;
+        if (isChosen) ImGui::PopStyleColor();
+    }
+}
+
+std::optional<PaletteChoice> drawBlocks(const std::vector<world::BlockId>& shown, const BlockFace& face) {
+    std::optional<PaletteChoice> choice;
+    const float side = kSide * uiScale(), step = side + kGap * uiScale();
+    const int columns =
+        std::max(1, static_cast<int>((ImGui::GetContentRegionAvail().x + kGap * uiScale()) / step));
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    for (std::size_t k = 0; k < shown.size(); ++k) {
+        if (k % static_cast<std::size_t>(columns) != 0) ImGui::SameLine(0, kGap * uiScale());
+        ImGui::PushID(static_cast<int>(k));
+        if (ImGui::Button("##block", {side, side})) choice = {shown[k], std::nullopt};
+        const bool isSeen = ImGui::IsItemVisible();
+        if (isSeen) {
+            const ImVec2 min = ImGui::GetItemRectMin();
+            drawBlockImage(draw, {min.x, min.y}, side, face.image(shown[k]));
+        }
+        if (ImGui::IsItemHovered() || ImGui::IsItemFocused()) {
+            ImGui::SetTooltip("%s", face.name(shown[k]).c_str());
+            if (const auto slot = pressedSlot(); slot && !ImGui::GetIO().WantTextInput)
+                choice = {shown[k], slot};
+        }
+        ImGui::PopID();
+    }
+    return choice;
+}
+
+}  // namespace
+
+std::optional<PaletteChoice> drawPalette(const Screen& screen, PaletteState& state,
+                                         const world::BlockRegistry& blocks, const BlockFace& face) {
+    const float margin = 20 * uiScale(), width = std::min(620 * uiScale(), screen.width - 2 * margin);
+    const float height = std::min(440 * uiScale(), screen.height - hotbarHeight() - margin);
+    ImGui::SetNextWindowPos({(screen.width - width) / 2, (screen.height - hotbarHeight() - height) / 2});
+    ImGui::SetNextWindowSize({width, height});
+    ImGui::Begin("Blocks", nullptr,
+                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    ImGui::SetNextItemWidth(-1);
+    const bool takesFirst = ImGui::InputTextWithHint(
+        "##search", "search", state.search.data(), state.search.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    const std::vector<std::string> groups = game::paletteGroups(blocks);
+    state.group = std::min(state.group, groups.size());
+    drawGroups(state, groups);
+    const std::string group = state.group == 0 ? "" : groups[state.group - 1];
+    const auto shown = game::paletteBlocks(blocks, {group, state.search.data(), face.name});
+    ImGui::BeginChild("list");
+    std::optional<PaletteChoice> choice = drawBlocks(shown, face);
+    if (shown.empty()) ImGui::TextUnformatted("no block has this in its name");
+    ImGui::EndChild();
+    ImGui::End();
+    if (takesFirst && !shown.empty()) choice = {shown.front(), std::nullopt};
+    return choice;
+}
+
+}  // namespace terrane::app

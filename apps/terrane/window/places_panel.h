@@ -1,0 +1,30 @@
+// The dialog of a world's named places: names the place where the player is, goes to others, removes them.
+// Immediate mode: drawn each frame.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "apps/terrane/window/overlay.h"
+#include "terrane/game/places.h"
+
+namespace terrane::app {
+
+struct PlacesState {
+    bool isOpen = false;
+    std::array<char, game::kMaxPlaceName + 1> name{};
+
+    void open() { *this = {.isOpen = true, .name = {}}; }
+};
+
+struct PlacesAnswer {
+    bool isChanged = false;           // `places` is to be saved
+    std::optional<world::Pose> goTo;  // where the player goes
+};
+
+// `here`: where the player is. Changes `places`.
+PlacesAnswer drawPlaces(const Screen& screen, PlacesState& state, std::vector<game::Place>& places,
+                        const world::Pose& here);
+
+}  // namespace terrane::app

@@ -1,0 +1,22 @@
+// A small image of the screenshot that was just taken, for some seconds. Immediate mode: drawn each frame.
+#pragma once
+
+#include "apps/terrane/window/overlay.h"
+#include "terrane/base/image.h"
+#include "terrane/gpu/texture.h"
+
+namespace terrane::app {
+
+class ScreenshotView {
+  public:
+    // Keeps a copy, at most 192 pixels wide.
+    void show(const base::Image& screenshot);
+    void advance(double seconds);
+    void draw(const Screen& screen) const;
+
+  private:
+    gpu::Texture2D image_;
+    double secondsLeft_ = 0;
+};
+
+}  // namespace terrane::app
