@@ -1,5 +1,10 @@
 #include "terrane/view/block_preview.h"
 
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <span>
+
 #include "terrane/mesh/chunk_mesher.h"
 
 namespace terrane::view {
@@ -13,6 +18,16 @@ mesh::ChunkMesh meshOf(world::BlockId block, const world::BlockRegistry& blocks)
     world::Chunk chunk;
     chunk.setBlock(world::blockIndex(8, 8, kZ), block);
     return mesh::meshAlone(chunk, blocks);
+}
+
+// Makes the pixels clear that show the background alone.
+void clearWhereEqual(base::Image& image, const base::Image& background) {
+    for (std::size_t at = 0; at < image.rgba.size(); at += 4) {
+        const bool isEqual = std::equal(image.rgba.begin() + static_cast<std::ptrdiff_t>(at),
+                                        image.rgba.begin() + static_cast<std::ptrdiff_t>(at) + 3,
+                                        background.rgba.begin() + static_cast<std::ptrdiff_t>(at));
+        image.rgba[at + 3] = isEqual ? 0 : 255;
+    }
 }
 
 }  // namespace
@@ -45,13 +60,20 @@ base::Result<void> BlockPreview::reloadShaders() {
     return renderer_.reloadShaders();
 }
 
-gpu::Texture2D BlockPreview::draw(world::BlockId block) {
-    renderer_.setChunk({0, 0}, meshOf(block, *blocks_));
+// Waits for the GPU: some milliseconds, once a kind of block.
+base::Image BlockPreview::drawn(const mesh::ChunkMesh& mesh) {
+    renderer_.setChunk({0, 0}, mesh);
     renderer_.draw({kCamera, world::environmentAt(0.4f), 1000.0f});
-    const gpu::Texture2D& drawn = renderer_.ldrTexture();
-    gpu::Texture2D image(drawn.size(), drawn.format(), 1, "image of a block");
-    image.copyFrom(drawn);
-    return image;
+    return renderer_.readImage();
+}
+
+gpu::Texture2D BlockPreview::draw(world::BlockId block) {
+    if (sky_.rgba.empty()) sky_ = drawn(mesh::ChunkMesh());
+    base::Image image = drawn(meshOf(block, *blocks_));
+    clearWhereEqual(image, sky_);
+    gpu::Texture2D texture({image.width, image.height}, GL_RGBA8, 1, "image of a block");
+    texture.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(image.rgba)));
+    return texture;
 }
 
 unsigned BlockPreview::image(world::BlockId block) {

@@ -4,7 +4,9 @@
 
 #include <map>
 
+#include "terrane/base/image.h"
 #include "terrane/gpu/texture.h"
+#include "terrane/mesh/chunk_mesh.h"
 #include "terrane/render/renderer.h"
 #include "terrane/world/block_registry.h"
 
@@ -24,19 +26,21 @@ class BlockPreview {
     base::Result<void> setTextures(const render::TextureSource& textures);
     base::Result<void> reloadShaders();  // of images as they are asked for from then on
 
-    // The OpenGL texture with the block's image. Its rows run from below. 0 where it was not drawn yet and
-    // kImagesAFrame were drawn since beginFrame(): it comes with a later frame.
+    // The OpenGL texture with the block's image, clear around the block; its rows run from above. 0 where it
+    // was not drawn yet and kImagesAFrame were drawn since beginFrame(): it comes with a later frame.
     unsigned image(world::BlockId block);
     void beginFrame() { drawnInFrame_ = 0; }
 
   private:
     BlockPreview(const world::BlockRegistry& blocks, render::Renderer renderer)
         : blocks_(&blocks), renderer_(std::move(renderer)) {}
+    base::Image drawn(const mesh::ChunkMesh& mesh);
     gpu::Texture2D draw(world::BlockId block);
 
     const world::BlockRegistry* blocks_;
     render::Renderer renderer_;
     std::map<world::BlockId, gpu::Texture2D> images_;
+    base::Image sky_;  // without a block
     int drawnInFrame_ = 0;
 };
 

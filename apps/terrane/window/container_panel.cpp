@@ -17,9 +17,8 @@ void drawStack(ImVec2 min, ImVec2 max, const world::ItemStack& stack, unsigned i
     if (stack.count == 0) return;
     const float edge = 3 * uiScale();
     if (image != 0) {
-        // Rows of a texture run from below.
         draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(image)),
-                      {min.x + edge, min.y + edge}, {max.x - edge, max.y - edge}, {0, 1}, {1, 0});
+                      {min.x + edge, min.y + edge}, {max.x - edge, max.y - edge}, {0, 0}, {1, 1});
     }
     const std::string count = std::to_string(stack.count);
     const ImVec2 size = ImGui::CalcTextSize(count.c_str());

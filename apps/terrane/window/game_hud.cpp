@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "apps/terrane/window/compass.h"
 #include "apps/terrane/window/game.h"
@@ -102,12 +103,7 @@ void Game::drawHud(const Screen& screen, const render::Camera& camera, double se
 void Game::drawPaletteDialog(const Screen& screen) {
     const auto choice = drawPalette(screen, hud_.palette, parts_.session.blocks(), blockFace());
     if (!choice) return;
-    game::Hotbar& hotbar = interaction_.hotbar;
-    if (choice->slot) {
-        hotbar.blocks[*choice->slot] = choice->block;
-        return;
-    }
-    game::takeInHand(hotbar, choice->block);
+    game::takeInHand(interaction_.hotbar, *choice);
     capture(true);
 }
 

@@ -24,6 +24,12 @@ std::filesystem::path freeScreenshot(const std::filesystem::path& folder) {
     }
 }
 
+// Of the hotbar, by its digit.
+std::optional<std::size_t> slotOf(Key key) {
+    if (key < Key::Digit1 || key > Key::Digit9) return std::nullopt;
+    return static_cast<std::size_t>(key) - static_cast<std::size_t>(Key::Digit1);
+}
+
 }  // namespace
 
 void Game::handleEvents() {
@@ -52,13 +58,19 @@ void Game::handleEvents() {
 }
 
 void Game::onKey(Key key) {
+    const auto slot = slotOf(key);
+    if (slot && hud_.palette.isOpen && hud_.palette.pointedAt != world::kAir) {
+        interaction_.hotbar.blocks[*slot] = hud_.palette.pointedAt;
+        return;
+    }
+    if (key == Key::Escape && hud_.hasDialog()) return capture(true);
     if (imgui_.takesKeys()) return;  // Escape ends the typing
     // What opens nothing is for the game, which stands still in a menu.
     const bool isForMenu = key == Key::Escape || key == Key::Q || (key >= Key::F1 && key <= Key::F12);
     if (isInDialog() && !isForMenu && !(hud_.palette.isOpen && key == Key::Tab)) return;
     if (parts_.window.keyDown(Key::Control)) return onControlKey(key);
-    if (key >= Key::Digit1 && key <= Key::Digit9) {
-        interaction_.hotbar.chosen = static_cast<std::size_t>(key) - static_cast<std::size_t>(Key::Digit1);
+    if (slot) {
+        interaction_.hotbar.chosen = *slot;
         return;
     }
     switch (key) {

@@ -65,7 +65,7 @@ void HandView::draw(const Screen& screen, unsigned image, const glm::vec3& light
     const glm::vec2 min = hand - glm::vec2(side * 0.62f, side * 0.72f);
     const ImU32 tint = lit(glm::vec3(255), glm::min(light * 1.15f, 1.0f), 1);
     draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(image)), at(min), at(min + side),
-                  {0, 1}, {1, 0}, tint);
+                  {0, 0}, {1, 1}, tint);
 }
 
 }  // namespace terrane::app

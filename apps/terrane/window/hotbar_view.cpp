@@ -31,9 +31,8 @@ float hotbarHeight() {
 
 void drawBlockImage(ImDrawList& draw, glm::vec2 min, float side, unsigned image) {
     if (image == 0) return;
-    // Rows of a texture run from below.
     draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(image)), {min.x, min.y},
-                  {min.x + side, min.y + side}, {0, 1}, {1, 0});
+                  {min.x + side, min.y + side}, {0, 0}, {1, 1});
 }
 
 void HotbarView::draw(const Screen& screen, const game::Hotbar& hotbar, const BlockFace& face,

@@ -11,12 +11,9 @@ namespace {
 
 constexpr float kSide = 44, kGap = 4;  // of a block's square, before scaling
 
-// The digit that is pressed over a block, as a slot.
-std::optional<std::size_t> pressedSlot() {
-    for (int slot = 0; slot < static_cast<int>(game::Hotbar::kSlots); ++slot)
-        if (ImGui::IsKeyPressed(static_cast<ImGuiKey>(ImGuiKey_1 + slot), false))
-            return static_cast<std::size_t>(slot);
-    return std::nullopt;
+// Digits put the block under the cursor into a slot; no name has them.
+int withoutDigits(ImGuiInputTextCallbackData* data) {
+    return data->EventChar >= '0' && data->EventChar <= '9' ? 1 : 0;
 }
 
 void drawGroups(PaletteState& state, const std::vector<std::string>& groups) {
@@ -34,25 +31,25 @@ void drawGroups(PaletteState& state, const std::vector<std::string>& groups) {
     }
 }
 
-std::optional<PaletteChoice> drawBlocks(const std::vector<world::BlockId>& shown, const BlockFace& face) {
-    std::optional<PaletteChoice> choice;
-    const float side = kSide * uiScale(), step = side + kGap * uiScale();
-    const int columns =
-        std::max(1, static_cast<int>((ImGui::GetContentRegionAvail().x + kGap * uiScale()) / step));
+std::optional<world::BlockId> drawBlocks(PaletteState& state, const std::vector<world::BlockId>& shown,
+                                         const BlockFace& face) {
+    std::optional<world::BlockId> choice;
+    const float side = kSide * uiScale(), gap = kGap * uiScale();
+    const auto columns =
+        static_cast<std::size_t>(std::max(1.0f, (ImGui::GetContentRegionAvail().x + gap) / (side + gap)));
     ImDrawList& draw = *ImGui::GetWindowDrawList();
+    state.pointedAt = world::kAir;
     for (std::size_t k = 0; k < shown.size(); ++k) {
-        if (k % static_cast<std::size_t>(columns) != 0) ImGui::SameLine(0, kGap * uiScale());
+        if (k % columns != 0) ImGui::SameLine(0, gap);
         ImGui::PushID(static_cast<int>(k));
-        if (ImGui::Button("##block", {side, side})) choice = {shown[k], std::nullopt};
-        const bool isSeen = ImGui::IsItemVisible();
-        if (isSeen) {
+        if (ImGui::Button("##block", {side, side})) choice = shown[k];
+        if (ImGui::IsItemVisible()) {
             const ImVec2 min = ImGui::GetItemRectMin();
             drawBlockImage(draw, {min.x, min.y}, side, face.image(shown[k]));
         }
         if (ImGui::IsItemHovered() || ImGui::IsItemFocused()) {
             ImGui::SetTooltip("%s", face.name(shown[k]).c_str());
-            if (const auto slot = pressedSlot(); slot && !ImGui::GetIO().WantTextInput)
-                choice = {shown[k], slot};
+            state.pointedAt = shown[k];
         }
         ImGui::PopID();
     }
@@ -61,8 +58,8 @@ std::optional<PaletteChoice> drawBlocks(const std::vector<world::BlockId>& shown
 
 }  // namespace
 
-std::optional<PaletteChoice> drawPalette(const Screen& screen, PaletteState& state,
-                                         const world::BlockRegistry& blocks, const BlockFace& face) {
+std::optional<world::BlockId> drawPalette(const Screen& screen, PaletteState& state,
+                                          const world::BlockRegistry& blocks, const BlockFace& face) {
     const float margin = 20 * uiScale(), width = std::min(620 * uiScale(), screen.width - 2 * margin);
     const float height = std::min(440 * uiScale(), screen.height - hotbarHeight() - margin);
     ImGui::SetNextWindowPos({(screen.width - width) / 2, (screen.height - hotbarHeight() - height) / 2});
@@ -72,18 +69,19 @@ std::optional<PaletteChoice> drawPalette(const Screen& screen, PaletteState& sta
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-1);
     const bool takesFirst = ImGui::InputTextWithHint(
-        "##search", "search", state.search.data(), state.search.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+        "##search", "search", state.search.data(), state.search.size(),
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCharFilter, withoutDigits);
     const std::vector<std::string> groups = game::paletteGroups(blocks);
     state.group = std::min(state.group, groups.size());
     drawGroups(state, groups);
     const std::string group = state.group == 0 ? "" : groups[state.group - 1];
     const auto shown = game::paletteBlocks(blocks, {group, state.search.data(), face.name});
     ImGui::BeginChild("list");
-    std::optional<PaletteChoice> choice = drawBlocks(shown, face);
+    std::optional<world::BlockId> choice = drawBlocks(state, shown, face);
     if (shown.empty()) ImGui::TextUnformatted("no block has this in its name");
     ImGui::EndChild();
     ImGui::End();
-    if (takesFirst && !shown.empty()) choice = {shown.front(), std::nullopt};
+    if (takesFirst && !shown.empty()) choice = shown.front();
     return choice;
 }
 

@@ -14,18 +14,14 @@ namespace terrane::app {
 struct PaletteState {
     bool isOpen = false;
     std::array<char, 48> search{};
-    std::size_t group = 0;  // index into game::paletteGroups(), behind "all"
+    std::size_t group = 0;                   // index into game::paletteGroups(), behind "all"
+    world::BlockId pointedAt = world::kAir;  // the block under the cursor, or chosen with the arrow keys
 
     void open() { *this = {.isOpen = true, .search = {}, .group = group}; }
 };
 
-struct PaletteChoice {
-    world::BlockId block = world::kAir;
-    std::optional<std::size_t> slot;  // by its digit, while the palette stays open; else into the hand
-};
-
-// Nothing until a block is clicked, chosen with Enter, or put into a slot with its digit.
-std::optional<PaletteChoice> drawPalette(const Screen& screen, PaletteState& state,
-                                         const world::BlockRegistry& blocks, const BlockFace& face);
+// Nothing until a block is clicked or chosen with Enter.
+std::optional<world::BlockId> drawPalette(const Screen& screen, PaletteState& state,
+                                          const world::BlockRegistry& blocks, const BlockFace& face);
 
 }  // namespace terrane::app
