@@ -34,7 +34,8 @@ Game::Game(const GameParts& parts, const GameOptions& options)
       screenshots_(options.dataFolder / "screenshots"),
       bookmarks_(game::bookmarkFiles(options.dataFolder)),
       perfData_(options.perfData),
-      deviceName_(options.deviceName) {
+      deviceName_(options.deviceName),
+      thumbnail_(options.thumbnail) {
     if (options.measuresPreset) beginMeasurement();
     if (const world::BlockType* hand = parts_.session.blocks().find(options.hand))
         interaction_.choose(hand->id);
@@ -51,6 +52,7 @@ base::Result<void> Game::run() {
     base::Result<void> drawn, saved;
     do {
         drawn = drawFrames();
+        writeThumbnail();
         saved = save();
     } while (drawn && staysAfter(saved));
     const glm::dvec3& p = player_.pose().position;
@@ -63,7 +65,7 @@ base::Result<void> Game::run() {
 
 base::Result<void> Game::drawFrames() {
     double last = parts_.window.timeSeconds();
-    while (!parts_.window.shouldClose() && !parts_.signals.stopAsked()) {
+    while (!isLeaving_ && !parts_.window.shouldClose() && !parts_.signals.stopAsked()) {
         parts_.window.pollEvents();
         handleEvents();
         const double now = parts_.window.timeSeconds(), seconds = now - last;
@@ -83,6 +85,8 @@ void Game::advance(double seconds) {
     seconds_ += seconds;
     hintSeconds_ -= seconds;
     messageSeconds_ -= seconds;
+    untilThumbnail_ -= seconds;
+    if (untilThumbnail_ <= 0) writeThumbnail();
     session.clock.dayMinutes = settings_.dayMinutes;
     onPad(seconds);
     const double gameSeconds = isInMenu() ? 0 : seconds;
@@ -178,8 +182,11 @@ render::FrameInput Game::frameInput() const {
 }
 
 game::PlayerState Game::playerState() const {
-    return {player_.pose(), parts_.session.clock.timeDay,
-            parts_.session.blocks().type(interaction_.block()).name};
+    return {.pose = player_.pose(),
+            .timeDay = parts_.session.clock.timeDay,
+            .hand = parts_.session.blocks().type(interaction_.block()).name,
+            .movement = nameOf(settings_.movement),
+            .resourcePack = settings_.resourcePack};
 }
 
 base::Result<void> Game::save() {
@@ -194,6 +201,7 @@ base::Result<void> Game::save() {
 bool Game::staysAfter(const base::Result<void>& saved) {
     if (saved || quitsUnsaved_ || parts_.signals.stopAsked()) return false;
     parts_.window.cancelClose();
+    isLeaving_ = false;
     asksToQuit_ = true;
     capture(false);
     return true;
@@ -202,7 +210,8 @@ bool Game::staysAfter(const base::Result<void>& saved) {
 void Game::answerQuitDialog(QuitChoice choice) {
     asksToQuit_ = false;
     quitsUnsaved_ = choice == QuitChoice::QuitUnsaved;
-    if (choice != QuitChoice::Stay) parts_.window.requestClose();
+    leave(goesToTitle_);
+    if (choice == QuitChoice::Stay) isLeaving_ = goesToTitle_ = false;
 }
 
 }  // namespace terrane::app

@@ -63,7 +63,8 @@ void centered(const char* name, const Screen& screen, float height) {
 }  // namespace
 
 void drawTarget(const Screen& screen, const render::Camera& camera, const world::RayHit& target,
-                const world::World& world, const world::BlockRegistry& blocks) {
+                const TargetView& view) {
+    const auto& [world, blocks, isHighContrast] = view;
     const world::BlockType& type = blocks.type(world.block(target.block));
     constexpr double kGrow = 1.0 / 256;  // outside of the block's own faces
     const glm::dvec3 corner(target.block.x, target.block.y, target.block.z);
@@ -79,8 +80,12 @@ void drawTarget(const Screen& screen, const render::Camera& camera, const world:
         const bool isCovered = type.shape == world::Shape::Cube && blocks.type(world.block(next)).opaqueCube;
         const Corners c = faceCorners(screen, camera, min, max, face);
         if (!isSeen || isCovered || !c[0] || !c[1] || !c[2] || !c[3]) continue;
-        if (face == target.face) draw.AddQuadFilled(*c[0], *c[1], *c[2], *c[3], IM_COL32(255, 255, 255, 28));
-        draw.AddQuad(*c[0], *c[1], *c[2], *c[3], IM_COL32(0, 0, 0, 190), 1.5f * uiScale());
+        if (face == target.face)
+            draw.AddQuadFilled(*c[0], *c[1], *c[2], *c[3],
+                               isHighContrast ? IM_COL32(230, 159, 0, 110) : IM_COL32(255, 255, 255, 28));
+        draw.AddQuad(*c[0], *c[1], *c[2], *c[3], IM_COL32(0, 0, 0, isHighContrast ? 255 : 190),
+                     (isHighContrast ? 5.0f : 1.5f) * uiScale());
+        if (isHighContrast) draw.AddQuad(*c[0], *c[1], *c[2], *c[3], IM_COL32_WHITE, 2 * uiScale());
     }
 }
 
