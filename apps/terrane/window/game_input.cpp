@@ -138,6 +138,7 @@ void Game::closeOne() {
 
 void Game::pause() {
     isPaused_ = true;
+    hintSeconds_ = 0;
     capture(false);
 }
 

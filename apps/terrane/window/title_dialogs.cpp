@@ -53,7 +53,7 @@ void TitleScreen::drawForm() {
     dimText("Name");
     ImGui::PushItemWidth(-1);
     editText("##name", form_.name);
-    dimText("Seed: a number or any text; empty: a random one");
+    dimText("Seed (a number or any text)");
     const auto seed = seedOf(form_);
     const float button = 64 * uiScale();
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);

@@ -1,5 +1,7 @@
 #include "apps/terrane/window/world_on_screen.h"
 
+#include <epoxy/gl.h>
+
 #include "apps/terrane/choose_back_ends.h"
 #include "terrane/content/built_in.h"
 #include "terrane/content/resource_pack.h"
@@ -7,6 +9,12 @@
 #include "terrane/view/memory_budget.h"
 
 namespace terrane::app {
+
+// A program that is in use would stay until the next one is used, and its name would be taken for one that
+// is still there.
+WorldOnScreen::~WorldOnScreen() {
+    glUseProgram(0);
+}
 
 base::Result<std::unique_ptr<WorldOnScreen>> WorldOnScreen::create(game::SessionParts parts,
                                                                    const WorldOptions& world,

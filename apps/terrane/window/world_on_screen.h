@@ -30,6 +30,10 @@ class WorldOnScreen {
                                                                              const WorldOptions& world,
                                                                              const ScreenOptions& options);
 
+    ~WorldOnScreen();
+    WorldOnScreen(const WorldOnScreen&) = delete;
+    WorldOnScreen& operator=(const WorldOnScreen&) = delete;
+
     game::Session& session() { return *session_; }
     render::Renderer& renderer() { return *renderer_; }
     view::WorldView& view() { return *view_; }
