@@ -156,6 +156,7 @@ void Game::answerPauseMenu(PauseChoice choice) {
             showsSettings_ = true;
             return;
         case PauseChoice::Help:
+            resume();
             hintSeconds_ = 20;
             return;
         case PauseChoice::ToTitle:
