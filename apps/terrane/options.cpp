@@ -8,31 +8,18 @@
 #include <filesystem>
 #include <thread>
 
-#include "terrane/base/digest.h"
+#include "apps/terrane/seed_text.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/world_location.h"
 
 namespace terrane::app {
 namespace {
 
-bool isWholeNumber(std::string_view text) {
-    if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-    return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
-}
-
-// The parser's own reading takes -1 and what is too large for the largest seed. A number that is no seed is
-// not a text either: nobody would find the world again.
 void parseSeed(const std::string& text, WorldOptions& options) {
-    std::uint64_t seed = 0;
-    const char* end = text.data() + text.size();
-    const auto [next, error] = std::from_chars(text.data(), end, seed);
-    const bool isNumber = error == std::errc() && next == end;
-    if (!isNumber && (text.empty() || isWholeNumber(text)))
-        throw CLI::ValidationError(
-            "--seed", fmt::format("expected a whole number from 0 to {}, or another text, got \"{}\"",
-                                  UINT64_MAX, text));
-    options.seed = isNumber ? seed : base::hash64(text);
-    options.seedText = isNumber ? "" : text;
+    auto seed = seedFrom(text);
+    if (!seed) throw CLI::ValidationError("--seed", seed.error().message);
+    options.seed = seed->seed;
+    options.seedText = std::move(seed->text);
 }
 
 world::ChunkArea parseArea(const std::string& text) {

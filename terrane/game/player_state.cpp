@@ -12,6 +12,7 @@ namespace {
 // Names of metadata. The pose is that of the player's camera.
 constexpr std::string_view kPose = "camera", kTime = "time", kHotbar = "hotbar";
 constexpr std::string_view kFormerHand = "hand";  // one block's name, before there was a hotbar
+constexpr std::string_view kMovement = "movement", kResourcePack = "resource_pack";
 
 }  // namespace
 
@@ -20,6 +21,8 @@ SavedPlayer savedPlayer(store::ReadableStore& store) {
     SavedPlayer player;
     player.hotbar = store.metadata(kHotbar);
     if (const auto hand = store.metadata(kFormerHand); hand && !player.hotbar) player.hotbar = "0 " + *hand;
+    player.movement = store.metadata(kMovement);
+    player.resourcePack = store.metadata(kResourcePack);
     if (pose) player.pose = poseFrom(*pose);
     if (pose && !player.pose)
         base::logWarning("the save's camera is no place and direction in the world: {:?}", *pose);
@@ -33,6 +36,14 @@ void savePlayer(store::ChunkStore& store, const PlayerState& now, std::optional<
     if (!saved || saved->pose != now.pose) store.setMetadata(kPose, textOf(now.pose));
     if (!saved || saved->timeDay != now.timeDay) store.setMetadata(kTime, fmt::format("{:.5f}", now.timeDay));
     if (!saved || saved->hotbar != now.hotbar) store.setMetadata(kHotbar, now.hotbar);
+    const auto put = [&](std::string_view name, const std::string PlayerState::*value) {
+        // A world that never had one needs no row for it.
+        const bool isChanged =
+            saved ? (*saved).*value != now.*value : !(now.*value).empty() || store.metadata(name);
+        if (isChanged) store.setMetadata(name, now.*value);
+    };
+    put(kMovement, &PlayerState::movement);
+    put(kResourcePack, &PlayerState::resourcePack);
     saved = now;
 }
 

@@ -14,6 +14,8 @@ struct PlayerState {
     world::Pose pose;
     double timeDay = 0;  // of the world, 0 to 1
     std::string hotbar;  // as textOf(Hotbar) says it
+    // How the player moves, by name, and the folder of textures that it chose for the world; empty: none.
+    std::string movement = {}, resourcePack = {};
 
     bool operator==(const PlayerState&) const = default;
 };
@@ -22,7 +24,8 @@ struct PlayerState {
 struct SavedPlayer {
     std::optional<world::Pose> pose;
     std::optional<double> timeDay;
-    std::optional<std::string> hotbar;  // any text
+    std::optional<std::string> hotbar;                  // any text
+    std::optional<std::string> movement, resourcePack;  // may name anything
 };
 
 SavedPlayer savedPlayer(store::ReadableStore& store);

@@ -312,7 +312,7 @@ std::size_t Renderer::shadowTriangles(const FrameInput& input) const {
 }
 
 void Renderer::presentToWindow(glm::ivec2 windowSize) const {
-    gpu::blitToWindow(targets_.ldr, 0, windowSize, GL_NEAREST);
+    gpu::blitToWindow(targets_.ldr, 0, windowSize, size() == windowSize ? GL_NEAREST : GL_LINEAR);
 }
 
 }  // namespace terrane::render

@@ -16,7 +16,9 @@ std::string environment(const char* name) {
     return value ? value : "";
 }
 
-base::Result<void> checkName(std::string_view name) {
+}  // namespace
+
+base::Result<void> checkSaveName(std::string_view name) {
     const auto isForbidden = [](char c) {
         const auto byte = static_cast<unsigned char>(c);
         return c == '/' || c == '\\' || byte < 0x20 || byte == 0x7F;
@@ -35,8 +37,6 @@ base::Result<void> checkName(std::string_view name) {
     return {};
 }
 
-}  // namespace
-
 SavePlaces savePlaces() {
     return {.xdgDataHome = environment("XDG_DATA_HOME"), .home = environment("HOME")};
 }
@@ -50,7 +50,7 @@ base::Result<fs::path> dataFolder(const SavePlaces& places) {
 }
 
 base::Result<fs::path> savePath(std::string_view name, const SavePlaces& places) {
-    if (auto good = checkName(name); !good) return tl::unexpected(good.error());
+    if (auto good = checkSaveName(name); !good) return tl::unexpected(good.error());
     const auto folder = dataFolder(places);
     if (!folder) return base::fail(folder.error().code, "{:?}: {}", name, folder.error().message);
     const std::string file = std::string(name) + ".sqlite";

@@ -24,9 +24,12 @@ SavePlaces savePlaces();
 // variable is no absolute path. Absolute; may not exist. An error where neither variable is set.
 [[nodiscard]] base::Result<std::filesystem::path> dataFolder(const SavePlaces& places);
 
+// An error for a name that cannot be a file's: empty, longer than 100 bytes, with a slash or a control
+// character, or with a dot or a space in front.
+[[nodiscard]] base::Result<void> checkSaveName(std::string_view name);
+
 // NAME.sqlite in the data folder. A save that only the former folder has is found there: the path is then
-// relative. An error for a name that cannot be a file's: empty, longer than 100 bytes, with a slash or a
-// control character, or with a dot or a space in front. Makes no folders.
+// relative. Errors of checkSaveName(). Makes no folders.
 [[nodiscard]] base::Result<std::filesystem::path> savePath(std::string_view name, const SavePlaces& places);
 
 }  // namespace terrane::store

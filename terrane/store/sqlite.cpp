@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <cassert>
 
 #include "terrane/store/sqlite_guard.h"
@@ -226,9 +227,9 @@ base::Result<std::optional<std::int64_t>> Database::queryNumber(std::string_view
     return *row ? std::optional(statement->number(0)) : std::nullopt;
 }
 
-base::Result<void> Database::backUpTo(const std::filesystem::path& target) {
+base::Result<void> Database::backUpTo(const std::filesystem::path& target, const CopyProgress& progress) {
     assert(!std::filesystem::exists(target) && "a copy never replaces a file");
-    auto copied = copyTo(target);
+    auto copied = copyTo(target, progress);
     if (!copied) {
         std::error_code ignored;
         std::filesystem::remove(target, ignored);
@@ -236,15 +237,21 @@ base::Result<void> Database::backUpTo(const std::filesystem::path& target) {
     return copied;
 }
 
-base::Result<void> Database::copyTo(const std::filesystem::path& target) {
+base::Result<void> Database::copyTo(const std::filesystem::path& target, const CopyProgress& progress) {
+    constexpr int kPagesAStep = 1024;  // 4 MiB
     auto copy = open(target, OpenMode::Create);
     if (!copy) return tl::unexpected(copy.error());
     sqlite3* to = copy->database_.get();
     sqlite3_backup* backup = sqlite3_backup_init(to, "main", database_.get(), "main");
     if (!backup) return failure(copy->path(), to);
-    sqlite3_backup_step(backup, -1);
-    // The result of finish() is that of the step; the reason is kept by the target.
+    bool isWanted = true;
+    while (isWanted && sqlite3_backup_step(backup, progress ? kPagesAStep : -1) == SQLITE_OK) {
+        const int left = sqlite3_backup_remaining(backup), all = sqlite3_backup_pagecount(backup);
+        isWanted = !progress || progress(1 - static_cast<double>(left) / std::max(all, 1));
+    }
+    // The result of finish() is that of the steps; the reason is kept by the target.
     if (sqlite3_backup_finish(backup) != SQLITE_OK) return failure(copy->path(), to);
+    if (!isWanted) return base::fail("{}: the copy was cancelled", copy->path());
     return {};
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,6 +62,9 @@ enum class OpenMode {
     Immutable,  // nobody writes; no files are made beside it
 };
 
+// Called while a database is copied, with the share that is done; false ends the copy.
+using CopyProgress = std::function<bool(double share)>;
+
 class Database {
   public:
     [[nodiscard]] static base::Result<Database> open(const std::filesystem::path& path, OpenMode mode);
@@ -73,7 +77,8 @@ class Database {
     [[nodiscard]] base::Result<std::optional<std::int64_t>> queryNumber(std::string_view sql);
     // Copies everything into a new file, also while others read and write. What a failed copy leaves is
     // removed.
-    [[nodiscard]] base::Result<void> backUpTo(const std::filesystem::path& target);
+    [[nodiscard]] base::Result<void> backUpTo(const std::filesystem::path& target,
+                                              const CopyProgress& progress = {});
 
     const std::string& path() const { return *path_; }
 
@@ -84,7 +89,7 @@ class Database {
     };
     void rollBack() noexcept;
     base::Result<void> loadSchema();
-    base::Result<void> copyTo(const std::filesystem::path& target);
+    base::Result<void> copyTo(const std::filesystem::path& target, const CopyProgress& progress);
     explicit Database(std::string path) : path_(std::make_unique<std::string>(std::move(path))) {}
 
     std::unique_ptr<std::string> path_;  // statements point to it

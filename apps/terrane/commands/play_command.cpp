@@ -2,23 +2,11 @@
 #include <algorithm>
 #include <memory>
 
-#include "apps/terrane/choose_back_ends.h"
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/window/game.h"
 #include "apps/terrane/window/icon.h"
 #include "apps/terrane/window/key_help.h"
-#include "terrane/base/log.h"
-#include "terrane/base/stop_signals.h"
-#include "terrane/content/built_in.h"
-#include "terrane/content/resource_pack.h"
-#include "terrane/game/bookmarks.h"
-#include "terrane/game/player_state.h"
-#include "terrane/game/spawn.h"
-#include "terrane/gpu/built_in_shaders.h"
-#include "terrane/store/save_path.h"
-#include "terrane/view/memory_budget.h"
+#include "apps/terrane/window/play_flow.h"
 
 namespace terrane::app {
 namespace {
@@ -26,58 +14,10 @@ namespace {
 constexpr const char* kWhereSaved =
     R"(
 
-The world, the place, the time of day and the block in the hand are saved while one plays, in
+Without an option that names a world the title opens. The world, the place, the time of day, the block in
+the hand and how one moves are saved while one plays, in
 $XDG_DATA_HOME/terrane/NAME.sqlite ($HOME/.local/share/terrane where that is not set); bookmarks.txt and
 screenshots/ lie beside it. Ctrl+C in the terminal saves and quits, too.)";
-
-struct PlayOptions {
-    WorldOptions world;
-    SaveOptions save;
-    bool savesNothing = false;
-    GraphicsOptions graphics;
-    Backend backend = Backend::Auto;
-    PlaySettings settings;
-    std::optional<int> bookmark;
-    std::optional<double> time;
-    std::string perfData;
-    std::string settingsFile = settingsPath().string();
-};
-
-// What the player sees first: a bookmark, where the save was left, or a pleasant place.
-base::Result<world::Pose> startOf(const PlayOptions& options, const game::BookmarkFiles& files,
-                                  const game::SavedPlayer& saved, game::Session& session) {
-    if (options.bookmark) {
-        auto bookmarks = game::readBookmarks(files);
-        if (!bookmarks) return tl::unexpected(bookmarks.error());
-        const auto number = static_cast<std::size_t>(*options.bookmark);
-        if (number > bookmarks->size()) {
-            return base::fail("--bookmark {}: {} has {}", number, files.file.string(), bookmarks->size());
-        }
-        return (*bookmarks)[number - 1];
-    }
-    return saved.pose ? *saved.pose : game::findSpawn(session.generator(), session.blocks());
-}
-
-// Worlds are saved unless the player chooses otherwise. One without a name has that of what makes it, so that
-// it fits whenever the same is asked for.
-base::Result<game::SessionParts> openWorld(PlayOptions& options) {
-    using store::WorldAccess;
-    if (options.savesNothing) return openSessionParts(options.world, options.save, WorldAccess::ReadOnly);
-    std::string& name = options.save.world;
-    if (name.empty())
-        name = fmt::format("{}-{}", options.world.effectiveGenerator(), options.world.effectiveSeed());
-    auto parts = openSessionParts(options.world, options.save, WorldAccess::ReadWrite);
-    // Of other errors, such as another generator, playing without saving is no way out.
-    const bool cannotBeWritten = !parts && (parts.error().code == base::ErrorCode::Io ||
-                                            parts.error().code == base::ErrorCode::NotFound);
-    if (!cannotBeWritten) return parts;
-    return base::fail(parts.error().code, "{} (--no-save plays without saving)", parts.error().message);
-}
-
-// Empty where no variable names a home: bookmarks and screenshots are then kept in the working directory.
-std::filesystem::path dataFolder() {
-    return store::dataFolder(store::savePlaces()).value_or(std::filesystem::path());
-}
 
 base::Result<Window> openWindow(const PlayOptions& options) {
     auto window = Window::create({.title = "Terrane",
@@ -89,77 +29,53 @@ base::Result<Window> openWindow(const PlayOptions& options) {
     return window;
 }
 
-PlaySettings settingsOf(const PlayOptions& options, bool isSoftwareRenderer) {
-    PlaySettings settings = options.settings;
-    settings.preset = options.graphics.choices.preset;
-    settings.graphics = render::settingsOf(options.graphics.choices, isSoftwareRenderer);
-    settings.view = options.graphics.view;
-    settings.resourcePack = options.graphics.resourcePack;
-    return settings;
+bool isGiven(const CLI::App& command, std::string_view name) {
+    return command.get_option("--" + std::string(name))->count() > 0;
+}
+
+// Whoever names a world, or what it is played for, goes straight into it.
+bool namesWorld(const CLI::App& command) {
+    constexpr std::string_view kNames[] = {
+        "world",    "seed",    "generator", "recreate",        "regenerate",
+        "bookmark", "no-save", "time",      "store-generated", "collect-perf-data"};
+    return std::ranges::any_of(kNames, [&](std::string_view name) { return isGiven(command, name); });
 }
 
 // Neither the command line nor the settings say anything about graphics. Without a file of settings nothing
 // is measured, as it would be again at each start.
-bool isFirstStart(const PlayOptions& options, const CLI::App& command) {
-    const auto isGiven = [&](std::string_view name) {
-        return command.get_option("--" + std::string(name))->count() > 0;
-    };
-    return !options.settingsFile.empty() && !isGiven("preset") && !isGiven("view-distance") &&
-           std::ranges::none_of(render::graphicsTable(), isGiven, &render::GraphicsRow::name);
+bool namesGraphics(const CLI::App& command) {
+    return isGiven(command, "preset") || isGiven(command, "view-distance") ||
+           std::ranges::any_of(render::graphicsTable(),
+                               [&](const render::GraphicsRow& row) { return isGiven(command, row.name); });
 }
 
-base::Result<void> play(PlayOptions& options, CLI::App& command) {
+base::Result<void> play(const PlayOptions& options, CLI::App& command) {
+    GivenOptions given{.namesWorld = namesWorld(command),
+                       .movement = isGiven(command, "movement"),
+                       .resourcePack = isGiven(command, "resource-pack")};
     if (auto read = applySettings(options.settingsFile, command, render::namesOfPreset()); !read) return read;
+    given.graphics = namesGraphics(command);
     // The window first: without one no world is made.
     auto window = openWindow(options);
     if (!window) return tl::unexpected(window.error());
-    auto parts = openWorld(options);
-    if (!parts) return tl::unexpected(parts.error());
-    auto textures = content::loadTextures(options.graphics.resourcePack, *parts->blocks);
-    if (!textures) return tl::unexpected(textures.error());
-    const gpu::ShaderLoader shaders = gpu::builtInShaders(options.graphics.shaderRoot);
-    const gpu::DeviceInfo device = gpu::queryDevice();
-    auto renderer = render::Renderer::create(shaders, *parts->blocks, *textures, device);
-    if (!renderer) return tl::unexpected(renderer.error());
-    renderer->setMemoryBudget(view::gpuMemoryBudget(device, options.graphics.gpuMemory));
-    auto preview = view::BlockPreview::create(shaders, *parts->blocks, *textures, device);
-    if (!preview) return tl::unexpected(preview.error());
-    const auto backEnds = chooseBackEnds(*parts, options.world, options.backend);
-    if (!backEnds) return tl::unexpected(backEnds.error());
-    game::Session session(std::move(*parts));
-    render::BackgroundCompiler compiler(shaders, session.blocks(), content::builtInTextures());
-    GameOptions game;
-    game.dataFolder = dataFolder();
-    const game::SavedPlayer saved = game::savedPlayer(session.store());
-    const game::BookmarkFiles bookmarks = game::bookmarkFiles(game.dataFolder);
-    game::reportFormerFiles(bookmarks);
-    auto start = startOf(options, bookmarks, saved, session);
-    if (!start) return tl::unexpected(start.error());
-    session.clock.timeDay = options.time ? *options.time : saved.timeDay.value_or(session.clock.timeDay);
-
-    game.hotbar = saved.hotbar.value_or("");
-    game.settings = settingsOf(options, device.software);
-    game.start = *start;
-    game.perfData = options.perfData;
-    game.isSoftwareRenderer = device.software;
-    game.deviceName = device.renderer;
-    game.measuresPreset = isFirstStart(options, command);
-    view::WorldView view(session, *renderer);
-    if (*backEnds) {
-        const auto meshes = view.meshOnGpu(gpu::builtInShaders(""), view::WorldView::kFrameMilliseconds);
-        if (!meshes) return meshes;
-    }
-    const base::StopSignals signals;
-    Game loop({*window, session, *renderer, view, *preview, compiler, shaders, signals}, game);
-    const auto played = loop.run();
-    auto written = writeChanges(options.settingsFile, valuesOf(game.settings, device.software),
-                                valuesOf(loop.settings(), device.software), render::namesOfPreset());
+    const auto played = PlayFlow(options, given, *window).run();
     if (!played) return played;
-    if (!written) return written;
     if (window->debugLog() && window->debugLog()->errorCount() > 0) {
         return base::fail("the graphics driver reported errors, see above");
     }
     return {};
+}
+
+void addKeyBindings(CLI::App& command, KeyBindings& keys) {
+    const auto take = [&keys](const std::string& text) {
+        auto bindings = keyBindingsFrom(text);
+        if (!bindings) throw CLI::ValidationError("--keys", bindings.error().message);
+        keys = *bindings;
+    };
+    command
+        .add_option_function<std::string>("--keys", take,
+                                          "Keys that differ from the usual ones, as jump=F,run=R")
+        ->type_name("ACTION=KEY,...");
 }
 
 void addPlaySettings(CLI::App& command, PlaySettings& settings) {
@@ -175,6 +91,15 @@ void addPlaySettings(CLI::App& command, PlaySettings& settings) {
         ->check(numberFrom(0.5, 1440))
         ->capture_default_str();
     command.add_flag("--full-screen", settings.fullScreen, "Take the whole screen");
+    addKeyBindings(command, settings.keys);
+    command.add_flag("--invert-y", settings.invertY, "Pushing the mouse or the stick away looks down");
+    command.add_flag("--auto-jump", settings.autoJump, "Walking against a step of one block climbs it");
+    command.add_option("--text-size", settings.textSize, "Size of texts and menus, times the usual one")
+        ->check(numberFrom(0.5, 3))
+        ->capture_default_str();
+    command.add_flag("--high-contrast", settings.highContrast,
+                     "Thick lines around the block that is looked at");
+    command.add_flag("--reduced-motion", settings.reducedMotion, "The world behind the title stands still");
 }
 
 }  // namespace
@@ -186,6 +111,8 @@ CommandEntry addPlay(CLI::App& app) {
     addSaveGameOptions(*command, options->save);
     command->get_option("--world")->description(
         "World to play in; created if needed (default: GENERATOR-SEED)");
+    command->add_flag("--no-title", options->skipsTitle,
+                      "Go straight into the world, as options that name one do");
     command->add_flag("--no-save", options->savesNothing, "Save nothing: changes are lost at the end");
     command->add_option("--bookmark", options->bookmark, "Start at this bookmark, counted from 1")
         ->check(numberFrom(1, 1e6))

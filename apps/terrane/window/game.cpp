@@ -34,7 +34,8 @@ Game::Game(const GameParts& parts, const GameOptions& options)
       screenshots_(options.dataFolder / "screenshots"),
       bookmarks_(game::bookmarkFiles(options.dataFolder)),
       perfData_(options.perfData),
-      deviceName_(options.deviceName) {
+      deviceName_(options.deviceName),
+      thumbnail_(options.thumbnail) {
     if (options.measuresPreset) beginMeasurement();
     interaction_.hotbar = game::hotbarFrom(options.hotbar, parts_.session.blocks());
     const store::WorldIdentity& identity = parts_.session.store().identity();
@@ -53,6 +54,7 @@ base::Result<void> Game::run() {
     base::Result<void> drawn, saved;
     do {
         drawn = drawFrames();
+        writeThumbnail();
         saved = save();
     } while (drawn && staysAfter(saved));
     const glm::dvec3& p = player_.pose().position;
@@ -65,7 +67,7 @@ base::Result<void> Game::run() {
 
 base::Result<void> Game::drawFrames() {
     double last = parts_.window.timeSeconds();
-    while (!parts_.window.shouldClose() && !parts_.signals.stopAsked()) {
+    while (!isLeaving_ && !parts_.window.shouldClose() && !parts_.signals.stopAsked()) {
         parts_.window.pollEvents();
         handleEvents();
         const double now = parts_.window.timeSeconds(), seconds = now - last;
@@ -85,13 +87,15 @@ void Game::advance(double seconds) {
     seconds_ += seconds;
     hintSeconds_ -= seconds;
     messageSeconds_ -= seconds;
+    untilThumbnail_ -= seconds;
+    if (untilThumbnail_ <= 0) writeThumbnail();
     session.clock.dayMinutes = settings_.dayMinutes;
     onPad(seconds);
     const double gameSeconds = isInMenu() ? 0 : seconds;
     player_.move(session.world(), session.blocks(), moveKeys(), gameSeconds);
     liftFromBelow();
     session.setPlayer(game::kLocalPlayer, player_.pose());
-    act(seconds);
+    breakAndBuild(seconds);
     advanceHud(seconds);
     session.advance(gameSeconds, world::chunkOf(player_.pose().position));
     game::savePlayer(session.store(), playerState(), saved_);
@@ -181,8 +185,11 @@ render::FrameInput Game::frameInput() const {
 }
 
 game::PlayerState Game::playerState() const {
-    return {player_.pose(), parts_.session.clock.timeDay,
-            game::textOf(interaction_.hotbar, parts_.session.blocks())};
+    return {.pose = player_.pose(),
+            .timeDay = parts_.session.clock.timeDay,
+            .hotbar = game::textOf(interaction_.hotbar, parts_.session.blocks()),
+            .movement = nameOf(settings_.movement),
+            .resourcePack = settings_.resourcePack};
 }
 
 base::Result<void> Game::save() {
@@ -197,6 +204,7 @@ base::Result<void> Game::save() {
 bool Game::staysAfter(const base::Result<void>& saved) {
     if (saved || quitsUnsaved_ || parts_.signals.stopAsked()) return false;
     parts_.window.cancelClose();
+    isLeaving_ = false;
     asksToQuit_ = true;
     capture(false);
     return true;
@@ -205,7 +213,8 @@ bool Game::staysAfter(const base::Result<void>& saved) {
 void Game::answerQuitDialog(QuitChoice choice) {
     asksToQuit_ = false;
     quitsUnsaved_ = choice == QuitChoice::QuitUnsaved;
-    if (choice != QuitChoice::Stay) parts_.window.requestClose();
+    leave(goesToTitle_);
+    if (choice == QuitChoice::Stay) isLeaving_ = goesToTitle_ = false;
 }
 
 }  // namespace terrane::app

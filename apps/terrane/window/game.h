@@ -13,6 +13,7 @@
 #include "apps/terrane/window/play_settings.h"
 #include "apps/terrane/window/preset_measurement.h"
 #include "apps/terrane/window/save_notice.h"
+#include "apps/terrane/window/settings_dialog.h"
 #include "apps/terrane/window/window.h"
 #include "terrane/base/stop_signals.h"
 #include "terrane/base/timed_value.h"
@@ -45,21 +46,25 @@ struct GameOptions {
     std::string hotbar;                // as game::textOf() says it; any text
     std::filesystem::path dataFolder;  // for bookmarks and screenshots
     bool isSoftwareRenderer = false;
-    std::string deviceName;       // of the graphics driver
-    bool measuresPreset = false;  // the settings get the preset that a measurement picks
-    std::string perfData;         // file; empty: none
+    std::string deviceName;           // of the graphics driver
+    bool measuresPreset = false;      // the settings get the preset that a measurement picks
+    std::string perfData;             // file; empty: none
+    std::filesystem::path thumbnail;  // file of the world's picture; empty: none
 };
 
 class Game {
   public:
-    static constexpr double kMemoryPause = 0.5;  // seconds for which statistics of memory stay as they are
-    static constexpr double kShaderPause = 1;    // seconds between looks at the files of shaders
+    static constexpr double kMemoryPause = 0.5;     // seconds for which statistics of memory stay as they are
+    static constexpr double kShaderPause = 1;       // seconds between looks at the files of shaders
+    static constexpr double kThumbnailPause = 180;  // seconds between pictures of the world
 
     Game(const GameParts& parts, const GameOptions& options);
 
-    // Until the window closes, a signal asks to stop or a frame fails; then everything is saved. Where that
-    // fails the player is asked first; an error says what is lost.
+    // Until the player leaves, the window closes, a signal asks to stop or a frame fails; then everything is
+    // saved. Where that fails the player is asked first; an error says what is lost.
     base::Result<void> run();
+    // After run(): the player wants the title, not to quit.
+    bool goesToTitle() const { return goesToTitle_; }
     const PlaySettings& settings() const { return settings_; }
 
   private:
@@ -67,6 +72,8 @@ class Game {
 
     void handleEvents();
     void onKey(Key key);
+    void act(Action action);
+    void leave(bool toTitle);
     void onPad(double seconds);
     void onButton(MouseButton button, bool isPress);
     bool useTarget();
@@ -80,13 +87,12 @@ class Game {
     bool isInMenu() const { return isPaused_ || asksToQuit_; }
     // Keys and buttons are for something other than the game.
     bool isInDialog() const { return isInMenu() || container_ || hud_.hasDialog(); }
-    void onGameKey(Key key);
     void onControlKey(Key key);
     void openPalette();
     void openPlaces();
     void takeBack(game::HistoryWay way);
     void goToSpawn();
-    void act(double seconds);
+    void breakAndBuild(double seconds);
     void advanceHud(double seconds);
     void drawHud(const Screen& screen, const render::Camera& camera, double seconds);
     void drawPaletteDialog(const Screen& screen);
@@ -99,7 +105,9 @@ class Game {
     void nextBookmark();
     void takeScreenshot();
     void nextMovement();
+    void nextLight();
     void say(std::string message);
+    void writeThumbnail();
 
     game::MoveKeys moveKeys() const;
     render::Camera camera() const;
@@ -149,9 +157,13 @@ class Game {
     std::optional<PerfLog> perfLog_;
     std::optional<PresetMeasurement> measurement_;  // while it goes on
     std::string deviceName_, presetMessage_;
+    SettingsDialog settingsDialog_;
+    std::filesystem::path thumbnail_;
+    double untilThumbnail_ = kThumbnailPause;
 
     bool isCaptured_ = false, showsPanel_ = false, isAbove_ = false, showsLoading_ = false;
-    bool isPaused_ = false, asksToQuit_ = false, quitsUnsaved_ = false;
+    bool isPaused_ = false, asksToQuit_ = false, quitsUnsaved_ = false, showsSettings_ = false;
+    bool isLeaving_ = false, goesToTitle_ = false;
     bool wasComplete_ = false;  // all in view has been there once
     double hintSeconds_ = 12, messageSeconds_ = 0;
     std::string message_;

@@ -118,13 +118,14 @@ void Game::drawPlacesDialog(const Screen& screen) {
 void Game::advanceHud(double seconds) {
     const glm::dvec3 step = player_.pose().position - hud_.walkedFrom;
     hud_.walkedFrom = player_.pose().position;
-    hud_.hand.advance(seconds, std::hypot(step.x, step.y), settings_.movement == game::Movement::Gravity);
+    hud_.hand.advance(seconds, std::hypot(step.x, step.y),
+                      settings_.movement == game::Movement::Gravity && !settings_.reducedMotion);
     hud_.screenshot.advance(seconds);
     hud_.particles.advance(seconds, parts_.session.world(), parts_.session.blocks());
 }
 
 // Breaks and builds, and shows that it happened.
-void Game::act(double seconds) {
+void Game::breakAndBuild(double seconds) {
     const auto& target = interaction_.target();
     const std::optional<world::BlockPos> pos = target ? std::optional(target->block) : std::nullopt;
     const world::BlockId before = pos ? parts_.session.world().block(*pos) : world::kAir;

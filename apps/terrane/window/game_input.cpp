@@ -1,10 +1,13 @@
 // What keys, mouse and gamepad do.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "apps/terrane/window/game.h"
+#include "apps/terrane/window/thumbnail.h"
 #include "terrane/base/image.h"
+#include "terrane/base/log.h"
 #include "terrane/game/container.h"
 #include "terrane/view/camera_pose.h"
 
@@ -52,7 +55,7 @@ void Game::handleEvents() {
             case Type::CursorMove:
                 if (!wasCaptured || !isCaptured_) break;
                 player_.turn(event.x * double{settings_.mouseSensitivity},
-                             event.y * double{settings_.mouseSensitivity});
+                             (settings_.invertY ? -event.y : event.y) * double{settings_.mouseSensitivity});
         }
     }
 }
@@ -63,83 +66,72 @@ void Game::onKey(Key key) {
         interaction_.hotbar.blocks[*slot] = hud_.palette.pointedAt;
         return;
     }
-    if (key == Key::Escape && hud_.hasDialog()) return capture(true);
+    const bool closesPalette = hud_.palette.isOpen && key == Key::Tab;
+    if (closesPalette || (key == Key::Escape && hud_.hasDialog())) return capture(true);
+    if (settingsDialog_.takeKey(key, settings_)) return;
     if (imgui_.takesKeys()) return;  // Escape ends the typing
+    if (key == Key::Escape) return closeOne();
+    if (key == Key::Q && isPaused_ && !showsSettings_) return leave(false);
+    const auto action = settings_.keys.actionOf(key);
     // What opens nothing is for the game, which stands still in a menu.
-    const bool isForMenu = key == Key::Escape || key == Key::Q || (key >= Key::F1 && key <= Key::F12);
-    if (isInDialog() && !isForMenu && !(hud_.palette.isOpen && key == Key::Tab)) return;
+    if (isInDialog() && !(action && rowOf(*action).opensSomething)) return;
     if (parts_.window.keyDown(Key::Control)) return onControlKey(key);
-    if (slot) {
+    if (slot)
         interaction_.hotbar.chosen = *slot;
-        return;
-    }
-    switch (key) {
-        case Key::Escape:
-            return closeOne();
-        case Key::Q:
-            if (isPaused_) parts_.window.requestClose();
-            break;
-        case Key::F1:
+    else if (action)
+        act(*action);
+}
+
+void Game::act(Action action) {
+    switch (action) {
+        case Action::Help:
             hintSeconds_ = hintSeconds_ > 0 ? 0 : 20;
             break;
-        case Key::F2:
+        case Action::Panel:
             showsPanel_ = !showsPanel_;
             if (showsPanel_) capture(false);
             break;
-        case Key::F3:
+        case Action::TopView:
             isAbove_ = !isAbove_;
             break;
-        case Key::F4:
+        case Action::LoadingMap:
             showsLoading_ = !showsLoading_;
             break;
-        case Key::F5:
+        case Action::SaveBookmark:
             return saveBookmark();
-        case Key::F6:
+        case Action::NextBookmark:
             return nextBookmark();
-        case Key::F7:
+        case Action::Facts:
             hud_.showsFacts = !hud_.showsFacts;
             break;
-        case Key::F8:
+        case Action::HideHud:
             hud_.isHidden = !hud_.isHidden;
             break;
-        case Key::F11:
+        case Action::FullScreen:
             settings_.fullScreen = !settings_.fullScreen;
             break;
-        case Key::F12:
+        case Action::Screenshot:
             return takeScreenshot();
-        case Key::O:
+        case Action::Earlier:
             parts_.session.clock.shift(-kDayStep);
             break;
-        case Key::P:
+        case Action::Later:
             parts_.session.clock.shift(kDayStep);
             break;
-        case Key::I:
+        case Action::HoldTime:
             parts_.session.clock.isRunning = !parts_.session.clock.isRunning;
-            say(parts_.session.clock.isRunning ? "time passes" : "time stands still");
-            break;
-        case Key::L: {
-            using render::LightSampling;
-            render::LightSampling& light = settings_.graphics.render.light;
-            light = light == LightSampling::Smooth ? LightSampling::Classic : LightSampling::Smooth;
-            say(light == LightSampling::Smooth ? "smooth light" : "classic light");
-            break;
-        }
-        case Key::M:
+            return say(parts_.session.clock.isRunning ? "time passes" : "time stands still");
+        case Action::Light:
+            return nextLight();
+        case Action::Movement:
             return nextMovement();
-        default:
-            return onGameKey(key);
-    }
-}
-
-void Game::onGameKey(Key key) {
-    switch (key) {
-        case Key::Tab:
+        case Action::Palette:
             return openPalette();
-        case Key::N:
+        case Action::Places:
             return openPlaces();
-        case Key::H:
+        case Action::Spawn:
             return goToSpawn();
-        default:
+        default:  // held keys: moveKeys()
             break;
     }
 }
@@ -161,12 +153,28 @@ void Game::openPlaces() {
     hud_.placesDialog.open();
 }
 
+void Game::nextLight() {
+    using render::LightSampling;
+    render::LightSampling& light = settings_.graphics.render.light;
+    light = light == LightSampling::Smooth ? LightSampling::Classic : LightSampling::Smooth;
+    say(light == LightSampling::Smooth ? "smooth light" : "classic light");
+}
+
+void Game::leave(bool toTitle) {
+    goesToTitle_ = toTitle;
+    isLeaving_ = true;
+}
+
 // One press of Escape closes one thing, the last that opened; where nothing is open the game pauses.
 void Game::closeOne() {
     if (imgui_.hasPopup()) return imgui_.endTyping();
     if (asksToQuit_) return answerQuitDialog(QuitChoice::Stay);
     if (container_) return closeContainer();
     if (hud_.hasDialog()) return capture(true);
+    if (showsSettings_) {
+        showsSettings_ = false;
+        return;
+    }
     if (showsPanel_) {
         showsPanel_ = false;
         if (!isPaused_) capture(true);
@@ -177,6 +185,7 @@ void Game::closeOne() {
 
 void Game::pause() {
     isPaused_ = true;
+    hintSeconds_ = 0;
     capture(false);
 }
 
@@ -190,13 +199,17 @@ void Game::answerPauseMenu(PauseChoice choice) {
         case PauseChoice::Resume:
             return resume();
         case PauseChoice::Settings:
-            showsPanel_ = !showsPanel_;
+            settingsDialog_.open();
+            showsSettings_ = true;
             return;
         case PauseChoice::Help:
+            resume();
             hintSeconds_ = 20;
             return;
+        case PauseChoice::ToTitle:
+            return leave(true);
         case PauseChoice::Quit:
-            return parts_.window.requestClose();
+            return leave(false);
     }
 }
 
@@ -210,10 +223,13 @@ void Game::nextMovement() {
 // The sticks move and turn, as moveKeys() and this see them; buttons do what keys and the mouse do.
 void Game::onPad(double seconds) {
     pad_.read(parts_.window.gamepad());
-    if (pad_.isPressed(&Gamepad::start)) closeOne();
+    const bool isBack = isInDialog() && pad_.isPressed(&Gamepad::east);
+    if (pad_.isPressed(&Gamepad::start) || isBack) closeOne();
+    if (showsSettings_ && pad_.isPressed(&Gamepad::leftBumper)) settingsDialog_.turnPage(-1);
+    if (showsSettings_ && pad_.isPressed(&Gamepad::rightBumper)) settingsDialog_.turnPage(1);
     if (isInDialog()) return;
     player_.turn(double{pad_.now().rightX} * kStickDegrees * seconds,
-                 -double{pad_.now().rightY} * kStickDegrees * seconds);
+                 (settings_.invertY ? 1.0 : -1.0) * double{pad_.now().rightY} * kStickDegrees * seconds);
     pad_.drive(interaction_.breaking, &Gamepad::rightTrigger);
     pad_.drive(interaction_.building, &Gamepad::leftTrigger);
     if (pad_.isPressed(&Gamepad::leftBumper)) game::stepSlot(interaction_.hotbar, -1);
@@ -303,19 +319,29 @@ void Game::takeScreenshot() {
     say(done ? "screenshot " + file.string() : done.error().message);
 }
 
+void Game::writeThumbnail() {
+    untilThumbnail_ = kThumbnailPause;
+    if (thumbnail_.empty() || !hasWorldImage()) return;
+    const auto done = base::writePng(thumbnail_, thumbnailFrom(parts_.renderer.readImage()));
+    if (!done) base::logInfo("{}", done.error().message);  // a list without a picture is no loss
+}
+
 game::MoveKeys Game::moveKeys() const {
     if (isInDialog()) return {};
     const Gamepad& pad = pad_.now();
     const bool isTyping = imgui_.takesKeys(), walks = settings_.movement == game::Movement::Gravity;
-    const auto isDown = [&](Key key) { return !isTyping && parts_.window.keyDown(key); };
-    return {.forward = isDown(Key::W) || isDown(Key::Up),
-            .back = isDown(Key::S) || isDown(Key::Down),
-            .left = isDown(Key::A) || isDown(Key::Left),
-            .right = isDown(Key::D) || isDown(Key::Right),
-            .up = isDown(Key::E) || (!walks && isDown(Key::Shift)),
-            .down = isDown(Key::Q) || isDown(Key::Control) || pad.east,
-            .jump = isDown(Key::Space) || pad.south,
-            .run = (walks && isDown(Key::Shift)) || pad.west,
+    const auto isDown = [&](Action action) {
+        const auto isKeyDown = [&](Key key) { return parts_.window.keyDown(key); };
+        return !isTyping && std::ranges::any_of(settings_.keys.keysOf(action), isKeyDown);
+    };
+    return {.forward = isDown(Action::Forward),
+            .back = isDown(Action::Back),
+            .left = isDown(Action::Left),
+            .right = isDown(Action::Right),
+            .up = isDown(Action::Up) || (!walks && isDown(Action::Run)),
+            .down = isDown(Action::Down) || pad.east,
+            .jump = isDown(Action::Jump) || pad.south,
+            .run = (walks && isDown(Action::Run)) || pad.west,
             .jumpsByItself = settings_.autoJump,
             .stick = {pad.leftX, pad.leftY}};
 }

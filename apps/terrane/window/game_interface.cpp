@@ -24,6 +24,7 @@ std::optional<glm::vec3> Game::shadowLight() const {
 void Game::drawInterface(double seconds) {
     game::Session& session = parts_.session;
     const stream::Progress progress = session.pipeline().progress();
+    imgui_.setTextSize(settings_.textSize);
     imgui_.beginFrame(isCaptured_, isInMenu() || hud_.hasDialog());
     const Screen screen{imgui_.size().x, imgui_.size().y};
     const render::Camera camera = this->camera();
@@ -32,7 +33,7 @@ void Game::drawInterface(double seconds) {
         drawDebugTopView(screen, debugTopCamera(camera, viewDistance), camera,
                          view::fogDistance(viewDistance), shadowLight());
     } else if (const auto& target = interaction_.target()) {
-        drawTarget(screen, camera, *target, session.world(), session.blocks());
+        drawTarget(screen, camera, *target, {session.world(), session.blocks(), settings_.highContrast});
     }
     if (isCaptured_ && !isAbove_) drawCrosshair(screen);
     drawHud(screen, camera, seconds);
@@ -45,7 +46,9 @@ void Game::drawInterface(double seconds) {
     if (showsPanel_) drawStatistics(statistics(), screen.width - panelWidth() - 30 * uiScale());
     if (showsPanel_) drawPanel(settings_, session.clock, {isSoftwareRenderer_, screen.width, screen.height});
     if (container_) drawOpenContainer(screen);
-    if (isPaused_ && !asksToQuit_)
+    if (showsSettings_ && !asksToQuit_) {
+        if (settingsDialog_.draw(settings_, {screen, isSoftwareRenderer_, &session.clock})) closeOne();
+    } else if (isPaused_ && !asksToQuit_)
         if (const auto choice = drawPauseMenu(screen)) answerPauseMenu(*choice);
     const store::SaveStatus status = session.store().status();
     if (!asksToQuit_) {

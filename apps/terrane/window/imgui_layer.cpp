@@ -7,22 +7,12 @@
 
 #include <cmath>
 
+#include "apps/terrane/window/ui_style.h"
+
 namespace terrane::app {
 namespace {
 
 constexpr float kFontPixels = 13;  // of Dear ImGui's own font, for which all sizes here are meant
-
-void setStyle(float scale) {
-    ImGuiStyle s;
-    ImGui::StyleColorsDark(&s);
-    s.WindowRounding = 6;
-    s.FrameRounding = 3;
-    s.GrabRounding = 3;
-    s.WindowBorderSize = 0;
-    s.Colors[ImGuiCol_WindowBg] = ImVec4(0.06f, 0.07f, 0.09f, 0.78f);
-    s.ScaleAllSizes(scale);
-    ImGui::GetStyle() = s;
-}
 
 // Drawn again in the size that it has on the screen, so that it is sharp.
 void setFont(float pixels) {
@@ -65,18 +55,29 @@ void ImguiLayer::beginFrame(bool isCursorCaptured, bool isInMenu) {
     }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    if (isInMenu) activateByEnter();
     followScale();
     ImGui::NewFrame();
+}
+
+// Enter chooses, as Space does. One that ends the typing chooses nothing, however long it is held.
+void ImguiLayer::activateByEnter() {
+    ImGuiIO& io = ImGui::GetIO();
+    const bool isDown = ImGui::IsKeyDown(ImGui::GetKeyIndex(ImGuiKey_Enter)) ||
+                        ImGui::IsKeyDown(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter));
+    if (!isDown) enter_ = Enter::Up;
+    if (isDown && enter_ == Enter::Up) enter_ = io.WantTextInput ? Enter::Types : Enter::Chooses;
+    if (enter_ == Enter::Chooses) io.NavInputs[ImGuiNavInput_Activate] = 1;
 }
 
 // At first, and when the window has moved to a screen with another scale. Where the system counts in units
 // larger than pixels, Dear ImGui does too: only the rest of the scale is for it to do.
 void ImguiLayer::followScale() {
-    const Scale scale{window_->contentScale(), window_->pixelsPerUnit()};
+    const Scale scale{window_->contentScale(), window_->pixelsPerUnit(), textSize_};
     if (scale == scale_) return;
     scale_ = scale;
-    setStyle(scale.content / scale.pixelsPerUnit);
-    setFont(kFontPixels * scale.content);
+    setUiStyle(textSize_ * scale.content / scale.pixelsPerUnit);
+    setFont(kFontPixels * textSize_ * scale.content);
     ImGui::GetIO().FontGlobalScale = 1 / scale.pixelsPerUnit;
 }
 

@@ -1,6 +1,7 @@
 // Dear ImGui over a window: set up once, one frame at a time. Used on the window's thread.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 
 #include "apps/terrane/window/window.h"
@@ -15,6 +16,8 @@ class ImguiLayer {
     ImguiLayer(const ImguiLayer&) = delete;
     ImguiLayer& operator=(const ImguiLayer&) = delete;
 
+    // How much larger than usual texts and all around them are, from the next frame on.
+    void setTextSize(float factor) { textSize_ = factor; }
     // While the cursor is captured the mouse belongs to the game; in a menu keys and gamepad choose.
     void beginFrame(bool isCursorCaptured, bool isInMenu);
     // Of the window in the units in which Dear ImGui and the cursor count: the pixels of its framebuffer on
@@ -30,12 +33,17 @@ class ImguiLayer {
 
   private:
     struct Scale {
-        float content = 0, pixelsPerUnit = 0;
+        float content = 0, pixelsPerUnit = 0, textSize = 1;
         bool operator==(const Scale&) const = default;
     };
     void followScale();
+    void activateByEnter();
 
     const Window* window_;
+    enum class Enter : std::uint8_t { Up, Types, Chooses };
+
+    float textSize_ = 1;
+    Enter enter_ = Enter::Up;
     Scale scale_;
 };
 

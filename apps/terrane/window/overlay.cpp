@@ -66,7 +66,8 @@ std::optional<glm::vec2> projected(const Screen& screen, const render::Camera& c
 }
 
 void drawTarget(const Screen& screen, const render::Camera& camera, const world::RayHit& target,
-                const world::World& world, const world::BlockRegistry& blocks) {
+                const TargetView& view) {
+    const auto& [world, blocks, isHighContrast] = view;
     const world::BlockType& type = blocks.type(world.block(target.block));
     constexpr double kGrow = 1.0 / 256;  // outside of the block's own faces
     const glm::dvec3 corner(target.block.x, target.block.y, target.block.z);
@@ -83,8 +84,13 @@ void drawTarget(const Screen& screen, const render::Camera& camera, const world:
         const Corners c = faceCorners(screen, camera, min, max, face);
         if (!isSeen || isCovered || !c[0] || !c[1] || !c[2] || !c[3]) continue;
         if (face == target.face)
-            draw.AddQuadFilled(at(*c[0]), at(*c[1]), at(*c[2]), at(*c[3]), IM_COL32(255, 255, 255, 28));
-        draw.AddQuad(at(*c[0]), at(*c[1]), at(*c[2]), at(*c[3]), IM_COL32(0, 0, 0, 190), 1.5f * uiScale());
+            draw.AddQuadFilled(at(*c[0]), at(*c[1]), at(*c[2]), at(*c[3]),
+                               isHighContrast ? IM_COL32(230, 159, 0, 110) : IM_COL32(255, 255, 255, 28));
+        const auto outline = [&](ImU32 color, float width) {
+            draw.AddQuad(at(*c[0]), at(*c[1]), at(*c[2]), at(*c[3]), color, width * uiScale());
+        };
+        outline(IM_COL32(0, 0, 0, isHighContrast ? 255 : 190), isHighContrast ? 5.0f : 1.5f);
+        if (isHighContrast) outline(IM_COL32_WHITE, 2);
     }
 }
 

@@ -23,10 +23,15 @@ struct Screen {
 // Where a point of the world is on the screen; none behind the camera.
 std::optional<glm::vec2> projected(const Screen& screen, const render::Camera& camera, glm::dvec3 point);
 
+struct TargetView {
+    const world::World& world;
+    const world::BlockRegistry& blocks;
+    bool isHighContrast = false;  // in black, white and orange, which color-blind eyes tell apart
+};
 // The edges of the block that is looked at, of its faces that nothing covers, and the face under the
 // crosshair.
 void drawTarget(const Screen& screen, const render::Camera& camera, const world::RayHit& target,
-                const world::World& world, const world::BlockRegistry& blocks);
+                const TargetView& view);
 // Straight over a camera, so high that all within the view distance (chunks) is seen.
 render::Camera debugTopCamera(const render::Camera& camera, int viewDistance);
 // What the camera sees, up to `farBlocks`, and what its nearest shadow map covers, if there is a light that

@@ -6,26 +6,25 @@
 #include <utility>
 
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/ui_style.h"
 
 namespace terrane::app {
 
 std::optional<PauseChoice> drawPauseMenu(const Screen& screen) {
-    constexpr std::pair<const char*, PauseChoice> kButtons[] = {{"Resume (Esc)", PauseChoice::Resume},
-                                                                {"Settings (F2)", PauseChoice::Settings},
-                                                                {"Keys (F1)", PauseChoice::Help},
-                                                                {"Save and quit (Q)", PauseChoice::Quit}};
+    constexpr std::pair<const char*, PauseChoice> kButtons[] = {
+        {"Resume (Esc)", PauseChoice::Resume},
+        {"Settings", PauseChoice::Settings},
+        {"Keys (F1)", PauseChoice::Help},
+        {"Save and quit to title", PauseChoice::ToTitle},
+        {"Save and quit (Q)", PauseChoice::Quit}};
     std::optional<PauseChoice> choice;
-    const float width = std::min(220 * uiScale(), screen.width - 20 * uiScale());
     ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, {screen.width, screen.height},
                                                   IM_COL32(0, 0, 0, 90));
-    ImGui::SetNextWindowPos({screen.width / 2, screen.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({width, 0});
-    ImGui::Begin("Paused", nullptr,
-                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
-    if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
+    const float width = std::min(240 * uiScale(), screen.width - 20 * uiScale());
+    beginMenu({"Paused", {screen.width / 2, screen.height / 2}, {width, 0}});
     for (const auto& [label, meaning] : kButtons) {
-        if (ImGui::Button(label, {-1, 30 * uiScale()})) choice = meaning;
-        if (meaning == PauseChoice::Resume) ImGui::SetItemDefaultFocus();
+        if (menuButton(label)) choice = meaning;
+        if (meaning == PauseChoice::Resume && ImGui::IsWindowAppearing()) ImGui::SetItemDefaultFocus();
     }
     ImGui::End();
     return choice;

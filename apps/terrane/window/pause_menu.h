@@ -8,7 +8,7 @@
 
 namespace terrane::app {
 
-enum class PauseChoice : std::uint8_t { Resume, Settings, Help, Quit };
+enum class PauseChoice : std::uint8_t { Resume, Settings, Help, ToTitle, Quit };
 
 // Nothing until a button is clicked, or chosen with the arrow keys and Enter.
 std::optional<PauseChoice> drawPauseMenu(const Screen& screen);

@@ -5,17 +5,6 @@
 #include <array>
 
 namespace terrane::app {
-namespace {
-
-template <class T>
-std::string nameOf(EnumNames<T> valueNames, T value) {
-    for (const auto& [name, meaning] : valueNames) {
-        if (meaning == value) return name;
-    }
-    return {};
-}
-
-}  // namespace
 
 EnumNames<game::Movement> movementNames() {
     static const std::array<std::pair<std::string, game::Movement>, 4> valueNames = {
@@ -24,6 +13,16 @@ EnumNames<game::Movement> movementNames() {
          {"walls", game::Movement::Walls},
          {"gravity", game::Movement::Gravity}}};
     return valueNames;
+}
+
+const std::string& nameOf(game::Movement movement) {
+    return movementNames()[static_cast<std::size_t>(movement)].first;
+}
+
+std::optional<game::Movement> movementNamed(std::string_view name) {
+    for (const auto& [known, movement] : movementNames())
+        if (known == name) return movement;
+    return std::nullopt;
 }
 
 SettingValues valuesOf(const PlaySettings& s, bool isSoftwareRenderer) {
@@ -35,12 +34,16 @@ SettingValues valuesOf(const PlaySettings& s, bool isSoftwareRenderer) {
         values.emplace(row.name, row.valueNames[static_cast<std::size_t>(value)]);
     }
     values.emplace("view-distance", fmt::format("{}", s.graphics.viewDistance));
-    values.emplace("movement", nameOf(movementNames(), s.movement));
     values.emplace("field-of-view", fmt::format("{:.0f}", s.fieldOfView));
     values.emplace("mouse-sensitivity", fmt::format("{:.2f}", s.mouseSensitivity));
     values.emplace("day-minutes", fmt::format("{:.1f}", s.dayMinutes));
     if (s.fullScreen) values.emplace("full-screen", "true");
-    if (!s.resourcePack.empty()) values.emplace("resource-pack", s.resourcePack);
+    if (const std::string keys = textOf(s.keys); !keys.empty()) values.emplace("keys", keys);
+    if (s.invertY) values.emplace("invert-y", "true");
+    if (s.autoJump) values.emplace("auto-jump", "true");
+    if (s.textSize != 1) values.emplace("text-size", fmt::format("{:.2f}", s.textSize));
+    if (s.highContrast) values.emplace("high-contrast", "true");
+    if (s.reducedMotion) values.emplace("reduced-motion", "true");
     return values;
 }
 

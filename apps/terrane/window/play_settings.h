@@ -1,9 +1,12 @@
 // What a user can change while playing, and how it is written down. Shown by panel.h, kept by settings.h.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "apps/terrane/graphics_options.h"
+#include "apps/terrane/window/key_bindings.h"
 #include "apps/terrane/window/settings.h"
 #include "terrane/game/player.h"
 #include "terrane/mesh/mesh_options.h"
@@ -20,16 +23,25 @@ struct PlaySettings {
     float fieldOfView = 70;          // degrees
     float mouseSensitivity = 0.15f;  // degrees a screen unit
     double dayMinutes = 20;
-    bool autoJump = false;
     bool fullScreen = false;
     std::string resourcePack;  // folder; empty: none
+
+    KeyBindings keys;
+    bool invertY = false;  // the mouse and the stick: away from the player looks down
+    bool autoJump = false;
+    float textSize = 1;         // of the user interface, times
+    bool highContrast = false;  // the block that is looked at
+    bool reducedMotion = false;
 
     bool operator==(const PlaySettings&) const = default;
 };
 
 EnumNames<game::Movement> movementNames();  // of the option --movement
+const std::string& nameOf(game::Movement movement);
+std::optional<game::Movement> movementNamed(std::string_view name);
 
-// As options of `terrane play`: of the graphics options only those that differ from the preset.
+// As options of `terrane play`: of the graphics options only those that differ from the preset. Movement and
+// resource pack are not among them: a world keeps its own.
 SettingValues valuesOf(const PlaySettings& settings, bool isSoftwareRenderer);
 
 }  // namespace terrane::app

@@ -7,18 +7,18 @@
 #include <span>
 
 #include "apps/terrane/window/imgui_layer.h"
-#include "terrane/base/shrunk_image.h"
+#include "apps/terrane/window/thumbnail.h"
 
 namespace terrane::app {
 namespace {
 
 constexpr double kSeconds = 3;
-constexpr int kWidth = 192, kHeight = 144;  // pixels
+constexpr float kWidth = 192;  // before scaling
 
 }  // namespace
 
 void ScreenshotView::show(const base::Image& screenshot) {
-    const base::Image small = base::shrunk(screenshot, kWidth, kHeight);
+    const base::Image small = thumbnailFrom(screenshot);
     image_ = gpu::Texture2D({small.width, small.height}, GL_RGBA8, 1, "screenshot");
     image_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(small.rgba)));
     secondsLeft_ = kSeconds;
@@ -33,8 +33,9 @@ void ScreenshotView::advance(double seconds) {
 void ScreenshotView::draw(const Screen& screen) const {
     if (image_.id() == 0) return;
     const float alpha = static_cast<float>(std::min(secondsLeft_, 1.0)), margin = 10 * uiScale();
-    const ImVec2 size(static_cast<float>(image_.size().x) * uiScale(),
-                      static_cast<float>(image_.size().y) * uiScale());
+    const float width = kWidth * uiScale();
+    const ImVec2 size(width,
+                      width * static_cast<float>(image_.size().y) / static_cast<float>(image_.size().x));
     const ImVec2 max(screen.width - margin, margin + size.y), min(max.x - size.x, margin);
     ImDrawList& draw = *ImGui::GetForegroundDrawList();
     const int opacity = static_cast<int>(255 * alpha);

@@ -9,7 +9,7 @@ namespace terrane::app {
 
 class ScreenshotView {
   public:
-    // Keeps a copy, at most 192 pixels wide.
+    // Keeps a small copy.
     void show(const base::Image& screenshot);
     void advance(double seconds);
     void draw(const Screen& screen) const;

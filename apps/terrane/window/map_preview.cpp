@@ -1,0 +1,135 @@
+#include "apps/terrane/window/map_preview.h"
+
+#include <epoxy/gl.h>
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <thread>
+#include <utility>
+
+#include "terrane/base/exception_text.h"
+#include "terrane/base/job_system.h"
+#include "terrane/base/profile.h"
+#include "terrane/content/built_in.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/stream/area_chunks.h"
+#include "terrane/world/map_image.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr int kLevels[] = {6, 5, 4};  // chunks of a level are 1024, 512, 256 blocks wide
+constexpr int kBlocks = 16 * MapPreview::kPixels;
+
+}  // namespace
+
+struct MapPreview::Work {
+    explicit Work(const world::BlockRegistry& registry) : blocks(registry), thread([this] { run(); }) {}
+    ~Work() {
+        {
+            const std::lock_guard lock(mutex);
+            isEnding = true;
+        }
+        changed.notify_all();
+        thread.join();
+    }
+
+    void run();
+    void draw(const World& world);
+    base::Result<base::Image> drawLevel(const World& world, const gen::LevelGenerators& generators,
+                                        int level);
+    bool isOutdated(const World& world) {
+        const std::lock_guard lock(mutex);
+        return isEnding || wanted != world;
+    }
+    void give(const World& world, base::Result<base::Image> image, bool isLast) {
+        const std::lock_guard lock(mutex);
+        if (wanted != world) return;
+        if (image) drawn = std::move(*image);
+        problem = image ? "" : image.error().message;
+        isDone = isLast || !image;
+    }
+
+    const world::BlockRegistry& blocks;
+    std::mutex mutex;
+    std::condition_variable changed;
+    // Under the mutex.
+    std::optional<World> wanted;
+    std::optional<base::Image> drawn;  // waits to be taken
+    bool isDone = false, isEnding = false;
+    std::string problem;
+    base::JobSystem jobs{1};
+    std::thread thread;  // begins when all else is there
+};
+
+void MapPreview::Work::run() {
+    base::setThreadName("map preview");
+    std::optional<World> last;
+    while (true) {
+        std::unique_lock lock(mutex);
+        changed.wait(lock, [&] { return isEnding || wanted != last; });
+        if (isEnding) return;
+        last = wanted;
+        lock.unlock();
+        try {
+            draw(*last);
+        } catch (const std::exception& error) {  // no memory
+            give(*last, base::fail("{}", base::textOf(error)), true);
+        }
+    }
+}
+
+void MapPreview::Work::draw(const World& world) {
+    auto generators = gen::makeLevelGenerators(world.generator, blocks, world.seed);
+    if (!generators) return give(world, tl::unexpected(generators.error()), true);
+    for (const int level : kLevels) {
+        if (isOutdated(world)) return;
+        give(world, drawLevel(world, *generators, level), level == std::end(kLevels)[-1]);
+    }
+}
+
+base::Result<base::Image> MapPreview::Work::drawLevel(const World& world,
+                                                      const gen::LevelGenerators& generators, int level) {
+    const auto generator = generators.at(level);
+    if (!generator) return tl::unexpected(generator.error());
+    const std::int32_t half = kBlocks / 2 / (16 << level);
+    world::MapSource source{
+        {-half, -half, half, half},
+        static_cast<std::uint8_t>(level),
+        [&](std::span<const world::ChunkPos> row) -> base::Result<std::vector<world::Chunk>> {
+            if (isOutdated(world)) return base::fail("outdated");
+            return stream::chunksAt(row, nullptr, **generator, jobs);
+        }};
+    if (generators.hasTint()) source.tint = [&](world::ChunkPos pos) { return generators.tint(pos).value(); };
+    return world::drawMap(source, blocks, content::builtInTextures(), jobs, [](std::size_t) {});
+}
+
+MapPreview::MapPreview(const world::BlockRegistry& blocks) : work_(std::make_unique<Work>(blocks)) {}
+MapPreview::~MapPreview() = default;
+
+void MapPreview::show(const World& world) {
+    std::optional<base::Image> image;
+    bool isNew = false;
+    {
+        const std::lock_guard lock(work_->mutex);
+        isNew = work_->wanted != world;
+        if (isNew) {
+            work_->wanted = world;
+            work_->drawn.reset();
+            work_->isDone = false;
+            work_->problem.clear();
+        }
+        image = std::exchange(work_->drawn, std::nullopt);
+        isComplete_ = work_->isDone;
+        problem_ = work_->problem;
+    }
+    if (isNew) work_->changed.notify_all();
+    if (!image) return;
+    texture_ =
+        std::make_unique<gpu::Texture2D>(glm::ivec2(image->width, image->height), GL_RGBA8, 1, "map preview");
+    texture_->upload(0, GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(image->rgba)));
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,198 @@
+#include "apps/terrane/window/play_flow.h"
+
+#include <utility>
+
+#include "apps/terrane/open_session.h"
+#include "apps/terrane/window/game.h"
+#include "apps/terrane/window/title_screen.h"
+#include "terrane/base/log.h"
+#include "terrane/content/built_in.h"
+#include "terrane/content/resource_pack.h"
+#include "terrane/game/bookmarks.h"
+#include "terrane/game/spawn.h"
+#include "terrane/gpu/built_in_shaders.h"
+#include "terrane/store/save_path.h"
+#include "terrane/store/world_list.h"
+#include "terrane/store/world_location.h"
+
+namespace terrane::app {
+namespace {
+
+// Empty where no variable names a home: bookmarks and screenshots are then kept in the working directory.
+std::filesystem::path dataFolder() {
+    return store::dataFolder(store::savePlaces()).value_or(std::filesystem::path());
+}
+
+PlaySettings settingsOf(const PlayOptions& options, bool isSoftwareRenderer) {
+    PlaySettings settings = options.settings;
+    settings.preset = options.graphics.choices.preset;
+    settings.graphics = render::settingsOf(options.graphics.choices, isSoftwareRenderer);
+    settings.view = options.graphics.view;
+    settings.resourcePack = options.graphics.resourcePack;
+    return settings;
+}
+
+// What the player sees first: a bookmark, where the save was left, or a pleasant place.
+base::Result<world::Pose> startOf(const PlayOptions& options, const game::BookmarkFiles& files,
+                                  const game::SavedPlayer& saved, game::Session& session) {
+    if (options.bookmark) {
+        auto bookmarks = game::readBookmarks(files);
+        if (!bookmarks) return tl::unexpected(bookmarks.error());
+        const auto number = static_cast<std::size_t>(*options.bookmark);
+        if (number > bookmarks->size()) {
+            return base::fail("--bookmark {}: {} has {}", number, files.file.string(), bookmarks->size());
+        }
+        return (*bookmarks)[number - 1];
+    }
+    return saved.pose ? *saved.pose : game::findSpawn(session.generator(), session.blocks());
+}
+
+// Worlds are saved unless the player chooses otherwise. One without a name has that of what makes it, so that
+// it fits whenever the same is asked for.
+base::Result<game::SessionParts> openWorld(PlayOptions& options) {
+    using store::WorldAccess;
+    if (options.savesNothing) return openSessionParts(options.world, options.save, WorldAccess::ReadOnly);
+    std::string& name = options.save.world;
+    if (name.empty())
+        name = fmt::format("{}-{}", options.world.effectiveGenerator(), options.world.effectiveSeed());
+    auto parts = openSessionParts(options.world, options.save, WorldAccess::ReadWrite);
+    // Of other errors, such as another generator, playing without saving is no way out.
+    const bool cannotBeWritten = !parts && (parts.error().code == base::ErrorCode::Io ||
+                                            parts.error().code == base::ErrorCode::NotFound);
+    if (!cannotBeWritten) return parts;
+    return base::fail(parts.error().code, "{} (--no-save plays without saving)", parts.error().message);
+}
+
+// Only worlds that the list shows have one: a picture beside another file could be somebody's own.
+std::filesystem::path thumbnailFor(const PlayOptions& options, const std::filesystem::path& folder) {
+    const auto file = store::fileOf(store::worldLocation(options.save.world));
+    if (options.savesNothing || !file || folder.empty() || file->parent_path() != folder) return {};
+    return store::thumbnailOf(*file);
+}
+
+}  // namespace
+
+void takeFromWorld(PlaySettings& settings, const game::SavedPlayer& saved, const GivenOptions& given) {
+    const auto movement = saved.movement ? movementNamed(*saved.movement) : std::nullopt;
+    if (saved.movement && !movement)
+        base::logInfo("the save's way to move is unknown: {:?}", *saved.movement);
+    if (movement && !given.movement) settings.movement = *movement;
+    if (saved.resourcePack && !given.resourcePack) settings.resourcePack = *saved.resourcePack;
+}
+
+PlayFlow::PlayFlow(const PlayOptions& options, const GivenOptions& given, Window& window)
+    : options_(options),
+      given_(given),
+      window_(window),
+      shaders_(gpu::builtInShaders(options.graphics.shaderRoot)),
+      screen_{&shaders_, gpu::queryDevice(), options.graphics.gpuMemory, options.graphics.resourcePack,
+              options.backend},
+      settings_(settingsOf(options, screen_.device.software)),
+      written_(settings_),
+      measuresPreset_(!given.graphics && !options.settingsFile.empty()) {}
+
+base::Result<void> PlayFlow::run() {
+    base::Result<void> result;
+    if (given_.namesWorld || options_.skipsTitle) {
+        result = playWorld(options_);
+    } else {
+        goesToTitle_ = true;
+    }
+    while (result && goesToTitle_ && !isOver()) {
+        auto chosen = showTitle();
+        if (!chosen) result = tl::unexpected(chosen.error());
+        if (!chosen || !*chosen) break;
+        PlayOptions options = options_;
+        options.bookmark.reset();
+        options.time.reset();
+        options.savesNothing = false;
+        options.save = {.world = (*chosen)->file.string(), .storeGenerated = {}};
+        options.world = {
+            .seed = {}, .seedText = {}, .generator = (*chosen)->generator, .threads = options.world.threads};
+        if ((*chosen)->seed) options.world.seed = (*chosen)->seed->seed;
+        if ((*chosen)->seed) options.world.seedText = (*chosen)->seed->text;
+        hasBegun_ = false;
+        result = playWorld(options);
+        if (result || hasBegun_) continue;
+        message_ = result.error().message;  // it was not opened: the title tells
+        goesToTitle_ = true;
+        result = {};
+    }
+    auto written = keepSettings();
+    return result ? written : result;
+}
+
+base::Result<std::optional<ChosenWorld>> PlayFlow::showTitle() {
+    const auto blocks = content::loadBlocks();
+    if (!blocks) return tl::unexpected(blocks.error());
+    TitleScreen title({window_, signals_, options_, screen_, *blocks, dataFolder()}, settings_,
+                      std::exchange(message_, {}));
+    auto chosen = title.run();
+    if (auto written = keepSettings(); !written) return tl::unexpected(written.error());
+    return chosen;
+}
+
+base::Result<void> PlayFlow::keepSettings() {
+    const bool isSoftware = screen_.device.software;
+    auto done = writeChanges(options_.settingsFile, valuesOf(written_, isSoftware),
+                             valuesOf(settings_, isSoftware), render::namesOfPreset());
+    if (done) written_ = settings_;
+    return done;
+}
+
+base::Result<void> PlayFlow::playWorld(const PlayOptions& asked) {
+    PlayOptions options = asked;
+    goesToTitle_ = false;
+    auto parts = openWorld(options);
+    if (!parts) return tl::unexpected(parts.error());
+    PlaySettings settings = settings_;
+    // The world's own, or what a new world begins with.
+    settings.movement = options_.settings.movement;
+    settings.resourcePack = options_.graphics.resourcePack;
+    takeFromWorld(settings, game::savedPlayer(*parts->store), given_);
+    if (settings.resourcePack != options_.graphics.resourcePack) {
+        const auto textures = content::loadTextures(settings.resourcePack, *parts->blocks);
+        if (!textures) {
+            base::logInfo("{}; the world is shown without it", textures.error().message);
+            settings.resourcePack.clear();
+        }
+    }
+    settings_ = settings;
+    ScreenOptions screen = screen_;
+    screen.resourcePack = settings.resourcePack;
+    return playFrom(options, std::move(*parts), std::move(screen));
+}
+
+base::Result<void> PlayFlow::playFrom(const PlayOptions& options, game::SessionParts parts,
+                                      ScreenOptions screen) {
+    auto made = WorldOnScreen::create(std::move(parts), options.world, screen);
+    if (!made) return tl::unexpected(made.error());
+    WorldOnScreen& world = **made;
+    game::Session& session = world.session();
+    GameOptions game;
+    game.dataFolder = dataFolder();
+    const game::SavedPlayer saved = game::savedPlayer(session.store());
+    const game::BookmarkFiles bookmarks = game::bookmarkFiles(game.dataFolder);
+    game::reportFormerFiles(bookmarks);
+    auto start = startOf(options, bookmarks, saved, session);
+    if (!start) return tl::unexpected(start.error());
+    session.clock.timeDay = options.time ? *options.time : saved.timeDay.value_or(session.clock.timeDay);
+    game.hotbar = saved.hotbar.value_or("");
+    game.settings = settings_;
+    game.start = *start;
+    game.perfData = options.perfData;
+    game.isSoftwareRenderer = screen.device.software;
+    game.deviceName = screen.device.renderer;
+    game.measuresPreset = std::exchange(measuresPreset_, false);
+    game.thumbnail = thumbnailFor(options, game.dataFolder);
+    hasBegun_ = true;
+    Game loop({window_, session, world.renderer(), world.view(), world.preview(), world.compiler(), shaders_,
+               signals_},
+              game);
+    const auto played = loop.run();
+    settings_ = loop.settings();
+    goesToTitle_ = loop.goesToTitle() && !isOver();
+    return played;
+}
+
+}  // namespace terrane::app

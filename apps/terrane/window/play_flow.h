@@ -1,0 +1,47 @@
+// What follows what while the program plays: the title, a world, the title again. Used on the thread of the
+// OpenGL context.
+#pragma once
+
+#include <optional>
+
+#include "apps/terrane/window/new_world_form.h"
+#include "apps/terrane/window/play_options.h"
+#include "apps/terrane/window/window.h"
+#include "apps/terrane/window/world_on_screen.h"
+#include "terrane/base/stop_signals.h"
+#include "terrane/game/player_state.h"
+#include "terrane/gpu/shader_loader.h"
+
+namespace terrane::app {
+
+// How a player moves in a world, and its textures: as the command line says, else as the world was left, else
+// as `settings` say. What a world names that is not there is left out, with a line in the log.
+void takeFromWorld(PlaySettings& settings, const game::SavedPlayer& saved, const GivenOptions& given);
+
+class PlayFlow {
+  public:
+    PlayFlow(const PlayOptions& options, const GivenOptions& given, Window& window);
+
+    base::Result<void> run();
+
+  private:
+    // Ends where the player left it: an error of opening it, or of saving it.
+    base::Result<void> playWorld(const PlayOptions& options);
+    base::Result<void> playFrom(const PlayOptions& options, game::SessionParts parts, ScreenOptions screen);
+    base::Result<std::optional<ChosenWorld>> showTitle();
+    base::Result<void> keepSettings();
+    bool isOver() const { return window_.shouldClose() || signals_.stopAsked(); }
+
+    PlayOptions options_;
+    GivenOptions given_;
+    Window& window_;
+    const gpu::ShaderLoader shaders_;
+    const base::StopSignals signals_;
+    ScreenOptions screen_;
+    PlaySettings settings_;
+    PlaySettings written_;  // as the file has them
+    bool measuresPreset_, goesToTitle_ = false, hasBegun_ = false;
+    std::string message_;  // for the title
+};
+
+}  // namespace terrane::app

@@ -1,0 +1,36 @@
+// What `terrane play` was asked for.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/terrane/back_ends.h"
+#include "apps/terrane/graphics_options.h"
+#include "apps/terrane/option_values.h"
+#include "apps/terrane/window/play_settings.h"
+
+namespace terrane::app {
+
+struct PlayOptions {
+    WorldOptions world;
+    SaveOptions save;
+    bool savesNothing = false;
+    bool skipsTitle = false;
+    GraphicsOptions graphics;
+    Backend backend = Backend::Auto;
+    PlaySettings settings;
+    std::optional<int> bookmark;
+    std::optional<double> time;
+    std::string perfData;
+    std::string settingsFile = settingsPath().string();
+};
+
+// What the command line itself says, rather than the file of settings.
+struct GivenOptions {
+    bool namesWorld = false;  // which world, or where in it: nobody asks again
+    bool movement = false;
+    bool resourcePack = false;
+    bool graphics = false;  // or the settings
+};
+
+}  // namespace terrane::app

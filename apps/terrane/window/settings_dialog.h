@@ -1,0 +1,50 @@
+// The settings for people, of the title screen and the pause menu: graphics, controls, world, accessibility.
+// What developers need has a panel of its own (panel.h). Immediate mode: draws and changes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "apps/terrane/window/overlay.h"
+#include "apps/terrane/window/play_settings.h"
+#include "terrane/game/day_clock.h"
+
+namespace terrane::app {
+
+enum class SettingsPage : std::uint8_t { Graphics, Controls, World, Accessibility, kCount };
+
+class SettingsDialog {
+  public:
+    struct Input {
+        Screen screen;
+        bool isSoftwareRenderer = false;
+        game::DayClock* day = nullptr;  // of the world that is played; null on the title screen
+    };
+
+    // True where it is done.
+    bool draw(PlaySettings& settings, const Input& input);
+
+    // While a key is waited for: it becomes the action's, and Escape gives up. False where none is.
+    bool takeKey(Key key, PlaySettings& settings);
+    bool waitsForKey() const { return waiting_.has_value(); }
+    // To the page before or behind, as by a gamepad's bumpers.
+    void turnPage(int by);
+    void open() { *this = SettingsDialog(); }
+
+  private:
+    void drawTabs();
+    void drawControls(PlaySettings& settings);
+    void drawKeys(KeyBindings& keys);
+
+    SettingsPage page_ = SettingsPage::Graphics;
+    std::optional<Action> waiting_;
+    std::string note_;  // which action lost its key
+};
+
+// The pages that need nothing but the settings.
+void drawGraphicsPage(PlaySettings& settings, bool isSoftwareRenderer);
+void drawWorldPage(PlaySettings& settings, game::DayClock* day);
+void drawAccessibilityPage(PlaySettings& settings);
+
+}  // namespace terrane::app

@@ -1,0 +1,99 @@
+// The title: continue, worlds, a new world, settings, quit, over a slow flight through a world. It runs until
+// a world is chosen or the player leaves. Used on the thread of the OpenGL context.
+//
+// The loop is title_screen.cpp, what it draws title_pages.cpp and title_dialogs.cpp.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/map_preview.h"
+#include "apps/terrane/window/new_world_form.h"
+#include "apps/terrane/window/pad_reader.h"
+#include "apps/terrane/window/settings_dialog.h"
+#include "apps/terrane/window/title_background.h"
+#include "apps/terrane/window/world_shelf.h"
+#include "terrane/base/stop_signals.h"
+
+namespace terrane::app {
+
+class TitleScreen {
+  public:
+    // Everything outlives the title.
+    struct Parts {
+        Window& window;
+        const base::StopSignals& signals;
+        const PlayOptions& options;
+        const ScreenOptions& screen;
+        const world::BlockRegistry& blocks;
+        std::filesystem::path folder;  // of the worlds
+    };
+
+    // `message`: shown at first, such as why a world could not be opened; empty: none.
+    TitleScreen(const Parts& parts, PlaySettings& settings, std::string message);
+
+    // The world to play; none to quit.
+    base::Result<std::optional<ChosenWorld>> run();
+
+  private:
+    enum class Page : std::uint8_t {
+        Main,
+        Worlds,
+        NewWorld,
+        Rename,
+        Copy,
+        Copying,
+        Delete,
+        Settings,
+        Message
+    };
+
+    void handleEvents();
+    void onKey(Key key);
+    void onPad();
+    void back();
+    void open(Page page);
+    void showMessage(std::string text);
+    void openBackground();
+    base::Result<void> drawFrame(double seconds);
+    void drawOpening();
+
+    // The pages.
+    void drawPage(const Screen& screen);
+    void drawMain(const Screen& screen);
+    void drawWorlds(const Screen& screen);
+    void drawRow(std::size_t index);
+    void drawWorldButtons();
+    void drawNewWorld(const Screen& screen);
+    void drawForm();
+    void drawMap(float side);
+    void drawName(const Screen& screen);
+    void drawCopying(const Screen& screen);
+    void drawDelete(const Screen& screen);
+    void drawMessage(const Screen& screen);
+    void play(const store::WorldEntry& world);
+    void create();
+    void changeName();
+    template <class Change>
+    void changeChosen(Change change);
+
+    Parts parts_;
+    PlaySettings& settings_;
+    ImguiLayer imgui_;
+    PadReader pad_;
+    std::optional<TitleBackground> background_;
+    WorldShelf shelf_;
+    MapPreview map_;
+    NewWorldForm form_;
+    SettingsDialog dialog_;
+    std::vector<Page> pages_{Page::Main};  // the last one is shown
+    std::string nameText_, message_;
+    std::optional<ChosenWorld> choice_;
+    bool quits_ = false;
+};
+
+}  // namespace terrane::app

@@ -1,0 +1,45 @@
+#include "apps/terrane/window/world_on_screen.h"
+
+#include <epoxy/gl.h>
+
+#include "apps/terrane/choose_back_ends.h"
+#include "terrane/content/built_in.h"
+#include "terrane/content/resource_pack.h"
+#include "terrane/gpu/built_in_shaders.h"
+#include "terrane/view/memory_budget.h"
+
+namespace terrane::app {
+
+// A program that is in use would stay until the next one is used, and its name would be taken for one that
+// is still there.
+WorldOnScreen::~WorldOnScreen() {
+    glUseProgram(0);
+}
+
+base::Result<std::unique_ptr<WorldOnScreen>> WorldOnScreen::create(game::SessionParts parts,
+                                                                   const WorldOptions& world,
+                                                                   const ScreenOptions& options) {
+    std::unique_ptr<WorldOnScreen> made(new WorldOnScreen);
+    auto textures = content::loadTextures(options.resourcePack, *parts.blocks);
+    if (!textures) return tl::unexpected(textures.error());
+    auto renderer = render::Renderer::create(*options.shaders, *parts.blocks, *textures, options.device);
+    if (!renderer) return tl::unexpected(renderer.error());
+    renderer->setMemoryBudget(view::gpuMemoryBudget(options.device, options.gpuMemory));
+    made->renderer_ = std::make_unique<render::Renderer>(std::move(*renderer));
+    auto preview = view::BlockPreview::create(*options.shaders, *parts.blocks, *textures, options.device);
+    if (!preview) return tl::unexpected(preview.error());
+    made->preview_ = std::make_unique<view::BlockPreview>(std::move(*preview));
+    auto backEnds = chooseBackEnds(parts, world, options.backend);
+    if (!backEnds) return tl::unexpected(backEnds.error());
+    made->backEnds_ = std::move(*backEnds);
+    made->session_ = std::make_unique<game::Session>(std::move(parts));
+    made->compiler_ = std::make_unique<render::BackgroundCompiler>(*options.shaders, made->session_->blocks(),
+                                                                   content::builtInTextures());
+    made->view_ = std::make_unique<view::WorldView>(*made->session_, *made->renderer_);
+    if (!made->backEnds_) return made;
+    const auto meshes = made->view_->meshOnGpu(gpu::builtInShaders(""), view::WorldView::kFrameMilliseconds);
+    if (!meshes) return tl::unexpected(meshes.error());
+    return made;
+}
+
+}  // namespace terrane::app

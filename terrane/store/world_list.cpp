@@ -1,0 +1,215 @@
+#include "terrane/store/world_list.h"
+
+#include <algorithm>
+#include <optional>
+#include <system_error>
+
+#include "terrane/store/companion_files.h"
+#include "terrane/store/file_lock.h"
+#include "terrane/store/save_file.h"
+#include "terrane/store/save_path.h"
+#include "terrane/store/world_location.h"
+
+namespace terrane::store {
+namespace {
+
+using base::ErrorCode;
+namespace fs = std::filesystem;
+
+constexpr std::string_view kEnding = ".sqlite";
+constexpr std::size_t kMaxListed = 1000;
+
+bool isPresent(const fs::path& path) {
+    std::error_code ignored;  // what cannot be looked at counts as not there
+    return fs::exists(fs::symlink_status(path, ignored));
+}
+
+fs::path beside(const fs::path& save, const char* ending) {
+    fs::path path = save;
+    path += ending;
+    return path;
+}
+
+fs::file_time_type lastWritten(const fs::path& save) {
+    fs::file_time_type last = fs::file_time_type::min();
+    for (const char* ending : {"", "-wal"}) {
+        std::error_code error;
+        const auto time = fs::last_write_time(beside(save, ending), error);
+        if (!error) last = std::max(last, time);
+    }
+    return last;
+}
+
+// The reason without the path, which the entry has.
+std::string reasonOf(const base::Error& error, const fs::path& path) {
+    const std::string prefix = path.string() + ": ";
+    return error.message.starts_with(prefix) ? error.message.substr(prefix.size()) : error.message;
+}
+
+WorldEntry entryOf(const fs::path& path, const world::BlockRegistry& blocks) {
+    WorldEntry entry;
+    entry.name = path.stem().string();
+    entry.path = path;
+    entry.sizeBytes = bytesOnDisk({WorldLocation::Kind::File, path.string()});
+    entry.lastPlayed = lastWritten(path);
+    auto file = openToRead(path, blocks);
+    if (!file) {
+        entry.problem = reasonOf(file.error(), path);
+        return entry;
+    }
+    entry.identity = std::move(file->identity);
+    entry.metadata = std::move(file->metadata);
+    entry.inUse = std::move(file->inUse);
+    return entry;
+}
+
+// A world's own file: renaming or deleting a link would surprise whoever made it.
+base::Result<fs::path> ownFile(const fs::path& folder, std::string_view name) {
+    if (auto good = checkSaveName(name); !good) return tl::unexpected(good.error());
+    fs::path path = worldFile(folder, name);
+    std::error_code ignored;
+    const fs::file_status status = fs::symlink_status(path, ignored);
+    if (!fs::exists(status)) return base::fail(ErrorCode::NotFound, "there is no world \"{}\"", name);
+    if (!fs::is_regular_file(status))
+        return base::fail(ErrorCode::Incompatible, "{}: a link, or no file; it is left as it is",
+                          path.string());
+    return path;
+}
+
+base::Result<fs::path> newFile(const fs::path& folder, std::string_view name) {
+    if (auto good = checkWorldName(name); !good) return tl::unexpected(good.error());
+    fs::path path = worldFile(folder, name);
+    if (isPresent(path)) return base::fail(ErrorCode::BadInput, "there is a world \"{}\" already", name);
+    for (const char* ending : {"-wal", "-journal"})  // SQLite would take them for the new file's
+        if (isPresent(beside(path, ending)))
+            return base::fail(ErrorCode::BadInput, "{}: left by another world, delete it first",
+                              beside(path, ending).string());
+    return path;
+}
+
+base::Result<void> move(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    fs::rename(from, to, error);
+    if (!error) return {};
+    return base::fail(ErrorCode::Io, "{}: cannot be renamed: {}", from.string(), error.message());
+}
+
+// Puts what is in the log into the file, so that the file is all.
+base::Result<void> endLog(const fs::path& path) {
+    if (auto checked = checkCompanions(path); !checked) return checked;
+    if (!hasLog(path) && !hasJournal(path)) return {};
+    auto database = Database::open(path, OpenMode::ReadWrite);
+    if (!database) return tl::unexpected(database.error());
+    if (auto done = database->execute("PRAGMA wal_checkpoint(TRUNCATE)"); !done) return done;
+    if (!hasLog(path)) return {};
+    return base::fail(ErrorCode::Busy, "{}: its log is in use", path.string());
+}
+
+void moveThumbnail(const fs::path& from, const fs::path& to) {
+    std::error_code ignored;  // a list without a picture is no loss
+    fs::rename(thumbnailOf(from), thumbnailOf(to), ignored);
+}
+
+}  // namespace
+
+base::Result<void> checkWorldName(std::string_view name) {
+    if (auto good = checkSaveName(name); !good) return good;
+    if (name.ends_with(kEnding) || name.back() == ' ' || name.back() == '.')
+        return base::fail(ErrorCode::BadInput,
+                          "{:?}: the name of a world ends with neither \".sqlite\" nor a space nor a dot",
+                          name);
+    return {};
+}
+
+fs::path worldFile(const fs::path& folder, std::string_view name) {
+    return folder / (std::string(name) + std::string(kEnding));
+}
+
+fs::path thumbnailOf(const fs::path& save) {
+    return fs::path(save).replace_extension(".png");
+}
+
+std::string freeWorldName(const fs::path& folder, std::string_view wanted) {
+    constexpr std::size_t kRoom = 88;  // of the 100 bytes of a name, with a number behind it
+    std::size_t bytes = std::min(wanted.size(), kRoom);
+    if (bytes < wanted.size())  // between letters of UTF-8
+        while (bytes > 0 && (static_cast<unsigned char>(wanted[bytes]) & 0xC0) == 0x80) --bytes;
+    const std::string stem(wanted.substr(0, bytes));
+    for (int number = 1;; ++number) {
+        std::string name = number == 1 ? stem : fmt::format("{} {}", stem, number);
+        if (!isPresent(worldFile(folder, name))) return name;
+    }
+}
+
+std::vector<WorldEntry> listWorlds(const fs::path& folder, const world::BlockRegistry& blocks) {
+    std::vector<WorldEntry> worlds;
+    std::error_code error;
+    fs::directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
+    for (; !error && at != fs::directory_iterator() && worlds.size() < kMaxListed; at.increment(error)) {
+        const fs::path& path = at->path();
+        std::error_code ignored;
+        if (path.extension() != kEnding || at->is_directory(ignored)) continue;
+        if (checkSaveName(path.stem().string())) worlds.push_back(entryOf(path, blocks));
+    }
+    std::ranges::sort(worlds, [](const WorldEntry& a, const WorldEntry& b) {
+        return a.lastPlayed != b.lastPlayed ? a.lastPlayed > b.lastPlayed : a.name < b.name;
+    });
+    return worlds;
+}
+
+base::Result<void> renameWorld(const fs::path& folder, std::string_view name, std::string_view newName) {
+    const auto from = ownFile(folder, name);
+    if (!from) return tl::unexpected(from.error());
+    if (name == newName) return {};
+    const auto to = newFile(folder, newName);
+    if (!to) return tl::unexpected(to.error());
+    const auto lock = FileLock::acquire(*from, FileLock::Kind::Exclusive);
+    if (!lock) return tl::unexpected(lock.error());
+    const auto newLock = FileLock::acquire(*to, FileLock::Kind::Exclusive);
+    if (!newLock) return tl::unexpected(newLock.error());
+    if (auto ended = endLog(*from); !ended) return ended;
+    if (auto moved = move(*from, *to); !moved) return moved;
+    moveThumbnail(*from, *to);
+    return {};
+}
+
+base::Result<void> deleteWorld(const fs::path& folder, std::string_view name) {
+    const auto path = ownFile(folder, name);
+    if (!path) return tl::unexpected(path.error());
+    const auto lock = FileLock::acquire(*path, FileLock::Kind::Exclusive);
+    if (!lock) return tl::unexpected(lock.error());
+    // The save itself comes last: a log without its save would be taken for that of the next one of the name.
+    for (const fs::path& file : {beside(*path, "-wal"), beside(*path, "-shm"), beside(*path, "-journal"),
+                                 thumbnailOf(*path), *path}) {
+        std::error_code error;
+        fs::remove(file, error);
+        if (error)
+            return base::fail(ErrorCode::Io, "{}: cannot be deleted: {}", file.string(), error.message());
+    }
+    return {};
+}
+
+base::Result<void> copyWorld(const fs::path& folder, const WorldCopy& copy,
+                             const world::BlockRegistry& blocks, const CopyProgress& progress) {
+    if (auto good = checkSaveName(copy.name); !good) return good;
+    const fs::path from = worldFile(folder, copy.name);
+    const auto to = newFile(folder, copy.newName);
+    if (!to) return tl::unexpected(to.error());
+    const auto lock = FileLock::acquire(*to, FileLock::Kind::Exclusive);
+    if (!lock) return tl::unexpected(lock.error());
+    auto source = openToRead(from, blocks);
+    if (!source) return tl::unexpected(source.error());
+    // Under another name until it is whole, so that no list shows half of it.
+    const fs::path part = beside(*to, ".part");
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    if (auto copied = source->database.backUpTo(part, progress); !copied) return copied;
+    if (auto moved = move(part, *to); !moved) {
+        fs::remove(part, ignored);
+        return moved;
+    }
+    fs::copy_file(thumbnailOf(from), thumbnailOf(*to), ignored);
+    return {};
+}
+
+}  // namespace terrane::store

@@ -1,0 +1,67 @@
+#include "apps/terrane/window/new_world_form.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "terrane/base/digest.h"
+#include "tests/base/temp_folder.h"
+
+namespace terrane::app {
+namespace {
+
+using testing::HasSubstr;
+
+class NewWorld : public testing::Test {
+  protected:
+    std::string problemOf(const NewWorldForm& form) {
+        const auto world = worldOf(form, folder_.path());
+        return world ? "" : world.error().message;
+    }
+
+    base::TempFolder folder_;
+    NewWorldForm form_ = newForm(folder_.path(), 5);
+};
+
+TEST_F(NewWorld, AFormThatNobodyTouchedMakesAWorld) {
+    const auto world = worldOf(form_, folder_.path());
+    ASSERT_TRUE(world);
+    EXPECT_EQ(world->file, folder_.path() / "World.sqlite");
+    EXPECT_EQ(world->seed->seed, 5u);
+    EXPECT_EQ(world->generator, "continents");
+    std::ofstream(world->file) << "there";
+    EXPECT_EQ(newForm(folder_.path(), 5).name, "World 2");
+    EXPECT_EQ(problemOf(form_), "there is a world \"World\" already");
+}
+
+TEST_F(NewWorld, ASeedIsANumberOrAText) {
+    form_.seed = " 12 ";
+    EXPECT_EQ(seedOf(form_)->seed, 12u);
+    EXPECT_EQ(seedOf(form_)->text, "");
+    form_.seed = "a hill";
+    EXPECT_EQ(seedOf(form_)->seed, base::hash64("a hill"));
+    EXPECT_EQ(seedOf(form_)->text, "a hill");
+    form_.seed = "18446744073709551615";
+    EXPECT_EQ(seedOf(form_)->seed, UINT64_MAX);
+    form_.seed = "18446744073709551616";
+    EXPECT_THAT(problemOf(form_), HasSubstr("seed: expected a whole number from 0 to 18446744073709551615"));
+    form_.seed = "-1";
+    EXPECT_FALSE(seedOf(form_));
+    form_.seed = "\t ";
+    EXPECT_EQ(seedOf(form_)->seed, 5u);
+}
+
+TEST_F(NewWorld, NamesThatNoFileCanHaveAreRefused) {
+    for (const char* name : {"", "   ", "../x", "a/b", ".a", "a.sqlite", "a\nb"}) {
+        form_.name = name;
+        EXPECT_NE(problemOf(form_), "") << name;
+        EXPECT_EQ(problemOf(form_).find('\n'), std::string::npos);
+    }
+    form_.name = std::string(101, 'a');
+    EXPECT_NE(problemOf(form_), "");
+    form_.name = " My world ";
+    EXPECT_EQ(worldOf(form_, folder_.path())->file, folder_.path() / "My world.sqlite");
+}
+
+}  // namespace
+}  // namespace terrane::app

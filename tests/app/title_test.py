@@ -1,0 +1,206 @@
+#!/usr/bin/env python3
+"""Goes through the title screen on a virtual display, by keyboard alone. Usage: title_test.py PROGRAM
+
+Needs what window_test.py needs."""
+import contextlib
+import re
+import shutil
+import sqlite3
+import subprocess
+import sys
+import time
+import unittest
+
+import support
+import window_test
+from support import HANG_SECONDS, ProgramTest
+
+SIZE = (480, 300)
+# A world behind the title that stands still: what changes then is what a key did.
+USUAL = ("--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "2", "--horizon", "0", "--samples", "1", "--reduced-motion",
+         "--animation", "off", "--clouds", "off")
+CLOSED = re.compile(r"closed after \d+ frames at (\S+)$", re.MULTILINE)
+
+
+class Player(window_test.Game):
+    """The program and somebody with a keyboard."""
+
+    def __init__(self, display, folder, *arguments):
+        self.display, self.window = display, None
+        self.log = window_test.tempfile.TemporaryFile(mode="w+")
+        self.process = subprocess.Popen([support.program(), "--debug-gl", *USUAL, *arguments], cwd=folder,
+                                        env=support.environment(display.name, folder), stdout=self.log, stderr=self.log)
+
+    def pixels(self):
+        return self.display.screenshot(self.window).pixels
+
+    def settle(self):
+        """Waits until the image stays as it is."""
+        before, same = None, 0
+        deadline = time.monotonic() + HANG_SECONDS
+        while same < 4 and time.monotonic() < deadline:
+            time.sleep(0.15)
+            now = self.pixels()
+            same, before = (same + 1 if now == before else 0), now
+
+    def hold(self, key, pause=None):
+        """Until it has changed the image: frames may take long, and a key that is down for longer acts twice."""
+        before, deadline = self.pixels(), time.monotonic() + HANG_SECONDS
+        self.display.xdotool("keydown", key)
+        while self.process.poll() is None and self.pixels() == before and time.monotonic() < deadline:
+            time.sleep(0.02)
+        self.display.xdotool("keyup", key)
+        self.settle()
+
+    def choose(self, *keys):
+        for key in (*keys, "Return"):
+            self.hold(key)
+
+    def places(self):
+        """Where the worlds that were played were left."""
+        return CLOSED.findall(self.output())
+
+
+class Title(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.worlds = self.folder / "terrane"
+
+    def open(self, display, *arguments):
+        player = Player(display, self.folder, *arguments)
+        self.addCleanup(player.log.close)
+        self.addCleanup(player.process.kill)
+        player.open()
+        player.wait_for_image(SIZE)
+        player.settle()
+        return player
+
+    def quit(self, player):
+        """From the main page."""
+        player.press("q")
+        self.assertEqual(player.process.wait(HANG_SECONDS), 0, player.output())
+        self.assertNotRegex(player.output(), "error|warning")
+
+    def names(self):
+        return sorted(path.stem for path in self.worlds.glob("*.sqlite"))
+
+    def setting(self, world, name):
+        try:
+            with contextlib.closing(sqlite3.connect(f"file:{self.worlds / world}.sqlite?mode=ro", uri=True)) as database:
+                row = database.execute("SELECT value FROM settings WHERE name = ?", (name,)).fetchone()
+                return row[0] if row else None
+        except sqlite3.OperationalError:  # not there yet
+            return None
+
+    def leave_for_title(self, player):
+        left = len(player.places())
+        player.press("Escape")
+        player.settle()
+        player.choose("Down", "Down", "Down")
+        player.wait_for(lambda: len(player.places()) > left)
+        player.settle()
+
+    def test_a_new_world_is_made_left_and_continued(self):
+        with window_test.Display() as display:
+            player = self.open(display)
+            player.choose()  # New world: nothing else is there
+            player.choose()  # Create
+            player.wait_for(lambda: self.setting("World", "camera"))
+            self.assertEqual(self.setting("World", "generator"), "continents")
+            self.assertEqual(self.setting("World", "movement"), "gravity")
+            player.press("m")
+            player.wait_for(lambda: self.setting("World", "movement") == "fast")
+            self.leave_for_title(player)
+            self.assertTrue((self.worlds / "World.png").exists())
+            player.choose()  # Continue
+            player.wait_for(lambda: "open in another" in self.succeed("check", self.worlds / "World.sqlite"))
+            player.settle()
+            self.leave_for_title(player)
+            first, second = player.places()
+            self.assertEqual(first, second)
+            # Another world begins as worlds do.
+            player.choose("Down", "Down")
+            player.choose()
+            player.wait_for(lambda: self.setting("World 2", "camera"))
+            self.assertEqual(self.setting("World 2", "movement"), "gravity")
+            self.assertEqual(self.setting("World", "movement"), "fast")
+            player.press("Escape")
+            player.settle()
+            player.press("q")
+            self.assertEqual(player.process.wait(HANG_SECONDS), 0, player.output())
+            self.assertNotRegex(player.output(), "error|warning")
+
+    def test_worlds_are_renamed_copied_and_deleted(self):
+        self.succeed("generate", "--world", "home", "--radius", "1", "--generator", "flat")
+        with window_test.Display() as display:
+            player = self.open(display)
+            player.choose("Down")  # Worlds
+            for key in ("Down", "Right", "Right"):
+                player.hold(key)
+            player.choose()  # Rename
+            player.display.xdotool("type", "--delay", "200", "hut")
+            player.hold("Return")
+            player.wait_for(lambda: self.names() == ["hut"])
+            player.settle()
+            for key in ("Down", "Right", "Right", "Right"):
+                player.hold(key)
+            player.choose()  # Copy
+            player.hold("Return")  # by the name that is proposed
+            player.wait_for(lambda: self.names() == ["hut", "hut copy"])
+            player.settle()
+            for key in ("Down", "Down", "Right", "Right", "Right", "Right"):
+                player.hold(key)
+            player.choose()  # Delete
+            player.choose()  # Keep it
+            self.assertEqual(len(self.names()), 2)
+            for key in ("Down", "Down", "Right", "Right", "Right", "Right"):
+                player.hold(key)
+            player.choose()
+            player.choose("Right")
+            player.wait_for(lambda: len(self.names()) == 1)
+            player.settle()
+            player.hold("Escape")
+            self.quit(player)
+        self.assertTrue(self.succeed("check", self.worlds / f"{self.names()[0]}.sqlite").endswith("good\n"))
+
+    def test_settings_are_kept(self):
+        settings = self.folder / "terrane" / "settings.toml"
+        with window_test.Display() as display:
+            for expected in (True, False):
+                player = self.open(display)
+                player.choose("Down")  # Settings
+                player.choose("Right")  # Controls
+                player.choose("Down", "Down")  # the switch below the slider
+                player.hold("Escape")
+                self.quit(player)
+                text = settings.read_text() if settings.exists() else ""
+                self.assertEqual("invert-y = 'true'" in text, expected, text)
+
+    def test_a_world_that_is_named_is_opened_at_once(self):
+        with window_test.Display() as display:
+            player = self.open(display, "--world", "home", "--generator", "flat")
+            player.wait_for(lambda: self.setting("home", "camera"))
+            player.press("Escape")
+            player.settle()
+            player.press("q")
+            self.assertEqual(player.process.wait(HANG_SECONDS), 0, player.output())
+            self.assertEqual(len(player.places()), 1)
+
+    def test_a_world_that_cannot_be_opened_is_told(self):
+        self.worlds.mkdir(exist_ok=True)
+        (self.worlds / "bad.sqlite").write_text("no save")
+        with window_test.Display() as display:
+            player = self.open(display)
+            player.choose("Up", "Up", "Up")  # Worlds
+            player.choose()  # plays the one there is: a message
+            player.choose()  # OK
+            player.hold("Escape")
+            self.quit(player)
+        self.assertEqual((self.worlds / "bad.sqlite").read_text(), "no save")
+
+
+if __name__ == "__main__":
+    if not shutil.which("Xvfb"):
+        print("1 test skipped: Xvfb is not installed (Debian: xvfb)")
+        sys.exit(window_test.SKIPPED)
+    support.main()

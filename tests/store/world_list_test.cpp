@@ -1,0 +1,254 @@
+#include "terrane/store/world_list.h"
+
+#include <gmock/gmock.h>
+
+#include "terrane/store/sqlite_store.h"
+#include "tests/store/store_fixture.h"
+
+namespace terrane::store {
+namespace {
+
+namespace fs = std::filesystem;
+using base::ErrorCode;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class WorldList : public testing::Test {
+  protected:
+    void SetUp() override { fs::create_directories(folder_); }
+
+    std::unique_ptr<SqliteStore> open(const std::string& name) {
+        auto store =
+            SqliteStore::open(worldFile(folder_, name), blocks_, {.create = kIdentity, .decide = {}});
+        if (!store) throw std::runtime_error(store.error().message);
+        return std::move(*store);
+    }
+    void make(const std::string& name, int number = 1) {
+        const auto store = open(name);
+        store->save({0, 0}, numberedChunk(number), {});
+        store->setMetadata("camera", "1 2 3 4 5");
+        writeAll(thumbnailOf(worldFile(folder_, name)), "picture of " + name);
+    }
+    std::int64_t chunksOf(const std::string& name) {
+        return queryFile(worldFile(folder_, name), "SELECT count(*) FROM chunks");
+    }
+    std::vector<std::string> names() {
+        std::vector<std::string> found;
+        for (const WorldEntry& entry : listWorlds(folder_, blocks_)) found.push_back(entry.name);
+        std::ranges::sort(found);
+        return found;
+    }
+    std::vector<std::string> files() {
+        std::vector<std::string> found;
+        for (const auto& file : fs::directory_iterator(folder_)) found.push_back(file.path().filename());
+        std::ranges::sort(found);
+        return found;
+    }
+    WorldEntry entry(const std::string& name) {
+        for (WorldEntry& entry : listWorlds(folder_, blocks_))
+            if (entry.name == name) return entry;
+        throw std::runtime_error("no such world: " + name);
+    }
+    static ErrorCode codeOf(const base::Result<void>& result) {
+        return result ? ErrorCode::Failed : result.error().code;
+    }
+    base::Result<void> copy(const std::string& name, const std::string& newName,
+                            const CopyProgress& progress = {}) {
+        return copyWorld(folder_, {name, newName}, blocks_, progress);
+    }
+
+    base::TempFolder temporary_;
+    fs::path folder_ = temporary_.path() / "worlds";
+    world::BlockRegistry blocks_ = testRegistry();
+};
+
+TEST_F(WorldList, AFolderThatIsNotThereHasNoWorlds) {
+    EXPECT_THAT(listWorlds(folder_ / "none", blocks_), IsEmpty());
+    EXPECT_THAT(listWorlds(folder_, blocks_), IsEmpty());
+}
+
+TEST_F(WorldList, TellsOfEachWorld) {
+    make("home");
+    const WorldEntry home = entry("home");
+    EXPECT_EQ(home.identity, kIdentity);
+    EXPECT_EQ(home.path, folder_ / "home.sqlite");
+    EXPECT_EQ(home.sizeBytes, fs::file_size(home.path));
+    EXPECT_EQ(home.lastPlayed, fs::last_write_time(home.path));
+    EXPECT_EQ(home.metadata.at("camera"), "1 2 3 4 5");
+    EXPECT_EQ(home.problem, "");
+    EXPECT_EQ(home.inUse, "");
+}
+
+TEST_F(WorldList, TheLastPlayedComesFirst) {
+    for (const char* name : {"a", "b", "c"}) make(name);
+    const auto now = fs::last_write_time(folder_ / "a.sqlite");
+    fs::last_write_time(folder_ / "b.sqlite", now + std::chrono::hours(1));
+    fs::last_write_time(folder_ / "c.sqlite", now - std::chrono::hours(1));
+    std::vector<std::string> order;
+    for (const WorldEntry& entry : listWorlds(folder_, blocks_)) order.push_back(entry.name);
+    EXPECT_THAT(order, ElementsAre("b", "a", "c"));
+}
+
+TEST_F(WorldList, WhatIsNoWorldIsListedWithTheReason) {
+    make("home");
+    make("cut");
+    fs::resize_file(folder_ / "cut.sqlite", fs::file_size(folder_ / "cut.sqlite") / 2);
+    writeAll(folder_ / "text.sqlite", "this is no save");
+    writeAll(folder_ / "empty.sqlite", "");
+    runSql(folder_ / "foreign.sqlite", "CREATE TABLE photos(name TEXT)");
+    fs::create_symlink(folder_ / "nowhere", folder_ / "broken.sqlite");
+    fs::create_directory(folder_ / "folder.sqlite");
+    writeAll(folder_ / "notes.txt", "no world");
+    EXPECT_THAT(names(), ElementsAre("broken", "cut", "empty", "foreign", "home", "text"));
+    EXPECT_THAT(entry("cut").problem, HasSubstr("cut off"));
+    EXPECT_EQ(entry("text").problem, "not a save: not a SQLite file");
+    EXPECT_EQ(entry("empty").problem, "empty, not a save");
+    EXPECT_NE(entry("foreign").problem, "");
+    EXPECT_NE(entry("broken").problem, "");
+    EXPECT_EQ(entry("home").problem, "");
+    for (const WorldEntry& entry : listWorlds(folder_, blocks_))
+        EXPECT_EQ(entry.problem.find('\n'), std::string::npos);
+}
+
+TEST_F(WorldList, AWorldThatIsPlayedIsReadAndLeftAsItIs) {
+    make("home");
+    const auto player = open("home");
+    player->save({1, 0}, numberedChunk(2), {});
+    ASSERT_TRUE(player->flush());
+    EXPECT_THAT(entry("home").inUse, HasSubstr("open in another program"));
+    EXPECT_GT(entry("home").sizeBytes, fs::file_size(folder_ / "home.sqlite"));  // the log counts
+    EXPECT_EQ(codeOf(renameWorld(folder_, "home", "other")), ErrorCode::Busy);
+    EXPECT_EQ(codeOf(deleteWorld(folder_, "home")), ErrorCode::Busy);
+    ASSERT_TRUE(copy("home", "other"));
+    EXPECT_EQ(chunksOf("other"), 2);
+    EXPECT_THAT(names(), ElementsAre("home", "other"));
+}
+
+TEST_F(WorldList, RenamesAWorldWithItsPicture) {
+    make("home");
+    ASSERT_TRUE(renameWorld(folder_, "home", "My house"));
+    EXPECT_THAT(files(), ElementsAre("My house.png", "My house.sqlite"));
+    EXPECT_EQ(readAll(folder_ / "My house.png"), "picture of home");
+    EXPECT_EQ(chunksOf("My house"), 1);
+    EXPECT_TRUE(renameWorld(folder_, "My house", "My house"));
+}
+
+// A program that was killed leaves what it saved last in the log.
+TEST_F(WorldList, TheLogOfAKilledProgramGoesWithTheWorld) {
+    make("home");
+    {
+        const auto player = open("home");
+        player->save({1, 0}, numberedChunk(2), {});
+        ASSERT_TRUE(player->flush());
+        for (const char* ending : {"", "-wal"})
+            fs::copy_file(folder_ / ("home.sqlite" + std::string(ending)),
+                          folder_ / ("killed.sqlite" + std::string(ending)));
+    }
+    ASSERT_TRUE(renameWorld(folder_, "killed", "found"));
+    EXPECT_EQ(chunksOf("found"), 2);
+    EXPECT_FALSE(fs::exists(folder_ / "killed.sqlite-wal"));
+    EXPECT_THAT(names(), ElementsAre("found", "home"));
+}
+
+TEST_F(WorldList, NeverReplacesAWorld) {
+    make("a", 1);
+    make("b", 2);
+    EXPECT_EQ(codeOf(renameWorld(folder_, "a", "b")), ErrorCode::BadInput);
+    EXPECT_EQ(codeOf(copy("a", "b")), ErrorCode::BadInput);
+    EXPECT_EQ(readAll(folder_ / "b.png"), "picture of b");
+    // Nor takes a log for its own that a world left behind.
+    writeAll(folder_ / "c.sqlite-wal", "left");
+    EXPECT_EQ(codeOf(renameWorld(folder_, "a", "c")), ErrorCode::BadInput);
+    EXPECT_EQ(codeOf(copy("a", "c")), ErrorCode::BadInput);
+    EXPECT_THAT(names(), ElementsAre("a", "b"));
+}
+
+TEST_F(WorldList, HostileNamesAreRefused) {
+    make("home");
+    writeAll(temporary_.path() / "x.sqlite", "outside");
+    const std::vector<std::string> bad = {"",
+                                          "../x",
+                                          "/etc/passwd",
+                                          "a/b",
+                                          "a\\b",
+                                          ".hidden",
+                                          " space",
+                                          "a\nb",
+                                          std::string("a\0b", 3),
+                                          std::string(101, 'a')};
+    for (const std::string& name : bad) {
+        EXPECT_EQ(codeOf(renameWorld(folder_, "home", name)), ErrorCode::BadInput) << name;
+        EXPECT_EQ(codeOf(copy("home", name)), ErrorCode::BadInput) << name;
+        EXPECT_EQ(codeOf(copy(name, "copy")), ErrorCode::BadInput) << name;
+        EXPECT_EQ(codeOf(renameWorld(folder_, name, "new")), ErrorCode::BadInput) << name;
+        EXPECT_EQ(codeOf(deleteWorld(folder_, name)), ErrorCode::BadInput) << name;
+    }
+    for (const char* name : {"a.sqlite", "a ", "a."})
+        EXPECT_EQ(codeOf(renameWorld(folder_, "home", name)), ErrorCode::BadInput) << name;
+    EXPECT_EQ(readAll(temporary_.path() / "x.sqlite"), "outside");
+    EXPECT_THAT(names(), ElementsAre("home"));
+    EXPECT_TRUE(renameWorld(folder_, "home", std::string(100, 'a')));
+}
+
+TEST_F(WorldList, LinksAreLeftAlone) {
+    make("home");
+    fs::rename(folder_ / "home.sqlite", temporary_.path() / "elsewhere.sqlite");
+    fs::create_symlink(temporary_.path() / "elsewhere.sqlite", folder_ / "link.sqlite");
+    EXPECT_EQ(entry("link").problem, "");
+    EXPECT_EQ(codeOf(deleteWorld(folder_, "link")), ErrorCode::Incompatible);
+    EXPECT_EQ(codeOf(renameWorld(folder_, "link", "other")), ErrorCode::Incompatible);
+    EXPECT_TRUE(fs::exists(temporary_.path() / "elsewhere.sqlite"));
+    EXPECT_TRUE(copy("link", "copy"));
+    EXPECT_EQ(chunksOf("copy"), 1);
+}
+
+TEST_F(WorldList, ACopyIsAWorldOfItsOwn) {
+    make("home");
+    double last = 0;
+    ASSERT_TRUE(copy("home", "copy", [&](double share) { return last = share, true; }));
+    EXPECT_EQ(entry("copy").identity, kIdentity);
+    EXPECT_EQ(readAll(folder_ / "copy.png"), "picture of home");
+    { open("copy")->save({5, 5}, numberedChunk(3), {}); }
+    EXPECT_EQ(chunksOf("copy"), 2);
+    EXPECT_EQ(chunksOf("home"), 1);
+    EXPECT_EQ(codeOf(copy("none", "other")), ErrorCode::NotFound);
+}
+
+TEST_F(WorldList, ACancelledCopyLeavesNothing) {
+    {
+        const auto store = open("large");
+        store->setMetadata("large", std::string(6 << 20, 'x'));
+    }
+    ASSERT_GT(fs::file_size(folder_ / "large.sqlite"), 5u << 20);
+    int calls = 0;
+    EXPECT_FALSE(copy("large", "copy", [&](double) { return ++calls < 1; }));
+    EXPECT_EQ(calls, 1);
+    EXPECT_THAT(files(), ElementsAre("large.sqlite"));
+}
+
+TEST_F(WorldList, DeletesAWorldAndWhatIsBesideIt) {
+    make("home");
+    make("other");
+    ASSERT_TRUE(deleteWorld(folder_, "home"));
+    EXPECT_THAT(files(), ElementsAre("other.png", "other.sqlite"));
+    EXPECT_EQ(codeOf(deleteWorld(folder_, "home")), ErrorCode::NotFound);
+    writeAll(folder_ / "bad.sqlite", "no save");
+    EXPECT_TRUE(deleteWorld(folder_, "bad"));
+}
+
+TEST_F(WorldList, ProposesAFreeName) {
+    EXPECT_EQ(freeWorldName(folder_, "World"), "World");
+    make("World");
+    EXPECT_EQ(freeWorldName(folder_, "World"), "World 2");
+    make("World 2");
+    EXPECT_EQ(freeWorldName(folder_, "World"), "World 3");
+    std::string longName;
+    while (longName.size() < 100) longName += "ř";
+    const std::string free = freeWorldName(folder_, longName);
+    EXPECT_EQ(free, longName.substr(0, 88));
+    EXPECT_TRUE(checkWorldName(free));
+}
+
+}  // namespace
+}  // namespace terrane::store
