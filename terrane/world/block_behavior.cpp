@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "terrane/world/block_edit.h"
+#include "terrane/world/liquid_flow.h"
 #include "terrane/world/shape_behaviors.h"
 
 namespace terrane::world {
@@ -92,7 +93,7 @@ BehaviorPtr BehaviorTable::find(std::string_view name) const {
 const BehaviorTable& builtInBehaviors() {
     static const BehaviorTable table = [] {
         BehaviorTable made;
-        for (BlockBehavior (*make)() : {plant, crop, falling, container}) made.add(make());
+        for (BlockBehavior (*make)() : {plant, crop, falling, container, flows}) made.add(make());
         for (BlockBehavior& behavior : shapeBehaviors()) made.add(std::move(behavior));
         return made;
     }();
