@@ -5,6 +5,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "terrane/world/block_model.h"
+#include "terrane/world/liquid_flow.h"
 #include "terrane/world/shape_behaviors.h"
 
 namespace terrane::game {
@@ -61,15 +62,22 @@ void BlockInteraction::act(Session& session, PlayerId id, const Player& player, 
     const world::Ray ray{pose.position, glm::dvec3(world::lookDirection(pose.yaw, pose.pitch))};
     target_ = world::castRay(world, blocks, ray, kReach);
     const bool breaks = breaking.acts(seconds), builds = building.acts(seconds);
-    if (!target_ || (!breaks && !builds)) return;
-    const world::BlockPos pos = breaks ? target_->block : world::beside(target_->block, target_->face);
+    // Who has a liquid in hand takes its sources.
+    const bool holdsLiquid = isFlowing(blocks.type(block()));
+    const auto aimed = breaks && holdsLiquid ? world::castRay(world, blocks, ray, kReach, block()) : target_;
+    if (!aimed || (!breaks && !builds)) return;
+    const world::BlockPos pos = breaks ? aimed->block : world::beside(aimed->block, aimed->face);
     const world::BlockId there = world.block(pos);
     if (breaks) {
         session.edit({id, pos, world::SetBlock{world::kAir}, there});
     } else {
-        // Into air and liquids, not into plants and the like.
-        const bool isFree = there == world::kAir || blocks.type(there).shape == world::Shape::Liquid;
-        const std::uint16_t state = placedState(blocks.type(block()), placementAt(*target_, ray, pose.yaw));
+        // Into air and liquids, not into plants and the like; a source of a liquid not into another of it.
+        const bool isSource = there == block() && world::isLiquidSource(world.blockState(pos));
+        const bool isFree =
+            there == world::kAir || (blocks.type(there).shape == world::Shape::Liquid && !isSource);
+        const std::uint16_t state =
+            holdsLiquid ? world::kLiquidUnsettled
+                        : placedState(blocks.type(block()), placementAt(*aimed, ray, pose.yaw));
         if (isFree && !isInTheWay(blocks.type(block()), state, pos, player.body())) {
             session.edit({id, pos, world::SetBlock{block(), state}, there});
         }

@@ -53,7 +53,7 @@ inline std::shared_ptr<Chunk> damChunk(ChunkPos pos, const BlockRegistry& blocks
 
 inline void breakDam(World& world, const BlockRegistry& blocks, std::vector<BlockEdit>& edits) {
     for (int z = 50; z < kLakeTop + 2; ++z)
-        for (int y = 28; y < 36; ++y) applyChange(world, blocks, {kDamX, y, z}, SetBlock{kAir}, edits);
+        for (int y = 12; y < 52; ++y) applyChange(world, blocks, {kDamX, y, z}, SetBlock{kAir}, edits);
 }
 
 // Of all blocks and their state.

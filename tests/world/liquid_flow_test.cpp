@@ -211,6 +211,20 @@ TEST_F(LiquidFlow, WhatHasSettledCostsNothing) {
     });
 }
 
+TEST_F(LiquidFlow, WhatIsMoreThanATickTakesGoesOnInTheNext) {
+    std::size_t count = 0;
+    for (int y = -14; y < 30; y += 2)
+        for (int x = -14; x < 30; x += 2)
+            for (int z = 1; z < 13; z += 3, ++count) set({x, y, z}, "water");
+    ASSERT_GT(count, kMaxFlowingCells);
+    EXPECT_EQ(tick(), kMaxFlowingCells);
+    settle();
+    for (int y = -14; y < 29; ++y)
+        for (int x = -14; x < 29; ++x) ASSERT_NE(at({x, y, 1}), '.') << x << ' ' << y;
+    for (int x = -14; x < 30; x += 2)
+        EXPECT_EQ(at({x, 28, 9}), 'f') << "under the last source of each column";
+}
+
 TEST_F(LiquidFlow, HeightsFollowLevels) {
     set({0, 4, 1}, "water");
     settle();
