@@ -11,13 +11,13 @@ namespace {
 using shared::uint;
 using world::Face;
 
-constexpr uint kStillHeight = shared::kFlowHeights - 1, kFullHeight = shared::kFlowHeights;
+constexpr uint kHeightOfStill = shared::kFlowHeights - 1, kHeightOfFull = shared::kFlowHeights;
 
 bool mayFlow(const world::Section* states) {
     return states && (!states->isUniform() || !world::isLiquidSource(states->uniformValue()));
 }
 
-struct Cell {
+struct FlowCell {
     int x, y, z;  // in the section
 
     std::size_t index() const { return static_cast<std::size_t>(x + 16 * y + 256 * z); }
@@ -29,7 +29,7 @@ class FlowFaces {
               const std::array<BitCube, world::kFaceCount>& uncovered, QuadCollector& out)
         : liquid_(liquid), stillSurface_(stillSurface), uncovered_(uncovered), out_(out) {}
 
-    void add(const Cell& cell) {
+    void add(const FlowCell& cell) {
         const uint form = formAt(*liquid_.view.blockState, cell.index());
         for (int side = 0; side < 4; ++side) addSide(cell, form, static_cast<Face>(side));
         if (form == 0) return;
@@ -52,7 +52,7 @@ class FlowFaces {
         return states.get(static_cast<int>(index)) & world::kLiquidForm;
     }
 
-    Beside beside(const Cell& cell, Face side) const {
+    Beside beside(const FlowCell& cell, Face side) const {
         const int step = side % 2 == 1 ? 1 : -1;
         int at[3] = {cell.x, cell.y, cell.z};
         at[side / 2] += step;
@@ -60,7 +60,7 @@ class FlowFaces {
         const SectionView& view = liquid_.view;
         const world::Section* blocks = isInside ? view.center : view.neighbors[side];
         if (!blocks) return {.isKnown = side / 2 == 2};
-        const std::size_t index = Cell{at[0] & 15, at[1] & 15, at[2] & 15}.index();
+        const std::size_t index = FlowCell{at[0] & 15, at[1] & 15, at[2] & 15}.index();
         if (blocks->get(static_cast<int>(index)) != liquid_.type.id) return {};
         if (side / 2 == 2) return {.isSameLiquid = true};
         const world::Section* states = isInside ? view.blockState : view.neighborStates[side];
@@ -69,11 +69,11 @@ class FlowFaces {
 
     // By the numbers of shape_face.h.
     uint heightOf(uint form, bool isStillFull) const {
-        if (form == 0) return isStillFull ? kFullHeight : kStillHeight;
-        return (form & world::kLiquidFalling) != 0 ? kFullHeight : kStillHeight - form;
+        if (form == 0) return isStillFull ? kHeightOfFull : kHeightOfStill;
+        return (form & world::kLiquidFalling) != 0 ? kHeightOfFull : kHeightOfStill - form;
     }
 
-    void addSide(const Cell& cell, uint form, Face side) {
+    void addSide(const FlowCell& cell, uint form, Face side) {
         if (!hasBit(uncovered_[side], side, cell.index())) return;
         const Beside next = beside(cell, side);
         if (!next.isKnown || (form == 0 && next.form == 0)) return;
@@ -82,12 +82,12 @@ class FlowFaces {
         if (low < high) write(cell, side, shared::flowSideFace(side, low, high));
     }
 
-    void addLevel(const Cell& cell, Face side, uint shapeFace) {
+    void addLevel(const FlowCell& cell, Face side, uint shapeFace) {
         if (hasBit(uncovered_[side], side, cell.index()) && !beside(cell, side).isSameLiquid)
             write(cell, side, shapeFace);
     }
 
-    void write(const Cell& cell, Face side, uint shapeFace) {
+    void write(const FlowCell& cell, Face side, uint shapeFace) {
         addCellFace(liquid_, cell.index(), {static_cast<std::uint16_t>(shapeFace), side, false}, out_);
     }
 

@@ -68,7 +68,7 @@ constexpr ShapeFace liquidSide(world::Face side, uint low, uint high) {
     return face;
 }
 
-constexpr void addFlowFaces(std::span<ShapeFace, shared::kShapeFaceCount> table) {
+constexpr void fillFlowFaces(std::span<ShapeFace, shared::kShapeFaceCount> table) {
     constexpr uint kStill = shared::kFlowHeights - 1;
     for (uint level = 1; level < kStill; ++level)
         table[shared::kShapeFaceFlowTop + level - 1] = liquidTop(kStill - level);
@@ -94,7 +94,7 @@ constexpr std::array<ShapeFace, shared::kShapeFaceCount> makeTable() {
     table[shared::kShapeFaceCross] = crossFace(1);
     table[shared::kShapeFaceCross + 1] = crossFace(-1);
     table[shared::kShapeFaceLiquidTop] = liquidTop(kStill);
-    addFlowFaces(table);
+    fillFlowFaces(table);
     return table;
 }
 

@@ -90,6 +90,10 @@ BehaviorPtr BehaviorTable::find(std::string_view name) const {
     return found == behaviors_.end() ? nullptr : *found;
 }
 
+bool hasBehavior(const BlockType& type, std::string_view name) {
+    return std::ranges::any_of(type.behaviors, [&](const BehaviorPtr& b) { return b->name == name; });
+}
+
 const BehaviorTable& builtInBehaviors() {
     static const BehaviorTable table = [] {
         BehaviorTable made;

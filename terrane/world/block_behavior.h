@@ -70,6 +70,8 @@ class BehaviorTable {
 // and those of shape_behaviors.h
 const BehaviorTable& builtInBehaviors();
 
+bool hasBehavior(const BlockType& type, std::string_view name);
+
 // The first behavior of a type that has the function; null where none has.
 template <class Function>
 const BlockBehavior* behaviorWith(const BlockType& type, Function BlockBehavior::*function) {

@@ -11,16 +11,12 @@
 namespace terrane::world {
 namespace {
 
-constexpr std::array<Face, 4> kSides{kFaceNegX, kFacePosX, kFaceNegY, kFacePosY};
+constexpr std::array<Face, 4> kFlowSides{kFaceNegX, kFacePosX, kFaceNegY, kFacePosY};
 
 void unsettle(BlockUpdate& update, BlockPos pos) {
     const std::uint16_t state = update.world().blockState(pos);
     if ((state & kLiquidUnsettled) != 0) return;
     update.change(pos, SetState{static_cast<std::uint16_t>(state | kLiquidUnsettled)});
-}
-
-bool hasBehavior(const BlockType& type, std::string_view name) {
-    return std::ranges::any_of(type.behaviors, [&](const BehaviorPtr& b) { return b->name == name; });
 }
 
 // Not ladders, nor what players use or keep things in.
@@ -47,7 +43,7 @@ struct FlowRules {
     BlockId missing;
 };
 
-struct Cell {
+struct FlowCell {
     BlockId id = kAir;
     std::uint16_t form = 0;  // of a liquid
     Room room = Room::Full;
@@ -58,9 +54,9 @@ struct Cell {
 };
 
 // Reads cells; keeps the chunks that it read. It is gone before a chunk is written, which would copy it.
-class Cells {
+class FlowCells {
   public:
-    Cells(const World& world, const FlowRules& rules) : world_(world), rules_(rules) {}
+    FlowCells(const World& world, const FlowRules& rules) : world_(world), rules_(rules) {}
 
     const FlowRules& rules() const { return rules_; }
     const Chunk* chunk(ChunkPos pos) {
@@ -71,7 +67,7 @@ class Cells {
         return last_ = known->second.get();
     }
     // Ground below the world, air above it.
-    Cell at(BlockPos pos) {
+    FlowCell at(BlockPos pos) {
         if (pos.z < 0) return {};
         const Chunk* chunk = isInHeight(pos.z) ? this->chunk(chunkOf(pos)) : nullptr;
         if (!chunk) return {kAir, 0, Room::Free};
@@ -101,24 +97,24 @@ class Cells {
     ChunkPos lastPos_;
 };
 
-Cell nextCell(Cells& cells, BlockPos pos, BlockId liquid) {
-    const Cell now = cells.at(pos);
+FlowCell nextCell(FlowCells& cells, BlockPos pos, BlockId liquid) {
+    const FlowCell now = cells.at(pos);
     if (now.isSourceOf(liquid) || (!now.is(liquid) && now.room != Room::Free)) return now;
     int sources = 0, level = kMaxLiquidLevel + 1;
-    for (const Face side : kSides) {
+    for (const Face side : kFlowSides) {
         const BlockPos next = beside(pos, side);
-        const Cell cell = cells.at(next);
+        const FlowCell cell = cells.at(next);
         if (!cell.is(liquid)) continue;
         sources += cell.form == 0;
         if (cell.form == 0 || cells.at(beside(next, kFaceNegZ)).isGroundFor(liquid))
             level = std::min(level, (cell.form & kLiquidLevel) + 1);
     }
-    const Cell below = cells.at(beside(pos, kFaceNegZ));
+    const FlowCell below = cells.at(beside(pos, kFaceNegZ));
     if (sources >= 2 && (below.isGroundFor(liquid) || below.isSourceOf(liquid)))
         return {liquid, 0, Room::Liquid};
     if (cells.at(beside(pos, kFacePosZ)).is(liquid)) return {liquid, kLiquidFalling, Room::Liquid};
     if (level <= kMaxLiquidLevel) return {liquid, static_cast<std::uint16_t>(level), Room::Liquid};
-    return now.is(liquid) ? Cell{kAir, 0, Room::Free} : now;
+    return now.is(liquid) ? FlowCell{kAir, 0, Room::Free} : now;
 }
 
 // May be true for a section without such a cell whose palette has had one.
@@ -133,7 +129,7 @@ struct Unsettled {
     std::vector<BlockPos> former;  // a block each of sections whose palette only has had such a state
 };
 
-void addUnsettled(Cells& cells, ChunkPos pos, int section, Unsettled& out) {
+void addUnsettled(FlowCells& cells, ChunkPos pos, int section, Unsettled& out) {
     const Chunk& chunk = *cells.chunk(pos);
     std::array<Section::Value, kBlocksPerSection> states;
     chunk.blockStates(section).unpack(states);
@@ -149,7 +145,7 @@ void addUnsettled(Cells& cells, ChunkPos pos, int section, Unsettled& out) {
         out.former.push_back({pos.x * kChunkSize, pos.y * kChunkSize, section * kSectionSize});
 }
 
-Unsettled findUnsettled(Cells& cells, const FlowArea& area) {
+Unsettled findUnsettled(FlowCells& cells, const FlowArea& area) {
     Unsettled found;
     for (int dy = -area.radius; dy <= area.radius; ++dy) {
         for (int dx = -area.radius; dx <= area.radius; ++dx) {
@@ -181,7 +177,7 @@ class SeenBlocks {
 struct CellChange {
     BlockPos pos;
     BlockId before = kAir;
-    Cell after;
+    FlowCell after;
 };
 
 struct NextValues {
@@ -189,13 +185,13 @@ struct NextValues {
     std::vector<BlockPos> settled;
 };
 
-NextValues nextValues(Cells& cells, const std::vector<BlockPos>& unsettled) {
+NextValues nextValues(FlowCells& cells, const std::vector<BlockPos>& unsettled) {
     NextValues next;
     for (const BlockId liquid : cells.rules().liquids) {
         SeenBlocks seen;
         const auto look = [&](BlockPos pos) {
             if (!isInHeight(pos.z) || !seen.insert(pos)) return;
-            const Cell before = cells.at(pos), after = nextCell(cells, pos, liquid);
+            const FlowCell before = cells.at(pos), after = nextCell(cells, pos, liquid);
             if (before.id != after.id || before.form != after.form)
                 next.changes.push_back({pos, before.id, after});
         };
@@ -203,7 +199,7 @@ NextValues nextValues(Cells& cells, const std::vector<BlockPos>& unsettled) {
             if (!cells.at(pos).is(liquid)) continue;
             next.settled.push_back(pos);
             look(pos);
-            for (const Face side : kSides) look(beside(pos, side));
+            for (const Face side : kFlowSides) look(beside(pos, side));
             look(beside(pos, kFaceNegZ));
         }
     }
@@ -241,7 +237,7 @@ std::size_t flowLiquids(World& world, const BlockRegistry& blocks, const FlowAre
     Unsettled unsettled;
     NextValues next;
     {
-        Cells cells(world, rules);
+        FlowCells cells(world, rules);
         unsettled = findUnsettled(cells, area);
         next = nextValues(cells, unsettled.cells);
     }
