@@ -5,6 +5,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "terrane/world/block_model.h"
+#include "terrane/world/liquid_flow.h"
 #include "terrane/world/shape_behaviors.h"
 
 namespace terrane::game {
@@ -50,15 +51,19 @@ bool BlockInteraction::pick(const Session& session) {
     return true;
 }
 
-// Into air and liquids, not into plants and the like.
+// Into air and liquids, not into plants and the like; a source of a liquid not into another of it.
 std::optional<EditResult> BlockInteraction::build(Session& session, PlayerId id, const Player& player,
                                                   const world::Ray& ray) const {
     const world::BlockType& type = session.blocks().type(block());
     const world::BlockPos pos = world::beside(target_->block, target_->face);
     const world::BlockId there = session.world().block(pos);
-    const bool isFree = there == world::kAir || session.blocks().type(there).shape == world::Shape::Liquid;
-    const std::uint16_t state = placedState(type, placementAt(*target_, ray, player.pose().yaw));
-    if (block() == world::kAir || !isFree || isInTheWay(type, state, pos, player.body())) return std::nullopt;
+    const bool isSource = there == block() && world::isLiquidSource(session.world().blockState(pos));
+    const bool isLiquid = session.blocks().type(there).shape == world::Shape::Liquid;
+    if (block() == world::kAir || isSource || (there != world::kAir && !isLiquid)) return std::nullopt;
+    const std::uint16_t state = isFlowing(type)
+                                    ? world::kLiquidUnsettled
+                                    : placedState(type, placementAt(*target_, ray, player.pose().yaw));
+    if (isInTheWay(type, state, pos, player.body())) return std::nullopt;
     return session.edit({id, pos, world::SetBlock{block(), state}, there});
 }
 
@@ -66,17 +71,21 @@ std::optional<EditResult> BlockInteraction::act(Session& session, PlayerId id, c
                                                 double seconds) {
     const world::Pose& pose = player.pose();
     const world::Ray ray{pose.position, glm::dvec3(world::lookDirection(pose.yaw, pose.pitch))};
-    const auto look = [&] { return world::castRay(session.world(), session.blocks(), ray, kReach); };
-    target_ = look();
+    const auto look = [&](world::BlockId liquid) {
+        return world::castRay(session.world(), session.blocks(), ray, kReach, liquid);
+    };
+    target_ = look(world::kAir);
     const bool breaks = breaking.acts(seconds), builds = building.acts(seconds);
-    if (!target_ || (!breaks && !builds)) return std::nullopt;
+    // Who has a liquid in hand takes its sources.
+    const auto aimed = breaks && isFlowing(session.blocks().type(block())) ? look(block()) : target_;
+    if (!aimed || (!breaks && !builds)) return std::nullopt;
     std::optional<EditResult> result;
     if (breaks)
         result = session.edit(
-            {id, target_->block, world::SetBlock{world::kAir}, session.world().block(target_->block)});
+            {id, aimed->block, world::SetBlock{world::kAir}, session.world().block(aimed->block)});
     else
         result = build(session, id, player, ray);
-    target_ = look();
+    target_ = look(world::kAir);
     return result;
 }
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "terrane/base/log.h"
-#include "terrane/shared/material.h"
 #include "terrane/stream/tile_rows.h"
+#include "terrane/world/liquid_flow.h"
 #include "terrane/world/random_ticks.h"
 
 namespace terrane::game {
@@ -132,6 +132,10 @@ void Session::advance(double seconds, world::ChunkPos center) {
         for (const world::BlockPos pos : world::blocksToTick(world_, *blocks_, {ticks_++, center}))
             ticks.push_back({kNoPlayer, pos, world::RunTick{}, std::nullopt});
         edit(ticks);
+        if (ticks_ % world::kTicksPerFlow != 0) continue;
+        std::vector<world::BlockEdit> edits;
+        world::flowLiquids(world_, *blocks_, {center}, edits);
+        pipeline_.onEdits(edits);
     }
 }
 
@@ -152,9 +156,7 @@ bool isUnderWater(const Session& session, const glm::dvec3& point) {
     const world::BlockPos pos{static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y),
                               static_cast<std::int32_t>(at.z)};
     if (session.world().block(pos) != water) return false;
-    const double surface = session.blocks().type(water).surface.heightUnits / double{shared::kSurfaceUnits};
-    const bool isFull = session.world().block({pos.x, pos.y, pos.z + 1}) == water;
-    return isFull || point.z - at.z < surface;
+    return point.z - at.z < world::liquidHeight(session.world(), session.blocks(), pos);
 }
 
 int waterAbove(const Session& session, const glm::dvec3& point) {

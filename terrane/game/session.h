@@ -57,7 +57,7 @@ class Session {
     void setPlayer(PlayerId player, const world::Pose& pose) { players_[player].pose = pose; }
     void removePlayer(PlayerId player) { players_.erase(player); }
 
-    // Game time passes: the day, and blocks near `center` get their ticks (plants grow).
+    // Game time passes: the day, and blocks near `center` get their ticks (plants grow, liquids flow).
     void advance(double seconds, world::ChunkPos center);
 
     // Waits until all that changed is in the store.

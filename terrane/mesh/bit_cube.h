@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "terrane/world/block_type.h"
@@ -54,6 +56,20 @@ inline BitCube both(const BitCube& a, const BitCube& b, LayerRange range) {
 inline BitCube without(const BitCube& a, const BitCube& b, LayerRange range) {
     BitCube out;
     for (std::size_t i = 4 * range.first; i < 4 * range.end; ++i) out[i] = a[i] & ~b[i];
+    return out;
+}
+
+// Of the blocks in `layers` those of which `is` says so, by their index in the section.
+template <class Is>
+BitCube blocksWhere(const BitCube& blocks, LayerRange layers, Is is) {
+    BitCube out;
+    for (std::size_t i = 4 * layers.first; i < 4 * layers.end; ++i) {
+        out[i] = 0;
+        for (std::uint64_t left = blocks[i]; left != 0; left &= left - 1) {
+            const auto bit = static_cast<std::size_t>(std::countr_zero(left));
+            if (is(64 * i + bit)) out[i] |= std::uint64_t{1} << bit;
+        }
+    }
     return out;
 }
 

@@ -12,7 +12,9 @@ SectionView viewSection(const MeshInput& input, int number) {
     SectionView view;
     view.center = &input.center->section(number);
     for (std::size_t side = 0; side < input.neighbors.size(); ++side) {
-        if (input.neighbors[side]) view.neighbors[side] = &input.neighbors[side]->section(number);
+        if (!input.neighbors[side]) continue;
+        view.neighbors[side] = &input.neighbors[side]->section(number);
+        view.neighborStates[side] = &input.neighbors[side]->blockStates(number);
     }
     if (number > 0) view.neighbors[world::kFaceNegZ] = &input.center->section(number - 1);
     if (number + 1 < world::kSectionsPerChunk) {

@@ -7,6 +7,7 @@
 #include "terrane/mesh/bit_cube.h"
 #include "terrane/mesh/quad_collector.h"
 #include "terrane/mesh/section_faces.h"
+#include "terrane/world/block_model.h"
 
 namespace terrane::mesh {
 
@@ -17,6 +18,11 @@ struct ModelBlocks {
     const BitCube& alongX;
     LayerRange layers;
 };
+
+// Of a block by its index in the section: its bit in a cube that has rows along y for -x and +x.
+bool hasBit(const BitCube& cube, world::Face side, std::size_t block);
+void addCellFace(const ModelBlocks& blocks, std::size_t block, const world::ModelFace& face,
+                 QuadCollector& out);
 
 // `uncovered`: blocks whose neighbor on a side is no opaque cube, with rows along y for -x and +x.
 void addModelFaces(const ModelBlocks& blocks, const std::array<BitCube, world::kFaceCount>& uncovered,

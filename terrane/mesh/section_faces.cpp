@@ -8,6 +8,7 @@
 #include "terrane/mesh/bit_cube.h"
 #include "terrane/mesh/face_rules.h"
 #include "terrane/mesh/face_writer.h"
+#include "terrane/mesh/liquid_faces.h"
 #include "terrane/mesh/model_faces.h"
 #include "terrane/mesh/section_bits.h"
 #include "terrane/mesh/section_side.h"
@@ -32,20 +33,6 @@ bool isHidden(const SectionView& view) {
 }
 
 using Borders = std::array<BitSlice, world::kFaceCount>;
-
-// Of the blocks in `layers` those of which `is` says so, by their index in the section.
-template <class Is>
-BitCube blocksWhere(const BitCube& blocks, LayerRange layers, Is is) {
-    BitCube out;
-    for (std::size_t i = 4 * layers.first; i < 4 * layers.end; ++i) {
-        out[i] = 0;
-        for (std::uint64_t left = blocks[i]; left != 0; left &= left - 1) {
-            const auto bit = static_cast<std::size_t>(std::countr_zero(left));
-            if (is(64 * i + bit)) out[i] |= std::uint64_t{1} << bit;
-        }
-    }
-    return out;
-}
 
 // What lies around a section.
 struct Surroundings {
@@ -87,7 +74,8 @@ class SectionFaces {
           around_(around),
           bits_(*view.center),
           writer_(view.blocks->materials(), view.target, out),
-          out_(out) {
+          out_(out),
+          hasFlow_(hasFlow(view)) {
         findUncovered();
     }
 
@@ -104,6 +92,7 @@ class SectionFaces {
     void addSide(const TypeBlocks& blocks, Face side);
     void addCube(const TypeBlocks& blocks);
     void addLiquid(const TypeBlocks& blocks);
+    void addStillLiquid(const TypeBlocks& blocks, const BitCube& still);
     void addPlanes(const TypeBlocks& blocks, uint firstFace, uint count);
     void addGrowingPlanes(const TypeBlocks& blocks, uint firstFace, uint count);
 
@@ -112,6 +101,7 @@ class SectionFaces {
     SectionBits bits_;
     FaceWriter writer_;
     QuadCollector& out_;
+    bool hasFlow_;
     std::array<BitCube, world::kFaceCount> uncovered_;  // blocks whose neighbor on a side is no opaque cube
     BitCube uncoveredAnywhere_;                         // on some side; rows along x
 };
@@ -140,10 +130,10 @@ void SectionFaces::findUncovered() {
     }
 }
 
-// Planes inside the cell are drawn also where all neighbors are opaque; of other shapes nothing is seen
-// then.
+// Planes inside the cell, and low surfaces of liquids, are drawn also where all neighbors are opaque; of
+// other shapes nothing is seen then.
 LayerRange SectionFaces::visibleLayers(const BlockType& type, const BitCube& blocks) const {
-    const bool hasPlanes = type.shape != Shape::Cube && type.shape != Shape::Liquid;
+    const bool hasPlanes = type.shape != Shape::Cube && (type.shape != Shape::Liquid || hasFlow_);
     return commonLayers(blocks, hasPlanes ? blocks : uncoveredAnywhere_, view_.target.layers);
 }
 
@@ -206,29 +196,40 @@ void SectionFaces::addCube(const TypeBlocks& blocks) {
     for (const Face side : kSides) addSide(blocks, side);
 }
 
+void SectionFaces::addLiquid(const TypeBlocks& blocks) {
+    if (!hasFlow_) return addStillLiquid(blocks, blocks.alongX);
+    const ModelBlocks liquid{view_, blocks.type, blocks.alongX, blocks.layers};
+    const BitCube still = without(blocks.alongX, flowingBlocks(liquid), blocks.layers);
+    addStillLiquid(blocks, still);
+    addFlowFaces(liquid, both(visible(blocks, world::kFacePosZ), still, blocks.layers), uncovered_, out_);
+}
+
 // Blocks under anything but the same liquid or an opaque cube are surface: their top lies lower, and so do
 // their sides. These merge along u only, since no surface block stands on another. Of a full block beside a
 // surface block the strip above that surface is left out.
-void SectionFaces::addLiquid(const TypeBlocks& blocks) {
+void SectionFaces::addStillLiquid(const TypeBlocks& blocks, const BitCube& still) {
     const BlockType& type = blocks.type;
-    const BitCube surface = visible(blocks, world::kFacePosZ);
+    const BitCube stillAlongY = transposed(still, blocks.layers);
+    const auto seen = [&](Face side) {
+        return both(visible(blocks, side), isAlongX(side) ? stillAlongY : still, blocks.layers);
+    };
+    const auto kind = [&](Face side, uint shapeFace) {
+        return FaceKind{shapeFace, type.material[side], merges(type, side), side};
+    };
+    const BitCube surface = seen(world::kFacePosZ);
     const BitCube surfaceAlongY = transposed(surface, blocks.layers);
     for (std::size_t s = 0; s < kUprightSides; ++s) {
         const Face side = kSides[s];
-        const BitCube faces = visible(blocks, side);
+        const BitCube faces = seen(side);
         const BitCube& lowered = isAlongX(side) ? surfaceAlongY : surface;
-        writer_.write(without(faces, lowered, blocks.layers),
-                      {shared::kShapeFaceCube + side, type.material[side], merges(type, side), side},
+        writer_.write(without(faces, lowered, blocks.layers), kind(side, shared::kShapeFaceCube + side),
                       blocks.layers);
-        writer_.write(both(faces, lowered, blocks.layers),
-                      {shared::kShapeFaceLiquidSide + side, type.material[side], merges(type, side), side},
+        writer_.write(both(faces, lowered, blocks.layers), kind(side, shared::kShapeFaceLiquidSide + side),
                       blocks.layers);
     }
-    addSide(blocks, world::kFaceNegZ);
-    writer_.write(surface,
-                  {shared::kShapeFaceLiquidTop, type.material[world::kFacePosZ],
-                   merges(type, world::kFacePosZ), world::kFacePosZ},
+    writer_.write(seen(world::kFaceNegZ), kind(world::kFaceNegZ, shared::kShapeFaceCube + world::kFaceNegZ),
                   blocks.layers);
+    writer_.write(surface, kind(world::kFacePosZ, shared::kShapeFaceLiquidTop), blocks.layers);
 }
 
 // Plane k has the material of side k.

@@ -17,7 +17,8 @@ struct SectionView {
     // By side; null above the world, where there is air, below it, from where nothing is seen, and beyond an
     // open border (MeshInput).
     std::array<const world::Section*, world::kFaceCount> neighbors{};
-    const world::Section* blockState = nullptr;  // of the section's blocks
+    const world::Section* blockState = nullptr;             // of the section's blocks
+    std::array<const world::Section*, 4> neighborStates{};  // null where `neighbors` are
     const world::BlockRegistry* blocks = nullptr;
     FaceTarget target;
 };

@@ -46,20 +46,55 @@ constexpr ShapeFace crossFace(float signX) {
     return {{kDiagonalStart, kDiagonalStart, 0, 0}, u, kPosZ, normal};
 }
 
+// Of the surface's height, or 0 for the bottom and the top of the cell.
+constexpr float flowShare(uint height) {
+    return height < shared::kFlowHeights ? static_cast<float>(height) / (shared::kFlowHeights - 1) : 0;
+}
+constexpr float flowHeight(uint height) {
+    return height < shared::kFlowHeights ? kLiquidHeight * flowShare(height) : 1;
+}
+
+constexpr ShapeFace liquidTop(uint height) {
+    ShapeFace face = topFace(flowHeight(height));
+    face.base.w = face.axisV.w = flowShare(height);
+    return face;
+}
+
+constexpr ShapeFace liquidSide(world::Face side, uint low, uint high) {
+    ShapeFace face = sideFace(side, 0, flowHeight(high) - flowHeight(low));
+    face.base.z = flowHeight(low);
+    face.base.w = flowShare(low);
+    face.axisV.w = flowShare(high);
+    return face;
+}
+
+constexpr void fillFlowFaces(std::span<ShapeFace, shared::kShapeFaceCount> table) {
+    constexpr uint kStill = shared::kFlowHeights - 1;
+    for (uint level = 1; level < kStill; ++level)
+        table[shared::kShapeFaceFlowTop + level - 1] = liquidTop(kStill - level);
+    for (uint high = 1; high <= shared::kFlowHeights; ++high)
+        for (uint low = 0; low < high; ++low)
+            for (uint s = 0; s < 4; ++s)
+                table[shared::flowSideFace(s, low, high)] =
+                    liquidSide(static_cast<world::Face>(s), low, high);
+}
+
 constexpr std::array<ShapeFace, shared::kShapeFaceCount> makeTable() {
+    constexpr uint kStill = shared::kFlowHeights - 1;
     std::array<ShapeFace, shared::kShapeFaceCount> table{};
     for (uint s = 0; s < 4; ++s) {
         const auto side = static_cast<world::Face>(s);
         table[shared::kShapeFaceCube + s] = sideFace(side, 0);
         table[shared::kShapeFaceHash + s] = sideFace(side, 0.25f);
         table[shared::kShapeFaceInset + s] = sideFace(side, 1.0f / 16);
-        table[shared::kShapeFaceLiquidSide + s] = sideFace(side, 0, kLiquidHeight);
+        table[shared::kShapeFaceLiquidSide + s] = liquidSide(side, 0, kStill);
     }
     table[shared::kShapeFaceCube + world::kFaceNegZ] = kBottomFace;
     table[shared::kShapeFaceCube + world::kFacePosZ] = topFace(1);
     table[shared::kShapeFaceCross] = crossFace(1);
     table[shared::kShapeFaceCross + 1] = crossFace(-1);
-    table[shared::kShapeFaceLiquidTop] = topFace(kLiquidHeight);
+    table[shared::kShapeFaceLiquidTop] = liquidTop(kStill);
+    fillFlowFaces(table);
     return table;
 }
 

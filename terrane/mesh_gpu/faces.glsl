@@ -13,6 +13,7 @@ shared uint surface[kBlocksPerLayer];     // by y + 16 z, bits along x: liquid b
 // Of an invocation's row.
 struct Row {
     uint opaque, sides, inset, planes, liquid;
+    uint flowing;  // of those of liquids
 };
 
 uint idAt(uvec3 cell) {
@@ -28,7 +29,7 @@ uvec3 cellOf(uint side, uint plane, uint row, uint bit) {
 
 Row readRow(MeshUnit unit, uint local) {
     PackedSection section = sections[unit.section];
-    Row row = Row(0u, 0u, 0u, 0u, 0u);
+    Row row = Row(0u, 0u, 0u, 0u, 0u, 0u);
     for (uint x = 0u; x < kSectionSize; x += 2u) {
         uint pair = 0u;
         for (uint k = 0u; k < 2u; ++k) {
@@ -42,6 +43,10 @@ Row readRow(MeshUnit unit, uint local) {
             if (shape >= kMeshShapeCross) row.planes |= bit;
         }
         ids[kSectionSize / 2u * local + (x >> 1)] = pair;
+    }
+    for (uint left = row.liquid; unit.blockState != kNoSection && left != 0u; left &= left - 1u) {
+        uint x = uint(findLSB(left));
+        if ((blockStateAt(unit.blockState, kSectionSize * local + x) & kMeshFlowMask) != 0u) row.flowing |= 1u << x;
     }
     return row;
 }
@@ -92,6 +97,11 @@ void findSeen(MeshUnit unit, Row row, uint local, out uint seen[6]) {
             if (idBeside(unit, uvec3(x, local % kSectionSize, local / kSectionSize), side) == id) seen[side] &= ~(1u << x);
         }
     }
+}
+
+// Its faces are found by liquids.glsl.
+void leaveOutFlowing(Row row, inout uint seen[6]) {
+    for (uint side = 0u; side < 6u; ++side) seen[side] &= ~row.flowing;
 }
 
 // Into planes. The bits of a row along x are one of 16 rows along y: as few as are seen, set one by one.

@@ -1,27 +1,27 @@
 // Meshes a unit: a section, or as much of it as lies in one mesh section. A work group is a unit. Rows of blocks, an invocation
 // each, find the faces that are seen; then 96 planes of them are merged, by reading and changing bits only.
 #include "terrane/mesh_gpu/merge.glsl"
+#include "terrane/mesh_gpu/liquids.glsl"
 
 layout(local_size_x = 256) in;
 
-// Finds what is seen of the invocation's row, and gives it to the planes; returns planes inside cells.
-uint shareRow(MeshUnit unit, uint local) {
+// Finds what is seen of the invocation's row, and gives it to the planes; returns the row without what another mesh section
+// has of the section.
+Row shareRow(MeshUnit unit, uint local) {
     Row row = readRow(unit, local);
     shareOpaque(unit, row, local);
     barrier();
     uint z = local / kSectionSize, seen[6];
     findSeen(unit, row, local, seen);
+    leaveOutFlowing(row, seen);
     surface[local] = seen[5] & row.liquid;
     bool isInMeshSection = z >= (unit.layers & 0xFFFFu) && z < unit.layers >> 16;
-    if (!isInMeshSection) return 0u;
+    if (!isInMeshSection) return Row(0u, 0u, 0u, 0u, 0u, 0u);
     shareSeen(seen, local);
 #if !WRITES_QUADS
-    if ((row.planes | seen[0] | seen[1] | seen[2] | seen[3] | seen[4] | seen[5]) != 0u) {
-        atomicMin(lowest, z);
-        atomicMax(highest, z + 1u);
-    }
+    if ((row.planes | seen[0] | seen[1] | seen[2] | seen[3] | seen[4] | seen[5]) != 0u) coverLayer(z);
 #endif
-    return row.planes;
+    return row;
 }
 
 void begin(MeshUnit unit, uint unitIndex, uint local) {
@@ -65,11 +65,12 @@ void main() {
     if (places[kRangesPerMeshSection * unit.meshSection] == kNoPlace) return;
 #endif
     begin(unit, unitIndex, local);
-    uint planes = shareRow(unit, local);
+    Row row = shareRow(unit, local);
     barrier();
     for (uint side = 0u; side < 6u; ++side) compareKinds(side, local);
     barrier();
-    addPlanes(unit, planes, local);
+    addPlanes(unit, row.planes, local);
+    addFlow(unit, row, local);
     if (method != kMergeGreedy) {
         mergeInPasses(unit, local);
     } else if (local < 96u) {

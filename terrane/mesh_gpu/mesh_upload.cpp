@@ -65,8 +65,12 @@ bool MeshUpload::mayBeSeen(const mesh::MeshInput& chunk, int number) const {
 void MeshUpload::addUnits(const mesh::MeshInput& chunk, int number) {
     shared::MeshUnit unit{};
     unit.section = slotOf(chunk.center->section(number), true);
-    const Section& blockState = chunk.center->blockStates(number);
-    unit.blockState = isZero(blockState) ? shared::kNoSection : slotOf(blockState, false);
+    const auto stateSlot = [&](const Section& states) {
+        return isZero(states) ? shared::kNoSection : slotOf(states, false);
+    };
+    unit.blockState = stateSlot(chunk.center->blockStates(number));
+    for (uint side = 0; side < 4; ++side)
+        unit.neighborStates[side] = stateSlot(chunk.neighbors[side]->blockStates(number));
     for (uint side = 0; side < world::kFaceCount; ++side) {
         const Section* next = beside(chunk, number, side);
         const uint none = side == world::kFaceNegZ ? shared::kOpaqueSection : shared::kNoSection;

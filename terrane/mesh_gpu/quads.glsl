@@ -20,6 +20,11 @@ layout(std430, binding = kMeshSectionCountsBinding) buffer MeshSections {
     MeshSectionCounts meshSections[];
 };
 shared uint lowest, highest;  // layers with faces
+
+void coverLayer(uint z) {
+    atomicMin(lowest, z);
+    atomicMax(highest, z + 1u);
+}
 #endif
 
 // face: material and draw bucket. direction: as in mesh/draw_bucket.h, of a one-sided face.

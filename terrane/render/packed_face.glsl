@@ -11,7 +11,7 @@ uint directionOfAxis(vec3 axis) {
     return 2u * uint(along.y + 2.0 * along.z + 0.5) + (axis.x + axis.y + axis.z > 0.0 ? 1u : 0u);
 }
 
-// Of a face that is none of a model.
+// Of a face that is none of a model or of a liquid that flows.
 uint directionOf(uint shapeFace) {
     if (shapeFace < kShapeFaceCross) return shapeFace;
     if (shapeFace < kShapeFaceInset) return kDirectionPlant;

@@ -62,30 +62,34 @@ Quad quadOf(int vertex) {
     return Quad(words.x, words.y);
 }
 
-// Without the normal. The surface of a liquid lies as high as its material says.
+// Without the normal. The surface of a liquid lies as high as its material says, and lower where it flows.
 ShapeFace shapeFaceOf(Quad quad, MaterialRecord material) {
     uint number = quadShapeFace(quad);
     int first = 4 * int(number);
     ShapeFace face = ShapeFace(texelFetch(shapeFaces, first), texelFetch(shapeFaces, first + 1),
                                texelFetch(shapeFaces, first + 2), vec4(0.0));
-    if (number == kShapeFaceLiquidTop) face.base.z = optionsSurfaceHeight(material.options);
-    if (number >= kShapeFaceLiquidSide && number < kShapeFaceCount) face.axisV.z = optionsSurfaceHeight(material.options);
+    float low = face.base.z, high = low + face.axisV.z;
+    if (face.base.w > 0.0) low = face.base.w * optionsSurfaceHeight(material.options);
+    if (face.axisV.w > 0.0) high = face.axisV.w * optionsSurfaceHeight(material.options);
+    if (face.base.w + face.axisV.w > 0.0) {
+        face.base.z = low;
+        face.axisV.z = high - low;
+    }
     return face;
 }
 
-// Whether a corner belongs to the surface of a liquid.
-bool isOnSurface(Quad quad, vec2 corner) {
-    uint number = quadShapeFace(quad);
-    return number == kShapeFaceLiquidTop || (number >= kShapeFaceLiquidSide && number < kShapeFaceCount && corner.y == 1.0);
+// How high a corner lies on the surface of a liquid, as a share of the surface's height; 0 where it does not.
+float surfaceShare(ShapeFace face, vec2 corner) {
+    return corner.y == 1.0 ? face.axisV.w : face.base.w;
 }
 
 vec3 normalOfFace(Quad quad) {
     return texelFetch(shapeFaces, 4 * int(quadShapeFace(quad)) + 3).xyz;
 }
 
-// In the quad, 0 to 1. A face of a model shows the part of the texture in front of which it lies.
+// In the quad, 0 to 1. A face of a model or of a liquid that flows shows the part of the texture in front of which it lies.
 vec2 texelOf(Quad quad, ShapeFace face, vec2 corner) {
-    if (quadShapeFace(quad) < kShapeFaceCount) return vec2(corner.x, 1.0 - corner.y);
+    if (quadShapeFace(quad) < kShapeFaceFlowTop) return vec2(corner.x, 1.0 - corner.y);
     vec3 inCell = shapeFaceCorner(face, vec4(0.0), corner, vec2(1.0)).xyz;
     vec2 along = vec2(dot(inCell, sign(face.axisU.xyz)), dot(inCell, sign(face.axisV.xyz)));
     vec2 from = vec2(dot(face.axisU.xyz, vec3(1.0)), dot(face.axisV.xyz, vec3(1.0)));
@@ -95,7 +99,7 @@ vec2 texelOf(Quad quad, ShapeFace face, vec2 corner) {
 
 uint directionOfQuad(Quad quad) {
     uint number = quadShapeFace(quad);
-    return number < kShapeFaceCount ? directionOf(number) : directionOfAxis(normalOfFace(quad));
+    return number < kShapeFaceFlowTop ? directionOf(number) : directionOfAxis(normalOfFace(quad));
 }
 
 MaterialRecord materialOf(Quad quad) {
@@ -121,7 +125,7 @@ void main() {
     gl_Position = shadowDraw.toClip * vec4(position, 1.0);
 #else
     if ((frame.switches & kSwitchAnimation) != 0 && level == 0u) {
-        inChunk += waveOffset(material, isOnSurface(quad, corner), chunk, cell.xyz, inChunk, corner.y, frame.timeSeconds);
+        inChunk += waveOffset(material, surfaceShare(face, corner), chunk, cell.xyz, inChunk, corner.y, frame.timeSeconds);
     }
 #if PASS == 1
     if (material.animation == kAnimationLiquidSurface) inChunk -= kLiquidInset * normalOfFace(quad);

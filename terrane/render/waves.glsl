@@ -27,9 +27,9 @@ float liquidWave(ivec2 chunk, vec2 inChunk, float seconds) {
     return mix(low, high, f.y);
 }
 
-// `isSurface`: the corner belongs to the surface of a liquid. `top`: 1 at the upper end of upright planes. Each class of faces has its own kinds of movement (ALPHA_CLASS, see
+// `surface`: how high the corner lies on the surface of a liquid, as a share of its height; lower surfaces have lower waves. `top`: 1 at the upper end of upright planes. Each class of faces has its own kinds of movement (ALPHA_CLASS, see
 // quad.vert.glsl): opaque faces stand still, only blended ones are liquid.
-vec3 waveOffset(MaterialRecord material, bool isSurface, ivec2 chunk, vec3 cell, vec3 inChunk, float top,
+vec3 waveOffset(MaterialRecord material, float surface, ivec2 chunk, vec3 cell, vec3 inChunk, float top,
                 float seconds) {
     uint animation = material.animation;
 #if ALPHA_CLASS == 1
@@ -47,8 +47,8 @@ vec3 waveOffset(MaterialRecord material, bool isSurface, ivec2 chunk, vec3 cell,
         return 0.035 * vec3(a, b, a - b);
     }
 #elif ALPHA_CLASS == 2
-    if (animation == kAnimationLiquidSurface && isSurface) {
-        return vec3(0.0, 0.0, optionsWaveHeight(material.options) * liquidWave(chunk, inChunk.xy, seconds));
+    if (animation == kAnimationLiquidSurface && surface > 0.0) {
+        return vec3(0.0, 0.0, surface * optionsWaveHeight(material.options) * liquidWave(chunk, inChunk.xy, seconds));
     }
 #endif
     return vec3(0.0);

@@ -33,6 +33,7 @@ struct MeshUnit {
     uint meshSection;  // of all mesh sections of the batch
     uint layers;       // of the section: the first, and the one behind the last << 16
     uint neighbors[6];
+    uint neighborStates[4];
     uint baseZ;  // of the section
     uint unused;
 };
@@ -62,6 +63,10 @@ const uint kMeshShapeHash = 4u;
 const uint kMeshShapeInset = 5u;
 const uint kMeshShapeModel = 6u;
 
+// Block state of liquids, as world/liquid_flow.h has it
+const uint kMeshFlowMask = 15u;
+const uint kMeshFlowFalling = 8u;
+
 const uint kMeshFaceSideShift = 11u;
 const uint kMeshFaceOnBorderBit = 1u << 14;
 
@@ -78,7 +83,7 @@ SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(MeshUnit) == 48 && sizeof(MeshType) == 32);
+static_assert(sizeof(MeshUnit) == 64 && sizeof(MeshType) == 32);
 static_assert(sizeof(MeshSectionCounts) == 4 * (kRangesPerMeshSection + 2));
 static_assert(kMeshUnitWords == kRangesPerMeshSection + 1);
 }  // namespace terrane::shared

@@ -15,19 +15,30 @@ const uint kShapeFaceHash = 8u;         // 8–11  upright planes a quarter insi
 const uint kShapeFaceInset = 12u;       // 12–15 upright planes 1/16 inside the cell
 const uint kShapeFaceLiquidTop = 16u;   // 16    the lowered top of a liquid
 const uint kShapeFaceLiquidSide = 17u;  // 17–20 the sides under that top
-const uint kShapeFaceCount = 21u;   // faces of models follow: rectangles in the cell (world/block_model.h)
+const uint kShapeFaceFlowTop = 21u;     // 21–27 the tops of a liquid at its levels 1–7
+const uint kShapeFaceFlowSide = 28u;    // 28–207 sides of a liquid that flows, see flowSideFace
+const uint kShapeFaceCount = 208u;  // faces of models follow: rectangles in the cell (world/block_model.h)
 const uint kMaxShapeFaces = 2048u;  // in all; a quad has 11 bits
 
 // Where the top of a liquid lies in its cell, in sixteenths of a block; an integer, since C++ takes no `const
 // float` for a constant expression.
 const uint kLiquidSurfaceSixteenths = 14u;
 
+// Where the sides of a liquid that flows begin and end: 0 the bottom of the cell, k the height of level 8 - k,
+// 8 that of a source, 9 the top of the cell. Each pair has four faces.
+const uint kFlowHeights = 9u;
+SHARED_FN uint flowSideFace(uint side, uint low, uint high) {
+    return kShapeFaceFlowSide + 4u * (high * (high - 1u) / 2u + low) + side;
+}
+
 // Units are blocks. A quad repeats the axes extentU and extentV times.
 struct ShapeFace {
     vec4 base;    // lowest corner of the face in the cell
     vec4 axisU;   // along the texture's width for one block
     vec4 axisV;   // along the texture's height for one block, upward on upright faces
-    vec4 normal;  // outward, axisU × axisV normalized; all w are 0
+    vec4 normal;  // outward, axisU × axisV normalized
+    // Where an edge lies on the surface of a liquid, its height is this share of the surface's: base.w at v = 0,
+    // axisV.w at v = 1. All other w are 0.
 };
 
 // The part of an axis that points toward negative coordinates.
@@ -52,6 +63,7 @@ SHARED_END
 #ifdef __cplusplus
 namespace terrane::shared {
 static_assert(sizeof(ShapeFace) == 64, "four vec4 in std430");
+static_assert(kShapeFaceFlowSide + 4 * kFlowHeights * (kFlowHeights + 1) / 2 == kShapeFaceCount);
 }
 #endif
 #endif

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "terrane/world/block_edit.h"
+#include "terrane/world/liquid_flow.h"
 #include "terrane/world/shape_behaviors.h"
 
 namespace terrane::world {
@@ -89,10 +90,14 @@ BehaviorPtr BehaviorTable::find(std::string_view name) const {
     return found == behaviors_.end() ? nullptr : *found;
 }
 
+bool hasBehavior(const BlockType& type, std::string_view name) {
+    return std::ranges::any_of(type.behaviors, [&](const BehaviorPtr& b) { return b->name == name; });
+}
+
 const BehaviorTable& builtInBehaviors() {
     static const BehaviorTable table = [] {
         BehaviorTable made;
-        for (BlockBehavior (*make)() : {plant, crop, falling, container}) made.add(make());
+        for (BlockBehavior (*make)() : {plant, crop, falling, container, flows}) made.add(make());
         for (BlockBehavior& behavior : shapeBehaviors()) made.add(std::move(behavior));
         return made;
     }();

@@ -65,9 +65,12 @@ class BehaviorTable {
 // plant      needs ground: a full block, or its own kind (cactus); it goes when the block below goes
 // crop       is placed at its youngest stage of growth and grows by ticks; its state counts the stages left
 // falling    falls through air and liquids when it is placed or when the block below goes
+// flows      of a liquid: it flows (liquid_flow.h)
 // container  holds BlockType::slots stacks of items
 // and those of shape_behaviors.h
 const BehaviorTable& builtInBehaviors();
+
+bool hasBehavior(const BlockType& type, std::string_view name);
 
 // The first behavior of a type that has the function; null where none has.
 template <class Function>

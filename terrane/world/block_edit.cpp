@@ -57,6 +57,10 @@ void BlockUpdate::restore(std::span<const PlacedBlock> blocks) {
         }
 }
 
+void BlockUpdate::compactState(BlockPos pos) {
+    if (Chunk* chunk = world_.findWritable(pos)) chunk->compactBlockState(pos.z / kSectionSize);
+}
+
 void BlockUpdate::setValue(BlockPos pos, const BlockValue& value) {
     Chunk* chunk = world_.findWritable(pos);
     if (!chunk || blockValue(world_, pos) == value) return;

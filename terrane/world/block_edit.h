@@ -64,6 +64,8 @@ class BlockUpdate {
     // `removed`). `neighborChanged` is called where one of them touches a block that is not: inside nothing
     // falls or goes.
     void restore(std::span<const PlacedBlock> blocks);
+    // Forgets which block states the section at `pos` has had: its palette names only those in it.
+    void compactState(BlockPos pos);
 
     void run();
 

@@ -48,6 +48,8 @@ class Chunk {
     void setSection(int number, Section section);
     // Replaces a whole section's block state; block entity data of its blocks is freed.
     void setBlockStateSection(int number, Section section);
+    // Brings it to its smallest form; its values stay.
+    void compactBlockState(int number) { blockState_[static_cast<std::size_t>(number)].compact(); }
 
     std::size_t memoryBytes() const;  // heap and object
 

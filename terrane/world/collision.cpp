@@ -1,6 +1,7 @@
 #include "terrane/world/collision.h"
 
 #include "terrane/world/block_model.h"
+#include "terrane/world/liquid_flow.h"
 
 #include <algorithm>
 #include <cassert>
@@ -105,7 +106,9 @@ bool isInLiquid(const World& world, const BlockRegistry& blocks, glm::dvec3 poin
     if (!hasBlocks(x, y) || z < 0 || z >= kChunkHeight) return false;
     const BlockPos pos{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y),
                        static_cast<std::int32_t>(z)};
-    return blocks.type(world.block(pos)).shape == Shape::Liquid;
+    if (blocks.type(world.block(pos)).shape != Shape::Liquid) return false;
+    const bool isFull = isLiquidSource(world.blockState(pos));  // one swims up to the top of a source's cell
+    return isFull || point.z - static_cast<double>(z) < liquidHeight(world, blocks, pos);
 }
 
 }  // namespace terrane::world

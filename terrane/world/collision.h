@@ -31,7 +31,7 @@ constexpr double kMaxMotion = 64, kSkin = 1.0 / 4096;
 // Whether something that collides is inside of the box; touching is not.
 bool collides(const World& world, const BlockRegistry& blocks, const Aabb& box);
 
-// Whether the point is in a liquid. Its surface counts as full.
+// Whether the point is in a liquid. The cell of a source counts as full, of what flows only what is filled.
 bool isInLiquid(const World& world, const BlockRegistry& blocks, glm::dvec3 point);
 
 }  // namespace terrane::world

@@ -5,6 +5,7 @@
 #include "terrane/world/ray_cast.h"
 
 #include "terrane/world/block_model.h"
+#include "terrane/world/liquid_flow.h"
 
 #include <algorithm>
 #include <array>
@@ -132,7 +133,7 @@ struct Walk {
 }  // namespace
 
 std::optional<RayHit> castRay(const World& world, const BlockRegistry& registry, const Ray& ray,
-                              double maxDistance) {
+                              double maxDistance, BlockId liquid) {
     const std::optional<LocalRay> local = localRay(ray);
     if (!local || !std::isfinite(maxDistance)) return std::nullopt;
 
@@ -140,7 +141,9 @@ std::optional<RayHit> castRay(const World& world, const BlockRegistry& registry,
     for (double distance = 0; distance <= maxDistance && !walk.isGone(); distance = walk.advance(*local)) {
         if (!walk.isInWorld()) continue;
         const BlockType& type = registry.type(world.block(walk.pos()));
-        if (!type.selectable) continue;
+        const bool isSource =
+            type.id == liquid && liquid != kAir && isLiquidSource(world.blockState(walk.pos()));
+        if (!type.selectable && !isSource) continue;
         std::optional<BoxHit> hit;
         for (const Box& box : selectionBoxes(type, world.blockState(walk.pos()))) {
             const std::optional<BoxHit> entered = enterBox(*local, walk.cell, box);

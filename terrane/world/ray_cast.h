@@ -23,8 +23,9 @@ struct RayHit {
 
 // The first block whose selection box the ray enters within `maxDistance` blocks. A box around the origin is
 // hit at distance 0, on the face through which the ray would have entered it. Chunks that are not loaded are
-// passed as air. None also for a direction of length zero and for values that are not finite.
+// passed as air. None also for a direction of length zero and for values that are not finite. Rays pass
+// liquids, but stop at the sources of `liquid`, where one is given.
 std::optional<RayHit> castRay(const World& world, const BlockRegistry& registry, const Ray& ray,
-                              double maxDistance);
+                              double maxDistance, BlockId liquid = kAir);
 
 }  // namespace terrane::world

@@ -14,10 +14,6 @@ constexpr std::array<Face, 4> kSides{kFaceNegX, kFacePosX, kFaceNegY, kFacePosY}
 // By facing: where +y of the shape points.
 constexpr std::array<Face, 4> kAhead{kFacePosY, kFaceNegX, kFaceNegY, kFacePosX};
 
-bool hasBehavior(const BlockType& type, std::string_view name) {
-    return std::ranges::any_of(type.behaviors, [&](const BehaviorPtr& b) { return b->name == name; });
-}
-
 bool supports(const World& world, const BlockRegistry& blocks, BlockPos pos, Face side) {
     return !blocks.type(world.block(beside(pos, side))).collision.empty();
 }

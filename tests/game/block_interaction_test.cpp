@@ -33,6 +33,41 @@ TEST_F(BlockInteractionTest, BuildsOnTheFaceThatIsLookedAt) {
     EXPECT_EQ(session_.world().block({5, 5, kGroundHeight}), contentBlock("sand"));
 }
 
+TEST_F(BlockInteractionTest, WaterIsPlacedFlowsAndIsTaken) {
+    const world::BlockId water = contentBlock("water");
+    interaction_.choose(water);
+    act(interaction_.building);
+    ASSERT_EQ(session_.world().block({5, 5, kGroundHeight}), water);
+    for (int second = 0; second < 4; ++second) session_.advance(1, {0, 0});
+    EXPECT_EQ(session_.world().block({8, 5, kGroundHeight}), water);
+    EXPECT_EQ(session_.world().blockState({8, 5, kGroundHeight}), 3);
+    EXPECT_EQ(session_.world().blockState({5, 5, kGroundHeight}), 0);
+    act(interaction_.building);
+    EXPECT_EQ(session_.world().blockState({5, 5, kGroundHeight}), 0) << "there is a source already";
+    act(interaction_.breaking);
+    EXPECT_EQ(session_.world().block({5, 5, kGroundHeight}), world::kAir);
+    EXPECT_EQ(session_.world().block({5, 5, kGroundHeight - 1}), contentBlock("stone"));
+    for (int second = 0; second < 8; ++second) session_.advance(1, {0, 0});
+    EXPECT_EQ(session_.world().block({8, 5, kGroundHeight}), world::kAir) << "it ran dry";
+}
+
+TEST_F(BlockInteractionTest, FlowingWaterIsReplacedByASourceAndNotTaken) {
+    const world::BlockId water = contentBlock("water");
+    session_.edit({kNoPlayer, {6, 5, kGroundHeight}, world::SetBlock{water}, {}});
+    for (int second = 0; second < 4; ++second) session_.advance(1, {0, 0});
+    ASSERT_EQ(session_.world().blockState({5, 5, kGroundHeight}), 1);
+    interaction_.choose(water);
+    act(interaction_.building);
+    session_.advance(1, {0, 0});
+    EXPECT_EQ(session_.world().blockState({5, 5, kGroundHeight}), 0);
+    ASSERT_EQ(session_.takeBack(kLocalPlayer, HistoryWay::Undo).blocks, 1u);
+    for (int second = 0; second < 4; ++second) session_.advance(1, {0, 0});
+    EXPECT_EQ(session_.world().blockState({5, 5, kGroundHeight}), 1) << "again what flows there";
+    interaction_.choose(contentBlock("stone"));
+    act(interaction_.breaking);
+    EXPECT_EQ(session_.world().block({5, 5, kGroundHeight - 1}), world::kAir) << "rays pass water";
+}
+
 TEST_F(BlockInteractionTest, NeverBuildsIntoThePlayer) {
     player_.placeAt({.position = {5.5, 5.5, kGroundHeight + world::kEyeHeight}, .pitch = -89.9f},
                     Movement::Walls);

@@ -3,6 +3,7 @@
 #include "terrane/view/camera_pose.h"
 #include "tests/golden/axes_cube.h"
 #include "tests/golden/effect_scenes.h"
+#include "tests/world/dam.h"
 
 namespace terrane::golden {
 namespace {
@@ -41,6 +42,18 @@ TEST_F(Golden, PoolAtAFlatAngle) {
     render::Renderer renderer = makeRenderer();
     EXPECT_TRUE(
         matchesGolden("pool", drawGallery(renderer, meshWorld(world), {{-1.5, -4, 82.8}, 50, -9, 55})));
+}
+
+// A broken dam: water of all levels, falls, steps between them and the lake above.
+TEST_F(Golden, Flow) {
+    world::World world;
+    for (const world::ChunkPos pos : world::damChunks())
+        world.insert(pos, world::damChunk(pos, contentBlocks()));
+    std::vector<world::BlockEdit> edits;
+    world::breakDam(world, contentBlocks(), edits);
+    for (int tick = 0; tick < 30; ++tick) world::flowLiquids(world, contentBlocks(), world::kDamArea, edits);
+    render::Renderer renderer = makeRenderer();
+    EXPECT_TRUE(matchesGolden("flow", drawGallery(renderer, meshWorld(world), {{31, 19, 59}, 153, -24, 55})));
 }
 
 TEST_F(Golden, AxesOfACube) {

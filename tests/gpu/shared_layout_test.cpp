@@ -158,6 +158,7 @@ std::vector<StructLayout> mesherLayouts() {
               {"meshSection", offsetof(MeshUnit, meshSection)},
               {"layers", offsetof(MeshUnit, layers)},
               {"neighbors", offsetof(MeshUnit, neighbors)},
+              {"neighborStates", offsetof(MeshUnit, neighborStates)},
               {"baseZ", offsetof(MeshUnit, baseZ)},
               {"unused", offsetof(MeshUnit, unused)}}},
             {"MeshType",

@@ -134,6 +134,7 @@ TEST_P(MixAndMethod, CoverEachVisibleFaceOnce) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Area area(randomBlocks(mix(), seed + 100 * static_cast<unsigned>(method())));
         if (seed % 2 == 1) area.addBlockState(seed);
+        if (seed % 3 == 1) area.addFlow(seed);
         const MeshOptions options{method(), kMeshSectionHeights[seed % std::size(kMeshSectionHeights)]};
         MeshInput input = area.input(options);
         // Some borders are open, in the last chunk all.

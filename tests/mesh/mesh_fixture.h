@@ -37,11 +37,32 @@ struct Area {
 
     // Data for one block in eight, whatever it is.
     void addBlockState(unsigned seed) {
+        addBlockState(center, seed);
+        for (unsigned side = 0; side < 4; ++side) addBlockState(beside[side], seed + side);
+    }
+
+    static void addBlockState(world::Chunk& chunk, unsigned seed) {
         for (int i = 0; i < world::kBlocksPerChunk; ++i) {
             const unsigned hash = shared::hash2(static_cast<unsigned>(i), 0, seed);
             if (hash % 8 != 0 || (hash >> 8) % 16 < seed % 16) continue;
             const unsigned state = hash >> 24 & 1 ? hash / 8 % 5 : hash >> 12 & 255;
-            center.setBlockState(static_cast<world::BlockIndex>(i), static_cast<std::uint16_t>(state));
+            chunk.setBlockState(static_cast<world::BlockIndex>(i), static_cast<std::uint16_t>(state));
+        }
+    }
+
+    // Each block of a liquid one form or another, as no flow would leave it; half of them still.
+    void addFlow(unsigned seed) {
+        unsigned number = seed;
+        for (world::Chunk* chunk : {&center, &beside[0], &beside[1], &beside[2], &beside[3]}) {
+            ++number;
+            for (int i = 0; i < world::kBlocksPerChunk; ++i) {
+                const auto index = static_cast<world::BlockIndex>(i);
+                const unsigned hash = shared::hash2(static_cast<unsigned>(i), number, seed);
+                if (testBlocks().type(chunk->block(index)).shape != world::Shape::Liquid || hash % 2 == 0)
+                    continue;
+                const unsigned unsettled = hash >> 20 & 1;
+                chunk->setBlockState(index, static_cast<std::uint16_t>((hash >> 4) % 12 | unsettled << 15));
+            }
         }
     }
 

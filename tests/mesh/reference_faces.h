@@ -122,9 +122,46 @@ class ReferenceFaces {
         for (int k = 0; k < count; ++k) push(x, y, z, first + static_cast<unsigned>(k), k);
     }
 
+    // Level and whether it falls, of a liquid.
+    unsigned formAt(int x, int y, int z) const {
+        return chunkAt(x, y)->blockState(world::blockIndex(x & 15, y & 15, z)) & 15u;
+    }
+
+    // Eighths of the surface's height; 9: the whole cell.
+    static unsigned flowHeight(unsigned form) { return form >= 8 ? 9 : 8 - form; }
+
+    void addFlowSide(int x, int y, int z, int side, unsigned low, unsigned high) {
+        const unsigned pair = high * (high - 1) / 2 + low;
+        if (low < high) push(x, y, z, 28 + 4 * pair + static_cast<unsigned>(side), side);
+    }
+
+    // Toward lower cells of the same liquid that flow, or that do not where this one does.
+    void addStepsDown(int x, int y, int z, unsigned height) {
+        constexpr int kStep[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+        for (int side = 0; side < 4; ++side) {
+            const int nx = x + kStep[side][0], ny = y + kStep[side][1];
+            if (!chunkAt(nx, ny) || idAt(nx, ny, z) != idAt(x, y, z)) continue;
+            if (formAt(x, y, z) == 0 && formAt(nx, ny, z) == 0) continue;
+            addFlowSide(x, y, z, side, flowHeight(formAt(nx, ny, z)), height);
+        }
+    }
+
+    void addFlowing(int x, int y, int z) {
+        const unsigned form = formAt(x, y, z);
+        for (int side = 0; side < 4; ++side) {
+            if (sideVisible(x, y, z, side)) addFlowSide(x, y, z, side, 0, flowHeight(form));
+        }
+        addStepsDown(x, y, z, flowHeight(form));
+        if (sideVisible(x, y, z, 4)) push(x, y, z, 4, 4);
+        if (form < 8) push(x, y, z, 20 + form, 5);
+        if (form >= 8 && sideVisible(x, y, z, 5)) push(x, y, z, 5, 5);
+    }
+
     void addLiquid(int x, int y, int z) {
         const world::BlockId above = idAt(x, y, z + 1);
         const bool isSurface = above != idAt(x, y, z) && !typeOf(above).opaqueCube;
+        if (formAt(x, y, z) != 0) return addFlowing(x, y, z);
+        addStepsDown(x, y, z, isSurface ? 8 : 9);
         if (!isSurface) return addSides(x, y, z, 0, 0);
         for (int side = 0; side < 4; ++side) {
             if (sideVisible(x, y, z, side)) push(x, y, z, 17 + static_cast<unsigned>(side), side);

@@ -93,6 +93,44 @@ TEST(SectionFaces, LiquidsHaveNoInnerFaces) {
                 UnorderedElementsAre(Seen{5, 6, 40, kNegX}, Seen{6, 6, 40, kPosX}));
 }
 
+// Water by its form at 15, 6, 40 and at 16, 6, 40, which lies in the next chunk; on stone.
+std::vector<Seen> besideFlow(std::uint16_t form, std::uint16_t beyond, bool isSource) {
+    Area area = placed({{15, 6, 40, "water"}, {16, 6, 40, "water"}, {15, 6, 39, "stone"}});
+    area.center.setBlockState(world::blockIndex(15, 6, 40), form);
+    area.beside[1].setBlockState(world::blockIndex(0, 6, 40), beyond);
+    return isSource ? quadsOf(area, kTop, kPosY)
+                    : quadsOf(area, shared::kShapeFaceFlowTop, shared::kShapeFaceCount - 1);
+}
+
+TEST(SectionFaces, FlowingWaterIsAsHighAsItsLevel) {
+    constexpr unsigned kTopOf3 = shared::kShapeFaceFlowTop + 2;
+    EXPECT_THAT(besideFlow(3, 3, false),
+                UnorderedElementsAre(Seen{15, 6, 40, kTopOf3}, Seen{15, 6, 40, shared::flowSideFace(0, 0, 5)},
+                                     Seen{15, 6, 40, shared::flowSideFace(2, 0, 5)},
+                                     Seen{15, 6, 40, shared::flowSideFace(3, 0, 5)}));
+}
+
+TEST(SectionFaces, TheHigherWaterDrawsTheStepDown) {
+    using testing::Contains;
+    const Seen step{15, 6, 40, shared::flowSideFace(1, 3, 5)};
+    EXPECT_THAT(besideFlow(3, 5, false), Contains(step));
+    EXPECT_THAT(besideFlow(3, 1, false),
+                testing::Not(Contains(testing::Field(&Seen::shapeFace, step.shapeFace))));
+    EXPECT_EQ(besideFlow(3, 1, false).size(), 4u) << "its top and three sides";
+    const Seen downFromSource{15, 6, 40, shared::flowSideFace(1, 3, 8)};
+    EXPECT_THAT(besideFlow(0, 5, false), UnorderedElementsAre(downFromSource))
+        << "a source beside what flows";
+    EXPECT_EQ(besideFlow(0, 5, true).size(), 4u) << "its top and three sides are as ever";
+    const Seen downFromFall{15, 6, 40, shared::flowSideFace(1, 8, 9)};
+    EXPECT_THAT(besideFlow(8, 0, false), Contains(downFromFall));
+}
+
+TEST(SectionFaces, UnsettledSourcesAreMeshedLikeOthers) {
+    constexpr std::uint16_t kUnsettled = 1u << 15;
+    EXPECT_EQ(besideFlow(kUnsettled, 0, true), besideFlow(0, 0, true));
+    EXPECT_THAT(besideFlow(kUnsettled, 0, false), IsEmpty());
+}
+
 TEST(SectionFaces, WaterAtTheTopOfTheWorldIsSurface) {
     EXPECT_THAT(quadsOf(placed({{5, 6, 255, "water"}}), kTop, kTop),
                 UnorderedElementsAre(Seen{5, 6, 255, kTop}));

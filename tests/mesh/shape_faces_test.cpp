@@ -44,13 +44,32 @@ TEST(ShapeFaces, NormalsAreTheCrossProductOfTheAxes) {
     for (const ShapeFace& face : shapeFaces()) {
         const glm::vec3 normal = glm::normalize(glm::cross(glm::vec3(face.axisU), glm::vec3(face.axisV)));
         expectNear(normal, glm::vec3(face.normal));
-        EXPECT_EQ(face.base.w + face.axisU.w + face.axisV.w + face.normal.w, 0.0f);
+        EXPECT_EQ(face.axisU.w + face.normal.w, 0.0f);
     }
+}
+
+// Edges on the surface of a liquid of the usual height lie where the shares say; others have none.
+TEST(ShapeFaces, SharesOfTheSurfaceFitTheHeights) {
+    constexpr float kSurface = shared::kLiquidSurfaceSixteenths / 16.0f;
+    std::size_t onSurface = 0;
+    for (const ShapeFace& face : shapeFaces()) {
+        const float low = face.base.z, high = low + face.axisV.z;
+        if (face.base.w > 0) {
+            EXPECT_NEAR(face.base.w * kSurface, low, kEpsilon);
+        }
+        if (face.axisV.w > 0) {
+            EXPECT_NEAR(face.axisV.w * kSurface, high, kEpsilon);
+        }
+        onSurface += face.base.w > 0 || face.axisV.w > 0;
+    }
+    EXPECT_EQ(onSurface, 8u + 4 + 4 * (45 - 1)) << "tops, sides of sources, all other sides but the full one";
 }
 
 TEST(ShapeFaces, UprightFacesStandOnTheirV) {
     for (shared::uint i = 0; i < shared::kShapeFaceCount; ++i) {
-        const bool level = i == 4 || i == 5 || i == shared::kShapeFaceLiquidTop;
+        const bool level = i == 4 || i == 5 ||
+                           (i >= shared::kShapeFaceFlowTop && i < shared::kShapeFaceFlowSide) ||
+                           i == shared::kShapeFaceLiquidTop;
         EXPECT_EQ(shapeFaces()[i].axisV.z > 0, !level) << i;
     }
 }

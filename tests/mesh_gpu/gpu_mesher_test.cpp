@@ -80,6 +80,20 @@ TEST_F(GpuMesherTest, GrowingPlantsEqualCpu) {
     }
 }
 
+// Water and lava in all levels and falling, in all forms of a section, over the borders of chunks.
+TEST_F(GpuMesherTest, FlowingLiquidsEqualCpu) {
+    GpuBatchMesher mesher = mesherOf(mesh::testBlocks());
+    unsigned seed = 900;
+    for (const mesh::Mix mix : {mesh::Mix::Terrain, mesh::Mix::Transparent, mesh::Mix::Lumps,
+                                mesh::Mix::Slabs, mesh::Mix::Everything}) {
+        mesh::Area area(mesh::randomBlocks(mix, ++seed));
+        area.addFlow(seed);
+        const std::vector<MeshInput> inputs = {area.input({kMergeMethods[seed % 5], seed % 2 == 0 ? 8 : 32})};
+        SCOPED_TRACE(fmt::format("mix {}", static_cast<int>(mix)));
+        expectEqual(mesher, inputs);
+    }
+}
+
 TEST_F(GpuMesherTest, EmptyAndFullChunksEqualCpu) {
     GpuBatchMesher mesher = mesherOf(mesh::testBlocks());
     const mesh::Area air([](int, int, int) { return world::kAir; });

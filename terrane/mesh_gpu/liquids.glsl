@@ -1,0 +1,60 @@
+// Faces of liquids that flow, one quad a face: the rules of mesh/liquid_faces.cpp. Needs quads.glsl.
+
+const uint kStillHeight = kFlowHeights - 1u;
+
+struct LiquidBeside {
+    bool isSame;
+    uint form;
+};
+
+LiquidBeside liquidBeside(MeshUnit unit, uvec3 cell, uint side) {
+    ivec3 at = ivec3(cell) + kToward[side];
+    uvec3 inside = uvec3(at & int(kLast));
+    if (idBeside(unit, cell, side) != idAt(cell)) return LiquidBeside(false, 0u);
+    uint states = all(equal(ivec3(inside), at)) ? unit.blockState : unit.neighborStates[side];
+    return LiquidBeside(true, blockStateAt(states, blockIndex(inside)) & kMeshFlowMask);
+}
+
+uint flowHeightOf(uint form, bool isStillFull) {
+    if (form == 0u) return isStillFull ? kFlowHeights : kStillHeight;
+    return (form & kMeshFlowFalling) != 0u ? kFlowHeights : kStillHeight - form;
+}
+
+void addFlowFace(MeshUnit unit, uvec3 cell, uint side, uint shapeFace) {
+    addQuad(packCell(unit, cell), shapeFace, types[typeOf(idAt(cell))].faces[side], side);
+#if !WRITES_QUADS
+    coverLayer(cell.z);
+#endif
+}
+
+void addFlowSide(MeshUnit unit, uvec3 cell, uint form, uint side) {
+    if (isCovered(cell, side)) return;
+    LiquidBeside next = liquidBeside(unit, cell, side);
+    if (form == 0u && next.form == 0u) return;
+    bool isFull = (surface[cell.y + kSectionSize * cell.z] >> cell.x & 1u) == 0u;
+    uint high = flowHeightOf(form, isFull), low = next.isSame ? flowHeightOf(next.form, false) : 0u;
+    if (low < high) addFlowFace(unit, cell, side, flowSideFace(side, low, high));
+}
+
+void addFlowLevel(MeshUnit unit, uvec3 cell, uint side) {
+    bool isHidden = isCovered(cell, side) || idBeside(unit, cell, side) == idAt(cell);
+    if (!isHidden) addFlowFace(unit, cell, side, kShapeFaceCube + side);
+}
+
+// Of the cells of a row.
+void addFlow(MeshUnit unit, Row row, uint local) {
+    uvec4 around = uvec4(unit.neighborStates[0], unit.neighborStates[1], unit.neighborStates[2], unit.neighborStates[3]);
+    if (unit.blockState == kNoSection && all(equal(around, uvec4(kNoSection)))) return;
+    for (uint left = row.liquid; left != 0u; left &= left - 1u) {
+        uvec3 cell = uvec3(findLSB(left), local % kSectionSize, local / kSectionSize);
+        uint form = blockStateAt(unit.blockState, blockIndex(cell)) & kMeshFlowMask;
+        for (uint side = 0u; side < 4u; ++side) addFlowSide(unit, cell, form, side);
+        if (form == 0u) continue;
+        addFlowLevel(unit, cell, 4u);
+        if ((form & kMeshFlowFalling) != 0u) {
+            addFlowLevel(unit, cell, 5u);
+        } else {
+            addFlowFace(unit, cell, 5u, kShapeFaceFlowTop + form - 1u);
+        }
+    }
+}
