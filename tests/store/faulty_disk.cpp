@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 #include <mutex>
+#include <utility>
 
 #include "tests/base/failing_memory.h"
 #include "tests/store/unsynced_writes.h"
