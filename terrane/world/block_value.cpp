@@ -16,9 +16,7 @@ BlockValue blockValue(const World& world, BlockPos pos) {
     const Chunk* chunk = world.findChunk(pos);
     if (!chunk) return {};
     const BlockIndex at = blockIndex(pos);
-    BlockEntityDataPtr data = chunk->sharedBlockEntityData(at);
-    const std::uint16_t state = data ? std::uint16_t{0} : chunk->blockState(at);
-    return {chunk->block(at), state, std::move(data)};
+    return {chunk->block(at), chunk->blockState(at), chunk->sharedBlockEntityData(at)};
 }
 
 std::vector<PlacedBlock> BlockRecorder::take() {
