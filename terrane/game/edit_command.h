@@ -31,6 +31,7 @@ enum class EditResult : std::uint8_t {
     OutOfReach,  // or the player is unknown
     Conflict,    // there is another block than expected
     Protected,   // the lowest layer of the world, which holds all else: no player breaks it
+    BadData,     // that is no text, for a sign
 };
 
 // What became of a step that was to be undone or done again.

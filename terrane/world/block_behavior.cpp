@@ -5,6 +5,7 @@
 
 #include "terrane/world/block_edit.h"
 #include "terrane/world/shape_behaviors.h"
+#include "terrane/world/sign.h"
 
 namespace terrane::world {
 namespace {
@@ -94,6 +95,7 @@ const BehaviorTable& builtInBehaviors() {
         BehaviorTable made;
         for (BlockBehavior (*make)() : {plant, crop, falling, container}) made.add(make());
         for (BlockBehavior& behavior : shapeBehaviors()) made.add(std::move(behavior));
+        made.add(signBehavior());
         return made;
     }();
     return table;
