@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "apps/terrane/window/building_tools.h"
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/pad_reader.h"
 #include "apps/terrane/window/pause_menu.h"
@@ -70,12 +71,17 @@ class Game {
     bool useTarget();
     bool openContainer();
     void closeContainer();
+    BuildView buildView() const;
+    bool openSign();
+    void drawBuilding(const Screen& screen);
     void capture(bool isCaptured);
     void closeOne();
     void pause();
     void resume();
     void answerPauseMenu(PauseChoice choice);
     bool isInMenu() const { return isPaused_ || asksToQuit_; }
+    // Keys move nobody, and clicks take no mouse.
+    bool isBusy() const { return isInMenu() || container_ || building_.isAsking(); }
     void saveBookmark();
     void nextBookmark();
     void takeScreenshot();
@@ -125,6 +131,8 @@ class Game {
     std::optional<game::PlayerState> saved_;    // as handed to the store
     std::filesystem::path screenshots_;         // folder
     game::BookmarkFiles bookmarks_;
+    BuildingTools building_;
+    bool wasAsking_ = false;
     std::string perfData_;
     std::optional<PerfLog> perfLog_;
     std::optional<PresetMeasurement> measurement_;  // while it goes on

@@ -52,10 +52,12 @@ void Game::handleEvents() {
 }
 
 void Game::onKey(Key key) {
+    if (building_.isAsking() && !isInMenu()) return void(building_.onKey(key, buildView()));
     if (imgui_.takesKeys()) return;  // Escape ends the typing
     // What opens nothing is for the game, which stands still in a menu.
     const bool isForMenu = key == Key::Escape || key == Key::Q || (key >= Key::F1 && key <= Key::F12);
     if ((isInMenu() || container_) && !isForMenu) return;
+    if (!isBusy() && building_.onKey(key, buildView())) return;
     switch (key) {
         case Key::Escape:
             return closeOne();
@@ -113,6 +115,7 @@ void Game::closeOne() {
     if (imgui_.hasPopup()) return imgui_.endTyping();
     if (asksToQuit_) return answerQuitDialog(QuitChoice::Stay);
     if (container_) return closeContainer();
+    if (building_.close()) return;
     if (showsPanel_) {
         showsPanel_ = false;
         if (!isPaused_) capture(true);
@@ -157,7 +160,7 @@ void Game::nextMovement() {
 void Game::onPad(double seconds) {
     pad_.read(parts_.window.gamepad());
     if (pad_.isPressed(&Gamepad::start)) closeOne();
-    if (isInMenu() || container_) return;
+    if (isBusy()) return;
     player_.turn(double{pad_.now().rightX} * kStickDegrees * seconds,
                  -double{pad_.now().rightY} * kStickDegrees * seconds);
     pad_.drive(interaction_.breaking, &Gamepad::rightTrigger);
@@ -179,18 +182,19 @@ void Game::onButton(MouseButton button, bool isPress) {
     }
     if (button == MouseButton::Middle) {
         // The middle button turns mouse look on and off, wherever the cursor is.
-        if (!isInMenu() && !container_) capture(!isCaptured_);
+        if (!isBusy()) capture(!isCaptured_);
         return;
     }
+    if (isCaptured_ && building_.onButton(button, buildView())) return;
     if (isCaptured_ && button == MouseButton::Right && useTarget()) return;
     if (isCaptured_) return held->press();
-    if (!imgui_.takesMouse() && !isInMenu() && !container_) capture(true);
+    if (!imgui_.takesMouse() && !isBusy()) capture(true);
 }
 
 // What is looked at, unless the player runs: then it builds against that.
 bool Game::useTarget() {
     if (parts_.window.keyDown(Key::Shift)) return false;
-    return openContainer() || interaction_.use(parts_.session, game::kLocalPlayer);
+    return openContainer() || openSign() || interaction_.use(parts_.session, game::kLocalPlayer);
 }
 
 bool Game::openContainer() {
@@ -245,7 +249,7 @@ void Game::takeScreenshot() {
 }
 
 game::MoveKeys Game::moveKeys() const {
-    if (isInMenu() || container_) return {};
+    if (isBusy() || (building_.isSelecting() && parts_.window.keyDown(Key::Control))) return {};
     const Gamepad& pad = pad_.now();
     const bool isTyping = imgui_.takesKeys(), walks = settings_.movement == game::Movement::Gravity;
     const auto isDown = [&](Key key) { return !isTyping && parts_.window.keyDown(key); };

@@ -34,6 +34,7 @@ void Game::drawInterface() {
     } else if (const auto& target = interaction_.target()) {
         drawTarget(screen, camera, *target, session.world(), session.blocks());
     }
+    drawBuilding(screen);
     if (isCaptured_ && !isAbove_) drawCrosshair(screen);
     drawHand(screen, session.blocks().type(interaction_.block()).name,
              hasWorldImage() ? parts_.preview.image(interaction_.block()) : 0);

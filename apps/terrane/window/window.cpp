@@ -30,6 +30,9 @@ struct KeyCode {
 constexpr KeyCode kOtherKeys[] = {
     {Key::Escape, GLFW_KEY_ESCAPE},
     {Key::Space, GLFW_KEY_SPACE},
+    {Key::Enter, GLFW_KEY_ENTER},
+    {Key::Enter, GLFW_KEY_KP_ENTER},
+    {Key::Delete, GLFW_KEY_DELETE},
     {Key::Shift, GLFW_KEY_LEFT_SHIFT},
     {Key::Shift, GLFW_KEY_RIGHT_SHIFT},
     {Key::Control, GLFW_KEY_LEFT_CONTROL},
