@@ -56,32 +56,43 @@ class Plan {
     PlannedBlocks plan_;
 };
 
-void planFill(Plan& plan, const world::World& world, const FillBox& fill) {
-    const std::int64_t count = fill.box.blockCount();
-    for (std::int64_t number = 0; number < count; ++number) {
-        const BlockPos pos = fill.box.blockAt(number);
-        const world::BlockId there = world.block(pos);
-        if (fill.replaced && there != *fill.replaced) continue;
-        if (fill.state == 0 && there == fill.id) continue;  // in the state in which it is
-        plan.add(pos, {fill.id, fill.state, nullptr});
-    }
+// Chunk by chunk, and in a chunk by block index: as histories and light want them.
+template <class Function>
+void forEachBlock(const BlockBox& box, Function function) {
+    for (std::int32_t chunkY = box.low.y >> 4; chunkY <= box.high.y >> 4; ++chunkY)
+        for (std::int32_t chunkX = box.low.x >> 4; chunkX <= box.high.x >> 4; ++chunkX) {
+            const BlockPos corner = world::blockPos({chunkX, chunkY}, 0);
+            const std::int32_t x0 = std::max(box.low.x, corner.x), x1 = std::min(box.high.x, corner.x + 15);
+            const std::int32_t y0 = std::max(box.low.y, corner.y), y1 = std::min(box.high.y, corner.y + 15);
+            for (std::int32_t z = box.low.z; z <= box.high.z; ++z)
+                for (std::int32_t y = y0; y <= y1; ++y)
+                    for (std::int32_t x = x0; x <= x1; ++x) function(BlockPos{x, y, z});
+        }
 }
 
-// The values of the structure's cells, one after the other.
+void planFill(Plan& plan, const world::World& world, const FillBox& fill) {
+    forEachBlock(fill.box, [&](BlockPos pos) {
+        const world::BlockId there = world.block(pos);
+        if (fill.replaced && there != *fill.replaced) return;
+        if (fill.state == 0 && there == fill.id) return;  // in the state in which it is
+        plan.add(pos, {fill.id, fill.state, nullptr});
+    });
+}
+
 void planStructure(Plan& plan, const world::BlockRegistry& blocks, const PlaceStructure& place) {
     const world::Structure& structure = *place.structure;
     const std::vector<BlockValue> values = world::paletteValues(structure, blocks);
-    const BlockBox box = boxOf(place);
-    auto data = structure.data.begin();
-    for (std::size_t cell = 0; cell < structure.cells.size(); ++cell) {
+    forEachBlock(boxOf(place), [&](BlockPos pos) {
+        const std::uint32_t cell =
+            structure.cellAt({pos.x - place.low.x, pos.y - place.low.y, pos.z - place.low.z});
         BlockValue value = values[structure.cells[cell]];
+        const auto data = std::ranges::lower_bound(structure.data, cell, {}, &world::StructureData::cell);
         if (data != structure.data.end() && data->cell == cell) {
             const bool isText = world::holdsText(blocks.type(value.id));
             if (!isText || world::decodeSign(*data->data)) value.data = data->data;
-            ++data;
         }
-        plan.add(box.blockAt(static_cast<std::int64_t>(cell)), std::move(value));
-    }
+        plan.add(pos, std::move(value));
+    });
 }
 
 BuildOutcome::Result check(const world::World& world, const BuildChange& change) {

@@ -57,7 +57,8 @@ world::BlockBox boxOf(const BuildChange& change);
 double distanceTo(const world::BlockBox& box, const glm::dvec3& point);
 
 struct PlannedBlocks {
-    std::vector<world::PlacedBlock> blocks;  // without those that are the same already
+    // Without those that are the same already; chunk by chunk and in a chunk by block index.
+    std::vector<world::PlacedBlock> blocks;
     std::size_t kept = 0;
 };
 // What the world's blocks become. `protectsFloor`: the lowest layer stays where it is not air.

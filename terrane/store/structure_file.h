@@ -17,7 +17,7 @@ constexpr std::uint8_t kStructureVersion = 1;
 
 constexpr std::size_t kMaxStructurePalette = 65536;
 constexpr std::size_t kMaxStructureDataBytes = 4u << 20;  // of all blocks that have some
-// Before compression: 2,000,000 cells of 2 bytes, a palette of 65,536 × 258 bytes and the data are 25 MB.
+// Before compression: 500,000 cells of 2 bytes, a palette of 65,536 × 258 bytes and the data are 22 MB.
 constexpr std::size_t kMaxStructureBytes = 32u << 20;
 
 // An error where the structure is none, or has more than a file keeps. Equal structures give equal bytes

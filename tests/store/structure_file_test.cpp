@@ -129,7 +129,7 @@ TEST(StructureFile, SaysWhatIsWrong) {
     EXPECT_THAT(errorOf(framed(content(1, 1, 1, 1), 1, 1u << 30)), HasSubstr("1073741824"));
     EXPECT_THAT(errorOf(framed(content(0, 1, 1, 1))), HasSubstr("0 × 1 × 1"));
     EXPECT_THAT(errorOf(framed(content(1, 1, 257, 1))), HasSubstr("257"));
-    EXPECT_THAT(errorOf(framed(content(65535, 65535, 1, 1))), HasSubstr("at most 2000000"));
+    EXPECT_THAT(errorOf(framed(content(65535, 65535, 1, 1))), HasSubstr("at most 500000"));
     EXPECT_THAT(errorOf(framed(content(1, 1, 1, 2))), HasSubstr("2 entries"));
     Bytes named = content(1, 1, 1, 1);
     appendBlock(named, "a\nb");
