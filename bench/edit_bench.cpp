@@ -79,10 +79,52 @@ void clearStone(benchmark::State& state) {
     editBox(state, "air", "stone");
 }
 
+// The same through Session::build, as a player's step: until the command has its answer, and then until all
+// of it is lit and meshed.
+void buildBox(benchmark::State& state) {
+    const auto session = loadedSession();
+    session->setPlayer(game::kLocalPlayer, {.position = {0, 0, kBottom}});
+    const int side = static_cast<int>(state.range(0));
+    const world::BlockBox box{{-side / 2, -side / 2, kBottom},
+                              {side - side / 2 - 1, side - side / 2 - 1, kBottom + side - 1}};
+    const auto fill = [&](std::string_view name) {
+        return session->build({game::kLocalPlayer, game::FillBox{box, bench::blockId(name), 0, {}}});
+    };
+    double answerSeconds = 0, undoSeconds = 0, frameSeconds = 0;
+    std::int64_t changed = 0;
+    const auto since = [](auto start) {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    fill("stone");
+    settle(*session);
+    for (auto _ : state) {
+        auto start = std::chrono::steady_clock::now();
+        changed += static_cast<std::int64_t>(fill("bricks").changed);
+        answerSeconds += since(start);
+        start = std::chrono::steady_clock::now();
+        session->pipeline().update();
+        frameSeconds += since(start);
+        settle(*session);
+        start = std::chrono::steady_clock::now();
+        session->takeBack(game::kLocalPlayer, game::HistoryWay::Undo);
+        undoSeconds += since(start);
+        settle(*session);
+        session->pipeline().takeChanges(1 << 20);
+    }
+    const auto milliseconds = [&](double seconds) {
+        return 1000 * seconds / static_cast<double>(state.iterations());
+    };
+    state.counters["answer_ms"] = milliseconds(answerSeconds);
+    state.counters["frame_ms"] = milliseconds(frameSeconds);
+    state.counters["undo_ms"] = milliseconds(undoSeconds);
+    state.SetItemsProcessed(changed);
+}
+
 }  // namespace
 
 BENCHMARK(fillWithStone)->Arg(8)->Arg(16)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
 BENCHMARK(fillWithLamps)->Arg(8)->Arg(16)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
 BENCHMARK(clearStone)->Arg(8)->Arg(16)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
+BENCHMARK(buildBox)->Arg(46)->Arg(79)->Unit(benchmark::kMillisecond);
 
 BENCHMARK_MAIN();

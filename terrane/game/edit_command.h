@@ -32,6 +32,7 @@ enum class EditResult : std::uint8_t {
     Conflict,    // there is another block than expected
     Protected,   // the lowest layer of the world, which holds all else: no player breaks it
     NotEmpty,    // it holds items: no player breaks it before they are taken out
+    BadData,     // that is no text, for a sign
 };
 
 // What became of a step that was to be undone or done again.

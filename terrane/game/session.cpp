@@ -10,6 +10,7 @@
 #include "terrane/stream/tile_rows.h"
 #include "terrane/world/liquid_flow.h"
 #include "terrane/world/random_ticks.h"
+#include "terrane/world/sign.h"
 
 namespace terrane::game {
 namespace {
@@ -77,9 +78,12 @@ EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEd
     if (!isLoaded(world_, command.pos)) return EditResult::NotLoaded;
     if (command.expected && *command.expected != world_.block(command.pos)) return EditResult::Conflict;
     if (const auto refusal = refusalOfBreaking(command)) return *refusal;
+    const auto* data = std::get_if<world::SetEntityData>(&command.change);
+    const bool isText = data && world::holdsText(blocks_->type(world_.block(command.pos)));
+    if (isText && !world::decodeSign(data->data)) return EditResult::BadData;
     const std::size_t before = edits.size();
     const bool isStep =
-        command.player != kNoPlayer && std::holds_alternative<world::SetBlock>(command.change);
+        command.player != kNoPlayer && (isText || std::holds_alternative<world::SetBlock>(command.change));
     world::applyChange(world_, *blocks_, command.pos, command.change, edits, isStep ? &recorder : nullptr);
     return edits.size() > before ? EditResult::Applied : EditResult::Unchanged;
 }

@@ -1,6 +1,6 @@
 // A world that is played: its chunks, the pipeline that loads, lights and meshes them, its store, its players
-// and its clock. Commands come in through edit() and takeBack(), the only ways to change a block; events go
-// out to the pipeline and so to screens and disk. Free of OpenGL. Used on one thread, the world's.
+// and its clock. Commands come in through edit(), build() and takeBack(), the only ways to change a block;
+// events go out to the pipeline and so to screens and disk. Free of OpenGL. Used on one thread, the world's.
 #pragma once
 
 #include <memory>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "terrane/base/job_system.h"
+#include "terrane/game/build_command.h"
 #include "terrane/game/day_clock.h"
 #include "terrane/game/edit_command.h"
 #include "terrane/game/edit_history.h"
@@ -47,6 +48,9 @@ class Session {
     EditResult edit(const EditCommand& command);
     // The same for many, in their order: one result each. Time grows with the number of blocks.
     std::vector<EditResult> edit(std::span<const EditCommand> commands);
+
+    // Fills a box or places a structure, all of it or nothing; the player's next step to undo.
+    BuildOutcome build(const BuildCommand& command);
 
     // Undoes the player's last edits, or does again what was undone last. One call of edit() is one step,
     // with all that followed from it at once; what was used (doors, containers) is none. From anywhere: these

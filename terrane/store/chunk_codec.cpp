@@ -67,15 +67,6 @@ class SectionWriter {
 
 constexpr auto kSameValue = [](Value v) { return std::uint32_t{v}; };
 
-// Block state without the numbers of slots, which block entity data brings back.
-Section blockStateAlone(const world::Chunk& chunk, int number, std::span<const world::BlockIndex> large) {
-    Section section = chunk.blockStates(number);
-    for (const world::BlockIndex i : large)
-        if (i >> 12 == number) section.set(i & 4095, 0);
-    section.compact();
-    return section;
-}
-
 base::Result<void> appendBlockEntityData(Bytes& out, const world::Chunk& chunk,
                                          std::span<const world::BlockIndex> large) {
     std::size_t totalBytes = 0;
@@ -100,7 +91,8 @@ base::Result<void> appendPlain(Bytes& out, const world::Chunk& chunk, const Bloc
         const auto k = static_cast<std::size_t>(n);
         blocks[k] = chunk.section(n);
         blocks[k].compact();
-        blockState[k] = blockStateAlone(chunk, n, large);
+        blockState[k] = chunk.blockStates(n);
+        blockState[k].compact();
     }
     SectionWriter blockWriter(out, [&](Value id) { return ids.toSaved(id); });
     SectionWriter dataWriter(out, kSameValue);

@@ -6,6 +6,7 @@
 #include "terrane/world/block_edit.h"
 #include "terrane/world/liquid_flow.h"
 #include "terrane/world/shape_behaviors.h"
+#include "terrane/world/sign.h"
 
 namespace terrane::world {
 namespace {
@@ -99,6 +100,7 @@ const BehaviorTable& builtInBehaviors() {
         BehaviorTable made;
         for (BlockBehavior (*make)() : {plant, crop, falling, container, flows}) made.add(make());
         for (BlockBehavior& behavior : shapeBehaviors()) made.add(std::move(behavior));
+        made.add(signBehavior());
         return made;
     }();
     return table;

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <unordered_set>
 #include <utility>
+
+#include "terrane/world/block_set.h"
 
 namespace terrane::world {
 namespace {
@@ -30,7 +31,7 @@ void BlockUpdate::setBlock(BlockPos pos, const SetBlock& block) {
     if (!chunk) return;
     if (behaviorWith(blocks_.type(before), &BlockBehavior::removed)) {
         const BlockEntityData* data = chunk->blockEntityData(blockIndex(pos));
-        const std::uint16_t state = data ? std::uint16_t{0} : chunk->blockState(blockIndex(pos));
+        const std::uint16_t state = chunk->blockState(blockIndex(pos));
         calls_.push_back(
             {.pos = pos, .id = id, .removed = {before, state, data ? *data : BlockEntityData{}}});
     }
@@ -41,20 +42,26 @@ void BlockUpdate::setBlock(BlockPos pos, const SetBlock& block) {
     noteNeighbors(pos);
 }
 
-void BlockUpdate::restore(std::span<const PlacedBlock> blocks) {
-    std::unordered_set<BlockPos, BlockPosHash> restored;
-    restored.reserve(blocks.size());
+void BlockUpdate::restore(std::span<const PlacedBlock> blocks, RestoreScope scope) {
+    BlockSet restored;
     for (const PlacedBlock& block : blocks) {
+        if (!isInHeight(block.pos.z)) continue;
         setValue(block.pos, block.value);
         restored.insert(block.pos);
     }
-    for (const PlacedBlock& block : blocks)
+    for (const PlacedBlock& block : blocks) {
+        bool isTold = false;
         for (const Face face : kAllFaces) {
             const BlockPos next = beside(block.pos, face);
             if (restored.contains(next)) continue;
             noteChangedSide(block.pos, face);
             noteChangedSide(next, static_cast<Face>(face ^ 1));
+            isTold = isTold || face == kFaceNegZ;
         }
+        // What a block stands on is what most ask for.
+        if (scope == RestoreScope::All && !isTold) noteChangedSide(block.pos, kFaceNegZ);
+    }
+    maxCalls_ = calls_.size() + kMaxBehaviorCalls;
 }
 
 void BlockUpdate::compactState(BlockPos pos) {
@@ -65,11 +72,8 @@ void BlockUpdate::setValue(BlockPos pos, const BlockValue& value) {
     Chunk* chunk = world_.findWritable(pos);
     if (!chunk || blockValue(world_, pos) == value) return;
     write(*chunk, pos, value.id);
-    if (value.data) {
-        chunk->shareBlockEntityData(blockIndex(pos), value.data);
-    } else if (value.state != 0) {
-        chunk->setBlockState(blockIndex(pos), value.state);
-    }
+    if (value.state != 0) chunk->setBlockState(blockIndex(pos), value.state);
+    if (value.data) chunk->shareBlockEntityData(blockIndex(pos), value.data);
 }
 
 // The event of the block that is new there tells of its data as well.
@@ -93,12 +97,12 @@ void BlockUpdate::move(BlockPos from, BlockPos to) {
     if (id == kAir || !canStand(to, id) || !world_.findWritable(to)) return;
     Chunk* source = world_.findWritable(from);
     const std::uint16_t state = source->blockState(blockIndex(from));
-    const BlockEntityData* data = source->blockEntityData(blockIndex(from));
-    const BlockChange kept = data ? BlockChange(SetEntityData{*data}) : BlockChange(SetState{state});
-    const bool hasData = data || state != 0;
+    BlockEntityDataPtr data = source->sharedBlockEntityData(blockIndex(from));
     write(*source, from, kAir);
-    write(*world_.findWritable(to), to, id);
-    if (hasData) setData(to, kept);
+    Chunk& target = *world_.findWritable(to);
+    write(target, to, id);
+    if (state != 0) target.setBlockState(blockIndex(to), state);
+    if (data) target.shareBlockEntityData(blockIndex(to), std::move(data));
     noteNeighbors(from);
     noteNeighbors(to);
 }
@@ -130,7 +134,7 @@ void BlockUpdate::noteChangedSide(BlockPos pos, Face side) {
 }
 
 void BlockUpdate::run() {
-    for (std::size_t k = 0; k < calls_.size() && k < kMaxBehaviorCalls; ++k) {
+    for (std::size_t k = 0; k < calls_.size() && k < maxCalls_; ++k) {
         const Call call = std::move(calls_[k]);  // it may move while it runs: others come behind it
         runCall(call);
     }

@@ -42,6 +42,12 @@ struct BlockEdit {
 // blocks that fall needs 255 × 14.
 constexpr std::size_t kMaxBehaviorCalls = 16384;
 
+// Which blocks that restore() sets are told of a neighbor that changed.
+enum class RestoreScope : std::uint8_t {
+    Border,  // those that touch a block which is not restored: inside nothing falls or goes
+    All,     // every one: fences get their arms, plants inside lose their ground
+};
+
 // A change of the world in progress, with what follows from it: each change appends its event and notes which
 // behaviors are to be called, run() calls them in the order in which they were noted. What they change is
 // noted behind that. Nothing happens where no chunk is loaded, above or below the world. On the world's
@@ -61,9 +67,9 @@ class BlockUpdate {
     // stays where it is if it cannot stand at `to`.
     void move(BlockPos from, BlockPos to);
     // Exactly these blocks, each once: behaviors are neither asked (`canStand`) nor told (`placed`,
-    // `removed`). `neighborChanged` is called where one of them touches a block that is not: inside nothing
-    // falls or goes.
-    void restore(std::span<const PlacedBlock> blocks);
+    // `removed`). `neighborChanged` is called for blocks that touch one of them, and for these by `scope`;
+    // these calls do not count toward kMaxBehaviorCalls.
+    void restore(std::span<const PlacedBlock> blocks, RestoreScope scope = RestoreScope::Border);
     // Forgets which block states the section at `pos` has had: its palette names only those in it.
     void compactState(BlockPos pos);
 
@@ -93,6 +99,7 @@ class BlockUpdate {
     BlockRecorder* recorder_;
     std::size_t firstEdit_;
     std::vector<Call> calls_;
+    std::size_t maxCalls_ = kMaxBehaviorCalls;
 };
 
 // Applies a change with all that follows from it, and appends one event for each block that changed, the one
@@ -100,7 +107,7 @@ class BlockUpdate {
 // `recorder`, where given, gets the values that blocks had.
 void applyChange(World& world, const BlockRegistry& registry, BlockPos pos, const BlockChange& change,
                  std::vector<BlockEdit>& edits, BlockRecorder* recorder = nullptr);
-// The same for BlockUpdate::restore(), as undo and copies of blocks need it.
+// The same for BlockUpdate::restore(), as undo needs it.
 void restoreBlocks(World& world, const BlockRegistry& registry, std::span<const PlacedBlock> blocks,
                    std::vector<BlockEdit>& edits, BlockRecorder* recorder = nullptr);
 

@@ -16,9 +16,7 @@ BlockValue blockValue(const World& world, BlockPos pos) {
     const Chunk* chunk = world.findChunk(pos);
     if (!chunk) return {};
     const BlockIndex at = blockIndex(pos);
-    BlockEntityDataPtr data = chunk->sharedBlockEntityData(at);
-    const std::uint16_t state = data ? std::uint16_t{0} : chunk->blockState(at);
-    return {chunk->block(at), state, std::move(data)};
+    return {chunk->block(at), chunk->blockState(at), chunk->sharedBlockEntityData(at)};
 }
 
 std::vector<PlacedBlock> BlockRecorder::take() {
@@ -26,8 +24,9 @@ std::vector<PlacedBlock> BlockRecorder::take() {
         const ChunkPos chunk = chunkOf(note.pos);
         return std::tuple(chunk.y, chunk.x, blockIndex(note.pos));
     };
-    std::stable_sort(notes_.begin(), notes_.end(),
-                     [&](const PlacedBlock& a, const PlacedBlock& b) { return place(a) < place(b); });
+    const auto isBefore = [&](const PlacedBlock& a, const PlacedBlock& b) { return place(a) < place(b); };
+    if (!std::is_sorted(notes_.begin(), notes_.end(), isBefore))
+        std::stable_sort(notes_.begin(), notes_.end(), isBefore);
     const auto isSame = [](const PlacedBlock& a, const PlacedBlock& b) { return a.pos == b.pos; };
     notes_.erase(std::unique(notes_.begin(), notes_.end(), isSame), notes_.end());
     return std::exchange(notes_, {});

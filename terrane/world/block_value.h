@@ -14,7 +14,7 @@ class World;
 
 struct BlockValue {
     BlockId id = kAir;
-    std::uint16_t state = 0;  // 0 where the block has data
+    std::uint16_t state = 0;
     BlockEntityDataPtr data;  // null: none
 
     friend bool operator==(const BlockValue& a, const BlockValue& b);  // data byte by byte

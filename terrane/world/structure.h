@@ -14,8 +14,9 @@
 
 namespace terrane::world {
 
-// 2,000,000 × 4 bytes of cells = 8 MB.
-constexpr std::int64_t kMaxStructureBlocks = 2'000'000;
+// A copy has 500,000 × 4 bytes of cells = 2 MB. To place it takes 168 bytes a block with its step to undo (the
+// plan, what was there, both values, the event): 84 MB, and half a second (docs/performance.md).
+constexpr std::int64_t kMaxStructureBlocks = 500'000;
 
 struct StructureBlock {
     std::string name;  // of the block type: a name keeps its meaning when ids change

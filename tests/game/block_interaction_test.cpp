@@ -35,7 +35,7 @@ TEST_F(BlockInteractionTest, BuildsOnTheFaceThatIsLookedAt) {
 
 TEST_F(BlockInteractionTest, WaterIsPlacedFlowsAndIsTaken) {
     const world::BlockId water = contentBlock("water");
-    interaction_.choose(water);
+    takeInHand(interaction_.hotbar, water);
     act(interaction_.building);
     ASSERT_EQ(session_.world().block({5, 5, kGroundHeight}), water);
     for (int second = 0; second < 4; ++second) session_.advance(1, {0, 0});
@@ -56,14 +56,14 @@ TEST_F(BlockInteractionTest, FlowingWaterIsReplacedByASourceAndNotTaken) {
     session_.edit({kNoPlayer, {6, 5, kGroundHeight}, world::SetBlock{water}, {}});
     for (int second = 0; second < 4; ++second) session_.advance(1, {0, 0});
     ASSERT_EQ(session_.world().blockState({5, 5, kGroundHeight}), 1);
-    interaction_.choose(water);
+    takeInHand(interaction_.hotbar, water);
     act(interaction_.building);
     session_.advance(1, {0, 0});
     EXPECT_EQ(session_.world().blockState({5, 5, kGroundHeight}), 0);
     ASSERT_EQ(session_.takeBack(kLocalPlayer, HistoryWay::Undo).blocks, 1u);
     for (int second = 0; second < 4; ++second) session_.advance(1, {0, 0});
     EXPECT_EQ(session_.world().blockState({5, 5, kGroundHeight}), 1) << "again what flows there";
-    interaction_.choose(contentBlock("stone"));
+    takeInHand(interaction_.hotbar, contentBlock("stone"));
     act(interaction_.breaking);
     EXPECT_EQ(session_.world().block({5, 5, kGroundHeight - 1}), world::kAir) << "rays pass water";
 }

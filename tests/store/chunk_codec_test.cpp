@@ -57,7 +57,7 @@ TEST(ChunkCodec, RandomChunksComeBack) {
     }
 }
 
-// However a chunk came to be: section forms wider than needed, palettes in another order, other slots.
+// However a chunk came to be: section forms wider than needed, palettes in another order.
 TEST(ChunkCodec, EqualChunksGiveEqualBytes) {
     std::mt19937 random(2);
     for (int round = 0; round < 20; ++round) {

@@ -50,16 +50,16 @@ TEST(Chunk, BlockEntityDataSetReplaceClear) {
     ASSERT_NE(chunk.blockEntityData(kA), nullptr);
     EXPECT_EQ(*chunk.blockEntityData(kA), bytes("first"));
     EXPECT_EQ(*chunk.blockEntityData(kB), bytes("second"));
-    EXPECT_EQ(chunk.blockEntityData(kC), nullptr) << "block state 0 is no slot of this block";
+    EXPECT_EQ(chunk.blockEntityData(kC), nullptr) << "it has none";
 
-    const std::uint16_t slot = chunk.blockState(kA);
+    chunk.setBlockState(kA, 6);
     chunk.setBlockEntityData(kA, bytes("other"));
-    EXPECT_EQ(chunk.blockState(kA), slot) << "replaced in its slot";
+    EXPECT_EQ(chunk.blockState(kA), 6) << "a block has both";
     EXPECT_EQ(*chunk.blockEntityData(kA), bytes("other"));
 
     chunk.clearBlockEntityData(kA);
     EXPECT_EQ(chunk.blockEntityData(kA), nullptr);
-    EXPECT_EQ(chunk.blockState(kA), 0);
+    EXPECT_EQ(chunk.blockState(kA), 6);
     EXPECT_EQ(*chunk.blockEntityData(kB), bytes("second"));
     chunk.clearBlockEntityData(kA);
     EXPECT_EQ(*chunk.blockEntityData(kB), bytes("second"));
@@ -89,31 +89,13 @@ TEST(Chunk, SetBlockFreesBlockEntityData) {
     EXPECT_LT(chunk.memoryBytes(), before - 90000);
 }
 
-// Else the slot would be taken for ever, and the data come back with the number.
-TEST(Chunk, SetBlockStateFreesBlockEntityData) {
+TEST(Chunk, SetBlockStateKeepsBlockEntityData) {
     Chunk chunk;
-    chunk.setBlockEntityData(kB, bytes("keeps slot 0"));
-    chunk.setBlockEntityData(kA, bytes("in slot 1"));
+    chunk.setBlockEntityData(kA, bytes("text"));
     chunk.setBlockState(kA, 7);
-    EXPECT_EQ(chunk.blockEntityData(kA), nullptr);
-    chunk.setBlockState(kA, 1);
-    EXPECT_EQ(chunk.blockEntityData(kA), nullptr);
-    EXPECT_EQ(chunk.blockState(kA), 1);
-}
-
-TEST(Chunk, SlotsAreReused) {
-    Chunk chunk;
-    for (int i = 0; i < 10; ++i) chunk.setBlockEntityData(static_cast<BlockIndex>(i), bytes("x"));
-    chunk.clearBlockEntityData(3);
-    chunk.setBlock(5, 1);
-    chunk.setBlockEntityData(1000, bytes("y"));
-    chunk.setBlockEntityData(1001, bytes("z"));
-    EXPECT_EQ(chunk.blockState(1000), 3);
-    EXPECT_EQ(chunk.blockState(1001), 5);
-    chunk.setBlockEntityData(1002, bytes("w"));
-    EXPECT_EQ(chunk.blockState(1002), 10);
-    EXPECT_EQ(chunk.blockEntityData(3), nullptr);
-    EXPECT_EQ(chunk.blockEntityData(5), nullptr);
+    EXPECT_EQ(chunk.blockState(kA), 7);
+    ASSERT_NE(chunk.blockEntityData(kA), nullptr);
+    EXPECT_EQ(*chunk.blockEntityData(kA), bytes("text"));
 }
 
 TEST(Chunk, CopiesAreIndependent) {
@@ -158,7 +140,7 @@ TEST(Chunk, FullOfBlockEntityData) {
         EXPECT_EQ(*chunk.blockEntityData(static_cast<BlockIndex>(i * 21)), BlockEntityData(1, std::byte(i)));
 }
 
-TEST(Chunk, SetBlockStateSectionFreesBlockEntityDataThere) {
+TEST(Chunk, SetBlockStateSectionKeepsBlockEntityData) {
     Chunk chunk;
     const BlockIndex inOne = blockIndex(3, 3, 16), inTwo = blockIndex(3, 3, 32);
     chunk.setBlock(inOne, 8);
@@ -167,7 +149,7 @@ TEST(Chunk, SetBlockStateSectionFreesBlockEntityDataThere) {
     chunk.setBlockStateSection(1, Section(6));
     EXPECT_EQ(chunk.block(inOne), 8);
     EXPECT_EQ(chunk.blockState(inOne), 6);
-    EXPECT_EQ(chunk.blockEntityData(inOne), nullptr);
+    EXPECT_EQ(*chunk.blockEntityData(inOne), bytes("one"));
     EXPECT_EQ(*chunk.blockEntityData(inTwo), bytes("two"));
 }
 
@@ -192,7 +174,7 @@ TEST(Chunk, EveryBlockMayHaveBlockEntityData) {
     EXPECT_EQ(*chunk.blockEntityData(65535), BlockEntityData(1, std::byte{255}));
 }
 
-TEST(Chunk, EqualWhateverTheSlots) {
+TEST(Chunk, EqualWhateverTheOrderOfData) {
     Chunk a, b;
     EXPECT_EQ(a, b);
     a.setBlockEntityData(kA, bytes("one"));
@@ -200,7 +182,10 @@ TEST(Chunk, EqualWhateverTheSlots) {
     b.setBlockEntityData(kB, bytes("two"));
     EXPECT_NE(a, b);
     b.setBlockEntityData(kA, bytes("one"));
-    EXPECT_NE(a.blockState(kA), b.blockState(kA));
+    EXPECT_EQ(a, b);
+    a.setBlockState(kA, 2);
+    EXPECT_NE(a, b) << "state beside data counts";
+    b.setBlockState(kA, 2);
     EXPECT_EQ(a, b);
     b.setBlockState(kC, 1);
     EXPECT_NE(a, b);
@@ -243,24 +228,24 @@ TEST(Chunk, EqualsPlainMap) {
                 break;
             case 1:
                 chunk.setBlockState(i, number);
-                block = {.id = block.id, .blockState = number};
+                block.blockState = number;
                 break;
             case 2:
                 chunk.setBlockEntityData(i, BlockEntityData(number));
-                block = {.id = block.id, .blockEntityData = BlockEntityData(number), .hasLarge = true};
+                block.blockEntityData = BlockEntityData(number);
+                block.hasLarge = true;
                 break;
             default:
                 chunk.clearBlockEntityData(i);
-                if (block.hasLarge) block = {.id = block.id};
+                block.hasLarge = false;
         }
         const auto seen = static_cast<BlockIndex>(random() % 64 * 1023);
         ASSERT_EQ(chunk.block(seen), plain[seen].id);
         ASSERT_EQ(chunk.blockEntityData(seen) != nullptr, plain[seen].hasLarge);
         if (plain[seen].hasLarge) {
             ASSERT_EQ(*chunk.blockEntityData(seen), plain[seen].blockEntityData);
-        } else {
-            ASSERT_EQ(chunk.blockState(seen), plain[seen].blockState);
         }
+        ASSERT_EQ(chunk.blockState(seen), plain[seen].blockState);
     }
 }
 

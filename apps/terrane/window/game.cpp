@@ -33,6 +33,7 @@ Game::Game(const GameParts& parts, const GameOptions& options)
       shadersRead_(parts.shaders.newestWrite()),
       screenshots_(options.dataFolder / "screenshots"),
       bookmarks_(game::bookmarkFiles(options.dataFolder)),
+      building_(options.dataFolder),
       perfData_(options.perfData),
       deviceName_(options.deviceName),
       thumbnail_(options.thumbnail) {

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "apps/terrane/window/building_tools.h"
 #include "apps/terrane/window/hud.h"
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/pad_reader.h"
@@ -79,14 +80,17 @@ class Game {
     bool useTarget();
     bool openContainer();
     void closeContainer();
+    BuildView buildView() const;
+    bool openSign();
+    void drawBuilding(const Screen& screen);
     void capture(bool isCaptured);
     void closeOne();
     void pause();
     void resume();
     void answerPauseMenu(PauseChoice choice);
     bool isInMenu() const { return isPaused_ || asksToQuit_; }
-    // Keys and buttons are for something other than the game.
-    bool isInDialog() const { return isInMenu() || container_ || hud_.hasDialog(); }
+    // Keys move nobody, and clicks take no mouse.
+    bool isInDialog() const { return isInMenu() || container_ || hud_.hasDialog() || building_.isAsking(); }
     void onControlKey(Key key);
     void openPalette();
     void openPlaces();
@@ -153,6 +157,8 @@ class Game {
     std::optional<game::PlayerState> saved_;    // as handed to the store
     std::filesystem::path screenshots_;         // folder
     game::BookmarkFiles bookmarks_;
+    BuildingTools building_;
+    bool wasAsking_ = false;
     std::string perfData_;
     std::optional<PerfLog> perfLog_;
     std::optional<PresetMeasurement> measurement_;  // while it goes on

@@ -10,6 +10,7 @@
 #include "apps/terrane/window/compass.h"
 #include "apps/terrane/window/game.h"
 #include "apps/terrane/window/place_overlay.h"
+#include "apps/terrane/window/screen_projection.h"
 #include "terrane/game/spawn.h"
 
 namespace terrane::app {
@@ -31,8 +32,9 @@ void drawParticles(const Screen& screen, const render::Camera& camera, const vie
                    const world::TopColors& colors, const glm::vec3& light) {
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const float perBlock = screen.height / (2 * std::tan(glm::radians(camera.fieldOfView) / 2));
+    const ScreenProjection projection({screen.width, screen.height}, camera);
     for (const view::Particle& p : particles.particles()) {
-        const auto at = projected(screen, camera, p.position);
+        const auto at = projection.at(p.position);
         const double distance = glm::distance(p.position, camera.position);
         if (!at || distance < 0.3 || p.block >= colors.size()) continue;
         const float half = p.side / 2 * perBlock / static_cast<float>(distance);

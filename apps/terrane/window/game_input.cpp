@@ -69,12 +69,14 @@ void Game::onKey(Key key) {
     const bool closesPalette = hud_.palette.isOpen && key == Key::Tab;
     if (closesPalette || (key == Key::Escape && hud_.hasDialog())) return capture(true);
     if (settingsDialog_.takeKey(key, settings_)) return;
+    if (building_.isAsking() && !isInMenu()) return void(building_.onKey(key, buildView()));
     if (imgui_.takesKeys()) return;  // Escape ends the typing
     if (key == Key::Escape) return closeOne();
     if (key == Key::Q && isPaused_ && !showsSettings_) return leave(false);
     const auto action = settings_.keys.actionOf(key);
     // What opens nothing is for the game, which stands still in a menu.
     if (isInDialog() && !(action && rowOf(*action).opensSomething)) return;
+    if (!isInDialog() && building_.onKey(key, buildView())) return;
     if (parts_.window.keyDown(Key::Control)) return onControlKey(key);
     if (slot)
         interaction_.hotbar.chosen = *slot;
@@ -175,6 +177,7 @@ void Game::closeOne() {
         showsSettings_ = false;
         return;
     }
+    if (building_.close()) return;
     if (showsPanel_) {
         showsPanel_ = false;
         if (!isPaused_) capture(true);
@@ -254,6 +257,7 @@ void Game::onButton(MouseButton button, bool isPress) {
             capture(true);
         return;
     }
+    if (isCaptured_ && building_.onButton(button, buildView())) return;
     if (isCaptured_ && button == MouseButton::Right && useTarget()) return;
     if (isCaptured_) return held->press();
     if (!imgui_.takesMouse() && !isInDialog()) capture(true);
@@ -262,7 +266,7 @@ void Game::onButton(MouseButton button, bool isPress) {
 // What is looked at, unless the player runs: then it builds against that.
 bool Game::useTarget() {
     if (parts_.window.keyDown(Key::Shift)) return false;
-    return openContainer() || interaction_.use(parts_.session, game::kLocalPlayer);
+    return openContainer() || openSign() || interaction_.use(parts_.session, game::kLocalPlayer);
 }
 
 bool Game::openContainer() {
@@ -327,7 +331,7 @@ void Game::writeThumbnail() {
 }
 
 game::MoveKeys Game::moveKeys() const {
-    if (isInDialog()) return {};
+    if (isInDialog() || (building_.isSelecting() && parts_.window.keyDown(Key::Control))) return {};
     const Gamepad& pad = pad_.now();
     const bool isTyping = imgui_.takesKeys(), walks = settings_.movement == game::Movement::Gravity;
     const auto isDown = [&](Action action) {

@@ -35,6 +35,7 @@ void Game::drawInterface(double seconds) {
     } else if (const auto& target = interaction_.target()) {
         drawTarget(screen, camera, *target, {session.world(), session.blocks(), settings_.highContrast});
     }
+    drawBuilding(screen);
     if (isCaptured_ && !isAbove_) drawCrosshair(screen);
     drawHud(screen, camera, seconds);
     if (hintSeconds_ > 0) drawHint(screen, static_cast<float>(std::min(hintSeconds_, 1.0)));

@@ -8,6 +8,7 @@ constexpr const char* kKeyHelp =
   W A S D, Space, Shift   walk, jump, run; E, Q: up, down where one flies or swims
   left, right button      break a block; build one, open a door or a chest (Shift: build against it)
   wheel                   choose the block
+  B                       select a box: fill, replace, copy, paste, rotate, mirror, save
   M                       how one moves: on foot, fast or slowly through everything, not through walls
   O, P, I                 time of day back, forth; let it pass or stand still
   F1, F2                  these keys; settings and statistics

@@ -11,6 +11,7 @@
 
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/key_help.h"
+#include "apps/terrane/window/screen_projection.h"
 #include "terrane/base/process_statistics.h"
 #include "terrane/game/block_interaction.h"
 #include "terrane/render/shadow_volume.h"
@@ -28,6 +29,11 @@ ImU32 withAlpha(int red, int green, int blue, float alpha) {
 }
 
 using Corners = std::array<std::optional<glm::vec2>, 4>;
+
+// Where a point of the world is on the screen; none behind the camera.
+std::optional<glm::vec2> projected(const Screen& screen, const render::Camera& camera, glm::dvec3 point) {
+    return ScreenProjection({screen.width, screen.height}, camera).at(point);
+}
 
 ImVec2 at(const glm::vec2& point) {
     return {point.x, point.y};
@@ -54,16 +60,6 @@ void centered(const char* name, const Screen& screen, float height) {
 }
 
 }  // namespace
-
-std::optional<glm::vec2> projected(const Screen& screen, const render::Camera& camera, glm::dvec3 point) {
-    const world::ChunkPos chunk = render::cameraChunk(camera);
-    const glm::dvec3 corner(16.0 * chunk.x, 16.0 * chunk.y, 0);
-    const render::ViewMatrices view = render::viewMatrices(camera, screen.width / screen.height);
-    const glm::vec4 clip = view.viewProjection * glm::vec4(glm::vec3(point - corner), 1.0f);
-    if (clip.w <= render::kNearPlane) return std::nullopt;
-    return glm::vec2((clip.x / clip.w * 0.5f + 0.5f) * screen.width,
-                     (0.5f - clip.y / clip.w * 0.5f) * screen.height);
-}
 
 void drawTarget(const Screen& screen, const render::Camera& camera, const world::RayHit& target,
                 const TargetView& view) {

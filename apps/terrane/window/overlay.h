@@ -1,7 +1,6 @@
 // What is drawn over the image: crosshair, what is looked at, the block in the hand, statistics, hints.
 #pragma once
 
-#include <glm/vec2.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,9 +18,6 @@ namespace terrane::app {
 struct Screen {
     float width = 0, height = 0;  // in Dear ImGui's units
 };
-
-// Where a point of the world is on the screen; none behind the camera.
-std::optional<glm::vec2> projected(const Screen& screen, const render::Camera& camera, glm::dvec3 point);
 
 struct TargetView {
     const world::World& world;

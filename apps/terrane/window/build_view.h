@@ -1,0 +1,19 @@
+// What the tools for building see of the game: whose commands they send, where the player stands and looks.
+#pragma once
+
+#include <optional>
+
+#include "terrane/game/session.h"
+#include "terrane/world/character.h"
+
+namespace terrane::app {
+
+struct BuildView {
+    game::Session& session;
+    world::Pose pose;
+    std::optional<world::Aabb> body;  // none where the player flies through blocks
+    world::BlockId hand = world::kAir;
+    bool shift = false, control = false;  // keys that are held
+};
+
+}  // namespace terrane::app

@@ -1,0 +1,272 @@
+#include "apps/terrane/window/selection_tool.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "terrane/store/structure_file.h"
+#include "terrane/world/ray_cast.h"
+
+namespace terrane::app {
+namespace {
+
+using game::BuildOutcome;
+using world::BlockBox;
+using world::BlockPos;
+
+constexpr double kAhead = 6;  // blocks: the place in the air that one points at
+
+struct ActionKey {
+    ToolAction action;
+    Key key;
+    bool withControl;
+};
+constexpr ActionKey kActionKeys[] = {
+    {ToolAction::Fill, Key::G, false},      {ToolAction::Replace, Key::X, false},
+    {ToolAction::Copy, Key::C, true},       {ToolAction::Paste, Key::V, true},
+    {ToolAction::Turn, Key::R, false},      {ToolAction::Mirror, Key::F, false},
+    {ToolAction::Save, Key::S, true},       {ToolAction::Open, Key::O, true},
+    {ToolAction::Clear, Key::Delete, false}};
+
+BlockPos blockAt(const glm::dvec3& point) {
+    const glm::ivec3 at(glm::floor(point));
+    return {at.x, at.y, at.z};
+}
+
+world::Ray lookRay(const BuildView& view) {
+    return {view.pose.position, glm::dvec3(world::lookDirection(view.pose.yaw, view.pose.pitch))};
+}
+
+std::optional<world::RayHit> target(const BuildView& view) {
+    return world::castRay(view.session.world(), view.session.blocks(), lookRay(view), game::kBuildReach);
+}
+
+// Why nothing was changed.
+std::string refusal(BuildOutcome::Result result) {
+    using Result = BuildOutcome::Result;
+    switch (result) {
+        case Result::TooLarge:
+            return fmt::format("more than {} blocks are too many", withCommas(world::kMaxStructureBlocks));
+        case Result::OutOfWorld:
+            return "that reaches above or below the world";
+        case Result::NotLoaded:
+            return "a part of that is not loaded: go closer";
+        case Result::OutOfReach:
+            return fmt::format("that is farther than {:.0f} blocks away", game::kBuildReach);
+        default:
+            return "there is nothing to build";
+    }
+}
+
+std::string told(std::string_view verb, const BuildOutcome& outcome) {
+    if (outcome.result != BuildOutcome::Result::Done) return refusal(outcome.result);
+    std::string text =
+        fmt::format("{} {} blocks", verb, withCommas(static_cast<std::int64_t>(outcome.changed)));
+    if (outcome.kept > 0)
+        text +=
+            fmt::format("; {} of the lowest layer stay", withCommas(static_cast<std::int64_t>(outcome.kept)));
+    return text;
+}
+
+}  // namespace
+
+std::string withCommas(std::int64_t number) {
+    std::string text = std::to_string(number);
+    for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3)
+        text.insert(static_cast<std::size_t>(at), ",");
+    return text;
+}
+
+BlockPos pointedAt(const BuildView& view, bool beforeBlock) {
+    if (view.shift) {
+        const glm::dvec3 feet =
+            view.body ? view.body->min + glm::dvec3(0.5, 0.5, 0) * (view.body->max - view.body->min)
+                      : view.pose.position;
+        return blockAt(feet + glm::dvec3(0, 0, 1e-3));
+    }
+    if (const auto hit = target(view)) return beforeBlock ? world::beside(hit->block, hit->face) : hit->block;
+    const world::Ray ray = lookRay(view);
+    return blockAt(ray.origin + ray.direction * kAhead);
+}
+
+bool SelectionTool::onKey(Key key, const BuildView& view) {
+    if (isAsking()) {
+        onKeyWhileAsking(key);
+        return true;
+    }
+    if (key == Key::B && !view.control) {
+        isActive_ = !isActive_;
+        selection_.endPaste();
+        return true;
+    }
+    if (!isActive_) return false;
+    for (const ActionKey& entry : kActionKeys) {
+        if (entry.key != key || entry.withControl != view.control) continue;
+        act(entry.action, view);
+        return true;
+    }
+    return false;
+}
+
+bool SelectionTool::onButton(MouseButton button, const BuildView& view) {
+    if (!isActive_ || button == MouseButton::Middle) return false;
+    const bool isLeft = button == MouseButton::Left;
+    if (selection_.isPasting()) {
+        isLeft ? place(view) : selection_.endPaste();
+        return true;
+    }
+    const BlockPos corner = pointedAt(view, false);
+    isLeft ? selection_.setFirst(corner) : selection_.setSecond(corner);
+    const BlockBox box = *selection_.box();
+    message_ = fmt::format("{} corner {}, {}, {}; {} blocks", isLeft ? "first" : "second", corner.x, corner.y,
+                           corner.z, withCommas(box.blockCount()));
+    return true;
+}
+
+bool SelectionTool::close() {
+    if (isAsking()) {
+        asks_ = Asks::Nothing;
+    } else if (selection_.isPasting()) {
+        selection_.endPaste();
+    } else if (isActive_) {
+        isActive_ = false;
+    } else {
+        return false;
+    }
+    return true;
+}
+
+void SelectionTool::act(ToolAction action, const BuildView& view) {
+    switch (action) {
+        case ToolAction::Fill:
+            return fill(view, view.hand, std::nullopt);
+        case ToolAction::Clear:
+            return fill(view, world::kAir, std::nullopt);
+        case ToolAction::Replace:
+            return replace(view);
+        case ToolAction::Copy:
+            return copy(view);
+        case ToolAction::Paste:
+            return beginPaste();
+        case ToolAction::Save:
+            return askName();
+        case ToolAction::Open:
+            return askFile();
+        case ToolAction::Turn:
+        case ToolAction::Mirror:
+            break;
+    }
+    if (!selection_.clipboard()) {
+        message_ = "nothing is copied (Ctrl+C)";
+    } else if (action == ToolAction::Turn) {
+        selection_.turn(view.session.blocks());
+        message_ = "turned by a quarter";
+    } else {
+        selection_.mirror(view.session.blocks(), view.pose.yaw);
+        message_ = "mirrored";
+    }
+}
+
+void SelectionTool::fill(const BuildView& view, world::BlockId id, std::optional<world::BlockId> replaced) {
+    const auto box = selection_.box();
+    if (!box) {
+        message_ = "no box is selected: left and right button set its corners";
+        return;
+    }
+    const auto outcome = view.session.build({game::kLocalPlayer, game::FillBox{*box, id, 0, replaced}});
+    message_ = told(replaced ? "replaced" : id == world::kAir ? "cleared" : "filled", outcome);
+}
+
+void SelectionTool::replace(const BuildView& view) {
+    const auto hit = target(view);
+    if (!hit) {
+        message_ = "look at a block of the kind to be replaced";
+        return;
+    }
+    fill(view, view.hand, view.session.world().block(hit->block));
+}
+
+void SelectionTool::copy(const BuildView& view) {
+    const auto box = selection_.box();
+    if (!box || box->blockCount() > world::kMaxStructureBlocks) {
+        message_ = box ? refusal(BuildOutcome::Result::TooLarge) : "no box is selected";
+        return;
+    }
+    selection_.setClipboard(world::copyBlocks(view.session.world(), view.session.blocks(), *box));
+    message_ = fmt::format("copied {} blocks", withCommas(box->blockCount()));
+}
+
+void SelectionTool::beginPaste() {
+    message_ =
+        selection_.beginPaste() ? "left button: place, right button: not" : "nothing is copied (Ctrl+C)";
+}
+
+void SelectionTool::place(const BuildView& view) {
+    const auto low = selection_.pasteCorner(pointedAt(view, true));
+    message_ =
+        told("placed",
+             view.session.build({game::kLocalPlayer, game::PlaceStructure{selection_.clipboard(), *low}}));
+}
+
+void SelectionTool::askName() {
+    if (!selection_.clipboard()) {
+        message_ = "nothing is copied (Ctrl+C)";
+        return;
+    }
+    asks_ = Asks::Name;
+    takesFocus_ = true;
+    name_ = {};
+}
+
+void SelectionTool::askFile() {
+    files_ = store::structureNames(folder_);
+    file_ = 0;
+    if (files_.empty()) {
+        message_ = fmt::format("no structure lies in {}", folder_.string());
+    } else {
+        asks_ = Asks::File;
+    }
+}
+
+void SelectionTool::onKeyWhileAsking(Key key) {
+    if (key == Key::Escape) asks_ = Asks::Nothing;
+    if (key == Key::Enter) isAnswered_ = true;
+    if (asks_ != Asks::File || files_.empty()) return;
+    if (key == Key::Down) file_ = (file_ + 1) % files_.size();
+    if (key == Key::Up) file_ = (file_ + files_.size() - 1) % files_.size();
+}
+
+// After what was typed in the same frame.
+void SelectionTool::answer(const BuildView& view) {
+    isAnswered_ = false;
+    const Asks asked = std::exchange(asks_, Asks::Nothing);
+    if (asked == Asks::Name) saveAs(name_.data());
+    if (asked == Asks::File) open(files_[file_], view.session.blocks());
+}
+
+void SelectionTool::saveAs(const std::string& name) {
+    const auto path = store::structurePath(folder_, name);
+    const auto done = path ? store::writeStructure(*path, *selection_.clipboard())
+                           : base::Result<void>(tl::unexpected(path.error()));
+    message_ = done ? fmt::format("saved {}", path->string()) : done.error().message;
+}
+
+void SelectionTool::open(const std::string& name, const world::BlockRegistry& blocks) {
+    const auto path = store::structurePath(folder_, name);
+    auto structure =
+        path ? store::readStructure(*path) : base::Result<world::Structure>(tl::unexpected(path.error()));
+    if (!structure) {
+        message_ = structure.error().message;
+        return;
+    }
+    const std::vector<std::string> unknown = world::unknownNames(*structure, blocks);
+    message_ = fmt::format("{}: {} blocks", name, withCommas(structure->blockCount()));
+    if (!unknown.empty())
+        *message_ +=
+            fmt::format("; {} kinds are unknown and shown as missing, {} first", unknown.size(), unknown[0]);
+    selection_.setClipboard(std::move(*structure));
+    selection_.beginPaste();
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,158 @@
+#include "terrane/game/build_command.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdlib>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "terrane/game/session.h"
+#include "terrane/world/sign.h"
+
+namespace terrane::game {
+namespace {
+
+using world::BlockBox;
+using world::BlockPos;
+using world::BlockValue;
+
+// The far corner of a box; at the end of the numbers where it would be beyond.
+std::int32_t farEnd(std::int32_t low, int size) {
+    constexpr std::int64_t kLast = std::numeric_limits<std::int32_t>::max();
+    return static_cast<std::int32_t>(std::min(std::int64_t{low} + size - 1, kLast));
+}
+
+bool isWhole(const BlockBox& box, const BuildChange& change) {
+    const auto* place = std::get_if<PlaceStructure>(&change);
+    return !place || box.blockCount() == place->structure->blockCount();
+}
+
+bool isLoaded(const world::World& world, const BlockBox& box) {
+    for (std::int32_t y = box.low.y >> 4; y <= box.high.y >> 4; ++y)
+        for (std::int32_t x = box.low.x >> 4; x <= box.high.x >> 4; ++x)
+            if (!world.maybeChunkAt({x, y})) return false;
+    return true;
+}
+
+class Plan {
+  public:
+    Plan(const world::World& world, bool protectsFloor) : world_(world), protectsFloor_(protectsFloor) {}
+
+    void add(BlockPos pos, BlockValue value) {
+        const BlockValue now = world::blockValue(world_, pos);
+        if (now == value) return;
+        if (protectsFloor_ && pos.z == 0 && now.id != world::kAir) {
+            ++plan_.kept;
+            return;
+        }
+        plan_.blocks.push_back({pos, std::move(value)});
+    }
+    PlannedBlocks take() { return std::move(plan_); }
+
+  private:
+    const world::World& world_;
+    bool protectsFloor_;
+    PlannedBlocks plan_;
+};
+
+// Chunk by chunk, and in a chunk by block index: as histories and light want them.
+template <class Function>
+void forEachBlock(const BlockBox& box, Function function) {
+    for (std::int32_t chunkY = box.low.y >> 4; chunkY <= box.high.y >> 4; ++chunkY)
+        for (std::int32_t chunkX = box.low.x >> 4; chunkX <= box.high.x >> 4; ++chunkX) {
+            const BlockPos corner = world::blockPos({chunkX, chunkY}, 0);
+            const std::int32_t x0 = std::max(box.low.x, corner.x), x1 = std::min(box.high.x, corner.x + 15);
+            const std::int32_t y0 = std::max(box.low.y, corner.y), y1 = std::min(box.high.y, corner.y + 15);
+            for (std::int32_t z = box.low.z; z <= box.high.z; ++z)
+                for (std::int32_t y = y0; y <= y1; ++y)
+                    for (std::int32_t x = x0; x <= x1; ++x) function(BlockPos{x, y, z});
+        }
+}
+
+void planFill(Plan& plan, const world::World& world, const FillBox& fill) {
+    forEachBlock(fill.box, [&](BlockPos pos) {
+        const world::BlockId there = world.block(pos);
+        if (fill.replaced && there != *fill.replaced) return;
+        if (fill.state == 0 && there == fill.id) return;  // in the state in which it is
+        plan.add(pos, {fill.id, fill.state, nullptr});
+    });
+}
+
+void planStructure(Plan& plan, const world::BlockRegistry& blocks, const PlaceStructure& place) {
+    const world::Structure& structure = *place.structure;
+    const std::vector<BlockValue> values = world::paletteValues(structure, blocks);
+    forEachBlock(boxOf(place), [&](BlockPos pos) {
+        const std::uint32_t cell =
+            structure.cellAt({pos.x - place.low.x, pos.y - place.low.y, pos.z - place.low.z});
+        BlockValue value = values[structure.cells[cell]];
+        const auto data = std::ranges::lower_bound(structure.data, cell, {}, &world::StructureData::cell);
+        if (data != structure.data.end() && data->cell == cell) {
+            const bool isText = world::holdsText(blocks.type(value.id));
+            if (!isText || world::decodeSign(*data->data)) value.data = data->data;
+        }
+        plan.add(pos, std::move(value));
+    });
+}
+
+BuildOutcome::Result check(const world::World& world, const BuildChange& change) {
+    using Result = BuildOutcome::Result;
+    const BlockBox box = boxOf(change);
+    if (box.high.x < box.low.x || box.high.y < box.low.y || box.high.z < box.low.z) return Result::Empty;
+    if (!world::isInHeight(box.low.z) || !world::isInHeight(box.high.z) || !isWhole(box, change))
+        return Result::OutOfWorld;
+    if (box.blockCount() > world::kMaxStructureBlocks) return Result::TooLarge;
+    return isLoaded(world, box) ? Result::Done : Result::NotLoaded;
+}
+
+}  // namespace
+
+BlockBox boxOf(const BuildChange& change) {
+    if (const auto* fill = std::get_if<FillBox>(&change)) return fill->box;
+    const auto& place = std::get<PlaceStructure>(change);
+    assert(place.structure && "there is something to place");
+    const glm::ivec3 size = place.structure->size;
+    return {place.low,
+            {farEnd(place.low.x, size.x), farEnd(place.low.y, size.y), farEnd(place.low.z, size.z)}};
+}
+
+double distanceTo(const BlockBox& box, const glm::dvec3& point) {
+    const glm::dvec3 low(box.low.x, box.low.y, box.low.z);
+    const glm::dvec3 high(box.high.x + 1.0, box.high.y + 1.0, box.high.z + 1.0);
+    return glm::distance(point, glm::clamp(point, low, high));
+}
+
+PlannedBlocks plannedBlocks(const world::World& world, const world::BlockRegistry& blocks,
+                            const BuildChange& change, bool protectsFloor) {
+    Plan plan(world, protectsFloor);
+    if (const auto* fill = std::get_if<FillBox>(&change)) {
+        planFill(plan, world, *fill);
+    } else {
+        planStructure(plan, blocks, std::get<PlaceStructure>(change));
+    }
+    return plan.take();
+}
+
+BuildOutcome Session::build(const BuildCommand& command) {
+    using Result = BuildOutcome::Result;
+    const auto player = players_.find(command.player);
+    if (command.player != kNoPlayer) {
+        if (player == players_.end()) return {Result::OutOfReach};
+        if (distanceTo(boxOf(command.change), player->second.pose.position) > kBuildReach)
+            return {Result::OutOfReach};
+    }
+    if (const Result result = check(world_, command.change); result != Result::Done) return {result};
+    const PlannedBlocks plan = plannedBlocks(world_, *blocks_, command.change, command.player != kNoPlayer);
+    // Blocks of a structure have the states that they had; those of a fill find theirs.
+    const bool isFill = std::holds_alternative<FillBox>(command.change);
+    std::vector<world::BlockEdit> edits;
+    world::BlockRecorder recorder;
+    world::BlockUpdate update(world_, *blocks_, edits, player == players_.end() ? nullptr : &recorder);
+    update.restore(plan.blocks, isFill ? world::RestoreScope::All : world::RestoreScope::Border);
+    update.run();
+    if (player != players_.end()) player->second.history.add(stepSince(world_, recorder));
+    pipeline_.onEdits(edits);
+    return {Result::Done, plan.blocks.size(), plan.kept};
+}
+
+}  // namespace terrane::game

@@ -1,0 +1,243 @@
+#include "terrane/store/structure_file.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "terrane/base/files.h"
+#include "terrane/store/compression.h"
+
+namespace terrane::store {
+namespace {
+
+namespace fs = std::filesystem;
+using world::Structure;
+using world::StructureBlock;
+
+// "TerrStru", in the order of bytes.
+constexpr std::uint64_t kMagic = 0x7572745372726554;
+constexpr std::size_t kChecksumEnd = 2 * sizeof(std::uint64_t);  // the checksum is of all that follows
+constexpr std::size_t kHeaderBytes = kChecksumEnd + sizeof(std::uint8_t) + sizeof(std::uint32_t);
+// A frame of what does not compress is a little larger than that.
+constexpr std::size_t kMaxFileBytes = kMaxStructureBytes + (1u << 20);
+constexpr std::string_view kEnding = ".structure";
+constexpr std::size_t kMaxNameBytes = 100;       // file systems take 255, some of it for endings
+constexpr std::size_t kMaxBlockNameBytes = 255;  // a length of one byte
+
+auto damaged(const std::string& what) {
+    return base::fail(base::ErrorCode::Damaged, "{}", what);
+}
+
+bool isSize(int size) {
+    return size >= 1 && size <= std::numeric_limits<std::uint16_t>::max();
+}
+
+bool isBlockName(std::string_view name) {
+    const auto isAllowed = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+    };
+    return !name.empty() && name.size() <= kMaxBlockNameBytes && std::ranges::all_of(name, isAllowed);
+}
+
+std::size_t dataBytes(const Structure& structure) {
+    std::size_t bytes = 0;
+    for (const world::StructureData& data : structure.data) bytes += data.data->size();
+    return bytes;
+}
+
+base::Result<void> checkLimits(const Structure& s) {
+    if (!isSize(s.size.x) || !isSize(s.size.y) || s.size.z < 1 || s.size.z > world::kChunkHeight)
+        return damaged(fmt::format("{} × {} × {} blocks are no structure", s.size.x, s.size.y, s.size.z));
+    if (s.blockCount() > world::kMaxStructureBlocks)
+        return damaged(fmt::format("the structure has {} blocks, expected at most {}", s.blockCount(),
+                                   world::kMaxStructureBlocks));
+    return {};
+}
+
+// The width of a cell is one byte, or two where the palette has more than 256 entries.
+template <class Cell>
+void appendCells(Bytes& out, const Structure& structure) {
+    for (const std::uint32_t cell : structure.cells) appendNumber(out, static_cast<Cell>(cell));
+}
+
+Bytes plainBytes(const Structure& structure) {
+    Bytes out;
+    out.reserve(structure.cells.size() * sizeof(std::uint16_t) + 4096);
+    for (int axis = 0; axis < 3; ++axis) appendNumber(out, static_cast<std::uint16_t>(structure.size[axis]));
+    appendNumber(out, static_cast<std::uint32_t>(structure.palette.size()));
+    for (const StructureBlock& block : structure.palette) {
+        appendNumber(out, static_cast<std::uint8_t>(block.name.size()));
+        append(out, std::as_bytes(std::span(block.name)));
+        appendNumber(out, block.state);
+    }
+    if (structure.palette.size() <= 256)
+        appendCells<std::uint8_t>(out, structure);
+    else
+        appendCells<std::uint16_t>(out, structure);
+    appendNumber(out, static_cast<std::uint32_t>(structure.data.size()));
+    for (const world::StructureData& data : structure.data) {
+        appendNumber(out, data.cell);
+        appendNumber(out, static_cast<std::uint32_t>(data.data->size()));
+        append(out, *data.data);
+    }
+    return out;
+}
+
+base::Result<void> readPalette(ByteReader& reader, Structure& structure) {
+    const auto count = reader.number<std::uint32_t>();
+    if (count > kMaxStructurePalette || count > structure.blockCount())
+        return damaged(fmt::format("the palette has {} entries", count));
+    for (std::uint32_t n = 0; n < count && !reader.isPastEnd(); ++n) {
+        const ByteView name = reader.take(reader.number<std::uint8_t>());
+        StructureBlock block{.name = {reinterpret_cast<const char*>(name.data()), name.size()}};
+        block.state = reader.number<std::uint16_t>();
+        if (!reader.isPastEnd() && !isBlockName(block.name))
+            return damaged(fmt::format("{:?} is no name of a block", block.name));
+        structure.palette.push_back(std::move(block));
+    }
+    return {};
+}
+
+template <class Cell>
+base::Result<void> readCells(ByteReader& reader, Structure& structure) {
+    const auto count = static_cast<std::size_t>(structure.blockCount());
+    ByteReader cells(reader.take(count * sizeof(Cell)));
+    if (reader.isPastEnd()) return {};
+    structure.cells.reserve(count);
+    for (std::size_t n = 0; n < count; ++n) {
+        const auto cell = cells.number<Cell>();
+        if (cell >= structure.palette.size())
+            return damaged(
+                fmt::format("a block has number {} of a palette of {}", cell, structure.palette.size()));
+        structure.cells.push_back(cell);
+    }
+    return {};
+}
+
+base::Result<void> readData(ByteReader& reader, Structure& structure) {
+    const auto count = reader.number<std::uint32_t>();
+    std::int64_t last = -1;
+    std::size_t bytes = 0;
+    for (std::uint32_t n = 0; n < count && !reader.isPastEnd(); ++n) {
+        const auto cell = reader.number<std::uint32_t>();
+        const ByteView data = reader.take(reader.number<std::uint32_t>());
+        if (reader.isPastEnd()) break;
+        if (cell <= last || cell >= structure.blockCount()) return damaged("data of blocks is out of order");
+        last = cell;
+        bytes += data.size();
+        if (bytes > kMaxStructureDataBytes)
+            return damaged(fmt::format("the blocks have more than {} bytes of data", kMaxStructureDataBytes));
+        structure.data.push_back(
+            {cell, std::make_shared<const world::BlockEntityData>(data.begin(), data.end())});
+    }
+    return {};
+}
+
+base::Result<Structure> readPlain(ByteView bytes) {
+    ByteReader reader(bytes);
+    Structure structure;
+    for (int axis = 0; axis < 3; ++axis) structure.size[axis] = reader.number<std::uint16_t>();
+    if (reader.isPastEnd()) return damaged("the structure ends too early");
+    if (auto good = checkLimits(structure); !good) return tl::unexpected(good.error());
+    if (auto read = readPalette(reader, structure); !read) return tl::unexpected(read.error());
+    const bool isNarrow = structure.palette.size() <= 256;
+    auto cells =
+        isNarrow ? readCells<std::uint8_t>(reader, structure) : readCells<std::uint16_t>(reader, structure);
+    if (!cells) return tl::unexpected(cells.error());
+    if (auto read = readData(reader, structure); !read) return tl::unexpected(read.error());
+    if (reader.isPastEnd()) return damaged("the structure ends too early");
+    if (!reader.rest().empty()) return damaged(fmt::format("{} bytes too many", reader.rest().size()));
+    return structure;
+}
+
+}  // namespace
+
+base::Result<Bytes> encodeStructure(const Structure& structure) {
+    if (auto good = checkLimits(structure); !good) return tl::unexpected(good.error());
+    if (structure.palette.size() > kMaxStructurePalette)
+        return base::fail("the structure has {} different blocks, a file keeps at most {}",
+                          structure.palette.size(), kMaxStructurePalette);
+    if (const std::size_t bytes = dataBytes(structure); bytes > kMaxStructureDataBytes)
+        return base::fail("the blocks have {} bytes of data, a file keeps at most {}", bytes,
+                          kMaxStructureDataBytes);
+    for (const StructureBlock& block : structure.palette)
+        if (!isBlockName(block.name)) return base::fail("{:?} is no name of a block", block.name);
+    const Bytes plain = plainBytes(structure);
+    Bytes rest;
+    appendNumber(rest, kStructureVersion);
+    appendNumber(rest, static_cast<std::uint32_t>(plain.size()));
+    appendCompressed(rest, plain);
+    Bytes out;
+    appendNumber(out, kMagic);
+    appendNumber(out, std::uint64_t{XXH64(rest.data(), rest.size(), 0)});
+    append(out, rest);
+    return out;
+}
+
+base::Result<Structure> decodeStructure(ByteView bytes) {
+    ByteReader reader(bytes);
+    if (reader.number<std::uint64_t>() != kMagic || bytes.size() < kHeaderBytes)
+        return base::fail(base::ErrorCode::BadInput, "it is no structure");
+    const ByteView rest = bytes.subspan(kChecksumEnd);
+    if (reader.number<std::uint64_t>() != XXH64(rest.data(), rest.size(), 0))
+        return damaged("the checksum is wrong");
+    if (const auto version = reader.number<std::uint8_t>(); version != kStructureVersion)
+        return base::fail(base::ErrorCode::Incompatible, "structure version {}, expected {}", version,
+                          kStructureVersion);
+    const auto plainBytes = reader.number<std::uint32_t>();
+    if (plainBytes > kMaxStructureBytes)
+        return damaged(fmt::format("the structure says it has {} bytes, expected at most {}", plainBytes,
+                                   kMaxStructureBytes));
+    Bytes plain(plainBytes);
+    if (auto done = decompress(reader.rest(), plain); !done) return tl::unexpected(done.error());
+    return readPlain(plain);
+}
+
+base::Result<fs::path> structurePath(const fs::path& folder, std::string_view name) {
+    const auto isForbidden = [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return c == '/' || c == '\\' || byte < 0x20 || byte == 0x7F;
+    };
+    const bool isName = !name.empty() && name.size() <= kMaxNameBytes && name.front() != '.' &&
+                        name.front() != ' ' && std::ranges::none_of(name, isForbidden);
+    if (!isName)
+        return base::fail(base::ErrorCode::BadInput,
+                          "{:?}: a name has 1 to {} bytes, neither slashes nor control characters, and no "
+                          "dot or space in front",
+                          name, kMaxNameBytes);
+    return folder / (std::string(name) + std::string(kEnding));
+}
+
+base::Result<void> writeStructure(const fs::path& file, const Structure& structure) {
+    const auto bytes = encodeStructure(structure);
+    if (!bytes) return base::fail(bytes.error().code, "{}: {}", file.string(), bytes.error().message);
+    std::error_code ignored;  // writing tells
+    fs::create_directories(file.parent_path(), ignored);
+    return base::writeFile(file, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+}
+
+base::Result<Structure> readStructure(const fs::path& file) {
+    const auto bytes = base::readFile(file, kMaxFileBytes);
+    if (!bytes) return tl::unexpected(bytes.error());
+    auto structure = decodeStructure(std::as_bytes(std::span(*bytes)));
+    if (!structure)
+        return base::fail(structure.error().code, "{}: {}", file.string(), structure.error().message);
+    return structure;
+}
+
+std::vector<std::string> structureNames(const fs::path& folder) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+        const fs::path& path = it->path();
+        if (path.extension() == kEnding && structurePath(folder, path.stem().string()))
+            names.push_back(path.stem().string());
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
+}  // namespace terrane::store

@@ -1,0 +1,30 @@
+// A set of blocks: a bit a block, 8 KB for each chunk that has some. Hash sets of blocks leave the caches
+// where there are a hundred thousand. Plain value.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "terrane/world/coords.h"
+
+namespace terrane::world {
+
+class BlockSet {
+  public:
+    // Of a block in the world's height.
+    void insert(BlockPos pos) {
+        std::vector<bool>& blocks = chunks_[chunkOf(pos)];
+        if (blocks.empty()) blocks.resize(kBlocksPerChunk);
+        blocks[blockIndex(pos)] = true;
+    }
+    bool contains(BlockPos pos) const {
+        if (!isInHeight(pos.z)) return false;
+        const auto found = chunks_.find(chunkOf(pos));
+        return found != chunks_.end() && found->second[blockIndex(pos)];
+    }
+
+  private:
+    std::unordered_map<ChunkPos, std::vector<bool>, ChunkPosHash> chunks_;
+};
+
+}  // namespace terrane::world

@@ -1,0 +1,149 @@
+#include "terrane/world/sign.h"
+
+#include <algorithm>
+#include <cassert>
+#include <glm/geometric.hpp>
+#include <span>
+
+#include "terrane/world/block_model.h"
+
+namespace terrane::world {
+namespace {
+
+constexpr std::byte kVersion{1};
+constexpr std::string_view kBehavior = "sign";
+
+bool isControl(char32_t c) {
+    return c < 0x20 || (c >= 0x7F && c < 0xA0);
+}
+
+// How many bytes a character has that begins so; 0 for none.
+std::size_t lengthOf(unsigned char first) {
+    if (first < 0x80) return 1;
+    if (first >= 0xC2 && first < 0xE0) return 2;
+    if (first >= 0xE0 && first < 0xF0) return 3;
+    return first >= 0xF0 && first < 0xF5 ? 4 : 0;
+}
+
+bool isCharacter(char32_t c, std::size_t length) {
+    constexpr std::array<char32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
+    const bool isSurrogate = c >= 0xD800 && c < 0xE000;
+    return c >= kLeast[length] && c <= 0x10FFFF && !isSurrogate;
+}
+
+}  // namespace
+
+std::optional<std::u32string> charactersOf(std::string_view utf8) {
+    std::u32string characters;
+    while (!utf8.empty()) {
+        const auto first = static_cast<unsigned char>(utf8.front());
+        const std::size_t length = lengthOf(first);
+        if (length == 0 || length > utf8.size()) return std::nullopt;
+        char32_t c = length == 1 ? first : first & (0x7Fu >> length);
+        for (std::size_t k = 1; k < length; ++k) {
+            const auto next = static_cast<unsigned char>(utf8[k]);
+            if ((next & 0xC0) != 0x80) return std::nullopt;
+            c = c << 6 | (next & 0x3Fu);
+        }
+        if (!isCharacter(c, length)) return std::nullopt;
+        characters.push_back(c);
+        utf8.remove_prefix(length);
+    }
+    return characters;
+}
+
+std::size_t fittingBytes(std::string_view line) {
+    std::size_t characters = 0;
+    for (std::size_t at = 0; at < line.size(); ++at) {
+        const bool isFirst = (static_cast<unsigned char>(line[at]) & 0xC0) != 0x80;
+        if (isFirst && ++characters > kSignColumns) return at;
+    }
+    return line.size();
+}
+
+base::Result<void> checkSign(const SignText& text) {
+    for (const std::string& line : text) {
+        const auto characters = charactersOf(line);
+        if (!characters) return base::fail(base::ErrorCode::BadInput, "a line of a sign is not UTF-8");
+        if (characters->size() > kSignColumns)
+            return base::fail(base::ErrorCode::BadInput, "a line of a sign has {} characters, at most {}",
+                              characters->size(), kSignColumns);
+        if (std::ranges::any_of(*characters, isControl))
+            return base::fail(base::ErrorCode::BadInput, "a line of a sign has control characters");
+    }
+    return {};
+}
+
+BlockEntityData encodeSign(const SignText& text) {
+    assert(checkSign(text) && "the text was checked");
+    BlockEntityData data{kVersion};
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        if (k > 0) data.push_back(std::byte{'\n'});
+        const auto bytes = std::as_bytes(std::span(text[k]));
+        data.insert(data.end(), bytes.begin(), bytes.end());
+    }
+    return data;
+}
+
+base::Result<SignText> decodeSign(const BlockEntityData& data) {
+    if (data.empty() || data.size() > kMaxSignBytes || data[0] != kVersion)
+        return base::fail(base::ErrorCode::Damaged, "{} bytes are no text of a sign", data.size());
+    SignText text;
+    std::size_t line = 0;
+    for (std::size_t k = 1; k < data.size(); ++k) {
+        const auto c = static_cast<char>(data[k]);
+        if (c != '\n') {
+            text[line] += c;
+        } else if (++line == kSignLines) {
+            return base::fail(base::ErrorCode::Damaged, "a sign has more than {} lines", kSignLines);
+        }
+    }
+    if (line + 1 != kSignLines)
+        return base::fail(base::ErrorCode::Damaged, "a sign has {} lines, expected {}", line + 1, kSignLines);
+    if (auto good = checkSign(text); !good) return tl::unexpected(good.error());
+    return text;
+}
+
+BlockBehavior signBehavior() {
+    return {.name = std::string(kBehavior)};
+}
+
+bool holdsText(const BlockType& type) {
+    return std::ranges::any_of(type.behaviors, [](const BehaviorPtr& b) { return b->name == kBehavior; });
+}
+
+// A sign that faces +y has its text at -y; the others are that, turned.
+std::optional<SignPlane> signPlane(const BlockType& type, std::uint16_t state) {
+    if (!type.model) return std::nullopt;
+    const std::vector<Box>& boxes = type.model->form(state).boxes;
+    if (boxes.empty()) return std::nullopt;
+    const int facing = state & type.model->stateMask & kStateFacing;
+    constexpr std::array<glm::dvec3, 4> kAhead{{{0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 0, 0}}};
+    const glm::dvec3 ahead = kAhead[static_cast<std::size_t>(facing)], right(ahead.y, -ahead.x, 0);
+    const auto alongRight = [&](const Box& box) {
+        const glm::dvec3 size(box.max - box.min);
+        return size.x * std::abs(right.x) + size.y * std::abs(right.y);
+    };
+    const Box& board = *std::ranges::max_element(
+        boxes, {}, [&](const Box& box) { return alongRight(box) * double{box.max.z - box.min.z}; });
+    const glm::dvec3 middle = (glm::dvec3(board.min) + glm::dvec3(board.max)) / 2.0;
+    const glm::dvec3 half = (glm::dvec3(board.max) - glm::dvec3(board.min)) / 2.0;
+    const double depth = half.x * std::abs(ahead.x) + half.y * std::abs(ahead.y);
+    const double width = alongRight(board);
+    return SignPlane{.topLeft = middle - ahead * depth - right * (width / 2) + glm::dvec3(0, 0, half.z),
+                     .right = right * width,
+                     .down = {0, 0, -2 * half.z},
+                     .normal = -ahead};
+}
+
+SignLine lineOn(const SignPlane& plane, std::size_t number, double aspect) {
+    constexpr double kMargin = 1.0 / 16, kFilled = 0.9;  // of a line's share of the height
+    const double width = glm::length(plane.right) - 2 * kMargin;
+    const double share = (glm::length(plane.down) - 2 * kMargin) / kSignLines;
+    const double height = aspect * share * kFilled > width ? width / aspect : share * kFilled;
+    return {.left = kMargin + (width - aspect * height) / 2,
+            .top = kMargin + static_cast<double>(number) * share + (share - height) / 2,
+            .height = height};
+}
+
+}  // namespace terrane::world

@@ -1,0 +1,253 @@
+#include "terrane/game/build_command.h"
+
+#include <map>
+#include <random>
+
+#include "terrane/light/light_chunk.h"
+#include "terrane/store/structure_file.h"
+#include "terrane/world/block_model.h"
+#include "terrane/world/sign.h"
+#include "tests/game/session_fixture.h"
+
+namespace terrane::game {
+namespace {
+
+using Result = BuildOutcome::Result;
+using world::BlockBox;
+using world::BlockPos;
+using world::BlockValue;
+
+constexpr PlayerId kAnna = 7;
+
+class BuildTest : public SessionTest {
+  protected:
+    BuildTest() { session_.setPlayer(kAnna, {.position = {5.5, 5.5, kGroundHeight + 2.0}}); }
+
+    BuildOutcome fill(const BlockBox& box, std::string_view name,
+                      std::optional<world::BlockId> replaced = std::nullopt) {
+        return session_.build({kAnna, FillBox{box, contentBlock(name), 0, replaced}});
+    }
+    BuildOutcome place(const world::Structure& structure, BlockPos low) {
+        return session_.build(
+            {kAnna, PlaceStructure{std::make_shared<const world::Structure>(structure), low}});
+    }
+    void put(BlockPos pos, std::string_view name, std::uint16_t state = 0) {
+        session_.edit({kNoPlayer, pos, world::SetBlock{contentBlock(name), state}, std::nullopt});
+    }
+    world::Structure copy(const BlockBox& box) {
+        return world::copyBlocks(session_.world(), session_.blocks(), box);
+    }
+    world::BlockId block(BlockPos pos) { return session_.world().block(pos); }
+    std::size_t steps() { return session_.takeBack(kAnna, HistoryWay::Undo).blocks; }
+
+    // Light as shown is that of lighting everything from scratch.
+    void expectLightFromScratch(std::map<world::ChunkPos, light::ChunkLightPtr>& shown) {
+        const light::LightTable table(contentBlocks());
+        for (const stream::ChunkChange& change : takeChanges())
+            if (change.light) shown[change.pos] = change.light;
+        for (const auto& [pos, light] : shown) {
+            if (world::chunkDistance(pos, {0, 0}) > 2) continue;
+            stream::ChunkNeighborhood around;
+            for (int n = 0; n < 9; ++n)
+                around.chunks[static_cast<std::size_t>(n)] =
+                    session_.world().maybeChunkAt(world::offsetBy(pos, n % 3 - 1, n / 3 - 1));
+            EXPECT_EQ(*light, *stream::lightOf(around, table)) << pos.x << ' ' << pos.y;
+        }
+    }
+};
+
+const BlockBox kCube{{2, 2, kGroundHeight}, {6, 6, kGroundHeight + 4}};
+
+TEST_F(BuildTest, AFillIsOneStep) {
+    const BuildOutcome outcome = fill(kCube, "bricks");
+    EXPECT_EQ(outcome.result, Result::Done);
+    EXPECT_EQ(outcome.changed, 125u);
+    EXPECT_EQ(block({6, 6, kGroundHeight + 4}), contentBlock("bricks"));
+    EXPECT_EQ(block({7, 6, kGroundHeight + 4}), world::kAir);
+    EXPECT_EQ(fill(kCube, "bricks").changed, 0u) << "no step";
+    EXPECT_EQ(session_.takeBack(kAnna, HistoryWay::Undo).blocks, 125u);
+    EXPECT_EQ(block(kCube.low), world::kAir);
+    EXPECT_EQ(session_.takeBack(kAnna, HistoryWay::Redo).blocks, 125u);
+    EXPECT_EQ(block(kCube.low), contentBlock("bricks"));
+}
+
+TEST_F(BuildTest, OnlyBlocksOfOneTypeAreReplaced) {
+    fill(kCube, "bricks");
+    put({3, 3, kGroundHeight + 1}, "glass");
+    const BlockBox wide{{0, 0, kGroundHeight - 1}, {9, 9, kGroundHeight + 9}};
+    EXPECT_EQ(fill(wide, "sand", contentBlock("bricks")).changed, 124u);
+    EXPECT_EQ(block({3, 3, kGroundHeight + 1}), contentBlock("glass"));
+    EXPECT_EQ(block({0, 0, kGroundHeight - 1}), contentBlock("stone"));
+}
+
+TEST_F(BuildTest, RefusesWhatItShould) {
+    const BlockPos low{2, 2, 70};
+    EXPECT_EQ(fill({low, {1, 2, 70}}, "stone").result, Result::Empty);
+    EXPECT_EQ(fill({low, {2, 2, 256}}, "stone").result, Result::OutOfWorld);
+    EXPECT_EQ(fill({{2, 2, -1}, low}, "stone").result, Result::OutOfWorld);
+    EXPECT_EQ(fill({low, {5000, 2, 70}}, "stone").result, Result::NotLoaded);
+    EXPECT_EQ(fill({{0, 0, 0}, {199, 199, 99}}, "stone").result, Result::TooLarge);
+    EXPECT_EQ(fill({{5, 5, 140}, {6, 6, 141}}, "stone").result, Result::OutOfReach);
+    EXPECT_EQ(session_.build({99, FillBox{kCube, contentBlock("stone"), 0, {}}}).result, Result::OutOfReach);
+    EXPECT_EQ(place({}, low).result, Result::Empty);
+    EXPECT_EQ(place(copy(kCube), {INT32_MAX - 1, 2, 70}).result, Result::OutOfReach);
+    EXPECT_EQ(steps(), 0u) << "nothing changed";
+    session_.setPlayer(kAnna, {.position = {5.5, 5.5, 250}});
+    EXPECT_EQ(place(copy(kCube), {2, 2, 253}).result, Result::OutOfWorld);
+    EXPECT_EQ(place(copy(kCube), {2, 2, 251}).result, Result::Done);
+}
+
+TEST_F(BuildTest, TheNearestBlockMustBeInReach) {
+    EXPECT_DOUBLE_EQ(distanceTo({{0, 0, 0}, {9, 9, 9}}, {5, 5, 13}), 3);
+    EXPECT_DOUBLE_EQ(distanceTo({{0, 0, 0}, {9, 9, 9}}, {5, 5, 5}), 0);
+    EXPECT_EQ(fill({{5, 5, 100}, {5, 5, 200}}, "stone").result, Result::Done);
+}
+
+TEST_F(BuildTest, NoPlayerFillsTheLowestLayer) {
+    session_.setPlayer(kAnna, {.position = {5.5, 5.5, 3}});
+    const BuildOutcome outcome = fill({{2, 2, 0}, {3, 3, 2}}, "air");
+    EXPECT_EQ(outcome.changed, 8u);
+    EXPECT_EQ(outcome.kept, 4u);
+    EXPECT_EQ(block({2, 2, 0}), contentBlock("stone"));
+    const FillBox all{{{2, 2, 0}, {3, 3, 2}}, world::kAir, 0, {}};
+    EXPECT_EQ(session_.build({kNoPlayer, all}).changed, 4u) << "a script may";
+}
+
+// What stands on the box, falls into it or reaches for it.
+TEST_F(BuildTest, NeighborsAreTold) {
+    put({3, 3, kGroundHeight}, "dirt");
+    put({3, 3, kGroundHeight + 1}, "poppy");
+    put({4, 4, kGroundHeight}, "stone");
+    put({4, 4, kGroundHeight + 1}, "sand");
+    put({5, 6, kGroundHeight}, "oak_fence");
+    fill({{3, 3, kGroundHeight}, {5, 5, kGroundHeight}}, "air");
+    EXPECT_EQ(block({3, 3, kGroundHeight + 1}), world::kAir) << "the poppy lost its ground";
+    EXPECT_EQ(block({4, 4, kGroundHeight}), contentBlock("sand")) << "it fell";
+    fill({{5, 5, kGroundHeight}, {5, 5, kGroundHeight}}, "stone");
+    EXPECT_EQ(session_.world().blockState({5, 6, kGroundHeight}) >> world::kStateArmShift,
+              1 << world::kFaceNegY)
+        << "an arm toward the stone";
+}
+
+TEST_F(BuildTest, FencesInsideOfAFillHaveArms) {
+    fill({{2, 2, kGroundHeight}, {4, 4, kGroundHeight + 2}}, "oak_fence");
+    EXPECT_EQ(session_.world().blockState({3, 3, kGroundHeight + 1}) >> world::kStateArmShift, 15);
+    EXPECT_EQ(session_.world().blockState({2, 3, kGroundHeight + 1}) >> world::kStateArmShift, 14);
+}
+
+// Random boxes against a slow reference.
+TEST_F(BuildTest, RandomFillsAreThoseOfAPlainMap) {
+    constexpr const char* kNames[] = {"stone", "bricks", "glass", "air"};
+    const BlockBox whole{{0, 0, kGroundHeight - 4}, {11, 11, kGroundHeight + 7}};
+    std::map<BlockPos, world::BlockId> plain;
+    for (std::int64_t n = 0; n < whole.blockCount(); ++n) plain[whole.blockAt(n)] = block(whole.blockAt(n));
+    std::mt19937 random(1);
+    const auto corner = [&] { return whole.blockAt(static_cast<std::int64_t>(random() % 1728)); };
+    for (int round = 0; round < 60; ++round) {
+        const BlockPos a = corner(), b = corner();
+        const BlockBox box{{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
+                           {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
+        const world::BlockId id = contentBlock(kNames[random() % 4]);
+        const std::optional<world::BlockId> replaced =
+            random() % 2 == 0 ? std::optional(contentBlock(kNames[random() % 4])) : std::nullopt;
+        std::size_t changed = 0;
+        for (std::int64_t n = 0; n < box.blockCount(); ++n) {
+            world::BlockId& there = plain[box.blockAt(n)];
+            if (there == id || (replaced && there != *replaced)) continue;
+            there = id;
+            ++changed;
+        }
+        ASSERT_EQ(session_.build({kAnna, FillBox{box, id, 0, replaced}}).changed, changed);
+    }
+    for (const auto& [pos, id] : plain) ASSERT_EQ(block(pos), id);
+    while (session_.takeBack(kAnna, HistoryWay::Undo).outcome == TakenBack::Outcome::Done) {
+    }
+    for (const auto& [pos, id] : plain)
+        ASSERT_EQ(block(pos), pos.z < kGroundHeight ? contentBlock("stone") : world::kAir);
+}
+
+TEST_F(BuildTest, ACopyGoesThroughAFileAndIsPlacedWithItsData) {
+    const BlockBox room{{2, 2, kGroundHeight}, {5, 4, kGroundHeight + 2}};
+    fill(room, "bricks");
+    put({3, 3, kGroundHeight}, "chest");
+    put({4, 3, kGroundHeight}, "sign", 2);
+    const auto text = world::encodeSign({"hello", "", "", "there"});
+    session_.edit({kNoPlayer, {4, 3, kGroundHeight}, world::SetEntityData{text}, std::nullopt});
+    session_.edit({kNoPlayer, {3, 3, kGroundHeight}, world::SetEntityData{world::BlockEntityData(9)}, {}});
+    put({5, 4, kGroundHeight + 2}, "oak_stairs", 5);
+    const world::Structure before = copy(room);
+    const auto read = store::decodeStructure(*store::encodeStructure(before));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(place(*read, {8, 2, kGroundHeight}).result, Result::Done);
+    EXPECT_TRUE(copy({{8, 2, kGroundHeight}, {11, 4, kGroundHeight + 2}}) == before);
+    EXPECT_EQ(session_.world().blockState({10, 3, kGroundHeight}), 2);
+    const auto turned = world::turnedStructure(*read, session_.blocks(), 1);
+    EXPECT_EQ(place(turned, {2, 8, kGroundHeight}).result, Result::Done);
+    EXPECT_TRUE(copy({{2, 8, kGroundHeight}, {4, 11, kGroundHeight + 2}}) == turned);
+    session_.takeBack(kAnna, HistoryWay::Undo);
+    session_.takeBack(kAnna, HistoryWay::Undo);
+    EXPECT_EQ(block({8, 2, kGroundHeight}), world::kAir);
+    EXPECT_TRUE(copy(room) == before);
+}
+
+TEST_F(BuildTest, AContainerThatIsFilledOverComesBackWithItsThings) {
+    const BlockPos pos{3, 3, kGroundHeight};
+    put(pos, "chest");
+    session_.edit({kNoPlayer, pos, world::SetEntityData{world::BlockEntityData(9)}, std::nullopt});
+    fill(kCube, "air");
+    EXPECT_EQ(block(pos), world::kAir);
+    session_.takeBack(kAnna, HistoryWay::Undo);
+    EXPECT_EQ(block(pos), contentBlock("chest"));
+    ASSERT_TRUE(session_.world().blockEntityData(pos));
+    EXPECT_EQ(session_.world().blockEntityData(pos)->size(), 9u);
+}
+
+TEST_F(BuildTest, UnknownNamesAreMissingAndTextThatIsNoneIsLeftOut) {
+    world::Structure structure{
+        .size = {2, 1, 1}, .palette = {{"moon_cheese", 0}, {"sign", 1}}, .cells = {0, 1}, .data = {}};
+    structure.data.push_back({1, std::make_shared<const world::BlockEntityData>(9, std::byte{1})});
+    place(structure, {3, 3, kGroundHeight});
+    EXPECT_EQ(block({3, 3, kGroundHeight}), session_.blocks().missing());
+    EXPECT_EQ(block({4, 3, kGroundHeight}), contentBlock("sign"));
+    EXPECT_FALSE(session_.world().blockEntityData({4, 3, kGroundHeight}));
+}
+
+TEST_F(BuildTest, LightAfterALargeFillIsThatFromScratch) {
+    std::map<world::ChunkPos, light::ChunkLightPtr> shown;
+    const BlockBox box{{-13, -13, kGroundHeight - 10}, {28, 28, kGroundHeight + 20}};
+    for (const char* name : {"lamp_red", "stone", "glass", "air"}) {
+        ASSERT_EQ(fill(box, name).result, Result::Done);
+        settle();
+        expectLightFromScratch(shown);
+    }
+    while (session_.takeBack(kAnna, HistoryWay::Undo).outcome == TakenBack::Outcome::Done) {
+        settle();
+        expectLightFromScratch(shown);
+    }
+}
+
+// A sign's text is a step of its own, and comes back with the sign.
+TEST_F(BuildTest, TextOfASignIsUndone) {
+    const BlockPos pos{5, 5, kGroundHeight};
+    const auto say = [&](const world::BlockEntityData& data) {
+        return session_.edit({kAnna, pos, world::SetEntityData{data}, std::nullopt});
+    };
+    session_.edit({kAnna, pos, world::SetBlock{contentBlock("sign"), 3}, std::nullopt});
+    const auto text = world::encodeSign({"one", "two", "", ""});
+    EXPECT_EQ(say(text), EditResult::Applied);
+    EXPECT_EQ(say(world::BlockEntityData(20)), EditResult::BadData);
+    EXPECT_EQ(session_.world().blockState(pos), 3) << "it faces as before";
+    session_.edit({kAnna, pos, world::SetBlock{world::kAir}, std::nullopt});
+    session_.takeBack(kAnna, HistoryWay::Undo);
+    EXPECT_EQ(block(pos), contentBlock("sign"));
+    EXPECT_EQ(session_.world().blockState(pos), 3);
+    ASSERT_TRUE(session_.world().blockEntityData(pos));
+    EXPECT_EQ(*session_.world().blockEntityData(pos), text);
+    session_.takeBack(kAnna, HistoryWay::Undo);
+    EXPECT_FALSE(session_.world().blockEntityData(pos));
+    session_.takeBack(kAnna, HistoryWay::Undo);
+    EXPECT_EQ(block(pos), world::kAir);
+}
+
+}  // namespace
+}  // namespace terrane::game
