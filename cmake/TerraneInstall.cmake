@@ -85,7 +85,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION games)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # libepoxy opens these while the program runs.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libegl1, libgl1, libopengl0")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libgl1-mesa-dri, ffmpeg")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "fonts-dejavu-core, libgl1-mesa-dri, ffmpeg")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "A program to make worlds of blocks from a number, to walk, fly and build in them,
 and to make pictures and videos of them.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libterrane-dev)

@@ -226,11 +226,8 @@ BlockDescription readBlock(ContentTable& table, const BehaviorTable& behaviors,
     return block;
 }
 
-// Texts of the file may hold line breaks; an error is one line.
 base::Error oneLine(std::string message) {
-    std::replace_if(
-        message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-    return {base::ErrorCode::BadInput, std::move(message)};
+    return {base::ErrorCode::BadInput, inOneLine(std::move(message))};
 }
 
 // The tables of a kind; null where there are none.

@@ -9,6 +9,7 @@
 #include "apps/terrane/window/game.h"
 #include "apps/terrane/window/icon.h"
 #include "apps/terrane/window/key_help.h"
+#include "apps/terrane/window/text.h"
 #include "terrane/base/log.h"
 #include "terrane/base/stop_signals.h"
 #include "terrane/content/built_in.h"
@@ -174,6 +175,8 @@ void addPlaySettings(CLI::App& command, PlaySettings& settings) {
     command.add_option("--day-minutes", settings.dayMinutes, "How long a day takes")
         ->check(numberFrom(0.5, 1440))
         ->capture_default_str();
+    addChoice<std::string>(command, "--language", settings.language, languageChoices(),
+                           "Language of names and menus; auto: that of the system");
     command.add_flag("--full-screen", settings.fullScreen, "Take the whole screen");
 }
 

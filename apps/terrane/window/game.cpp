@@ -26,6 +26,7 @@ Game::Game(const GameParts& parts, const GameOptions& options)
     : parts_(parts),
       settings_(options.settings),
       applied_(options.settings),
+      tr_(textsOf(options.settings.language)),
       isSoftwareRenderer_(options.isSoftwareRenderer),
       imgui_(parts.window),
       player_(options.start, options.settings.movement),
@@ -102,7 +103,7 @@ void Game::liftFromBelow() {
     const auto lifted = game::backOnSurface(parts_.session.world(), parts_.session.blocks(), player_.pose());
     if (!lifted) return;
     player_.placeAt(*lifted, settings_.movement);
-    say("you were below the world, and are back on the ground");
+    say(tr_("you were below the world, and are back on the ground"));
 }
 
 // What changed since the last frame; the renderer sees to its own options with the frame's size.
@@ -120,8 +121,9 @@ void Game::applySettings() {
     if (settings_.resourcePack != applied_.resourcePack) {
         const auto changed = useResourcePack(settings_.resourcePack);
         if (!changed) settings_.resourcePack = applied_.resourcePack;
-        say(changed ? "textures are loaded" : changed.error().message);
+        say(changed ? tr_("textures are loaded") : changed.error().message);
     }
+    if (settings_.language != applied_.language) tr_ = textsOf(settings_.language);
     applied_ = settings_;
 }
 

@@ -11,6 +11,7 @@
 #include "apps/terrane/window/play_settings.h"
 #include "apps/terrane/window/preset_measurement.h"
 #include "apps/terrane/window/save_notice.h"
+#include "apps/terrane/window/text.h"
 #include "apps/terrane/window/window.h"
 #include "terrane/base/stop_signals.h"
 #include "terrane/base/timed_value.h"
@@ -112,6 +113,7 @@ class Game {
 
     GameParts parts_;
     PlaySettings settings_, applied_;
+    Texts tr_;
     bool isSoftwareRenderer_;
     ImguiLayer imgui_;
     game::Player player_;

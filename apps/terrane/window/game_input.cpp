@@ -1,6 +1,7 @@
 // What keys, mouse and gamepad do.
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 
 #include "apps/terrane/window/game.h"
@@ -14,6 +15,11 @@ namespace {
 constexpr double kStickDegrees = 160;  // a second, of a gamepad's stick at its end
 constexpr double kDayStep = 0.01;      // of a day, for each press
 constexpr double kMessageSeconds = 3;
+
+// By game::Movement.
+constexpr std::array<const char*, 4> kMovementTexts = {trLater("movement: fast"), trLater("movement: slow"),
+                                                       trLater("movement: not through walls"),
+                                                       trLater("movement: on foot")};
 
 // The first name of its kind that is free in the folder.
 std::filesystem::path freeScreenshot(const std::filesystem::path& folder) {
@@ -92,13 +98,13 @@ void Game::onKey(Key key) {
             break;
         case Key::I:
             parts_.session.clock.isRunning = !parts_.session.clock.isRunning;
-            say(parts_.session.clock.isRunning ? "time passes" : "time stands still");
+            say(parts_.session.clock.isRunning ? tr_("time passes") : tr_("time stands still"));
             break;
         case Key::L: {
             using render::LightSampling;
             render::LightSampling& light = settings_.graphics.render.light;
             light = light == LightSampling::Smooth ? LightSampling::Classic : LightSampling::Smooth;
-            say(light == LightSampling::Smooth ? "smooth light" : "classic light");
+            say(light == LightSampling::Smooth ? tr_("smooth light") : tr_("classic light"));
             break;
         }
         case Key::M:
@@ -147,10 +153,9 @@ void Game::answerPauseMenu(PauseChoice choice) {
 }
 
 void Game::nextMovement() {
-    const auto words = movementNames();
-    const std::size_t next = (static_cast<std::size_t>(settings_.movement) + 1) % words.size();
+    const std::size_t next = (static_cast<std::size_t>(settings_.movement) + 1) % kMovementTexts.size();
     settings_.movement = static_cast<game::Movement>(next);
-    say("movement: " + words[next].first);
+    say(tr_(kMovementTexts[next]));
 }
 
 // The sticks move and turn, as moveKeys() and this see them; buttons do what keys and the mouse do.
@@ -225,13 +230,14 @@ void Game::say(std::string message) {
 
 void Game::saveBookmark() {
     const auto done = game::appendBookmark(bookmarks_.file, player_.pose());
-    say(done ? fmt::format("bookmark saved in {}", bookmarks_.file.string()) : done.error().message);
+    say(done ? fmt::format(fmt::runtime(tr_("bookmark saved in {}")), bookmarks_.file.string())
+             : done.error().message);
 }
 
 void Game::nextBookmark() {
     const auto bookmarks = game::readBookmarks(bookmarks_);
     if (!bookmarks) return say(bookmarks.error().message);
-    if (bookmarks->empty()) return say("no bookmark is saved yet (F5)");
+    if (bookmarks->empty()) return say(tr_("no bookmark is saved yet (F5)"));
     player_.placeAt((*bookmarks)[nextBookmark_++ % bookmarks->size()], settings_.movement);
 }
 
@@ -241,7 +247,7 @@ void Game::takeScreenshot() {
     std::filesystem::create_directories(screenshots_, ignored);
     const std::filesystem::path file = freeScreenshot(screenshots_);
     const auto done = base::writePng(file, parts_.renderer.readImage());
-    say(done ? "screenshot " + file.string() : done.error().message);
+    say(done ? fmt::format(fmt::runtime(tr_("screenshot {}")), file.string()) : done.error().message);
 }
 
 game::MoveKeys Game::moveKeys() const {

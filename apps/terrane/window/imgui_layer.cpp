@@ -5,7 +5,7 @@
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
 
-#include <cmath>
+#include "apps/terrane/window/font.h"
 
 namespace terrane::app {
 namespace {
@@ -26,12 +26,10 @@ void setStyle(float scale) {
 
 // Drawn again in the size that it has on the screen, so that it is sharp.
 void setFont(float pixels) {
-    ImFontConfig config;
-    config.SizePixels = std::round(pixels);
-    ImGui::GetIO().Fonts->Clear();
-    ImGui::GetIO().Fonts->AddFontDefault(&config);
+    addFont(pixels);
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
+    replaceMissingLetters();
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ SettingValues valuesOf(const PlaySettings& s, bool isSoftwareRenderer) {
     values.emplace("mouse-sensitivity", fmt::format("{:.2f}", s.mouseSensitivity));
     values.emplace("day-minutes", fmt::format("{:.1f}", s.dayMinutes));
     if (s.fullScreen) values.emplace("full-screen", "true");
+    if (s.language != "auto") values.emplace("language", s.language);
     if (!s.resourcePack.empty()) values.emplace("resource-pack", s.resourcePack);
     return values;
 }

@@ -21,7 +21,8 @@ struct PlaySettings {
     float mouseSensitivity = 0.15f;  // degrees a screen unit
     double dayMinutes = 20;
     bool fullScreen = false;
-    std::string resourcePack;  // folder; empty: none
+    std::string resourcePack;       // folder; empty: none
+    std::string language = "auto";  // of --language (text.h)
 
     bool operator==(const PlaySettings&) const = default;
 };
