@@ -30,6 +30,7 @@ class Player {
 
     const world::Pose& pose() const { return pose_; }
     Movement movement() const { return movement_; }
+    const world::Character& character() const { return now_; }  // of a player on foot
     // The space that the player takes up; none where it passes through blocks.
     std::optional<world::Aabb> body() const;
 

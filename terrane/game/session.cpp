@@ -67,7 +67,7 @@ std::vector<EditResult> Session::edit(std::span<const EditCommand> commands) {
     for (auto& [player, recorder] : recorders)
         if (const auto found = players_.find(player); found != players_.end())
             found->second.history.add(stepSince(world_, recorder));
-    pipeline_.onEdits(edits);
+    tellEdits(commands.empty() ? kNoPlayer : commands.front().player, edits);
     return results;
 }
 
@@ -97,8 +97,13 @@ TakenBack Session::takeBack(PlayerId player, HistoryWay way) {
     world::BlockRecorder recorder;
     world::restoreBlocks(world_, *blocks_, blocks, edits, &recorder);
     found->second.history.takenBack(way, stepSince(world_, recorder));
-    pipeline_.onEdits(edits);
+    tellEdits(player, edits);
     return result;
+}
+
+void Session::tellEdits(PlayerId player, std::span<const world::BlockEdit> edits) {
+    pipeline_.onEdits(edits);
+    if (editListener_ && !edits.empty()) editListener_(player, edits);
 }
 
 bool Session::isProtected(const EditCommand& command) const {

@@ -9,6 +9,7 @@
 
 #include "terrane/world/behavior_parser.h"
 #include "terrane/world/content_table.h"
+#include "terrane/world/sound_parser.h"
 
 namespace terrane::world {
 namespace {
@@ -44,11 +45,11 @@ constexpr std::array<EnumName<Animation>, 4> kAnimations{{{"none", Animation::No
 constexpr std::array<EnumName<Wrap>, 3> kWraps{
     {{"quad", Wrap::Quad}, {"repeat", Wrap::Repeat}, {"clamp", Wrap::Clamp}}};
 
-constexpr std::array<std::string_view, 24> kBlockKeys{
-    "name",      "shape",          "texture",     "textures",     "alpha",     "animation",
-    "two_sided", "wrap",           "sharp",       "inner_faces",  "opacity",   "emission",
-    "collides",  "selection",      "selectable",  "needs_ground", "generated", "growth",
-    "slots",     "surface_height", "wave_height", "behaviors",    "tint",      "climbable"};
+constexpr std::array<std::string_view, 25> kBlockKeys{
+    "name",       "shape",        "texture",     "textures", "alpha",    "animation",      "two_sided",
+    "wrap",       "sharp",        "inner_faces", "opacity",  "emission", "collides",       "selection",
+    "selectable", "needs_ground", "generated",   "growth",   "slots",    "surface_height", "wave_height",
+    "behaviors",  "tint",         "climbable",   "sound"};
 
 // `texture` for all faces or `textures` with one a group: exactly one of them.
 Groups<std::string> readTextures(ContentTable& table) {
@@ -219,6 +220,7 @@ BlockDescription readBlock(ContentTable& table, const BehaviorTable& behaviors,
     block.type.selectable = table.boolean("selectable", true);
     block.type.generated = table.boolean("generated", true);
     block.type.climbable = table.boolean("climbable", false);
+    block.type.sound = readSound(table, block.type.shape);
     readGrowth(table, block);
     if (const toml::node* slots = table.node("slots"))
         block.type.slots = table.numberOf(*slots, "slots", 0, kMaxSlots);

@@ -35,7 +35,7 @@ std::string literalAt(std::string_view source, std::size_t at) {
     }
 }
 
-// Of all calls tr("…"), tr_("…") and trLater("…").
+// Of all calls tr("…"), tr_("…") and trLater("…"); "…" itself stands in comments.
 std::set<std::string> textsIn(std::string_view source) {
     std::set<std::string> texts;
     for (const std::string_view call : {"tr(", "tr_(", "trLater("}) {
@@ -43,7 +43,7 @@ std::set<std::string> textsIn(std::string_view source) {
             const bool isName = at > 0 && (std::isalnum(static_cast<unsigned char>(source[at - 1])) != 0 ||
                                            source[at - 1] == '_');
             std::string text = isName ? "" : literalAt(source, at + call.size());
-            if (!text.empty()) texts.insert(std::move(text));
+            if (!text.empty() && text != "…") texts.insert(std::move(text));
         }
     }
     return texts;

@@ -172,6 +172,9 @@ void addPlaySettings(CLI::App& command, PlaySettings& settings) {
     command.add_option("--mouse-sensitivity", settings.mouseSensitivity, "Degrees a step of the mouse")
         ->check(numberFrom(0.02, 0.6))
         ->capture_default_str();
+    command.add_option("--sound-volume", settings.soundVolume, "How loud sounds are, 0 (none) to 1")
+        ->check(numberFrom(0, 1))
+        ->capture_default_str();
     command.add_option("--day-minutes", settings.dayMinutes, "How long a day takes")
         ->check(numberFrom(0.5, 1440))
         ->capture_default_str();

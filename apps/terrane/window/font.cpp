@@ -27,20 +27,19 @@ constexpr std::array<std::pair<ImWchar, char>, 26> kPlainLetters = {
      {0x2010, '-'}, {0x2013, '-'}, {0x2014, '-'}, {0x2018, '\''}, {0x2019, '\''}, {0x201C, '"'},
      {0x201D, '"'}, {0x201E, '"'}}};
 
+}  // namespace
+
 const char* fontFile() {
     for (const char* file : kFontFiles)
         if (std::ifstream(file).good()) return file;
     return nullptr;
 }
 
-}  // namespace
-
-void addFont(float pixels) {
+void addFont(float pixels, const char* file) {
     ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
     ImFontConfig config;
     config.SizePixels = std::round(pixels);
     fonts.Clear();
-    const char* file = fontFile();
     config.OversampleH = 2;
     if (file && fonts.AddFontFromFileTTF(file, config.SizePixels, &config, kLetters.data())) return;
     fonts.AddFontDefault(&config);

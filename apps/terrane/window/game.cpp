@@ -27,6 +27,7 @@ Game::Game(const GameParts& parts, const GameOptions& options)
       settings_(options.settings),
       applied_(options.settings),
       tr_(textsOf(options.settings.language)),
+      sounds_(parts.session),
       isSoftwareRenderer_(options.isSoftwareRenderer),
       imgui_(parts.window),
       player_(options.start, options.settings.movement),
@@ -41,6 +42,7 @@ Game::Game(const GameParts& parts, const GameOptions& options)
         interaction_.choose(hand->id);
     parts_.session.pipeline().setMeshOptions(settings_.graphics.mesh);
     parts_.renderer.setViewDistance(settings_.graphics.viewDistance);
+    sounds_.setVolume(settings_.soundVolume);
 }
 
 base::Result<void> Game::run() {
@@ -92,6 +94,7 @@ void Game::advance(double seconds) {
     session.setPlayer(game::kLocalPlayer, player_.pose());
     interaction_.act(session, game::kLocalPlayer, player_, seconds);
     session.advance(gameSeconds, world::chunkOf(player_.pose().position));
+    sounds_.update(player_, isInMenu(), seconds);
     game::savePlayer(session.store(), playerState(), saved_);
     parts_.view.setHorizon({settings_.graphics.horizon, settings_.graphics.detail});
     parts_.view.follow(camera(), settings_.graphics.viewDistance);
@@ -123,6 +126,7 @@ void Game::applySettings() {
         if (!changed) settings_.resourcePack = applied_.resourcePack;
         say(changed ? tr_("textures are loaded") : changed.error().message);
     }
+    if (settings_.soundVolume != applied_.soundVolume) sounds_.setVolume(settings_.soundVolume);
     if (settings_.language != applied_.language) tr_ = textsOf(settings_.language);
     applied_ = settings_;
 }

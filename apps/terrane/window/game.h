@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "apps/terrane/window/game_sounds.h"
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/pad_reader.h"
 #include "apps/terrane/window/pause_menu.h"
@@ -114,6 +115,7 @@ class Game {
     GameParts parts_;
     PlaySettings settings_, applied_;
     Texts tr_;
+    GameSounds sounds_;
     bool isSoftwareRenderer_;
     ImguiLayer imgui_;
     game::Player player_;

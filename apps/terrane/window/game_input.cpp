@@ -138,6 +138,7 @@ void Game::resume() {
 }
 
 void Game::answerPauseMenu(PauseChoice choice) {
+    sounds_.click();
     switch (choice) {
         case PauseChoice::Resume:
             return resume();

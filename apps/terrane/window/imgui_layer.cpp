@@ -26,7 +26,7 @@ void setStyle(float scale) {
 
 // Drawn again in the size that it has on the screen, so that it is sharp.
 void setFont(float pixels) {
-    addFont(pixels);
+    addFont(pixels, fontFile());
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
     replaceMissingLetters();

@@ -92,6 +92,7 @@ void drawResourcePack(PlaySettings& s) {
 
 void drawPlayer(PlaySettings& s, game::DayClock& day) {
     choice("movement", s.movement, movementNames());
+    ImGui::SliderFloat("sound volume", &s.soundVolume, 0, 1, "%.2f", kTyped);
     ImGui::SliderFloat("mouse", &s.mouseSensitivity, 0.02f, 0.6f, "%.2f", kTyped);
     ImGui::Checkbox("full screen", &s.fullScreen);
     const auto languages = languageChoices();

@@ -38,6 +38,7 @@ SettingValues valuesOf(const PlaySettings& s, bool isSoftwareRenderer) {
     values.emplace("movement", nameOf(movementNames(), s.movement));
     values.emplace("field-of-view", fmt::format("{:.0f}", s.fieldOfView));
     values.emplace("mouse-sensitivity", fmt::format("{:.2f}", s.mouseSensitivity));
+    values.emplace("sound-volume", fmt::format("{:.2f}", s.soundVolume));
     values.emplace("day-minutes", fmt::format("{:.1f}", s.dayMinutes));
     if (s.fullScreen) values.emplace("full-screen", "true");
     if (s.language != "auto") values.emplace("language", s.language);

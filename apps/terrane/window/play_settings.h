@@ -21,6 +21,7 @@ struct PlaySettings {
     float mouseSensitivity = 0.15f;  // degrees a screen unit
     double dayMinutes = 20;
     bool fullScreen = false;
+    float soundVolume = 0.6f;       // 0: none
     std::string resourcePack;       // folder; empty: none
     std::string language = "auto";  // of --language (text.h)
 
