@@ -3,13 +3,17 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(modules base shared world content_files content video store gen light mesh stream game)
+set(modules base shared world content_files content sound_files sound video store gen light mesh stream game)
 set(TERRANE_GRAPHICS_PKG "")
 set(TERRANE_GRAPHICS_REQUIRES "")
 if(TERRANE_GRAPHICS)
   list(APPEND modules shaders gpu gen_gpu light_gpu mesh_gpu render view)
   set(TERRANE_GRAPHICS_PKG "epoxy=epoxy")
   set(TERRANE_GRAPHICS_REQUIRES "epoxy")
+endif()
+if(TERRANE_HAS_SOUND)
+  string(APPEND TERRANE_GRAPHICS_PKG " openal=openal")
+  string(APPEND TERRANE_GRAPHICS_REQUIRES " openal")
 endif()
 
 # Everything under one name.
@@ -85,12 +89,12 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION games)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # libepoxy opens these while the program runs.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libegl1, libgl1, libopengl0")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libgl1-mesa-dri, ffmpeg")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "fonts-dejavu-core, libgl1-mesa-dri, ffmpeg")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "A program to make worlds of blocks from a number, to walk, fly and build in them,
 and to make pictures and videos of them.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libterrane-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libepoxy-dev, libexpected-dev, libfmt-dev, libglm-dev, libhwy-dev, \
-libpng-dev, libspdlog-dev, libsqlite3-dev, libtomlplusplus-dev, libxxhash-dev, libzstd-dev")
+libopenal-dev, libpng-dev, libspdlog-dev, libsqlite3-dev, libtomlplusplus-dev, libxxhash-dev, libzstd-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The library that Terrane is made of: generation, saves, light, meshes, drawing.")
 include(CPack)

@@ -10,7 +10,7 @@ import sys
 
 def main() -> None:
     out, function, *entries = sys.argv[1:]
-    lines = ['#include "terrane/base/embedded.h"', "", "namespace terrane::embedded {", "namespace {"]
+    lines = ['#include "terrane/base/embedded.h"', "", "#include <array>", "", "namespace terrane::embedded {", "namespace {"]
     table = []
     for number, entry in enumerate(entries):
         virtual, _, real = entry.partition("=")
@@ -18,7 +18,7 @@ def main() -> None:
         values = ",".join(str(byte) for byte in data)
         lines.append(f"constexpr unsigned char kData{number}[] = {{{values or '0'}}};")
         table.append(f'    {{"{virtual}", {{reinterpret_cast<const char*>(kData{number}), {len(data)}}}}},')
-    lines += ["const base::EmbeddedFile kFiles[] = {", *table, "};", "}  // namespace", ""]
+    lines += [f"const std::array<base::EmbeddedFile, {len(table)}> kFiles = {{{{", *table, "}};", "}  // namespace", ""]
     lines += [f"std::span<const base::EmbeddedFile> {function}() {{ return kFiles; }}", ""]
     lines += ["}  // namespace terrane::embedded", ""]
     path = pathlib.Path(out)

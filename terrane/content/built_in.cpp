@@ -3,13 +3,13 @@
 #include <optional>
 
 #include "terrane/base/embedded.h"
+#include "terrane/content/content_files_internal.h"
 
 namespace terrane::embedded {
 std::span<const base::EmbeddedFile> content();
 }  // namespace terrane::embedded
 
 namespace terrane::content {
-namespace {
 
 std::optional<std::string_view> findContent(std::string_view path) {
     for (const base::EmbeddedFile& file : embedded::content()) {
@@ -17,8 +17,6 @@ std::optional<std::string_view> findContent(std::string_view path) {
     }
     return std::nullopt;
 }
-
-}  // namespace
 
 base::Result<world::BlockRegistry> loadBlocks(const world::BehaviorTable& behaviors) {
     const auto text = findContent("blocks.toml");

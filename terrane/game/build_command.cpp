@@ -151,7 +151,7 @@ BuildOutcome Session::build(const BuildCommand& command) {
     update.restore(plan.blocks, isFill ? world::RestoreScope::All : world::RestoreScope::Border);
     update.run();
     if (player != players_.end()) player->second.history.add(stepSince(world_, recorder));
-    pipeline_.onEdits(edits);
+    tellEdits(command.player, edits);
     return {Result::Done, plan.blocks.size(), plan.kept};
 }
 

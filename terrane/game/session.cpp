@@ -68,7 +68,7 @@ std::vector<EditResult> Session::edit(std::span<const EditCommand> commands) {
     for (auto& [player, recorder] : recorders)
         if (const auto found = players_.find(player); found != players_.end())
             found->second.history.add(stepSince(world_, recorder));
-    pipeline_.onEdits(edits);
+    tellEdits(commands.empty() ? kNoPlayer : commands.front().player, edits);
     return results;
 }
 
@@ -101,7 +101,7 @@ TakenBack Session::takeBack(PlayerId player, HistoryWay way) {
     world::BlockRecorder recorder;
     world::restoreBlocks(world_, *blocks_, blocks, edits, &recorder);
     found->second.history.takenBack(way, stepSince(world_, recorder));
-    pipeline_.onEdits(edits);
+    tellEdits(player, edits);
     return result;
 }
 
@@ -117,6 +117,11 @@ std::optional<EditResult> Session::refusalOfBreaking(const EditCommand& command)
     const bool isEmpty =
         items && std::ranges::all_of(*items, [](const world::ItemStack& s) { return s.count == 0; });
     return isEmpty ? std::nullopt : std::optional(EditResult::NotEmpty);
+}
+
+void Session::tellEdits(PlayerId player, std::span<const world::BlockEdit> edits) {
+    pipeline_.onEdits(edits);
+    if (editListener_ && !edits.empty()) editListener_(player, edits);
 }
 
 bool Session::canReach(PlayerId player, world::BlockPos pos) const {

@@ -3,6 +3,7 @@
 // events go out to the pipeline and so to screens and disk. Free of OpenGL. Used on one thread, the world's.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -57,6 +58,11 @@ class Session {
     // blocks were in reach once.
     TakenBack takeBack(PlayerId player, HistoryWay way);
 
+    // Called with the events of each change, and who made it, after it was made: for sounds. It changes no
+    // block.
+    using EditListener = std::function<void(PlayerId, std::span<const world::BlockEdit>)>;
+    void setEditListener(EditListener listener) { editListener_ = std::move(listener); }
+
     // Where a player stands: its edits are checked against that. Its history begins with the first call.
     void setPlayer(PlayerId player, const world::Pose& pose) { players_[player].pose = pose; }
     void removePlayer(PlayerId player) { players_.erase(player); }
@@ -93,6 +99,7 @@ class Session {
                      world::BlockRecorder& recorder);
     bool canReach(PlayerId player, world::BlockPos pos) const;
     std::optional<EditResult> refusalOfBreaking(const EditCommand& command) const;
+    void tellEdits(PlayerId player, std::span<const world::BlockEdit> edits);
 
     // They refer to each other: destroyed in reverse order.
     std::unique_ptr<const world::BlockRegistry> blocks_;
@@ -107,6 +114,7 @@ class Session {
     stream::TilePipeline tiles_;
 
     std::unordered_map<PlayerId, PlayerEntry> players_;
+    EditListener editListener_;
     double untilTick_ = 0;  // seconds of game time that made no tick yet
     std::uint64_t ticks_ = 0;
 };

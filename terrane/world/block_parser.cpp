@@ -9,6 +9,7 @@
 
 #include "terrane/world/behavior_parser.h"
 #include "terrane/world/content_table.h"
+#include "terrane/world/sound_parser.h"
 
 namespace terrane::world {
 namespace {
@@ -44,11 +45,11 @@ constexpr std::array<EnumName<Animation>, 4> kAnimations{{{"none", Animation::No
 constexpr std::array<EnumName<Wrap>, 3> kWraps{
     {{"quad", Wrap::Quad}, {"repeat", Wrap::Repeat}, {"clamp", Wrap::Clamp}}};
 
-constexpr std::array<std::string_view, 25> kBlockKeys{
+constexpr std::array<std::string_view, 26> kBlockKeys{
     "name",       "shape",        "texture",     "textures", "alpha",    "animation",      "two_sided",
     "wrap",       "sharp",        "inner_faces", "opacity",  "emission", "collides",       "selection",
     "selectable", "needs_ground", "generated",   "growth",   "slots",    "surface_height", "wave_height",
-    "behaviors",  "tint",         "climbable",   "group"};
+    "behaviors",  "tint",         "climbable",   "group",    "sound"};
 
 // `texture` for all faces or `textures` with one a group: exactly one of them.
 Groups<std::string> readTextures(ContentTable& table) {
@@ -221,6 +222,7 @@ BlockDescription readBlock(ContentTable& table, const BehaviorTable& behaviors,
     block.type.climbable = table.boolean("climbable", false);
     const toml::node* group = table.node("group");
     block.type.group = group ? table.nameOf(*group, "group") : "other";
+    block.type.sound = readSound(table, block.type.shape);
     readGrowth(table, block);
     if (const toml::node* slots = table.node("slots"))
         block.type.slots = table.numberOf(*slots, "slots", 0, kMaxSlots);
@@ -228,11 +230,8 @@ BlockDescription readBlock(ContentTable& table, const BehaviorTable& behaviors,
     return block;
 }
 
-// Texts of the file may hold line breaks; an error is one line.
 base::Error oneLine(std::string message) {
-    std::replace_if(
-        message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-    return {base::ErrorCode::BadInput, std::move(message)};
+    return {base::ErrorCode::BadInput, inOneLine(std::move(message))};
 }
 
 // The tables of a kind; null where there are none.

@@ -14,6 +14,7 @@
 #include "terrane/shared/shape_face.h"
 #include "terrane/world/block_geometry.h"
 #include "terrane/world/chunk.h"
+#include "terrane/world/sound_material.h"
 
 namespace terrane::world {
 
@@ -101,6 +102,7 @@ struct BlockType {
     std::string group;                       // of the palette of blocks
     // What it does (block_behavior.h), in the order in which they are called.
     std::vector<std::shared_ptr<const BlockBehavior>> behaviors;
+    SoundMaterial sound = SoundMaterial::None;
     int slots = 0;  // of the behavior container: stacks of items it holds
 };
 

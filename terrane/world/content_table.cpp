@@ -28,6 +28,12 @@ std::string shown(const toml::node& node) {
 
 }  // namespace
 
+std::string inOneLine(std::string message) {
+    std::replace_if(
+        message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+    return message;
+}
+
 void ContentTable::wrong(int line, std::string_view key, std::string_view what) {
     if (!error_) error_ = fmt::format("{}:{}: {}: {}", file_, line, key, what);
 }

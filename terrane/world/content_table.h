@@ -1,5 +1,5 @@
 // One table of a content file (TOML), read key by key with errors that say where and what. Used by
-// block_parser.cpp on the thread that starts a session.
+// block_parser.cpp and content/language.cpp on the thread that starts a session.
 #pragma once
 
 #include <fmt/ranges.h>
@@ -29,6 +29,9 @@ std::string listed(const Names& names) {
     }
     return text;
 }
+
+// Texts of a file may hold line breaks; an error is one line.
+std::string inOneLine(std::string message);
 
 // Readers return the key's value, or `fallback` where it is absent or wrong; what is wrong goes to the error
 // all tables of a file share, of which the first stays.

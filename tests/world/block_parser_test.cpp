@@ -35,7 +35,16 @@ constexpr std::string_view kAllKeys =
     "name, shape, texture, textures, alpha, animation, two_sided, wrap, sharp, inner_faces, opacity, "
     "emission, "
     "collides, selection, selectable, needs_ground, generated, growth, slots, surface_height, wave_height, "
-    "behaviors, tint, climbable";
+    "behaviors, tint, climbable, sound";
+
+TEST(BlockParser, Sounds) {
+    EXPECT_EQ(only(cubeWith("sound = \"wool\"")).type.sound, SoundMaterial::Wool);
+    EXPECT_EQ(only(cubeWith("sound = \"none\"")).type.sound, SoundMaterial::None);
+    EXPECT_EQ(only(cubeWith("")).type.sound, SoundMaterial::Stone);
+    const std::string head = "[[block]]\nname = \"thing\"\ntexture = \"thing\"\nopacity = 0\nshape = ";
+    EXPECT_EQ(only(head + "\"liquid\"").type.sound, SoundMaterial::Water);
+    EXPECT_EQ(only(head + "\"cross\"").type.sound, SoundMaterial::Grass);
+}
 
 TEST(BlockParser, BadLines) {
     constexpr BadLine kCases[] = {
@@ -47,6 +56,10 @@ TEST(BlockParser, BadLines) {
         {"emission = [1, 2]", "blocks.toml:5: emission: expected [red, green, blue], got an array of 2"},
         {"emission = [1, 2, 16]", "blocks.toml:5: emission: expected 0 to 15, got 16"},
         {"emission = [1,\n 2,\n \"3\"]", "blocks.toml:7: emission: expected 0 to 15, got \"3\""},
+        {"sound = \"mud\"",
+         "blocks.toml:5: sound: expected one of none, stone, wood, earth, sand, grass, glass, wool, metal, "
+         "snow, "
+         "water, got \"mud\""},
         {"collides = 1", "blocks.toml:5: collides: expected true or false, got 1"},
         {"generated = \"no\"", "blocks.toml:5: generated: expected true or false, got \"no\""},
         {"selectable = []", "blocks.toml:5: selectable: expected true or false, got an array of 0"},

@@ -8,6 +8,7 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
 #include "terrane/content/built_in.h"
+#include "terrane/content/language.h"
 
 namespace terrane::app {
 namespace {
@@ -36,7 +37,8 @@ nlohmann::json boxJson(const world::Box& box) {
     return {{box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}};
 }
 
-nlohmann::json typeJson(const world::BlockRegistry& blocks, const world::BlockType& type) {
+nlohmann::json typeJson(const world::BlockRegistry& blocks, const content::Language& english,
+                        const world::BlockType& type) {
     nlohmann::json faces = nlohmann::json::array(), collision = nlohmann::json::array();
     if (type.shape != world::Shape::None) {
         for (const std::uint16_t material : type.material) {
@@ -46,6 +48,7 @@ nlohmann::json typeJson(const world::BlockRegistry& blocks, const world::BlockTy
     for (const world::Box& box : type.collision) collision.push_back(boxJson(box));
     return {{"id", type.id},
             {"name", type.name},
+            {"shown_name", content::blockName(english, type)},
             {"shape", shapeName(type.shape)},
             {"textures", faces},
             {"opacity", type.opacity},
@@ -58,17 +61,20 @@ nlohmann::json typeJson(const world::BlockRegistry& blocks, const world::BlockTy
 base::Result<void> listBlocks(bool asJson) {
     auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
+    const auto english = content::loadLanguage("en");
+    if (!english) return tl::unexpected(english.error());
     if (asJson) {
         nlohmann::json list = nlohmann::json::array();
-        for (const world::BlockType& type : blocks->types()) list.push_back(typeJson(*blocks, type));
+        for (const world::BlockType& type : blocks->types())
+            list.push_back(typeJson(*blocks, *english, type));
         std::cout << list.dump() << '\n';
         return {};
     }
-    fmt::print("{:>4}  {:<18}{:<8}{:>8}  {:<12}{}\n", "id", "name", "shape", "opacity", "emission",
-               "collides");
+    constexpr fmt::string_view kRow = "{:>4}  {:<21}{:<24}{:<8}{:>8}  {:<12}{}\n";
+    fmt::print(kRow, "id", "name", "shown name", "shape", "opacity", "emission", "collides");
     for (const world::BlockType& type : blocks->types()) {
         const auto& e = type.emission;
-        fmt::print("{:>4}  {:<18}{:<8}{:>8}  {:<12}{}\n", type.id, type.name, shapeName(type.shape),
+        fmt::print(kRow, type.id, type.name, content::blockName(*english, type), shapeName(type.shape),
                    type.opacity, fmt::format("{},{},{}", e[0], e[1], e[2]),
                    type.collision.empty() ? "no" : "yes");
     }

@@ -7,6 +7,7 @@
 #include "apps/terrane/window/icon.h"
 #include "apps/terrane/window/key_help.h"
 #include "apps/terrane/window/play_flow.h"
+#include "apps/terrane/window/text.h"
 
 namespace terrane::app {
 namespace {
@@ -87,9 +88,14 @@ void addPlaySettings(CLI::App& command, PlaySettings& settings) {
     command.add_option("--mouse-sensitivity", settings.mouseSensitivity, "Degrees a step of the mouse")
         ->check(numberFrom(0.02, 0.6))
         ->capture_default_str();
+    command.add_option("--sound-volume", settings.soundVolume, "How loud sounds are, 0 (none) to 1")
+        ->check(numberFrom(0, 1))
+        ->capture_default_str();
     command.add_option("--day-minutes", settings.dayMinutes, "How long a day takes")
         ->check(numberFrom(0.5, 1440))
         ->capture_default_str();
+    addChoice<std::string>(command, "--language", settings.language, languageChoices(),
+                           "Language of names and menus; auto: that of the system");
     command.add_flag("--full-screen", settings.fullScreen, "Take the whole screen");
     addKeyBindings(command, settings.keys);
     command.add_flag("--invert-y", settings.invertY, "Pushing the mouse or the stick away looks down");

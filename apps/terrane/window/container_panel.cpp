@@ -30,10 +30,10 @@ void drawStack(ImVec2 min, ImVec2 max, const world::ItemStack& stack, unsigned i
 }  // namespace
 
 std::optional<game::SlotClick> drawContainer(const Screen& screen, const world::Inventory& items,
-                                             const std::function<unsigned(const std::string&)>& image) {
+                                             const ItemLooks& looks, const Texts& tr) {
     std::optional<game::SlotClick> click;
     ImGui::SetNextWindowPos({screen.width / 2, screen.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::Begin("Chest", nullptr,
+    ImGui::Begin(tr("Chest"), nullptr,
                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
     const float side = kSide * uiScale();
     for (std::size_t slot = 0; slot < items.size(); ++slot) {
@@ -43,14 +43,15 @@ std::optional<game::SlotClick> drawContainer(const Screen& screen, const world::
                                ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
         const world::ItemStack& stack = items[slot];
         drawStack(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), stack,
-                  stack.count > 0 ? image(stack.item) : 0);
-        if (stack.count > 0 && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", stack.item.c_str());
+                  stack.count > 0 ? looks.image(stack.item) : 0);
+        if (stack.count > 0 && ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s", looks.name(stack.item).c_str());
         const bool takes = ImGui::IsItemClicked(ImGuiMouseButton_Right);
         if (takes || ImGui::IsItemClicked(ImGuiMouseButton_Left))
             click = {slot, takes, ImGui::GetIO().KeyShift};
         ImGui::PopID();
     }
-    ImGui::TextUnformatted("left: put in   right: take out   Shift: a stack   Esc: close");
+    ImGui::TextUnformatted(tr("left: put in   right: take out   Shift: a stack   Esc: close"));
     ImGui::End();
     return click;
 }

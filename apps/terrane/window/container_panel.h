@@ -3,14 +3,20 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "apps/terrane/window/overlay.h"
 #include "terrane/game/container.h"
 
 namespace terrane::app {
 
-// `image`: the OpenGL texture for an item's name, 0: none.
+// What is shown of an item, by its name in the inventory.
+struct ItemLooks {
+    std::function<unsigned(const std::string&)> image;  // OpenGL texture, 0: none
+    std::function<std::string(const std::string&)> name;
+};
+
 std::optional<game::SlotClick> drawContainer(const Screen& screen, const world::Inventory& items,
-                                             const std::function<unsigned(const std::string&)>& image);
+                                             const ItemLooks& looks, const Texts& tr);
 
 }  // namespace terrane::app

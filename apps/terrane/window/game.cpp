@@ -26,6 +26,8 @@ Game::Game(const GameParts& parts, const GameOptions& options)
     : parts_(parts),
       settings_(options.settings),
       applied_(options.settings),
+      tr_(textsOf(options.settings.language)),
+      sounds_(parts.session),
       isSoftwareRenderer_(options.isSoftwareRenderer),
       imgui_(parts.window),
       player_(options.start, options.settings.movement),
@@ -44,6 +46,7 @@ Game::Game(const GameParts& parts, const GameOptions& options)
     hud_.places = game::savedPlaces(parts_.session.store());
     parts_.session.pipeline().setMeshOptions(settings_.graphics.mesh);
     parts_.renderer.setViewDistance(settings_.graphics.viewDistance);
+    sounds_.setVolume(settings_.soundVolume);
 }
 
 base::Result<void> Game::run() {
@@ -99,6 +102,7 @@ void Game::advance(double seconds) {
     breakAndBuild(seconds);
     advanceHud(seconds);
     session.advance(gameSeconds, world::chunkOf(player_.pose().position));
+    sounds_.update(player_, isInMenu(), seconds);
     game::savePlayer(session.store(), playerState(), saved_);
     parts_.view.setHorizon({settings_.graphics.horizon, settings_.graphics.detail});
     parts_.view.follow(camera(), settings_.graphics.viewDistance);
@@ -110,7 +114,7 @@ void Game::liftFromBelow() {
     const auto lifted = game::backOnSurface(parts_.session.world(), parts_.session.blocks(), player_.pose());
     if (!lifted) return;
     player_.placeAt(*lifted, settings_.movement);
-    say("you were below the world, and are back on the ground");
+    say(tr_("you were below the world, and are back on the ground"));
 }
 
 // What changed since the last frame; the renderer sees to its own options with the frame's size.
@@ -128,8 +132,10 @@ void Game::applySettings() {
     if (settings_.resourcePack != applied_.resourcePack) {
         const auto changed = useResourcePack(settings_.resourcePack);
         if (!changed) settings_.resourcePack = applied_.resourcePack;
-        say(changed ? "textures are loaded" : changed.error().message);
+        say(changed ? tr_("textures are loaded") : changed.error().message);
     }
+    if (settings_.soundVolume != applied_.soundVolume) sounds_.setVolume(settings_.soundVolume);
+    if (settings_.language != applied_.language) tr_ = textsOf(settings_.language);
     applied_ = settings_;
 }
 

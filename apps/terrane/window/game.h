@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/terrane/window/building_tools.h"
+#include "apps/terrane/window/game_sounds.h"
 #include "apps/terrane/window/hud.h"
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/pad_reader.h"
@@ -15,6 +16,7 @@
 #include "apps/terrane/window/preset_measurement.h"
 #include "apps/terrane/window/save_notice.h"
 #include "apps/terrane/window/settings_dialog.h"
+#include "apps/terrane/window/text.h"
 #include "apps/terrane/window/window.h"
 #include "terrane/base/stop_signals.h"
 #include "terrane/base/timed_value.h"
@@ -143,6 +145,8 @@ class Game {
 
     GameParts parts_;
     PlaySettings settings_, applied_;
+    Texts tr_;
+    GameSounds sounds_;
     bool isSoftwareRenderer_;
     ImguiLayer imgui_;
     game::Player player_;

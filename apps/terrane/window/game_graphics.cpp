@@ -78,7 +78,7 @@ base::Result<void> Game::configureRenderer(glm::ivec2 size) {
     render::Renderer& renderer = parts_.renderer;
     render::RenderOptions options = renderOptions();
     if (!shadersAreReady(size)) {
-        say("shaders are being compiled");
+        say(tr_("shaders are being compiled"));
         if (!hasWorldImage()) return {};
         options = renderer.options();
     }

@@ -62,7 +62,7 @@ glm::vec3 Game::lightOnHand() const {
 
 BlockFace Game::blockFace() {
     return {[this](world::BlockId block) { return hasWorldImage() ? parts_.preview.image(block) : 0; },
-            [this](world::BlockId block) { return parts_.session.blocks().type(block).name; }};
+            [this](world::BlockId block) { return tr_.block(parts_.session.blocks().type(block)); }};
 }
 
 std::string Game::targetText() const {
@@ -70,7 +70,7 @@ std::string Game::targetText() const {
     if (!target) return {};
     const world::World& world = parts_.session.world();
     const std::uint16_t state = world.blockState(target->block);
-    const std::string& name = parts_.session.blocks().type(world.block(target->block)).name;
+    const std::string name = tr_.block(parts_.session.blocks().type(world.block(target->block)));
     return fmt::format("{}{}  {}, {}, {}", name, state == 0 ? "" : fmt::format(" ({})", state),
                        target->block.x, target->block.y, target->block.z);
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "apps/terrane/window/game.h"
@@ -17,6 +18,11 @@ namespace {
 constexpr double kStickDegrees = 160;  // a second, of a gamepad's stick at its end
 constexpr double kDayStep = 0.01;      // of a day, for each press
 constexpr double kMessageSeconds = 3;
+
+// By game::Movement.
+constexpr std::array<const char*, 4> kMovementTexts = {trLater("movement: fast"), trLater("movement: slow"),
+                                                       trLater("movement: not through walls"),
+                                                       trLater("movement: on foot")};
 
 // The first name of its kind that is free in the folder.
 std::filesystem::path freeScreenshot(const std::filesystem::path& folder) {
@@ -122,7 +128,7 @@ void Game::act(Action action) {
             break;
         case Action::HoldTime:
             parts_.session.clock.isRunning = !parts_.session.clock.isRunning;
-            return say(parts_.session.clock.isRunning ? "time passes" : "time stands still");
+            return say(parts_.session.clock.isRunning ? tr_("time passes") : tr_("time stands still"));
         case Action::Light:
             return nextLight();
         case Action::Movement:
@@ -198,6 +204,7 @@ void Game::resume() {
 }
 
 void Game::answerPauseMenu(PauseChoice choice) {
+    sounds_.click();
     switch (choice) {
         case PauseChoice::Resume:
             return resume();
@@ -217,10 +224,9 @@ void Game::answerPauseMenu(PauseChoice choice) {
 }
 
 void Game::nextMovement() {
-    const auto words = movementNames();
-    const std::size_t next = (static_cast<std::size_t>(settings_.movement) + 1) % words.size();
+    const std::size_t next = (static_cast<std::size_t>(settings_.movement) + 1) % kMovementTexts.size();
     settings_.movement = static_cast<game::Movement>(next);
-    say("movement: " + words[next].first);
+    say(tr_(kMovementTexts[next]));
 }
 
 // The sticks move and turn, as moveKeys() and this see them; buttons do what keys and the mouse do.
@@ -302,13 +308,14 @@ void Game::say(std::string message) {
 
 void Game::saveBookmark() {
     const auto done = game::appendBookmark(bookmarks_.file, player_.pose());
-    say(done ? fmt::format("bookmark saved in {}", bookmarks_.file.string()) : done.error().message);
+    say(done ? fmt::format(fmt::runtime(tr_("bookmark saved in {}")), bookmarks_.file.string())
+             : done.error().message);
 }
 
 void Game::nextBookmark() {
     const auto bookmarks = game::readBookmarks(bookmarks_);
     if (!bookmarks) return say(bookmarks.error().message);
-    if (bookmarks->empty()) return say("no bookmark is saved yet (F5)");
+    if (bookmarks->empty()) return say(tr_("no bookmark is saved yet (F5)"));
     player_.placeAt((*bookmarks)[nextBookmark_++ % bookmarks->size()], settings_.movement);
 }
 
@@ -320,7 +327,7 @@ void Game::takeScreenshot() {
     const base::Image image = parts_.renderer.readImage();
     const auto done = base::writePng(file, image);
     if (done) hud_.screenshot.show(image);
-    say(done ? "screenshot " + file.string() : done.error().message);
+    say(done ? fmt::format(fmt::runtime(tr_("screenshot {}")), file.string()) : done.error().message);
 }
 
 void Game::writeThumbnail() {

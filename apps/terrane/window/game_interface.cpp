@@ -38,11 +38,11 @@ void Game::drawInterface(double seconds) {
     drawBuilding(screen);
     if (isCaptured_ && !isAbove_) drawCrosshair(screen);
     drawHud(screen, camera, seconds);
-    if (hintSeconds_ > 0) drawHint(screen, static_cast<float>(std::min(hintSeconds_, 1.0)));
+    if (hintSeconds_ > 0) drawHint(screen, static_cast<float>(std::min(hintSeconds_, 1.0)), tr_);
     if (messageSeconds_ > 0)
         drawMessage(screen, message_, static_cast<float>(std::min(messageSeconds_, 1.0)));
     wasComplete_ = wasComplete_ || progress.complete();
-    if (!wasComplete_) drawProgress(screen, progress);
+    if (!wasComplete_) drawProgress(screen, progress, tr_);
     if (showsLoading_) drawLoadingMap(screen, session.pipeline(), session.tiles().table());
     if (showsPanel_) drawStatistics(statistics(), screen.width - panelWidth() - 30 * uiScale());
     if (showsPanel_) drawPanel(settings_, session.clock, {isSoftwareRenderer_, screen.width, screen.height});
@@ -50,11 +50,11 @@ void Game::drawInterface(double seconds) {
     if (showsSettings_ && !asksToQuit_) {
         if (settingsDialog_.draw(settings_, {screen, isSoftwareRenderer_, &session.clock})) closeOne();
     } else if (isPaused_ && !asksToQuit_)
-        if (const auto choice = drawPauseMenu(screen)) answerPauseMenu(*choice);
+        if (const auto choice = drawPauseMenu(screen, tr_)) answerPauseMenu(*choice);
     const store::SaveStatus status = session.store().status();
     if (!asksToQuit_) {
-        drawSaveNotice(screen, status);
-    } else if (const auto choice = drawQuitDialog(screen, status)) {
+        drawSaveNotice(screen, status, tr_);
+    } else if (const auto choice = drawQuitDialog(screen, status, tr_)) {
         answerQuitDialog(*choice);
     }
     imgui_.endFrame();
@@ -76,7 +76,11 @@ void Game::drawOpenContainer(const Screen& screen) {
         const world::BlockType* kind = session.blocks().find(item);
         return kind ? parts_.preview.image(kind->id) : 0;
     };
-    const auto click = drawContainer(screen, *items, image);
+    const auto name = [&](const std::string& item) {
+        const world::BlockType* kind = session.blocks().find(item);
+        return kind ? tr_.block(*kind) : item;
+    };
+    const auto click = drawContainer(screen, *items, {image, name}, tr_);
     world::BlockId inHand = interaction_.block();
     if (!click || !game::clickSlot(*items, session.blocks(), *click, inHand)) return;
     game::takeInHand(interaction_.hotbar, inHand);

@@ -5,7 +5,7 @@
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
 
-#include <cmath>
+#include "apps/terrane/window/font.h"
 
 #include "apps/terrane/window/ui_style.h"
 
@@ -16,12 +16,10 @@ constexpr float kFontPixels = 13;  // of Dear ImGui's own font, for which all si
 
 // Drawn again in the size that it has on the screen, so that it is sharp.
 void setFont(float pixels) {
-    ImFontConfig config;
-    config.SizePixels = std::round(pixels);
-    ImGui::GetIO().Fonts->Clear();
-    ImGui::GetIO().Fonts->AddFontDefault(&config);
+    addFont(pixels, fontFile());
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
+    replaceMissingLetters();
 }
 
 }  // namespace

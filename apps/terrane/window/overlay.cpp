@@ -10,7 +10,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "apps/terrane/window/imgui_layer.h"
-#include "apps/terrane/window/key_help.h"
+#include "apps/terrane/window/key_help_table.h"
 #include "apps/terrane/window/screen_projection.h"
 #include "terrane/base/process_statistics.h"
 #include "terrane/game/block_interaction.h"
@@ -167,21 +167,19 @@ void drawStatistics(const Statistics& f, float width) {
     ImGui::End();
 }
 
-void drawProgress(const Screen& screen, const stream::Progress& progress) {
+void drawProgress(const Screen& screen, const stream::Progress& progress, const Texts& tr) {
     const float share =
         static_cast<float>(progress.visible) / static_cast<float>(std::max<std::size_t>(progress.inView, 1));
     centered("progress", screen, screen.height - 90 * uiScale());
-    ImGui::Text("the world comes into view");
+    ImGui::TextUnformatted(tr("The world comes into view"));
     ImGui::ProgressBar(share, {240 * uiScale(), 8 * uiScale()}, "");
     ImGui::End();
 }
 
-void drawHint(const Screen& screen, float share) {
+void drawHint(const Screen& screen, float share, const Texts& tr) {
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, share);
     centered("hint", screen, screen.height * 0.35f);
-    ImGui::PushTextWrapPos(screen.width - 40 * uiScale());
-    ImGui::TextUnformatted(kKeyHelp);
-    ImGui::PopTextWrapPos();
+    drawKeyHelp(screen.width - 40 * uiScale(), tr);
     ImGui::End();
     ImGui::PopStyleVar();
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/terrane/window/text.h"
 #include "terrane/game/block_interaction.h"
 #include "terrane/gpu/timer.h"
 #include "terrane/render/renderer.h"
@@ -59,9 +60,9 @@ struct Statistics {
 void drawStatistics(const Statistics& statistics, float width);
 
 // While chunks in view are missing.
-void drawProgress(const Screen& screen, const stream::Progress& progress);
+void drawProgress(const Screen& screen, const stream::Progress& progress, const Texts& tr);
 // The keys, for the first moments. `share`: 1 in full, 0 gone.
-void drawHint(const Screen& screen, float share);
+void drawHint(const Screen& screen, float share, const Texts& tr);
 // A line that tells what just happened.
 void drawMessage(const Screen& screen, const std::string& message, float share);
 

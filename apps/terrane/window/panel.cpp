@@ -5,6 +5,7 @@
 #include <array>
 
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/text.h"
 
 namespace terrane::app {
 namespace {
@@ -91,8 +92,11 @@ void drawResourcePack(PlaySettings& s) {
 
 void drawPlayer(PlaySettings& s, game::DayClock& day) {
     choice("movement", s.movement, movementNames());
+    ImGui::SliderFloat("sound volume", &s.soundVolume, 0, 1, "%.2f", kTyped);
     ImGui::SliderFloat("mouse", &s.mouseSensitivity, 0.02f, 0.6f, "%.2f", kTyped);
     ImGui::Checkbox("full screen", &s.fullScreen);
+    const auto languages = languageChoices();
+    choice<std::string>("language", s.language, languages);
     float time = static_cast<float>(day.timeDay);
     if (ImGui::SliderFloat("time of day", &time, 0, 1, "%.3f", kTyped)) day.timeDay = double{time};
     ImGui::Checkbox("time passes", &day.isRunning);

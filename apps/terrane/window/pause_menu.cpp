@@ -10,19 +10,19 @@
 
 namespace terrane::app {
 
-std::optional<PauseChoice> drawPauseMenu(const Screen& screen) {
-    constexpr std::pair<const char*, PauseChoice> kButtons[] = {
-        {"Resume (Esc)", PauseChoice::Resume},
-        {"Settings", PauseChoice::Settings},
-        {"Keys (F1)", PauseChoice::Help},
-        {"Save and quit to title", PauseChoice::ToTitle},
-        {"Save and quit (Q)", PauseChoice::Quit}};
+std::optional<PauseChoice> drawPauseMenu(const Screen& screen, const Texts& tr) {
+    const std::pair<const char*, PauseChoice> buttons[] = {
+        {tr("Resume (Esc)"), PauseChoice::Resume},
+        {tr("Settings"), PauseChoice::Settings},
+        {tr("Keys (F1)"), PauseChoice::Help},
+        {tr("Save and quit to title"), PauseChoice::ToTitle},
+        {tr("Save and quit (Q)"), PauseChoice::Quit}};
     std::optional<PauseChoice> choice;
     ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, {screen.width, screen.height},
                                                   IM_COL32(0, 0, 0, 90));
     const float width = std::min(240 * uiScale(), screen.width - 20 * uiScale());
-    beginMenu({"Paused", {screen.width / 2, screen.height / 2}, {width, 0}});
-    for (const auto& [label, meaning] : kButtons) {
+    beginMenu({tr("Paused"), {screen.width / 2, screen.height / 2}, {width, 0}});
+    for (const auto& [label, meaning] : buttons) {
         if (menuButton(label)) choice = meaning;
         if (meaning == PauseChoice::Resume && ImGui::IsWindowAppearing()) ImGui::SetItemDefaultFocus();
     }

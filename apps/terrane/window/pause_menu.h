@@ -5,12 +5,13 @@
 #include <optional>
 
 #include "apps/terrane/window/overlay.h"
+#include "apps/terrane/window/text.h"
 
 namespace terrane::app {
 
 enum class PauseChoice : std::uint8_t { Resume, Settings, Help, ToTitle, Quit };
 
 // Nothing until a button is clicked, or chosen with the arrow keys and Enter.
-std::optional<PauseChoice> drawPauseMenu(const Screen& screen);
+std::optional<PauseChoice> drawPauseMenu(const Screen& screen, const Texts& tr);
 
 }  // namespace terrane::app

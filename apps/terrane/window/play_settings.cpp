@@ -36,6 +36,7 @@ SettingValues valuesOf(const PlaySettings& s, bool isSoftwareRenderer) {
     values.emplace("view-distance", fmt::format("{}", s.graphics.viewDistance));
     values.emplace("field-of-view", fmt::format("{:.0f}", s.fieldOfView));
     values.emplace("mouse-sensitivity", fmt::format("{:.2f}", s.mouseSensitivity));
+    values.emplace("sound-volume", fmt::format("{:.2f}", s.soundVolume));
     values.emplace("day-minutes", fmt::format("{:.1f}", s.dayMinutes));
     if (s.fullScreen) values.emplace("full-screen", "true");
     if (const std::string keys = textOf(s.keys); !keys.empty()) values.emplace("keys", keys);
@@ -44,6 +45,7 @@ SettingValues valuesOf(const PlaySettings& s, bool isSoftwareRenderer) {
     if (s.textSize != 1) values.emplace("text-size", fmt::format("{:.2f}", s.textSize));
     if (s.highContrast) values.emplace("high-contrast", "true");
     if (s.reducedMotion) values.emplace("reduced-motion", "true");
+    if (s.language != "auto") values.emplace("language", s.language);
     return values;
 }
 

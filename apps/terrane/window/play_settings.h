@@ -24,7 +24,9 @@ struct PlaySettings {
     float mouseSensitivity = 0.15f;  // degrees a screen unit
     double dayMinutes = 20;
     bool fullScreen = false;
-    std::string resourcePack;  // folder; empty: none
+    float soundVolume = 0.6f;       // 0: none
+    std::string resourcePack;       // folder; empty: none
+    std::string language = "auto";  // of --language (text.h)
 
     KeyBindings keys;
     bool invertY = false;  // the mouse and the stick: away from the player looks down

@@ -21,39 +21,40 @@ void beginNotice(const char* title, const Screen& screen, float height, ImGuiWin
     ImGui::PopStyleColor();
 }
 
-void drawProblem(const store::SaveStatus& status) {
+void drawProblem(const store::SaveStatus& status, const Texts& tr) {
     ImGui::TextWrapped("%s", status.problem.c_str());
     ImGui::TextWrapped(
-        "For %.0f s; %zu chunks wait and are tried again. Nothing is lost while the program runs.",
+        tr("For %.0f s; %zu chunks wait and are tried again. Nothing is lost while the program runs."),
         status.failingSeconds, status.waiting);
 }
 
 }  // namespace
 
-void drawSaveNotice(const Screen& screen, const store::SaveStatus& status) {
+void drawSaveNotice(const Screen& screen, const store::SaveStatus& status, const Texts& tr) {
     if (status.problem.empty()) return;
     beginNotice("save notice", screen, 10 * uiScale(),
                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
-    ImGui::TextUnformatted("The world is not being saved");
-    drawProblem(status);
+    ImGui::TextUnformatted(tr("The world is not being saved"));
+    drawProblem(status, tr);
     ImGui::End();
 }
 
-std::optional<QuitChoice> drawQuitDialog(const Screen& screen, const store::SaveStatus& status) {
+std::optional<QuitChoice> drawQuitDialog(const Screen& screen, const store::SaveStatus& status,
+                                         const Texts& tr) {
     std::optional<QuitChoice> choice;
-    beginNotice("The world could not be saved", screen, screen.height * 0.35f, ImGuiWindowFlags_None);
+    beginNotice(tr("The world could not be saved"), screen, screen.height * 0.35f, ImGuiWindowFlags_None);
     if (status.problem.empty()) {
-        ImGui::TextWrapped("Saving works again.");
+        ImGui::TextWrapped("%s", tr("Saving works again."));
     } else {
-        drawProblem(status);
+        drawProblem(status, tr);
     }
     ImGui::Spacing();
-    if (ImGui::Button("Try again and quit")) choice = QuitChoice::TryAgain;
+    if (ImGui::Button(tr("Try again and quit"))) choice = QuitChoice::TryAgain;
     ImGui::SameLine();
-    if (ImGui::Button("Keep playing")) choice = QuitChoice::Stay;
+    if (ImGui::Button(tr("Keep playing"))) choice = QuitChoice::Stay;
     ImGui::SameLine();
-    if (ImGui::Button("Quit and lose it")) choice = QuitChoice::QuitUnsaved;
+    if (ImGui::Button(tr("Quit and lose it"))) choice = QuitChoice::QuitUnsaved;
     ImGui::End();
     return choice;
 }

@@ -11,11 +11,12 @@ namespace terrane::app {
 
 // What fails, for how long, how much waits and what helps: at the top of the screen. Nothing where saving
 // works.
-void drawSaveNotice(const Screen& screen, const store::SaveStatus& status);
+void drawSaveNotice(const Screen& screen, const store::SaveStatus& status, const Texts& tr);
 
 enum class QuitChoice : std::uint8_t { Stay, TryAgain, QuitUnsaved };
 
 // Asked where the last attempt to save failed. Nothing until a button is clicked.
-std::optional<QuitChoice> drawQuitDialog(const Screen& screen, const store::SaveStatus& status);
+std::optional<QuitChoice> drawQuitDialog(const Screen& screen, const store::SaveStatus& status,
+                                         const Texts& tr);
 
 }  // namespace terrane::app

@@ -1,0 +1,19 @@
+// The keys of key_help.h in two columns, in the player's language.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/terrane/window/text.h"
+
+namespace terrane::app {
+
+struct KeyHelpLine {
+    std::string keys, action;
+};
+
+std::vector<KeyHelpLine> keyHelpLines();  // of kKeyHelp
+// Into the window that Dear ImGui is at; `width`: at which lines break.
+void drawKeyHelp(float width, const Texts& tr);
+
+}  // namespace terrane::app

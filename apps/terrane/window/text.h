@@ -1,0 +1,33 @@
+// Texts of the user interface in the player's language. The sources have them in English as tr("…"); a test
+// compares these with the files of languages.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "terrane/content/language.h"
+
+namespace terrane::app {
+
+// Texts stay where they are while the object lives and keeps its language.
+struct Texts {
+    content::Language language;
+
+    // As Dear ImGui and printf take it; the fields (%d, {}) are those of `english`.
+    const char* operator()(const char* english) const { return content::text(language, english).data(); }
+    std::string block(const world::BlockType& type) const { return content::blockName(language, type); }
+};
+
+// Marks a text that is translated later, tr(kTexts[k]).
+constexpr const char* trLater(const char* english) {
+    return english;
+}
+
+// Values of --language: auto and the codes of the languages.
+std::vector<std::pair<std::string, std::string>> languageChoices();
+// "auto": the language of the environment, the first of LC_ALL, LC_MESSAGES and LANG that is set.
+std::string_view languageCode(const std::string& choice);
+Texts textsOf(const std::string& choice);
+
+}  // namespace terrane::app

@@ -1,0 +1,259 @@
+#include "terrane/sound/sound_player.h"
+
+#include <AL/al.h>
+#include <AL/alc.h>
+#include <AL/alext.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+#include <utility>
+
+#include "terrane/sound/sound_card.h"
+#include "terrane/world/pose.h"
+
+namespace terrane::sound {
+namespace {
+
+// OpenAL numbers 0 for "no buffer", "no source".
+constexpr ALuint kNone = 0;
+
+struct LoopbackFunctions {
+    LPALCLOOPBACKOPENDEVICESOFT open = nullptr;
+    LPALCRENDERSAMPLESSOFT render = nullptr;
+};
+
+template <class Function>
+Function alcFunction(const char* name) {
+    return reinterpret_cast<Function>(alcGetProcAddress(nullptr, name));
+}
+
+LoopbackFunctions loopbackFunctions() {
+    if (alcIsExtensionPresent(nullptr, "ALC_SOFT_loopback") != ALC_TRUE) return {};
+    return {alcFunction<LPALCLOOPBACKOPENDEVICESOFT>("alcLoopbackOpenDeviceSOFT"),
+            alcFunction<LPALCRENDERSAMPLESSOFT>("alcRenderSamplesSOFT")};
+}
+
+struct DeviceCloser {
+    void operator()(ALCdevice* device) const { alcCloseDevice(device); }
+};
+struct ContextCloser {
+    void operator()(ALCcontext* context) const {
+        alcMakeContextCurrent(nullptr);
+        alcDestroyContext(context);
+    }
+};
+
+// How loud a sound is at a distance, as AL_INVERSE_DISTANCE_CLAMPED has it.
+double gainAt(double distance) {
+    return kFullVolumeDistance / std::max(distance, kFullVolumeDistance);
+}
+
+// What sounds like a one-shot or a loop: a source and where in the world it is.
+struct Source {
+    ALuint id = kNone;
+    std::optional<glm::dvec3> position;
+    float volume = 0;
+};
+
+struct Loop {
+    Source source;
+    float target = 0;  // volume
+};
+
+bool isPlaying(const Source& source) {
+    ALint state = AL_STOPPED;
+    alGetSourcei(source.id, AL_SOURCE_STATE, &state);
+    return state == AL_PLAYING;
+}
+
+}  // namespace
+
+struct SoundPlayer::Device {
+    std::unique_ptr<ALCdevice, DeviceCloser> device;
+    std::unique_ptr<ALCcontext, ContextCloser> context;
+    LPALCRENDERSAMPLESSOFT renderSamples = nullptr;
+    std::map<std::string, std::vector<ALuint>, std::less<>> buffers;
+    std::array<Source, kMaxSources> sources;
+    std::map<std::string, Loop, std::less<>> loops;
+    glm::dvec3 ears{0};
+    std::uint32_t random = 1;
+
+    ~Device();
+    base::Result<void> open(SoundOutput output);
+    base::Result<void> addBuffers(const SoundSet& sounds);
+    ALuint anyOf(const std::vector<ALuint>& variants);
+    double loudness(const Source& source) const;
+    Source* freeSource(double loudnessOfNew);
+    void place(const Source& source) const;
+};
+
+SoundPlayer::Device::~Device() {
+    if (!context) return;
+    for (const Source& source : sources) alDeleteSources(1, &source.id);
+    for (const auto& [name, loop] : loops) alDeleteSources(1, &loop.source.id);
+    for (const auto& [name, variants] : buffers)
+        alDeleteBuffers(static_cast<ALsizei>(variants.size()), variants.data());
+}
+
+base::Result<void> SoundPlayer::Device::open(SoundOutput output) {
+    const std::array<ALCint, 7> inMemory = {ALC_FORMAT_CHANNELS_SOFT,
+                                            ALC_STEREO_SOFT,
+                                            ALC_FORMAT_TYPE_SOFT,
+                                            ALC_FLOAT_SOFT,
+                                            ALC_FREQUENCY,
+                                            kMemoryRate,
+                                            0};
+    if (output == SoundOutput::Memory) {
+        const LoopbackFunctions loopback = loopbackFunctions();
+        if (!loopback.open || !loopback.render)
+            return base::fail(base::ErrorCode::Unsupported, "OpenAL cannot write sounds into memory");
+        device.reset(loopback.open(nullptr));
+        renderSamples = loopback.render;
+    } else if (hasSoundCard()) {
+        device.reset(alcOpenDevice(nullptr));
+    }
+    if (!device) return base::fail(base::ErrorCode::NotFound, "no device for sounds");
+    context.reset(alcCreateContext(device.get(), output == SoundOutput::Memory ? inMemory.data() : nullptr));
+    if (!context || alcMakeContextCurrent(context.get()) != ALC_TRUE)
+        return base::fail("the device for sounds cannot be used");
+    alDistanceModel(AL_INVERSE_DISTANCE_CLAMPED);
+    for (Source& source : sources) alGenSources(1, &source.id);
+    return alGetError() == AL_NO_ERROR ? base::Result<void>()
+                                       : base::fail("the device for sounds has too few sources");
+}
+
+base::Result<void> SoundPlayer::Device::addBuffers(const SoundSet& sounds) {
+    for (const auto& [name, variants] : sounds) {
+        std::vector<ALuint>& ids = buffers[name];
+        for (const Wave& wave : variants) {
+            ids.push_back(kNone);
+            alGenBuffers(1, &ids.back());
+            alBufferData(ids.back(), AL_FORMAT_MONO16, wave.samples.data(),
+                         static_cast<ALsizei>(wave.samples.size() * sizeof(std::int16_t)), wave.rate);
+        }
+    }
+    return alGetError() == AL_NO_ERROR ? base::Result<void>()
+                                       : base::fail(base::ErrorCode::OutOfResources, "no memory for sounds");
+}
+
+ALuint SoundPlayer::Device::anyOf(const std::vector<ALuint>& variants) {
+    random = random * 1664525u + 1013904223u;
+    return variants[(random >> 16) % variants.size()];
+}
+
+double SoundPlayer::Device::loudness(const Source& source) const {
+    return double{source.volume} * (source.position ? gainAt(glm::distance(*source.position, ears)) : 1);
+}
+
+// One that is silent, else the quietest if it is quieter than the new sound; null: none.
+Source* SoundPlayer::Device::freeSource(double loudnessOfNew) {
+    for (Source& source : sources)
+        if (!isPlaying(source)) return &source;
+    Source* quietest = &sources[0];
+    for (Source& source : sources)
+        if (loudness(source) < loudness(*quietest)) quietest = &source;
+    return loudness(*quietest) < loudnessOfNew ? quietest : nullptr;
+}
+
+// The ears stay at OpenAL's origin: its floats are exact wherever the player is.
+void SoundPlayer::Device::place(const Source& source) const {
+    const glm::vec3 p = source.position ? glm::vec3(*source.position - ears) : glm::vec3(0);
+    alSourcei(source.id, AL_SOURCE_RELATIVE, source.position ? AL_FALSE : AL_TRUE);
+    alSource3f(source.id, AL_POSITION, p.x, p.y, p.z);
+    alSourcef(source.id, AL_REFERENCE_DISTANCE, static_cast<float>(kFullVolumeDistance));
+}
+
+base::Result<SoundPlayer> SoundPlayer::create(const SoundSet& sounds, SoundOutput output) {
+    auto device = std::make_unique<Device>();
+    if (auto done = device->open(output); !done) return tl::unexpected(done.error());
+    if (auto done = device->addBuffers(sounds); !done) return tl::unexpected(done.error());
+    return SoundPlayer(std::move(device));
+}
+
+SoundPlayer::SoundPlayer(std::unique_ptr<Device> device) : device_(std::move(device)) {}
+SoundPlayer::SoundPlayer(SoundPlayer&&) noexcept = default;
+SoundPlayer& SoundPlayer::operator=(SoundPlayer&&) noexcept = default;
+SoundPlayer::~SoundPlayer() = default;
+
+void SoundPlayer::setVolume(float volume) {
+    alListenerf(AL_GAIN, std::clamp(volume, 0.0f, 1.0f));
+}
+
+void SoundPlayer::setListener(const glm::dvec3& position, float yaw, float pitch) {
+    device_->ears = position;
+    const glm::vec3 ahead = world::lookDirection(yaw, pitch);
+    const glm::vec3 up = glm::cross(world::rightDirection(yaw), ahead);
+    const std::array<ALfloat, 6> orientation = {ahead.x, ahead.y, ahead.z, up.x, up.y, up.z};
+    alListenerfv(AL_ORIENTATION, orientation.data());
+    for (const Source& source : device_->sources) device_->place(source);
+    for (const auto& [name, loop] : device_->loops) device_->place(loop.source);
+}
+
+void SoundPlayer::play(const SoundCue& cue) {
+    const auto found = device_->buffers.find(cue.name);
+    if (found == device_->buffers.end() || found->second.empty()) return;
+    const Source wanted{kNone, cue.position, std::clamp(cue.volume, 0.0f, 1.0f)};
+    const bool isNear = !cue.position || glm::distance(*cue.position, device_->ears) <= kHearingDistance;
+    Source* source = isNear && wanted.volume > 0 ? device_->freeSource(device_->loudness(wanted)) : nullptr;
+    if (!source) return;
+    *source = {source->id, wanted.position, wanted.volume};
+    alSourceStop(source->id);
+    alSourcei(source->id, AL_BUFFER, static_cast<ALint>(device_->anyOf(found->second)));
+    alSourcef(source->id, AL_GAIN, source->volume);
+    alSourcef(source->id, AL_PITCH, std::clamp(cue.pitch, 0.25f, 4.0f));
+    device_->place(*source);
+    alSourcePlay(source->id);
+}
+
+void SoundPlayer::setLoop(const SoundCue& cue) {
+    const auto found = device_->buffers.find(cue.name);
+    if (found == device_->buffers.end() || found->second.empty()) return;
+    auto loop = device_->loops.find(cue.name);
+    if (loop == device_->loops.end()) {
+        if (cue.volume <= 0) return;
+        loop = device_->loops.emplace(cue.name, Loop()).first;
+        alGenSources(1, &loop->second.source.id);
+        alSourcei(loop->second.source.id, AL_BUFFER, static_cast<ALint>(found->second.front()));
+        alSourcei(loop->second.source.id, AL_LOOPING, AL_TRUE);
+    }
+    loop->second.target = std::clamp(cue.volume, 0.0f, 1.0f);
+    loop->second.source.position = cue.position;
+    device_->place(loop->second.source);
+}
+
+void SoundPlayer::update(double seconds) {
+    const float step = static_cast<float>(seconds / kFadeSeconds);
+    for (auto& [name, loop] : device_->loops) {
+        float& volume = loop.source.volume;
+        volume = loop.target > volume ? std::min(loop.target, volume + step)
+                                      : std::max(loop.target, volume - step);
+        alSourcef(loop.source.id, AL_GAIN, volume);
+        const bool plays = isPlaying(loop.source);
+        if (volume > 0 && !plays) alSourcePlay(loop.source.id);
+        if (volume == 0.0f && plays) alSourcePause(loop.source.id);
+    }
+}
+
+void SoundPlayer::stop() {
+    for (const Source& source : device_->sources) alSourceStop(source.id);
+    for (auto& [name, loop] : device_->loops) {
+        loop.source.volume = loop.target = 0;
+        alSourceStop(loop.source.id);
+    }
+}
+
+int SoundPlayer::playing() const {
+    return static_cast<int>(std::ranges::count_if(device_->sources, isPlaying));
+}
+
+std::vector<float> SoundPlayer::render(std::size_t frames) {
+    std::vector<float> samples(2 * frames);
+    if (device_->renderSamples)
+        device_->renderSamples(device_->device.get(), samples.data(), static_cast<ALCsizei>(frames));
+    return samples;
+}
+
+}  // namespace terrane::sound

@@ -1,0 +1,69 @@
+// Plays sounds at places of the world, through OpenAL. Owns the device and all that is made on it. Used on
+// one thread, which need not be the one that made it; one player at a time. No call waits for the device.
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "terrane/base/result.h"
+#include "terrane/sound/sound_set.h"
+
+namespace terrane::sound {
+
+constexpr int kMaxSources = 24;            // sounds at once, loops not counted
+constexpr double kHearingDistance = 48;    // blocks; what is farther is not played
+constexpr double kFullVolumeDistance = 2;  // blocks; from there on sounds get quieter
+constexpr double kFadeSeconds = 1.5;       // of a loop, from silence to full volume
+
+enum class SoundOutput : std::uint8_t {
+    Device,  // the system's speakers
+    Memory,  // render(), for tests
+};
+
+struct SoundCue {
+    std::string_view name;               // in the SoundSet; others are silent
+    std::optional<glm::dvec3> position;  // in the world; none: in the player's head
+    float volume = 1;                    // 0 to 1
+    float pitch = 1;                     // 2: an octave higher
+};
+
+class SoundPlayer {
+  public:
+    static constexpr int kMemoryRate = 44100;  // samples a second of render()
+
+    // Unsupported in a build without OpenAL; NotFound where the system has nothing to play on. May take
+    // seconds where the system's sound server does not answer.
+    static base::Result<SoundPlayer> create(const SoundSet& sounds, SoundOutput output = SoundOutput::Device);
+    SoundPlayer(SoundPlayer&&) noexcept;
+    SoundPlayer& operator=(SoundPlayer&&) noexcept;
+    ~SoundPlayer();
+
+    void setVolume(float volume);  // of all; 0 to 1
+    // Where the ears are, in the world, and where they point (world::Pose).
+    void setListener(const glm::dvec3& position, float yaw, float pitch);
+
+    // One of the sound's variants. Where all sources are busy the quietest one stops, if it is quieter.
+    void play(const SoundCue& cue);
+    // A sound that goes on; it reaches its volume within kFadeSeconds, and stops at 0.
+    void setLoop(const SoundCue& cue);
+    // Fades loops. Once a frame.
+    void update(double seconds);
+    // Silences all at once.
+    void stop();
+
+    int playing() const;  // sounds that are heard now, loops not counted
+    // The next frames of SoundOutput::Memory: left, right, left…, −1 to 1.
+    std::vector<float> render(std::size_t frames);
+
+  private:
+    struct Device;
+    explicit SoundPlayer(std::unique_ptr<Device> device);
+
+    std::unique_ptr<Device> device_;
+};
+
+}  // namespace terrane::sound

@@ -1,0 +1,23 @@
+// Samples of a sound, as WAV files have them.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "terrane/base/result.h"
+
+namespace terrane::sound {
+
+struct Wave {
+    int rate = 0;  // samples a second
+    std::vector<std::int16_t> samples;
+};
+
+// 48,000 × 60 s × 2 bytes = 5.8 MB.
+constexpr std::size_t kMaxWaveSamples = 48000 * 60;
+
+// Of one channel with 16 bits a sample, at 8,000 to 48,000 a second. `name` stands in errors.
+base::Result<Wave> parseWave(std::string_view bytes, std::string_view name);
+
+}  // namespace terrane::sound
