@@ -1,5 +1,6 @@
 // Edits in batches through the session's door: what a fill or a clear of N³ blocks costs until its light and
-// meshes are there. Items a second are blocks; they stay the same where time is linear in blocks.
+// meshes are there. Items a second are blocks; they stay the same where time is linear in blocks. And a
+// flood.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -120,8 +121,42 @@ void buildBox(benchmark::State& state) {
     state.SetItemsProcessed(changed);
 }
 
+// N² sources in the air, until their water has settled: the longest of its ticks, and of what light and
+// meshes take after one.
+void flood(benchmark::State& state) {
+    using Milliseconds = std::chrono::duration<double, std::milli>;
+    const auto session = loadedSession();
+    const int side = static_cast<int>(state.range(0));
+    std::vector<game::EditCommand> sources, none;
+    for (int k = 0; k < side * side; ++k) {
+        const world::BlockPos pos{4 * (k % side - side / 2), 4 * (k / side - side / 2), 100};
+        sources.push_back({game::kNoPlayer, pos, world::SetBlock{bench::blockId("water")}, {}});
+        none.push_back({game::kNoPlayer, pos, world::SetBlock{}, {}});
+    }
+    double longestTick = 0, longestRest = 0;
+    constexpr int kTicks = 60;
+    for (auto _ : state) {
+        for (const auto& commands : {sources, none}) {
+            session->edit(commands);
+            for (int tick = 0; tick < kTicks; ++tick) {
+                const auto begin = std::chrono::steady_clock::now();
+                session->advance(0.25, {0, 0});
+                const auto between = std::chrono::steady_clock::now();
+                settle(*session);
+                const auto end = std::chrono::steady_clock::now();
+                session->pipeline().takeChanges(1 << 20);
+                longestTick = std::max(longestTick, Milliseconds(between - begin).count());
+                longestRest = std::max(longestRest, Milliseconds(end - between).count());
+            }
+        }
+    }
+    state.counters["tick_ms"] = longestTick;
+    state.counters["light_mesh_ms"] = longestRest;
+}
+
 }  // namespace
 
+BENCHMARK(flood)->Arg(8)->Arg(16)->Unit(benchmark::kMillisecond)->Iterations(1);
 BENCHMARK(fillWithStone)->Arg(8)->Arg(16)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
 BENCHMARK(fillWithLamps)->Arg(8)->Arg(16)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
 BENCHMARK(clearStone)->Arg(8)->Arg(16)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);

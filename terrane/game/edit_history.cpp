@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "terrane/world/liquid_flow.h"
+
 namespace terrane::game {
 namespace {
 
@@ -10,13 +12,19 @@ bool isSameData(const world::BlockValue& a, const world::BlockValue& b) {
     return a.data == b.data || *a.data == *b.data;
 }
 
+// Liquid beside what changed is to be looked at: that is no change to take back.
+bool isUnchanged(const world::BlockValue& before, const world::BlockValue& now) {
+    const bool isSameLiquid = before.id == now.id && !before.data && !now.data;
+    return now == before || (isSameLiquid && (before.state | world::kLiquidUnsettled) == now.state);
+}
+
 }  // namespace
 
 EditStep stepSince(const world::World& world, world::BlockRecorder& recorder) {
     EditStep step;
     for (world::PlacedBlock& noted : recorder.take()) {
         world::BlockValue now = world::blockValue(world, noted.pos);
-        if (now == noted.value) continue;
+        if (isUnchanged(noted.value, now)) continue;
         step.push_back({noted.pos, std::move(noted.value), std::move(now)});
     }
     return step;

@@ -91,7 +91,7 @@ TEST(BlockParser, BadLines) {
          "\"liquid_surface\", got 0.1"},
         {"behaviors = \"falling\"", "blocks.toml:5: behaviors: expected an array of names, got \"falling\""},
         {"behaviors = [\"plant\",\n \"flies\"]",
-         "blocks.toml:6: behaviors: expected one of plant, crop, falling, container, stands, leans, "
+         "blocks.toml:6: behaviors: expected one of plant, crop, falling, container, flows, stands, leans, "
          "stands_or_leans, connects, opens, door, sign, got \"flies\""},
         {"alpha = \"test\"", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
         {"alpha = { top = \"blend\" }", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},

@@ -138,6 +138,22 @@ TEST(LiquidProperty, OrderOfChunksAndWhereTheCenterIsDoNotMatter) {
     }
 }
 
+// As a save might hold them.
+TEST(LiquidProperty, AnyStatesComeToRest) {
+    for (unsigned seed = 80; seed < 84; ++seed) {
+        FlowWorld flow;
+        fillBasin(flow, chunkOrder(seed));
+        std::mt19937 random(seed);
+        for (int k = 0; k < 3000; ++k) {
+            const auto below = [&](unsigned n) { return static_cast<int>(random() % n); };
+            const BlockPos pos{below(24) + 4, below(24) + 4, 1 + below(kHeight)};
+            putBlock(flow.world, pos, below(3) == 0 ? contentBlock("stone") : flow.water);
+            putState(flow.world, pos, static_cast<std::uint16_t>(random()));
+        }
+        flow.settle();
+    }
+}
+
 // No water above a source, nor where no source was.
 TEST(LiquidProperty, NeverRisesAboveItsSources) {
     for (unsigned seed = 60; seed < 66; ++seed) {
