@@ -30,6 +30,8 @@ void Game::handleEvents() {
     using Type = InputEvent::Type;
     const bool wasCaptured = isCaptured_;  // what moved before the cursor was taken turns nobody
     for (const InputEvent& event : parts_.window.events()) {
+        withShift_ = event.withShift;
+        withControl_ = event.withControl;
         switch (event.type) {
             case Type::KeyPress:
                 onKey(event.key);
@@ -49,6 +51,7 @@ void Game::handleEvents() {
                              event.y * double{settings_.mouseSensitivity});
         }
     }
+    withShift_ = withControl_ = false;
 }
 
 void Game::onKey(Key key) {
@@ -257,7 +260,7 @@ game::MoveKeys Game::moveKeys() const {
             .back = isDown(Key::S) || isDown(Key::Down),
             .left = isDown(Key::A) || isDown(Key::Left),
             .right = isDown(Key::D) || isDown(Key::Right),
-            .up = isDown(Key::E) || (!walks && isDown(Key::Shift)),
+            .up = isDown(Key::E) || (!walks && !building_.isSelecting() && isDown(Key::Shift)),
             .down = isDown(Key::Q) || isDown(Key::Control) || pad.east,
             .jump = isDown(Key::Space) || pad.south,
             .run = (walks && isDown(Key::Shift)) || pad.west,
