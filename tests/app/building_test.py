@@ -106,16 +106,16 @@ class Building(ProgramTest):
             self.keep(display, game, "pasting")
             self.press(game, "ctrl+s", "w", "a", "l", "l", "Return")
             game.wait_for(file.is_file)
-            display.xdotool("click", 1)  # places it
-            time.sleep(self.pause)
-            self.press(game, "Delete")  # the first one
-            self.keep(display, game, "placed")
             game.wait_for(lambda: self.count("bricks") == 48)
+            self.press(game, "Delete")
+            game.wait_for(lambda: self.count("bricks") == 0)
+            display.xdotool("click", 1)  # places the copy
+            game.wait_for(lambda: self.count("bricks") == 48)
+            self.keep(display, game, "placed")
             self.press(game, "ctrl+o")
             self.keep(display, game, "files")
             self.press(game, "Return")
-            display.xdotool("click", 1)  # upon what stands there
-            time.sleep(self.pause)
+            display.xdotool("click", 1)  # before what stands there
             game.wait_for(lambda: self.count("bricks") > 48)
             self.press(game, "Escape", "Escape")  # ends pasting, puts the tool away
             self.close(game)
