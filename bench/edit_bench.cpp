@@ -160,6 +160,6 @@ BENCHMARK(flood)->Arg(8)->Arg(16)->Unit(benchmark::kMillisecond)->Iterations(1);
 BENCHMARK(fillWithStone)->Arg(8)->Arg(16)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
 BENCHMARK(fillWithLamps)->Arg(8)->Arg(16)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
 BENCHMARK(clearStone)->Arg(8)->Arg(16)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
-BENCHMARK(buildBox)->Arg(46)->Arg(79)->Unit(benchmark::kMillisecond);
+BENCHMARK(buildBox)->Arg(8)->Arg(46)->Arg(79)->Unit(benchmark::kMillisecond);
 
 BENCHMARK_MAIN();

@@ -162,7 +162,7 @@ class Game {
     std::filesystem::path screenshots_;         // folder
     game::BookmarkFiles bookmarks_;
     BuildingTools building_;
-    bool wasAsking_ = false;
+    bool wasAsking_ = false, withShift_ = false, withControl_ = false;  // of the event that is handled
     std::string perfData_;
     std::optional<PerfLog> perfLog_;
     std::optional<PresetMeasurement> measurement_;  // while it goes on

@@ -45,6 +45,8 @@ void Game::handleEvents() {
     using Type = InputEvent::Type;
     const bool wasCaptured = isCaptured_;  // what moved before the cursor was taken turns nobody
     for (const InputEvent& event : parts_.window.events()) {
+        withShift_ = event.withShift;
+        withControl_ = event.withControl;
         switch (event.type) {
             case Type::KeyPress:
                 onKey(event.key);
@@ -64,6 +66,7 @@ void Game::handleEvents() {
                              (settings_.invertY ? -event.y : event.y) * double{settings_.mouseSensitivity});
         }
     }
+    withShift_ = withControl_ = false;
 }
 
 void Game::onKey(Key key) {
@@ -349,7 +352,7 @@ game::MoveKeys Game::moveKeys() const {
             .back = isDown(Action::Back),
             .left = isDown(Action::Left),
             .right = isDown(Action::Right),
-            .up = isDown(Action::Up) || (!walks && isDown(Action::Run)),
+            .up = isDown(Action::Up) || (!walks && !building_.isSelecting() && isDown(Action::Run)),
             .down = isDown(Action::Down) || pad.east,
             .jump = isDown(Action::Jump) || pad.south,
             .run = (walks && isDown(Action::Run)) || pad.west,

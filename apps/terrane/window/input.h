@@ -28,6 +28,8 @@ struct InputEvent {
     MouseButton button = MouseButton::Left;  // of the button events
     double x = 0.0;  // Wheel: steps; CursorMove: screen units since the last event, right
     double y = 0.0;  // the same, wheel away from the player, cursor down
+    // Keys that were held with a key or button, however short: keyDown() may not have seen them.
+    bool withShift = false, withControl = false;
 };
 
 // Sticks are -1…1, right and up; within a small circle around the middle they are 0.

@@ -59,13 +59,16 @@ std::string refusal(BuildOutcome::Result result) {
     }
 }
 
+std::string blocksText(std::int64_t count) {
+    return withCommas(count) + (count == 1 ? " block" : " blocks");
+}
+
 std::string told(std::string_view verb, const BuildOutcome& outcome) {
     if (outcome.result != BuildOutcome::Result::Done) return refusal(outcome.result);
-    std::string text =
-        fmt::format("{} {} blocks", verb, withCommas(static_cast<std::int64_t>(outcome.changed)));
+    std::string text = fmt::format("{} {}", verb, blocksText(static_cast<std::int64_t>(outcome.changed)));
     if (outcome.kept > 0)
         text +=
-            fmt::format("; {} of the lowest layer stay", withCommas(static_cast<std::int64_t>(outcome.kept)));
+            fmt::format("; {} of the lowest layer kept", blocksText(static_cast<std::int64_t>(outcome.kept)));
     return text;
 }
 
@@ -119,8 +122,8 @@ bool SelectionTool::onButton(MouseButton button, const BuildView& view) {
     const BlockPos corner = pointedAt(view, false);
     isLeft ? selection_.setFirst(corner) : selection_.setSecond(corner);
     const BlockBox box = *selection_.box();
-    message_ = fmt::format("{} corner {}, {}, {}; {} blocks", isLeft ? "first" : "second", corner.x, corner.y,
-                           corner.z, withCommas(box.blockCount()));
+    message_ = fmt::format("{} corner {}, {}, {}; {}", isLeft ? "first" : "second", corner.x, corner.y,
+                           corner.z, blocksText(box.blockCount()));
     return true;
 }
 
@@ -194,7 +197,7 @@ void SelectionTool::copy(const BuildView& view) {
         return;
     }
     selection_.setClipboard(world::copyBlocks(view.session.world(), view.session.blocks(), *box));
-    message_ = fmt::format("copied {} blocks", withCommas(box->blockCount()));
+    message_ = "copied " + blocksText(box->blockCount());
 }
 
 void SelectionTool::beginPaste() {
@@ -261,7 +264,7 @@ void SelectionTool::open(const std::string& name, const world::BlockRegistry& bl
         return;
     }
     const std::vector<std::string> unknown = world::unknownNames(*structure, blocks);
-    message_ = fmt::format("{}: {} blocks", name, withCommas(structure->blockCount()));
+    message_ = fmt::format("{}: {}", name, blocksText(structure->blockCount()));
     if (!unknown.empty())
         *message_ +=
             fmt::format("; {} kinds are unknown and shown as missing, {} first", unknown.size(), unknown[0]);

@@ -49,7 +49,7 @@ std::optional<SignDialog::Choice> SignDialog::draw(const Screen& screen) {
         ImGui::SetNextItemWidth(220 * uiScale());
         ImGui::InputText("##line", lines_[k].data(), lines_[k].size(), ImGuiInputTextFlags_CallbackAlways,
                          keepFitting);
-        if (ImGui::IsItemActive()) line_ = k;
+        if (ImGui::IsItemActive() && !takesFocus_) line_ = k;
         ImGui::PopID();
     }
     takesFocus_ = false;

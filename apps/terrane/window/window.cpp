@@ -122,17 +122,23 @@ void Window::State::installCallbacks() {
     glfwSetCursorPosCallback(window, onCursor);
 }
 
-void Window::State::onKey(GLFWwindow* window, int code, int, int action, int) {
+void Window::State::onKey(GLFWwindow* window, int code, int, int action, int modifiers) {
     const std::optional<Key> key = keyOfCode(code);
     if (!key || action == GLFW_REPEAT) return;
     const auto type = action == GLFW_PRESS ? InputEvent::Type::KeyPress : InputEvent::Type::KeyRelease;
-    of(window).events.push_back({.type = type, .key = *key});
+    of(window).events.push_back({.type = type,
+                                 .key = *key,
+                                 .withShift = (modifiers & GLFW_MOD_SHIFT) != 0,
+                                 .withControl = (modifiers & GLFW_MOD_CONTROL) != 0});
 }
 
-void Window::State::onButton(GLFWwindow* window, int button, int action, int) {
+void Window::State::onButton(GLFWwindow* window, int button, int action, int modifiers) {
     if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;  // left, right, middle are 0, 1, 2 as in MouseButton
     const auto type = action == GLFW_PRESS ? InputEvent::Type::ButtonPress : InputEvent::Type::ButtonRelease;
-    of(window).events.push_back({.type = type, .button = static_cast<MouseButton>(button)});
+    of(window).events.push_back({.type = type,
+                                 .button = static_cast<MouseButton>(button),
+                                 .withShift = (modifiers & GLFW_MOD_SHIFT) != 0,
+                                 .withControl = (modifiers & GLFW_MOD_CONTROL) != 0});
 }
 
 void Window::State::onWheel(GLFWwindow* window, double x, double y) {

@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+"""Builds with the selection tool and writes on a sign, in the program's window on a virtual display. Usage: building_test.py PROGRAM
+
+Needs Xvfb (without it the test is skipped, exit code 77), xdotool and xwd; Debian's packages are xvfb, xdotool and
+x11-apps."""
+import contextlib
+import os
+import pathlib
+import shutil
+import sqlite3
+import struct
+import sys
+import time
+import zlib
+
+import support
+import window_test
+from support import HANG_SECONDS, Npy, ProgramTest
+
+SIZE = (480, 300)
+MIDDLE = (SIZE[0] // 2, SIZE[1] // 2)
+
+
+def is_dark(red, green, blue):
+    return max(red, green, blue) < 60
+
+
+class Building(ProgramTest):
+    def play(self, display, places, hand, start):
+        """Places are bookmarks: F6 goes from one to the next, from the first on."""
+        (self.folder / "terrane").mkdir(exist_ok=True)
+        (self.folder / "terrane" / "bookmarks.txt").write_text("".join(place + "\n" for place in places))
+        save = self.folder / "terrane" / "home.sqlite"
+        if not save.exists():
+            self.succeed("generate", "--world", save, "--radius", "1", *window_test.FLAT)
+            with contextlib.closing(sqlite3.connect(save)) as database, database:
+                database.execute("INSERT OR REPLACE INTO settings VALUES ('hand', ?)", (hand,))
+                database.execute("UPDATE settings SET value = '' WHERE name = 'checksum'")  # the program finds it
+        options = ("--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "3", "--samples", "1", "--movement", "medium",
+                   "--time", "0.5", "--world", "home", "--bookmark", str(start), *window_test.FLAT)
+        game = window_test.Game(display, self.folder, options)
+        self.addCleanup(game.log.close)
+        self.addCleanup(game.process.kill)
+        game.open()
+        game.wait_for_image(SIZE)
+        self.pause = game.pause_after("F1")  # no help in the image
+        game.tap(1, *MIDDLE, self.pause)  # takes the mouse
+        return game
+
+    def keep(self, display, game, name):
+        """The window as a PNG, where somebody wants to look at it."""
+        folder = os.environ.get("TERRANE_SCREENSHOTS")
+        if not folder:
+            return
+        shot = display.screenshot(game.window)
+        rows = b"".join(b"\0" + b"".join(bytes(shot.color(x, y)) for x in range(shot.width)) for y in range(shot.height))
+
+        def chunk(kind, data):
+            return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        pathlib.Path(folder, name + ".png").write_bytes(
+            b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">2I5B", shot.width, shot.height, 8, 2, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+    def press(self, game, *keys):
+        for key in keys:
+            game.press(key)
+            time.sleep(self.pause)
+
+    def click_here(self, display, game, button):
+        """With Shift: the place where the player is."""
+        display.xdotool("keydown", "shift")
+        time.sleep(self.pause / 4)
+        display.xdotool("click", button)
+        time.sleep(self.pause / 4)
+        display.xdotool("keyup", "shift")
+        time.sleep(self.pause)
+
+    def count(self, name):
+        """Blocks of this name around the places."""
+        numbers = {}
+        for line in self.succeed("blocks").splitlines():
+            words = line.split()
+            if len(words) > 1 and words[0].isdigit():
+                numbers[words[1]] = int(words[0])
+        file = self.folder / "blocks.npy"
+        self.succeed("dump", "--area", "-2,-2,4,4", "--world", self.folder / "terrane" / "home.sqlite", "-o", file)
+        return list(Npy(file).volume()).count(numbers[name])
+
+    def close(self, game):
+        code, _, _ = game.close()
+        self.assertEqual(code, 0, game.output())
+        self.assertNotIn("error", game.output())
+
+    def test_boxes(self):
+        places = ("5.5 8.5 81.5 0 0", "10.5 9.5 84.5 0 0", "8.5 -3.5 88.5 90 -35")
+        file = self.folder / "terrane" / "structures" / "wall.structure"
+        with window_test.Display() as display:
+            game = self.play(display, places, "bricks", 3)
+            self.press(game, "b", "F6")
+            self.click_here(display, game, 1)
+            self.press(game, "F6")
+            self.click_here(display, game, 3)
+            self.press(game, "F6", "g")  # 6 x 2 x 4 blocks
+            self.keep(display, game, "filled")
+            self.press(game, "ctrl+c", "r", "ctrl+v")
+            self.keep(display, game, "pasting")
+            self.press(game, "ctrl+s", "w", "a", "l", "l", "Return")
+            game.wait_for(file.is_file)
+            game.wait_for(lambda: self.count("bricks") == 48)
+            self.press(game, "Delete")
+            game.wait_for(lambda: self.count("bricks") == 0)
+            display.xdotool("click", 1)  # places the copy
+            game.wait_for(lambda: self.count("bricks") == 48)
+            self.keep(display, game, "placed")
+            self.press(game, "ctrl+o")
+            self.keep(display, game, "files")
+            self.press(game, "Return")
+            display.xdotool("click", 1)  # before what stands there
+            game.wait_for(lambda: self.count("bricks") > 48)
+            self.press(game, "Escape", "Escape")  # ends pasting, puts the tool away
+            self.close(game)
+            self.assertGreater(file.stat().st_size, 40)
+
+    def dark_share(self, display, game):
+        """Of the middle of the image, where the sign is."""
+        shot = display.screenshot(game.window)
+        spots = [shot.color(x, y) for x in range(MIDDLE[0] - 70, MIDDLE[0] + 70) for y in range(MIDDLE[1] - 80, MIDDLE[1])]
+        return sum(is_dark(*color) for color in spots) / len(spots)
+
+    def test_sign(self):
+        places = ("8.5 8.5 82.4 90 -35",)
+        with window_test.Display() as display:
+            game = self.play(display, places, "sign", 1)
+            display.xdotool("click", 3)  # builds it
+            game.wait_for(lambda: self.count("sign") == 1)
+            before = self.dark_share(display, game)
+            display.xdotool("click", 3)  # opens it
+            time.sleep(self.pause)
+            for text in ("Hello, world", "second line", "MMMMMMMMMMMMMMMM"):
+                display.xdotool("type", text)
+                time.sleep(self.pause)
+                self.press(game, "Down")
+            self.keep(display, game, "sign_dialog")
+            self.press(game, "Return")
+            game.wait_for(lambda: self.dark_share(display, game) > before + 0.01)
+            self.keep(display, game, "sign")
+            self.close(game)
+            game = self.play(display, places, "sign", 1)
+            game.wait_for(lambda: self.dark_share(display, game) > before + 0.01)
+            self.close(game)
+
+
+if __name__ == "__main__":
+    if not shutil.which("Xvfb"):
+        print("1 test skipped: Xvfb is not installed (Debian: xvfb)")
+        sys.exit(window_test.SKIPPED)
+    support.main()
