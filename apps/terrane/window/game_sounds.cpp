@@ -80,7 +80,8 @@ void GameSounds::click() {
 void GameSounds::onEdits(game::PlayerId player, std::span<const world::BlockEdit> edits) {
     if (!player_ || volume_ <= 0) return;
     using Kind = game::BlockSound::Kind;
-    for (const game::BlockSound& sound : soundsOf(session_.blocks(), edits, player != game::kNoPlayer)) {
+    for (const game::BlockSound& sound :
+         game::soundsOf(session_.blocks(), edits, player != game::kNoPlayer)) {
         const glm::dvec3 middle(sound.pos.x + 0.5, sound.pos.y + 0.5, sound.pos.z + 0.5);
         player_->play({.name = nameOf(sound.material, sound.kind == Kind::Break ? "break" : "place"),
                        .position = middle,
