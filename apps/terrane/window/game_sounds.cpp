@@ -13,7 +13,7 @@ namespace terrane::app {
 namespace {
 
 constexpr double kAmbiencePause = 0.4;  // seconds
-constexpr float kStepVolume = 0.4f, kWindVolume = 0.5f, kWaterVolume = 0.6f, kBlockVolume = 0.8f;
+constexpr float kStepVolume = 0.6f, kWindVolume = 0.5f, kWaterVolume = 0.6f, kBlockVolume = 0.8f;
 
 base::Result<sound::SoundPlayer> openPlayer() {
     auto sounds = sound::builtInSounds();
