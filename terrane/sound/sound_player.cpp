@@ -61,6 +61,7 @@ struct Source {
 struct Loop {
     Source source;
     float target = 0;  // volume
+    float rate = 0;    // of its change, a second
 };
 
 bool isPlaying(const Source& source) {
@@ -115,7 +116,7 @@ base::Result<void> SoundPlayer::Device::open(SoundOutput output) {
     } else if (hasSoundCard()) {
         device.reset(alcOpenDevice(nullptr));
     }
-    if (!device) return base::fail(base::ErrorCode::NotFound, "no device for sounds");
+    if (!device) return base::fail(base::ErrorCode::NotFound, "the system has no device to play on");
     context.reset(alcCreateContext(device.get(), output == SoundOutput::Memory ? inMemory.data() : nullptr));
     if (!context || alcMakeContextCurrent(context.get()) != ALC_TRUE)
         return base::fail("the device for sounds cannot be used");
@@ -219,14 +220,18 @@ void SoundPlayer::setLoop(const SoundCue& cue) {
         alSourcei(loop->second.source.id, AL_BUFFER, static_cast<ALint>(found->second.front()));
         alSourcei(loop->second.source.id, AL_LOOPING, AL_TRUE);
     }
-    loop->second.target = std::clamp(cue.volume, 0.0f, 1.0f);
-    loop->second.source.position = cue.position;
-    device_->place(loop->second.source);
+    Loop& changed = loop->second;
+    const float target = std::clamp(cue.volume, 0.0f, 1.0f);
+    if (target != changed.target)
+        changed.rate = std::abs(target - changed.source.volume) / static_cast<float>(kFadeSeconds);
+    changed.target = target;
+    changed.source.position = cue.position;
+    device_->place(changed.source);
 }
 
 void SoundPlayer::update(double seconds) {
-    const float step = static_cast<float>(seconds / kFadeSeconds);
     for (auto& [name, loop] : device_->loops) {
+        const float step = loop.rate * static_cast<float>(seconds);
         float& volume = loop.source.volume;
         volume = loop.target > volume ? std::min(loop.target, volume + step)
                                       : std::max(loop.target, volume - step);

@@ -17,7 +17,7 @@ namespace terrane::sound {
 constexpr int kMaxSources = 24;            // sounds at once, loops not counted
 constexpr double kHearingDistance = 48;    // blocks; what is farther is not played
 constexpr double kFullVolumeDistance = 2;  // blocks; from there on sounds get quieter
-constexpr double kFadeSeconds = 1.5;       // of a loop, from silence to full volume
+constexpr double kFadeSeconds = 1.5;       // of a loop, from one volume to another
 
 enum class SoundOutput : std::uint8_t {
     Device,  // the system's speakers

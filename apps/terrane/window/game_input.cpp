@@ -86,7 +86,7 @@ void Game::onKey(Key key) {
     // What opens nothing is for the game, which stands still in a menu.
     if (isInDialog() && !(action && rowOf(*action).opensSomething)) return;
     if (!isInDialog() && building_.onKey(key, buildView())) return;
-    if (parts_.window.keyDown(Key::Control)) return onControlKey(key);
+    if (buildView().control) return onControlKey(key);
     if (slot)
         interaction_.hotbar.chosen = *slot;
     else if (action)
@@ -148,7 +148,7 @@ void Game::act(Action action) {
 }
 
 void Game::onControlKey(Key key) {
-    const bool isShift = parts_.window.keyDown(Key::Shift);
+    const bool isShift = buildView().shift;
     if (key == Key::Z) return takeBack(isShift ? game::HistoryWay::Redo : game::HistoryWay::Undo);
     if (key == Key::Y) return takeBack(game::HistoryWay::Redo);
 }

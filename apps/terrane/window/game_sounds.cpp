@@ -13,7 +13,7 @@ namespace terrane::app {
 namespace {
 
 constexpr double kAmbiencePause = 0.4;  // seconds
-constexpr float kStepVolume = 0.4f, kWindVolume = 0.5f, kWaterVolume = 0.6f, kBlockVolume = 0.8f;
+constexpr float kStepVolume = 0.6f, kWindVolume = 0.5f, kWaterVolume = 0.6f, kBlockVolume = 0.8f;
 
 base::Result<sound::SoundPlayer> openPlayer() {
     auto sounds = sound::builtInSounds();
@@ -80,7 +80,8 @@ void GameSounds::click() {
 void GameSounds::onEdits(game::PlayerId player, std::span<const world::BlockEdit> edits) {
     if (!player_ || volume_ <= 0) return;
     using Kind = game::BlockSound::Kind;
-    for (const game::BlockSound& sound : soundsOf(session_.blocks(), edits, player != game::kNoPlayer)) {
+    for (const game::BlockSound& sound :
+         game::soundsOf(session_.blocks(), edits, player != game::kNoPlayer)) {
         const glm::dvec3 middle(sound.pos.x + 0.5, sound.pos.y + 0.5, sound.pos.z + 0.5);
         player_->play({.name = nameOf(sound.material, sound.kind == Kind::Break ? "break" : "place"),
                        .position = middle,
