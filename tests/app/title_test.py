@@ -96,7 +96,7 @@ class Title(ProgramTest):
         left = len(player.places())
         player.press("Escape")
         player.settle()
-        player.choose("Down", "Down", "Down")
+        player.press("t")
         player.wait_for(lambda: len(player.places()) > left)
         player.settle()
 

@@ -58,7 +58,7 @@ void Game::onKey(Key key) {
     if (settingsDialog_.takeKey(key, settings_)) return;
     if (imgui_.takesKeys()) return;  // Escape ends the typing
     if (key == Key::Escape) return closeOne();
-    if (key == Key::Q && isPaused_ && !showsSettings_) return leave(false);
+    if (isPaused_ && !showsSettings_ && (key == Key::Q || key == Key::T)) return leave(key == Key::T);
     const auto action = settings_.keys.actionOf(key);
     // What opens nothing is for the game, which stands still in a menu.
     if (!action || ((isInMenu() || container_) && !rowOf(*action).opensSomething)) return;

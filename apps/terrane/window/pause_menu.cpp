@@ -15,7 +15,7 @@ std::optional<PauseChoice> drawPauseMenu(const Screen& screen) {
         {"Resume (Esc)", PauseChoice::Resume},
         {"Settings", PauseChoice::Settings},
         {"Keys (F1)", PauseChoice::Help},
-        {"Save and quit to title", PauseChoice::ToTitle},
+        {"Save and quit to title (T)", PauseChoice::ToTitle},
         {"Save and quit (Q)", PauseChoice::Quit}};
     std::optional<PauseChoice> choice;
     ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, {screen.width, screen.height},
