@@ -105,7 +105,7 @@ class Player:
                 next_look = time.monotonic() + 1
 
     def close(self):
-        """By the menu. Esc may end the typing or close a chest first."""
+        """By the menu, or from the title where it has come to that. Esc may end the typing or close a chest first."""
         for key in self.down:
             self.display.xdotool("keyup", key)
         deadline = time.monotonic() + 2 * HANG_SECONDS

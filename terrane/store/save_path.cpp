@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxNameBytes = 100;  // file systems take 255, some of it for endings
+constexpr std::size_t kMaxWorldName = 100;  // file systems take 255, some of it for endings
 
 std::string environment(const char* name) {
     const char* value = std::getenv(name);
@@ -24,10 +24,10 @@ base::Result<void> checkSaveName(std::string_view name) {
         return c == '/' || c == '\\' || byte < 0x20 || byte == 0x7F;
     };
     if (name.empty()) return base::fail(base::ErrorCode::BadInput, "\"\": the name of a save is empty");
-    if (name.size() > kMaxNameBytes)
+    if (name.size() > kMaxWorldName)
         return base::fail(base::ErrorCode::BadInput,
                           "{:?}: the name of a save has {} bytes, expected at most {}", name, name.size(),
-                          kMaxNameBytes);
+                          kMaxWorldName);
     if (std::any_of(name.begin(), name.end(), isForbidden))
         return base::fail(base::ErrorCode::BadInput,
                           "{:?}: the name of a save has neither slashes nor control characters", name);

@@ -23,8 +23,8 @@ constexpr std::size_t kChecksumEnd = 2 * sizeof(std::uint64_t);  // the checksum
 constexpr std::size_t kHeaderBytes = kChecksumEnd + sizeof(std::uint8_t) + sizeof(std::uint32_t);
 // A frame of what does not compress is a little larger than that.
 constexpr std::size_t kMaxFileBytes = kMaxStructureBytes + (1u << 20);
-constexpr std::string_view kEnding = ".structure";
-constexpr std::size_t kMaxNameBytes = 100;       // file systems take 255, some of it for endings
+constexpr std::string_view kStructureEnding = ".structure";
+constexpr std::size_t kMaxStructureName = 100;   // file systems take 255, some of it for endings
 constexpr std::size_t kMaxBlockNameBytes = 255;  // a length of one byte
 
 auto damaged(const std::string& what) {
@@ -201,14 +201,14 @@ base::Result<fs::path> structurePath(const fs::path& folder, std::string_view na
         const auto byte = static_cast<unsigned char>(c);
         return c == '/' || c == '\\' || byte < 0x20 || byte == 0x7F;
     };
-    const bool isName = !name.empty() && name.size() <= kMaxNameBytes && name.front() != '.' &&
+    const bool isName = !name.empty() && name.size() <= kMaxStructureName && name.front() != '.' &&
                         name.front() != ' ' && std::ranges::none_of(name, isForbidden);
     if (!isName)
         return base::fail(base::ErrorCode::BadInput,
                           "{:?}: a name has 1 to {} bytes, neither slashes nor control characters, and no "
                           "dot or space in front",
-                          name, kMaxNameBytes);
-    return folder / (std::string(name) + std::string(kEnding));
+                          name, kMaxStructureName);
+    return folder / (std::string(name) + std::string(kStructureEnding));
 }
 
 base::Result<void> writeStructure(const fs::path& file, const Structure& structure) {
@@ -233,7 +233,7 @@ std::vector<std::string> structureNames(const fs::path& folder) {
     std::error_code error;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
         const fs::path& path = it->path();
-        if (path.extension() == kEnding && structurePath(folder, path.stem().string()))
+        if (path.extension() == kStructureEnding && structurePath(folder, path.stem().string()))
             names.push_back(path.stem().string());
     }
     std::ranges::sort(names);

@@ -16,7 +16,7 @@ namespace {
 using base::ErrorCode;
 namespace fs = std::filesystem;
 
-constexpr std::string_view kEnding = ".sqlite";
+constexpr std::string_view kSaveEnding = ".sqlite";
 constexpr std::size_t kMaxListed = 1000;
 
 bool isPresent(const fs::path& path) {
@@ -114,7 +114,7 @@ void moveThumbnail(const fs::path& from, const fs::path& to) {
 
 base::Result<void> checkWorldName(std::string_view name) {
     if (auto good = checkSaveName(name); !good) return good;
-    if (name.ends_with(kEnding) || name.back() == ' ' || name.back() == '.')
+    if (name.ends_with(kSaveEnding) || name.back() == ' ' || name.back() == '.')
         return base::fail(ErrorCode::BadInput,
                           "{:?}: the name of a world ends with neither \".sqlite\" nor a space nor a dot",
                           name);
@@ -122,7 +122,7 @@ base::Result<void> checkWorldName(std::string_view name) {
 }
 
 fs::path worldFile(const fs::path& folder, std::string_view name) {
-    return folder / (std::string(name) + std::string(kEnding));
+    return folder / (std::string(name) + std::string(kSaveEnding));
 }
 
 fs::path thumbnailOf(const fs::path& save) {
@@ -148,7 +148,7 @@ std::vector<WorldEntry> listWorlds(const fs::path& folder, const world::BlockReg
     for (; !error && at != fs::directory_iterator() && worlds.size() < kMaxListed; at.increment(error)) {
         const fs::path& path = at->path();
         std::error_code ignored;
-        if (path.extension() != kEnding || at->is_directory(ignored)) continue;
+        if (path.extension() != kSaveEnding || at->is_directory(ignored)) continue;
         if (checkSaveName(path.stem().string())) worlds.push_back(entryOf(path, blocks));
     }
     std::ranges::sort(worlds, [](const WorldEntry& a, const WorldEntry& b) {

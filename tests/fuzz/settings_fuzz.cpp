@@ -6,6 +6,7 @@
 
 #include "apps/terrane/graphics_options.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/window/key_bindings.h"
 #include "tests/fuzz/fuzz_folder.h"
 #include "tests/fuzz/fuzz_input.h"
 
@@ -65,13 +66,23 @@ void requireValues(const std::filesystem::path& file, const SettingValues& befor
         if (!after.contains(name)) fuzz::require(!table.contains(name));
 }
 
+// Keys as a player chose them are written so that they are read as the same ones.
+void requireKeys(std::string_view text) {
+    const auto keys = app::keyBindingsFrom(text);
+    if (!keys) return fuzz::requireReason(keys.error());
+    const auto again = app::keyBindingsFrom(app::textOf(*keys));
+    fuzz::require(again && *again == *keys);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     FuzzInput input(data, size);
     const auto [before, after] = changesFrom(input);
     const std::filesystem::path file = fuzz::fuzzFolder() / "settings.toml";
-    fuzz::writeWhole(file, input.restAsText());
+    const std::string text(input.restAsText());
+    requireKeys(text);
+    fuzz::writeWhole(file, text);
     const auto read = readSettings(file);
     if (!read) fuzz::requireReason(read.error());
     const auto written = app::writeChanges(file, before, after, render::namesOfPreset());

@@ -81,7 +81,7 @@ void Game::onKey(Key key) {
     if (building_.isAsking() && !isInMenu()) return void(building_.onKey(key, buildView()));
     if (imgui_.takesKeys()) return;  // Escape ends the typing
     if (key == Key::Escape) return closeOne();
-    if (key == Key::Q && isPaused_ && !showsSettings_) return leave(false);
+    if (isPaused_ && !showsSettings_ && (key == Key::Q || key == Key::T)) return leave(key == Key::T);
     const auto action = settings_.keys.actionOf(key);
     // What opens nothing is for the game, which stands still in a menu.
     if (isInDialog() && !(action && rowOf(*action).opensSomething)) return;

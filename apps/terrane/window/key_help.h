@@ -15,6 +15,6 @@ constexpr const char* kKeyHelp =
   F3, F4                  debug top view; a map of how far chunks are
   F5, F6                  save a bookmark, go to the next one
   F11, F12, L             full screen; screenshot; light classic or smooth
-  Esc                     close what is open, else the menu: settings, save and quit)";
+  Esc                     close what is open, else the menu: settings, save and quit to title)";
 
 }  // namespace terrane::app

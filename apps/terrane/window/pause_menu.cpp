@@ -15,7 +15,7 @@ std::optional<PauseChoice> drawPauseMenu(const Screen& screen, const Texts& tr) 
         {tr("Resume (Esc)"), PauseChoice::Resume},
         {tr("Settings"), PauseChoice::Settings},
         {tr("Keys (F1)"), PauseChoice::Help},
-        {tr("Save and quit to title"), PauseChoice::ToTitle},
+        {tr("Save and quit to title (T)"), PauseChoice::ToTitle},
         {tr("Save and quit (Q)"), PauseChoice::Quit}};
     std::optional<PauseChoice> choice;
     ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, {screen.width, screen.height},

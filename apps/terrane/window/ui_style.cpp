@@ -16,7 +16,7 @@ ImVec4 withAlpha(ImVec4 color, float alpha) {
 }
 
 void setColors(ImGuiStyle& s) {
-    const ImVec4 field(0.16f, 0.18f, 0.21f, 0.9f), raised(0.22f, 0.25f, 0.29f, 0.95f);
+    const ImVec4 field(0.23f, 0.26f, 0.30f, 0.95f), raised(0.25f, 0.29f, 0.33f, 0.95f);
     s.Colors[ImGuiCol_Text] = colors::kText;
     s.Colors[ImGuiCol_TextDisabled] = colors::kDim;
     s.Colors[ImGuiCol_WindowBg] = ImVec4(0.06f, 0.07f, 0.09f, 0.84f);
