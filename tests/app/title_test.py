@@ -61,7 +61,9 @@ class Player(window_test.Game):
         return CLOSED.findall(self.output())
 
 
-class Title(ProgramTest):
+class TitleScript(ProgramTest):
+    """What tests of the title do."""
+
     def setUp(self):
         super().setUp()
         self.worlds = self.folder / "terrane"
@@ -105,6 +107,8 @@ class Title(ProgramTest):
         player.wait_for(lambda: len(player.places()) > left)
         player.settle()
 
+
+class Title(TitleScript):
     def test_a_new_world_is_made_left_and_continued(self):
         with window_test.Display() as display:
             player = self.open(display)

@@ -95,7 +95,7 @@ void Game::drawHud(const Screen& screen, const render::Camera& camera, double se
         hud_.hand.draw(screen, block == world::kAir ? 0 : blockFace().image(block), light);
         drawCompass(screen, player_.pose(), hud_.places);
         hud_.hotbar.draw(screen, interaction_.hotbar, blockFace(), seconds);
-        if (hud_.showsFacts) drawPlaceFacts(placeFacts());
+        if (hud_.showsFacts) drawPlaceFacts(placeFacts(), tr_);
     }
     hud_.screenshot.draw(screen);
     if (hud_.palette.isOpen) drawPaletteDialog(screen);
@@ -103,14 +103,14 @@ void Game::drawHud(const Screen& screen, const render::Camera& camera, double se
 }
 
 void Game::drawPaletteDialog(const Screen& screen) {
-    const auto choice = drawPalette(screen, hud_.palette, parts_.session.blocks(), blockFace());
+    const auto choice = drawPalette(screen, hud_.palette, parts_.session.blocks(), blockFace(), tr_);
     if (!choice) return;
     game::takeInHand(interaction_.hotbar, *choice);
     capture(true);
 }
 
 void Game::drawPlacesDialog(const Screen& screen) {
-    const PlacesAnswer answer = drawPlaces(screen, hud_.placesDialog, hud_.places, player_.pose());
+    const PlacesAnswer answer = drawPlaces(screen, hud_.placesDialog, hud_.places, player_.pose(), tr_);
     if (answer.isChanged) game::savePlaces(parts_.session.store(), hud_.places);
     if (!answer.goTo) return;
     player_.placeAt(*answer.goTo, settings_.movement);
@@ -134,8 +134,8 @@ void Game::breakAndBuild(double seconds) {
     const auto result = interaction_.act(parts_.session, game::kLocalPlayer, player_, seconds);
     if (!result) return;
     hud_.hand.swing();
-    if (result == game::EditResult::NotEmpty) say("it is not empty: take out what is in it first");
-    if (result == game::EditResult::Protected) say("the lowest layer of the world cannot be broken");
+    if (result == game::EditResult::NotEmpty) say(tr_("it is not empty: take out what is in it first"));
+    if (result == game::EditResult::Protected) say(tr_("the lowest layer of the world cannot be broken"));
     if (pos && before != world::kAir && parts_.session.world().block(*pos) == world::kAir)
         hud_.particles.burst(*pos, before);
 }
@@ -144,17 +144,19 @@ void Game::takeBack(game::HistoryWay way) {
     using Outcome = game::TakenBack::Outcome;
     const bool isUndo = way == game::HistoryWay::Undo;
     const game::TakenBack done = parts_.session.takeBack(game::kLocalPlayer, way);
-    if (done.outcome == Outcome::NoStep) return say(isUndo ? "nothing to undo" : "nothing to redo");
-    if (done.outcome == Outcome::NotLoaded) return say("too far away: the place of that edit is not loaded");
-    const std::string kept = done.kept == 0 ? "" : fmt::format(", {} changed since and stay", done.kept);
-    say(fmt::format("{}: {} {}{}", isUndo ? "undone" : "done again", done.blocks,
-                    done.blocks == 1 ? "block" : "blocks", kept));
+    if (done.outcome == Outcome::NoStep) return say(isUndo ? tr_("nothing to undo") : tr_("nothing to redo"));
+    if (done.outcome == Outcome::NotLoaded)
+        return say(tr_("too far away: the place of that edit is not loaded"));
+    const char* what = isUndo ? tr_("undone: {} blocks") : tr_("done again: {} blocks");
+    std::string message = fmt::format(fmt::runtime(what), done.blocks);
+    if (done.kept > 0) message += fmt::format(fmt::runtime(tr_(", {} changed since and stay")), done.kept);
+    say(std::move(message));
 }
 
 void Game::goToSpawn() {
     if (!hud_.spawn) hud_.spawn = game::findSpawn(parts_.session.generator(), parts_.session.blocks());
     player_.placeAt(*hud_.spawn, settings_.movement);
-    say("back where the world begins");
+    say(tr_("back where the world begins"));
 }
 
 }  // namespace terrane::app

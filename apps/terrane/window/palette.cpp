@@ -3,6 +3,8 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 #include "apps/terrane/window/imgui_layer.h"
 
@@ -11,14 +13,25 @@ namespace {
 
 constexpr float kSide = 44, kGap = 4;  // of a block's square, before scaling
 
+// Groups of the library's own blocks have names; others are shown as they are.
+std::string shownGroup(const std::string& group, const Texts& tr) {
+    constexpr std::pair<std::string_view, const char*> kNames[] = {
+        {"ground", trLater("Ground")}, {"plants", trLater("Plants")},       {"wood", trLater("Wood")},
+        {"glass", trLater("Glass")},   {"masonry", trLater("Masonry")},     {"cloth", trLater("Cloth")},
+        {"light", trLater("Light")},   {"furniture", trLater("Furniture")}, {"other", trLater("Other")}};
+    for (const auto& [name, shown] : kNames)
+        if (group == name) return tr(shown);
+    return group;
+}
+
 // Digits put the block under the cursor into a slot; no name has them.
 int withoutDigits(ImGuiInputTextCallbackData* data) {
     return data->EventChar >= '0' && data->EventChar <= '9' ? 1 : 0;
 }
 
-void drawGroups(PaletteState& state, const std::vector<std::string>& groups) {
+void drawGroups(PaletteState& state, const std::vector<std::string>& groups, const Texts& tr) {
     for (std::size_t k = 0; k <= groups.size(); ++k) {
-        const std::string label = k == 0 ? "All" : groups[k - 1];
+        const std::string label = k == 0 ? tr("All") : shownGroup(groups[k - 1], tr);
         const float width = ImGui::CalcTextSize(label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
         if (k > 0 &&
             ImGui::GetItemRectMax().x + width + ImGui::GetStyle().ItemSpacing.x <
@@ -59,26 +72,27 @@ std::optional<world::BlockId> drawBlocks(PaletteState& state, const std::vector<
 }  // namespace
 
 std::optional<world::BlockId> drawPalette(const Screen& screen, PaletteState& state,
-                                          const world::BlockRegistry& blocks, const BlockFace& face) {
+                                          const world::BlockRegistry& blocks, const BlockFace& face,
+                                          const Texts& tr) {
     const float margin = 20 * uiScale(), width = std::min(620 * uiScale(), screen.width - 2 * margin);
     const float height = std::min(440 * uiScale(), screen.height - hotbarHeight() - margin);
     ImGui::SetNextWindowPos({(screen.width - width) / 2, (screen.height - hotbarHeight() - height) / 2});
     ImGui::SetNextWindowSize({width, height});
-    ImGui::Begin("Blocks", nullptr,
+    ImGui::Begin(tr("Blocks"), nullptr,
                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-1);
     const bool takesFirst = ImGui::InputTextWithHint(
-        "##search", "search", state.search.data(), state.search.size(),
+        "##search", tr("search"), state.search.data(), state.search.size(),
         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCharFilter, withoutDigits);
     const std::vector<std::string> groups = game::paletteGroups(blocks);
     state.group = std::min(state.group, groups.size());
-    drawGroups(state, groups);
+    drawGroups(state, groups, tr);
     const std::string group = state.group == 0 ? "" : groups[state.group - 1];
     const auto shown = game::paletteBlocks(blocks, {group, state.search.data(), face.name});
     ImGui::BeginChild("list");
     std::optional<world::BlockId> choice = drawBlocks(state, shown, face);
-    if (shown.empty()) ImGui::TextUnformatted("no block has this in its name");
+    if (shown.empty()) ImGui::TextUnformatted(tr("No block has this in its name"));
     ImGui::EndChild();
     ImGui::End();
     if (takesFirst && !shown.empty()) choice = shown.front();

@@ -7,6 +7,7 @@
 
 #include "apps/terrane/window/hotbar_view.h"
 #include "apps/terrane/window/overlay.h"
+#include "apps/terrane/window/text.h"
 #include "terrane/game/block_palette.h"
 
 namespace terrane::app {
@@ -22,6 +23,7 @@ struct PaletteState {
 
 // Nothing until a block is clicked or chosen with Enter.
 std::optional<world::BlockId> drawPalette(const Screen& screen, PaletteState& state,
-                                          const world::BlockRegistry& blocks, const BlockFace& face);
+                                          const world::BlockRegistry& blocks, const BlockFace& face,
+                                          const Texts& tr);
 
 }  // namespace terrane::app

@@ -11,30 +11,35 @@
 namespace terrane::app {
 namespace {
 
-constexpr const char* kDirections[] = {"north", "north-east", "east", "south-east",
-                                       "south", "south-west", "west", "north-west"};
+constexpr const char* kDirections[] = {trLater("north"),      trLater("north-east"), trLater("east"),
+                                       trLater("south-east"), trLater("south"),      trLater("south-west"),
+                                       trLater("west"),       trLater("north-west")};
 
-std::string factsText(const PlaceFacts& f) {
+std::string factsText(const PlaceFacts& f, const Texts& tr) {
+    const auto write = [&](const char* format, const auto&... values) {
+        return fmt::format(fmt::runtime(tr(format)), values...);
+    };
     const glm::dvec3& p = f.pose.position;
     const double degrees = game::compassDegrees(f.pose.yaw);
     const auto direction = static_cast<std::size_t>(std::lround(degrees / 45)) % 8;
     const int minutes = static_cast<int>(f.timeDay * 24 * 60);
-    const double feet = p.z - world::kEyeHeight;
-    std::string text =
-        fmt::format("x {:.1f}  y {:.1f}  z {:.1f}\nchunk {}, {}\nlooks {} ({:.0f}°), {:+.0f}°\n", p.x, p.y,
-                    feet, static_cast<int>(std::floor(p.x / 16)), static_cast<int>(std::floor(p.y / 16)),
-                    kDirections[direction], degrees, f.pose.pitch);
-    if (!f.biome.empty()) text += f.biome + "\n";
-    text += fmt::format("{:02}:{:02}   {:.0f} frames a second\n{}", minutes / 60 % 24, minutes % 60,
-                        f.framesASecond, f.world);
-    if (!f.target.empty()) text += "\nat " + f.target;
+    std::string text = fmt::format("x {:.1f}  y {:.1f}  z {:.1f}\n", p.x, p.y, p.z - world::kEyeHeight);
+    text += write(trLater("chunk {}, {}\n"), static_cast<int>(std::floor(p.x / 16)),
+                  static_cast<int>(std::floor(p.y / 16)));
+    text +=
+        write(trLater("looks {} ({:.0f}°), {:+.0f}°\n"), tr(kDirections[direction]), degrees, f.pose.pitch);
+    if (!f.biome.empty()) text += std::string(tr(f.biome.c_str())) + "\n";
+    text += write(trLater("{:02}:{:02}   {:.0f} frames a second\n"), minutes / 60 % 24, minutes % 60,
+                  f.framesASecond);
+    text += f.world;
+    if (!f.target.empty()) text += write(trLater("\nat {}"), f.target);
     return text;
 }
 
 }  // namespace
 
-void drawPlaceFacts(const PlaceFacts& facts) {
-    const std::string text = factsText(facts);
+void drawPlaceFacts(const PlaceFacts& facts, const Texts& tr) {
+    const std::string text = factsText(facts, tr);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const float margin = 10 * uiScale(), pad = 6 * uiScale();
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();

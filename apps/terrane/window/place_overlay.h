@@ -4,6 +4,7 @@
 #include <string>
 
 #include "apps/terrane/window/overlay.h"
+#include "apps/terrane/window/text.h"
 
 namespace terrane::app {
 
@@ -16,6 +17,6 @@ struct PlaceFacts {
     double framesASecond = 0;
 };
 
-void drawPlaceFacts(const PlaceFacts& facts);
+void drawPlaceFacts(const PlaceFacts& facts, const Texts& tr);
 
 }  // namespace terrane::app

@@ -11,45 +11,47 @@
 namespace terrane::app {
 namespace {
 
-void drawNaming(PlacesState& state, std::vector<game::Place>& places, const world::Pose& here,
-                PlacesAnswer& answer) {
+bool drawNaming(PlacesState& state, std::vector<game::Place>& places, const world::Pose& here,
+                const Texts& tr) {
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     const float button = 90 * uiScale();
     ImGui::SetNextItemWidth(-button);
-    const bool isEntered = ImGui::InputTextWithHint("##name", "name of this place", state.name.data(),
+    const bool isEntered = ImGui::InputTextWithHint("##name", tr("name of this place"), state.name.data(),
                                                     state.name.size(), ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::SameLine();
-    if (!ImGui::Button("Name it", {-1, 0}) && !isEntered) return;
-    answer.isChanged = game::namePlace(places, state.name.data(), here);
-    if (answer.isChanged) state.name = {};
+    if (!ImGui::Button(tr("Name it"), {-1, 0}) && !isEntered) return false;
+    const bool isNamed = game::namePlace(places, state.name.data(), here);
+    if (isNamed) state.name = {};
+    return isNamed;
 }
 
 }  // namespace
 
 PlacesAnswer drawPlaces(const Screen& screen, PlacesState& state, std::vector<game::Place>& places,
-                        const world::Pose& here) {
+                        const world::Pose& here, const Texts& tr) {
     PlacesAnswer answer;
     const float width = std::min(380 * uiScale(), screen.width - 20 * uiScale());
     ImGui::SetNextWindowPos({screen.width / 2, screen.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({width, std::min(320 * uiScale(), screen.height - 20 * uiScale())});
-    ImGui::Begin("Places", nullptr,
+    ImGui::Begin(tr("Places"), nullptr,
                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
-    drawNaming(state, places, here, answer);
+    answer.isChanged = drawNaming(state, places, here, tr);
     ImGui::Separator();
     ImGui::BeginChild("list");
     std::optional<std::size_t> removed;
     for (std::size_t k = 0; k < places.size(); ++k) {
         ImGui::PushID(static_cast<int>(k));
-        if (ImGui::Button("Go")) answer.goTo = places[k].pose;
+        if (ImGui::Button(tr("Go"))) answer.goTo = places[k].pose;
         ImGui::SameLine();
-        if (ImGui::Button("Remove")) removed = k;
+        if (ImGui::Button(tr("Remove"))) removed = k;
         ImGui::SameLine();
         const glm::dvec3 to = places[k].pose.position - here.position;
         ImGui::AlignTextToFramePadding();
         ImGui::TextUnformatted(fmt::format("{}  ({:.0f} m)", places[k].name, std::hypot(to.x, to.y)).c_str());
         ImGui::PopID();
     }
-    if (places.empty()) ImGui::TextWrapped("No place has a name yet. Named places are in the compass.");
+    if (places.empty())
+        ImGui::TextWrapped("%s", tr("No place has a name yet. The compass shows those that have one."));
     ImGui::EndChild();
     ImGui::End();
     if (removed) places.erase(places.begin() + static_cast<std::ptrdiff_t>(*removed));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/terrane/window/overlay.h"
+#include "apps/terrane/window/text.h"
 #include "terrane/game/places.h"
 
 namespace terrane::app {
@@ -25,6 +26,6 @@ struct PlacesAnswer {
 
 // `here`: where the player is. Changes `places`.
 PlacesAnswer drawPlaces(const Screen& screen, PlacesState& state, std::vector<game::Place>& places,
-                        const world::Pose& here);
+                        const world::Pose& here, const Texts& tr);
 
 }  // namespace terrane::app
