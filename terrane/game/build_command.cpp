@@ -81,6 +81,7 @@ void planFill(Plan& plan, const world::World& world, const FillBox& fill) {
 
 void planStructure(Plan& plan, const world::BlockRegistry& blocks, const PlaceStructure& place) {
     const world::Structure& structure = *place.structure;
+    assert(structure.cells.size() == static_cast<std::size_t>(structure.blockCount()) && "a block each");
     const std::vector<BlockValue> values = world::paletteValues(structure, blocks);
     forEachBlock(boxOf(place), [&](BlockPos pos) {
         const std::uint32_t cell =

@@ -18,16 +18,16 @@ using world::Structure;
 using world::StructureBlock;
 
 // "TerrStru", in the order of bytes.
-constexpr std::uint64_t kMagic = 0x7572745372726554;
+constexpr std::uint64_t kStructureMagic = 0x7572745372726554;
 constexpr std::size_t kChecksumEnd = 2 * sizeof(std::uint64_t);  // the checksum is of all that follows
-constexpr std::size_t kHeaderBytes = kChecksumEnd + sizeof(std::uint8_t) + sizeof(std::uint32_t);
+constexpr std::size_t kStructureHeaderBytes = kChecksumEnd + sizeof(std::uint8_t) + sizeof(std::uint32_t);
 // A frame of what does not compress is a little larger than that.
 constexpr std::size_t kMaxFileBytes = kMaxStructureBytes + (1u << 20);
-constexpr std::string_view kStructureEnding = ".structure";
-constexpr std::size_t kMaxStructureName = 100;   // file systems take 255, some of it for endings
+constexpr std::string_view kEnding = ".structure";
+constexpr std::size_t kMaxFileName = 100;        // file systems take 255, some of it for endings
 constexpr std::size_t kMaxBlockNameBytes = 255;  // a length of one byte
 
-auto damaged(const std::string& what) {
+auto damagedStructure(const std::string& what) {
     return base::fail(base::ErrorCode::Damaged, "{}", what);
 }
 
@@ -50,10 +50,11 @@ std::size_t dataBytes(const Structure& structure) {
 
 base::Result<void> checkLimits(const Structure& s) {
     if (!isSize(s.size.x) || !isSize(s.size.y) || s.size.z < 1 || s.size.z > world::kChunkHeight)
-        return damaged(fmt::format("{} × {} × {} blocks are no structure", s.size.x, s.size.y, s.size.z));
+        return damagedStructure(
+            fmt::format("{} × {} × {} blocks are no structure", s.size.x, s.size.y, s.size.z));
     if (s.blockCount() > world::kMaxStructureBlocks)
-        return damaged(fmt::format("the structure has {} blocks, expected at most {}", s.blockCount(),
-                                   world::kMaxStructureBlocks));
+        return damagedStructure(fmt::format("the structure has {} blocks, expected at most {}",
+                                            s.blockCount(), world::kMaxStructureBlocks));
     return {};
 }
 
@@ -63,7 +64,7 @@ void appendCells(Bytes& out, const Structure& structure) {
     for (const std::uint32_t cell : structure.cells) appendNumber(out, static_cast<Cell>(cell));
 }
 
-Bytes plainBytes(const Structure& structure) {
+Bytes structureContent(const Structure& structure) {
     Bytes out;
     out.reserve(structure.cells.size() * sizeof(std::uint16_t) + 4096);
     for (int axis = 0; axis < 3; ++axis) appendNumber(out, static_cast<std::uint16_t>(structure.size[axis]));
@@ -89,13 +90,13 @@ Bytes plainBytes(const Structure& structure) {
 base::Result<void> readPalette(ByteReader& reader, Structure& structure) {
     const auto count = reader.number<std::uint32_t>();
     if (count > kMaxStructurePalette || count > structure.blockCount())
-        return damaged(fmt::format("the palette has {} entries", count));
+        return damagedStructure(fmt::format("the palette has {} entries", count));
     for (std::uint32_t n = 0; n < count && !reader.isPastEnd(); ++n) {
         const ByteView name = reader.take(reader.number<std::uint8_t>());
         StructureBlock block{.name = {reinterpret_cast<const char*>(name.data()), name.size()}};
         block.state = reader.number<std::uint16_t>();
         if (!reader.isPastEnd() && !isBlockName(block.name))
-            return damaged(fmt::format("{:?} is no name of a block", block.name));
+            return damagedStructure(fmt::format("{:?} is no name of a block", block.name));
         structure.palette.push_back(std::move(block));
     }
     return {};
@@ -110,7 +111,7 @@ base::Result<void> readCells(ByteReader& reader, Structure& structure) {
     for (std::size_t n = 0; n < count; ++n) {
         const auto cell = cells.number<Cell>();
         if (cell >= structure.palette.size())
-            return damaged(
+            return damagedStructure(
                 fmt::format("a block has number {} of a palette of {}", cell, structure.palette.size()));
         structure.cells.push_back(cell);
     }
@@ -125,22 +126,24 @@ base::Result<void> readData(ByteReader& reader, Structure& structure) {
         const auto cell = reader.number<std::uint32_t>();
         const ByteView data = reader.take(reader.number<std::uint32_t>());
         if (reader.isPastEnd()) break;
-        if (cell <= last || cell >= structure.blockCount()) return damaged("data of blocks is out of order");
+        if (cell <= last || cell >= structure.blockCount())
+            return damagedStructure("data of blocks is out of order");
         last = cell;
         bytes += data.size();
         if (bytes > kMaxStructureDataBytes)
-            return damaged(fmt::format("the blocks have more than {} bytes of data", kMaxStructureDataBytes));
+            return damagedStructure(
+                fmt::format("the blocks have more than {} bytes of data", kMaxStructureDataBytes));
         structure.data.push_back(
             {cell, std::make_shared<const world::BlockEntityData>(data.begin(), data.end())});
     }
     return {};
 }
 
-base::Result<Structure> readPlain(ByteView bytes) {
+base::Result<Structure> readContent(ByteView bytes) {
     ByteReader reader(bytes);
     Structure structure;
     for (int axis = 0; axis < 3; ++axis) structure.size[axis] = reader.number<std::uint16_t>();
-    if (reader.isPastEnd()) return damaged("the structure ends too early");
+    if (reader.isPastEnd()) return damagedStructure("the structure ends too early");
     if (auto good = checkLimits(structure); !good) return tl::unexpected(good.error());
     if (auto read = readPalette(reader, structure); !read) return tl::unexpected(read.error());
     const bool isNarrow = structure.palette.size() <= 256;
@@ -148,8 +151,9 @@ base::Result<Structure> readPlain(ByteView bytes) {
         isNarrow ? readCells<std::uint8_t>(reader, structure) : readCells<std::uint16_t>(reader, structure);
     if (!cells) return tl::unexpected(cells.error());
     if (auto read = readData(reader, structure); !read) return tl::unexpected(read.error());
-    if (reader.isPastEnd()) return damaged("the structure ends too early");
-    if (!reader.rest().empty()) return damaged(fmt::format("{} bytes too many", reader.rest().size()));
+    if (reader.isPastEnd()) return damagedStructure("the structure ends too early");
+    if (!reader.rest().empty())
+        return damagedStructure(fmt::format("{} bytes too many", reader.rest().size()));
     return structure;
 }
 
@@ -165,13 +169,13 @@ base::Result<Bytes> encodeStructure(const Structure& structure) {
                           kMaxStructureDataBytes);
     for (const StructureBlock& block : structure.palette)
         if (!isBlockName(block.name)) return base::fail("{:?} is no name of a block", block.name);
-    const Bytes plain = plainBytes(structure);
+    const Bytes plain = structureContent(structure);
     Bytes rest;
     appendNumber(rest, kStructureVersion);
     appendNumber(rest, static_cast<std::uint32_t>(plain.size()));
     appendCompressed(rest, plain);
     Bytes out;
-    appendNumber(out, kMagic);
+    appendNumber(out, kStructureMagic);
     appendNumber(out, std::uint64_t{XXH64(rest.data(), rest.size(), 0)});
     append(out, rest);
     return out;
@@ -179,21 +183,21 @@ base::Result<Bytes> encodeStructure(const Structure& structure) {
 
 base::Result<Structure> decodeStructure(ByteView bytes) {
     ByteReader reader(bytes);
-    if (reader.number<std::uint64_t>() != kMagic || bytes.size() < kHeaderBytes)
+    if (reader.number<std::uint64_t>() != kStructureMagic || bytes.size() < kStructureHeaderBytes)
         return base::fail(base::ErrorCode::BadInput, "it is no structure");
     const ByteView rest = bytes.subspan(kChecksumEnd);
     if (reader.number<std::uint64_t>() != XXH64(rest.data(), rest.size(), 0))
-        return damaged("the checksum is wrong");
+        return damagedStructure("the checksum is wrong");
     if (const auto version = reader.number<std::uint8_t>(); version != kStructureVersion)
         return base::fail(base::ErrorCode::Incompatible, "structure version {}, expected {}", version,
                           kStructureVersion);
     const auto plainBytes = reader.number<std::uint32_t>();
     if (plainBytes > kMaxStructureBytes)
-        return damaged(fmt::format("the structure says it has {} bytes, expected at most {}", plainBytes,
-                                   kMaxStructureBytes));
+        return damagedStructure(fmt::format("the structure says it has {} bytes, expected at most {}",
+                                            plainBytes, kMaxStructureBytes));
     Bytes plain(plainBytes);
     if (auto done = decompress(reader.rest(), plain); !done) return tl::unexpected(done.error());
-    return readPlain(plain);
+    return readContent(plain);
 }
 
 base::Result<fs::path> structurePath(const fs::path& folder, std::string_view name) {
@@ -201,14 +205,14 @@ base::Result<fs::path> structurePath(const fs::path& folder, std::string_view na
         const auto byte = static_cast<unsigned char>(c);
         return c == '/' || c == '\\' || byte < 0x20 || byte == 0x7F;
     };
-    const bool isName = !name.empty() && name.size() <= kMaxStructureName && name.front() != '.' &&
+    const bool isName = !name.empty() && name.size() <= kMaxFileName && name.front() != '.' &&
                         name.front() != ' ' && std::ranges::none_of(name, isForbidden);
     if (!isName)
         return base::fail(base::ErrorCode::BadInput,
                           "{:?}: a name has 1 to {} bytes, neither slashes nor control characters, and no "
                           "dot or space in front",
-                          name, kMaxStructureName);
-    return folder / (std::string(name) + std::string(kStructureEnding));
+                          name, kMaxFileName);
+    return folder / (std::string(name) + std::string(kEnding));
 }
 
 base::Result<void> writeStructure(const fs::path& file, const Structure& structure) {
@@ -233,7 +237,7 @@ std::vector<std::string> structureNames(const fs::path& folder) {
     std::error_code error;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
         const fs::path& path = it->path();
-        if (path.extension() == kStructureEnding && structurePath(folder, path.stem().string()))
+        if (path.extension() == kEnding && structurePath(folder, path.stem().string()))
             names.push_back(path.stem().string());
     }
     std::ranges::sort(names);

@@ -72,7 +72,8 @@ bool operator==(const Chunk& a, const Chunk& b) {
 
 std::size_t Chunk::memoryBytes() const {
     // Of a hash table: a pointer a bucket; a link and an entry for each element.
-    constexpr std::size_t kEntryBytes = sizeof(void*) + sizeof(std::pair<const BlockIndex, BlockEntityDataPtr>);
+    constexpr std::size_t kEntryBytes =
+        sizeof(void*) + sizeof(std::pair<const BlockIndex, BlockEntityDataPtr>);
     std::size_t bytes = sizeof(Chunk) - sizeof(blocks_) - sizeof(blockState_);
     for (const Section& section : blocks_) bytes += section.memoryBytes();
     for (const Section& section : blockState_) bytes += section.memoryBytes();

@@ -10,8 +10,8 @@
 namespace terrane::world {
 namespace {
 
-constexpr std::byte kVersion{1};
-constexpr std::string_view kBehavior = "sign";
+constexpr std::byte kSignVersion{1};
+constexpr std::string_view kSignBehavior = "sign";
 
 bool isControl(char32_t c) {
     return c < 0x20 || (c >= 0x7F && c < 0xA0);
@@ -76,7 +76,7 @@ base::Result<void> checkSign(const SignText& text) {
 
 BlockEntityData encodeSign(const SignText& text) {
     assert(checkSign(text) && "the text was checked");
-    BlockEntityData data{kVersion};
+    BlockEntityData data{kSignVersion};
     for (std::size_t k = 0; k < text.size(); ++k) {
         if (k > 0) data.push_back(std::byte{'\n'});
         const auto bytes = std::as_bytes(std::span(text[k]));
@@ -86,7 +86,7 @@ BlockEntityData encodeSign(const SignText& text) {
 }
 
 base::Result<SignText> decodeSign(const BlockEntityData& data) {
-    if (data.empty() || data.size() > kMaxSignBytes || data[0] != kVersion)
+    if (data.empty() || data.size() > kMaxSignBytes || data[0] != kSignVersion)
         return base::fail(base::ErrorCode::Damaged, "{} bytes are no text of a sign", data.size());
     SignText text;
     std::size_t line = 0;
@@ -105,11 +105,11 @@ base::Result<SignText> decodeSign(const BlockEntityData& data) {
 }
 
 BlockBehavior signBehavior() {
-    return {.name = std::string(kBehavior)};
+    return {.name = std::string(kSignBehavior)};
 }
 
 bool holdsText(const BlockType& type) {
-    return std::ranges::any_of(type.behaviors, [](const BehaviorPtr& b) { return b->name == kBehavior; });
+    return std::ranges::any_of(type.behaviors, [](const BehaviorPtr& b) { return b->name == kSignBehavior; });
 }
 
 // A sign that faces +y has its text at -y; the others are that, turned.
@@ -118,8 +118,8 @@ std::optional<SignPlane> signPlane(const BlockType& type, std::uint16_t state) {
     const std::vector<Box>& boxes = type.model->form(state).boxes;
     if (boxes.empty()) return std::nullopt;
     const int facing = state & type.model->stateMask & kStateFacing;
-    constexpr std::array<glm::dvec3, 4> kAhead{{{0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 0, 0}}};
-    const glm::dvec3 ahead = kAhead[static_cast<std::size_t>(facing)], right(ahead.y, -ahead.x, 0);
+    constexpr std::array<glm::dvec3, 4> kLooks{{{0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 0, 0}}};
+    const glm::dvec3 ahead = kLooks[static_cast<std::size_t>(facing)], right(ahead.y, -ahead.x, 0);
     const auto alongRight = [&](const Box& box) {
         const glm::dvec3 size(box.max - box.min);
         return size.x * std::abs(right.x) + size.y * std::abs(right.y);

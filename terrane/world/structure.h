@@ -14,8 +14,8 @@
 
 namespace terrane::world {
 
-// A copy has 500,000 × 4 bytes of cells = 2 MB. To place it takes 168 bytes a block with its step to undo (the
-// plan, what was there, both values, the event): 84 MB, and half a second (docs/performance.md).
+// A copy has 500,000 × 4 bytes of cells = 2 MB. To place it takes 168 bytes a block with its step to undo
+// (the plan, what was there, both values, the event): 84 MB, and half a second (docs/performance.md).
 constexpr std::int64_t kMaxStructureBlocks = 500'000;
 
 struct StructureBlock {

@@ -1,9 +1,10 @@
 // libFuzzer: any bytes as a structure, behind a byte that says how deep they go. What the reader takes must
-// come back the same when it is written.
+// come back the same when it is written; data that are the text of a sign, too.
 #include <xxhash.h>
 
 #include "terrane/store/compression.h"
 #include "terrane/store/structure_file.h"
+#include "terrane/world/sign.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace {
@@ -40,6 +41,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     fuzz::require(structure->cells.size() == static_cast<std::size_t>(structure->blockCount()));
+    for (const world::StructureData& entry : structure->data) {
+        const auto text = world::decodeSign(*entry.data);
+        fuzz::require(!text || world::encodeSign(*text) == *entry.data);
+    }
     const auto again = store::encodeStructure(*structure);
     fuzz::require(again.has_value());
     const auto back = store::decodeStructure(*again);

@@ -13,16 +13,17 @@ namespace {
 
 using world::BlockBox;
 
-struct Button {
+struct ToolButton {
     ToolAction action;
     const char* label;
 };
 // In rows of two.
-constexpr Button kButtons[] = {{ToolAction::Fill, "Fill (G)"},        {ToolAction::Replace, "Replace (X)"},
-                               {ToolAction::Clear, "Clear (Del)"},    {ToolAction::Copy, "Copy (Ctrl+C)"},
-                               {ToolAction::Paste, "Paste (Ctrl+V)"}, {ToolAction::Turn, "Rotate (R)"},
-                               {ToolAction::Mirror, "Mirror (F)"},    {ToolAction::Save, "Save (Ctrl+S)"},
-                               {ToolAction::Open, "Open (Ctrl+O)"}};
+constexpr ToolButton kToolButtons[] = {
+    {ToolAction::Fill, "Fill (G)"},        {ToolAction::Replace, "Replace (X)"},
+    {ToolAction::Clear, "Clear (Del)"},    {ToolAction::Copy, "Copy (Ctrl+C)"},
+    {ToolAction::Paste, "Paste (Ctrl+V)"}, {ToolAction::Turn, "Rotate (R)"},
+    {ToolAction::Mirror, "Mirror (F)"},    {ToolAction::Save, "Save (Ctrl+S)"},
+    {ToolAction::Open, "Open (Ctrl+O)"}};
 
 // Orange and blue are told apart by everyone.
 constexpr ImU32 kSelected = IM_COL32(255, 160, 40, 255);
@@ -82,7 +83,7 @@ void SelectionTool::drawPanel(const Screen& screen, const BuildView& view) {
         ImGui::TextUnformatted(("copied: " + sizeText(clipboard->size)).c_str());
     const ImVec2 size(104 * uiScale(), 0);
     int column = 0;
-    for (const Button& button : kButtons) {
+    for (const ToolButton& button : kToolButtons) {
         if (column++ % 2 == 1) ImGui::SameLine();
         if (ImGui::Button(button.label, size)) pressed_ = button.action;
     }

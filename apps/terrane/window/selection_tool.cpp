@@ -29,7 +29,7 @@ constexpr ActionKey kActionKeys[] = {
     {ToolAction::Save, Key::S, true},       {ToolAction::Open, Key::O, true},
     {ToolAction::Clear, Key::Delete, false}};
 
-BlockPos blockAt(const glm::dvec3& point) {
+BlockPos cellOf(const glm::dvec3& point) {
     const glm::ivec3 at(glm::floor(point));
     return {at.x, at.y, at.z};
 }
@@ -38,7 +38,7 @@ world::Ray lookRay(const BuildView& view) {
     return {view.pose.position, glm::dvec3(world::lookDirection(view.pose.yaw, view.pose.pitch))};
 }
 
-std::optional<world::RayHit> target(const BuildView& view) {
+std::optional<world::RayHit> lookedAt(const BuildView& view) {
     return world::castRay(view.session.world(), view.session.blocks(), lookRay(view), game::kBuildReach);
 }
 
@@ -63,7 +63,7 @@ std::string blocksText(std::int64_t count) {
     return withCommas(count) + (count == 1 ? " block" : " blocks");
 }
 
-std::string told(std::string_view verb, const BuildOutcome& outcome) {
+std::string outcomeText(std::string_view verb, const BuildOutcome& outcome) {
     if (outcome.result != BuildOutcome::Result::Done) return refusal(outcome.result);
     std::string text = fmt::format("{} {}", verb, blocksText(static_cast<std::int64_t>(outcome.changed)));
     if (outcome.kept > 0)
@@ -86,11 +86,12 @@ BlockPos pointedAt(const BuildView& view, bool beforeBlock) {
         const glm::dvec3 feet =
             view.body ? view.body->min + glm::dvec3(0.5, 0.5, 0) * (view.body->max - view.body->min)
                       : view.pose.position;
-        return blockAt(feet + glm::dvec3(0, 0, 1e-3));
+        return cellOf(feet + glm::dvec3(0, 0, 1e-3));
     }
-    if (const auto hit = target(view)) return beforeBlock ? world::beside(hit->block, hit->face) : hit->block;
+    if (const auto hit = lookedAt(view))
+        return beforeBlock ? world::beside(hit->block, hit->face) : hit->block;
     const world::Ray ray = lookRay(view);
-    return blockAt(ray.origin + ray.direction * kAhead);
+    return cellOf(ray.origin + ray.direction * kAhead);
 }
 
 bool SelectionTool::onKey(Key key, const BuildView& view) {
@@ -178,11 +179,11 @@ void SelectionTool::fill(const BuildView& view, world::BlockId id, std::optional
         return;
     }
     const auto outcome = view.session.build({game::kLocalPlayer, game::FillBox{*box, id, 0, replaced}});
-    message_ = told(replaced ? "replaced" : id == world::kAir ? "cleared" : "filled", outcome);
+    message_ = outcomeText(replaced ? "replaced" : id == world::kAir ? "cleared" : "filled", outcome);
 }
 
 void SelectionTool::replace(const BuildView& view) {
-    const auto hit = target(view);
+    const auto hit = lookedAt(view);
     if (!hit) {
         message_ = "look at a block of the kind to be replaced";
         return;
@@ -207,9 +208,9 @@ void SelectionTool::beginPaste() {
 
 void SelectionTool::place(const BuildView& view) {
     const auto low = selection_.pasteCorner(pointedAt(view, true));
-    message_ =
-        told("placed",
-             view.session.build({game::kLocalPlayer, game::PlaceStructure{selection_.clipboard(), *low}}));
+    message_ = outcomeText(
+        "placed",
+        view.session.build({game::kLocalPlayer, game::PlaceStructure{selection_.clipboard(), *low}}));
 }
 
 void SelectionTool::askName() {

@@ -39,8 +39,8 @@ struct Board {
 };
 
 // Whether nothing stands between the camera and a point before the board.
-bool isSeen(const game::Session& session, const glm::dvec3& eye, const Board& board,
-            const glm::dvec3& point) {
+bool isLetterSeen(const game::Session& session, const glm::dvec3& eye, const Board& board,
+                  const glm::dvec3& point) {
     constexpr int kMostPassed = 24;
     constexpr double kStep = 0.25;  // out of a cell that is passed in some steps
     const glm::dvec3 way = point - eye, ahead = glm::normalize(way);
@@ -74,7 +74,7 @@ void drawGlyph(const Pen& pen, const Board& board, const ImFontGlyph& glyph, glm
                board.plane.normal * kAbove;
     };
     const double x0 = double{glyph.X0}, x1 = double{glyph.X1}, y0 = double{glyph.Y0}, y1 = double{glyph.Y1};
-    if (!isSeen(pen.session, pen.eye, board, point((x0 + x1) / 2, (y0 + y1) / 2))) return;
+    if (!isLetterSeen(pen.session, pen.eye, board, point((x0 + x1) / 2, (y0 + y1) / 2))) return;
     const std::array corners{pen.projection.at(point(x0, y0)), pen.projection.at(point(x1, y0)),
                              pen.projection.at(point(x1, y1)), pen.projection.at(point(x0, y1))};
     if (!std::ranges::all_of(corners, [](const auto& corner) { return corner.has_value(); })) return;
