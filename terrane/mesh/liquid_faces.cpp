@@ -46,6 +46,7 @@ class FlowFaces {
         bool isKnown = true;  // not beyond an open border
         bool isSameLiquid = false;
         uint form = 0;
+        bool isStillFull = false;
     };
 
     static uint formAt(const world::Section& states, std::size_t index) {
@@ -64,7 +65,20 @@ class FlowFaces {
         if (blocks->get(static_cast<int>(index)) != liquid_.type.id) return {};
         if (side / 2 == 2) return {.isSameLiquid = true};
         const world::Section* states = isInside ? view.blockState : view.neighborStates[side];
-        return {.isSameLiquid = true, .form = formAt(*states, index)};
+        const uint form = formAt(*states, index);
+        return {
+            .isSameLiquid = true, .form = form, .isStillFull = form == 0 && isFull(*blocks, isInside, index)};
+    }
+
+    // Of a still block in the section or beside it: whether its top is no surface. Where that lies in a chunk
+    // beside the one above it is not known: then it counts as surface.
+    bool isFull(const world::Section& blocks, bool isInside, std::size_t index) const {
+        const bool isTop = index >= 256 * 15;
+        if (isTop && !isInside) return false;
+        const world::Section* section = isTop ? liquid_.view.neighbors[world::kFacePosZ] : &blocks;
+        if (!section) return false;
+        const world::BlockId above = section->get(static_cast<int>((index + 256) % 4096));
+        return above == liquid_.type.id || liquid_.view.blocks->type(above).opaqueCube;
     }
 
     // By the numbers of shape_face.h.
@@ -78,7 +92,8 @@ class FlowFaces {
         const Beside next = beside(cell, side);
         if (!next.isKnown || (form == 0 && next.form == 0)) return;
         const bool isFull = !hasBit(stillSurface_, world::kFacePosZ, cell.index());
-        const uint high = heightOf(form, isFull), low = next.isSameLiquid ? heightOf(next.form, false) : 0;
+        const uint high = heightOf(form, isFull),
+                   low = next.isSameLiquid ? heightOf(next.form, next.isStillFull) : 0;
         if (low < high) write(cell, side, shared::flowSideFace(side, low, high));
     }
 

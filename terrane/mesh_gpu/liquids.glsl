@@ -5,14 +5,26 @@ const uint kStillHeight = kFlowHeights - 1u;
 struct LiquidBeside {
     bool isSame;
     uint form;
+    bool isStillFull;
 };
+
+// Of a still block: whether its top is no surface. Where that lies in a chunk beside the one above it is not known: then it
+// counts as surface.
+bool isStillFull(MeshUnit unit, uint section, uvec3 inside, uint id) {
+    bool isTop = inside.z == kLast;
+    if (isTop && section != unit.section) return false;
+    uint above = blockBeyond(isTop ? unit.neighbors[5] : section, uvec3(inside.xy, (inside.z + 1u) & kLast));
+    return (above & 0xFFFFu) == id || (above >> 16 & kMeshOpaqueBit) != 0u;
+}
 
 LiquidBeside liquidBeside(MeshUnit unit, uvec3 cell, uint side) {
     ivec3 at = ivec3(cell) + kToward[side];
     uvec3 inside = uvec3(at & int(kLast));
-    if (idBeside(unit, cell, side) != idAt(cell)) return LiquidBeside(false, 0u);
-    uint states = all(equal(ivec3(inside), at)) ? unit.blockState : unit.neighborStates[side];
-    return LiquidBeside(true, blockStateAt(states, blockIndex(inside)) & kMeshFlowMask);
+    if (idBeside(unit, cell, side) != idAt(cell)) return LiquidBeside(false, 0u, false);
+    bool isInside = all(equal(ivec3(inside), at));
+    uint form = blockStateAt(isInside ? unit.blockState : unit.neighborStates[side], blockIndex(inside)) & kMeshFlowMask;
+    uint section = isInside ? unit.section : unit.neighbors[side];
+    return LiquidBeside(true, form, form == 0u && isStillFull(unit, section, inside, idAt(cell)));
 }
 
 uint flowHeightOf(uint form, bool isStillFull) {
@@ -32,7 +44,7 @@ void addFlowSide(MeshUnit unit, uvec3 cell, uint form, uint side) {
     LiquidBeside next = liquidBeside(unit, cell, side);
     if (form == 0u && next.form == 0u) return;
     bool isFull = (surface[cell.y + kSectionSize * cell.z] >> cell.x & 1u) == 0u;
-    uint high = flowHeightOf(form, isFull), low = next.isSame ? flowHeightOf(next.form, false) : 0u;
+    uint high = flowHeightOf(form, isFull), low = next.isSame ? flowHeightOf(next.form, next.isStillFull) : 0u;
     if (low < high) addFlowFace(unit, cell, side, flowSideFace(side, low, high));
 }
 

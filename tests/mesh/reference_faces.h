@@ -130,6 +130,13 @@ class ReferenceFaces {
     // Eighths of the surface's height; 9: the whole cell.
     static unsigned flowHeight(unsigned form) { return form >= 8 ? 9 : 8 - form; }
 
+    // Not known at the top of a section in a chunk beside.
+    bool isStillFull(int x, int y, int z) const {
+        if (((x | y) & ~15) != 0 && z % 16 == 15) return false;
+        const world::BlockId above = idAt(x, y, z + 1);
+        return above == idAt(x, y, z) || typeOf(above).opaqueCube;
+    }
+
     void addFlowSide(int x, int y, int z, int side, unsigned low, unsigned high) {
         const unsigned pair = high * (high - 1) / 2 + low;
         if (low < high) push(x, y, z, 28 + 4 * pair + static_cast<unsigned>(side), side);
@@ -142,7 +149,8 @@ class ReferenceFaces {
             const int nx = x + kStep[side][0], ny = y + kStep[side][1];
             if (!chunkAt(nx, ny) || idAt(nx, ny, z) != idAt(x, y, z)) continue;
             if (formAt(x, y, z) == 0 && formAt(nx, ny, z) == 0) continue;
-            addFlowSide(x, y, z, side, flowHeight(formAt(nx, ny, z)), height);
+            const bool isFull = formAt(nx, ny, z) == 0 && isStillFull(nx, ny, z);
+            addFlowSide(x, y, z, side, isFull ? 9 : flowHeight(formAt(nx, ny, z)), height);
         }
     }
 
