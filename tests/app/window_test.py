@@ -402,7 +402,7 @@ class Window(ProgramTest):
             game.wait_for(lambda: is_warned(game, 18))
             game.quit()
             game.wait_for(lambda: is_warned(game, 194))
-            game.click(1, 365, 241)
+            game.click(1, 322, 228)
             self.assertEqual(game.process.wait(HANG_SECONDS), 2)
             self.assertRegex(game.output(), r"error: .*home.sqlite: deleted or moved .*; not saved: \d+ chunks\n")
 
