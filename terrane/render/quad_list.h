@@ -8,6 +8,7 @@
 #include "terrane/gpu/buffer_texture.h"
 #include "terrane/gpu/program.h"
 #include "terrane/render/quad_store.h"
+#include "terrane/shared/bindings.h"
 
 namespace terrane::render {
 
