@@ -8,10 +8,9 @@
 namespace terrane::game {
 namespace {
 
-using Kind = BlockSound::Kind;
-
 std::optional<BlockSound> soundOf(const world::BlockRegistry& blocks, const world::BlockEdit& edit,
                                   bool isPlayers) {
+    using Kind = BlockSound::Kind;
     const world::BlockType &before = blocks.type(edit.before), &after = blocks.type(edit.after);
     const auto isFluid = [](const world::BlockType& type) {
         return type.id == world::kAir || type.shape == world::Shape::Liquid;
