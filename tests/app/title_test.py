@@ -103,6 +103,10 @@ class Title(ProgramTest):
         player.settle()
         player.press("t")
         player.wait_for(lambda: len(player.places()) > left)
+        # The game's last image stays until the title is there.
+        before, deadline = player.pixels(), time.monotonic() + 8
+        while player.pixels() == before and time.monotonic() < deadline:
+            time.sleep(0.05)
         player.settle()
 
     def test_a_new_world_is_made_left_and_continued(self):
