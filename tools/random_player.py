@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plays at random in a window on a virtual display: keys, mouse, wheel, clicks, the panel, options, resizing.
 
-Usage: random_player.py PROGRAM [MINUTES] [--seed N] [--folder DIR]
+Usage: random_player.py PROGRAM [MINUTES] [--seed N] [--title] [--folder DIR]
 
 Fails (exit code 1) when the program ends by itself or badly, reports a warning or an error (its own, a sanitizer's, or the
 graphics driver's), does not end when Esc is pressed, or when its memory still grows toward the end.
@@ -28,6 +28,7 @@ SCREEN = (640, 480)
 SIZES = ((480, 300), (320, 180), (200, 400), (640, 480), (101, 77))
 HELD = ("w", "a", "s", "d", "space", "Shift_L", "e", "q", "Up", "Left")
 PRESSED = ("F1", "F2", "F3", "F4", "F5", "F6", "F11", "F12", "o", "p", "i", "m", "l", "m", "F2")
+MENU = ("Return", "Return", "Down", "Right", "Escape", "t")
 # How much more memory a game may have later: caches fill, textures and buffers double, and a view distance that was
 # chosen in the panel brings chunks (0.4 MB each with what a software renderer keeps for them, more under sanitizers).
 GROWTH = 1.5
@@ -38,19 +39,25 @@ BAD = re.compile(r"warning|error|AddressSanitizer|LeakSanitizer|runtime error", 
 class Player:
     """The program and what is done to it."""
 
-    def __init__(self, program, folder, seed, display):
+    def __init__(self, program, folder, options, display):
+        seed = options.seed
         self.random, self.display, self.folder = random.Random(seed), display, folder
         variables = {**os.environ, "DISPLAY": display.name, "XDG_CONFIG_HOME": str(folder), "XDG_DATA_HOME": str(folder),
                      # Drivers keep memory until the process ends; what the program leaks grows.
                      "ASAN_OPTIONS": "detect_leaks=0:abort_on_error=1", "UBSAN_OPTIONS": "print_stacktrace=1"}
         self.log = open(folder / "log.txt", "w+", encoding="utf-8")
-        self.process = subprocess.Popen(
-            [program, "play", "--debug-gl", "--world", "random", "--view-distance", "4", "--samples", "1", "--size",
-             "480x300", "--collect-perf-data", "perf.csv"],
-            cwd=folder, env=variables, stdout=self.log, stderr=self.log)
+        self.begins_at_title = options.title
+        self.pressed = PRESSED + (MENU if options.title else ())
+        world = [] if options.title else ["--world", "random", "--collect-perf-data", "perf.csv"]
+        self.command = [program, "play", "--debug-gl", "--view-distance", "4", "--samples", "1", "--size", "480x300", *world]
+        self.variables = variables
+        self.start()
         self.most = 0  # bytes in memory
         self.down = set()
         self.actions = 0
+
+    def start(self):
+        self.process = subprocess.Popen(self.command, cwd=self.folder, env=self.variables, stdout=self.log, stderr=self.log)
 
     def open(self):
         deadline = time.monotonic() + 2 * HANG_SECONDS
@@ -74,7 +81,7 @@ class Player:
             xdotool("keyup" if key in self.down else "keydown", key)
             self.down ^= {key}
         elif choice < 0.50:
-            xdotool("key", self.random.choice(PRESSED))
+            xdotool("key", self.random.choice(self.pressed))
         elif choice < 0.70:
             xdotool("mousemove", self.random.randrange(SCREEN[0]), self.random.randrange(SCREEN[1]))
         elif choice < 0.78:
@@ -96,6 +103,9 @@ class Player:
     def play(self, seconds):
         end, next_look = time.monotonic() + seconds, 0
         while time.monotonic() < end:
+            if self.process.poll() == 0 and self.begins_at_title:  # "Quit" was chosen
+                self.start()
+                self.open()
             if self.process.poll() is not None:
                 raise RuntimeError(f"the program ended by itself with {self.process.returncode}")
             self.act()
@@ -160,6 +170,7 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("minutes", type=float, nargs="?", default=1)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--title", action="store_true", help="begin at the title; the memory is not judged")
     parser.add_argument("--folder", type=pathlib.Path, help="keep the log, the save and the statistics here")
     options = parser.parse_args()
     if not shutil.which("Xvfb") or not shutil.which("xdotool"):
@@ -168,10 +179,10 @@ def main():
     folder = options.folder or pathlib.Path(tempfile.mkdtemp(prefix="terrane_player_"))
     folder.mkdir(parents=True, exist_ok=True)
     with virtual_display.Display(SCREEN) as display:
-        player = Player(options.program.resolve(), folder, options.seed, display)
+        player = Player(options.program.resolve(), folder, options, display)
         faults = faults_of(player, options.minutes)
     faults += player.complaints()
-    if not faults and (grown := growth(folder / "perf.csv")):
+    if not faults and not options.title and (grown := growth(folder / "perf.csv")):
         faults.append(grown)
     print(f"{player.actions} actions in {options.minutes:g} minutes, at most {player.most / 1e6:.0f} MB, seed {options.seed}")
     for fault in faults:

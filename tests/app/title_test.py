@@ -105,6 +105,10 @@ class TitleScript(ProgramTest):
         player.settle()
         player.press("t")
         player.wait_for(lambda: len(player.places()) > left)
+        # The game's last image stays until the title is there.
+        before, deadline = player.pixels(), time.monotonic() + 8
+        while player.pixels() == before and time.monotonic() < deadline:
+            time.sleep(0.05)
         player.settle()
 
 
