@@ -36,6 +36,16 @@ LoopbackFunctions loopbackFunctions() {
             alcFunction<LPALCRENDERSAMPLESSOFT>("alcRenderSamplesSOFT")};
 }
 
+// How loud a sound is at a distance, as AL_INVERSE_DISTANCE_CLAMPED has it.
+double gainAt(double distance) {
+    return kFullVolumeDistance / std::max(distance, kFullVolumeDistance);
+}
+
+}  // namespace
+
+// Of the device: a type with a name of its own, so that the sources can be compiled as one.
+namespace openal {
+
 struct DeviceCloser {
     void operator()(ALCdevice* device) const { alcCloseDevice(device); }
 };
@@ -46,14 +56,9 @@ struct ContextCloser {
     }
 };
 
-// How loud a sound is at a distance, as AL_INVERSE_DISTANCE_CLAMPED has it.
-double gainAt(double distance) {
-    return kFullVolumeDistance / std::max(distance, kFullVolumeDistance);
-}
-
 // What sounds like a one-shot or a loop: a source and where in the world it is.
 struct Source {
-    ALuint id = kNone;
+    ALuint id = 0;  // none
     std::optional<glm::dvec3> position;
     float volume = 0;
 };
@@ -63,6 +68,12 @@ struct Loop {
     float target = 0;  // volume
     float rate = 0;    // of its change, a second
 };
+
+}  // namespace openal
+
+using openal::ContextCloser, openal::DeviceCloser, openal::Loop, openal::Source;
+
+namespace {
 
 bool isPlaying(const Source& source) {
     ALint state = AL_STOPPED;

@@ -12,7 +12,7 @@
 namespace terrane::app {
 namespace {
 
-constexpr ImGuiSliderFlags kTyped = ImGuiSliderFlags_AlwaysClamp;
+constexpr ImGuiSliderFlags kClamped = ImGuiSliderFlags_AlwaysClamp;
 
 // A row of the graphics table in words. Costs are those of docs/rendering.md, "What a preset costs".
 struct PlainRow {
@@ -115,9 +115,9 @@ void drawGraphicsPage(PlaySettings& s, bool isSoftwareRenderer) {
     heading("Quality");
     drawQuality(s, isSoftwareRenderer);
     heading("View");
-    ImGui::SliderInt("View distance", &s.graphics.viewDistance, 2, 64, "%d chunks", kTyped);
+    ImGui::SliderInt("View distance", &s.graphics.viewDistance, 2, 64, "%d chunks", kClamped);
     tooltipFor("Chunks of 16 blocks that are shown in full.\nCost: high; memory grows with its square.");
-    ImGui::SliderFloat("Field of view", &s.fieldOfView, 40, 110, "%.0f degrees", kTyped);
+    ImGui::SliderFloat("Field of view", &s.fieldOfView, 40, 110, "%.0f degrees", kClamped);
     tooltipFor("From below to above.\nCost: little more where more is in view.");
     ImGui::Checkbox("Full screen", &s.fullScreen);
     heading("Details");
@@ -133,12 +133,12 @@ void drawWorldPage(PlaySettings& s, game::DayClock* day) {
         char text[16];
         std::snprintf(text, sizeof text, "%02d:%02d", static_cast<int>(time) % 24,
                       static_cast<int>(time * 60) % 60);
-        if (ImGui::SliderFloat("Time of day", &time, 0, 24, text, kTyped))
+        if (ImGui::SliderFloat("Time of day", &time, 0, 24, text, kClamped))
             day->timeDay = std::min(double{time} / 24, 0.99999);
         ImGui::Checkbox("Time passes", &day->isRunning);
     }
     float minutes = static_cast<float>(s.dayMinutes);
-    if (ImGui::SliderFloat("Minutes a day", &minutes, 0.5f, 60, "%.1f", kTyped))
+    if (ImGui::SliderFloat("Minutes a day", &minutes, 0.5f, 60, "%.1f", kClamped))
         s.dayMinutes = double{minutes};
     tooltipFor("How long a day of the world takes.");
     if (!day) {

@@ -19,7 +19,7 @@ namespace terrane::app {
 namespace {
 
 constexpr double kRadius = 40, kRoundSeconds = 300;  // blocks; 0.8 blocks a second
-constexpr double kAbove = 10, kHighest = 235;        // over the ground; of all
+constexpr double kOverGround = 10, kHighest = 235;   // over the ground; of all
 constexpr double kMorning = 0.33;                    // of a day
 constexpr int kMostChunks = 8, kMostHorizon = 256;
 constexpr std::chrono::milliseconds kPause{15};  // between frames without a world
@@ -49,7 +49,7 @@ double flightHeight(const gen::Generator& generator, const glm::dvec3& center) {
     for (int step = 0; step < kSteps; ++step) {
         const world::Pose pose = flightPose(center, kRoundSeconds * step / kSteps);
         const world::Chunk chunk = generator.generate(world::chunkOf(pose.position));
-        highest = std::max(highest, highestBlock(chunk) + kAbove);
+        highest = std::max(highest, highestBlock(chunk) + kOverGround);
     }
     return std::min(highest, kHighest);
 }
