@@ -1,5 +1,7 @@
 #include "terrane/gpu/context.h"
 
+#include <epoxy/gl.h>
+
 #include <type_traits>
 
 #include "terrane/gpu/device_info.h"
