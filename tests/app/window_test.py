@@ -112,10 +112,11 @@ class Game:
         raise RuntimeError(f"nothing happens: {self.output()}")
 
     def wait_for_image(self, size, x0=0, y0=0):
-        """Waits for a window of this size with an image: a world has many colors, an undrawn window one."""
+        """Waits for a window of this size with an image: a world has many colors, an undrawn window one, beside the texts
+        over it, which reach no edge at the right."""
         def is_drawn():
             image = self.display.screenshot(self.window)
-            return (image.width, image.height) == size and len(image.colors(x0, y0)) > 30
+            return (image.width, image.height) == size and len(image.colors(max(x0, image.width - 6), y0)) > 5
         self.wait_for(is_drawn)
 
     def wait_for_ground(self, is_it):
