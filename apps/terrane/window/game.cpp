@@ -186,7 +186,10 @@ game::PlayerState Game::playerState() const {
             .timeDay = parts_.session.clock.timeDay,
             .hand = parts_.session.blocks().type(interaction_.block()).name,
             .movement = nameOf(settings_.movement),
-            .resourcePack = settings_.resourcePack};
+            // So that it is found from another working directory, too.
+            .resourcePack = settings_.resourcePack.empty()
+                                ? ""
+                                : std::filesystem::absolute(settings_.resourcePack).string()};
 }
 
 base::Result<void> Game::save() {
