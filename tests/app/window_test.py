@@ -609,7 +609,8 @@ class Window(ProgramTest):
             red, green, blue = display.screenshot(game.window).color(150, size[1] - 4)
             self.assertGreater(red, 2 * max(blue, green))
             self.close(game, open_things=1)
-        self.assertEqual(self.setting(self.folder / "terrane" / "flat-1.sqlite", "resource_pack"), "pk")
+        self.assertEqual(self.setting(self.folder / "terrane" / "flat-1.sqlite", "resource_pack"),
+                         os.path.realpath(pack))
 
     def test_shaders_are_read_again_while_one_plays(self):
         root = self.folder / "root"

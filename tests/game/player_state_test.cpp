@@ -43,6 +43,25 @@ TEST(PlayerState, TheHandOfFormerSavesIsTheFirstSlot) {
     EXPECT_EQ(savedPlayer(store).hotbar, "1 sand");
 }
 
+// They belong to the world, not to whoever plays.
+TEST(PlayerState, MovementAndTexturesComeBack) {
+    store::MemoryStore store({1, "flat", 1});
+    std::optional<PlayerState> saved;
+    savePlayer(store, kState, saved);
+    EXPECT_FALSE(savedPlayer(store).movement);
+    EXPECT_FALSE(savedPlayer(store).resourcePack);
+    PlayerState other = kState;
+    other.movement = "fast";
+    other.resourcePack = "/packs/wood";
+    savePlayer(store, other, saved);
+    EXPECT_EQ(savedPlayer(store).movement, "fast");
+    EXPECT_EQ(savedPlayer(store).resourcePack, "/packs/wood");
+    // One that was taken back is none, also where it was saved by another program.
+    std::optional<PlayerState> unknown;
+    savePlayer(store, kState, unknown);
+    EXPECT_EQ(savedPlayer(store).resourcePack, "");
+}
+
 TEST(PlayerState, WhatIsNoneIsLeftOut) {
     store::MemoryStore store({1, "flat", 1});
     store.setMetadata("camera", "3000000000 0 0 0 0");

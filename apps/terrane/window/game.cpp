@@ -196,7 +196,10 @@ game::PlayerState Game::playerState() const {
             .timeDay = parts_.session.clock.timeDay,
             .hotbar = game::textOf(interaction_.hotbar, parts_.session.blocks()),
             .movement = nameOf(settings_.movement),
-            .resourcePack = settings_.resourcePack};
+            // So that it is found from another working directory, too.
+            .resourcePack = settings_.resourcePack.empty()
+                                ? ""
+                                : std::filesystem::absolute(settings_.resourcePack).string()};
 }
 
 base::Result<void> Game::save() {
