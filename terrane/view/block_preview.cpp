@@ -79,8 +79,8 @@ gpu::Texture2D BlockPreview::draw(world::BlockId block) {
 unsigned BlockPreview::image(world::BlockId block) {
     auto found = images_.find(block);
     if (found == images_.end()) {
-        if (drawnInFrame_ == kImagesAFrame) return 0;
-        ++drawnInFrame_;
+        if (leftInFrame_ == 0) return 0;
+        --leftInFrame_;
         found = images_.emplace(block, draw(block)).first;
     }
     return found->second.id();

@@ -15,7 +15,6 @@ namespace terrane::view {
 class BlockPreview {
   public:
     static constexpr int kSize = 144;  // pixels
-    static constexpr int kImagesAFrame = 2;
     static render::RenderOptions options();
 
     // `shaders` and `blocks` outlive this.
@@ -27,9 +26,10 @@ class BlockPreview {
     base::Result<void> reloadShaders();  // of images as they are asked for from then on
 
     // The OpenGL texture with the block's image, clear around the block; its rows run from above. 0 where it
-    // was not drawn yet and kImagesAFrame were drawn since beginFrame(): it comes with a later frame.
+    // was not drawn yet and beginFrame() left no room for it: it comes with a later frame.
     unsigned image(world::BlockId block);
-    void beginFrame() { drawnInFrame_ = 0; }
+    // So many images may be drawn until the next call, at some milliseconds each.
+    void beginFrame(int images) { leftInFrame_ = images; }
 
   private:
     BlockPreview(const world::BlockRegistry& blocks, render::Renderer renderer)
@@ -41,7 +41,7 @@ class BlockPreview {
     render::Renderer renderer_;
     std::map<world::BlockId, gpu::Texture2D> images_;
     base::Image sky_;  // without a block
-    int drawnInFrame_ = 0;
+    int leftInFrame_ = 0;
 };
 
 }  // namespace terrane::view

@@ -87,7 +87,8 @@ PlaceFacts Game::placeFacts() {
 }
 
 void Game::drawHud(const Screen& screen, const render::Camera& camera, double seconds) {
-    parts_.preview.beginFrame();
+    constexpr int kImages = 2, kImagesInDialog = 8;
+    parts_.preview.beginFrame(isInDialog() ? kImagesInDialog : kImages);
     if (!hud_.isHidden && !isAbove_) {
         const glm::vec3 light = lightOnHand();
         drawParticles(screen, camera, hud_.particles, parts_.renderer.topColors(), light);
