@@ -250,6 +250,7 @@ class Window(ProgramTest):
             game.wait_for_ground(is_green)
             display.xdotool("click", 1)
             game.wait_for_ground(is_brown)
+            game.press("2")  # cobble
             display.xdotool("click", 3)
             game.wait_for_ground(is_grey)
             self.close(game)
@@ -431,7 +432,12 @@ class Window(ProgramTest):
             pause = game.pause_after("F1")
             game.tap(1, *middle, pause)
             game.tap(3, *middle, pause)
-            game.tap(3, *slot, pause)  # takes it out again: it is in the hand, instead of stone
+            game.tap(3, *slot, pause)  # takes one out again: it is in the hand, instead of stone
+            game.press("Escape")
+            time.sleep(pause)
+            game.tap(1, *middle, pause)  # breaks nothing: the other chest is in it still
+            game.tap(3, *middle, pause)
+            game.tap(3, *slot, pause)
             game.press("Escape")
             time.sleep(pause)
             for button in (1, 1, 3):  # breaks the chest and the block below it, and builds there

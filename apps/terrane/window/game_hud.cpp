@@ -89,7 +89,7 @@ PlaceFacts Game::placeFacts() {
 void Game::drawHud(const Screen& screen, const render::Camera& camera, double seconds) {
     constexpr int kImages = 2, kImagesInDialog = 8;
     parts_.preview.beginFrame(isInDialog() ? kImagesInDialog : kImages);
-    if (!hud_.isHidden && !isAbove_) {
+    if (!hud_.isHidden && !isAbove_ && hasWorldImage()) {
         const glm::vec3 light = lightOnHand();
         drawParticles(screen, camera, hud_.particles, parts_.renderer.topColors(), light);
         const world::BlockId block = interaction_.block();
