@@ -51,15 +51,26 @@ class FirstMinutes(title_test.TitleScript, building_test.BuildingScript):
         self.look(display, player)
         self.click_here(display, player, 3)
 
-    def take(self, player, name):
+    def is_in_hand(self, block):
+        chosen, *blocks = (self.setting("World", "hotbar") or "0").split()
+        return int(chosen) < len(blocks) and blocks[int(chosen)] == block
+
+    def take(self, player, name, block):
         """A block from the palette, into the hand."""
         player.hold("Tab")
         player.display.xdotool("type", "--delay", "100", name)
         player.hold("Return")
+        player.wait_for(lambda: self.is_in_hand(block))
+        player.settle()
+
+    def choose_slot(self, player, key, block):
+        self.press(player, key)
+        player.wait_for(lambda: self.is_in_hand(block))
 
     def build(self, display, player, button=3):
         display.xdotool("click", button)
-        time.sleep(2 * self.pause)
+        time.sleep(self.pause)
+        player.settle()
 
     def make_world(self, display):
         player = self.open(display)
@@ -78,23 +89,23 @@ class FirstMinutes(title_test.TitleScript, building_test.BuildingScript):
         self.press(player, "3", "g")  # a floor of stone bricks
         self.mark(display, player)
         self.press(player, "4", "g", "b")  # a wall of glass
-        for slot in ("5", "7", "8"):
+        for slot, block in (("5", "oak_stairs"), ("7", "oak_door"), ("8", "torch")):
             self.look(display, player)
-            self.press(player, slot)
+            self.choose_slot(player, slot, block)
             self.build(display, player)
         self.look(display, player)
-        self.take(player, "white lamp")
+        self.take(player, "white lamp", "lamp_white")
         self.build(display, player)
 
     def build_pond(self, display, player):
         self.look(display, player)
         self.build(display, player, button=1)
-        self.take(player, "water")
+        self.take(player, "water", "water")
         self.build(display, player)
 
     def undo_a_mistake(self, display, player):
         self.look(display, player)
-        self.press(player, "2")
+        self.choose_slot(player, "2", "cobble")
         self.build(display, player)
         self.keep(display, player, "mistake")
         self.press(player, "ctrl+z")
