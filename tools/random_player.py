@@ -27,7 +27,10 @@ HANG_SECONDS = 60  # under sanitizers a frame may take seconds
 SCREEN = (640, 480)
 SIZES = ((480, 300), (320, 180), (200, 400), (640, 480), (101, 77))
 HELD = ("w", "a", "s", "d", "space", "Shift_L", "e", "q", "Up", "Left")
-PRESSED = ("F1", "F2", "F3", "F4", "F5", "F6", "F11", "F12", "o", "p", "i", "m", "l", "m", "F2")
+PRESSED = ("F1", "F2", "F3", "F4", "F5", "F6", "F11", "F12", "o", "p", "i", "m", "l", "m", "F2",
+           "F7", "F8", "1", "2", "5", "9", "n", "h", "Escape", "Return", "ctrl+z", "ctrl+z", "ctrl+y",
+           "b", "g", "x", "r", "f", "Delete", "ctrl+c", "ctrl+v", "ctrl+s", "ctrl+o")
+TAKEN = ("water", "water", "sand", "torch", "door", "stairs", "sign", "chest", "fence", "lamp")  # from the palette
 MENU = ("Return", "Return", "Down", "Right", "Escape", "t")
 # How much more memory a game may have later: caches fill, textures and buffers double, and a view distance that was
 # chosen in the panel brings chunks (0.4 MB each with what a software renderer keeps for them, more under sanitizers).
@@ -46,7 +49,6 @@ class Player:
                      # Drivers keep memory until the process ends; what the program leaks grows.
                      "ASAN_OPTIONS": "detect_leaks=0:abort_on_error=1", "UBSAN_OPTIONS": "print_stacktrace=1"}
         self.log = open(folder / "log.txt", "w+", encoding="utf-8")
-        self.begins_at_title = options.title
         self.pressed = PRESSED + (MENU if options.title else ())
         world = [] if options.title else ["--world", "random", "--collect-perf-data", "perf.csv"]
         self.command = [program, "play", "--debug-gl", "--view-distance", "4", "--samples", "1", "--size", "480x300", *world]
@@ -54,7 +56,7 @@ class Player:
         self.start()
         self.most = 0  # bytes in memory
         self.down = set()
-        self.actions = 0
+        self.actions = self.quits = 0
 
     def start(self):
         self.process = subprocess.Popen(self.command, cwd=self.folder, env=self.variables, stdout=self.log, stderr=self.log)
@@ -86,6 +88,9 @@ class Player:
             xdotool("mousemove", self.random.randrange(SCREEN[0]), self.random.randrange(SCREEN[1]))
         elif choice < 0.78:
             xdotool("mousemove_relative", "--", self.random.randint(-200, 200), self.random.randint(-100, 100))
+        elif choice < 0.81:
+            xdotool("key", "Tab", "type", "--delay", "60", self.random.choice(TAKEN))
+            xdotool("key", self.random.choice(("Return", "Return", "Escape")))
         elif choice < 0.92:
             button = self.random.choice((1, 1, 1, 2, 3, 3, 3, 4, 5))
             xdotool("mousedown", button)
@@ -103,7 +108,8 @@ class Player:
     def play(self, seconds):
         end, next_look = time.monotonic() + seconds, 0
         while time.monotonic() < end:
-            if self.process.poll() == 0 and self.begins_at_title:  # "Quit" was chosen
+            if self.process.poll() == 0:  # "Quit" was chosen
+                self.quits += 1
                 self.start()
                 self.open()
             if self.process.poll() is not None:
@@ -184,7 +190,7 @@ def main():
     faults += player.complaints()
     if not faults and not options.title and (grown := growth(folder / "perf.csv")):
         faults.append(grown)
-    print(f"{player.actions} actions in {options.minutes:g} minutes, at most {player.most / 1e6:.0f} MB, seed {options.seed}")
+    print(f"{player.actions} actions in {options.minutes:g} minutes, {player.quits} times quit, at most {player.most / 1e6:.0f} MB, seed {options.seed}")
     for fault in faults:
         print("fault:", fault)
     if not options.folder and not faults:
