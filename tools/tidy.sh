@@ -14,5 +14,5 @@ modules=("$@")
 [[ $# -gt 0 ]] || modules=('*')
 for module in "${modules[@]}"; do
     # Not the embedded files, which are generated.
-    find "$BUILD_FOLDER" -path "*/terrane_$module.dir/Unity/*.cxx" ! -path '*terrane_shaders*' ! -path '*terrane_content*'
+    find "$BUILD_FOLDER" -path "*/terrane_$module.dir/Unity/*.cxx" ! -path '*terrane_shaders*' ! -path '*_files.dir*'
 done | xargs --max-procs="$(nproc)" --max-args=1 clang-tidy --quiet -p "$BUILD_FOLDER" 2> >(grep -v 'warnings generated' >&2)
