@@ -8,14 +8,15 @@
 namespace terrane::view {
 
 FrameTimes measureFrames(render::Renderer& renderer, const render::FrameInput& input, int count) {
-    using Clock = std::chrono::steady_clock;
+    using FrameClock = std::chrono::steady_clock;
     FrameTimes times;
     const double cpuBefore = base::cpuSeconds();
     for (int k = 0; k < count; ++k) {
-        const auto start = Clock::now();
+        const auto start = FrameClock::now();
         renderer.draw(input);
         glFinish();
-        times.milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+        times.milliseconds.push_back(
+            std::chrono::duration<double, std::milli>(FrameClock::now() - start).count());
         // They are of the frame before, which the GPU has finished: at first of one that is not counted.
         if (k == 0 && count > 1) continue;
         for (const gpu::GpuTiming& pass : renderer.passTimes())
