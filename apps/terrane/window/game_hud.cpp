@@ -92,11 +92,11 @@ void Game::drawHud(const Screen& screen, const render::Camera& camera, double se
     if (!hud_.isHidden && !isAbove_ && hasWorldImage()) {
         const glm::vec3 light = lightOnHand();
         drawParticles(screen, camera, hud_.particles, parts_.renderer.topColors(), light);
+        drawCompass(screen, player_.pose(), hud_.places);
+        if (hud_.showsFacts) drawPlaceFacts(placeFacts(), tr_);
         const world::BlockId block = interaction_.block();
         hud_.hand.draw(screen, block == world::kAir ? 0 : blockFace().image(block), light);
-        drawCompass(screen, player_.pose(), hud_.places);
         hud_.hotbar.draw(screen, interaction_.hotbar, blockFace(), seconds);
-        if (hud_.showsFacts) drawPlaceFacts(placeFacts(), tr_);
     }
     hud_.screenshot.draw(screen);
     if (hud_.palette.isOpen) drawPaletteDialog(screen);

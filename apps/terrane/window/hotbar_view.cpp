@@ -45,16 +45,20 @@ void HotbarView::draw(const Screen& screen, const game::Hotbar& hotbar, const Bl
     const float side = kSlot * scale, step = side + kGap * scale, edge = 3 * scale;
     const float left = (screen.width - kWidth * scale) / 2, top = screen.height - side - kMargin * scale;
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const auto corner = [&](std::size_t slot) { return ImVec2(left + step * static_cast<float>(slot), top); };
+    // One kind of thing after another: each change of the texture is a draw call.
     for (std::size_t slot = 0; slot < game::Hotbar::kSlots; ++slot) {
-        const ImVec2 min(left + step * static_cast<float>(slot), top), max(min.x + side, min.y + side);
+        const ImVec2 min = corner(slot), max(min.x + side, min.y + side);
         const bool isChosen = slot == hotbar.chosen;
         draw.AddRectFilled(min, max, IM_COL32(12, 14, 18, isChosen ? 170 : 120), 4 * scale);
-        if (hotbar.blocks[slot] != world::kAir)
-            drawBlockImage(draw, {min.x + edge, min.y + edge}, side - 2 * edge,
-                           face.image(hotbar.blocks[slot]));
         if (isChosen) draw.AddRect(min, max, IM_COL32(255, 255, 255, 235), 4 * scale, 0, 2 * scale);
         const char digit[] = {static_cast<char>('1' + slot), 0};
         draw.AddText({min.x + edge, min.y + edge / 2}, IM_COL32(255, 255, 255, 110), digit);
+    }
+    for (std::size_t slot = 0; slot < game::Hotbar::kSlots; ++slot) {
+        const glm::vec2 min(corner(slot).x + edge, top + edge);
+        if (hotbar.blocks[slot] != world::kAir)
+            drawBlockImage(draw, min, side - 2 * edge, face.image(hotbar.blocks[slot]));
     }
     if (nameSeconds_ > 0 && hotbar.block() != world::kAir)
         drawName(screen, face.name(hotbar.block()), static_cast<float>(std::min(nameSeconds_, 1.0)));
