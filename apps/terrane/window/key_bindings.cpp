@@ -49,12 +49,12 @@ struct KeyName {
 
 constexpr std::string_view kLettersDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 constexpr KeyName kOtherNames[] = {
-    {Key::F1, "F1"},           {Key::F2, "F2"},       {Key::F3, "F3"},       {Key::F4, "F4"},
-    {Key::F5, "F5"},           {Key::F6, "F6"},       {Key::F7, "F7"},       {Key::F8, "F8"},
-    {Key::F9, "F9"},           {Key::F10, "F10"},     {Key::F11, "F11"},     {Key::F12, "F12"},
-    {Key::Escape, "Escape"},   {Key::Space, "Space"}, {Key::Tab, "Tab"},     {Key::Shift, "Shift"},
-    {Key::Control, "Control"}, {Key::Left, "Left"},   {Key::Right, "Right"}, {Key::Up, "Up"},
-    {Key::Down, "Down"},
+    {Key::F1, "F1"},           {Key::F2, "F2"},       {Key::F3, "F3"},         {Key::F4, "F4"},
+    {Key::F5, "F5"},           {Key::F6, "F6"},       {Key::F7, "F7"},         {Key::F8, "F8"},
+    {Key::F9, "F9"},           {Key::F10, "F10"},     {Key::F11, "F11"},       {Key::F12, "F12"},
+    {Key::Escape, "Escape"},   {Key::Space, "Space"}, {Key::Tab, "Tab"},       {Key::Shift, "Shift"},
+    {Key::Control, "Control"}, {Key::Left, "Left"},   {Key::Right, "Right"},   {Key::Up, "Up"},
+    {Key::Down, "Down"},       {Key::Enter, "Enter"}, {Key::Delete, "Delete"},
 };
 
 constexpr std::string_view kNone = "none";

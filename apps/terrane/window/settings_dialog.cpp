@@ -23,7 +23,8 @@ bool SettingsDialog::draw(PlaySettings& settings, const Input& input) {
     const Screen& screen = input.screen;
     const ImVec2 size(std::min(520 * scale, screen.width - 2 * margin),
                       std::min(440 * scale, screen.height - 2 * margin));
-    beginMenu({input.tr("Settings"), {screen.width / 2, screen.height / 2}, size});
+    const std::string title = input.tr("Settings") + std::string("###settings");  // in any language
+    beginMenu({title.c_str(), {screen.width / 2, screen.height / 2}, size});
     drawTabs(input.tr);
     const float footer = ImGui::GetFrameHeightWithSpacing() + 10 * scale;
     ImGui::BeginChild("page", {0, -footer}, false, ImGuiWindowFlags_NavFlattened);
