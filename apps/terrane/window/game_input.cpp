@@ -77,7 +77,7 @@ void Game::onKey(Key key) {
     }
     const bool closesPalette = hud_.palette.isOpen && key == Key::Tab;
     if (closesPalette || (key == Key::Escape && hud_.hasDialog())) return capture(true);
-    if (settingsDialog_.takeKey(key, settings_)) return;
+    if (settingsDialog_.takeKey(key, settings_, tr_)) return;
     if (building_.isAsking() && !isInMenu()) return void(building_.onKey(key, buildView()));
     if (imgui_.takesKeys()) return;  // Escape ends the typing
     if (key == Key::Escape) return closeOne();
@@ -168,7 +168,7 @@ void Game::nextLight() {
     using render::LightSampling;
     render::LightSampling& light = settings_.graphics.render.light;
     light = light == LightSampling::Smooth ? LightSampling::Classic : LightSampling::Smooth;
-    say(light == LightSampling::Smooth ? "smooth light" : "classic light");
+    say(light == LightSampling::Smooth ? tr_("smooth light") : tr_("classic light"));
 }
 
 void Game::leave(bool toTitle) {

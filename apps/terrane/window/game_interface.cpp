@@ -48,7 +48,7 @@ void Game::drawInterface(double seconds) {
     if (showsPanel_) drawPanel(settings_, session.clock, {isSoftwareRenderer_, screen.width, screen.height});
     if (container_) drawOpenContainer(screen);
     if (showsSettings_ && !asksToQuit_) {
-        if (settingsDialog_.draw(settings_, {screen, isSoftwareRenderer_, &session.clock})) closeOne();
+        if (settingsDialog_.draw(settings_, {screen, tr_, isSoftwareRenderer_, &session.clock})) closeOne();
     } else if (isPaused_ && !asksToQuit_)
         if (const auto choice = drawPauseMenu(screen, tr_)) answerPauseMenu(*choice);
     const store::SaveStatus status = session.store().status();

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cctype>
 
+#include "apps/terrane/window/text.h"
 #include "terrane/base/nearest_name.h"
 
 namespace terrane::app {
@@ -12,32 +13,32 @@ namespace {
 constexpr bool kOpens = true;
 
 constexpr std::array kActions = {
-    ActionRow{Action::Forward, "forward", "Walk forward", Key::W, Key::Up},
-    ActionRow{Action::Back, "back", "Walk back", Key::S, Key::Down},
-    ActionRow{Action::Left, "left", "Walk left", Key::A, Key::Left},
-    ActionRow{Action::Right, "right", "Walk right", Key::D, Key::Right},
-    ActionRow{Action::Jump, "jump", "Jump", Key::Space},
-    ActionRow{Action::Run, "run", "Run; up where one flies", Key::Shift},
-    ActionRow{Action::Up, "up", "Up where one flies or swims", Key::E},
-    ActionRow{Action::Down, "down", "Down where one flies or swims", Key::Q, Key::Control},
-    ActionRow{Action::Movement, "movement", "Next way to move", Key::M},
-    ActionRow{Action::Earlier, "earlier", "Time of day back", Key::O},
-    ActionRow{Action::Later, "later", "Time of day forth", Key::P},
-    ActionRow{Action::HoldTime, "hold-time", "Let time stand still", Key::I},
-    ActionRow{Action::Light, "light", "Light classic or smooth", Key::L},
-    ActionRow{Action::Help, "help", "Show the keys", Key::F1, {}, kOpens},
-    ActionRow{Action::Panel, "panel", "Developer panel", Key::F2, {}, kOpens},
-    ActionRow{Action::TopView, "top-view", "Debug top view", Key::F3, {}, kOpens},
-    ActionRow{Action::LoadingMap, "loading-map", "Map of loaded chunks", Key::F4, {}, kOpens},
-    ActionRow{Action::SaveBookmark, "save-bookmark", "Save a bookmark", Key::F5, {}, kOpens},
-    ActionRow{Action::NextBookmark, "next-bookmark", "Go to the next bookmark", Key::F6, {}, kOpens},
-    ActionRow{Action::Palette, "palette", "Choose a block", Key::Tab},
-    ActionRow{Action::Places, "places", "Named places", Key::N},
-    ActionRow{Action::Spawn, "spawn", "Go where the world begins", Key::H},
-    ActionRow{Action::Facts, "facts", "Show where one is", Key::F7, {}, kOpens},
-    ActionRow{Action::HideHud, "hide-hud", "Hide all over the image", Key::F8, {}, kOpens},
-    ActionRow{Action::FullScreen, "full-screen", "Full screen", Key::F11, {}, kOpens},
-    ActionRow{Action::Screenshot, "screenshot", "Screenshot", Key::F12, {}, kOpens},
+    ActionRow{Action::Forward, "forward", trLater("Walk forward"), Key::W, Key::Up},
+    ActionRow{Action::Back, "back", trLater("Walk back"), Key::S, Key::Down},
+    ActionRow{Action::Left, "left", trLater("Walk left"), Key::A, Key::Left},
+    ActionRow{Action::Right, "right", trLater("Walk right"), Key::D, Key::Right},
+    ActionRow{Action::Jump, "jump", trLater("Jump"), Key::Space},
+    ActionRow{Action::Run, "run", trLater("Run; up where one flies"), Key::Shift},
+    ActionRow{Action::Up, "up", trLater("Up where one flies or swims"), Key::E},
+    ActionRow{Action::Down, "down", trLater("Down where one flies or swims"), Key::Q, Key::Control},
+    ActionRow{Action::Movement, "movement", trLater("Next way to move"), Key::M},
+    ActionRow{Action::Earlier, "earlier", trLater("Time of day back"), Key::O},
+    ActionRow{Action::Later, "later", trLater("Time of day forth"), Key::P},
+    ActionRow{Action::HoldTime, "hold-time", trLater("Let time stand still"), Key::I},
+    ActionRow{Action::Light, "light", trLater("Light classic or smooth"), Key::L},
+    ActionRow{Action::Help, "help", trLater("Show the keys"), Key::F1, {}, kOpens},
+    ActionRow{Action::Panel, "panel", trLater("Developer panel"), Key::F2, {}, kOpens},
+    ActionRow{Action::TopView, "top-view", trLater("Debug top view"), Key::F3, {}, kOpens},
+    ActionRow{Action::LoadingMap, "loading-map", trLater("Map of loaded chunks"), Key::F4, {}, kOpens},
+    ActionRow{Action::SaveBookmark, "save-bookmark", trLater("Save a bookmark"), Key::F5, {}, kOpens},
+    ActionRow{Action::NextBookmark, "next-bookmark", trLater("Go to the next bookmark"), Key::F6, {}, kOpens},
+    ActionRow{Action::Palette, "palette", trLater("Choose a block"), Key::Tab},
+    ActionRow{Action::Places, "places", trLater("Named places"), Key::N},
+    ActionRow{Action::Spawn, "spawn", trLater("Go where the world begins"), Key::H},
+    ActionRow{Action::Facts, "facts", trLater("Show where one is"), Key::F7, {}, kOpens},
+    ActionRow{Action::HideHud, "hide-hud", trLater("Hide all over the image"), Key::F8, {}, kOpens},
+    ActionRow{Action::FullScreen, "full-screen", trLater("Full screen"), Key::F11, {}, kOpens},
+    ActionRow{Action::Screenshot, "screenshot", trLater("Screenshot"), Key::F12, {}, kOpens},
 };
 static_assert(kActions.size() == kActionCount);
 
@@ -48,12 +49,12 @@ struct KeyName {
 
 constexpr std::string_view kLettersDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 constexpr KeyName kOtherNames[] = {
-    {Key::F1, "F1"},         {Key::F2, "F2"},       {Key::F3, "F3"},           {Key::F4, "F4"},
-    {Key::F5, "F5"},         {Key::F6, "F6"},       {Key::F7, "F7"},           {Key::F8, "F8"},
-    {Key::F9, "F9"},         {Key::F10, "F10"},     {Key::F11, "F11"},         {Key::F12, "F12"},
-    {Key::Escape, "Escape"}, {Key::Space, "Space"}, {Key::Tab, "Tab"},         {Key::Enter, "Enter"},
-    {Key::Delete, "Delete"}, {Key::Shift, "Shift"}, {Key::Control, "Control"}, {Key::Left, "Left"},
-    {Key::Right, "Right"},   {Key::Up, "Up"},       {Key::Down, "Down"},
+    {Key::F1, "F1"},           {Key::F2, "F2"},       {Key::F3, "F3"},         {Key::F4, "F4"},
+    {Key::F5, "F5"},           {Key::F6, "F6"},       {Key::F7, "F7"},         {Key::F8, "F8"},
+    {Key::F9, "F9"},           {Key::F10, "F10"},     {Key::F11, "F11"},       {Key::F12, "F12"},
+    {Key::Escape, "Escape"},   {Key::Space, "Space"}, {Key::Tab, "Tab"},       {Key::Shift, "Shift"},
+    {Key::Control, "Control"}, {Key::Left, "Left"},   {Key::Right, "Right"},   {Key::Up, "Up"},
+    {Key::Down, "Down"},       {Key::Enter, "Enter"}, {Key::Delete, "Delete"},
 };
 
 constexpr std::string_view kNone = "none";

@@ -48,9 +48,9 @@ inline constexpr std::size_t kActionCount = static_cast<std::size_t>(Action::kCo
 
 struct ActionRow {
     Action action;
-    std::string_view name;   // in settings
-    std::string_view label;  // as a player reads it
-    Key key;                 // unless the player chose another
+    std::string_view name;  // in settings
+    const char* label;      // as a player reads it, in English
+    Key key;                // unless the player chose another
     // Does the same where no other action has it.
     std::optional<Key> second = {};
     bool opensSomething = false;  // works in menus, too

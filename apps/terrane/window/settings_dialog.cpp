@@ -13,7 +13,7 @@ namespace terrane::app {
 namespace {
 
 constexpr std::array<const char*, static_cast<std::size_t>(SettingsPage::kCount)> kPages = {
-    "Graphics", "Controls", "World", "Access"};
+    trLater("Graphics"), trLater("Controls"), trLater("World"), trLater("General")};
 constexpr ImGuiSliderFlags kTyped = ImGuiSliderFlags_AlwaysClamp;
 
 }  // namespace
@@ -23,39 +23,40 @@ bool SettingsDialog::draw(PlaySettings& settings, const Input& input) {
     const Screen& screen = input.screen;
     const ImVec2 size(std::min(520 * scale, screen.width - 2 * margin),
                       std::min(440 * scale, screen.height - 2 * margin));
-    beginMenu({"Settings", {screen.width / 2, screen.height / 2}, size});
-    drawTabs();
+    const std::string title = input.tr("Settings") + std::string("###settings");  // in any language
+    beginMenu({title.c_str(), {screen.width / 2, screen.height / 2}, size});
+    drawTabs(input.tr);
     const float footer = ImGui::GetFrameHeightWithSpacing() + 10 * scale;
     ImGui::BeginChild("page", {0, -footer}, false, ImGuiWindowFlags_NavFlattened);
     ImGui::PushItemWidth(170 * scale);
     switch (page_) {
         case SettingsPage::Graphics:
-            drawGraphicsPage(settings, input.isSoftwareRenderer);
+            drawGraphicsPage(settings, input.isSoftwareRenderer, input.tr);
             break;
         case SettingsPage::Controls:
-            drawControls(settings);
+            drawControls(settings, input.tr);
             break;
         case SettingsPage::World:
-            drawWorldPage(settings, input.day);
+            drawWorldPage(settings, input.day, input.tr);
             break;
         default:
-            drawAccessibilityPage(settings);
+            drawAccessibilityPage(settings, input.tr);
     }
     ImGui::PopItemWidth();
     ImGui::EndChild();
     ImGui::Separator();
-    const bool isDone = ImGui::Button("Done (Esc)", {-1, 0});
+    const bool isDone = ImGui::Button(input.tr("Done (Esc)"), {-1, 0});
     ImGui::End();
     return isDone;
 }
 
-void SettingsDialog::drawTabs() {
+void SettingsDialog::drawTabs(const Texts& tr) {
     const float gap = ImGui::GetStyle().ItemSpacing.x, count = static_cast<float>(kPages.size());
     const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1)) / count;
     for (std::size_t k = 0; k < kPages.size(); ++k) {
         if (k > 0) ImGui::SameLine();
         const auto page = static_cast<SettingsPage>(k);
-        if (tabButton(kPages[k], page == page_, width)) page_ = page;
+        if (tabButton(tr(kPages[k]), page == page_, width)) page_ = page;
         if (page == page_ && ImGui::IsWindowAppearing()) ImGui::SetItemDefaultFocus();
     }
     ImGui::Separator();
@@ -67,24 +68,26 @@ void SettingsDialog::turnPage(int by) {
     waiting_.reset();
 }
 
-void SettingsDialog::drawControls(PlaySettings& settings) {
-    heading("Mouse and gamepad");
-    ImGui::SliderFloat("Mouse sensitivity", &settings.mouseSensitivity, 0.02f, 0.6f, "%.2f", kTyped);
-    tooltipFor("Degrees that the view turns for each step of the mouse.");
-    ImGui::Checkbox("Invert up and down", &settings.invertY);
-    tooltipFor("Pushing the mouse or the stick away looks down.");
-    ImGui::Checkbox("Jump by itself", &settings.autoJump);
-    tooltipFor("Walking against a step of one block climbs it.");
-    heading("Keys");
-    drawKeys(settings.keys);
+void SettingsDialog::drawControls(PlaySettings& settings, const Texts& tr) {
+    heading(tr("Mouse and gamepad"));
+    ImGui::SliderFloat(tr("Mouse sensitivity"), &settings.mouseSensitivity, 0.02f, 0.6f, "%.2f", kTyped);
+    tooltipFor(tr("Degrees that the view turns for each step of the mouse."));
+    ImGui::Checkbox(tr("Invert up and down"), &settings.invertY);
+    tooltipFor(tr("Pushing the mouse or the stick away looks down."));
+    ImGui::Checkbox(tr("Jump by itself"), &settings.autoJump);
+    tooltipFor(tr("Walking against a step of one block climbs it."));
+    heading(tr("Keys"));
+    drawKeys(settings.keys, tr);
 }
 
-void SettingsDialog::drawKeys(KeyBindings& keys) {
+void SettingsDialog::drawKeys(KeyBindings& keys, const Texts& tr) {
     if (waiting_) {
-        ImGui::TextColored(colors::kAccent, "Press the key for \"%s\"; Esc keeps it as it is.",
-                           std::string(rowOf(*waiting_).label).c_str());
+        ImGui::TextColored(colors::kAccent, "%s",
+                           fmt::format(fmt::runtime(tr("Press the key for \"{}\"; Esc keeps it as it is.")),
+                                       tr(rowOf(*waiting_).label))
+                               .c_str());
     } else {
-        dimText(note_.empty() ? "Choose a key to change it." : note_);
+        dimText(note_.empty() ? std::string(tr("Choose a key to change it.")) : note_);
     }
     if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) return;
     ImGui::TableSetupColumn("action", ImGuiTableColumnFlags_WidthStretch);
@@ -94,29 +97,32 @@ void SettingsDialog::drawKeys(KeyBindings& keys) {
         ImGui::TableNextColumn();
         ImGui::AlignTextToFramePadding();
         const auto key = keys.keyOf(row.action);
-        ImGui::TextColored(key ? colors::kText : colors::kWarning, "%s", std::string(row.label).c_str());
+        ImGui::TextColored(key ? colors::kText : colors::kWarning, "%s", tr(row.label));
         ImGui::TableNextColumn();
         ImGui::PushID(static_cast<int>(row.action));
-        const std::string name = waiting_ == row.action ? "..." : key ? std::string(nameOf(*key)) : "none";
-        if (ImGui::Button(name.c_str(), {-1, 0})) waiting_ = row.action;
+        const std::string name = waiting_ == row.action ? "..."
+                                 : key                  ? std::string(nameOf(*key))
+                                                        : std::string(tr("none"));
+        if (ImGui::Button((name + "###key").c_str(), {-1, 0})) waiting_ = row.action;
         ImGui::PopID();
     }
     ImGui::EndTable();
     ImGui::Spacing();
-    if (menuButton("Usual keys", 140 * uiScale(), !keys.isUsual())) {
+    if (menuButton(tr("Usual keys"), 140 * uiScale(), !keys.isUsual())) {
         keys = KeyBindings();
-        note_ = "All keys are as usual.";
+        note_ = tr("All keys are as usual.");
     }
 }
 
-bool SettingsDialog::takeKey(Key key, PlaySettings& settings) {
+bool SettingsDialog::takeKey(Key key, PlaySettings& settings, const Texts& tr) {
     if (!waiting_) return false;
     const Action action = *waiting_;
     waiting_.reset();
     if (!canBeBound(key)) return true;
     const auto loser = settings.keys.bind(action, key);
-    note_ = loser ? fmt::format("{} was \"{}\", which has no key now.", nameOf(key), rowOf(*loser).label)
-                  : fmt::format("{} is \"{}\".", nameOf(key), rowOf(action).label);
+    note_ = loser ? fmt::format(fmt::runtime(tr("{} was \"{}\", which has no key now.")), nameOf(key),
+                                tr(rowOf(*loser).label))
+                  : fmt::format(fmt::runtime(tr("{} is \"{}\".")), nameOf(key), tr(rowOf(action).label));
     return true;
 }
 

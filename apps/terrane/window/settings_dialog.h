@@ -8,6 +8,7 @@
 
 #include "apps/terrane/window/overlay.h"
 #include "apps/terrane/window/play_settings.h"
+#include "apps/terrane/window/text.h"
 #include "terrane/game/day_clock.h"
 
 namespace terrane::app {
@@ -18,6 +19,7 @@ class SettingsDialog {
   public:
     struct Input {
         Screen screen;
+        const Texts& tr;
         bool isSoftwareRenderer = false;
         game::DayClock* day = nullptr;  // of the world that is played; null on the title screen
     };
@@ -26,16 +28,16 @@ class SettingsDialog {
     bool draw(PlaySettings& settings, const Input& input);
 
     // While a key is waited for: it becomes the action's, and Escape gives up. False where none is.
-    bool takeKey(Key key, PlaySettings& settings);
+    bool takeKey(Key key, PlaySettings& settings, const Texts& tr);
     bool waitsForKey() const { return waiting_.has_value(); }
     // To the page before or behind, as by a gamepad's bumpers.
     void turnPage(int by);
     void open() { *this = SettingsDialog(); }
 
   private:
-    void drawTabs();
-    void drawControls(PlaySettings& settings);
-    void drawKeys(KeyBindings& keys);
+    void drawTabs(const Texts& tr);
+    void drawControls(PlaySettings& settings, const Texts& tr);
+    void drawKeys(KeyBindings& keys, const Texts& tr);
 
     SettingsPage page_ = SettingsPage::Graphics;
     std::optional<Action> waiting_;
@@ -43,8 +45,8 @@ class SettingsDialog {
 };
 
 // The pages that need nothing but the settings.
-void drawGraphicsPage(PlaySettings& settings, bool isSoftwareRenderer);
-void drawWorldPage(PlaySettings& settings, game::DayClock* day);
-void drawAccessibilityPage(PlaySettings& settings);
+void drawGraphicsPage(PlaySettings& settings, bool isSoftwareRenderer, const Texts& tr);
+void drawWorldPage(PlaySettings& settings, game::DayClock* day, const Texts& tr);
+void drawAccessibilityPage(PlaySettings& settings, const Texts& tr);
 
 }  // namespace terrane::app

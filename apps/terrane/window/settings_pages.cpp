@@ -24,32 +24,42 @@ struct PlainRow {
 
 constexpr PlainRow kRows[] = {
     {"horizon",
-     "Land beyond",
-     "How far land goes on beyond what is shown in full.\nCost: some; memory grows with it.",
-     {"None", "2 km", "4 km", "8 km", "16 km", "33 km", "65 km"}},
+     trLater("Land beyond"),
+     trLater("How far land goes on beyond what is shown in full.\nCost: some; memory grows with it."),
+     {trLater("None"), trLater("2 km"), trLater("4 km"), trLater("8 km"), trLater("16 km"), trLater("33 km"),
+      trLater("65 km")}},
     {"shadows",
-     "Shadows",
-     "How far the sun and the moon cast shadows.\nCost: some, more while one moves.",
-     {"Off", "Near", "Far", "To the horizon"}},
-    {"soft-shadows", "Soft shadows", "Shadows blur with the distance of what casts them.\nCost: little.", {}},
+     trLater("Shadows"),
+     trLater("How far the sun and the moon cast shadows.\nCost: some, more while one moves."),
+     {trLater("Off"), trLater("Near"), trLater("Far"), trLater("To the horizon")}},
+    {"soft-shadows",
+     trLater("Soft shadows"),
+     trLater("Shadows blur with the distance of what casts them.\nCost: little."),
+     {}},
     {"samples",
-     "Smooth edges",
-     "Samples of each pixel (MSAA).\nCost: high; four samples double a frame or more.",
-     {"Off", "2 samples", "4 samples", "8 samples"}},
-    {"light", "Light", "Steps from block to block, or soft corners.\nCost: little.", {"Classic", "Smooth"}},
+     trLater("Smooth edges"),
+     trLater("Samples of each pixel (MSAA).\nCost: high; four samples double a frame or more."),
+     {trLater("Off"), trLater("2 samples"), trLater("4 samples"), trLater("8 samples")}},
+    {"light",
+     trLater("Light"),
+     trLater("Steps from block to block, or soft corners.\nCost: little."),
+     {trLater("Classic"), trLater("Smooth")}},
     {"ssao",
-     "Shade in corners",
-     "Corners and gaps are a little darker.\nCost: a fourteenth of a frame.",
-     {"Off", "On", "Rough"}},
+     trLater("Shade in corners"),
+     trLater("Corners and gaps are a little darker.\nCost: a fourteenth of a frame."),
+     {trLater("Off"), trLater("On"), trLater("Rough")}},
     {"water",
-     "Water",
-     "Full: shores mirrored, waves, foam.\nCost: some where water is in view.",
-     {"Plain", "Full"}},
-    {"clouds", "Clouds", "Clouds in the sky and their shadows.\nCost: some.", {}},
-    {"god-rays", "Rays of the sun", "Rays between what stands before the sun.\nCost: little.", {}},
-    {"distance-fog", "Distance fog", "Far land fades into the sky.\nCost: none.", {}},
-    {"animation", "Moving plants", "Plants, leaves and water move.\nCost: little.", {}},
-    {"depth-of-field", "Blur far away", "What is far away is blurred.\nCost: little.", {}},
+     trLater("Water"),
+     trLater("Full: shores mirrored, waves, foam.\nCost: some where water is in view."),
+     {trLater("Plain"), trLater("Full")}},
+    {"clouds", trLater("Clouds"), trLater("Clouds in the sky and their shadows.\nCost: some."), {}},
+    {"god-rays",
+     trLater("Rays of the sun"),
+     trLater("Rays between what stands before the sun.\nCost: little."),
+     {}},
+    {"distance-fog", trLater("Distance fog"), trLater("Far land fades into the sky.\nCost: none."), {}},
+    {"animation", trLater("Moving plants"), trLater("Plants, leaves and water move.\nCost: little."), {}},
+    {"depth-of-field", trLater("Blur far away"), trLater("What is far away is blurred.\nCost: little."), {}},
 };
 
 const render::GraphicsRow* rowNamed(std::string_view name) {
@@ -57,29 +67,29 @@ const render::GraphicsRow* rowNamed(std::string_view name) {
     return found == render::graphicsTable().end() ? nullptr : &*found;
 }
 
-void drawPlainRow(const PlainRow& plain, render::GraphicsSettings& graphics) {
+void drawPlainRow(const PlainRow& plain, render::GraphicsSettings& graphics, const Texts& tr) {
     const render::GraphicsRow* row = rowNamed(plain.name);
     if (!row) return;
     int value = row->get(graphics);
     bool isChanged = false;
     if (plain.words[0] == nullptr) {
         bool isOn = value == 1;
-        isChanged = ImGui::Checkbox(plain.label, &isOn);
+        isChanged = ImGui::Checkbox(tr(plain.label), &isOn);
         value = isOn ? 1 : 0;
     } else {
         const auto count = static_cast<int>(row->valueNames.size());
         const bool isKnown = value >= 0 && value < count;
-        if (ImGui::BeginCombo(plain.label,
-                              isKnown ? plain.words[static_cast<std::size_t>(value)] : "Other")) {
+        if (ImGui::BeginCombo(tr(plain.label),
+                              isKnown ? tr(plain.words[static_cast<std::size_t>(value)]) : tr("Other"))) {
             for (int k = 0; k < count; ++k) {
-                if (!ImGui::Selectable(plain.words[static_cast<std::size_t>(k)], k == value)) continue;
+                if (!ImGui::Selectable(tr(plain.words[static_cast<std::size_t>(k)]), k == value)) continue;
                 value = k;
                 isChanged = true;
             }
             ImGui::EndCombo();
         }
     }
-    tooltipFor(plain.help);
+    tooltipFor(tr(plain.help));
     if (isChanged) row->set(graphics, value);
 }
 
@@ -87,94 +97,115 @@ struct Quality {
     const char *preset, *label, *help;
 };
 constexpr Quality kQualities[] = {
-    {"auto", "Auto", "High on a graphics card, low without one."},
-    {"low", "Low", "For machines without a graphics card. No shadows of far things, one sample a pixel."},
-    {"medium", "Medium",
-     "Smooth edges, clouds, rays of the sun.\nA frame takes 3.8 times as long as with low."},
-    {"high", "High", "Also shade in corners.\nA frame takes 4.5 times as long as with low."},
-    {"ultra", "Ultra",
-     "Finer shadows and far land.\nA frame takes a little longer than with high, and memory."},
+    {"auto", trLater("Auto"), trLater("High on a graphics card, low without one.")},
+    {"low", trLater("Low"),
+     trLater("For machines without a graphics card. No shadows of far things, one sample a pixel.")},
+    {"medium", trLater("Medium"),
+     trLater("Smooth edges, clouds, rays of the sun.\nA frame takes 3.8 times as long as with low.")},
+    {"high", trLater("High"),
+     trLater("Also shade in corners.\nA frame takes 4.5 times as long as with low.")},
+    {"ultra", trLater("Ultra"),
+     trLater("Finer shadows and far land.\nA frame takes a little longer than with high, and memory.")},
 };
 
-void drawQuality(PlaySettings& s, bool isSoftwareRenderer) {
+void drawQuality(PlaySettings& s, bool isSoftwareRenderer, const Texts& tr) {
     const float gap = ImGui::GetStyle().ItemSpacing.x, count = static_cast<float>(std::size(kQualities));
     const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1)) / count;
     for (const Quality& quality : kQualities) {
         if (&quality != kQualities) ImGui::SameLine();
-        if (tabButton(quality.label, s.preset == quality.preset, width)) {
+        if (tabButton(tr(quality.label), s.preset == quality.preset, width)) {
             s.preset = quality.preset;
             s.graphics = render::withPreset(s.graphics, s.preset, isSoftwareRenderer);
         }
-        tooltipFor(quality.help);
+        tooltipFor(tr(quality.help));
     }
 }
 
 }  // namespace
 
-void drawGraphicsPage(PlaySettings& s, bool isSoftwareRenderer) {
-    heading("Quality");
-    drawQuality(s, isSoftwareRenderer);
-    heading("View");
-    ImGui::SliderInt("View distance", &s.graphics.viewDistance, 2, 64, "%d chunks", kClamped);
-    tooltipFor("Chunks of 16 blocks that are shown in full.\nCost: high; memory grows with its square.");
-    ImGui::SliderFloat("Field of view", &s.fieldOfView, 40, 110, "%.0f degrees", kClamped);
-    tooltipFor("From below to above.\nCost: little more where more is in view.");
-    ImGui::Checkbox("Full screen", &s.fullScreen);
-    heading("Details");
-    for (const PlainRow& row : kRows) drawPlainRow(row, s.graphics);
+void drawGraphicsPage(PlaySettings& s, bool isSoftwareRenderer, const Texts& tr) {
+    heading(tr("Quality"));
+    drawQuality(s, isSoftwareRenderer, tr);
+    heading(tr("View"));
+    ImGui::SliderInt(tr("View distance"), &s.graphics.viewDistance, 2, 64, tr("%d chunks"), kClamped);
+    tooltipFor(tr("Chunks of 16 blocks that are shown in full.\nCost: high; memory grows with its square."));
+    ImGui::SliderFloat(tr("Field of view"), &s.fieldOfView, 40, 110, tr("%.0f degrees"), kClamped);
+    tooltipFor(tr("From below to above.\nCost: little more where more is in view."));
+    ImGui::Checkbox(tr("Full screen"), &s.fullScreen);
+    heading(tr("Details"));
+    for (const PlainRow& row : kRows) drawPlainRow(row, s.graphics, tr);
 }
 
-void drawWorldPage(PlaySettings& s, game::DayClock* day) {
-    constexpr std::array<const char*, 4> kMovements = {"Fast, through everything", "Slow, through everything",
-                                                       "Flying, not through blocks", "On foot"};
-    heading("Time");
+void drawWorldPage(PlaySettings& s, game::DayClock* day, const Texts& tr) {
+    constexpr std::array<const char*, 4> kMovements = {
+        trLater("Fast, through everything"), trLater("Slow, through everything"),
+        trLater("Flying, not through blocks"), trLater("On foot")};
+    heading(tr("Time"));
     if (day) {
         float time = static_cast<float>(day->timeDay) * 24;
         char text[16];
         std::snprintf(text, sizeof text, "%02d:%02d", static_cast<int>(time) % 24,
                       static_cast<int>(time * 60) % 60);
-        if (ImGui::SliderFloat("Time of day", &time, 0, 24, text, kClamped))
+        if (ImGui::SliderFloat(tr("Time of day"), &time, 0, 24, text, kClamped))
             day->timeDay = std::min(double{time} / 24, 0.99999);
-        ImGui::Checkbox("Time passes", &day->isRunning);
+        ImGui::Checkbox(tr("Time passes"), &day->isRunning);
     }
     float minutes = static_cast<float>(s.dayMinutes);
-    if (ImGui::SliderFloat("Minutes a day", &minutes, 0.5f, 60, "%.1f", kClamped))
+    if (ImGui::SliderFloat(tr("Minutes a day"), &minutes, 0.5f, 60, "%.1f", kClamped))
         s.dayMinutes = double{minutes};
-    tooltipFor("How long a day of the world takes.");
+    tooltipFor(tr("How long a day of the world takes."));
     if (!day) {
-        dimText("A world keeps its own time and way to move:\nplay it to change them.");
+        dimText(tr("A world keeps its own time and way to move:\nplay it to change them."));
         return;
     }
-    heading("Movement");
+    heading(tr("Movement"));
     const auto chosen = static_cast<std::size_t>(s.movement);
-    if (!ImGui::BeginCombo("How one moves", kMovements[chosen])) return;
+    if (!ImGui::BeginCombo(tr("How one moves"), tr(kMovements[chosen]))) return;
     for (std::size_t k = 0; k < kMovements.size(); ++k)
-        if (ImGui::Selectable(kMovements[k], k == chosen)) s.movement = static_cast<game::Movement>(k);
+        if (ImGui::Selectable(tr(kMovements[k]), k == chosen)) s.movement = static_cast<game::Movement>(k);
     ImGui::EndCombo();
 }
 
-void drawAccessibilityPage(PlaySettings& s) {
+static void drawGeneral(PlaySettings& s, const Texts& tr) {
+    // Each language by its own name, so that everyone finds theirs.
+    const std::array<std::pair<const char*, const char*>, 4> languages = {
+        {{"auto", tr("As the system")}, {"en", "English"}, {"cs", "Čeština"}, {"de", "Deutsch"}}};
+    heading(tr("Language and sound"));
+    const auto chosen = std::ranges::find(languages, s.language, [](const auto& row) { return row.first; });
+    const char* const shown = chosen != languages.end() ? chosen->second : s.language.c_str();
+    if (ImGui::BeginCombo((tr("Language") + std::string("###language")).c_str(), shown)) {
+        for (const auto& [code, name] : languages)
+            if (ImGui::Selectable(name, s.language == code)) s.language = code;
+        ImGui::EndCombo();
+    }
+    float percent = s.soundVolume * 100;
+    if (ImGui::SliderFloat(tr("Sound volume"), &percent, 0, 100, "%.0f %%", kClamped))
+        s.soundVolume = percent / 100;
+}
+
+void drawAccessibilityPage(PlaySettings& s, const Texts& tr) {
     constexpr std::array<std::pair<const char*, float>, 6> kSizes = {{{"75 %", 0.75f},
                                                                       {"100 %", 1.0f},
                                                                       {"125 %", 1.25f},
                                                                       {"150 %", 1.5f},
                                                                       {"175 %", 1.75f},
                                                                       {"200 %", 2.0f}}};
-    heading("Accessibility");
+    drawGeneral(s, tr);
+    heading(tr("Accessibility"));
     char shown[16];
     std::snprintf(shown, sizeof shown, "%.0f %%", double{s.textSize} * 100);
-    if (ImGui::BeginCombo("Text size", shown)) {
+    if (ImGui::BeginCombo(tr("Text size"), shown)) {
         for (const auto& [label, size] : kSizes)
             if (ImGui::Selectable(label, s.textSize == size)) s.textSize = size;
         ImGui::EndCombo();
     }
-    tooltipFor("Of all texts and menus.");
-    ImGui::Checkbox("High contrast", &s.highContrast);
+    tooltipFor(tr("Of all texts and menus."));
+    ImGui::Checkbox(tr("High contrast"), &s.highContrast);
     tooltipFor(
-        "The block that is looked at gets thick lines in black, white and orange, which all eyes tell "
-        "apart.");
-    ImGui::Checkbox("Reduced motion", &s.reducedMotion);
-    tooltipFor("The world behind the title stands still.");
+        tr("The block that is looked at gets thick lines in black, white and orange, which all eyes tell "
+           "apart."));
+    ImGui::Checkbox(tr("Reduced motion"), &s.reducedMotion);
+    tooltipFor(tr("The world behind the title stands still."));
 }
 
 }  // namespace terrane::app

@@ -35,7 +35,7 @@ void TitleScreen::drawNewWorld(const Screen& screen) {
     const ImVec2 size(isWide ? std::min(formWidth + most + 3 * margin, screen.width - 2 * margin)
                              : screen.width - 2 * margin,
                       isWide ? most + row : screen.height - 2 * margin);
-    beginMenu({"New world", {screen.width / 2, screen.height / 2}, size});
+    beginMenu({tr_("New world"), {screen.width / 2, screen.height / 2}, size});
     const float inside = ImGui::GetContentRegionAvail().y;
     const float side = isWide ? std::min(inside, ImGui::GetContentRegionAvail().x - formWidth) : most;
     ImGui::BeginChild(
@@ -50,25 +50,25 @@ void TitleScreen::drawNewWorld(const Screen& screen) {
 }
 
 void TitleScreen::drawForm() {
-    dimText("Name");
+    dimText(tr_("Name"));
     ImGui::PushItemWidth(-1);
     editText("##name", form_.name);
-    dimText("Seed (a number or any text)");
+    dimText(tr_("Seed (a number or any text)"));
     const auto seed = seedOf(form_);
     const float button = 64 * uiScale();
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
     editText("##seed", form_.seed);
     ImGui::SameLine();
-    if (ImGui::Button("Random", {button, 0})) {
+    if (ImGui::Button(tr_("Random"), {button, 0})) {
         form_.seed.clear();
         form_.randomSeed = std::random_device()();
     }
     if (seed) {
-        dimText(fmt::format("is {}", seed->seed));
+        dimText(fmt::format(fmt::runtime(tr_("is {}")), seed->seed));
     } else {
         warningText(seed.error().message);
     }
-    dimText("Generator");
+    dimText(tr_("Generator"));
     if (ImGui::BeginCombo("##generator", form_.generator.c_str())) {
         for (const std::string& name : gen::generatorNames())
             if (ImGui::Selectable(name.c_str(), name == form_.generator)) form_.generator = name;
@@ -77,10 +77,10 @@ void TitleScreen::drawForm() {
     ImGui::PopItemWidth();
     ImGui::Spacing();
     const float width = halfWidth();
-    if (menuButton("Create", width)) create();
+    if (menuButton(tr_("Create"), width)) create();
     if (ImGui::IsWindowAppearing()) ImGui::SetItemDefaultFocus();
     ImGui::SameLine();
-    if (menuButton("Back", width)) back();
+    if (menuButton(tr_("Back"), width)) back();
 }
 
 // North is up; the middle, where one begins, is marked.
@@ -98,7 +98,7 @@ void TitleScreen::drawMap(float side) {
     draw.AddCircleFilled(middle, 2.5f * scale, ImGui::GetColorU32(colors::kAccent));
     const char* text = !map_.problem().empty() ? map_.problem().c_str()
                        : map_.isComplete()     ? "4 km"
-                                               : "drawing...";
+                                               : tr_("drawing...");
     draw.AddText({at.x + 7 * scale, end.y - ImGui::GetFontSize() - 5 * scale}, IM_COL32(0, 0, 0, 200), text);
     draw.AddText({at.x + 6 * scale, end.y - ImGui::GetFontSize() - 6 * scale}, IM_COL32_WHITE, text);
     ImGui::Dummy({side, side});
@@ -106,19 +106,19 @@ void TitleScreen::drawMap(float side) {
 
 void TitleScreen::drawName(const Screen& screen) {
     const bool isRename = pages_.back() == Page::Rename;
-    beginMenu({isRename ? "Rename world" : "Copy world",
+    beginMenu({isRename ? tr_("Rename world") : tr_("Copy world"),
                {screen.width / 2, screen.height / 2},
                {std::min(340 * uiScale(), screen.width - 20), 0}});
-    dimText(isRename ? "New name" : "Name of the copy");
+    dimText(isRename ? tr_("New name") : tr_("Name of the copy"));
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     ImGui::PushItemWidth(-1);
     bool isDone = editText("##name", nameText_,
                            ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     ImGui::PopItemWidth();
     const float width = halfWidth();
-    isDone = menuButton(isRename ? "Rename" : "Copy", width) || isDone;
+    isDone = menuButton(isRename ? tr_("Rename") : tr_("Copy"), width) || isDone;
     ImGui::SameLine();
-    if (menuButton("Cancel", width)) return ImGui::End(), back();
+    if (menuButton(tr_("Cancel"), width)) return ImGui::End(), back();
     ImGui::End();
     if (isDone) changeName();
 }
@@ -142,9 +142,9 @@ void TitleScreen::changeName() {
 }
 
 void TitleScreen::drawCopying(const Screen& screen) {
-    beginMenu({"Copying", {screen.width / 2, screen.height / 2}, {300 * uiScale(), 0}});
+    beginMenu({tr_("Copying"), {screen.width / 2, screen.height / 2}, {300 * uiScale(), 0}});
     ImGui::ProgressBar(shelf_.copied(), {-1, 14 * uiScale()}, "");
-    if (menuButton("Cancel")) shelf_.cancelCopy();
+    if (menuButton(tr_("Cancel"))) shelf_.cancelCopy();
     ImGui::End();
     const auto done = shelf_.takeCopy();
     if (!done) return;
@@ -156,18 +156,18 @@ void TitleScreen::drawDelete(const Screen& screen) {
     const store::WorldEntry* world = shelf_.chosen();
     if (!world) return back();
     const std::string name = world->name, text = describe(*world);
-    beginMenu({"Delete world",
+    beginMenu({tr_("Delete world"),
                {screen.width / 2, screen.height / 2},
                {std::min(360 * uiScale(), screen.width - 20), 0}});
-    ImGui::TextWrapped("Delete \"%s\"? It cannot be brought back.", name.c_str());
+    ImGui::TextWrapped(tr_("Delete \"%s\"? It cannot be brought back."), name.c_str());
     dimText(text);
     ImGui::Spacing();
     const float width = halfWidth();
-    const bool isKept = menuButton("Keep it", width);
+    const bool isKept = menuButton(tr_("Keep it"), width);
     if (ImGui::IsWindowAppearing()) ImGui::SetItemDefaultFocus();
     ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.55f, 0.16f, 0.12f, 1));
-    const bool isDeleted = menuButton("Delete", width);
+    const bool isDeleted = menuButton(tr_("Delete"), width);
     ImGui::PopStyleColor();
     ImGui::End();
     if (isKept) return back();
@@ -177,7 +177,7 @@ void TitleScreen::drawDelete(const Screen& screen) {
 }
 
 void TitleScreen::drawMessage(const Screen& screen) {
-    beginMenu({"Message",
+    beginMenu({tr_("Message"),
                {screen.width / 2, screen.height / 2},
                {std::min(420 * uiScale(), screen.width - 20), 0}});
     warningText(message_);

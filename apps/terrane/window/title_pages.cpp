@@ -27,7 +27,7 @@ void TitleScreen::drawPage(const Screen& screen) {
         case Page::Delete:
             return drawDelete(screen);
         case Page::Settings:
-            if (dialog_.draw(settings_, {screen, parts_.screen.device.software, nullptr})) back();
+            if (dialog_.draw(settings_, {screen, tr_, parts_.screen.device.software, nullptr})) back();
             return;
         case Page::Message:
             return drawMessage(screen);
@@ -45,22 +45,23 @@ void TitleScreen::drawMain(const Screen& screen) {
     const store::WorldEntry* last = shelf_.last();
     const bool isFirst = ImGui::IsWindowAppearing();
     if (last) {
-        if (menuButton(fmt::format("Continue {}", last->name).c_str())) play(*last);
+        if (menuButton(fmt::format(fmt::runtime(tr_("Continue {}")), last->name).c_str())) play(*last);
         if (isFirst) ImGui::SetItemDefaultFocus();
-        if (menuButton(fmt::format("Worlds ({})", shelf_.worlds().size()).c_str())) open(Page::Worlds);
-    } else if (!shelf_.worlds().empty() && menuButton("Worlds")) {
+        if (menuButton(fmt::format(fmt::runtime(tr_("Worlds ({})")), shelf_.worlds().size()).c_str()))
+            open(Page::Worlds);
+    } else if (!shelf_.worlds().empty() && menuButton(tr_("Worlds"))) {
         open(Page::Worlds);
     }
-    if (menuButton("New world")) {
+    if (menuButton(tr_("New world"))) {
         form_ = newForm(parts_.folder, std::random_device()());
         open(Page::NewWorld);
     }
     if (!last && isFirst) ImGui::SetItemDefaultFocus();
-    if (menuButton("Settings")) {
+    if (menuButton(tr_("Settings"))) {
         dialog_.open();
         open(Page::Settings);
     }
-    if (menuButton("Quit (Q)")) quits_ = true;
+    if (menuButton(tr_("Quit (Q)"))) quits_ = true;
     ImGui::End();
     const std::string version = fmt::format("Terrane {}", TERRANE_VERSION);
     ImGui::GetBackgroundDrawList()->AddText({8 * scale, screen.height - ImGui::GetFontSize() - 6 * scale},
@@ -69,14 +70,14 @@ void TitleScreen::drawMain(const Screen& screen) {
 
 void TitleScreen::drawWorlds(const Screen& screen) {
     const float scale = uiScale(), margin = 12 * scale;
-    beginMenu({"Worlds",
+    beginMenu({tr_("Worlds"),
                {screen.width / 2, screen.height / 2},
                {std::min(640 * scale, screen.width - 2 * margin),
                 std::min(460 * scale, screen.height - 2 * margin)}});
     const float footer = 30 * scale + ImGui::GetStyle().ItemSpacing.y;
     ImGui::BeginChild("list", {0, -footer}, false, ImGuiWindowFlags_NavFlattened);
     for (std::size_t k = 0; k < shelf_.worlds().size(); ++k) drawRow(k);
-    if (shelf_.worlds().empty()) dimText("There is no world yet.");
+    if (shelf_.worlds().empty()) dimText(tr_("There is no world yet."));
     ImGui::EndChild();
     drawWorldButtons();
     ImGui::End();
@@ -118,27 +119,27 @@ void TitleScreen::drawWorldButtons() {
     const store::WorldEntry* chosen = shelf_.chosen();
     const bool isThere = chosen != nullptr, isGood = isThere && chosen->problem.empty();
     const bool isFree = isThere && chosen->inUse.empty();
-    if (menuButton("Play", width, isGood && isFree)) play(*chosen);
+    if (menuButton(tr_("Play"), width, isGood && isFree)) play(*chosen);
     ImGui::SameLine();
-    if (menuButton("New", width)) {
+    if (menuButton(tr_("New"), width)) {
         form_ = newForm(parts_.folder, std::random_device()());
         open(Page::NewWorld);
     }
     if (!isThere && ImGui::IsWindowAppearing()) ImGui::SetItemDefaultFocus();
     ImGui::SameLine();
-    if (menuButton("Rename", width, isFree)) {
+    if (menuButton(tr_("Rename"), width, isFree)) {
         nameText_ = chosen->name;
         open(Page::Rename);
     }
     ImGui::SameLine();
-    if (menuButton("Copy", width, isGood)) {
+    if (menuButton(tr_("Copy"), width, isGood)) {
         nameText_ = store::freeWorldName(parts_.folder, chosen->name + " copy");
         open(Page::Copy);
     }
     ImGui::SameLine();
-    if (menuButton("Delete", width, isFree)) open(Page::Delete);
+    if (menuButton(tr_("Delete"), width, isFree)) open(Page::Delete);
     ImGui::SameLine();
-    if (menuButton("Back", width)) back();
+    if (menuButton(tr_("Back"), width)) back();
 }
 
 }  // namespace terrane::app

@@ -13,6 +13,8 @@ namespace terrane::app {
 TitleScreen::TitleScreen(const Parts& parts, PlaySettings& settings, std::string message)
     : parts_(parts),
       settings_(settings),
+      language_(settings.language),
+      tr_(textsOf(settings.language)),
       imgui_(parts.window),
       shelf_(parts.folder, parts.blocks),
       map_(parts.blocks) {
@@ -51,6 +53,7 @@ base::Result<void> TitleScreen::drawFrame(double seconds) {
     } else if (auto drawn = background_->draw(size, seconds, settings_.reducedMotion); !drawn) {
         return drawn;
     }
+    if (settings_.language != language_) tr_ = textsOf(language_ = settings_.language);
     imgui_.setTextSize(settings_.textSize);
     imgui_.beginFrame(false, true);
     drawPage({imgui_.size().x, imgui_.size().y});
@@ -66,7 +69,7 @@ void TitleScreen::drawOpening() {
     if (background_) (void)background_->draw(size, 0, true);
     imgui_.beginFrame(false, true);
     beginMenu({"opening", {imgui_.size().x / 2, imgui_.size().y / 2}, {0, 0}, false});
-    ImGui::Text("Opening %s", choice_->file.stem().c_str());
+    ImGui::Text(tr_("Opening %s"), choice_->file.stem().c_str());
     ImGui::End();
     imgui_.endFrame();
     parts_.window.swapBuffers();
@@ -79,7 +82,7 @@ void TitleScreen::handleEvents() {
 }
 
 void TitleScreen::onKey(Key key) {
-    if (dialog_.takeKey(key, settings_)) return;
+    if (dialog_.takeKey(key, settings_, tr_)) return;
     if (imgui_.takesKeys()) return;  // Escape ends the typing
     if (key == Key::Escape) return back();
     if (key == Key::Q && pages_.back() == Page::Main) quits_ = true;

@@ -15,6 +15,7 @@
 #include "apps/terrane/window/new_world_form.h"
 #include "apps/terrane/window/pad_reader.h"
 #include "apps/terrane/window/settings_dialog.h"
+#include "apps/terrane/window/text.h"
 #include "apps/terrane/window/title_background.h"
 #include "apps/terrane/window/world_shelf.h"
 #include "terrane/base/stop_signals.h"
@@ -83,6 +84,8 @@ class TitleScreen {
 
     Parts parts_;
     PlaySettings& settings_;
+    std::string language_;  // of the texts
+    Texts tr_;
     ImguiLayer imgui_;
     PadReader pad_;
     std::optional<TitleBackground> background_;
