@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "apps/terrane/window/text.h"
 #include "terrane/game/session.h"
 #include "terrane/world/character.h"
 
@@ -10,6 +11,7 @@ namespace terrane::app {
 
 struct BuildView {
     game::Session& session;
+    const Texts& tr;
     world::Pose pose;
     std::optional<world::Aabb> body;  // none where the player flies through blocks
     world::BlockId hand = world::kAir;

@@ -42,7 +42,7 @@ void BuildingTools::drawSign(const Screen& screen, const BuildView& view) {
     const glm::dvec3 middle(pos.x + 0.5, pos.y + 0.5, pos.z + 0.5);
     const bool isNear = glm::distance(middle, view.pose.position) <= game::kReach + 1;
     const bool isThere = world::holdsText(view.session.blocks().type(view.session.world().block(pos)));
-    const auto choice = sign_->draw(screen);
+    const auto choice = sign_->draw(screen, view.tr);
     if (choice == SignDialog::Choice::Done) {
         const auto good = world::checkSign(sign_->text());
         if (!good)

@@ -5,6 +5,7 @@ namespace terrane::app {
 
 BuildView Game::buildView() const {
     return {.session = parts_.session,
+            .tr = tr_,
             .pose = player_.pose(),
             .body = player_.body(),
             .hand = interaction_.block(),

@@ -11,6 +11,12 @@
 namespace terrane::app {
 namespace {
 
+// As gen::continents::biomeName() has them, so that they are translated.
+[[maybe_unused]] constexpr const char* kBiomes[] = {
+    trLater("ocean"),       trLater("reef"),         trLater("beach"),      trLater("meadow"),
+    trLater("oak forest"),  trLater("birch forest"), trLater("old forest"), trLater("taiga"),
+    trLater("tundra"),      trLater("snow"),         trLater("savanna"),    trLater("desert"),
+    trLater("canyon land"), trLater("swamp"),        trLater("alpine"),     trLater("rain forest")};
 constexpr const char* kDirections[] = {trLater("north"),      trLater("north-east"), trLater("east"),
                                        trLater("south-east"), trLater("south"),      trLater("south-west"),
                                        trLater("west"),       trLater("north-west")};

@@ -19,11 +19,11 @@ struct ToolButton {
 };
 // In rows of two.
 constexpr ToolButton kToolButtons[] = {
-    {ToolAction::Fill, "Fill (G)"},        {ToolAction::Replace, "Replace (X)"},
-    {ToolAction::Clear, "Clear (Del)"},    {ToolAction::Copy, "Copy (Ctrl+C)"},
-    {ToolAction::Paste, "Paste (Ctrl+V)"}, {ToolAction::Turn, "Rotate (R)"},
-    {ToolAction::Mirror, "Mirror (F)"},    {ToolAction::Save, "Save (Ctrl+S)"},
-    {ToolAction::Open, "Open (Ctrl+O)"}};
+    {ToolAction::Fill, trLater("Fill (G)")},        {ToolAction::Replace, trLater("Replace (X)")},
+    {ToolAction::Clear, trLater("Clear (Del)")},    {ToolAction::Copy, trLater("Copy (Ctrl+C)")},
+    {ToolAction::Paste, trLater("Paste (Ctrl+V)")}, {ToolAction::Turn, trLater("Rotate (R)")},
+    {ToolAction::Mirror, trLater("Mirror (F)")},    {ToolAction::Save, trLater("Save (Ctrl+S)")},
+    {ToolAction::Open, trLater("Open (Ctrl+O)")}};
 
 // Orange and blue are told apart by everyone.
 constexpr ImU32 kSelected = IM_COL32(255, 160, 40, 255);
@@ -48,8 +48,8 @@ void drawBox(const ScreenProjection& projection, const BlockBox& box, double gro
         }
 }
 
-std::string sizeText(glm::ivec3 size) {
-    return fmt::format("{} x {} x {} = {} blocks", size.x, size.y, size.z,
+std::string sizeText(const Texts& tr, glm::ivec3 size) {
+    return fmt::format(fmt::runtime(tr("{} x {} x {} = {} blocks")), size.x, size.y, size.z,
                        withCommas(std::int64_t{size.x} * size.y * size.z));
 }
 
@@ -65,47 +65,48 @@ void SelectionTool::draw(const Screen& screen, const render::Camera& camera, con
 }
 
 void SelectionTool::drawPanel(const Screen& screen, const BuildView& view) {
+    const Texts& tr = view.tr;
     const float margin = 10 * uiScale();
     ImGui::SetNextWindowPos({screen.width - margin, margin}, ImGuiCond_Always, {1, 0});
     ImGui::SetNextWindowBgAlpha(0.6f);
-    ImGui::Begin("Selection (B)", nullptr,
+    ImGui::Begin(tr("Selection (B)"), nullptr,
                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
     if (const auto box = selection_.box()) {
         const world::BlockPos low = box->low, high = box->high;
         ImGui::TextUnformatted(
-            sizeText({high.x - low.x + 1, high.y - low.y + 1, high.z - low.z + 1}).c_str());
+            sizeText(tr, {high.x - low.x + 1, high.y - low.y + 1, high.z - low.z + 1}).c_str());
     } else {
-        ImGui::TextUnformatted("left, right button: corners");
+        ImGui::TextUnformatted(tr("left, right button: corners"));
     }
-    ImGui::Text("with: %s", view.session.blocks().type(view.hand).name.c_str());
+    ImGui::Text(tr("with: %s"), tr.block(view.session.blocks().type(view.hand)).c_str());
     if (const auto& clipboard = selection_.clipboard())
-        ImGui::TextUnformatted(("copied: " + sizeText(clipboard->size)).c_str());
-    const ImVec2 size(104 * uiScale(), 0);
+        ImGui::Text(tr("copied: %s"), sizeText(tr, clipboard->size).c_str());
+    const ImVec2 size(130 * uiScale(), 0);
     int column = 0;
     for (const ToolButton& button : kToolButtons) {
         if (column++ % 2 == 1) ImGui::SameLine();
-        if (ImGui::Button(button.label, size)) pressed_ = button.action;
+        if (ImGui::Button(tr(button.label), size)) pressed_ = button.action;
     }
-    ImGui::TextUnformatted("Shift: the place where you are");
-    if (asks_ == Asks::Name) drawName();
-    if (asks_ == Asks::File) drawFiles();
+    ImGui::TextUnformatted(tr("Shift: the place where you are"));
+    if (asks_ == Asks::Name) drawName(tr);
+    if (asks_ == Asks::File) drawFiles(tr);
     ImGui::End();
 }
 
-void SelectionTool::drawName() {
+void SelectionTool::drawName(const Texts& tr) {
     ImGui::Separator();
-    ImGui::TextUnformatted("Name of the file, then Enter");
+    ImGui::TextUnformatted(tr("Name of the file, then Enter"));
     if (takesFocus_) ImGui::SetKeyboardFocusHere();
     takesFocus_ = false;
-    ImGui::SetNextItemWidth(212 * uiScale());
+    ImGui::SetNextItemWidth(264 * uiScale());
     ImGui::InputText("##name", name_.data(), name_.size());
 }
 
-void SelectionTool::drawFiles() {
+void SelectionTool::drawFiles(const Texts& tr) {
     ImGui::Separator();
-    ImGui::TextUnformatted("Up, Down, Enter or a click");
-    ImGui::BeginChild("files", {212 * uiScale(), 120 * uiScale()});
+    ImGui::TextUnformatted(tr("Up, Down, Enter or a click"));
+    ImGui::BeginChild("files", {264 * uiScale(), 120 * uiScale()});
     for (std::size_t k = 0; k < files_.size(); ++k) {
         ImGui::PushID(static_cast<int>(k));
         if (ImGui::Selectable(files_[k].c_str(), k == file_)) {

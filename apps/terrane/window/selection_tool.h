@@ -57,8 +57,8 @@ class SelectionTool {
     void onKeyWhileAsking(Key key);
     void answer(const BuildView& view);
     void drawPanel(const Screen& screen, const BuildView& view);
-    void drawName();
-    void drawFiles();
+    void drawName(const Texts& tr);
+    void drawFiles(const Texts& tr);
     void drawOutlines(const Screen& screen, const render::Camera& camera, const BuildView& view) const;
 
     std::filesystem::path folder_;

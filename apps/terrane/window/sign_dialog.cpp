@@ -39,9 +39,9 @@ void SignDialog::onKey(Key key) {
     takesFocus_ = true;
 }
 
-std::optional<SignDialog::Choice> SignDialog::draw(const Screen& screen) {
+std::optional<SignDialog::Choice> SignDialog::draw(const Screen& screen, const Texts& tr) {
     ImGui::SetNextWindowPos({screen.width / 2, screen.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::Begin("Sign", nullptr,
+    ImGui::Begin(tr("Sign"), nullptr,
                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
     for (std::size_t k = 0; k < lines_.size(); ++k) {
         ImGui::PushID(static_cast<int>(k));
@@ -53,9 +53,9 @@ std::optional<SignDialog::Choice> SignDialog::draw(const Screen& screen) {
         ImGui::PopID();
     }
     takesFocus_ = false;
-    if (ImGui::Button("Done")) choice_ = Choice::Done;
+    if (ImGui::Button(tr("Done"))) choice_ = Choice::Done;
     ImGui::SameLine();
-    if (ImGui::Button("Cancel")) choice_ = Choice::Cancel;
+    if (ImGui::Button(tr("Cancel"))) choice_ = Choice::Cancel;
     ImGui::SameLine();
     ImGui::TextUnformatted("Enter   Esc");
     ImGui::End();

@@ -7,6 +7,7 @@
 
 #include "apps/terrane/window/input.h"
 #include "apps/terrane/window/overlay.h"
+#include "apps/terrane/window/text.h"
 #include "terrane/world/sign.h"
 
 namespace terrane::app {
@@ -22,7 +23,7 @@ class SignDialog {
     // Enter, Escape, and up and down from line to line. What is typed in the same frame is not lost: draw()
     // gives the choice.
     void onKey(Key key);
-    std::optional<Choice> draw(const Screen& screen);
+    std::optional<Choice> draw(const Screen& screen, const Texts& tr);
 
   private:
     // A line's bytes and an end.
