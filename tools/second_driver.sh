@@ -12,6 +12,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 readonly EVERY=${1:-1} FOLDER=${2:-build}
 # Tests of what the two drivers once did differently: they run always.
 readonly ALWAYS='^(gpu\.PipelineStateTest|render\.EdgeExpansion\.Without|golden\.Effects\.OfLayers)'
+# With the gallery's plain cubes, one sample and the usual options lavapipe of Mesa 22.3 overruns an array on its own stack
+# (__stack_chk_fail in libvulkan_lvp.so); the first driver runs these.
+readonly NEVER='^(render\.FramePassesTest|golden\.(Flight\.TheWorldIsTheSameFarAway|BackgroundCompilerTest))'
 
 if ! compgen -G '/usr/share/vulkan/icd.d/lvp_icd*.json' >/dev/null; then
     echo "second driver: lavapipe is missing: apt-get install mesa-vulkan-drivers" >&2
@@ -33,4 +36,4 @@ run_tests() {
 }
 
 [[ $EVERY == 1 ]] || run_tests --tests-regex "$ALWAYS"
-run_tests --tests-regex '^(gpu|gen_gpu|light_gpu|mesh_gpu|render|golden)\.' --tests-information "$((EVERY / 2 + 1)),,$EVERY"
+run_tests --tests-regex '^(gpu|gen_gpu|light_gpu|mesh_gpu|render|golden)\.' --exclude-regex "$NEVER" --tests-information "$((EVERY / 2 + 1)),,$EVERY"
