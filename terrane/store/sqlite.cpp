@@ -35,6 +35,9 @@ std::string describe(int code, const char* message) {
         case SQLITE_CANTOPEN:
             return "cannot be opened";
         case SQLITE_IOERR:
+            // The index of the log is mapped: what fails there is address space or memory, SQLite does not
+            // say which.
+            if (code == SQLITE_IOERR_SHMMAP || code == SQLITE_IOERR_NOMEM) return "out of memory";
             return fmt::format("reading or writing failed (SQLite code {})", code);
         default:
             return message;
