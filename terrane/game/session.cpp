@@ -144,7 +144,7 @@ void Session::advance(double seconds, world::ChunkPos center) {
         if (ticks_ % world::kTicksPerFlow != 0) continue;
         std::vector<world::BlockEdit> edits;
         world::flowLiquids(world_, *blocks_, {center}, edits);
-        pipeline_.onEdits(edits);
+        tellEdits(kNoPlayer, edits);
     }
 }
 

@@ -80,5 +80,18 @@ TEST_F(SessionTest, EditsAreTold) {
                                   BlockEdit{pos, world::kAir, contentBlock("stone")}));
 }
 
+TEST_F(SessionTest, WhatFlowsIsTold) {
+    const world::BlockPos source{5, 5, kGroundHeight};
+    session_.edit({kNoPlayer, source, world::SetBlock{contentBlock("water")}, {}});
+    std::vector<BlockEdit> told;
+    session_.setEditListener([&](PlayerId player, std::span<const BlockEdit> edits) {
+        EXPECT_EQ(player, kNoPlayer);
+        told.insert(told.end(), edits.begin(), edits.end());
+    });
+    session_.advance(1, {0, 0});
+    EXPECT_THAT(told,
+                testing::Contains(BlockEdit{{6, 5, kGroundHeight}, world::kAir, contentBlock("water")}));
+}
+
 }  // namespace
 }  // namespace terrane::game
