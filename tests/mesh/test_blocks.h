@@ -2,29 +2,17 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 
 #include "terrane/world/block_registry.h"
+#include "tests/world/test_shapes.h"
 
 namespace terrane::mesh {
 
 // Every shape, alpha mode and animation, one- and two-sided, with and without inner faces.
-inline constexpr std::string_view kTestBlocks = R"(
-[[shape]]
-name = "stairs"
-facing = true
-half = true
-boxes = [[0, 0, 0, 16, 16, 8], [0, 8, 8, 16, 16, 16]]
-[[shape]]
-name = "post"
-boxes = [[6, 6, 0, 10, 10, 16]]
-arms = [[7, 10, 6, 9, 16, 9]]
-[[shape]]
-name = "door"
-facing = true
-boxes = [[0, 0, 0, 16, 3, 16]]
-other = [[0, 0, 0, 3, 16, 16]]
+inline const std::string kTestBlocks = world::kTestShapes + R"(
 [[block]]
 name = "stone"
 shape = "cube"

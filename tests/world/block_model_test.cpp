@@ -10,6 +10,7 @@
 #include "terrane/world/block_registry.h"
 #include "terrane/world/collision.h"
 #include "terrane/world/ray_cast.h"
+#include "tests/world/test_shapes.h"
 
 namespace terrane::world {
 namespace {
@@ -64,21 +65,7 @@ TEST(ShapeSurface, CoversEachPartOfRandomBoxesOnce) {
     }
 }
 
-constexpr std::string_view kShapes = R"(
-[[shape]]
-name = "stairs"
-facing = true
-half = true
-boxes = [[0, 0, 0, 16, 16, 8], [0, 8, 8, 16, 16, 16]]
-[[shape]]
-name = "post"
-boxes = [[6, 6, 0, 10, 10, 16]]
-arms = [[7, 10, 6, 9, 16, 9]]
-[[shape]]
-name = "door"
-facing = true
-boxes = [[0, 0, 0, 16, 3, 16]]
-other = [[0, 0, 0, 3, 16, 16]]
+const std::string kShapes = kTestShapes + R"(
 [[block]]
 name = "oak_stairs"
 shape = "stairs"
