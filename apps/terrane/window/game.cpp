@@ -41,8 +41,6 @@ Game::Game(const GameParts& parts, const GameOptions& options)
       thumbnail_(options.thumbnail) {
     if (options.measuresPreset) beginMeasurement();
     interaction_.hotbar = game::hotbarFrom(options.hotbar, parts_.session.blocks());
-    const store::WorldIdentity& identity = parts_.session.store().identity();
-    hud_.biomes = gen::BiomeMap::create(identity.generator, parts_.session.blocks(), identity.seed);
     hud_.places = game::savedPlaces(parts_.session.store());
     parts_.session.pipeline().setMeshOptions(settings_.graphics.mesh);
     parts_.renderer.setViewDistance(settings_.graphics.viewDistance);

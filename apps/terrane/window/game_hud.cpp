@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 #include "apps/terrane/window/compass.h"
 #include "apps/terrane/window/game.h"
@@ -78,6 +79,8 @@ std::string Game::targetText() const {
 PlaceFacts Game::placeFacts() {
     const world::BlockPos at = blockAt(player_.pose().position);
     const store::WorldIdentity& identity = parts_.session.store().identity();
+    if (std::exchange(hud_.asksForBiomes, false))  // takes a tenth of a second
+        hud_.biomes = gen::BiomeMap::create(identity.generator, parts_.session.blocks(), identity.seed);
     return {.pose = player_.pose(),
             .biome = hud_.biomes ? std::string(hud_.biomes->at(at.x, at.y)) : std::string(),
             .world = fmt::format("{}, seed {}", identity.generator, identity.seed),

@@ -26,16 +26,12 @@ struct Hud {
     bool showsFacts = false;          // where one is
     bool isHidden = false;            // all but dialogs and messages
     std::optional<gen::BiomeMap> biomes;
+    bool asksForBiomes = true;         // whether there are any: found out when they are first shown
     std::optional<world::Pose> spawn;  // once it was asked for
     glm::dvec3 walkedFrom{0};          // where the player was in the last frame
 
     bool hasDialog() const { return palette.isOpen || placesDialog.isOpen; }
-    // False where none was open.
-    bool closeDialog() {
-        const bool had = hasDialog();
-        palette.isOpen = placesDialog.isOpen = false;
-        return had;
-    }
+    void closeDialog() { palette.isOpen = placesDialog.isOpen = false; }
 };
 
 // Splinters of broken blocks, as squares in the color of their block. `light`: what falls on them, 0…1.
