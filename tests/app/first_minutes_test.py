@@ -3,12 +3,9 @@
 kill. Usage: first_minutes_test.py PROGRAM
 
 Needs what window_test.py needs. TERRANE_SCREENSHOTS names a folder for images of the window on the way."""
-import shutil
-import sys
 import time
 
 import building_test
-import support
 import title_test
 import window_test
 from support import HANG_SECONDS, Npy
@@ -149,7 +146,4 @@ class FirstMinutes(title_test.TitleScript, building_test.BuildingScript):
 
 
 if __name__ == "__main__":
-    if not shutil.which("Xvfb"):
-        print("1 test skipped: Xvfb is not installed (Debian: xvfb)")
-        sys.exit(window_test.SKIPPED)
-    support.main()
+    window_test.main()

@@ -3,13 +3,10 @@
 
 Needs what window_test.py needs."""
 import contextlib
-import shutil
 import sqlite3
-import sys
 import time
 
 import building_test
-import support
 import window_test
 
 
@@ -82,7 +79,4 @@ class Hud(building_test.BuildingScript):
 
 
 if __name__ == "__main__":
-    if not shutil.which("Xvfb"):
-        print("1 test skipped: Xvfb is not installed (Debian: xvfb)")
-        sys.exit(window_test.SKIPPED)
-    support.main()
+    window_test.main()

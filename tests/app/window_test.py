@@ -678,8 +678,13 @@ class Window(ProgramTest):
             self.assertIn(hint, done.stderr)
 
 
-if __name__ == "__main__":
+def main():
+    """Of each program that tests a window."""
     if not shutil.which("Xvfb"):
         print("1 test skipped: Xvfb is not installed (Debian: xvfb)")
         sys.exit(SKIPPED)
     support.main()
+
+
+if __name__ == "__main__":
+    main()
