@@ -1,4 +1,4 @@
-// What is drawn over the image: crosshair, what is looked at, the block in the hand, statistics, hints.
+// What is drawn over the image: crosshair, what is looked at, statistics, hints.
 #pragma once
 
 #include <optional>
