@@ -15,8 +15,8 @@ namespace {
 constexpr const char* kWhereSaved =
     R"(
 
-Without an option that names a world the title opens. The world, the place, the time of day, the block in
-the hand and how one moves are saved while one plays, in
+Without an option that names a world the title opens. The world, the place, the time of day, the blocks at
+hand, named places and how one moves are saved while one plays, in
 $XDG_DATA_HOME/terrane/NAME.sqlite ($HOME/.local/share/terrane where that is not set); bookmarks.txt and
 screenshots/ lie beside it. Ctrl+C in the terminal saves and quits, too.)";
 
