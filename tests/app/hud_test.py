@@ -38,6 +38,9 @@ class Hud(building_test.BuildingScript):
             display.xdotool("type", "--delay", "100", "chest")
             self.hold(game, "Return")
             self.wait_for_setting(game, "hotbar", lambda hotbar: hotbar.startswith("2 bricks cobble chest"))
+            self.press(game, "ctrl+5")  # Control is for sinking
+            self.wait_for_setting(game, "hotbar", lambda hotbar: hotbar.startswith("4 bricks"))
+            self.press(game, "3")
             display.xdotool("click", 4)  # the wheel
             self.wait_for_setting(game, "hotbar", lambda hotbar: hotbar.startswith("1 bricks"))
             self.close(game)

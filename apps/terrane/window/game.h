@@ -93,7 +93,7 @@ class Game {
     bool isInMenu() const { return isPaused_ || asksToQuit_; }
     // Keys move nobody, and clicks take no mouse.
     bool isInDialog() const { return isInMenu() || container_ || hud_.hasDialog() || building_.isAsking(); }
-    void onControlKey(Key key);
+    bool onControlKey(Key key);
     void openPalette();
     void openPlaces();
     void takeBack(game::HistoryWay way);
@@ -162,7 +162,8 @@ class Game {
     std::filesystem::path screenshots_;         // folder
     game::BookmarkFiles bookmarks_;
     BuildingTools building_;
-    bool wasAsking_ = false, withShift_ = false, withControl_ = false;  // of the event that is handled
+    bool wasAsking_ = false;
+    bool withShift_ = false, withControl_ = false;  // held with the event that is handled, else now
     std::string perfData_;
     std::optional<PerfLog> perfLog_;
     std::optional<PresetMeasurement> measurement_;  // while it goes on

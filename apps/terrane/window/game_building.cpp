@@ -9,8 +9,8 @@ BuildView Game::buildView() const {
             .pose = player_.pose(),
             .body = player_.body(),
             .hand = interaction_.block(),
-            .shift = withShift_ || parts_.window.keyDown(Key::Shift),
-            .control = withControl_ || parts_.window.keyDown(Key::Control)};
+            .shift = withShift_,
+            .control = withControl_};
 }
 
 bool Game::openSign() {

@@ -53,7 +53,8 @@ void Game::handleEvents() {
                              (settings_.invertY ? -event.y : event.y) * double{settings_.mouseSensitivity});
         }
     }
-    withShift_ = withControl_ = false;
+    withShift_ = parts_.window.keyDown(Key::Shift);
+    withControl_ = parts_.window.keyDown(Key::Control);
 }
 
 void Game::onKey(Key key) {
@@ -73,7 +74,7 @@ void Game::onKey(Key key) {
     // What opens nothing is for the game, which stands still in a menu.
     if (isInDialog() && !(action && rowOf(*action).opensSomething)) return;
     if (!isInDialog() && building_.onKey(key, buildView())) return;
-    if (buildView().control) return onControlKey(key);
+    if (withControl_ && onControlKey(key)) return;
     if (slot)
         interaction_.hotbar.chosen = *slot;
     else if (action)
@@ -134,10 +135,11 @@ void Game::act(Action action) {
     }
 }
 
-void Game::onControlKey(Key key) {
-    const bool isShift = buildView().shift;
-    if (key == Key::Z) return takeBack(isShift ? game::HistoryWay::Redo : game::HistoryWay::Undo);
-    if (key == Key::Y) return takeBack(game::HistoryWay::Redo);
+// False for keys that do with Control what they do without: it is held to sink, too.
+bool Game::onControlKey(Key key) {
+    if (key != Key::Z && key != Key::Y) return false;
+    takeBack(key == Key::Y || withShift_ ? game::HistoryWay::Redo : game::HistoryWay::Undo);
+    return true;
 }
 
 void Game::openPalette() {
@@ -261,7 +263,7 @@ void Game::onButton(MouseButton button, bool isPress) {
 
 // What is looked at, unless the player runs: then it builds against that.
 bool Game::useTarget() {
-    if (parts_.window.keyDown(Key::Shift)) return false;
+    if (withShift_) return false;
     return openContainer() || openSign() || interaction_.use(parts_.session, game::kLocalPlayer);
 }
 
