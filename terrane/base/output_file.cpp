@@ -48,23 +48,54 @@ Result<void> checkReplaceable(const fs::path& path) {
     return fail(ErrorCode::Io, "{}: cannot be written: it is not a regular file", path.string());
 }
 
+// Two writers of one path never share a temporary file: `take` gets names of which nobody uses the first that
+// it accepts. Zero, or the error number; EEXIST where all are in use.
+template <class Take>
+int takeTemporaryName(const fs::path& path, Take take) {
+    constexpr int kMaxAttempts = 1000;  // far more than writers at once and leftovers of crashes together
+    int error = EEXIST;
+    for (int attempt = 0; attempt < kMaxAttempts && error == EEXIST; ++attempt) {
+        fs::path temporary = path;
+        temporary += fmt::format(".tmp{}", attempt);
+        error = take(temporary) ? 0 : errno;
+    }
+    return error;
+}
+
+std::string linkOf(int descriptor) {
+    return fmt::format("/proc/self/fd/{}", descriptor);
+}
+
+// A file without a name in the path's folder; negative where there can be none, or none that can get a name.
+int openWithoutName(const fs::path& path) {
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor < 0 || ::access(linkOf(descriptor).c_str(), F_OK) == 0) return descriptor;
+    ::close(descriptor);
+    return -1;
+}
+
+tl::unexpected<Error> tooManyTemporary(const fs::path& path) {
+    return fail(ErrorCode::Io, "{}: cannot be written: delete the old files {}.tmp* beside it", path.string(),
+                path.filename().string());
+}
+
 }  // namespace
 
 Result<OutputFile> OutputFile::create(const fs::path& given) {
     const fs::path path = behindLinks(given);
     if (auto checked = checkReplaceable(path); !checked) return tl::unexpected(checked.error());
-    // Opened exclusively under a name nobody uses yet, so that two writers of one path never share a
-    // temporary file.
-    constexpr int kMaxAttempts = 1000;  // far more than writers at once and leftovers of crashes together
-    for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
-        fs::path temporary = path;
-        temporary += fmt::format(".tmp{}", attempt);
-        const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor >= 0) return OutputFile(descriptor, path, std::move(temporary));
-        if (errno != EEXIST) return cannotBeWritten(path, errno);
-    }
-    return fail(ErrorCode::Io, "{}: cannot be written: delete the old files {}.tmp* beside it", path.string(),
-                path.filename().string());
+    int descriptor = openWithoutName(path);
+    if (descriptor >= 0) return OutputFile(descriptor, path, {});
+    fs::path taken;
+    const int error = takeTemporaryName(path, [&](const fs::path& temporary) {
+        descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor >= 0) taken = temporary;
+        return descriptor >= 0;
+    });
+    if (error == 0) return OutputFile(descriptor, path, std::move(taken));
+    if (error == EEXIST) return tooManyTemporary(path);
+    return cannotBeWritten(path, error);
 }
 
 OutputFile::~OutputFile() {
@@ -84,6 +115,22 @@ int OutputFile::close() {
     return ::close(std::exchange(descriptor_, -1)) == 0 ? 0 : errno;
 }
 
+// Zero, or the error number.
+int OutputFile::nameTemporarily() {
+    if (!temporary_.empty()) return 0;
+    const std::string link = linkOf(descriptor_);
+    return takeTemporaryName(path_, [&](const fs::path& temporary) {
+        const bool done =
+            ::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, temporary.c_str(), AT_SYMLINK_FOLLOW) == 0;
+        if (done) temporary_ = temporary;
+        return done;
+    });
+}
+
+int OutputFile::rename() {
+    return std::rename(temporary_.c_str(), path_.c_str()) == 0 ? 0 : errno;
+}
+
 Result<void> OutputFile::reserve(std::uint64_t sizeBytes) {
     assert(descriptor_ >= 0 && "room is reserved in an open file");
     const auto doNotFit = [&](int errorNumber) {
@@ -96,7 +143,7 @@ Result<void> OutputFile::reserve(std::uint64_t sizeBytes) {
     if (error == 0) return {};
     if (error == ENOSPC || error == EDQUOT || error == EFBIG) return doNotFit(error);
     std::error_code unknown;
-    const fs::space_info space = fs::space(temporary_, unknown);
+    const fs::space_info space = fs::space(path_.has_parent_path() ? path_.parent_path() : ".", unknown);
     if (!unknown && space.available < sizeBytes) return doNotFit(ENOSPC);
     return {};
 }
@@ -117,9 +164,11 @@ Result<void> OutputFile::write(std::uint64_t offsetBytes, std::string_view bytes
 Result<void> OutputFile::finish() {
     assert(descriptor_ >= 0 && "a file is finished once");
     int error = ::fsync(descriptor_) == 0 ? 0 : errno;
+    if (error == 0) error = nameTemporarily();
+    if (error == EEXIST) return tooManyTemporary(path_);
     const int closeError = close();
     if (error == 0) error = closeError;
-    if (error == 0 && std::rename(temporary_.c_str(), path_.c_str()) != 0) error = errno;
+    if (error == 0) error = rename();
     if (error != 0) return cannotBeWritten(path_, error);
     temporary_.clear();
     syncFolder(path_);

@@ -10,8 +10,9 @@
 
 namespace terrane::base {
 
-// Written under a temporary name beside the path. finish() gives it its name; without finish() nothing stays,
-// and an older file of that name is as it was.
+// Written without a name in the path's folder; finish() gives it its name. Without finish() nothing stays,
+// also of a program that is killed, and an older file of that name is as it was. Where the file system knows
+// no files without a name it has a temporary one, which a killed program leaves.
 class OutputFile {
   public:
     // A symbolic link is followed: the file it leads to is replaced, or made, and the link stays. Makes no
@@ -36,9 +37,11 @@ class OutputFile {
     OutputFile(int descriptor, std::filesystem::path path, std::filesystem::path temporary)
         : descriptor_(descriptor), path_(std::move(path)), temporary_(std::move(temporary)) {}
     int close();
+    int nameTemporarily();
+    int rename();
 
     int descriptor_ = -1;
-    std::filesystem::path path_, temporary_;  // without a temporary file there is nothing to remove
+    std::filesystem::path path_, temporary_;  // empty while the file has no name
 };
 
 }  // namespace terrane::base

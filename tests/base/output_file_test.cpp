@@ -1,6 +1,9 @@
 #include "terrane/base/output_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <string>
 
@@ -31,10 +34,37 @@ TEST(OutputFile, OfAnUnfinishedOneNothingStays) {
         ASSERT_TRUE(file);
         EXPECT_TRUE(file->write(0, "new"));
         const OutputFile moved = std::move(*file);
-        EXPECT_EQ(folder.fileCount(), 2);
+        EXPECT_EQ(readFile(folder / "file").value(), "old");
     }
     EXPECT_EQ(readFile(folder / "file").value(), "old");
     EXPECT_EQ(folder.fileCount(), 1);
+}
+
+// As one that finds no memory, or is killed.
+TEST(OutputFile, OfAProgramThatEndsMidwayNothingStays) {
+    const TempFolder folder;
+    const int unnamed = ::open((folder / ".").c_str(), O_TMPFILE | O_WRONLY, 0600);
+    if (unnamed < 0) GTEST_SKIP() << "this file system has no files without a name";
+    ::close(unnamed);
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        auto file = OutputFile::create(folder / "file");
+        ::_exit(file && file->write(0, "half") ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    EXPECT_EQ(folder.fileCount(), 0);
+}
+
+TEST(OutputFile, NamesThatOthersUseAreLeft) {
+    const TempFolder folder;
+    ASSERT_TRUE(writeFile(folder / "file.tmp0", "somebody's"));
+    ASSERT_TRUE(writeFile(folder / "file", "new"));
+    EXPECT_EQ(readFile(folder / "file.tmp0").value(), "somebody's");
+    EXPECT_EQ(readFile(folder / "file").value(), "new");
+    EXPECT_EQ(folder.fileCount(), 2);
 }
 
 TEST(OutputFile, OfAFullDiskNothingStays) {
