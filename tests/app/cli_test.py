@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Every command of the program, end to end. Usage: cli_test.py PROGRAM"""
+import contextlib
 import fcntl
 import json
 import os
+import pathlib
 import re
 import resource
 import shutil
@@ -10,6 +12,7 @@ import signal
 import sqlite3
 import struct
 import subprocess
+import time
 
 import support
 from support import Npy, Image, ProgramTest, run
@@ -449,14 +452,25 @@ class Dump(ProgramTest):
             self.assertIn(f"{path}: {hint}", done.stderr)
             self.assertEqual(list(self.folder.iterdir()), [], what)
 
+    def writes(self, pid):
+        """Whether a process has a file of this test's folder open, be it one without a name."""
+        opened = []
+        for link in pathlib.Path(f"/proc/{pid}/fd").iterdir():
+            with contextlib.suppress(FileNotFoundError):  # closed meanwhile
+                opened.append(os.readlink(link))
+        return any(name.startswith(f"{self.folder}/") for name in opened)
+
     def test_stopped_it_leaves_nothing(self):
         path = self.folder / "a.npy"
         words = ("dump", "--what", "quads", "--area", "0,0,100000,100000", *FLAT, "--threads", "1", "-o", path)
         child = subprocess.Popen([support.program(), *map(str, words)], stderr=subprocess.PIPE, text=True,
                                  env=support.environment())
+        self.addCleanup(child.kill)
         with child.stderr:
-            while not list(self.folder.iterdir()):
+            deadline = time.monotonic() + support.HANG_SECONDS
+            while not self.writes(child.pid):
                 self.assertIsNone(child.poll())
+                self.assertLess(time.monotonic(), deadline, "it opens no file")
             child.send_signal(signal.SIGTERM)
             said = child.stderr.read()
         self.assertEqual(child.wait(support.HANG_SECONDS), 2, said)
