@@ -105,7 +105,8 @@ void addPlaySettings(CLI::App& command, PlaySettings& settings) {
         ->capture_default_str();
     command.add_flag("--high-contrast", settings.highContrast,
                      "Thick lines around the block that is looked at");
-    command.add_flag("--reduced-motion", settings.reducedMotion, "The world behind the title and the arm stand still");
+    command.add_flag("--reduced-motion", settings.reducedMotion,
+                     "The world behind the title and the arm stand still");
 }
 
 }  // namespace
