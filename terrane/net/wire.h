@@ -1,0 +1,175 @@
+// Numbers, texts and bytes of messages (docs/protocol.md). WireWriter appends them; WireReader has the same
+// functions and takes them apart. So one template describes a message for both ways (messages.cpp).
+//
+// A reader takes any bytes: at the first that does not fit it stops, gives zeros from there on and remembers.
+// It allocates no more than a few times the bytes that it is given. Plain classes; one thread at a time for
+// each object.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "terrane/store/bytes.h"
+#include "terrane/world/coords.h"
+
+namespace terrane::net {
+
+using store::Bytes;
+using store::ByteView;
+
+// Seven bits a byte, lowest first; the highest bit says that more follow. 64 bits take 10 bytes.
+constexpr int kMaxVarintBytes = 10;
+
+// 0, -1, 1, -2, … as 0, 1, 2, 3, …: numbers near zero are short.
+constexpr std::uint64_t zigzag(std::int64_t value) {
+    return static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63);
+}
+constexpr std::int64_t unzigzag(std::uint64_t value) {
+    return static_cast<std::int64_t>(value >> 1 ^ (0 - (value & 1)));
+}
+
+// Whether it is UTF-8 without characters that end or reorder lines (base/printable.h).
+bool isPlainText(std::string_view text);
+
+class WireWriter {
+  public:
+    static constexpr bool kReads = false;
+
+    explicit WireWriter(Bytes& bytes) : bytes_(bytes) {}
+
+    // As many bytes as the type has.
+    template <class T>
+    void fixed(const T& value) {
+        store::appendNumber(bytes_, value);
+    }
+    void number(std::uint64_t value);                                   // varint
+    void integer(std::int64_t value) { number(zigzag(value)); }         // varint of zigzag
+    void flag(bool value) { fixed(static_cast<std::uint8_t>(value)); }  // a byte, 0 or 1
+    template <class E>
+    void choice(E value, E /*count*/) {  // a byte below `count`
+        fixed(static_cast<std::uint8_t>(value));
+    }
+    void text(const std::string& value, std::size_t /*maxBytes*/) { bytes(std::as_bytes(std::span(value))); }
+    void data(const Bytes& value, std::size_t /*maxBytes*/) { bytes(value); }
+    template <std::size_t N>
+    void array(const std::array<std::byte, N>& value) {
+        store::append(bytes_, value);
+    }
+    // A count, then so many values, each written by `each`.
+    template <class T, class Each>
+    void list(const std::vector<T>& values, std::size_t /*maxCount*/, Each each) {
+        number(values.size());
+        for (const T& value : values) each(value);
+    }
+    template <class T, class Each>
+    void optional(const std::optional<T>& value, Each each) {
+        flag(value.has_value());
+        if (value) each(*value);
+    }
+    void require(bool /*holds*/) {}
+
+  private:
+    void bytes(ByteView value);
+
+    Bytes& bytes_;
+};
+
+class WireReader {
+  public:
+    static constexpr bool kReads = true;
+
+    explicit WireReader(ByteView bytes) : bytes_(bytes) {}
+
+    template <class T>
+    void fixed(T& value) {
+        value = bytes_.number<T>();
+    }
+    // Too large for the type: no number.
+    template <class T>
+    void number(T& value) {
+        static_assert(std::is_unsigned_v<T>);
+        const std::uint64_t read = varint();
+        require(read <= std::uint64_t{static_cast<T>(-1)});
+        value = hasFailed() ? 0 : static_cast<T>(read);
+    }
+    template <class T>
+    void integer(T& value) {
+        static_assert(std::is_signed_v<T>);
+        const std::int64_t read = unzigzag(varint());
+        require(read == std::int64_t{static_cast<T>(read)});
+        value = hasFailed() ? 0 : static_cast<T>(read);
+    }
+    void flag(bool& value);
+    template <class E>
+    void choice(E& value, E count) {
+        const auto read = bytes_.number<std::uint8_t>();
+        require(read < static_cast<std::uint8_t>(count));
+        value = hasFailed() ? E{} : static_cast<E>(read);
+    }
+    void text(std::string& value, std::size_t maxBytes);  // isPlainText()
+    void data(Bytes& value, std::size_t maxBytes);
+    template <std::size_t N>
+    void array(std::array<std::byte, N>& value) {
+        bytes_.copyTo(value);
+    }
+    template <class T, class Each>
+    void list(std::vector<T>& values, std::size_t maxCount, Each each) {
+        values.clear();
+        const std::uint64_t count = varint();
+        // Every value takes a byte or more: who tells more values than there are bytes left lies.
+        require(count <= maxCount && count <= bytes_.rest().size());
+        for (std::uint64_t k = 0; k < count && !hasFailed(); ++k) each(values.emplace_back());
+    }
+    template <class T, class Each>
+    void optional(std::optional<T>& value, Each each) {
+        bool has = false;
+        flag(has);
+        if (has) each(value.emplace());
+    }
+    // What a message must hold besides; where it does not, it is no message.
+    void require(bool holds) { isWrong_ |= !holds; }
+
+    std::size_t bytesLeft() const { return bytes_.rest().size(); }
+    bool hasFailed() const { return isWrong_ || bytes_.isPastEnd(); }
+    // All was read, and all of it was right.
+    bool isComplete() const { return !hasFailed() && bytes_.rest().empty(); }
+
+  private:
+    std::uint64_t varint();
+    ByteView counted(std::size_t maxBytes);
+
+    store::ByteReader bytes_;
+    bool isWrong_ = false;
+};
+
+// x and y as integers, z as a byte.
+template <class Wire, class Pos>
+void describePos(Wire& wire, Pos& pos) {
+    wire.integer(pos.x);
+    wire.integer(pos.y);
+    if constexpr (Wire::kReads) {
+        std::uint8_t z = 0;
+        wire.fixed(z);
+        pos.z = z;
+    } else {
+        wire.fixed(static_cast<std::uint8_t>(pos.z));
+    }
+}
+
+// Level as a byte, then x and y as integers: a chunk of the world.
+template <class Wire, class Pos>
+void describeChunkPos(Wire& wire, Pos& pos) {
+    wire.fixed(pos.level);
+    wire.integer(pos.x);
+    wire.integer(pos.y);
+    wire.require(pos.level <= world::kMaxLevel && world::isInWorld(pos));
+}
+
+}  // namespace terrane::net

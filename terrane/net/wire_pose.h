@@ -1,0 +1,46 @@
+// Where players are, as it travels: positions in steps of 1/64 block, directions in steps of 1/65536 turn;
+// between players in 1/32 block and 1/256 turn. Plain values and functions; any thread.
+#pragma once
+
+#include <cstdint>
+
+#include "terrane/net/wire.h"
+#include "terrane/world/pose.h"
+
+namespace terrane::net {
+
+constexpr double kPoseSteps = 64;  // a block
+
+// A pose of a player. Position in steps; blocks are at most 2^31 away, so that it fits 38 bits.
+struct WirePose {
+    std::int64_t x = 0, y = 0, z = 0;
+    std::uint16_t yaw = 0;   // 65536 a turn
+    std::int16_t pitch = 0;  // 32767 for straight up
+    bool operator==(const WirePose&) const = default;
+};
+
+WirePose wirePose(const world::Pose& pose);
+world::Pose poseOf(const WirePose& pose);
+
+// How another player in sight moved since what was told of it before.
+struct PoseChange {
+    std::uint16_t slot = 0;
+    std::int32_t dx = 0, dy = 0, dz = 0;  // in steps of kPoseSteps
+    std::uint8_t yaw = 0;                 // 256 a turn
+    std::int8_t pitch = 0;                // 127 for straight up
+    bool swings = false;                  // broke or placed a block since
+    bool operator==(const PoseChange&) const = default;
+};
+
+template <class Wire, class Pose>
+void describePose(Wire& wire, Pose& pose) {
+    constexpr std::int64_t kMax = std::int64_t{1} << 37;
+    wire.integer(pose.x);
+    wire.integer(pose.y);
+    wire.integer(pose.z);
+    wire.fixed(pose.yaw);
+    wire.fixed(pose.pitch);
+    for (const std::int64_t v : {pose.x, pose.y, pose.z}) wire.require(v >= -kMax && v <= kMax);
+}
+
+}  // namespace terrane::net

@@ -1,0 +1,173 @@
+#include "terrane/net/messages.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace terrane::net {
+namespace {
+
+const WirePose kPose{-1234567, 64, 4096, 40000, -200};
+
+// One of each, with fields that differ from those of an empty one.
+std::vector<ClientMessage> clientMessages() {
+    PublicKey key{};
+    key[31] = std::byte{9};
+    Signature signature{};
+    signature[0] = std::byte{8};
+    return {Hello{kMagic, kProtocolVersion, "terrane 0.2"},
+            Login{"Ada", key, signature, "secret"},
+            Proof{{1, 2, 3, 4, 5, 6, 7, ~std::uint64_t{0}}},
+            View{{-5, 70000}, 16, 512},
+            Move{kPose},
+            Edit{7, {-1, 2, 3}, world::SetBlock{5, 2}, world::BlockId{4}},
+            Fill{8, {{{0, -2, 3}, {4, 5, 255}}, 6, 1, world::BlockId{2}}},
+            Place{9, {1, 2, 3}, {std::byte{1}, std::byte{2}}},
+            TakeBack{10, true},
+            Say{"hello there"},
+            Pong{123456},
+            AskPlayers{},
+            Leave{}};
+}
+
+std::vector<ServerMessage> serverMessages() {
+    Nonce nonce{};
+    nonce[5] = std::byte{3};
+    WorldOffer offer{{{42, "continents", 3}, 77, 88}, {}};
+    offer.samples[7] = {-9, 11};
+    const ChunkDifference blocks{{5, {3, 1, {}}}, {6, {3, 1, {}}}, {900, {2, 0, {}}}};
+    return {Greeting{"terrane 0.2", nonce, true},
+            offer,
+            Joined{12, Role::Operator, 24, kPose},
+            Refused{Refusal::OtherWorld, "another generator"},
+            ChunkEdits{{1, -1, 3}, false, blocks},
+            BlocksChanged{{1, 2}, blocks},
+            ViewComplete{{3, -4}},
+            Done{5, 2, 1000, 3},
+            Appears{3, 44, "Ben", kPose},
+            Disappears{3},
+            Poses{{{1, 2, -3, 4, 5, -6, true}, {2, 0, 0, 0, 7, 8, false}}},
+            Said{"Ben", "hello"},
+            Clock{0.25, 0.001},
+            Corrected{kPose},
+            Ping{99},
+            PlayerList{{{"Ada", Role::Player, 20}, {"Ben", Role::Guest, 65535}}}};
+}
+
+TEST(Messages, EachReadsBack) {
+    std::size_t k = 0;
+    for (const ClientMessage& message : clientMessages()) {
+        EXPECT_EQ(message.index(), k++) << "one of each";
+        const Bytes bytes = encode(message);
+        const auto read = decodeClientMessage(bytes);
+        ASSERT_TRUE(read) << nameOf(message) << ": " << read.error().message;
+        EXPECT_EQ(encode(*read), bytes) << nameOf(message);
+        EXPECT_LE(bytes.size(), kMaxClientMessage);
+    }
+    k = 0;
+    for (const ServerMessage& message : serverMessages()) {
+        EXPECT_EQ(message.index(), k++);
+        const Bytes bytes = encode(message);
+        const auto read = decodeServerMessage(bytes);
+        ASSERT_TRUE(read) << k << ": " << read.error().message;
+        EXPECT_EQ(encode(*read), bytes) << k;
+    }
+    EXPECT_EQ(clientMessages().size(), std::variant_size_v<ClientMessage>);
+    EXPECT_EQ(serverMessages().size(), std::variant_size_v<ServerMessage>);
+}
+
+TEST(Messages, FieldsKeepTheirValues) {
+    const auto edit = decodeClientMessage(encode(ClientMessage(clientMessages()[5])));
+    const auto& read = std::get<Edit>(*edit);
+    EXPECT_EQ(read.number, 7u);
+    EXPECT_EQ(read.pos, (world::BlockPos{-1, 2, 3}));
+    EXPECT_EQ(std::get<world::SetBlock>(read.change).id, 5);
+    EXPECT_EQ(std::get<world::SetBlock>(read.change).state, 2);
+    EXPECT_EQ(read.expected, world::BlockId{4});
+    const auto move = decodeClientMessage(encode(ClientMessage(Move{kPose})));
+    EXPECT_EQ(std::get<Move>(*move).pose, kPose);
+    const auto offer = decodeServerMessage(encode(ServerMessage(serverMessages()[1])));
+    EXPECT_EQ(std::get<WorldOffer>(*offer).world.identity.generator, "continents");
+}
+
+TEST(Messages, TheUsualOnesAreSmall) {
+    EXPECT_LE(encode(ClientMessage(Move{wirePose({{100.5, -200.25, 80}, 90, 0})})).size(), 14u);
+    EXPECT_LE(encode(ClientMessage(Edit{1000, {100, -200, 80}, world::SetBlock{5, 0}, world::kAir})).size(),
+              14u);
+    EXPECT_LE(encode(ServerMessage(BlocksChanged{{6, -13}, {{20000, {5, 0, {}}}}})).size(), 14u);
+    Poses poses;
+    for (std::uint16_t slot = 0; slot < 100; ++slot) poses.changes.push_back({slot, 14, -14, 0, 3, 4, false});
+    EXPECT_LE(encode(ServerMessage(poses)).size(), 100u * 7 + 3);
+}
+
+// Every cut of every message, under the sanitizers: an error, never a message.
+TEST(Messages, CutOnesAreRefused) {
+    for (const ClientMessage& message : clientMessages()) {
+        const Bytes bytes = encode(message);
+        for (std::size_t size = 0; size < bytes.size(); ++size)
+            EXPECT_FALSE(decodeClientMessage(ByteView(bytes).first(size))) << nameOf(message) << " " << size;
+    }
+    for (const ServerMessage& message : serverMessages()) {
+        const Bytes bytes = encode(message);
+        for (std::size_t size = 0; size < bytes.size(); ++size)
+            EXPECT_FALSE(decodeServerMessage(ByteView(bytes).first(size))) << message.index() << " " << size;
+    }
+}
+
+TEST(Messages, WhatFollowsAMessageIsRefused) {
+    for (const ClientMessage& message : clientMessages()) {
+        Bytes bytes = encode(message);
+        bytes.push_back(std::byte{0});
+        EXPECT_FALSE(decodeClientMessage(bytes)) << nameOf(message);
+    }
+}
+
+// A newer client is told that it is newer: its hello may go on as it likes.
+TEST(Messages, AHelloOfAnotherVersionIsRead) {
+    Bytes bytes = encode(ClientMessage(Hello{kMagic, 2, "x"}));
+    bytes.insert(bytes.end(), 100, std::byte{0xFF});
+    const auto read = decodeClientMessage(bytes);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(std::get<Hello>(*read).version, 2);
+    EXPECT_FALSE(decodeClientMessage(encode(ClientMessage(Hello{kMagic + 1, kProtocolVersion, "x"}))));
+}
+
+TEST(Messages, AnyBytesAreReadOrRefused) {
+    std::mt19937 random(13);
+    const auto client = clientMessages();
+    const auto server = serverMessages();
+    for (int k = 0; k < 40000; ++k) {
+        const bool isClient = random() % 2 == 0;
+        Bytes bytes =
+            isClient ? encode(client[random() % client.size()]) : encode(server[random() % server.size()]);
+        for (std::size_t n = 1 + random() % 3; n > 0 && !bytes.empty(); --n)
+            bytes[random() % bytes.size()] = static_cast<std::byte>(random());
+        // What is read writes the same: no message has two forms.
+        if (isClient) {
+            const auto read = decodeClientMessage(bytes);
+            const auto* hello = read ? std::get_if<Hello>(&*read) : nullptr;
+            if (!read || (hello && hello->version != kProtocolVersion)) continue;
+            EXPECT_EQ(encode(*read).size(), bytes.size());
+        } else if (const auto read = decodeServerMessage(bytes)) {
+            EXPECT_LE(encode(*read).size(), bytes.size());
+        }
+    }
+}
+
+TEST(WirePose, IsNearThePose) {
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> place(-2147483648.0, 2147483647.0), height(-100, 400);
+    std::uniform_real_distribution<float> turn(-720, 720), up(-90, 90);
+    for (int k = 0; k < 1000; ++k) {
+        const world::Pose pose{{place(random), place(random), height(random)}, turn(random), up(random)};
+        const world::Pose read = poseOf(wirePose(pose));
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_NEAR(read.position[axis], pose.position[axis], 0.5 / kPoseSteps + 1e-9);
+        EXPECT_NEAR(std::remainder(read.yaw - pose.yaw, 360), 0, 0.004);
+        EXPECT_NEAR(read.pitch, pose.pitch, 0.003);
+        EXPECT_EQ(wirePose(read), wirePose(pose));
+    }
+}
+
+}  // namespace
+}  // namespace terrane::net

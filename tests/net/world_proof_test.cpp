@@ -1,0 +1,74 @@
+#include "terrane/net/world_proof.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "terrane/gen/generators/catalogue.h"
+#include "tests/world/content_blocks.h"
+
+namespace terrane::net {
+namespace {
+
+gen::GeneratorGraph graphOf(const std::string& name) {
+    return gen::makeGenerator(name, contentBlocks()).value();
+}
+
+WorldFingerprint fingerprint(const std::string& generator) {
+    return worldFingerprint({1, generator, gen::generatorVersion(generator)}, graphOf(generator),
+                            contentBlocks());
+}
+
+TEST(WorldProof, EqualProgramsAgree) {
+    EXPECT_EQ(fingerprint("continents"), fingerprint("continents"));
+    EXPECT_EQ(differenceOf(fingerprint("overworld"), fingerprint("overworld")), "");
+}
+
+TEST(WorldProof, EachDifferenceIsToldInOneLine) {
+    const WorldFingerprint server = fingerprint("overworld");
+    const auto told = [&](auto change) {
+        WorldFingerprint client = server;
+        change(client);
+        return differenceOf(server, client);
+    };
+    EXPECT_NE(told([](auto& c) { c.identity.generator = "flat"; }).find("overworld"), std::string::npos);
+    EXPECT_NE(told([](auto& c) { c.identity.generatorVersion += 1; }).find("version"), std::string::npos);
+    EXPECT_NE(told([](auto& c) { c.graph ^= 1; }).find("generator"), std::string::npos);
+    EXPECT_NE(told([](auto& c) { c.blocks ^= 1; }).find("blocks"), std::string::npos);
+}
+
+TEST(WorldProof, SamplesAreFarApartAndDifferFromTimeToTime) {
+    std::set<world::ChunkPos> all;
+    for (std::uint64_t random = 0; random < 50; ++random)
+        for (const world::ChunkPos pos : samplePositions(random)) {
+            EXPECT_LE(world::chunkDistance(pos, {0, 0}), 1 << 20);
+            all.insert(pos);
+        }
+    EXPECT_EQ(all.size(), 50 * kSampleChunks);
+    EXPECT_EQ(samplePositions(7), samplePositions(7));
+}
+
+TEST(WorldProof, DigestsTellGeneratorsAndSeedsApart) {
+    const SamplePositions positions = samplePositions(5);
+    const auto digests = [&](const std::string& name, std::uint64_t seed) {
+        return sampleDigests(gen::Generator(graphOf(name), seed), positions);
+    };
+    EXPECT_EQ(digests("overworld", 1), digests("overworld", 1));
+    EXPECT_NE(digests("overworld", 1), digests("overworld", 2));
+    EXPECT_NE(digests("overworld", 1), digests("continents", 1));
+}
+
+// However the chunk came to its blocks.
+TEST(WorldProof, ADigestIsOfBlocksAlone) {
+    world::Chunk a, b;
+    a.setBlock(5, 3);
+    b.setBlock(5, 2);
+    b.setBlock(700, 2);
+    b.setBlock(700, world::kAir);
+    EXPECT_NE(chunkDigest(a), chunkDigest(b));
+    b.setBlock(5, 3);
+    EXPECT_EQ(chunkDigest(a), chunkDigest(b));
+}
+
+}  // namespace
+}  // namespace terrane::net
