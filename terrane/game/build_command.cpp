@@ -144,6 +144,7 @@ BuildOutcome Session::build(const BuildCommand& command) {
     }
     if (const Result result = check(world_, command.change); result != Result::Done) return {result};
     const PlannedBlocks plan = plannedBlocks(world_, *blocks_, command.change, command.player != kNoPlayer);
+    if (!mayChangeAll(command.player, plan.blocks)) return {Result::NotAllowed};
     // Blocks of a structure have the states that they had; those of a fill find theirs.
     const bool isFill = std::holds_alternative<FillBox>(command.change);
     std::vector<world::BlockEdit> edits;
@@ -151,7 +152,11 @@ BuildOutcome Session::build(const BuildCommand& command) {
     world::BlockUpdate update(world_, *blocks_, edits, player == players_.end() ? nullptr : &recorder);
     update.restore(plan.blocks, isFill ? world::RestoreScope::All : world::RestoreScope::Border);
     update.run();
-    if (player != players_.end()) player->second.history.add(stepSince(world_, recorder));
+    if (player != players_.end()) {
+        EditStep step = stepSince(world_, recorder);
+        tellChanges(command.player, step);
+        player->second.history.add(std::move(step));
+    }
     tellEdits(command.player, edits);
     return {Result::Done, plan.blocks.size(), plan.kept};
 }

@@ -33,6 +33,9 @@ enum class EditResult : std::uint8_t {
     Protected,   // the lowest layer of the world, which holds all else: no player breaks it
     NotEmpty,    // it holds items: no player breaks it before they are taken out
     BadData,     // that is no text, for a sign
+    NotAllowed,  // to this player: Role::Guest
+    Claimed,     // it is in a claim of somebody else
+    Count,
 };
 
 // What became of a step that was to be undone or done again.
@@ -40,7 +43,9 @@ struct TakenBack {
     enum class Outcome : std::uint8_t {
         Done,
         NoStep,
-        NotLoaded,  // some chunk of it is not loaded: nothing changes, and the step stays the next one
+        NotLoaded,   // some chunk of it is not loaded: nothing changes, and the step stays the next one
+        NotAllowed,  // the player may not change some block of it (permissions.h): likewise
+        Count,
     };
     Outcome outcome = Outcome::NoStep;
     std::size_t blocks = 0;  // that are again what they were

@@ -61,30 +61,37 @@ EditResult Session::edit(const EditCommand& command) {
 std::vector<EditResult> Session::edit(std::span<const EditCommand> commands) {
     std::vector<EditResult> results;
     std::vector<world::BlockEdit> edits;
-    std::unordered_map<PlayerId, world::BlockRecorder> recorders;
+    std::unordered_map<PlayerId, PlayerChanges> changes;
     results.reserve(commands.size());
     for (const EditCommand& command : commands)
-        results.push_back(apply(command, edits, recorders[command.player]));
-    for (auto& [player, recorder] : recorders)
-        if (const auto found = players_.find(player); found != players_.end())
-            found->second.history.add(stepSince(world_, recorder));
+        results.push_back(apply(command, edits, changes[command.player]));
+    for (auto& [player, changed] : changes) {
+        const auto found = players_.find(player);
+        if (found == players_.end()) continue;
+        EditStep step = stepSince(world_, changed.steps);
+        tellChanges(player, step);
+        tellChanges(player, stepSince(world_, changed.uses));
+        found->second.history.add(std::move(step));
+    }
     tellEdits(commands.empty() ? kNoPlayer : commands.front().player, edits);
     return results;
 }
 
 EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEdit>& edits,
-                          world::BlockRecorder& recorder) {
+                          PlayerChanges& changes) {
     if (!canReach(command.player, command.pos)) return EditResult::OutOfReach;
     if (!isLoaded(world_, command.pos)) return EditResult::NotLoaded;
+    if (const auto refused = refusal(permissions, command.player, command.pos)) return *refused;
     if (command.expected && *command.expected != world_.block(command.pos)) return EditResult::Conflict;
     if (const auto refusal = refusalOfBreaking(command)) return *refusal;
     const auto* data = std::get_if<world::SetEntityData>(&command.change);
     const bool isText = data && world::holdsText(blocks_->type(world_.block(command.pos)));
     if (isText && !world::decodeSign(data->data)) return EditResult::BadData;
     const std::size_t before = edits.size();
-    const bool isStep =
-        command.player != kNoPlayer && (isText || std::holds_alternative<world::SetBlock>(command.change));
-    world::applyChange(world_, *blocks_, command.pos, command.change, edits, isStep ? &recorder : nullptr);
+    const bool isStep = isText || std::holds_alternative<world::SetBlock>(command.change);
+    world::BlockRecorder* const recorder =
+        command.player == kNoPlayer ? nullptr : (isStep ? &changes.steps : &changes.uses);
+    world::applyChange(world_, *blocks_, command.pos, command.change, edits, recorder);
     return edits.size() > before ? EditResult::Applied : EditResult::Unchanged;
 }
 
@@ -95,12 +102,15 @@ TakenBack Session::takeBack(PlayerId player, HistoryWay way) {
     if (!step) return {Outcome::NoStep};
     if (!std::ranges::all_of(*step, [&](const ChangedBlock& block) { return isLoaded(world_, block.pos); }))
         return {Outcome::NotLoaded};
+    if (!mayChangeAll(player, *step)) return {Outcome::NotAllowed};
     const std::vector<world::PlacedBlock> blocks = blocksBefore(world_, *step);
     const TakenBack result{Outcome::Done, blocks.size(), step->size() - blocks.size()};
     std::vector<world::BlockEdit> edits;
     world::BlockRecorder recorder;
     world::restoreBlocks(world_, *blocks_, blocks, edits, &recorder);
-    found->second.history.takenBack(way, stepSince(world_, recorder));
+    EditStep reverse = stepSince(world_, recorder);
+    tellChanges(player, reverse);
+    found->second.history.takenBack(way, std::move(reverse));
     tellEdits(player, edits);
     return result;
 }
@@ -122,6 +132,17 @@ std::optional<EditResult> Session::refusalOfBreaking(const EditCommand& command)
 void Session::tellEdits(PlayerId player, std::span<const world::BlockEdit> edits) {
     pipeline_.onEdits(edits);
     if (editListener_ && !edits.empty()) editListener_(player, edits);
+}
+
+void Session::tellChanges(PlayerId player, std::span<const ChangedBlock> changes) {
+    if (changeListener_ && !changes.empty()) changeListener_(player, changes);
+}
+
+void Session::setBlocks(std::span<const world::PlacedBlock> blocks) {
+    std::vector<world::BlockEdit> edits;
+    world::BlockUpdate update(world_, *blocks_, edits);
+    update.restore(blocks, world::RestoreScope::None);
+    tellEdits(kNoPlayer, edits);
 }
 
 bool Session::canReach(PlayerId player, world::BlockPos pos) const {

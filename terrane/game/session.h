@@ -3,6 +3,7 @@
 // events go out to the pipeline and so to screens and disk. Free of OpenGL. Used on one thread, the world's.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "terrane/game/day_clock.h"
 #include "terrane/game/edit_command.h"
 #include "terrane/game/edit_history.h"
+#include "terrane/game/permissions.h"
 #include "terrane/gen/level_generators.h"
 #include "terrane/light/light_table.h"
 #include "terrane/store/chunk_store.h"
@@ -63,6 +65,15 @@ class Session {
     using EditListener = std::function<void(PlayerId, std::span<const world::BlockEdit>)>;
     void setEditListener(EditListener listener) { editListener_ = std::move(listener); }
 
+    // Called with what a player's edit, building or undoing changed, each block once: for a history of who
+    // changed what.
+    using ChangeListener = std::function<void(PlayerId, std::span<const ChangedBlock>)>;
+    void setChangeListener(ChangeListener listener) { changeListener_ = std::move(listener); }
+
+    // Exactly these blocks, as a server tells them or a history brings them back: nothing is checked, and no
+    // block falls or goes for it. Those in chunks that are not loaded are left out.
+    void setBlocks(std::span<const world::PlacedBlock> blocks);
+
     // Where a player stands: its edits are checked against that. Its history begins with the first call.
     void setPlayer(PlayerId player, const world::Pose& pose) { players_[player].pose = pose; }
     void removePlayer(PlayerId player) { players_.erase(player); }
@@ -89,17 +100,28 @@ class Session {
     std::vector<stream::TaskTime> taskTimes() const;  // of the work on chunks, then on tiles
 
     DayClock clock;
+    Permissions permissions;
 
   private:
     struct PlayerEntry {
         world::Pose pose;
         EditHistory history;
     };
+    // What a player's commands changed: steps that it can undo, and what it used (doors, containers).
+    struct PlayerChanges {
+        world::BlockRecorder steps, uses;
+    };
     EditResult apply(const EditCommand& command, std::vector<world::BlockEdit>& edits,
-                     world::BlockRecorder& recorder);
+                     PlayerChanges& changes);
     bool canReach(PlayerId player, world::BlockPos pos) const;
+    // Of a list of things with a position `pos` each.
+    bool mayChangeAll(PlayerId player, const auto& blocks) const {
+        return std::ranges::none_of(
+            blocks, [&](const auto& block) { return refusal(permissions, player, block.pos).has_value(); });
+    }
     std::optional<EditResult> refusalOfBreaking(const EditCommand& command) const;
     void tellEdits(PlayerId player, std::span<const world::BlockEdit> edits);
+    void tellChanges(PlayerId player, std::span<const ChangedBlock> changes);
 
     // They refer to each other: destroyed in reverse order.
     std::unique_ptr<const world::BlockRegistry> blocks_;
@@ -115,6 +137,7 @@ class Session {
 
     std::unordered_map<PlayerId, PlayerEntry> players_;
     EditListener editListener_;
+    ChangeListener changeListener_;
     double untilTick_ = 0;  // seconds of game time that made no tick yet
     std::uint64_t ticks_ = 0;
 };

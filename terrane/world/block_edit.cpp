@@ -49,6 +49,7 @@ void BlockUpdate::restore(std::span<const PlacedBlock> blocks, RestoreScope scop
         setValue(block.pos, block.value);
         restored.insert(block.pos);
     }
+    if (scope == RestoreScope::None) return;
     for (const PlacedBlock& block : blocks) {
         bool isTold = false;
         for (const Face face : kAllFaces) {

@@ -44,6 +44,7 @@ constexpr std::size_t kMaxBehaviorCalls = 16384;
 
 // Which blocks that restore() sets are told of a neighbor that changed.
 enum class RestoreScope : std::uint8_t {
+    None,    // none: what follows from the change is known already
     Border,  // those that touch a block which is not restored: inside nothing falls or goes
     All,     // every one: fences get their arms, plants inside lose their ground
 };

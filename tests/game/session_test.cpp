@@ -78,6 +78,48 @@ TEST_F(SessionTest, ABatchAnswersEachCommand) {
     EXPECT_EQ(session_.world().block(kOnGround), contentBlock("stone"));
 }
 
+// Edits, what is used, building and undoing, with what follows from them; not what the world does by itself.
+TEST_F(SessionTest, ListenersHearWhatPlayersChanged) {
+    std::vector<std::pair<PlayerId, std::vector<ChangedBlock>>> heard;
+    session_.setChangeListener([&](PlayerId player, std::span<const ChangedBlock> changes) {
+        heard.push_back({player, {changes.begin(), changes.end()}});
+    });
+    session_.setPlayer(7, {.position = {5.5, 5.5, kGroundHeight + 2.0}});
+    session_.edit(put(kOnGround, "sand"));
+    EXPECT_TRUE(heard.empty()) << "the world did it";
+    session_.edit(put(kOnGround, "glass", 7));
+    session_.edit(put({5, 5, kGroundHeight - 1}, "air", 7));
+    session_.edit(put({6, 5, kGroundHeight}, "chest", 7));
+    world::Inventory items(27);
+    items[3] = {"stone", 2};
+    putItems(session_, 7, {6, 5, kGroundHeight}, items);
+    session_.build({7, FillBox{{{3, 3, 70}, {4, 4, 71}}, contentBlock("glass"), 0, {}}});
+    session_.takeBack(7, HistoryWay::Undo);
+    ASSERT_EQ(heard.size(), 6u);
+    for (const auto& [player, changes] : heard) EXPECT_EQ(player, 7u);
+    ASSERT_EQ(heard[0].second.size(), 1u);
+    EXPECT_EQ(heard[0].second[0].before.id, contentBlock("sand"));
+    EXPECT_EQ(heard[0].second[0].after.id, contentBlock("glass"));
+    EXPECT_EQ(heard[3].second.size(), 1u);
+    EXPECT_NE(heard[3].second[0].after.data, nullptr) << "of the chest";
+    EXPECT_EQ(heard[4].second.size(), 8u);
+    EXPECT_EQ(heard[5].second.size(), 8u);
+    EXPECT_EQ(heard[5].second[0].after.id, world::kAir);
+}
+
+// As a server says they are: sand hangs in the air until the server lets it fall.
+TEST_F(SessionTest, BlocksThatAreSetStayAsTheyAre) {
+    const world::BlockValue sand{contentBlock("sand"), 0, {}}, poppy{contentBlock("poppy"), 0, {}};
+    session_.setBlocks(std::vector<world::PlacedBlock>{
+        {{5, 5, 100}, sand}, {{6, 5, 100}, poppy}, {{5000, 5, 100}, sand}, {{5, 5, 300}, sand}});
+    EXPECT_EQ(session_.world().block({5, 5, 100}), sand.id);
+    EXPECT_EQ(session_.world().block({6, 5, 100}), poppy.id);
+    settle();
+    EXPECT_FALSE(takeChanges().empty());
+    session_.setBlocks(std::vector<world::PlacedBlock>{{{5, 5, 100}, {}}});
+    EXPECT_EQ(session_.world().block({5, 5, 100}), world::kAir);
+}
+
 TEST_F(SessionTest, AnEditIsOnScreenWithTheNextUpdate) {
     takeChanges();
     session_.edit(put(kOnGround, "lamp_red"));

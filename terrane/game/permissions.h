@@ -1,0 +1,71 @@
+// Who may change which blocks of a world that several people share: roles, and claims, which are areas with
+// an owner. Session asks mayChange() for each block that a player's command is about; nothing else decides.
+// Plain values.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "terrane/base/result.h"
+#include "terrane/game/edit_command.h"
+
+namespace terrane::game {
+
+enum class Role : std::uint8_t {
+    Guest,     // looks and talks
+    Player,    // builds, but in nobody else's claim
+    Operator,  // builds everywhere
+    Count
+};
+
+// All heights of columns from corner to corner, both included; low ≤ high in each coordinate.
+struct ClaimArea {
+    std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+    bool contains(world::BlockPos pos) const {
+        return pos.x >= x0 && pos.x <= x1 && pos.y >= y0 && pos.y <= y1;
+    }
+    bool overlaps(const ClaimArea& other) const {
+        return x0 <= other.x1 && other.x0 <= x1 && y0 <= other.y1 && other.y0 <= y1;
+    }
+    bool operator==(const ClaimArea&) const = default;
+};
+
+struct Claim {
+    std::string name;  // different from all others
+    ClaimArea area;
+    PlayerId owner = kNoPlayer;
+    std::vector<PlayerId> members;  // who may build there besides
+};
+
+// Claims do not overlap: a block has one owner.
+class Claims {
+  public:
+    // An error where the name is in use, or the area overlaps another claim, which it names.
+    [[nodiscard]] base::Result<void> add(Claim claim);
+    bool remove(std::string_view name);  // false: there is none
+
+    const Claim* find(std::string_view name) const;  // null: none
+    const Claim* at(world::BlockPos pos) const;      // null: nobody's
+    const std::vector<Claim>& all() const { return claims_; }
+
+  private:
+    std::vector<Claim> claims_;
+};
+
+struct Permissions {
+    std::unordered_map<PlayerId, Role> roles;
+    Role otherwise = Role::Player;  // of those without a role of their own
+    Claims claims;
+
+    Role roleOf(PlayerId player) const;
+};
+
+// Why a player may not change a block: NotAllowed or Claimed; nothing where it may. kNoPlayer may everything.
+std::optional<EditResult> refusal(const Permissions& permissions, PlayerId player, world::BlockPos pos);
+
+}  // namespace terrane::game
