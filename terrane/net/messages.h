@@ -14,8 +14,8 @@
 
 #include "terrane/base/result.h"
 #include "terrane/game/build_command.h"
-#include "terrane/game/edit_history.h"
 #include "terrane/net/chunk_difference.h"
+#include "terrane/net/people.h"
 #include "terrane/net/wire_pose.h"
 #include "terrane/net/world_proof.h"
 
@@ -24,7 +24,6 @@ namespace terrane::net {
 constexpr std::uint32_t kMagic = 0x4E524554;  // "TERN"
 constexpr std::uint16_t kProtocolVersion = 1;
 
-constexpr std::size_t kMaxNameBytes = 24;  // of a player
 constexpr std::size_t kMaxPasswordBytes = 128;
 constexpr std::size_t kMaxChatBytes = 400;
 constexpr std::size_t kMaxReasonBytes = 400;
@@ -36,14 +35,13 @@ constexpr std::size_t kMaxStructureWire = 32768;
 constexpr std::size_t kMaxClientMessage = 65536;
 constexpr std::size_t kMaxServerMessage = 262144;
 
-using PublicKey = std::array<std::byte, 32>;  // Ed25519
 using Signature = std::array<std::byte, 64>;
 using Nonce = std::array<std::byte, 32>;
 
 // Numbers of a client's commands, in ascending order.
 using CommandNumber = std::uint32_t;
 
-enum class Role : std::uint8_t { Guest, Player, Operator, Count };
+using game::Role;
 
 // Why a server does not let a client in, or closes a connection.
 enum class Refusal : std::uint8_t {

@@ -1,0 +1,67 @@
+// The history of a shared world: who changed which blocks, when, from what to what. It is written before a
+// command is acknowledged, so that it also brings back what a crash kept from the world's own file. On the
+// server's thread.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "terrane/game/edit_history.h"
+#include "terrane/game/permissions.h"
+#include "terrane/net/chunk_difference.h"
+#include "terrane/net/server_file.h"
+
+namespace terrane::net {
+
+// What one command changed in one chunk.
+struct LoggedEdit {
+    std::int64_t number = 0;  // ascending, from 1 on; the server gives it
+    std::int64_t timeMs = 0;  // since 1970
+    game::PlayerId player = game::kNoPlayer;
+    world::ChunkPos chunk;
+    ChunkDifference before, after;  // the same blocks
+};
+
+// One for each chunk, and more where a chunk's blocks are many. Their numbers begin with `first`.
+std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::PlayerId player, std::int64_t timeMs,
+                                    std::span<const game::ChangedBlock> changes);
+
+// Gives the number of the write (ServerFile::durable()).
+std::uint64_t appendEdit(ServerFile& file, LoggedEdit edit);
+
+// The newest edit's number, of those that are durable; 0: none.
+[[nodiscard]] base::Result<std::int64_t> newestEdit(store::Database& database);
+// All edits up to this number are in the world's own file.
+[[nodiscard]] base::Result<std::int64_t> savedEdit(store::Database& database);
+std::uint64_t setSavedEdit(ServerFile& file, std::int64_t number);
+
+// Which edits are meant; what is not given makes no difference.
+struct EditFilter {
+    std::optional<game::PlayerId> player = {};
+    std::optional<game::ClaimArea> area = {};  // some block of the edit is in it
+    std::optional<std::int64_t> sinceMs = {}, untilMs = {};
+    std::int64_t afterNumber = 0;
+};
+enum class EditOrder : std::uint8_t { OldestFirst, NewestFirst };
+
+// Until `use` gives false. An edit that cannot be read is an error that names its number.
+using UseEdit = std::function<bool(const LoggedEdit&)>;
+[[nodiscard]] base::Result<void> forEachEdit(store::Database& database, const store::BlockIdMap& ids,
+                                             const EditFilter& filter, EditOrder order, const UseEdit& use);
+
+// A block that a roll-back changes: from what the last of the edits made it to what it was before the first.
+struct RolledBack {
+    world::BlockPos pos;
+    world::BlockValue made, before;
+};
+// At most so many blocks at once: 200 bytes each while it runs.
+constexpr std::size_t kMaxRollback = 2'000'000;
+// By chunk, and in a chunk by block index. An error where there are too many.
+[[nodiscard]] base::Result<std::vector<RolledBack>> rollback(store::Database& database,
+                                                             const store::BlockIdMap& ids,
+                                                             const EditFilter& filter);
+
+}  // namespace terrane::net

@@ -1,0 +1,68 @@
+// Everybody who ever played on a server, with what it keeps of them, and the claims: in memory, and written
+// to the server's file as it changes. On the server's thread.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "terrane/game/permissions.h"
+#include "terrane/net/server_file.h"
+#include "terrane/world/pose.h"
+
+namespace terrane::net {
+
+using PublicKey = std::array<std::byte, 32>;  // Ed25519
+
+constexpr std::size_t kMaxNameBytes = 24;  // of a player or a claim
+
+// A name has 1 to kMaxNameBytes bytes of plain text (wire.h) without spaces at its ends.
+bool isName(std::string_view name);
+
+struct KnownPlayer {
+    game::PlayerId id = game::kNoPlayer;
+    PublicKey key{};
+    std::string name;
+    game::Role role = game::Role::Player;
+    std::optional<world::Pose> pose;  // where it left
+    std::string ban;                  // the reason; empty: none
+};
+
+class People {
+  public:
+    // All of the file. Rows that make no sense are an error that names the file.
+    [[nodiscard]] static base::Result<People> read(ServerFile& file);
+
+    // Null where nobody has it. Names are compared without case, as far as letters of ASCII go. Pointers
+    // hold.
+    const KnownPlayer* byId(game::PlayerId id) const;
+    const KnownPlayer* byKey(const PublicKey& key) const;
+    const KnownPlayer* byName(std::string_view name) const;
+
+    // `key` and `name` are new here.
+    const KnownPlayer& add(const PublicKey& key, const std::string& name, game::Role role);
+    // Of somebody who is known.
+    void setName(game::PlayerId id, const std::string& name);
+    void setRole(game::PlayerId id, game::Role role);
+    void setPose(game::PlayerId id, const world::Pose& pose);
+    void setBan(game::PlayerId id, const std::string& reason);
+
+    const game::Claims& claims() const { return claims_; }
+    [[nodiscard]] base::Result<void> addClaim(const game::Claim& claim);
+    bool removeClaim(std::string_view name);
+
+  private:
+    explicit People(ServerFile& file) : file_(&file) {}
+    base::Result<void> readPlayers();
+    base::Result<void> readClaims();
+    void save(const KnownPlayer& player);
+
+    ServerFile* file_;
+    std::map<game::PlayerId, KnownPlayer> players_;
+    game::Claims claims_;
+};
+
+}  // namespace terrane::net

@@ -1,0 +1,178 @@
+#include "terrane/net/edit_log.h"
+
+#include <random>
+
+#include "tests/net/server_file_fixture.h"
+
+namespace terrane::net {
+namespace {
+
+using game::PlayerId;
+using world::BlockPos;
+
+world::BlockValue valueOf(std::string_view name, int state = 0) {
+    return {contentBlock(name), static_cast<std::uint16_t>(state), {}};
+}
+
+class EditLogTest : public ServerFileTest {
+  protected:
+    void log(PlayerId player, std::int64_t timeMs, const std::vector<game::ChangedBlock>& changes) {
+        for (const LoggedEdit& edit : loggedEdits(next_, player, timeMs, changes)) {
+            appendEdit(*file_, edit);
+            next_ = edit.number + 1;
+        }
+    }
+    std::vector<LoggedEdit> found(const EditFilter& filter, EditOrder order = EditOrder::OldestFirst) {
+        flush();
+        std::vector<LoggedEdit> edits;
+        const auto take = [&](const LoggedEdit& edit) {
+            edits.push_back(edit);
+            return true;
+        };
+        const auto done = forEachEdit(file_->reader(), file_->ids(), filter, order, take);
+        EXPECT_TRUE(done) << done.error().message;
+        return edits;
+    }
+    std::vector<RolledBack> plan(const EditFilter& filter) {
+        flush();
+        return rollback(file_->reader(), file_->ids(), filter).value();
+    }
+
+    std::int64_t next_ = 1;
+};
+
+TEST_F(EditLogTest, AnEditReadsBack) {
+    world::BlockValue chest = valueOf("chest", 3);
+    chest.data = std::make_shared<const world::BlockEntityData>(40, std::byte{5});
+    log(7, 1000, {{{5, -6, 70}, valueOf("air"), chest}, {{5, -6, 71}, valueOf("sand"), valueOf("glass")}});
+    const auto edits = found({});
+    ASSERT_EQ(edits.size(), 1u);
+    EXPECT_EQ(edits[0].number, 1);
+    EXPECT_EQ(edits[0].timeMs, 1000);
+    EXPECT_EQ(edits[0].player, 7u);
+    EXPECT_EQ(edits[0].chunk, (world::ChunkPos{0, -1}));
+    ASSERT_EQ(edits[0].after.size(), 2u);
+    EXPECT_EQ(edits[0].after[0].value, chest);
+    EXPECT_EQ(edits[0].before[1].value, valueOf("sand"));
+}
+
+TEST_F(EditLogTest, EachChunkHasItsOwn) {
+    std::vector<game::ChangedBlock> changes;
+    for (int x = -40; x < 40; ++x)
+        for (int y = 0; y < 3; ++y)
+            for (int z = 0; z < 250; ++z) changes.push_back({{x, y, z}, valueOf("air"), valueOf("stone")});
+    log(7, 1, changes);
+    std::size_t blocks = 0;
+    for (const LoggedEdit& edit : found({})) {
+        blocks += edit.after.size();
+        EXPECT_LE(edit.after.size(), kMaxBlocksInPart);
+    }
+    EXPECT_EQ(blocks, changes.size());
+}
+
+TEST_F(EditLogTest, IsFilteredByPlayerAreaAndTime) {
+    log(7, 100, {{{0, 0, 70}, valueOf("air"), valueOf("glass")}});
+    log(8, 200, {{{100, 0, 70}, valueOf("air"), valueOf("glass")}});
+    log(7, 300, {{{15, 15, 70}, valueOf("air"), valueOf("glass")}});
+    const auto numbers = [&](const EditFilter& filter, EditOrder order = EditOrder::OldestFirst) {
+        std::vector<std::int64_t> all;
+        for (const LoggedEdit& edit : found(filter, order)) all.push_back(edit.number);
+        return all;
+    };
+    using Numbers = std::vector<std::int64_t>;
+    EXPECT_EQ(numbers({}), (Numbers{1, 2, 3}));
+    EXPECT_EQ(numbers({}, EditOrder::NewestFirst), (Numbers{3, 2, 1}));
+    EXPECT_EQ(numbers({.player = 7}), (Numbers{1, 3}));
+    EXPECT_EQ(numbers({.area = game::ClaimArea{90, -5, 110, 5}}), (Numbers{2}));
+    EXPECT_EQ(numbers({.area = game::ClaimArea{0, 0, 14, 20}}), (Numbers{1}))
+        << "the chunk alone is not enough";
+    EXPECT_EQ(numbers({.sinceMs = 200}), (Numbers{2, 3}));
+    EXPECT_EQ(numbers({.sinceMs = 100, .untilMs = 200}), (Numbers{1}));
+    EXPECT_EQ(numbers({.afterNumber = 2}), (Numbers{3}));
+    EXPECT_EQ(newestEdit(file_->reader()).value(), 3);
+}
+
+TEST_F(EditLogTest, RemembersWhatTheWorldHas) {
+    EXPECT_EQ(savedEdit(file_->reader()).value(), 0);
+    setSavedEdit(*file_, 5);
+    setSavedEdit(*file_, 9);
+    flush();
+    EXPECT_EQ(savedEdit(file_->reader()).value(), 9);
+}
+
+// From what the last edit made a block to what it was before the first, of those that are meant.
+TEST_F(EditLogTest, ARollbackSpansAllEditsOfABlock) {
+    const BlockPos pos{1, 2, 70};
+    log(7, 100, {{pos, valueOf("air"), valueOf("glass")}});
+    log(8, 200, {{pos, valueOf("glass"), valueOf("sand")}});
+    log(8, 300, {{pos, valueOf("sand"), valueOf("stone")}, {{50, 2, 70}, valueOf("air"), valueOf("stone")}});
+    const auto all = plan({.player = 8});
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_EQ(all[0].pos, pos);
+    EXPECT_EQ(all[0].made, valueOf("stone"));
+    EXPECT_EQ(all[0].before, valueOf("glass"));
+    const auto inArea = plan({.player = 8, .area = game::ClaimArea{40, 0, 60, 9}});
+    ASSERT_EQ(inArea.size(), 1u);
+    EXPECT_EQ(inArea[0].pos, (BlockPos{50, 2, 70}));
+    EXPECT_EQ(plan({.player = 8, .sinceMs = 250})[0].before, valueOf("sand"));
+    EXPECT_TRUE(plan({.player = 9}).empty());
+}
+
+// Random edits of some players: what a roll-back of one gives is what a slow reference gives.
+TEST_F(EditLogTest, RollbacksEqualAReference) {
+    std::mt19937 random(4);
+    const std::vector<std::string> names{"air", "stone", "sand", "glass", "dirt"};
+    std::map<BlockPos, std::string> world;
+    struct Entry {
+        PlayerId player;
+        BlockPos pos;
+        std::string before, after;
+    };
+    std::vector<Entry> entries;
+    for (int k = 0; k < 400; ++k) {
+        const BlockPos pos{static_cast<int>(random() % 6), 0, 70};
+        const PlayerId player = 7 + random() % 3;
+        std::string& there = world.try_emplace(pos, "air").first->second;
+        const std::string next = names[random() % names.size()];
+        log(player, k, {{pos, valueOf(there), valueOf(next)}});
+        entries.push_back({player, pos, there, next});
+        there = next;
+    }
+    for (PlayerId player = 7; player < 10; ++player) {
+        std::map<BlockPos, std::pair<std::string, std::string>> expected;  // before, made
+        for (const Entry& entry : entries) {
+            if (entry.player != player) continue;
+            expected.try_emplace(entry.pos, entry.before, "").first->second.second = entry.after;
+        }
+        const auto found = plan({.player = player});
+        ASSERT_EQ(found.size(), expected.size());
+        for (const RolledBack& block : found) {
+            EXPECT_EQ(block.before, valueOf(expected[block.pos].first));
+            EXPECT_EQ(block.made, valueOf(expected[block.pos].second));
+        }
+    }
+}
+
+// The file names block types: a program with others reads it right, and refuses what it cannot know.
+TEST_F(EditLogTest, BlockTypesAreNamed) {
+    log(7, 1, {{{0, 0, 70}, valueOf("air"), valueOf("glass")}});
+    flush();
+    const auto fewer = world::BlockRegistry::parse(
+        "[[block]]\nname = \"glass\"\nshape = \"cube\"\ntexture = \"stone\"\n", "test");
+    open(*fewer);
+    EXPECT_EQ(found({})[0].after[0].value.id, fewer->find("glass")->id);
+}
+
+TEST_F(EditLogTest, DamagedRowsAreRefused) {
+    log(7, 1, {{{0, 0, 70}, valueOf("air"), valueOf("glass")}});
+    file_->write(
+        [](store::Database& database) { return database.execute("UPDATE edits SET blocks = x'FF00'"); });
+    flush();
+    const auto done = forEachEdit(file_->reader(), file_->ids(), {}, EditOrder::OldestFirst,
+                                  [](const LoggedEdit&) { return true; });
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().code, base::ErrorCode::Damaged);
+}
+
+}  // namespace
+}  // namespace terrane::net

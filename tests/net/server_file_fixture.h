@@ -1,0 +1,29 @@
+// A server's file in a folder of its own.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "terrane/net/server_file.h"
+#include "tests/base/temp_folder.h"
+#include "tests/world/content_blocks.h"
+
+namespace terrane::net {
+
+class ServerFileTest : public testing::Test {
+  protected:
+    ServerFileTest() { open(); }
+    void open(const world::BlockRegistry& blocks = contentBlocks()) {
+        file_.reset();
+        auto opened = ServerFile::open(folder_ / "w.server.sqlite", blocks);
+        ASSERT_TRUE(opened) << opened.error().message;
+        file_ = std::move(*opened);
+    }
+    void flush() { ASSERT_TRUE(file_->flush()); }
+
+    base::TempFolder folder_;
+    std::unique_ptr<ServerFile> file_;
+};
+
+}  // namespace terrane::net

@@ -1,0 +1,71 @@
+#include "terrane/net/server_file.h"
+
+#include "terrane/base/files.h"
+#include "tests/net/server_file_fixture.h"
+
+namespace terrane::net {
+namespace {
+
+TEST(ServerFilePath, IsBesideTheWorld) {
+    EXPECT_EQ(serverFilePath("a/home.sqlite"), "a/home.server.sqlite");
+}
+
+ServerFile::Write setState(int value) {
+    return [value](store::Database& database) {
+        return database.execute(fmt::format("INSERT OR REPLACE INTO state VALUES ('x', {})", value));
+    };
+}
+
+std::int64_t state(ServerFile& file) {
+    return file.reader().queryNumber("SELECT value FROM state WHERE name = 'x'").value().value_or(-1);
+}
+
+TEST_F(ServerFileTest, WritesAreMadeInTheirOrder) {
+    std::uint64_t number = 0;
+    for (int k = 1; k <= 100; ++k) number = file_->write(setState(k));
+    EXPECT_EQ(number, 100u);
+    flush();
+    EXPECT_EQ(file_->durable(), 100u);
+    EXPECT_EQ(state(*file_), 100);
+}
+
+TEST_F(ServerFileTest, TheEndWritesWhatWaits) {
+    file_->write(setState(7));
+    open();
+    EXPECT_EQ(state(*file_), 7);
+}
+
+TEST_F(ServerFileTest, AFailureIsToldAndTriedAgain) {
+    bool fails = true;
+    file_->write([&](store::Database& database) -> base::Result<void> {
+        if (std::exchange(fails, false)) return base::fail("the disk is full");
+        return setState(3)(database);
+    });
+    file_->write(setState(4));
+    const auto first = file_->flush();
+    EXPECT_EQ(first ? "the disk is full" : first.error().message, "the disk is full");
+    flush();
+    EXPECT_EQ(state(*file_), 4);
+    EXPECT_EQ(file_->problem(), "");
+}
+
+TEST_F(ServerFileTest, HasOneServerAtATime) {
+    const auto second = ServerFile::open(folder_ / "w.server.sqlite", contentBlocks());
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().code, base::ErrorCode::Busy);
+}
+
+TEST_F(ServerFileTest, OtherFilesAreRefused) {
+    ASSERT_TRUE(base::writeFile(folder_ / "text.sqlite", std::string(5000, 'x')));
+    EXPECT_FALSE(ServerFile::open(folder_ / "text.sqlite", contentBlocks()));
+    {
+        auto other = store::Database::open(folder_ / "other.sqlite", store::OpenMode::Create);
+        ASSERT_TRUE(other->execute("CREATE TABLE t (x)"));
+    }
+    const auto other = ServerFile::open(folder_ / "other.sqlite", contentBlocks());
+    ASSERT_FALSE(other);
+    EXPECT_EQ(other.error().code, base::ErrorCode::Incompatible);
+}
+
+}  // namespace
+}  // namespace terrane::net
