@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Feeds all that reads files from outside with bytes that libFuzzer thinks up, under the address and
-# undefined-behavior sanitizers: saves, chunks, structures, block types, languages, path files, settings, bookmarks, textures, sounds. What it finds
+# undefined-behavior sanitizers: saves, chunks, structures, block types, languages, path files, settings, bookmarks, textures, sounds, messages. What it finds
 # interesting stays in build-fuzz/corpus for the next time.
 #
 #   tools/fuzz.sh [SECONDS] [NAME…]    10 seconds each unless told otherwise, two at a time; NAME as in

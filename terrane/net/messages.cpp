@@ -201,28 +201,25 @@ void describe(auto& wire, Of<Disappears> auto& m) {
     wire.number(m.slot);
 }
 
-// Most players move and look about, some do one of both: a byte says which fields follow.
+// Who looks about often stands: a byte says whether the player moves, and whether it swings its arm.
 template <class Wire>
 void describeChange(Wire& wire, auto& change) {
-    constexpr std::uint8_t kMoves = 1, kTurns = 2, kSwings = 4;
+    constexpr std::uint8_t kMoves = 1, kSwings = 2;
     wire.number(change.slot);
     std::uint8_t fields = 0;
     if constexpr (!Wire::kReads) {
         if (change.dx != 0 || change.dy != 0 || change.dz != 0) fields |= kMoves;
-        fields |= kTurns;
         if (change.swings) fields |= kSwings;
     }
     wire.fixed(fields);
-    wire.require(fields <= (kMoves | kTurns | kSwings));
+    wire.require(fields <= (kMoves | kSwings));
     if (fields & kMoves) {
         wire.integer(change.dx);
         wire.integer(change.dy);
         wire.integer(change.dz);
     }
-    if (fields & kTurns) {
-        wire.fixed(change.yaw);
-        wire.fixed(change.pitch);
-    }
+    wire.fixed(change.yaw);
+    wire.fixed(change.pitch);
     if constexpr (Wire::kReads) change.swings = fields & kSwings;
 }
 

@@ -100,6 +100,14 @@ TEST(Messages, TheUsualOnesAreSmall) {
     EXPECT_LE(encode(ServerMessage(poses)).size(), 100u * 7 + 3);
 }
 
+// Found by fuzzing: a change of which nothing is told had two forms.
+TEST(Messages, APoseHasItsDirection) {
+    Bytes bytes = encode(ServerMessage(Poses{{{11, 0, 0, 0, 3, 4, false}}}));
+    EXPECT_TRUE(decodeServerMessage(bytes));
+    bytes.resize(bytes.size() - 2);
+    EXPECT_FALSE(decodeServerMessage(bytes));
+}
+
 // Every cut of every message, under the sanitizers: an error, never a message.
 TEST(Messages, CutOnesAreRefused) {
     for (const ClientMessage& message : clientMessages()) {
