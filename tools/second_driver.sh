@@ -32,7 +32,7 @@ fi
 export GALLIUM_DRIVER=zink LIBGL_ALWAYS_SOFTWARE=1 TERRANE_EXPECT_RENDERER=zink
 
 run_tests() {
-    ctest --test-dir "$FOLDER" --output-on-failure --no-tests=error --parallel 2 --timeout 900 "$@"
+    ctest --test-dir "$FOLDER" --output-on-failure --no-tests=error --parallel 2 "$@"
 }
 
 [[ $EVERY == 1 ]] || run_tests --tests-regex "$ALWAYS"

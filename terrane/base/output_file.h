@@ -12,7 +12,8 @@ namespace terrane::base {
 
 // Written without a name in the path's folder; finish() gives it its name. Without finish() nothing stays,
 // also of a program that is killed, and an older file of that name is as it was. Where the file system knows
-// no files without a name it has a temporary one, which a killed program leaves.
+// no files without a name, and for an instant in finish(), it has a temporary one, which a killed program
+// leaves.
 class OutputFile {
   public:
     // A symbolic link is followed: the file it leads to is replaced, or made, and the link stays. Makes no

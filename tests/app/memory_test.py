@@ -3,7 +3,7 @@
 Usage: memory_test.py PROGRAM
 
 Each command runs under limits of its address space (RLIMIT_AS) from where the system can just load the program to
-where all works. Six limits each; with TERRANE_MEMORY_STEP=KIB in the environment one every so many KiB. What draws is
+where all works. Ten limits each; with TERRANE_MEMORY_STEP=KIB in the environment one every so many KiB. What draws is
 not run here: Mesa's software renderer ends the process by itself where it gets no memory (LLVM: "Unable to allocate
 section memory!"). So does, rarely, the C library, for variables of threads; that is passed over."""
 import os
@@ -18,7 +18,7 @@ from support import ProgramTest
 KIB, MIB = 1 << 10, 1 << 20
 HANG_SECONDS = 300  # a guard against hangs: commands take less than a second
 CANNOT_BE_LOADED = 127  # by the dynamic linker, before any code of ours
-COUNT = 6  # of limits
+COUNT = 10  # of limits
 INFORMATION = re.compile(r"terrane: (?!error: )")  # all but errors
 GLIBC_GAVE_UP = "Fatal glibc error: failed to register TLS destructor: out of memory"
 
@@ -36,8 +36,8 @@ class Memory(ProgramTest):
                               timeout=HANG_SECONDS, env=support.environment(), check=False, preexec_fn=set_limit)
 
     def first_limit(self, low, high, holds):
-        """A limit for which something holds that does not hold 1 MiB below."""
-        while high - low > MIB:
+        """A limit for which something holds that does not hold 256 KiB below."""
+        while high - low > 256 * KIB:
             middle = (low + high) // 2
             low, high = (low, middle) if holds(middle) else (middle, high)
         return high

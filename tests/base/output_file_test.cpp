@@ -58,15 +58,6 @@ TEST(OutputFile, OfAProgramThatEndsMidwayNothingStays) {
     EXPECT_EQ(folder.fileCount(), 0);
 }
 
-TEST(OutputFile, NamesThatOthersUseAreLeft) {
-    const TempFolder folder;
-    ASSERT_TRUE(writeFile(folder / "file.tmp0", "somebody's"));
-    ASSERT_TRUE(writeFile(folder / "file", "new"));
-    EXPECT_EQ(readFile(folder / "file.tmp0").value(), "somebody's");
-    EXPECT_EQ(readFile(folder / "file").value(), "new");
-    EXPECT_EQ(folder.fileCount(), 2);
-}
-
 TEST(OutputFile, OfAFullDiskNothingStays) {
     const TempFolder folder;
     {
