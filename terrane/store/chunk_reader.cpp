@@ -64,22 +64,21 @@ StoredRow readRow(Statement& select, world::ChunkPos pos, std::int64_t format) {
 }
 
 base::Result<std::vector<world::ChunkPos>> readEditedChunks(Database& database) {
-    auto select = database.prepare(
-        fmt::format("SELECT key FROM chunks WHERE origin = {} AND key >= 0 AND key < {} ORDER BY key",
-                    static_cast<int>(Provenance::Edited), kFirstTileKey));
-    if (!select) return tl::unexpected(select.error());
     std::vector<world::ChunkPos> edited;
-    while (true) {
-        const auto row = select->step();
-        if (!row) return tl::unexpected(row.error());
-        if (!*row) return edited;
-        const world::ChunkPos pos = posOf(select->number(0));
+    const auto take = [&](const Statement& row) -> base::Result<void> {
+        const world::ChunkPos pos = posOf(row.number(0));
         // Pages that lead back to themselves would give rows without end.
         if (!edited.empty() && keyOf(pos) <= keyOf(edited.back()))
             return base::fail(base::ErrorCode::Damaged, "{}: damaged: its chunks are out of order",
                               database.path());
         edited.push_back(pos);
-    }
+        return {};
+    };
+    const std::string sql =
+        fmt::format("SELECT key FROM chunks WHERE origin = {} AND key >= 0 AND key < {} ORDER BY key",
+                    static_cast<int>(Provenance::Edited), kFirstTileKey);
+    if (auto read = forEachRow(database, sql, take); !read) return tl::unexpected(read.error());
+    return edited;
 }
 
 base::Result<std::unique_ptr<ChunkReader::Connection>> ChunkReader::open() const {

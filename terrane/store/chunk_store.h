@@ -1,6 +1,6 @@
 // Where chunks and what belongs to a world are kept between sessions. SqliteStore keeps them in a file,
 // MemoryStore until the program ends, OverlayStore in memory over what another store has. open_world.h opens
-// the one for a location. All stores pass the tests of tests/store/chunk_store_contract_test.cpp.
+// the one for a location. All of these pass the tests of tests/store/chunk_store_contract_test.cpp.
 //
 // Any thread may call everything.
 #pragma once

@@ -22,16 +22,13 @@ constexpr std::size_t kMaxListed = 1000;
 // trees of pages, such as a page that is its own ancestor, stops that, while this walks on without an end to
 // its stack.
 base::Result<void> checkPages(Database& database, CheckReport& report) {
-    auto check = database.prepare(fmt::format("PRAGMA integrity_check({})", kMaxFileProblems));
-    if (!check) return tl::unexpected(check.error());
-    while (true) {
-        const auto row = check->step();
-        if (!row) return tl::unexpected(row.error());
-        if (!*row) return {};
-        if (check->text(0) == "ok") continue;
-        std::istringstream lines{std::string(check->text(0))};
+    const auto take = [&](const Statement& row) -> base::Result<void> {
+        if (row.text(0) == "ok") return {};
+        std::istringstream lines{std::string(row.text(0))};
         for (std::string line; std::getline(lines, line);) report.fileProblems.push_back(line);
-    }
+        return {};
+    };
+    return forEachRow(database, fmt::format("PRAGMA integrity_check({})", kMaxFileProblems), take);
 }
 
 std::string problemOf(const Statement& row, const SaveFile& file) {
@@ -54,21 +51,16 @@ void note(CheckReport& report, const Statement& row, std::string problem) {
 // Calls a function with each row, which is ordered by its first column, a number. Where a page stands in two
 // places, rows come twice, or without end: they are out of order then.
 template <class Visit>
-base::Result<void> forEachRow(Database& database, std::string_view sql, Visit visit) {
-    auto select = database.prepare(sql);
-    if (!select) return tl::unexpected(select.error());
+base::Result<void> forEachRowInOrder(Database& database, std::string_view sql, Visit visit) {
     std::optional<std::int64_t> last;
-    while (true) {
-        const auto row = select->step();
-        if (!row) return tl::unexpected(row.error());
-        if (!*row) return {};
-        const std::int64_t number = select->number(0);
+    return forEachRow(database, sql, [&](const Statement& row) -> base::Result<void> {
+        const std::int64_t number = row.number(0);
         if (last && number <= *last)
             return base::fail(base::ErrorCode::Damaged, "{}: damaged: rows are out of order behind {}",
                               database.path(), *last);
         last = number;
-        if (auto visited = visit(*select); !visited) return visited;
-    }
+        return visit(row);
+    });
 }
 
 base::Result<void> checkChunks(SaveFile& file, CheckReport& report) {
@@ -85,7 +77,7 @@ base::Result<void> checkChunks(SaveFile& file, CheckReport& report) {
         if (!problem.empty()) note(report, row, std::move(problem));
         return {};
     };
-    return forEachRow(file.database, "SELECT key, origin, data FROM chunks ORDER BY key", check);
+    return forEachRowInOrder(file.database, "SELECT key, origin, data FROM chunks ORDER BY key", check);
 }
 
 base::Result<void> countQuarantined(Database& database, CheckReport& report) {
@@ -93,25 +85,22 @@ base::Result<void> countQuarantined(Database& database, CheckReport& report) {
         ++report.quarantined;
         return {};
     };
-    return forEachRow(database, "SELECT number FROM quarantine ORDER BY number", count);
+    return forEachRowInOrder(database, "SELECT number FROM quarantine ORDER BY number", count);
 }
 
 // The index by name, which reading blocks does not use.
 base::Result<void> checkIndex(Database& database) {
-    auto select =
-        database.prepare("SELECT name FROM blocks INDEXED BY sqlite_autoindex_blocks_1 ORDER BY name");
-    if (!select) return tl::unexpected(select.error());
     std::optional<std::string> last;
-    while (true) {
-        const auto row = select->step();
-        if (!row) return tl::unexpected(row.error());
-        if (!*row) return {};
-        std::string name(select->text(0));
+    const auto compare = [&](const Statement& row) -> base::Result<void> {
+        std::string name(row.text(0));
         if (last && name <= *last)
             return base::fail(base::ErrorCode::Damaged, "{}: damaged: the index of blocks is out of order",
                               database.path());
         last = std::move(name);
-    }
+        return {};
+    };
+    return forEachRow(database, "SELECT name FROM blocks INDEXED BY sqlite_autoindex_blocks_1 ORDER BY name",
+                      compare);
 }
 
 // What stops one check is damage too, and does not stop the others.

@@ -111,17 +111,12 @@ base::Result<void> migrate(Database& database, std::span<const Migration> steps,
 }
 
 base::Result<std::vector<SavedName>> readBlockNames(Database& database) {
-    auto select = database.prepare("SELECT id, name FROM blocks ORDER BY id");
-    if (!select) return tl::unexpected(select.error());
     std::vector<SavedName> names;
     std::unordered_set<std::string> seen;
-    while (true) {
-        const auto row = select->step();
-        if (!row) return tl::unexpected(row.error());
-        if (!*row) return names;
-        const std::int64_t id = select->number(0);
-        if (auto isName = checkName(database, *select, 1); !isName) return tl::unexpected(isName.error());
-        std::string name(select->text(1));
+    const auto take = [&](const Statement& row) -> base::Result<void> {
+        const std::int64_t id = row.number(0);
+        if (auto isName = checkName(database, row, 1); !isName) return isName;
+        std::string name(row.text(1));
         if (id < 0 || id > 65535)
             return base::fail(ErrorCode::Damaged,
                               "{}: damaged: the block {} has the id {}, expected 0 to 65535", database.path(),
@@ -133,24 +128,23 @@ base::Result<std::vector<SavedName>> readBlockNames(Database& database) {
             return base::fail(ErrorCode::Damaged, "{}: damaged: the block {} has two ids", database.path(),
                               name);
         names.push_back({static_cast<world::BlockId>(id), std::move(name)});
-    }
+        return {};
+    };
+    const auto read = forEachRow(database, "SELECT id, name FROM blocks ORDER BY id", take);
+    if (!read) return tl::unexpected(read.error());
+    return names;
 }
 
 base::Result<Metadata> readMetadata(Database& database) {
-    auto select = database.prepare("SELECT name, value FROM settings");
-    if (!select) return tl::unexpected(select.error());
     Metadata metadata;
     std::size_t totalBytes = 0;
-    while (true) {
-        const auto row = select->step();
-        if (!row) return tl::unexpected(row.error());
-        if (!*row) return metadata;
-        if (auto isName = checkName(database, *select, 0); !isName) return tl::unexpected(isName.error());
-        std::string name(select->text(0));
-        if (select->type(1) != ColumnType::Text)
+    const auto take = [&](const Statement& row) -> base::Result<void> {
+        if (auto isName = checkName(database, row, 0); !isName) return isName;
+        std::string name(row.text(0));
+        if (row.type(1) != ColumnType::Text)
             return base::fail(ErrorCode::Damaged, "{}: damaged: the setting {} is no text", database.path(),
                               name);
-        std::string value(select->text(1));
+        std::string value(row.text(1));
         totalBytes += name.size() + value.size();
         if (totalBytes > kMaxMetadataBytes || metadata.size() == kMaxMetadata)
             return base::fail(ErrorCode::Damaged,
@@ -158,7 +152,11 @@ base::Result<Metadata> readMetadata(Database& database) {
                               database.path(), kMaxMetadata, kMaxMetadataBytes);
         if (!metadata.emplace(std::move(name), std::move(value)).second)
             return base::fail(ErrorCode::Damaged, "{}: damaged: a setting is there twice", database.path());
-    }
+        return {};
+    };
+    const auto read = forEachRow(database, "SELECT name, value FROM settings", take);
+    if (!read) return tl::unexpected(read.error());
+    return metadata;
 }
 
 }  // namespace terrane::store

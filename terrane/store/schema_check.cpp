@@ -138,15 +138,11 @@ std::string normalizedSql(std::string_view sql) {
 }
 
 base::Result<void> checkSchema(Database& database) {
-    auto select = database.prepare("SELECT type, name, tbl_name, rootpage, sql FROM sqlite_schema");
-    if (!select) return tl::unexpected(select.error());
     SchemaComparison comparison(database.path());
-    while (true) {
-        const auto row = select->step();
-        if (!row) return tl::unexpected(row.error());
-        if (!*row) return comparison.finish();
-        if (auto same = comparison.add(*select); !same) return same;
-    }
+    const auto compared =
+        forEachRow(database, "SELECT type, name, tbl_name, rootpage, sql FROM sqlite_schema",
+                   [&](const Statement& row) { return comparison.add(row); });
+    return compared ? comparison.finish() : compared;
 }
 
 }  // namespace terrane::store

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "terrane/base/result.h"
 #include "terrane/store/bytes.h"
@@ -95,6 +96,19 @@ class Database {
     std::unique_ptr<std::string> path_;  // statements point to it
     std::unique_ptr<sqlite3, Close> database_;
 };
+
+// Calls visit(const Statement&) for each row of a query, which gives a base::Result<void>: an error ends it.
+template <class Visit>
+[[nodiscard]] base::Result<void> forEachRow(Database& database, std::string_view sql, Visit visit) {
+    auto select = database.prepare(sql);
+    if (!select) return tl::unexpected(select.error());
+    while (true) {
+        const auto row = select->step();
+        if (!row) return tl::unexpected(row.error());
+        if (!*row) return {};
+        if (base::Result<void> visited = visit(std::as_const(*select)); !visited) return visited;
+    }
+}
 
 // Rolls back unless committed. One at a time on a connection.
 class Transaction {
