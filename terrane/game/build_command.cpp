@@ -144,7 +144,7 @@ BuildOutcome Session::build(const BuildCommand& command) {
     }
     if (const Result result = check(world_, command.change); result != Result::Done) return {result};
     const PlannedBlocks plan = plannedBlocks(world_, *blocks_, command.change, command.player != kNoPlayer);
-    if (!mayChangeAll(command.player, plan.blocks)) return {Result::NotAllowed};
+    if (!mayChangeAll(permissions, command.player, plan.blocks)) return {Result::NotAllowed};
     // Blocks of a structure have the states that they had; those of a fill find theirs.
     const bool isFill = std::holds_alternative<FillBox>(command.change);
     std::vector<world::BlockEdit> edits;

@@ -46,7 +46,6 @@ struct BuildOutcome {
         NotLoaded,   // some chunk of it is not loaded
         OutOfReach,  // or the player is unknown
         NotAllowed,  // the player may not change some block of it (permissions.h)
-        Count,
     };
     Result result = Result::Empty;
     std::size_t changed = 0;  // blocks that are others now

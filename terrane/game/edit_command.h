@@ -35,7 +35,6 @@ enum class EditResult : std::uint8_t {
     BadData,     // that is no text, for a sign
     NotAllowed,  // to this player: Role::Guest
     Claimed,     // it is in a claim of somebody else
-    Count,
 };
 
 // What became of a step that was to be undone or done again.
@@ -45,7 +44,6 @@ struct TakenBack {
         NoStep,
         NotLoaded,   // some chunk of it is not loaded: nothing changes, and the step stays the next one
         NotAllowed,  // the player may not change some block of it (permissions.h): likewise
-        Count,
     };
     Outcome outcome = Outcome::NoStep;
     std::size_t blocks = 0;  // that are again what they were

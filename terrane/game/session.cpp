@@ -102,7 +102,7 @@ TakenBack Session::takeBack(PlayerId player, HistoryWay way) {
     if (!step) return {Outcome::NoStep};
     if (!std::ranges::all_of(*step, [&](const ChangedBlock& block) { return isLoaded(world_, block.pos); }))
         return {Outcome::NotLoaded};
-    if (!mayChangeAll(player, *step)) return {Outcome::NotAllowed};
+    if (!mayChangeAll(permissions, player, *step)) return {Outcome::NotAllowed};
     const std::vector<world::PlacedBlock> blocks = blocksBefore(world_, *step);
     const TakenBack result{Outcome::Done, blocks.size(), step->size() - blocks.size()};
     std::vector<world::BlockEdit> edits;

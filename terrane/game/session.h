@@ -3,7 +3,6 @@
 // events go out to the pipeline and so to screens and disk. Free of OpenGL. Used on one thread, the world's.
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -114,11 +113,6 @@ class Session {
     EditResult apply(const EditCommand& command, std::vector<world::BlockEdit>& edits,
                      PlayerChanges& changes);
     bool canReach(PlayerId player, world::BlockPos pos) const;
-    // Of a list of things with a position `pos` each.
-    bool mayChangeAll(PlayerId player, const auto& blocks) const {
-        return std::ranges::none_of(
-            blocks, [&](const auto& block) { return refusal(permissions, player, block.pos).has_value(); });
-    }
     std::optional<EditResult> refusalOfBreaking(const EditCommand& command) const;
     void tellEdits(PlayerId player, std::span<const world::BlockEdit> edits);
     void tellChanges(PlayerId player, std::span<const ChangedBlock> changes);

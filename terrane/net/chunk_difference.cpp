@@ -27,8 +27,12 @@ bool isEqualSection(const world::Chunk& a, const world::Chunk& b, int number) {
     return a.section(number) == b.section(number) && a.blockStates(number) == b.blockStates(number);
 }
 
-bool hasData(const world::Chunk& chunk) {
-    return !chunk.blocksWithBlockEntityData().empty();
+// A bit for each section in which a block has data.
+unsigned sectionsWithData(const world::Chunk& chunk) {
+    unsigned sections = 0;
+    for (const world::BlockIndex i : chunk.blocksWithBlockEntityData())
+        sections |= 1u << (i / kBlocksPerSection);
+    return sections;
 }
 
 // The blocks that follow `begin` without a gap and are of its kind.
@@ -118,9 +122,9 @@ void readData(WireReader& wire, ChunkDifference& blocks) {
 
 ChunkDifference chunkDifference(const world::Chunk& generated, const world::Chunk& edited) {
     ChunkDifference difference;
-    const bool comparesData = hasData(generated) || hasData(edited);
+    const unsigned withData = sectionsWithData(generated) | sectionsWithData(edited);
     for (int number = 0; number < world::kSectionsPerChunk; ++number) {
-        if (!comparesData && isEqualSection(generated, edited, number)) continue;
+        if ((withData >> number & 1) == 0 && isEqualSection(generated, edited, number)) continue;
         for (int k = 0; k < kBlocksPerSection; ++k) {
             const auto i = static_cast<world::BlockIndex>(number * kBlocksPerSection + k);
             world::BlockValue value = valueAt(edited, i);

@@ -57,14 +57,15 @@ base::Result<LoggedEdit> editOf(const store::Statement& row, const store::BlockI
     return base::fail(base::ErrorCode::Damaged, "edit {} is damaged", edit.number);
 }
 
-bool isInArea(const LoggedEdit& edit, const game::ClaimArea& area) {
+bool isInArea(const LoggedEdit& edit, const game::ColumnArea& area) {
     return std::ranges::any_of(edit.after, [&](const ChangedBlock& block) {
         return area.contains(world::blockPos(edit.chunk, block.index));
     });
 }
 
 std::string queryOf(const EditFilter& filter, EditOrder order) {
-    std::string sql = "SELECT number, time, player, chunk, blocks FROM edits WHERE number > ?1";
+    std::string sql = fmt::format("SELECT number, time, player, chunk, blocks FROM edits WHERE number > {}",
+                                  filter.afterNumber);
     if (filter.player) sql += fmt::format(" AND player = {}", *filter.player);
     if (filter.sinceMs) sql += fmt::format(" AND time >= {}", *filter.sinceMs);
     if (filter.untilMs) sql += fmt::format(" AND time < {}", *filter.untilMs);
@@ -144,24 +145,18 @@ std::uint64_t setSavedEdit(ServerFile& file, std::int64_t number) {
 
 base::Result<void> forEachEdit(store::Database& database, const store::BlockIdMap& ids,
                                const EditFilter& filter, EditOrder order, const UseEdit& use) {
-    auto rows = database.prepare(queryOf(filter, order));
-    if (!rows) return tl::unexpected(rows.error());
-    rows->bind(1, filter.afterNumber);
-    while (true) {
-        const auto isRow = rows->step();
-        if (!isRow) return tl::unexpected(isRow.error());
-        if (!*isRow) return {};
-        const auto edit = editOf(*rows, ids);
+    const auto take = [&](const store::Statement& row) -> base::Result<void> {
+        const auto edit = editOf(row, ids);
         if (!edit) return tl::unexpected(edit.error());
-        if (filter.area && !isInArea(*edit, *filter.area)) continue;
-        if (!use(*edit)) return {};
-    }
+        return filter.area && !isInArea(*edit, *filter.area) ? base::Result<void>() : use(*edit);
+    };
+    return store::forEachRow(database, queryOf(filter, order), take);
 }
 
 base::Result<std::vector<RolledBack>> rollback(store::Database& database, const store::BlockIdMap& ids,
                                                const EditFilter& filter) {
     std::unordered_map<world::BlockPos, RolledBack, world::BlockPosHash> blocks;
-    const auto take = [&](const LoggedEdit& edit) {
+    const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
         for (std::size_t k = 0; k < edit.after.size(); ++k) {
             const world::BlockPos pos = world::blockPos(edit.chunk, edit.after[k].index);
             if (filter.area && !filter.area->contains(pos)) continue;
@@ -169,14 +164,13 @@ base::Result<std::vector<RolledBack>> rollback(store::Database& database, const 
             const auto found = blocks.try_emplace(pos, RolledBack{pos, edit.after[k].value, {}}).first;
             found->second.before = edit.before[k].value;
         }
-        return blocks.size() <= kMaxRollback;
-    };
-    if (auto done = forEachEdit(database, ids, filter, EditOrder::NewestFirst, take); !done)
-        return tl::unexpected(done.error());
-    if (blocks.size() > kMaxRollback)
+        if (blocks.size() <= kMaxRollback) return {};
         return base::fail(base::ErrorCode::OutOfResources,
                           "more than {} blocks to roll back: say a shorter time or a smaller area",
                           kMaxRollback);
+    };
+    if (auto done = forEachEdit(database, ids, filter, EditOrder::NewestFirst, take); !done)
+        return tl::unexpected(done.error());
     std::vector<RolledBack> plan;
     plan.reserve(blocks.size());
     for (auto& [pos, block] : blocks) plan.push_back(std::move(block));

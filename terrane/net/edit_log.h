@@ -41,14 +41,14 @@ std::uint64_t setSavedEdit(ServerFile& file, std::int64_t number);
 // Which edits are meant; what is not given makes no difference.
 struct EditFilter {
     std::optional<game::PlayerId> player = {};
-    std::optional<game::ClaimArea> area = {};  // some block of the edit is in it
+    std::optional<game::ColumnArea> area = {};  // some block of the edit is in it
     std::optional<std::int64_t> sinceMs = {}, untilMs = {};
     std::int64_t afterNumber = 0;
 };
 enum class EditOrder : std::uint8_t { OldestFirst, NewestFirst };
 
-// Until `use` gives false. An edit that cannot be read is an error that names its number.
-using UseEdit = std::function<bool(const LoggedEdit&)>;
+// Until `use` gives an error. An edit that cannot be read is an error that names its number.
+using UseEdit = std::function<base::Result<void>(const LoggedEdit&)>;
 [[nodiscard]] base::Result<void> forEachEdit(store::Database& database, const store::BlockIdMap& ids,
                                              const EditFilter& filter, EditOrder order, const UseEdit& use);
 
@@ -57,7 +57,7 @@ struct RolledBack {
     world::BlockPos pos;
     world::BlockValue made, before;
 };
-// At most so many blocks at once: 200 bytes each while it runs.
+// At most so many blocks at once: about 200 bytes each while it runs, 400 MB.
 constexpr std::size_t kMaxRollback = 2'000'000;
 // By chunk, and in a chunk by block index. An error where there are too many.
 [[nodiscard]] base::Result<std::vector<RolledBack>> rollback(store::Database& database,

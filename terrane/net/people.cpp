@@ -77,36 +77,28 @@ base::Result<People> People::read(ServerFile& file) {
 }
 
 base::Result<void> People::readPlayers() {
-    auto rows = file_->reader().prepare("SELECT id, key, name, role, pose, ban FROM players");
-    if (!rows) return tl::unexpected(rows.error());
-    while (true) {
-        const auto isRow = rows->step();
-        if (!isRow) return tl::unexpected(isRow.error());
-        if (!*isRow) return {};
-        auto player = playerOf(*rows);
+    const auto take = [&](const store::Statement& row) -> base::Result<void> {
+        auto player = playerOf(row);
         if (!player) return damaged(file_->reader(), "a player");
         players_.insert({player->id, std::move(*player)});
-    }
+        return {};
+    };
+    return store::forEachRow(file_->reader(), "SELECT id, key, name, role, pose, ban FROM players", take);
 }
 
 base::Result<void> People::readClaims() {
-    auto rows = file_->reader().prepare("SELECT name, x0, y0, x1, y1, owner, members FROM claims");
-    if (!rows) return tl::unexpected(rows.error());
-    while (true) {
-        const auto isRow = rows->step();
-        if (!isRow) return tl::unexpected(isRow.error());
-        if (!*isRow) return {};
-        const auto at = [&](int column) { return static_cast<std::int32_t>(rows->number(column)); };
-        game::Claim claim{std::string(rows->text(0)),
-                          {at(1), at(2), at(3), at(4)},
-                          static_cast<game::PlayerId>(rows->number(5)),
-                          {}};
-        auto members = membersFrom(rows->text(6));
+    const auto take = [&](const store::Statement& row) -> base::Result<void> {
+        const auto at = [&](int column) { return static_cast<std::int32_t>(row.number(column)); };
+        auto members = membersFrom(row.text(6));
         if (!members) return damaged(file_->reader(), "a claim");
-        claim.members = std::move(*members);
-        if (auto added = claims_.add(std::move(claim)); !added)
-            return damaged(file_->reader(), added.error().message);
-    }
+        const auto added = claims_.add({std::string(row.text(0)),
+                                        {at(1), at(2), at(3), at(4)},
+                                        static_cast<game::PlayerId>(row.number(5)),
+                                        std::move(*members)});
+        return added ? added : damaged(file_->reader(), added.error().message);
+    };
+    return store::forEachRow(file_->reader(), "SELECT name, x0, y0, x1, y1, owner, members FROM claims",
+                             take);
 }
 
 const KnownPlayer* People::byId(game::PlayerId id) const {

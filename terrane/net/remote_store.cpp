@@ -28,11 +28,6 @@ ChunkDifference RemoteStore::difference(world::ChunkPos pos) const {
     return found == differences_.end() ? ChunkDifference() : found->second;
 }
 
-void RemoteStore::forgetAll() {
-    const std::lock_guard lock(mutex_);
-    differences_.clear();
-}
-
 std::size_t RemoteStore::blockCount() const {
     const std::lock_guard lock(mutex_);
     std::size_t count = 0;

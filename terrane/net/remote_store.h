@@ -1,5 +1,6 @@
 // The store of a world on a server: chunks are what the generator makes, with the differences that the server
-// told. It saves nothing: the server does. Any thread may call everything.
+// told. It saves nothing, as the server does: what other stores promise of saving is not promised here. Any
+// thread may call everything.
 #pragma once
 
 #include <map>
@@ -24,7 +25,6 @@ class RemoteStore : public store::ChunkStore {
     void addDifference(world::ChunkPos pos, std::span<const ChangedBlock> newer);
     // Empty where nothing is known, or nothing differs.
     ChunkDifference difference(world::ChunkPos pos) const;
-    void forgetAll();
     std::size_t blockCount() const;  // of all differences
 
     store::LoadedChunk load(world::ChunkPos pos) override;

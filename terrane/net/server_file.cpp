@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "terrane/base/log.h"
+#include "terrane/store/schema.h"
 
 namespace terrane::net {
 namespace {
@@ -55,21 +56,9 @@ base::Result<void> prepareTables(store::Database& database) {
     return {};
 }
 
-base::Result<std::vector<store::SavedName>> readNames(store::Database& database) {
-    auto rows = database.prepare("SELECT id, name FROM blocks");
-    if (!rows) return tl::unexpected(rows.error());
-    std::vector<store::SavedName> names;
-    while (true) {
-        const auto isRow = rows->step();
-        if (!isRow) return tl::unexpected(isRow.error());
-        if (!*isRow) return names;
-        names.push_back({static_cast<world::BlockId>(rows->number(0)), std::string(rows->text(1))});
-    }
-}
-
 // Names of types that the file has not seen are added.
 base::Result<store::BlockIdMap> mapBlocks(store::Database& database, const world::BlockRegistry& blocks) {
-    const auto names = readNames(database);
+    const auto names = store::readBlockNames(database);
     if (!names) return tl::unexpected(names.error());
     auto ids = store::BlockIdMap::make(blocks, *names);
     if (!ids || ids->added().empty()) return ids;

@@ -1,6 +1,5 @@
 // The file that a server keeps beside a world, NAME.server.sqlite: who plays there, claims, and the history
-// of edits (edit_log.h, people.h). docs/server.md describes its tables. The world's own file stays as it is
-// without a server.
+// of edits (edit_log.h, people.h). The world's own file has the same format with and without it.
 //
 // Writes are collected and made durable together, on a thread of its own, about as soon as the disk can: a
 // command is acknowledged when it is durable. Functions are for one thread, the server's, but where said

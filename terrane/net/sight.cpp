@@ -87,12 +87,8 @@ SightChanges Sight::update(std::uint64_t tick, std::span<const PlayerGrid::Near>
                             coarseYaw(pose) == coarseYaw(seen.told) &&
                             coarsePitch(pose) == coarsePitch(seen.told);
         if ((isSame && !swings) || tick - seen.toldTick < ticksBetweenPoses(distance)) continue;
-        const auto difference = [](std::int64_t to, std::int64_t from) {
-            return static_cast<std::int32_t>(to - from);
-        };
-        changes.poses.push_back({seen.slot, difference(pose.x, seen.told.x), difference(pose.y, seen.told.y),
-                                 difference(pose.z, seen.told.z), coarseYaw(pose), coarsePitch(pose),
-                                 swings});
+        changes.poses.push_back({seen.slot, pose.x - seen.told.x, pose.y - seen.told.y, pose.z - seen.told.z,
+                                 coarseYaw(pose), coarsePitch(pose), swings});
         seen.told = pose;
         seen.toldTick = tick;
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 namespace terrane::net {
 
@@ -16,8 +17,8 @@ class TokenBucket {
     // Takes `count` tokens where there are as many; false, and nothing is taken, where not. `now` never goes
     // back.
     [[nodiscard]] bool take(double count, Time now) {
-        if (last_ != Time{}) {
-            const double seconds = std::chrono::duration<double>(now - last_).count();
+        if (last_) {
+            const double seconds = std::chrono::duration<double>(now - *last_).count();
             tokens_ = std::min(most_, tokens_ + seconds * perSecond_);
         }
         last_ = now;
@@ -28,7 +29,7 @@ class TokenBucket {
 
   private:
     double perSecond_, most_, tokens_;
-    Time last_{};  // none yet
+    std::optional<Time> last_;
 };
 
 }  // namespace terrane::net

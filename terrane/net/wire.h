@@ -1,5 +1,5 @@
 // Numbers, texts and bytes of messages (docs/protocol.md). WireWriter appends them; WireReader has the same
-// functions and takes them apart. So one template describes a message for both ways (messages.cpp).
+// functions and takes them apart. So one template describes a message for both ways (message_codec.h).
 //
 // A reader takes any bytes: at the first that does not fit it stops, gives zeros from there on and remembers.
 // It allocates no more than a few times the bytes that it is given. Plain classes; one thread at a time for
@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "terrane/store/bytes.h"
-#include "terrane/world/coords.h"
 
 namespace terrane::net {
 
@@ -74,6 +73,7 @@ class WireWriter {
         if (value) each(*value);
     }
     void require(bool /*holds*/) {}
+    void ignoreRest() {}
 
   private:
     void bytes(ByteView value);
@@ -135,8 +135,9 @@ class WireReader {
     }
     // What a message must hold besides; where it does not, it is no message.
     void require(bool holds) { isWrong_ |= !holds; }
+    // Whatever follows belongs to the message.
+    void ignoreRest() { bytes_.take(bytes_.rest().size()); }
 
-    std::size_t bytesLeft() const { return bytes_.rest().size(); }
     bool hasFailed() const { return isWrong_ || bytes_.isPastEnd(); }
     // All was read, and all of it was right.
     bool isComplete() const { return !hasFailed() && bytes_.rest().empty(); }
@@ -148,28 +149,5 @@ class WireReader {
     store::ByteReader bytes_;
     bool isWrong_ = false;
 };
-
-// x and y as integers, z as a byte.
-template <class Wire, class Pos>
-void describePos(Wire& wire, Pos& pos) {
-    wire.integer(pos.x);
-    wire.integer(pos.y);
-    if constexpr (Wire::kReads) {
-        std::uint8_t z = 0;
-        wire.fixed(z);
-        pos.z = z;
-    } else {
-        wire.fixed(static_cast<std::uint8_t>(pos.z));
-    }
-}
-
-// Level as a byte, then x and y as integers: a chunk of the world.
-template <class Wire, class Pos>
-void describeChunkPos(Wire& wire, Pos& pos) {
-    wire.fixed(pos.level);
-    wire.integer(pos.x);
-    wire.integer(pos.y);
-    wire.require(pos.level <= world::kMaxLevel && world::isInWorld(pos));
-}
 
 }  // namespace terrane::net

@@ -1,5 +1,5 @@
-// Where players are, as it travels: positions in steps of 1/64 block, directions in steps of 1/65536 turn;
-// between players in 1/32 block and 1/256 turn. Plain values and functions; any thread.
+// Where players are, as it travels: positions in steps of 1/64 block, directions in steps of 1/65536 turn,
+// those of other players in 1/256 turn. Plain values and functions; any thread.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ world::Pose poseOf(const WirePose& pose);
 // How another player in sight moved since what was told of it before.
 struct PoseChange {
     std::uint16_t slot = 0;
-    std::int32_t dx = 0, dy = 0, dz = 0;  // in steps of kPoseSteps
+    std::int64_t dx = 0, dy = 0, dz = 0;  // in steps of kPoseSteps: both may have come from afar
     std::uint8_t yaw = 0;                 // 256 a turn
     std::int8_t pitch = 0;                // 127 for straight up
     bool swings = false;                  // broke or placed a block since

@@ -30,12 +30,14 @@ std::uint64_t blocksHash(const world::BlockRegistry& blocks);
 // One line that says what of two worlds differs; empty where nothing does.
 std::string differenceOf(const WorldFingerprint& server, const WorldFingerprint& client);
 
-// Eight: one that is equal by chance, such as open sea, proves little. They take about 10 ms to make.
+// Eight: one that is equal by chance, such as open sea, proves little. To make them takes 12 ms of the
+// overworld and 190 to 310 ms of the continents, where each lies among rivers of its own (one core, measured
+// once).
 constexpr std::size_t kSampleChunks = 8;
 using SamplePositions = std::array<world::ChunkPos, kSampleChunks>;
 using SampleDigests = std::array<std::uint64_t, kSampleChunks>;
 
-// Far from each other, within 2^20 chunks of the middle. Different for each `random`.
+// Anywhere within 2^20 chunks of the middle, others for each `random`.
 SamplePositions samplePositions(std::uint64_t random);
 // xxHash64 of the chunk's blocks, 65,536 × 16 bits in the order of their index.
 std::uint64_t chunkDigest(const world::Chunk& chunk);

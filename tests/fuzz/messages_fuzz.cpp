@@ -1,6 +1,7 @@
 // libFuzzer: any bytes as a message of a client or of a server, behind a byte that says of which. What is
 // taken must be the same when it is written and read again.
-#include "terrane/net/messages.h"
+#include "terrane/net/client_message.h"
+#include "terrane/net/server_message.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace {

@@ -25,9 +25,9 @@ class EditLogTest : public ServerFileTest {
     std::vector<LoggedEdit> found(const EditFilter& filter, EditOrder order = EditOrder::OldestFirst) {
         flush();
         std::vector<LoggedEdit> edits;
-        const auto take = [&](const LoggedEdit& edit) {
+        const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
             edits.push_back(edit);
-            return true;
+            return {};
         };
         const auto done = forEachEdit(file_->reader(), file_->ids(), filter, order, take);
         EXPECT_TRUE(done) << done.error().message;
@@ -83,8 +83,8 @@ TEST_F(EditLogTest, IsFilteredByPlayerAreaAndTime) {
     EXPECT_EQ(numbers({}), (Numbers{1, 2, 3}));
     EXPECT_EQ(numbers({}, EditOrder::NewestFirst), (Numbers{3, 2, 1}));
     EXPECT_EQ(numbers({.player = 7}), (Numbers{1, 3}));
-    EXPECT_EQ(numbers({.area = game::ClaimArea{90, -5, 110, 5}}), (Numbers{2}));
-    EXPECT_EQ(numbers({.area = game::ClaimArea{0, 0, 14, 20}}), (Numbers{1}))
+    EXPECT_EQ(numbers({.area = game::ColumnArea{90, -5, 110, 5}}), (Numbers{2}));
+    EXPECT_EQ(numbers({.area = game::ColumnArea{0, 0, 14, 20}}), (Numbers{1}))
         << "the chunk alone is not enough";
     EXPECT_EQ(numbers({.sinceMs = 200}), (Numbers{2, 3}));
     EXPECT_EQ(numbers({.sinceMs = 100, .untilMs = 200}), (Numbers{1}));
@@ -111,7 +111,7 @@ TEST_F(EditLogTest, ARollbackSpansAllEditsOfABlock) {
     EXPECT_EQ(all[0].pos, pos);
     EXPECT_EQ(all[0].made, valueOf("stone"));
     EXPECT_EQ(all[0].before, valueOf("glass"));
-    const auto inArea = plan({.player = 8, .area = game::ClaimArea{40, 0, 60, 9}});
+    const auto inArea = plan({.player = 8, .area = game::ColumnArea{40, 0, 60, 9}});
     ASSERT_EQ(inArea.size(), 1u);
     EXPECT_EQ(inArea[0].pos, (BlockPos{50, 2, 70}));
     EXPECT_EQ(plan({.player = 8, .sinceMs = 250})[0].before, valueOf("sand"));
@@ -169,7 +169,7 @@ TEST_F(EditLogTest, DamagedRowsAreRefused) {
         [](store::Database& database) { return database.execute("UPDATE edits SET blocks = x'FF00'"); });
     flush();
     const auto done = forEachEdit(file_->reader(), file_->ids(), {}, EditOrder::OldestFirst,
-                                  [](const LoggedEdit&) { return true; });
+                                  [](const LoggedEdit&) { return base::Result<void>(); });
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().code, base::ErrorCode::Damaged);
 }

@@ -50,7 +50,7 @@ TEST_F(PeopleTest, ClaimsAreKept) {
     reopen();
     ASSERT_EQ(people_.claims().all().size(), 1u);
     const game::Claim& farm = *people_.claims().find("farm");
-    EXPECT_EQ(farm.area, (game::ClaimArea{-5, -6, 7, 8}));
+    EXPECT_EQ(farm.area, (game::ColumnArea{-5, -6, 7, 8}));
     EXPECT_EQ(farm.owner, 2u);
     EXPECT_EQ(farm.members, (std::vector<game::PlayerId>{3, 4}));
 }

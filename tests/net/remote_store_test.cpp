@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "terrane/game/session.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "tests/world/content_blocks.h"
 
@@ -46,6 +47,24 @@ TEST_F(RemoteStoreTest, LaterChangesAreAdded) {
     EXPECT_EQ(store_.difference({0, 0}), (ChunkDifference{dirt}));
     store_.setDifference({0, 0}, {});
     EXPECT_FALSE(store_.contains({0, 0}));
+}
+
+// A client's session: chunks come with the server's edits, and its own edits are gone with the chunk.
+TEST_F(RemoteStoreTest, ASessionPlaysOnIt) {
+    auto store = std::make_unique<RemoteStore>(store_.identity(), overworld());
+    const world::BlockPos pos{3, 4, 200};
+    const ChangedBlock glass{world::blockIndex(pos), {contentBlock("glass"), 0, {}}};
+    store->setDifference({0, 0}, {glass});
+    game::Session session(
+        {std::make_unique<const world::BlockRegistry>(contentBlocks()), overworld(), std::move(store), 1});
+    const auto chunk = session.pipeline().chunkAt({0, 0});
+    EXPECT_EQ(chunk->block(world::blockIndex(pos)), contentBlock("glass"));
+    EXPECT_EQ(session.edit({game::kNoPlayer, {3, 4, 201}, world::SetBlock{contentBlock("glass")}, {}}),
+              game::EditResult::Applied);
+    ASSERT_TRUE(session.save());
+    const store::LoadedChunk known = session.store().load({0, 0});
+    EXPECT_EQ(known.chunk->block(world::blockIndex(3, 4, 200)), contentBlock("glass"));
+    EXPECT_EQ(known.chunk->block(world::blockIndex(3, 4, 201)), world::kAir);
 }
 
 TEST_F(RemoteStoreTest, NothingIsSaved) {

@@ -89,6 +89,21 @@ TEST(Sight, ToldPosesAddUpAndAreYoungEnough) {
     }
 }
 
+// Two who go to the other end of the world together stay in sight of each other.
+TEST(Sight, StepsMayBeAsLongAsTheWorld) {
+    Sight sight;
+    std::vector<PlayerAt> players{playerAt(1, -2147483000, 0), playerAt(2, -2147483005, 0)};
+    const auto update = [&](std::uint64_t tick) {
+        return sight.update(tick, PlayerGrid(players).around(players[0]));
+    };
+    ASSERT_EQ(update(2).appeared.size(), 1u);
+    const std::int64_t from = players[1].pose.x;
+    players = {playerAt(1, 2147483000, 0), playerAt(2, 2147483005, 0)};
+    const SightChanges changes = update(4);
+    ASSERT_EQ(changes.poses.size(), 1u);
+    EXPECT_EQ(from + changes.poses[0].dx, players[1].pose.x);
+}
+
 TEST(Sight, NobodyAtTheEdgeComesAndGoes) {
     Sight sight;
     std::vector<PlayerAt> players{playerAt(1, 0, 0), playerAt(2, kSightBlocks + 5, 0)};

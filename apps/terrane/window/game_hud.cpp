@@ -140,6 +140,8 @@ void Game::breakAndBuild(double seconds) {
     hud_.hand.swing();
     if (result == game::EditResult::NotEmpty) say(tr_("it is not empty: take out what is in it first"));
     if (result == game::EditResult::Protected) say(tr_("the lowest layer of the world cannot be broken"));
+    if (result == game::EditResult::Claimed) say(tr_("this place belongs to somebody else"));
+    if (result == game::EditResult::NotAllowed) say(tr_("guests change nothing"));
     if (pos && before != world::kAir && parts_.session.world().block(*pos) == world::kAir)
         hud_.particles.burst(*pos, before);
 }
@@ -151,6 +153,7 @@ void Game::takeBack(game::HistoryWay way) {
     if (done.outcome == Outcome::NoStep) return say(isUndo ? tr_("nothing to undo") : tr_("nothing to redo"));
     if (done.outcome == Outcome::NotLoaded)
         return say(tr_("too far away: the place of that edit is not loaded"));
+    if (done.outcome == Outcome::NotAllowed) return say(tr_("a part of that is not yours to change"));
     const char* what = isUndo ? tr_("undone: {} blocks") : tr_("done again: {} blocks");
     std::string message = fmt::format(fmt::runtime(what), done.blocks);
     if (done.kept > 0) message += fmt::format(fmt::runtime(tr_(", {} changed since and stay")), done.kept);

@@ -54,6 +54,8 @@ std::string refusal(BuildOutcome::Result result) {
             return "a part of that is not loaded: go closer";
         case Result::OutOfReach:
             return fmt::format("that is farther than {:.0f} blocks away", game::kBuildReach);
+        case Result::NotAllowed:
+            return "a part of that is not yours to change";
         default:
             return "there is nothing to build";
     }
