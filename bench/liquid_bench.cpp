@@ -102,7 +102,9 @@ void nothingFlows(benchmark::State& state) {
         for (int x = -8; x <= 8; ++x)
             dam.insert({x, y}, std::make_shared<world::Chunk>(*world::damChunk({x, y}, bench::blocks())));
     std::vector<world::BlockEdit> edits;
-    for (auto _ : state) benchmark::DoNotOptimize(world::flowLiquids(dam, bench::blocks(), {}, edits));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(
+            world::flowLiquids(dam, bench::blocks(), world::chunksWithin({}, world::kTickRadius), edits));
 }
 
 }  // namespace

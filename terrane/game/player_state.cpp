@@ -34,7 +34,7 @@ SavedPlayer savedPlayer(store::ReadableStore& store) {
 
 void savePlayer(store::ChunkStore& store, const PlayerState& now, std::optional<PlayerState>& saved) {
     if (!saved || saved->pose != now.pose) store.setMetadata(kPose, textOf(now.pose));
-    if (!saved || saved->timeDay != now.timeDay) store.setMetadata(kTime, fmt::format("{:.5f}", now.timeDay));
+    if (!saved || saved->timeDay != now.timeDay) saveTimeDay(store, now.timeDay);
     if (!saved || saved->hotbar != now.hotbar) store.setMetadata(kHotbar, now.hotbar);
     const auto put = [&](std::string_view name, const std::string PlayerState::*value) {
         // A world that never had one needs no row for it.
@@ -45,6 +45,10 @@ void savePlayer(store::ChunkStore& store, const PlayerState& now, std::optional<
     put(kMovement, &PlayerState::movement);
     put(kResourcePack, &PlayerState::resourcePack);
     saved = now;
+}
+
+store::SaveNumber saveTimeDay(store::ChunkStore& store, double timeDay) {
+    return store.setMetadata(kTime, fmt::format("{:.5f}", timeDay));
 }
 
 }  // namespace terrane::game

@@ -34,4 +34,7 @@ SavedPlayer savedPlayer(store::ReadableStore& store);
 // that is empty. Cheap enough for every frame.
 void savePlayer(store::ChunkStore& store, const PlayerState& now, std::optional<PlayerState>& saved);
 
+// The time of day alone, 0 to 1, as of a world that has no one player.
+store::SaveNumber saveTimeDay(store::ChunkStore& store, double timeDay);
+
 }  // namespace terrane::game

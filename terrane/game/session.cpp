@@ -45,7 +45,12 @@ Session::Session(SessionParts parts)
                  parts.batchLighter,
                  parts.meshing}),
       tiles_({jobs_, farBlocks_, generators_, store_.get()}) {
-    stream::keepTileRows(*store_, generators_, *blocks_, tiles_.tileListener());
+    const auto tell = [own = tiles_.tileListener(),
+                       other = std::move(parts.tileListener)](std::span<const world::ChunkPos> tiles) {
+        own(tiles);
+        if (other) other(tiles);
+    };
+    stream::keepTileRows(*store_, generators_, *blocks_, tell);
     if (store_->isPersistent()) buildTiles();
 }
 
@@ -115,6 +120,18 @@ TakenBack Session::takeBack(PlayerId player, HistoryWay way) {
     return result;
 }
 
+std::vector<world::ChunkPos> Session::chunksToTakeBack(PlayerId player, HistoryWay way) const {
+    const auto found = players_.find(player);
+    const EditStep* step = found == players_.end() ? nullptr : found->second.history.next(way);
+    std::vector<world::ChunkPos> chunks;
+    if (!step) return chunks;
+    // A step is in the order of chunks.
+    for (const ChangedBlock& block : *step)
+        if (chunks.empty() || chunks.back() != world::chunkOf(block.pos))
+            chunks.push_back(world::chunkOf(block.pos));
+    return chunks;
+}
+
 std::optional<EditResult> Session::refusalOfBreaking(const EditCommand& command) const {
     const world::BlockId there = world_.block(command.pos);
     const bool isPlayers = command.player != kNoPlayer;
@@ -154,17 +171,21 @@ bool Session::canReach(PlayerId player, world::BlockPos pos) const {
 }
 
 void Session::advance(double seconds, world::ChunkPos center) {
+    advance(seconds, world::chunksWithin(center, world::kTickRadius));
+}
+
+void Session::advance(double seconds, std::span<const world::ChunkPos> chunks) {
     clock.advance(seconds);
     const double tickSeconds = std::chrono::duration<double>(world::kTickLength).count();
     untilTick_ += std::min(seconds, kMaxTickSeconds);
     for (; untilTick_ >= tickSeconds; untilTick_ -= tickSeconds) {
         std::vector<EditCommand> ticks;
-        for (const world::BlockPos pos : world::blocksToTick(world_, *blocks_, {ticks_++, center}))
+        for (const world::BlockPos pos : world::blocksToTick(world_, *blocks_, ticks_++, chunks))
             ticks.push_back({kNoPlayer, pos, world::RunTick{}, std::nullopt});
         edit(ticks);
         if (ticks_ % world::kTicksPerFlow != 0) continue;
         std::vector<world::BlockEdit> edits;
-        world::flowLiquids(world_, *blocks_, {center}, edits);
+        world::flowLiquids(world_, *blocks_, chunks, edits);
         tellEdits(kNoPlayer, edits);
     }
 }

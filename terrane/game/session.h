@@ -38,6 +38,8 @@ struct SessionParts {
     gen::BatchGenerator* batchGenerator = nullptr;
     light::BatchLighter* batchLighter = nullptr;
     stream::MeshPolicy meshing = stream::MeshPolicy::Workers;
+    // Told of tiles of the store that edits changed, on a thread of the store; may be empty.
+    stream::TileListener tileListener = {};
 };
 
 class Session {
@@ -59,6 +61,9 @@ class Session {
     // blocks were in reach once.
     TakenBack takeBack(PlayerId player, HistoryWay way);
 
+    // The chunks that takeBack() needs loaded; none where there is no such step.
+    std::vector<world::ChunkPos> chunksToTakeBack(PlayerId player, HistoryWay way) const;
+
     // Called with the events of each change, and who made it, after it was made: for sounds. It changes no
     // block.
     using EditListener = std::function<void(PlayerId, std::span<const world::BlockEdit>)>;
@@ -79,6 +84,8 @@ class Session {
 
     // Game time passes: the day, and blocks near `center` get their ticks (plants grow, liquids flow).
     void advance(double seconds, world::ChunkPos center);
+    // The same for blocks of these chunks.
+    void advance(double seconds, std::span<const world::ChunkPos> chunks);
 
     // Waits until all that changed is in the store.
     [[nodiscard]] base::Result<void> save();

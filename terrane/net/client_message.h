@@ -12,8 +12,8 @@
 
 #include "terrane/base/result.h"
 #include "terrane/game/build_command.h"
+#include "terrane/net/keys.h"
 #include "terrane/net/message_types.h"
-#include "terrane/net/people.h"
 #include "terrane/net/wire_pose.h"
 #include "terrane/net/world_proof.h"
 

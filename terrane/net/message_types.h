@@ -10,6 +10,7 @@ namespace terrane::net {
 constexpr std::uint32_t kMagic = 0x4E524554;  // "TERN"
 constexpr std::uint16_t kProtocolVersion = 1;
 
+constexpr std::size_t kMaxNameBytes = 24;  // of a player or a claim
 constexpr std::size_t kMaxPasswordBytes = 128;
 constexpr std::size_t kMaxChatBytes = 400;
 constexpr std::size_t kMaxReasonBytes = 400;
@@ -21,7 +22,6 @@ constexpr std::size_t kMaxStructureWire = 32768;
 constexpr std::size_t kMaxClientMessage = 65536;
 constexpr std::size_t kMaxServerMessage = 262144;
 
-using Signature = std::array<std::byte, 64>;
 using Nonce = std::array<std::byte, 32>;
 
 // Numbers of a client's commands, in ascending order.

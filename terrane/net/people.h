@@ -2,7 +2,6 @@
 // to the server's file as it changes. On the server's thread.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -10,14 +9,12 @@
 #include <string_view>
 
 #include "terrane/game/permissions.h"
+#include "terrane/net/keys.h"
+#include "terrane/net/message_types.h"
 #include "terrane/net/server_file.h"
 #include "terrane/world/pose.h"
 
 namespace terrane::net {
-
-using PublicKey = std::array<std::byte, 32>;  // Ed25519
-
-constexpr std::size_t kMaxNameBytes = 24;  // of a player or a claim
 
 // A name has 1 to kMaxNameBytes bytes of plain text (wire.h) without spaces at its ends.
 bool isName(std::string_view name);

@@ -18,6 +18,7 @@ constexpr std::chrono::milliseconds kTryAgain{500};
 constexpr const char* kTables =
     "CREATE TABLE blocks (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE);"
     "CREATE TABLE state (name TEXT PRIMARY KEY NOT NULL, value INTEGER NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE texts (name TEXT PRIMARY KEY NOT NULL, value TEXT NOT NULL) WITHOUT ROWID;"
     "CREATE TABLE players (id INTEGER PRIMARY KEY, key BLOB NOT NULL UNIQUE, name TEXT NOT NULL UNIQUE, role "
     "INTEGER NOT "
     "NULL, pose TEXT NOT NULL, ban TEXT NOT NULL);"
@@ -174,6 +175,26 @@ void ServerFile::run() {
         if (isLast) return;
         if (!done) wake_.wait_for(lock, kTryAgain, [&] { return isEnding_; });
     }
+}
+
+base::Result<std::string> serverText(ServerFile& file, const std::string& name) {
+    std::string text;
+    auto query = file.reader().prepare("SELECT value FROM texts WHERE name = ?1");
+    if (!query) return tl::unexpected(query.error());
+    query->bind(1, name);
+    const auto row = query->step();
+    if (!row) return tl::unexpected(row.error());
+    return *row ? std::string(query->text(0)) : std::string();
+}
+
+void setServerText(ServerFile& file, const std::string& name, const std::string& text) {
+    file.write([name, text](store::Database& database) -> base::Result<void> {
+        auto put = database.prepare("INSERT OR REPLACE INTO texts (name, value) VALUES (?1, ?2)");
+        if (!put) return tl::unexpected(put.error());
+        put->bind(1, name);
+        put->bind(2, text);
+        return put->run();
+    });
 }
 
 }  // namespace terrane::net

@@ -73,4 +73,8 @@ class ServerFile {
     std::thread thread_;
 };
 
+// Small texts by name, as the password's hash; empty where there is none.
+[[nodiscard]] base::Result<std::string> serverText(ServerFile& file, const std::string& name);
+void setServerText(ServerFile& file, const std::string& name, const std::string& text);
+
 }  // namespace terrane::net

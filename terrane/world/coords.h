@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "terrane/shared/constants.h"
 
@@ -107,6 +108,15 @@ struct ChunkArea {
     std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     std::int64_t chunkCount() const { return (std::int64_t{x1} - x0) * (std::int64_t{y1} - y0); }
 };
+
+// (2 radius + 1)² chunks of the middle's level, row by row.
+inline std::vector<ChunkPos> chunksWithin(ChunkPos middle, int radius) {
+    std::vector<ChunkPos> chunks;
+    for (int dy = -radius; dy <= radius; ++dy)
+        for (int dx = -radius; dx <= radius; ++dx)
+            chunks.push_back({middle.x + dx, middle.y + dy, middle.level});
+    return chunks;
+}
 
 // The chunks of a level that cover an area of chunks of level 0.
 constexpr ChunkArea areaOver(const ChunkArea& area, int level) {

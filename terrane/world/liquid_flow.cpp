@@ -145,15 +145,12 @@ void addUnsettled(FlowCells& cells, ChunkPos pos, int section, Unsettled& out) {
         out.former.push_back({pos.x * kChunkSize, pos.y * kChunkSize, section * kSectionSize});
 }
 
-Unsettled findUnsettled(FlowCells& cells, const FlowArea& area) {
+Unsettled findUnsettled(FlowCells& cells, std::span<const ChunkPos> chunks) {
     Unsettled found;
-    for (int dy = -area.radius; dy <= area.radius; ++dy) {
-        for (int dx = -area.radius; dx <= area.radius; ++dx) {
-            const ChunkPos pos{area.center.x + dx, area.center.y + dy};
-            const Chunk* chunk = cells.chunk(pos);
-            for (int section = 0; chunk && section < kSectionsPerChunk; ++section)
-                if (mayBeUnsettled(chunk->blockStates(section))) addUnsettled(cells, pos, section, found);
-        }
+    for (const ChunkPos pos : chunks) {
+        const Chunk* chunk = cells.chunk(pos);
+        for (int section = 0; chunk && section < kSectionsPerChunk; ++section)
+            if (mayBeUnsettled(chunk->blockStates(section))) addUnsettled(cells, pos, section, found);
     }
     return found;
 }
@@ -230,7 +227,7 @@ double liquidHeight(const World& world, const BlockRegistry& blocks, BlockPos po
 
 // Writes call behaviors, which unsettle the neighbors of what changes. Where one of them has put another
 // block by then, that stays.
-std::size_t flowLiquids(World& world, const BlockRegistry& blocks, const FlowArea& area,
+std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<const ChunkPos> chunks,
                         std::vector<BlockEdit>& edits) {
     const FlowRules rules(blocks);
     if (rules.liquids.empty()) return 0;
@@ -238,7 +235,7 @@ std::size_t flowLiquids(World& world, const BlockRegistry& blocks, const FlowAre
     NextValues next;
     {
         FlowCells cells(world, rules);
-        unsettled = findUnsettled(cells, area);
+        unsettled = findUnsettled(cells, chunks);
         next = nextValues(cells, unsettled.cells);
     }
     for (const BlockPos pos : unsettled.former) BlockUpdate(world, blocks, edits).compactState(pos);

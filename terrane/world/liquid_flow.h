@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "terrane/world/block_edit.h"
@@ -38,12 +39,7 @@ bool isFlowing(const BlockType& type);
 // How high the liquid at `pos` stands in its cell, 0…1; 0 where there is none.
 double liquidHeight(const World& world, const BlockRegistry& blocks, BlockPos pos);
 
-struct FlowArea {
-    ChunkPos center;
-    int radius = 8;  // chunks, Chebyshev
-};
-
-// One tick. A cell's next value is that of the first rule that holds:
+// One tick of the cells of these chunks. A cell's next value is that of the first rule that holds:
 //   1. A source stays one.
 //   2. With two sources beside it, on ground or on a source, it becomes a source.
 //   3. Under the same liquid it falls.
@@ -52,10 +48,10 @@ struct FlowArea {
 //   5. It runs dry.
 // Liquid flows into air and washes away what lets bodies pass and holds on to nothing: plants, torches. All
 // next values are found before the first is written. Cells with a chunk within two blocks that is not loaded
-// wait, and so do those over the limit, in the order of chunks (y, then x) and of blocks in a chunk. Returns
+// wait, and so do those over the limit, in the order of `chunks` and of blocks in a chunk. Returns
 // how many cells were looked at, and appends an event for each block that changed and each that is settled
 // now.
-std::size_t flowLiquids(World& world, const BlockRegistry& blocks, const FlowArea& area,
+std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<const ChunkPos> chunks,
                         std::vector<BlockEdit>& edits);
 
 }  // namespace terrane::world

@@ -34,17 +34,14 @@ void addFromSection(const Chunk& chunk, ChunkPos pos, int number, const BlockReg
 
 }  // namespace
 
-std::vector<BlockPos> blocksToTick(const World& world, const BlockRegistry& blocks, const RandomTick& tick) {
+std::vector<BlockPos> blocksToTick(const World& world, const BlockRegistry& blocks, std::uint64_t tick,
+                                   std::span<const ChunkPos> chunks) {
     std::vector<BlockPos> ticked;
-    for (int dy = -tick.radius; dy <= tick.radius; ++dy) {
-        for (int dx = -tick.radius; dx <= tick.radius; ++dx) {
-            const ChunkPos pos{tick.center.x + dx, tick.center.y + dy};
-            const ChunkPtr chunk = world.maybeChunkAt(pos);
-            if (!chunk) continue;
-            for (int number = 0; number < kSectionsPerChunk; ++number) {
-                if (!hasBlockState(chunk->blockStates(number))) continue;
-                addFromSection(*chunk, pos, number, blocks, tick.number, ticked);
-            }
+    for (const ChunkPos pos : chunks) {
+        const ChunkPtr chunk = world.maybeChunkAt(pos);
+        for (int number = 0; chunk && number < kSectionsPerChunk; ++number) {
+            if (!hasBlockState(chunk->blockStates(number))) continue;
+            addFromSection(*chunk, pos, number, blocks, tick, ticked);
         }
     }
     return ticked;

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "terrane/world/block_registry.h"
@@ -16,14 +17,13 @@ namespace terrane::world {
 constexpr std::chrono::milliseconds kTickLength{50};
 constexpr int kTickPicks = 3;
 
-struct RandomTick {
-    std::uint64_t number = 0;  // of ticks before; the same world and number reach the same blocks
-    ChunkPos center;
-    int radius = 8;  // chunks, Chebyshev
-};
+// How far time passes around a player: chunks, Chebyshev.
+constexpr int kTickRadius = 8;
 
-// The blocks to be changed by RunTick (block_edit.h). Looks only into sections where some block has block
-// state: a block whose state is 0 is at rest. On the world's thread.
-std::vector<BlockPos> blocksToTick(const World& world, const BlockRegistry& blocks, const RandomTick& tick);
+// The blocks of these chunks to be changed by RunTick (block_edit.h); chunks that are not loaded have none.
+// `tick`: how many came before; the same world and number reach the same blocks. Looks only into sections
+// where some block has block state: a block whose state is 0 is at rest. On the world's thread.
+std::vector<BlockPos> blocksToTick(const World& world, const BlockRegistry& blocks, std::uint64_t tick,
+                                   std::span<const ChunkPos> chunks);
 
 }  // namespace terrane::world

@@ -13,7 +13,8 @@
 namespace terrane::world {
 
 constexpr int kDamX = 12, kLakeTop = 60;
-constexpr FlowArea kDamArea{{2, 2}, 4};
+// Where water flows: more than the dam's chunks.
+inline const std::vector<ChunkPos> kDamArea = chunksWithin({2, 2}, 4);
 
 // Its chunks: the valley's 4×4 and one more around.
 inline std::vector<ChunkPos> damChunks() {

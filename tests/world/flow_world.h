@@ -38,7 +38,9 @@ struct FlowWorld {
     }
     void clear(BlockPos pos) { applyChange(world, contentBlocks(), pos, SetBlock{kAir}, edits); }
 
-    std::size_t tick(int radius = 6) { return flowLiquids(world, contentBlocks(), {{0, 0}, radius}, edits); }
+    std::size_t tick(int radius = 6) {
+        return flowLiquids(world, contentBlocks(), chunksWithin({0, 0}, radius), edits);
+    }
     // How many ticks until nothing is looked at.
     int settle(int limit = 1000, int radius = 6) {
         int ticks = 0;

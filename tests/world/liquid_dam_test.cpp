@@ -19,7 +19,7 @@ struct Dam {
     std::vector<BlockEdit> edits;
 
     void load(ChunkPos pos) { world.insert(pos, damChunk(pos, contentBlocks())); }
-    std::size_t tick(const FlowArea& area = kDamArea) {
+    std::size_t tick(std::span<const ChunkPos> area = kDamArea) {
         return flowLiquids(world, contentBlocks(), area, edits);
     }
     int settle() {

@@ -131,8 +131,8 @@ TEST(LiquidProperty, OrderOfChunksAndWhereTheCenterIsDoNotMatter) {
             b.set(edit.pos, edit.name);
         }
         for (int tick = 0; tick < 60; ++tick) {
-            flowLiquids(a.world, contentBlocks(), {{0, 0}, 6}, a.edits);
-            flowLiquids(b.world, contentBlocks(), {{2, 1}, 5}, b.edits);
+            flowLiquids(a.world, contentBlocks(), chunksWithin({0, 0}, 6), a.edits);
+            flowLiquids(b.world, contentBlocks(), chunksWithin({2, 1}, 5), b.edits);
             ASSERT_TRUE(isEqual(a.world, b.world)) << "seed " << seed << " tick " << tick;
         }
     }

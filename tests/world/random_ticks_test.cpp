@@ -27,7 +27,7 @@ class RandomTicksTest : public testing::Test {
     std::uint64_t grow(std::uint64_t stages, std::uint64_t atMost) {
         for (std::uint64_t tick = 0; tick < atMost; ++tick) {
             if (stages == 0) return tick;
-            for (const BlockPos pos : blocksToTick(world_, contentBlocks(), {tick, {0, 0}, 1})) {
+            for (const BlockPos pos : blocksToTick(world_, contentBlocks(), tick, chunksWithin({0, 0}, 1))) {
                 std::vector<BlockEdit> edits;
                 applyChange(world_, contentBlocks(), pos, RunTick{}, edits);
                 EXPECT_EQ(edits.size(), 1u);
@@ -68,8 +68,8 @@ TEST_F(RandomTicksTest, TheSameTickGrowsTheSamePlantsOnce) {
         for (int y = 0; y < 16; ++y) plantAt({x, y, 30}, "wheat");
     std::size_t count = 0;
     for (std::uint64_t tick = 0; tick < 200; ++tick) {
-        const auto growing = blocksToTick(world_, contentBlocks(), {tick, {0, 0}, 1});
-        EXPECT_EQ(growing, blocksToTick(world_, contentBlocks(), {tick, {0, 0}, 1}));
+        const auto growing = blocksToTick(world_, contentBlocks(), tick, chunksWithin({0, 0}, 1));
+        EXPECT_EQ(growing, blocksToTick(world_, contentBlocks(), tick, chunksWithin({0, 0}, 1)));
         EXPECT_EQ(std::set(growing.begin(), growing.end()).size(), growing.size());
         count += growing.size();
     }

@@ -1,0 +1,115 @@
+#include "terrane/net/client_link.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace terrane::net {
+namespace {
+
+// Between attempts: 0.5 s, then twice as long each time.
+constexpr std::chrono::milliseconds kFirstWait{500}, kLongestWait{8000};
+constexpr std::chrono::seconds kLoginTime{15};
+
+}  // namespace
+
+ClientLink::ClientLink(boost::asio::io_context& context, ServerAddress address, ClientIdentity identity,
+                       LinkEvents events)
+    : context_(context),
+      address_(std::move(address)),
+      identity_(std::move(identity)),
+      events_(std::move(events)) {
+    connect();
+}
+
+void ClientLink::connect() {
+    stage_ = Stage::Connecting;
+    triedAt_ = now_;
+    SocketEvents events;
+    events.opened = [this](const Bytes& channel, const std::string& serverKey) {
+        if (!events_.trusts(serverKey))
+            return end(textOf(address_) +
+                       ": the server has another key than before: it may be another server");
+        channel_ = channel;
+        say(helloOf(identity_));
+    };
+    events.message = [this](ByteView bytes) { onMessage(bytes); };
+    events.closed = [this](const std::string& reason) { onCut(reason); };
+    formerReceived_ = receivedBytes();
+    formerSent_ = sentBytes();
+    socket_.emplace(context_, address_, std::move(events));
+}
+
+void ClientLink::update(std::chrono::steady_clock::time_point now) {
+    const bool isFirst = now_ == std::chrono::steady_clock::time_point();
+    now_ = now;
+    if (isFirst) triedAt_ = now;
+    if (stage_ == Stage::Waiting && now >= tryAt_) connect();
+    if (stage_ == Stage::Connecting && now - triedAt_ > kLoginTime) onCut("the server does not answer");
+}
+
+void ClientLink::send(const ClientMessage& message) {
+    if (stage_ == Stage::Joined) say(message);
+}
+
+void ClientLink::leave() {
+    send(Leave{});
+    if (stage_ != Stage::Ended) end({});
+}
+
+void ClientLink::say(const ClientMessage& message) {
+    socket_->send(encode(message));
+}
+
+void ClientLink::onMessage(ByteView bytes) {
+    if (stage_ == Stage::Ended) return;
+    const auto message = decodeServerMessage(bytes);
+    if (!message) return end("the server sent what is no message: " + message.error().message);
+    if (const auto* refused = std::get_if<Refused>(&*message)) return onRefused(*refused);
+    if (const auto* greeting = std::get_if<Greeting>(&*message))
+        return say(loginOf(identity_, *greeting, channel_));
+    if (const auto* offer = std::get_if<WorldOffer>(&*message)) {
+        const auto digests = events_.prove(*offer);
+        return digests ? say(Proof{*digests}) : end(digests.error().message);
+    }
+    if (std::holds_alternative<Joined>(*message)) {
+        stage_ = Stage::Joined;
+        wasJoined_ = true;
+        cuts_ = 0;
+    }
+    if (const auto* ping = std::get_if<Ping>(&*message)) return say(Pong{ping->time});
+    if (stage_ == Stage::Joined) events_.message(*message);
+}
+
+// A server that stops may start again: whoever was in its world waits for that.
+void ClientLink::onRefused(const Refused& refused) {
+    if (wasJoined_ && isWorthReturning(refused.why)) return onCut(refused.reason);
+    end(refused.reason);
+}
+
+void ClientLink::onCut(const std::string& reason) {
+    if (stage_ == Stage::Ended) return;
+    if (!wasJoined_) return end(textOf(address_) + ": " + reason);
+    socket_->close();
+    reason_ = reason;
+    stage_ = Stage::Waiting;
+    const auto wait = std::min(kFirstWait * (1 << std::min(cuts_, 4)), kLongestWait);
+    // Many whose server stopped do not all come at once.
+    std::uint8_t share = 0;
+    fillRandom(std::as_writable_bytes(std::span(&share, 1)));
+    tryAt_ = now_ + wait + wait * share / 256;
+    ++cuts_;
+}
+
+void ClientLink::end(const std::string& reason) {
+    reason_ = reason;
+    stage_ = Stage::Ended;
+}
+
+std::uint64_t ClientLink::receivedBytes() const {
+    return formerReceived_ + (socket_ ? socket_->receivedBytes() : 0);
+}
+std::uint64_t ClientLink::sentBytes() const {
+    return formerSent_ + (socket_ ? socket_->sentBytes() : 0);
+}
+
+}  // namespace terrane::net

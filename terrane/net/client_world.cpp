@@ -1,0 +1,240 @@
+#include "terrane/net/client_world.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "terrane/store/structure_file.h"
+
+namespace terrane::net {
+namespace {
+
+constexpr std::chrono::milliseconds kMoveEvery{100};
+
+std::vector<world::PlacedBlock> placedBlocks(world::ChunkPos pos, const ChunkDifference& blocks) {
+    std::vector<world::PlacedBlock> placed;
+    for (const ChangedBlock& block : blocks)
+        placed.push_back({world::blockPos(pos, block.index), block.value});
+    return placed;
+}
+
+}  // namespace
+
+ClientWorld::ClientWorld(game::Session& session, RemoteStore& store, Send send)
+    : session_(session), store_(store), send_(std::move(send)) {
+    session_.setChangeListener([this](game::PlayerId, std::span<const game::ChangedBlock> changes) {
+        for (const game::ChangedBlock& change : changes)
+            changedByEdit_.push_back({change.pos, change.before});
+    });
+}
+
+void ClientWorld::onMessage(const ServerMessage& message) {
+    if (const auto* clock = std::get_if<Clock>(&message)) {
+        session_.clock.timeDay = clock->timeDay;
+        session_.clock.isRunning = clock->daysASecond > 0;
+        if (clock->daysASecond > 0) session_.clock.dayMinutes = 1 / (60 * clock->daysASecond);
+    } else if (const auto* appears = std::get_if<Appears>(&message)) {
+        players_[appears->slot] = {appears->player, appears->name, poseOf(appears->pose), 1, 0};
+        playerPoses_[appears->slot] = appears->pose;
+    } else if (const auto* gone = std::get_if<Disappears>(&message)) {
+        players_.erase(gone->slot);
+        playerPoses_.erase(gone->slot);
+    } else if (const auto* said = std::get_if<Said>(&message)) {
+        chat_.push_back({said->name, said->text});
+    } else if (const auto* corrected = std::get_if<Corrected>(&message)) {
+        correction_ = poseOf(corrected->pose);
+    } else if (const auto* complete = std::get_if<ViewComplete>(&message)) {
+        isViewComplete_ = toldView_ && complete->center == toldView_->center;
+    } else if (const auto* list = std::get_if<PlayerList>(&message)) {
+        playerList_ = *list;
+    } else {
+        std::visit([this](const auto& other) { take(other); }, message);
+    }
+}
+
+void ClientWorld::onCut() {
+    waiting_.clear();
+    show(prediction_.settleAll());
+}
+
+void ClientWorld::take(const Joined& joined) {
+    onCut();
+    joined_ = joined;
+    players_.clear();
+    playerPoses_.clear();
+    toldPose_.reset();
+    toldView_.reset();
+    isViewComplete_ = false;
+    session_.permissions.roles[game::kLocalPlayer] = joined.role;
+}
+
+void ClientWorld::take(const ChunkEdits& edits) {
+    if (edits.chunk.level > 0) {
+        if (edits.isFirst)
+            store_.setDifference(edits.chunk, edits.blocks);
+        else
+            store_.addDifference(edits.chunk, edits.blocks);
+        session_.tiles().tileListener()(std::span(&edits.chunk, 1));
+        return;
+    }
+    if (edits.isFirst) return showChunk(edits.chunk, replaceDifference(edits.chunk, edits.blocks));
+    store_.addDifference(edits.chunk, edits.blocks);
+    showChunk(edits.chunk, edits.blocks);
+}
+
+void ClientWorld::take(const BlocksChanged& changed) {
+    store_.addDifference(changed.chunk, changed.blocks);
+    showChunk(changed.chunk, changed.blocks);
+}
+
+// What is to be shown of a chunk of which something else was known: blocks that differ no longer are the
+// generator's again.
+ChunkDifference ClientWorld::replaceDifference(world::ChunkPos pos, const ChunkDifference& difference) {
+    ChunkDifference former = store_.difference(pos);
+    store_.setDifference(pos, difference);
+    std::erase_if(former, [&](const ChangedBlock& block) {
+        return std::ranges::binary_search(difference, block.index, {}, &ChangedBlock::index);
+    });
+    if (former.empty()) return difference;
+    const world::Chunk generated = session_.generator().generate(pos);
+    for (ChangedBlock& block : former) {
+        block.value = {generated.block(block.index), generated.blockState(block.index),
+                       generated.sharedBlockEntityData(block.index)};
+    }
+    mergeInto(former, difference);
+    return former;
+}
+
+bool ClientWorld::isLoading(world::ChunkPos pos) const {
+    return session_.pipeline().stageAt(pos) == stream::ChunkStage::Loading;
+}
+
+void ClientWorld::showChunk(world::ChunkPos pos, const ChunkDifference& blocks) {
+    const std::vector<world::PlacedBlock> shown = prediction_.takeIn(placedBlocks(pos, blocks));
+    if (session_.world().maybeChunkAt(pos))
+        show(shown);
+    else if (isLoading(pos))
+        late_.insert(pos);  // its worker may have read the store before
+}
+
+void ClientWorld::show(std::span<const world::PlacedBlock> blocks) {
+    if (!blocks.empty()) session_.setBlocks(blocks);
+}
+
+void ClientWorld::showLateChunks() {
+    std::erase_if(late_, [this](world::ChunkPos pos) {
+        if (isLoading(pos)) return false;
+        if (session_.world().maybeChunkAt(pos))
+            show(prediction_.takeIn(placedBlocks(pos, store_.difference(pos))));
+        return true;
+    });
+}
+
+game::EditResult ClientWorld::edit(const game::EditCommand& command) {
+    if (!joined_) return game::EditResult::NotAllowed;
+    changedByEdit_.clear();
+    const game::EditResult result = session_.edit(command);
+    if (result != game::EditResult::Applied) return result;
+    const CommandNumber number = ++lastCommand_;
+    prediction_.predict(number, changedByEdit_);
+    waiting_.push_back({number, WaitingDecision::Kind::Edit});
+    send_(Edit{number, command.pos, command.change, command.expected});
+    return result;
+}
+
+void ClientWorld::build(const game::BuildChange& change) {
+    const CommandNumber number = ++lastCommand_;
+    if (const auto* fill = std::get_if<game::FillBox>(&change)) {
+        send_(Fill{number, *fill});
+    } else {
+        const auto& place = std::get<game::PlaceStructure>(change);
+        auto bytes = store::encodeStructure(*place.structure);
+        if (!bytes || bytes->size() > kMaxStructureWire) {
+            decided_.push_back(game::BuildOutcome{game::BuildOutcome::Result::TooLarge, 0, 0});
+            return;
+        }
+        send_(Place{number, place.low, std::move(*bytes)});
+    }
+    waiting_.push_back({number, WaitingDecision::Kind::Build});
+}
+
+void ClientWorld::takeBack(game::HistoryWay way) {
+    const CommandNumber number = ++lastCommand_;
+    waiting_.push_back({number, WaitingDecision::Kind::TakeBack});
+    send_(TakeBack{number, way == game::HistoryWay::Redo});
+}
+
+void ClientWorld::say(const std::string& text) {
+    send_(Say{text});
+}
+
+void ClientWorld::take(const Done& done) {
+    show(prediction_.settle(done.number));
+    while (!waiting_.empty() && waiting_.front().number < done.number) waiting_.pop_front();
+    if (waiting_.empty() || waiting_.front().number != done.number) return;
+    const WaitingDecision::Kind kind = waiting_.front().kind;
+    waiting_.pop_front();
+    using Build = game::BuildOutcome::Result;
+    using Taken = game::TakenBack::Outcome;
+    if (kind == WaitingDecision::Kind::Build && done.result <= static_cast<std::uint8_t>(Build::NotAllowed))
+        decided_.push_back(game::BuildOutcome{static_cast<Build>(done.result), done.changed, done.kept});
+    if (kind == WaitingDecision::Kind::TakeBack &&
+        done.result <= static_cast<std::uint8_t>(Taken::NotAllowed))
+        decided_.push_back(game::TakenBack{static_cast<Taken>(done.result), done.changed, done.kept});
+    const auto result = static_cast<game::EditResult>(done.result);
+    const bool isRefused = result != game::EditResult::Applied && result != game::EditResult::Unchanged;
+    if (kind == WaitingDecision::Kind::Edit && isRefused &&
+        done.result <= static_cast<std::uint8_t>(game::EditResult::Claimed))
+        decided_.push_back(result);
+}
+
+void ClientWorld::take(const Poses& poses) {
+    for (const PoseChange& change : poses.changes) {
+        const auto player = players_.find(change.slot);
+        if (player == players_.end()) continue;
+        WirePose& pose = playerPoses_[change.slot];
+        pose.x += change.dx;
+        pose.y += change.dy;
+        pose.z += change.dz;
+        pose.yaw = static_cast<std::uint16_t>(change.yaw << 8);
+        pose.pitch = static_cast<std::int16_t>(change.pitch * 258);
+        player->second.pose = poseOf(pose);
+        ++player->second.moves;
+        player->second.swings += change.swings;
+    }
+}
+
+void ClientWorld::update(const world::Pose& pose, int viewDistance, int horizon,
+                         std::chrono::steady_clock::time_point now) {
+    showLateChunks();
+    if (!joined_) return;
+    session_.setPlayer(game::kLocalPlayer, pose);
+    if (now >= nextMove_) {
+        const WirePose wire = wirePose(pose);
+        if (toldPose_ != wire) send_(Move{wire});
+        toldPose_ = wire;
+        nextMove_ = now + kMoveEvery;
+    }
+    const View view{world::chunkOf(pose.position),
+                    static_cast<std::uint8_t>(std::clamp(viewDistance, 0, 255)),
+                    static_cast<std::uint16_t>(std::clamp(horizon, 0, 65535))};
+    const bool isTold = toldView_ && toldView_->center == view.center &&
+                        toldView_->viewDistance == view.viewDistance && toldView_->horizon == view.horizon;
+    if (isTold) return;
+    // Where it stands goes first: a view is believed only around that.
+    if (toldPose_ != wirePose(pose)) send_(Move{*(toldPose_ = wirePose(pose))});
+    send_(view);
+    toldView_ = view;
+    isViewComplete_ = false;
+}
+
+std::vector<ChatLine> ClientWorld::takeChat() {
+    return std::exchange(chat_, {});
+}
+std::vector<Decided> ClientWorld::takeDecided() {
+    return std::exchange(decided_, {});
+}
+std::optional<world::Pose> ClientWorld::takeCorrection() {
+    return std::exchange(correction_, std::nullopt);
+}
+
+}  // namespace terrane::net

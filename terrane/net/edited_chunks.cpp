@@ -1,0 +1,132 @@
+#include "terrane/net/edited_chunks.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+namespace terrane::net {
+
+using world::ChunkPos;
+
+struct EditedChunks::Results {
+    std::mutex mutex;
+    std::vector<Found> found;
+};
+
+namespace {
+
+// What the store has; null where that is nothing, or damaged.
+world::ChunkPtr savedChunk(store::ReadableStore& store, ChunkPos pos) {
+    store::LoadedChunk loaded = store.load(pos);
+    return loaded.state == store::LoadedChunk::State::Present ? std::move(loaded.chunk) : nullptr;
+}
+
+}  // namespace
+
+EditedChunks::EditedChunks(const Parts& parts) : parts_(parts), results_(std::make_shared<Results>()) {}
+
+bool EditedChunks::add(ChunkPos chunk) {
+    bool isNew = false;
+    for (int level = 0; level <= world::kMaxLevel; ++level) {
+        const ChunkPos pos{chunk.x >> level, chunk.y >> level, static_cast<std::uint8_t>(level)};
+        if (!positions_[static_cast<std::size_t>(level)].insert(pos).second) break;  // and so all above
+        isNew = true;
+    }
+    return isNew;
+}
+
+bool EditedChunks::contains(ChunkPos pos) const {
+    return positions_[pos.level].contains(pos);
+}
+
+std::vector<ChunkPos> EditedChunks::within(ChunkPos middle, int radius) const {
+    const auto& positions = positions_[middle.level];
+    std::vector<ChunkPos> found;
+    const auto width = static_cast<std::size_t>(2 * radius + 1);
+    if (positions.size() < width * width) {
+        for (const ChunkPos pos : positions)
+            if (std::max(std::abs(std::int64_t{pos.x} - middle.x),
+                         std::abs(std::int64_t{pos.y} - middle.y)) <= radius)
+                found.push_back(pos);
+        return found;
+    }
+    for (const ChunkPos pos : world::chunksWithin(middle, radius))
+        if (positions.contains(pos)) found.push_back(pos);
+    return found;
+}
+
+const ChunkDifference* EditedChunks::maybeDifference(ChunkPos pos) {
+    const auto [found, isNew] = known_.try_emplace(pos);
+    Known& known = found->second;
+    known.used = ++uses_;
+    if (isNew) findDifference(pos, known);
+    return known.isPending ? nullptr : &known.difference;
+}
+
+void EditedChunks::findDifference(ChunkPos pos, Known& known) {
+    known.isPending = true;
+    known.job = ++jobCount_;
+    ++pendingCount_;
+    const auto work = [pos, job = known.job,
+                       snapshot = pos.level == 0 ? parts_.world.maybeChunkAt(pos) : nullptr, &parts = parts_,
+                       results = results_](const base::CancelToken&) {
+        const world::ChunkPtr chunk = snapshot ? snapshot : savedChunk(parts.store, pos);
+        ChunkDifference difference;
+        if (chunk) difference = chunkDifference(parts.generators.generate(pos), *chunk);
+        const std::lock_guard lock(results->mutex);
+        results->found.push_back({pos, job, std::move(difference)});
+    };
+    parts_.jobs.submit(pos.level, work);
+}
+
+void EditedChunks::onChanged(ChunkPos pos, const ChunkDifference& newer) {
+    const auto found = known_.find(pos);
+    if (found == known_.end()) return;
+    const std::size_t before = found->second.difference.size();
+    mergeInto(found->second.difference, newer);
+    blockCount_ += found->second.difference.size() - before;
+}
+
+void EditedChunks::onTileChanged(ChunkPos tile) {
+    const auto found = known_.find(tile);
+    if (found == known_.end()) return;
+    if (found->second.isPending) --pendingCount_;
+    blockCount_ -= found->second.difference.size();
+    known_.erase(found);  // a job that runs for it finds nobody who waits
+}
+
+void EditedChunks::update() {
+    std::vector<Found> found;
+    {
+        const std::lock_guard lock(results_->mutex);
+        found.swap(results_->found);
+    }
+    for (Found& result : found) {
+        const auto entry = known_.find(result.pos);
+        if (entry == known_.end() || entry->second.job != result.job) continue;
+        Known& known = entry->second;
+        blockCount_ -= known.difference.size();
+        mergeInto(result.difference, known.difference);
+        known.difference = std::move(result.difference);
+        known.isPending = false;
+        --pendingCount_;
+        blockCount_ += known.difference.size();
+    }
+    if (blockCount_ > kMaxBlocks) forgetOld();
+}
+
+// The half that was not used for the longest time.
+void EditedChunks::forgetOld() {
+    std::vector<std::uint64_t> uses;
+    for (const auto& [pos, known] : known_) uses.push_back(known.used);
+    const auto middle = uses.begin() + static_cast<std::ptrdiff_t>(uses.size() / 2);
+    std::ranges::nth_element(uses, middle);
+    std::erase_if(known_, [&, limit = *middle](const auto& entry) {
+        const Known& known = entry.second;
+        if (known.isPending || known.used > limit) return false;
+        blockCount_ -= known.difference.size();
+        return true;
+    });
+}
+
+}  // namespace terrane::net

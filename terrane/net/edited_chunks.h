@@ -1,0 +1,76 @@
+// Which chunks and tiles of a server's world are edited, and how each differs from what the generator makes:
+// found by workers when first asked for, kept up to date, and forgotten when too many are known. On the
+// server's thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "terrane/base/job_system.h"
+#include "terrane/gen/level_generators.h"
+#include "terrane/net/chunk_difference.h"
+#include "terrane/store/chunk_store.h"
+#include "terrane/world/world.h"
+
+namespace terrane::net {
+
+class EditedChunks {
+  public:
+    // All of it outlives this, but the jobs, which end first.
+    struct Parts {
+        const gen::LevelGenerators& generators;
+        store::ReadableStore& store;
+        const world::World& world;
+        base::JobSystem& jobs;
+    };
+    explicit EditedChunks(const Parts& parts);
+
+    // Chunks of level 0: the tiles above them are edited as well. False where all were so already.
+    bool add(world::ChunkPos chunk);
+    bool contains(world::ChunkPos pos) const;
+    std::size_t count(int level) const { return positions_[static_cast<std::size_t>(level)].size(); }
+    // Up to `radius` (Chebyshev) around a chunk or tile, in no order.
+    std::vector<world::ChunkPos> within(world::ChunkPos middle, int radius) const;
+
+    // The difference as of the last onChanged(). Null where a worker finds it: ask again in a later tick. It
+    // holds until the next call of any function.
+    const ChunkDifference* maybeDifference(world::ChunkPos pos);
+    // Blocks of a chunk that is edited are these now.
+    void onChanged(world::ChunkPos pos, const ChunkDifference& newer);
+    // A tile's row in the store changed.
+    void onTileChanged(world::ChunkPos tile);
+    // Takes in what workers found.
+    void update();
+
+    std::size_t pendingCount() const { return pendingCount_; }
+    // Blocks of all known differences; about 40 bytes each.
+    static constexpr std::size_t kMaxBlocks = 4'000'000;
+
+  private:
+    struct Known {
+        ChunkDifference difference;  // while it is pending what changed since the job began
+        bool isPending = false;
+        std::uint64_t job = 0, used = 0;
+    };
+    struct Found {
+        world::ChunkPos pos;
+        std::uint64_t job;
+        ChunkDifference difference;
+    };
+    struct Results;
+    void findDifference(world::ChunkPos pos, Known& known);
+    void forgetOld();
+
+    Parts parts_;
+    std::array<std::unordered_set<world::ChunkPos, world::ChunkPosHash>, world::kMaxLevel + 1> positions_;
+    std::unordered_map<world::ChunkPos, Known, world::ChunkPosHash> known_;
+    std::size_t blockCount_ = 0, pendingCount_ = 0;
+    std::uint64_t uses_ = 0, jobCount_ = 0;
+    std::shared_ptr<Results> results_;
+};
+
+}  // namespace terrane::net

@@ -1,0 +1,33 @@
+#include "terrane/net/frames.h"
+
+namespace terrane::net {
+
+void appendFrame(Bytes& stream, ByteView message) {
+    WireWriter(stream).number(message.size());
+    store::append(stream, message);
+}
+
+void FrameReader::add(ByteView bytes) {
+    bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(begin_));
+    begin_ = 0;
+    store::append(bytes_, bytes);
+}
+
+base::Result<std::optional<ByteView>> FrameReader::next() {
+    const ByteView rest = ByteView(bytes_).subspan(begin_);
+    std::size_t length = 0, digits = 0;
+    bool isWhole = false;
+    while (digits < rest.size() && !isWhole && length <= maxMessage_) {
+        const auto digit = static_cast<std::size_t>(rest[digits]);
+        length |= (digit & 127) << (7 * digits);
+        isWhole = digit < 128;
+        ++digits;
+    }
+    if (length > maxMessage_ || digits > 4)
+        return base::fail(base::ErrorCode::Damaged, "a message of more than {} bytes", maxMessage_);
+    if (!isWhole || rest.size() - digits < length) return std::optional<ByteView>();
+    begin_ += digits + length;
+    return std::optional(rest.subspan(digits, length));
+}
+
+}  // namespace terrane::net

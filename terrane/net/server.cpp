@@ -1,0 +1,167 @@
+#include "terrane/net/server.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/net/keys.h"
+#include "terrane/net/server_clients.h"
+#include "terrane/net/server_commands.h"
+#include "terrane/net/server_history.h"
+#include "terrane/net/server_login.h"
+#include "terrane/net/server_players.h"
+#include "terrane/net/server_view.h"
+#include "terrane/world/random_ticks.h"
+
+namespace terrane::net {
+namespace {
+
+// How often the chunks where time passes are looked for.
+constexpr std::uint64_t kTicksPerLiveChunks = 40;
+
+void noteEdits(ServerState& server, std::span<const world::BlockEdit> edits) {
+    for (const world::BlockEdit& edit : edits)
+        server.changed[world::chunkOf(edit.pos)].push_back(world::blockIndex(edit.pos));
+}
+
+bool hasState(const world::Chunk& chunk) {
+    for (int section = 0; section < world::kSectionsPerChunk; ++section) {
+        const world::Section& states = chunk.blockStates(section);
+        if (!states.isUniform() || states.uniformValue() != 0) return true;
+    }
+    return false;
+}
+
+// Time passes in edited chunks near players: what the generator makes is at rest. They and their neighbors,
+// into which liquids flow, stay loaded.
+void findLiveChunks(ServerState& server) {
+    std::unordered_set<world::ChunkPos, world::ChunkPosHash> live;
+    forEachPlaying(server, [&](const ServerClient& client) {
+        const world::ChunkPos own = world::chunkOf(poseOf(client.pose).position);
+        for (const world::ChunkPos pos : server.edited.within(own, world::kTickRadius)) live.insert(pos);
+    });
+    server.liveChunks.clear();
+    stream::ChunkPipeline& pipeline = server.session.pipeline();
+    for (const world::ChunkPos pos : live) {
+        const world::ChunkPtr chunk = pipeline.maybeLoadChunkAt(pos);
+        if (!chunk || !hasState(*chunk)) continue;
+        server.liveChunks.push_back(pos);
+        for (const world::ChunkPos beside : world::chunksWithin(pos, 1))
+            if (world::isInWorld(beside)) (void)pipeline.maybeLoadChunkAt(beside);
+    }
+    std::ranges::sort(server.liveChunks);
+}
+
+void forgetHistories(ServerState& server) {
+    std::erase_if(server.left, [&](const auto& entry) {
+        if (server.now - entry.second < server.settings.keepHistoryFor) return false;
+        server.session.removePlayer(entry.first);
+        return true;
+    });
+}
+
+ServerClient* clientOf(ServerState& server, ConnectionId id) {
+    const auto found = server.clients.find(id);
+    return found == server.clients.end() ? nullptr : &found->second;
+}
+
+base::Result<void> prepare(ServerState& server) {
+    auto edited = server.session.store().editedChunks();
+    if (!edited) return tl::unexpected(edited.error());
+    for (const world::ChunkPos pos : *edited) server.edited.add(pos);
+    auto password = serverText(server.file, kPasswordText);
+    if (!password) return tl::unexpected(password.error());
+    server.passwordHash = std::move(*password);
+    server.session.permissions.claims = server.people.claims();
+    server.session.clock.dayMinutes = server.settings.dayMinutes;
+    std::uint64_t random = 0;
+    fillRandom(std::as_writable_bytes(std::span(&random, 1)));
+    prepareLogin(server, random);
+    return {};
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<ServerState>> openServer(const ServerParts& parts,
+                                                      const ServerSettings& settings,
+                                                      std::shared_ptr<WrittenTiles> tiles) {
+    auto server = std::make_unique<ServerState>(parts, settings);
+    server->world = parts.fingerprint;
+    if (tiles) server->writtenTiles = std::move(tiles);
+    game::Session& session = server->session;
+    session.setEditListener([&state = *server](game::PlayerId, std::span<const world::BlockEdit> edits) {
+        noteEdits(state, edits);
+    });
+    session.setChangeListener(
+        [&state = *server](game::PlayerId player, std::span<const game::ChangedBlock> changes) {
+            logChanges(state, player, changes);
+        });
+    if (auto restored = restoreEdits(*server); !restored) return tl::unexpected(restored.error());
+    if (auto prepared = prepare(*server); !prepared) return tl::unexpected(prepared.error());
+    return server;
+}
+
+void noteTiles(WrittenTiles& written, std::span<const world::ChunkPos> tiles) {
+    const std::lock_guard lock(written.mutex);
+    written.tiles.insert(written.tiles.end(), tiles.begin(), tiles.end());
+}
+
+void onOpened(ServerState& server, ConnectionId id, Bytes channel, std::string address, Time now) {
+    server.now = std::max(server.now, now);
+    ServerClient& client = server.clients.try_emplace(id, id, server.settings.maxSpeed).first->second;
+    client.channel = std::move(channel);
+    client.address = std::move(address);
+    client.openedAt = client.heardAt = server.now;
+}
+
+void onMessage(ServerState& server, ConnectionId id, ByteView bytes, Time now) {
+    server.now = std::max(server.now, now);
+    ServerClient* client = clientOf(server, id);
+    if (!client || client->stage == ServerClient::Stage::Closed) return;
+    if (!client->buckets.messages.take(1, server.now))
+        return refuse(server, *client, Refusal::TooMuch, "too many messages");
+    auto message = decodeClientMessage(bytes);
+    if (!message) return refuse(server, *client, Refusal::Disorder, message.error().message);
+    client->heardAt = server.now;
+    if (client->stage == ServerClient::Stage::Playing)
+        onPlayerMessage(server, *client, std::move(*message));
+    else
+        onLoginMessage(server, *client, *message);
+}
+
+void onNonsense(ServerState& server, ConnectionId id, const std::string& what, Time now) {
+    server.now = std::max(server.now, now);
+    if (ServerClient* client = clientOf(server, id)) refuse(server, *client, Refusal::Disorder, what);
+}
+
+void onClosed(ServerState& server, ConnectionId id, Time now) {
+    server.now = std::max(server.now, now);
+    if (ServerClient* client = clientOf(server, id)) leave(server, *client);
+    server.clients.erase(id);
+}
+
+void tick(ServerState& server, Time now) {
+    server.now = std::max(server.now, now);
+    ++server.tick;
+    updateLogins(server);
+    runCommands(server);
+    continueRollbacks(server);
+    if (server.tick % kTicksPerLiveChunks == 1) findLiveChunks(server);
+    server.session.advance(std::chrono::duration<double>(kServerTick).count(), server.liveChunks);
+    server.session.pipeline().update(server.now);
+    tellChangedBlocks(server);
+    tellDecisions(server);
+    tellViews(server);
+    tellSight(server);
+    keepInTouch(server);
+    keepSaving(server);
+    forgetHistories(server);
+}
+
+base::Result<void> stop(ServerState& server, const std::string& reason) {
+    for (auto& [id, client] : server.clients) refuse(server, client, Refusal::Stopping, reason);
+    return saveEverything(server);
+}
+
+}  // namespace terrane::net

@@ -1,0 +1,53 @@
+#include "terrane/net/server_clients.h"
+
+#include "terrane/base/log.h"
+#include "terrane/net/frames.h"
+
+namespace terrane::net {
+
+void send(ServerClient& client, const ServerMessage& message) {
+    sendEncoded(client, encode(message));
+}
+
+void sendEncoded(ServerClient& client, ByteView message) {
+    if (client.stage != ServerClient::Stage::Closed) appendFrame(client.outgoing, message);
+}
+
+void say(ServerClient& client, const std::string& text) {
+    send(client, Said{{}, text});
+}
+
+void sayToAll(ServerState& server, const std::string& name, const std::string& text) {
+    const Bytes message = encode(ServerMessage(Said{name, text}));
+    forEachPlaying(server, [&](ServerClient& client) { sendEncoded(client, message); });
+}
+
+void refuse(ServerState& server, ServerClient& client, Refusal why, const std::string& reason) {
+    if (client.stage == ServerClient::Stage::Closed) return;
+    send(client, Refused{why, reason});
+    base::logInfo("{} ({}): {}", client.name.empty() ? "somebody" : client.name, client.address, reason);
+    leave(server, client);
+    client.stage = ServerClient::Stage::Closed;
+}
+
+void leave(ServerState& server, ServerClient& client) {
+    if (client.stage != ServerClient::Stage::Playing) return;
+    client.stage = ServerClient::Stage::Closed;
+    server.people.setPose(client.player, poseOf(client.pose));
+    server.playing.erase(client.player);
+    server.left[client.player] = server.now;
+    base::logInfo("{} left", client.name);
+    sayToAll(server, {}, client.name + " left");
+}
+
+ServerClient* playingClient(ServerState& server, game::PlayerId player) {
+    const auto found = server.playing.find(player);
+    return found == server.playing.end() ? nullptr : &server.clients.at(found->second);
+}
+
+ServerClient* playingClient(ServerState& server, std::string_view name) {
+    const KnownPlayer* known = server.people.byName(name);
+    return known ? playingClient(server, known->id) : nullptr;
+}
+
+}  // namespace terrane::net

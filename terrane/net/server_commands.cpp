@@ -1,0 +1,153 @@
+#include "terrane/net/server_commands.h"
+
+#include <algorithm>
+
+#include "terrane/net/server_clients.h"
+#include "terrane/store/structure_file.h"
+
+namespace terrane::net {
+namespace {
+
+constexpr std::size_t kMaxWaitingCommands = 512;
+// A command whose chunks do not come runs without them, and is refused by the session.
+constexpr std::chrono::seconds kMaxWait{3};
+// Of one command: a line of 65,536 blocks would touch 12,000.
+constexpr int kMaxChunks = 1024;
+// A structure is taken apart before it is known how large it is: it counts as so many edits.
+constexpr double kEditsOfPlace = 30;
+// After an edit the chunks around a player are loaded, as it will go on.
+constexpr std::chrono::seconds kLoadsAround{20};
+constexpr std::chrono::milliseconds kLoadAroundEvery{1000};
+
+// Asks for the chunks that the box touches and one more around, as blocks beside it may change with it.
+// Whether all are there, or they are too many to wait for.
+bool areLoaded(ServerState& server, const world::BlockBox& box) {
+    const world::ChunkPos low = world::chunkOf(box.low), high = world::chunkOf(box.high);
+    if ((high.x - low.x + 3) * (high.y - low.y + 3) > kMaxChunks) return true;
+    bool all = true;
+    for (std::int32_t y = low.y - 1; y <= high.y + 1; ++y)
+        for (std::int32_t x = low.x - 1; x <= high.x + 1; ++x) {
+            const world::ChunkPos pos{x, y};
+            if (world::isInWorld(pos)) all &= server.session.pipeline().maybeLoadChunkAt(pos) != nullptr;
+        }
+    return all;
+}
+
+double blockCount(const world::BlockBox& box) {
+    const auto side = [](std::int32_t low, std::int32_t high) {
+        return static_cast<double>(std::max<std::int64_t>(std::int64_t{high} - low + 1, 0));
+    };
+    return side(box.low.x, box.high.x) * side(box.low.y, box.high.y) * side(box.low.z, box.high.z);
+}
+
+Done run(ServerState& server, ServerClient& client, const Edit& edit) {
+    const auto result = server.session.edit({client.player, edit.pos, edit.change, edit.expected});
+    return {edit.number, static_cast<std::uint8_t>(result), 0, 0};
+}
+
+Done run(ServerState& server, ServerClient& client, const Build& build) {
+    const double blocks = blockCount(game::boxOf(build.change));
+    game::BuildOutcome outcome{game::BuildOutcome::Result::TooLarge, 0, 0};
+    if (blocks <= static_cast<double>(server.settings.maxFillBlocks) &&
+        client.buckets.blocks.take(blocks, server.now))
+        outcome = server.session.build({client.player, build.change});
+    return {build.number, static_cast<std::uint8_t>(outcome.result),
+            static_cast<std::uint32_t>(outcome.changed), static_cast<std::uint32_t>(outcome.kept)};
+}
+
+game::HistoryWay wayOf(const TakeBack& takeBack) {
+    return takeBack.isRedo ? game::HistoryWay::Redo : game::HistoryWay::Undo;
+}
+
+Done run(ServerState& server, ServerClient& client, const TakeBack& takeBack) {
+    const game::TakenBack taken = server.session.takeBack(client.player, wayOf(takeBack));
+    return {takeBack.number, static_cast<std::uint8_t>(taken.outcome),
+            static_cast<std::uint32_t>(taken.blocks), static_cast<std::uint32_t>(taken.kept)};
+}
+
+// Whether a command has the chunks that it needs, which are asked for, or the session will refuse it anyway.
+bool isReady(ServerState& server, const ServerClient& client, const world::BlockBox& box) {
+    const bool isNear = game::distanceTo(box, poseOf(client.pose).position) <= game::kBuildReach;
+    return !isNear || areLoaded(server, box);
+}
+bool isReady(ServerState& server, const ServerClient& client, const Edit& edit) {
+    return isReady(server, client, world::BlockBox{edit.pos, edit.pos});
+}
+bool isReady(ServerState& server, const ServerClient& client, const Build& build) {
+    const world::BlockBox box = game::boxOf(build.change);
+    return blockCount(box) > static_cast<double>(server.settings.maxFillBlocks) ||
+           isReady(server, client, box);
+}
+bool isReady(ServerState& server, const ServerClient& client, const TakeBack& takeBack) {
+    return std::ranges::all_of(
+        server.session.chunksToTakeBack(client.player, wayOf(takeBack)),
+        [&](world::ChunkPos pos) { return server.session.pipeline().maybeLoadChunkAt(pos) != nullptr; });
+}
+
+void decide(ServerState& server, ServerClient& client, const WaitingCommand& next) {
+    const std::uint64_t before = server.history.lastWrite;
+    const Done done =
+        std::visit([&](const auto& command) { return run(server, client, command); }, next.command);
+    const std::uint64_t write = server.history.lastWrite;
+    if (write != before) {
+        client.swungTick = server.tick;
+        client.builtAt = server.now;
+    }
+    client.decisions.push_back({write != before ? write : 0, done});
+}
+
+void runOf(ServerState& server, ServerClient& client) {
+    while (!client.commands.empty()) {
+        const WaitingCommand& next = client.commands.front();
+        const bool waitedLong = server.now - next.since > kMaxWait;
+        const auto ready = [&](const auto& command) { return isReady(server, client, command); };
+        if (!waitedLong && !std::visit(ready, next.command)) return;
+        if (std::holds_alternative<Edit>(next.command) && !client.buckets.edits.take(1, server.now)) return;
+        decide(server, client, next);
+        client.commands.pop_front();
+    }
+}
+
+// Who built a moment ago goes on beside that.
+void loadAround(ServerState& server, const ServerClient& client) {
+    if (!client.builtAt || server.now - *client.builtAt > kLoadsAround) return;
+    for (const world::ChunkPos pos : world::chunksWithin(world::chunkOf(poseOf(client.pose).position), 1))
+        if (world::isInWorld(pos)) (void)server.session.pipeline().maybeLoadChunkAt(pos);
+}
+
+}  // namespace
+
+void takeCommand(ServerState& server, ServerClient& client, WaitingCommand command) {
+    if (client.commands.size() >= kMaxWaitingCommands)
+        return refuse(server, client, Refusal::TooMuch, "too many changes of blocks at once");
+    client.commands.push_back(std::move(command));
+}
+
+void takePlace(ServerState& server, ServerClient& client, const Place& place) {
+    auto structure = std::make_shared<world::Structure>();
+    if (client.buckets.edits.take(kEditsOfPlace, server.now))
+        if (auto decoded = store::decodeStructure(place.structure)) *structure = std::move(*decoded);
+    takeCommand(server, client,
+                {Build{place.number, game::PlaceStructure{std::move(structure), place.low}}, server.now});
+}
+
+void runCommands(ServerState& server) {
+    const auto ticksAround = static_cast<std::uint64_t>(kLoadAroundEvery / kServerTick);
+    forEachPlaying(server, [&](ServerClient& client) {
+        runOf(server, client);
+        if ((server.tick + client.id) % ticksAround == 0) loadAround(server, client);
+    });
+}
+
+void tellDecisions(ServerState& server) {
+    const std::uint64_t durable = server.file.durable();
+    forEachPlaying(server, [&](ServerClient& client) {
+        for (; !client.decisions.empty(); client.decisions.pop_front()) {
+            const Decision& decision = client.decisions.front();
+            if (decision.write > durable) break;
+            send(client, decision.done);
+        }
+    });
+}
+
+}  // namespace terrane::net

@@ -1,0 +1,274 @@
+#include "terrane/net/server_console.h"
+
+#include <charconv>
+#include <chrono>
+#include <span>
+
+#include "terrane/net/keys.h"
+#include "terrane/net/server_clients.h"
+#include "terrane/net/server_history.h"
+
+namespace terrane::net {
+namespace {
+
+using Words = std::span<const std::string>;
+
+struct ConsoleCommand {
+    std::string_view name, arguments, help;
+    std::size_t least, most;  // how many arguments
+    std::string (*run)(ServerState&, Words);
+};
+
+constexpr std::size_t kAny = 1000;
+
+template <class Number>
+std::optional<Number> numberFrom(const std::string& text) {
+    Number number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+std::string joined(Words words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+    return text;
+}
+
+std::string unknownPlayer(const std::string& name) {
+    return fmt::format("nobody called {} ever played here", name);
+}
+
+std::string sayLine(ServerState& server, Words words) {
+    sayToAll(server, {}, joined(words).substr(0, kMaxChatBytes));
+    return "said";
+}
+
+std::string list(ServerState& server, Words) {
+    std::string text = fmt::format("{} of {} players", server.playing.size(), server.settings.maxPlayers);
+    forEachPlaying(server, [&](const ServerClient& client) {
+        const auto place = poseOf(client.pose).position;
+        text += fmt::format("\n{} at {:.0f} {:.0f} {:.0f}, {} ms{}", client.name, place.x, place.y, place.z,
+                            client.latency ? client.latency->count() : 0,
+                            client.role == game::Role::Operator ? ", operator"
+                            : client.role == game::Role::Guest  ? ", guest"
+                                                                : "");
+    });
+    return text;
+}
+
+std::string kick(ServerState& server, Words words) {
+    ServerClient* client = playingClient(server, std::string_view(words[0]));
+    if (!client) return fmt::format("{} does not play now", words[0]);
+    const std::string reason = joined(words.subspan(1));
+    refuse(server, *client, Refusal::Kicked,
+           reason.empty() ? "you were sent away" : "you were sent away: " + reason.substr(0, 300));
+    return words[0] + " is sent away";
+}
+
+std::string ban(ServerState& server, Words words) {
+    const KnownPlayer* player = server.people.byName(words[0]);
+    if (!player) return unknownPlayer(words[0]);
+    const std::string reason = words.size() > 1 ? joined(words.subspan(1)).substr(0, 300) : "no reason given";
+    server.people.setBan(player->id, reason);
+    if (ServerClient* client = playingClient(server, player->id))
+        refuse(server, *client, Refusal::Banned, "you are banned from this server: " + reason);
+    return player->name + " is banned";
+}
+
+std::string unban(ServerState& server, Words words) {
+    const KnownPlayer* player = server.people.byName(words[0]);
+    if (!player) return unknownPlayer(words[0]);
+    if (player->ban.empty()) return player->name + " is not banned";
+    server.people.setBan(player->id, {});
+    return player->name + " may come again";
+}
+
+std::string setRole(ServerState& server, const std::string& name, game::Role role, std::string_view what) {
+    const KnownPlayer* player = server.people.byName(name);
+    if (!player) return unknownPlayer(name);
+    server.people.setRole(player->id, role);
+    server.session.permissions.roles[player->id] = role;
+    if (ServerClient* client = playingClient(server, player->id)) {
+        client->role = role;
+        say(*client, fmt::format("you are {} now", what));
+    }
+    return fmt::format("{} is {} now", player->name, what);
+}
+
+std::string makeOperator(ServerState& server, Words words) {
+    return setRole(server, words[0], game::Role::Operator, "an operator");
+}
+std::string makePlayer(ServerState& server, Words words) {
+    return setRole(server, words[0], game::Role::Player, "a player");
+}
+std::string makeGuest(ServerState& server, Words words) {
+    return setRole(server, words[0], game::Role::Guest, "a guest, who changes no blocks,");
+}
+
+// Four numbers; corners in any order.
+std::optional<game::ColumnArea> areaFrom(Words words) {
+    std::array<std::int32_t, 4> v{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto number = numberFrom<std::int32_t>(words[k]);
+        if (!number) return std::nullopt;
+        v[k] = *number;
+    }
+    return game::ColumnArea{std::min(v[0], v[2]), std::min(v[1], v[3]), std::max(v[0], v[2]),
+                            std::max(v[1], v[3])};
+}
+
+std::string claim(ServerState& server, Words words) {
+    const auto area = areaFrom(words.subspan(1));
+    if (!area) return "the corners are four whole numbers: X0 Y0 X1 Y1";
+    if (!isName(words[0])) return fmt::format("a claim's name has 1 to {} bytes", kMaxNameBytes);
+    game::Claim made{words[0], *area, game::kNoPlayer, {}};
+    for (const std::string& name : words.subspan(5)) {
+        const KnownPlayer* player = server.people.byName(name);
+        if (!player) return unknownPlayer(name);
+        if (made.owner == game::kNoPlayer)
+            made.owner = player->id;
+        else
+            made.members.push_back(player->id);
+    }
+    if (const auto added = server.people.addClaim(made); !added) return added.error().message;
+    server.session.permissions.claims = server.people.claims();
+    return fmt::format("{} is claimed for {}", words[0], words[5]);
+}
+
+std::string unclaim(ServerState& server, Words words) {
+    if (!server.people.removeClaim(words[0])) return fmt::format("there is no claim {}", words[0]);
+    server.session.permissions.claims = server.people.claims();
+    return fmt::format("the claim {} is gone", words[0]);
+}
+
+std::string claims(ServerState& server, Words) {
+    std::string text = fmt::format("{} claims", server.people.claims().all().size());
+    for (const game::Claim& one : server.people.claims().all()) {
+        const KnownPlayer* owner = server.people.byId(one.owner);
+        text += fmt::format("\n{} {} {} {} {} {}", one.name, one.area.x0, one.area.y0, one.area.x1,
+                            one.area.y1, owner ? owner->name : "nobody");
+    }
+    return text;
+}
+
+std::string rollbackLine(ServerState& server, Words words) {
+    EditFilter filter;
+    if (words[0] != "*") {
+        const KnownPlayer* player = server.people.byName(words[0]);
+        if (!player) return unknownPlayer(words[0]);
+        filter.player = player->id;
+    }
+    const auto minutes = numberFrom<double>(words[1]);
+    if (!minutes || !(*minutes > 0) || *minutes > 1e8)
+        return fmt::format("{} is no number of minutes", words[1]);
+    const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(
+        std::chrono::system_clock::now().time_since_epoch());
+    filter.sinceMs = now.count() - static_cast<std::int64_t>(*minutes * 60000);
+    if (words.size() == 6) {
+        filter.area = areaFrom(words.subspan(2));
+        if (!filter.area) return "the corners are four whole numbers: X0 Y0 X1 Y1";
+    } else if (words.size() != 2) {
+        return "an area is four whole numbers: X0 Y0 X1 Y1";
+    }
+    const auto count = startRollback(server, filter);
+    return count ? fmt::format("{} blocks are rolled back, but for those that others changed since", *count)
+                 : count.error().message;
+}
+
+std::string setTime(ServerState& server, Words words) {
+    const auto time = numberFrom<double>(words[0]);
+    if (!time || !(*time >= 0 && *time < 1)) return "a time of day is 0 (midnight) to below 1; 0.5 is noon";
+    game::DayClock& clock = server.session.clock;
+    clock.timeDay = *time;
+    forEachPlaying(server, [&](ServerClient& client) {
+        send(client, Clock{clock.timeDay, 1 / (60 * clock.dayMinutes)});
+    });
+    return "the time is set";
+}
+
+std::string setPassword(ServerState& server, Words words) {
+    if (words[0] == "off") {
+        server.passwordHash.clear();
+    } else {
+        if (words[0].size() > kMaxPasswordBytes)
+            return fmt::format("a password has at most {} bytes", kMaxPasswordBytes);
+        auto hash = passwordHash(words[0]);
+        if (!hash) return hash.error().message;
+        server.passwordHash = std::move(*hash);
+    }
+    setServerText(server.file, kPasswordText, server.passwordHash);
+    return server.passwordHash.empty() ? "no password is needed" : "the password is set";
+}
+
+std::string save(ServerState& server, Words) {
+    const auto saved = saveEverything(server);
+    return saved ? "saved" : saved.error().message;
+}
+
+std::string stop(ServerState& server, Words) {
+    server.isStopping = true;
+    return "stopping";
+}
+
+std::string help(ServerState&, Words) {
+    return consoleHelp();
+}
+
+constexpr ConsoleCommand kCommands[] = {
+    {"help", "", "this list", 0, 0, help},
+    {"list", "", "who plays, where, how far away", 0, 0, list},
+    {"say", "TEXT", "a line to all", 1, kAny, sayLine},
+    {"kick", "PLAYER [REASON]", "sends a player away", 1, kAny, kick},
+    {"ban", "PLAYER [REASON]", "and does not let it in again", 1, kAny, ban},
+    {"unban", "PLAYER", "lets it in again", 1, 1, unban},
+    {"op", "PLAYER", "makes an operator, who builds everywhere and gives commands", 1, 1, makeOperator},
+    {"deop", "PLAYER", "makes a player of an operator or guest", 1, 1, makePlayer},
+    {"guest", "PLAYER", "makes a guest, who looks and talks", 1, 1, makeGuest},
+    {"claim", "NAME X0 Y0 X1 Y1 OWNER [MEMBER…]", "columns where these players alone build", 6, kAny, claim},
+    {"unclaim", "NAME", "ends a claim", 1, 1, unclaim},
+    {"claims", "", "all claims", 0, 0, claims},
+    {"rollback", "PLAYER|* MINUTES [X0 Y0 X1 Y1]", "takes back what a player, or anybody, changed", 2, 6,
+     rollbackLine},
+    {"time", "0…1", "sets the time of day: 0 midnight, 0.5 noon", 1, 1, setTime},
+    {"password", "PASSWORD|off", "who joins needs it from now on", 1, 1, setPassword},
+    {"save", "", "writes all that changed to disk, as happens by itself every five seconds", 0, 0, save},
+    {"stop", "", "saves and ends the server", 0, 0, stop},
+};
+
+std::vector<std::string> wordsOf(std::string_view line) {
+    std::vector<std::string> words;
+    while (true) {
+        while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
+        if (line.empty()) return words;
+        const bool isQuoted = line.front() == '"';
+        if (isQuoted) line.remove_prefix(1);
+        const std::size_t end = std::min(line.find(isQuoted ? '"' : ' '), line.size());
+        words.emplace_back(line.substr(0, end));
+        line.remove_prefix(std::min(end + 1, line.size()));
+    }
+}
+
+}  // namespace
+
+std::string runConsoleLine(ServerState& server, std::string_view line) {
+    const std::vector<std::string> words = wordsOf(line);
+    if (words.empty()) return {};
+    for (const ConsoleCommand& command : kCommands) {
+        if (command.name != words[0]) continue;
+        const std::size_t count = words.size() - 1;
+        if (count < command.least || count > command.most)
+            return fmt::format("expected: {} {}", command.name, command.arguments);
+        return command.run(server, Words(words).subspan(1));
+    }
+    return fmt::format("there is no command {}: help lists them", words[0]);
+}
+
+std::string consoleHelp() {
+    std::string text;
+    for (const ConsoleCommand& command : kCommands)
+        text += fmt::format("{}{}{}{}: {}", text.empty() ? "" : "\n", command.name,
+                            command.arguments.empty() ? "" : " ", command.arguments, command.help);
+    return text;
+}
+
+}  // namespace terrane::net

@@ -1,0 +1,124 @@
+#include "terrane/net/server_history.h"
+
+#include <chrono>
+#include <map>
+
+#include "terrane/base/log.h"
+#include "terrane/game/player_state.h"
+
+namespace terrane::net {
+namespace {
+
+constexpr std::chrono::seconds kSaveEvery{5};
+// Of a roll-back, in a tick: some milliseconds.
+constexpr std::size_t kRollbackChunks = 8;
+
+std::int64_t millisecondsNow() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+}
+
+std::vector<world::PlacedBlock> placed(world::ChunkPos chunk, const ChunkDifference& blocks) {
+    std::vector<world::PlacedBlock> placedBlocks;
+    for (const ChangedBlock& block : blocks)
+        placedBlocks.push_back({world::blockPos(chunk, block.index), block.value});
+    return placedBlocks;
+}
+
+}  // namespace
+
+void logChanges(ServerState& server, game::PlayerId player, std::span<const game::ChangedBlock> changes) {
+    ServerHistory& history = server.history;
+    for (LoggedEdit& edit : loggedEdits(history.newest + 1, player, millisecondsNow(), changes)) {
+        history.newest = edit.number;
+        history.lastWrite = appendEdit(server.file, std::move(edit));
+    }
+}
+
+base::Result<void> restoreEdits(ServerState& server) {
+    ServerHistory& history = server.history;
+    const auto newest = newestEdit(server.file.reader()), saved = savedEdit(server.file.reader());
+    if (!newest || !saved) return tl::unexpected((!newest ? newest : saved).error());
+    history.newest = *newest;
+    history.saved = *saved;
+    std::map<world::ChunkPos, ChunkDifference> chunks;
+    const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
+        mergeInto(chunks[edit.chunk], edit.after);
+        return {};
+    };
+    if (auto done = forEachEdit(server.file.reader(), server.file.ids(), {.afterNumber = *saved},
+                                EditOrder::OldestFirst, take);
+        !done)
+        return done;
+    if (chunks.empty()) return {};
+    for (const auto& [pos, blocks] : chunks) {
+        (void)server.session.pipeline().chunkAt(pos);
+        server.session.setBlocks(placed(pos, blocks));
+    }
+    base::logInfo("{} chunks brought back from the history, edits {} to {}", chunks.size(), *saved + 1,
+                  *newest);
+    return saveEverything(server);
+}
+
+void keepSaving(ServerState& server) {
+    ServerHistory& history = server.history;
+    store::ChunkStore& store = server.session.store();
+    if (history.saving && store.status().durable >= history.saving->save) {
+        history.saved = history.saving->edit;
+        setSavedEdit(server.file, history.saved);
+        history.saving.reset();
+    }
+    if (history.saving || server.now < history.nextSave) return;
+    history.nextSave = server.now + kSaveEvery;
+    server.session.pipeline().saveAll();
+    const store::SaveNumber number = game::saveTimeDay(store, server.session.clock.timeDay);
+    if (history.saved < history.newest) history.saving = {history.newest, number};
+}
+
+base::Result<void> saveEverything(ServerState& server) {
+    game::saveTimeDay(server.session.store(), server.session.clock.timeDay);
+    if (auto saved = server.session.save(); !saved) return saved;
+    if (server.history.saved < server.history.newest) {
+        server.history.saved = server.history.newest;
+        setSavedEdit(server.file, server.history.newest);
+    }
+    server.history.saving.reset();
+    return server.file.flush();
+}
+
+base::Result<std::size_t> startRollback(ServerState& server, const EditFilter& filter) {
+    // The reader sees what is durable.
+    if (auto flushed = server.file.flush(); !flushed) return tl::unexpected(flushed.error());
+    auto plan = rollback(server.file.reader(), server.file.ids(), filter);
+    if (!plan) return tl::unexpected(plan.error());
+    for (RolledBack& block : *plan) {
+        const world::ChunkPos chunk = world::chunkOf(block.pos);
+        if (server.rollbacks.empty() || server.rollbacks.back().chunk != chunk)
+            server.rollbacks.push_back({chunk, {}});
+        server.rollbacks.back().blocks.push_back(std::move(block));
+    }
+    return plan->size();
+}
+
+void continueRollbacks(ServerState& server) {
+    game::Session& session = server.session;
+    // The next ones are loaded meanwhile.
+    for (std::size_t k = 0; k < std::min(server.rollbacks.size(), 4 * kRollbackChunks); ++k)
+        (void)session.pipeline().maybeLoadChunkAt(server.rollbacks[k].chunk);
+    for (std::size_t k = 0; k < kRollbackChunks && !server.rollbacks.empty(); ++k) {
+        const RollbackPart& part = server.rollbacks.front();
+        if (!session.world().maybeChunkAt(part.chunk)) return;
+        std::vector<world::PlacedBlock> blocks;
+        std::vector<game::ChangedBlock> changes;
+        for (const RolledBack& block : part.blocks) {
+            if (world::blockValue(session.world(), block.pos) != block.made) continue;
+            blocks.push_back({block.pos, block.before});
+            changes.push_back({block.pos, block.made, block.before});
+        }
+        session.setBlocks(blocks);
+        logChanges(server, game::kNoPlayer, changes);
+        server.rollbacks.pop_front();
+    }
+}
+
+}  // namespace terrane::net

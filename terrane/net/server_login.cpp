@@ -1,0 +1,187 @@
+#include "terrane/net/server_login.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "terrane/base/log.h"
+#include "terrane/game/spawn.h"
+#include "terrane/net/keys.h"
+#include "terrane/net/server_clients.h"
+#include "terrane/world/character.h"
+
+namespace terrane::net {
+namespace {
+
+using Stage = ServerClient::Stage;
+
+constexpr std::size_t kMaxWaitingPasswords = 32;
+
+void onHello(ServerState& server, ServerClient& client, const Hello& hello) {
+    if (hello.version != kProtocolVersion)
+        return refuse(server, client, Refusal::Version,
+                      fmt::format("this server speaks version {} of the protocol, your program version {}",
+                                  kProtocolVersion, hello.version));
+    fillRandom(client.nonce);
+    client.stage = Stage::Login;
+    send(client, Greeting{server.program, client.nonce, !server.passwordHash.empty()});
+}
+
+std::string banText(const KnownPlayer& player) {
+    return "you are banned from this server: " + player.ban;
+}
+
+// Why the player may not come in, by what the server knows of it.
+void refuseStranger(ServerState& server, ServerClient& client) {
+    const KnownPlayer* known = server.people.byKey(client.key);
+    if (known && !known->ban.empty()) return refuse(server, client, Refusal::Banned, banText(*known));
+    const KnownPlayer* named = server.people.byName(client.name);
+    if (named && named != known)
+        return refuse(server, client, Refusal::Name,
+                      fmt::format("the name {} belongs to another player: choose another", client.name));
+    const bool isAgain = known && server.playing.contains(known->id);
+    const bool isOperator = known && known->role == game::Role::Operator;
+    if (server.playing.size() >= server.settings.maxPlayers && !isAgain && !isOperator)
+        refuse(server, client, Refusal::Full,
+               fmt::format("the server is full: {} players", server.settings.maxPlayers));
+}
+
+void offerWorld(ServerState& server, ServerClient& client) {
+    client.stage = Stage::Proof;
+    send(client, WorldOffer{server.world, server.samples});
+}
+
+void onLogin(ServerState& server, ServerClient& client, const Login& login) {
+    if (!isName(login.name))
+        return refuse(server, client, Refusal::Name,
+                      fmt::format("a name has 1 to {} bytes, without spaces at its ends", kMaxNameBytes));
+    const Bytes text = loginText(client.channel, client.nonce, login.name);
+    if (!isSignedBy(login.key, text, login.signature))
+        return refuse(server, client, Refusal::WrongKey, "the signature does not fit the key");
+    client.name = login.name;
+    client.key = login.key;
+    refuseStranger(server, client);
+    if (client.stage == Stage::Closed) return;
+    if (server.passwordHash.empty()) return offerWorld(server, client);
+    if (server.passwordQueue.size() >= kMaxWaitingPasswords)
+        return refuse(server, client, Refusal::Full, "too many players log in: try again soon");
+    client.stage = Stage::Password;
+    server.passwordQueue.push_back({client.id, login.password});
+}
+
+void startPasswordCheck(ServerState& server) {
+    WaitingPassword next = std::move(server.passwordQueue.front());
+    server.passwordQueue.pop_front();
+    PasswordCheck check{next.client, {}};
+    check.job = server.jobs.submit(
+        -1, [fits = check.fits, hash = server.passwordHash, password = std::move(next.password)](
+                const base::CancelToken&) { *fits = fitsPassword(hash, password); });
+    server.passwordCheck = check;
+}
+
+void finishPasswordCheck(ServerState& server) {
+    const PasswordCheck check = *server.passwordCheck;
+    const base::JobState state = check.job.state();
+    if (state == base::JobState::Queued || state == base::JobState::Running) return;
+    server.passwordCheck.reset();
+    const auto found = server.clients.find(check.client);
+    if (found == server.clients.end() || found->second.stage != Stage::Password) return;
+    if (state == base::JobState::Done && *check.fits) return offerWorld(server, found->second);
+    refuse(server, found->second, Refusal::Password, "the password is wrong");
+}
+
+// On the highest block of a column around the spawn.
+world::Pose newcomersPose(const ServerState& server) {
+    const int radius = server.settings.spawnRadius;
+    if (radius == 0) return server.spawn;
+    std::uint64_t bits = 0;
+    fillRandom(std::as_writable_bytes(std::span(&bits, 1)));
+    const auto away = [&](std::uint64_t part) {
+        return static_cast<int>(part % static_cast<std::uint64_t>(2 * radius + 1)) - radius;
+    };
+    world::Pose pose = server.spawn;
+    pose.position.x += away(bits & 0xFFFFFFFF);
+    pose.position.y += away(bits >> 32);
+    const world::BlockPos below{static_cast<std::int32_t>(std::floor(pose.position.x)),
+                                static_cast<std::int32_t>(std::floor(pose.position.y)), 0};
+    const world::Chunk chunk = server.session.generator().generate(world::chunkOf(below));
+    int z = world::kChunkHeight - 1;
+    while (z > 0 && chunk.block(world::blockIndex({below.x, below.y, z})) == world::kAir) --z;
+    pose.position.z = z + 1 + world::kEyeHeight;
+    return pose;
+}
+
+void replaceFormer(ServerState& server, const KnownPlayer& player) {
+    if (ServerClient* former = playingClient(server, player.id))
+        refuse(server, *former, Refusal::Replaced, "you joined again elsewhere");
+}
+
+// The player's row, made where it is new here, with the name that it has now.
+const KnownPlayer& rowOf(ServerState& server, const ServerClient& client) {
+    const KnownPlayer* known = server.people.byKey(client.key);
+    if (!known) known = &server.people.add(client.key, client.name, server.settings.newcomers);
+    if (known->name != client.name) server.people.setName(known->id, client.name);
+    return *known;
+}
+
+void join(ServerState& server, ServerClient& client) {
+    const KnownPlayer& player = rowOf(server, client);
+    replaceFormer(server, player);
+    const world::Pose pose = player.pose ? *player.pose : newcomersPose(server);
+    client.stage = Stage::Playing;
+    client.player = player.id;
+    client.role = player.role;
+    client.pose = wirePose(pose);
+    client.heardAt = server.now;
+    server.playing[player.id] = client.id;
+    server.left.erase(player.id);
+    server.session.setPlayer(player.id, pose);
+    server.session.permissions.roles[player.id] = player.role;
+    send(client, Joined{player.id, player.role, static_cast<std::uint8_t>(server.settings.maxViewDistance),
+                        client.pose});
+    const game::DayClock& clock = server.session.clock;
+    send(client, Clock{clock.timeDay, 1 / (60 * clock.dayMinutes)});
+    base::logInfo("{} joined from {}", client.name, client.address);
+    sayToAll(server, {}, client.name + " joined");
+    if (!server.settings.welcome.empty()) say(client, server.settings.welcome);
+}
+
+// Others may have come meanwhile: the checks of Login are made again.
+void onProof(ServerState& server, ServerClient& client, const Proof& proof) {
+    if (proof.digests != server.digests)
+        return refuse(server, client, Refusal::OtherWorld,
+                      "your program generates another world than the server: use the program that it uses");
+    refuseStranger(server, client);
+    if (client.stage == Stage::Proof) join(server, client);
+}
+
+}  // namespace
+
+void prepareLogin(ServerState& server, std::uint64_t random) {
+    const game::Session& session = server.session;
+    server.samples = samplePositions(random);
+    server.digests = sampleDigests(session.generator(), server.samples);
+    server.spawn = game::findSpawn(session.generator(), session.blocks());
+}
+
+void onLoginMessage(ServerState& server, ServerClient& client, const ClientMessage& message) {
+    const auto* hello = std::get_if<Hello>(&message);
+    const auto* login = std::get_if<Login>(&message);
+    const auto* proof = std::get_if<Proof>(&message);
+    if (hello && client.stage == Stage::Hello) return onHello(server, client, *hello);
+    if (login && client.stage == Stage::Login) return onLogin(server, client, *login);
+    if (proof && client.stage == Stage::Proof) return onProof(server, client, *proof);
+    refuse(server, client, Refusal::Disorder,
+           fmt::format("the message {} does not come at this time", nameOf(message)));
+}
+
+void updateLogins(ServerState& server) {
+    if (server.passwordCheck) finishPasswordCheck(server);
+    if (!server.passwordCheck && !server.passwordQueue.empty()) startPasswordCheck(server);
+    for (auto& [id, client] : server.clients) {
+        const bool logsIn = client.stage != Stage::Playing && client.stage != Stage::Closed;
+        if (logsIn && server.now - client.openedAt > server.settings.loginWithin)
+            refuse(server, client, Refusal::Silent, "the login took too long");
+    }
+}
+
+}  // namespace terrane::net

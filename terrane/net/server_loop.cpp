@@ -1,0 +1,103 @@
+#include "terrane/net/server_loop.h"
+
+#include <unistd.h>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/read_until.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/streambuf.hpp>
+#include <chrono>
+#include <istream>
+#include <optional>
+#include <string>
+
+#include "terrane/base/printable.h"
+#include "terrane/base/stop_signals.h"
+#include "terrane/net/server.h"
+#include "terrane/net/server_console.h"
+
+namespace terrane::net {
+namespace {
+
+namespace asio = boost::asio;
+
+constexpr std::size_t kMaxConsoleLine = 4096;
+// At the end clients have so long to read that the server stops.
+constexpr std::chrono::seconds kStopTime{2};
+// After a stall ticks are left out rather than made up for.
+constexpr int kMaxTicksBehind = 4;
+
+// Standard input, where the system can wait for it: a terminal or a pipe, no file.
+class Console {
+  public:
+    Console(asio::io_context& context, ServerState& server) : server_(server), input_(context) {
+        boost::system::error_code failed;
+        const int copy = ::dup(STDIN_FILENO);
+        if (copy < 0) return;
+        input_.assign(copy, failed);
+        if (failed)
+            ::close(copy);
+        else
+            read();
+    }
+
+  private:
+    void read() {
+        asio::async_read_until(input_, buffer_, '\n',
+                               [this](const boost::system::error_code& error, std::size_t) {
+                                   if (error) return;
+                                   std::istream lines(&buffer_);
+                                   std::string line;
+                                   std::getline(lines, line);
+                                   run(line);
+                                   read();
+                               });
+    }
+    void run(const std::string& line) {
+        const std::string answer = runConsoleLine(server_, line);
+        if (!answer.empty()) base::printLine("{}", answer);
+    }
+
+    ServerState& server_;
+    asio::posix::stream_descriptor input_;
+    asio::streambuf buffer_{kMaxConsoleLine};
+};
+
+double millisecondsSince(Time start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+void sendGoodbye(asio::io_context& context, ServerSockets& sockets) {
+    const Time end = std::chrono::steady_clock::now() + kStopTime;
+    while (sockets.connectionCount() > 0 && std::chrono::steady_clock::now() < end) {
+        sockets.flush();
+        context.restart();
+        context.run_for(std::chrono::milliseconds(20));
+    }
+}
+
+}  // namespace
+
+base::Result<void> runServer(asio::io_context& context, ServerState& server, ServerSockets& sockets,
+                             const ServerLoop& loop) {
+    const base::StopSignals signals;
+    std::optional<Console> console;
+    if (loop.readsConsole) console.emplace(context, server);
+    Time next = std::chrono::steady_clock::now();
+    while (!server.isStopping && !signals.stopAsked() && !(loop.stopAsked && loop.stopAsked())) {
+        const Time start = std::chrono::steady_clock::now();
+        tick(server, start);
+        sockets.flush();
+        if (loop.onTick) loop.onTick(millisecondsSince(start));
+        next = std::max(next + kServerTick, start - kMaxTicksBehind * kServerTick);
+        context.restart();
+        context.run_until(next);
+    }
+    sockets.stopListening();
+    const auto stopped = stop(server, "the server stops");
+    sendGoodbye(context, sockets);
+    return stopped;
+}
+
+}  // namespace terrane::net

@@ -1,0 +1,137 @@
+#include "terrane/net/server_players.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/net/server_clients.h"
+#include "terrane/net/server_commands.h"
+#include "terrane/net/server_console.h"
+#include "terrane/net/server_view.h"
+
+namespace terrane::net {
+namespace {
+
+constexpr std::uint64_t kTicksPerPing = 100, kTicksPerClock = 200;
+// How far from where it stands a client may look: it has moved meanwhile.
+constexpr int kViewAway = 4;
+
+double distanceBlocks(const WirePose& a, const WirePose& b) {
+    const auto between = [](std::int64_t u, std::int64_t v) {
+        return static_cast<double>(u - v) / kPoseSteps;
+    };
+    return std::hypot(between(a.x, b.x), between(a.y, b.y), between(a.z, b.z));
+}
+
+bool isInWorld(const WirePose& pose) {
+    return world::isInWorld(world::chunkOf(poseOf(pose).position));
+}
+
+void onMove(ServerState& server, ServerClient& client, const Move& move) {
+    const bool isFree = client.role == game::Role::Operator;
+    const double blocks = distanceBlocks(client.pose, move.pose);
+    if (!isInWorld(move.pose) || (!isFree && !client.buckets.blocksAway.take(blocks, server.now)))
+        return send(client, Corrected{client.pose});
+    client.pose = move.pose;
+    server.session.setPlayer(client.player, poseOf(move.pose));
+}
+
+void onView(ServerState& server, ServerClient& client, const View& view) {
+    const world::ChunkPos own = world::chunkOf(poseOf(client.pose).position);
+    const auto away = std::max(std::abs(std::int64_t{own.x} - view.center.x),
+                               std::abs(std::int64_t{own.y} - view.center.y));
+    // A client that was corrected looks elsewhere until it hears of it.
+    if (away <= kViewAway) setClientView(server, client, view);
+}
+
+void onSay(ServerState& server, ServerClient& client, const Say& message) {
+    if (!client.buckets.chat.take(1, server.now)) return say(client, "you talk too fast");
+    if (message.text.empty()) return;
+    if (message.text.front() != '/') {
+        base::logInfo("<{}> {}", client.name, message.text);
+        return sayToAll(server, client.name, message.text);
+    }
+    if (client.role != game::Role::Operator) return say(client, "only operators give commands");
+    base::logInfo("{}: {}", client.name, message.text);
+    say(client, runConsoleLine(server, message.text.substr(1)));
+}
+
+void onAskPlayers(ServerState& server, ServerClient& client) {
+    if (!client.buckets.lists.take(1, server.now)) return;
+    PlayerList list;
+    forEachPlaying(server, [&](const ServerClient& other) {
+        const auto latency = other.latency.value_or(std::chrono::milliseconds(0)).count();
+        if (list.players.size() < kMaxPlayersInMessage)
+            list.players.push_back({other.name, other.role,
+                                    static_cast<std::uint16_t>(std::clamp<std::int64_t>(latency, 0, 65535))});
+    });
+    send(client, list);
+}
+
+// Milliseconds of the server's clock, as Ping has them.
+std::uint32_t pingTime(Time now) {
+    const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch());
+    return static_cast<std::uint32_t>(since.count());
+}
+
+void tellSightTo(ServerState& server, ServerClient& client, const PlayerGrid& grid) {
+    const SightChanges changes =
+        client.sight.update(server.tick, grid.around({client.player, client.pose, client.swungTick}));
+    for (const std::uint16_t slot : changes.disappeared) send(client, Disappears{slot});
+    for (const auto& [slot, player] : changes.appeared) {
+        const ServerClient* other = playingClient(server, player->id);
+        send(client, Appears{slot, player->id, other ? other->name : std::string(), player->pose});
+    }
+    if (!changes.poses.empty()) send(client, Poses{changes.poses});
+}
+
+}  // namespace
+
+void onPlayerMessage(ServerState& server, ServerClient& client, ClientMessage message) {
+    const Time now = server.now;
+    if (const auto* move = std::get_if<Move>(&message)) return onMove(server, client, *move);
+    if (const auto* view = std::get_if<View>(&message)) return onView(server, client, *view);
+    if (auto* edit = std::get_if<Edit>(&message)) return takeCommand(server, client, {std::move(*edit), now});
+    if (const auto* fill = std::get_if<Fill>(&message))
+        return takeCommand(server, client, {Build{fill->number, fill->fill}, now});
+    if (const auto* place = std::get_if<Place>(&message)) return takePlace(server, client, *place);
+    if (const auto* takeBack = std::get_if<TakeBack>(&message))
+        return takeCommand(server, client, {*takeBack, now});
+    if (const auto* text = std::get_if<Say>(&message)) return onSay(server, client, *text);
+    if (std::holds_alternative<AskPlayers>(message)) return onAskPlayers(server, client);
+    if (const auto* pong = std::get_if<Pong>(&message)) {
+        client.latency = std::chrono::milliseconds(pingTime(now) - pong->time);
+        return;
+    }
+    if (std::holds_alternative<Leave>(message)) return leave(server, client);
+    refuse(server, client, Refusal::Disorder,
+           fmt::format("the message {} does not come at this time", nameOf(message)));
+}
+
+void tellSight(ServerState& server) {
+    std::vector<PlayerAt> players;
+    forEachPlaying(server, [&](const ServerClient& client) {
+        players.push_back({client.player, client.pose, client.swungTick});
+    });
+    const PlayerGrid grid(players);
+    // Half of the clients in each tick: what is sent is spread over time.
+    forEachPlaying(server, [&](ServerClient& client) {
+        if ((server.tick + client.id) % kTicksPerSight == 0) tellSightTo(server, client, grid);
+    });
+}
+
+void keepInTouch(ServerState& server) {
+    const game::DayClock& clock = server.session.clock;
+    forEachPlaying(server, [&](ServerClient& client) {
+        if (server.now - client.heardAt > server.settings.silentAfter)
+            return refuse(server, client, Refusal::Silent, "nothing was heard of you for too long");
+        if ((server.tick + client.id) % kTicksPerPing == 0) send(client, Ping{pingTime(server.now)});
+        if ((server.tick + client.id) % kTicksPerClock == 0)
+            send(client, Clock{clock.timeDay, 1 / (60 * clock.dayMinutes)});
+        if (client.outgoing.size() + client.unsent > server.settings.maxUnsentBytes)
+            refuse(server, client, Refusal::TooSlow, "your connection is too slow for what the server tells");
+    });
+}
+
+}  // namespace terrane::net

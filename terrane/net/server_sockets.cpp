@@ -1,0 +1,280 @@
+#include "terrane/net/server_sockets.h"
+
+#include <algorithm>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ip/v6_only.hpp>
+#include <boost/asio/ssl/stream.hpp>
+#include <boost/asio/write.hpp>
+#include <map>
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/net/frames.h"
+#include "terrane/net/server.h"
+#include "terrane/net/tls.h"
+
+namespace terrane::net {
+namespace {
+
+namespace asio = boost::asio;
+using Tcp = asio::ip::tcp;
+using SocketError = boost::system::error_code;
+
+constexpr std::size_t kReadBytes = 4096;
+// A client that is sent away has so long to read why.
+constexpr std::chrono::seconds kClosingTime{2};
+
+}  // namespace
+
+struct ServerConnection {
+    ServerConnection(ConnectionId number, Tcp::socket opened)
+        : id(number), socket(std::move(opened)), openedAt(std::chrono::steady_clock::now()) {}
+
+    ConnectionId id;
+    Tcp::socket socket;
+    std::string address;
+    Time openedAt;
+    std::optional<asio::ssl::stream<Tcp::socket&>> stream;  // once the first bytes are there
+    FrameReader reader{kMaxClientMessage};
+    std::array<std::byte, kReadBytes> input;
+    Bytes sending;
+    bool isOpened = false;  // the server knows it
+    std::optional<Time> closingSince;
+};
+using ConnectionPtr = std::shared_ptr<ServerConnection>;
+
+namespace {
+
+std::string addressOf(const Tcp::socket& socket) {
+    SocketError error;
+    const auto endpoint = socket.remote_endpoint(error);
+    return error ? std::string("somewhere") : endpoint.address().to_string();
+}
+
+base::Result<Tcp::endpoint> endpointOf(const ListenAddress& address) {
+    SocketError error;
+    const auto parsed = asio::ip::make_address(address.address, error);
+    if (error)
+        return base::fail(base::ErrorCode::BadInput,
+                          "{}: not an address to listen on, such as 0.0.0.0 or ::1", address.address);
+    return Tcp::endpoint(parsed, address.port);
+}
+
+}  // namespace
+
+struct ServerSockets::Impl {
+    Impl(asio::io_context& io, ServerState& state, asio::ssl::context tlsContext)
+        : server(state), tls(std::move(tlsContext)), acceptor(io) {}
+
+    base::Result<void> listen(const ListenAddress& address);
+    void accept();
+    void addConnection(Tcp::socket socket);
+    void makeRoom();
+    void waitForClient(const ConnectionPtr& connection);
+    void handshake(const ConnectionPtr& connection);
+    void read(const ConnectionPtr& connection);
+    void takeFrames(const ConnectionPtr& connection, std::size_t bytes);
+    void flush(const ConnectionPtr& connection);
+    void send(const ConnectionPtr& connection);
+    void close(const ConnectionPtr& connection);
+    bool plays(const ServerConnection& connection) const;
+
+    ServerState& server;
+    asio::ssl::context tls;
+    Tcp::acceptor acceptor;
+    std::map<ConnectionId, ConnectionPtr> connections;
+    ConnectionId lastId = 0;
+    bool isAccepting = false;
+};
+
+base::Result<void> ServerSockets::Impl::listen(const ListenAddress& address) {
+    const auto endpoint = endpointOf(address);
+    if (!endpoint) return tl::unexpected(endpoint.error());
+    SocketError error;
+    acceptor.open(endpoint->protocol(), error);
+    if (!error) acceptor.set_option(Tcp::acceptor::reuse_address(true), error);
+    if (!error && endpoint->address().is_v6()) acceptor.set_option(asio::ip::v6_only(false), error);
+    if (!error) acceptor.bind(*endpoint, error);
+    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+    if (!error) acceptor.non_blocking(true, error);
+    if (error)
+        return base::fail(error == asio::error::address_in_use ? base::ErrorCode::Busy : base::ErrorCode::Io,
+                          "{} port {}: cannot be listened on: {}", address.address, address.port,
+                          error.message());
+    accept();
+    return {};
+}
+
+void ServerSockets::Impl::accept() {
+    isAccepting = true;
+    acceptor.async_accept([this](const SocketError& error, Tcp::socket socket) {
+        isAccepting = false;
+        if (error) return;  // no more files, as it may be: the next tick tries again
+        addConnection(std::move(socket));
+        accept();
+    });
+}
+
+bool ServerSockets::Impl::plays(const ServerConnection& connection) const {
+    const auto found = server.clients.find(connection.id);
+    return found != server.clients.end() && found->second.stage == ServerClient::Stage::Playing;
+}
+
+// Of the address that has most, the oldest goes.
+void ServerSockets::Impl::makeRoom() {
+    std::map<std::string_view, std::vector<ConnectionPtr>> pending;
+    std::size_t count = 0;
+    for (const auto& [id, connection] : connections) {
+        if (plays(*connection)) continue;
+        pending[connection->address].push_back(connection);
+        ++count;
+    }
+    if (count < kMaxPendingConnections) return;
+    const auto most =
+        std::ranges::max_element(pending, {}, [](const auto& entry) { return entry.second.size(); });
+    close(ConnectionPtr(most->second.front()));
+}
+
+void ServerSockets::Impl::addConnection(Tcp::socket socket) {
+    makeRoom();
+    SocketError ignored;
+    socket.set_option(Tcp::no_delay(true), ignored);
+    const auto connection = std::make_shared<ServerConnection>(++lastId, std::move(socket));
+    connection->address = addressOf(connection->socket);
+    connections[connection->id] = connection;
+    waitForClient(connection);
+}
+
+// A connection that says nothing costs a socket and no more.
+void ServerSockets::Impl::waitForClient(const ConnectionPtr& connection) {
+    connection->socket.async_wait(Tcp::socket::wait_read, [this, connection](const SocketError& error) {
+        if (error) return close(connection);
+        handshake(connection);
+    });
+}
+
+void ServerSockets::Impl::handshake(const ConnectionPtr& connection) {
+    connection->stream.emplace(connection->socket, tls);
+    connection->stream->async_handshake(
+        asio::ssl::stream_base::server, [this, connection](const SocketError& error) {
+            if (error || !connections.contains(connection->id)) return close(connection);
+            connection->isOpened = true;
+            onOpened(server, connection->id, channelOf(connection->stream->native_handle()),
+                     connection->address, std::chrono::steady_clock::now());
+            read(connection);
+        });
+}
+
+void ServerSockets::Impl::read(const ConnectionPtr& connection) {
+    connection->stream->async_read_some(asio::buffer(connection->input),
+                                        [this, connection](const SocketError& error, std::size_t bytes) {
+                                            if (error) return close(connection);
+                                            takeFrames(connection, bytes);
+                                            if (connections.contains(connection->id)) read(connection);
+                                        });
+}
+
+void ServerSockets::Impl::takeFrames(const ConnectionPtr& connection, std::size_t bytes) {
+    const Time now = std::chrono::steady_clock::now();
+    connection->reader.add(ByteView(connection->input).first(bytes));
+    while (true) {
+        const auto frame = connection->reader.next();
+        if (!frame) {
+            onNonsense(server, connection->id, frame.error().message, now);
+            break;
+        }
+        if (!*frame) break;
+        onMessage(server, connection->id, **frame, now);
+    }
+    // Answers of the login do not wait for the tick.
+    if (!plays(*connection)) flush(connection);
+}
+
+void ServerSockets::Impl::flush(const ConnectionPtr& connection) {
+    const auto found = server.clients.find(connection->id);
+    if (found == server.clients.end() || !connection->sending.empty()) return;
+    ServerClient& client = found->second;
+    if (!client.outgoing.empty()) {
+        connection->sending.swap(client.outgoing);
+        client.unsent = connection->sending.size();
+        return send(connection);
+    }
+    if (client.stage == ServerClient::Stage::Closed) close(connection);
+}
+
+void ServerSockets::Impl::send(const ConnectionPtr& connection) {
+    asio::async_write(*connection->stream, asio::buffer(connection->sending),
+                      [this, connection](const SocketError& error, std::size_t) {
+                          connection->sending.clear();
+                          if (error) return close(connection);
+                          if (const auto found = server.clients.find(connection->id);
+                              found != server.clients.end())
+                              found->second.unsent = 0;
+                          if (connections.contains(connection->id)) flush(connection);
+                      });
+}
+
+void ServerSockets::Impl::close(const ConnectionPtr& connection) {
+    if (connections.erase(connection->id) == 0) return;
+    SocketError ignored;
+    connection->socket.shutdown(Tcp::socket::shutdown_both, ignored);
+    connection->socket.close(ignored);
+    if (connection->isOpened) onClosed(server, connection->id, std::chrono::steady_clock::now());
+}
+
+ServerSockets::ServerSockets(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+ServerSockets::~ServerSockets() {
+    stopListening();
+    while (!impl_->connections.empty()) impl_->close(ConnectionPtr(impl_->connections.begin()->second));
+}
+
+base::Result<std::unique_ptr<ServerSockets>> ServerSockets::open(asio::io_context& context,
+                                                                 ServerState& server,
+                                                                 const ListenAddress& address,
+                                                                 const std::filesystem::path& keyFile) {
+    auto tls = serverContext(keyFile);
+    if (!tls) return tl::unexpected(tls.error());
+    auto impl = std::make_unique<Impl>(context, server, std::move(*tls));
+    if (auto listening = impl->listen(address); !listening) return tl::unexpected(listening.error());
+    return std::unique_ptr<ServerSockets>(new ServerSockets(std::move(impl)));
+}
+
+std::uint16_t ServerSockets::port() const {
+    SocketError error;
+    return impl_->acceptor.local_endpoint(error).port();
+}
+
+std::string ServerSockets::key() const {
+    return ownKey(impl_->tls.native_handle());
+}
+
+void ServerSockets::flush() {
+    const Time now = std::chrono::steady_clock::now();
+    std::vector<ConnectionPtr> all;
+    for (const auto& [id, connection] : impl_->connections) all.push_back(connection);
+    for (const ConnectionPtr& connection : all) {
+        const auto found = impl_->server.clients.find(connection->id);
+        const bool isKnown = found != impl_->server.clients.end();
+        const bool isClosed = isKnown && found->second.stage == ServerClient::Stage::Closed;
+        if (isClosed && !connection->closingSince) connection->closingSince = now;
+        const bool tookTooLong = !isKnown && now - connection->openedAt > impl_->server.settings.loginWithin;
+        if (tookTooLong || (isClosed && now - *connection->closingSince > kClosingTime))
+            impl_->close(connection);
+        else
+            impl_->flush(connection);
+    }
+    if (impl_->acceptor.is_open() && !impl_->isAccepting) impl_->accept();
+}
+
+void ServerSockets::stopListening() {
+    SocketError ignored;
+    impl_->acceptor.close(ignored);
+}
+
+std::size_t ServerSockets::connectionCount() const {
+    return impl_->connections.size();
+}
+
+}  // namespace terrane::net

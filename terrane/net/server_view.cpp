@@ -1,0 +1,155 @@
+#include "terrane/net/server_view.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "terrane/net/server_clients.h"
+#include "terrane/stream/tile_table.h"
+
+namespace terrane::net {
+namespace {
+
+using world::ChunkPos;
+
+// Where so many bytes wait to be sent, edits wait, too.
+constexpr std::size_t kUnsentBytes = 64 << 10;
+// Differences that workers find for a client at a time.
+constexpr std::size_t kLooksAhead = 16;
+// A tile under work changes each time that the world is saved; it is told again after so many ticks.
+constexpr std::uint64_t kTicksPerTileChange = 200;
+
+std::int64_t distance(ChunkPos a, ChunkPos b) {
+    return std::max(std::abs(std::int64_t{a.x} - b.x), std::abs(std::int64_t{a.y} - b.y));
+}
+
+ChunkPos above(ChunkPos chunk, int level) {
+    return {chunk.x >> level, chunk.y >> level, static_cast<std::uint8_t>(level)};
+}
+
+// Whether the client is to know a chunk or tile. `more`: chunks or tiles that it keeps beyond those.
+bool isInView(const View& view, ChunkPos pos, int more = 0) {
+    const std::int64_t away = distance(pos, above(view.center, pos.level));
+    // One more than is visible, as meshes look at their neighbors.
+    if (pos.level == 0) return away <= view.viewDistance + 1 + more;
+    const std::int64_t horizon = (view.horizon >> pos.level) + 1;
+    return away >= kNearestTile - more && away <= std::min<std::int64_t>(kFarthestTile, horizon) + more;
+}
+
+int topLevelOf(const View& view) {
+    if (view.horizon == 0) return 0;
+    return stream::coarsestLevel({.horizon = view.horizon, .detail = stream::kMinDetail});
+}
+
+// In blocks of level 0, from the middle of the view.
+double orderOf(const View& view, ChunkPos pos) {
+    const double width = 1 << pos.level;
+    const double x = (pos.x + 0.5) * width - view.center.x, y = (pos.y + 0.5) * width - view.center.y;
+    return x * x + y * y;
+}
+
+void sendDifference(ServerClient& client, ChunkPos pos, const ChunkDifference& difference) {
+    bool isFirst = true;
+    for (const std::span<const ChangedBlock> part : partsOf(difference)) {
+        send(client, ChunkEdits{pos, isFirst, ChunkDifference(part.begin(), part.end())});
+        isFirst = false;
+    }
+}
+
+// Tells the nearest that are known, until the client has enough to read.
+void tellView(ServerState& server, ServerClient& client) {
+    std::size_t pending = 0;
+    for (std::size_t k = client.toTell.size(); k-- > 0 && pending < kLooksAhead;) {
+        if (client.outgoing.size() + client.unsent >= kUnsentBytes) return;
+        const ChunkPos pos = client.toTell[k];
+        const ChunkDifference* difference = server.edited.maybeDifference(pos);
+        if (!difference) {
+            ++pending;
+            continue;
+        }
+        sendDifference(client, pos, *difference);
+        client.told.insert(pos);
+        client.toTell.erase(client.toTell.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+    if (!client.toTell.empty() || !client.owesViewComplete) return;
+    client.owesViewComplete = false;
+    send(client, ViewComplete{client.view->center});
+}
+
+// A tile that changed is told again to those who know the former one.
+void tellChangedTiles(ServerState& server) {
+    if (server.tick % kTicksPerTileChange != 0) return;
+    for (const ChunkPos tile : server.tilesToTell) {
+        server.edited.onTileChanged(tile);
+        forEachPlaying(server, [&](ServerClient& client) {
+            if (client.view && client.told.erase(tile) > 0 && isInView(*client.view, tile))
+                client.toTell.insert(client.toTell.begin(), tile);
+        });
+    }
+    server.tilesToTell.clear();
+}
+
+void takeWrittenTiles(ServerState& server) {
+    const std::lock_guard lock(server.writtenTiles->mutex);
+    server.tilesToTell.insert(server.writtenTiles->tiles.begin(), server.writtenTiles->tiles.end());
+    server.writtenTiles->tiles.clear();
+}
+
+ChunkDifference valuesNow(const world::World& world, ChunkPos pos, std::vector<world::BlockIndex>& indices) {
+    std::ranges::sort(indices);
+    indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+    ChunkDifference blocks;
+    for (const world::BlockIndex index : indices)
+        blocks.push_back({index, world::blockValue(world, world::blockPos(pos, index))});
+    return blocks;
+}
+
+}  // namespace
+
+void setClientView(ServerState& server, ServerClient& client, const View& view) {
+    client.view = view;
+    client.view->viewDistance =
+        static_cast<std::uint8_t>(std::min<int>(view.viewDistance, server.settings.maxViewDistance));
+    client.view->horizon = static_cast<std::uint16_t>(std::min<int>(view.horizon, stream::kMaxHorizon));
+    std::erase_if(client.told, [&](ChunkPos pos) { return !isInView(*client.view, pos, 1); });
+    client.toTell.clear();
+    for (int level = 0; level <= topLevelOf(*client.view); ++level) {
+        const int radius = level == 0 ? client.view->viewDistance + 1 : kFarthestTile;
+        for (const ChunkPos pos : server.edited.within(above(view.center, level), radius))
+            if (!client.told.contains(pos) && isInView(*client.view, pos)) client.toTell.push_back(pos);
+    }
+    std::ranges::sort(client.toTell, [&](ChunkPos a, ChunkPos b) {
+        return std::pair(orderOf(view, a), a) > std::pair(orderOf(view, b), b);
+    });
+    client.owesViewComplete = true;
+}
+
+void tellChangedBlocks(ServerState& server) {
+    for (auto& [pos, indices] : server.changed) {
+        const ChunkDifference blocks = valuesNow(server.session.world(), pos, indices);
+        const bool isNew = server.edited.add(pos);
+        server.edited.onChanged(pos, blocks);
+        std::vector<Bytes> messages;
+        for (const std::span<const ChangedBlock> part : partsOf(blocks))
+            messages.push_back(
+                encode(ServerMessage(BlocksChanged{pos, ChunkDifference(part.begin(), part.end())})));
+        forEachPlaying(server, [&](ServerClient& client) {
+            if (!client.view || !isInView(*client.view, pos)) return;
+            // Who does not know the chunk yet is told all of it soon.
+            if (isNew) client.told.insert(pos);
+            if (!client.told.contains(pos)) return;
+            for (const Bytes& message : messages) sendEncoded(client, message);
+        });
+    }
+    server.changed.clear();
+}
+
+void tellViews(ServerState& server) {
+    server.edited.update();
+    takeWrittenTiles(server);
+    tellChangedTiles(server);
+    forEachPlaying(server, [&](ServerClient& client) {
+        if (client.view) tellView(server, client);
+    });
+}
+
+}  // namespace terrane::net

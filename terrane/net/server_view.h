@@ -1,0 +1,20 @@
+// What clients are told of the world: how edited chunks in view, and edited tiles beyond them, differ from
+// the generator's, the nearest first, then each change. On the server's thread.
+#pragma once
+
+#include "terrane/net/server_state.h"
+
+namespace terrane::net {
+
+// A tile is told where it is so many of its widths away (Chebyshev): nearer ones are never shown
+// (docs/levels.md), and with the finest detail none is farther away.
+constexpr int kNearestTile = 3, kFarthestTile = 33;
+
+// The client looks at another part of the world.
+void setClientView(ServerState& server, ServerClient& client, const View& view);
+// Blocks that changed since the last tick, to all in whose view they are. In each tick.
+void tellChangedBlocks(ServerState& server);
+// What clients lack of their views, as fast as they read. In each tick, after tellChangedBlocks().
+void tellViews(ServerState& server);
+
+}  // namespace terrane::net

@@ -1,0 +1,121 @@
+#include "terrane/net/tls.h"
+
+#include <fcntl.h>
+#include <fmt/ranges.h>
+#include <openssl/evp.h>
+#include <openssl/pem.h>
+#include <openssl/x509.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+namespace terrane::net {
+namespace {
+
+namespace ssl = boost::asio::ssl;
+
+template <auto free>
+struct Free {
+    void operator()(auto* pointer) const { free(pointer); }
+};
+using Key = std::unique_ptr<EVP_PKEY, Free<EVP_PKEY_free>>;
+using Certificate = std::unique_ptr<X509, Free<X509_free>>;
+
+constexpr long kYears = 100;  // nobody looks at the end: clients remember the key
+
+Certificate certificateFor(EVP_PKEY* key) {
+    Certificate certificate(X509_new());
+    X509_set_version(certificate.get(), 2);
+    ASN1_INTEGER_set(X509_get_serialNumber(certificate.get()), 1);
+    X509_gmtime_adj(X509_getm_notBefore(certificate.get()), -24 * 3600);
+    X509_time_adj_ex(X509_getm_notAfter(certificate.get()), static_cast<int>(kYears * 365), 0, nullptr);
+    X509_set_pubkey(certificate.get(), key);
+    X509_NAME* name = X509_get_subject_name(certificate.get());
+    const auto* text = reinterpret_cast<const unsigned char*>("terrane server");
+    X509_NAME_add_entry_by_txt(name, "CN", MBSTRING_ASC, text, -1, -1, 0);
+    X509_set_issuer_name(certificate.get(), name);
+    const bool isSigned = X509_sign(certificate.get(), key, EVP_sha256()) > 0;
+    return isSigned ? std::move(certificate) : nullptr;
+}
+
+// Key and certificate in one file, which nobody else can read at any time.
+base::Result<void> makeKeyFile(const std::filesystem::path& file) {
+    const Key key(EVP_PKEY_Q_keygen(nullptr, nullptr, "EC", "P-256"));
+    const Certificate certificate = key ? certificateFor(key.get()) : nullptr;
+    if (!certificate) return base::fail("{}: no key can be made", file.string());
+    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    std::FILE* out = descriptor >= 0 ? ::fdopen(descriptor, "w") : nullptr;
+    const bool isWritten = out &&
+                           PEM_write_PrivateKey(out, key.get(), nullptr, nullptr, 0, nullptr, nullptr) &&
+                           PEM_write_X509(out, certificate.get());
+    const int error = errno;
+    const bool isClosed = out && std::fclose(out) == 0;
+    if (isWritten && isClosed) return {};
+    return base::fail(base::ErrorCode::Io, "{}: the server's key cannot be written: {}", file.string(),
+                      base::systemReason(error));
+}
+
+std::string keyOf(X509* certificate) {
+    if (!certificate) return {};
+    unsigned char* der = nullptr;
+    const int length = i2d_X509_PUBKEY(X509_get_X509_PUBKEY(certificate), &der);
+    if (length <= 0) return {};
+    std::array<unsigned char, 32> hash;
+    const bool isHashed =
+        EVP_Digest(der, static_cast<std::size_t>(length), hash.data(), nullptr, EVP_sha256(), nullptr);
+    OPENSSL_free(der);
+    return isHashed ? fmt::format("{:02x}", fmt::join(hash, "")) : std::string();
+}
+
+// Connections are many and mostly idle: they keep no buffers meanwhile.
+void prepareContext(ssl::context& context) {
+    SSL_CTX_set_min_proto_version(context.native_handle(), TLS1_3_VERSION);
+    SSL_CTX_set_mode(context.native_handle(), SSL_MODE_RELEASE_BUFFERS);
+    SSL_CTX_set_session_cache_mode(context.native_handle(), SSL_SESS_CACHE_OFF);
+    SSL_CTX_set_num_tickets(context.native_handle(), 0);
+}
+
+}  // namespace
+
+base::Result<ssl::context> serverContext(const std::filesystem::path& keyFile) {
+    std::error_code error;
+    if (!std::filesystem::exists(keyFile, error))
+        if (auto made = makeKeyFile(keyFile); !made) return tl::unexpected(made.error());
+    ssl::context context(ssl::context::tls_server);
+    prepareContext(context);
+    boost::system::error_code failed;
+    context.use_certificate_chain_file(keyFile.string(), failed);
+    if (!failed) context.use_private_key_file(keyFile.string(), ssl::context::pem, failed);
+    if (failed)
+        return base::fail(base::ErrorCode::Damaged, "{}: no key and certificate of a server: {}",
+                          keyFile.string(), failed.message());
+    return context;
+}
+
+ssl::context clientContext() {
+    ssl::context context(ssl::context::tls_client);
+    prepareContext(context);
+    context.set_verify_mode(ssl::verify_none);
+    return context;
+}
+
+std::string peerKey(SSL* connection) {
+    const Certificate certificate(SSL_get1_peer_certificate(connection));
+    return keyOf(certificate.get());
+}
+
+std::string ownKey(SSL_CTX* context) {
+    return keyOf(SSL_CTX_get0_certificate(context));
+}
+
+Bytes channelOf(SSL* connection) {
+    constexpr std::string_view kLabel = "EXPORTER-Channel-Binding";
+    Bytes channel(32);
+    const int done = SSL_export_keying_material(connection, reinterpret_cast<unsigned char*>(channel.data()),
+                                                channel.size(), kLabel.data(), kLabel.size(), nullptr, 0, 1);
+    return done == 1 ? channel : Bytes();
+}
+
+}  // namespace terrane::net
