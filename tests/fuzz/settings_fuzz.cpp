@@ -1,6 +1,6 @@
 // libFuzzer: any text as settings.toml, and changes that a player makes to it. A file that was read must be
 // readable after the changes, with their values.
-#include "apps/terrane/window/settings.h"
+#include "apps/terrane/settings.h"
 
 #include <toml++/toml.h>
 

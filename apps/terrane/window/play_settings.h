@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "apps/terrane/graphics_options.h"
+#include "apps/terrane/settings.h"
 #include "apps/terrane/window/key_bindings.h"
-#include "apps/terrane/window/settings.h"
 #include "terrane/game/player.h"
 #include "terrane/mesh/mesh_options.h"
 #include "terrane/render/frame_input.h"

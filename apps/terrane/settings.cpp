@@ -1,4 +1,4 @@
-#include "apps/terrane/window/settings.h"
+#include "apps/terrane/settings.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,0 +1,152 @@
+#include "apps/terrane/bots/bot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "terrane/world/character.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr double kWalkSpeed = 4.3;
+constexpr double kRoam = 48, kCrowdRoam = 10;
+constexpr std::chrono::milliseconds kMoveEvery{100};
+
+net::ClientIdentity identityOf(const BotSettings& settings, int number) {
+    net::ClientIdentity identity;
+    identity.name = fmt::format("{}{}", settings.name, number);
+    identity.password = settings.password;
+    identity.program = fmt::format("terrane bots {}", TERRANE_VERSION);
+    identity.key = net::newPlayerKey();
+    if (settings.keyFolder.empty()) return identity;
+    const auto kept =
+        net::loadPlayerKey(std::filesystem::path(settings.keyFolder) / (identity.name + ".key"));
+    if (kept) identity.key = *kept;
+    return identity;
+}
+
+double millisecondsBetween(BotTime from, BotTime to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+}  // namespace
+
+Bot::Bot(boost::asio::io_context& context, BotWorld& world, const BotSettings& settings, int number)
+    : world_(world),
+      settings_(settings),
+      random_(static_cast<std::uint32_t>(number)),
+      number_(number),
+      builds_(settings.behaviour == BotBehaviour::Build ||
+              std::fmod(number * settings.builders, 1.0) + settings.builders >= 1.0),
+      link_(context, settings.address, identityOf(settings, number),
+            {[](const std::string&) { return true; },
+             [this](const net::WorldOffer& offer) { return world_.land.prove(offer); },
+             [this](const net::ServerMessage& message) { onMessage(message); }}) {}
+
+void Bot::onMessage(const net::ServerMessage& message) {
+    if (const auto* joined = std::get_if<net::Joined>(&message)) return onJoined(*joined);
+    if (const auto* changed = std::get_if<net::BlocksChanged>(&message)) return onBlocks(*changed);
+    if (const auto* done = std::get_if<net::Done>(&message)) return onDone(*done);
+    if (const auto* corrected = std::get_if<net::Corrected>(&message)) {
+        pose_ = net::poseOf(corrected->pose);
+        ++world_.corrections;
+    }
+}
+
+void Bot::onJoined(const net::Joined& joined) {
+    ++world_.joins;
+    player_ = joined.player;
+    pose_ = net::poseOf(joined.pose);
+    if (!world_.crowd) world_.crowd = pose_;
+    home_ = settings_.behaviour == BotBehaviour::Crowd ? *world_.crowd : pose_;
+    // What the server did not decide on may be there or not.
+    for (const auto& [command, pending] : pending_) world_.acknowledged.erase(pending.pos);
+    pending_.clear();
+    toldView_.reset();
+    moved_ = builtAt_ = std::chrono::steady_clock::now();
+    chooseGoal();
+    tellView();
+}
+
+void Bot::onBlocks(const net::BlocksChanged& changed) {
+    if (world_.unseen.empty()) return;
+    for (const net::ChangedBlock& block : changed.blocks) {
+        const auto sent = world_.unseen.find(world::blockPos(changed.chunk, block.index));
+        if (sent == world_.unseen.end() || sent->second.by == player_) continue;
+        world_.seenMs.push_back(millisecondsBetween(sent->second.at, std::chrono::steady_clock::now()));
+        world_.unseen.erase(sent);
+    }
+}
+
+void Bot::onDone(const net::Done& done) {
+    const auto found = pending_.find(done.number);
+    if (found == pending_.end()) return;
+    world_.decidedMs.push_back(millisecondsBetween(found->second.at, std::chrono::steady_clock::now()));
+    const auto result = static_cast<game::EditResult>(done.result);
+    if (result == game::EditResult::Applied)
+        world_.acknowledged[found->second.pos] = found->second.id;
+    else
+        ++world_.refused;
+    pending_.erase(found);
+}
+
+void Bot::chooseGoal() {
+    const double roam = settings_.behaviour == BotBehaviour::Crowd ? kCrowdRoam : kRoam;
+    std::uniform_real_distribution<double> away(-roam, roam);
+    goal_ = {home_.position.x + away(random_), home_.position.y + away(random_)};
+}
+
+// Straight to the goal, on the ground as the generator makes it; up and down as fast as that needs.
+void Bot::walk(double seconds) {
+    const glm::dvec2 here(pose_.position), way = goal_ - here;
+    const double distance = glm::length(way), step = std::min(kWalkSpeed * seconds, distance);
+    if (distance < 0.5) return chooseGoal();
+    const glm::dvec2 next = here + way / distance * step;
+    const int ground = world_.land.groundHeight(static_cast<std::int32_t>(std::floor(next.x)),
+                                                static_cast<std::int32_t>(std::floor(next.y)));
+    pose_.position = {next, ground + 1 + world::kEyeHeight};
+    pose_.yaw = static_cast<float>(std::atan2(way.y, way.x) * 180 / 3.14159265358979);
+}
+
+// A block at a place near the feet: put where nothing is, taken away where this bot put one.
+void Bot::build(BotTime now) {
+    builtAt_ = now;
+    std::uniform_int_distribution<int> away(-3, 3), up(1, 3);
+    const world::BlockPos feet{static_cast<std::int32_t>(std::floor(pose_.position.x)) + away(random_),
+                               static_cast<std::int32_t>(std::floor(pose_.position.y)) + away(random_), 0};
+    const world::BlockPos pos{feet.x, feet.y,
+                              std::min(world_.land.groundHeight(feet.x, feet.y) + up(random_), 255)};
+    if (world_.owners.try_emplace(pos, number_).first->second != number_) return;
+    const auto known = world_.acknowledged.find(pos);
+    const bool isThere = known != world_.acknowledged.end() && known->second != world::kAir;
+    const world::BlockId id = isThere ? world::kAir : world_.land.blocks().find("stone")->id;
+    const net::CommandNumber number = ++lastCommand_;
+    pending_[number] = {now, pos, id};
+    world_.unseen[pos] = {now, player_};
+    ++world_.edits;
+    link_.send(net::Edit{number, pos, world::SetBlock{id, 0}, std::nullopt});
+}
+
+void Bot::tellView() {
+    const world::ChunkPos center = world::chunkOf(pose_.position);
+    if (toldView_ == center) return;
+    toldView_ = center;
+    link_.send(net::View{center, static_cast<std::uint8_t>(settings_.viewDistance), 0});
+}
+
+void Bot::update(BotTime now) {
+    link_.update(now);
+    const bool isJoined = link_.stage() == net::ClientLink::Stage::Joined;
+    world_.cuts += wasJoined_ && !isJoined;
+    wasJoined_ = isJoined;
+    if (!isJoined || now - moved_ < kMoveEvery) return;
+    walk(std::chrono::duration<double>(now - moved_).count());
+    moved_ = now;
+    link_.send(net::Move{net::wirePose(pose_)});
+    tellView();
+    const std::chrono::duration<double> sinceEdit = now - builtAt_;
+    if (builds_ && sinceEdit.count() * settings_.editsPerSecond >= 1) build(now);
+}
+
+}  // namespace terrane::app

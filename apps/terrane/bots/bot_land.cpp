@@ -1,0 +1,36 @@
+#include "apps/terrane/bots/bot_land.h"
+
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/net/remote_session.h"
+
+namespace terrane::app {
+
+base::Result<net::SampleDigests> BotLand::prove(const net::WorldOffer& offer) {
+    if (generator_ && offer.world == offer_.world && offer.samples == offer_.samples) return digests_;
+    if (auto fits = net::checkOffer(offer, *blocks_); !fits) return tl::unexpected(fits.error());
+    auto graph = gen::makeGenerator(offer.world.identity.generator, *blocks_);
+    if (!graph) return tl::unexpected(graph.error());
+    generator_ = std::make_unique<gen::Generator>(std::move(*graph), offer.world.identity.seed);
+    offer_ = offer;
+    digests_ = net::sampleDigests(*generator_, offer.samples);
+    heights_.clear();
+    return digests_;
+}
+
+int BotLand::groundHeight(std::int32_t x, std::int32_t y) {
+    const world::BlockPos pos{x, y, 0};
+    const auto [found, isNew] = heights_.try_emplace(world::chunkOf(pos));
+    if (isNew) {
+        const world::Chunk chunk = generator_->generate(world::chunkOf(pos));
+        for (std::size_t column = 0; column < 256; ++column) {
+            int z = world::kChunkHeight - 1;
+            while (z > 0 && chunk.block(static_cast<world::BlockIndex>(
+                                column + 256 * static_cast<std::size_t>(z))) == world::kAir)
+                --z;
+            found->second[column] = static_cast<std::uint8_t>(z);
+        }
+    }
+    return found->second[world::blockIndex(pos)];
+}
+
+}  // namespace terrane::app

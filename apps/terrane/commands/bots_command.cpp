@@ -1,0 +1,171 @@
+// terrane bots: players without screens, for load tests and as an example of a client.
+#include <algorithm>
+#include <boost/asio/io_context.hpp>
+#include <deque>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/terrane/bots/bot.h"
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/options.h"
+#include "apps/terrane/serve/open_file_limit.h"
+#include "terrane/base/log.h"
+#include "terrane/base/process_statistics.h"
+#include "terrane/base/stop_signals.h"
+#include "terrane/content/built_in.h"
+
+namespace terrane::app {
+namespace {
+
+struct BotsOptions {
+    std::string server;
+    int count = 10;
+    double seconds = 60;
+    double joinsPerSecond = 50;
+    BotSettings bots;
+};
+
+double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    const auto at =
+        std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())));
+    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(at));
+    return values[at];
+}
+
+std::uint64_t receivedBytes(const std::deque<Bot>& bots) {
+    std::uint64_t bytes = 0;
+    for (const Bot& bot : bots) bytes += bot.link().receivedBytes();
+    return bytes;
+}
+std::uint64_t sentBytes(const std::deque<Bot>& bots) {
+    std::uint64_t bytes = 0;
+    for (const Bot& bot : bots) bytes += bot.link().sentBytes();
+    return bytes;
+}
+
+std::size_t joinedCount(const std::deque<Bot>& bots) {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        bots, [](const Bot& bot) { return bot.link().stage() == net::ClientLink::Stage::Joined; }));
+}
+
+// An error where a bot cannot come in at all.
+base::Result<void> checkEnded(const std::deque<Bot>& bots) {
+    for (const Bot& bot : bots)
+        if (bot.link().stage() == net::ClientLink::Stage::Ended) return base::fail("{}", bot.link().reason());
+    return {};
+}
+
+// Bytes and time since all bots were there: what a player costs that plays.
+struct Since {
+    BotTime at;
+    std::uint64_t received = 0, sent = 0;
+};
+
+void printReport(const BotWorld& world, const std::deque<Bot>& bots, const Since& since, BotTime now) {
+    const double seconds = std::chrono::duration<double>(now - since.at).count();
+    const double players = static_cast<double>(std::max<std::size_t>(bots.size(), 1));
+    const auto perPlayer = [&](std::uint64_t bytes) {
+        return static_cast<double>(bytes) / 1000 / std::max(seconds, 1e-3) / players;
+    };
+    const nlohmann::json report = {{"bots", bots.size()},
+                                   {"joined", joinedCount(bots)},
+                                   {"seconds", seconds},
+                                   {"edits", world.edits},
+                                   {"refused", world.refused},
+                                   {"seen", world.seenMs.size()},
+                                   {"seen_ms_median", quantile(world.seenMs, 0.5)},
+                                   {"seen_ms_p99", quantile(world.seenMs, 0.99)},
+                                   {"decided_ms_median", quantile(world.decidedMs, 0.5)},
+                                   {"decided_ms_p99", quantile(world.decidedMs, 0.99)},
+                                   {"received_kb_s_player", perPlayer(receivedBytes(bots) - since.received)},
+                                   {"sent_kb_s_player", perPlayer(sentBytes(bots) - since.sent)},
+                                   {"corrections", world.corrections},
+                                   {"cuts", world.cuts},
+                                   {"memory_mb", base::megabytes(base::residentBytes())}};
+    std::cout << report.dump(1) << '\n';
+}
+
+base::Result<void> runBots(BotsOptions& options) {
+    auto address = net::serverAddress(options.server);
+    if (!address) return tl::unexpected(address.error());
+    options.bots.address = *address;
+    auto blocks = content::loadBlocks();
+    if (!blocks) return tl::unexpected(blocks.error());
+    raiseOpenFileLimit();
+    BotWorld world(std::make_unique<const world::BlockRegistry>(std::move(*blocks)));
+    boost::asio::io_context context;
+    std::deque<Bot> bots;
+    const base::StopSignals signals;
+    const BotTime start = std::chrono::steady_clock::now();
+    std::optional<Since> since;
+    while (!signals.stopAsked()) {
+        const BotTime now = std::chrono::steady_clock::now();
+        const std::chrono::duration<double> passed = now - start;
+        const int due =
+            std::min(options.count, 1 + static_cast<int>(passed.count() * options.joinsPerSecond));
+        while (static_cast<int>(bots.size()) < due)
+            bots.emplace_back(context, world, options.bots, static_cast<int>(bots.size()));
+        for (Bot& bot : bots) bot.update(now);
+        if (auto checked = checkEnded(bots); !checked) return checked;
+        if (!since && joinedCount(bots) == static_cast<std::size_t>(options.count)) {
+            since = Since{now, receivedBytes(bots), sentBytes(bots)};
+            world.seenMs.clear();
+            world.decidedMs.clear();
+            base::logInfo("{} bots play", bots.size());
+        }
+        if (since && now - since->at >= std::chrono::duration<double>(options.seconds)) break;
+        context.restart();
+        context.run_for(std::chrono::milliseconds(5));
+    }
+    const BotTime end = std::chrono::steady_clock::now();
+    printReport(world, bots, since.value_or(Since{end, 0, 0}), end);
+    for (Bot& bot : bots) bot.leave();
+    context.restart();
+    context.run_for(std::chrono::milliseconds(200));
+    return {};
+}
+
+}  // namespace
+
+CommandEntry addBots(CLI::App& app) {
+    auto options = std::make_shared<BotsOptions>();
+    CLI::App* command = app.add_subcommand("bots", "Let players without screens walk and build on a server");
+    command->add_option("--connect", options->server, "The server")->type_name("HOST[:PORT]")->required();
+    command->add_option("--count", options->count, "How many")
+        ->check(numberFrom(1, 10000))
+        ->capture_default_str();
+    command->add_option("--seconds", options->seconds, "How long, from when all have joined")
+        ->check(numberFrom(0, 1e6))
+        ->capture_default_str();
+    addChoice<BotBehaviour>(
+        *command, "--behaviour", options->bots.behaviour,
+        {{"walk", BotBehaviour::Walk}, {"build", BotBehaviour::Build}, {"crowd", BotBehaviour::Crowd}},
+        "What they do: walk around where they began, the same while all build, or all "
+        "around one place");
+    command->add_option("--builders", options->bots.builders, "Share that builds while it walks")
+        ->check(numberFrom(0, 1))
+        ->capture_default_str();
+    command->add_option("--edits-per-second", options->bots.editsPerSecond, "Of each that builds")
+        ->check(numberFrom(0.01, 50))
+        ->capture_default_str();
+    command->add_option("--view-distance", options->bots.viewDistance, "Chunks whose edits each is told")
+        ->check(numberFrom(1, 64))
+        ->capture_default_str();
+    command->add_option("--joins-per-second", options->joinsPerSecond, "How fast they come")
+        ->check(numberFrom(0.1, 1000))
+        ->capture_default_str();
+    command->add_option("--name", options->bots.name, "Names are this and a number")
+        ->type_name("TEXT")
+        ->capture_default_str();
+    command->add_option("--password", options->bots.password, "Where the server wants one")
+        ->type_name("TEXT");
+    command
+        ->add_option("--keys", options->bots.keyFolder,
+                     "Folder where each bot's key is kept, so that it is known again")
+        ->type_name("FOLDER");
+    return {command, [options] { return runBots(*options); }};
+}
+
+}  // namespace terrane::app

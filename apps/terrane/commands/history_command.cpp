@@ -1,0 +1,104 @@
+// terrane history: who changed what in a shared world, also while its server runs.
+#include <chrono>
+#include <ctime>
+#include <memory>
+
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/options.h"
+#include "terrane/base/printable.h"
+#include "terrane/content/built_in.h"
+#include "terrane/net/history_file.h"
+#include "terrane/net/people.h"
+#include "terrane/store/open_world.h"
+
+namespace terrane::app {
+namespace {
+
+struct HistoryOptions {
+    SaveOptions save;
+    std::string player;
+    std::vector<int> area;
+    double minutes = 0;
+    std::size_t limit = 100;
+};
+
+std::string textOfTime(std::int64_t milliseconds) {
+    const std::time_t seconds = milliseconds / 1000;
+    std::tm parts{};
+    gmtime_r(&seconds, &parts);
+    std::array<char, 32> text{};
+    std::strftime(text.data(), text.size(), "%F %T", &parts);
+    return text.data();
+}
+
+// "glass", or "3 kinds" where the edit's blocks are of several.
+std::string textOfBlocks(const net::ChangedBlock& first, const net::ChunkDifference& all,
+                         const world::BlockRegistry& blocks) {
+    for (const net::ChangedBlock& block : all)
+        if (block.value.id != first.value.id) return "several";
+    return std::string(blocks.type(first.value.id).name);
+}
+
+base::Result<void> printHistory(const HistoryOptions& options) {
+    auto blocks = content::loadBlocks();
+    if (!blocks) return tl::unexpected(blocks.error());
+    const auto world = store::fileOf(store::worldLocation(options.save.world));
+    if (!world) return tl::unexpected(world.error());
+    auto history = net::HistoryFile::open(net::serverFilePath(*world), *blocks);
+    if (!history) return tl::unexpected(history.error());
+    net::EditFilter filter;
+    if (!options.player.empty()) {
+        filter.player = history->playerCalled(options.player);
+        if (!filter.player)
+            return base::fail(base::ErrorCode::NotFound, "nobody called {} ever played here", options.player);
+    }
+    if (!options.area.empty())
+        filter.area = game::ColumnArea{
+            std::min(options.area[0], options.area[2]), std::min(options.area[1], options.area[3]),
+            std::max(options.area[0], options.area[2]), std::max(options.area[1], options.area[3])};
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    if (options.minutes > 0)
+        filter.sinceMs = std::chrono::duration_cast<std::chrono::milliseconds>(now).count() -
+                         static_cast<std::int64_t>(options.minutes * 60000);
+    std::size_t count = 0;
+    bool isCut = false;
+    const auto print = [&](const net::LoggedEdit& edit) -> base::Result<void> {
+        if (count++ >= options.limit) {
+            isCut = true;
+            return base::fail("more");
+        }
+        const world::BlockPos pos = world::blockPos(edit.chunk, edit.after.front().index);
+        base::printLine("{} {} at {} {} {}: {} to {}{}", textOfTime(edit.timeMs),
+                        history->nameOf(edit.player), pos.x, pos.y, pos.z,
+                        textOfBlocks(edit.before.front(), edit.before, *blocks),
+                        textOfBlocks(edit.after.front(), edit.after, *blocks),
+                        edit.after.size() > 1 ? fmt::format(", {} blocks", edit.after.size()) : "");
+        return {};
+    };
+    const auto done = history->forEach(filter, print);
+    if (isCut) return {};
+    return done;
+}
+
+}  // namespace
+
+CommandEntry addHistory(CLI::App& app) {
+    auto options = std::make_shared<HistoryOptions>();
+    CLI::App* command =
+        app.add_subcommand("history", "Show who changed what in a shared world, the newest first");
+    addWorldOption(*command, options->save, "World of a server, which may run meanwhile");
+    command->get_option("--world")->required();
+    command->add_option("--player", options->player, "Only what this player changed")->type_name("NAME");
+    command->add_option("--area", options->area, "Only columns from one corner to the other, in blocks")
+        ->type_name("X0,Y0,X1,Y1")
+        ->delimiter(',')
+        ->expected(4);
+    command->add_option("--minutes", options->minutes, "Only the last so many minutes")
+        ->check(numberFrom(0, 1e8));
+    command->add_option("--limit", options->limit, "Lines at most")
+        ->check(numberFrom(1, 1e9))
+        ->capture_default_str();
+    return {command, [options] { return printHistory(*options); }};
+}
+
+}  // namespace terrane::app

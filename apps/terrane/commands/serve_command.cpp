@@ -1,0 +1,75 @@
+// terrane serve: a world for several players over a network.
+#include <boost/asio/io_context.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/open_session.h"
+#include "apps/terrane/options.h"
+#include "apps/terrane/serve/open_file_limit.h"
+#include "apps/terrane/serve/serve_options.h"
+#include "apps/terrane/serve/server_statistics.h"
+#include "apps/terrane/settings.h"
+#include "terrane/base/log.h"
+#include "terrane/net/server_console.h"
+#include "terrane/net/server_host.h"
+#include "terrane/net/server_loop.h"
+
+namespace terrane::app {
+namespace {
+
+// Beside the world's own file.
+std::filesystem::path beside(const std::filesystem::path& world, const std::string& ending) {
+    std::filesystem::path path = world;
+    return path.replace_extension(ending);
+}
+
+base::Result<void> readSettings(ServeOptions& options, const std::filesystem::path& world,
+                                CLI::App& command) {
+    std::error_code ignored;
+    if (options.settingsFile.empty()) return applySettings(beside(world, ".server.toml"), command, {});
+    if (!std::filesystem::exists(options.settingsFile, ignored))
+        return base::fail(base::ErrorCode::NotFound, "{}: there is no such file", options.settingsFile);
+    return applySettings(options.settingsFile, command, {});
+}
+
+base::Result<void> serve(ServeOptions& options, CLI::App& command) {
+    const auto world = store::fileOf(store::worldLocation(options.save.world));
+    if (!world) return tl::unexpected(world.error());
+    if (auto read = readSettings(options, *world, command); !read) return read;
+    if (options.isReadOnly) options.server.newcomers = game::Role::Guest;
+    auto statistics = ServerStatistics::open(options.statistics);
+    if (!statistics) return tl::unexpected(statistics.error());
+    auto parts = openSessionParts(options.world, options.save, store::WorldAccess::ReadWrite);
+    if (!parts) return tl::unexpected(parts.error());
+    // Players' programs generate what nobody edited: the server needs it rarely, and makes it again.
+    parts->storesGenerated = false;
+    auto host = net::openServerHost(std::move(*parts), net::serverFilePath(*world), options.server,
+                                    fmt::format("terrane {}", TERRANE_VERSION));
+    if (!host) return tl::unexpected(host.error());
+    raiseOpenFileLimit();
+    boost::asio::io_context context;
+    auto sockets =
+        net::ServerSockets::open(context, *host->state, options.listen, beside(*world, ".server.pem"));
+    if (!sockets) return tl::unexpected(sockets.error());
+    base::logInfo("{} on port {}, seed {}, generator {}; key {}", options.save.world, (*sockets)->port(),
+                  host->state->world.identity.seed, host->state->world.identity.generator, (*sockets)->key());
+    net::ServerLoop loop;
+    loop.onTick = [&](double milliseconds) { statistics->addTick(*host->state, milliseconds); };
+    return net::runServer(context, *host->state, **sockets, loop);
+}
+
+}  // namespace
+
+CommandEntry addServe(CLI::App& app) {
+    auto options = std::make_shared<ServeOptions>();
+    CLI::App* command = app.add_subcommand("serve", "Let others play in a world, over a network");
+    addServeOptions(*command, *options);
+    command->footer(
+        "Commands on standard input, for operators in the chat behind a slash:\n" + net::consoleHelp() +
+        "\n\nSIGTERM saves and ends, as `stop` does. The server's file NAME.server.sqlite (players, "
+        "claims, history) and\nits key NAME.server.pem lie beside the world.");
+    return {command, [options, command] { return serve(*options, *command); }};
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,53 @@
+#include "apps/terrane/serve/serve_options.h"
+
+#include "apps/terrane/options.h"
+
+namespace terrane::app {
+
+void addServeOptions(CLI::App& command, ServeOptions& options) {
+    addWorldOptions(command, options.world);
+    addWorldOption(command, options.save, "World to serve; created if needed");
+    command.get_option("--world")->required();
+    command
+        .add_option("--settings", options.settingsFile,
+                    "File of settings (TOML), each named as its option; where none is given "
+                    "NAME.server.toml beside the world, if there is one")
+        ->type_name("FILE");
+    command
+        .add_option("--address", options.listen.address,
+                    "Address to listen on; :: is all, 127.0.0.1 this machine")
+        ->capture_default_str();
+    command.add_option("--port", options.listen.port, "Port to listen on; 0: one that is free")
+        ->capture_default_str();
+    command.add_option("--max-players", options.server.maxPlayers, "How many play at a time")
+        ->check(numberFrom(1, 4096))
+        ->capture_default_str();
+    command
+        .add_option("--max-view-distance", options.server.maxViewDistance,
+                    "Chunks around a player whose edits it is told")
+        ->check(numberFrom(2, 64))
+        ->capture_default_str();
+    command.add_option("--max-speed", options.server.maxSpeed, "Blocks a second that a player moves at most")
+        ->check(numberFrom(1, 100000))
+        ->capture_default_str();
+    command.add_option("--max-fill", options.server.maxFillBlocks, "Blocks that one command fills at most")
+        ->check(numberFrom(1, 131072))
+        ->capture_default_str();
+    command
+        .add_option("--spawn-radius", options.server.spawnRadius,
+                    "Newcomers appear so many blocks around the spawn")
+        ->check(numberFrom(0, 1000000))
+        ->capture_default_str();
+    command.add_option("--day-minutes", options.server.dayMinutes, "How long a day takes")
+        ->check(numberFrom(0.5, 1440))
+        ->capture_default_str();
+    command.add_option("--welcome", options.server.welcome, "Line of chat for who joins")->type_name("TEXT");
+    command.add_flag("--read-only", options.isReadOnly,
+                     "Newcomers are guests: they look and talk, but change nothing");
+    command
+        .add_option("--statistics", options.statistics,
+                    "Write a line (JSON) each ten seconds: ticks, players, memory, network")
+        ->type_name("FILE");
+}
+
+}  // namespace terrane::app

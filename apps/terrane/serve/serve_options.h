@@ -1,0 +1,25 @@
+// Options of `terrane serve`, on the command line and in a file of settings (TOML) whose keys are their
+// names.
+#pragma once
+
+#include <string>
+
+#include "apps/terrane/option_values.h"
+#include "terrane/net/server_settings.h"
+#include "terrane/net/server_sockets.h"
+
+namespace terrane::app {
+
+struct ServeOptions {
+    WorldOptions world;
+    SaveOptions save;
+    std::string settingsFile;  // empty: NAME.server.toml beside the world, where there is one
+    net::ListenAddress listen;
+    net::ServerSettings server;
+    bool isReadOnly = false;
+    std::string statistics;  // file; empty: none
+};
+
+void addServeOptions(CLI::App& command, ServeOptions& options);
+
+}  // namespace terrane::app

@@ -1,0 +1,59 @@
+#include "apps/terrane/serve/server_statistics.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "terrane/base/process_statistics.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr std::chrono::seconds kEvery{10};
+
+// Of sorted values, the one that so large a share does not exceed.
+double quantile(const std::vector<double>& sorted, double share) {
+    if (sorted.empty()) return 0;
+    return sorted[std::min(sorted.size() - 1,
+                           static_cast<std::size_t>(share * static_cast<double>(sorted.size())))];
+}
+
+}  // namespace
+
+base::Result<ServerStatistics> ServerStatistics::open(const std::string& file) {
+    ServerStatistics statistics;
+    if (file.empty()) return statistics;
+    statistics.out_.open(file, std::ios::app);
+    if (!statistics.out_) return base::fail(base::ErrorCode::Io, "{}: cannot be written", file);
+    return statistics;
+}
+
+void ServerStatistics::addTick(const net::ServerState& server, double milliseconds) {
+    if (!out_.is_open()) return;
+    ticks_.push_back(milliseconds);
+    const auto now = std::chrono::steady_clock::now();
+    if (next_ == std::chrono::steady_clock::time_point()) next_ = now + kEvery;
+    if (now < next_) return;
+    next_ += kEvery;
+    write(server);
+}
+
+void ServerStatistics::write(const net::ServerState& server) {
+    std::ranges::sort(ticks_);
+    const double cpu = base::cpuSeconds();
+    std::size_t chunks = server.session.world().chunkCount();
+    const nlohmann::json line = {{"players", server.playing.size()},
+                                 {"ticks", ticks_.size()},
+                                 {"tick_ms_median", quantile(ticks_, 0.5)},
+                                 {"tick_ms_p99", quantile(ticks_, 0.99)},
+                                 {"tick_ms_max", ticks_.back()},
+                                 {"cpu_seconds", cpu - cpuSeconds_},
+                                 {"memory_mb", base::megabytes(base::residentBytes())},
+                                 {"chunks", chunks},
+                                 {"edited_chunks", server.edited.count(0)},
+                                 {"edits", server.history.newest}};
+    out_ << line.dump() << std::endl;
+    cpuSeconds_ = cpu;
+    ticks_.clear();
+}
+
+}  // namespace terrane::app

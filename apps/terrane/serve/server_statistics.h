@@ -1,0 +1,31 @@
+// What a server does, in numbers, for its owner and for load tests: a line of JSON each ten seconds.
+#pragma once
+
+#include <chrono>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "terrane/base/result.h"
+#include "terrane/net/server_state.h"
+
+namespace terrane::app {
+
+class ServerStatistics {
+  public:
+    // `file` empty: nothing is written.
+    [[nodiscard]] static base::Result<ServerStatistics> open(const std::string& file);
+
+    // After each tick, which took so long.
+    void addTick(const net::ServerState& server, double milliseconds);
+
+  private:
+    void write(const net::ServerState& server);
+
+    std::ofstream out_;
+    std::vector<double> ticks_;
+    std::chrono::steady_clock::time_point next_{};
+    double cpuSeconds_ = 0;
+};
+
+}  // namespace terrane::app

@@ -1,0 +1,36 @@
+#include "terrane/net/remote_session.h"
+
+#include <utility>
+
+#include "terrane/gen/generators/catalogue.h"
+
+namespace terrane::net {
+
+base::Result<void> checkOffer(const WorldOffer& offer, const world::BlockRegistry& blocks) {
+    store::WorldIdentity own{offer.world.identity.seed, {}, 0};
+    const auto graph = gen::makeGenerator(offer.world.identity.generator, blocks);
+    WorldFingerprint client{own, 0, blocksHash(blocks)};
+    if (graph) {
+        own.generator = offer.world.identity.generator;
+        own.generatorVersion = gen::generatorVersion(own.generator);
+        client = worldFingerprint(own, *graph, blocks);
+    }
+    const std::string difference = differenceOf(offer.world, client);
+    if (difference.empty()) return {};
+    return base::fail(base::ErrorCode::Incompatible, "{}", difference);
+}
+
+base::Result<RemoteSessionParts> remoteSessionParts(const store::WorldIdentity& identity,
+                                                    std::unique_ptr<const world::BlockRegistry> blocks,
+                                                    unsigned threads) {
+    auto forSession = gen::makeLevelGenerators(identity.generator, *blocks, identity.seed);
+    auto forStore = gen::makeLevelGenerators(identity.generator, *blocks, identity.seed);
+    if (!forSession || !forStore) return tl::unexpected((!forSession ? forSession : forStore).error());
+    auto store = std::make_unique<RemoteStore>(identity, std::move(*forStore));
+    RemoteStore* const told = store.get();
+    game::SessionParts parts{std::move(blocks), std::move(*forSession), std::move(store), threads};
+    parts.storesGenerated = false;
+    return RemoteSessionParts{std::move(parts), told};
+}
+
+}  // namespace terrane::net

@@ -1,0 +1,35 @@
+#include "terrane/net/server_host.h"
+
+#include <utility>
+
+#include "terrane/game/player_state.h"
+#include "terrane/gen/generators/catalogue.h"
+
+namespace terrane::net {
+
+base::Result<ServerHost> openServerHost(game::SessionParts parts, const std::filesystem::path& serverFile,
+                                        const ServerSettings& settings, const std::string& program) {
+    const store::WorldIdentity identity = parts.store->identity();
+    auto graph = gen::makeGenerator(identity.generator, *parts.blocks);
+    if (!graph) return tl::unexpected(graph.error());
+    const WorldFingerprint fingerprint = worldFingerprint(identity, *graph, *parts.blocks);
+    auto file = ServerFile::open(serverFile, *parts.blocks);
+    if (!file) return tl::unexpected(file.error());
+    auto people = People::read(**file);
+    if (!people) return tl::unexpected(people.error());
+
+    const auto tiles = std::make_shared<WrittenTiles>();
+    parts.tileListener = [tiles](std::span<const world::ChunkPos> written) { noteTiles(*tiles, written); };
+    ServerHost host;
+    host.session = std::make_unique<game::Session>(std::move(parts));
+    if (const auto time = game::savedPlayer(host.session->store()).timeDay)
+        host.session->clock.timeDay = *time;
+    host.file = std::move(*file);
+    host.people = std::make_unique<People>(std::move(*people));
+    auto state = openServer({*host.session, *host.file, *host.people, program, fingerprint}, settings, tiles);
+    if (!state) return tl::unexpected(state.error());
+    host.state = std::move(*state);
+    return host;
+}
+
+}  // namespace terrane::net

@@ -1,0 +1,166 @@
+// A server without sockets, and clients on wires of memory: what one sends the other gets, at the test's
+// will.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "terrane/content/built_in.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/net/client_login.h"
+#include "terrane/net/client_world.h"
+#include "terrane/net/frames.h"
+#include "terrane/net/remote_session.h"
+#include "terrane/net/server_host.h"
+#include "terrane/store/open_world.h"
+#include "tests/base/temp_folder.h"
+#include "tests/world/content_blocks.h"
+
+namespace terrane::net {
+
+inline constexpr std::string_view kTestGenerator = "overworld";
+
+inline std::unique_ptr<const world::BlockRegistry> ownBlocks() {
+    return std::make_unique<const world::BlockRegistry>(content::loadBlocks().value());
+}
+
+inline game::SessionParts serverParts(const std::filesystem::path& world) {
+    auto blocks = ownBlocks();
+    const std::string generator(kTestGenerator);
+    store::WorldRequest request;
+    request.create = store::WorldIdentity{1, generator, gen::generatorVersion(generator)};
+    request.versionOf = gen::generatorVersion;
+    auto store = store::openWorld(store::worldLocation(world.string()), *blocks, request).value();
+    auto generators = gen::makeLevelGenerators(generator, *blocks, 1).value();
+    return {std::move(blocks), std::move(generators), std::move(store), 2};
+}
+
+// A server on a world in a folder.
+struct TestServer {
+    explicit TestServer(const std::filesystem::path& folder, const ServerSettings& settings = {})
+        : host(openServerHost(serverParts(folder / "w.sqlite"), folder / "w.server.sqlite", settings, "test")
+                   .value()) {}
+    ServerState& state() { return *host.state; }
+    void tick() { net::tick(state(), now += kServerTick); }
+
+    ServerHost host;
+    Time now = std::chrono::steady_clock::now();
+    ConnectionId lastConnection = 0;
+};
+
+// What speaks to the server: raw messages in, raw messages out.
+struct TestWire {
+    explicit TestWire(TestServer& testServer) : server(testServer), id(++testServer.lastConnection) {
+        fillRandom(channel);
+        onOpened(server.state(), id, channel, "test", server.now);
+    }
+    void say(const ClientMessage& message) { onMessage(server.state(), id, encode(message), server.now); }
+    // What the server sent since the last call.
+    std::vector<ServerMessage> take() {
+        std::vector<ServerMessage> messages;
+        const auto client = server.state().clients.find(id);
+        if (client == server.state().clients.end()) return messages;
+        received += client->second.outgoing.size();
+        reader.add(std::exchange(client->second.outgoing, {}));
+        while (const auto frame = reader.next().value())
+            messages.push_back(decodeServerMessage(*frame).value());
+        return messages;
+    }
+    void close() { onClosed(server.state(), id, server.now); }
+
+    TestServer& server;
+    ConnectionId id;
+    Bytes channel = Bytes(32);
+    FrameReader reader{kMaxServerMessage};
+    std::size_t received = 0;
+};
+
+template <class Message>
+const Message* findMessage(const std::vector<ServerMessage>& messages) {
+    for (const ServerMessage& message : messages)
+        if (const auto* found = std::get_if<Message>(&message)) return found;
+    return nullptr;
+}
+
+inline ClientIdentity testIdentity(const std::string& name) {
+    return {name, newPlayerKey(), {}, "test"};
+}
+
+// Says what a client says until the answer to Proof is there; gives the last answer.
+inline ServerMessage logIn(TestWire& wire, const ClientIdentity& identity) {
+    wire.say(helloOf(identity));
+    auto messages = wire.take();
+    const auto* greeting = findMessage<Greeting>(messages);
+    if (!greeting) return messages.at(0);
+    wire.say(loginOf(identity, *greeting, wire.channel));
+    messages = wire.take();
+    if (!findMessage<WorldOffer>(messages)) return messages.at(0);
+    wire.say(Proof{wire.server.state().digests});
+    messages = wire.take();
+    return messages.at(0);
+}
+
+// A player with a world of its own, on the surface at its spawn.
+struct TestPlayer {
+    TestPlayer(TestServer& server, const ClientIdentity& who, int viewDistance = 2, int horizon = 0)
+        : identity(who), wire(std::make_unique<TestWire>(server)), view(viewDistance), far(horizon) {
+        auto parts = remoteSessionParts(server.state().world.identity, ownBlocks(), 1).value();
+        store = parts.store;
+        session = std::make_unique<game::Session>(std::move(parts.parts));
+        world = std::make_unique<ClientWorld>(*session, *store,
+                                              [this](const ClientMessage& message) { wire->say(message); });
+        join();
+    }
+    void join() {
+        const ServerMessage answer = logIn(*wire, identity);
+        ASSERT_TRUE(std::holds_alternative<Joined>(answer));
+        pose = poseOf(std::get<Joined>(answer).pose);
+        world->onMessage(answer);
+    }
+    void update() {
+        for (const ServerMessage& message : wire->take()) world->onMessage(message);
+        session->pipeline().setView(world::chunkOf(pose.position), view);
+        session->pipeline().update();
+        world->update(pose, view, far, wire->server.now);
+    }
+    bool isLoaded() const {
+        const auto progress = session->pipeline().progress();
+        return progress.isUpToDate() && progress.inView > 0 && world->isViewComplete();
+    }
+    world::BlockId block(world::BlockPos pos) const { return session->world().block(pos); }
+    game::EditResult put(world::BlockPos pos, std::string_view name) {
+        return world->edit({game::kLocalPlayer, pos, world::SetBlock{contentBlock(name)}, block(pos)});
+    }
+
+    ClientIdentity identity;
+    std::unique_ptr<TestWire> wire;
+    int view, far;
+    RemoteStore* store = nullptr;
+    std::unique_ptr<game::Session> session;
+    std::unique_ptr<ClientWorld> world;
+    world::Pose pose;
+};
+
+// A tick of the server, with all clients before and after it.
+inline void step(TestServer& server, std::initializer_list<TestPlayer*> players) {
+    for (TestPlayer* player : players) player->update();
+    server.tick();
+    for (TestPlayer* player : players) player->update();
+}
+
+// Steps until it is so; false where that takes too long.
+template <class Condition>
+bool stepUntil(TestServer& server, std::initializer_list<TestPlayer*> players, Condition isSo) {
+    const Time end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (std::chrono::steady_clock::now() < end) {
+        step(server, players);
+        if (isSo()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+}
+
+}  // namespace terrane::net

@@ -1,0 +1,165 @@
+// Players on one server, without sockets: each has a world of its own, and all worlds become the same.
+#include "terrane/net/server.h"
+
+#include "terrane/net/server_console.h"
+#include "tests/net/server_fixture.h"
+
+namespace terrane::net {
+namespace {
+
+class ServerTest : public testing::Test {
+  protected:
+    world::BlockPos above(const TestPlayer& player, int dx = 2) const {
+        const auto p = player.pose.position;
+        return {static_cast<std::int32_t>(std::floor(p.x)) + dx, static_cast<std::int32_t>(std::floor(p.y)),
+                static_cast<std::int32_t>(std::floor(p.z)) + 2};
+    }
+    base::TempFolder folder_;
+};
+
+TEST_F(ServerTest, WhatOneBuildsTheOtherSees) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann")), bob(server, testIdentity("Bob"));
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return ann.isLoaded() && bob.isLoaded(); }));
+    const world::BlockPos pos = above(ann);
+    ASSERT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
+    EXPECT_EQ(ann.block(pos), contentBlock("glass")) << "it shows at once";
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return bob.block(pos) == contentBlock("glass"); }));
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return ann.world->undecidedCount() == 0; }));
+    EXPECT_EQ(server.state().session.world().block(pos), contentBlock("glass"));
+    // Who comes later is told, too.
+    TestPlayer cid(server, testIdentity("Cid"));
+    ASSERT_TRUE(stepUntil(server, {&cid}, [&] { return cid.isLoaded(); }));
+    ASSERT_TRUE(stepUntil(server, {&cid}, [&] { return cid.block(pos) == contentBlock("glass"); }));
+}
+
+TEST_F(ServerTest, OfTwoWhoBuildAtOnePlaceOneIsTakenBack) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann")), bob(server, testIdentity("Bob"));
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return ann.isLoaded() && bob.isLoaded(); }));
+    const world::BlockPos pos = above(ann);
+    ASSERT_EQ(bob.put(pos, "stone"), game::EditResult::Applied);
+    ASSERT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] {
+        return ann.world->undecidedCount() == 0 && bob.world->undecidedCount() == 0;
+    }));
+    EXPECT_EQ(ann.block(pos), bob.block(pos));
+    EXPECT_EQ(server.state().session.world().block(pos), ann.block(pos));
+    const auto decided = ann.world->takeDecided(), others = bob.world->takeDecided();
+    EXPECT_EQ(decided.size() + others.size(), 1u) << "one hears of it";
+}
+
+TEST_F(ServerTest, FillsAndUndoAreDecidedByTheServer) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann"));
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
+    const world::BlockPos low = above(ann);
+    const world::BlockPos high{low.x + 3, low.y + 3, low.z + 3};
+    ann.world->build(game::FillBox{{low, high}, contentBlock("glass"), 0, {}});
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
+    EXPECT_EQ(ann.block(high), contentBlock("glass"));
+    auto decided = ann.world->takeDecided();
+    ASSERT_EQ(decided.size(), 1u);
+    EXPECT_EQ(std::get<game::BuildOutcome>(decided[0]).changed, 64u);
+    ann.world->takeBack(game::HistoryWay::Undo);
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
+    EXPECT_EQ(ann.block(high), world::kAir);
+    decided = ann.world->takeDecided();
+    ASSERT_EQ(decided.size(), 1u);
+    EXPECT_EQ(std::get<game::TakenBack>(decided[0]).blocks, 64u);
+}
+
+TEST_F(ServerTest, WhatWasAcknowledgedIsThereAfterACrash) {
+    base::TempFolder copy;
+    world::BlockPos pos;
+    {
+        TestServer server(folder_.path());
+        TestPlayer ann(server, testIdentity("Ann"));
+        ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
+        pos = above(ann);
+        ASSERT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
+        ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
+        // As a crash leaves it: the server's file alone has the edit.
+        for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+            const std::string name = entry.path().filename().string();
+            if (name.starts_with("w.server.sqlite") && !name.ends_with("lock"))
+                std::filesystem::copy(entry.path(), copy.path() / name);
+        }
+    }
+    TestServer server(copy.path());
+    TestPlayer bob(server, testIdentity("Bob"));
+    ASSERT_TRUE(stepUntil(server, {&bob}, [&] { return bob.isLoaded() && bob.block(pos) != world::kAir; }));
+    EXPECT_EQ(bob.block(pos), contentBlock("glass"));
+}
+
+TEST_F(ServerTest, PlayersSeeEachOtherAndTalk) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann")), bob(server, testIdentity("Bob"));
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return bob.world->players().size() == 1; }));
+    EXPECT_EQ(bob.world->players().begin()->second.name, "Ann");
+    ann.pose.position.x += 3;
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] {
+        return std::abs(bob.world->players().begin()->second.pose.position.x - ann.pose.position.x) < 0.1;
+    }));
+    (void)bob.world->takeChat();
+    ann.world->say("hello");
+    step(server, {&ann, &bob});
+    const auto chat = bob.world->takeChat();
+    ASSERT_EQ(chat.size(), 1u);
+    EXPECT_EQ(chat[0].name, "Ann");
+    EXPECT_EQ(chat[0].text, "hello");
+    ann.wire->say(Leave{});
+    ASSERT_TRUE(stepUntil(server, {&bob}, [&] { return bob.world->players().empty(); }));
+}
+
+TEST_F(ServerTest, AClaimIsForItsOwner) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann")), bob(server, testIdentity("Bob"));
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return ann.isLoaded() && bob.isLoaded(); }));
+    const world::BlockPos pos = above(ann);
+    const std::string area = fmt::format("{} {} {} {}", pos.x - 9, pos.y - 9, pos.x + 9, pos.y + 9);
+    EXPECT_EQ(runConsoleLine(server.state(), "claim home " + area + " ann"), "home is claimed for ann");
+    ASSERT_EQ(bob.put(pos, "glass"), game::EditResult::Applied) << "its client does not know";
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return bob.world->undecidedCount() == 0; }));
+    EXPECT_EQ(bob.block(pos), world::kAir) << "it is taken back";
+    const auto decided = bob.world->takeDecided();
+    ASSERT_EQ(decided.size(), 1u);
+    EXPECT_EQ(std::get<game::EditResult>(decided[0]), game::EditResult::Claimed);
+    ASSERT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return bob.block(pos) == contentBlock("glass"); }));
+}
+
+TEST_F(ServerTest, ARollbackTakesBackWhatAPlayerDid) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann")), bob(server, testIdentity("Bob"));
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return ann.isLoaded() && bob.isLoaded(); }));
+    const world::BlockPos anns = above(ann), bobs = above(ann, 3);
+    ASSERT_EQ(ann.put(anns, "glass"), game::EditResult::Applied);
+    ASSERT_EQ(bob.put(bobs, "glass"), game::EditResult::Applied);
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob},
+                          [&] { return ann.block(bobs) != world::kAir && bob.block(anns) != world::kAir; }));
+    EXPECT_TRUE(runConsoleLine(server.state(), "rollback Bob 60").starts_with("1 blocks"));
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return ann.block(bobs) == world::kAir; }));
+    EXPECT_EQ(ann.block(anns), contentBlock("glass"));
+}
+
+TEST_F(ServerTest, AFarTownIsSeen) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann"));
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
+    const world::BlockPos low = above(ann);
+    ann.world->build(
+        game::FillBox{{low, {low.x + 15, low.y + 15, low.z + 15}}, contentBlock("glass"), 0, {}});
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
+    ASSERT_TRUE(server.state().session.save());
+    TestPlayer bob(server, testIdentity("Bob"), 2, 128);
+    bob.pose.position.x += 16 * 20;  // it walked there
+    server.state().clients.at(bob.wire->id).role = game::Role::Operator;
+    ASSERT_TRUE(stepUntil(server, {&bob}, [&] { return bob.isLoaded(); }));
+    const world::ChunkPos tile{world::chunkOf(low).x >> 2, world::chunkOf(low).y >> 2, 2};
+    ASSERT_TRUE(stepUntil(server, {&bob}, [&] { return !bob.store->difference(tile).empty(); }));
+    EXPECT_EQ(*bob.store->load(tile).chunk, *server.state().session.store().load(tile).chunk);
+}
+
+}  // namespace
+}  // namespace terrane::net
