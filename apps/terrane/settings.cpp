@@ -154,7 +154,8 @@ base::Result<void> applySettings(const fs::path& file, CLI::App& command,
     const auto read = readSettings(file);
     if (!read) return tl::unexpected(read.error());
     const toml::table& table = read->table;
-    const bool standsAlone = command.get_option("--preset")->count() > 0;
+    const CLI::Option* preset = command.get_option_no_throw("--preset");
+    const bool standsAlone = preset && preset->count() > 0;
     // In the order of the options: a preset comes before what is changed of it.
     for (const CLI::Option* option : command.get_options()) {
         const std::string name = option->get_single_name();

@@ -70,23 +70,25 @@ TEST_F(ServerTest, FillsAndUndoAreDecidedByTheServer) {
 }
 
 TEST_F(ServerTest, WhatWasAcknowledgedIsThereAfterACrash) {
-    base::TempFolder copy;
+    const auto first = folder_ / "first", copy = folder_ / "copy";
+    std::filesystem::create_directories(first);
+    std::filesystem::create_directories(copy);
     world::BlockPos pos;
     {
-        TestServer server(folder_.path());
+        TestServer server(first);
         TestPlayer ann(server, testIdentity("Ann"));
         ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
         pos = above(ann);
         ASSERT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
         ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
         // As a crash leaves it: the server's file alone has the edit.
-        for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+        for (const auto& entry : std::filesystem::directory_iterator(first)) {
             const std::string name = entry.path().filename().string();
             if (name.starts_with("w.server.sqlite") && !name.ends_with("lock"))
-                std::filesystem::copy(entry.path(), copy.path() / name);
+                std::filesystem::copy(entry.path(), copy / name);
         }
     }
-    TestServer server(copy.path());
+    TestServer server(copy);
     TestPlayer bob(server, testIdentity("Bob"));
     ASSERT_TRUE(stepUntil(server, {&bob}, [&] { return bob.isLoaded() && bob.block(pos) != world::kAir; }));
     EXPECT_EQ(bob.block(pos), contentBlock("glass"));
