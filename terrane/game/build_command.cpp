@@ -143,6 +143,10 @@ BuildOutcome Session::build(const BuildCommand& command) {
             return {Result::OutOfReach};
     }
     if (const Result result = check(world_, command.change); result != Result::Done) return {result};
+    if (authority_.build && command.player != kNoPlayer) {
+        authority_.build(command);
+        return {Result::Sent};
+    }
     const PlannedBlocks plan = plannedBlocks(world_, *blocks_, command.change, command.player != kNoPlayer);
     if (!mayChangeAll(permissions, command.player, plan.blocks)) return {Result::NotAllowed};
     // Blocks of a structure have the states that they had; those of a fill find theirs.

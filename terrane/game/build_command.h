@@ -46,6 +46,7 @@ struct BuildOutcome {
         NotLoaded,   // some chunk of it is not loaded
         OutOfReach,  // or the player is unknown
         NotAllowed,  // the player may not change some block of it (permissions.h)
+        Sent,        // to the server that decides (Authority): what becomes of it is told later
     };
     Result result = Result::Empty;
     std::size_t changed = 0;  // blocks that are others now

@@ -44,6 +44,7 @@ struct TakenBack {
         NoStep,
         NotLoaded,   // some chunk of it is not loaded: nothing changes, and the step stays the next one
         NotAllowed,  // the player may not change some block of it (permissions.h): likewise
+        Sent,        // to the server that decides (Authority): what becomes of it is told later
     };
     Outcome outcome = Outcome::NoStep;
     std::size_t blocks = 0;  // that are again what they were

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <utility>
 
 #include "terrane/base/log.h"
@@ -60,7 +61,21 @@ void Session::buildTiles() {
 }
 
 EditResult Session::edit(const EditCommand& command) {
+    if (authority_.edited && command.player != kNoPlayer) return editAhead(command);
     return edit(std::span(&command, 1)).front();
+}
+
+// Steps to undo are the authority's.
+EditResult Session::editAhead(const EditCommand& command) {
+    std::vector<world::BlockEdit> edits;
+    PlayerChanges changes;
+    const EditResult result = apply(command, edits, changes);
+    if (result != EditResult::Applied) return result;
+    EditStep changed = stepSince(world_, changes.steps);
+    std::ranges::move(stepSince(world_, changes.uses), std::back_inserter(changed));
+    tellEdits(command.player, edits);
+    authority_.edited(command, changed);
+    return result;
 }
 
 std::vector<EditResult> Session::edit(std::span<const EditCommand> commands) {
@@ -102,6 +117,10 @@ EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEd
 
 TakenBack Session::takeBack(PlayerId player, HistoryWay way) {
     using Outcome = TakenBack::Outcome;
+    if (authority_.takeBack) {
+        authority_.takeBack(player, way);
+        return {Outcome::Sent};
+    }
     const auto found = players_.find(player);
     const EditStep* step = found == players_.end() ? nullptr : found->second.history.next(way);
     if (!step) return {Outcome::NoStep};
@@ -176,6 +195,7 @@ void Session::advance(double seconds, world::ChunkPos center) {
 
 void Session::advance(double seconds, std::span<const world::ChunkPos> chunks) {
     clock.advance(seconds);
+    if (authority_.edited) return;
     const double tickSeconds = std::chrono::duration<double>(world::kTickLength).count();
     untilTick_ += std::min(seconds, kMaxTickSeconds);
     for (; untilTick_ >= tickSeconds; untilTick_ -= tickSeconds) {

@@ -42,6 +42,15 @@ struct SessionParts {
     stream::TileListener tileListener = {};
 };
 
+// A server, which decides on what players do in place of a session that shows its world. Edits are applied at
+// once, ahead of the decision; what changes many blocks waits for it. Time passes there, too: plants and
+// liquids change only as it says (setBlocks()).
+struct Authority {
+    std::function<void(const EditCommand&, std::span<const ChangedBlock> changed)> edited;
+    std::function<void(const BuildCommand&)> build;
+    std::function<void(PlayerId, HistoryWay)> takeBack;
+};
+
 class Session {
   public:
     explicit Session(SessionParts parts);
@@ -77,6 +86,10 @@ class Session {
     // Exactly these blocks, as a server tells them or a history brings them back: nothing is checked, and no
     // block falls or goes for it. Those in chunks that are not loaded are left out.
     void setBlocks(std::span<const world::PlacedBlock> blocks);
+
+    // From now on commands of players are the authority's to decide on. An empty one: the session's own
+    // again.
+    void setAuthority(Authority authority) { authority_ = std::move(authority); }
 
     // Where a player stands: its edits are checked against that. Its history begins with the first call.
     void setPlayer(PlayerId player, const world::Pose& pose) { players_[player].pose = pose; }
@@ -123,6 +136,7 @@ class Session {
     std::optional<EditResult> refusalOfBreaking(const EditCommand& command) const;
     void tellEdits(PlayerId player, std::span<const world::BlockEdit> edits);
     void tellChanges(PlayerId player, std::span<const ChangedBlock> changes);
+    EditResult editAhead(const EditCommand& command);
 
     // They refer to each other: destroyed in reverse order.
     std::unique_ptr<const world::BlockRegistry> blocks_;
@@ -139,6 +153,7 @@ class Session {
     std::unordered_map<PlayerId, PlayerEntry> players_;
     EditListener editListener_;
     ChangeListener changeListener_;
+    Authority authority_;
     double untilTick_ = 0;  // seconds of game time that made no tick yet
     std::uint64_t ticks_ = 0;
 };

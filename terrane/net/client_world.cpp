@@ -21,10 +21,16 @@ std::vector<world::PlacedBlock> placedBlocks(world::ChunkPos pos, const ChunkDif
 
 ClientWorld::ClientWorld(game::Session& session, RemoteStore& store, Send send)
     : session_(session), store_(store), send_(std::move(send)) {
-    session_.setChangeListener([this](game::PlayerId, std::span<const game::ChangedBlock> changes) {
-        for (const game::ChangedBlock& change : changes)
-            changedByEdit_.push_back({change.pos, change.before});
-    });
+    session_.setAuthority(
+        {[this](const game::EditCommand& command, std::span<const game::ChangedBlock> changed) {
+             sendEdit(command, changed);
+         },
+         [this](const game::BuildCommand& command) { sendBuild(command.change); },
+         [this](game::PlayerId, game::HistoryWay way) { sendTakeBack(way); }});
+}
+
+ClientWorld::~ClientWorld() {
+    session_.setAuthority({});
 }
 
 void ClientWorld::onMessage(const ServerMessage& message) {
@@ -52,6 +58,7 @@ void ClientWorld::onMessage(const ServerMessage& message) {
 }
 
 void ClientWorld::onCut() {
+    isConnected_ = false;
     waiting_.clear();
     show(prediction_.settleAll());
 }
@@ -59,6 +66,7 @@ void ClientWorld::onCut() {
 void ClientWorld::take(const Joined& joined) {
     onCut();
     joined_ = joined;
+    isConnected_ = true;
     players_.clear();
     playerPoses_.clear();
     toldPose_.reset();
@@ -129,19 +137,18 @@ void ClientWorld::showLateChunks() {
     });
 }
 
-game::EditResult ClientWorld::edit(const game::EditCommand& command) {
-    if (!joined_) return game::EditResult::NotAllowed;
-    changedByEdit_.clear();
-    const game::EditResult result = session_.edit(command);
-    if (result != game::EditResult::Applied) return result;
+// While the connection is gone nothing is sent: what was shown is taken back at once.
+void ClientWorld::sendEdit(const game::EditCommand& command, std::span<const game::ChangedBlock> changed) {
+    std::vector<world::PlacedBlock> before;
+    for (const game::ChangedBlock& block : changed) before.push_back({block.pos, block.before});
+    if (!isConnected_) return show(before);
     const CommandNumber number = ++lastCommand_;
-    prediction_.predict(number, changedByEdit_);
+    prediction_.predict(number, before);
     waiting_.push_back({number, WaitingDecision::Kind::Edit});
     send_(Edit{number, command.pos, command.change, command.expected});
-    return result;
 }
 
-void ClientWorld::build(const game::BuildChange& change) {
+void ClientWorld::sendBuild(const game::BuildChange& change) {
     const CommandNumber number = ++lastCommand_;
     if (const auto* fill = std::get_if<game::FillBox>(&change)) {
         send_(Fill{number, *fill});
@@ -157,7 +164,7 @@ void ClientWorld::build(const game::BuildChange& change) {
     waiting_.push_back({number, WaitingDecision::Kind::Build});
 }
 
-void ClientWorld::takeBack(game::HistoryWay way) {
+void ClientWorld::sendTakeBack(game::HistoryWay way) {
     const CommandNumber number = ++lastCommand_;
     waiting_.push_back({number, WaitingDecision::Kind::TakeBack});
     send_(TakeBack{number, way == game::HistoryWay::Redo});
@@ -206,7 +213,7 @@ void ClientWorld::take(const Poses& poses) {
 void ClientWorld::update(const world::Pose& pose, int viewDistance, int horizon,
                          std::chrono::steady_clock::time_point now) {
     showLateChunks();
-    if (!joined_) return;
+    if (!isConnected_) return;
     session_.setPlayer(game::kLocalPlayer, pose);
     if (now >= nextMove_) {
         const WirePose wire = wirePose(pose);

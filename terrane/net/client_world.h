@@ -40,8 +40,10 @@ using Decided = std::variant<game::EditResult, game::BuildOutcome, game::TakenBa
 class ClientWorld {
   public:
     using Send = std::function<void(const ClientMessage&)>;
-    // The session's store is `store`. Both outlive this.
+    // The session's store is `store`. Both outlive this. From here on the server decides on the session's
+    // commands (game::Authority).
     ClientWorld(game::Session& session, RemoteStore& store, Send send);
+    ~ClientWorld();
     ClientWorld(const ClientWorld&) = delete;
     ClientWorld& operator=(const ClientWorld&) = delete;
 
@@ -50,11 +52,6 @@ class ClientWorld {
     // The connection is gone: what the server did not decide on is taken back.
     void onCut();
 
-    // Commands of the local player. A result of edit() that changed something is what shows now; the others
-    // are decided later: takeDecided().
-    game::EditResult edit(const game::EditCommand& command);
-    void build(const game::BuildChange& change);
-    void takeBack(game::HistoryWay way);
     void say(const std::string& text);
 
     // Tells the server where the player is and what it looks at, and gives late changes to chunks that were
@@ -82,6 +79,9 @@ class ClientWorld {
         CommandNumber number = 0;
         enum class Kind : std::uint8_t { Edit, Build, TakeBack } kind = Kind::Edit;
     };
+    void sendEdit(const game::EditCommand& command, std::span<const game::ChangedBlock> changed);
+    void sendBuild(const game::BuildChange& change);
+    void sendTakeBack(game::HistoryWay way);
     void take(const Joined& joined);
     void take(const ChunkEdits& edits);
     void take(const BlocksChanged& changed);
@@ -100,11 +100,10 @@ class ClientWorld {
     Send send_;
     Prediction prediction_;
     std::optional<Joined> joined_;
-    std::vector<world::PlacedBlock> changedByEdit_;  // before it
     CommandNumber lastCommand_ = 0;
     std::deque<WaitingDecision> waiting_;
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> late_;  // changed while they were loaded
-    bool isViewComplete_ = false;
+    bool isConnected_ = false, isViewComplete_ = false;
 
     std::optional<WirePose> toldPose_;
     std::optional<View> toldView_;

@@ -132,7 +132,7 @@ struct TestPlayer {
     }
     world::BlockId block(world::BlockPos pos) const { return session->world().block(pos); }
     game::EditResult put(world::BlockPos pos, std::string_view name) {
-        return world->edit({game::kLocalPlayer, pos, world::SetBlock{contentBlock(name)}, block(pos)});
+        return session->edit({game::kLocalPlayer, pos, world::SetBlock{contentBlock(name)}, block(pos)});
     }
 
     ClientIdentity identity;

@@ -55,13 +55,17 @@ TEST_F(ServerTest, FillsAndUndoAreDecidedByTheServer) {
     ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
     const world::BlockPos low = above(ann);
     const world::BlockPos high{low.x + 3, low.y + 3, low.z + 3};
-    ann.world->build(game::FillBox{{low, high}, contentBlock("glass"), 0, {}});
+    EXPECT_EQ(
+        ann.session->build({game::kLocalPlayer, game::FillBox{{low, high}, contentBlock("glass"), 0, {}}})
+            .result,
+        game::BuildOutcome::Result::Sent);
     ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
     EXPECT_EQ(ann.block(high), contentBlock("glass"));
     auto decided = ann.world->takeDecided();
     ASSERT_EQ(decided.size(), 1u);
     EXPECT_EQ(std::get<game::BuildOutcome>(decided[0]).changed, 64u);
-    ann.world->takeBack(game::HistoryWay::Undo);
+    EXPECT_EQ(ann.session->takeBack(game::kLocalPlayer, game::HistoryWay::Undo).outcome,
+              game::TakenBack::Outcome::Sent);
     ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
     EXPECT_EQ(ann.block(high), world::kAir);
     decided = ann.world->takeDecided();

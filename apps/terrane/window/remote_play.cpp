@@ -1,0 +1,94 @@
+#include "apps/terrane/window/remote_play.h"
+
+#include <boost/asio/io_context.hpp>
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/content/built_in.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/net/known_servers.h"
+
+namespace terrane::app {
+
+struct RemotePlay::Network {
+    boost::asio::io_context context;
+};
+
+RemotePlay::RemotePlay(std::unique_ptr<Network> network, std::unique_ptr<const world::BlockRegistry> blocks)
+    : network_(std::move(network)), blocks_(std::move(blocks)) {}
+
+RemotePlay::~RemotePlay() {
+    world_.reset();
+    link_->leave();
+    network_->context.restart();
+    network_->context.run_for(std::chrono::milliseconds(100));
+}
+
+base::Result<std::unique_ptr<RemotePlay>> RemotePlay::connect(const RemoteOptions& options,
+                                                              const std::filesystem::path& dataFolder) {
+    auto address = net::serverAddress(options.server);
+    if (!address) return tl::unexpected(address.error());
+    if (!net::isName(options.name))
+        return base::fail(base::ErrorCode::BadInput, "--name {}: a name has 1 to {} bytes, without spaces at its ends",
+                          options.name, net::kMaxNameBytes);
+    auto key = net::loadPlayerKey(dataFolder / "player.key");
+    if (!key) return tl::unexpected(key.error());
+    auto blocks = content::loadBlocks();
+    if (!blocks) return tl::unexpected(blocks.error());
+    std::unique_ptr<RemotePlay> play(new RemotePlay(
+        std::make_unique<Network>(), std::make_unique<const world::BlockRegistry>(std::move(*blocks))));
+    play->knownServers_ = dataFolder / "known_servers.txt";
+    RemotePlay& self = *play;
+    play->link_ = std::make_unique<net::ClientLink>(
+        play->network_->context, *address,
+        net::ClientIdentity{options.name, *key, options.password, fmt::format("terrane {}", TERRANE_VERSION)},
+        net::LinkEvents{[&self](const std::string& serverKey) { return self.trusts(serverKey); },
+                        [&self](const net::WorldOffer& offer) { return self.prove(offer); },
+                        [&self](const net::ServerMessage& message) {
+                            if (self.world_)
+                                self.world_->onMessage(message);
+                            else
+                                self.early_.push_back(message);
+                        }});
+    return play;
+}
+
+bool RemotePlay::trusts(const std::string& key) const {
+    const auto trusted = net::isKnownOrNew(knownServers_, textOf(link_->address()), key);
+    if (!trusted) base::logError("{}", trusted.error().message);
+    return trusted && *trusted;
+}
+
+// A session that shows the world goes on after a cut; another world is not to be shown by it.
+base::Result<net::SampleDigests> RemotePlay::prove(const net::WorldOffer& offer) {
+    if (offer_ && !(offer.world == offer_->world))
+        return base::fail("the server has another world than before: join it again");
+    if (auto fits = net::checkOffer(offer, *blocks_); !fits) return tl::unexpected(fits.error());
+    auto graph = gen::makeGenerator(offer.world.identity.generator, *blocks_);
+    if (!graph) return tl::unexpected(graph.error());
+    offer_ = offer;
+    return net::sampleDigests(gen::Generator(std::move(*graph), offer.world.identity.seed), offer.samples);
+}
+
+world::Pose RemotePlay::start() const {
+    for (const net::ServerMessage& message : early_)
+        if (const auto* joined = std::get_if<net::Joined>(&message)) return net::poseOf(joined->pose);
+    return {};
+}
+
+void RemotePlay::begin(game::Session& session, net::RemoteStore& store) {
+    world_ = std::make_unique<net::ClientWorld>(
+        session, store, [this](const net::ClientMessage& message) { link_->send(message); });
+    for (const net::ServerMessage& message : std::exchange(early_, {})) world_->onMessage(message);
+}
+
+void RemotePlay::poll() {
+    link_->update(std::chrono::steady_clock::now());
+    network_->context.restart();
+    network_->context.poll();
+    const bool isCut = before_ == net::ClientLink::Stage::Joined && link_->stage() != before_;
+    if (isCut && world_) world_->onCut();
+    before_ = link_->stage();
+}
+
+}  // namespace terrane::app
