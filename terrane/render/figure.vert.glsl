@@ -1,17 +1,28 @@
 // Figures of players, each an instance: boxes that turn about joints, x ahead, y to the left, z up, at rest with the feet at
-// z = 0. Of a box the three faces are drawn that look to the camera; a face has six vertices.
+// z = 0. Of a box the three faces are drawn that look to the camera, or to the light; a face has six vertices.
+// PASS: 0 G-buffer, 2 shadow map.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/figure_look.glsl"
 #include "terrane/shared/figure.h"
+#if PASS == 2
+#include "terrane/shared/constants.h"
+#include "terrane/shared/shadow.h"
+
+layout(std140, binding = kShadowDrawBinding) uniform ShadowDrawBlock {
+    ShadowDraw shadowDraw;
+};
+#endif
 
 // Not a storage buffer: OpenGL 4.5 lets a driver have none in vertex shaders.
 layout(std140, binding = kFiguresBinding) uniform FigureBlock {
     FigureRecord figures[kMostFigures];
 };
 
-layout(location = 0) out vec3 outPlace;         // at rest
-layout(location = 1) flat out uvec2 outFace;    // part, axis of the normal × 2 + 1 if positive; look
+#if PASS == 0
+layout(location = 0) out vec3 outPlace;       // at rest
+layout(location = 1) flat out uvec2 outFace;  // part, axis of the normal × 2 + 1 if positive; look
 layout(location = 2) flat out vec3 outNormal;
+#endif
 
 const int kTrunk = 0, kHead = 1, kLeftLeg = 2, kRightLeg = 3, kLeftArm = 4, kRightArm = 5;
 const float kPivots[6] = float[](0.0, 1.4, kFigureLeg, kFigureLeg, 1.27, 1.27);  // heights
@@ -96,17 +107,26 @@ void main() {
     Box box = boxOf(number, figure.look);
     Joint joint = jointOf(box.joint, figure);
     vec3 pivot = vec3(0.0, 0.0, kPivots[box.joint]), origin = figure.feet.xyz + pivot + vec3(0.0, 0.0, joint.rise);
-    vec3 eye = (frame.cameraPosition.xyz - origin) * joint.turn + pivot;
     int axis = int(vertex / 6u), u = (axis + 1) % 3, v = (axis + 2) % 3;
+#if PASS == 2
+    bool isPositive = dot(joint.turn[axis], shadowDraw.toLight.xyz) > 0.0;
+#else
+    vec3 eye = (frame.cameraPosition.xyz - origin) * joint.turn + pivot;
     bool isPositive = eye[axis] > 0.5 * (box.min[axis] + box.max[axis]);
+#endif
     uint corner = kFaceCorners >> 2u * (vertex % 6u) & 3u;
     vec3 side = vec3(0.0);
     side[axis] = isPositive ? 1.0 : 0.0;
     side[u] = float(corner & 1u);
     side[v] = float(corner >> 1);
-    outPlace = mix(box.min, box.max, side);
-    vec3 position = origin + joint.turn * (outPlace - pivot);
+    vec3 place = mix(box.min, box.max, side), position = origin + joint.turn * (place - pivot);
+#if PASS == 2
+    position.xy += float(kChunkSize) * vec2(frame.cameraChunk - shadowDraw.anchorChunk);
+    gl_Position = shadowDraw.toClip * vec4(position, 1.0);
+#else
     gl_Position = frame.viewProjection * vec4(position, 1.0);
+    outPlace = place;
     outFace = uvec2(box.part << 3 | uint(2 * axis) | (isPositive ? 1u : 0u), figure.look);
     outNormal = joint.turn[axis] * (isPositive ? 1.0 : -1.0);
+#endif
 }

@@ -9,23 +9,42 @@
 namespace terrane::render {
 
 FigurePass::FigurePass(const gpu::ShaderLoader& shaders)
-    : shaders_(shaders, "terrane/render/figure.vert.glsl", "terrane/render/figure.frag.glsl", "figures"),
+    : surfaces_(shaders, "terrane/render/figure.vert.glsl", "terrane/render/figure.frag.glsl", "figures"),
+      shadows_(shaders, "terrane/render/figure.vert.glsl", "terrane/render/figure_shadow.frag.glsl",
+               "shadows of figures"),
       vertexArray_("figures") {}
 
-void FigurePass::draw(gpu::Pipeline& pipeline, const FrameTargets& targets,
-                      std::span<const shared::FigureRecord> figures, gpu::MappedRing& ring) const {
+base::Result<void> FigurePass::select(bool castsShadows) {
+    auto selected = surfaces_.select(defined({{"PASS", 0}}));
+    if (selected && castsShadows) selected = shadows_.select(defined({{"PASS", 2}}));
+    return selected;
+}
+
+void FigurePass::bind(std::span<const shared::FigureRecord> figures, gpu::MappedRing& ring) const {
     assert(!figures.empty() && figures.size() <= shared::kMostFigures && "what figureRecords() gives");
-    const gpu::DebugGroup group("figures");
     const auto slice = ring.allocate(kRingBytes);  // a block of uniforms is bound as a whole
     assert(slice && "the ring has room for the figures of a frame");
     std::memcpy(slice->data.data(), figures.data(), figures.size_bytes());
     ring.bindUniform(shared::kFiguresBinding, *slice);
+}
+
+void FigurePass::draw(gpu::Pipeline& pipeline, const FrameTargets& targets, std::size_t count) const {
+    const gpu::DebugGroup group("figures");
     targets.gbuffer.bind();
     pipeline.set({.depthTest = gpu::DepthTest::Greater});
-    shaders_.use();
+    surfaces_.use();
+    drawInstances(count);
+}
+
+void FigurePass::drawShadows(std::size_t count) const {
+    shadows_.use();
+    drawInstances(count);
+}
+
+void FigurePass::drawInstances(std::size_t count) const {
     vertexArray_.bind();
     glDrawArraysInstanced(GL_TRIANGLES, 0, shared::kFigureBoxes * shared::kVerticesPerFigureBox,
-                          static_cast<GLsizei>(figures.size()));
+                          static_cast<GLsizei>(count));
 }
 
 }  // namespace terrane::render

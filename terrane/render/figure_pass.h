@@ -15,19 +15,24 @@ namespace terrane::render {
 
 class FigurePass {
   public:
-    // What draw() takes of the ring, whatever the number of figures.
+    // What bind() takes, whatever the number of figures.
     static constexpr std::size_t kRingBytes = shared::kMostFigures * sizeof(shared::FigureRecord);
 
     FigurePass() = default;
     explicit FigurePass(const gpu::ShaderLoader& shaders);
 
-    base::Result<void> select() { return shaders_.select({}); }
-    // Adds one to kMostFigures figures to the G-buffer, with the frame's uniforms bound.
-    void draw(gpu::Pipeline& pipeline, const FrameTargets& targets,
-              std::span<const shared::FigureRecord> figures, gpu::MappedRing& ring) const;
+    base::Result<void> select(bool castsShadows);
+    // For what is drawn next: one to kMostFigures figures. Takes kRingBytes of the ring.
+    void bind(std::span<const shared::FigureRecord> figures, gpu::MappedRing& ring) const;
+    // Adds `count` figures that are bound to the G-buffer, with the frame's uniforms bound.
+    void draw(gpu::Pipeline& pipeline, const FrameTargets& targets, std::size_t count) const;
+    // To the depth that is bound, with the uniforms of a shadow map's rectangle bound too.
+    void drawShadows(std::size_t count) const;
 
   private:
-    ShaderVariants shaders_;
+    void drawInstances(std::size_t count) const;
+
+    ShaderVariants surfaces_, shadows_;
     gpu::VertexArray vertexArray_;
 };
 

@@ -47,7 +47,7 @@ base::Result<void> FramePasses::configure(const FrameTargets& targets, const Ren
     auto done = shadowMap.configure(shadowShape(options), features.hasFaceSampling);
     if (done) done = gbuffer.select(options.msaaAlphaTest ? samples : 1, options.sharpFiltering, features);
     if (done) done = holeFill.configure(targets, options.tJunctions == TJunctions::Filled);
-    if (done) done = figures.select();
+    if (done) done = figures.select(castsShadows(options));
     const bool knowsLand = shadows > 0 && features.hasLand && options.shadows == ShadowReach::Horizon;
     if (done) done = shading.select(options, samples, {shadows, knowsLand});
     if (done) done = transparency.configure(targets, options, {shadows, knowsLand}, features);

@@ -18,8 +18,9 @@
 namespace terrane::render {
 namespace {
 
-// Uniforms of a frame (camera, tint, air, land, shadows) and twice those of culling, aligned; and figures.
-constexpr std::size_t kRingBytes = 8192 + FigurePass::kRingBytes;
+// Uniforms of a frame (camera, tint, air, land, shadows), twice those of culling, and those of the rectangles
+// of shadow maps that figures are drawn into, aligned; figures that are seen, and that cast shadows.
+constexpr std::size_t kRingBytes = 8192 + ShadowMap::kFigureRingBytes + 2 * FigurePass::kRingBytes;
 constexpr int kLightViewDistance = 16;  // chunks, until setViewDistance
 constexpr float kMaxAnisotropy = 8.0f;
 
@@ -193,6 +194,9 @@ void Renderer::drawShadows(const FrameInput& input) {
         const TimerZone zone(timer_, "shadow map");
         passes_.shadowMap.update(pipeline_, {resources_, quads_, meshSections_}, input.camera,
                                  input.environment.lightDirection, input.maxShadowTiles);
+        const auto figures = figureRecords(input.figures, input.camera, {}, kFigureShadowReach);
+        passes_.shadowMap.drawFigures(pipeline_, passes_.figures, {figures, cameraChunk(input.camera)},
+                                      ring_);
     }
     passes_.shadowMap.bindUniforms(input.camera, hasShadows(input), ring_);
 }
@@ -221,7 +225,8 @@ void Renderer::drawFigures(const FrameInput& input, const CullInput& cullInput) 
         figureRecords(input.figures, input.camera, cullInput.camera, double{input.fogDistance});
     if (records.empty()) return;
     const TimerZone zone(timer_, "figures");
-    passes_.figures.draw(pipeline_, targets_, records, ring_);
+    passes_.figures.bind(records, ring_);
+    passes_.figures.draw(pipeline_, targets_, records.size());
 }
 
 void Renderer::shadeSurfaces(const FrameInput& input) {

@@ -76,6 +76,9 @@ const std::map<std::string, Values>& variantValues() {
           {"FAR", {"0"}},
           {"FACE_SAMPLING", {"0"}},
           {"TINT", {"0"}}}},
+        {"figure.vert", {{"PASS", {"0", "2"}}}},
+        {"figure.frag", {{"PASS", {"0"}}}},
+        {"figure_shadow.frag", {{"PASS", {"2"}}}},
         {"pixel_mask.frag", {{"MSAA_SAMPLES", {"4"}}, {"OF", {"0", "1", "2"}}}},
         {"sky.frag", {{"CLOUDS", {"0", "1"}}, {"NIGHT", {"0", "1"}}, {"DIRECT", {"0", "1"}}}},
         {"hole_fill.frag", {{"MSAA_SAMPLES", {"1", "4"}}}},
@@ -264,7 +267,7 @@ class ShaderPrograms : public gpu::GlTest {};
 
 // A pass is what a quad's vertices are made for; layers are shaded over quads or over the screen.
 std::string vertexShaderFor(std::string_view path, const gpu::ShaderDefines& defines) {
-    if (path.ends_with("/figure.frag.glsl")) return "terrane/render/figure.vert.glsl";
+    if (path.find("/figure") != std::string_view::npos) return "terrane/render/figure.vert.glsl";
     const bool isOfQuads = std::ranges::any_of(defines, [](const auto& d) { return d.first == "PASS"; });
     return isOfQuads && !has(defines, "QUADS", "0") ? "terrane/render/quad.vert.glsl"
                                                     : "terrane/render/fullscreen.vert.glsl";
