@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "terrane/render/camera.h"
 #include "terrane/render/shadow_clipmap.h"
 #include "terrane/world/environment.h"
+#include "terrane/world/figure.h"
 
 namespace terrane::render {
 
@@ -23,6 +25,8 @@ struct FrameInput {
     // Draws only what this camera would see, whatever is hidden from it: to look at culling from outside. It
     // is in the same chunk as `camera`.
     std::optional<Camera> culledFor = std::nullopt;
+    // Other players; what is out of view may be among them.
+    std::span<const world::Figure> figures = {};
 };
 
 }  // namespace terrane::render

@@ -30,6 +30,7 @@ base::Result<FramePasses> FramePasses::create(const gpu::ShaderLoader& shaders,
                        .shadowMap = ShadowMap(shaders),
                        .gbuffer = GBufferPass(shaders),
                        .holeFill = HoleFill(shaders),
+                       .figures = FigurePass(shaders),
                        .transparency = TransparencyPass(shaders),
                        .occlusion = AmbientOcclusion(shaders),
                        .godRays = GodRays(shaders),
@@ -46,6 +47,7 @@ base::Result<void> FramePasses::configure(const FrameTargets& targets, const Ren
     auto done = shadowMap.configure(shadowShape(options), features.hasFaceSampling);
     if (done) done = gbuffer.select(options.msaaAlphaTest ? samples : 1, options.sharpFiltering, features);
     if (done) done = holeFill.configure(targets, options.tJunctions == TJunctions::Filled);
+    if (done) done = figures.select(castsShadows(options));
     const bool knowsLand = shadows > 0 && features.hasLand && options.shadows == ShadowReach::Horizon;
     if (done) done = shading.select(options, samples, {shadows, knowsLand});
     if (done) done = transparency.configure(targets, options, {shadows, knowsLand}, features);

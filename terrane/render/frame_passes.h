@@ -5,6 +5,7 @@
 #include "terrane/render/ambient_occlusion.h"
 #include "terrane/render/cull_pass.h"
 #include "terrane/render/depth_of_field.h"
+#include "terrane/render/figure_pass.h"
 #include "terrane/render/fullscreen_pass.h"
 #include "terrane/render/gbuffer_pass.h"
 #include "terrane/render/god_rays.h"
@@ -34,6 +35,7 @@ struct FramePasses {
     ShadowMap shadowMap;
     GBufferPass gbuffer;
     HoleFill holeFill;
+    FigurePass figures;
     TransparencyPass transparency;
     AmbientOcclusion occlusion;
     GodRays godRays;

@@ -10,10 +10,10 @@
 namespace terrane::render {
 
 // The passes whose GPU time is measured, in the order of a frame. Options leave some out.
-constexpr std::array<std::string_view, 15> kPassNames = {
-    "cull",       "shadow map",        "surfaces", "depth pyramid", "cull again", "surfaces again",
-    "fill holes", "ambient occlusion", "sky",      "shade",         "peel",       "shade layers",
-    "god rays",   "depth of field",    "final"};
+constexpr std::array<std::string_view, 16> kPassNames = {
+    "cull",         "shadow map", "surfaces",          "depth pyramid", "cull again", "surfaces again",
+    "fill holes",   "figures",    "ambient occlusion", "sky",           "shade",      "peel",
+    "shade layers", "god rays",   "depth of field",    "final"};
 
 // Of draw commands before quad_list.h shortens them: quads that are tested and left out count too.
 struct FrameStatistics {

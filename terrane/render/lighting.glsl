@@ -6,15 +6,16 @@ const vec3 kMinLight = vec3(0.006);  // of the darkest cave: shapes can just be 
 
 // Levels of light as sampled before the surface. Plants stand inside their block and take its light. The position comes
 // from the depth and is off by less than kOff within some hundred blocks: moved by that along the normal it is on the
-// near side of the plane between two layers of nodes, everywhere on a face. Far tiles lie under the open sky.
+// near side of the plane between two layers of nodes, everywhere on a face. Figures take the light of the block that they
+// stand in too, by the layer of nodes that a face lies in. Far tiles lie under the open sky.
 vec4 levelsAt(vec3 position, Surface s) {
 #if FAR == 1
     return vec4(0.0, 0.0, 0.0, 1.0);
 #else
     if (s.isFar) return vec4(0.0, 0.0, 0.0, 1.0);
-    const float kOff = 1.0 / 256.0;
+    const float kOff = 1.0 / 256.0, kIntoFigure = -0.55;  // sampleLight() goes half a block ahead
     vec3 normal = s.direction == kDirectionPlant ? vec3(0.0) : normalOf(s.direction);
-    return sampleLight(position + kOff * normal, normal);
+    return sampleLight(position + (s.isFigure ? kIntoFigure : kOff) * normal, normal);
 #endif
 }
 

@@ -15,6 +15,6 @@ vec4 packLayer(vec4 color, uint direction, bool isFar, bool isLiquid) {
 
 Layer unpackLayer(vec4 packedLayer) {
     uint bits = uint(65535.0 * packedLayer.a + 0.5);
-    Surface s = Surface(linearFromSrgb(packedLayer.rgb), normalOf(bits & 7u), 0.0, bits & 7u, (bits & 8u) != 0u);
+    Surface s = Surface(linearFromSrgb(packedLayer.rgb), normalOf(bits & 7u), 0.0, bits & 7u, (bits & 8u) != 0u, false);
     return Layer(s, float(bits >> 8) / 255.0, (bits & 16u) != 0u);
 }

@@ -9,6 +9,7 @@
 #include "terrane/base/profile.h"
 #include "terrane/render/direct_image.h"
 #include "terrane/render/edge_expansion.h"
+#include "terrane/render/figure_records.h"
 #include "terrane/render/frame_uniforms.h"
 #include "terrane/render/shadow_volume.h"
 #include "terrane/render/timer_zone.h"
@@ -17,8 +18,9 @@
 namespace terrane::render {
 namespace {
 
-// Uniforms of a frame (camera, tint, air, land, shadows) and twice those of culling, aligned.
-constexpr std::size_t kRingBytes = 8192;
+// Uniforms of a frame (camera, tint, air, land, shadows), twice those of culling, and those of the rectangles
+// of shadow maps that figures are drawn into, aligned; figures that are seen, and that cast shadows.
+constexpr std::size_t kRingBytes = 8192 + ShadowMap::kFigureRingBytes + 2 * FigurePass::kRingBytes;
 constexpr int kLightViewDistance = 16;  // chunks, until setViewDistance
 constexpr float kMaxAnisotropy = 8.0f;
 
@@ -192,6 +194,9 @@ void Renderer::drawShadows(const FrameInput& input) {
         const TimerZone zone(timer_, "shadow map");
         passes_.shadowMap.update(pipeline_, {resources_, quads_, meshSections_}, input.camera,
                                  input.environment.lightDirection, input.maxShadowTiles);
+        const auto figures = figureRecords(input.figures, input.camera, {}, kFigureShadowReach);
+        passes_.shadowMap.drawFigures(pipeline_, passes_.figures, {figures, cameraChunk(input.camera)},
+                                      ring_);
     }
     passes_.shadowMap.bindUniforms(input.camera, hasShadows(input), ring_);
 }
@@ -211,6 +216,17 @@ void Renderer::drawLate(const CullInput& cullInput) {
     cull(CullPhase::Late, cullInput);
     const TimerZone zone(timer_, "surfaces again");
     passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
+}
+
+// After holes are filled, which would take thin arms in the distance for holes of what is behind.
+void Renderer::drawFigures(const FrameInput& input, const CullInput& cullInput) {
+    if (input.figures.empty()) return;
+    const auto records =
+        figureRecords(input.figures, input.camera, cullInput.camera, double{input.fogDistance});
+    if (records.empty()) return;
+    const TimerZone zone(timer_, "figures");
+    passes_.figures.bind(records, ring_);
+    passes_.figures.draw(pipeline_, targets_, records.size());
 }
 
 void Renderer::shadeSurfaces(const FrameInput& input) {
@@ -300,6 +316,7 @@ void Renderer::draw(const FrameInput& input) {
         const TimerZone zone(timer_, "fill holes");
         passes_.holeFill.draw(pipeline_, targets_);
     }
+    drawFigures(input, culling);
     input.view == View::Color ? drawImage(input) : drawDebugView();
     pipeline_.set({});  // others clear depths
     passes_.cull.queueCounts();

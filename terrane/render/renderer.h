@@ -121,6 +121,7 @@ class Renderer {
     void drawShadows(const FrameInput& input);
     void drawSurfaces();
     void drawLate(const CullInput& cullInput);
+    void drawFigures(const FrameInput& input, const CullInput& cullInput);
     void shadeSurfaces(const FrameInput& input);
     bool drawTransparency(const FrameInput& input);
     void drawImage(const FrameInput& input);

@@ -73,7 +73,7 @@ vec4 shadePixel(ivec2 pixel, float visibility) {
 }
 #elif MSAA_SAMPLES > 1
 vec4 shadePixel(ivec2 pixel, float visibility) {
-    Surface mean = Surface(vec3(0.0), vec3(0.0), 0.0, kDirectionNone, false);
+    Surface mean = Surface(vec3(0.0), vec3(0.0), 0.0, kDirectionNone, false, false);
     float nearest = 0.0;
     int covered = 0;
     for (int k = 0; k < MSAA_SAMPLES; ++k) {
@@ -87,6 +87,7 @@ vec4 shadePixel(ivec2 pixel, float visibility) {
         if (depth > nearest) {
             mean.direction = s.direction;
             mean.isFar = s.isFar;
+            mean.isFigure = s.isFigure;
         }
         nearest = max(nearest, depth);
         ++covered;

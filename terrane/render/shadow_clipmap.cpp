@@ -72,7 +72,11 @@ PlaneBox onPlane(const ShadowPlane& plane, const CasterBox& box) {
     const double width = double{world::kChunkSize} * world::columnWidth(box.chunk.level);
     const glm::dvec3 low(width * box.chunk.x, width * box.chunk.y, box.minZ);
     const glm::dvec3 high(low.x + width, low.y + width, box.maxZ);
-    const glm::dvec3 half = 0.5 * (high - low) + double{shared::kWaving};
+    return onPlane(plane, low - double{shared::kWaving}, high + double{shared::kWaving});
+}
+
+PlaneBox onPlane(const ShadowPlane& plane, glm::dvec3 low, glm::dvec3 high) {
+    const glm::dvec3 half = 0.5 * (high - low);
     const glm::dvec2 middle(onPlane(plane, 0.5 * (low + high)));
     const glm::dmat3& m = plane.toLight;
     const glm::dvec2 reach(glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z);
@@ -238,11 +242,20 @@ std::vector<ShadowTiles> ShadowClipmap::update(const Camera& camera, glm::vec3 l
     wanted.resize(std::min(wanted.size(), limit));
     std::vector<ShadowTiles> tiles;
     for (const Wanted& w : wanted) {
-        tileAt(layers_[w.layer], w.place) = {w.place, 0};
+        tileAt(layers_[w.layer], w.place) = {w.place, 0, frame_};
         tiles.push_back({*layers_[w.layer].plane, w.cascade, static_cast<int>(w.layer), w.place});
     }
     finishNext(camera);
     return joined(std::move(tiles));
+}
+
+NearestShadowMap ShadowClipmap::nearest() const {
+    const Layer& layer = used(0);
+    assert(layer.plane && "update() comes first");
+    NearestShadowMap map{*layer.plane, static_cast<int>(inUse_[0]), {}};
+    for (std::size_t slot = 0; slot < kShadowSlots; ++slot)
+        map.tiles[slot] = {layer.tiles[slot].place, layer.tiles[slot].drawn};
+    return map;
 }
 
 shared::ShadowFrame ShadowClipmap::frame(const Camera& camera, int texels) const {

@@ -49,6 +49,7 @@ struct PlaneBox {
     glm::dvec2 min, max;
 };
 PlaneBox onPlane(const ShadowPlane& plane, const CasterBox& box);
+PlaneBox onPlane(const ShadowPlane& plane, glm::dvec3 low, glm::dvec3 high);  // of a box in blocks
 
 // A rectangle of tiles that follow each other in the map, to be drawn together.
 struct ShadowTiles {
@@ -57,6 +58,19 @@ struct ShadowTiles {
     glm::ivec2 place{0}, size{1};  // tiles
 
     glm::ivec2 slot() const { return place & (static_cast<int>(shared::kShadowTiles) - 1); }
+};
+
+constexpr std::size_t kShadowSlots = std::size_t{shared::kShadowTiles} * shared::kShadowTiles;
+
+// The map of the nearest cascade that is in use.
+struct NearestShadowMap {
+    struct Tile {
+        std::optional<glm::ivec2> place;
+        std::uint64_t drawn = 0;  // number of the update that drew it; 0: none
+    };
+    ShadowPlane plane;
+    int layer = 0;
+    std::array<Tile, kShadowSlots> tiles;  // by slot: x + kShadowTiles × y
 };
 
 class ShadowClipmap {
@@ -78,6 +92,7 @@ class ShadowClipmap {
 
     // What shaders need of it as it is now. `texels`: along a side of a map.
     shared::ShadowFrame frame(const Camera& camera, int texels) const;
+    NearestShadowMap nearest() const;  // after update()
 
   private:
     static constexpr int kTiles = static_cast<int>(shared::kShadowTiles);
@@ -86,10 +101,11 @@ class ShadowClipmap {
     struct Tile {
         std::optional<glm::ivec2> place;  // none: nothing is drawn
         std::uint64_t staleSince = 0;     // frame; 0: as it should be
+        std::uint64_t drawn = 0;          // frame
     };
     struct Layer {
         std::optional<ShadowPlane> plane;
-        std::array<Tile, static_cast<std::size_t>(kTiles) * kTiles> tiles;
+        std::array<Tile, kShadowSlots> tiles;
     };
     // Tiles of a layer, and how far each is from the middle.
     struct Wanted {

@@ -10,6 +10,8 @@
 namespace terrane::render {
 namespace {
 
+constexpr gpu::PipelineState kNearestToLight{.depthTest = gpu::DepthTest::Greater, .clampsDepth = true};
+
 constexpr int kMapTiles = static_cast<int>(shared::kShadowTiles);
 
 // OpenGL asks uniforms to begin at multiples of at most so much.
@@ -32,6 +34,20 @@ shared::ShadowDraw uniformsOf(const ShadowTiles& tiles) {
     draw.toLight = glm::vec4(axes[2], 0);
     draw.anchorChunk = {tiles.plane.anchor.x, tiles.plane.anchor.y};
     return draw;
+}
+
+gpu::Texture2DArray mapsOf(int texels, int count) {
+    return {{{texels, texels}, count, 1}, GL_DEPTH_COMPONENT32F, "shadow map"};
+}
+
+base::Result<std::vector<gpu::Framebuffer>> layersOf(const gpu::Texture2DArray& maps) {
+    std::vector<gpu::Framebuffer> layers;
+    for (int layer = 0; layer < maps.shape().layers; ++layer) {
+        auto framebuffer = gpu::Framebuffer::create({{}, {maps, layer}}, "shadow map");
+        if (!framebuffer) return tl::unexpected(framebuffer.error());
+        layers.push_back(std::move(*framebuffer));
+    }
+    return layers;
 }
 
 // One by one: of an indirect draw of many commands Mesa 22.3.6 (llvmpipe) loses some, and tiles are drawn
@@ -65,18 +81,15 @@ base::Result<void> ShadowMap::configure(const Shape& shape, bool hasFaceSampling
     layers_.clear();
     depths_ = {};
     shape_ = {};
+    hasFigures_ = false;
+    figureShadows_.forget();
     clipmap_ = ShadowClipmap(shape.cascades);
     if (shape.cascades == 0) return {};
-    gpu::Texture2DArray depths({{shape.texels, shape.texels}, clipmap_.layers(), 1}, GL_DEPTH_COMPONENT32F,
-                               "shadow map");
-    std::vector<gpu::Framebuffer> layers;
-    for (int layer = 0; layer < clipmap_.layers(); ++layer) {
-        auto framebuffer = gpu::Framebuffer::create({{}, {depths, layer}}, "shadow map");
-        if (!framebuffer) return tl::unexpected(framebuffer.error());
-        layers.push_back(std::move(*framebuffer));
-    }
+    auto depths = mapsOf(shape.texels, clipmap_.layers());
+    auto layers = layersOf(depths);
+    if (!layers) return tl::unexpected(layers.error());
     depths_ = std::move(depths);
-    layers_ = std::move(layers);
+    layers_ = std::move(*layers);
     shape_ = shape;
     return {};
 }
@@ -102,23 +115,23 @@ std::vector<ShadowMap::Drawing> ShadowMap::prepare(const std::vector<ShadowTiles
     return drawings;
 }
 
-void ShadowMap::clear(const ShadowTiles& tiles) const {
+// Draws go into the tiles alone until the scissor test is switched off.
+void ShadowMap::bindTiles(const ShadowTiles& tiles, std::size_t layer) const {
     const int texels = shape_.texels / kMapTiles;
     const glm::ivec2 corner = texels * tiles.slot(), size = texels * tiles.size;
-    const gpu::Framebuffer& layer = layers_[static_cast<std::size_t>(tiles.layer)];
-    layer.bind();
+    layers_[layer].bind();
     glViewport(corner.x, corner.y, size.x, size.y);
     glEnable(GL_SCISSOR_TEST);
     glScissor(corner.x, corner.y, size.x, size.y);
-    layer.clearDepth(0.0f);
 }
 
 // Depth grows toward the light. What lies beyond the range casts too: its depth is clamped. The scissor test
 // stays on: no triangle leaves its tiles, whatever the driver clips to.
 void ShadowMap::draw(gpu::Pipeline& pipeline, const Drawing& drawing, const QuadStore& quads) const {
-    constexpr gpu::PipelineState kNearestToLight{.depthTest = gpu::DepthTest::Greater, .clampsDepth = true};
     pipeline.set(kNearestToLight);
-    clear(drawing.tiles);
+    const auto layer = static_cast<std::size_t>(drawing.tiles.layer);
+    bindTiles(drawing.tiles, layer);
+    layers_[layer].clearDepth(0.0f);
     for (std::size_t k = 0; k < drawing.lists.size(); ++k) {
         if (drawing.lists[k].commands.empty()) continue;
         const int bucket = static_cast<int>(k) % kCasterBuckets;
@@ -147,10 +160,60 @@ void ShadowMap::update(gpu::Pipeline& pipeline, const Casters& casters, const Ca
     }
 }
 
+// What is drawn stays.
+bool ShadowMap::addFigureLayer() {
+    if (layers_.size() > figureLayer()) return true;
+    auto depths = mapsOf(shape_.texels, clipmap_.layers() + 1);
+    auto layers = layersOf(depths);
+    if (!layers) return false;
+    glCopyImageSubData(depths_.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, depths.id(), GL_TEXTURE_2D_ARRAY, 0, 0,
+                       0, 0, shape_.texels, shape_.texels, clipmap_.layers());
+    depths_ = std::move(depths);
+    layers_ = std::move(*layers);
+    return true;
+}
+
+void ShadowMap::copyToFigureLayer(int layer, std::span<const glm::ivec2> slots) const {
+    const int texels = shape_.texels / kMapTiles;
+    for (const glm::ivec2 slot : slots)
+        glCopyImageSubData(depths_.id(), GL_TEXTURE_2D_ARRAY, 0, texels * slot.x, texels * slot.y, layer,
+                           depths_.id(), GL_TEXTURE_2D_ARRAY, 0, texels * slot.x, texels * slot.y,
+                           static_cast<GLint>(figureLayer()), texels, texels, 1);
+}
+
+void ShadowMap::drawFigures(gpu::Pipeline& pipeline, const FigurePass& pass, const FigureCasters& figures,
+                            gpu::MappedRing& ring) {
+    hasFigures_ = false;
+    if (figures.records.empty() || !addFigureLayer()) return;
+    std::vector<glm::dvec3> feet;
+    const glm::dvec3 corner(double{world::kChunkSize} * figures.chunk.x,
+                            double{world::kChunkSize} * figures.chunk.y, 0);
+    for (const shared::FigureRecord& record : figures.records)
+        feet.push_back(corner + glm::dvec3(glm::vec3(record.feet)));
+    const NearestShadowMap map = clipmap_.nearest();
+    const FigureShadowPlan plan = figureShadows_.plan(map, feet);
+    if (plan.draws.empty()) return;
+    const gpu::DebugGroup group("shadows of figures");
+    hasFigures_ = true;
+    copyToFigureLayer(map.layer, plan.copies);
+    pipeline.set(kNearestToLight);
+    pass.bind(figures.records, ring);
+    for (const ShadowTiles& tiles : plan.draws) {
+        const shared::ShadowDraw draw = uniformsOf(tiles);
+        const auto slice = ring.write(std::span<const shared::ShadowDraw>(&draw, 1));
+        assert(slice && "the ring has room for the rectangles of figures");
+        ring.bindUniform(shared::kShadowDrawBinding, *slice);
+        bindTiles(tiles, figureLayer());
+        pass.drawShadows(figures.records.size());
+    }
+    glDisable(GL_SCISSOR_TEST);
+}
+
 void ShadowMap::bindUniforms(const Camera& camera, bool isLit, gpu::MappedRing& ring) const {
     if (!isOn()) return;
     shared::ShadowFrame frame{};
     if (isLit) frame = clipmap_.frame(camera, shape_.texels);
+    if (isLit && hasFigures_) frame.layers[0] = static_cast<float>(figureLayer());
     frame.strength = isLit ? 1.0f : 0.0f;
     const auto slice = ring.write(std::span<const shared::ShadowFrame>(&frame, 1));
     assert(slice && "the ring has room for the uniforms of a frame");

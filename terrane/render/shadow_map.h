@@ -7,6 +7,8 @@
 #include "terrane/gpu/mapped_ring.h"
 #include "terrane/gpu/pipeline_state.h"
 #include "terrane/gpu/sampler.h"
+#include "terrane/render/figure_pass.h"
+#include "terrane/render/figure_shadows.h"
 #include "terrane/render/quad_resources.h"
 #include "terrane/render/shader_variants.h"
 #include "terrane/render/shadow_casters.h"
@@ -30,7 +32,10 @@ class ShadowMap {
     // The casters there are others than before.
     void markChanged(std::span<const CasterBox> boxes);
     // All must be drawn again: what casts looks different.
-    void forget() { clipmap_ = ShadowClipmap(shape_.cascades); }
+    void forget() {
+        clipmap_ = ShadowClipmap(shape_.cascades);
+        figureShadows_.forget();
+    }
 
     struct Casters {
         QuadResources& resources;
@@ -40,6 +45,17 @@ class ShadowMap {
     // Draws up to `maxTiles` tiles of what is missing or changed.
     void update(gpu::Pipeline& pipeline, const Casters& casters, const Camera& camera,
                 glm::vec3 lightDirection, std::size_t maxTiles);
+
+    struct FigureCasters {
+        std::span<const shared::FigureRecord> records;  // within kFigureShadowReach
+        world::ChunkPos chunk;                          // of the camera
+    };
+    static constexpr std::size_t kFigureRingBytes = 1024;  // of the ring, for four rectangles
+    // After each update(): adds the shadows of figures to the nearest cascade, with the frame's uniforms
+    // bound. The first figure makes the maps a layer larger.
+    void drawFigures(gpu::Pipeline& pipeline, const FigurePass& pass, const FigureCasters& figures,
+                     gpu::MappedRing& ring);
+
     // After update(), for a frame from the camera. Without light that casts shadows `isLit` is false, and
     // update() need not have come before.
     void bindUniforms(const Camera& camera, bool isLit, gpu::MappedRing& ring) const;
@@ -55,13 +71,18 @@ class ShadowMap {
     };
     std::vector<Drawing> prepare(const std::vector<ShadowTiles>& tiles, const MeshSectionTable& meshSections);
     void draw(gpu::Pipeline& pipeline, const Drawing& drawing, const QuadStore& quads) const;
-    void clear(const ShadowTiles& tiles) const;
+    bool addFigureLayer();
+    void copyToFigureLayer(int layer, std::span<const glm::ivec2> slots) const;
+    void bindTiles(const ShadowTiles& tiles, std::size_t layer) const;
+    std::size_t figureLayer() const { return static_cast<std::size_t>(clipmap_.layers()); }
 
     ShaderVariants opaque_, tested_;
     Shape shape_;
     ShadowClipmap clipmap_;
     gpu::Texture2DArray depths_;
     std::vector<gpu::Framebuffer> layers_;
+    FigureShadows figureShadows_;
+    bool hasFigures_ = false;  // the nearest map is read from figureLayer()
     gpu::Sampler compared_, plain_;
     gpu::Buffer uniforms_;
     std::size_t drawnTriangles_ = 0;

@@ -14,6 +14,7 @@ const uint kLandBinding = 3u;
 const uint kShadowBinding = 4u;
 const uint kShadowDrawBinding = 5u;
 const uint kAirBinding = 6u;
+const uint kFiguresBinding = 7u;
 
 // Storage buffers
 const uint kMeshSectionsBinding = 0u;

@@ -12,6 +12,7 @@
 #include "terrane/gpu/program.h"
 #include "terrane/shared/air.h"
 #include "terrane/shared/drainage.h"
+#include "terrane/shared/figure.h"
 #include "terrane/shared/frame.h"
 #include "terrane/shared/generation.h"
 #include "terrane/shared/land.h"
@@ -178,7 +179,8 @@ std::vector<StructLayout> mesherLayouts() {
 }
 
 std::vector<StructLayout> otherLayouts() {
-    using shared::Quad, shared::ShapeFace, shared::TileJob, shared::PackedSection, shared::SolverRound;
+    using shared::FigureRecord, shared::Quad, shared::ShapeFace, shared::TileJob, shared::PackedSection,
+        shared::SolverRound;
     return {{"Quad",
              "quad.h",
              false,
@@ -192,6 +194,16 @@ std::vector<StructLayout> otherLayouts() {
               {"axisU", offsetof(ShapeFace, axisU)},
               {"axisV", offsetof(ShapeFace, axisV)},
               {"normal", offsetof(ShapeFace, normal)}}},
+            {"FigureRecord",
+             "figure.h",
+             true,
+             sizeof(FigureRecord),
+             {{"feet", offsetof(FigureRecord, feet)},
+              {"pose", offsetof(FigureRecord, pose)},
+              {"swing", offsetof(FigureRecord, swing)},
+              {"look", offsetof(FigureRecord, look)},
+              {"unused0", offsetof(FigureRecord, unused0)},
+              {"unused1", offsetof(FigureRecord, unused1)}}},
             {"TileJob",
              "generation.h",
              false,

@@ -49,7 +49,10 @@ class FramePassesTest : public gpu::GlTest {
     }
 
     base::Image draw() {
-        renderer_->draw({{{-9, 5, 86}, 10, -14}, world::environmentAt(0.4f), 120, 1, View::Color});
+        FrameInput input{{{-9, 5, 86}, 10, -14}, world::environmentAt(0.4f), 120, 1, View::Color};
+        const world::Figure figure{.eyes = {-3, 5, 83}};
+        input.figures = std::span(&figure, 1);
+        renderer_->draw(input);
         return renderer_->readImage();
     }
     // The second image draws by what the first one saw.

@@ -76,6 +76,9 @@ const std::map<std::string, Values>& variantValues() {
           {"FAR", {"0"}},
           {"FACE_SAMPLING", {"0"}},
           {"TINT", {"0"}}}},
+        {"figure.vert", {{"PASS", {"0", "2"}}}},
+        {"figure.frag", {{"PASS", {"0"}}}},
+        {"figure_shadow.frag", {{"PASS", {"2"}}}},
         {"pixel_mask.frag", {{"MSAA_SAMPLES", {"4"}}, {"OF", {"0", "1", "2"}}}},
         {"sky.frag", {{"CLOUDS", {"0", "1"}}, {"NIGHT", {"0", "1"}}, {"DIRECT", {"0", "1"}}}},
         {"hole_fill.frag", {{"MSAA_SAMPLES", {"1", "4"}}}},
@@ -263,7 +266,8 @@ TEST(ShaderMacros, ThoseThatNobodyDefinesAreFound) {
 class ShaderPrograms : public gpu::GlTest {};
 
 // A pass is what a quad's vertices are made for; layers are shaded over quads or over the screen.
-std::string vertexShaderFor(const gpu::ShaderDefines& defines) {
+std::string vertexShaderFor(std::string_view path, const gpu::ShaderDefines& defines) {
+    if (path.find("/figure") != std::string_view::npos) return "terrane/render/figure.vert.glsl";
     const bool isOfQuads = std::ranges::any_of(defines, [](const auto& d) { return d.first == "PASS"; });
     return isOfQuads && !has(defines, "QUADS", "0") ? "terrane/render/quad.vert.glsl"
                                                     : "terrane/render/fullscreen.vert.glsl";
@@ -275,10 +279,11 @@ TEST_F(ShaderPrograms, EveryPairLinksOnTheDriver) {
         const Stage* stage = stageOf(file.path);
         if (!stage || stage->stage == gpu::ShaderStage::Vertex) continue;
         for (const gpu::ShaderDefines& defines : variantsOf(file.path)) {
-            const auto program = stage->stage == gpu::ShaderStage::Compute
-                                     ? gpu::Program::compute(contentShaders(), file.path, defines, "test")
-                                     : gpu::Program::graphics(contentShaders(), vertexShaderFor(defines),
-                                                              file.path, defines, "test");
+            const auto program =
+                stage->stage == gpu::ShaderStage::Compute
+                    ? gpu::Program::compute(contentShaders(), file.path, defines, "test")
+                    : gpu::Program::graphics(contentShaders(), vertexShaderFor(file.path, defines), file.path,
+                                             defines, "test");
             EXPECT_TRUE(program) << file.path << named(defines) << ": "
                                  << (program ? "" : program.error().message);
         }

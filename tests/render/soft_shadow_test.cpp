@@ -6,17 +6,17 @@
 namespace terrane::render {
 namespace {
 
-constexpr int kPlainZ = 64;  // highest blocks of the plain
+constexpr int kPlainTop = 64;  // highest blocks of the plain
 
 class SoftShadowTest : public SunlitTest {
   protected:
     // Of the shadow of a wall so high, in pixels, straight from above: those between dark and light.
     int edgePixels(int height, bool isSoft) {
         show(stoneWorld({-2, -2}, {2, 2},
-                        std::array<StoneBox, 2>{{{{{-32, -32, 60}, {47, 47, kPlainZ}}},
-                                                 {{{0, -32, kPlainZ + 1}, {0, 47, kPlainZ + height}}}}}));
+                        std::array<StoneBox, 2>{{{{{-32, -32, 60}, {47, 47, kPlainTop}}},
+                                                 {{{0, -32, kPlainTop + 1}, {0, 47, kPlainTop + height}}}}}));
         const Camera above{
-            .position = {1.0 + height, 0.5, kPlainZ + 7.0}, .yaw = 0, .pitch = -90, .fieldOfView = 20};
+            .position = {1.0 + height, 0.5, kPlainTop + 7.0}, .yaw = 0, .pitch = -90, .fieldOfView = 20};
         const world::Environment sun = sunAt(towardSun(180, 45));
         configure(ShadowReach::Off);
         const std::vector<int> bare = column(drawUnder(above, sun));
@@ -50,8 +50,8 @@ TEST_F(SoftShadowTest, EdgesWidenWithDistance) {
 
 // Between sun and moon there are no maps.
 TEST_F(SoftShadowTest, WithoutLightNothingIsShaded) {
-    show(stoneWorld({-2, -2}, {2, 2}, std::array<StoneBox, 1>{{{{{-32, -32, 60}, {47, 47, kPlainZ}}}}}));
-    const Camera camera{.position = {-20, 0, kPlainZ + 9.0}, .yaw = 0, .pitch = -20};
+    show(stoneWorld({-2, -2}, {2, 2}, std::array<StoneBox, 1>{{{{{-32, -32, 60}, {47, 47, kPlainTop}}}}}));
+    const Camera camera{.position = {-20, 0, kPlainTop + 9.0}, .yaw = 0, .pitch = -20};
     world::Environment dark = sunAt(towardSun(180, 45), 0);
     configure(ShadowReach::Off);
     const base::Image bare = drawUnder(camera, dark);

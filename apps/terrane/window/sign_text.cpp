@@ -7,8 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "apps/terrane/window/line_of_sight.h"
 #include "apps/terrane/window/screen_projection.h"
-#include "terrane/world/ray_cast.h"
 #include "terrane/world/sign.h"
 
 namespace terrane::app {
@@ -24,37 +24,12 @@ glm::dvec3 cornerOf(BlockPos pos) {
     return {pos.x, pos.y, pos.z};
 }
 
-bool hidesText(const world::BlockRegistry& blocks, const world::RayHit& hit, world::BlockId id) {
-    const world::BlockType& type = blocks.type(id);
-    if (type.shape == world::Shape::Model) return true;
-    if (type.shape != world::Shape::Cube) return false;
-    return blocks.materials()[type.material[hit.face]].alpha != world::AlphaMode::Blend;
-}
-
 // What of a sign is the same for all of its letters.
 struct Board {
     BlockPos pos;
     world::SignPlane plane;        // in the world
     glm::dvec3 right{0}, down{0};  // of length 1
 };
-
-// Whether nothing stands between the camera and a point before the board.
-bool isLetterSeen(const game::Session& session, const glm::dvec3& eye, const Board& board,
-                  const glm::dvec3& point) {
-    constexpr int kMostPassed = 24;
-    constexpr double kStep = 0.25;  // out of a cell that is passed in some steps
-    const glm::dvec3 way = point - eye, ahead = glm::normalize(way);
-    double from = 0, left = glm::length(way) - kAbove;
-    for (int passed = 0; passed < kMostPassed && left > 0; ++passed) {
-        const auto hit = world::castRay(session.world(), session.blocks(), {eye + ahead * from, ahead}, left);
-        if (!hit || hit->block == board.pos) return true;
-        if (hidesText(session.blocks(), *hit, session.world().block(hit->block))) return false;
-        const double step = hit->distance + kStep;
-        from += step;
-        left -= step;
-    }
-    return left <= 0;
-}
 
 ImVec2 imVec(const glm::vec2& v) {
     return {v.x, v.y};
@@ -74,7 +49,8 @@ void drawGlyph(const Pen& pen, const Board& board, const ImFontGlyph& glyph, glm
                board.plane.normal * kAbove;
     };
     const double x0 = double{glyph.X0}, x1 = double{glyph.X1}, y0 = double{glyph.Y0}, y1 = double{glyph.Y1};
-    if (!isLetterSeen(pen.session, pen.eye, board, point((x0 + x1) / 2, (y0 + y1) / 2))) return;
+    const glm::dvec3 middle = point((x0 + x1) / 2, (y0 + y1) / 2);
+    if (!isInSight(pen.session.world(), pen.session.blocks(), pen.eye, middle, board.pos)) return;
     const std::array corners{pen.projection.at(point(x0, y0)), pen.projection.at(point(x1, y0)),
                              pen.projection.at(point(x1, y1)), pen.projection.at(point(x0, y1))};
     if (!std::ranges::all_of(corners, [](const auto& corner) { return corner.has_value(); })) return;

@@ -1,0 +1,50 @@
+#include "terrane/render/figure_records.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "terrane/world/character.h"
+
+namespace terrane::render {
+namespace {
+
+// Around the feet: legs and arms reach so far out, and hair over the box of the player.
+constexpr glm::vec3 kLowest{-1, -1, -0.2f}, kHighest{1, 1, 2.2f};
+
+shared::FigureRecord recordOf(const world::Figure& figure, glm::vec3 feet) {
+    shared::FigureRecord record{};
+    record.feet = glm::vec4(feet, glm::radians(figure.bodyYaw));
+    record.pose = {glm::radians(figure.yaw), glm::radians(figure.pitch), figure.stride, figure.strideSize};
+    record.swing = figure.swing;
+    record.look = figure.look;
+    return record;
+}
+
+}  // namespace
+
+std::vector<shared::FigureRecord> figureRecords(std::span<const world::Figure> figures, const Camera& camera,
+                                                std::span<const glm::vec4> planes, double farBlocks) {
+    const world::ChunkPos chunk = cameraChunk(camera);
+    const glm::dvec3 corner(double{world::kChunkSize} * chunk.x, double{world::kChunkSize} * chunk.y,
+                            world::kEyeHeight);
+    struct Seen {
+        double distance;
+        shared::FigureRecord record;
+    };
+    std::vector<Seen> seen;
+    for (const world::Figure& figure : figures) {
+        const double distance = glm::distance(figure.eyes, camera.position);
+        const glm::vec3 feet(figure.eyes - corner);
+        if (distance < farBlocks && mayBeVisible(planes, feet + kLowest, feet + kHighest))
+            seen.push_back({distance, recordOf(figure, feet)});
+    }
+    std::ranges::stable_sort(seen, {}, &Seen::distance);
+    if (seen.size() > shared::kMostFigures) seen.resize(shared::kMostFigures);
+    std::vector<shared::FigureRecord> records;
+    records.reserve(seen.size());
+    for (const Seen& s : seen) records.push_back(s.record);
+    return records;
+}
+
+}  // namespace terrane::render
