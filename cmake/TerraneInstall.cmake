@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(modules base shared world content_files content sound_files sound video store gen light mesh stream game)
+set(modules base shared world content_files content sound_files sound video store gen light mesh stream game net)
 set(TERRANE_GRAPHICS_PKG "")
 set(TERRANE_GRAPHICS_REQUIRES "")
 if(TERRANE_GRAPHICS)
@@ -94,7 +94,7 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "A program to make worlds of blocks from
 and to make pictures and videos of them.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libterrane-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libepoxy-dev, libexpected-dev, libfmt-dev, libglm-dev, libhwy-dev, \
-libopenal-dev, libpng-dev, libspdlog-dev, libsqlite3-dev, libtomlplusplus-dev, libxxhash-dev, libzstd-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libboost1.81-dev, libepoxy-dev, libexpected-dev, libfmt-dev, libglm-dev, libhwy-dev, \
+libopenal-dev, libpng-dev, libsodium-dev, libspdlog-dev, libsqlite3-dev, libssl-dev, libtomlplusplus-dev, libxxhash-dev, libzstd-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The library that Terrane is made of: generation, saves, light, meshes, drawing.")
 include(CPack)

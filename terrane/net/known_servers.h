@@ -1,5 +1,5 @@
-// The keys of servers that a player was on: a line each, "HOST:PORT KEY". The first time a server is believed;
-// from then on it has to have the same key. Any thread.
+// The keys of servers that a player was on: a line each, "HOST:PORT KEY". The first time a server is
+// believed; from then on it has to have the same key. Any thread.
 #pragma once
 
 #include <filesystem>

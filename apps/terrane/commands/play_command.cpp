@@ -121,6 +121,12 @@ CommandEntry addPlay(CLI::App& app) {
     command->add_flag("--no-title", options->skipsTitle,
                       "Go straight into the world, as options that name one do");
     command->add_flag("--no-save", options->savesNothing, "Save nothing: changes are lost at the end");
+    command->add_option("--connect", options->remote.server, "Play in the world of a server")
+        ->type_name("HOST[:PORT]");
+    command->add_option("--name", options->remote.name, "Name by which others on a server know the player")
+        ->type_name("NAME");
+    command->add_option("--password", options->remote.password, "Where the server wants one")
+        ->type_name("TEXT");
     command->add_option("--bookmark", options->bookmark, "Start at this bookmark, counted from 1")
         ->check(numberFrom(1, 1e6))
         ->type_name("X");
@@ -136,6 +142,8 @@ CommandEntry addPlay(CLI::App& app) {
                      "File of settings that the panel writes; \"\": none")
         ->type_name("FILE");
     command->footer(std::string("Keys:\n") + kKeyHelp + kWhereSaved);
+    command->get_option("--name")->needs("--connect");
+    command->get_option("--connect")->needs("--name")->excludes("--world", "--seed", "--generator");
     return {command, [options, command] { return play(*options, *command); }};
 }
 

@@ -40,7 +40,8 @@ std::optional<std::string> ChatView::draw(const Screen& screen, const Texts& tr,
         if (share <= 0) break;
         const ImVec2 size = ImGui::CalcTextSize(line.text.c_str(), nullptr, false, width);
         const ImVec2 at(14 * unit, bottom - size.y);
-        draw.AddRectFilled({at.x - 4 * unit, at.y - 1 * unit}, {at.x + size.x + 4 * unit, at.y + size.y + 1 * unit},
+        draw.AddRectFilled({at.x - 4 * unit, at.y - 1 * unit},
+                           {at.x + size.x + 4 * unit, at.y + size.y + 1 * unit},
                            IM_COL32(10, 12, 16, static_cast<int>(150 * share)), 3 * unit);
         draw.AddText(nullptr, 0, at, white(share), line.text.c_str(), nullptr, width);
         bottom -= size.y + 3 * unit;

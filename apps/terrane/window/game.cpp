@@ -91,12 +91,13 @@ void Game::advance(double seconds) {
     messageSeconds_ -= seconds;
     untilThumbnail_ -= seconds;
     if (untilThumbnail_ <= 0) writeThumbnail();
-    session.clock.dayMinutes = settings_.dayMinutes;
+    if (!parts_.remote) session.clock.dayMinutes = settings_.dayMinutes;
     onPad(seconds);
     const double gameSeconds = isInMenu() ? 0 : seconds;
     player_.move(session.world(), session.blocks(), moveKeys(), gameSeconds);
     liftFromBelow();
     session.setPlayer(game::kLocalPlayer, player_.pose());
+    advanceRemote();
     breakAndBuild(seconds);
     advanceHud(seconds);
     session.advance(gameSeconds, world::chunkOf(player_.pose().position));
@@ -179,6 +180,7 @@ render::FrameInput Game::frameInput() const {
     input.timeSeconds = static_cast<float>(seconds_);
     input.view = settings_.view;
     input.waterAbove = game::waterAbove(parts_.session, player_.pose().position);
+    input.figures = hud_.others.figures;
     input.maxShadowTiles = render::ShadowClipmap::kTilesAFrame;
     if (isAbove_) {
         input.culledFor = input.camera;

@@ -14,6 +14,7 @@
 #include "apps/terrane/window/place_overlay.h"
 #include "apps/terrane/window/play_settings.h"
 #include "apps/terrane/window/preset_measurement.h"
+#include "apps/terrane/window/remote_play.h"
 #include "apps/terrane/window/save_notice.h"
 #include "apps/terrane/window/settings_dialog.h"
 #include "apps/terrane/window/text.h"
@@ -41,6 +42,7 @@ struct GameParts {
     render::BackgroundCompiler& compiler;
     const gpu::ShaderLoader& shaders;
     const base::StopSignals& signals;
+    RemotePlay* remote = nullptr;  // the server whose world it is; null: none
 };
 
 struct GameOptions {
@@ -69,6 +71,8 @@ class Game {
     // After run(): the player wants the title, not to quit.
     bool goesToTitle() const { return goesToTitle_; }
     const PlaySettings& settings() const { return settings_; }
+    // Why the server sent the player away; empty where it did not.
+    const std::string& serverReason() const { return serverReason_; }
 
   private:
     using WriteTime = std::optional<std::filesystem::file_time_type>;
@@ -97,6 +101,8 @@ class Game {
     void openPalette();
     void openPlaces();
     void takeBack(game::HistoryWay way);
+    void tellTakenBack(const game::TakenBack& done, bool isUndo);
+    void tellRefusal(game::EditResult result);
     void goToSpawn();
     void breakAndBuild(double seconds);
     void advanceHud(double seconds);
@@ -119,6 +125,10 @@ class Game {
     render::Camera camera() const;
     base::Result<void> drawFrames();
     void advance(double seconds);
+    void advanceRemote();
+    void tellDecided(const net::Decided& decided);
+    void drawRemote(const Screen& screen, const render::Camera& camera);
+    void beginChat();
     void liftFromBelow();
     void applySettings();
     base::Result<void> useResourcePack(const std::string& folder);
@@ -177,9 +187,11 @@ class Game {
     bool isLeaving_ = false, goesToTitle_ = false;
     bool wasComplete_ = false;  // all in view has been there once
     double hintSeconds_ = 12, messageSeconds_ = 0;
-    std::string message_;
+    std::string message_, serverReason_;
+    net::ClientLink::Stage linkStage_ = net::ClientLink::Stage::Joined;
     std::size_t nextBookmark_ = 0, frames_ = 0;
-    double seconds_ = 0;  // since the start
+    double seconds_ = 0;   // since the start
+    double nextList_ = 0;  // of players, in `seconds_`
 };
 
 }  // namespace terrane::app

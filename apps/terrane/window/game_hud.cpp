@@ -138,18 +138,26 @@ void Game::breakAndBuild(double seconds) {
     const auto result = interaction_.act(parts_.session, game::kLocalPlayer, player_, seconds);
     if (!result) return;
     hud_.hand.swing();
-    if (result == game::EditResult::NotEmpty) say(tr_("it is not empty: take out what is in it first"));
-    if (result == game::EditResult::Protected) say(tr_("the lowest layer of the world cannot be broken"));
-    if (result == game::EditResult::Claimed) say(tr_("this place belongs to somebody else"));
-    if (result == game::EditResult::NotAllowed) say(tr_("guests change nothing"));
+    tellRefusal(*result);
     if (pos && before != world::kAir && parts_.session.world().block(*pos) == world::kAir)
         hud_.particles.burst(*pos, before);
 }
 
+void Game::tellRefusal(game::EditResult result) {
+    if (result == game::EditResult::NotEmpty) say(tr_("it is not empty: take out what is in it first"));
+    if (result == game::EditResult::Protected) say(tr_("the lowest layer of the world cannot be broken"));
+    if (result == game::EditResult::Claimed) say(tr_("this place belongs to somebody else"));
+    if (result == game::EditResult::NotAllowed) say(tr_("guests change nothing"));
+}
+
 void Game::takeBack(game::HistoryWay way) {
-    using Outcome = game::TakenBack::Outcome;
     const bool isUndo = way == game::HistoryWay::Undo;
-    const game::TakenBack done = parts_.session.takeBack(game::kLocalPlayer, way);
+    tellTakenBack(parts_.session.takeBack(game::kLocalPlayer, way), isUndo);
+}
+
+void Game::tellTakenBack(const game::TakenBack& done, bool isUndo) {
+    using Outcome = game::TakenBack::Outcome;
+    if (done.outcome == Outcome::Sent) return;
     if (done.outcome == Outcome::NoStep) return say(isUndo ? tr_("nothing to undo") : tr_("nothing to redo"));
     if (done.outcome == Outcome::NotLoaded)
         return say(tr_("too far away: the place of that edit is not loaded"));

@@ -111,13 +111,18 @@ void Game::act(Action action) {
             break;
         case Action::Screenshot:
             return takeScreenshot();
-        case Action::Earlier:
-            parts_.session.clock.shift(-kDayStep);
+        case Action::Chat:
+            return beginChat();
+        case Action::PlayerList:
+            hud_.showsPlayers = parts_.remote && !hud_.showsPlayers;
             break;
+        case Action::Earlier:
         case Action::Later:
-            parts_.session.clock.shift(kDayStep);
+            if (parts_.remote) return say(tr_("the server keeps the time"));
+            parts_.session.clock.shift(action == Action::Later ? kDayStep : -kDayStep);
             break;
         case Action::HoldTime:
+            if (parts_.remote) return say(tr_("the server keeps the time"));
             parts_.session.clock.isRunning = !parts_.session.clock.isRunning;
             return say(parts_.session.clock.isRunning ? tr_("time passes") : tr_("time stands still"));
         case Action::Light:

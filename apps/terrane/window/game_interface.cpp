@@ -35,6 +35,7 @@ void Game::drawInterface(double seconds) {
     } else if (const auto& target = interaction_.target()) {
         drawTarget(screen, camera, *target, {session.world(), session.blocks(), settings_.highContrast});
     }
+    drawRemote(screen, camera);
     drawBuilding(screen);
     if (isCaptured_ && !isAbove_) drawCrosshair(screen);
     drawHud(screen, camera, seconds);

@@ -5,8 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "apps/terrane/window/chat_view.h"
 #include "apps/terrane/window/hand_view.h"
 #include "apps/terrane/window/hotbar_view.h"
+#include "apps/terrane/window/other_players.h"
 #include "apps/terrane/window/palette.h"
 #include "apps/terrane/window/places_panel.h"
 #include "apps/terrane/window/screenshot_view.h"
@@ -28,10 +30,16 @@ struct Hud {
     std::optional<gen::BiomeMap> biomes;
     bool asksForBiomes = true;         // whether there are any: found out when they are first shown
     std::optional<world::Pose> spawn;  // once it was asked for
-    glm::dvec3 walkedFrom{0};          // where the player was in the last frame
+    ChatView chat;                     // of a server
+    OtherPlayers others;
+    bool showsPlayers = false;
+    glm::dvec3 walkedFrom{0};  // where the player was in the last frame
 
-    bool hasDialog() const { return palette.isOpen || placesDialog.isOpen; }
-    void closeDialog() { palette.isOpen = placesDialog.isOpen = false; }
+    bool hasDialog() const { return palette.isOpen || placesDialog.isOpen || chat.isTyping(); }
+    void closeDialog() {
+        palette.isOpen = placesDialog.isOpen = false;
+        chat.endTyping();
+    }
 };
 
 // Splinters of broken blocks, as squares in the color of their block. `light`: what falls on them, 0…1.

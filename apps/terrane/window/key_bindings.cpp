@@ -39,6 +39,8 @@ constexpr std::array kActions = {
     ActionRow{Action::HideHud, "hide-hud", trLater("Hide all over the image"), Key::F8, {}, kOpens},
     ActionRow{Action::FullScreen, "full-screen", trLater("Full screen"), Key::F11, {}, kOpens},
     ActionRow{Action::Screenshot, "screenshot", trLater("Screenshot"), Key::F12, {}, kOpens},
+    ActionRow{Action::Chat, "chat", trLater("Talk on a server"), Key::T},
+    ActionRow{Action::PlayerList, "players", trLater("Who plays on the server"), Key::Y},
 };
 static_assert(kActions.size() == kActionCount);
 

@@ -42,6 +42,8 @@ enum class Action : std::uint8_t {
     HideHud,
     FullScreen,
     Screenshot,
+    Chat,
+    PlayerList,
     kCount
 };
 inline constexpr std::size_t kActionCount = static_cast<std::size_t>(Action::kCount);

@@ -2,7 +2,8 @@
 
 namespace terrane::app {
 
-void updatePlayers(OtherPlayers& others, const net::ClientWorld& world, std::chrono::steady_clock::time_point now) {
+void updatePlayers(OtherPlayers& others, const net::ClientWorld& world,
+                   std::chrono::steady_clock::time_point now) {
     std::erase_if(others.known, [&](const auto& entry) {
         const auto seen = world.players().find(entry.first);
         return seen == world.players().end() || seen->second.id != entry.second.id;
@@ -12,8 +13,8 @@ void updatePlayers(OtherPlayers& others, const net::ClientWorld& world, std::chr
     for (const auto& [slot, player] : world.players()) {
         OtherPlayers::Known& known =
             others.known
-                .try_emplace(slot, OtherPlayers::Known{game::FigureMotion(player.pose, now, player.id), player.id,
-                                                       player.moves, player.swings})
+                .try_emplace(slot, OtherPlayers::Known{game::FigureMotion(player.pose, now, player.id),
+                                                       player.id, player.moves, player.swings})
                 .first->second;
         if (known.moves != player.moves) known.motion.told(player.pose, now);
         if (known.swings != player.swings) known.motion.swing(now);

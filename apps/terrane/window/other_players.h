@@ -23,6 +23,7 @@ struct OtherPlayers {
     std::map<std::uint16_t, Known> known;  // by slot
 };
 
-void updatePlayers(OtherPlayers& others, const net::ClientWorld& world, std::chrono::steady_clock::time_point now);
+void updatePlayers(OtherPlayers& others, const net::ClientWorld& world,
+                   std::chrono::steady_clock::time_point now);
 
 }  // namespace terrane::app

@@ -1,9 +1,14 @@
 #include "apps/terrane/window/play_flow.h"
 
+#include <algorithm>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/window/game.h"
+#include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/overlay.h"
 #include "apps/terrane/window/title_screen.h"
 #include "terrane/base/log.h"
 #include "terrane/content/built_in.h"
@@ -93,7 +98,9 @@ PlayFlow::PlayFlow(const PlayOptions& options, const GivenOptions& given, Window
 
 base::Result<void> PlayFlow::run() {
     base::Result<void> result;
-    if (given_.namesWorld || options_.skipsTitle) {
+    if (!options_.remote.server.empty()) {
+        result = playServer(options_);
+    } else if (given_.namesWorld || options_.skipsTitle) {
         result = playWorld(options_);
     } else {
         goesToTitle_ = true;
@@ -163,18 +170,63 @@ base::Result<void> PlayFlow::playWorld(const PlayOptions& asked) {
     return playFrom(options, std::move(*parts), std::move(screen));
 }
 
+// Until the player is in its world, gives up, or is refused.
+base::Result<void> PlayFlow::waitForServer(RemotePlay& play) {
+    ImguiLayer imgui(window_);
+    const Texts tr = textsOf(settings_.language);
+    const std::string message = fmt::format(fmt::runtime(tr("joining {}")), play.address());
+    while (play.stage() != net::ClientLink::Stage::Joined) {
+        window_.pollEvents();
+        const auto isEscape = [](const InputEvent& event) {
+            return event.type == InputEvent::Type::KeyPress && event.key == Key::Escape;
+        };
+        if (isOver() || std::ranges::any_of(window_.events(), isEscape)) return base::fail("not joined");
+        play.poll();
+        if (play.stage() == net::ClientLink::Stage::Ended) return base::fail("{}", play.reason());
+        gpu::clearWindow(glm::vec3(0.2f, 0.3f, 0.4f));
+        imgui.beginFrame(false, true);
+        drawMessage({imgui.size().x, imgui.size().y}, message, 1);
+        imgui.endFrame();
+        window_.swapBuffers();
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return {};
+}
+
+base::Result<void> PlayFlow::playServer(const PlayOptions& asked) {
+    PlayOptions options = asked;
+    goesToTitle_ = false;
+    auto play = RemotePlay::connect(options.remote, dataFolder());
+    if (!play) return tl::unexpected(play.error());
+    if (auto joined = waitForServer(**play); !joined) return joined;
+    auto blocks = content::loadBlocks();
+    if (!blocks) return tl::unexpected(blocks.error());
+    const store::WorldIdentity& identity = (*play)->offer()->world.identity;
+    auto parts =
+        net::remoteSessionParts(identity, std::make_unique<const world::BlockRegistry>(std::move(*blocks)),
+                                threadCount(options.world));
+    if (!parts) return tl::unexpected(parts.error());
+    options.world.seed = identity.seed;
+    options.world.generator = identity.generator;
+    settings_.movement = options_.settings.movement;
+    return playFrom(options, std::move(parts->parts), screen_, {std::move(*play), parts->store});
+}
+
 base::Result<void> PlayFlow::playFrom(const PlayOptions& options, game::SessionParts parts,
-                                      ScreenOptions screen) {
+                                      ScreenOptions screen, ServersWorld given) {
     auto made = WorldOnScreen::create(std::move(parts), options.world, screen);
     if (!made) return tl::unexpected(made.error());
     WorldOnScreen& world = **made;
     game::Session& session = world.session();
+    // Ends before the session, on which it decides.
+    const std::unique_ptr<RemotePlay> remote = std::move(given.play);
     GameOptions game;
     game.dataFolder = dataFolder();
     const game::SavedPlayer saved = game::savedPlayer(session.store());
     const game::BookmarkFiles bookmarks = game::bookmarkFiles(game.dataFolder);
     game::reportFormerFiles(bookmarks);
-    auto start = startOf(options, bookmarks, saved, session);
+    auto start =
+        remote ? base::Result<world::Pose>(remote->start()) : startOf(options, bookmarks, saved, session);
     if (!start) return tl::unexpected(start.error());
     session.clock.timeDay = options.time ? *options.time : saved.timeDay.value_or(session.clock.timeDay);
     game.hotbar = saved.hotbar.value_or("");
@@ -186,12 +238,14 @@ base::Result<void> PlayFlow::playFrom(const PlayOptions& options, game::SessionP
     game.measuresPreset = std::exchange(measuresPreset_, false);
     game.thumbnail = thumbnailFor(options, game.dataFolder);
     hasBegun_ = true;
+    if (remote) remote->begin(session, *given.store);
     Game loop({window_, session, world.renderer(), world.view(), world.preview(), world.compiler(), shaders_,
-               signals_},
+               signals_, remote.get()},
               game);
     const auto played = loop.run();
     settings_ = loop.settings();
     goesToTitle_ = loop.goesToTitle() && !isOver();
+    message_ = loop.serverReason();
     return played;
 }
 

@@ -2,6 +2,7 @@
 // OpenGL context.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "apps/terrane/window/new_world_form.h"
@@ -18,6 +19,12 @@ namespace terrane::app {
 // as `settings` say. What a world names that is not there is left out, with a line in the log.
 void takeFromWorld(PlaySettings& settings, const game::SavedPlayer& saved, const GivenOptions& given);
 
+// A server's world, and the store of the session that shows it; no server: a world of one's own.
+struct ServersWorld {
+    std::unique_ptr<RemotePlay> play;
+    net::RemoteStore* store = nullptr;
+};
+
 class PlayFlow {
   public:
     PlayFlow(const PlayOptions& options, const GivenOptions& given, Window& window);
@@ -27,7 +34,10 @@ class PlayFlow {
   private:
     // Ends where the player left it: an error of opening it, or of saving it.
     base::Result<void> playWorld(const PlayOptions& options);
-    base::Result<void> playFrom(const PlayOptions& options, game::SessionParts parts, ScreenOptions screen);
+    base::Result<void> playServer(const PlayOptions& options);
+    base::Result<void> waitForServer(RemotePlay& play);
+    base::Result<void> playFrom(const PlayOptions& options, game::SessionParts parts, ScreenOptions screen,
+                                ServersWorld given = {});
     base::Result<std::optional<ChosenWorld>> showTitle();
     base::Result<void> keepSettings();
     bool isOver() const { return window_.shouldClose() || signals_.stopAsked(); }

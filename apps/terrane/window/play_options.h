@@ -8,6 +8,7 @@
 #include "apps/terrane/graphics_options.h"
 #include "apps/terrane/option_values.h"
 #include "apps/terrane/window/play_settings.h"
+#include "apps/terrane/window/remote_play.h"
 
 namespace terrane::app {
 
@@ -21,6 +22,7 @@ struct PlayOptions {
     PlaySettings settings;
     std::optional<int> bookmark;
     std::optional<double> time;
+    RemoteOptions remote;
     std::string perfData;
     std::string settingsFile = settingsPath().string();
 };

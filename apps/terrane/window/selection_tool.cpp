@@ -56,6 +56,8 @@ std::string refusal(BuildOutcome::Result result) {
             return fmt::format("that is farther than {:.0f} blocks away", game::kBuildReach);
         case Result::NotAllowed:
             return "a part of that is not yours to change";
+        case Result::Sent:
+            return "the server is asked";
         default:
             return "there is nothing to build";
     }
@@ -64,6 +66,8 @@ std::string refusal(BuildOutcome::Result result) {
 std::string blocksText(std::int64_t count) {
     return withCommas(count) + (count == 1 ? " block" : " blocks");
 }
+
+}  // namespace
 
 std::string outcomeText(std::string_view verb, const BuildOutcome& outcome) {
     if (outcome.result != BuildOutcome::Result::Done) return refusal(outcome.result);
@@ -74,7 +78,7 @@ std::string outcomeText(std::string_view verb, const BuildOutcome& outcome) {
     return text;
 }
 
-}  // namespace
+namespace {}  // namespace
 
 std::string withCommas(std::int64_t number) {
     std::string text = std::to_string(number);

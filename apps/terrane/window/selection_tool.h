@@ -24,6 +24,9 @@ std::string withCommas(std::int64_t number);  // 12,345
 // place in the air.
 world::BlockPos pointedAt(const BuildView& view, bool beforeBlock);
 
+// What became of a command, for the player: "changed 12 blocks", or why nothing did.
+std::string outcomeText(std::string_view verb, const game::BuildOutcome& outcome);
+
 class SelectionTool {
   public:
     // `folder`: of the files; made with the first one.
