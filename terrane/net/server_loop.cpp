@@ -2,12 +2,14 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/streambuf.hpp>
 #include <chrono>
+#include <cstdio>
 #include <istream>
 #include <optional>
 #include <string>
@@ -56,7 +58,13 @@ class Console {
     }
     void run(const std::string& line) {
         const std::string answer = runConsoleLine(server_, line);
-        if (!answer.empty()) base::printLine("{}", answer);
+        if (answer.empty()) return;
+        for (std::size_t at = 0; at <= answer.size();) {
+            const std::size_t end = std::min(answer.find('\n', at), answer.size());
+            base::printLine("{}", std::string_view(answer).substr(at, end - at));
+            at = end + 1;
+        }
+        std::fflush(stdout);  // it may be a pipe, at whose end somebody waits
     }
 
     ServerState& server_;

@@ -154,8 +154,12 @@ TEST_F(ServerTest, AFarTownIsSeen) {
     TestPlayer ann(server, testIdentity("Ann"));
     ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
     const world::BlockPos low = above(ann);
-    ann.world->build(
-        game::FillBox{{low, {low.x + 15, low.y + 15, low.z + 15}}, contentBlock("glass"), 0, {}});
+    EXPECT_EQ(ann.session
+                  ->build({game::kLocalPlayer,
+                           game::FillBox{
+                               {low, {low.x + 15, low.y + 15, low.z + 15}}, contentBlock("glass"), 0, {}}})
+                  .result,
+              game::BuildOutcome::Result::Sent);
     ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
     ASSERT_TRUE(server.state().session.save());
     TestPlayer bob(server, testIdentity("Bob"), 2, 128);

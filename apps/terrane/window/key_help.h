@@ -13,6 +13,7 @@ constexpr const char* kKeyHelp =
   B                       select a box: fill, replace, copy, paste, rotate, mirror, save
   M                       how one moves: on foot, fast or slowly through everything, not through walls
   N, H                    named places; go where the world begins
+  T, Y                    on a server: talk; who plays
   O, P, I                 time of day back, forth; let it pass or stand still
   F1, F2                  these keys; settings and statistics
   F3, F4                  debug top view; a map of how far chunks are

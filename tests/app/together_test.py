@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""Two windows on one server: what one player builds the other sees. Usage: together_test.py PROGRAM
+
+Needs what window_test.py needs. TERRANE_SCREENSHOTS names a folder for images of the windows."""
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import tempfile
+import time
+
+import support
+import window_test
+from support import HANG_SECONDS, ProgramTest
+from window_test import SIZE, is_green, is_grey
+
+
+class Server:
+    """A server of a flat world, on a port that is free."""
+
+    def __init__(self, folder):
+        self.world = folder / "world.sqlite"
+        self.log = tempfile.TemporaryFile(mode="w+")
+        self.process = subprocess.Popen(
+            [support.program(), "serve", "--world", self.world, "--generator", "flat", "--address", "127.0.0.1",
+             "--port", "0"], stdin=subprocess.PIPE, stdout=self.log, stderr=self.log, text=True,
+            env=support.environment(None, folder))
+        self.port = int(self.wait_for(r"on port (\d+)")[1])
+
+    def output(self):
+        self.log.seek(0)
+        return self.log.read()
+
+    def wait_for(self, pattern):
+        deadline = time.monotonic() + HANG_SECONDS
+        while time.monotonic() < deadline:
+            if found := re.search(pattern, self.output()):
+                return found
+            if self.process.poll() is not None:
+                break
+            time.sleep(0.05)
+        raise RuntimeError(f"no {pattern} in: {self.output()}")
+
+    def say(self, line):
+        self.process.stdin.write(line + "\n")
+        self.process.stdin.flush()
+
+
+class Together(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.server = Server(self.folder)
+        self.addCleanup(self.server.log.close)
+        self.addCleanup(self.server.process.stdin.close)
+        self.addCleanup(self.server.process.kill)
+
+    def join(self, display, name, pose):
+        """A player who goes to its only bookmark."""
+        data = self.folder / name
+        (data / "terrane").mkdir(parents=True)
+        (data / "terrane" / "bookmarks.txt").write_text(pose + "\n")
+        game = window_test.Game(display, data, (
+            "--connect", f"127.0.0.1:{self.server.port}", "--name", name, "--movement", "fast", "--view-distance", "3",
+            "--samples", "1", "--size", f"{SIZE[0]}x{SIZE[1]}"))
+        self.addCleanup(game.log.close)
+        self.addCleanup(game.process.kill)
+        game.open()
+        game.wait_for_image(SIZE)
+        game.pause_after("F1")  # no help in the image
+        game.press("F6")
+        return game
+
+    def keep(self, display, game, name):
+        if folder := os.environ.get("TERRANE_SCREENSHOTS"):
+            data = subprocess.run(["xwd", "-id", game.window, "-silent", "-display", display.name],
+                                  capture_output=True, timeout=HANG_SECONDS, check=True).stdout
+            (pathlib.Path(folder) / f"{name}.xwd").write_bytes(data)
+
+    def history(self):
+        return self.succeed("history", "--world", self.server.world)
+
+    def stop(self):
+        self.server.process.send_signal(signal.SIGTERM)
+        self.assertEqual(self.server.process.wait(HANG_SECONDS), 0, self.server.output())
+
+    def test_what_one_builds_the_other_sees(self):
+        with window_test.Display() as first, window_test.Display() as second:
+            ann = self.join(first, "Ann", "8.5 8.5 84 0 -89")
+            bob = self.join(second, "Bob", "3.5 8.5 84 0 -26")  # it looks at the same block
+            ann.wait_for_ground(is_green)
+            bob.wait_for_ground(is_green)
+            ann.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # takes the mouse
+            ann.press("2")  # cobble
+            self.keep(second, bob, "before")
+            first.xdotool("click", 3)
+            ann.wait_for_ground(is_grey)
+            bob.wait_for_ground(is_grey)
+            self.keep(first, ann, "ann")
+            self.keep(second, bob, "bob")
+            self.assertRegex(self.history(), r"Ann at 8 8 81: air to cobble")
+            self.stop()
+
+    def test_a_wrong_name_is_one_line(self):
+        with window_test.Display() as display:
+            data = self.folder / "nobody"
+            data.mkdir()
+            game = window_test.Game(display, data, ("--connect", f"127.0.0.1:{self.server.port}", "--name", " x "))
+            self.addCleanup(game.log.close)
+            self.assertEqual(game.process.wait(HANG_SECONDS), 2)
+            self.assertRegex(game.output(), r"error: --name  x : a name has 1 to 24 bytes")
+
+    def test_the_console_and_a_clean_end(self):
+        self.server.say("help")
+        self.server.wait_for(r"rollback PLAYER")
+        self.server.say("list")
+        self.server.wait_for(r"0 of 100 players")
+        self.server.say("op Nobody")
+        self.server.wait_for(r"nobody called Nobody ever played here")
+        bots = self.succeed("bots", "--connect", f"127.0.0.1:{self.server.port}", "--count", "5", "--seconds", "5",
+                            "--behaviour", "build", "--edits-per-second", "5")
+        self.assertIn('"joined": 5', bots)
+        self.assertIn("air to stone", self.history())
+        self.stop()
+        self.succeed("check", self.server.world)
+
+
+if __name__ == "__main__":
+    window_test.main()
