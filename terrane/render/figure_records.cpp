@@ -1,6 +1,7 @@
 #include "terrane/render/figure_records.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -11,6 +12,13 @@ namespace {
 
 // Around the feet: legs and arms reach so far out, and hair over the box of the player.
 constexpr glm::vec3 kLowest{-1, -1, -0.2f}, kHighest{1, 1, 2.2f};
+
+// Players may stand in one place, as where the world begins: from within one would see the back of a face.
+bool isWithin(const world::Figure& figure, const glm::dvec3& camera) {
+    constexpr double kAside = 0.4, kUnder = world::kEyeHeight + 0.1, kOver = 0.3;  // of the eyes
+    const glm::dvec3 from = camera - figure.eyes;
+    return std::abs(from.x) < kAside && std::abs(from.y) < kAside && from.z > -kUnder && from.z < kOver;
+}
 
 shared::FigureRecord recordOf(const world::Figure& figure, glm::vec3 feet) {
     shared::FigureRecord record{};
@@ -36,6 +44,7 @@ std::vector<shared::FigureRecord> figureRecords(std::span<const world::Figure> f
     for (const world::Figure& figure : figures) {
         const double distance = glm::distance(figure.eyes, camera.position);
         const glm::vec3 feet(figure.eyes - corner);
+        if (isWithin(figure, camera.position)) continue;
         if (distance < farBlocks && mayBeVisible(planes, feet + kLowest, feet + kHighest))
             seen.push_back({distance, recordOf(figure, feet)});
     }

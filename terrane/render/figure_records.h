@@ -10,8 +10,8 @@
 
 namespace terrane::render {
 
-// Those that the planes (in the frame's positions) leave in and that are nearer than `farBlocks`; the nearest
-// kMostFigures of them.
+// Those that the planes (in the frame's positions) leave in, that are nearer than `farBlocks` and not where
+// the camera is; the nearest kMostFigures of them.
 std::vector<shared::FigureRecord> figureRecords(std::span<const world::Figure> figures, const Camera& camera,
                                                 std::span<const glm::vec4> planes, double farBlocks);
 

@@ -46,6 +46,16 @@ TEST(FigureRecords, LeaveOutWhatIsNotInView) {
     EXPECT_EQ(recordsSeen({}, camera).size(), 0u);
 }
 
+TEST(FigureRecords, LeaveOutWhoStandsWhereTheCameraIs) {
+    const Camera camera{.position = {0, 0, 99 + world::kEyeHeight}, .yaw = 0};
+    EXPECT_EQ(recordsSeen({standingAt({0.1, 0.1, 99})}, camera).size(), 0u);
+    EXPECT_EQ(recordsSeen({standingAt({0.1, 0.1, 98.8})}, camera).size(), 0u) << "a little lower";
+    EXPECT_EQ(recordsSeen({standingAt({0.1, 0.1, 100})}, camera).size(), 0u) << "a step higher";
+    EXPECT_EQ(recordsSeen({standingAt({0.6, 0, 99})}, camera).size(), 1u) << "face to face";
+    const Camera down{.position = camera.position, .yaw = 0, .pitch = -80};
+    EXPECT_EQ(recordsSeen({standingAt({0.1, 0, 97})}, down).size(), 1u) << "underneath";
+}
+
 TEST(FigureRecords, KeepsTheNearest) {
     std::vector<world::Figure> figures;
     for (std::uint32_t k = 0; k < shared::kMostFigures + 50; ++k)
