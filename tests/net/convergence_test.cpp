@@ -229,7 +229,7 @@ TEST_P(Convergence, EverybodyHasTheServersWorld) {
     EXPECT_GT(acts, 200u) << "something was done";
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Convergence, testing::Values(1u, 2u, 3u));
+INSTANTIATE_TEST_SUITE_P(Seeds, Convergence, testing::Values(1u, 2u));
 
 }  // namespace
 }  // namespace terrane::net
