@@ -9,6 +9,8 @@ namespace {
 // Between attempts: 0.5 s, then twice as long each time.
 constexpr std::chrono::milliseconds kFirstWait{500}, kLongestWait{8000};
 constexpr std::chrono::seconds kLoginTime{15};
+// A server that is there says something every five seconds.
+constexpr std::chrono::seconds kSilence{20};
 
 }  // namespace
 
@@ -45,6 +47,8 @@ void ClientLink::update(std::chrono::steady_clock::time_point now) {
     if (isFirst) triedAt_ = now;
     if (stage_ == Stage::Waiting && now >= tryAt_) connect();
     if (stage_ == Stage::Connecting && now - triedAt_ > kLoginTime) onCut("the server does not answer");
+    if (stage_ == Stage::Joined && now - heardAt_ > kSilence)
+        onCut("nothing was heard of the server for too long");
 }
 
 void ClientLink::send(const ClientMessage& message) {
@@ -53,7 +57,9 @@ void ClientLink::send(const ClientMessage& message) {
 
 void ClientLink::leave() {
     send(Leave{});
-    if (stage_ != Stage::Ended) end({});
+    if (stage_ == Stage::Ended) return;
+    reason_.clear();
+    stage_ = Stage::Ended;
 }
 
 void ClientLink::say(const ClientMessage& message) {
@@ -62,6 +68,7 @@ void ClientLink::say(const ClientMessage& message) {
 
 void ClientLink::onMessage(ByteView bytes) {
     if (stage_ == Stage::Ended) return;
+    heardAt_ = now_;
     const auto message = decodeServerMessage(bytes);
     if (!message) return end("the server sent what is no message: " + message.error().message);
     if (const auto* refused = std::get_if<Refused>(&*message)) return onRefused(*refused);
@@ -101,6 +108,7 @@ void ClientLink::onCut(const std::string& reason) {
 }
 
 void ClientLink::end(const std::string& reason) {
+    socket_->close();
     reason_ = reason;
     stage_ = Stage::Ended;
 }

@@ -64,7 +64,7 @@ class ClientLink {
     Bytes channel_;
     Stage stage_ = Stage::Waiting;
     std::string reason_;
-    std::chrono::steady_clock::time_point now_{}, tryAt_{}, triedAt_{};
+    std::chrono::steady_clock::time_point now_{}, tryAt_{}, triedAt_{}, heardAt_{};
     int cuts_ = 0;  // since the last Joined
     bool wasJoined_ = false;
     std::uint64_t formerReceived_ = 0, formerSent_ = 0;

@@ -121,7 +121,7 @@ void ClientWorld::showChunk(world::ChunkPos pos, const ChunkDifference& blocks) 
     if (session_.world().maybeChunkAt(pos))
         show(shown);
     else if (isLoading(pos))
-        late_.insert(pos);  // its worker may have read the store before
+        mergeInto(late_[pos], blocks);  // its worker may have read the store before
 }
 
 void ClientWorld::show(std::span<const world::PlacedBlock> blocks) {
@@ -129,10 +129,10 @@ void ClientWorld::show(std::span<const world::PlacedBlock> blocks) {
 }
 
 void ClientWorld::showLateChunks() {
-    std::erase_if(late_, [this](world::ChunkPos pos) {
+    std::erase_if(late_, [this](const auto& entry) {
+        const auto& [pos, blocks] = entry;
         if (isLoading(pos)) return false;
-        if (session_.world().maybeChunkAt(pos))
-            show(prediction_.takeIn(placedBlocks(pos, store_.difference(pos))));
+        if (session_.world().maybeChunkAt(pos)) show(prediction_.takeIn(placedBlocks(pos, blocks)));
         return true;
     });
 }

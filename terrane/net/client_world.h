@@ -9,7 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <unordered_set>
+#include <unordered_map>
 #include <vector>
 
 #include "terrane/game/session.h"
@@ -102,7 +102,8 @@ class ClientWorld {
     std::optional<Joined> joined_;
     CommandNumber lastCommand_ = 0;
     std::deque<WaitingDecision> waiting_;
-    std::unordered_set<world::ChunkPos, world::ChunkPosHash> late_;  // changed while they were loaded
+    // Of chunks that changed while they were loaded.
+    std::unordered_map<world::ChunkPos, ChunkDifference, world::ChunkPosHash> late_;
     bool isConnected_ = false, isViewComplete_ = false;
 
     std::optional<WirePose> toldPose_;

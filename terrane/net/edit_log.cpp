@@ -97,14 +97,16 @@ std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::PlayerId player, s
             before.push_back({world::blockIndex(block->pos), block->before});
             after.push_back({world::blockIndex(block->pos), block->after});
         }
-        for (std::size_t k = 0; k < before.size(); k += kMaxBlocksInPart) {
+        for (std::size_t begin = 0; begin < before.size();) {
+            const std::size_t count = std::min(partsOf(std::span(before).subspan(begin)).front().size(),
+                                               partsOf(std::span(after).subspan(begin)).front().size());
             const auto part = [&](const ChunkDifference& all) {
-                const auto begin = all.begin() + static_cast<std::ptrdiff_t>(k);
-                return ChunkDifference(
-                    begin, begin + static_cast<std::ptrdiff_t>(std::min(kMaxBlocksInPart, all.size() - k)));
+                const auto from = all.begin() + static_cast<std::ptrdiff_t>(begin);
+                return ChunkDifference(from, from + static_cast<std::ptrdiff_t>(count));
             };
             const auto number = first + static_cast<std::int64_t>(edits.size());
             edits.push_back({number, timeMs, player, chunk, part(before), part(after)});
+            begin += count;
         }
     }
     return edits;

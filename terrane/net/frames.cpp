@@ -1,6 +1,14 @@
 #include "terrane/net/frames.h"
 
+#include <algorithm>
+
 namespace terrane::net {
+namespace {
+
+// Seven bits each: 2^28 bytes are more than any message has.
+constexpr std::size_t kMaxDigits = 4;
+
+}  // namespace
 
 void appendFrame(Bytes& stream, ByteView message) {
     WireWriter(stream).number(message.size());
@@ -17,13 +25,13 @@ base::Result<std::optional<ByteView>> FrameReader::next() {
     const ByteView rest = ByteView(bytes_).subspan(begin_);
     std::size_t length = 0, digits = 0;
     bool isWhole = false;
-    while (digits < rest.size() && !isWhole && length <= maxMessage_) {
+    while (digits < std::min(rest.size(), kMaxDigits) && !isWhole) {
         const auto digit = static_cast<std::size_t>(rest[digits]);
         length |= (digit & 127) << (7 * digits);
         isWhole = digit < 128;
         ++digits;
     }
-    if (length > maxMessage_ || digits > 4)
+    if (length > maxMessage_ || (digits == kMaxDigits && !isWhole))
         return base::fail(base::ErrorCode::Damaged, "a message of more than {} bytes", maxMessage_);
     if (!isWhole || rest.size() - digits < length) return std::optional<ByteView>();
     begin_ += digits + length;

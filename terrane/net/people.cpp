@@ -66,7 +66,7 @@ std::optional<KnownPlayer> playerOf(const store::Statement& row) {
 
 bool isName(std::string_view name) {
     return !name.empty() && name.size() <= kMaxNameBytes && isPlainText(name) && name.front() != ' ' &&
-           name.back() != ' ';
+           name.back() != ' ' && name.find('"') == std::string_view::npos && name != "*";
 }
 
 base::Result<People> People::read(ServerFile& file) {

@@ -16,7 +16,8 @@
 
 namespace terrane::net {
 
-// A name has 1 to kMaxNameBytes bytes of plain text (wire.h) without spaces at its ends.
+// A name has 1 to kMaxNameBytes bytes of plain text (wire.h) without spaces at its ends. Lines of the console
+// name everybody: it has no quotation mark, and "*", who is anybody there, is none.
 bool isName(std::string_view name);
 
 struct KnownPlayer {

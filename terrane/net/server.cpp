@@ -149,8 +149,9 @@ void tick(ServerState& server, Time now) {
     continueRollbacks(server);
     if (server.tick % kTicksPerLiveChunks == 1) findLiveChunks(server);
     server.session.advance(std::chrono::duration<double>(kServerTick).count(), server.liveChunks);
-    server.session.pipeline().update(server.now);
+    // Before chunks are unloaded: what changed is read from them.
     tellChangedBlocks(server);
+    server.session.pipeline().update(server.now);
     tellDecisions(server);
     tellViews(server);
     tellSight(server);

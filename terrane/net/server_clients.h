@@ -12,11 +12,12 @@ void send(ServerClient& client, const ServerMessage& message);
 // A message that is encoded once for several clients.
 void sendEncoded(ServerClient& client, ByteView message);
 
-// A line to one player, or to all who play. No name: the server speaks.
+// Lines to one player, or to all who play. No name: the server speaks. Any bytes may be in them; what a
+// message cannot have is escaped, and long lines are cut.
 void say(ServerClient& client, const std::string& text);
 void sayToAll(ServerState& server, const std::string& name, const std::string& text);
 
-// Tells the client why, and sends it away: nothing that it says counts any more.
+// Tells the client why (any bytes), and sends it away: nothing that it says counts any more.
 void refuse(ServerState& server, ServerClient& client, Refusal why, const std::string& reason);
 // It plays no longer: its place is kept, others hear of it.
 void leave(ServerState& server, ServerClient& client);

@@ -4,11 +4,14 @@
 
 #include "terrane/net/server_clients.h"
 #include "terrane/store/structure_file.h"
+#include "terrane/world/sign.h"
 
 namespace terrane::net {
 namespace {
 
 constexpr std::size_t kMaxWaitingCommands = 512;
+// Of data of blocks in them: an edit has up to 32 KiB.
+constexpr std::size_t kMaxWaitingBytes = 1 << 20;
 // A command whose chunks do not come runs without them, and is refused by the session.
 constexpr std::chrono::seconds kMaxWait{3};
 // Of one command: a line of 65,536 blocks would touch 12,000.
@@ -19,11 +22,19 @@ constexpr double kEditsOfPlace = 30;
 constexpr std::chrono::seconds kLoadsAround{20};
 constexpr std::chrono::milliseconds kLoadAroundEvery{1000};
 
+std::size_t dataBytes(const WaitingCommand& waiting) {
+    const auto* edit = std::get_if<Edit>(&waiting.command);
+    const auto* data = edit ? std::get_if<world::SetEntityData>(&edit->change) : nullptr;
+    return data ? data->data.size() : 0;
+}
+
 // Asks for the chunks that the box touches and one more around, as blocks beside it may change with it.
 // Whether all are there, or they are too many to wait for.
 bool areLoaded(ServerState& server, const world::BlockBox& box) {
     const world::ChunkPos low = world::chunkOf(box.low), high = world::chunkOf(box.high);
-    if ((high.x - low.x + 3) * (high.y - low.y + 3) > kMaxChunks) return true;
+    // Either alone is at most 2^28 chunks.
+    const std::int64_t width = high.x - low.x + 3, depth = high.y - low.y + 3;
+    if (width * depth > kMaxChunks) return true;
     bool all = true;
     for (std::int32_t y = low.y - 1; y <= high.y + 1; ++y)
         for (std::int32_t x = low.x - 1; x <= high.x + 1; ++x) {
@@ -40,7 +51,26 @@ double blockCount(const world::BlockBox& box) {
     return side(box.low.x, box.high.x) * side(box.low.y, box.high.y) * side(box.low.z, box.high.z);
 }
 
+bool isKnown(const ServerState& server, world::BlockId id) {
+    return id < server.session.blocks().types().size();
+}
+
+// Blocks of no type cannot be saved, and data on blocks that keep none is but a load on disks.
+bool isSensible(const ServerState& server, const Edit& edit) {
+    if (const auto* block = std::get_if<world::SetBlock>(&edit.change)) return isKnown(server, block->id);
+    if (!std::holds_alternative<world::SetEntityData>(edit.change)) return true;
+    if (!server.session.world().maybeChunkAt(world::chunkOf(edit.pos))) return true;
+    const world::BlockType& type = server.session.blocks().type(server.session.world().block(edit.pos));
+    return type.slots > 0 || world::holdsText(type);
+}
+bool isSensible(const ServerState& server, const Build& build) {
+    const auto* fill = std::get_if<game::FillBox>(&build.change);
+    return !fill || isKnown(server, fill->id);
+}
+
 Done run(ServerState& server, ServerClient& client, const Edit& edit) {
+    if (!isSensible(server, edit))
+        return {edit.number, static_cast<std::uint8_t>(game::EditResult::BadData), 0, 0};
     const auto result = server.session.edit({client.player, edit.pos, edit.change, edit.expected});
     return {edit.number, static_cast<std::uint8_t>(result), 0, 0};
 }
@@ -48,8 +78,10 @@ Done run(ServerState& server, ServerClient& client, const Edit& edit) {
 Done run(ServerState& server, ServerClient& client, const Build& build) {
     const double blocks = blockCount(game::boxOf(build.change));
     game::BuildOutcome outcome{game::BuildOutcome::Result::TooLarge, 0, 0};
-    if (blocks <= static_cast<double>(server.settings.maxFillBlocks) &&
-        client.buckets.blocks.take(blocks, server.now))
+    if (!isSensible(server, build))
+        outcome.result = game::BuildOutcome::Result::Empty;
+    else if (blocks <= static_cast<double>(server.settings.maxFillBlocks) &&
+             client.buckets.blocks.take(blocks, server.now))
         outcome = server.session.build({client.player, build.change});
     return {build.number, static_cast<std::uint8_t>(outcome.result),
             static_cast<std::uint32_t>(outcome.changed), static_cast<std::uint32_t>(outcome.kept)};
@@ -61,6 +93,7 @@ game::HistoryWay wayOf(const TakeBack& takeBack) {
 
 Done run(ServerState& server, ServerClient& client, const TakeBack& takeBack) {
     const game::TakenBack taken = server.session.takeBack(client.player, wayOf(takeBack));
+    client.buckets.blocks.spend(static_cast<double>(taken.blocks + taken.kept));
     return {takeBack.number, static_cast<std::uint8_t>(taken.outcome),
             static_cast<std::uint32_t>(taken.blocks), static_cast<std::uint32_t>(taken.kept)};
 }
@@ -75,13 +108,15 @@ bool isReady(ServerState& server, const ServerClient& client, const Edit& edit) 
 }
 bool isReady(ServerState& server, const ServerClient& client, const Build& build) {
     const world::BlockBox box = game::boxOf(build.change);
-    return blockCount(box) > static_cast<double>(server.settings.maxFillBlocks) ||
-           isReady(server, client, box);
+    const double blocks = blockCount(box);
+    const bool isRefused = blocks == 0 || blocks > static_cast<double>(server.settings.maxFillBlocks);
+    return isRefused || isReady(server, client, box);
 }
 bool isReady(ServerState& server, const ServerClient& client, const TakeBack& takeBack) {
-    return std::ranges::all_of(
-        server.session.chunksToTakeBack(client.player, wayOf(takeBack)),
-        [&](world::ChunkPos pos) { return server.session.pipeline().maybeLoadChunkAt(pos) != nullptr; });
+    bool all = true;
+    for (const world::ChunkPos pos : server.session.chunksToTakeBack(client.player, wayOf(takeBack)))
+        all &= server.session.pipeline().maybeLoadChunkAt(pos) != nullptr;
+    return all;
 }
 
 void decide(ServerState& server, ServerClient& client, const WaitingCommand& next) {
@@ -103,6 +138,10 @@ void runOf(ServerState& server, ServerClient& client) {
         const auto ready = [&](const auto& command) { return isReady(server, client, command); };
         if (!waitedLong && !std::visit(ready, next.command)) return;
         if (std::holds_alternative<Edit>(next.command) && !client.buckets.edits.take(1, server.now)) return;
+        // How many blocks it is about is known afterwards.
+        if (std::holds_alternative<TakeBack>(next.command) && !client.buckets.blocks.take(1, server.now))
+            return;
+        client.waitingBytes -= dataBytes(next);
         decide(server, client, next);
         client.commands.pop_front();
     }
@@ -118,7 +157,8 @@ void loadAround(ServerState& server, const ServerClient& client) {
 }  // namespace
 
 void takeCommand(ServerState& server, ServerClient& client, WaitingCommand command) {
-    if (client.commands.size() >= kMaxWaitingCommands)
+    client.waitingBytes += dataBytes(command);
+    if (client.commands.size() >= kMaxWaitingCommands || client.waitingBytes > kMaxWaitingBytes)
         return refuse(server, client, Refusal::TooMuch, "too many changes of blocks at once");
     client.commands.push_back(std::move(command));
 }

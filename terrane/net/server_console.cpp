@@ -39,7 +39,7 @@ std::string unknownPlayer(const std::string& name) {
 }
 
 std::string sayLine(ServerState& server, Words words) {
-    sayToAll(server, {}, joined(words).substr(0, kMaxChatBytes));
+    sayToAll(server, {}, joined(words));
     return "said";
 }
 
@@ -61,14 +61,15 @@ std::string kick(ServerState& server, Words words) {
     if (!client) return fmt::format("{} does not play now", words[0]);
     const std::string reason = joined(words.subspan(1));
     refuse(server, *client, Refusal::Kicked,
-           reason.empty() ? "you were sent away" : "you were sent away: " + reason.substr(0, 300));
+           reason.empty() ? "you were sent away" : "you were sent away: " + reason);
     return words[0] + " is sent away";
 }
 
 std::string ban(ServerState& server, Words words) {
     const KnownPlayer* player = server.people.byName(words[0]);
     if (!player) return unknownPlayer(words[0]);
-    const std::string reason = words.size() > 1 ? joined(words.subspan(1)).substr(0, 300) : "no reason given";
+    std::string reason = joined(words.subspan(1));
+    if (reason.empty()) reason = "no reason given";
     server.people.setBan(player->id, reason);
     if (ServerClient* client = playingClient(server, player->id))
         refuse(server, *client, Refusal::Banned, "you are banned from this server: " + reason);
@@ -190,8 +191,9 @@ std::string setPassword(ServerState& server, Words words) {
     if (words[0] == "off") {
         server.passwordHash.clear();
     } else {
-        if (words[0].size() > kMaxPasswordBytes)
-            return fmt::format("a password has at most {} bytes", kMaxPasswordBytes);
+        const std::size_t size = words[0].size();
+        if (size == 0 || size > kMaxPasswordBytes || !isPlainText(words[0]))
+            return fmt::format("a password has 1 to {} bytes of text", kMaxPasswordBytes);
         auto hash = passwordHash(words[0]);
         if (!hash) return hash.error().message;
         server.passwordHash = std::move(*hash);

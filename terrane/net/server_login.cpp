@@ -53,7 +53,8 @@ void offerWorld(ServerState& server, ServerClient& client) {
 void onLogin(ServerState& server, ServerClient& client, const Login& login) {
     if (!isName(login.name))
         return refuse(server, client, Refusal::Name,
-                      fmt::format("a name has 1 to {} bytes, without spaces at its ends", kMaxNameBytes));
+                      fmt::format("a name has 1 to {} bytes, no quotation mark and no spaces at its ends",
+                                  kMaxNameBytes));
     const Bytes text = loginText(client.channel, client.nonce, login.name);
     if (!isSignedBy(login.key, text, login.signature))
         return refuse(server, client, Refusal::WrongKey, "the signature does not fit the key");
@@ -62,6 +63,11 @@ void onLogin(ServerState& server, ServerClient& client, const Login& login) {
     refuseStranger(server, client);
     if (client.stage == Stage::Closed) return;
     if (server.passwordHash.empty()) return offerWorld(server, client);
+    // Who is gone waits no longer.
+    std::erase_if(server.passwordQueue, [&](const WaitingPassword& waiting) {
+        const auto found = server.clients.find(waiting.client);
+        return found == server.clients.end() || found->second.stage != Stage::Password;
+    });
     if (server.passwordQueue.size() >= kMaxWaitingPasswords)
         return refuse(server, client, Refusal::Full, "too many players log in: try again soon");
     client.stage = Stage::Password;

@@ -63,7 +63,7 @@ base::Result<Tcp::endpoint> endpointOf(const ListenAddress& address) {
 
 }  // namespace
 
-struct ServerSockets::Impl {
+struct ServerSockets::Impl : std::enable_shared_from_this<ServerSockets::Impl> {
     Impl(asio::io_context& io, ServerState& state, asio::ssl::context tlsContext)
         : server(state), tls(std::move(tlsContext)), acceptor(io) {}
 
@@ -78,7 +78,14 @@ struct ServerSockets::Impl {
     void flush(const ConnectionPtr& connection);
     void send(const ConnectionPtr& connection);
     void close(const ConnectionPtr& connection);
-    bool plays(const ServerConnection& connection) const;
+    bool isOpen(const ConnectionPtr& connection) const { return connections.contains(connection->id); }
+    bool isAt(const ServerConnection& connection, ServerClient::Stage stage) const;
+    bool plays(const ServerConnection& connection) const {
+        return isAt(connection, ServerClient::Stage::Playing);
+    }
+    bool isSentAway(const ServerConnection& connection) const {
+        return isAt(connection, ServerClient::Stage::Closed);
+    }
 
     ServerState& server;
     asio::ssl::context tls;
@@ -108,7 +115,7 @@ base::Result<void> ServerSockets::Impl::listen(const ListenAddress& address) {
 
 void ServerSockets::Impl::accept() {
     isAccepting = true;
-    acceptor.async_accept([this](const SocketError& error, Tcp::socket socket) {
+    acceptor.async_accept([this, self = shared_from_this()](const SocketError& error, Tcp::socket socket) {
         isAccepting = false;
         if (error) return;  // no more files, as it may be: the next tick tries again
         addConnection(std::move(socket));
@@ -116,9 +123,9 @@ void ServerSockets::Impl::accept() {
     });
 }
 
-bool ServerSockets::Impl::plays(const ServerConnection& connection) const {
+bool ServerSockets::Impl::isAt(const ServerConnection& connection, ServerClient::Stage stage) const {
     const auto found = server.clients.find(connection.id);
-    return found != server.clients.end() && found->second.stage == ServerClient::Stage::Playing;
+    return found != server.clients.end() && found->second.stage == stage;
 }
 
 // Of the address that has most, the oldest goes.
@@ -148,17 +155,19 @@ void ServerSockets::Impl::addConnection(Tcp::socket socket) {
 
 // A connection that says nothing costs a socket and no more.
 void ServerSockets::Impl::waitForClient(const ConnectionPtr& connection) {
-    connection->socket.async_wait(Tcp::socket::wait_read, [this, connection](const SocketError& error) {
-        if (error) return close(connection);
-        handshake(connection);
-    });
+    connection->socket.async_wait(Tcp::socket::wait_read,
+                                  [this, self = shared_from_this(), connection](const SocketError& error) {
+                                      if (error) return close(connection);
+                                      if (isOpen(connection)) handshake(connection);
+                                  });
 }
 
 void ServerSockets::Impl::handshake(const ConnectionPtr& connection) {
     connection->stream.emplace(connection->socket, tls);
     connection->stream->async_handshake(
-        asio::ssl::stream_base::server, [this, connection](const SocketError& error) {
-            if (error || !connections.contains(connection->id)) return close(connection);
+        asio::ssl::stream_base::server,
+        [this, self = shared_from_this(), connection](const SocketError& error) {
+            if (error || !isOpen(connection)) return close(connection);
             connection->isOpened = true;
             onOpened(server, connection->id, channelOf(connection->stream->native_handle()),
                      connection->address, std::chrono::steady_clock::now());
@@ -167,12 +176,13 @@ void ServerSockets::Impl::handshake(const ConnectionPtr& connection) {
 }
 
 void ServerSockets::Impl::read(const ConnectionPtr& connection) {
-    connection->stream->async_read_some(asio::buffer(connection->input),
-                                        [this, connection](const SocketError& error, std::size_t bytes) {
-                                            if (error) return close(connection);
-                                            takeFrames(connection, bytes);
-                                            if (connections.contains(connection->id)) read(connection);
-                                        });
+    connection->stream->async_read_some(
+        asio::buffer(connection->input),
+        [this, self = shared_from_this(), connection](const SocketError& error, std::size_t bytes) {
+            if (error) return close(connection);
+            if (isOpen(connection) && !isSentAway(*connection)) takeFrames(connection, bytes);
+            if (isOpen(connection)) read(connection);
+        });
 }
 
 void ServerSockets::Impl::takeFrames(const ConnectionPtr& connection, std::size_t bytes) {
@@ -200,18 +210,23 @@ void ServerSockets::Impl::flush(const ConnectionPtr& connection) {
         client.unsent = connection->sending.size();
         return send(connection);
     }
-    if (client.stage == ServerClient::Stage::Closed) close(connection);
+    // What it still says is read and dropped until it closes: closed at once the system would reset the
+    // connection, and the client might never read why.
+    if (client.stage != ServerClient::Stage::Closed) return;
+    SocketError ignored;
+    connection->socket.shutdown(Tcp::socket::shutdown_send, ignored);
 }
 
 void ServerSockets::Impl::send(const ConnectionPtr& connection) {
     asio::async_write(*connection->stream, asio::buffer(connection->sending),
-                      [this, connection](const SocketError& error, std::size_t) {
+                      [this, self = shared_from_this(), connection](const SocketError& error, std::size_t) {
                           connection->sending.clear();
                           if (error) return close(connection);
+                          if (!isOpen(connection)) return;
                           if (const auto found = server.clients.find(connection->id);
                               found != server.clients.end())
                               found->second.unsent = 0;
-                          if (connections.contains(connection->id)) flush(connection);
+                          flush(connection);
                       });
 }
 
@@ -223,7 +238,7 @@ void ServerSockets::Impl::close(const ConnectionPtr& connection) {
     if (connection->isOpened) onClosed(server, connection->id, std::chrono::steady_clock::now());
 }
 
-ServerSockets::ServerSockets(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ServerSockets::ServerSockets(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 ServerSockets::~ServerSockets() {
     stopListening();
@@ -236,7 +251,7 @@ base::Result<std::unique_ptr<ServerSockets>> ServerSockets::open(asio::io_contex
                                                                  const std::filesystem::path& keyFile) {
     auto tls = serverContext(keyFile);
     if (!tls) return tl::unexpected(tls.error());
-    auto impl = std::make_unique<Impl>(context, server, std::move(*tls));
+    auto impl = std::make_shared<Impl>(context, server, std::move(*tls));
     if (auto listening = impl->listen(address); !listening) return tl::unexpected(listening.error());
     return std::unique_ptr<ServerSockets>(new ServerSockets(std::move(impl)));
 }

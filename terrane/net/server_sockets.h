@@ -41,8 +41,8 @@ class ServerSockets {
 
   private:
     struct Impl;
-    explicit ServerSockets(std::unique_ptr<Impl> impl);
-    std::unique_ptr<Impl> impl_;
+    explicit ServerSockets(std::shared_ptr<Impl> impl);
+    std::shared_ptr<Impl> impl_;  // what the context runs last may come after this
 };
 
 }  // namespace terrane::net

@@ -85,6 +85,7 @@ struct ServerClient {
     std::optional<std::chrono::milliseconds> latency;
     Sight sight;
     std::deque<WaitingCommand> commands;
+    std::size_t waitingBytes = 0;  // of data of blocks in them
     std::deque<Decision> decisions;
 
     // What it sees (server_view.h).

@@ -75,13 +75,15 @@ void tellView(ServerState& server, ServerClient& client) {
     send(client, ViewComplete{client.view->center});
 }
 
-// A tile that changed is told again to those who know the former one.
+// A tile that changed is told to all who see it.
 void tellChangedTiles(ServerState& server) {
     if (server.tick % kTicksPerTileChange != 0) return;
     for (const ChunkPos tile : server.tilesToTell) {
         server.edited.onTileChanged(tile);
         forEachPlaying(server, [&](ServerClient& client) {
-            if (client.view && client.told.erase(tile) > 0 && isInView(*client.view, tile))
+            client.told.erase(tile);
+            if (!client.view || !isInView(*client.view, tile)) return;
+            if (tile.level <= topLevelOf(*client.view) && std::ranges::count(client.toTell, tile) == 0)
                 client.toTell.insert(client.toTell.begin(), tile);
         });
     }
@@ -133,9 +135,9 @@ void tellChangedBlocks(ServerState& server) {
             messages.push_back(
                 encode(ServerMessage(BlocksChanged{pos, ChunkDifference(part.begin(), part.end())})));
         forEachPlaying(server, [&](ServerClient& client) {
-            if (!client.view || !isInView(*client.view, pos)) return;
-            // Who does not know the chunk yet is told all of it soon.
-            if (isNew) client.told.insert(pos);
+            // Who does not know the chunk yet is told all of it soon. Who knows it has it to its end, though
+            // it may have left the view.
+            if (isNew && client.view && isInView(*client.view, pos)) client.told.insert(pos);
             if (!client.told.contains(pos)) return;
             for (const Bytes& message : messages) sendEncoded(client, message);
         });

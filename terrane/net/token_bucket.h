@@ -27,6 +27,9 @@ class TokenBucket {
         return true;
     }
 
+    // Takes tokens that may not be there: others wait until they have come.
+    void spend(double count) { tokens_ -= count; }
+
   private:
     double perSecond_, most_, tokens_;
     std::optional<Time> last_;

@@ -56,6 +56,19 @@ TEST_F(EditLogTest, AnEditReadsBack) {
     EXPECT_EQ(edits[0].before[1].value, valueOf("sand"));
 }
 
+// Three blocks with as much data as a block may have are more than one part holds.
+TEST_F(EditLogTest, MuchDataReadsBack) {
+    world::BlockValue chest = valueOf("chest");
+    chest.data = std::make_shared<const world::BlockEntityData>(kMaxBlockData, std::byte{5});
+    std::vector<game::ChangedBlock> changes;
+    for (int k = 0; k < 7; ++k) changes.push_back({{k, 0, 70}, chest, valueOf("air")});
+    log(7, 1000, changes);
+    std::size_t blocks = 0;
+    for (const LoggedEdit& edit : found({})) blocks += edit.before.size();
+    EXPECT_EQ(blocks, 7u);
+    EXPECT_EQ(plan({}).size(), 7u);
+}
+
 TEST_F(EditLogTest, EachChunkHasItsOwn) {
     std::vector<game::ChangedBlock> changes;
     for (int x = -40; x < 40; ++x)

@@ -171,5 +171,20 @@ TEST_F(ServerTest, AFarTownIsSeen) {
     EXPECT_EQ(*bob.store->load(tile).chunk, *server.state().session.store().load(tile).chunk);
 }
 
+TEST_F(ServerTest, AFarTownThatIsBuiltMeanwhileIsSeen) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann")), bob(server, testIdentity("Bob"), 2, 128);
+    bob.pose.position.x += 16 * 20;  // it walked there
+    server.state().clients.at(bob.wire->id).role = game::Role::Operator;
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return ann.isLoaded() && bob.isLoaded(); }));
+    const world::BlockPos low = above(ann);
+    const game::FillBox town{{low, {low.x + 15, low.y + 15, low.z + 15}}, contentBlock("glass"), 0, {}};
+    EXPECT_EQ(ann.session->build({game::kLocalPlayer, town}).result, game::BuildOutcome::Result::Sent);
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return ann.world->undecidedCount() == 0; }));
+    ASSERT_TRUE(server.state().session.save());
+    const world::ChunkPos tile{world::chunkOf(low).x >> 2, world::chunkOf(low).y >> 2, 2};
+    ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return !bob.store->difference(tile).empty(); }));
+}
+
 }  // namespace
 }  // namespace terrane::net

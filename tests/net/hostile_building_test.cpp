@@ -1,0 +1,187 @@
+// Commands that change blocks where they should not, or too many: each is answered, and none harms the world.
+#include "tests/net/hostile_fixture.h"
+
+#include <limits>
+
+#include "terrane/store/structure_file.h"
+
+namespace terrane::net {
+namespace {
+
+using game::EditResult;
+using BuildResult = game::BuildOutcome::Result;
+using TakenResult = game::TakenBack::Outcome;
+
+constexpr std::int32_t kLowest = std::numeric_limits<std::int32_t>::min(),
+                       kHighest = std::numeric_limits<std::int32_t>::max();
+
+class HostileBuilding : public HostileTest {
+  protected:
+    Fill fill(CommandNumber number, world::BlockPos low, world::BlockPos high) const {
+        return {number, {{low, high}, contentBlock("glass"), 0, {}}};
+    }
+};
+
+TEST_F(HostileBuilding, StructuresAreFewAndMayBeNone) {
+    start();
+    loadAround(nearSpawn());
+    const auto bob = joined("Bob");
+    expectDecision(*bob, Place{1, nearSpawn(), Bytes(1000, std::byte{7})}, 1, BuildResult::Empty);
+    world::Structure structure;
+    structure.size = {2, 2, 2};
+    structure.palette = {{"glass", 0}};
+    structure.cells.assign(8, 0);
+    const Bytes bytes = store::encodeStructure(structure).value();
+    for (const std::int32_t x : {kLowest, kHighest})
+        expectDecision(*bob, Place{2, {x, x, 255}, bytes}, 2, BuildResult::OutOfReach);
+    world::BlockPos top = nearSpawn();
+    top.z = 255;
+    bob->say(Move{wirePose({{top.x + 0.5, top.y + 0.5, 250}, 0, 0})});
+    expectDecision(*bob, Place{3, top, bytes}, 3, BuildResult::OutOfWorld);
+    for (CommandNumber k = 10; k < 110; ++k) bob->say(Place{k, nearSpawn(), bytes});
+    EXPECT_TRUE(decision(*bob, 109)) << "all are answered";
+    EXPECT_TRUE(plays(*bob));
+}
+
+TEST_F(HostileBuilding, UndoOfMuchIsRationed) {
+    start();
+    const world::BlockPos low = nearSpawn();
+    loadAround(low);
+    const auto bob = joined("Bob");
+    expectDecision(*bob, fill(1, low, {low.x + 15, low.y + 15, low.z + 15}), 1, BuildResult::Done);
+    for (CommandNumber k = 2; k < 102; ++k) bob->say(TakeBack{k, k % 2 == 1});
+    const std::int64_t before = server_->state().history.newest;
+    loadAround(low);
+    for (int k = 0; k < 20; ++k) server_->tick();
+    // 131,072 at once and 20,000 in this second: 36 times 4096.
+    EXPECT_LE(server_->state().history.newest - before, 40 * 4) << "four chunks each";
+    EXPECT_TRUE(plays(*bob));
+}
+
+TEST_F(HostileBuilding, EditsOutOfReach) {
+    start();
+    const auto bob = joined("Bob");
+    const world::BlockPos near = nearSpawn();
+    CommandNumber number = 0;
+    for (const std::int32_t x :
+         {kLowest, kLowest + 15, near.x - 100000, near.x + 20, kHighest - 15, kHighest})
+        for (const std::int32_t z : {0, 255}) {
+            ++number;
+            expectDecision(*bob, put(number, {x, near.y, z}), number, EditResult::OutOfReach);
+        }
+    EXPECT_TRUE(server_->state().session.world().chunkCount() < 30)
+        << "chunks far away are not loaded for it";
+}
+
+TEST_F(HostileBuilding, BlocksOfNoTypeAreRefused) {
+    start();
+    const world::BlockPos pos = nearSpawn();
+    loadAround(pos);
+    const auto bob = joined("Bob");
+    const auto none = static_cast<world::BlockId>(contentBlocks().types().size());
+    for (const world::BlockId id : {none, world::BlockId{65535}}) {
+        expectDecision(*bob, Edit{1, pos, world::SetBlock{id}, {}}, 1, EditResult::BadData);
+        Fill of = fill(2, pos, pos);
+        of.fill.id = id;
+        expectDecision(*bob, of, 2, BuildResult::Empty);
+    }
+    EXPECT_EQ(server_->state().session.world().block(pos), world::kAir);
+    EXPECT_EQ(server_->state().history.newest, 0);
+}
+
+TEST_F(HostileBuilding, DataIsForBlocksThatKeepSome) {
+    start();
+    const world::BlockPos pos = nearSpawn();
+    loadAround(pos);
+    const auto bob = joined("Bob");
+    const world::SetEntityData data{Bytes(100)};
+    expectDecision(*bob, put(1, pos), 1, EditResult::Applied);
+    expectDecision(*bob, Edit{2, pos, data, {}}, 2, EditResult::BadData);
+    expectDecision(*bob, put(3, pos, "chest"), 3, EditResult::Applied);
+    expectDecision(*bob, Edit{4, pos, data, {}}, 4, EditResult::Applied);
+}
+
+TEST_F(HostileBuilding, FillsThatAreNoBoxes) {
+    start();
+    const world::BlockPos p = nearSpawn();
+    loadAround(p);
+    const auto bob = joined("Bob");
+    const auto expectFill = [&](CommandNumber number, world::BlockPos low, world::BlockPos high,
+                                BuildResult result) {
+        expectDecision(*bob, fill(number, low, high), number, result);
+    };
+    expectFill(1, p, {p.x + 100, p.y + 100, p.z + 100}, BuildResult::TooLarge);
+    expectFill(2, {kLowest, kLowest, 0}, {kHighest, kHighest, 255}, BuildResult::TooLarge);
+    expectFill(3, p, {p.x - 1, p.y, p.z}, BuildResult::Empty);
+    // No blocks, but corners so far apart that their chunks cannot be counted in 32 bits: 65,536².
+    const std::int32_t away = 16 * (65536 - 3) / 2;
+    expectFill(4, {p.x - away, p.y - away, p.z}, {p.x + away, p.y + away, p.z - 1}, BuildResult::Empty);
+    expectFill(5, {kLowest, kHighest, p.z}, {kHighest, kLowest, p.z}, BuildResult::OutOfReach);
+    expectFill(6, {kHighest, kHighest, 255}, {kLowest, kLowest, 0}, BuildResult::OutOfReach);
+    expectFill(7, {kHighest, kHighest, 0}, {kHighest, kHighest, 0}, BuildResult::OutOfReach);
+    EXPECT_LT(server_->state().session.world().chunkCount(), 100u);
+}
+
+TEST_F(HostileBuilding, TheEndsOfTheWorld) {
+    start();
+    const auto bob = joined("Bob");
+    (void)runConsoleLine(server_->state(), "op Bob");
+    CommandNumber number = 0;
+    for (const std::int32_t x : {kLowest, kHighest})
+        for (const std::int32_t y : {kLowest, kHighest}) {
+            bob->say(Move{wirePose({{x + 0.5, y + 0.5, 200}, 0, 0})});
+            EXPECT_EQ(findMessage<Corrected>(bob->take()), nullptr);
+            bob->say(View{world::chunkOf(world::BlockPos{x, y, 0}), 255, 65535});
+            loadAround({x, y, 0});
+            for (const std::int32_t z : {198, 200}) {
+                ++number;
+                expectDecision(*bob, put(number, {x, y, z}, z == 200 ? "sand" : "water"), number,
+                               EditResult::Applied);
+            }
+            for (int k = 0; k < 100; ++k) {  // it falls, it flows
+                ann_->say(Pong{0});
+                bob->say(Pong{0});
+                server_->tick();
+            }
+        }
+    EXPECT_TRUE(plays(*bob));
+}
+
+TEST_F(HostileBuilding, GuestsAndClaims) {
+    start();
+    const world::BlockPos pos = nearSpawn();
+    loadAround(pos);
+    const auto guest = joined("Guest"), bob = joined("Bob");
+    expectDecision(*guest, put(1, pos), 1, EditResult::Applied);
+    (void)runConsoleLine(server_->state(), "guest Guest");
+    expectDecision(*guest, put(2, pos, "air"), 2, EditResult::NotAllowed);
+    expectDecision(*guest, fill(3, pos, {pos.x + 1, pos.y, pos.z}), 3, BuildResult::NotAllowed);
+    expectDecision(*guest, TakeBack{4, false}, 4, TakenResult::NotAllowed);
+    expectDecision(*guest, Edit{5, pos, world::UseBlock{}, {}}, 5, EditResult::NotAllowed);
+    (void)runConsoleLine(server_->state(),
+                         fmt::format("claim hall {} {} {} {} Ann", pos.x, pos.y, pos.x, pos.y));
+    expectDecision(*bob, put(1, pos, "air"), 1, EditResult::Claimed);
+    Fill over = fill(2, {pos.x - 2, pos.y, pos.z}, pos);
+    over.fill.id = contentBlock("stone");
+    expectDecision(*bob, over, 2, BuildResult::NotAllowed);
+    EXPECT_EQ(server_->state().session.world().block(pos), contentBlock("glass"));
+}
+
+TEST_F(HostileBuilding, AnEditAfterAStallIsToldAsItIs) {
+    start();
+    const world::BlockPos pos = nearSpawn();
+    loadAround(pos);
+    const auto bob = joined("Bob");
+    ann_->say(View{world::chunkOf(pos), 2, 0});
+    bob->say(put(1, pos));
+    (void)ann_->take();
+    server_->now += std::chrono::seconds(10);  // chunks are unneeded by now
+    server_->tick();
+    const auto messages = ann_->take();
+    const auto* changed = findMessage<BlocksChanged>(messages);
+    ASSERT_TRUE(changed);
+    EXPECT_EQ(changed->blocks.at(0).value.id, contentBlock("glass"));
+}
+
+}  // namespace
+}  // namespace terrane::net

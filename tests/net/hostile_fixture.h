@@ -1,0 +1,108 @@
+// A server with a player who does nothing wrong, and wires for those who do.
+#pragma once
+
+#include "terrane/net/server_console.h"
+#include "tests/net/server_fixture.h"
+
+namespace terrane::net {
+
+inline std::optional<Refused> refusedIn(const std::vector<ServerMessage>& messages) {
+    const auto* refused = findMessage<Refused>(messages);
+    return refused ? std::optional(*refused) : std::nullopt;
+}
+
+// Why the wire was sent away; Refusal::Count where it was not.
+inline Refusal refusalOf(TestWire& wire) {
+    const auto refused = refusedIn(wire.take());
+    return refused ? refused->why : Refusal::Count;
+}
+
+// A signed Login for the wire's connection, which has said nothing yet.
+inline Login greetedLogin(TestWire& wire, const ClientIdentity& identity) {
+    wire.say(helloOf(identity));
+    return loginOf(identity, std::get<Greeting>(wire.take().at(0)), wire.channel);
+}
+
+class HostileTest : public testing::Test {
+  protected:
+    // Ann is in the world. Whatever others do, she stays and can talk.
+    TestServer& start(const ServerSettings& settings = {}) {
+        server_ = std::make_unique<TestServer>(folder_.path(), settings);
+        ann_ = std::make_unique<TestWire>(*server_);
+        const ServerMessage answer = logIn(*ann_, annsIdentity_);
+        EXPECT_TRUE(std::holds_alternative<Joined>(answer));
+        pose_ = std::get<Joined>(answer).pose;
+        return *server_;
+    }
+    void TearDown() override {
+        if (!server_) return;
+        // So long that nobody hears "you talk too fast".
+        for (int k = 0; k < 20; ++k) {
+            ann_->say(Pong{0});
+            server_->tick();
+        }
+        (void)ann_->take();
+        ann_->say(Say{"still here"});
+        const auto* said = findMessage<Said>(ann_->take());
+        ASSERT_TRUE(said) << "Ann was harmed";
+        EXPECT_EQ(said->text, "still here");
+        ann_.reset();
+        server_.reset();
+    }
+    // Somebody of that name in the world.
+    std::unique_ptr<TestWire> joined(const ClientIdentity& identity) {
+        auto wire = std::make_unique<TestWire>(*server_);
+        EXPECT_TRUE(std::holds_alternative<Joined>(logIn(*wire, identity)));
+        return wire;
+    }
+    std::unique_ptr<TestWire> joined(const std::string& name) { return joined(testIdentity(name)); }
+    ServerClient& clientOf(const TestWire& wire) { return server_->state().clients.at(wire.id); }
+    bool plays(const TestWire& wire) {
+        const auto found = server_->state().clients.find(wire.id);
+        return found != server_->state().clients.end() && found->second.stage == ServerClient::Stage::Playing;
+    }
+    // A block above the spawn, where everybody appears.
+    world::BlockPos nearSpawn(int dx = 2) const {
+        const auto p = poseOf(pose_).position;
+        return {static_cast<std::int32_t>(std::floor(p.x)) + dx, static_cast<std::int32_t>(std::floor(p.y)),
+                static_cast<std::int32_t>(std::floor(p.z)) + 2};
+    }
+    // No command waits for chunks there for the next five seconds of the server's time.
+    void loadAround(world::BlockPos pos) {
+        for (const world::ChunkPos chunk : world::chunksWithin(world::chunkOf(pos), 1))
+            if (world::isInWorld(chunk)) (void)server_->state().session.pipeline().chunkAt(chunk);
+    }
+    // The decision on a command; ticks until it is there.
+    std::optional<Done> decision(TestWire& wire, CommandNumber number) {
+        const Time end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (std::chrono::steady_clock::now() < end) {
+            server_->tick();
+            ann_->say(Pong{0});
+            for (const ServerMessage& message : wire.take()) {
+                if (const auto* done = std::get_if<Done>(&message); done && done->number == number)
+                    return *done;
+                if (std::holds_alternative<Refused>(message)) return std::nullopt;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return std::nullopt;
+    }
+    static Edit put(CommandNumber number, world::BlockPos pos, std::string_view name = "glass") {
+        return {number, pos, world::SetBlock{contentBlock(name)}, {}};
+    }
+    template <class Result>
+    void expectDecision(TestWire& wire, const ClientMessage& command, CommandNumber number, Result result) {
+        wire.say(command);
+        const auto done = decision(wire, number);
+        ASSERT_TRUE(done) << "command " << number;
+        EXPECT_EQ(static_cast<int>(done->result), static_cast<int>(result)) << "command " << number;
+    }
+
+    base::TempFolder folder_;
+    ClientIdentity annsIdentity_ = testIdentity("Ann");
+    std::unique_ptr<TestServer> server_;
+    std::unique_ptr<TestWire> ann_;
+    WirePose pose_;
+};
+
+}  // namespace terrane::net

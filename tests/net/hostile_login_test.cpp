@@ -1,0 +1,245 @@
+// Those who should not come in, and how they are told. Nobody else hears of it.
+#include "tests/net/hostile_fixture.h"
+
+namespace terrane::net {
+namespace {
+
+class HostileLogin : public HostileTest {
+  protected:
+    // The answer to Login, and to Proof where it is asked for.
+    Refusal refusalOfLogin(TestWire& wire, const Login& login) {
+        wire.say(login);
+        const auto messages = wire.take();
+        if (const auto refused = refusedIn(messages)) return refused->why;
+        wire.say(Proof{server_->state().digests});
+        return refusalOf(wire);
+    }
+    Refusal refusalOfName(const std::string& name) {
+        TestWire wire(*server_);
+        return refusalOfLogin(wire, greetedLogin(wire, testIdentity(name)));
+    }
+    void waitForPassword(TestWire& wire) {
+        const Time end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (clientOf(wire).stage == ServerClient::Stage::Password &&
+               std::chrono::steady_clock::now() < end) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            updateLoginsOnly();
+        }
+    }
+    // Without the time of a tick, which a login has little of.
+    void updateLoginsOnly() { net::tick(server_->state(), server_->now); }
+};
+
+TEST_F(HostileLogin, ASignatureIsGoodForOneConnection) {
+    start();
+    const ClientIdentity mallory = testIdentity("Mallory");
+    TestWire first(*server_), second(*server_), third(*server_), fourth(*server_);
+    const Login good = greetedLogin(first, mallory);
+    (void)greetedLogin(second, mallory);
+    EXPECT_EQ(refusalOfLogin(second, good), Refusal::WrongKey) << "another nonce";
+    Login otherChannel = greetedLogin(third, mallory);
+    onClosed(server_->state(), third.id, server_->now);
+    onOpened(server_->state(), third.id, Bytes(32), "test", server_->now);
+    (void)greetedLogin(third, mallory);
+    EXPECT_EQ(refusalOfLogin(third, otherChannel), Refusal::WrongKey) << "another channel";
+    Login otherName = greetedLogin(fourth, mallory);
+    otherName.name = "Eve";
+    EXPECT_EQ(refusalOfLogin(fourth, otherName), Refusal::WrongKey);
+    EXPECT_EQ(refusalOfLogin(first, good), Refusal::Count) << "it is good where it belongs";
+}
+
+TEST_F(HostileLogin, ASignatureOfAnotherKeyIsRefused) {
+    start();
+    TestWire wire(*server_), zero(*server_);
+    Login login = greetedLogin(wire, testIdentity("Mallory"));
+    login.key = annsIdentity_.key.publicKey;
+    EXPECT_EQ(refusalOfLogin(wire, login), Refusal::WrongKey) << "Ann's key without her seed";
+    login = greetedLogin(zero, testIdentity("Mallory"));
+    login.key = {};
+    login.signature = {};
+    EXPECT_EQ(refusalOfLogin(zero, login), Refusal::WrongKey) << "a key for which anything is signed";
+    EXPECT_TRUE(plays(*ann_));
+}
+
+TEST_F(HostileLogin, ANameBelongsToItsKey) {
+    start();
+    EXPECT_EQ(refusalOfName("Ann"), Refusal::Name);
+    EXPECT_EQ(refusalOfName("aNN"), Refusal::Name) << "the case is no difference";
+    // Two who are new want one name: the first has it.
+    TestWire bob(*server_), other(*server_);
+    bob.say(greetedLogin(bob, testIdentity("Bob")));
+    other.say(greetedLogin(other, testIdentity("BOB")));
+    bob.say(Proof{server_->state().digests});
+    other.say(Proof{server_->state().digests});
+    EXPECT_TRUE(plays(bob));
+    EXPECT_EQ(refusalOf(other), Refusal::Name);
+}
+
+TEST_F(HostileLogin, BadNames) {
+    start();
+    for (const char* name : {"", " ", " Bob", "Bob ", "a\" b", "*"})
+        EXPECT_EQ(refusalOfName(name), Refusal::Name) << name;
+    // These do not even make a message.
+    for (const char* name : {"a\nb", "a\x1b[2J", "\xff\xfe", "\xe2\x80\xae", "1234567890123456789012345"})
+        EXPECT_EQ(refusalOfName(name), Refusal::Disorder) << name;
+    EXPECT_EQ(refusalOfName("123456789012345678901234"), Refusal::Count) << "24 bytes are a name";
+}
+
+TEST_F(HostileLogin, OtherVersionsAndOtherWorlds) {
+    start();
+    TestWire version(*server_), magic(*server_), world(*server_);
+    version.say(Hello{kMagic, 99, "test"});
+    EXPECT_EQ(refusalOf(version), Refusal::Version);
+    magic.say(Hello{kMagic + 1, kProtocolVersion, "test"});
+    EXPECT_EQ(refusalOf(magic), Refusal::Disorder);
+    world.say(greetedLogin(world, testIdentity("Bob")));
+    auto digests = server_->state().digests;
+    ++digests.back();
+    world.say(Proof{digests});
+    EXPECT_EQ(refusalOf(world), Refusal::OtherWorld);
+}
+
+TEST_F(HostileLogin, WhoIsBannedStaysOut) {
+    start();
+    const ClientIdentity bob = testIdentity("Bob");
+    const auto wire = joined(bob);
+    EXPECT_EQ(runConsoleLine(server_->state(), "ban bob \"\""), "Bob is banned");
+    EXPECT_EQ(refusalOf(*wire), Refusal::Banned);
+    ClientIdentity renamed = bob;
+    renamed.name = "Rob";
+    TestWire again(*server_);
+    EXPECT_EQ(refusalOfLogin(again, greetedLogin(again, renamed)), Refusal::Banned) << "the key is banned";
+    EXPECT_EQ(refusalOfName("Bob"), Refusal::Name) << "and its name is not free";
+    // Between Login and Proof, too.
+    const ClientIdentity cid = testIdentity("Cid");
+    joined(cid)->close();
+    TestWire late(*server_);
+    late.say(greetedLogin(late, cid));
+    (void)late.take();
+    EXPECT_EQ(runConsoleLine(server_->state(), "ban Cid for a reason"), "Cid is banned");
+    late.say(Proof{server_->state().digests});
+    EXPECT_EQ(refusalOf(late), Refusal::Banned);
+}
+
+TEST_F(HostileLogin, AFullServerTakesOperatorsAndThoseWhoAreThere) {
+    ServerSettings settings;
+    settings.maxPlayers = 2;
+    start(settings);
+    const ClientIdentity op = testIdentity("Op"), bob = testIdentity("Bob");
+    joined(op)->close();
+    EXPECT_EQ(runConsoleLine(server_->state(), "op Op"), "Op is an operator now");
+    const auto first = joined(bob);
+    EXPECT_EQ(refusalOfName("Cid"), Refusal::Full);
+    const auto operators = joined(op);
+    const auto second = joined(bob);
+    EXPECT_EQ(refusalOf(*first), Refusal::Replaced);
+    EXPECT_TRUE(plays(*second) && plays(*operators));
+    EXPECT_EQ(server_->state().playing.size(), 3u);
+}
+
+TEST_F(HostileLogin, Passwords) {
+    start();
+    EXPECT_EQ(runConsoleLine(server_->state(), "password secret"), "the password is set");
+    ClientIdentity bob = testIdentity("Bob");
+    for (const char* password : {"", "Secret", "secret"}) {
+        bob.password = password;
+        TestWire wire(*server_);
+        wire.say(greetedLogin(wire, bob));
+        waitForPassword(wire);
+        const bool isRight = bob.password == "secret";
+        EXPECT_EQ(refusalOf(wire), isRight ? Refusal::Count : Refusal::Password) << password;
+        EXPECT_EQ(clientOf(wire).stage, isRight ? ServerClient::Stage::Proof : ServerClient::Stage::Closed);
+        wire.close();
+    }
+    EXPECT_EQ(runConsoleLine(server_->state(), "password off"), "no password is needed");
+    EXPECT_EQ(refusalOfName("Bob"), Refusal::Count);
+}
+
+TEST_F(HostileLogin, GuessesOfThoseWhoAreGoneKeepNobodyWaiting) {
+    start();
+    EXPECT_EQ(runConsoleLine(server_->state(), "password secret"), "the password is set");
+    for (int k = 0; k < 100; ++k) {
+        TestWire wire(*server_);
+        wire.say(greetedLogin(wire, testIdentity("Mallory")));
+        wire.close();
+    }
+    ClientIdentity bob = testIdentity("Bob");
+    bob.password = "secret";
+    TestWire wire(*server_);
+    wire.say(greetedLogin(wire, bob));
+    EXPECT_EQ(refusalOf(wire), Refusal::Count);
+    waitForPassword(wire);
+    EXPECT_EQ(clientOf(wire).stage, ServerClient::Stage::Proof);
+    EXPECT_LE(server_->state().passwordQueue.size(), 1u);
+}
+
+TEST_F(HostileLogin, ASlowLoginAndASilentPlayerEnd) {
+    start();
+    const auto bob = joined("Bob");
+    TestWire silent(*server_), greeted(*server_), offered(*server_);
+    greeted.say(helloOf(testIdentity("Cid")));
+    offered.say(greetedLogin(offered, testIdentity("Dan")));
+    for (int k = 0; k < 500; ++k) {  // 25 seconds
+        ann_->say(Pong{0});
+        server_->tick();
+    }
+    for (TestWire* wire : {bob.get(), &silent, &greeted, &offered})
+        EXPECT_EQ(refusalOf(*wire), Refusal::Silent);
+    EXPECT_TRUE(plays(*ann_));
+}
+
+// ——— messages at the wrong stage
+
+const std::vector<ClientMessage>& oneOfEach() {
+    static const std::vector<ClientMessage> messages{Hello{},
+                                                     Login{"Zoe", {}, {}, {}},
+                                                     Proof{},
+                                                     View{{0, 0}, 2, 0},
+                                                     Move{},
+                                                     Edit{1, {}, world::UseBlock{}, {}},
+                                                     Fill{1, {}},
+                                                     Place{1, {}, {}},
+                                                     TakeBack{1, false},
+                                                     Say{"x"},
+                                                     Pong{0},
+                                                     AskPlayers{},
+                                                     Leave{}};
+    return messages;
+}
+
+TEST_F(HostileLogin, EachMessageAtEachStage) {
+    start();
+    using Stage = ServerClient::Stage;
+    static_assert(std::variant_size_v<ClientMessage> == 13, "a message of each kind");
+    const ClientIdentity bob = testIdentity("Bob");
+    for (const Stage stage :
+         {Stage::Hello, Stage::Login, Stage::Password, Stage::Proof, Stage::Playing, Stage::Closed})
+        for (const ClientMessage& message : oneOfEach()) {
+            TestWire wire(*server_);
+            if (stage == Stage::Playing) {
+                (void)logIn(wire, bob);
+            } else if (stage == Stage::Closed) {
+                wire.say(Leave{});
+            } else if (stage != Stage::Hello) {
+                const Login login = greetedLogin(wire, bob);
+                if (stage == Stage::Proof) wire.say(login);
+                if (stage == Stage::Password) clientOf(wire).stage = Stage::Password;
+            }
+            (void)wire.take();
+            ASSERT_EQ(clientOf(wire).stage, stage);
+            wire.say(message);
+            const bool isLogin = message.index() <= 2;  // Hello, Login, Proof
+            Refusal expected = (stage == Stage::Playing) == isLogin ? Refusal::Disorder : Refusal::Count;
+            if (stage != Stage::Playing) expected = Refusal::Disorder;
+            if (stage == Stage::Closed) expected = Refusal::Count;
+            if (stage == Stage::Hello && message.index() == 0) expected = Refusal::Count;
+            if (stage == Stage::Login && message.index() == 1) expected = Refusal::WrongKey;
+            if (stage == Stage::Proof && message.index() == 2) expected = Refusal::OtherWorld;
+            EXPECT_EQ(refusalOf(wire), expected)
+                << nameOf(message) << " at stage " << static_cast<int>(stage);
+            wire.close();
+        }
+}
+
+}  // namespace
+}  // namespace terrane::net

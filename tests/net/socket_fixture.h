@@ -1,0 +1,136 @@
+// A server on a port of this computer and clients that connect to it, all on one thread.
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <future>
+
+#include "terrane/net/client_link.h"
+#include "terrane/net/server_sockets.h"
+#include "tests/net/server_fixture.h"
+
+namespace terrane::net {
+
+struct SocketServer {
+    SocketServer(boost::asio::io_context& context, const std::filesystem::path& folder,
+                 std::uint16_t port = 0, const ServerSettings& settings = {})
+        : server(folder, settings),
+          sockets(
+              ServerSockets::open(context, server.state(), {"127.0.0.1", port}, folder / "key.pem").value()) {
+    }
+    void update() {
+        const Time now = std::chrono::steady_clock::now();
+        if (now < nextTick) return;
+        nextTick = now + kServerTick;
+        tick(server.state(), now);
+        sockets->flush();
+    }
+
+    TestServer server;
+    std::unique_ptr<ServerSockets> sockets;
+    Time nextTick{};
+};
+
+// A player with a world of its own, behind a link that comes back after cuts.
+struct LinkPlayer {
+    LinkPlayer(boost::asio::io_context& context, std::uint16_t port, const std::string& name)
+        : link(context, {"127.0.0.1", port}, testIdentity(name), events()) {}
+    LinkEvents events() {
+        return {[this](const std::string& key) {
+                    serverKey = key;
+                    return trusts;
+                },
+                [this](const WorldOffer& offer) { return prove(offer); },
+                [this](const ServerMessage& message) { take(message); }};
+    }
+    base::Result<SampleDigests> prove(const WorldOffer& offer) {
+        if (auto checked = checkOffer(offer, contentBlocks()); !checked)
+            return tl::unexpected(checked.error());
+        if (!session) {
+            auto parts = remoteSessionParts(offer.world.identity, ownBlocks(), 1).value();
+            store = parts.store;
+            session = std::make_unique<game::Session>(std::move(parts.parts));
+            world = std::make_unique<ClientWorld>(
+                *session, *store, [this](const ClientMessage& message) { link.send(message); });
+        }
+        return sampleDigests(session->generator(), offer.samples);
+    }
+    void take(const ServerMessage& message) {
+        if (const auto* joined = std::get_if<Joined>(&message)) {
+            pose = poseOf(joined->pose);
+            ++joins;
+        }
+        world->onMessage(message);
+    }
+    void update() {
+        link.update(std::chrono::steady_clock::now());
+        if (!world) return;
+        if (wasJoined && !isJoined()) world->onCut();
+        wasJoined = isJoined();
+        session->pipeline().setView(world::chunkOf(pose.position), 1);
+        session->pipeline().update();
+        if (isJoined()) world->update(pose, 1, 0, std::chrono::steady_clock::now());
+    }
+    bool isJoined() const { return link.stage() == ClientLink::Stage::Joined; }
+    bool isLoaded() const {
+        return isJoined() && session->pipeline().progress().isUpToDate() && world->isViewComplete();
+    }
+    world::BlockPos above(int dx) const {
+        const auto p = pose.position;
+        return {static_cast<std::int32_t>(std::floor(p.x)) + dx, static_cast<std::int32_t>(std::floor(p.y)),
+                static_cast<std::int32_t>(std::floor(p.z)) + 2};
+    }
+    game::EditResult put(world::BlockPos pos, std::string_view name) {
+        return session->edit({game::kLocalPlayer, pos, world::SetBlock{contentBlock(name)}, {}});
+    }
+
+    bool trusts = true, wasJoined = false;
+    std::string serverKey;
+    int joins = 0;
+    world::Pose pose;
+    RemoteStore* store = nullptr;
+    std::unique_ptr<game::Session> session;
+    std::unique_ptr<ClientWorld> world;
+    ClientLink link;
+};
+
+class SocketTest : public testing::Test {
+  protected:
+    SocketServer& start(const ServerSettings& settings = {}) {
+        server_ = std::make_unique<SocketServer>(context_, folder_.path(), port_, settings);
+        port_ = server_->sockets->port();
+        return *server_;
+    }
+    LinkPlayer& addPlayer(const std::string& name, std::uint16_t port = 0) {
+        players_.push_back(std::make_unique<LinkPlayer>(context_, port ? port : port_, name));
+        return *players_.back();
+    }
+    // Runs all until it is so; false where that takes too long.
+    template <class Condition>
+    bool runUntil(Condition isSo, std::chrono::seconds limit = std::chrono::seconds(60)) {
+        const Time end = std::chrono::steady_clock::now() + limit;
+        while (std::chrono::steady_clock::now() < end) {
+            if (server_) server_->update();
+            for (const auto& player : players_) player->update();
+            context_.restart();
+            context_.run_for(std::chrono::milliseconds(3));
+            if (isSo()) return true;
+        }
+        return false;
+    }
+    // `use` on a thread of its own, while the server runs: blocking calls are allowed there.
+    template <class Use>
+    auto beside(Use use) {
+        auto result = std::async(std::launch::async, use);
+        EXPECT_TRUE(
+            runUntil([&] { return result.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+        return result.get();
+    }
+
+    base::TempFolder folder_;
+    boost::asio::io_context context_;
+    std::uint16_t port_ = 0;
+    std::unique_ptr<SocketServer> server_;
+    std::vector<std::unique_ptr<LinkPlayer>> players_;
+};
+
+}  // namespace terrane::net
