@@ -126,7 +126,9 @@ void setClientView(ServerState& server, ServerClient& client, const View& view) 
 }
 
 void tellChangedBlocks(ServerState& server) {
-    for (auto& [pos, indices] : server.changed) {
+    for (auto& entry : server.changed) {
+        const ChunkPos pos = entry.first;
+        std::vector<world::BlockIndex>& indices = entry.second;
         const ChunkDifference blocks = valuesNow(server.session.world(), pos, indices);
         const bool isNew = server.edited.add(pos);
         server.edited.onChanged(pos, blocks);
