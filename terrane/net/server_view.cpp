@@ -126,7 +126,8 @@ void setClientView(ServerState& server, ServerClient& client, const View& view) 
 }
 
 void tellChangedBlocks(ServerState& server) {
-    for (auto& [pos, indices] : server.changed) {
+    for (auto& [chunk, indices] : server.changed) {
+        const ChunkPos pos = chunk;
         const ChunkDifference blocks = valuesNow(server.session.world(), pos, indices);
         const bool isNew = server.edited.add(pos);
         server.edited.onChanged(pos, blocks);
