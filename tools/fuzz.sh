@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Feeds all that reads files from outside with bytes that libFuzzer thinks up, under the address and
 # undefined-behavior sanitizers: saves, chunks, structures, block types, languages, path files, settings, bookmarks,
-# textures, sounds, messages of the network. What it finds interesting stays in build-fuzz/corpus for the next time.
+# textures, sounds, messages of the network, what connections do to a server. What it finds interesting stays in build-fuzz/corpus for the next time.
 #
 #   tools/fuzz.sh [SECONDS] [NAME…]    10 seconds each unless told otherwise, two at a time; NAME as in
 #                                      tests/fuzz/NAME_fuzz.cpp, all of them where none is named. Exits with an

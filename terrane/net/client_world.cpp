@@ -117,6 +117,7 @@ bool ClientWorld::isLoading(world::ChunkPos pos) const {
 }
 
 void ClientWorld::showChunk(world::ChunkPos pos, const ChunkDifference& blocks) {
+    showLateChunks();  // they are older
     const std::vector<world::PlacedBlock> shown = prediction_.takeIn(placedBlocks(pos, blocks));
     if (session_.world().maybeChunkAt(pos))
         show(shown);

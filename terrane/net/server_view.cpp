@@ -126,9 +126,8 @@ void setClientView(ServerState& server, ServerClient& client, const View& view) 
 }
 
 void tellChangedBlocks(ServerState& server) {
-    for (auto& entry : server.changed) {
-        const ChunkPos pos = entry.first;
-        std::vector<world::BlockIndex>& indices = entry.second;
+    for (auto& [chunk, indices] : server.changed) {
+        const ChunkPos pos = chunk;  // what lambdas of clang 14 can capture
         const ChunkDifference blocks = valuesNow(server.session.world(), pos, indices);
         const bool isNew = server.edited.add(pos);
         server.edited.onChanged(pos, blocks);

@@ -1,0 +1,289 @@
+// libFuzzer: what connections may do to a server (net/server.h) in any order: open, close, log in, say
+// messages that are right, nearly right or noise, while time passes. One server for all inputs, on a flat
+// world in memory; between inputs everybody leaves. What it answers must be messages that a client can read.
+#include <array>
+#include <memory>
+
+#include "terrane/base/log.h"
+#include "terrane/content/built_in.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/net/client_login.h"
+#include "terrane/net/frames.h"
+#include "terrane/net/server_console.h"
+#include "terrane/net/server_host.h"
+#include "terrane/store/memory_store.h"
+#include "terrane/store/structure_file.h"
+#include "tests/fuzz/fuzz_folder.h"
+
+namespace {
+
+using namespace terrane;
+using fuzz::FuzzInput;
+using fuzz::require;
+
+constexpr std::size_t kConnections = 4;
+constexpr std::int64_t kMaxEdits = 5000;  // of the history, which is emptied then
+
+// So much may wait for one client: its edits, and what it is told (ServerSettings::maxUnsentBytes and a
+// tick).
+constexpr std::size_t kMaxCommands = 512, kMaxOutgoing = 12 << 20;
+
+struct Connection {
+    net::ConnectionId id = 0;  // 0: closed
+    net::Bytes channel = net::Bytes(32);
+    net::FrameReader reader{net::kMaxClientMessage};  // of what it says as raw bytes
+    net::FrameReader answers{net::kMaxServerMessage};
+    std::optional<net::Greeting> greeting;
+};
+
+net::ServerHost openHost() {
+    base::setLogLevel(base::LogLevel::Silent);
+    auto blocks = std::make_unique<const world::BlockRegistry>(content::loadBlocks().value());
+    auto generators = gen::makeLevelGenerators("flat", *blocks, 1).value();
+    auto store =
+        std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "flat", gen::generatorVersion("flat")});
+    game::SessionParts parts{std::move(blocks), std::move(generators), std::move(store), 1};
+    return net::openServerHost(std::move(parts), fuzz::fuzzFolder() / "w.server.sqlite", {}, "fuzz").value();
+}
+
+class FuzzServer {
+  public:
+    FuzzServer() : host_(openHost()) {
+        for (std::size_t k = 0; k < kConnections; ++k) {
+            std::array<std::byte, 32> seed{};
+            seed[0] = static_cast<std::byte>(k + 1);
+            identities_[k] = {fmt::format("P{}", k), net::playerKeyFrom(seed), {}, "fuzz"};
+        }
+    }
+
+    void run(FuzzInput& in) {
+        // Chunks near the spawn are there, so that edits happen at once.
+        stream::ChunkPipeline& pipeline = server().session.pipeline();
+        const auto near = world::chunksWithin(world::chunkOf(server().spawn.position), 1);
+        for (const world::ChunkPos pos : near) (void)pipeline.maybeLoadChunkAt(pos);
+        for (const world::ChunkPos pos : near) (void)pipeline.chunkAt(pos);
+        while (!in.isEmpty()) {
+            act(in);
+            checkLimits();
+        }
+        reset();
+    }
+
+  private:
+    net::ServerState& server() { return *host_.state; }
+
+    void act(FuzzInput& in) {
+        const std::uint8_t what = in.byte();
+        Connection& connection = connections_[what % kConnections];
+        switch (what / kConnections % 10) {
+            case 0:
+                return open(connection);
+            case 1:
+                return close(connection);
+            case 2:
+                return logIn(connection, in.byte());
+            case 3:
+                return say(connection, message(in));
+            case 4:
+                return say(connection, mutated(message(in), in));
+            case 5:
+                return say(connection, toBytes(in.bytes(in.byte())));
+            case 6:
+                return stream(connection, toBytes(in.bytes(in.byte())));
+            case 7:
+                return tick(1 + in.byte() % 16);
+            case 8:
+                return giveCommand(in);
+            default:
+                return wait(in.byte());
+        }
+    }
+
+    void open(Connection& connection) {
+        close(connection);
+        connection.id = ++lastId_;
+        connection.channel[0] = static_cast<std::byte>(lastId_);
+        onOpened(server(), connection.id, connection.channel, "fuzz", now_);
+    }
+    void close(Connection& connection) {
+        if (connection.id != 0) onClosed(server(), connection.id, now_);
+        connection = {};
+    }
+    void logIn(Connection& connection, std::uint8_t who) {
+        const net::ClientIdentity& identity = identities_[who % kConnections];
+        if (connection.id == 0) open(connection);
+        say(connection, encode(net::ClientMessage(helloOf(identity))));
+        if (!connection.greeting) return;
+        say(connection,
+            encode(net::ClientMessage(loginOf(identity, *connection.greeting, connection.channel))));
+        say(connection, encode(net::ClientMessage(net::Proof{server().digests})));
+    }
+    void say(Connection& connection, const net::Bytes& bytes) {
+        if (connection.id == 0) return;
+        onMessage(server(), connection.id, bytes, now_);
+        read(connection);
+    }
+    // As net/server_sockets.h does it.
+    void stream(Connection& connection, const net::Bytes& bytes) {
+        if (connection.id == 0) return;
+        connection.reader.add(bytes);
+        while (true) {
+            const auto frame = connection.reader.next();
+            if (!frame) return onNonsense(server(), connection.id, frame.error().message, now_);
+            if (!*frame) return read(connection);
+            onMessage(server(), connection.id, **frame, now_);
+        }
+    }
+    void read(Connection& connection) {
+        const auto client = server().clients.find(connection.id);
+        if (client == server().clients.end()) return;
+        connection.answers.add(std::exchange(client->second.outgoing, {}));
+        while (true) {
+            const auto frame = connection.answers.next();
+            require(frame.has_value());
+            if (!*frame) return;
+            auto message = net::decodeServerMessage(**frame);
+            require(message.has_value());
+            if (const auto* greeting = std::get_if<net::Greeting>(&*message)) connection.greeting = *greeting;
+        }
+    }
+    void tick(int count) {
+        for (int k = 0; k < count; ++k) net::tick(server(), now_ += net::kServerTick);
+        for (Connection& connection : connections_)
+            if (connection.id != 0) read(connection);
+    }
+    void wait(std::uint8_t seconds) {
+        now_ += std::chrono::seconds(seconds % 30);
+        tick(1);
+    }
+    // Passwords take 64 MiB and much time each.
+    void giveCommand(FuzzInput& in) {
+        const std::string_view line = in.text();
+        if (line.find("password") == std::string_view::npos) (void)runConsoleLine(server(), line);
+    }
+
+    static net::Bytes toBytes(std::span<const std::uint8_t> bytes) {
+        const auto* data = reinterpret_cast<const std::byte*>(bytes.data());
+        return {data, data + bytes.size()};
+    }
+    static net::Bytes mutated(net::Bytes bytes, FuzzInput& in) {
+        const std::uint64_t at = in.number(2);
+        if (!bytes.empty()) bytes[at % bytes.size()] ^= static_cast<std::byte>(in.byte());
+        return bytes;
+    }
+    std::int32_t near(double origin, FuzzInput& in) {
+        const auto offset = static_cast<std::int8_t>(in.byte());
+        // At the ends of the numbers as well.
+        if (offset == -128) return std::numeric_limits<std::int32_t>::min() + in.byte();
+        if (offset == 127) return std::numeric_limits<std::int32_t>::max() - in.byte();
+        return static_cast<std::int32_t>(origin) + offset / 4;
+    }
+    world::BlockPos pos(FuzzInput& in) {
+        const auto& spawn = server().spawn.position;
+        const std::int32_t x = near(spawn.x, in), y = near(spawn.y, in);
+        return {x, y,
+                std::clamp(static_cast<int>(spawn.z) + static_cast<std::int8_t>(in.byte()) / 4, 0, 255)};
+    }
+    world::BlockId block(FuzzInput& in) {
+        const std::uint8_t id = in.byte();
+        return id == 255 ? static_cast<world::BlockId>(in.number(2)) : id;
+    }
+    world::BlockChange change(FuzzInput& in) {
+        const std::uint8_t kind = in.byte() % 4;
+        if (kind == 0) return world::UseBlock{};
+        if (kind == 1) return world::SetEntityData{toBytes(in.bytes(in.byte()))};
+        return world::SetBlock{block(in), static_cast<std::uint16_t>(kind == 2 ? 0 : in.number(2))};
+    }
+    net::Bytes structure(FuzzInput& in) {
+        world::Structure made;
+        made.size = {1 + in.byte() % 8, 1 + in.byte() % 8, 1 + in.byte() % 8};
+        made.palette = {{server().session.blocks().type(block(in)).name, in.byte()}};
+        made.cells.assign(static_cast<std::size_t>(made.blockCount()), 0);
+        return store::encodeStructure(made).value_or(net::Bytes());
+    }
+    net::Bytes message(FuzzInput& in) { return encode(messageOf(in)); }
+    net::ClientMessage messageOf(FuzzInput& in) {
+        const net::CommandNumber number = ++lastCommand_;
+        switch (in.byte() % 12) {
+            case 0:
+                return net::Edit{number, pos(in), change(in), {}};
+            case 1:
+                return net::Edit{number, pos(in), change(in), block(in)};
+            case 2:
+                return net::Fill{number, {{pos(in), pos(in)}, block(in), in.byte(), {}}};
+            case 3:
+                return net::Fill{number, {{pos(in), pos(in)}, block(in), 0, block(in)}};
+            case 4:
+                return net::Place{number, pos(in), structure(in)};
+            case 5:
+                return net::TakeBack{number, in.byte() % 2 == 1};
+            case 6: {
+                const world::BlockPos at = pos(in);
+                return net::Move{net::wirePose({{at.x + 0.5, at.y + 0.5, at.z + 0.5}, 0, 0})};
+            }
+            case 7:
+                return net::View{world::chunkOf(pos(in)), in.byte(),
+                                 static_cast<std::uint16_t>(in.number(2))};
+            case 8:
+                return net::Say{std::string(in.text())};
+            case 9:
+                return net::Pong{static_cast<std::uint32_t>(in.number(4))};
+            case 10:
+                return net::AskPlayers{};
+            default:
+                return net::Leave{};
+        }
+    }
+
+    void checkLimits() {
+        for (const auto& [id, client] : server().clients) {
+            require(client.commands.size() <= kMaxCommands && client.waitingBytes <= kMaxCommands << 16);
+            require(client.outgoing.size() <= kMaxOutgoing);
+        }
+        require(server().clients.size() <= kConnections && server().playing.size() <= kConnections);
+        require(server().passwordQueue.empty());
+    }
+
+    // As after the start, but for what was built.
+    void reset() {
+        for (Connection& connection : connections_) close(connection);
+        require(server().clients.empty() && server().playing.empty());
+        for (const auto& [player, since] : server().left) server().session.removePlayer(player);
+        server().left.clear();
+        server().rollbacks.clear();
+        server().isStopping = false;
+        while (!server().people.claims().all().empty())
+            require(server().people.removeClaim(std::string(server().people.claims().all().front().name)));
+        server().session.permissions.claims = {};
+        for (const net::ClientIdentity& identity : identities_) {
+            const net::KnownPlayer* player = server().people.byName(identity.name);
+            if (player && !player->ban.empty()) (void)runConsoleLine(server(), "unban " + identity.name);
+            if (player && player->role != game::Role::Player)
+                (void)runConsoleLine(server(), "deop " + identity.name);
+        }
+        net::tick(server(), now_ += net::kServerTick);
+        if (server().history.newest > forgotten_ + kMaxEdits) forgetHistory();
+    }
+    void forgetHistory() {
+        forgotten_ = server().history.newest;
+        server().file.write([](store::Database& database) { return database.execute("DELETE FROM edits"); });
+        require(server().file.flush().has_value());
+    }
+
+    net::ServerHost host_;
+    net::Time now_ = std::chrono::steady_clock::now();
+    net::ConnectionId lastId_ = 0;
+    net::CommandNumber lastCommand_ = 0;
+    std::int64_t forgotten_ = 0;
+    std::array<Connection, kConnections> connections_;
+    std::array<net::ClientIdentity, kConnections> identities_;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static auto* const server = new FuzzServer;  // ends with the process
+    FuzzInput in(data, size);
+    server->run(in);
+    return 0;
+}
