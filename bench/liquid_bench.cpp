@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/bench_content.h"
+#include "terrane/world/random_ticks.h"
 #include "tests/world/dam.h"
 
 namespace {

@@ -145,6 +145,14 @@ void applyDifference(world::Chunk& chunk, std::span<const ChangedBlock> differen
     }
 }
 
+std::vector<world::PlacedBlock> placedBlocks(world::ChunkPos pos, std::span<const ChangedBlock> blocks) {
+    std::vector<world::PlacedBlock> placed;
+    placed.reserve(blocks.size());
+    for (const ChangedBlock& block : blocks)
+        placed.push_back({world::blockPos(pos, block.index), block.value});
+    return placed;
+}
+
 void mergeInto(ChunkDifference& to, std::span<const ChangedBlock> newer) {
     ChunkDifference merged;
     merged.reserve(to.size() + newer.size());

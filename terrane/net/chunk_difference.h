@@ -26,6 +26,9 @@ constexpr std::size_t kMaxBlockData = 32768;
 ChunkDifference chunkDifference(const world::Chunk& generated, const world::Chunk& edited);
 void applyDifference(world::Chunk& chunk, std::span<const ChangedBlock> difference);
 
+// The same blocks at their places in the world.
+std::vector<world::PlacedBlock> placedBlocks(world::ChunkPos pos, std::span<const ChangedBlock> blocks);
+
 // `to` with the blocks of `newer` in it, or in place of its own.
 void mergeInto(ChunkDifference& to, std::span<const ChangedBlock> newer);
 

@@ -10,13 +10,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kMoveEvery{100};
 
-std::vector<world::PlacedBlock> placedBlocks(world::ChunkPos pos, const ChunkDifference& blocks) {
-    std::vector<world::PlacedBlock> placed;
-    for (const ChangedBlock& block : blocks)
-        placed.push_back({world::blockPos(pos, block.index), block.value});
-    return placed;
-}
-
 }  // namespace
 
 ClientWorld::ClientWorld(game::Session& session, RemoteStore& store, Send send)

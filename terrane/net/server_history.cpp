@@ -18,13 +18,6 @@ std::int64_t millisecondsNow() {
     return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
 }
 
-std::vector<world::PlacedBlock> placed(world::ChunkPos chunk, const ChunkDifference& blocks) {
-    std::vector<world::PlacedBlock> placedBlocks;
-    for (const ChangedBlock& block : blocks)
-        placedBlocks.push_back({world::blockPos(chunk, block.index), block.value});
-    return placedBlocks;
-}
-
 }  // namespace
 
 void logChanges(ServerState& server, game::PlayerId player, std::span<const game::ChangedBlock> changes) {
@@ -53,7 +46,7 @@ base::Result<void> restoreEdits(ServerState& server) {
     if (chunks.empty()) return {};
     for (const auto& [pos, blocks] : chunks) {
         (void)server.session.pipeline().chunkAt(pos);
-        server.session.setBlocks(placed(pos, blocks));
+        server.session.setBlocks(placedBlocks(pos, blocks));
     }
     base::logInfo("{} chunks brought back from the history, edits {} to {}", chunks.size(), *saved + 1,
                   *newest);
