@@ -69,6 +69,11 @@ bool isName(std::string_view name) {
            name.back() != ' ' && name.find('"') == std::string_view::npos && name != "*";
 }
 
+std::string nameRule() {
+    return fmt::format("a name has 1 to {} bytes, no quotation mark and no spaces at its ends",
+                       kMaxNameBytes);
+}
+
 base::Result<People> People::read(ServerFile& file) {
     People people(file);
     if (auto done = people.readPlayers(); !done) return tl::unexpected(done.error());

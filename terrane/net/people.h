@@ -19,6 +19,7 @@ namespace terrane::net {
 // A name has 1 to kMaxNameBytes bytes of plain text (wire.h) without spaces at its ends. Lines of the console
 // name everybody: it has no quotation mark, and "*", who is anybody there, is none.
 bool isName(std::string_view name);
+std::string nameRule();  // as a sentence
 
 struct KnownPlayer {
     game::PlayerId id = game::kNoPlayer;

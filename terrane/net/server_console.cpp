@@ -121,7 +121,7 @@ std::optional<game::ColumnArea> areaFrom(Words words) {
 std::string claim(ServerState& server, Words words) {
     const auto area = areaFrom(words.subspan(1));
     if (!area) return "the corners are four whole numbers: X0 Y0 X1 Y1";
-    if (!isName(words[0])) return fmt::format("a claim's name has 1 to {} bytes", kMaxNameBytes);
+    if (!isName(words[0])) return nameRule();
     game::Claim made{words[0], *area, game::kNoPlayer, {}};
     for (const std::string& name : words.subspan(5)) {
         const KnownPlayer* player = server.people.byName(name);

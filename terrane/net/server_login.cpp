@@ -51,10 +51,7 @@ void offerWorld(ServerState& server, ServerClient& client) {
 }
 
 void onLogin(ServerState& server, ServerClient& client, const Login& login) {
-    if (!isName(login.name))
-        return refuse(server, client, Refusal::Name,
-                      fmt::format("a name has 1 to {} bytes, no quotation mark and no spaces at its ends",
-                                  kMaxNameBytes));
+    if (!isName(login.name)) return refuse(server, client, Refusal::Name, nameRule());
     const Bytes text = loginText(client.channel, client.nonce, login.name);
     if (!isSignedBy(login.key, text, login.signature))
         return refuse(server, client, Refusal::WrongKey, "the signature does not fit the key");

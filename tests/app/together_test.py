@@ -11,6 +11,7 @@ import tempfile
 import time
 
 import support
+import title_test
 import window_test
 from support import HANG_SECONDS, ProgramTest
 from window_test import SIZE, is_green, is_grey
@@ -100,6 +101,39 @@ class Together(ProgramTest):
             self.keep(second, bob, "bob")
             self.assertRegex(self.history(), r"Ann at 8 8 81: air to cobble")
             self.stop()
+
+    def test_a_server_is_joined_from_the_title(self):
+        address = f"127.0.0.1:{self.server.port}"
+        with window_test.Display() as display:
+            player = title_test.Player(display, self.folder)
+            self.addCleanup(player.log.close)
+            self.addCleanup(player.process.kill)
+            player.open()
+            player.wait_for_image(title_test.SIZE)
+            player.settle()
+            player.choose("Down")
+            display.xdotool("type", "--delay", "150", "127.0.0.1:1")  # where nobody listens
+            player.hold("Tab")
+            display.xdotool("type", "--delay", "150", "Eve")
+            player.settle()
+            self.keep(display, player, "join")
+            player.hold("Return")
+            player.wait_for_image(title_test.SIZE)
+            player.settle()
+            player.choose()  # the message is read
+            player.choose("Down")
+            display.xdotool("type", "--delay", "150", address)
+            player.hold("Tab")
+            display.xdotool("type", "--delay", "150", "Eve")
+            player.press("Return")
+            self.server.wait_for(r"Eve joined")
+            servers = self.folder / "terrane" / "servers.txt"
+            player.wait_for(lambda: servers.exists() and servers.read_text() == f"{address} Eve\n")
+            player.settle()
+            player.press("Escape")
+            player.settle()
+            player.press("t")
+            self.server.wait_for(r"Eve left")
 
     def test_a_wrong_name_is_one_line(self):
         with window_test.Display() as display:

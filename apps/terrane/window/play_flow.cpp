@@ -9,7 +9,7 @@
 #include "apps/terrane/window/game.h"
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/overlay.h"
-#include "apps/terrane/window/title_screen.h"
+#include "apps/terrane/window/server_list.h"
 #include "terrane/base/log.h"
 #include "terrane/content/built_in.h"
 #include "terrane/content/resource_pack.h"
@@ -109,17 +109,8 @@ base::Result<void> PlayFlow::run() {
         auto chosen = showTitle();
         if (!chosen) result = tl::unexpected(chosen.error());
         if (!chosen || !*chosen) break;
-        PlayOptions options = options_;
-        options.bookmark.reset();
-        options.time.reset();
-        options.savesNothing = false;
-        options.save = {.world = (*chosen)->file.string(), .storeGenerated = {}};
-        options.world = {
-            .seed = {}, .seedText = {}, .generator = (*chosen)->generator, .threads = options.world.threads};
-        if ((*chosen)->seed) options.world.seed = (*chosen)->seed->seed;
-        if ((*chosen)->seed) options.world.seedText = (*chosen)->seed->text;
         hasBegun_ = false;
-        result = playWorld(options);
+        result = playChosen(**chosen);
         if (result || hasBegun_) continue;
         message_ = result.error().message;  // it was not opened: the title tells
         goesToTitle_ = true;
@@ -129,7 +120,25 @@ base::Result<void> PlayFlow::run() {
     return result ? written : result;
 }
 
-base::Result<std::optional<ChosenWorld>> PlayFlow::showTitle() {
+base::Result<void> PlayFlow::playChosen(const TitleChoice& choice) {
+    PlayOptions options = options_;
+    options.bookmark.reset();
+    options.time.reset();
+    options.savesNothing = false;
+    if (const auto* server = std::get_if<RemoteOptions>(&choice)) {
+        options.remote = *server;
+        return playServer(options);
+    }
+    const auto& chosen = std::get<ChosenWorld>(choice);
+    options.save = {.world = chosen.file.string(), .storeGenerated = {}};
+    options.world = {
+        .seed = {}, .seedText = {}, .generator = chosen.generator, .threads = options.world.threads};
+    if (chosen.seed) options.world.seed = chosen.seed->seed;
+    if (chosen.seed) options.world.seedText = chosen.seed->text;
+    return playWorld(options);
+}
+
+base::Result<std::optional<TitleChoice>> PlayFlow::showTitle() {
     const auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
     TitleScreen title({window_, signals_, options_, screen_, *blocks, dataFolder()}, settings_,
@@ -171,7 +180,7 @@ base::Result<void> PlayFlow::playWorld(const PlayOptions& asked) {
 }
 
 // Until the player is in its world, gives up, or is refused.
-base::Result<void> PlayFlow::waitForServer(RemotePlay& play) {
+base::Result<bool> PlayFlow::waitForServer(RemotePlay& play) {
     ImguiLayer imgui(window_);
     const Texts tr = textsOf(settings_.language);
     const std::string message = fmt::format(fmt::runtime(tr("joining {}")), play.address());
@@ -180,7 +189,7 @@ base::Result<void> PlayFlow::waitForServer(RemotePlay& play) {
         const auto isEscape = [](const InputEvent& event) {
             return event.type == InputEvent::Type::KeyPress && event.key == Key::Escape;
         };
-        if (isOver() || std::ranges::any_of(window_.events(), isEscape)) return base::fail("not joined");
+        if (isOver() || std::ranges::any_of(window_.events(), isEscape)) return false;
         play.poll();
         if (play.stage() == net::ClientLink::Stage::Ended) return base::fail("{}", play.reason());
         gpu::clearWindow(glm::vec3(0.2f, 0.3f, 0.4f));
@@ -190,7 +199,7 @@ base::Result<void> PlayFlow::waitForServer(RemotePlay& play) {
         window_.swapBuffers();
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
-    return {};
+    return true;
 }
 
 base::Result<void> PlayFlow::playServer(const PlayOptions& asked) {
@@ -198,7 +207,15 @@ base::Result<void> PlayFlow::playServer(const PlayOptions& asked) {
     goesToTitle_ = false;
     auto play = RemotePlay::connect(options.remote, dataFolder());
     if (!play) return tl::unexpected(play.error());
-    if (auto joined = waitForServer(**play); !joined) return joined;
+    auto joined = waitForServer(**play);
+    if (!joined) return tl::unexpected(joined.error());
+    if (!*joined) {
+        goesToTitle_ = options_.remote.server.empty();
+        return {};
+    }
+    if (auto kept = rememberServer(serverListFile(dataFolder()), {(*play)->address(), options.remote.name});
+        !kept)
+        base::logInfo("the server is not remembered: {}", kept.error().message);
     auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
     const store::WorldIdentity& identity = (*play)->offer()->world.identity;

@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "apps/terrane/window/new_world_form.h"
 #include "apps/terrane/window/play_options.h"
+#include "apps/terrane/window/title_screen.h"
 #include "apps/terrane/window/window.h"
 #include "apps/terrane/window/world_on_screen.h"
 #include "terrane/base/stop_signals.h"
@@ -35,10 +35,12 @@ class PlayFlow {
     // Ends where the player left it: an error of opening it, or of saving it.
     base::Result<void> playWorld(const PlayOptions& options);
     base::Result<void> playServer(const PlayOptions& options);
-    base::Result<void> waitForServer(RemotePlay& play);
+    base::Result<void> playChosen(const TitleChoice& choice);
+    // False where the player does not wait any longer.
+    base::Result<bool> waitForServer(RemotePlay& play);
     base::Result<void> playFrom(const PlayOptions& options, game::SessionParts parts, ScreenOptions screen,
                                 ServersWorld given = {});
-    base::Result<std::optional<ChosenWorld>> showTitle();
+    base::Result<std::optional<TitleChoice>> showTitle();
     base::Result<void> keepSettings();
     bool isOver() const { return window_.shouldClose() || signals_.stopAsked(); }
 

@@ -29,9 +29,7 @@ base::Result<std::unique_ptr<RemotePlay>> RemotePlay::connect(const RemoteOption
     auto address = net::serverAddress(options.server);
     if (!address) return tl::unexpected(address.error());
     if (!net::isName(options.name))
-        return base::fail(base::ErrorCode::BadInput,
-                          "--name {}: a name has 1 to {} bytes, without spaces at its ends", options.name,
-                          net::kMaxNameBytes);
+        return base::fail(base::ErrorCode::BadInput, "--name {}: {}", options.name, net::nameRule());
     auto key = net::loadPlayerKey(dataFolder / "player.key");
     if (!key) return tl::unexpected(key.error());
     auto blocks = content::loadBlocks();

@@ -3,7 +3,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <random>
 
 #include "apps/terrane/window/title_screen.h"
@@ -12,14 +11,6 @@
 
 namespace terrane::app {
 namespace {
-
-bool editText(const char* label, std::string& text, ImGuiInputTextFlags flags = 0) {
-    std::array<char, 256> buffer{};
-    text.copy(buffer.data(), buffer.size() - 1);
-    const bool isDone = ImGui::InputText(label, buffer.data(), buffer.size(), flags);
-    text = buffer.data();
-    return isDone;
-}
 
 float halfWidth() {
     return (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;

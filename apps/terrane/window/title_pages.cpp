@@ -1,4 +1,4 @@
-// The title's main page and its list of worlds.
+// The title's main page, its list of worlds, its page to join a server.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -19,6 +19,8 @@ void TitleScreen::drawPage(const Screen& screen) {
             return drawWorlds(screen);
         case Page::NewWorld:
             return drawNewWorld(screen);
+        case Page::Join:
+            return drawJoin(screen);
         case Page::Rename:
         case Page::Copy:
             return drawName(screen);
@@ -57,6 +59,10 @@ void TitleScreen::drawMain(const Screen& screen) {
         open(Page::NewWorld);
     }
     if (!last && isFirst) ImGui::SetItemDefaultFocus();
+    if (menuButton(tr_("Join a server"))) {
+        join_.open();
+        open(Page::Join);
+    }
     if (menuButton(tr_("Settings"))) {
         dialog_.open();
         open(Page::Settings);
@@ -66,6 +72,12 @@ void TitleScreen::drawMain(const Screen& screen) {
     const std::string version = fmt::format("Terrane {}", TERRANE_VERSION);
     ImGui::GetBackgroundDrawList()->AddText({8 * scale, screen.height - ImGui::GetFontSize() - 6 * scale},
                                             IM_COL32(255, 255, 255, 170), version.c_str());
+}
+
+void TitleScreen::drawJoin(const Screen& screen) {
+    const JoinDialog::Outcome outcome = join_.draw(screen, tr_);
+    if (outcome == JoinDialog::Outcome::Back) back();
+    if (outcome == JoinDialog::Outcome::Join) choice_ = join_.options();
 }
 
 void TitleScreen::drawWorlds(const Screen& screen) {

@@ -17,7 +17,8 @@ TitleScreen::TitleScreen(const Parts& parts, PlaySettings& settings, std::string
       tr_(textsOf(settings.language)),
       imgui_(parts.window),
       shelf_(parts.folder, parts.blocks),
-      map_(parts.blocks) {
+      map_(parts.blocks),
+      join_(serverListFile(parts.folder)) {
     parts_.window.setCursorCaptured(false);
     if (!message.empty()) showMessage(std::move(message));
     openBackground();
@@ -31,7 +32,7 @@ void TitleScreen::openBackground() {
     if (!opened) base::logInfo("nothing is shown behind the title: {}", opened.error().message);
 }
 
-base::Result<std::optional<ChosenWorld>> TitleScreen::run() {
+base::Result<std::optional<TitleChoice>> TitleScreen::run() {
     double last = parts_.window.timeSeconds();
     while (!quits_ && !choice_ && !parts_.window.shouldClose() && !parts_.signals.stopAsked()) {
         parts_.window.pollEvents();
@@ -41,7 +42,7 @@ base::Result<std::optional<ChosenWorld>> TitleScreen::run() {
         parts_.window.setFullScreen(settings_.fullScreen);
         if (auto drawn = drawFrame(seconds); !drawn) return tl::unexpected(drawn.error());
     }
-    if (choice_) drawOpening();
+    if (choice_ && std::holds_alternative<ChosenWorld>(*choice_)) drawOpening();
     return std::exchange(choice_, std::nullopt);
 }
 
@@ -69,7 +70,7 @@ void TitleScreen::drawOpening() {
     if (background_) (void)background_->draw(size, 0, true);
     imgui_.beginFrame(false, true);
     beginMenu({"opening", {imgui_.size().x / 2, imgui_.size().y / 2}, {0, 0}, false});
-    ImGui::Text(tr_("Opening %s"), choice_->file.stem().c_str());
+    ImGui::Text(tr_("Opening %s"), std::get<ChosenWorld>(*choice_).file.stem().c_str());
     ImGui::End();
     imgui_.endFrame();
     parts_.window.swapBuffers();

@@ -1,5 +1,5 @@
-// The title: continue, worlds, a new world, settings, quit, over a slow flight through a world. It runs until
-// a world is chosen or the player leaves. Used on the thread of the OpenGL context.
+// The title: continue, worlds, a new world, servers, settings, quit, over a slow flight through a world. It
+// runs until a world is chosen or the player leaves. Used on the thread of the OpenGL context.
 //
 // The loop is title_screen.cpp, what it draws title_pages.cpp and title_dialogs.cpp.
 #pragma once
@@ -8,9 +8,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/join_dialog.h"
 #include "apps/terrane/window/map_preview.h"
 #include "apps/terrane/window/new_world_form.h"
 #include "apps/terrane/window/pad_reader.h"
@@ -21,6 +23,9 @@
 #include "terrane/base/stop_signals.h"
 
 namespace terrane::app {
+
+// A world of one's own, or a server's.
+using TitleChoice = std::variant<ChosenWorld, RemoteOptions>;
 
 class TitleScreen {
   public:
@@ -37,14 +42,15 @@ class TitleScreen {
     // `message`: shown at first, such as why a world could not be opened; empty: none.
     TitleScreen(const Parts& parts, PlaySettings& settings, std::string message);
 
-    // The world to play; none to quit.
-    base::Result<std::optional<ChosenWorld>> run();
+    // None to quit.
+    base::Result<std::optional<TitleChoice>> run();
 
   private:
     enum class Page : std::uint8_t {
         Main,
         Worlds,
         NewWorld,
+        Join,
         Rename,
         Copy,
         Copying,
@@ -72,6 +78,7 @@ class TitleScreen {
     void drawNewWorld(const Screen& screen);
     void drawForm();
     void drawMap(float side);
+    void drawJoin(const Screen& screen);
     void drawName(const Screen& screen);
     void drawCopying(const Screen& screen);
     void drawDelete(const Screen& screen);
@@ -92,10 +99,11 @@ class TitleScreen {
     WorldShelf shelf_;
     MapPreview map_;
     NewWorldForm form_;
+    JoinDialog join_;
     SettingsDialog dialog_;
     std::vector<Page> pages_{Page::Main};  // the last one is shown
     std::string nameText_, message_;
-    std::optional<ChosenWorld> choice_;
+    std::optional<TitleChoice> choice_;
     bool quits_ = false;
 };
 

@@ -162,6 +162,14 @@ void warningText(std::string_view text) {
     ImGui::PopStyleColor();
 }
 
+bool editText(const char* label, std::string& text, ImGuiInputTextFlags flags) {
+    std::array<char, 256> buffer{};
+    text.copy(buffer.data(), buffer.size() - 1);
+    const bool isDone = ImGui::InputText(label, buffer.data(), buffer.size(), flags);
+    text = buffer.data();
+    return isDone;
+}
+
 void tooltipFor(std::string_view text) {
     const bool byKeys = ImGui::IsItemFocused() && ImGui::GetIO().NavVisible;
     if (!ImGui::IsItemHovered() && !byKeys) return;

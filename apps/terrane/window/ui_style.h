@@ -37,6 +37,8 @@ bool tabButton(const char* label, bool isChosen, float width);
 void heading(const char* text);
 void dimText(std::string_view text);
 void warningText(std::string_view text);
+// A field for a text of up to 255 bytes; true as InputText says.
+bool editText(const char* label, std::string& text, ImGuiInputTextFlags flags = 0);
 // For the item before, by mouse and by keys.
 void tooltipFor(std::string_view text);
 
