@@ -16,6 +16,8 @@ constexpr std::size_t kMaxWaitingBytes = 1 << 20;
 constexpr std::chrono::seconds kMaxWait{3};
 // Of one command: a line of 65,536 blocks would touch 12,000.
 constexpr int kMaxChunks = 1024;
+// Blocks beside a changed one may change with it: what it held, a fence's arms. None does so far away.
+constexpr std::int32_t kBlocksBeside = 8;
 // A structure is taken apart before it is known how large it is: it counts as so many edits.
 constexpr double kEditsOfPlace = 30;
 // After an edit the chunks around a player are loaded, as it will go on.
@@ -28,16 +30,21 @@ std::size_t dataBytes(const WaitingCommand& waiting) {
     return data ? data->data.size() : 0;
 }
 
-// Asks for the chunks that the box touches and one more around, as blocks beside it may change with it.
-// Whether all are there, or they are too many to wait for.
+std::int32_t chunkAt(std::int32_t block, std::int32_t away) {
+    return static_cast<std::int32_t>((std::int64_t{block} + away) >> 4);
+}
+
+// Asks for the chunks that the box and what is beside it touch. Whether all are there, or they are too many
+// to wait for.
 bool areLoaded(ServerState& server, const world::BlockBox& box) {
-    const world::ChunkPos low = world::chunkOf(box.low), high = world::chunkOf(box.high);
+    const std::int32_t lowX = chunkAt(box.low.x, -kBlocksBeside), highX = chunkAt(box.high.x, kBlocksBeside);
+    const std::int32_t lowY = chunkAt(box.low.y, -kBlocksBeside), highY = chunkAt(box.high.y, kBlocksBeside);
     // Either alone is at most 2^28 chunks.
-    const std::int64_t width = high.x - low.x + 3, depth = high.y - low.y + 3;
+    const std::int64_t width = highX - lowX + 1, depth = highY - lowY + 1;
     if (width * depth > kMaxChunks) return true;
     bool all = true;
-    for (std::int32_t y = low.y - 1; y <= high.y + 1; ++y)
-        for (std::int32_t x = low.x - 1; x <= high.x + 1; ++x) {
+    for (std::int32_t y = lowY; y <= highY; ++y)
+        for (std::int32_t x = lowX; x <= highX; ++x) {
             const world::ChunkPos pos{x, y};
             if (world::isInWorld(pos)) all &= server.session.pipeline().maybeLoadChunkAt(pos) != nullptr;
         }

@@ -179,7 +179,7 @@ class Title(TitleScript):
         with window_test.Display() as display:
             for expected in (True, False):
                 player = self.open(display)
-                player.choose("Down")  # Settings
+                player.choose("Down", "Down")  # Settings
                 player.choose("Right")  # Controls
                 player.choose("Down", "Down")  # the switch below the slider
                 player.hold("Escape")
