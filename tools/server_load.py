@@ -2,53 +2,18 @@
 """How a server does with many players: server and bots on this machine, one number of bots after the other.
 
 For each number a new world of the default generator is served, bots join, walk and build (one in ten), and a line is
-printed: ticks of the server, when another player hears of an edit, bytes, memory. --plot draws them."""
+printed: ticks of the server, when another player hears of an edit, bytes, memory. server_load_plot.py draws them."""
 import argparse
 import json
-import os
 import pathlib
-import re
-import signal
 import subprocess
 import sys
 import tempfile
-import time
+
+from server_tools import Server, bots_command
 
 COLUMNS = ("bots", "tick_ms_median", "tick_ms_p99", "tick_ms_worst_p99", "seen_ms_median", "seen_ms_p99",
            "decided_ms_p99", "received_kb_s", "sent_kb_s", "server_mb", "server_cpu", "edits", "joined", "cuts")
-
-
-class Server:
-    """A server on a free port. `folder` keeps its world, log and statistics."""
-
-    def __init__(self, program, folder, port=0, *arguments):
-        self.world, self.statistics = folder / "world.sqlite", folder / "statistics.jsonl"
-        self.log = open(folder / "log.txt", "a+", encoding="utf-8")
-        begin = self.log.seek(0, os.SEEK_END)
-        self.process = subprocess.Popen(
-            [program, "serve", "--world", self.world, "--address", "127.0.0.1", "--port", str(port), "--max-players",
-             "4096", "--statistics", self.statistics, *arguments],
-            stdin=subprocess.DEVNULL, stdout=self.log, stderr=self.log)
-        self.port = self.wait_for_port(begin)
-
-    def wait_for_port(self, begin):
-        while self.process.poll() is None:
-            self.log.seek(begin)
-            if found := re.search(r"on port (\d+)", self.log.read()):
-                return int(found[1])
-            time.sleep(0.02)
-        self.log.seek(begin)
-        raise RuntimeError(f"the server ended: {self.log.read()}")
-
-    def stop(self):
-        self.process.send_signal(signal.SIGTERM)
-        code = self.process.wait(60)
-        self.log.close()
-        return code
-
-
-def bots_command(program, port, *arguments):
-    return [program, "bots", "--connect", f"127.0.0.1:{port}", *arguments]
 
 
 def windows_with(statistics, count):
@@ -60,7 +25,7 @@ def windows_with(statistics, count):
 
 def measure(program, folder, count, options):
     folder.mkdir()
-    server = Server(program, folder, 0, "--spawn-radius", str(options.spawn_radius))
+    server = Server(program, folder, 0, "--spawn-radius", str(10 if options.behaviour == "crowd" else options.spawn_radius))
     try:
         done = subprocess.run(
             bots_command(program, server.port, "--count", str(count), "--seconds", str(options.seconds), "--behaviour",
@@ -80,44 +45,20 @@ def measure(program, folder, count, options):
             "edits": bots["edits"], "joined": bots["joined"], "cuts": bots["cuts"]}
 
 
-def plot(rows, file):
-    import matplotlib
-    matplotlib.use("svg")
-    from matplotlib import pyplot
-    figure, (times, bytes_axis) = pyplot.subplots(1, 2, figsize=(9, 3.2))
-    players = [row["bots"] for row in rows]
-    for name, label in (("tick_ms_p99", "a tick of the server"), ("seen_ms_p99", "an edit is seen")):
-        times.plot(players, [row[name] for row in rows], marker="o", label=label)
-    times.set(xlabel="players", ylabel="ms, 99th percentile", xscale="log", yscale="log")
-    for name, label in (("received_kb_s", "received"), ("sent_kb_s", "sent")):
-        bytes_axis.plot(players, [row[name] for row in rows], marker="o", label=label)
-    bytes_axis.set(xlabel="players", ylabel="kB/s a player", xscale="log")
-    for axis in (times, bytes_axis):
-        axis.grid(True, alpha=0.3)
-        axis.legend()
-    figure.tight_layout()
-    figure.savefig(file)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("--counts", default="10,30,100,300,500,1000", help="how many bots, in turn")
     parser.add_argument("--seconds", type=float, default=60, help="with all of them there")
     parser.add_argument("--behaviour", choices=("walk", "build", "crowd"), default="walk")
-    parser.add_argument("--spawn-radius", type=int, default=1000, help="blocks over which they are spread")
-    parser.add_argument("--plot", type=pathlib.Path, help="SVG")
+    parser.add_argument("--spawn-radius", type=int, default=1000, help="blocks over which they are spread; a crowd begins in 10")
     options = parser.parse_args()
-    rows = []
     print("\t".join(COLUMNS), flush=True)
     with tempfile.TemporaryDirectory(prefix="terrane-load-") as folder:
         for count in map(int, options.counts.split(",")):
             row = measure(options.program.resolve(), pathlib.Path(folder) / str(count), count, options)
-            rows.append(row)
             print("\t".join(f"{row[name]:.2f}" if isinstance(row[name], float) else str(row[name]) for name in COLUMNS),
                   flush=True)
-    if options.plot:
-        plot(rows, options.plot)
 
 
 if __name__ == "__main__":

@@ -145,11 +145,13 @@ void tick(ServerState& server, Time now) {
     server.now = std::max(server.now, now);
     ++server.tick;
     updateLogins(server);
+    // Here and below no change waits to be told, so that chunks may go. Twice, as a chunk that is not in the
+    // store takes two jobs, and a command waits for it.
+    server.session.pipeline().update(server.now);
     runCommands(server);
     continueRollbacks(server);
     if (server.tick % kTicksPerLiveChunks == 1) findLiveChunks(server);
     server.session.advance(std::chrono::duration<double>(kServerTick).count(), server.liveChunks);
-    // Before chunks are unloaded: what changed is read from them.
     tellChangedBlocks(server);
     server.session.pipeline().update(server.now);
     tellDecisions(server);

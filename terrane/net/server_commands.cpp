@@ -13,7 +13,7 @@ constexpr std::size_t kMaxWaitingCommands = 512;
 // Of data of blocks in them: an edit has up to 32 KiB.
 constexpr std::size_t kMaxWaitingBytes = 1 << 20;
 // A command whose chunks do not come runs without them, and is refused by the session.
-constexpr std::chrono::seconds kMaxWait{3};
+constexpr std::uint64_t kMaxWaitTicks = 60;
 // Of one command: a line of 65,536 blocks would touch 12,000.
 constexpr int kMaxChunks = 1024;
 // Blocks beside a changed one may change with it: what it held, a fence's arms. None does so far away.
@@ -141,7 +141,7 @@ void decide(ServerState& server, ServerClient& client, const WaitingCommand& nex
 void runOf(ServerState& server, ServerClient& client) {
     while (!client.commands.empty()) {
         const WaitingCommand& next = client.commands.front();
-        const bool waitedLong = server.now - next.since > kMaxWait;
+        const bool waitedLong = server.tick - next.since > kMaxWaitTicks;
         const auto ready = [&](const auto& command) { return isReady(server, client, command); };
         if (!waitedLong && !std::visit(ready, next.command)) return;
         if (std::holds_alternative<Edit>(next.command) && !client.buckets.edits.take(1, server.now)) return;
@@ -167,6 +167,8 @@ void takeCommand(ServerState& server, ServerClient& client, WaitingCommand comma
     client.waitingBytes += dataBytes(command);
     if (client.commands.size() >= kMaxWaitingCommands || client.waitingBytes > kMaxWaitingBytes)
         return refuse(server, client, Refusal::TooMuch, "too many changes of blocks at once");
+    // Its chunks are asked for now, and may be there by the next tick but one.
+    std::visit([&](const auto& asked) { (void)isReady(server, client, asked); }, command.command);
     client.commands.push_back(std::move(command));
 }
 
@@ -175,7 +177,7 @@ void takePlace(ServerState& server, ServerClient& client, const Place& place) {
     if (client.buckets.edits.take(kEditsOfPlace, server.now))
         if (auto decoded = store::decodeStructure(place.structure)) *structure = std::move(*decoded);
     takeCommand(server, client,
-                {Build{place.number, game::PlaceStructure{std::move(structure), place.low}}, server.now});
+                {Build{place.number, game::PlaceStructure{std::move(structure), place.low}}, server.tick});
 }
 
 void runCommands(ServerState& server) {

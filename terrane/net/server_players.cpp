@@ -89,19 +89,19 @@ void tellSightTo(ServerState& server, ServerClient& client, const PlayerGrid& gr
 }  // namespace
 
 void onPlayerMessage(ServerState& server, ServerClient& client, ClientMessage message) {
-    const Time now = server.now;
     if (const auto* move = std::get_if<Move>(&message)) return onMove(server, client, *move);
     if (const auto* view = std::get_if<View>(&message)) return onView(server, client, *view);
-    if (auto* edit = std::get_if<Edit>(&message)) return takeCommand(server, client, {std::move(*edit), now});
+    if (auto* edit = std::get_if<Edit>(&message))
+        return takeCommand(server, client, {std::move(*edit), server.tick});
     if (const auto* fill = std::get_if<Fill>(&message))
-        return takeCommand(server, client, {Build{fill->number, fill->fill}, now});
+        return takeCommand(server, client, {Build{fill->number, fill->fill}, server.tick});
     if (const auto* place = std::get_if<Place>(&message)) return takePlace(server, client, *place);
     if (const auto* takeBack = std::get_if<TakeBack>(&message))
-        return takeCommand(server, client, {*takeBack, now});
+        return takeCommand(server, client, {*takeBack, server.tick});
     if (const auto* text = std::get_if<Say>(&message)) return onSay(server, client, *text);
     if (std::holds_alternative<AskPlayers>(message)) return onAskPlayers(server, client);
     if (const auto* pong = std::get_if<Pong>(&message)) {
-        client.latency = std::chrono::milliseconds(pingTime(now) - pong->time);
+        client.latency = std::chrono::milliseconds(pingTime(server.now) - pong->time);
         return;
     }
     if (std::holds_alternative<Leave>(message)) return leave(server, client);

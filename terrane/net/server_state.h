@@ -51,7 +51,7 @@ struct Build {
 };
 struct WaitingCommand {
     std::variant<Edit, Build, TakeBack> command;
-    Time since;
+    std::uint64_t since = 0;  // tick: a server that stalls lets nobody wait in vain
 };
 // A decision that is told once it is in the file.
 struct Decision {

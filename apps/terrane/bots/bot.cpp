@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "terrane/world/character.h"
 
@@ -46,6 +47,7 @@ Bot::Bot(boost::asio::io_context& context, BotWorld& world, const BotSettings& s
 
 void Bot::onMessage(const net::ServerMessage& message) {
     if (const auto* joined = std::get_if<net::Joined>(&message)) return onJoined(*joined);
+    if (std::holds_alternative<net::ViewComplete>(message)) return onViewComplete();
     if (const auto* changed = std::get_if<net::BlocksChanged>(&message)) return onBlocks(*changed);
     if (const auto* done = std::get_if<net::Done>(&message)) return onDone(*done);
     if (const auto* corrected = std::get_if<net::Corrected>(&message)) {
@@ -67,6 +69,18 @@ void Bot::onJoined(const net::Joined& joined) {
     moved_ = builtAt_ = std::chrono::steady_clock::now();
     chooseGoal();
     tellView();
+}
+
+void Bot::onViewComplete() {
+    if (std::exchange(knowsView_, true)) return;
+    world_.joinedKb.push_back(static_cast<double>(link_.receivedBytes() + link_.sentBytes()) / 1000);
+    world_.joinedMs.push_back(millisecondsBetween(beganAt_, std::chrono::steady_clock::now()));
+}
+
+std::vector<world::BlockPos> Bot::undecided() const {
+    std::vector<world::BlockPos> positions;
+    for (const auto& [command, pending] : pending_) positions.push_back(pending.pos);
+    return positions;
 }
 
 void Bot::onBlocks(const net::BlocksChanged& changed) {

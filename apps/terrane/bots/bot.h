@@ -49,8 +49,9 @@ struct BotWorld {
     // Blocks as decided last, without those of which that is not known because the connection went.
     std::map<world::BlockPos, world::BlockId> acknowledged;
     std::unordered_map<world::BlockPos, int, world::BlockPosHash> owners;  // the bot that alone builds there
-    std::vector<double> seenMs;     // from the edit until another bot is told
-    std::vector<double> decidedMs;  // until it is durable
+    std::vector<double> joinedKb, joinedMs;  // until all edits in sight are there, from the first byte
+    std::vector<double> seenMs;              // from the edit until another bot is told
+    std::vector<double> decidedMs;           // until it is durable
     std::uint64_t edits = 0, refused = 0, corrections = 0, cuts = 0, joins = 0;
 };
 
@@ -64,6 +65,8 @@ class Bot {
 
     const net::ClientLink& link() const { return link_; }
     bool builds() const { return builds_; }
+    // Blocks on which the server has not decided yet.
+    std::vector<world::BlockPos> undecided() const;
 
   private:
     struct Pending {
@@ -73,6 +76,7 @@ class Bot {
     };
     void onMessage(const net::ServerMessage& message);
     void onJoined(const net::Joined& joined);
+    void onViewComplete();
     void onBlocks(const net::BlocksChanged& changed);
     void onDone(const net::Done& done);
     void walk(double seconds);
@@ -84,8 +88,8 @@ class Bot {
     const BotSettings& settings_;
     std::mt19937 random_;
     int number_ = 0;
-    bool builds_ = false, wasJoined_ = false;
-    BotTime moved_{}, builtAt_{};
+    bool builds_ = false, wasJoined_ = false, knowsView_ = false;
+    BotTime beganAt_ = std::chrono::steady_clock::now(), moved_{}, builtAt_{};
     game::PlayerId player_ = game::kNoPlayer;
     world::Pose pose_, home_;
     glm::dvec2 goal_{0};

@@ -10,6 +10,7 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/serve/open_file_limit.h"
+#include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/process_statistics.h"
 #include "terrane/base/stop_signals.h"
@@ -23,6 +24,7 @@ struct BotsOptions {
     int count = 10;
     double seconds = 60;
     double joinsPerSecond = 50;
+    std::string acknowledged;  // file; empty: none
     BotSettings bots;
 };
 
@@ -74,6 +76,8 @@ void printReport(const BotWorld& world, const std::deque<Bot>& bots, const Since
                                    {"seconds", seconds},
                                    {"edits", world.edits},
                                    {"refused", world.refused},
+                                   {"joined_kb_median", quantile(world.joinedKb, 0.5)},
+                                   {"joined_ms_median", quantile(world.joinedMs, 0.5)},
                                    {"seen", world.seenMs.size()},
                                    {"seen_ms_median", quantile(world.seenMs, 0.5)},
                                    {"seen_ms_p99", quantile(world.seenMs, 0.99)},
@@ -85,6 +89,17 @@ void printReport(const BotWorld& world, const std::deque<Bot>& bots, const Since
                                    {"cuts", world.cuts},
                                    {"memory_mb", base::megabytes(base::residentBytes())}};
     std::cout << report.dump(1) << '\n';
+}
+
+// X Y Z NAME of each block that the server said to have kept, but for those where it was asked again since.
+base::Result<void> writeAcknowledged(const std::string& file, BotWorld& world, const std::deque<Bot>& bots) {
+    if (file.empty()) return {};
+    for (const Bot& bot : bots)
+        for (const world::BlockPos pos : bot.undecided()) world.acknowledged.erase(pos);
+    std::string text;
+    for (const auto& [pos, id] : world.acknowledged)
+        text += fmt::format("{} {} {} {}\n", pos.x, pos.y, pos.z, world.land.blocks().type(id).name);
+    return base::writeFile(file, text);
 }
 
 base::Result<void> runBots(BotsOptions& options) {
@@ -121,6 +136,7 @@ base::Result<void> runBots(BotsOptions& options) {
     }
     const BotTime end = std::chrono::steady_clock::now();
     printReport(world, bots, since.value_or(Since{end, 0, 0}), end);
+    if (auto written = writeAcknowledged(options.acknowledged, world, bots); !written) return written;
     for (Bot& bot : bots) bot.leave();
     context.restart();
     context.run_for(std::chrono::milliseconds(200));
@@ -165,6 +181,10 @@ CommandEntry addBots(CLI::App& app) {
         ->add_option("--keys", options->bots.keyFolder,
                      "Folder where each bot's key is kept, so that it is known again")
         ->type_name("FOLDER");
+    command
+        ->add_option("--acknowledged", options->acknowledged,
+                     "At the end write the blocks that the server said to have kept: a line X Y Z NAME each")
+        ->type_name("FILE");
     return {command, [options] { return runBots(*options); }};
 }
 

@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+"""Kills a server under load, again and again, and looks at what is left.
+
+    server_kill_test.py PROGRAM [KILLS [BOTS]]     4 kills of a server of 20 bots unless told otherwise
+
+Bots build all the time. After each kill (SIGKILL, at a random moment, some while the bots come back) the server is
+started anew, and all bots have to come back by themselves. In the end every block that the server said to have kept
+has to be in the world. Needs nothing but Python; exits with 1 where something is lost or somebody stays away."""
+import json
+import pathlib
+import random
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from server_tools import Server, bots_command
+
+BACK_SECONDS = 60  # in which all have to be there
+
+
+def joined(server):
+    return set(re.findall(r"(\S+) joined from", server.output()))
+
+
+def wait_for_all(server, bots, count):
+    """Seconds until all are there."""
+    start = time.monotonic()
+    while len(joined(server)) < count:
+        if bots.poll() is not None:
+            sys.exit("server_kill_test: the bots ended by themselves")
+        if time.monotonic() - start > BACK_SECONDS:
+            sys.exit(f"server_kill_test: {count - len(joined(server))} of {count} bots stay away")
+        time.sleep(0.05)
+    return time.monotonic() - start
+
+
+class Volume:
+    """Numbers of the blocks of an area, as terrane dump writes them."""
+
+    def __init__(self, program, world, chunks, file):
+        low = [min(chunk[axis] for chunk in chunks) for axis in (0, 1)]
+        high = [max(chunk[axis] for chunk in chunks) + 1 for axis in (0, 1)]
+        subprocess.run([program, "dump", "--world", world, f"--area={low[0]},{low[1]},{high[0]},{high[1]}", "-o", file],
+                       check=True, stdout=subprocess.DEVNULL)
+        self.low = [16 * side for side in low]
+        self.depth = 16 * (high[1] - low[1])
+        data = file.read_bytes()
+        self.values = memoryview(data)[10 + int.from_bytes(data[8:10], "little"):].cast("H")
+
+    def at(self, x, y, z):
+        return self.values[((x - self.low[0]) * self.depth + y - self.low[1]) * 256 + z]
+
+
+def check_blocks(program, world, acknowledged, folder):
+    """The number of blocks that were looked at. Where one was taken away, water or sand may be, but no other."""
+    lines = [line.split() for line in acknowledged.read_text().splitlines()]
+    blocks = [(int(x), int(y), int(z), name) for x, y, z, name in lines]
+    names = {block["id"]: block["name"] for block in json.loads(
+        subprocess.run([program, "blocks", "--json"], check=True, stdout=subprocess.PIPE).stdout)}
+    volume = Volume(program, world, {(x >> 4, y >> 4) for x, y, _, _ in blocks}, folder / "blocks.npy")
+    lost = []
+    for x, y, z, name in blocks:
+        there = names[volume.at(x, y, z)]
+        if (there == "stone") != (name == "stone"):
+            lost.append(f"{x} {y} {z}: {name} became {there}")
+    if lost:
+        sys.exit(f"server_kill_test: {len(lost)} of {len(blocks)} blocks are lost, such as {lost[0]}")
+    return len(blocks)
+
+
+def main():
+    if len(sys.argv) not in (2, 3, 4):
+        sys.exit(__doc__)
+    program = pathlib.Path(sys.argv[1]).resolve()
+    kills = int(sys.argv[2]) if len(sys.argv) > 2 else 4
+    count = int(sys.argv[3]) if len(sys.argv) > 3 else 20
+    generator = random.Random(1)
+    with tempfile.TemporaryDirectory(prefix="terrane_server_kill_") as name:
+        folder = pathlib.Path(name)
+        server = Server(program, folder, 0, "--spawn-radius", "60")
+        port, acknowledged, report = server.port, folder / "acknowledged.txt", folder / "bots.json"
+        with open(report, "w", encoding="utf-8") as out:
+            bots = subprocess.Popen(bots_command(
+                program, port, "--count", str(count), "--seconds", "100000", "--behaviour", "build", "--edits-per-second",
+                "2", "--keys", folder, "--acknowledged", acknowledged), stdout=out, stderr=subprocess.DEVNULL)
+        wait_for_all(server, bots, count)
+        back = []
+        for _ in range(kills):
+            time.sleep(generator.random() * 2)
+            server.stop(signal.SIGKILL)
+            server = Server(program, folder, port)
+            if generator.random() < 0.7:
+                back.append(wait_for_all(server, bots, count))
+        back.append(wait_for_all(server, bots, count))
+        time.sleep(1)
+        bots.send_signal(signal.SIGINT)
+        if bots.wait(60) != 0:
+            sys.exit(f"server_kill_test: the bots end with {bots.returncode}")
+        if server.stop() != 0:
+            sys.exit("server_kill_test: the server does not end well")
+        told = json.loads(report.read_text())
+        if told["joined"] != count:
+            sys.exit(f"server_kill_test: {told['joined']} of {count} bots are there in the end")
+        subprocess.run([program, "check", folder / "world.sqlite"], check=True, stdout=subprocess.DEVNULL)
+        blocks = check_blocks(program, folder / "world.sqlite", acknowledged, folder)
+        if blocks == 0:
+            sys.exit("server_kill_test: no block was built: the test shows nothing")
+    back.sort()
+    print(f"server_kill_test: {kills} kills, {count} bots, {told['cuts']} cuts, {told['edits']} edits, {blocks} blocks, all "
+          f"there; all bots back within {back[len(back) // 2]:.1f} s (median), {back[-1]:.1f} s (longest)")
+
+
+if __name__ == "__main__":
+    main()
