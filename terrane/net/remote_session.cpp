@@ -6,9 +6,9 @@
 
 namespace terrane::net {
 
-base::Result<void> checkOffer(const WorldOffer& offer, const world::BlockRegistry& blocks) {
+base::Result<gen::Generator> offeredGenerator(const WorldOffer& offer, const world::BlockRegistry& blocks) {
     store::WorldIdentity own{offer.world.identity.seed, {}, 0};
-    const auto graph = gen::makeGenerator(offer.world.identity.generator, blocks);
+    auto graph = gen::makeGenerator(offer.world.identity.generator, blocks);
     WorldFingerprint client{own, 0, blocksHash(blocks)};
     if (graph) {
         own.generator = offer.world.identity.generator;
@@ -16,8 +16,8 @@ base::Result<void> checkOffer(const WorldOffer& offer, const world::BlockRegistr
         client = worldFingerprint(own, *graph, blocks);
     }
     const std::string difference = differenceOf(offer.world, client);
-    if (difference.empty()) return {};
-    return base::fail(base::ErrorCode::Incompatible, "{}", difference);
+    if (!difference.empty()) return base::fail(base::ErrorCode::Incompatible, "{}", difference);
+    return gen::Generator(std::move(*graph), own.seed);
 }
 
 base::Result<RemoteSessionParts> remoteSessionParts(const store::WorldIdentity& identity,

@@ -9,15 +9,17 @@
 
 namespace terrane::net {
 
-// One line that says why this program cannot play there; no error where it can.
-[[nodiscard]] base::Result<void> checkOffer(const WorldOffer& offer, const world::BlockRegistry& blocks);
+// The generator of the world that is offered. Where this program makes another world the error is one line
+// that says what differs.
+[[nodiscard]] base::Result<gen::Generator> offeredGenerator(const WorldOffer& offer,
+                                                            const world::BlockRegistry& blocks);
 
 // The session's store is told by ClientWorld; it lives as long as the session.
 struct RemoteSessionParts {
     game::SessionParts parts;
     RemoteStore* store = nullptr;
 };
-// After checkOffer().
+// After offeredGenerator().
 [[nodiscard]] base::Result<RemoteSessionParts> remoteSessionParts(
     const store::WorldIdentity& identity, std::unique_ptr<const world::BlockRegistry> blocks,
     unsigned threads);

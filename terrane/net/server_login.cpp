@@ -15,6 +15,8 @@ namespace {
 using Stage = ServerClient::Stage;
 
 constexpr std::size_t kMaxWaitingPasswords = 32;
+// Whoever has more addresses than this is not held up by a limit for each.
+constexpr std::size_t kMaxAddresses = 4096;
 
 void onHello(ServerState& server, ServerClient& client, const Hello& hello) {
     if (hello.version != kProtocolVersion)
@@ -118,6 +120,18 @@ void replaceFormer(ServerState& server, const KnownPlayer& player) {
         refuse(server, *former, Refusal::Replaced, "you joined again elsewhere");
 }
 
+bool isOwnMachine(const std::string& address) {
+    return address.starts_with("127.") || address == "::1" || address.starts_with("::ffff:127.");
+}
+
+// Each new player is a row that is kept for ever.
+bool mayComeNew(ServerState& server, const std::string& address) {
+    if (isOwnMachine(address)) return true;
+    if (server.newPlayers.size() >= kMaxAddresses) server.newPlayers.clear();
+    const double most = server.settings.newPlayersPerHour;
+    return server.newPlayers.try_emplace(address, most / 3600, most).first->second.take(1, server.now);
+}
+
 // The player's row, made where it is new here, with the name that it has now.
 const KnownPlayer& rowOf(ServerState& server, const ServerClient& client) {
     const KnownPlayer* known = server.people.byKey(client.key);
@@ -154,7 +168,11 @@ void onProof(ServerState& server, ServerClient& client, const Proof& proof) {
         return refuse(server, client, Refusal::OtherWorld,
                       "your program generates another world than the server: use the program that it uses");
     refuseStranger(server, client);
-    if (client.stage == Stage::Proof) join(server, client);
+    if (client.stage != Stage::Proof) return;
+    if (!server.people.byKey(client.key) && !mayComeNew(server, client.address))
+        return refuse(server, client, Refusal::Full,
+                      "too many new players came from your address: try again later");
+    join(server, client);
 }
 
 }  // namespace

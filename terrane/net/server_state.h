@@ -169,6 +169,7 @@ struct ServerState {
 
     std::map<ConnectionId, ServerClient> clients;
     std::unordered_map<game::PlayerId, ConnectionId> playing;
+    std::map<std::string, TokenBucket> newPlayers;  // of an address, since it had its last
     std::unordered_map<game::PlayerId, Time> left;  // whose steps to undo are kept for a while
     std::uint64_t tick = 0;
     Time now{};

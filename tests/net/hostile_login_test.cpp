@@ -137,6 +137,20 @@ TEST_F(HostileLogin, AFullServerTakesOperatorsAndThoseWhoAreThere) {
     EXPECT_EQ(server_->state().playing.size(), 3u);
 }
 
+TEST_F(HostileLogin, NewPlayersOfAnAddressAreFew) {
+    ServerSettings settings;
+    settings.newPlayersPerHour = 3;
+    start(settings);  // Ann is the first of the address "test"
+    const ClientIdentity bob = testIdentity("Bob");
+    joined(bob)->close();
+    joined(testIdentity("Cid"))->close();
+    EXPECT_EQ(refusalOfName("Dan"), Refusal::Full);
+    EXPECT_EQ(server_->state().people.byName("Dan"), nullptr);
+    EXPECT_TRUE(plays(*joined(bob)));  // who was here comes again
+    server_->now += std::chrono::minutes(20);
+    EXPECT_TRUE(plays(*joined(testIdentity("Dan"))));
+}
+
 TEST_F(HostileLogin, Passwords) {
     start();
     EXPECT_EQ(runConsoleLine(server_->state(), "password secret"), "the password is set");

@@ -43,8 +43,8 @@ struct LinkPlayer {
                 [this](const ServerMessage& message) { take(message); }};
     }
     base::Result<SampleDigests> prove(const WorldOffer& offer) {
-        if (auto checked = checkOffer(offer, contentBlocks()); !checked)
-            return tl::unexpected(checked.error());
+        const auto generator = offeredGenerator(offer, contentBlocks());
+        if (!generator) return tl::unexpected(generator.error());
         if (!session) {
             auto parts = remoteSessionParts(offer.world.identity, ownBlocks(), 1).value();
             store = parts.store;
@@ -52,7 +52,7 @@ struct LinkPlayer {
             world = std::make_unique<ClientWorld>(
                 *session, *store, [this](const ClientMessage& message) { link.send(message); });
         }
-        return sampleDigests(session->generator(), offer.samples);
+        return sampleDigests(*generator, offer.samples);
     }
     void take(const ServerMessage& message) {
         if (const auto* joined = std::get_if<Joined>(&message)) {

@@ -1,16 +1,14 @@
 #include "apps/terrane/bots/bot_land.h"
 
-#include "terrane/gen/generators/catalogue.h"
 #include "terrane/net/remote_session.h"
 
 namespace terrane::app {
 
 base::Result<net::SampleDigests> BotLand::prove(const net::WorldOffer& offer) {
     if (generator_ && offer.world == offer_.world && offer.samples == offer_.samples) return digests_;
-    if (auto fits = net::checkOffer(offer, *blocks_); !fits) return tl::unexpected(fits.error());
-    auto graph = gen::makeGenerator(offer.world.identity.generator, *blocks_);
-    if (!graph) return tl::unexpected(graph.error());
-    generator_ = std::make_unique<gen::Generator>(std::move(*graph), offer.world.identity.seed);
+    auto generator = net::offeredGenerator(offer, *blocks_);
+    if (!generator) return tl::unexpected(generator.error());
+    generator_ = std::make_unique<gen::Generator>(std::move(*generator));
     offer_ = offer;
     digests_ = net::sampleDigests(*generator_, offer.samples);
     heights_.clear();

@@ -9,6 +9,7 @@
 #include "apps/terrane/bots/bot.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/quantile.h"
 #include "apps/terrane/serve/open_file_limit.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
@@ -27,14 +28,6 @@ struct BotsOptions {
     std::string acknowledged;  // file; empty: none
     BotSettings bots;
 };
-
-double quantile(std::vector<double> values, double share) {
-    if (values.empty()) return 0;
-    const auto at =
-        std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())));
-    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(at));
-    return values[at];
-}
 
 std::uint64_t receivedBytes(const std::deque<Bot>& bots) {
     std::uint64_t bytes = 0;

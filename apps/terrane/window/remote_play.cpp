@@ -5,7 +5,6 @@
 
 #include "terrane/base/log.h"
 #include "terrane/content/built_in.h"
-#include "terrane/gen/generators/catalogue.h"
 #include "terrane/net/known_servers.h"
 
 namespace terrane::app {
@@ -62,11 +61,10 @@ bool RemotePlay::trusts(const std::string& key) const {
 base::Result<net::SampleDigests> RemotePlay::prove(const net::WorldOffer& offer) {
     if (offer_ && !(offer.world == offer_->world))
         return base::fail("the server has another world than before: join it again");
-    if (auto fits = net::checkOffer(offer, *blocks_); !fits) return tl::unexpected(fits.error());
-    auto graph = gen::makeGenerator(offer.world.identity.generator, *blocks_);
-    if (!graph) return tl::unexpected(graph.error());
+    const auto generator = net::offeredGenerator(offer, *blocks_);
+    if (!generator) return tl::unexpected(generator.error());
     offer_ = offer;
-    return net::sampleDigests(gen::Generator(std::move(*graph), offer.world.identity.seed), offer.samples);
+    return net::sampleDigests(*generator, offer.samples);
 }
 
 world::Pose RemotePlay::start() const {

@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""Makes docs/images/together_*.jpg: two windows on one server, in each of which the other player and what that one
+builds is seen. Usage: together_images.py PROGRAM FOLDER
+
+Needs xvfb, xdotool, x11-apps and ffmpeg (Debian), and the tests' scripts beside it."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+sys.path.append(str(ROOT / "tests" / "app"))
+import support  # noqa: E402
+import virtual_display  # noqa: E402
+import window_test  # noqa: E402
+from server_tools import Server  # noqa: E402
+
+SIZE = (800, 450)
+SEED = 1
+POSES = {"Ann": "111.5 15.5 93.7 180 -22", "Bob": "101.5 16.5 93.7 -6 -8"}  # x y z yaw pitch, near the spawn
+# What Ann builds: a slot of her hotbar, steps of the mouse from the column before, blocks.
+COLUMNS = ((2, (-160, 0), 3), (2, (320, 0), 3), (1, (-60, 0), 1), (1, (-60, 0), 1))
+
+
+class Player:
+    def __init__(self, display, server, name, folder):
+        data = folder / name / "terrane"
+        data.mkdir(parents=True)
+        (data / "bookmarks.txt").write_text(POSES[name] + "\n")
+        self.display, self.name = display, name
+        self.game = window_test.Game(display, folder / name, (
+            "--connect", f"127.0.0.1:{server.port}", "--name", name, "--movement", "fast", "--view-distance", "6", "--preset",
+            "medium", "--size", f"{SIZE[0]}x{SIZE[1]}"))
+        self.game.open()
+        self.game.wait_for_image(SIZE)
+        self.game.pause_after("F1")  # no help in the image
+        self.game.press("F6")
+
+    def build(self, columns):
+        self.game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.5)  # takes the mouse
+        for slot, turn, height in columns:
+            self.game.press(str(slot))
+            self.display.xdotool("mousemove_relative", "--", *turn)
+            time.sleep(1)
+            for _ in range(height):
+                self.display.xdotool("click", 3)
+                time.sleep(1)
+
+    def picture(self, file):
+        dump = subprocess.run(["xwd", "-id", self.game.window, "-silent", "-display", self.display.name],
+                              capture_output=True, check=True).stdout
+        subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "image2pipe", "-c:v", "xwd", "-i", "-", "-q:v", "3", file],
+                       input=dump, check=True)
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    program, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    support.use(program)
+    screen = (SIZE[0] + 40, SIZE[1] + 40)
+    with tempfile.TemporaryDirectory(prefix="terrane-together-") as name, \
+            window_test.Display(screen) as first, window_test.Display(screen) as second:
+        folder = pathlib.Path(name)
+        server = Server(program, folder, 0, "--seed", str(SEED))
+        ann, bob = Player(first, server, "Ann", folder), Player(second, server, "Bob", folder)
+        time.sleep(30)  # the land is there, shaders are compiled
+        ann.build(COLUMNS)
+        time.sleep(3)
+        for player in (ann, bob):
+            player.picture(out / f"together_{player.name.lower()}.jpg")
+            player.game.process.terminate()
+            player.game.process.wait(60)
+        server.stop()
+
+
+if __name__ == "__main__":
+    main()
