@@ -47,18 +47,17 @@ class Player:
                 self.display.xdotool("click", 3)
                 time.sleep(1)
 
-    def picture(self, file):
-        dump = subprocess.run(["xwd", "-id", self.game.window, "-silent", "-display", self.display.name],
-                              capture_output=True, check=True).stdout
-        subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "image2pipe", "-c:v", "xwd", "-i", "-", "-q:v", "3", file],
-                       input=dump, check=True)
+    def picture(self, folder, file):
+        dump = folder / f"{self.name}.xwd"
+        subprocess.run(["xwd", "-id", self.game.window, "-silent", "-display", self.display.name, "-out", dump], check=True)
+        subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-i", dump, "-q:v", "3", file], check=True)
 
 
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     program, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
-    support.use(program)
+    support.set_program(program)
     screen = (SIZE[0] + 40, SIZE[1] + 40)
     with tempfile.TemporaryDirectory(prefix="terrane-together-") as name, \
             window_test.Display(screen) as first, window_test.Display(screen) as second:
@@ -69,7 +68,7 @@ def main():
         ann.build(COLUMNS)
         time.sleep(3)
         for player in (ann, bob):
-            player.picture(out / f"together_{player.name.lower()}.jpg")
+            player.picture(folder, out / f"together_{player.name.lower()}.jpg")
             player.game.process.terminate()
             player.game.process.wait(60)
         server.stop()

@@ -17,11 +17,15 @@ _program = None
 
 def main():
     """Runs the tests of the calling script; its first argument is the program under test."""
-    global _program
     if len(sys.argv) < 2:
         sys.exit(f"usage: {sys.argv[0]} PROGRAM [unittest arguments]")
-    _program = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    set_program(sys.argv.pop(1))
     unittest.main(module="__main__", verbosity=2)
+
+
+def set_program(path):
+    global _program
+    _program = str(pathlib.Path(path).resolve())
 
 
 def program():
