@@ -18,6 +18,8 @@ constexpr std::uint64_t kMaxWaitTicks = 60;
 constexpr int kMaxChunks = 1024;
 // Blocks beside a changed one may change with it: what it held, a fence's arms. None does so far away.
 constexpr std::int32_t kBlocksBeside = 8;
+// Decided, but not yet on the disk: while it hangs no more commands run.
+constexpr std::size_t kMaxUntold = 1024;
 // A structure is taken apart before it is known how large it is: it counts as so many edits.
 constexpr double kEditsOfPlace = 30;
 // After an edit the chunks around a player are loaded, as it will go on.
@@ -139,7 +141,7 @@ void decide(ServerState& server, ServerClient& client, const WaitingCommand& nex
 }
 
 void runOf(ServerState& server, ServerClient& client) {
-    while (!client.commands.empty()) {
+    while (!client.commands.empty() && client.decisions.size() < kMaxUntold) {
         const WaitingCommand& next = client.commands.front();
         const bool waitedLong = server.tick - next.since > kMaxWaitTicks;
         const auto ready = [&](const auto& command) { return isReady(server, client, command); };

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <boost/asio/error.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/read_until.hpp>
@@ -14,6 +15,7 @@
 #include <optional>
 #include <string>
 
+#include "terrane/base/log.h"
 #include "terrane/base/printable.h"
 #include "terrane/base/stop_signals.h"
 #include "terrane/net/server.h"
@@ -47,14 +49,19 @@ class Console {
   private:
     void read() {
         asio::async_read_until(input_, buffer_, '\n',
-                               [this](const boost::system::error_code& error, std::size_t) {
-                                   if (error) return;
-                                   std::istream lines(&buffer_);
-                                   std::string line;
-                                   std::getline(lines, line);
-                                   run(line);
-                                   read();
-                               });
+                               [this](const boost::system::error_code& error, std::size_t) { take(error); });
+    }
+    void take(const boost::system::error_code& error) {
+        const bool isTooLong = error == asio::error::not_found;
+        if (error && !isTooLong) return;
+        std::istream lines(&buffer_);
+        std::string line;
+        std::getline(lines, line);
+        if (isTooLong && !skipsLine_)
+            base::logError("a line of more than {} bytes is no command", kMaxConsoleLine);
+        if (!isTooLong && !skipsLine_) run(line);
+        skipsLine_ = isTooLong;  // the rest of it is none, either
+        read();
     }
     void run(const std::string& line) {
         const std::string answer = runConsoleLine(server_, line);
@@ -70,6 +77,7 @@ class Console {
     ServerState& server_;
     asio::posix::stream_descriptor input_;
     asio::streambuf buffer_{kMaxConsoleLine};
+    bool skipsLine_ = false;
 };
 
 double millisecondsSince(Time start) {

@@ -8,7 +8,6 @@
 #include "terrane/net/server_clients.h"
 #include "terrane/net/server_commands.h"
 #include "terrane/net/server_console.h"
-#include "terrane/net/server_view.h"
 
 namespace terrane::net {
 namespace {
@@ -37,12 +36,12 @@ void onMove(ServerState& server, ServerClient& client, const Move& move) {
     server.session.setPlayer(client.player, poseOf(move.pose));
 }
 
-void onView(ServerState& server, ServerClient& client, const View& view) {
+void onView(ServerClient& client, const View& view) {
     const world::ChunkPos own = world::chunkOf(poseOf(client.pose).position);
     const auto away = std::max(std::abs(std::int64_t{own.x} - view.center.x),
                                std::abs(std::int64_t{own.y} - view.center.y));
     // A client that was corrected looks elsewhere until it hears of it.
-    if (away <= kViewAway) setClientView(server, client, view);
+    if (away <= kViewAway) client.askedView = view;
 }
 
 void onSay(ServerState& server, ServerClient& client, const Say& message) {
@@ -90,7 +89,7 @@ void tellSightTo(ServerState& server, ServerClient& client, const PlayerGrid& gr
 
 void onPlayerMessage(ServerState& server, ServerClient& client, ClientMessage message) {
     if (const auto* move = std::get_if<Move>(&message)) return onMove(server, client, *move);
-    if (const auto* view = std::get_if<View>(&message)) return onView(server, client, *view);
+    if (const auto* view = std::get_if<View>(&message)) return onView(client, *view);
     if (auto* edit = std::get_if<Edit>(&message))
         return takeCommand(server, client, {std::move(*edit), server.tick});
     if (const auto* fill = std::get_if<Fill>(&message))

@@ -89,7 +89,7 @@ struct ServerClient {
     std::deque<Decision> decisions;
 
     // What it sees (server_view.h).
-    std::optional<View> view;
+    std::optional<View> view, askedView;                            // the latter from the next tick on
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> told;  // chunks and tiles
     std::vector<world::ChunkPos> toTell;                            // the nearest last
     bool owesViewComplete = false;

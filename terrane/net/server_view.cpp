@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "terrane/net/server_clients.h"
 #include "terrane/stream/tile_table.h"
@@ -53,6 +54,25 @@ void sendDifference(ServerClient& client, ChunkPos pos, const ChunkDifference& d
         send(client, ChunkEdits{pos, isFirst, ChunkDifference(part.begin(), part.end())});
         isFirst = false;
     }
+}
+
+// The client looks at another part of the world.
+void setClientView(ServerState& server, ServerClient& client, const View& view) {
+    client.view = view;
+    client.view->viewDistance =
+        static_cast<std::uint8_t>(std::min<int>(view.viewDistance, server.settings.maxViewDistance));
+    client.view->horizon = static_cast<std::uint16_t>(std::min<int>(view.horizon, stream::kMaxHorizon));
+    std::erase_if(client.told, [&](ChunkPos pos) { return !isInView(*client.view, pos, 1); });
+    client.toTell.clear();
+    for (int level = 0; level <= topLevelOf(*client.view); ++level) {
+        const int radius = level == 0 ? client.view->viewDistance + 1 : kFarthestTile;
+        for (const ChunkPos pos : server.edited.within(above(view.center, level), radius))
+            if (!client.told.contains(pos) && isInView(*client.view, pos)) client.toTell.push_back(pos);
+    }
+    std::ranges::sort(client.toTell, [&](ChunkPos a, ChunkPos b) {
+        return std::pair(orderOf(view, a), a) > std::pair(orderOf(view, b), b);
+    });
+    client.owesViewComplete = true;
 }
 
 // Tells the nearest that are known, until the client has enough to read.
@@ -107,24 +127,6 @@ ChunkDifference valuesNow(const world::World& world, ChunkPos pos, std::vector<w
 
 }  // namespace
 
-void setClientView(ServerState& server, ServerClient& client, const View& view) {
-    client.view = view;
-    client.view->viewDistance =
-        static_cast<std::uint8_t>(std::min<int>(view.viewDistance, server.settings.maxViewDistance));
-    client.view->horizon = static_cast<std::uint16_t>(std::min<int>(view.horizon, stream::kMaxHorizon));
-    std::erase_if(client.told, [&](ChunkPos pos) { return !isInView(*client.view, pos, 1); });
-    client.toTell.clear();
-    for (int level = 0; level <= topLevelOf(*client.view); ++level) {
-        const int radius = level == 0 ? client.view->viewDistance + 1 : kFarthestTile;
-        for (const ChunkPos pos : server.edited.within(above(view.center, level), radius))
-            if (!client.told.contains(pos) && isInView(*client.view, pos)) client.toTell.push_back(pos);
-    }
-    std::ranges::sort(client.toTell, [&](ChunkPos a, ChunkPos b) {
-        return std::pair(orderOf(view, a), a) > std::pair(orderOf(view, b), b);
-    });
-    client.owesViewComplete = true;
-}
-
 void tellChangedBlocks(ServerState& server) {
     for (auto& [chunk, indices] : server.changed) {
         const ChunkPos pos = chunk;  // what lambdas of clang 14 can capture
@@ -151,6 +153,7 @@ void tellViews(ServerState& server) {
     takeWrittenTiles(server);
     tellChangedTiles(server);
     forEachPlaying(server, [&](ServerClient& client) {
+        if (client.askedView) setClientView(server, client, *std::exchange(client.askedView, std::nullopt));
         if (client.view) tellView(server, client);
     });
 }

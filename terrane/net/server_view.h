@@ -10,11 +10,10 @@ namespace terrane::net {
 // (docs/levels.md), and with the finest detail none is farther away.
 constexpr int kNearestTile = 3, kFarthestTile = 33;
 
-// The client looks at another part of the world.
-void setClientView(ServerState& server, ServerClient& client, const View& view);
 // Blocks that changed since the last tick, to all in whose view they are. In each tick.
 void tellChangedBlocks(ServerState& server);
-// What clients lack of their views, as fast as they read. In each tick, after tellChangedBlocks().
+// Looks where clients ask to, and tells what they lack of their views as fast as they read. In each tick,
+// after tellChangedBlocks().
 void tellViews(ServerState& server);
 
 }  // namespace terrane::net

@@ -149,6 +149,8 @@ class Together(ProgramTest):
         self.server.wait_for(r"rollback PLAYER")
         self.server.say("list")
         self.server.wait_for(r"0 of 100 players")
+        self.server.say("x" * 10000 + " stop")
+        self.server.wait_for(r"a line of more than 4096 bytes")
         self.server.say("op Nobody")
         self.server.wait_for(r"nobody called Nobody ever played here")
         bots = self.succeed("bots", "--connect", f"127.0.0.1:{self.server.port}", "--count", "5", "--seconds", "5",

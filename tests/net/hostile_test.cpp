@@ -151,10 +151,15 @@ TEST_F(HostileTestOfPlay, ViewsAreAroundThePlayer) {
     const auto bob = joined("Bob");
     const world::ChunkPos own = world::chunkOf(poseOf(pose_).position);
     bob->say(View{{own.x + 5, own.y}, 2, 0});
+    server_->tick();
     EXPECT_FALSE(clientOf(*bob).view) << "it does not stand there";
     for (const std::int32_t c : {world::kMinChunk, world::kMaxChunk}) bob->say(View{{c, c}, 255, 65535});
+    server_->tick();
     EXPECT_FALSE(clientOf(*bob).view);
-    bob->say(View{own, 255, 65535});
+    for (int distance = 155; distance <= 255; ++distance)
+        bob->say(View{own, static_cast<std::uint8_t>(distance), 65535});
+    EXPECT_FALSE(clientOf(*bob).view) << "the last of many is looked at, with the next tick";
+    server_->tick();
     ASSERT_TRUE(clientOf(*bob).view);
     EXPECT_EQ(clientOf(*bob).view->viewDistance, server_->state().settings.maxViewDistance);
     for (int k = 0; k < 20; ++k) server_->tick();
