@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Feeds all that reads files from outside with bytes that libFuzzer thinks up, under the address and
 # undefined-behavior sanitizers: saves, chunks, structures, block types, languages, path files, settings, bookmarks,
-# textures, sounds, messages of the network, what connections do to a server. What it finds interesting stays in build-fuzz/corpus for the next time.
+# textures, sounds, messages of the network, what connections do to a server. What it finds interesting stays in
+# build-fuzz/corpus for the next time, which begins with what tests/fuzz/corpus keeps.
 #
 #   tools/fuzz.sh [SECONDS] [NAME…]    10 seconds each unless told otherwise, two at a time; NAME as in
 #                                      tests/fuzz/NAME_fuzz.cpp, all of them where none is named. Exits with an
@@ -44,7 +45,11 @@ fuzz() {
     local folders=("$corpus") options=()
     [[ -d tests/fuzz/seeds/$name ]] && folders+=("tests/fuzz/seeds/$name")
     [[ -f tests/fuzz/$name.dict ]] && options+=("-dict=tests/fuzz/$name.dict")
-    mkdir -p "$corpus"
+    # What earlier runs found, without what reaches no more (libFuzzer's -merge=1).
+    if [[ ! -d $corpus ]]; then
+        mkdir -p "$corpus"
+        [[ ! -f tests/fuzz/corpus/$name.tar.gz ]] || tar -xf "tests/fuzz/corpus/$name.tar.gz" -C "$corpus"
+    fi
     # A thread keeps up to 64 MiB for a chunk that says it is that large, and zstd as much; an image takes 256 MiB.
     if ! "$BUILD_FOLDER/fuzz_$name" -max_total_time="$SECONDS_TO_RUN" -max_len="$max_length" -timeout=10 \
         -rss_limit_mb=1536 -artifact_prefix="$BUILD_FOLDER/$name-" -print_final_stats=1 "${options[@]}" \
