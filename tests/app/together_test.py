@@ -43,18 +43,29 @@ class Server:
             time.sleep(0.05)
         raise RuntimeError(f"no {pattern} in: {self.output()}")
 
+    def clean_up(self):
+        self.process.kill()
+        self.process.wait(HANG_SECONDS)
+        self.process.stdin.close()
+        self.log.close()
+
     def say(self, line):
         self.process.stdin.write(line + "\n")
         self.process.stdin.flush()
+
+
+def keep(display, game, name):
+    if folder := os.environ.get("TERRANE_SCREENSHOTS"):
+        dump = pathlib.Path(folder) / f"{name}.xwd"
+        subprocess.run(["xwd", "-id", game.window, "-silent", "-display", display.name, "-out", dump],
+                       timeout=HANG_SECONDS, check=True)
 
 
 class Together(ProgramTest):
     def setUp(self):
         super().setUp()
         self.server = Server(self.folder)
-        self.addCleanup(self.server.log.close)
-        self.addCleanup(self.server.process.stdin.close)
-        self.addCleanup(self.server.process.kill)
+        self.addCleanup(self.server.clean_up)
 
     def join(self, display, name, pose):
         """A player who goes to its only bookmark."""
@@ -72,12 +83,6 @@ class Together(ProgramTest):
         game.press("F6")
         return game
 
-    def keep(self, display, game, name):
-        if folder := os.environ.get("TERRANE_SCREENSHOTS"):
-            data = subprocess.run(["xwd", "-id", game.window, "-silent", "-display", display.name],
-                                  capture_output=True, timeout=HANG_SECONDS, check=True).stdout
-            (pathlib.Path(folder) / f"{name}.xwd").write_bytes(data)
-
     def history(self):
         return self.succeed("history", "--world", self.server.world)
 
@@ -93,47 +98,14 @@ class Together(ProgramTest):
             bob.wait_for_ground(is_green)
             ann.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # takes the mouse
             ann.press("2")  # cobble
-            self.keep(second, bob, "before")
+            keep(second, bob, "before")
             first.xdotool("click", 3)
             ann.wait_for_ground(is_grey)
             bob.wait_for_ground(is_grey)
-            self.keep(first, ann, "ann")
-            self.keep(second, bob, "bob")
+            keep(first, ann, "ann")
+            keep(second, bob, "bob")
             self.assertRegex(self.history(), r"Ann at 8 8 81: air to cobble")
             self.stop()
-
-    def test_a_server_is_joined_from_the_title(self):
-        address = f"127.0.0.1:{self.server.port}"
-        with window_test.Display() as display:
-            player = title_test.Player(display, self.folder)
-            self.addCleanup(player.log.close)
-            self.addCleanup(player.process.kill)
-            player.open()
-            player.wait_for_image(title_test.SIZE)
-            player.settle()
-            player.choose("Down")
-            display.xdotool("type", "--delay", "150", "127.0.0.1:1")  # where nobody listens
-            player.hold("Tab")
-            display.xdotool("type", "--delay", "150", "Eve")
-            player.settle()
-            self.keep(display, player, "join")
-            player.hold("Return")
-            player.wait_for_image(title_test.SIZE)
-            player.settle()
-            player.choose()  # the message is read
-            player.choose("Down")
-            display.xdotool("type", "--delay", "150", address)
-            player.hold("Tab")
-            display.xdotool("type", "--delay", "150", "Eve")
-            player.press("Return")
-            self.server.wait_for(r"Eve joined")
-            servers = self.folder / "terrane" / "servers.txt"
-            player.wait_for(lambda: servers.exists() and servers.read_text() == f"{address} Eve\n")
-            player.settle()
-            player.press("Escape")
-            player.settle()
-            player.press("t")
-            self.server.wait_for(r"Eve left")
 
     def test_a_wrong_name_is_one_line(self):
         with window_test.Display() as display:
@@ -159,6 +131,40 @@ class Together(ProgramTest):
         self.assertIn("air to stone", self.history())
         self.stop()
         self.succeed("check", self.server.world)
+
+
+class JoinFromTheTitle(title_test.TitleScript):
+    def setUp(self):
+        super().setUp()
+        self.server = Server(self.folder)
+        self.addCleanup(self.server.clean_up)
+
+    def test_a_server_is_joined_and_remembered(self):
+        address = f"127.0.0.1:{self.server.port}"
+        with window_test.Display() as display:
+            player = self.open(display)
+            player.choose("Down")  # Join a server: no world is there to continue
+            display.xdotool("type", "--delay", "150", address)
+            player.hold("Tab")
+            display.xdotool("type", "--delay", "150", "Eve")
+            player.settle()
+            keep(display, player, "join")
+            player.hold("Return")
+            self.server.wait_for(r"Eve joined")
+            servers = self.folder / "terrane" / "servers.txt"
+            player.wait_for(lambda: servers.exists() and servers.read_text() == f"{address} Eve\n")
+            player.settle()
+            self.leave_for_title(player)
+            self.server.wait_for(r"Eve left")
+            self.server.process.kill()
+            player.choose("Down")
+            keep(display, player, "join_again")
+            player.choose()  # Join: both fields are filled in
+            player.wait_for(lambda: f"{address}: Connection refused" in player.output())
+            player.settle()
+            player.choose()  # OK
+            player.hold("Escape")
+            self.quit(player)
 
 
 if __name__ == "__main__":

@@ -113,6 +113,7 @@ base::Result<void> PlayFlow::run() {
         result = playChosen(**chosen);
         if (result || hasBegun_) continue;
         message_ = result.error().message;  // it was not opened: the title tells
+        base::logInfo("{}", message_);
         goesToTitle_ = true;
         result = {};
     }
