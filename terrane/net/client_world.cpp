@@ -43,6 +43,8 @@ void ClientWorld::onMessage(const ServerMessage& message) {
         correction_ = poseOf(corrected->pose);
     } else if (const auto* complete = std::get_if<ViewComplete>(&message)) {
         isViewComplete_ = toldView_ && complete->center == toldView_->center;
+    } else if (const auto* changed = std::get_if<RoleChanged>(&message)) {
+        session_.permissions.roles[game::kLocalPlayer] = changed->role;
     } else if (const auto* list = std::get_if<PlayerList>(&message)) {
         playerList_ = *list;
     } else {
@@ -165,7 +167,7 @@ void ClientWorld::sendTakeBack(game::HistoryWay way) {
 }
 
 void ClientWorld::say(const std::string& text) {
-    send_(Say{text});
+    send_(Say{plainText(text, kMaxChatBytes)});
 }
 
 void ClientWorld::take(const Done& done) {

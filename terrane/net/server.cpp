@@ -55,7 +55,7 @@ void findLiveChunks(ServerState& server) {
 
 void forgetHistories(ServerState& server) {
     std::erase_if(server.left, [&](const auto& entry) {
-        if (server.now - entry.second < server.settings.keepHistoryFor) return false;
+        if (server.now - entry.second.at < server.settings.keepHistoryFor) return false;
         server.session.removePlayer(entry.first);
         return true;
     });

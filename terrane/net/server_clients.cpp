@@ -1,22 +1,10 @@
 #include "terrane/net/server_clients.h"
 
 #include "terrane/base/log.h"
-#include "terrane/base/printable.h"
 #include "terrane/net/frames.h"
 
 namespace terrane::net {
 namespace {
-
-// Texts of consoles, files and errors, as a message can have them.
-std::string fitting(std::string_view text, std::size_t maxBytes) {
-    std::string line = base::printable(text);
-    if (line.size() <= maxBytes) return line;
-    // Not in the middle of a character.
-    std::size_t end = maxBytes;
-    while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xC0) == 0x80) --end;
-    line.resize(end);
-    return line;
-}
 
 std::vector<std::string_view> linesOf(std::string_view text) {
     std::vector<std::string_view> lines;
@@ -39,19 +27,19 @@ void sendEncoded(ServerClient& client, ByteView message) {
 }
 
 void say(ServerClient& client, const std::string& text) {
-    for (const std::string_view line : linesOf(text)) send(client, Said{{}, fitting(line, kMaxChatBytes)});
+    for (const std::string_view line : linesOf(text)) send(client, Said{{}, plainText(line, kMaxChatBytes)});
 }
 
 void sayToAll(ServerState& server, const std::string& name, const std::string& text) {
     for (const std::string_view line : linesOf(text)) {
-        const Bytes message = encode(ServerMessage(Said{name, fitting(line, kMaxChatBytes)}));
+        const Bytes message = encode(ServerMessage(Said{name, plainText(line, kMaxChatBytes)}));
         forEachPlaying(server, [&](ServerClient& client) { sendEncoded(client, message); });
     }
 }
 
 void refuse(ServerState& server, ServerClient& client, Refusal why, const std::string& reason) {
     if (client.stage == ServerClient::Stage::Closed) return;
-    send(client, Refused{why, fitting(reason, kMaxReasonBytes)});
+    send(client, Refused{why, plainText(reason, kMaxReasonBytes)});
     base::logInfo("{} ({}): {}", client.name.empty() ? "somebody" : client.name, client.address, reason);
     leave(server, client);
     client.stage = ServerClient::Stage::Closed;
@@ -62,7 +50,7 @@ void leave(ServerState& server, ServerClient& client) {
     client.stage = ServerClient::Stage::Closed;
     server.people.setPose(client.player, poseOf(client.pose));
     server.playing.erase(client.player);
-    server.left[client.player] = server.now;
+    server.left.insert_or_assign(client.player, FormerClient{server.now, client.buckets});
     base::logInfo("{} left", client.name);
     sayToAll(server, {}, client.name + " left");
 }

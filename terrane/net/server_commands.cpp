@@ -4,6 +4,7 @@
 
 #include "terrane/net/server_clients.h"
 #include "terrane/store/structure_file.h"
+#include "terrane/world/inventory.h"
 #include "terrane/world/sign.h"
 
 namespace terrane::net {
@@ -22,9 +23,19 @@ constexpr std::int32_t kBlocksBeside = 8;
 constexpr std::size_t kMaxUntold = 1024;
 // A structure is taken apart before it is known how large it is: it counts as so many edits.
 constexpr double kEditsOfPlace = 30;
+// Data of blocks in a chunk: it is saved, and told, in one piece.
+constexpr std::size_t kMaxChunkData = 1 << 20;
+// Of data of its blocks, as steps to undo keep it.
+constexpr std::size_t kMaxPlacedData = 64 << 10;
 // After an edit the chunks around a player are loaded, as it will go on.
 constexpr std::chrono::seconds kLoadsAround{20};
 constexpr std::chrono::milliseconds kLoadAroundEvery{1000};
+
+std::size_t dataBytes(const world::Structure& structure) {
+    std::size_t bytes = 0;
+    for (const world::StructureData& data : structure.data) bytes += data.data->size();
+    return bytes;
+}
 
 std::size_t dataBytes(const WaitingCommand& waiting) {
     const auto* edit = std::get_if<Edit>(&waiting.command);
@@ -64,17 +75,45 @@ bool isKnown(const ServerState& server, world::BlockId id) {
     return id < server.session.blocks().types().size();
 }
 
-// Blocks of no type cannot be saved, and data on blocks that keep none is but a load on disks.
+// What a block of the type keeps as data: anything else is but a load on disks and lines.
+bool keepsData(const world::BlockType& type, const world::BlockEntityData& data) {
+    if (world::holdsText(type)) return world::decodeSign(data).has_value();
+    return type.slots > 0 && data.size() <= kMaxBlockData && world::decodeInventory(data, type.slots);
+}
+
+// Leaves data where a block keeps such.
+void dropOtherData(world::Structure& structure, const world::BlockRegistry& blocks) {
+    const std::vector<world::BlockValue> values = world::paletteValues(structure, blocks);
+    std::erase_if(structure.data, [&](const world::StructureData& data) {
+        return !keepsData(blocks.type(values[structure.cells[data.cell]].id), *data.data);
+    });
+}
+
+// Whether each loaded chunk that the box touches has room for so much more data.
+bool hasRoom(const ServerState& server, const world::BlockBox& box, std::size_t bytes) {
+    const world::ChunkPos low = world::chunkOf(box.low), high = world::chunkOf(box.high);
+    for (std::int32_t y = low.y; y <= high.y; ++y)
+        for (std::int32_t x = low.x; x <= high.x; ++x) {
+            const world::ChunkPtr chunk = server.session.world().maybeChunkAt({x, y});
+            if (chunk && chunk->blockEntityDataBytes() + bytes > kMaxChunkData) return false;
+        }
+    return true;
+}
+
+// Blocks of no type cannot be saved.
 bool isSensible(const ServerState& server, const Edit& edit) {
     if (const auto* block = std::get_if<world::SetBlock>(&edit.change)) return isKnown(server, block->id);
-    if (!std::holds_alternative<world::SetEntityData>(edit.change)) return true;
+    const auto* data = std::get_if<world::SetEntityData>(&edit.change);
+    if (!data) return true;
     if (!server.session.world().maybeChunkAt(world::chunkOf(edit.pos))) return true;
     const world::BlockType& type = server.session.blocks().type(server.session.world().block(edit.pos));
-    return type.slots > 0 || world::holdsText(type);
+    return data->data.empty() ||
+           (keepsData(type, data->data) && hasRoom(server, {edit.pos, edit.pos}, data->data.size()));
 }
 bool isSensible(const ServerState& server, const Build& build) {
-    const auto* fill = std::get_if<game::FillBox>(&build.change);
-    return !fill || isKnown(server, fill->id);
+    if (const auto* fill = std::get_if<game::FillBox>(&build.change)) return isKnown(server, fill->id);
+    const world::Structure& structure = *std::get<game::PlaceStructure>(build.change).structure;
+    return structure.data.empty() || hasRoom(server, game::boxOf(build.change), dataBytes(structure));
 }
 
 Done run(ServerState& server, ServerClient& client, const Edit& edit) {
@@ -170,14 +209,18 @@ void takeCommand(ServerState& server, ServerClient& client, WaitingCommand comma
     if (client.commands.size() >= kMaxWaitingCommands || client.waitingBytes > kMaxWaitingBytes)
         return refuse(server, client, Refusal::TooMuch, "too many changes of blocks at once");
     // Its chunks are asked for now, and may be there by the next tick but one.
-    std::visit([&](const auto& asked) { (void)isReady(server, client, asked); }, command.command);
+    if (!std::holds_alternative<TakeBack>(command.command))
+        std::visit([&](const auto& asked) { (void)isReady(server, client, asked); }, command.command);
     client.commands.push_back(std::move(command));
 }
 
 void takePlace(ServerState& server, ServerClient& client, const Place& place) {
     auto structure = std::make_shared<world::Structure>();
     if (client.buckets.edits.take(kEditsOfPlace, server.now))
-        if (auto decoded = store::decodeStructure(place.structure)) *structure = std::move(*decoded);
+        if (auto decoded = store::decodeStructure(place.structure);
+            decoded && dataBytes(*decoded) <= kMaxPlacedData)
+            *structure = std::move(*decoded);
+    dropOtherData(*structure, server.session.blocks());
     takeCommand(server, client,
                 {Build{place.number, game::PlaceStructure{std::move(structure), place.low}}, server.tick});
 }

@@ -91,6 +91,7 @@ std::string setRole(ServerState& server, const std::string& name, game::Role rol
     server.session.permissions.roles[player->id] = role;
     if (ServerClient* client = playingClient(server, player->id)) {
         client->role = role;
+        send(*client, RoleChanged{role});
         say(*client, fmt::format("you are {} now", what));
     }
     return fmt::format("{} is {} now", player->name, what);

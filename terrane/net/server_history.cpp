@@ -69,6 +69,11 @@ void keepSaving(ServerState& server) {
 }
 
 base::Result<void> saveEverything(ServerState& server) {
+    // A roll-back that has begun ends.
+    while (!server.rollbacks.empty()) {
+        (void)server.session.pipeline().chunkAt(server.rollbacks.front().chunk);
+        continueRollbacks(server);
+    }
     game::saveTimeDay(server.session.store(), server.session.clock.timeDay);
     if (auto saved = server.session.save(); !saved) return saved;
     if (server.history.saved < server.history.newest) {

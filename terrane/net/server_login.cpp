@@ -15,8 +15,13 @@ namespace {
 using Stage = ServerClient::Stage;
 
 constexpr std::size_t kMaxWaitingPasswords = 32;
+constexpr std::ptrdiff_t kMaxPasswordsOfAddress = 4;
 // Whoever has more addresses than this is not held up by a limit for each.
 constexpr std::size_t kMaxAddresses = 4096;
+
+bool isOwnMachine(const std::string& address) {
+    return address.starts_with("127.") || address == "::1" || address.starts_with("::ffff:127.");
+}
 
 void onHello(ServerState& server, ServerClient& client, const Hello& hello) {
     if (hello.version != kProtocolVersion)
@@ -67,7 +72,12 @@ void onLogin(ServerState& server, ServerClient& client, const Login& login) {
         const auto found = server.clients.find(waiting.client);
         return found == server.clients.end() || found->second.stage != Stage::Password;
     });
-    if (server.passwordQueue.size() >= kMaxWaitingPasswords)
+    const auto ofAddress = std::ranges::count_if(server.passwordQueue, [&](const WaitingPassword& waiting) {
+        return server.clients.at(waiting.client).address == client.address;
+    });
+    const bool isOwn = isOwnMachine(client.address);
+    if (server.passwordQueue.size() >= kMaxWaitingPasswords ||
+        (!isOwn && ofAddress >= kMaxPasswordsOfAddress))
         return refuse(server, client, Refusal::Full, "too many players log in: try again soon");
     client.stage = Stage::Password;
     server.passwordQueue.push_back({client.id, login.password});
@@ -120,10 +130,6 @@ void replaceFormer(ServerState& server, const KnownPlayer& player) {
         refuse(server, *former, Refusal::Replaced, "you joined again elsewhere");
 }
 
-bool isOwnMachine(const std::string& address) {
-    return address.starts_with("127.") || address == "::1" || address.starts_with("::ffff:127.");
-}
-
 // Each new player is a row that is kept for ever.
 bool mayComeNew(ServerState& server, const std::string& address) {
     if (isOwnMachine(address)) return true;
@@ -140,9 +146,20 @@ const KnownPlayer& rowOf(ServerState& server, const ServerClient& client) {
     return *known;
 }
 
+// What the player may do goes on from where it left.
+bool mayJoinAgain(ServerState& server, ServerClient& client, game::PlayerId player) {
+    const auto left = server.left.find(player);
+    if (left != server.left.end()) client.buckets = left->second.buckets;
+    const bool may = client.buckets.joins.take(1, server.now);
+    if (left != server.left.end()) left->second.buckets = client.buckets;
+    return may;
+}
+
 void join(ServerState& server, ServerClient& client) {
     const KnownPlayer& player = rowOf(server, client);
     replaceFormer(server, player);
+    if (!mayJoinAgain(server, client, player.id))
+        return refuse(server, client, Refusal::TooMuch, "you join too often: try again in some seconds");
     const world::Pose pose = player.pose ? *player.pose : newcomersPose(server);
     client.stage = Stage::Playing;
     client.player = player.id;

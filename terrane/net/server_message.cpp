@@ -7,10 +7,10 @@
 namespace terrane::net {
 namespace {
 
-constexpr std::string_view kServerNames[] = {"Greeting",   "WorldOffer",    "Joined",       "Refused",
-                                             "ChunkEdits", "BlocksChanged", "ViewComplete", "Done",
-                                             "Appears",    "Disappears",    "Poses",        "Said",
-                                             "Clock",      "Corrected",     "Ping",         "PlayerList"};
+constexpr std::string_view kServerNames[] = {
+    "Greeting",     "WorldOffer", "Joined",  "Refused",    "ChunkEdits", "BlocksChanged",
+    "ViewComplete", "Done",       "Appears", "Disappears", "Poses",      "Said",
+    "Clock",        "Corrected",  "Ping",    "PlayerList", "RoleChanged"};
 
 // Level as a byte, then x and y as integers: a chunk of the world.
 void describeChunkPos(auto& wire, Of<world::ChunkPos> auto& pos) {
@@ -148,6 +148,10 @@ void describe(auto& wire, Of<PlayerList> auto& m) {
         wire.choice(player.role, game::Role::Count);
         wire.fixed(player.latencyMs);
     });
+}
+
+void describe(auto& wire, Of<RoleChanged> auto& m) {
+    wire.choice(m.role, game::Role::Count);
 }
 
 constexpr auto kDescribeServer = [](auto& wire, auto& message) { describe(wire, message); };

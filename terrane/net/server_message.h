@@ -98,10 +98,14 @@ struct ListedPlayer {
 struct PlayerList {
     std::vector<ListedPlayer> players;
 };
+// What the player may do from here on.
+struct RoleChanged {
+    game::Role role = game::Role::Player;
+};
 
 using ServerMessage =
     std::variant<Greeting, WorldOffer, Joined, Refused, ChunkEdits, BlocksChanged, ViewComplete, Done,
-                 Appears, Disappears, Poses, Said, Clock, Corrected, Ping, PlayerList>;
+                 Appears, Disappears, Poses, Said, Clock, Corrected, Ping, PlayerList, RoleChanged>;
 
 Bytes encode(const ServerMessage& message);
 // Any bytes may be given: what is no message is an error that names the one it should be.

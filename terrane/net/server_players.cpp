@@ -52,7 +52,8 @@ void onSay(ServerState& server, ServerClient& client, const Say& message) {
         return sayToAll(server, client.name, message.text);
     }
     if (client.role != game::Role::Operator) return say(client, "only operators give commands");
-    base::logInfo("{}: {}", client.name, message.text);
+    // Not what stands behind it, which may be a password.
+    base::logInfo("{} gives the command {}", client.name, message.text.substr(0, message.text.find(' ')));
     say(client, runConsoleLine(server, message.text.substr(1)));
 }
 

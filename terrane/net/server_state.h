@@ -39,6 +39,7 @@ struct ClientBuckets {
     TokenBucket edits{60, 240};
     TokenBucket chat{1, 8};
     TokenBucket lists{1, 4};
+    TokenBucket joins{0.2, 10};
     TokenBucket blocksAway;  // movement; ServerSettings::maxSpeed
 
     explicit ClientBuckets(double maxSpeed) : blocksAway(maxSpeed, 2 * maxSpeed) {}
@@ -57,6 +58,12 @@ struct WaitingCommand {
 struct Decision {
     std::uint64_t write = 0;  // ServerFile::durable(); 0: nothing was written
     Done done;
+};
+
+// Of a player who left: its steps to undo are kept for a while, and what it may do does not begin anew.
+struct FormerClient {
+    Time at;
+    ClientBuckets buckets;
 };
 
 struct ServerClient {
@@ -170,7 +177,7 @@ struct ServerState {
     std::map<ConnectionId, ServerClient> clients;
     std::unordered_map<game::PlayerId, ConnectionId> playing;
     std::map<std::string, TokenBucket> newPlayers;  // of an address, since it had its last
-    std::unordered_map<game::PlayerId, Time> left;  // whose steps to undo are kept for a while
+    std::unordered_map<game::PlayerId, FormerClient> left;
     std::uint64_t tick = 0;
     Time now{};
 

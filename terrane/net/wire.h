@@ -36,6 +36,8 @@ constexpr std::int64_t unzigzag(std::uint64_t value) {
 
 // Whether it is UTF-8 without characters that end or reorder lines (base/printable.h).
 bool isPlainText(std::string_view text);
+// Any text as one that a message can have, its end cut off where it is too long.
+std::string plainText(std::string_view text, std::size_t maxBytes);
 
 class WireWriter {
   public:

@@ -41,6 +41,12 @@ void Chunk::clearBlockEntityData(BlockIndex i) {
     if (!entityData_.empty()) entityData_.erase(i);
 }
 
+std::size_t Chunk::blockEntityDataBytes() const {
+    std::size_t bytes = 0;
+    for (const auto& [index, data] : entityData_) bytes += data->size();
+    return bytes;
+}
+
 std::vector<BlockIndex> Chunk::blocksWithBlockEntityData() const {
     std::vector<BlockIndex> blocks;
     blocks.reserve(entityData_.size());

@@ -39,6 +39,7 @@ class Chunk {
     void shareBlockEntityData(BlockIndex i,
                               BlockEntityDataPtr data);  // not null; copies of the chunk share it
     void clearBlockEntityData(BlockIndex i);
+    std::size_t blockEntityDataBytes() const;                   // of all blocks
     std::vector<BlockIndex> blocksWithBlockEntityData() const;  // in ascending order
 
     const Section& section(int number) const { return blocks_[static_cast<std::size_t>(number)]; }

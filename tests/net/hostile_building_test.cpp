@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "terrane/store/structure_file.h"
+#include "terrane/world/inventory.h"
 
 namespace terrane::net {
 namespace {
@@ -21,6 +22,24 @@ class HostileBuilding : public HostileTest {
   protected:
     Fill fill(CommandNumber number, world::BlockPos low, world::BlockPos high) const {
         return {number, {{low, high}, contentBlock("glass"), 0, {}}};
+    }
+    // What a chest holds whose items have so long names.
+    static Bytes chestData(std::size_t nameBytes) {
+        const int slots = contentBlocks().find("chest")->slots;
+        world::Inventory inventory(static_cast<std::size_t>(slots));
+        for (world::ItemStack& stack : inventory) stack = {std::string(nameBytes, 'x'), 1};
+        return world::encodeInventory(inventory);
+    }
+    // Blocks beside each other along x, each with data.
+    static Bytes structureWith(const std::vector<std::string>& names, const std::vector<Bytes>& data) {
+        world::Structure structure;
+        structure.size = {static_cast<int>(names.size()), 1, 1};
+        for (std::uint32_t k = 0; k < names.size(); ++k) {
+            structure.palette.push_back({names[k], 0});
+            structure.cells.push_back(k);
+            structure.data.push_back({k, std::make_shared<const world::BlockEntityData>(data[k])});
+        }
+        return store::encodeStructure(structure).value();
     }
 };
 
@@ -96,11 +115,55 @@ TEST_F(HostileBuilding, DataIsForBlocksThatKeepSome) {
     const world::BlockPos pos = nearSpawn();
     loadAround(pos);
     const auto bob = joined("Bob");
-    const world::SetEntityData data{Bytes(100)};
+    const world::SetEntityData data{chestData(1)}, noise{Bytes(100)};
     expectDecision(*bob, put(1, pos), 1, EditResult::Applied);
     expectDecision(*bob, Edit{2, pos, data, {}}, 2, EditResult::BadData);
     expectDecision(*bob, put(3, pos, "chest"), 3, EditResult::Applied);
-    expectDecision(*bob, Edit{4, pos, data, {}}, 4, EditResult::Applied);
+    expectDecision(*bob, Edit{4, pos, noise, {}}, 4, EditResult::BadData);
+    expectDecision(*bob, Edit{5, pos, data, {}}, 5, EditResult::Applied);
+}
+
+TEST_F(HostileBuilding, DataOfStructuresIsForBlocksThatKeepSome) {
+    start();
+    const world::BlockPos pos = nearSpawn();
+    loadAround(pos);
+    const auto bob = joined("Bob");
+    expectDecision(
+        *bob,
+        Place{1, pos, structureWith({"stone", "chest", "chest"}, {Bytes(100), Bytes(100), chestData(1)})}, 1,
+        BuildResult::Done);
+    const world::World& world = server_->state().session.world();
+    EXPECT_EQ(world::blockValue(world, pos).data, nullptr);
+    EXPECT_EQ(world::blockValue(world, {pos.x + 1, pos.y, pos.z}).data, nullptr);
+    EXPECT_NE(world::blockValue(world, {pos.x + 2, pos.y, pos.z}).data, nullptr);
+    // A stone with four megabytes, which are few when they travel.
+    expectDecision(*bob, Place{2, pos, structureWith({"stone"}, {Bytes(4 << 20)})}, 2, BuildResult::Empty);
+}
+
+TEST_F(HostileBuilding, DataOfAChunkIsBounded) {
+    start();
+    const world::BlockPos pos = nearSpawn();
+    loadAround(pos);
+    const auto bob = joined("Bob");
+    const Bytes full = chestData(255);
+    const std::vector<std::string> names(8, "chest");
+    const std::vector<Bytes> data(8, full);
+    CommandNumber number = 0;
+    int placed = 0;
+    const world::ChunkPos chunk = world::chunkOf(pos);
+    for (int z = 1; z < 80; ++z) {
+        const world::BlockPos low{chunk.x * 16 + 2, chunk.y * 16 + 2, pos.z + z % 4};
+        const Place place{++number, {low.x, low.y + z / 4 % 8, low.z}, structureWith(names, data)};
+        const auto done = decision(*bob, (bob->say(place), number));
+        ASSERT_TRUE(done);
+        placed += static_cast<BuildResult>(done->result) == BuildResult::Done;
+        server_->now += std::chrono::seconds(1);
+        loadAround(pos);
+    }
+    const std::size_t bytes = server_->state().session.world().maybeChunkAt(chunk)->blockEntityDataBytes();
+    EXPECT_GT(placed, 10);
+    EXPECT_LE(bytes, std::size_t{1} << 20);
+    EXPECT_GT(bytes, std::size_t{1} << 19) << "the test shows nothing";
 }
 
 TEST_F(HostileBuilding, FillsThatAreNoBoxes) {

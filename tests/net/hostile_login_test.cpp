@@ -137,6 +137,27 @@ TEST_F(HostileLogin, AFullServerTakesOperatorsAndThoseWhoAreThere) {
     EXPECT_EQ(server_->state().playing.size(), 3u);
 }
 
+TEST_F(HostileLogin, WhoComesAgainMayDoWhatWasLeft) {
+    start();
+    const ClientIdentity bob = testIdentity("Bob");
+    auto wire = joined(bob);
+    while (clientOf(*wire).buckets.chat.take(1, server_->now)) {
+    }
+    wire->close();
+    wire = joined(bob);
+    EXPECT_FALSE(clientOf(*wire).buckets.chat.take(1, server_->now)) << "it has talked enough";
+    int joins = 2;
+    for (bool isIn = true; isIn && joins < 100; joins += isIn) {
+        wire->close();
+        wire = std::make_unique<TestWire>(*server_);
+        isIn = std::holds_alternative<Joined>(logIn(*wire, bob));
+    }
+    EXPECT_EQ(joins, 10);
+    wire->close();
+    server_->now += std::chrono::seconds(6);
+    EXPECT_TRUE(plays(*joined(bob)));
+}
+
 TEST_F(HostileLogin, NewPlayersOfAnAddressAreFew) {
     ServerSettings settings;
     settings.newPlayersPerHour = 3;
@@ -225,11 +246,12 @@ TEST_F(HostileLogin, EachMessageAtEachStage) {
     start();
     using Stage = ServerClient::Stage;
     static_assert(std::variant_size_v<ClientMessage> == 13, "a message of each kind");
-    const ClientIdentity bob = testIdentity("Bob");
+    int number = 0;
     for (const Stage stage :
          {Stage::Hello, Stage::Login, Stage::Password, Stage::Proof, Stage::Playing, Stage::Closed})
         for (const ClientMessage& message : oneOfEach()) {
             TestWire wire(*server_);
+            const ClientIdentity bob = testIdentity(fmt::format("Bob{}", ++number));
             if (stage == Stage::Playing) {
                 (void)logIn(wire, bob);
             } else if (stage == Stage::Closed) {

@@ -11,10 +11,12 @@ class HostileTestOfPlay : public HostileTest {};
 // ——— bytes that are no messages
 
 TEST_F(HostileTestOfPlay, WhatIsNoMessageEndsTheConnection) {
-    start();
-    const ClientIdentity bob = testIdentity("Bob");
+    ServerSettings settings;
+    settings.newPlayersPerHour = 1000;
+    start(settings);
+    int number = 0;
     const auto sayBytes = [&](const Bytes& bytes) {
-        const auto wire = joined(bob);
+        const auto wire = joined(fmt::format("Bob{}", ++number));
         onMessage(server_->state(), wire->id, bytes, server_->now);
         const Refusal why = refusalOf(*wire);
         wire->close();

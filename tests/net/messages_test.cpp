@@ -53,7 +53,8 @@ std::vector<ServerMessage> serverMessages() {
             Clock{0.25, 0.001},
             Corrected{kPose},
             Ping{99},
-            PlayerList{{{"Ada", game::Role::Player, 20}, {"Ben", game::Role::Guest, 65535}}}};
+            PlayerList{{{"Ada", game::Role::Player, 20}, {"Ben", game::Role::Guest, 65535}}},
+            RoleChanged{game::Role::Guest}};
 }
 
 TEST(Messages, EachReadsBack) {
