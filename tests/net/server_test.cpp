@@ -135,6 +135,50 @@ TEST_F(ServerTest, AClaimIsForItsOwner) {
     ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return bob.block(pos) == contentBlock("glass"); }));
 }
 
+TEST_F(ServerTest, AGuestWhoIsMadeAPlayerBuildsAtOnce) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann"));
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
+    const world::BlockPos pos = above(ann);
+    (void)runConsoleLine(server.state(), "guest Ann");
+    step(server, {&ann});
+    EXPECT_EQ(ann.put(pos, "glass"), game::EditResult::NotAllowed);
+    (void)runConsoleLine(server.state(), "deop Ann");
+    step(server, {&ann});
+    EXPECT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
+    EXPECT_EQ(ann.block(pos), contentBlock("glass"));
+}
+
+TEST_F(ServerTest, TextThatCannotTravelIsSaidAsItCan) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann"));
+    (void)ann.world->takeChat();
+    ann.world->say("a\u202eb\n" + std::string(2 * kMaxChatBytes, 'x'));
+    step(server, {&ann});
+    const auto chat = ann.world->takeChat();
+    ASSERT_EQ(chat.size(), 1u);
+    EXPECT_EQ(chat[0].text.size(), kMaxChatBytes);
+    EXPECT_TRUE(chat[0].text.starts_with("a\\xe2\\x80\\xaeb")) << chat[0].text;
+}
+
+TEST_F(ServerTest, ARollbackThatHasBegunEndsBeforeTheServerDoes) {
+    world::BlockPos pos;
+    {
+        TestServer server(folder_.path());
+        TestPlayer ann(server, testIdentity("Ann"));
+        ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
+        pos = above(ann);
+        ASSERT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
+        ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
+        EXPECT_TRUE(runConsoleLine(server.state(), "rollback Ann 60").starts_with("1 blocks"));
+        ASSERT_TRUE(stop(server.state(), "the test ends"));
+    }
+    TestServer again(folder_.path());
+    again.state().session.pipeline().chunkAt(world::chunkOf(pos));
+    EXPECT_EQ(again.state().session.world().block(pos), world::kAir);
+}
+
 TEST_F(ServerTest, ARollbackTakesBackWhatAPlayerDid) {
     TestServer server(folder_.path());
     TestPlayer ann(server, testIdentity("Ann")), bob(server, testIdentity("Bob"));

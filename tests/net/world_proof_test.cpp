@@ -5,6 +5,7 @@
 #include <set>
 
 #include "terrane/gen/generators/catalogue.h"
+#include "terrane/net/remote_session.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::net {
@@ -35,6 +36,18 @@ TEST(WorldProof, EachDifferenceIsToldInOneLine) {
     EXPECT_NE(told([](auto& c) { c.identity.generatorVersion += 1; }).find("version"), std::string::npos);
     EXPECT_NE(told([](auto& c) { c.graph ^= 1; }).find("generator"), std::string::npos);
     EXPECT_NE(told([](auto& c) { c.blocks ^= 1; }).find("blocks"), std::string::npos);
+}
+
+// A server that offers what nobody has, and knows the list of blocks.
+TEST(WorldProof, AnOfferOfNoGeneratorIsRefused) {
+    WorldOffer offer;
+    offer.world.blocks = blocksHash(contentBlocks());
+    for (const char* name : {"", "nobody"}) {
+        offer.world.identity.generator = name;
+        EXPECT_FALSE(offeredGenerator(offer, contentBlocks())) << name;
+    }
+    offer.world = fingerprint("flat");
+    EXPECT_TRUE(offeredGenerator(offer, contentBlocks()));
 }
 
 TEST(WorldProof, SamplesAreFarApartAndDifferFromTimeToTime) {
