@@ -28,7 +28,9 @@ void ClientLink::connect() {
     triedAt_ = now_;
     SocketEvents events;
     events.opened = [this](const Bytes& channel, const std::string& serverKey) {
-        if (!events_.trusts(serverKey))
+        const base::Result<bool> isTrusted = events_.trusts(serverKey);
+        if (!isTrusted) return end(isTrusted.error().message);
+        if (!*isTrusted)
             return end(textOf(address_) +
                        ": the server has another key than before: it may be another server");
         channel_ = channel;

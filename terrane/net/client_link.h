@@ -14,8 +14,9 @@
 namespace terrane::net {
 
 struct LinkEvents {
-    // The server's key, before anything is said to it: whether it is the one that it had before.
-    std::function<bool(const std::string& serverKey)> trusts;
+    // The server's key, before anything is said to it: whether it is the one that it had before. The link
+    // ends where that cannot be known.
+    std::function<base::Result<bool>(const std::string& serverKey)> trusts;
     // The digests of the sample chunks, or why this program cannot play there.
     std::function<base::Result<SampleDigests>(const WorldOffer&)> prove;
     std::function<void(const ServerMessage&)> message;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "terrane/base/log.h"
 #include "terrane/game/spawn.h"
@@ -45,6 +46,15 @@ void refuseStranger(ServerState& server, ServerClient& client) {
     if (named && named != known)
         return refuse(server, client, Refusal::Name,
                       fmt::format("the name {} belongs to another player: choose another", client.name));
+    const auto isHere = [&](const ServerClient& other) {
+        return other.stage == Stage::Playing && other.address == client.address && other.key != client.key;
+    };
+    const auto ofAddress =
+        std::ranges::count_if(server.clients, [&](const auto& entry) { return isHere(entry.second); });
+    if (!isOwnMachine(client.address) &&
+        std::cmp_greater_equal(ofAddress, server.settings.maxPlayersOfAddress))
+        return refuse(server, client, Refusal::Full,
+                      fmt::format("{} players of your address are here already", ofAddress));
     const bool isAgain = known && server.playing.contains(known->id);
     const bool isOperator = known && known->role == game::Role::Operator;
     if (server.playing.size() >= server.settings.maxPlayers && !isAgain && !isOperator)

@@ -14,6 +14,7 @@ struct ServerSettings {
     std::string welcome;  // a line for who joins; empty: none
     std::size_t maxPlayers = 100;
     int maxViewDistance = 32;                   // chunks around a player whose edits it is told
+    std::size_t maxPlayersOfAddress = 20;       // at a time, this machine's own apart
     double newPlayersPerHour = 100;             // of one address, but for this machine's own
     double maxSpeed = 120;                      // blocks a second; flying takes 60, falling 78
     int spawnRadius = 0;                        // newcomers appear so many blocks around the spawn

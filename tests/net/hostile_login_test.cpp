@@ -158,6 +158,19 @@ TEST_F(HostileLogin, WhoComesAgainMayDoWhatWasLeft) {
     EXPECT_TRUE(plays(*joined(bob)));
 }
 
+TEST_F(HostileLogin, PlayersOfAnAddressAreFew) {
+    ServerSettings settings;
+    settings.maxPlayersOfAddress = 2;
+    start(settings);  // Ann is one of the address "test"
+    const ClientIdentity bob = testIdentity("Bob");
+    const auto first = joined(bob);
+    EXPECT_EQ(refusalOfName("Cid"), Refusal::Full);
+    const auto again = joined(bob);
+    EXPECT_TRUE(plays(*again));
+    again->close();
+    EXPECT_TRUE(plays(*joined("Cid")));
+}
+
 TEST_F(HostileLogin, NewPlayersOfAnAddressAreFew) {
     ServerSettings settings;
     settings.newPlayersPerHour = 3;

@@ -23,6 +23,11 @@ void addServeOptions(CLI::App& command, ServeOptions& options) {
         ->check(numberFrom(1, 4096))
         ->capture_default_str();
     command
+        .add_option("--max-players-of-address", options.server.maxPlayersOfAddress,
+                    "How many play at a time from one address, this machine's own apart")
+        ->check(numberFrom(1, 4096))
+        ->capture_default_str();
+    command
         .add_option("--new-players", options.server.newPlayersPerHour,
                     "Players an hour who come for the first time from one address, this machine's own apart")
         ->check(numberFrom(1, 1e6))

@@ -51,10 +51,8 @@ base::Result<std::unique_ptr<RemotePlay>> RemotePlay::connect(const RemoteOption
     return play;
 }
 
-bool RemotePlay::trusts(const std::string& key) const {
-    const auto trusted = net::isKnownOrNew(knownServers_, textOf(link_->address()), key);
-    if (!trusted) base::logError("{}", trusted.error().message);
-    return trusted && *trusted;
+base::Result<bool> RemotePlay::trusts(const std::string& key) const {
+    return net::isKnownOrNew(knownServers_, textOf(link_->address()), key);
 }
 
 // A session that shows the world goes on after a cut; another world is not to be shown by it.

@@ -46,7 +46,7 @@ class RemotePlay {
     struct Network;
     RemotePlay(std::unique_ptr<Network> network, std::unique_ptr<const world::BlockRegistry> blocks);
     base::Result<net::SampleDigests> prove(const net::WorldOffer& offer);
-    bool trusts(const std::string& key) const;
+    base::Result<bool> trusts(const std::string& key) const;
 
     std::unique_ptr<Network> network_;
     std::unique_ptr<const world::BlockRegistry> blocks_;
