@@ -43,7 +43,8 @@ class HostileTest : public testing::Test {
         }
         (void)ann_->take();
         ann_->say(Say{"still here"});
-        const auto* said = findMessage<Said>(ann_->take());
+        const auto messages = ann_->take();
+        const auto* said = findMessage<Said>(messages);
         ASSERT_TRUE(said) << "Ann was harmed";
         EXPECT_EQ(said->text, "still here");
         ann_.reset();

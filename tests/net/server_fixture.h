@@ -78,6 +78,7 @@ struct TestWire {
     std::size_t received = 0;
 };
 
+// Null where there is none; it points into the vector.
 template <class Message>
 const Message* findMessage(const std::vector<ServerMessage>& messages) {
     for (const ServerMessage& message : messages)
@@ -121,7 +122,10 @@ struct TestPlayer {
         world->onMessage(answer);
     }
     void update() {
-        for (const ServerMessage& message : wire->take()) world->onMessage(message);
+        for (const ServerMessage& message : wire->take()) {
+            if (const auto* ping = std::get_if<Ping>(&message)) wire->say(Pong{ping->time});
+            world->onMessage(message);
+        }
         session->pipeline().setView(world::chunkOf(pose.position), view);
         session->pipeline().update();
         world->update(pose, view, far, wire->server.now);
