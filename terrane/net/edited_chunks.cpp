@@ -35,10 +35,6 @@ bool EditedChunks::add(ChunkPos chunk) {
     return isNew;
 }
 
-bool EditedChunks::contains(ChunkPos pos) const {
-    return positions_[pos.level].contains(pos);
-}
-
 std::vector<ChunkPos> EditedChunks::within(ChunkPos middle, int radius) const {
     const auto& positions = positions_[middle.level];
     std::vector<ChunkPos> found;
@@ -66,7 +62,6 @@ const ChunkDifference* EditedChunks::maybeDifference(ChunkPos pos) {
 void EditedChunks::findDifference(ChunkPos pos, Known& known) {
     known.isPending = true;
     known.job = ++jobCount_;
-    ++pendingCount_;
     const auto work = [pos, job = known.job,
                        snapshot = pos.level == 0 ? parts_.world.maybeChunkAt(pos) : nullptr, &parts = parts_,
                        results = results_](const base::CancelToken&) {
@@ -90,7 +85,6 @@ void EditedChunks::onChanged(ChunkPos pos, const ChunkDifference& newer) {
 void EditedChunks::onTileChanged(ChunkPos tile) {
     const auto found = known_.find(tile);
     if (found == known_.end()) return;
-    if (found->second.isPending) --pendingCount_;
     blockCount_ -= found->second.difference.size();
     known_.erase(found);  // a job that runs for it finds nobody who waits
 }
@@ -109,7 +103,6 @@ void EditedChunks::update() {
         mergeInto(result.difference, known.difference);
         known.difference = std::move(result.difference);
         known.isPending = false;
-        --pendingCount_;
         blockCount_ += known.difference.size();
     }
     if (blockCount_ > kMaxBlocks) forgetOld();

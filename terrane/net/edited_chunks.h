@@ -31,7 +31,6 @@ class EditedChunks {
 
     // Chunks of level 0: the tiles above them are edited as well. False where all were so already.
     bool add(world::ChunkPos chunk);
-    bool contains(world::ChunkPos pos) const;
     std::size_t count(int level) const { return positions_[static_cast<std::size_t>(level)].size(); }
     // Up to `radius` (Chebyshev) around a chunk or tile, in no order.
     std::vector<world::ChunkPos> within(world::ChunkPos middle, int radius) const;
@@ -46,7 +45,6 @@ class EditedChunks {
     // Takes in what workers found.
     void update();
 
-    std::size_t pendingCount() const { return pendingCount_; }
     // Blocks of all known differences; about 40 bytes each.
     static constexpr std::size_t kMaxBlocks = 4'000'000;
 
@@ -68,7 +66,7 @@ class EditedChunks {
     Parts parts_;
     std::array<std::unordered_set<world::ChunkPos, world::ChunkPosHash>, world::kMaxLevel + 1> positions_;
     std::unordered_map<world::ChunkPos, Known, world::ChunkPosHash> known_;
-    std::size_t blockCount_ = 0, pendingCount_ = 0;
+    std::size_t blockCount_ = 0;
     std::uint64_t uses_ = 0, jobCount_ = 0;
     std::shared_ptr<Results> results_;
 };

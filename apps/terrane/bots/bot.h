@@ -64,7 +64,6 @@ class Bot {
     void leave() { link_.leave(); }
 
     const net::ClientLink& link() const { return link_; }
-    bool builds() const { return builds_; }
     // Blocks on which the server has not decided yet.
     std::vector<world::BlockPos> undecided() const;
 
