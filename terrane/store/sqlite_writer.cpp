@@ -10,16 +10,7 @@
 
 namespace terrane::store {
 
-world::ChunkPtr SavedRows::editedChunk(world::ChunkPos pos) {
-    const StoredRow row = read_(pos);
-    if (row && (!*row || (*row)->provenance != Provenance::Edited)) return nullptr;
-    LoadedChunk loaded = decodeRow(row, ids_, budget_);
-    if (loaded.state == LoadedChunk::State::Damaged) metDamage_ = true;
-    if (!row && row.error().code != base::ErrorCode::Damaged) result_ = tl::unexpected(row.error());
-    return std::move(loaded.chunk);
-}
-
-base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file, EntityBudget& budget) {
+base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
     constexpr const char* kStatements[] = {
         "SELECT data, origin FROM chunks WHERE key = ?1",
         "INSERT INTO chunks (key, origin, data) VALUES (?1, ?2, ?3) ON CONFLICT (key) DO UPDATE "
@@ -41,36 +32,37 @@ base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file, E
     auto next = made.begin();
     const auto take = [&] { return std::move(*next++); };
     // Braces initialize in their order: that of the texts above.
-    return std::unique_ptr<SqliteWriter>(new SqliteWriter(
-        file, budget, Statements{take(), take(), take(), take(), take()}, std::move(*metadata)));
+    return std::unique_ptr<SqliteWriter>(
+        new SqliteWriter(file, Statements{take(), take(), take(), take(), take()}, std::move(*metadata)));
 }
 
 // The log may still have what failed. Behind a smaller transaction it would look like a damaged one, so the
 // log is emptied first. Where that fails too, saving comes before.
 base::Result<bool> SqliteWriter::write(const SaveBatch& batch, const ChunkPosSet& unread,
-                                       std::span<const ChunkRow> derived, bool isComplete) {
+                                       const DerivedBatch& derived) {
     TERRANE_ZONE("save batch");
     if (hasFailed_) (void)file_.database.execute("PRAGMA wal_checkpoint(TRUNCATE)");
     hasFailed_ = true;  // also where something throws
-    auto written = writeAll(batch, unread, derived, isComplete);
+    auto written = writeAll(batch, unread, derived);
     hasFailed_ = !written;
     return written;
 }
 
 base::Result<bool> SqliteWriter::writeAll(const SaveBatch& batch, const ChunkPosSet& unread,
-                                          std::span<const ChunkRow> derived, bool isComplete) {
+                                          const DerivedBatch& derived) {
     auto transaction = Transaction::begin(file_.database);
     if (!transaction) return tl::unexpected(transaction.error());
-    isComplete_ = isComplete;
+    isComplete_ = derived.isComplete;
     if (auto done = writeBatch(batch, unread); !done) return tl::unexpected(done.error());
-    if (auto done = writeDerived(derived); !done) return tl::unexpected(done.error());
+    if (auto done = writeDerived(derived.rows); !done) return tl::unexpected(done.error());
     if (!isComplete_)
         if (auto done = metadata_.remove(kDerivedRowsMark); !done) return tl::unexpected(done.error());
     if (auto done = commit(*transaction); !done) return tl::unexpected(done.error());
     return isComplete_;
 }
 
-base::Result<void> SqliteWriter::deriveAll(const DerivedRows& rows, std::string_view rules) {
+base::Result<void> SqliteWriter::deriveAll(const DerivedRows& rows, std::string_view rules,
+                                           EntityBudget& budget) {
     TERRANE_ZONE("derive all rows");
     auto transaction = Transaction::begin(file_.database);
     if (!transaction) return tl::unexpected(transaction.error());
@@ -80,7 +72,7 @@ base::Result<void> SqliteWriter::deriveAll(const DerivedRows& rows, std::string_
     if (!edited) return tl::unexpected(edited.error());
     // By the connection that writes: it sees what the transaction has written so far.
     SavedRows saved([this](world::ChunkPos pos) { return readRow(use_.selectChunk, pos, kFormatVersion); },
-                    file_.ids, budget_);
+                    file_.ids, budget);
     auto derived =
         deriveInGroups(rows, std::move(*edited), saved.reader(), [&](std::span<const ChunkRow> group) {
             return saved.result() ? writeDerived(group) : saved.result();

@@ -2,70 +2,41 @@
 // time.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <span>
 #include <string_view>
 
-#include "terrane/store/chunk_reader.h"
-#include "terrane/store/derived_rows.h"
 #include "terrane/store/metadata_table.h"
 #include "terrane/store/open_files.h"
+#include "terrane/store/queued_store.h"
 #include "terrane/store/save_file.h"
-#include "terrane/store/save_queue.h"
 
 namespace terrane::store {
 
-// What DerivedRows::derive() reads of a file, and what goes wrong meanwhile.
-class SavedRows {
-  public:
-    SavedRows(std::function<StoredRow(world::ChunkPos)> read, const BlockIdMap& ids, EntityBudget& budget)
-        : read_(std::move(read)), ids_(ids), budget_(budget) {}
-
-    world::ChunkPtr editedChunk(world::ChunkPos pos);
-    ReadEdited reader() {
-        return [this](world::ChunkPos pos) { return editedChunk(pos); };
-    }
-
-    bool metDamage() const { return metDamage_; }
-    // What could not be read: rows that were derived are not to be written. Damage is no problem.
-    const base::Result<void>& result() const { return result_; }
-
-  private:
-    std::function<StoredRow(world::ChunkPos)> read_;
-    const BlockIdMap& ids_;
-    EntityBudget& budget_;
-    bool metDamage_ = false;
-    base::Result<void> result_;
-};
-
 class SqliteWriter {
   public:
-    // Keeps both.
-    [[nodiscard]] static base::Result<std::unique_ptr<SqliteWriter>> make(SaveFile& file,
-                                                                          EntityBudget& budget);
+    // Keeps the file.
+    [[nodiscard]] static base::Result<std::unique_ptr<SqliteWriter>> make(SaveFile& file);
 
-    // The batch and the rows derived from it. What the chunks of `unread` replace is put aside first. Unless
-    // `isComplete`, or where a row is lost, the world has not all derived rows any more: kDerivedRowsMark
-    // goes, and false comes back. An error, and nothing is written, where the save was deleted or replaced.
+    // As ChunkRows::write(). An error, and nothing is written, where the save was deleted or replaced.
     [[nodiscard]] base::Result<bool> write(const SaveBatch& batch, const ChunkPosSet& unread,
-                                           std::span<const ChunkRow> derived, bool isComplete);
+                                           const DerivedBatch& derived);
     // As ChunkStore::deriveAll().
-    [[nodiscard]] base::Result<void> deriveAll(const DerivedRows& rows, std::string_view rules);
+    [[nodiscard]] base::Result<void> deriveAll(const DerivedRows& rows, std::string_view rules,
+                                               EntityBudget& budget);
 
   private:
     struct Statements {
         Statement selectChunk, putChunk, deleteChunk, quarantineAll, noteQuarantine;
     };
-    SqliteWriter(SaveFile& file, EntityBudget& budget, Statements statements, MetadataTable metadata)
+    SqliteWriter(SaveFile& file, Statements statements, MetadataTable metadata)
         : file_(file),
           files_(file.database.path()),
-          budget_(budget),
           use_(std::move(statements)),
           metadata_(std::move(metadata)) {}
 
     base::Result<bool> writeAll(const SaveBatch& batch, const ChunkPosSet& unread,
-                                std::span<const ChunkRow> derived, bool isComplete);
+                                const DerivedBatch& derived);
     base::Result<void> commit(Transaction& transaction);
     base::Result<void> writeBatch(const SaveBatch& batch, const ChunkPosSet& unread);
     base::Result<void> writeChunk(world::ChunkPos pos, const WaitingChunk& chunk);
@@ -77,7 +48,6 @@ class SqliteWriter {
 
     SaveFile& file_;
     OpenFiles files_;
-    EntityBudget& budget_;
     Statements use_;
     MetadataTable metadata_;
     bool isComplete_ = true;  // of the transaction that runs

@@ -1,0 +1,175 @@
+#include "terrane/store/queued_store.h"
+
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/base/profile.h"
+
+namespace terrane::store {
+
+world::ChunkPtr SavedRows::editedChunk(world::ChunkPos pos) {
+    const StoredRow row = read_(pos);
+    if (row && (!*row || (*row)->provenance != Provenance::Edited)) return nullptr;
+    LoadedChunk loaded = decodeRow(row, ids_, budget_);
+    if (loaded.state == LoadedChunk::State::Damaged) metDamage_ = true;
+    if (!row && row.error().code != base::ErrorCode::Damaged) result_ = tl::unexpected(row.error());
+    return std::move(loaded.chunk);
+}
+
+QueuedStore::QueuedStore(std::unique_ptr<ChunkRows> rows, const SaveLimits& limits)
+    : rows_(std::move(rows)), budget_(limits.entityBytes), metadata_(rows_->metadata()) {
+    queue_ = std::make_unique<SaveQueue>([this](const SaveBatch& batch) { return write(batch); }, limits);
+}
+
+namespace {
+
+LoadedChunk copyOf(const WaitingChunk& waiting) {
+    LoadedChunk loaded;
+    loaded.state = LoadedChunk::State::Present;
+    loaded.chunk = std::make_shared<world::Chunk>(*waiting.chunk);
+    loaded.provenance = waiting.provenance;
+    return loaded;
+}
+
+}  // namespace
+
+void QueuedStore::setUnread(world::ChunkPos pos, bool isUnread) {
+    const std::lock_guard lock(unreadMutex_);
+    if (isUnread) {
+        unread_.insert(pos);
+    } else if (!unread_.empty()) {
+        unread_.erase(pos);
+    }
+}
+
+bool QueuedStore::isUnread(world::ChunkPos pos) {
+    const std::lock_guard lock(unreadMutex_);
+    return unread_.contains(pos);
+}
+
+ChunkPosSet QueuedStore::unreadOf(const SaveBatch& batch) {
+    const std::lock_guard lock(unreadMutex_);
+    ChunkPosSet found;
+    for (const world::ChunkPos pos : unread_)
+        if (batch.chunks.contains(pos)) found.insert(pos);
+    return found;
+}
+
+LoadedChunk QueuedStore::loadStored(const StoredRow& row, world::ChunkPos pos) {
+    LoadedChunk loaded = decodeRow(row, rows_->ids(), budget_);
+    setUnread(pos, loaded.isUnread);
+    if (loaded.state != LoadedChunk::State::Damaged) return loaded;
+    const std::string reason =
+        std::exchange(loaded.problem, fmt::format("{}: {}: {}", rows_->name(), nameOf(pos), loaded.problem));
+    if (loaded.isUnread) {
+        if (!loaded.isOverBudget || budget_.isFirstRefusal())
+            base::logWarning("{}; what it has stays", loaded.problem);
+    } else {
+        base::logWarning("{}; what it had is kept in the table quarantine", loaded.problem);
+        queue_->add(DamagedRow{pos, hashOfRow((*row)->data), reason});
+    }
+    return loaded;
+}
+
+LoadedChunk QueuedStore::load(world::ChunkPos pos) {
+    TERRANE_ZONE("load chunk");
+    if (const auto waiting = queue_->find(pos)) return copyOf(*waiting);
+    return loadStored(rows_->read(pos), pos);
+}
+
+// The queue first: what is no longer in it is in the file, and in the transaction that reads it.
+std::vector<LoadedChunk> QueuedStore::loadMany(std::span<const world::ChunkPos> positions) {
+    TERRANE_ZONE("load chunks");
+    const auto waiting = queue_->findMany(positions);
+    std::vector<world::ChunkPos> stored;
+    for (std::size_t k = 0; k < positions.size(); ++k)
+        if (!waiting[k]) stored.push_back(positions[k]);
+    std::vector<LoadedChunk> read(stored.size());
+    rows_->readMany(stored,
+                    [&](std::size_t k, const StoredRow& row) { read[k] = loadStored(row, stored[k]); });
+    auto next = read.begin();
+    std::vector<LoadedChunk> loaded;
+    loaded.reserve(positions.size());
+    for (std::size_t k = 0; k < positions.size(); ++k)
+        loaded.push_back(waiting[k] ? copyOf(*waiting[k]) : std::move(*next++));
+    return loaded;
+}
+
+bool QueuedStore::contains(world::ChunkPos pos) {
+    if (queue_->find(pos)) return true;
+    const auto found = rows_->contains(pos);
+    return found && *found;
+}
+
+SaveNumber QueuedStore::save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) {
+    if (provenance == Provenance::Generated && isUnread(pos)) return queue_->status().queued;
+    return queue_->add(pos, {std::move(chunk), provenance});
+}
+
+std::optional<std::string> QueuedStore::metadata(std::string_view name) {
+    const std::lock_guard lock(metadataMutex_);
+    const auto found = metadata_.find(name);
+    if (found == metadata_.end()) return std::nullopt;
+    return found->second;
+}
+
+SaveNumber QueuedStore::setMetadata(std::string_view name, std::string value) {
+    if (isReserved(name)) {
+        base::logError("{}: {} is written by the store alone and stays as it is", rows_->name(), name);
+        return queue_->status().queued;
+    }
+    const std::lock_guard lock(metadataMutex_);
+    if (!fitsMetadata(metadata_, name, value)) {
+        base::logError("{}: the setting {} of {} bytes is more than a save keeps, and is not saved",
+                       rows_->name(), name.substr(0, 64), value.size());
+        return queue_->status().queued;
+    }
+    metadata_.insert_or_assign(std::string(name), value);
+    return queue_->add(std::string(name), std::move(value));
+}
+
+void QueuedStore::setDerivedRows(DerivedRows rows) {
+    const std::lock_guard writing(writeMutex_);
+    derivedRows_ = std::move(rows);
+}
+
+base::Result<DerivedBatch> QueuedStore::derive(const std::vector<ChunkRow>& edited, const ReadRow& read) {
+    SavedRows saved(read, rows_->ids(), budget_);
+    DerivedBatch derived;
+    if (!edited.empty() && derivedRows_.derive) derived.rows = derivedRows_.derive(edited, saved.reader());
+    if (!saved.result()) return tl::unexpected(saved.result().error());
+    derived.isComplete = edited.empty() || (derivedRows_.derive && !saved.metDamage());
+    return derived;
+}
+
+base::Result<void> QueuedStore::write(const SaveBatch& batch) {
+    const std::lock_guard writing(writeMutex_);
+    const std::vector<ChunkRow> edited = batch.editedChunks();
+    std::vector<ChunkRow> derivedRows;
+    const auto deriveBatch = [&](const ReadRow& read) {
+        auto derived = derive(edited, read);
+        if (derived) derivedRows = derived->rows;
+        return derived;
+    };
+    const ChunkPosSet unread = unreadOf(batch);
+    const auto written = rows_->write(batch, unread, deriveBatch);
+    if (!written) return tl::unexpected(written.error());
+    for (const world::ChunkPos pos : unread) setUnread(pos, false);
+    if (!*written) {
+        const std::lock_guard lock(metadataMutex_);
+        if (const auto mark = metadata_.find(kDerivedRowsMark); mark != metadata_.end())
+            metadata_.erase(mark);
+    }
+    if (derivedRows_.written && !derivedRows.empty()) derivedRows_.written(derivedRows);
+    return {};
+}
+
+base::Result<void> QueuedStore::deriveAll(std::string_view rules) {
+    const std::lock_guard writing(writeMutex_);
+    if (auto done = rows_->deriveAll(derivedRows_, rules, budget_); !done) return done;
+    const std::lock_guard lock(metadataMutex_);
+    metadata_.insert_or_assign(std::string(kDerivedRowsMark), std::string(rules));
+    return {};
+}
+
+}  // namespace terrane::store
