@@ -4,6 +4,7 @@
 #include "terrane/content/built_in.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/memory_store.h"
+#include "terrane/store_postgres/open_any_world.h"
 
 namespace terrane::app {
 
@@ -32,7 +33,7 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
     if (access != store::WorldAccess::ReadOnly) request.create = identityOf(options);
     request.wanted = {options.seed, options.generator, save.regenerate};
     request.versionOf = gen::generatorVersion;
-    auto opened = store::openWorld(store::worldLocation(save.world), blocks, request);
+    auto opened = store_postgres::openAnyWorld(store::worldLocation(save.world), blocks, request);
     if (!opened) return opened;
     options.seed = (*opened)->identity().seed;
     options.generator = (*opened)->identity().generator;

@@ -25,6 +25,7 @@ enum class ErrorCode : std::uint8_t {
     Busy,            // in use by another program; may work later
     Unsupported,     // understood, but not in this build or on this machine
     OutOfResources,  // no room on the disk, no memory
+    Refused,         // a wrong password, or no right to do this
 };
 
 // The message names what failed and where, for example "blocks.toml:12: opacity: expected 0 to 15, got 40".

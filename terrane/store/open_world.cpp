@@ -26,23 +26,6 @@ StoreResult openFile(const fs::path& path, const world::BlockRegistry& blocks, c
     return std::move(*store);
 }
 
-StoreResult openInMemory(const fs::path& path, const world::BlockRegistry& blocks,
-                         const WorldRequest& request) {
-    auto saved = SqliteReader::open(path, blocks, request.limits);
-    if (!saved) return tl::unexpected(saved.error());
-    WorldIdentity identity = (*saved)->identity();
-    const auto by = compareWorld(identity, request.wanted, request.versionOf, path.string());
-    if (!by) return tl::unexpected(by.error());
-    if (by->chunks == Regenerate::None)
-        return std::make_unique<OverlayStore>(std::move(*saved), request.limits);
-    if (by->chunks == Regenerate::AllButEdited)
-        return base::fail(base::ErrorCode::Unsupported,
-                          "{}: cannot be written, so its edits cannot be kept in a world made anew",
-                          path.string());
-    identity.generatorVersion = by->generatorVersion;
-    return std::make_unique<MemoryStore>(std::move(identity), request.limits);
-}
-
 // Saves by name in the working directory were the only ones up to version 0.1.
 void reportFormerPlace(const WorldLocation& location, const fs::path& path) {
     if (location.kind != WorldLocation::Kind::Name || path.is_absolute()) return;
@@ -53,13 +36,31 @@ void reportFormerPlace(const WorldLocation& location, const fs::path& path) {
 
 }  // namespace
 
+StoreResult openOver(std::unique_ptr<ReadableStore> saved, const WorldRequest& request,
+                     const std::string& where) {
+    WorldIdentity identity = saved->identity();
+    const auto by = compareWorld(identity, request.wanted, request.versionOf, where);
+    if (!by) return tl::unexpected(by.error());
+    if (by->chunks == Regenerate::None)
+        return std::make_unique<OverlayStore>(std::move(saved), request.limits);
+    if (by->chunks == Regenerate::AllButEdited)
+        return base::fail(base::ErrorCode::Unsupported,
+                          "{}: cannot be written, so its edits cannot be kept in a world made anew", where);
+    identity.generatorVersion = by->generatorVersion;
+    return std::make_unique<MemoryStore>(std::move(identity), request.limits);
+}
+
 StoreResult openWorld(const WorldLocation& location, const world::BlockRegistry& blocks,
                       const WorldRequest& request) {
     assert(request.versionOf && "the generators of the program decide whether a world fits");
     const auto path = fileOf(location);
     if (!path) return tl::unexpected(path.error());
     reportFormerPlace(location, *path);
-    if (request.access == WorldAccess::ReadOnly) return openInMemory(*path, blocks, request);
+    if (request.access == WorldAccess::ReadOnly) {
+        auto saved = SqliteReader::open(*path, blocks, request.limits);
+        if (!saved) return tl::unexpected(saved.error());
+        return openOver(std::move(*saved), request, path->string());
+    }
     return openFile(*path, blocks, request);
 }
 

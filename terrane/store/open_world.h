@@ -1,9 +1,10 @@
-// Opens the world at a location with the store that fits: the one function by which programs come to a store.
-// Any thread, usually the one that starts a session.
+// Opens the world at a location that is a name or a file. store_postgres/open_any_world.h opens those in
+// databases as well: programs call that. Any thread, usually the one that starts a session.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "terrane/store/chunk_store.h"
 #include "terrane/store/save_queue.h"
@@ -18,6 +19,13 @@ enum class WorldAccess {
     ReadWrite,  // an error where the world cannot be written
 };
 
+// Who else may write the world meanwhile. A file has one program that writes, whatever is asked for.
+enum class WorldSharing {
+    Alone,
+    Servers,    // others that serve the same world
+    Generating  // anybody: only chunks without edits are written
+};
+
 struct WorldRequest {
     WorldAccess access = WorldAccess::ReadWrite;
     // What a world is made with, and its folders, where none is there. Nothing: it must be there.
@@ -25,6 +33,7 @@ struct WorldRequest {
     // What a world that is there must be (compareWorld()). One to be regenerated is copied first.
     WantedWorld wanted;
     GeneratorVersionOf versionOf;  // what the program has
+    WorldSharing sharing = WorldSharing::Alone;
     SaveLimits limits;
 };
 
@@ -33,5 +42,10 @@ struct WorldRequest {
 [[nodiscard]] base::Result<std::unique_ptr<ChunkStore>> openWorld(const WorldLocation& location,
                                                                   const world::BlockRegistry& blocks,
                                                                   const WorldRequest& request);
+
+// The world that `saved` holds, with changes in memory. `where` is for messages. Errors as above.
+[[nodiscard]] base::Result<std::unique_ptr<ChunkStore>> openOver(std::unique_ptr<ReadableStore> saved,
+                                                                 const WorldRequest& request,
+                                                                 const std::string& where);
 
 }  // namespace terrane::store

@@ -26,10 +26,10 @@ using ReadRow = std::function<StoredRow(world::ChunkPos)>;
 // Derives them by what `read` finds: the database as it is without the batch.
 using DeriveBatch = std::function<base::Result<DerivedBatch>(const ReadRow& read)>;
 
-// The rows of a world in a database.
-class ChunkRows {
+// The rows of a world in a database, to be read.
+class ReadableRows {
   public:
-    virtual ~ChunkRows() = default;
+    virtual ~ReadableRows() = default;
 
     // As they were when the world was opened. `name` is for messages: the file, or the database.
     virtual const std::string& name() const = 0;
@@ -39,13 +39,17 @@ class ChunkRows {
 
     // Any thread.
     [[nodiscard]] virtual StoredRow read(world::ChunkPos pos) = 0;
-    // All as they were at one moment. Hands on each with its number in `positions` before it reads many more.
+    // Hands on each with its number in `positions` before it reads many more. Up to 256 are as they were at
+    // one moment.
     using TakeRow = std::function<void(std::size_t, StoredRow)>;
     virtual void readMany(std::span<const world::ChunkPos> positions, const TakeRow& take) = 0;
     [[nodiscard]] virtual base::Result<bool> contains(world::ChunkPos pos) = 0;
     // As ReadableStore::editedChunks().
     [[nodiscard]] virtual base::Result<std::vector<world::ChunkPos>> editedChunks() = 0;
+};
 
+class ChunkRows : public ReadableRows {
+  public:
     // One thread at a time. The batch and what follows from it, in one transaction. What the chunks of
     // `unread` replace is put aside first. False: the world lost kDerivedRowsMark. `derive` may be called
     // again where a transaction is tried again.
@@ -99,9 +103,6 @@ class QueuedStore : public ChunkStore {
     [[nodiscard]] base::Result<void> deriveAll(std::string_view rules) override;
     const WorldIdentity& identity() const override { return rows_->identity(); }
     bool isPersistent() const override { return true; }
-
-  protected:
-    ChunkRows& rows() { return *rows_; }
 
   private:
     LoadedChunk loadStored(const StoredRow& row, world::ChunkPos pos);

@@ -29,14 +29,6 @@ struct SaveFile {
     BlockIdMap ids = {};
 };
 
-struct SaveAccess {
-    // Made, with its folders, where it is not there. Nothing: it must be there.
-    std::optional<WorldIdentity> create;
-    // What of a save that is there is regenerated, after a copy beside the save, from what it is; an error to
-    // leave it alone. Empty: it is taken as it is.
-    std::function<base::Result<Regeneration>(const WorldIdentity& saved)> decide;
-};
-
 // To read and write. New names of block types are written already.
 [[nodiscard]] base::Result<SaveFile> openToWrite(const std::filesystem::path& path,
                                                  const world::BlockRegistry& registry,

@@ -2,36 +2,26 @@
 
 #include <utility>
 
+#include "terrane/store/sqlite_rows.h"
 #include "terrane/store/sqlite_writer.h"
 
 namespace terrane::store {
 namespace {
 
-class SqliteRows : public ChunkRows {
+class SqliteRows : public SqliteReadRows<ChunkRows> {
   public:
     static base::Result<std::unique_ptr<SqliteRows>> make(SaveFile file) {
-        std::unique_ptr<SqliteRows> rows(new SqliteRows(std::move(file)));
+        auto rows = std::make_unique<SqliteRows>(std::move(file));
         auto writer = SqliteWriter::make(rows->file_);
         if (!writer) return tl::unexpected(writer.error());
         rows->writer_ = std::move(*writer);
         return rows;
     }
+    using SqliteReadRows::SqliteReadRows;
     // When nothing is written any more. Closing the file takes its log.
     ~SqliteRows() override {
         if (file_.lock) file_.lock->setHasLog(false);
     }
-
-    const std::string& name() const override { return file_.database.path(); }
-    const WorldIdentity& identity() const override { return file_.identity; }
-    const Metadata& metadata() const override { return file_.metadata; }
-    const BlockIdMap& ids() const override { return file_.ids; }
-
-    StoredRow read(world::ChunkPos pos) override { return reader_.read(pos); }
-    void readMany(std::span<const world::ChunkPos> positions, const TakeRow& take) override {
-        reader_.readMany(positions, take);
-    }
-    base::Result<bool> contains(world::ChunkPos pos) override { return reader_.contains(pos); }
-    base::Result<std::vector<world::ChunkPos>> editedChunks() override { return reader_.editedChunks(); }
 
     // Rows are derived before the transaction begins, and read what is in the file by other connections.
     base::Result<bool> write(const SaveBatch& batch, const ChunkPosSet& unread,
@@ -46,11 +36,6 @@ class SqliteRows : public ChunkRows {
     }
 
   private:
-    explicit SqliteRows(SaveFile file)
-        : file_(std::move(file)), reader_(file_.database.path(), file_.readers, file_.format) {}
-
-    SaveFile file_;
-    ChunkReader reader_;
     std::unique_ptr<SqliteWriter> writer_;
 };
 

@@ -45,6 +45,15 @@ struct Regeneration {
 // The version that the program has of a generator; 0: the program does not have it.
 using GeneratorVersionOf = std::function<int(std::string_view generator)>;
 
+// What is done with a world where it is opened to be written.
+struct SaveAccess {
+    // Made, where it is not there. Nothing: it must be there.
+    std::optional<WorldIdentity> create;
+    // What of a save that is there is regenerated, after a copy beside it, from what it is; an error to
+    // leave it alone. Empty: it is taken as it is.
+    std::function<base::Result<Regeneration>(const WorldIdentity& saved)> decide;
+};
+
 // An error that says in one line how they differ and names `where`, unless they are equal: chunks of two
 // generators do not fit together.
 [[nodiscard]] base::Result<void> requireSame(const WorldIdentity& saved, const WorldIdentity& wanted,

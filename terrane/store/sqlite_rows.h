@@ -1,0 +1,34 @@
+// The rows of an open save as readers and writers of its file have them. Included by sqlite_*.cpp.
+#pragma once
+
+#include <utility>
+
+#include "terrane/store/queued_store.h"
+#include "terrane/store/save_file.h"
+
+namespace terrane::store {
+
+// `Base` is ReadableRows or ChunkRows.
+template <class Base>
+class SqliteReadRows : public Base {
+  public:
+    explicit SqliteReadRows(SaveFile file)
+        : file_(std::move(file)), reader_(file_.database.path(), file_.readers, file_.format) {}
+
+    const std::string& name() const override { return file_.database.path(); }
+    const WorldIdentity& identity() const override { return file_.identity; }
+    const Metadata& metadata() const override { return file_.metadata; }
+    const BlockIdMap& ids() const override { return file_.ids; }
+    StoredRow read(world::ChunkPos pos) override { return reader_.read(pos); }
+    void readMany(std::span<const world::ChunkPos> positions, const ReadableRows::TakeRow& take) override {
+        reader_.readMany(positions, take);
+    }
+    base::Result<bool> contains(world::ChunkPos pos) override { return reader_.contains(pos); }
+    base::Result<std::vector<world::ChunkPos>> editedChunks() override { return reader_.editedChunks(); }
+
+  protected:
+    SaveFile file_;
+    ChunkReader reader_;
+};
+
+}  // namespace terrane::store

@@ -1,0 +1,120 @@
+// A connection to PostgreSQL: statements with binary parameters, each prepared once, sent one by one or many
+// in one round trip. Used by one thread at a time. Errors are one line that names the database, without its
+// user and password.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/base/result.h"
+#include "terrane/store/bytes.h"
+#include "terrane/store_postgres/address.h"
+
+struct pg_conn;
+struct pg_result;
+
+namespace terrane::store_postgres {
+
+using store::Bytes;
+using store::ByteView;
+
+// Values of $1, $2, … in their binary forms.
+class Parameters {
+  public:
+    Parameters& number(std::int64_t value);   // bigint
+    Parameters& integer(std::int32_t value);  // integer
+    Parameters& text(std::string_view value);
+    Parameters& bytes(ByteView value);  // copied
+    // Arrays of one dimension.
+    Parameters& numbers(std::span<const std::int64_t> values);  // bigint[]
+    Parameters& smallNumbers(std::span<const std::int16_t> values);
+    Parameters& texts(std::span<const std::string> values);
+    Parameters& byteStrings(std::span<const Bytes> values);  // bytea[]
+
+  private:
+    friend class Connection;
+    void add(std::uint32_t type, std::string bytes);
+    std::vector<std::uint32_t> types_;
+    std::vector<std::string> values_;
+};
+
+// Text that stays where it is for the life of the program: a connection prepares it once.
+struct Statement {
+    const char* sql;
+};
+
+struct Command {
+    const Statement* statement;
+    Parameters parameters = {};
+};
+
+// What a statement gave. Columns count from 0; a value of another type than asked for reads as 0 or empty.
+class Rows {
+  public:
+    Rows() = default;
+    explicit Rows(pg_result* result);
+    int count() const;
+    std::int64_t affected() const;  // rows that were inserted, changed or deleted
+    bool isNull(int row, int column) const;
+    std::int64_t number(int row, int column) const;  // of 2, 4 or 8 bytes; of a boolean 0 or 1
+    std::string_view text(int row, int column) const;
+    ByteView bytes(int row, int column) const;
+
+  private:
+    struct Free {
+        void operator()(pg_result* result) const;
+    };
+    std::unique_ptr<pg_result, Free> result_;
+};
+
+// A message of NOTIFY.
+struct Notification {
+    std::string channel, payload;
+};
+
+class Connection {
+  public:
+    // Sets what all connections have: the schema as the only place of tables, UTF-8, durable commits.
+    // NotFound where there is no such database, Io where no server answers or the password is wrong.
+    [[nodiscard]] static base::Result<Connection> open(const Address& address);
+
+    // One statement, or several without parameters.
+    [[nodiscard]] base::Result<Rows> run(const Statement& statement, const Parameters& parameters = {});
+    [[nodiscard]] base::Result<void> execute(const std::string& sql);
+    // All in one round trip (pipeline mode), as one transaction: all or nothing.
+    [[nodiscard]] base::Result<std::vector<Rows>> runAll(std::span<const Command> commands);
+
+    // A name as SQL has it, quoted.
+    std::string quoted(std::string_view name) const;
+
+    // False: it is broken, and a new one is needed.
+    bool isUsable() const;
+    const std::string& shown() const { return shown_; }
+    int socket() const;
+    // What came of NOTIFY since the last call, without waiting. Empty and not isUsable() where it broke.
+    std::vector<Notification> notifications();
+
+  private:
+    struct Close {
+        void operator()(pg_conn* connection) const;
+    };
+    explicit Connection(pg_conn* connection, std::string shown);
+    base::Error errorOf(const pg_result* result) const;
+    std::string nameOf(const Statement& statement) const;
+    bool send(const Command& command, std::vector<const Statement*>& prepares);
+    base::Result<void> collect(std::vector<Rows>& rows);
+
+    std::unique_ptr<pg_conn, Close> connection_;
+    std::string shown_;
+    std::set<const Statement*> prepared_;
+};
+
+// Whether it makes sense to try again with a new connection: the server restarts, or the network broke.
+bool isPassing(const base::Error& error);
+
+}  // namespace terrane::store_postgres

@@ -1,0 +1,62 @@
+// Connections to one database for many threads: each takes one for the moment. What fails because the server
+// restarts or the network breaks is tried again, after longer and longer pauses.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "terrane/store_postgres/connection.h"
+
+namespace terrane::store_postgres {
+
+// The pauses between attempts, which double, and how long it is tried at all.
+struct RetryTimes {
+    std::chrono::milliseconds first{50}, longest{2000}, total{30000};
+};
+
+class ConnectionPool {
+  public:
+    explicit ConnectionPool(Address address, RetryTimes times = {})
+        : address_(std::move(address)), times_(times) {}
+
+    const Address& address() const { return address_; }
+
+    // Runs `use` with a connection of its own, again while isPassing(). Any thread.
+    template <class T>
+    [[nodiscard]] base::Result<T> run(const std::function<base::Result<T>(Connection&)>& use) {
+        return retry<T>([&]() -> base::Result<T> {
+            auto connection = take();
+            if (!connection) return tl::unexpected(connection.error());
+            auto result = use(*connection);
+            giveBack(std::move(*connection));
+            return result;
+        });
+    }
+
+    // The same without a connection.
+    template <class T>
+    [[nodiscard]] base::Result<T> retry(const std::function<base::Result<T>()>& attempt) {
+        const auto end = std::chrono::steady_clock::now() + times_.total;
+        for (auto pause = times_.first;; pause = std::min(2 * pause, times_.longest)) {
+            auto result = attempt();
+            if (result || !isPassing(result.error()) || std::chrono::steady_clock::now() + pause > end)
+                return result;
+            std::this_thread::sleep_for(pause);
+        }
+    }
+
+  private:
+    base::Result<Connection> take();
+    void giveBack(Connection connection);  // a broken one takes the idle ones with it, which are as old
+
+    Address address_;
+    RetryTimes times_;
+    std::mutex mutex_;
+    std::vector<Connection> idle_;
+};
+
+}  // namespace terrane::store_postgres

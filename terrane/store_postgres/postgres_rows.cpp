@@ -1,0 +1,98 @@
+#include "terrane/store_postgres/postgres_rows.h"
+
+#include <unordered_map>
+
+#include "terrane/store/chunk_codec.h"
+#include "terrane/store/chunk_key.h"
+
+namespace terrane::store_postgres {
+namespace {
+
+using store::StoredChunk;
+using store::StoredRow;
+using world::ChunkPos;
+
+// Longer ones are no chunks, and are not fetched.
+#define TERRANE_CHUNK_DATA "CASE WHEN octet_length(data) <= 68157440 THEN data END"  // 65 MiB
+
+constexpr Statement kRead = {"SELECT " TERRANE_CHUNK_DATA ", origin FROM chunks WHERE key = $1"};
+constexpr Statement kReadMany = {"SELECT key, " TERRANE_CHUNK_DATA
+                                 ", origin FROM chunks WHERE key = ANY ($1)"};
+constexpr Statement kContains = {"SELECT EXISTS (SELECT 1 FROM chunks WHERE key = $1)"};
+constexpr Statement kEdited = {
+    "SELECT key FROM chunks WHERE origin = 1 AND key >= 0 AND key < $1 ORDER BY key"};
+
+// Fetched at once: up to 2 MB, as rows are about 1 to 10 KB.
+constexpr std::size_t kRowsAtOnce = 256;
+
+}  // namespace
+
+StoredChunk storedChunk(const Rows& rows, int row, int column, ChunkPos pos) {
+    StoredChunk chunk;
+    const ByteView data = rows.bytes(row, column);
+    const std::int64_t origin = rows.number(row, column + 1);
+    chunk.data.assign(data.begin(), data.end());
+    if (rows.isNull(row, column)) chunk.problem = "longer than a chunk can be";
+    if (origin != 0 && origin != 1) chunk.problem = fmt::format("its origin is {}, expected 0 or 1", origin);
+    chunk.provenance = origin == 0 ? store::Provenance::Generated : store::Provenance::Edited;
+    chunk.seed = store::checksumSeed(pos, origin != 0);
+    return chunk;
+}
+
+StoredRow readRow(Connection& connection, ChunkPos pos) {
+    const auto rows = connection.run(kRead, Parameters().number(store::keyOf(pos)));
+    if (!rows) return tl::unexpected(rows.error());
+    if (rows->count() == 0) return std::optional<StoredChunk>();
+    return std::optional(storedChunk(*rows, 0, 0, pos));
+}
+
+base::Result<std::vector<ChunkPos>> readEditedChunks(Connection& connection) {
+    const auto rows = connection.run(kEdited, Parameters().number(store::kFirstTileKey));
+    if (!rows) return tl::unexpected(rows.error());
+    std::vector<ChunkPos> edited;
+    edited.reserve(static_cast<std::size_t>(rows->count()));
+    for (int row = 0; row < rows->count(); ++row) edited.push_back(store::posOf(rows->number(row, 0)));
+    return edited;
+}
+
+StoredRow ChunkQueries::read(ChunkPos pos) {
+    return pool_.run<std::optional<StoredChunk>>(
+        [&](Connection& connection) { return readRow(connection, pos); });
+}
+
+void ChunkQueries::readMany(std::span<const ChunkPos> positions, const store::ReadableRows::TakeRow& take) {
+    for (std::size_t first = 0; first < positions.size(); first += kRowsAtOnce) {
+        const auto group = positions.subspan(first, std::min(kRowsAtOnce, positions.size() - first));
+        std::vector<std::int64_t> keys;
+        for (const ChunkPos pos : group) keys.push_back(store::keyOf(pos));
+        const auto rows = pool_.run<Rows>(
+            [&](Connection& connection) { return connection.run(kReadMany, Parameters().numbers(keys)); });
+        std::unordered_map<std::int64_t, int> rowOf;
+        for (int row = 0; rows && row < rows->count(); ++row) rowOf[rows->number(row, 0)] = row;
+        for (std::size_t k = 0; k < group.size(); ++k) {
+            if (!rows) {
+                take(first + k, tl::unexpected(rows.error()));
+                continue;
+            }
+            const auto found = rowOf.find(keys[k]);
+            take(first + k, found == rowOf.end()
+                                ? std::optional<StoredChunk>()
+                                : std::optional(storedChunk(*rows, found->second, 1, group[k])));
+        }
+    }
+}
+
+base::Result<bool> ChunkQueries::contains(ChunkPos pos) {
+    return pool_.run<bool>([&](Connection& connection) -> base::Result<bool> {
+        const auto rows = connection.run(kContains, Parameters().number(store::keyOf(pos)));
+        if (!rows) return tl::unexpected(rows.error());
+        return rows->number(0, 0) != 0;
+    });
+}
+
+base::Result<std::vector<ChunkPos>> ChunkQueries::editedChunks() {
+    return pool_.run<std::vector<ChunkPos>>(
+        [](Connection& connection) { return readEditedChunks(connection); });
+}
+
+}  // namespace terrane::store_postgres

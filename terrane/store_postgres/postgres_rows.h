@@ -1,0 +1,32 @@
+// The rows of a world in PostgreSQL, as a store uses them.
+#pragma once
+
+#include <memory>
+
+#include "terrane/store/queued_store.h"
+#include "terrane/store_postgres/connection_pool.h"
+#include "terrane/store_postgres/world_database.h"
+
+namespace terrane::store_postgres {
+
+// Reads on any number of threads, each by a connection of the pool for the moment.
+class ChunkQueries {
+  public:
+    explicit ChunkQueries(ConnectionPool& pool) : pool_(pool) {}
+
+    [[nodiscard]] store::StoredRow read(world::ChunkPos pos);
+    void readMany(std::span<const world::ChunkPos> positions, const store::ReadableRows::TakeRow& take);
+    [[nodiscard]] base::Result<bool> contains(world::ChunkPos pos);
+    [[nodiscard]] base::Result<std::vector<world::ChunkPos>> editedChunks();
+
+  private:
+    ConnectionPool& pool_;
+};
+
+// By one connection: what its transaction sees.
+[[nodiscard]] store::StoredRow readRow(Connection& connection, world::ChunkPos pos);
+[[nodiscard]] base::Result<std::vector<world::ChunkPos>> readEditedChunks(Connection& connection);
+// The row that the columns from `column` on have: data, origin.
+store::StoredChunk storedChunk(const Rows& rows, int row, int column, world::ChunkPos pos);
+
+}  // namespace terrane::store_postgres

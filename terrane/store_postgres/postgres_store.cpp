@@ -1,0 +1,81 @@
+#include "terrane/store_postgres/postgres_store.h"
+
+#include <utility>
+
+#include "terrane/store_postgres/postgres_rows.h"
+#include "terrane/store_postgres/postgres_writer.h"
+
+namespace terrane::store_postgres {
+namespace {
+
+using world::ChunkPos;
+
+// What readers and writers have in common; `Base` is store::ReadableRows or store::ChunkRows.
+template <class Base>
+class PostgresReadRows : public Base {
+  public:
+    PostgresReadRows(const Address& address, RetryTimes times, WorldContents contents)
+        : pool_(address, times), contents_(std::move(contents)) {}
+
+    const std::string& name() const override { return pool_.address().shown; }
+    const store::WorldIdentity& identity() const override { return contents_.identity; }
+    const store::Metadata& metadata() const override { return contents_.metadata; }
+    const store::BlockIdMap& ids() const override { return contents_.ids; }
+    store::StoredRow read(ChunkPos pos) override { return queries_.read(pos); }
+    void readMany(std::span<const ChunkPos> positions, const store::ReadableRows::TakeRow& take) override {
+        queries_.readMany(positions, take);
+    }
+    base::Result<bool> contains(ChunkPos pos) override { return queries_.contains(pos); }
+    base::Result<std::vector<ChunkPos>> editedChunks() override { return queries_.editedChunks(); }
+
+  protected:
+    ConnectionPool pool_;
+    WorldContents contents_;
+
+  private:
+    ChunkQueries queries_{pool_};
+};
+
+class PostgresRows : public PostgresReadRows<store::ChunkRows> {
+  public:
+    PostgresRows(const Address& address, RetryTimes times, WorldConnection opened,
+                 store::WorldSharing sharing)
+        : PostgresReadRows(address, times, std::move(opened.contents)),
+          writer_(pool_, contents_, std::move(opened.connection), sharing) {}
+
+    base::Result<bool> write(const store::SaveBatch& batch, const store::ChunkPosSet& unread,
+                             const store::DeriveBatch& derive) override {
+        return writer_.write(batch, unread, derive);
+    }
+    base::Result<void> deriveAll(const store::DerivedRows& rows, std::string_view rules,
+                                 store::EntityBudget& budget) override {
+        return writer_.deriveAll(rows, rules, budget);
+    }
+
+  private:
+    PostgresWriter writer_;
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<PostgresStore>> PostgresStore::open(
+    const Address& address, const world::BlockRegistry& blocks, const store::SaveAccess& access,
+    store::WorldSharing sharing, const store::SaveLimits& limits, RetryTimes times) {
+    auto opened = openToWrite(address, blocks, access, sharing);
+    if (!opened) return tl::unexpected(opened.error());
+    auto rows = std::make_unique<PostgresRows>(address, times, std::move(*opened), sharing);
+    return std::unique_ptr<PostgresStore>(new PostgresStore(std::move(rows), limits));
+}
+
+base::Result<std::unique_ptr<store::ReadableStore>> openReader(const Address& address,
+                                                               const world::BlockRegistry& blocks,
+                                                               const store::SaveLimits& limits,
+                                                               RetryTimes times) {
+    auto opened = openToRead(address, blocks);
+    if (!opened) return tl::unexpected(opened.error());
+    return std::make_unique<store::RowsReader>(
+        std::make_unique<PostgresReadRows<store::ReadableRows>>(address, times, std::move(opened->contents)),
+        limits);
+}
+
+}  // namespace terrane::store_postgres

@@ -1,0 +1,246 @@
+#include "terrane/store_postgres/postgres_writer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/base/profile.h"
+#include "terrane/store/chunk_codec.h"
+#include "terrane/store/chunk_key.h"
+#include "terrane/store_postgres/postgres_rows.h"
+#include "terrane/store_postgres/world_locks.h"
+
+namespace terrane::store_postgres {
+namespace {
+
+using store::ChunkRow;
+using store::Provenance;
+using store::StoredRow;
+using world::ChunkPos;
+
+constexpr Statement kPutChunks = {
+    "INSERT INTO chunks (key, origin, data) SELECT * FROM unnest($1::bigint[], $2::smallint[], $3::bytea[]) "
+    "ON CONFLICT (key) DO UPDATE SET origin = excluded.origin, data = excluded.data "
+    "WHERE excluded.origin <> 0 OR chunks.origin = 0"};
+constexpr Statement kDeleteChunks = {"DELETE FROM chunks WHERE key = ANY ($1)"};
+constexpr Statement kExisting = {"SELECT key FROM chunks WHERE key = ANY ($1)"};
+constexpr Statement kPutAside = {
+    "WITH gone AS (DELETE FROM chunks WHERE key = $1 RETURNING key, data) "
+    "INSERT INTO quarantine (key, reason, data) SELECT key, $2, data FROM gone"};
+constexpr Statement kDeleteTiles = {"DELETE FROM chunks WHERE key >= $1"};
+constexpr Statement kPutSetting = {
+    "INSERT INTO settings (name, value) VALUES ($1, $2) ON CONFLICT (name) DO UPDATE SET value = "
+    "excluded.value"};
+constexpr Statement kRemoveSetting = {"DELETE FROM settings WHERE name = $1"};
+
+// Of data in one statement.
+constexpr std::size_t kBytesAtOnce = 8 << 20;
+
+// PostgreSQL keeps text that is UTF-8 without zeros.
+bool isText(std::string_view text) {
+    if (text.find('\0') != std::string_view::npos) return false;
+    for (std::size_t at = 0; at < text.size();) {
+        const auto lead = static_cast<unsigned char>(text[at]);
+        const std::size_t length = lead < 0x80 ? 1 : lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+        if ((lead >= 0x80 && lead < 0xC2) || lead > 0xF4 || at + length > text.size()) return false;
+        for (std::size_t k = 1; k < length; ++k)
+            if ((static_cast<unsigned char>(text[at + k]) & 0xC0) != 0x80) return false;
+        const auto second = length > 1 ? static_cast<unsigned char>(text[at + 1]) : 0;
+        // Too long a form, halves of a pair, beyond the last character.
+        if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
+            (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F))
+            return false;
+        at += length;
+    }
+    return true;
+}
+
+}  // namespace
+
+template <class T, class Do>
+base::Result<T> PostgresWriter::inTransaction(Do action) {
+    return pool_.retry<T>([&]() -> base::Result<T> {
+        if (!connection_.isUsable()) {
+            auto connection = reconnect(pool_.address(), sharing_);
+            if (!connection) return tl::unexpected(connection.error());
+            connection_ = std::move(*connection);
+        }
+        if (auto begun = connection_.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
+        base::Result<T> done = action();
+        if (done) {
+            auto committed = connection_.execute("COMMIT");
+            if (!committed) return tl::unexpected(committed.error());
+        } else if (connection_.isUsable()) {
+            (void)connection_.execute("ROLLBACK");
+        }
+        return done;
+    });
+}
+
+base::Result<bool> PostgresWriter::write(const store::SaveBatch& batch, const store::ChunkPosSet& unread,
+                                         const store::DeriveBatch& derive) {
+    TERRANE_ZONE("save batch");
+    return inTransaction<bool>([&] { return writeBatch(batch, unread, derive); });
+}
+
+base::Result<void> PostgresWriter::deriveAll(const store::DerivedRows& rows, std::string_view rules,
+                                             store::EntityBudget& budget) {
+    TERRANE_ZONE("derive all rows");
+    return inTransaction<void>([&] { return deriveRows(rows, rules, budget); });
+}
+
+// Tiles follow from chunks of several servers: who derives some holds the lock, and sees what others wrote.
+base::Result<bool> PostgresWriter::writeBatch(const store::SaveBatch& batch, const store::ChunkPosSet& unread,
+                                              const store::DeriveBatch& derive) {
+    isComplete_ = true;
+    if (!batch.editedChunks().empty())
+        if (auto locked = lockForTransaction(connection_, pool_.address(), WorldLock::Tiles); !locked)
+            return tl::unexpected(locked.error());
+    const auto derived = derive([this](ChunkPos pos) { return readRow(connection_, pos); });
+    if (!derived) return tl::unexpected(derived.error());
+    isComplete_ = derived->isComplete;
+    for (const store::DamagedRow& row : batch.damaged)
+        if (auto done = quarantine(row); !done) return tl::unexpected(done.error());
+    for (const ChunkPos pos : unread)
+        if (auto done = putAside(pos, "could not be read when it was replaced"); !done)
+            return tl::unexpected(done.error());
+    std::vector<ChunkRow> generated, edited;
+    for (const auto& [pos, chunk] : batch.chunks)
+        (chunk.provenance == Provenance::Edited ? edited : generated).push_back({pos, chunk.chunk});
+    if (auto done = writeChunks(generated, Provenance::Generated); !done) return tl::unexpected(done.error());
+    if (auto done = writeChunks(edited, Provenance::Edited); !done) return tl::unexpected(done.error());
+    if (auto done = writeDerived(derived->rows); !done) return tl::unexpected(done.error());
+    store::Metadata metadata(batch.metadata.begin(), batch.metadata.end());
+    if (auto done = writeMetadata(metadata); !done) return tl::unexpected(done.error());
+    return isComplete_;
+}
+
+base::Result<void> PostgresWriter::deriveRows(const store::DerivedRows& rows, std::string_view rules,
+                                              store::EntityBudget& budget) {
+    isComplete_ = true;
+    if (auto locked = lockForTransaction(connection_, pool_.address(), WorldLock::Tiles); !locked)
+        return locked;
+    const auto deleted = connection_.run(kDeleteTiles, Parameters().number(store::kFirstTileKey));
+    if (!deleted) return tl::unexpected(deleted.error());
+    auto edited = readEditedChunks(connection_);
+    if (!edited) return tl::unexpected(edited.error());
+    store::SavedRows saved([this](ChunkPos pos) { return readRow(connection_, pos); }, contents_.ids, budget);
+    const auto write = [&](std::span<const ChunkRow> group) {
+        return saved.result() ? writeDerived(group) : saved.result();
+    };
+    auto derived = store::deriveInGroups(rows, std::move(*edited), saved.reader(), write);
+    if (!derived) return derived;
+    if (!saved.result()) return saved.result();
+    const auto marked = connection_.run(kPutSetting, Parameters().text(store::kDerivedRowsMark).text(rules));
+    if (!marked) return tl::unexpected(marked.error());
+    return {};
+}
+
+base::Result<void> PostgresWriter::writeMetadata(const store::Metadata& metadata) {
+    std::vector<Command> commands;
+    for (const auto& [name, value] : metadata) {
+        if (isText(name) && isText(value))
+            commands.push_back({&kPutSetting, Parameters().text(name).text(value)});
+        else
+            base::logError("{}: the setting {} is no text in UTF-8, and is not saved", connection_.shown(),
+                           name.substr(0, 64));
+    }
+    if (!isComplete_) commands.push_back({&kRemoveSetting, Parameters().text(store::kDerivedRowsMark)});
+    if (commands.empty()) return {};
+    const auto done = connection_.runAll(commands);
+    if (!done) return tl::unexpected(done.error());
+    return {};
+}
+
+// Rows in the order of their keys: two writers wait for each other, and never in a circle.
+base::Result<void> PostgresWriter::writeChunks(std::span<const ChunkRow> rows, Provenance provenance) {
+    std::vector<std::int64_t> keys;
+    for (const ChunkRow& row : rows) keys.push_back(store::keyOf(row.pos));
+    if (auto done = putAsideDamaged(keys); !done) return done;
+    const bool isEdited = provenance == Provenance::Edited;
+    keys.clear();
+    std::vector<store::Bytes> data;
+    std::size_t bytes = 0;
+    const auto put = [&]() -> base::Result<void> {
+        const std::vector<std::int16_t> origins(keys.size(), isEdited ? 1 : 0);
+        const auto done =
+            connection_.run(kPutChunks, Parameters().numbers(keys).smallNumbers(origins).byteStrings(data));
+        keys.clear();
+        data.clear();
+        bytes = 0;
+        if (!done) return tl::unexpected(done.error());
+        return {};
+    };
+    for (const ChunkRow& row : rows) {
+        auto encoded = store::encodeChunk(*row.chunk, contents_.ids, store::checksumSeed(row.pos, isEdited));
+        if (!encoded) {
+            base::logError("{}: {}: {}; it is not saved", connection_.shown(), store::nameOf(row.pos),
+                           encoded.error().message);
+            isComplete_ = false;
+            continue;
+        }
+        keys.push_back(store::keyOf(row.pos));
+        bytes += encoded->size();
+        data.push_back(std::move(*encoded));
+        if (bytes < kBytesAtOnce) continue;
+        if (auto done = put(); !done) return done;
+    }
+    return keys.empty() ? base::Result<void>() : put();
+}
+
+base::Result<void> PostgresWriter::writeDerived(std::span<const ChunkRow> rows) {
+    std::vector<ChunkRow> written;
+    std::vector<std::int64_t> deleted;
+    for (const ChunkRow& row : rows) {
+        if (row.chunk)
+            written.push_back(row);
+        else
+            deleted.push_back(store::keyOf(row.pos));
+    }
+    std::ranges::sort(written, {}, [](const ChunkRow& row) { return store::keyOf(row.pos); });
+    if (auto done = writeChunks(written, Provenance::Edited); !done || deleted.empty()) return done;
+    const auto done = connection_.run(kDeleteChunks, Parameters().numbers(deleted));
+    if (!done) return tl::unexpected(done.error());
+    return {};
+}
+
+base::Result<void> PostgresWriter::putAside(ChunkPos pos, std::string_view reason) {
+    isComplete_ = false;
+    const std::string_view text = isText(reason) ? reason : "damaged";
+    const auto done = connection_.run(kPutAside, Parameters().number(store::keyOf(pos)).text(text));
+    if (!done) return tl::unexpected(done.error());
+    return {};
+}
+
+base::Result<void> PostgresWriter::quarantine(const store::DamagedRow& row) {
+    isComplete_ = false;
+    const StoredRow there = readRow(connection_, row.pos);
+    if (!there) return tl::unexpected(there.error());
+    if (!*there || store::hashOfRow((*there)->data) != row.hash) return {};
+    return putAside(row.pos, row.reason);
+}
+
+// What is there is looked at before it is overwritten: a row that was damaged is kept, also where nobody has
+// tried to load it.
+base::Result<void> PostgresWriter::putAsideDamaged(const std::vector<std::int64_t>& keys) {
+    if (keys.empty()) return {};
+    const auto existing = connection_.run(kExisting, Parameters().numbers(keys));
+    if (!existing) return tl::unexpected(existing.error());
+    for (int row = 0; row < existing->count(); ++row) {
+        const ChunkPos pos = store::posOf(existing->number(row, 0));
+        const StoredRow stored = readRow(connection_, pos);
+        if (!stored) return tl::unexpected(stored.error());
+        if (!*stored) continue;
+        std::string problem = (*stored)->problem;
+        if (problem.empty())
+            if (auto good = store::verifyChunk((*stored)->data, (*stored)->seed); !good)
+                problem = good.error().message;
+        if (problem.empty()) continue;
+        base::logWarning("{}: {}: {}; what it had is kept in the table quarantine", connection_.shown(),
+                         store::nameOf(pos), problem);
+        if (auto done = putAside(pos, problem); !done) return done;
+    }
+    return {};
+}
+
+}  // namespace terrane::store_postgres

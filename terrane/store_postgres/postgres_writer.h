@@ -1,0 +1,49 @@
+// Writes batches and derived rows into a world in PostgreSQL, each call in one transaction, by the connection
+// that holds the world's locks. Used by one thread at a time.
+#pragma once
+
+#include <optional>
+
+#include "terrane/store/queued_store.h"
+#include "terrane/store_postgres/connection_pool.h"
+#include "terrane/store_postgres/world_database.h"
+
+namespace terrane::store_postgres {
+
+class PostgresWriter {
+  public:
+    // Keeps the pool, whose times say how long it is tried again, and the contents. `connection` has the
+    // locks of `sharing`; a new one takes its place where it is lost.
+    PostgresWriter(ConnectionPool& pool, const WorldContents& contents, Connection connection,
+                   store::WorldSharing sharing)
+        : pool_(pool), contents_(contents), connection_(std::move(connection)), sharing_(sharing) {}
+
+    // As store::ChunkRows. A transaction that was cut off at its very end is written again: the rows are the
+    // same.
+    [[nodiscard]] base::Result<bool> write(const store::SaveBatch& batch, const store::ChunkPosSet& unread,
+                                           const store::DeriveBatch& derive);
+    [[nodiscard]] base::Result<void> deriveAll(const store::DerivedRows& rows, std::string_view rules,
+                                               store::EntityBudget& budget);
+
+  private:
+    template <class T, class Do>
+    base::Result<T> inTransaction(Do action);
+    base::Result<bool> writeBatch(const store::SaveBatch& batch, const store::ChunkPosSet& unread,
+                                  const store::DeriveBatch& derive);
+    base::Result<void> deriveRows(const store::DerivedRows& rows, std::string_view rules,
+                                  store::EntityBudget& budget);
+    base::Result<void> quarantine(const store::DamagedRow& row);
+    base::Result<void> putAside(world::ChunkPos pos, std::string_view reason);
+    base::Result<void> putAsideDamaged(const std::vector<std::int64_t>& keys);
+    base::Result<void> writeDerived(std::span<const store::ChunkRow> rows);
+    base::Result<void> writeChunks(std::span<const store::ChunkRow> rows, store::Provenance provenance);
+    base::Result<void> writeMetadata(const store::Metadata& metadata);
+
+    ConnectionPool& pool_;
+    const WorldContents& contents_;
+    Connection connection_;
+    store::WorldSharing sharing_;
+    bool isComplete_ = true;  // of the transaction that runs
+};
+
+}  // namespace terrane::store_postgres

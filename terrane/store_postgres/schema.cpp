@@ -1,0 +1,112 @@
+#include "terrane/store_postgres/schema.h"
+
+#include <map>
+
+namespace terrane::store_postgres {
+namespace {
+
+using base::ErrorCode;
+
+// Data of chunks is compressed already. Rows up to a page stay in one place, which spares loading a look into
+// another table.
+constexpr const char* kWorldTables = R"(
+CREATE TABLE terrane_format (format integer NOT NULL);
+CREATE TABLE settings (name text COLLATE "C" PRIMARY KEY, value text NOT NULL);
+CREATE TABLE blocks (id integer PRIMARY KEY CHECK (id BETWEEN 0 AND 65535), name text COLLATE "C" NOT NULL UNIQUE);
+CREATE TABLE chunks (key bigint PRIMARY KEY, origin smallint NOT NULL CHECK (origin IN (0, 1)), data bytea NOT NULL)
+    WITH (toast_tuple_target = 8160);
+ALTER TABLE chunks ALTER COLUMN data SET STORAGE EXTERNAL;
+CREATE INDEX edited_chunks ON chunks (key) WHERE origin = 1;
+CREATE TABLE quarantine (number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY, key bigint NOT NULL,
+    reason text NOT NULL, data bytea NOT NULL);
+)";
+
+constexpr const char* kSteps[] = {kWorldTables};
+
+// What the program reads and writes by type.
+struct Column {
+    const char *table, *column, *type;
+};
+constexpr Column kColumns[] = {
+    {"terrane_format", "format", "integer"},
+    {"settings", "name", "text"},
+    {"settings", "value", "text"},
+    {"blocks", "id", "integer"},
+    {"blocks", "name", "text"},
+    {"chunks", "key", "bigint"},
+    {"chunks", "origin", "smallint"},
+    {"chunks", "data", "bytea"},
+    {"quarantine", "number", "bigint"},
+    {"quarantine", "key", "bigint"},
+    {"quarantine", "reason", "text"},
+    {"quarantine", "data", "bytea"},
+};
+
+constexpr Statement kCountTables = {
+    "SELECT count(*), count(*) FILTER (WHERE relname = 'terrane_format' AND relkind = 'r') FROM pg_class "
+    "WHERE relnamespace = (SELECT oid FROM pg_namespace WHERE nspname = current_schema()) "
+    "AND relkind IN ('r', 'p', 'v', 'm', 'f')"};
+constexpr Statement kCountSchemas = {"SELECT count(*) FROM pg_namespace WHERE nspname = $1"};
+constexpr Statement kFormat = {"SELECT format::bigint FROM terrane_format"};
+constexpr Statement kColumnTypes = {
+    "SELECT table_name::text, column_name::text, data_type::text FROM information_schema.columns "
+    "WHERE table_schema = current_schema()"};
+
+}  // namespace
+
+std::span<const char* const> formatSteps() {
+    return kSteps;
+}
+
+base::Result<int> formatOf(Connection& connection, int newest) {
+    const auto tables = connection.run(kCountTables);
+    if (!tables) return tl::unexpected(tables.error());
+    if (tables->number(0, 0) == 0) return 0;
+    if (tables->number(0, 1) == 0)
+        return base::fail(ErrorCode::Incompatible, "{}: the schema holds tables of another program, no world",
+                          connection.shown());
+    const auto format = connection.run(kFormat);
+    if (!format) return tl::unexpected(format.error());
+    const std::int64_t number = format->count() == 1 ? format->number(0, 0) : 0;
+    if (number < 1)
+        return base::fail(ErrorCode::Damaged, "{}: damaged: its format is not one number above 0",
+                          connection.shown());
+    if (number > newest)
+        return base::fail(ErrorCode::Incompatible,
+                          "{}: in format {}, this program reads up to format {}: use a newer version",
+                          connection.shown(), number, newest);
+    return static_cast<int>(number);
+}
+
+base::Result<void> migrate(Connection& connection, const std::string& schema, int from,
+                           std::span<const char* const> steps) {
+    const auto schemas = connection.run(kCountSchemas, Parameters().text(schema));
+    if (!schemas) return tl::unexpected(schemas.error());
+    std::string sql = "BEGIN;";
+    // Not "IF NOT EXISTS", which needs the right to make some.
+    if (schemas->number(0, 0) == 0) sql += fmt::format("CREATE SCHEMA {};", connection.quoted(schema));
+    for (const char* step : steps.subspan(static_cast<std::size_t>(from))) sql += step;
+    sql += fmt::format("DELETE FROM terrane_format; INSERT INTO terrane_format VALUES ({}); COMMIT",
+                       steps.size());
+    auto done = connection.execute(sql);
+    if (!done && connection.isUsable()) (void)connection.execute("ROLLBACK");
+    return done;
+}
+
+base::Result<void> checkColumns(Connection& connection) {
+    const auto rows = connection.run(kColumnTypes);
+    if (!rows) return tl::unexpected(rows.error());
+    std::map<std::pair<std::string_view, std::string_view>, std::string_view> types;
+    for (int row = 0; row < rows->count(); ++row)
+        types[{rows->text(row, 0), rows->text(row, 1)}] = rows->text(row, 2);
+    for (const auto& [table, column, type] : kColumns) {
+        const auto found = types.find({table, column});
+        if (found == types.end() || found->second != type)
+            return base::fail(ErrorCode::Incompatible, "{}: not a world: {}.{} is {}, expected {}",
+                              connection.shown(), table, column,
+                              found == types.end() ? "missing" : found->second, type);
+    }
+    return {};
+}
+
+}  // namespace terrane::store_postgres

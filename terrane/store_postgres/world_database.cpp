@@ -1,0 +1,265 @@
+#include "terrane/store_postgres/world_database.h"
+
+#include <set>
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/store/chunk_key.h"
+#include "terrane/store/derived_rows.h"
+#include "terrane/store_postgres/schema.h"
+#include "terrane/store_postgres/world_locks.h"
+
+namespace terrane::store_postgres {
+namespace {
+
+using base::ErrorCode;
+using store::Provenance;
+using store::Regenerate;
+using store::SavedName;
+using store::WorldSharing;
+
+constexpr Statement kCanWrite = {
+    "SELECT has_table_privilege('chunks', 'INSERT') AND has_table_privilege('chunks', 'UPDATE') "
+    "AND has_table_privilege('settings', 'INSERT'), current_setting('transaction_read_only') = 'on'"};
+constexpr Statement kSettings = {"SELECT name, value FROM settings"};
+constexpr Statement kBlocks = {"SELECT id, name FROM blocks ORDER BY id"};
+constexpr Statement kPutSetting = {
+    "INSERT INTO settings (name, value) VALUES ($1, $2) ON CONFLICT (name) DO UPDATE SET value = "
+    "excluded.value"};
+constexpr Statement kRemoveSetting = {"DELETE FROM settings WHERE name = $1"};
+constexpr Statement kAddBlocks = {
+    "INSERT INTO blocks (id, name) SELECT * FROM unnest($1::bigint[], $2::text[])"};
+constexpr Statement kSchemaExists = {"SELECT count(*) FROM pg_namespace WHERE nspname = $1"};
+constexpr Statement kDeleteGenerated = {"DELETE FROM chunks WHERE origin = 0 OR key >= $1"};
+constexpr Statement kDeleteChunks = {"DELETE FROM chunks"};
+constexpr Statement kDeleteQuarantine = {"DELETE FROM quarantine"};
+
+base::Result<void> checkCanWrite(Connection& connection) {
+    const auto rows = connection.run(kCanWrite);
+    if (!rows) return tl::unexpected(rows.error());
+    if (rows->number(0, 1) != 0)
+        return base::fail(ErrorCode::Refused, "{}: the database is read-only, as a replica is",
+                          connection.shown());
+    if (rows->number(0, 0) != 0) return {};
+    return base::fail(ErrorCode::Refused, "{}: this user may read the world, not write it",
+                      connection.shown());
+}
+
+base::Result<void> createWorld(Connection& connection, const Address& address,
+                               const store::WorldIdentity& identity) {
+    if (auto made = migrate(connection, address.schema, 0); !made) return made;
+    std::vector<Command> commands;
+    for (const auto& [name, value] : store::metadataOf(identity))
+        commands.push_back({&kPutSetting, Parameters().text(name).text(value)});
+    auto done = connection.runAll(commands);
+    if (!done) return tl::unexpected(done.error());
+    return {};
+}
+
+base::Result<void> makeCurrent(Connection& connection, const Address& address,
+                               const store::SaveAccess& access, WorldContents& contents) {
+    auto format = formatOf(connection);
+    if (!format) return tl::unexpected(format.error());
+    contents.format = newestFormat();
+    if (*format == 0) {
+        if (!access.create) return base::fail(ErrorCode::NotFound, "{}: there is no world", address.shown);
+        contents.isNew = true;
+        return doAlone(connection, address, [&] { return createWorld(connection, address, *access.create); });
+    }
+    if (*format == newestFormat()) return {};
+    auto done = doAlone(connection, address, [&] { return migrate(connection, address.schema, *format); });
+    if (done) base::logInfo("{}: brought from format {} to {}", address.shown, *format, newestFormat());
+    return done;
+}
+
+base::Result<store::Metadata> readMetadata(Connection& connection) {
+    const auto rows = connection.run(kSettings);
+    if (!rows) return tl::unexpected(rows.error());
+    store::Metadata metadata;
+    std::size_t bytes = 0;
+    for (int row = 0; row < rows->count(); ++row) {
+        bytes += rows->text(row, 0).size() + rows->text(row, 1).size();
+        metadata.emplace(rows->text(row, 0), rows->text(row, 1));
+    }
+    if (bytes <= store::kMaxMetadataBytes && metadata.size() <= store::kMaxMetadata) return metadata;
+    return base::fail(ErrorCode::Damaged, "{}: damaged: more than {} settings, or more than {} bytes of them",
+                      connection.shown(), store::kMaxMetadata, store::kMaxMetadataBytes);
+}
+
+base::Result<std::vector<SavedName>> readBlockNames(Connection& connection) {
+    const auto rows = connection.run(kBlocks);
+    if (!rows) return tl::unexpected(rows.error());
+    std::vector<SavedName> names;
+    std::set<std::string_view> seen;
+    for (int row = 0; row < rows->count(); ++row) {
+        const std::int64_t id = rows->number(row, 0);
+        const std::string_view name = rows->text(row, 1);
+        if (id < 0 || id > 65535 || name.size() > store::kMaxNameBytes)
+            return base::fail(ErrorCode::Damaged, "{}: damaged: the block {} has the id {}",
+                              connection.shown(), name.substr(0, 64), id);
+        if (!seen.insert(name).second || (!names.empty() && id == names.back().id))
+            return base::fail(ErrorCode::Damaged, "{}: damaged: the block {} is there twice",
+                              connection.shown(), name);
+        names.push_back({static_cast<world::BlockId>(id), std::string(name)});
+    }
+    return names;
+}
+
+base::Result<void> readContents(Connection& connection, const world::BlockRegistry& blocks,
+                                WorldContents& contents) {
+    if (auto same = checkColumns(connection); !same) return same;
+    auto metadata = readMetadata(connection);
+    if (!metadata) return tl::unexpected(metadata.error());
+    auto identity = store::identityFrom(*metadata, connection.shown());
+    if (!identity) return tl::unexpected(identity.error());
+    const auto names = readBlockNames(connection);
+    if (!names) return tl::unexpected(names.error());
+    auto ids = store::BlockIdMap::make(blocks, *names);
+    if (!ids) return base::fail(ids.error().code, "{}: {}", connection.shown(), ids.error().message);
+    contents.metadata = std::move(*metadata);
+    contents.identity = std::move(*identity);
+    contents.ids = std::move(*ids);
+    return {};
+}
+
+void reportUnknown(const Connection& connection, const WorldContents& contents) {
+    const std::vector<std::string>& names = contents.ids.unknown();
+    if (names.empty()) return;
+    base::logWarning("{}: {} block types are unknown here and shown as missing, the first is {}",
+                     connection.shown(), names.size(), names.front());
+}
+
+base::Result<void> addNewNames(Connection& connection, const Address& address, const store::BlockIdMap& ids) {
+    if (ids.added().empty()) return {};
+    std::vector<std::int64_t> numbers;
+    std::vector<std::string> names;
+    for (const SavedName& added : ids.added()) {
+        numbers.push_back(added.id);
+        names.push_back(added.name);
+    }
+    return doAlone(connection, address, [&]() -> base::Result<void> {
+        auto done = connection.run(kAddBlocks, Parameters().numbers(numbers).texts(names));
+        if (!done) return tl::unexpected(done.error());
+        return {};
+    });
+}
+
+// "terrane_backup_1", or the first number that is free.
+base::Result<std::string> freeSchema(Connection& connection, const Address& address) {
+    for (int number = 1;; ++number) {
+        // Names of more than 63 bytes are cut off by PostgreSQL.
+        std::string name = fmt::format("{}_backup_{}", address.schema.substr(0, 48), number);
+        const auto found = connection.run(kSchemaExists, Parameters().text(name));
+        if (!found) return tl::unexpected(found.error());
+        if (found->number(0, 0) == 0) return name;
+    }
+}
+
+// A world of its own, with everything as it is.
+std::string copySql(Connection& connection, const Address& address, const std::string& copy) {
+    const std::string to = connection.quoted(copy), from = connection.quoted(address.schema);
+    std::string sql = fmt::format("CREATE SCHEMA {0}; SET LOCAL search_path = {0};", to);
+    for (const char* step : formatSteps()) sql += step;
+    for (const char* table : {"terrane_format", "settings", "blocks", "chunks"})
+        sql += fmt::format("INSERT INTO {0}.{2} SELECT * FROM {1}.{2};", to, from, table);
+    sql += fmt::format(
+        "INSERT INTO {0}.quarantine (key, reason, data) SELECT key, reason, data FROM "
+        "{1}.quarantine ORDER BY number; SET LOCAL search_path = {1};",
+        to, from);
+    return sql;
+}
+
+base::Result<void> regenerate(Connection& connection, const Address& address, const store::Regeneration& by) {
+    const auto copy = freeSchema(connection, address);
+    if (!copy) return tl::unexpected(copy.error());
+    if (auto done = connection.execute("BEGIN;" + copySql(connection, address, *copy)); !done) {
+        (void)connection.execute("ROLLBACK");
+        return done;
+    }
+    std::vector<Command> commands;
+    if (by.chunks == Regenerate::All) {
+        commands.push_back({&kDeleteChunks});
+        commands.push_back({&kDeleteQuarantine});
+    } else {
+        commands.push_back({&kDeleteGenerated, Parameters().number(store::kFirstTileKey)});
+    }
+    commands.push_back({&kRemoveSetting, Parameters().text(store::kDerivedRowsMark)});
+    commands.push_back(
+        {&kPutSetting, Parameters().text("generator_version").text(std::to_string(by.generatorVersion))});
+    const auto done = connection.runAll(commands);
+    if (!done) {
+        (void)connection.execute("ROLLBACK");
+        return tl::unexpected(done.error());
+    }
+    if (auto committed = connection.execute("COMMIT"); !committed) return committed;
+    base::logInfo("{}: regenerated{}; the world as it was is the schema {}", address.shown,
+                  by.chunks == Regenerate::All ? "" : " but for chunks with edits", *copy);
+    return {};
+}
+
+base::Result<void> regenerateIfAsked(Connection& connection, const Address& address,
+                                     const world::BlockRegistry& blocks, const store::SaveAccess& access,
+                                     WorldContents& contents) {
+    if (contents.isNew || !access.decide) return {};
+    const auto by = access.decide(contents.identity);
+    if (!by) return tl::unexpected(by.error());
+    if (by->chunks == Regenerate::None) return {};
+    auto done = doAlone(connection, address, [&] { return regenerate(connection, address, *by); });
+    return done ? readContents(connection, blocks, contents) : done;
+}
+
+base::Result<void> openContents(Connection& connection, const Address& address,
+                                const world::BlockRegistry& blocks, const store::SaveAccess& access,
+                                WorldContents& contents) {
+    if (auto done = makeCurrent(connection, address, access, contents); !done) return done;
+    if (auto can = checkCanWrite(connection); !can) return can;
+    if (auto read = readContents(connection, blocks, contents); !read) return read;
+    if (auto done = regenerateIfAsked(connection, address, blocks, access, contents); !done) return done;
+    return addNewNames(connection, address, contents.ids);
+}
+
+}  // namespace
+
+base::Result<WorldConnection> openToWrite(const Address& address, const world::BlockRegistry& blocks,
+                                          const store::SaveAccess& access, WorldSharing sharing) {
+    auto connection = Connection::open(address);
+    if (!connection) return tl::unexpected(connection.error());
+    if (auto waited = waitForOpening(*connection, address); !waited) return tl::unexpected(waited.error());
+    if (auto taken = takeSharedLocks(*connection, address, sharing); !taken)
+        return tl::unexpected(taken.error());
+    WorldConnection opened{std::move(*connection), {}};
+    if (auto done = openContents(opened.connection, address, blocks, access, opened.contents); !done)
+        return tl::unexpected(done.error());
+    if (auto released = releaseLock(opened.connection, address, WorldLock::Opening); !released)
+        return tl::unexpected(released.error());
+    reportUnknown(opened.connection, opened.contents);
+    return opened;
+}
+
+base::Result<WorldConnection> openToRead(const Address& address, const world::BlockRegistry& blocks) {
+    auto connection = Connection::open(address);
+    if (!connection) return tl::unexpected(connection.error());
+    const auto format = formatOf(*connection);
+    if (!format) return tl::unexpected(format.error());
+    if (*format == 0) return base::fail(ErrorCode::NotFound, "{}: there is no world", address.shown);
+    if (*format < newestFormat())
+        return base::fail(ErrorCode::Incompatible,
+                          "{}: in format {}; it is brought to format {} when it is opened to be written",
+                          address.shown, *format, newestFormat());
+    WorldConnection opened{std::move(*connection), {}};
+    opened.contents.format = *format;
+    if (auto read = readContents(opened.connection, blocks, opened.contents); !read)
+        return tl::unexpected(read.error());
+    reportUnknown(opened.connection, opened.contents);
+    return opened;
+}
+
+base::Result<Connection> reconnect(const Address& address, WorldSharing sharing) {
+    auto connection = Connection::open(address);
+    if (!connection) return connection;
+    if (auto taken = takeSharedLocks(*connection, address, sharing); !taken)
+        return tl::unexpected(taken.error());
+    return connection;
+}
+
+}  // namespace terrane::store_postgres

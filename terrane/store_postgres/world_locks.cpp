@@ -1,0 +1,84 @@
+#include "terrane/store_postgres/world_locks.h"
+
+#include <xxhash.h>
+
+namespace terrane::store_postgres {
+namespace {
+
+using base::ErrorCode;
+using store::WorldSharing;
+
+constexpr const char* kWaitForOpening = "20s";
+
+constexpr Statement kLock = {"SELECT pg_advisory_lock($1, $2)"};
+constexpr Statement kTryLock = {"SELECT pg_try_advisory_lock($1, $2)"};
+constexpr Statement kTryLockShared = {"SELECT pg_try_advisory_lock_shared($1, $2)"};
+constexpr Statement kUnlock = {"SELECT pg_advisory_unlock($1, $2)"};
+constexpr Statement kLockTransaction = {"SELECT pg_advisory_xact_lock($1, $2)"};
+constexpr Statement kHolder = {
+    "SELECT pid, coalesce(host(client_addr), 'the machine of the database') FROM pg_locks "
+    "JOIN pg_stat_activity USING (pid) WHERE locktype = 'advisory' AND granted AND pid <> pg_backend_pid() "
+    "AND database = (SELECT oid FROM pg_database WHERE datname = current_database()) "
+    "AND classid = ($1::bigint & 4294967295)::oid AND objid = ($2::bigint)::oid LIMIT 1"};
+
+// Advisory locks have two numbers: the first is the world's.
+std::int32_t numberOf(const Address& address) {
+    return static_cast<std::int32_t>(XXH32(address.schema.data(), address.schema.size(), 0));
+}
+
+Parameters lockParameters(const Address& address, WorldLock lock) {
+    return Parameters().integer(numberOf(address)).integer(static_cast<std::int32_t>(lock));
+}
+
+// "process 12 at 10.0.0.3"; of another user's less may be told.
+std::string holderOf(Connection& connection, const Address& address, WorldLock lock) {
+    const auto rows = connection.run(
+        kHolder, Parameters().number(numberOf(address)).number(static_cast<std::int64_t>(lock)));
+    if (!rows || rows->count() == 0) return "another program";
+    return fmt::format("another program (process {} of the server, from {})", rows->number(0, 0),
+                       rows->text(0, 1));
+}
+
+base::Result<void> tryLock(Connection& connection, const Address& address, WorldLock lock,
+                           const Statement& how) {
+    const auto taken = connection.run(how, lockParameters(address, lock));
+    if (!taken) return tl::unexpected(taken.error());
+    if (taken->number(0, 0) != 0) return {};
+    return base::fail(ErrorCode::Busy, "{}: open in {}", address.shown, holderOf(connection, address, lock));
+}
+
+}  // namespace
+
+base::Result<void> takeSharedLocks(Connection& connection, const Address& address, WorldSharing sharing) {
+    if (auto taken = tryLock(connection, address, WorldLock::Identity, kTryLockShared); !taken) return taken;
+    if (sharing == WorldSharing::Generating) return {};
+    return tryLock(connection, address, WorldLock::Edits,
+                   sharing == WorldSharing::Alone ? kTryLock : kTryLockShared);
+}
+
+// Openings of a world come one after the other.
+base::Result<void> waitForOpening(Connection& connection, const Address& address) {
+    const std::string shortly = fmt::format("SET lock_timeout = '{}'", kWaitForOpening);
+    if (auto done = connection.execute(shortly); !done) return done;
+    const auto taken = connection.run(kLock, lockParameters(address, WorldLock::Opening));
+    if (!taken) return tl::unexpected(taken.error());
+    return connection.execute("SET lock_timeout = 0");
+}
+
+base::Result<void> takeLock(Connection& connection, const Address& address, WorldLock lock) {
+    return tryLock(connection, address, lock, kTryLock);
+}
+
+base::Result<void> releaseLock(Connection& connection, const Address& address, WorldLock lock) {
+    const auto released = connection.run(kUnlock, lockParameters(address, lock));
+    if (!released) return tl::unexpected(released.error());
+    return {};
+}
+
+base::Result<void> lockForTransaction(Connection& connection, const Address& address, WorldLock lock) {
+    const auto taken = connection.run(kLockTransaction, lockParameters(address, lock));
+    if (!taken) return tl::unexpected(taken.error());
+    return {};
+}
+
+}  // namespace terrane::store_postgres
