@@ -4,7 +4,7 @@
 #include "terrane/content/built_in.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/memory_store.h"
-#include "terrane/store_postgres/open_any_world.h"
+#include "terrane/store_postgres/any_world.h"
 
 namespace terrane::app {
 
@@ -15,7 +15,8 @@ store::WorldIdentity identityOf(const WorldOptions& options) {
 
 base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options, const SaveOptions& save,
                                                           store::WorldAccess access,
-                                                          const world::BlockRegistry& blocks) {
+                                                          const world::BlockRegistry& blocks,
+                                                          store::WorldSharing sharing) {
     if (!options.seedText.empty())
         base::logInfo("the seed \"{}\" is the number {}", options.seedText, options.effectiveSeed());
     if (save.world.empty()) {
@@ -33,6 +34,7 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
     if (access != store::WorldAccess::ReadOnly) request.create = identityOf(options);
     request.wanted = {options.seed, options.generator, save.regenerate};
     request.versionOf = gen::generatorVersion;
+    request.sharing = sharing;
     auto opened = store_postgres::openAnyWorld(store::worldLocation(save.world), blocks, request);
     if (!opened) return opened;
     options.seed = (*opened)->identity().seed;

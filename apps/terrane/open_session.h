@@ -14,9 +14,9 @@ store::WorldIdentity identityOf(const WorldOptions& options);
 
 // Null where no world is named. Else `options` get its seed and generator; the world is refused, and left as
 // it is, where they ask for others. A world that is not there is made, but for ReadOnly.
-base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options, const SaveOptions& save,
-                                                          store::WorldAccess access,
-                                                          const world::BlockRegistry& blocks);
+base::Result<std::unique_ptr<store::ChunkStore>> openSave(
+    WorldOptions& options, const SaveOptions& save, store::WorldAccess access,
+    const world::BlockRegistry& blocks, store::WorldSharing sharing = store::WorldSharing::Alone);
 
 base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const world::BlockRegistry& blocks);
 

@@ -173,6 +173,14 @@ void addWorldOption(CLI::App& command, SaveOptions& save, const std::string& des
         ->type_name("NAME|FILE|URL");
 }
 
+void addWorldArgument(CLI::App& command, const std::string& name, std::string& world,
+                      const std::string& description) {
+    command.add_option(name, world, description)
+        ->check(CLI::Validator(isALocation, ""))
+        ->type_name("NAME|FILE|URL")
+        ->required();
+}
+
 void addRecreateOption(CLI::App& command, SaveOptions& save) {
     auto* recreate = command.add_flag_callback(
         "--recreate", [&save] { save.regenerate = store::Regenerate::All; },

@@ -24,6 +24,9 @@ void addAreaOption(CLI::App& command, std::optional<world::ChunkArea>& area);
 void addWorldOption(CLI::App& command, SaveOptions& save, const std::string& description);
 // --world and --recreate of commands that play, which make a world where none is there.
 void addSaveGameOptions(CLI::App& command, SaveOptions& save);
+// A world as an argument: NAME, FILE or URL.
+void addWorldArgument(CLI::App& command, const std::string& name, std::string& world,
+                      const std::string& description);
 void addRecreateOption(CLI::App& command, SaveOptions& save);
 
 // -o: the file to write. Refused before the work starts where it cannot be written later, or where its name

@@ -12,6 +12,7 @@ constexpr std::size_t kMaxIds = 65536;
 base::Result<BlockIdMap> BlockIdMap::make(const world::BlockRegistry& registry,
                                           const std::vector<SavedName>& saved) {
     BlockIdMap map;
+    map.names_ = saved;
     map.toSaved_.assign(registry.types().size(), kNone);
     map.toSession_.assign(kMaxIds, kNone);
     const auto connect = [&](world::BlockId savedId, std::size_t session) {
@@ -42,6 +43,7 @@ base::Result<BlockIdMap> BlockIdMap::make(const world::BlockRegistry& registry,
         connect(id, type.id);
         map.added_.push_back({id, type.name});
     }
+    map.names_.insert(map.names_.end(), map.added_.begin(), map.added_.end());
     return map;
 }
 

@@ -34,6 +34,7 @@ class BlockIdMap {
         return at(toSaved_, session);
     }  // kNone: no such type
 
+    const std::vector<SavedName>& names() const { return names_; }        // all, those to be added last
     const std::vector<SavedName>& added() const { return added_; }        // to be written into the save
     const std::vector<std::string>& unknown() const { return unknown_; }  // names the registry lacks
 
@@ -43,7 +44,7 @@ class BlockIdMap {
     }
 
     std::vector<std::uint32_t> toSession_, toSaved_;
-    std::vector<SavedName> added_;
+    std::vector<SavedName> names_, added_;
     std::vector<std::string> unknown_;
 };
 

@@ -47,17 +47,24 @@ std::uint64_t seedOf(world::ChunkPos pos, std::int64_t origin, std::int64_t form
     return format < kFirstWithChecksums ? kFormerSeed : checksumSeed(pos, origin != 0);
 }
 
+namespace {
+
+// Of columns data and origin.
+StoredChunk storedChunk(const Statement& row, world::ChunkPos pos, std::int64_t format) {
+    std::string problem = rowProblem(row, 0, 1);
+    const ByteView data = row.blob(0);
+    const Provenance provenance = row.number(1) == 0 ? Provenance::Generated : Provenance::Edited;
+    return {Bytes(data.begin(), data.end()), provenance, std::move(problem),
+            seedOf(pos, row.number(1), format)};
+}
+
+}  // namespace
+
 StoredRow readRow(Statement& select, world::ChunkPos pos, std::int64_t format) {
     select.bind(1, keyOf(pos));
     const auto row = select.step();
     std::optional<StoredChunk> chunk;
-    if (row && *row) {
-        std::string problem = rowProblem(select, 0, 1);
-        const ByteView data = select.blob(0);
-        const Provenance provenance = select.number(1) == 0 ? Provenance::Generated : Provenance::Edited;
-        chunk = StoredChunk{Bytes(data.begin(), data.end()), provenance, std::move(problem),
-                            seedOf(pos, select.number(1), format)};
-    }
+    if (row && *row) chunk = storedChunk(select, pos, format);
     select.reset();
     if (!row) return tl::unexpected(row.error());
     return chunk;
@@ -79,6 +86,35 @@ base::Result<std::vector<world::ChunkPos>> readEditedChunks(Database& database) 
                     static_cast<int>(Provenance::Edited), kFirstTileKey);
     if (auto read = forEachRow(database, sql, take); !read) return tl::unexpected(read.error());
     return edited;
+}
+
+base::Result<std::vector<KeyedRow>> ChunkReader::rowsAfter(std::int64_t key, std::size_t count) {
+    auto connection = takeConnection();
+    if (!connection) return tl::unexpected(connection.error());
+    std::vector<KeyedRow> rows;
+    const auto take = [&](const Statement& row) -> base::Result<void> {
+        const std::int64_t next = row.number(2);
+        if (next <= (rows.empty() ? key : rows.back().key))
+            return base::fail(base::ErrorCode::Damaged, "{}: damaged: its chunks are out of order",
+                              path_.string());
+        rows.push_back({next, storedChunk(row, posOf(next), format_)});
+        return {};
+    };
+    const std::string sql =
+        fmt::format("SELECT data, origin, key FROM chunks WHERE key > {} ORDER BY key LIMIT {}", key, count);
+    const auto read = forEachRow((*connection)->database, sql, take);
+    giveBack(std::move(*connection));
+    if (!read) return tl::unexpected(read.error());
+    return rows;
+}
+
+base::Result<std::uint64_t> ChunkReader::rowCount() {
+    auto connection = takeConnection();
+    if (!connection) return tl::unexpected(connection.error());
+    const auto count = (*connection)->database.queryNumber("SELECT count(*) FROM chunks");
+    giveBack(std::move(*connection));
+    if (!count) return tl::unexpected(count.error());
+    return static_cast<std::uint64_t>(count->value_or(0));
 }
 
 base::Result<std::unique_ptr<ChunkReader::Connection>> ChunkReader::open() const {

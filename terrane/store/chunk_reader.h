@@ -24,6 +24,11 @@ struct StoredChunk {
     std::uint64_t seed = 0;  // of its checksum
 };
 
+struct KeyedRow {
+    std::int64_t key = 0;
+    StoredChunk row;
+};
+
 // Nothing where the save has no chunk; an error where the file is damaged.
 using StoredRow = base::Result<std::optional<StoredChunk>>;
 
@@ -56,6 +61,9 @@ class ChunkReader {
                   const std::function<void(std::size_t, StoredRow)>& take);
     [[nodiscard]] base::Result<bool> contains(world::ChunkPos pos);
     [[nodiscard]] base::Result<std::vector<world::ChunkPos>> editedChunks();
+    // As ReadableRows::rowsAfter().
+    [[nodiscard]] base::Result<std::vector<KeyedRow>> rowsAfter(std::int64_t key, std::size_t count);
+    [[nodiscard]] base::Result<std::uint64_t> rowCount();
 
   private:
     struct Connection {

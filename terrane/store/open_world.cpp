@@ -9,6 +9,7 @@
 #include "terrane/store/save_path.h"
 #include "terrane/store/sqlite_reader.h"
 #include "terrane/store/sqlite_store.h"
+#include "terrane/store/world_copy.h"
 
 namespace terrane::store {
 namespace {
@@ -17,12 +18,14 @@ namespace fs = std::filesystem;
 using StoreResult = base::Result<std::unique_ptr<ChunkStore>>;
 
 StoreResult openFile(const fs::path& path, const world::BlockRegistry& blocks, const WorldRequest& request) {
-    SaveAccess access{.create = request.create, .decide = {}};
+    SaveAccess access;
+    access.create = request.create;
     access.decide = [&](const WorldIdentity& saved) {
         return compareWorld(saved, request.wanted, request.versionOf, path.string());
     };
     auto store = SqliteStore::open(path, blocks, access, request.limits);
     if (!store) return tl::unexpected(store.error());
+    if (auto whole = requireWhole(**store, path.string()); !whole) return tl::unexpected(whole.error());
     return std::move(*store);
 }
 
@@ -36,8 +39,16 @@ void reportFormerPlace(const WorldLocation& location, const fs::path& path) {
 
 }  // namespace
 
+base::Result<void> requireWhole(ReadableStore& world, const std::string& where) {
+    const auto mark = world.metadata(kCopyMark);
+    if (!mark || !mark->starts_with(kUnfinishedCopy)) return {};
+    return base::fail(base::ErrorCode::Incompatible,
+                      "{}: a copy that was not finished; `terrane copy` goes on with it", where);
+}
+
 StoreResult openOver(std::unique_ptr<ReadableStore> saved, const WorldRequest& request,
                      const std::string& where) {
+    if (auto whole = requireWhole(*saved, where); !whole) return tl::unexpected(whole.error());
     WorldIdentity identity = saved->identity();
     const auto by = compareWorld(identity, request.wanted, request.versionOf, where);
     if (!by) return tl::unexpected(by.error());

@@ -1,4 +1,4 @@
-// Opens the world at a location that is a name or a file. store_postgres/open_any_world.h opens those in
+// Opens the world at a location that is a name or a file. store_postgres/any_world.h opens those in
 // databases as well: programs call that. Any thread, usually the one that starts a session.
 #pragma once
 
@@ -42,6 +42,9 @@ struct WorldRequest {
 [[nodiscard]] base::Result<std::unique_ptr<ChunkStore>> openWorld(const WorldLocation& location,
                                                                   const world::BlockRegistry& blocks,
                                                                   const WorldRequest& request);
+
+// An error for a copy that has not ended (world_copy.h).
+[[nodiscard]] base::Result<void> requireWhole(ReadableStore& world, const std::string& where);
 
 // The world that `saved` holds, with changes in memory. `where` is for messages. Errors as above.
 [[nodiscard]] base::Result<std::unique_ptr<ChunkStore>> openOver(std::unique_ptr<ReadableStore> saved,

@@ -26,6 +26,13 @@ using ReadRow = std::function<StoredRow(world::ChunkPos)>;
 // Derives them by what `read` finds: the database as it is without the batch.
 using DeriveBatch = std::function<base::Result<DerivedBatch>(const ReadRow& read)>;
 
+// What is written into a world as it is, in one transaction.
+struct RowChanges {
+    std::vector<KeyedRow> rows;
+    std::vector<std::int64_t> deleted;  // keys
+    Metadata metadata;                  // reserved names, too
+};
+
 // The rows of a world in a database, to be read.
 class ReadableRows {
   public:
@@ -46,6 +53,10 @@ class ReadableRows {
     [[nodiscard]] virtual base::Result<bool> contains(world::ChunkPos pos) = 0;
     // As ReadableStore::editedChunks().
     [[nodiscard]] virtual base::Result<std::vector<world::ChunkPos>> editedChunks() = 0;
+    // The next rows in the order of keys, of all levels; fewer than `count` at the end.
+    [[nodiscard]] virtual base::Result<std::vector<KeyedRow>> rowsAfter(std::int64_t key,
+                                                                        std::size_t count) = 0;
+    [[nodiscard]] virtual base::Result<std::uint64_t> rowCount() = 0;
 };
 
 class ChunkRows : public ReadableRows {
@@ -58,6 +69,8 @@ class ChunkRows : public ReadableRows {
     // As ChunkStore::deriveAll().
     [[nodiscard]] virtual base::Result<void> deriveAll(const DerivedRows& rows, std::string_view rules,
                                                        EntityBudget& budget) = 0;
+    // For copies of worlds (world_copy.h). Nothing is checked or derived.
+    [[nodiscard]] virtual base::Result<void> change(const RowChanges& changes) = 0;
 };
 
 // What DerivedRows::derive() reads of a database, and what goes wrong meanwhile.

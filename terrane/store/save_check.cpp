@@ -40,14 +40,6 @@ std::string problemOf(const Statement& row, const SaveFile& file) {
     return chunk ? "" : chunk.error().message;
 }
 
-void note(CheckReport& report, const Statement& row, std::string problem) {
-    if (report.damaged.size() < kMaxListed) {
-        report.damaged.push_back({posOf(row.number(0)), std::move(problem)});
-    } else {
-        ++report.unlisted;
-    }
-}
-
 // Calls a function with each row, which is ordered by its first column, a number. Where a page stands in two
 // places, rows come twice, or without end: they are out of order then.
 template <class Visit>
@@ -74,7 +66,7 @@ base::Result<void> checkChunks(SaveFile& file, CheckReport& report) {
             return base::fail(base::ErrorCode::Damaged, "{}: damaged: chunks share pages",
                               file.database.path());
         std::string problem = problemOf(row, file);
-        if (!problem.empty()) note(report, row, std::move(problem));
+        if (!problem.empty()) addDamage(report, posOf(row.number(0)), std::move(problem));
         return {};
     };
     return forEachRowInOrder(file.database, "SELECT key, origin, data FROM chunks ORDER BY key", check);
@@ -126,6 +118,14 @@ void checkLog(const std::string& path, CheckReport& report) {
 }
 
 }  // namespace
+
+void addDamage(CheckReport& report, world::ChunkPos pos, std::string problem) {
+    if (report.damaged.size() < kMaxListed) {
+        report.damaged.push_back({pos, std::move(problem)});
+    } else {
+        ++report.unlisted;
+    }
+}
 
 base::Result<CheckReport> checkSave(const std::filesystem::path& path, const world::BlockRegistry& registry) {
     CheckReport report;

@@ -35,6 +35,8 @@ struct CheckReport {
     bool isDamaged() const { return !fileProblems.empty() || !damaged.empty(); }
 };
 
+void addDamage(CheckReport& report, world::ChunkPos pos, std::string problem);
+
 // An error where there is no save to look through, or another program is just making or migrating it.
 [[nodiscard]] base::Result<CheckReport> checkSave(const std::filesystem::path& path,
                                                   const world::BlockRegistry& registry);

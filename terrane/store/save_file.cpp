@@ -85,13 +85,25 @@ fs::path backupPath(const fs::path& path, const std::string& word) {
     }
 }
 
+base::Result<void> addNames(Database& database, const std::vector<SavedName>& names) {
+    if (names.empty()) return {};
+    auto transaction = Transaction::begin(database);
+    if (!transaction) return tl::unexpected(transaction.error());
+    auto metadata = MetadataTable::make(database);
+    if (!metadata) return tl::unexpected(metadata.error());
+    for (const SavedName& name : names)
+        if (auto done = metadata->add(name); !done) return done;
+    return transaction->commit();
+}
+
 base::Result<void> makeCurrent(SaveFile& file, const fs::path& path, const SaveAccess& access) {
     auto kind = classify(file.database);
     if (!kind) return tl::unexpected(kind.error());
     if (*kind == SaveKind::Empty) {
         if (!access.create) return notASave(path);
         file.isNew = true;
-        return createTables(file.database, *access.create);
+        if (auto made = createTables(file.database, *access.create); !made) return made;
+        return addNames(file.database, access.blockNames);
     }
     if (auto same = checkSchema(file.database); !same) return same;
     if (*kind == SaveKind::Old) {
@@ -171,17 +183,6 @@ base::Result<void> addMissingChecksum(SaveFile& file) {
     if (!names) return tl::unexpected(names.error());
     if (!file.metadata.at(std::string(kChecksum)).empty()) return {};
     return writeChecksum(file.database, metadataChecksum(file.metadata, *names));
-}
-
-base::Result<void> writeNewNames(SaveFile& file) {
-    if (file.ids.added().empty()) return {};
-    auto transaction = Transaction::begin(file.database);
-    if (!transaction) return tl::unexpected(transaction.error());
-    auto metadata = MetadataTable::make(file.database);
-    if (!metadata) return tl::unexpected(metadata.error());
-    for (const SavedName& added : file.ids.added())
-        if (auto done = metadata->add(added); !done) return done;
-    return transaction->commit();
 }
 
 base::Result<void> makeFolder(const fs::path& path) {
@@ -275,7 +276,7 @@ base::Result<SaveFile> openToWrite(const fs::path& name, const world::BlockRegis
     if (auto done = addMissingChecksum(file); !done) return tl::unexpected(done.error());
     if (auto done = regenerateIfAsked(file, path, access); !done) return tl::unexpected(done.error());
     if (auto done = readContents(file, registry); !done) return tl::unexpected(done.error());
-    if (auto done = writeNewNames(file); !done) return tl::unexpected(done.error());
+    if (auto done = addNames(file.database, file.ids.added()); !done) return tl::unexpected(done.error());
     reportUnknown(file);
     return file;
 }

@@ -7,16 +7,22 @@
 
 namespace terrane::store {
 
-base::Result<std::unique_ptr<SqliteReader>> SqliteReader::open(const std::filesystem::path& path,
-                                                               const world::BlockRegistry& registry,
-                                                               const SaveLimits& limits) {
+base::Result<std::unique_ptr<ReadableRows>> openSqliteToRead(const std::filesystem::path& path,
+                                                             const world::BlockRegistry& registry) {
     auto file = openToRead(path, registry);
     if (!file) return tl::unexpected(file.error());
     if (auto ended = file->database.execute("COMMIT"); !ended) return tl::unexpected(ended.error());
     if (!file->inUse.empty())
         base::logInfo("{}: {}; read as it is saved, and left as it is", file->database.path(), file->inUse);
-    auto rows = std::make_unique<SqliteReadRows<ReadableRows>>(std::move(*file));
-    return std::unique_ptr<SqliteReader>(new SqliteReader(std::move(rows), limits));
+    return std::make_unique<SqliteReadRows<ReadableRows>>(std::move(*file));
+}
+
+base::Result<std::unique_ptr<SqliteReader>> SqliteReader::open(const std::filesystem::path& path,
+                                                               const world::BlockRegistry& registry,
+                                                               const SaveLimits& limits) {
+    auto rows = openSqliteToRead(path, registry);
+    if (!rows) return tl::unexpected(rows.error());
+    return std::unique_ptr<SqliteReader>(new SqliteReader(std::move(*rows), limits));
 }
 
 }  // namespace terrane::store

@@ -21,4 +21,8 @@ class SqliteReader : public RowsReader {
     using RowsReader::RowsReader;
 };
 
+// The rows alone, for a copy.
+[[nodiscard]] base::Result<std::unique_ptr<ReadableRows>> openSqliteToRead(
+    const std::filesystem::path& path, const world::BlockRegistry& registry);
+
 }  // namespace terrane::store

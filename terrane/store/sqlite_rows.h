@@ -25,6 +25,10 @@ class SqliteReadRows : public Base {
     }
     base::Result<bool> contains(world::ChunkPos pos) override { return reader_.contains(pos); }
     base::Result<std::vector<world::ChunkPos>> editedChunks() override { return reader_.editedChunks(); }
+    base::Result<std::vector<KeyedRow>> rowsAfter(std::int64_t key, std::size_t count) override {
+        return reader_.rowsAfter(key, count);
+    }
+    base::Result<std::uint64_t> rowCount() override { return reader_.rowCount(); }
 
   protected:
     SaveFile file_;

@@ -34,6 +34,7 @@ class SqliteRows : public SqliteReadRows<ChunkRows> {
                                  EntityBudget& budget) override {
         return writer_->deriveAll(rows, rules, budget);
     }
+    base::Result<void> change(const RowChanges& changes) override { return writer_->change(changes); }
 
   private:
     std::unique_ptr<SqliteWriter> writer_;
@@ -41,12 +42,20 @@ class SqliteRows : public SqliteReadRows<ChunkRows> {
 
 }  // namespace
 
-base::Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const std::filesystem::path& path,
-                                                             const world::BlockRegistry& registry,
-                                                             const SaveAccess& access, SaveLimits limits) {
+base::Result<std::unique_ptr<ChunkRows>> openSqliteRows(const std::filesystem::path& path,
+                                                        const world::BlockRegistry& registry,
+                                                        const SaveAccess& access) {
     auto file = openToWrite(path, registry, access);
     if (!file) return tl::unexpected(file.error());
     auto rows = SqliteRows::make(std::move(*file));
+    if (!rows) return tl::unexpected(rows.error());
+    return std::move(*rows);
+}
+
+base::Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const std::filesystem::path& path,
+                                                             const world::BlockRegistry& registry,
+                                                             const SaveAccess& access, SaveLimits limits) {
+    auto rows = openSqliteRows(path, registry, access);
     if (!rows) return tl::unexpected(rows.error());
     return std::unique_ptr<SqliteStore>(new SqliteStore(std::move(*rows), limits));
 }

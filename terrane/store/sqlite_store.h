@@ -20,4 +20,9 @@ class SqliteStore : public QueuedStore {
     using QueuedStore::QueuedStore;
 };
 
+// The rows alone, for a copy.
+[[nodiscard]] base::Result<std::unique_ptr<ChunkRows>> openSqliteRows(const std::filesystem::path& path,
+                                                                      const world::BlockRegistry& registry,
+                                                                      const SaveAccess& access);
+
 }  // namespace terrane::store

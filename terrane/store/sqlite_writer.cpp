@@ -83,6 +83,27 @@ base::Result<void> SqliteWriter::deriveAll(const DerivedRows& rows, std::string_
     return commit(*transaction);
 }
 
+base::Result<void> SqliteWriter::change(const RowChanges& changes) {
+    auto transaction = Transaction::begin(file_.database);
+    if (!transaction) return tl::unexpected(transaction.error());
+    auto replace =
+        file_.database.prepare("INSERT OR REPLACE INTO chunks (key, origin, data) VALUES (?1, ?2, ?3)");
+    if (!replace) return tl::unexpected(replace.error());
+    for (const KeyedRow& row : changes.rows) {
+        replace->bind(1, row.key);
+        replace->bind(2, std::int64_t{row.row.provenance == Provenance::Edited});
+        replace->bind(3, ByteView(row.row.data));
+        if (auto done = replace->run(); !done) return done;
+    }
+    for (const std::int64_t key : changes.deleted) {
+        use_.deleteChunk.bind(1, key);
+        if (auto done = use_.deleteChunk.run(); !done) return done;
+    }
+    for (const auto& [name, value] : changes.metadata)
+        if (auto done = metadata_.put(name, value); !done) return done;
+    return commit(*transaction);
+}
+
 // A log that has a transaction will be missed where it is gone.
 base::Result<void> SqliteWriter::commit(Transaction& transaction) {
     if (auto there = files_.check(); !there) return there;

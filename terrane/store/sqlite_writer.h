@@ -24,6 +24,8 @@ class SqliteWriter {
     // As ChunkStore::deriveAll().
     [[nodiscard]] base::Result<void> deriveAll(const DerivedRows& rows, std::string_view rules,
                                                EntityBudget& budget);
+    // As ChunkRows::change().
+    [[nodiscard]] base::Result<void> change(const RowChanges& changes);
 
   private:
     struct Statements {

@@ -7,8 +7,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "terrane/base/result.h"
+#include "terrane/store/block_id_map.h"
 
 namespace terrane::store {
 
@@ -49,6 +51,8 @@ using GeneratorVersionOf = std::function<int(std::string_view generator)>;
 struct SaveAccess {
     // Made, where it is not there. Nothing: it must be there.
     std::optional<WorldIdentity> create;
+    // Of a world that is made: the ids and names of another one, whose rows it will get.
+    std::vector<SavedName> blockNames = {};
     // What of a save that is there is regenerated, after a copy beside it, from what it is; an error to
     // leave it alone. Empty: it is taken as it is.
     std::function<base::Result<Regeneration>(const WorldIdentity& saved)> decide;

@@ -18,6 +18,9 @@ using world::ChunkPos;
 constexpr Statement kRead = {"SELECT " TERRANE_CHUNK_DATA ", origin FROM chunks WHERE key = $1"};
 constexpr Statement kReadMany = {"SELECT key, " TERRANE_CHUNK_DATA
                                  ", origin FROM chunks WHERE key = ANY ($1)"};
+constexpr Statement kRowsAfter = {"SELECT key, " TERRANE_CHUNK_DATA
+                                  ", origin FROM chunks WHERE key > $1 ORDER BY key LIMIT $2"};
+constexpr Statement kCount = {"SELECT count(*) FROM chunks"};
 constexpr Statement kContains = {"SELECT EXISTS (SELECT 1 FROM chunks WHERE key = $1)"};
 constexpr Statement kEdited = {
     "SELECT key FROM chunks WHERE origin = 1 AND key >= 0 AND key < $1 ORDER BY key"};
@@ -53,6 +56,32 @@ base::Result<std::vector<ChunkPos>> readEditedChunks(Connection& connection) {
     edited.reserve(static_cast<std::size_t>(rows->count()));
     for (int row = 0; row < rows->count(); ++row) edited.push_back(store::posOf(rows->number(row, 0)));
     return edited;
+}
+
+base::Result<std::vector<store::KeyedRow>> readRowsAfter(Connection& connection, std::int64_t key,
+                                                         std::size_t count) {
+    const auto found =
+        connection.run(kRowsAfter, Parameters().number(key).number(static_cast<std::int64_t>(count)));
+    if (!found) return tl::unexpected(found.error());
+    std::vector<store::KeyedRow> rows;
+    for (int row = 0; row < found->count(); ++row) {
+        const std::int64_t at = found->number(row, 0);
+        rows.push_back({at, storedChunk(*found, row, 1, store::posOf(at))});
+    }
+    return rows;
+}
+
+base::Result<std::vector<store::KeyedRow>> ChunkQueries::rowsAfter(std::int64_t key, std::size_t count) {
+    return pool_.run<std::vector<store::KeyedRow>>(
+        [&](Connection& connection) { return readRowsAfter(connection, key, count); });
+}
+
+base::Result<std::uint64_t> ChunkQueries::rowCount() {
+    return pool_.run<std::uint64_t>([](Connection& connection) -> base::Result<std::uint64_t> {
+        const auto rows = connection.run(kCount);
+        if (!rows) return tl::unexpected(rows.error());
+        return static_cast<std::uint64_t>(rows->number(0, 0));
+    });
 }
 
 StoredRow ChunkQueries::read(ChunkPos pos) {

@@ -18,6 +18,8 @@ class ChunkQueries {
     void readMany(std::span<const world::ChunkPos> positions, const store::ReadableRows::TakeRow& take);
     [[nodiscard]] base::Result<bool> contains(world::ChunkPos pos);
     [[nodiscard]] base::Result<std::vector<world::ChunkPos>> editedChunks();
+    [[nodiscard]] base::Result<std::vector<store::KeyedRow>> rowsAfter(std::int64_t key, std::size_t count);
+    [[nodiscard]] base::Result<std::uint64_t> rowCount();
 
   private:
     ConnectionPool& pool_;
@@ -26,6 +28,8 @@ class ChunkQueries {
 // By one connection: what its transaction sees.
 [[nodiscard]] store::StoredRow readRow(Connection& connection, world::ChunkPos pos);
 [[nodiscard]] base::Result<std::vector<world::ChunkPos>> readEditedChunks(Connection& connection);
+[[nodiscard]] base::Result<std::vector<store::KeyedRow>> readRowsAfter(Connection& connection,
+                                                                       std::int64_t key, std::size_t count);
 // The row that the columns from `column` on have: data, origin.
 store::StoredChunk storedChunk(const Rows& rows, int row, int column, world::ChunkPos pos);
 

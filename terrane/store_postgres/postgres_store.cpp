@@ -27,6 +27,10 @@ class PostgresReadRows : public Base {
     }
     base::Result<bool> contains(ChunkPos pos) override { return queries_.contains(pos); }
     base::Result<std::vector<ChunkPos>> editedChunks() override { return queries_.editedChunks(); }
+    base::Result<std::vector<store::KeyedRow>> rowsAfter(std::int64_t key, std::size_t count) override {
+        return queries_.rowsAfter(key, count);
+    }
+    base::Result<std::uint64_t> rowCount() override { return queries_.rowCount(); }
 
   protected:
     ConnectionPool pool_;
@@ -51,6 +55,7 @@ class PostgresRows : public PostgresReadRows<store::ChunkRows> {
                                  store::EntityBudget& budget) override {
         return writer_.deriveAll(rows, rules, budget);
     }
+    base::Result<void> change(const store::RowChanges& changes) override { return writer_.change(changes); }
 
   private:
     PostgresWriter writer_;
@@ -58,24 +63,39 @@ class PostgresRows : public PostgresReadRows<store::ChunkRows> {
 
 }  // namespace
 
+base::Result<std::unique_ptr<store::ChunkRows>> openRows(const Address& address,
+                                                         const world::BlockRegistry& blocks,
+                                                         const store::SaveAccess& access,
+                                                         store::WorldSharing sharing, RetryTimes times) {
+    auto opened = openToWrite(address, blocks, access, sharing);
+    if (!opened) return tl::unexpected(opened.error());
+    return std::make_unique<PostgresRows>(address, times, std::move(*opened), sharing);
+}
+
+base::Result<std::unique_ptr<store::ReadableRows>> openRowsToRead(const Address& address,
+                                                                  const world::BlockRegistry& blocks,
+                                                                  RetryTimes times) {
+    auto opened = openToRead(address, blocks);
+    if (!opened) return tl::unexpected(opened.error());
+    return std::make_unique<PostgresReadRows<store::ReadableRows>>(address, times,
+                                                                   std::move(opened->contents));
+}
+
 base::Result<std::unique_ptr<PostgresStore>> PostgresStore::open(
     const Address& address, const world::BlockRegistry& blocks, const store::SaveAccess& access,
     store::WorldSharing sharing, const store::SaveLimits& limits, RetryTimes times) {
-    auto opened = openToWrite(address, blocks, access, sharing);
-    if (!opened) return tl::unexpected(opened.error());
-    auto rows = std::make_unique<PostgresRows>(address, times, std::move(*opened), sharing);
-    return std::unique_ptr<PostgresStore>(new PostgresStore(std::move(rows), limits));
+    auto rows = openRows(address, blocks, access, sharing, times);
+    if (!rows) return tl::unexpected(rows.error());
+    return std::unique_ptr<PostgresStore>(new PostgresStore(std::move(*rows), limits));
 }
 
 base::Result<std::unique_ptr<store::ReadableStore>> openReader(const Address& address,
                                                                const world::BlockRegistry& blocks,
                                                                const store::SaveLimits& limits,
                                                                RetryTimes times) {
-    auto opened = openToRead(address, blocks);
-    if (!opened) return tl::unexpected(opened.error());
-    return std::make_unique<store::RowsReader>(
-        std::make_unique<PostgresReadRows<store::ReadableRows>>(address, times, std::move(opened->contents)),
-        limits);
+    auto rows = openRowsToRead(address, blocks, times);
+    if (!rows) return tl::unexpected(rows.error());
+    return std::make_unique<store::RowsReader>(std::move(*rows), limits);
 }
 
 }  // namespace terrane::store_postgres

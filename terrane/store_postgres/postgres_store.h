@@ -28,4 +28,11 @@ class PostgresStore : public store::QueuedStore {
     const Address& address, const world::BlockRegistry& blocks, const store::SaveLimits& limits = {},
     RetryTimes times = {});
 
+// The rows alone, for a copy.
+[[nodiscard]] base::Result<std::unique_ptr<store::ChunkRows>> openRows(
+    const Address& address, const world::BlockRegistry& blocks, const store::SaveAccess& access,
+    store::WorldSharing sharing = store::WorldSharing::Alone, RetryTimes times = {});
+[[nodiscard]] base::Result<std::unique_ptr<store::ReadableRows>> openRowsToRead(
+    const Address& address, const world::BlockRegistry& blocks, RetryTimes times = {});
+
 }  // namespace terrane::store_postgres

@@ -8,6 +8,7 @@
 #include "terrane/store/chunk_codec.h"
 #include "terrane/store/chunk_key.h"
 #include "terrane/store_postgres/postgres_rows.h"
+#include "terrane/store_postgres/schema.h"
 #include "terrane/store_postgres/world_locks.h"
 
 namespace terrane::store_postgres {
@@ -22,16 +23,15 @@ constexpr Statement kPutChunks = {
     "INSERT INTO chunks (key, origin, data) SELECT * FROM unnest($1::bigint[], $2::smallint[], $3::bytea[]) "
     "ON CONFLICT (key) DO UPDATE SET origin = excluded.origin, data = excluded.data "
     "WHERE excluded.origin <> 0 OR chunks.origin = 0"};
+constexpr Statement kReplaceChunks = {
+    "INSERT INTO chunks (key, origin, data) SELECT * FROM unnest($1::bigint[], $2::smallint[], $3::bytea[]) "
+    "ON CONFLICT (key) DO UPDATE SET origin = excluded.origin, data = excluded.data"};
 constexpr Statement kDeleteChunks = {"DELETE FROM chunks WHERE key = ANY ($1)"};
 constexpr Statement kExisting = {"SELECT key FROM chunks WHERE key = ANY ($1)"};
 constexpr Statement kPutAside = {
     "WITH gone AS (DELETE FROM chunks WHERE key = $1 RETURNING key, data) "
     "INSERT INTO quarantine (key, reason, data) SELECT key, $2, data FROM gone"};
 constexpr Statement kDeleteTiles = {"DELETE FROM chunks WHERE key >= $1"};
-constexpr Statement kPutSetting = {
-    "INSERT INTO settings (name, value) VALUES ($1, $2) ON CONFLICT (name) DO UPDATE SET value = "
-    "excluded.value"};
-constexpr Statement kRemoveSetting = {"DELETE FROM settings WHERE name = $1"};
 
 // Of data in one statement.
 constexpr std::size_t kBytesAtOnce = 8 << 20;
@@ -134,6 +134,28 @@ base::Result<void> PostgresWriter::deriveRows(const store::DerivedRows& rows, st
     const auto marked = connection_.run(kPutSetting, Parameters().text(store::kDerivedRowsMark).text(rules));
     if (!marked) return tl::unexpected(marked.error());
     return {};
+}
+
+base::Result<void> PostgresWriter::change(const store::RowChanges& changes) {
+    return inTransaction<void>([&] { return changeRows(changes); });
+}
+
+base::Result<void> PostgresWriter::changeRows(const store::RowChanges& changes) {
+    isComplete_ = true;
+    std::vector<std::int64_t> keys;
+    std::vector<std::int16_t> origins;
+    std::vector<store::Bytes> data;
+    for (const store::KeyedRow& row : changes.rows) {
+        keys.push_back(row.key);
+        origins.push_back(row.row.provenance == Provenance::Edited ? 1 : 0);
+        data.push_back(row.row.data);
+    }
+    const std::vector<Command> commands = {
+        {&kReplaceChunks, Parameters().numbers(keys).smallNumbers(origins).byteStrings(data)},
+        {&kDeleteChunks, Parameters().numbers(changes.deleted)}};
+    const auto done = connection_.runAll(commands);
+    if (!done) return tl::unexpected(done.error());
+    return writeMetadata(changes.metadata);
 }
 
 base::Result<void> PostgresWriter::writeMetadata(const store::Metadata& metadata) {

@@ -24,6 +24,7 @@ class PostgresWriter {
                                            const store::DeriveBatch& derive);
     [[nodiscard]] base::Result<void> deriveAll(const store::DerivedRows& rows, std::string_view rules,
                                                store::EntityBudget& budget);
+    [[nodiscard]] base::Result<void> change(const store::RowChanges& changes);
 
   private:
     template <class T, class Do>
@@ -37,6 +38,7 @@ class PostgresWriter {
     base::Result<void> putAsideDamaged(const std::vector<std::int64_t>& keys);
     base::Result<void> writeDerived(std::span<const store::ChunkRow> rows);
     base::Result<void> writeChunks(std::span<const store::ChunkRow> rows, store::Provenance provenance);
+    base::Result<void> changeRows(const store::RowChanges& changes);
     base::Result<void> writeMetadata(const store::Metadata& metadata);
 
     ConnectionPool& pool_;

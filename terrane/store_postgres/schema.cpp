@@ -21,7 +21,23 @@ CREATE TABLE quarantine (number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
     reason text NOT NULL, data bytea NOT NULL);
 )";
 
-constexpr const char* kSteps[] = {kWorldTables};
+// The queue of `terrane work`. Jobs are squares of chunks, by area and place. state: 0 waiting, 1 done, 2 cancelled;
+// one that is worked on waits with a lease.
+constexpr const char* kWorkTables = R"(
+CREATE TABLE work_state (is_paused boolean NOT NULL);
+INSERT INTO work_state VALUES (false);
+CREATE TABLE work_areas (number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY, x0 integer NOT NULL, y0 integer NOT NULL,
+    x1 integer NOT NULL, y1 integer NOT NULL, added timestamptz NOT NULL DEFAULT now());
+CREATE TABLE jobs (number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY, area bigint NOT NULL REFERENCES work_areas,
+    place bigint NOT NULL, x0 integer NOT NULL, y0 integer NOT NULL, x1 integer NOT NULL, y1 integer NOT NULL,
+    state smallint NOT NULL DEFAULT 0, worker bigint, lease timestamptz, attempts integer NOT NULL DEFAULT 0);
+CREATE INDEX waiting_jobs ON jobs (area, place) WHERE state = 0;
+CREATE TABLE workers (number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY, name text NOT NULL,
+    started timestamptz NOT NULL DEFAULT now(), seen timestamptz NOT NULL DEFAULT now(),
+    chunks bigint NOT NULL DEFAULT 0, rate double precision NOT NULL DEFAULT 0, job bigint);
+)";
+
+constexpr const char* kSteps[] = {kWorldTables, kWorkTables};
 
 // What the program reads and writes by type.
 struct Column {
@@ -40,6 +56,11 @@ constexpr Column kColumns[] = {
     {"quarantine", "key", "bigint"},
     {"quarantine", "reason", "text"},
     {"quarantine", "data", "bytea"},
+    {"work_state", "is_paused", "boolean"},
+    {"work_areas", "number", "bigint"},
+    {"jobs", "number", "bigint"},
+    {"jobs", "state", "smallint"},
+    {"workers", "number", "bigint"},
 };
 
 constexpr Statement kCountTables = {

@@ -15,6 +15,11 @@ inline int newestFormat() {
     return static_cast<int>(formatSteps().size());
 }
 
+inline constexpr Statement kPutSetting = {
+    "INSERT INTO settings (name, value) VALUES ($1, $2) "
+    "ON CONFLICT (name) DO UPDATE SET value = excluded.value"};
+inline constexpr Statement kRemoveSetting = {"DELETE FROM settings WHERE name = $1"};
+
 // The format of the world that the connection's schema holds; 0: there is no schema, or nothing in it.
 // Incompatible where the schema holds other tables, or a format newer than `newest`.
 [[nodiscard]] base::Result<int> formatOf(Connection& connection, int newest = newestFormat());

@@ -23,15 +23,11 @@ constexpr Statement kCanWrite = {
     "AND has_table_privilege('settings', 'INSERT'), current_setting('transaction_read_only') = 'on'"};
 constexpr Statement kSettings = {"SELECT name, value FROM settings"};
 constexpr Statement kBlocks = {"SELECT id, name FROM blocks ORDER BY id"};
-constexpr Statement kPutSetting = {
-    "INSERT INTO settings (name, value) VALUES ($1, $2) ON CONFLICT (name) DO UPDATE SET value = "
-    "excluded.value"};
-constexpr Statement kRemoveSetting = {"DELETE FROM settings WHERE name = $1"};
 constexpr Statement kAddBlocks = {
     "INSERT INTO blocks (id, name) SELECT * FROM unnest($1::bigint[], $2::text[])"};
 constexpr Statement kSchemaExists = {"SELECT count(*) FROM pg_namespace WHERE nspname = $1"};
 constexpr Statement kDeleteGenerated = {"DELETE FROM chunks WHERE origin = 0 OR key >= $1"};
-constexpr Statement kDeleteChunks = {"DELETE FROM chunks"};
+constexpr Statement kDeleteAllChunks = {"DELETE FROM chunks"};
 constexpr Statement kDeleteQuarantine = {"DELETE FROM quarantine"};
 
 base::Result<void> checkCanWrite(Connection& connection) {
@@ -45,15 +41,27 @@ base::Result<void> checkCanWrite(Connection& connection) {
                       connection.shown());
 }
 
+base::Result<void> addNames(Connection& connection, const std::vector<SavedName>& added) {
+    std::vector<std::int64_t> numbers;
+    std::vector<std::string> names;
+    for (const SavedName& name : added) {
+        numbers.push_back(name.id);
+        names.push_back(name.name);
+    }
+    const auto done = connection.run(kAddBlocks, Parameters().numbers(numbers).texts(names));
+    if (!done) return tl::unexpected(done.error());
+    return {};
+}
+
 base::Result<void> createWorld(Connection& connection, const Address& address,
-                               const store::WorldIdentity& identity) {
+                               const store::SaveAccess& access) {
     if (auto made = migrate(connection, address.schema, 0); !made) return made;
     std::vector<Command> commands;
-    for (const auto& [name, value] : store::metadataOf(identity))
+    for (const auto& [name, value] : store::metadataOf(*access.create))
         commands.push_back({&kPutSetting, Parameters().text(name).text(value)});
     auto done = connection.runAll(commands);
     if (!done) return tl::unexpected(done.error());
-    return {};
+    return addNames(connection, access.blockNames);
 }
 
 base::Result<void> makeCurrent(Connection& connection, const Address& address,
@@ -64,7 +72,7 @@ base::Result<void> makeCurrent(Connection& connection, const Address& address,
     if (*format == 0) {
         if (!access.create) return base::fail(ErrorCode::NotFound, "{}: there is no world", address.shown);
         contents.isNew = true;
-        return doAlone(connection, address, [&] { return createWorld(connection, address, *access.create); });
+        return doAlone(connection, address, [&] { return createWorld(connection, address, access); });
     }
     if (*format == newestFormat()) return {};
     auto done = doAlone(connection, address, [&] { return migrate(connection, address.schema, *format); });
@@ -129,21 +137,6 @@ void reportUnknown(const Connection& connection, const WorldContents& contents) 
                      connection.shown(), names.size(), names.front());
 }
 
-base::Result<void> addNewNames(Connection& connection, const Address& address, const store::BlockIdMap& ids) {
-    if (ids.added().empty()) return {};
-    std::vector<std::int64_t> numbers;
-    std::vector<std::string> names;
-    for (const SavedName& added : ids.added()) {
-        numbers.push_back(added.id);
-        names.push_back(added.name);
-    }
-    return doAlone(connection, address, [&]() -> base::Result<void> {
-        auto done = connection.run(kAddBlocks, Parameters().numbers(numbers).texts(names));
-        if (!done) return tl::unexpected(done.error());
-        return {};
-    });
-}
-
 // "terrane_backup_1", or the first number that is free.
 base::Result<std::string> freeSchema(Connection& connection, const Address& address) {
     for (int number = 1;; ++number) {
@@ -178,7 +171,7 @@ base::Result<void> regenerate(Connection& connection, const Address& address, co
     }
     std::vector<Command> commands;
     if (by.chunks == Regenerate::All) {
-        commands.push_back({&kDeleteChunks});
+        commands.push_back({&kDeleteAllChunks});
         commands.push_back({&kDeleteQuarantine});
     } else {
         commands.push_back({&kDeleteGenerated, Parameters().number(store::kFirstTileKey)});
@@ -215,7 +208,9 @@ base::Result<void> openContents(Connection& connection, const Address& address,
     if (auto can = checkCanWrite(connection); !can) return can;
     if (auto read = readContents(connection, blocks, contents); !read) return read;
     if (auto done = regenerateIfAsked(connection, address, blocks, access, contents); !done) return done;
-    return addNewNames(connection, address, contents.ids);
+    const std::vector<SavedName>& added = contents.ids.added();
+    if (added.empty()) return {};
+    return doAlone(connection, address, [&] { return addNames(connection, added); });
 }
 
 }  // namespace

@@ -7,8 +7,7 @@
 #include "apps/terrane/options.h"
 #include "terrane/base/printable.h"
 #include "terrane/content/built_in.h"
-#include "terrane/store/save_check.h"
-#include "terrane/store/world_location.h"
+#include "terrane/store_postgres/any_world.h"
 
 namespace terrane::app {
 namespace {
@@ -66,16 +65,14 @@ void printText(const std::string& file, const store::CheckReport& report) {
 base::Result<void> check(CheckOptions& options) {
     const auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
-    const auto path = store::fileOf(store::worldLocation(options.file));
-    if (!path) return tl::unexpected(path.error());
-    const auto report = store::checkSave(*path, *blocks);
+    const auto report = store_postgres::checkAnyWorld(store::worldLocation(options.file), *blocks);
     if (!report) return tl::unexpected(report.error());
     options.foundDamage = report->isDamaged();
     if (options.json) {
         // What SQLite says of broken pages need not be text. All but ASCII is escaped: names may be anything.
         std::cout << toJson(*report).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) << '\n';
     } else {
-        printText(options.file, *report);
+        printText(store_postgres::shownOf(store::worldLocation(options.file)), *report);
     }
     return {};
 }
@@ -85,8 +82,8 @@ base::Result<void> check(CheckOptions& options) {
 CommandEntry addCheck(CLI::App& app) {
     auto options = std::make_shared<CheckOptions>();
     CLI::App* command =
-        app.add_subcommand("check", "Look through a save for damage; exit code 1 where there is some");
-    command->add_option("file", options->file, "The save")->type_name("NAME|FILE")->required();
+        app.add_subcommand("check", "Look through a world for damage; exit code 1 where there is some");
+    command->add_option("file", options->file, "The world")->type_name("NAME|FILE|URL")->required();
     command->add_flag("--json", options->json, "Print the report as JSON");
     return {command, [options] { return check(*options); },
             [options] { return options->foundDamage ? 1 : 0; }};

@@ -19,6 +19,7 @@
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/glsl_emitter.h"
 #include "terrane/gen/kernels.h"
+#include "terrane/store_postgres/any_world.h"
 
 namespace terrane::app {
 namespace {
@@ -176,7 +177,8 @@ void report(const GenerateOptions& options, const Generated& result, double seco
     const double speed = static_cast<double>(result.chunks) / seconds;
     const unsigned threads = threadCount(options.world);
     if (result.skipped > 0)
-        base::logInfo("{}: {} chunks were there already", options.save.world, result.skipped);
+        base::logInfo("{}: {} chunks were there already",
+                      store_postgres::shownOf(store::worldLocation(options.save.world)), result.skipped);
     base::logInfo("{} chunks in {:.2f} s, {:.0f} chunks/s, back end {}, threads {}", result.chunks, seconds,
                   speed, backend, threads);
     if (options.json) {
@@ -211,7 +213,8 @@ base::Result<void> generate(GenerateOptions& options) {
         return base::fail("--simd: this machine has no {}, but {}", options.simd,
                           fmt::join(gen::simdTargets(), ", "));
     }
-    auto save = openSave(options.world, options.save, store::WorldAccess::ReadWrite, *blocks);
+    auto save = openSave(options.world, options.save, store::WorldAccess::ReadWrite, *blocks,
+                         store::WorldSharing::Generating);
     if (!save) return tl::unexpected(save.error());
     auto generator = makeBatchGenerator(options.world, options.backend, *blocks);
     if (!generator) return tl::unexpected(generator.error());

@@ -4,9 +4,8 @@
 namespace terrane::app {
 
 std::vector<CommandEntry> addCommands(CLI::App& app) {
-    return {addGenerate(app), addMap(app),        addDump(app), addCheck(app),
-            addServe(app),    addHistory(app),    addBots(app), addBlocks(app),
-            addInfo(app),     addCompletion(app), addMan(app)};
+    return {addGenerate(app), addMap(app),  addDump(app),   addCheck(app), addCopy(app),       addServe(app),
+            addHistory(app),  addBots(app), addBlocks(app), addInfo(app),  addCompletion(app), addMan(app)};
 }
 
 const char* defaultCommand() {

@@ -1,0 +1,78 @@
+// terrane copy: copies a world from one place to another, a file or a database.
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/options.h"
+#include "terrane/base/log.h"
+#include "terrane/base/printable.h"
+#include "terrane/base/progress_bar.h"
+#include "terrane/base/stop_signals.h"
+#include "terrane/content/built_in.h"
+#include "terrane/store/world_copy.h"
+#include "terrane/store_postgres/any_world.h"
+
+namespace terrane::app {
+namespace {
+
+struct CopyOptions {
+    std::string from, to;
+    bool json = false;
+    bool foundDamage = false;  // of the run
+};
+
+void print(const CopyOptions& options, const store::CopyReport& report) {
+    if (options.json) {
+        const nlohmann::json line = {{"chunks", report.rows},
+                                     {"bytes", report.bytes},
+                                     {"copied", report.copied},
+                                     {"damaged", report.damaged},
+                                     {"digest", report.digest}};
+        std::cout << line.dump() << '\n';
+        return;
+    }
+    base::printLine("{} chunks, {} bytes, {} of them copied now; compared: equal, digest {}", report.rows,
+                    report.bytes, report.copied, report.digest);
+    if (report.damaged > 0)
+        base::printLine("{} damaged chunks were left out, the first is {}", report.damaged,
+                        report.firstDamage);
+}
+
+base::Result<void> copy(CopyOptions& options) {
+    const auto blocks = content::loadBlocks();
+    if (!blocks) return tl::unexpected(blocks.error());
+    auto from = store_postgres::openAnyRowsToRead(store::worldLocation(options.from), *blocks);
+    if (!from) return tl::unexpected(from.error());
+    const auto total = (*from)->rowCount();
+    if (!total) return tl::unexpected(total.error());
+    auto to =
+        store_postgres::openAnyRows(store::worldLocation(options.to), *blocks, store::accessOfCopy(**from));
+    if (!to) return tl::unexpected(to.error());
+    const base::StopSignals signals;
+    // Copied, then compared.
+    base::ProgressBar bar("copying", static_cast<std::size_t>(2 * *total));
+    const auto report = store::copyWorld(**from, **to, [&](std::uint64_t rows) {
+        bar.set(static_cast<std::size_t>(std::min(rows, 2 * *total)));
+        return !signals.stopAsked();
+    });
+    if (!report) return tl::unexpected(report.error());
+    options.foundDamage = report->damaged > 0;
+    print(options, *report);
+    return {};
+}
+
+}  // namespace
+
+CommandEntry addCopy(CLI::App& app) {
+    auto options = std::make_shared<CopyOptions>();
+    CLI::App* command = app.add_subcommand(
+        "copy", "Copy a world to another place; exit code 1 where damaged chunks were left out");
+    addWorldArgument(*command, "from", options->from, "The world");
+    addWorldArgument(*command, "to", options->to, "Where no world is yet, or a copy that was not finished");
+    command->add_flag("--json", options->json, "Print the result as JSON");
+    return {command, [options] { return copy(*options); },
+            [options] { return options->foundDamage ? 1 : 0; }};
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,92 @@
+#include "terrane/store_postgres/any_world.h"
+
+#include <cassert>
+#include <utility>
+
+#include "terrane/store/sqlite_reader.h"
+#include "terrane/store/sqlite_store.h"
+#include "terrane/store_postgres/postgres_check.h"
+#include "terrane/store_postgres/postgres_store.h"
+
+namespace terrane::store_postgres {
+namespace {
+
+bool isPostgres(const store::WorldLocation& location) {
+    return location.kind == store::WorldLocation::Kind::Url && isPostgresUrl(location.text);
+}
+
+// One of two functions: of a database's address, or of a file's path.
+template <class OfDatabase, class OfFile>
+auto open(const store::WorldLocation& location, OfDatabase ofDatabase, OfFile ofFile)
+    -> decltype(ofFile(std::filesystem::path())) {
+    if (isPostgres(location)) {
+        const auto address = addressOf(location.text);
+        if (!address) return tl::unexpected(address.error());
+        return ofDatabase(*address);
+    }
+    const auto path = store::fileOf(location);
+    if (!path) return tl::unexpected(path.error());
+    return ofFile(*path);
+}
+
+using StoreResult = base::Result<std::unique_ptr<store::ChunkStore>>;
+
+StoreResult openDatabase(const Address& address, const world::BlockRegistry& blocks,
+                         const store::WorldRequest& request) {
+    if (request.access == store::WorldAccess::ReadOnly) {
+        auto saved = openReader(address, blocks, request.limits);
+        if (!saved) return tl::unexpected(saved.error());
+        return store::openOver(std::move(*saved), request, address.shown);
+    }
+    store::SaveAccess access;
+    access.create = request.create;
+    access.decide = [&](const store::WorldIdentity& saved) {
+        return store::compareWorld(saved, request.wanted, request.versionOf, address.shown);
+    };
+    auto store = PostgresStore::open(address, blocks, access, request.sharing, request.limits);
+    if (!store) return tl::unexpected(store.error());
+    if (auto whole = store::requireWhole(**store, address.shown); !whole)
+        return tl::unexpected(whole.error());
+    return std::move(*store);
+}
+
+}  // namespace
+
+std::string shownOf(const store::WorldLocation& location) {
+    if (!isPostgres(location)) return location.text;
+    const auto address = addressOf(location.text);
+    return address ? address->shown : "postgresql://…";
+}
+
+StoreResult openAnyWorld(const store::WorldLocation& location, const world::BlockRegistry& blocks,
+                         const store::WorldRequest& request) {
+    if (!isPostgres(location)) return store::openWorld(location, blocks, request);
+    assert(request.versionOf && "the generators of the program decide whether a world fits");
+    const auto address = addressOf(location.text);
+    if (!address) return tl::unexpected(address.error());
+    return openDatabase(*address, blocks, request);
+}
+
+base::Result<store::CheckReport> checkAnyWorld(const store::WorldLocation& location,
+                                               const world::BlockRegistry& blocks) {
+    return open(
+        location, [&](const Address& address) { return checkDatabase(address, blocks); },
+        [&](const std::filesystem::path& path) { return store::checkSave(path, blocks); });
+}
+
+base::Result<std::unique_ptr<store::ReadableRows>> openAnyRowsToRead(const store::WorldLocation& location,
+                                                                     const world::BlockRegistry& blocks) {
+    return open(
+        location, [&](const Address& address) { return openRowsToRead(address, blocks); },
+        [&](const std::filesystem::path& path) { return store::openSqliteToRead(path, blocks); });
+}
+
+base::Result<std::unique_ptr<store::ChunkRows>> openAnyRows(const store::WorldLocation& location,
+                                                            const world::BlockRegistry& blocks,
+                                                            const store::SaveAccess& access) {
+    return open(
+        location, [&](const Address& address) { return openRows(address, blocks, access); },
+        [&](const std::filesystem::path& path) { return store::openSqliteRows(path, blocks, access); });
+}
+
+}  // namespace terrane::store_postgres

@@ -1,0 +1,40 @@
+// In a build without libpq.
+#include "terrane/store/sqlite_reader.h"
+#include "terrane/store/sqlite_store.h"
+#include "terrane/store_postgres/any_world.h"
+
+namespace terrane::store_postgres {
+
+std::string shownOf(const store::WorldLocation& location) {
+    return location.kind == store::WorldLocation::Kind::Url ? "a URL" : location.text;
+}
+
+base::Result<std::unique_ptr<store::ChunkStore>> openAnyWorld(const store::WorldLocation& location,
+                                                              const world::BlockRegistry& blocks,
+                                                              const store::WorldRequest& request) {
+    return store::openWorld(location, blocks, request);
+}
+
+base::Result<store::CheckReport> checkAnyWorld(const store::WorldLocation& location,
+                                               const world::BlockRegistry& blocks) {
+    const auto path = store::fileOf(location);
+    if (!path) return tl::unexpected(path.error());
+    return store::checkSave(*path, blocks);
+}
+
+base::Result<std::unique_ptr<store::ReadableRows>> openAnyRowsToRead(const store::WorldLocation& location,
+                                                                     const world::BlockRegistry& blocks) {
+    const auto path = store::fileOf(location);
+    if (!path) return tl::unexpected(path.error());
+    return store::openSqliteToRead(*path, blocks);
+}
+
+base::Result<std::unique_ptr<store::ChunkRows>> openAnyRows(const store::WorldLocation& location,
+                                                            const world::BlockRegistry& blocks,
+                                                            const store::SaveAccess& access) {
+    const auto path = store::fileOf(location);
+    if (!path) return tl::unexpected(path.error());
+    return store::openSqliteRows(*path, blocks, access);
+}
+
+}  // namespace terrane::store_postgres
