@@ -10,7 +10,8 @@ namespace {
 constexpr std::int64_t kMaxJobs = 1 << 20;
 
 constexpr Statement kHasArea = {
-    "SELECT EXISTS (SELECT 1 FROM work_areas a WHERE x0 = $1 AND y0 = $2 AND x1 = $3 AND y1 = $4 AND NOT EXISTS "
+    "SELECT EXISTS (SELECT 1 FROM work_areas a WHERE x0 = $1 AND y0 = $2 AND x1 = $3 AND y1 = $4 AND NOT "
+    "EXISTS "
     "(SELECT 1 FROM jobs WHERE area = a.number AND state = 2))"};
 constexpr Statement kLockAreas = {"LOCK TABLE work_areas IN SHARE ROW EXCLUSIVE MODE"};
 constexpr Statement kAddArea = {
@@ -19,21 +20,26 @@ constexpr Statement kAddJobs = {
     "INSERT INTO jobs (area, place, x0, y0, x1, y1) SELECT $1, * FROM unnest($2::bigint[], $3::bigint[], "
     "$4::bigint[], $5::bigint[], $6::bigint[])"};
 constexpr Statement kAddWorker = {"INSERT INTO workers (name) VALUES ($1) RETURNING number"};
-constexpr Statement kGiveBack = {"UPDATE jobs SET lease = NULL, worker = NULL WHERE worker = $1 AND state = 0"};
+constexpr Statement kGiveBack = {
+    "UPDATE jobs SET lease = NULL, worker = NULL WHERE worker = $1 AND state = 0"};
 constexpr Statement kRemoveWorker = {"DELETE FROM workers WHERE number = $1"};
 constexpr Statement kTake = {
-    "UPDATE jobs SET worker = $1, lease = clock_timestamp() + $2 * interval '1 second', attempts = attempts + 1 "
-    "WHERE number = (SELECT number FROM jobs WHERE state = 0 AND (lease IS NULL OR lease < clock_timestamp()) "
+    "UPDATE jobs SET worker = $1, lease = clock_timestamp() + $2 * interval '1 second', attempts = attempts "
+    "+ 1 "
+    "WHERE number = (SELECT number FROM jobs WHERE state = 0 AND (lease IS NULL OR lease < "
+    "clock_timestamp()) "
     "AND NOT (SELECT is_paused FROM work_state) ORDER BY area, place LIMIT 1 FOR UPDATE SKIP LOCKED) "
     "RETURNING number, x0, y0, x1, y1"};
 constexpr Statement kRenew = {
-    "UPDATE jobs SET lease = clock_timestamp() + $3 * interval '1 second' WHERE number = $2 AND worker = $1 AND "
+    "UPDATE jobs SET lease = clock_timestamp() + $3 * interval '1 second' WHERE number = $2 AND worker = $1 "
+    "AND "
     "state = 0"};
 constexpr Statement kTellWorking = {
     "UPDATE workers SET seen = clock_timestamp(), chunks = chunks + $2, rate = $3::double precision / 1000, "
     "job = $4 WHERE number = $1"};
 constexpr Statement kTellAlive = {
-    "UPDATE workers SET seen = clock_timestamp(), chunks = chunks + $2, rate = 0, job = NULL WHERE number = $1"};
+    "UPDATE workers SET seen = clock_timestamp(), chunks = chunks + $2, rate = 0, job = NULL WHERE number = "
+    "$1"};
 constexpr Statement kFinish = {"UPDATE jobs SET state = 1, lease = NULL WHERE number = $1 AND state = 0"};
 constexpr Statement kPause = {"UPDATE work_state SET is_paused = ($1 <> 0)"};
 constexpr Statement kCancel = {"UPDATE jobs SET state = 2, lease = NULL WHERE state = 0"};
@@ -110,8 +116,8 @@ base::Result<bool> addAreaLocked(Connection& connection, const world::ChunkArea&
 
 }  // namespace
 
-// Ring by ring: the ring at distance r begins at (2r - 1)² and has 8 r squares, counted around from its lower left
-// corner.
+// Ring by ring: the ring at distance r begins at (2r - 1)² and has 8 r squares, counted around from its lower
+// left corner.
 std::int64_t spiralPlace(std::int64_t x, std::int64_t y) {
     const std::int64_t r = std::max(std::abs(x), std::abs(y));
     if (r == 0) return 0;
@@ -129,8 +135,8 @@ base::Result<bool> addArea(Connection& connection, const world::ChunkArea& area,
                           area.chunkCount(), kMaxJobs * kJobSide * kJobSide);
     if (auto begun = connection.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
     auto added = addAreaLocked(connection, area, order);
-    const auto ended = connection.isUsable() ? connection.execute(added ? "COMMIT" : "ROLLBACK")
-                                             : base::Result<void>();
+    const auto ended =
+        connection.isUsable() ? connection.execute(added ? "COMMIT" : "ROLLBACK") : base::Result<void>();
     if (added && !ended) return tl::unexpected(ended.error());
     return added;
 }
@@ -154,8 +160,8 @@ base::Result<std::optional<Job>> takeJob(Connection& connection, std::int64_t wo
     return std::optional(Job{rows->number(0, 0), areaOf(*rows, 0, 1)});
 }
 
-base::Result<bool> renewLease(Connection& connection, std::int64_t worker, const Job& job, std::int64_t chunks,
-                              double rate) {
+base::Result<bool> renewLease(Connection& connection, std::int64_t worker, const Job& job,
+                              std::int64_t chunks, double rate) {
     const auto perThousandSeconds = static_cast<std::int64_t>(rate * 1000);
     const std::vector<Command> commands = {
         {&kRenew, Parameters().number(worker).number(job.number).number(kLease.count())},

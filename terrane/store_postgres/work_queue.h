@@ -1,6 +1,7 @@
-// Areas of a world that any number of workers generate: a queue of squares of chunks in the database. A worker takes
-// one under a lease, which it renews while it works; what a killed worker had goes back when its lease ends. Chunks
-// follow from their place, so a square that is made twice is the same. One thread at a time.
+// Areas of a world that any number of workers generate: a queue of squares of chunks in the database. A
+// worker takes one under a lease, which it renews while it works; what a killed worker had goes back when its
+// lease ends. Chunks follow from their place, so a square that is made twice is the same. One thread at a
+// time.
 #pragma once
 
 #include <chrono>
@@ -28,7 +29,8 @@ struct Job {
 };
 
 // Cut into jobs, all or nothing; false: the queue has had the same area, and it was not cancelled.
-[[nodiscard]] base::Result<bool> addArea(Connection& connection, const world::ChunkArea& area, JobOrder order);
+[[nodiscard]] base::Result<bool> addArea(Connection& connection, const world::ChunkArea& area,
+                                         JobOrder order);
 
 // The worker's number. Its name is for people.
 [[nodiscard]] base::Result<std::int64_t> addWorker(Connection& connection, const std::string& name);
@@ -37,8 +39,8 @@ struct Job {
 
 // The next job, under a lease. Nothing where none waits, or the work is paused.
 [[nodiscard]] base::Result<std::optional<Job>> takeJob(Connection& connection, std::int64_t worker);
-// The lease begins anew, and others see how far the worker is: `chunks` since the last call, `rate` a second. False:
-// the job is cancelled, or another worker has it; what was made of it stays.
+// The lease begins anew, and others see how far the worker is: `chunks` since the last call, `rate` a second.
+// False: the job is cancelled, or another worker has it; what was made of it stays.
 [[nodiscard]] base::Result<bool> renewLease(Connection& connection, std::int64_t worker, const Job& job,
                                             std::int64_t chunks, double rate);
 // The same without a job: the worker is there.
@@ -54,20 +56,21 @@ struct Job {
 struct WorkerStatus {
     std::string name;
     std::int64_t chunks = 0;
-    double rate = 0;         // chunks a second
-    double silentSeconds = 0;  // since it was heard of
+    double rate = 0;                       // chunks a second
+    double silentSeconds = 0;              // since it was heard of
     std::optional<world::ChunkArea> area;  // that it works on
 };
 struct WorkStatus {
     bool isPaused = false;
     std::int64_t waiting = 0, working = 0, done = 0, cancelled = 0;  // jobs
-    std::int64_t chunks = 0, chunksDone = 0;                         // of jobs that are not cancelled; of those done
-    double rate = 0;                                                 // of all workers that are there
-    std::vector<WorkerStatus> workers;                               // that were heard of within a minute
+    std::int64_t chunks = 0, chunksDone = 0;  // of jobs that are not cancelled; of those done
+    double rate = 0;                          // of all workers that are there
+    std::vector<WorkerStatus> workers;        // that were heard of within a minute
 };
 [[nodiscard]] base::Result<WorkStatus> workStatus(Connection& connection);
 
-// The number of a square on a spiral around 0,0, which is 0: squares at a greater distance (Chebyshev) come later.
+// The number of a square on a spiral around 0,0, which is 0: squares at a greater distance (Chebyshev) come
+// later.
 std::int64_t spiralPlace(std::int64_t x, std::int64_t y);
 
 }  // namespace terrane::store_postgres

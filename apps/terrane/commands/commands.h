@@ -32,6 +32,7 @@ CommandEntry addMap(CLI::App& app);
 CommandEntry addDump(CLI::App& app);
 CommandEntry addCheck(CLI::App& app);
 CommandEntry addCopy(CLI::App& app);
+CommandEntry addWork(CLI::App& app);
 CommandEntry addBlocks(CLI::App& app);
 CommandEntry addBench(CLI::App& app);
 CommandEntry addServe(CLI::App& app);

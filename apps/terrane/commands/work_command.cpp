@@ -1,0 +1,203 @@
+// terrane work: generates areas of a world in a database, with any number of machines.
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/terrane/back_ends.h"
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/open_session.h"
+#include "apps/terrane/options.h"
+#include "apps/terrane/work/worker.h"
+#include "terrane/base/log.h"
+#include "terrane/base/printable.h"
+#include "terrane/base/stop_signals.h"
+#include "terrane/content/built_in.h"
+#include "terrane/store_postgres/postgres_store.h"
+
+namespace terrane::app {
+namespace {
+
+using store_postgres::Connection;
+using store_postgres::JobOrder;
+using store_postgres::WorkStatus;
+
+struct WorkOptions {
+    WorldOptions world;
+    SaveOptions save;
+    std::optional<int> radius;
+    std::optional<world::ChunkArea> area;
+    JobOrder order = JobOrder::Spiral;
+    Backend backend = Backend::Auto;
+    bool addsOnly = false, waits = false, status = false, pause = false, goOn = false, cancel = false,
+         json = false;
+};
+
+nlohmann::json toJson(const WorkStatus& status) {
+    nlohmann::json workers = nlohmann::json::array();
+    for (const store_postgres::WorkerStatus& worker : status.workers) {
+        nlohmann::json line = {{"name", worker.name},
+                               {"chunks", worker.chunks},
+                               {"chunks_per_second", worker.rate},
+                               {"silent_seconds", worker.silentSeconds}};
+        if (worker.area) line["area"] = {worker.area->x0, worker.area->y0, worker.area->x1, worker.area->y1};
+        workers.push_back(std::move(line));
+    }
+    return {{"paused", status.isPaused},
+            {"jobs",
+             {{"waiting", status.waiting},
+              {"working", status.working},
+              {"done", status.done},
+              {"cancelled", status.cancelled}}},
+            {"chunks", status.chunks},
+            {"chunks_done", status.chunksDone},
+            {"chunks_per_second", status.rate},
+            {"workers", std::move(workers)}};
+}
+
+void print(const WorkStatus& status) {
+    base::printLine("{} of {} chunks done; squares: {} waiting, {} worked on, {} done, {} cancelled{}",
+                    status.chunksDone, status.chunks, status.waiting, status.working, status.done,
+                    status.cancelled, status.isPaused ? "; paused" : "");
+    if (status.rate > 0)
+        base::printLine("{:.0f} chunks/s, about {:.0f} s are left", status.rate,
+                        static_cast<double>(status.chunks - status.chunksDone) / status.rate);
+    for (const store_postgres::WorkerStatus& worker : status.workers) {
+        const std::string at = worker.area ? fmt::format("at chunk {},{}", worker.area->x0, worker.area->y0)
+                                           : "without a square";
+        base::printLine("{}: {} chunks, {:.0f} chunks/s, {}, heard of {:.0f} s ago", worker.name,
+                        worker.chunks, worker.rate, at, worker.silentSeconds);
+    }
+}
+
+base::Result<void> printStatus(store_postgres::ConnectionPool& pool, bool json) {
+    const auto status = pool.run<WorkStatus>([](Connection& connection) { return workStatus(connection); });
+    if (!status) return tl::unexpected(status.error());
+    if (json)
+        std::cout << toJson(*status).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) << '\n';
+    else
+        print(*status);
+    return {};
+}
+
+std::string workerName() {
+    char host[256] = "";
+    if (::gethostname(host, sizeof host - 1) != 0) return fmt::format("process {}", ::getpid());
+    return fmt::format("{} process {}", host, ::getpid());
+}
+
+base::Result<void> addArea(store_postgres::ConnectionPool& pool, const WorkOptions& options) {
+    if (!options.radius && !options.area) return {};
+    const int r = options.radius.value_or(0);
+    const world::ChunkArea area = options.area.value_or(world::ChunkArea{-r, -r, r + 1, r + 1});
+    const auto added = pool.run<bool>(
+        [&](Connection& connection) { return store_postgres::addArea(connection, area, options.order); });
+    if (!added) return tl::unexpected(added.error());
+    if (!*added)
+        base::logInfo("the area {},{} to {},{} is in the queue already", area.x0, area.y0, area.x1, area.y1);
+    return {};
+}
+
+base::Result<void> runWorker(WorkOptions& options, store_postgres::ConnectionPool& pool,
+                             store::ChunkStore& store, const world::BlockRegistry& blocks) {
+    auto generator = makeBatchGenerator(options.world, options.backend, blocks);
+    if (!generator) return tl::unexpected(generator.error());
+    const base::StopSignals signals;
+    const auto start = std::chrono::steady_clock::now();
+    const auto result = work(
+        {*generator->worker, store, pool, workerName(), options.waits, [&] { return signals.stopAsked(); }});
+    if (!result) return tl::unexpected(result.error());
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double rate = static_cast<double>(result->chunks) / std::max(seconds, 1e-3);
+    if (options.json) {
+        const nlohmann::json line = {{"jobs", result->jobs},
+                                     {"chunks", result->chunks},
+                                     {"skipped", result->skipped},
+                                     {"seconds", seconds},
+                                     {"chunks_per_second", rate},
+                                     {"threads", threadCount(options.world)},
+                                     {"backend", generator->worker->backend()}};
+        std::cout << line.dump() << '\n';
+        return {};
+    }
+    base::printLine("{} squares, {} chunks made and {} there already in {:.1f} s, {:.0f} chunks/s",
+                    result->jobs, result->chunks, result->skipped, seconds, rate);
+    return {};
+}
+
+bool onlyManages(const WorkOptions& options) {
+    return options.pause || options.goOn || options.cancel || options.status;
+}
+
+base::Result<void> manage(const WorkOptions& options, store_postgres::ConnectionPool& pool) {
+    if (options.pause || options.goOn) {
+        const auto done =
+            pool.run<void>([&](Connection& connection) { return setPaused(connection, options.pause); });
+        if (!done) return done;
+    }
+    if (options.cancel) {
+        const auto count =
+            pool.run<std::int64_t>([](Connection& connection) { return cancelJobs(connection); });
+        if (!count) return tl::unexpected(count.error());
+        base::logInfo("{} squares cancelled", *count);
+    }
+    return options.status ? printStatus(pool, options.json) : base::Result<void>();
+}
+
+base::Result<void> runWork(WorkOptions& options) {
+    const auto blocks = content::loadBlocks();
+    if (!blocks) return tl::unexpected(blocks.error());
+    if (!store_postgres::isPostgresUrl(options.save.world))
+        return base::fail(base::ErrorCode::BadInput,
+                          "{}: workers share a world in a database: postgresql://host/database; `generate` "
+                          "makes an area of a file",
+                          options.save.world);
+    const auto address = store_postgres::addressOf(options.save.world);
+    if (!address) return tl::unexpected(address.error());
+    store_postgres::ConnectionPool pool(*address);
+    if (onlyManages(options)) {
+        // What is no world is told so.
+        const auto rows = store_postgres::openRowsToRead(*address, *blocks);
+        if (!rows) return tl::unexpected(rows.error());
+        return manage(options, pool);
+    }
+    auto store = openSave(options.world, options.save, store::WorldAccess::ReadWrite, *blocks,
+                          store::WorldSharing::Generating);
+    if (!store) return tl::unexpected(store.error());
+    if (auto added = addArea(pool, options); !added || options.addsOnly) return added;
+    return runWorker(options, pool, **store, *blocks);
+}
+
+}  // namespace
+
+CommandEntry addWork(CLI::App& app) {
+    auto options = std::make_shared<WorkOptions>();
+    CLI::App* command = app.add_subcommand(
+        "work", "Generate areas of a world in a database, with any number of machines at once");
+    addWorldArgument(*command, "world", options->save.world, "The world; made where it is not there");
+    auto* radius =
+        command
+            ->add_option("--radius", options->radius,
+                         "Add chunks around 0,0 to the queue: (2R+1)² of them. Every worker may say it")
+            ->check(numberFrom(0, 16000));
+    addAreaOption(*command, options->area);
+    command->get_option("--area")->excludes(radius);
+    addChoice<JobOrder>(*command, "--order", options->order,
+                        {{"spiral", JobOrder::Spiral}, {"rows", JobOrder::Rows}},
+                        "In which order squares of 32×32 chunks are made");
+    command->add_flag("--add-only", options->addsOnly, "Only add to the queue");
+    command->add_flag("--wait", options->waits, "Wait for more where nothing is left to do");
+    command->add_flag("--status", options->status, "Print how far the work is, and all workers");
+    command->add_flag("--pause", options->pause, "No worker takes another square until --continue");
+    command->add_flag("--continue", options->goOn, "After --pause");
+    command->add_flag("--cancel", options->cancel, "Take back all squares that are not done");
+    command->add_flag("--json", options->json, "Print the result, or the status, as JSON");
+    addBackendOption(*command, options->backend, "Where to generate");
+    addWorldOptions(*command, options->world);
+    return {command, [options] { return runWork(*options); }};
+}
+
+}  // namespace terrane::app

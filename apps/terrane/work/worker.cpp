@@ -1,0 +1,147 @@
+#include "apps/terrane/work/worker.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "terrane/base/log.h"
+
+namespace terrane::app {
+namespace {
+
+using store_postgres::Connection;
+using store_postgres::Job;
+using Clock = std::chrono::steady_clock;
+
+// Chunks generated at once: enough for all threads or a batch of the GPU.
+constexpr std::size_t kBatch = 128;
+constexpr std::chrono::seconds kRenewEvery{2};
+constexpr std::chrono::milliseconds kLookEvery{500};  // for a job, where there is none
+
+std::vector<world::ChunkPos> positionsOf(const world::ChunkArea& area) {
+    std::vector<world::ChunkPos> positions;
+    for (std::int32_t y = area.y0; y < area.y1; ++y)
+        for (std::int32_t x = area.x0; x < area.x1; ++x) positions.push_back({x, y});
+    return positions;
+}
+
+class Worker {
+  public:
+    explicit Worker(const WorkerParts& parts) : parts_(parts) {}
+
+    base::Result<WorkerResult> run() {
+        const auto number = parts_.pool.run<std::int64_t>(
+            [&](Connection& connection) { return addWorker(connection, parts_.name); });
+        if (!number) return tl::unexpected(number.error());
+        number_ = *number;
+        auto done = workUntilNoneIsLeft();
+        const auto removed =
+            parts_.pool.run<void>([&](Connection& connection) { return removeWorker(connection, number_); });
+        if (!done) return tl::unexpected(done.error());
+        if (!removed) return tl::unexpected(removed.error());
+        return result_;
+    }
+
+  private:
+    base::Result<void> workUntilNoneIsLeft() {
+        while (!parts_.stopAsked()) {
+            const auto job = parts_.pool.run<std::optional<Job>>(
+                [&](Connection& connection) { return takeJob(connection, number_); });
+            if (!job) return tl::unexpected(job.error());
+            if (*job) {
+                if (auto made = make(**job); !made) return made;
+                continue;
+            }
+            const auto isOver = waitForJob();
+            if (!isOver) return tl::unexpected(isOver.error());
+            if (*isOver) return {};
+        }
+        return {};
+    }
+
+    // Whether no job is left: one that another worker has may come back.
+    base::Result<bool> waitForJob() {
+        const auto status = parts_.pool.run<store_postgres::WorkStatus>(
+            [](Connection& connection) { return workStatus(connection); });
+        if (!status) return tl::unexpected(status.error());
+        if (!parts_.waits && status->waiting + status->working == 0) return true;
+        const auto told = parts_.pool.run<void>([&](Connection& connection) {
+            return tellAlive(connection, number_, std::exchange(untold_, 0));
+        });
+        if (!told) return tl::unexpected(told.error());
+        std::this_thread::sleep_for(kLookEvery);
+        return false;
+    }
+
+    base::Result<void> make(const Job& job) {
+        const std::vector<world::ChunkPos> positions = positionsOf(job.area);
+        for (std::size_t first = 0; first < positions.size(); first += kBatch) {
+            if (parts_.stopAsked()) return parts_.store.flush();
+            const auto isOurs = renewIfDue(job);
+            if (!isOurs) return tl::unexpected(isOurs.error());
+            if (!*isOurs) return {};
+            const std::size_t count = std::min(kBatch, positions.size() - first);
+            if (auto made = makeBatch(std::span(positions).subspan(first, count)); !made) return made;
+        }
+        if (auto durable = flush(job); !durable) return durable;
+        ++result_.jobs;
+        return parts_.pool.run<void>([&](Connection& connection) { return finishJob(connection, job); });
+    }
+
+    // Chunks are written while the next are made.
+    base::Result<void> makeBatch(std::span<const world::ChunkPos> positions) {
+        const std::vector<store::LoadedChunk> stored = parts_.store.loadMany(positions);
+        std::vector<world::ChunkPos> missing;
+        for (std::size_t k = 0; k < positions.size(); ++k)
+            if (!stored[k].chunk) missing.push_back(positions[k]);
+        auto chunks = gen::generateAll(parts_.generator, missing);
+        if (!chunks) return tl::unexpected(chunks.error());
+        for (std::size_t k = 0; k < missing.size(); ++k)
+            parts_.store.save(missing[k], std::move((*chunks)[k]), store::Provenance::Generated);
+        const auto made = static_cast<std::int64_t>(missing.size());
+        result_.chunks += made;
+        result_.skipped += static_cast<std::int64_t>(positions.size()) - made;
+        untold_ += made;
+        return {};
+    }
+
+    // Where the database is away the store tries again, and so does this.
+    base::Result<void> flush(const Job& job) {
+        while (true) {
+            auto done = parts_.store.flush();
+            if (done || parts_.stopAsked()) return done;
+            base::logError("{}; the square at {},{} waits", done.error().message, job.area.x0, job.area.y0);
+            std::this_thread::sleep_for(kRenewEvery);
+        }
+    }
+
+    // False: the job is another worker's now, or nobody's.
+    base::Result<bool> renewIfDue(const Job& job) {
+        const Clock::time_point now = Clock::now();
+        if (now - renewed_ < kRenewEvery) return true;
+        const double seconds = std::chrono::duration<double>(now - renewed_).count();
+        renewed_ = now;
+        const std::int64_t chunks = std::exchange(untold_, 0);
+        // The first time it is not known for how long they took.
+        const double rate = std::exchange(isFirst_, false) ? 0 : static_cast<double>(chunks) / seconds;
+        return parts_.pool.run<bool>(
+            [&](Connection& connection) { return renewLease(connection, number_, job, chunks, rate); });
+    }
+
+    const WorkerParts& parts_;
+    std::int64_t number_ = 0;
+    WorkerResult result_;
+    std::int64_t untold_ = 0;  // chunks that others do not know of
+    Clock::time_point renewed_{};
+    bool isFirst_ = true;
+};
+
+}  // namespace
+
+base::Result<WorkerResult> work(const WorkerParts& parts) {
+    return Worker(parts).run();
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,34 @@
+// A worker of `terrane work`: takes squares of chunks from the queue of a world in PostgreSQL, generates what
+// the world lacks of them, and goes on until none is left.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "terrane/gen/batch_generator.h"
+#include "terrane/store/chunk_store.h"
+#include "terrane/store_postgres/connection_pool.h"
+#include "terrane/store_postgres/work_queue.h"
+
+namespace terrane::app {
+
+struct WorkerParts {
+    gen::BatchGenerator& generator;  // of the world
+    store::ChunkStore& store;        // of the world, opened with WorldSharing::Generating
+    store_postgres::ConnectionPool& pool;
+    std::string name;
+    bool waits = false;  // for more jobs, where none is left
+    std::function<bool()> stopAsked;
+};
+
+struct WorkerResult {
+    std::int64_t jobs = 0;     // that it finished
+    std::int64_t chunks = 0;   // that it generated
+    std::int64_t skipped = 0;  // that were there
+};
+
+// Returns when no job is left that it could do, or stopAsked(). What it has begun then goes back to the
+// queue.
+[[nodiscard]] base::Result<WorkerResult> work(const WorkerParts& parts);
+
+}  // namespace terrane::app

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""Workers of a world in PostgreSQL, of which a random one is killed each second, while the database restarts.
+
+    tools/work_kill_test.py PROGRAM [RADIUS [KILLS [WORKERS [GENERATOR]]]]      96, 60, 4, voronoi
+
+At the end each chunk is there once, and the digest is that of one process that generates into memory. Killed workers are
+started again at once. The database is stopped after a third of the kills, and killed after two thirds.
+"""
+
+import json
+import random
+import subprocess
+import sys
+import time
+
+from scratch_postgres import ScratchPostgres
+
+
+def start_worker(program, url, radius, generator):
+    return subprocess.Popen([program, "work", url, "--radius", str(radius), "--threads", "1", "--backend", "cpu",
+                             "--generator", generator],
+                            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+def status(program, url):
+    answer = subprocess.run([program, "work", url, "--status", "--json"], check=True, capture_output=True, text=True)
+    return json.loads(answer.stdout)
+
+
+def disturb(program, server, workers, radius, generator, kills):
+    """Kills a random worker each second; says how many were killed while they worked."""
+    killed = 0
+    for n in range(kills):
+        time.sleep(1)
+        if n == kills // 3:
+            server.stop()
+            time.sleep(1)
+            server.start()
+        if n == 2 * kills // 3:
+            server.kill()
+            server.start()
+        k = random.randrange(len(workers))
+        if workers[k].poll() is None:
+            killed += 1
+        elif workers[k].returncode != 0:
+            raise SystemExit(f"a worker ended with {workers[k].returncode}")
+        workers[k].kill()
+        workers[k].wait()
+        workers[k] = start_worker(program, server.url(), radius, generator)
+    return killed
+
+
+def main():
+    program = sys.argv[1]
+    given = sys.argv[2:] + ["96", "60", "4", "voronoi"][len(sys.argv) - 2:]
+    radius, kills, count = (int(v) for v in given[:3])
+    generator = given[3]
+    expected = (2 * radius + 1) ** 2
+    with ScratchPostgres() as server:
+        start = time.monotonic()
+        workers = [start_worker(program, server.url(), radius, generator) for _ in range(count)]
+        killed = disturb(program, server, workers, radius, generator, kills)
+        for worker in workers:
+            if worker.wait() != 0:
+                raise SystemExit(f"a worker ended with {worker.returncode}")
+        seconds = time.monotonic() - start
+        work = status(program, server.url())
+        rows = int(server.query("SELECT count(*) FROM terrane.chunks WHERE key < (1::bigint << 56)"))
+        attempts = server.query("SELECT sum(attempts), count(*) FROM terrane.jobs")
+        area = ["generate", "--radius", str(radius), "--digest", "--generator", generator]
+        one = subprocess.run([program, *area], check=True, capture_output=True, text=True).stdout
+        all_workers = subprocess.run([program, *area, "--world", server.url(), "--json"], check=True,
+                                     capture_output=True, text=True).stdout
+        checked = subprocess.run([program, "check", server.url()], capture_output=True, text=True)
+    print(f"{killed} workers killed, {seconds:.0f} s, {rows} chunks, attempts and jobs {attempts}, digest {one.strip()}")
+    problems = []
+    if work["jobs"]["waiting"] + work["jobs"]["working"] != 0 or work["chunks_done"] != expected:
+        problems.append(f"the queue says {work}")
+    if rows != expected:
+        problems.append(f"{rows} chunks, expected {expected}")
+    made = json.loads(all_workers)
+    if made["digest"] != one.strip() or made["chunks"] != 0:
+        problems.append(f"digest of all: {made}")
+    if checked.returncode != 0:
+        problems.append(checked.stdout)
+    if killed == 0:
+        problems.append("no worker was killed while it worked")
+    for problem in problems:
+        print("failed:", problem)
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
