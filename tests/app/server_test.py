@@ -5,7 +5,7 @@ import unittest
 import support
 
 DRAWING_LIBRARIES = ("libGL", "libEGL", "libepoxy", "libglfw", "libimgui", "libX11", "libOpenGL", "libwayland")
-COMMANDS = ("generate", "map", "dump", "check", "serve", "history", "bots", "blocks", "info", "completion", "man")
+COMMANDS = ("generate", "map", "dump", "check", "copy", "work", "serve", "history", "bots", "blocks", "info", "completion", "man")
 
 
 class Server(support.ProgramTest):

@@ -151,10 +151,10 @@ base::Result<void> runWork(WorkOptions& options) {
     const auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
     if (!store_postgres::isPostgresUrl(options.save.world))
-        return base::fail(base::ErrorCode::BadInput,
-                          "{}: workers share a world in a database: postgresql://host/database; `generate` "
-                          "makes an area of a file",
-                          options.save.world);
+        return base::fail(
+            base::ErrorCode::BadInput,
+            "work: the world is not in PostgreSQL (postgresql://host/database); `terrane generate` makes "
+            "an area of a file");
     const auto address = store_postgres::addressOf(options.save.world);
     if (!address) return tl::unexpected(address.error());
     store_postgres::ConnectionPool pool(*address);

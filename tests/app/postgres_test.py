@@ -1,0 +1,231 @@
+#!/usr/bin/env python3
+"""Worlds in PostgreSQL, from the command line. Usage: postgres_test.py PROGRAM"""
+import json
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import support
+from support import ProgramTest, run
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "tools"))
+from scratch_postgres import ScratchPostgres, free_port  # noqa: E402
+
+_server = None
+
+
+def setUpModule():
+    global _server
+    _server = ScratchPostgres()
+
+
+def tearDownModule():
+    _server.close()
+
+
+class Postgres(ProgramTest):
+    schemas = 0
+
+    def setUp(self):
+        super().setUp()
+        Postgres.schemas += 1
+        self.schema = f"world_{Postgres.schemas}"
+        self.url = _server.url(self.schema)
+        self.table = f"{self.schema}.chunks"
+
+    def digest(self, radius, *world):
+        return self.succeed("generate", "--radius", radius, "--digest", *world).strip()
+
+    def rows(self, where="true"):
+        return int(_server.query(f"SELECT count(*) FROM {self.table} WHERE {where}"))
+
+
+class World(Postgres):
+    def test_the_digest_is_that_of_a_file_and_of_memory(self):
+        digests = {self.digest(4), self.digest(4, "--world", self.folder / "a.sqlite"),
+                   self.digest(4, "--world", self.url)}
+        self.assertEqual(len(digests), 1)
+        self.assertEqual(self.rows(), 81)
+        self.assertEqual(self.digest(4, "--world", self.url), digests.pop(), "read from the database")
+
+    def test_an_image_is_that_of_a_file(self):
+        if "render" not in self.succeed("--help"):
+            self.skipTest("a build without graphics")
+        view = ("--at", "8,8,120", "--size", "96x54", "--view-distance", "3", "--samples", "1")
+        images = []
+        for name, world in (("file", self.folder / "a.sqlite"), ("database", self.url)):
+            self.succeed("generate", "--radius", "4", "--world", world)
+            self.succeed("render", "--world", world, *view, "-o", self.folder / f"{name}.png")
+            images.append((self.folder / f"{name}.png").read_bytes())
+        self.assertEqual(*images)
+
+    def test_check_finds_damage(self):
+        self.succeed("generate", "--radius", "1", "--world", self.url)
+        self.assertRegex(self.succeed("check", self.url), r"9 chunks.*\ngood\n\Z")
+        _server.query(f"UPDATE {self.table} SET data = set_byte(data, 20, get_byte(data, 20) # 1) "
+                      f"WHERE key = (SELECT min(key) FROM {self.table})")
+        done = run("check", self.url)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("damage: chunk -1,-1: ", done.stdout)
+        # Generating puts it aside and makes it anew.
+        run("generate", "--radius", "1", "--world", self.url)
+        self.assertRegex(self.succeed("check", self.url), "1 damaged chunks were put aside before\ngood\n")
+
+
+class Refused(Postgres):
+    def assertOneLine(self, url, *words, secret="pass-word"):
+        for command in (("check", url), ("generate", "--radius", "0", "--world", url), ("copy", url, self.folder / "x.sqlite"),
+                        ("work", url, "--radius", "0")):
+            done = run(*command)
+            self.assertRefused(done, command)
+            self.assertNotIn(secret, done.stderr)
+            for word in words:
+                self.assertIn(word, done.stderr)
+
+    def test_no_server(self):
+        self.assertOneLine(f"postgresql://user:pass-word@127.0.0.1:{free_port()}/name", "cannot be reached", "refused")
+
+    def test_no_such_database(self):
+        self.assertOneLine(f"postgresql://postgres:pass-word@127.0.0.1:{_server.port}/none", '"none" does not exist')
+
+    def test_a_url_that_is_none(self):
+        self.assertOneLine("postgresql://user:pass-word@host:port:port/name%", "not a URL")
+        self.assertOneLine("postgresql://user:pass-word@host/name?no_such_option=1", "not a URL")
+
+    def test_tables_of_another_program(self):
+        _server.query(f"CREATE SCHEMA {self.schema}; CREATE TABLE {self.schema}.customers (name text)")
+        self.assertOneLine(self.url, "another program")
+
+    def test_another_kind_of_database(self):
+        self.assertOneLine("mysql://user:pass-word@host/name")
+
+    def test_a_newer_format(self):
+        self.succeed("generate", "--radius", "0", "--world", self.url)
+        _server.query(f"UPDATE {self.schema}.terrane_format SET format = 99")
+        self.assertOneLine(self.url, "in format 99")
+
+    def test_an_older_format_is_brought_to_the_newest(self):
+        self.succeed("generate", "--radius", "1", "--world", self.url)
+        _server.query(f"DROP TABLE {self.schema}.jobs, {self.schema}.work_areas, {self.schema}.workers, "
+                      f"{self.schema}.work_state; UPDATE {self.schema}.terrane_format SET format = 1")
+        self.assertRefused(run("check", self.url), "reading changes nothing")
+        done = run("generate", "--radius", "1", "--world", self.url)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("brought from format 1", done.stderr)
+        self.assertIn("9 chunks", self.succeed("check", self.url))
+
+
+class Copy(Postgres):
+    def test_there_and_back(self):
+        file, back = self.folder / "a.sqlite", self.folder / "b.sqlite"
+        self.succeed("generate", "--radius", "3", "--world", file)
+        there = json.loads(self.succeed("copy", file, self.url, "--json"))
+        again = json.loads(self.succeed("copy", self.url, back, "--json"))
+        self.assertEqual(there["chunks"], 49)
+        self.assertEqual((there["digest"], there["bytes"]), (again["digest"], again["bytes"]))
+        self.assertEqual(self.digest(3, "--world", back), self.digest(3))
+        self.assertRegex(self.succeed("check", back), "good\n")
+
+    def test_a_world_that_is_there_stays(self):
+        file = self.folder / "a.sqlite"
+        self.succeed("generate", "--radius", "1", "--world", file)
+        self.succeed("generate", "--radius", "0", "--world", self.url)
+        self.assertRefused(run("copy", file, self.url), "another world")
+        self.assertEqual(self.rows(), 1)
+
+    def test_a_killed_copy_goes_on(self):
+        file = self.folder / "a.sqlite"
+        self.succeed("generate", "--radius", "40", "--world", file, "--generator", "flat")
+        copy = subprocess.Popen([support.program(), "copy", str(file), self.url], stdout=subprocess.DEVNULL,
+                                stderr=subprocess.DEVNULL)
+        while copy.poll() is None and "t" not in _server.query(
+                f"SELECT CASE WHEN to_regclass('{self.table}') IS NULL THEN 'f' ELSE (xpath('/row/c/text()', "
+                f"query_to_xml('SELECT count(*) > 600 AS c FROM {self.table}', false, true, '')))[1]::text END"):
+            time.sleep(0.002)
+        copy.send_signal(signal.SIGKILL)
+        killed = copy.wait() != 0
+        if killed:
+            self.assertLess(self.rows(), 81 * 81)
+            self.assertRefused(run("generate", "--radius", "1", "--world", self.url), "not finished")
+            copied = json.loads(self.succeed("copy", file, self.url, "--json"))
+            self.assertEqual(copied["chunks"], 81 * 81)
+            self.assertLess(copied["copied"], 81 * 81, "it went on where it was")
+        self.assertEqual(self.digest(40, "--world", self.url), self.digest(40, "--generator", "flat"))
+
+    def test_damaged_chunks_are_left_out_and_told(self):
+        self.succeed("generate", "--radius", "1", "--world", self.url)
+        _server.query(f"UPDATE {self.table} SET data = substring(data for 12) WHERE key = (SELECT max(key) FROM {self.table})")
+        done = run("copy", self.url, self.folder / "a.sqlite")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("1 damaged chunks were left out, the first is chunk 1,1: ", done.stdout)
+
+
+class Work(Postgres):
+    def status(self):
+        return json.loads(self.succeed("work", self.url, "--status", "--json"))
+
+    def test_workers_share_an_area(self):
+        workers = [subprocess.Popen([support.program(), "work", self.url, "--radius", "20", "--threads", "1", "--json"],
+                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(2)]
+        results = []
+        for worker in workers:
+            out, error = worker.communicate(timeout=support.HANG_SECONDS)
+            self.assertEqual(worker.returncode, 0, error)
+            results.append(json.loads(out))
+        self.assertEqual(sum(r["chunks"] for r in results), 41 * 41, "each chunk by one of them")
+        self.assertEqual(self.rows(), 41 * 41)
+        status = self.status()
+        self.assertEqual((status["jobs"]["waiting"], status["jobs"]["working"]), (0, 0))
+        self.assertEqual(status["chunks_done"], 41 * 41)
+        self.assertEqual(self.digest(20, "--world", self.url), self.digest(20))
+
+    def test_an_area_far_away_and_not_of_whole_squares(self):
+        self.succeed("work", self.url, "--area", "-1000003,77,-999990,81", "--order", "rows")
+        self.assertEqual(self.rows(), 13 * 4)
+        self.assertEqual(self.succeed("generate", "--area", "-1000003,77,-999990,81", "--digest", "--world", self.url),
+                         self.succeed("generate", "--area", "-1000003,77,-999990,81", "--digest"))
+
+    def test_pause_continue_cancel(self):
+        self.succeed("work", self.url, "--radius", "40", "--add-only")
+        self.assertEqual(self.status()["jobs"]["waiting"], 16)
+        self.succeed("work", self.url, "--pause")
+        worker = subprocess.Popen([support.program(), "work", self.url], stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.DEVNULL)
+        while not self.status()["workers"]:
+            self.assertIsNone(worker.poll())
+        self.assertTrue(self.status()["paused"])
+        worker.terminate()
+        worker.wait()
+        self.assertEqual(self.status()["jobs"]["done"], 0, "a paused queue gives no job")
+        run("work", self.url, "--cancel")
+        self.assertEqual(self.status()["jobs"]["cancelled"], 16)
+        self.succeed("work", self.url, "--continue")
+        self.succeed("work", self.url, "--radius", "1")
+        self.assertEqual(self.rows(), 9, "what was cancelled is not made")
+
+    def test_status_makes_no_world(self):
+        self.assertRefused(run("work", self.url, "--status"), "no world")
+        self.assertEqual(_server.query(f"SELECT count(*) FROM pg_namespace WHERE nspname = '{self.schema}'"), "0")
+
+    def test_a_file_is_no_place_for_workers(self):
+        done = run("work", self.folder / "a.sqlite", "--radius", "1")
+        self.assertRefused(done, "file")
+        self.assertIn("postgresql://", done.stderr)
+
+
+class Names(Postgres):
+    def test_a_schema_is_a_name_and_nothing_else(self):
+        evil = "a\"; DROP SCHEMA public; --'"
+        url = _server.url(re.sub(r"[^A-Za-z0-9]", lambda c: f"%{ord(c.group()):02x}", evil))
+        self.succeed("generate", "--radius", "0", "--world", url)
+        self.assertIn("1 chunks", self.succeed("check", url))
+        self.assertEqual(_server.query("SELECT count(*) FROM pg_namespace WHERE nspname = 'public'"), "1")
+        quoted = evil.replace('"', '""')
+        self.assertEqual(_server.query(f'SELECT count(*) FROM "{quoted}".chunks'), "1")
+
+
+if __name__ == "__main__":
+    support.main()
