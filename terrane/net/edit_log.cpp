@@ -12,8 +12,6 @@
 namespace terrane::net {
 namespace {
 
-constexpr const char* kSaved = "saved";  // in the table `state`
-
 // Ids as the file has them. Types that the file has no id for are none that a session can have.
 ChunkDifference withSavedIds(ChunkDifference blocks, const store::BlockIdMap& ids) {
     for (ChangedBlock& block : blocks)
@@ -30,7 +28,13 @@ bool takeSessionIds(ChunkDifference& blocks, const store::BlockIdMap& ids) {
     return true;
 }
 
-Bytes encodeBlocks(const LoggedEdit& edit, const store::BlockIdMap& ids) {
+bool haveSameBlocks(const LoggedEdit& edit) {
+    return std::ranges::equal(edit.before, edit.after, {}, &ChangedBlock::index, &ChangedBlock::index);
+}
+
+}  // namespace
+
+Bytes encodeEdit(const LoggedEdit& edit, const store::BlockIdMap& ids) {
     Bytes bytes;
     WireWriter wire(bytes);
     writeBlocks(wire, withSavedIds(edit.before, ids));
@@ -38,18 +42,10 @@ Bytes encodeBlocks(const LoggedEdit& edit, const store::BlockIdMap& ids) {
     return bytes;
 }
 
-bool haveSameBlocks(const LoggedEdit& edit) {
-    return std::ranges::equal(edit.before, edit.after, {}, &ChangedBlock::index, &ChangedBlock::index);
-}
-
-base::Result<LoggedEdit> editOf(const store::Statement& row, const store::BlockIdMap& ids) {
-    LoggedEdit edit{row.number(0),
-                    row.number(1),
-                    static_cast<game::PlayerId>(row.number(2)),
-                    store::posOf(row.number(3)),
-                    {},
-                    {}};
-    WireReader wire(row.blob(4));
+base::Result<LoggedEdit> decodeEdit(const EditRow& row, const store::BlockIdMap& ids) {
+    LoggedEdit edit{
+        row.number, row.timeMs, static_cast<game::PlayerId>(row.player), store::posOf(row.chunkKey), {}, {}};
+    WireReader wire(row.blocks);
     readBlocks(wire, edit.before);
     readBlocks(wire, edit.after);
     const bool isRead = wire.isComplete() && world::isInWorld(edit.chunk) && haveSameBlocks(edit);
@@ -57,33 +53,17 @@ base::Result<LoggedEdit> editOf(const store::Statement& row, const store::BlockI
     return base::fail(base::ErrorCode::Damaged, "edit {} is damaged", edit.number);
 }
 
-bool isInArea(const LoggedEdit& edit, const game::ColumnArea& area) {
-    return std::ranges::any_of(edit.after, [&](const ChangedBlock& block) {
-        return area.contains(world::blockPos(edit.chunk, block.index));
+bool isInArea(const LoggedEdit& edit, const EditFilter& filter) {
+    return !filter.area || std::ranges::any_of(edit.after, [&](const ChangedBlock& block) {
+        return filter.area->contains(world::blockPos(edit.chunk, block.index));
     });
 }
 
-std::string queryOf(const EditFilter& filter, EditOrder order) {
-    std::string sql = fmt::format("SELECT number, time, player, chunk, blocks FROM edits WHERE number > {}",
-                                  filter.afterNumber);
-    if (filter.player) sql += fmt::format(" AND player = {}", *filter.player);
-    if (filter.sinceMs) sql += fmt::format(" AND time >= {}", *filter.sinceMs);
-    if (filter.untilMs) sql += fmt::format(" AND time < {}", *filter.untilMs);
-    if (filter.area) {  // a key grows with x first
-        const world::ChunkPos low{filter.area->x0 >> 4, world::kMinChunk},
-            high{filter.area->x1 >> 4, world::kMaxChunk};
-        sql += fmt::format(" AND chunk BETWEEN {} AND {}", store::keyOf(low), store::keyOf(high));
-    }
-    return sql + (order == EditOrder::OldestFirst ? " ORDER BY number" : " ORDER BY number DESC");
+// A key grows with x first.
+KeyRange chunkKeys(const game::ColumnArea& area) {
+    const world::ChunkPos low{area.x0 >> 4, world::kMinChunk}, high{area.x1 >> 4, world::kMaxChunk};
+    return {store::keyOf(low), store::keyOf(high)};
 }
-
-base::Result<std::int64_t> numberOr0(store::Database& database, const std::string& sql) {
-    const auto number = database.queryNumber(sql);
-    if (!number) return tl::unexpected(number.error());
-    return number->value_or(0);
-}
-
-}  // namespace
 
 std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::PlayerId player, std::int64_t timeMs,
                                     std::span<const game::ChangedBlock> changes) {
@@ -112,51 +92,7 @@ std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::PlayerId player, s
     return edits;
 }
 
-std::uint64_t appendEdit(ServerFile& file, LoggedEdit edit) {
-    Bytes blocks = encodeBlocks(edit, file.ids());
-    assert(edit.number > 0 && "the server numbers edits");
-    return file.write([number = edit.number, time = edit.timeMs, player = std::int64_t{edit.player},
-                       chunk = store::keyOf(edit.chunk),
-                       blocks = std::move(blocks)](store::Database& database) -> base::Result<void> {
-        auto insert = database.prepare(
-            "INSERT INTO edits (number, time, player, chunk, blocks) VALUES (?1, ?2, ?3, ?4, ?5)");
-        if (!insert) return tl::unexpected(insert.error());
-        insert->bind(1, number);
-        insert->bind(2, time);
-        insert->bind(3, player);
-        insert->bind(4, chunk);
-        insert->bind(5, blocks);
-        return insert->run();
-    });
-}
-
-base::Result<std::int64_t> newestEdit(store::Database& database) {
-    return numberOr0(database, "SELECT max(number) FROM edits");
-}
-
-base::Result<std::int64_t> savedEdit(store::Database& database) {
-    return numberOr0(database, fmt::format("SELECT value FROM state WHERE name = '{}'", kSaved));
-}
-
-std::uint64_t setSavedEdit(ServerFile& file, std::int64_t number) {
-    return file.write([number](store::Database& database) {
-        return database.execute(
-            fmt::format("INSERT OR REPLACE INTO state (name, value) VALUES ('{}', {})", kSaved, number));
-    });
-}
-
-base::Result<void> forEachEdit(store::Database& database, const store::BlockIdMap& ids,
-                               const EditFilter& filter, EditOrder order, const UseEdit& use) {
-    const auto take = [&](const store::Statement& row) -> base::Result<void> {
-        const auto edit = editOf(row, ids);
-        if (!edit) return tl::unexpected(edit.error());
-        return filter.area && !isInArea(*edit, *filter.area) ? base::Result<void>() : use(*edit);
-    };
-    return store::forEachRow(database, queryOf(filter, order), take);
-}
-
-base::Result<std::vector<RolledBack>> rollback(store::Database& database, const store::BlockIdMap& ids,
-                                               const EditFilter& filter) {
+base::Result<std::vector<RolledBack>> rollback(const ForEachEdit& forEachEdit, const EditFilter& filter) {
     std::unordered_map<world::BlockPos, RolledBack, world::BlockPosHash> blocks;
     const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
         for (std::size_t k = 0; k < edit.after.size(); ++k) {
@@ -171,7 +107,7 @@ base::Result<std::vector<RolledBack>> rollback(store::Database& database, const 
                           "more than {} blocks to roll back: say a shorter time or a smaller area",
                           kMaxRollback);
     };
-    if (auto done = forEachEdit(database, ids, filter, EditOrder::NewestFirst, take); !done)
+    if (auto done = forEachEdit(filter, EditOrder::NewestFirst, take); !done)
         return tl::unexpected(done.error());
     std::vector<RolledBack> plan;
     plan.reserve(blocks.size());

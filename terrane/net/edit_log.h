@@ -1,6 +1,6 @@
 // The history of a shared world: who changed which blocks, when, from what to what. It is written before a
-// command is acknowledged, so that it also brings back what a crash kept from the world's own file. On the
-// server's thread.
+// command is acknowledged, so that it also brings back what a crash kept from the world's own file. Plain
+// values, for any thread; server_records.h keeps them.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include "terrane/game/edit_history.h"
 #include "terrane/game/permissions.h"
 #include "terrane/net/chunk_difference.h"
-#include "terrane/net/server_file.h"
+#include "terrane/store/block_id_map.h"
 
 namespace terrane::net {
 
@@ -29,15 +29,6 @@ struct LoggedEdit {
 std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::PlayerId player, std::int64_t timeMs,
                                     std::span<const game::ChangedBlock> changes);
 
-// Gives the number of the write (ServerFile::durable()).
-std::uint64_t appendEdit(ServerFile& file, LoggedEdit edit);
-
-// The newest edit's number, of those that are durable; 0: none.
-[[nodiscard]] base::Result<std::int64_t> newestEdit(store::Database& database);
-// All edits up to this number are in the world's own file.
-[[nodiscard]] base::Result<std::int64_t> savedEdit(store::Database& database);
-std::uint64_t setSavedEdit(ServerFile& file, std::int64_t number);
-
 // Which edits are meant; what is not given makes no difference.
 struct EditFilter {
     std::optional<game::PlayerId> player = {};
@@ -49,8 +40,23 @@ enum class EditOrder : std::uint8_t { OldestFirst, NewestFirst };
 
 // Until `use` gives an error. An edit that cannot be read is an error that names its number.
 using UseEdit = std::function<base::Result<void>(const LoggedEdit&)>;
-[[nodiscard]] base::Result<void> forEachEdit(store::Database& database, const store::BlockIdMap& ids,
-                                             const EditFilter& filter, EditOrder order, const UseEdit& use);
+using ForEachEdit = std::function<base::Result<void>(const EditFilter&, EditOrder, const UseEdit&)>;
+// Whether some block of the edit is in the filter's area, of an edit that meets all else.
+bool isInArea(const LoggedEdit& edit, const EditFilter& filter);
+// The keys of chunks (store/chunk_key.h) in which the area is; others lie between them, too.
+struct KeyRange {
+    std::int64_t first = 0, last = 0;
+};
+KeyRange chunkKeys(const game::ColumnArea& area);
+
+// The blocks of an edit as histories keep them, with the ids of `ids`.
+Bytes encodeEdit(const LoggedEdit& edit, const store::BlockIdMap& ids);
+// The edit of a row. Damaged where the bytes are not its blocks.
+struct EditRow {
+    std::int64_t number = 0, timeMs = 0, player = 0, chunkKey = 0;
+    ByteView blocks;
+};
+[[nodiscard]] base::Result<LoggedEdit> decodeEdit(const EditRow& row, const store::BlockIdMap& ids);
 
 // A block that a roll-back changes: from what the last of the edits made it to what it was before the first.
 struct RolledBack {
@@ -60,8 +66,7 @@ struct RolledBack {
 // At most so many blocks at once: about 200 bytes each while it runs, 400 MB.
 constexpr std::size_t kMaxRollback = 2'000'000;
 // By chunk, and in a chunk by block index. An error where there are too many.
-[[nodiscard]] base::Result<std::vector<RolledBack>> rollback(store::Database& database,
-                                                             const store::BlockIdMap& ids,
+[[nodiscard]] base::Result<std::vector<RolledBack>> rollback(const ForEachEdit& forEachEdit,
                                                              const EditFilter& filter);
 
 }  // namespace terrane::net

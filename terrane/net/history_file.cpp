@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include "terrane/net/sqlite_edits.h"
 #include "terrane/store/schema.h"
 
 namespace terrane::net {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "terrane/net/edit_log.h"
+#include "terrane/store/sqlite.h"
 
 namespace terrane::net {
 

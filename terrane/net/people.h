@@ -1,5 +1,5 @@
 // Everybody who ever played on a server, with what it keeps of them, and the claims: in memory, and written
-// to the server's file as it changes. On the server's thread.
+// to the server's records as it changes. On the server's thread.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,8 @@
 #include <string_view>
 
 #include "terrane/game/permissions.h"
-#include "terrane/net/keys.h"
 #include "terrane/net/message_types.h"
-#include "terrane/net/server_file.h"
-#include "terrane/world/pose.h"
+#include "terrane/net/server_records.h"
 
 namespace terrane::net {
 
@@ -21,19 +19,10 @@ namespace terrane::net {
 bool isName(std::string_view name);
 std::string nameRule();  // as a sentence
 
-struct KnownPlayer {
-    game::PlayerId id = game::kNoPlayer;
-    PublicKey key{};
-    std::string name;
-    game::Role role = game::Role::Player;
-    std::optional<world::Pose> pose;  // where it left
-    std::string ban;                  // the reason; empty: none
-};
-
 class People {
   public:
-    // All of the file. Rows that make no sense are an error that names the file.
-    [[nodiscard]] static base::Result<People> read(ServerFile& file);
+    // All of the records, which it keeps.
+    [[nodiscard]] static base::Result<People> read(ServerRecords& records);
 
     // Null where nobody has it. Names are compared without case, as far as letters of ASCII go. Pointers
     // hold.
@@ -54,12 +43,9 @@ class People {
     bool removeClaim(std::string_view name);
 
   private:
-    explicit People(ServerFile& file) : file_(&file) {}
-    base::Result<void> readPlayers();
-    base::Result<void> readClaims();
-    void save(const KnownPlayer& player);
+    explicit People(ServerRecords& records) : records_(&records) {}
 
-    ServerFile* file_;
+    ServerRecords* records_;
     std::map<game::PlayerId, KnownPlayer> players_;
     game::Claims claims_;
 };

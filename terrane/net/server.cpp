@@ -70,7 +70,7 @@ base::Result<void> prepare(ServerState& server) {
     auto edited = server.session.store().editedChunks();
     if (!edited) return tl::unexpected(edited.error());
     for (const world::ChunkPos pos : *edited) server.edited.add(pos);
-    auto password = serverText(server.file, kPasswordText);
+    auto password = server.records.text(kPasswordText);
     if (!password) return tl::unexpected(password.error());
     server.passwordHash = std::move(*password);
     server.session.permissions.claims = server.people.claims();

@@ -44,7 +44,7 @@ struct WaitingCommand {
 };
 // A decision that is told once it is in the file.
 struct Decision {
-    std::uint64_t write = 0;  // ServerFile::durable(); 0: nothing was written
+    std::uint64_t write = 0;  // ServerRecords::durable(); 0: nothing was written
     Done done;
 };
 

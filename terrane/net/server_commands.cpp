@@ -234,7 +234,7 @@ void runCommands(ServerState& server) {
 }
 
 void tellDecisions(ServerState& server) {
-    const std::uint64_t durable = server.file.durable();
+    const std::uint64_t durable = server.records.durable();
     forEachPlaying(server, [&](ServerClient& client) {
         for (; !client.decisions.empty(); client.decisions.pop_front()) {
             const Decision& decision = client.decisions.front();

@@ -199,7 +199,7 @@ std::string setPassword(ServerState& server, Words words) {
         if (!hash) return hash.error().message;
         server.passwordHash = std::move(*hash);
     }
-    setServerText(server.file, kPasswordText, server.passwordHash);
+    server.records.setText(kPasswordText, server.passwordHash);
     return server.passwordHash.empty() ? "no password is needed" : "the password is set";
 }
 

@@ -177,24 +177,4 @@ void ServerFile::run() {
     }
 }
 
-base::Result<std::string> serverText(ServerFile& file, const std::string& name) {
-    std::string text;
-    auto query = file.reader().prepare("SELECT value FROM texts WHERE name = ?1");
-    if (!query) return tl::unexpected(query.error());
-    query->bind(1, name);
-    const auto row = query->step();
-    if (!row) return tl::unexpected(row.error());
-    return *row ? std::string(query->text(0)) : std::string();
-}
-
-void setServerText(ServerFile& file, const std::string& name, const std::string& text) {
-    file.write([name, text](store::Database& database) -> base::Result<void> {
-        auto put = database.prepare("INSERT OR REPLACE INTO texts (name, value) VALUES (?1, ?2)");
-        if (!put) return tl::unexpected(put.error());
-        put->bind(1, name);
-        put->bind(2, text);
-        return put->run();
-    });
-}
-
 }  // namespace terrane::net

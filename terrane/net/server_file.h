@@ -1,5 +1,5 @@
 // The file that a server keeps beside a world, NAME.server.sqlite: who plays there, claims, and the history
-// of edits (edit_log.h, people.h). The world's own file has the same format with and without it.
+// of edits (sqlite_records.h). The world's own file has the same format with and without it.
 //
 // Writes are collected and made durable together, on a thread of its own, about as soon as the disk can: a
 // command is acknowledged when it is durable. Functions are for one thread, the server's, but where said
@@ -72,9 +72,5 @@ class ServerFile {
     bool isEnding_ = false;
     std::thread thread_;
 };
-
-// Small texts by name, as the password's hash; empty where there is none.
-[[nodiscard]] base::Result<std::string> serverText(ServerFile& file, const std::string& name);
-void setServerText(ServerFile& file, const std::string& name, const std::string& text);
 
 }  // namespace terrane::net

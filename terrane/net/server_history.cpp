@@ -22,34 +22,32 @@ std::int64_t millisecondsNow() {
 
 void logChanges(ServerState& server, game::PlayerId player, std::span<const game::ChangedBlock> changes) {
     ServerHistory& history = server.history;
-    for (LoggedEdit& edit : loggedEdits(history.newest + 1, player, millisecondsNow(), changes)) {
-        history.newest = edit.number;
-        history.lastWrite = appendEdit(server.file, std::move(edit));
-    }
+    const std::vector<LoggedEdit> edits = loggedEdits(history.newest + 1, player, millisecondsNow(), changes);
+    if (edits.empty()) return;
+    history.newest = edits.back().number;
+    history.lastWrite = server.records.append(edits);
 }
 
 base::Result<void> restoreEdits(ServerState& server) {
     ServerHistory& history = server.history;
-    const auto newest = newestEdit(server.file.reader()), saved = savedEdit(server.file.reader());
-    if (!newest || !saved) return tl::unexpected((!newest ? newest : saved).error());
-    history.newest = *newest;
-    history.saved = *saved;
+    const auto ends = server.records.historyEnds();
+    if (!ends) return tl::unexpected(ends.error());
+    history.newest = ends->newest;
+    history.saved = ends->saved;
     std::map<world::ChunkPos, ChunkDifference> chunks;
     const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
         mergeInto(chunks[edit.chunk], edit.after);
         return {};
     };
-    if (auto done = forEachEdit(server.file.reader(), server.file.ids(), {.afterNumber = *saved},
-                                EditOrder::OldestFirst, take);
-        !done)
-        return done;
+    const EditFilter unsaved{.afterNumber = ends->saved};
+    if (auto done = server.records.forEachEdit(unsaved, EditOrder::OldestFirst, take); !done) return done;
     if (chunks.empty()) return {};
     for (const auto& [pos, blocks] : chunks) {
         (void)server.session.pipeline().chunkAt(pos);
         server.session.setBlocks(placedBlocks(pos, blocks));
     }
-    base::logInfo("{} chunks brought back from the history, edits {} to {}", chunks.size(), *saved + 1,
-                  *newest);
+    base::logInfo("{} chunks brought back from the history, edits {} to {}", chunks.size(), ends->saved + 1,
+                  ends->newest);
     return saveEverything(server);
 }
 
@@ -58,7 +56,7 @@ void keepSaving(ServerState& server) {
     store::ChunkStore& store = server.session.store();
     if (history.saving && store.status().durable >= history.saving->save) {
         history.saved = history.saving->edit;
-        setSavedEdit(server.file, history.saved);
+        server.records.setSavedEdit(history.saved);
         history.saving.reset();
     }
     if (history.saving || server.now < history.nextSave) return;
@@ -78,16 +76,19 @@ base::Result<void> saveEverything(ServerState& server) {
     if (auto saved = server.session.save(); !saved) return saved;
     if (server.history.saved < server.history.newest) {
         server.history.saved = server.history.newest;
-        setSavedEdit(server.file, server.history.newest);
+        server.records.setSavedEdit(server.history.newest);
     }
     server.history.saving.reset();
-    return server.file.flush();
+    return server.records.flush();
 }
 
 base::Result<std::size_t> startRollback(ServerState& server, const EditFilter& filter) {
     // The reader sees what is durable.
-    if (auto flushed = server.file.flush(); !flushed) return tl::unexpected(flushed.error());
-    auto plan = rollback(server.file.reader(), server.file.ids(), filter);
+    if (auto flushed = server.records.flush(); !flushed) return tl::unexpected(flushed.error());
+    const auto forEachEdit = [&](const EditFilter& wanted, EditOrder order, const UseEdit& use) {
+        return server.records.forEachEdit(wanted, order, use);
+    };
+    auto plan = rollback(forEachEdit, filter);
     if (!plan) return tl::unexpected(plan.error());
     for (RolledBack& block : *plan) {
         const world::ChunkPos chunk = world::chunkOf(block.pos);

@@ -7,15 +7,13 @@
 
 namespace terrane::net {
 
-base::Result<ServerHost> openServerHost(game::SessionParts parts, const std::filesystem::path& serverFile,
+base::Result<ServerHost> openServerHost(game::SessionParts parts, std::unique_ptr<ServerRecords> records,
                                         const ServerSettings& settings, const std::string& program) {
     const store::WorldIdentity identity = parts.store->identity();
     auto graph = gen::makeGenerator(identity.generator, *parts.blocks);
     if (!graph) return tl::unexpected(graph.error());
     const WorldFingerprint fingerprint = worldFingerprint(identity, *graph, *parts.blocks);
-    auto file = ServerFile::open(serverFile, *parts.blocks);
-    if (!file) return tl::unexpected(file.error());
-    auto people = People::read(**file);
+    auto people = People::read(*records);
     if (!people) return tl::unexpected(people.error());
 
     const auto tiles = std::make_shared<WrittenTiles>();
@@ -24,9 +22,10 @@ base::Result<ServerHost> openServerHost(game::SessionParts parts, const std::fil
     host.session = std::make_unique<game::Session>(std::move(parts));
     if (const auto time = game::savedPlayer(host.session->store()).timeDay)
         host.session->clock.timeDay = *time;
-    host.file = std::move(*file);
+    host.records = std::move(records);
     host.people = std::make_unique<People>(std::move(*people));
-    auto state = openServer({*host.session, *host.file, *host.people, program, fingerprint}, settings, tiles);
+    auto state =
+        openServer({*host.session, *host.records, *host.people, program, fingerprint}, settings, tiles);
     if (!state) return tl::unexpected(state.error());
     host.state = std::move(*state);
     return host;

@@ -1,7 +1,6 @@
-// A world opened for a server: its session, the server's file beside it, the people, and the server's state.
+// A world opened for a server: its session, the server's records, the people, and the server's state.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -12,15 +11,15 @@ namespace terrane::net {
 // They refer to each other: destroyed in reverse order.
 struct ServerHost {
     std::unique_ptr<game::Session> session;
-    std::unique_ptr<ServerFile> file;
+    std::unique_ptr<ServerRecords> records;
     std::unique_ptr<People> people;
     std::unique_ptr<ServerState> state;
 };
 
-// Ready for players. `parts`: of the world; `serverFile`: made where it is not there; `program`: its name and
-// version. Takes up to a second, and what it takes to bring back edits after a crash.
+// Ready for players. `parts`: of the world; `records`: of the same world; `program`: its name and version.
+// Takes up to a second, and what it takes to bring back edits after a crash.
 [[nodiscard]] base::Result<ServerHost> openServerHost(game::SessionParts parts,
-                                                      const std::filesystem::path& serverFile,
+                                                      std::unique_ptr<ServerRecords> records,
                                                       const ServerSettings& settings,
                                                       const std::string& program);
 

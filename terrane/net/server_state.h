@@ -28,13 +28,13 @@ constexpr std::chrono::milliseconds kServerTick{50};
 // What a server is made of; everything outlives it.
 struct ServerParts {
     game::Session& session;
-    ServerFile& file;
+    ServerRecords& records;
     People& people;
     std::string program;           // and its version
     WorldFingerprint fingerprint;  // of the session's world
 };
 
-// In ServerFile's texts; empty: none is needed.
+// In ServerRecords' texts; empty: none is needed.
 constexpr const char* kPasswordText = "password";
 
 // Tiles that the store's thread wrote.
@@ -46,7 +46,7 @@ struct WrittenTiles {
 // How far the world's own file is behind the history.
 struct ServerHistory {
     std::int64_t newest = 0;      // number of an edit
-    std::uint64_t lastWrite = 0;  // of that edit; ServerFile::durable()
+    std::uint64_t lastWrite = 0;  // of that edit; ServerRecords::durable()
     std::int64_t saved = 0;       // all edits up to this one are in the world's file
     struct SavePoint {
         std::int64_t edit = 0;
@@ -76,14 +76,14 @@ struct PasswordCheck {
 struct ServerState {
     ServerState(const ServerParts& serverParts, const ServerSettings& serverSettings)
         : session(serverParts.session),
-          file(serverParts.file),
+          records(serverParts.records),
           people(serverParts.people),
           program(serverParts.program),
           settings(serverSettings),
           edited({session.generators(), session.store(), session.world(), jobs}) {}
 
     game::Session& session;
-    ServerFile& file;
+    ServerRecords& records;
     People& people;
     std::string program;
     ServerSettings settings;

@@ -14,13 +14,12 @@ world::BlockValue valueOf(std::string_view name, int state = 0) {
     return {contentBlock(name), static_cast<std::uint16_t>(state), {}};
 }
 
-class EditLogTest : public ServerFileTest {
+class EditLogTest : public RecordsTest {
   protected:
     void log(PlayerId player, std::int64_t timeMs, const std::vector<game::ChangedBlock>& changes) {
-        for (const LoggedEdit& edit : loggedEdits(next_, player, timeMs, changes)) {
-            appendEdit(*file_, edit);
-            next_ = edit.number + 1;
-        }
+        const std::vector<LoggedEdit> edits = loggedEdits(next_, player, timeMs, changes);
+        records_->append(edits);
+        next_ = edits.back().number + 1;
     }
     std::vector<LoggedEdit> found(const EditFilter& filter, EditOrder order = EditOrder::OldestFirst) {
         flush();
@@ -29,13 +28,16 @@ class EditLogTest : public ServerFileTest {
             edits.push_back(edit);
             return {};
         };
-        const auto done = forEachEdit(file_->reader(), file_->ids(), filter, order, take);
+        const auto done = records_->forEachEdit(filter, order, take);
         EXPECT_TRUE(done) << done.error().message;
         return edits;
     }
     std::vector<RolledBack> plan(const EditFilter& filter) {
         flush();
-        return rollback(file_->reader(), file_->ids(), filter).value();
+        const auto forEachEdit = [&](const EditFilter& wanted, EditOrder order, const UseEdit& use) {
+            return records_->forEachEdit(wanted, order, use);
+        };
+        return rollback(forEachEdit, filter).value();
     }
 
     std::int64_t next_ = 1;
@@ -102,15 +104,15 @@ TEST_F(EditLogTest, IsFilteredByPlayerAreaAndTime) {
     EXPECT_EQ(numbers({.sinceMs = 200}), (Numbers{2, 3}));
     EXPECT_EQ(numbers({.sinceMs = 100, .untilMs = 200}), (Numbers{1}));
     EXPECT_EQ(numbers({.afterNumber = 2}), (Numbers{3}));
-    EXPECT_EQ(newestEdit(file_->reader()).value(), 3);
+    EXPECT_EQ(records_->historyEnds()->newest, 3);
 }
 
 TEST_F(EditLogTest, RemembersWhatTheWorldHas) {
-    EXPECT_EQ(savedEdit(file_->reader()).value(), 0);
-    setSavedEdit(*file_, 5);
-    setSavedEdit(*file_, 9);
+    EXPECT_EQ(records_->historyEnds()->saved, 0);
+    records_->setSavedEdit(5);
+    records_->setSavedEdit(9);
     flush();
-    EXPECT_EQ(savedEdit(file_->reader()).value(), 9);
+    EXPECT_EQ(records_->historyEnds()->saved, 9);
 }
 
 // From what the last edit made a block to what it was before the first, of those that are meant.
@@ -178,11 +180,11 @@ TEST_F(EditLogTest, BlockTypesAreNamed) {
 
 TEST_F(EditLogTest, DamagedRowsAreRefused) {
     log(7, 1, {{{0, 0, 70}, valueOf("air"), valueOf("glass")}});
-    file_->write(
+    records_->file().write(
         [](store::Database& database) { return database.execute("UPDATE edits SET blocks = x'FF00'"); });
     flush();
-    const auto done = forEachEdit(file_->reader(), file_->ids(), {}, EditOrder::OldestFirst,
-                                  [](const LoggedEdit&) { return base::Result<void>(); });
+    const auto done = records_->forEachEdit({}, EditOrder::OldestFirst,
+                                            [](const LoggedEdit&) { return base::Result<void>(); });
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().code, base::ErrorCode::Damaged);
 }

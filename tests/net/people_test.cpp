@@ -11,12 +11,12 @@ PublicKey keyOf(int number) {
     return key;
 }
 
-class PeopleTest : public ServerFileTest {
+class PeopleTest : public RecordsTest {
   protected:
-    PeopleTest() : people_(People::read(*file_).value()) {}
+    PeopleTest() : people_(People::read(*records_).value()) {}
     void reopen() {
         open();
-        people_ = People::read(*file_).value();
+        people_ = People::read(*records_).value();
     }
     People people_;
 };
@@ -59,9 +59,9 @@ TEST_F(PeopleTest, DamagedRowsAreRefused) {
     people_.add(keyOf(1), "Anna", game::Role::Player);
     flush();
     for (const char* change : {"UPDATE players SET role = 9", "UPDATE players SET role = 1, key = x'00'"}) {
-        file_->write([&](store::Database& database) { return database.execute(change); });
+        records_->file().write([&](store::Database& database) { return database.execute(change); });
         flush();
-        EXPECT_FALSE(People::read(*file_)) << change;
+        EXPECT_FALSE(People::read(*records_)) << change;
     }
 }
 

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "terrane/net/server_file.h"
+#include "terrane/net/sqlite_records.h"
 #include "tests/base/temp_folder.h"
 #include "tests/world/content_blocks.h"
 
@@ -24,6 +24,22 @@ class ServerFileTest : public testing::Test {
 
     base::TempFolder folder_;
     std::unique_ptr<ServerFile> file_;
+};
+
+// The records of a server in such a file.
+class RecordsTest : public testing::Test {
+  protected:
+    RecordsTest() { open(); }
+    void open(const world::BlockRegistry& blocks = contentBlocks()) {
+        records_.reset();
+        auto opened = SqliteRecords::open(folder_ / "w.server.sqlite", blocks);
+        ASSERT_TRUE(opened) << opened.error().message;
+        records_ = std::move(*opened);
+    }
+    void flush() { ASSERT_TRUE(records_->flush()); }
+
+    base::TempFolder folder_;
+    std::unique_ptr<SqliteRecords> records_;
 };
 
 }  // namespace terrane::net

@@ -15,6 +15,7 @@
 #include "terrane/net/frames.h"
 #include "terrane/net/remote_session.h"
 #include "terrane/net/server_host.h"
+#include "terrane/net/sqlite_records.h"
 #include "terrane/store/open_world.h"
 #include "tests/base/temp_folder.h"
 #include "tests/world/content_blocks.h"
@@ -41,7 +42,9 @@ inline game::SessionParts serverParts(const std::filesystem::path& world) {
 // A server on a world in a folder.
 struct TestServer {
     explicit TestServer(const std::filesystem::path& folder, const ServerSettings& settings = {})
-        : host(openServerHost(serverParts(folder / "w.sqlite"), folder / "w.server.sqlite", settings, "test")
+        : host(openServerHost(serverParts(folder / "w.sqlite"),
+                              SqliteRecords::open(folder / "w.server.sqlite", contentBlocks()).value(),
+                              settings, "test")
                    .value()) {}
     ServerState& state() { return *host.state; }
     void tick() { net::tick(state(), now += kServerTick); }

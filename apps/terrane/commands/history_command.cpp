@@ -9,6 +9,7 @@
 #include "terrane/content/built_in.h"
 #include "terrane/net/history_file.h"
 #include "terrane/net/people.h"
+#include "terrane/net/server_file.h"
 #include "terrane/store/open_world.h"
 
 namespace terrane::app {

@@ -14,6 +14,7 @@
 #include "terrane/net/server_console.h"
 #include "terrane/net/server_host.h"
 #include "terrane/net/server_loop.h"
+#include "terrane/net/sqlite_records.h"
 
 namespace terrane::app {
 namespace {
@@ -44,7 +45,9 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     if (!parts) return tl::unexpected(parts.error());
     // Players' programs generate what nobody edited: the server needs it rarely, and makes it again.
     parts->storesGenerated = false;
-    auto host = net::openServerHost(std::move(*parts), net::serverFilePath(*world), options.server,
+    auto records = net::SqliteRecords::open(net::serverFilePath(*world), *parts->blocks);
+    if (!records) return tl::unexpected(records.error());
+    auto host = net::openServerHost(std::move(*parts), std::move(*records), options.server,
                                     fmt::format("terrane {}", TERRANE_VERSION));
     if (!host) return tl::unexpected(host.error());
     raiseOpenFileLimit();
