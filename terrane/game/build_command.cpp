@@ -157,8 +157,7 @@ BuildOutcome Session::build(const BuildCommand& command) {
     update.restore(plan.blocks, isFill ? world::RestoreScope::All : world::RestoreScope::Border);
     update.run();
     if (player != players_.end()) {
-        EditStep step = stepSince(world_, recorder);
-        tellChanges(command.player, step);
+        EditStep step = tellStep(command.player, recorder);
         player->second.history.add(std::move(step));
     }
     tellEdits(command.player, edits);

@@ -20,14 +20,22 @@ bool isUnchanged(const world::BlockValue& before, const world::BlockValue& now) 
 
 }  // namespace
 
-EditStep stepSince(const world::World& world, world::BlockRecorder& recorder) {
-    EditStep step;
+EditStep allSince(const world::World& world, world::BlockRecorder& recorder) {
+    EditStep changes;
     for (world::PlacedBlock& noted : recorder.take()) {
         world::BlockValue now = world::blockValue(world, noted.pos);
-        if (isUnchanged(noted.value, now)) continue;
-        step.push_back({noted.pos, std::move(noted.value), std::move(now)});
+        if (now != noted.value) changes.push_back({noted.pos, std::move(noted.value), std::move(now)});
     }
-    return step;
+    return changes;
+}
+
+EditStep stepOf(EditStep changes) {
+    std::erase_if(changes, [](const ChangedBlock& block) { return isUnchanged(block.before, block.after); });
+    return changes;
+}
+
+EditStep stepSince(const world::World& world, world::BlockRecorder& recorder) {
+    return stepOf(allSince(world, recorder));
 }
 
 std::vector<world::PlacedBlock> blocksBefore(const world::World& world, const EditStep& step) {

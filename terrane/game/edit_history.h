@@ -20,6 +20,9 @@ using EditStep = std::vector<ChangedBlock>;  // each block once
 // The step from the values that the recorder noted to those in the world now, without blocks that are the
 // same.
 EditStep stepSince(const world::World& world, world::BlockRecorder& recorder);
+// The same with all that is different now, as for who follows every change; and what of it makes the step.
+EditStep allSince(const world::World& world, world::BlockRecorder& recorder);
+EditStep stepOf(EditStep changes);
 
 // The blocks that take a step back: those that are still what the step made them. A block that somebody else
 // changed since, or whose data changed, stays; one that only grew or was opened does not.

@@ -87,10 +87,10 @@ std::vector<EditResult> Session::edit(std::span<const EditCommand> commands) {
         results.push_back(apply(command, edits, changes[command.player]));
     for (auto& [player, changed] : changes) {
         const auto found = players_.find(player);
+        if (player == kNoPlayer) tellStep(kNoPlayer, changed.steps);
         if (found == players_.end()) continue;
-        EditStep step = stepSince(world_, changed.steps);
-        tellChanges(player, step);
-        tellChanges(player, stepSince(world_, changed.uses));
+        EditStep step = tellStep(player, changed.steps);
+        tellStep(player, changed.uses);
         found->second.history.add(std::move(step));
     }
     tellEdits(commands.empty() ? kNoPlayer : commands.front().player, edits);
@@ -109,8 +109,10 @@ EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEd
     if (isText && !world::decodeSign(data->data)) return EditResult::BadData;
     const std::size_t before = edits.size();
     const bool isStep = isText || std::holds_alternative<world::SetBlock>(command.change);
-    world::BlockRecorder* const recorder =
-        command.player == kNoPlayer ? nullptr : (isStep ? &changes.steps : &changes.uses);
+    // What nobody did is one step, where it counts at all.
+    const bool isRecorded = command.player != kNoPlayer || tellsAll_;
+    world::BlockRecorder& recorded = isStep || command.player == kNoPlayer ? changes.steps : changes.uses;
+    world::BlockRecorder* const recorder = isRecorded ? &recorded : nullptr;
     world::applyChange(world_, *blocks_, command.pos, command.change, edits, recorder);
     return edits.size() > before ? EditResult::Applied : EditResult::Unchanged;
 }
@@ -132,8 +134,7 @@ TakenBack Session::takeBack(PlayerId player, HistoryWay way) {
     std::vector<world::BlockEdit> edits;
     world::BlockRecorder recorder;
     world::restoreBlocks(world_, *blocks_, blocks, edits, &recorder);
-    EditStep reverse = stepSince(world_, recorder);
-    tellChanges(player, reverse);
+    EditStep reverse = tellStep(player, recorder);
     found->second.history.takenBack(way, std::move(reverse));
     tellEdits(player, edits);
     return result;
@@ -168,6 +169,15 @@ std::optional<EditResult> Session::refusalOfBreaking(const EditCommand& command)
 void Session::tellEdits(PlayerId player, std::span<const world::BlockEdit> edits) {
     pipeline_.onEdits(edits);
     if (editListener_ && !edits.empty()) editListener_(player, edits);
+}
+
+// What was recorded, which is told; of it what the player can take back.
+EditStep Session::tellStep(PlayerId player, world::BlockRecorder& recorder) {
+    EditStep all = allSince(world_, recorder);
+    if (tellsAll_) tellChanges(player, all);
+    EditStep step = stepOf(std::move(all));
+    if (!tellsAll_) tellChanges(player, step);
+    return step;
 }
 
 void Session::tellChanges(PlayerId player, std::span<const ChangedBlock> changes) {
@@ -205,7 +215,9 @@ void Session::advance(double seconds, std::span<const world::ChunkPos> chunks) {
         edit(ticks);
         if (ticks_ % world::kTicksPerFlow != 0) continue;
         std::vector<world::BlockEdit> edits;
-        world::flowLiquids(world_, *blocks_, chunks, edits);
+        world::BlockRecorder recorder;
+        world::flowLiquids(world_, *blocks_, chunks, edits, tellsAll_ ? &recorder : nullptr);
+        tellStep(kNoPlayer, recorder);
         tellEdits(kNoPlayer, edits);
     }
 }

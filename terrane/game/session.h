@@ -79,9 +79,13 @@ class Session {
     void setEditListener(EditListener listener) { editListener_ = std::move(listener); }
 
     // Called with what a player's edit, building or undoing changed, each block once: for a history of who
-    // changed what.
+    // changed what; with `tellsAll` also with what nobody takes back: what grew and flowed, as kNoPlayer's,
+    // and liquid that is to be looked at.
     using ChangeListener = std::function<void(PlayerId, std::span<const ChangedBlock>)>;
-    void setChangeListener(ChangeListener listener) { changeListener_ = std::move(listener); }
+    void setChangeListener(ChangeListener listener, bool tellsAll = false) {
+        changeListener_ = std::move(listener);
+        tellsAll_ = tellsAll;
+    }
 
     // Exactly these blocks, as a server tells them or a history brings them back: nothing is checked, and no
     // block falls or goes for it. Those in chunks that are not loaded are left out.
@@ -135,6 +139,7 @@ class Session {
     bool canReach(PlayerId player, world::BlockPos pos) const;
     std::optional<EditResult> refusalOfBreaking(const EditCommand& command) const;
     void tellEdits(PlayerId player, std::span<const world::BlockEdit> edits);
+    EditStep tellStep(PlayerId player, world::BlockRecorder& recorder);
     void tellChanges(PlayerId player, std::span<const ChangedBlock> changes);
     EditResult editAhead(const EditCommand& command);
 
@@ -153,6 +158,7 @@ class Session {
     std::unordered_map<PlayerId, PlayerEntry> players_;
     EditListener editListener_;
     ChangeListener changeListener_;
+    bool tellsAll_ = false;
     Authority authority_;
     double untilTick_ = 0;  // seconds of game time that made no tick yet
     std::uint64_t ticks_ = 0;

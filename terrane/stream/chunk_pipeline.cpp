@@ -127,6 +127,7 @@ void ChunkPipeline::onLoaded(ChunkPos pos, std::shared_ptr<world::Chunk> chunk, 
     record.load = {};
     record.localLight = std::move(local);
     parts_.world.insert(pos, std::move(chunk));
+    if (notesLoaded_) loaded_.push_back(pos);
     finishLoad(table_, pos, now_);
 }
 
@@ -302,17 +303,30 @@ void ChunkPipeline::keepHouse() {
         if (record.editedAt && now_ - *record.editedAt >= kSaveAfter) save(pos, record);
     }
     for (const ChunkPos pos : findUnneeded(table_, now_)) {
-        save(pos, *findRecord(table_, pos));
+        if (!save(pos, *findRecord(table_, pos))) continue;
         unload(table_, pos);
         parts_.world.erase(pos);
     }
 }
 
-void ChunkPipeline::save(ChunkPos pos, ChunkRecord& record) {
-    if (!record.editedAt) return;
+// False: it may not be saved yet.
+bool ChunkPipeline::save(ChunkPos pos, ChunkRecord& record) {
+    if (!record.editedAt) return true;
+    if (maySave_ && !maySave_(pos)) return false;
     record.editedAt.reset();
-    if (!parts_.source.store) return;
-    parts_.source.store->save(pos, parts_.world.maybeChunkAt(pos), store::Provenance::Edited);
+    if (parts_.source.store)
+        parts_.source.store->save(pos, parts_.world.maybeChunkAt(pos), store::Provenance::Edited);
+    return true;
+}
+
+bool ChunkPipeline::isUnsaved(ChunkPos pos) const {
+    const ChunkRecord* record = findRecord(table_, pos);
+    return record && record->editedAt;
+}
+
+std::vector<ChunkPos> ChunkPipeline::takeLoaded() {
+    notesLoaded_ = true;
+    return std::exchange(loaded_, {});
 }
 
 void ChunkPipeline::saveAll() {

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -55,6 +56,13 @@ class ChunkPipeline {
     static constexpr std::chrono::milliseconds kHousekeepingEvery{250};
     // Hands all edited chunks to the store.
     void saveAll();
+    // Chunks for which it says no are not saved now, and stay loaded: what was changed in them may yet be
+    // taken back. Empty: all are saved.
+    void setSaveFilter(std::function<bool(world::ChunkPos)> maySave) { maySave_ = std::move(maySave); }
+    // Whether the chunk has edits that the store was not given yet.
+    bool isUnsaved(world::ChunkPos pos) const;
+    // The chunks that were loaded since the last call, once asked for: for who adds to what the store has.
+    std::vector<world::ChunkPos> takeLoaded();
 
     // Returns up to `limit` chunks whose mesh or light changed since the last call. Edited chunks come first,
     // then the rest in order of change.
@@ -97,7 +105,7 @@ class ChunkPipeline {
 
     void cancelLoads();
     void keepHouse();
-    void save(world::ChunkPos pos, ChunkRecord& record);
+    bool save(world::ChunkPos pos, ChunkRecord& record);
 
     PipelineParts parts_;
     mesh::MeshOptions meshOptions_;
@@ -110,6 +118,9 @@ class ChunkPipeline {
     std::deque<world::ChunkPos> toGenerate_, toLight_;
     std::size_t generating_ = 0, lighting_ = 0;
     PendingEdits toRelight_;
+    std::function<bool(world::ChunkPos)> maySave_;
+    std::vector<world::ChunkPos> loaded_;
+    bool notesLoaded_ = false;
     Time now_{}, nextHousekeeping_{};  // now: of the last update
     Time::duration sinceUpdate_{};     // between the last two updates
 };

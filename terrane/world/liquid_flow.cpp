@@ -228,7 +228,7 @@ double liquidHeight(const World& world, const BlockRegistry& blocks, BlockPos po
 // Writes call behaviors, which unsettle the neighbors of what changes. Where one of them has put another
 // block by then, that stays.
 std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<const ChunkPos> chunks,
-                        std::vector<BlockEdit>& edits) {
+                        std::vector<BlockEdit>& edits, BlockRecorder* recorder) {
     const FlowRules rules(blocks);
     if (rules.liquids.empty()) return 0;
     Unsettled unsettled;
@@ -241,14 +241,14 @@ std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<con
     for (const BlockPos pos : unsettled.former) BlockUpdate(world, blocks, edits).compactState(pos);
     for (const BlockPos pos : next.settled) {
         const std::uint16_t state = world.blockState(pos) & kLiquidForm;
-        applyChange(world, blocks, pos, SetState{state}, edits);
+        applyChange(world, blocks, pos, SetState{state}, edits, recorder);
     }
     for (const CellChange& change : next.changes) {
         if (world.block(change.pos) != change.before) continue;
         const auto state = static_cast<std::uint16_t>(change.after.form | kLiquidUnsettled);
         const bool isDry = change.after.id == kAir;
         applyChange(world, blocks, change.pos, SetBlock{change.after.id, isDry ? std::uint16_t{0} : state},
-                    edits);
+                    edits, recorder);
     }
     return unsettled.cells.size();
 }

@@ -50,8 +50,8 @@ double liquidHeight(const World& world, const BlockRegistry& blocks, BlockPos po
 // next values are found before the first is written. Cells with a chunk within two blocks that is not loaded
 // wait, and so do those over the limit, in the order of `chunks` and of blocks in a chunk. Returns
 // how many cells were looked at, and appends an event for each block that changed and each that is settled
-// now.
+// now. `recorder` may be null.
 std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<const ChunkPos> chunks,
-                        std::vector<BlockEdit>& edits);
+                        std::vector<BlockEdit>& edits, BlockRecorder* recorder = nullptr);
 
 }  // namespace terrane::world
