@@ -62,12 +62,27 @@ const KnownPlayer* People::byName(std::string_view name) const {
     return found == players_.end() ? nullptr : &found->second;
 }
 
-const KnownPlayer& People::add(const PublicKey& key, const std::string& name, game::Role role) {
+const KnownPlayer& People::add(const PublicKey& key, const std::string& name, game::Role role,
+                               game::PlayerId number) {
     assert(!byKey(key) && !byName(name) && "somebody new");
-    const game::PlayerId id = players_.empty() ? kFirstPlayer : players_.rbegin()->first + 1;
+    const game::PlayerId next = players_.empty() ? kFirstPlayer : players_.rbegin()->first + 1;
+    const game::PlayerId id = number == game::kNoPlayer ? next : number;
     const KnownPlayer& player = players_.insert({id, {id, key, name, role, {}, {}}}).first->second;
     records_->addPlayer(player);
     return player;
+}
+
+void People::learn(const KnownPlayer& player) {
+    players_[player.id] = player;
+}
+
+void People::learnClaims(const std::vector<game::Claim>& claims) {
+    claims_ = {};
+    for (const game::Claim& claim : claims) (void)claims_.add(claim);  // one that is no claim is none here
+}
+
+void People::forget(game::PlayerId id) {
+    players_.erase(id);
 }
 
 void People::setName(game::PlayerId id, const std::string& name) {

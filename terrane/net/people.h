@@ -30,8 +30,13 @@ class People {
     const KnownPlayer* byKey(const PublicKey& key) const;
     const KnownPlayer* byName(std::string_view name) const;
 
-    // `key` and `name` are new here.
-    const KnownPlayer& add(const PublicKey& key, const std::string& name, game::Role role);
+    // `key` and `name` are new here. Without a number it is the next one.
+    const KnownPlayer& add(const PublicKey& key, const std::string& name, game::Role role,
+                           game::PlayerId number = game::kNoPlayer);
+    // What another server wrote: nothing is written here.
+    void learn(const KnownPlayer& player);
+    void learnClaims(const std::vector<game::Claim>& claims);
+    void forget(game::PlayerId id);
     // Of somebody who is known.
     void setName(game::PlayerId id, const std::string& name);
     void setRole(game::PlayerId id, game::Role role);

@@ -11,6 +11,7 @@
 #include "terrane/net/server_history.h"
 #include "terrane/net/server_login.h"
 #include "terrane/net/server_players.h"
+#include "terrane/net/server_sharing.h"
 #include "terrane/net/server_view.h"
 #include "terrane/world/random_ticks.h"
 
@@ -51,6 +52,15 @@ void findLiveChunks(ServerState& server) {
             if (world::isInWorld(beside)) (void)pipeline.maybeLoadChunkAt(beside);
     }
     std::ranges::sort(server.liveChunks);
+    wantRegions(server, server.liveChunks);
+}
+
+// Where this server lets time pass.
+std::vector<world::ChunkPos> growingChunks(const ServerState& server) {
+    std::vector<world::ChunkPos> chunks;
+    std::ranges::copy_if(server.liveChunks, std::back_inserter(chunks),
+                         [&](world::ChunkPos chunk) { return mayGrow(server, chunk); });
+    return chunks;
 }
 
 void forgetHistories(ServerState& server) {
@@ -96,8 +106,10 @@ base::Result<std::unique_ptr<ServerState>> openServer(const ServerParts& parts,
     session.setChangeListener(
         [&state = *server](game::PlayerId player, std::span<const game::ChangedBlock> changes) {
             logChanges(state, player, changes);
-        });
+        },
+        parts.records.shared() != nullptr);
     if (auto restored = restoreEdits(*server); !restored) return tl::unexpected(restored.error());
+    if (auto begun = beginSharing(*server); !begun) return tl::unexpected(begun.error());
     if (auto prepared = prepare(*server); !prepared) return tl::unexpected(prepared.error());
     return server;
 }
@@ -144,21 +156,25 @@ void onClosed(ServerState& server, ConnectionId id, Time now) {
 void tick(ServerState& server, Time now) {
     server.now = std::max(server.now, now);
     ++server.tick;
+    takeNews(server);
     updateLogins(server);
     // Here and below no change waits to be told, so that chunks may go. Twice, as a chunk that is not in the
     // store takes two jobs, and a command waits for it.
     server.session.pipeline().update(server.now);
+    completeLoaded(server);
     runCommands(server);
     continueRollbacks(server);
     if (server.tick % kTicksPerLiveChunks == 1) findLiveChunks(server);
-    server.session.advance(std::chrono::duration<double>(kServerTick).count(), server.liveChunks);
+    server.session.advance(std::chrono::duration<double>(kServerTick).count(), growingChunks(server));
     tellChangedBlocks(server);
     server.session.pipeline().update(server.now);
+    completeLoaded(server);
     tellDecisions(server);
     tellViews(server);
     tellSight(server);
     keepInTouch(server);
     keepSaving(server);
+    keepSharing(server);
     forgetHistories(server);
 }
 

@@ -46,6 +46,8 @@ struct WaitingCommand {
 struct Decision {
     std::uint64_t write = 0;  // ServerRecords::durable(); 0: nothing was written
     Done done;
+    // What it becomes where another server was first with one of its blocks.
+    std::uint8_t resultIfRefused = 0;
 };
 
 // Of a player who left: its steps to undo are kept for a while, and what it may do does not begin anew.

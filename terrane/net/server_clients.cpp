@@ -30,11 +30,18 @@ void say(ServerClient& client, const std::string& text) {
     for (const std::string_view line : linesOf(text)) send(client, Said{{}, plainText(line, kMaxChatBytes)});
 }
 
-void sayToAll(ServerState& server, const std::string& name, const std::string& text) {
+void sayHere(ServerState& server, const std::string& name, const std::string& text) {
     for (const std::string_view line : linesOf(text)) {
         const Bytes message = encode(ServerMessage(Said{name, plainText(line, kMaxChatBytes)}));
         forEachPlaying(server, [&](ServerClient& client) { sendEncoded(client, message); });
     }
+}
+
+void sayToAll(ServerState& server, const std::string& name, const std::string& text) {
+    sayHere(server, name, text);
+    if (!server.sharing.shared) return;
+    for (const std::string_view line : linesOf(text))
+        server.sharing.shared->say({name, plainText(line, kMaxChatBytes)});
 }
 
 void refuse(ServerState& server, ServerClient& client, Refusal why, const std::string& reason) {
@@ -50,6 +57,7 @@ void leave(ServerState& server, ServerClient& client) {
     client.stage = ServerClient::Stage::Closed;
     server.people.setPose(client.player, poseOf(client.pose));
     server.playing.erase(client.player);
+    if (server.sharing.shared) server.sharing.shared->tellLeft(client.player);
     server.left.insert_or_assign(client.player, FormerClient{server.now, client.buckets});
     base::logInfo("{} left", client.name);
     sayToAll(server, {}, client.name + " left");

@@ -167,6 +167,15 @@ bool isReady(ServerState& server, const ServerClient& client, const TakeBack& ta
     return all;
 }
 
+// Another server was first: an edit met another block than expected, the others may be tried again.
+std::uint8_t refusedResult(const WaitingCommand& command) {
+    if (std::holds_alternative<Edit>(command.command))
+        return static_cast<std::uint8_t>(game::EditResult::Conflict);
+    if (std::holds_alternative<Build>(command.command))
+        return static_cast<std::uint8_t>(game::BuildOutcome::Result::NotLoaded);
+    return static_cast<std::uint8_t>(game::TakenBack::Outcome::NotLoaded);
+}
+
 void decide(ServerState& server, ServerClient& client, const WaitingCommand& next) {
     const std::uint64_t before = server.history.lastWrite;
     const Done done =
@@ -176,7 +185,7 @@ void decide(ServerState& server, ServerClient& client, const WaitingCommand& nex
         client.swungTick = server.tick;
         client.builtAt = server.now;
     }
-    client.decisions.push_back({write != before ? write : 0, done});
+    client.decisions.push_back({write != before ? write : 0, done, refusedResult(next)});
 }
 
 void runOf(ServerState& server, ServerClient& client) {
@@ -239,7 +248,10 @@ void tellDecisions(ServerState& server) {
         for (; !client.decisions.empty(); client.decisions.pop_front()) {
             const Decision& decision = client.decisions.front();
             if (decision.write > durable) break;
-            send(client, decision.done);
+            Done done = decision.done;
+            if (server.sharing.refused.erase(decision.write) > 0)
+                done = {done.number, decision.resultIfRefused, 0, 0};
+            send(client, done);
         }
     });
 }

@@ -18,17 +18,27 @@ std::int64_t millisecondsNow() {
     return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
 }
 
+// Nothing waits for other servers any more.
+base::Result<void> decideAll(ServerState& server) {
+    if (!server.sharing.shared) return {};
+    auto flushed = server.records.flush();
+    takeNews(server);
+    return flushed;
+}
+
 }  // namespace
 
 void logChanges(ServerState& server, game::PlayerId player, std::span<const game::ChangedBlock> changes) {
     ServerHistory& history = server.history;
-    const std::vector<LoggedEdit> edits = loggedEdits(history.newest + 1, player, millisecondsNow(), changes);
+    std::vector<LoggedEdit> edits = loggedEdits(history.newest + 1, player, millisecondsNow(), changes);
     if (edits.empty()) return;
-    history.newest = edits.back().number;
+    if (!server.sharing.shared) history.newest = edits.back().number;
     history.lastWrite = server.records.append(edits);
+    noteWrite(server, history.lastWrite, std::move(edits));
 }
 
 base::Result<void> restoreEdits(ServerState& server) {
+    if (server.records.shared()) return {};  // the tail of the history (server_sharing.h)
     ServerHistory& history = server.history;
     const auto ends = server.records.historyEnds();
     if (!ends) return tl::unexpected(ends.error());
@@ -52,6 +62,7 @@ base::Result<void> restoreEdits(ServerState& server) {
 }
 
 void keepSaving(ServerState& server) {
+    if (server.sharing.shared) return keepSharedSaved(server);
     ServerHistory& history = server.history;
     store::ChunkStore& store = server.session.store();
     if (history.saving && store.status().durable >= history.saving->save) {
@@ -72,8 +83,10 @@ base::Result<void> saveEverything(ServerState& server) {
         (void)server.session.pipeline().chunkAt(server.rollbacks.front().chunk);
         continueRollbacks(server);
     }
+    if (auto decided = decideAll(server); !decided) return decided;
     game::saveTimeDay(server.session.store(), server.session.clock.timeDay);
     if (auto saved = server.session.save(); !saved) return saved;
+    if (server.sharing.shared) server.sharing.shared->tellState(0, server.sharing.newest);
     if (server.history.saved < server.history.newest) {
         server.history.saved = server.history.newest;
         server.records.setSavedEdit(server.history.newest);

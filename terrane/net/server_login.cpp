@@ -149,9 +149,9 @@ bool mayComeNew(ServerState& server, const std::string& address) {
 }
 
 // The player's row, made where it is new here, with the name that it has now.
-const KnownPlayer& rowOf(ServerState& server, const ServerClient& client) {
+const KnownPlayer& rowOf(ServerState& server, const ServerClient& client, game::PlayerId newNumber) {
     const KnownPlayer* known = server.people.byKey(client.key);
-    if (!known) known = &server.people.add(client.key, client.name, server.settings.newcomers);
+    if (!known) known = &server.people.add(client.key, client.name, server.settings.newcomers, newNumber);
     if (known->name != client.name) server.people.setName(known->id, client.name);
     return *known;
 }
@@ -166,7 +166,11 @@ bool mayJoinAgain(ServerState& server, ServerClient& client, game::PlayerId play
 }
 
 void join(ServerState& server, ServerClient& client) {
-    const KnownPlayer& player = rowOf(server, client);
+    const bool needsNumber = server.sharing.shared && !server.people.byKey(client.key);
+    const game::PlayerId number = needsNumber ? server.sharing.shared->takePlayerNumber() : game::kNoPlayer;
+    if (needsNumber && number == game::kNoPlayer)
+        return refuse(server, client, Refusal::Full, "too many new players come at once: try again soon");
+    const KnownPlayer& player = rowOf(server, client, number);
     replaceFormer(server, player);
     if (!mayJoinAgain(server, client, player.id))
         return refuse(server, client, Refusal::TooMuch, "you join too often: try again in some seconds");
@@ -177,6 +181,7 @@ void join(ServerState& server, ServerClient& client) {
     client.pose = wirePose(pose);
     client.heardAt = server.now;
     server.playing[player.id] = client.id;
+    if (server.sharing.shared) server.sharing.shared->tellJoined(player.id);
     server.left.erase(player.id);
     server.session.setPlayer(player.id, pose);
     server.session.permissions.roles[player.id] = player.role;

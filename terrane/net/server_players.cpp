@@ -66,6 +66,11 @@ void onAskPlayers(ServerState& server, ServerClient& client) {
             list.players.push_back({other.name, other.role,
                                     static_cast<std::uint16_t>(std::clamp<std::int64_t>(latency, 0, 65535))});
     });
+    for (const auto& [id, other] : server.sharing.players) {
+        const KnownPlayer* known = server.people.byId(id);
+        if (known && !server.playing.contains(id) && list.players.size() < kMaxPlayersInMessage)
+            list.players.push_back({known->name, known->role, 0});
+    }
     send(client, list);
 }
 
@@ -80,8 +85,8 @@ void tellSightTo(ServerState& server, ServerClient& client, const PlayerGrid& gr
         client.sight.update(server.tick, grid.around({client.player, client.pose, client.swungTick}));
     for (const std::uint16_t slot : changes.disappeared) send(client, Disappears{slot});
     for (const auto& [slot, player] : changes.appeared) {
-        const ServerClient* other = playingClient(server, player->id);
-        send(client, Appears{slot, player->id, other ? other->name : std::string(), player->pose});
+        const KnownPlayer* known = server.people.byId(player->id);
+        send(client, Appears{slot, player->id, known ? known->name : std::string(), player->pose});
     }
     if (!changes.poses.empty()) send(client, Poses{changes.poses});
 }
@@ -114,6 +119,8 @@ void tellSight(ServerState& server) {
     forEachPlaying(server, [&](const ServerClient& client) {
         players.push_back({client.player, client.pose, client.swungTick});
     });
+    for (const auto& [id, other] : server.sharing.players)
+        if (!server.playing.contains(id)) players.push_back(other.at);
     const PlayerGrid grid(players);
     // Half of the clients in each tick: what is sent is spread over time.
     forEachPlaying(server, [&](ServerClient& client) {

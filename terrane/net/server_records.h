@@ -40,6 +40,8 @@ struct HistoryEnds {
     std::int64_t saved = 0;   // all edits up to this one are in the world's own store
 };
 
+class SharedWorld;  // shared_world.h
+
 class ServerRecords {
   public:
     virtual ~ServerRecords() = default;  // writes what waits
@@ -69,6 +71,9 @@ class ServerRecords {
     virtual std::string problem() const = 0;
     // Blocks until all writes so far are durable, or one attempt has failed.
     [[nodiscard]] virtual base::Result<void> flush() = 0;
+
+    // Null where one server has the records for itself.
+    virtual SharedWorld* shared() { return nullptr; }
 };
 
 }  // namespace terrane::net

@@ -20,6 +20,7 @@
 #include "terrane/net/people.h"
 #include "terrane/net/server_client.h"
 #include "terrane/net/server_settings.h"
+#include "terrane/net/server_sharing.h"
 
 namespace terrane::net {
 
@@ -104,6 +105,7 @@ struct ServerState {
     EditedChunks edited;
     std::map<world::ChunkPos, std::vector<world::BlockIndex>> changed;  // since the last tick
     ServerHistory history;
+    SharingState sharing;
     std::shared_ptr<WrittenTiles> writtenTiles = std::make_shared<WrittenTiles>();
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> tilesToTell;  // they changed
     std::vector<world::ChunkPos> liveChunks;  // where plants grow and liquids flow

@@ -127,24 +127,25 @@ ChunkDifference valuesNow(const world::World& world, ChunkPos pos, std::vector<w
 
 }  // namespace
 
+void tellBlocks(ServerState& server, ChunkPos pos, const ChunkDifference& blocks) {
+    const bool isNew = server.edited.add(pos);
+    server.edited.onChanged(pos, blocks);
+    std::vector<Bytes> messages;
+    for (const std::span<const ChangedBlock> part : partsOf(blocks))
+        messages.push_back(
+            encode(ServerMessage(BlocksChanged{pos, ChunkDifference(part.begin(), part.end())})));
+    forEachPlaying(server, [&](ServerClient& client) {
+        // Who does not know the chunk yet is told all of it soon. Who knows it has it to its end, though it
+        // may have left the view.
+        if (isNew && client.view && isInView(*client.view, pos)) client.told.insert(pos);
+        if (!client.told.contains(pos)) return;
+        for (const Bytes& message : messages) sendEncoded(client, message);
+    });
+}
+
 void tellChangedBlocks(ServerState& server) {
-    for (auto& [chunk, indices] : server.changed) {
-        const ChunkPos pos = chunk;  // what lambdas of clang 14 can capture
-        const ChunkDifference blocks = valuesNow(server.session.world(), pos, indices);
-        const bool isNew = server.edited.add(pos);
-        server.edited.onChanged(pos, blocks);
-        std::vector<Bytes> messages;
-        for (const std::span<const ChangedBlock> part : partsOf(blocks))
-            messages.push_back(
-                encode(ServerMessage(BlocksChanged{pos, ChunkDifference(part.begin(), part.end())})));
-        forEachPlaying(server, [&](ServerClient& client) {
-            // Who does not know the chunk yet is told all of it soon. Who knows it has it to its end, though
-            // it may have left the view.
-            if (isNew && client.view && isInView(*client.view, pos)) client.told.insert(pos);
-            if (!client.told.contains(pos)) return;
-            for (const Bytes& message : messages) sendEncoded(client, message);
-        });
-    }
+    for (auto& [chunk, indices] : server.changed)
+        tellBlocks(server, chunk, valuesNow(server.session.world(), chunk, indices));
     server.changed.clear();
 }
 

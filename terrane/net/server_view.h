@@ -12,6 +12,8 @@ constexpr int kNearestTile = 3, kFarthestTile = 33;
 
 // Blocks that changed since the last tick, to all in whose view they are. In each tick.
 void tellChangedBlocks(ServerState& server);
+// Blocks of one chunk, which need not be loaded, to all in whose view they are.
+void tellBlocks(ServerState& server, world::ChunkPos chunk, const ChunkDifference& blocks);
 // Looks where clients ask to, and tells what they lack of their views as fast as they read. In each tick,
 // after tellChangedBlocks().
 void tellViews(ServerState& server);

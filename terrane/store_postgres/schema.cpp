@@ -37,7 +37,30 @@ CREATE TABLE workers (number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY, na
     chunks bigint NOT NULL DEFAULT 0, rate double precision NOT NULL DEFAULT 0, job bigint);
 )";
 
-constexpr const char* kSteps[] = {kWorldTables, kWorkTables};
+// Of servers. `edits` is the history, numbered without gaps in the order in which edits were accepted; `write` says
+// which of its server's writes an edit is. Up to history.saved all are in `chunks`.
+constexpr const char* kServerTables = R"(
+CREATE TABLE texts (name text PRIMARY KEY, value text NOT NULL);
+CREATE SEQUENCE player_numbers MINVALUE 2;
+CREATE TABLE players (id bigint PRIMARY KEY, key bytea NOT NULL UNIQUE, name text NOT NULL, role smallint NOT NULL,
+    pose text NOT NULL, ban text NOT NULL);
+CREATE UNIQUE INDEX player_names ON players (lower(name COLLATE "C"));
+CREATE TABLE claims (name text PRIMARY KEY, x0 integer NOT NULL, y0 integer NOT NULL, x1 integer NOT NULL,
+    y1 integer NOT NULL, owner bigint NOT NULL, members text NOT NULL);
+CREATE TABLE edits (number bigint PRIMARY KEY, time bigint NOT NULL, player bigint NOT NULL, chunk bigint NOT NULL,
+    server bigint NOT NULL, write bigint NOT NULL, blocks bytea NOT NULL);
+CREATE INDEX edits_of_chunk ON edits (chunk, number);
+CREATE INDEX edits_of_player ON edits (player, number);
+CREATE TABLE history (newest bigint NOT NULL, saved bigint NOT NULL);
+INSERT INTO history VALUES (0, 0);
+CREATE TABLE servers (number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY, name text NOT NULL, address text NOT NULL,
+    key text NOT NULL, players integer NOT NULL DEFAULT 0, saved bigint NOT NULL,
+    started timestamptz NOT NULL DEFAULT now(), seen timestamptz NOT NULL DEFAULT now());
+CREATE TABLE online (player bigint PRIMARY KEY, server bigint NOT NULL REFERENCES servers ON DELETE CASCADE);
+CREATE TABLE growth_leases (region bigint PRIMARY KEY, server bigint NOT NULL, until timestamptz NOT NULL);
+)";
+
+constexpr const char* kSteps[] = {kWorldTables, kWorkTables, kServerTables};
 
 // What the program reads and writes by type.
 struct Column {
@@ -61,6 +84,12 @@ constexpr Column kColumns[] = {
     {"jobs", "number", "bigint"},
     {"jobs", "state", "smallint"},
     {"workers", "number", "bigint"},
+    {"players", "id", "bigint"},
+    {"edits", "number", "bigint"},
+    {"edits", "blocks", "bytea"},
+    {"history", "newest", "bigint"},
+    {"history", "saved", "bigint"},
+    {"servers", "number", "bigint"},
 };
 
 constexpr Statement kCountTables = {

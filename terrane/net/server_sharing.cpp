@@ -1,0 +1,296 @@
+#include "terrane/net/server_sharing.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/game/player_state.h"
+#include "terrane/net/server_clients.h"
+#include "terrane/net/server_view.h"
+
+namespace terrane::net {
+namespace {
+
+using world::ChunkPos;
+
+constexpr std::chrono::seconds kStateEvery{1}, kSaveEvery{5};
+constexpr std::uint64_t kTicksPerPoses = 4, kTicksPerAllPoses = 40;
+// Of whom nothing was heard for so long is not there.
+constexpr std::chrono::seconds kForgetAfter{8};
+// What a server that is gone left, in a tick: some milliseconds.
+constexpr std::size_t kEstateChunks = 8;
+
+void addToTail(SharingState& sharing, ChunkPos chunk, std::int64_t number, const ChunkDifference& after) {
+    sharing.tail[chunk].push_back({number, after});
+}
+
+void noteUnsaved(ServerState& server, ChunkPos chunk, std::int64_t number) {
+    if (server.session.pipeline().isUnsaved(chunk)) server.sharing.firstUnsaved.try_emplace(chunk, number);
+}
+
+// An edit of another server. Own ones of the same blocks that are not decided will be refused.
+void applyOther(ServerState& server, const LoggedEdit& edit) {
+    SharingState& sharing = server.sharing;
+    addToTail(sharing, edit.chunk, edit.number, edit.after);
+    for (const ChangedBlock& block : edit.after) {
+        const auto found = sharing.settled.find(world::blockPos(edit.chunk, block.index));
+        if (found != sharing.settled.end()) found->second.value = block.value;
+    }
+    if (!server.session.world().maybeChunkAt(edit.chunk)) return tellBlocks(server, edit.chunk, edit.after);
+    server.session.setBlocks(placedBlocks(edit.chunk, edit.after));
+    noteUnsaved(server, edit.chunk, edit.number);
+}
+
+// One write fewer changes the edit's blocks.
+void settle(SharingState& sharing, const LoggedEdit& edit) {
+    for (const ChangedBlock& block : edit.after) {
+        const auto found = sharing.settled.find(world::blockPos(edit.chunk, block.index));
+        if (--found->second.undecided == 0) sharing.settled.erase(found);
+    }
+    const auto chunk = sharing.undecidedChunks.find(edit.chunk);
+    if (--chunk->second == 0) sharing.undecidedChunks.erase(chunk);
+}
+
+void accept(ServerState& server, const std::vector<LoggedEdit>& edits, std::int64_t number) {
+    SharingState& sharing = server.sharing;
+    for (const LoggedEdit& edit : edits) {
+        for (const ChangedBlock& block : edit.after)
+            sharing.settled.at(world::blockPos(edit.chunk, block.index)).value = block.value;
+        settle(sharing, edit);
+        addToTail(sharing, edit.chunk, number, edit.after);
+        noteUnsaved(server, edit.chunk, number);
+        ++number;
+    }
+}
+
+// Its blocks become what the history says. Later own writes that were made on top of it will be refused as
+// well.
+void takeBack(ServerState& server, const std::vector<LoggedEdit>& edits) {
+    SharingState& sharing = server.sharing;
+    std::vector<world::PlacedBlock> blocks;
+    for (const LoggedEdit& edit : edits) {
+        for (const ChangedBlock& block : edit.after) {
+            const world::BlockPos pos = world::blockPos(edit.chunk, block.index);
+            blocks.push_back({pos, sharing.settled.at(pos).value});
+        }
+        settle(sharing, edit);
+    }
+    server.session.setBlocks(blocks);
+}
+
+void applyDecision(ServerState& server, const WriteDecision& decision) {
+    const auto found = server.sharing.undecided.find(decision.write);
+    if (found == server.sharing.undecided.end()) return;
+    const std::vector<LoggedEdit> edits = std::move(found->second);
+    server.sharing.undecided.erase(found);
+    if (decision.isAccepted) return accept(server, edits, decision.firstNumber);
+    takeBack(server, edits);
+    server.sharing.refused.insert(decision.write);
+}
+
+// Edits up to `saved` are in the store: whoever loads a chunk from now on finds them there.
+void dropTail(SharingState& sharing, std::int64_t saved) {
+    if (saved <= sharing.saved) return;
+    sharing.saved = saved;
+    for (auto& [chunk, edits] : sharing.tail)
+        std::erase_if(edits, [&](const SharingState::TailEdit& edit) { return edit.number <= saved; });
+    std::erase_if(sharing.tail, [](const auto& entry) { return entry.second.empty(); });
+}
+
+void takePeople(ServerState& server, const SharedNews& news) {
+    for (const KnownPlayer& player : news.players) {
+        server.people.learn(player);
+        server.session.permissions.roles[player.id] = player.role;
+        ServerClient* client = playingClient(server, player.id);
+        if (client && client->role != player.role) {
+            client->role = player.role;
+            send(*client, RoleChanged{player.role});
+        }
+        if (client && !player.ban.empty())
+            refuse(server, *client, Refusal::Banned, "you are banned from this server: " + player.ban);
+    }
+    for (const game::PlayerId id : news.refused) {
+        if (ServerClient* client = playingClient(server, id))
+            refuse(server, *client, Refusal::Name, "another player took the name at the same time");
+        server.people.forget(id);
+    }
+    for (const game::PlayerId id : news.joined)
+        if (ServerClient* client = playingClient(server, id))
+            refuse(server, *client, Refusal::Replaced, "you joined again elsewhere");
+    for (const game::PlayerId id : news.left) server.sharing.players.erase(id);
+    if (news.claims) {
+        server.people.learnClaims(*news.claims);
+        server.session.permissions.claims = server.people.claims();
+    }
+}
+
+void takePoses(ServerState& server, const SharedNews& news) {
+    for (const OtherPlayer& other : news.poses) {
+        SharingState::OtherAt& known = server.sharing.players[other.id];
+        known.at.id = other.id;
+        known.at.pose = other.pose;
+        if (other.swings) known.at.swungTick = server.tick;
+        known.heardAt = server.now;
+    }
+    std::erase_if(server.sharing.players,
+                  [&](const auto& entry) { return server.now - entry.second.heardAt > kForgetAfter; });
+}
+
+void takeServers(ServerState& server, std::vector<OtherServer> servers) {
+    SharingState& sharing = server.sharing;
+    for (const OtherServer& other : servers) {
+        const bool isNew = std::ranges::none_of(sharing.estates, [&](const SharingState::Estate& estate) {
+            return estate.server == other.number;
+        });
+        if (other.isAlive || !isNew) continue;
+        auto chunks = sharing.shared->unsavedChunks(other.number);
+        if (!chunks) continue;
+        base::logInfo("the server {} is gone; {} chunks that it changed are saved here", other.name,
+                      chunks->size());
+        sharing.estates.push_back({other.number, sharing.newest, std::move(*chunks)});
+    }
+    std::erase_if(servers, [](const OtherServer& other) { return !other.isAlive; });
+    sharing.servers = std::move(servers);
+}
+
+// Loading a chunk adds the tail, which makes it a changed one that is saved.
+void takeOverEstates(ServerState& server) {
+    SharingState& sharing = server.sharing;
+    if (sharing.estates.empty()) return;
+    SharingState::Estate& estate = sharing.estates.front();
+    for (std::size_t k = 0; k < kEstateChunks && !estate.chunks.empty(); ++k) {
+        if (!server.session.pipeline().maybeLoadChunkAt(estate.chunks.back())) return;
+        estate.chunks.pop_back();
+    }
+    if (!estate.chunks.empty() || sharing.ownSaved < estate.newest) return;
+    sharing.shared->forgetServer(estate.server);
+    sharing.estates.pop_front();
+}
+
+void tellPoses(ServerState& server) {
+    const bool isAll = server.tick % kTicksPerAllPoses == 0;
+    std::vector<OtherPlayer> moved;
+    std::unordered_map<game::PlayerId, WirePose> told;
+    forEachPlaying(server, [&](const ServerClient& client) {
+        const auto before = server.sharing.toldPoses.find(client.player);
+        const bool isStill = before != server.sharing.toldPoses.end() && before->second == client.pose;
+        const bool swings = client.swungTick > 0 && server.tick - client.swungTick < kTicksPerPoses;
+        if (isAll || !isStill || swings) moved.push_back({client.player, client.pose, swings});
+        told[client.player] = client.pose;
+    });
+    server.sharing.toldPoses = std::move(told);
+    if (!moved.empty()) server.sharing.shared->tellPoses(moved);
+}
+
+}  // namespace
+
+base::Result<void> beginSharing(ServerState& server) {
+    SharingState& sharing = server.sharing;
+    sharing.shared = server.records.shared();
+    if (!sharing.shared) return {};
+    const auto ends = server.records.historyEnds();
+    if (!ends) return tl::unexpected(ends.error());
+    sharing.newest = ends->newest;
+    sharing.saved = ends->saved;
+    sharing.ownSaved = ends->newest;
+    const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
+        if (edit.number > sharing.newest) return {};  // it will be told
+        addToTail(sharing, edit.chunk, edit.number, edit.after);
+        server.edited.add(edit.chunk);
+        return {};
+    };
+    const EditFilter unsaved{.afterNumber = ends->saved};
+    if (auto read = server.records.forEachEdit(unsaved, EditOrder::OldestFirst, take); !read) return read;
+    stream::ChunkPipeline& pipeline = server.session.pipeline();
+    pipeline.setSaveFilter([&sharing](ChunkPos chunk) { return !sharing.undecidedChunks.contains(chunk); });
+    (void)pipeline.takeLoaded();
+    return {};
+}
+
+void noteWrite(ServerState& server, std::uint64_t write, std::vector<LoggedEdit> edits) {
+    SharingState& sharing = server.sharing;
+    if (!sharing.shared) return;
+    for (const LoggedEdit& edit : edits) {
+        ++sharing.undecidedChunks[edit.chunk];
+        for (const ChangedBlock& block : edit.before) {
+            const world::BlockPos pos = world::blockPos(edit.chunk, block.index);
+            ++sharing.settled.try_emplace(pos, SharingState::Settled{block.value, 0}).first->second.undecided;
+        }
+    }
+    sharing.undecided.emplace(write, std::move(edits));
+}
+
+void takeNews(ServerState& server) {
+    SharingState& sharing = server.sharing;
+    if (!sharing.shared) return;
+    SharedNews news = sharing.shared->takeNews();
+    for (const HistoryEvent& event : news.history) {
+        if (const auto* edit = std::get_if<LoggedEdit>(&event))
+            applyOther(server, *edit);
+        else
+            applyDecision(server, std::get<WriteDecision>(event));
+    }
+    sharing.newest = std::max(sharing.newest, news.newest);
+    dropTail(sharing, news.saved);
+    takePeople(server, news);
+    takePoses(server, news);
+    for (const SharedLine& line : news.lines) sayHere(server, line.name, line.text);
+    server.tilesToTell.insert(news.tiles.begin(), news.tiles.end());
+    if (news.servers) takeServers(server, std::move(*news.servers));
+}
+
+void completeLoaded(ServerState& server) {
+    SharingState& sharing = server.sharing;
+    if (!sharing.shared) return;
+    for (const ChunkPos pos : server.session.pipeline().takeLoaded()) {
+        const auto found = sharing.tail.find(pos);
+        if (found == sharing.tail.end()) continue;
+        ChunkDifference blocks;
+        for (const SharingState::TailEdit& edit : found->second) mergeInto(blocks, edit.after);
+        server.session.setBlocks(placedBlocks(pos, blocks));
+        noteUnsaved(server, pos, found->second.front().number);
+    }
+}
+
+void keepSharing(ServerState& server) {
+    SharingState& sharing = server.sharing;
+    if (!sharing.shared) return;
+    sharing.refused.clear();  // whoever is still there was told
+    if (server.tick % kTicksPerPoses == 0) tellPoses(server);
+    takeOverEstates(server);
+    if (server.now < sharing.nextState) return;
+    sharing.nextState = server.now + kStateEvery;
+    sharing.shared->tellState(static_cast<int>(server.playing.size()), sharing.ownSaved);
+}
+
+void keepSharedSaved(ServerState& server) {
+    SharingState& sharing = server.sharing;
+    ServerHistory& history = server.history;
+    store::ChunkStore& store = server.session.store();
+    if (history.saving && store.status().durable >= history.saving->save) {
+        sharing.ownSaved = history.saving->edit;
+        history.saving.reset();
+    }
+    if (history.saving || server.now < history.nextSave) return;
+    history.nextSave = server.now + kSaveEvery;
+    stream::ChunkPipeline& pipeline = server.session.pipeline();
+    pipeline.saveAll();
+    std::erase_if(sharing.firstUnsaved, [&](const auto& entry) { return !pipeline.isUnsaved(entry.first); });
+    std::int64_t upTo = sharing.newest;
+    for (const auto& [chunk, number] : sharing.firstUnsaved) upTo = std::min(upTo, number - 1);
+    history.saving = {upTo, game::saveTimeDay(store, server.session.clock.timeDay)};
+}
+
+bool mayGrow(const ServerState& server, ChunkPos chunk) {
+    return !server.sharing.shared || server.sharing.shared->mayGrow(regionOf(chunk));
+}
+
+void wantRegions(ServerState& server, std::span<const ChunkPos> chunks) {
+    if (!server.sharing.shared) return;
+    std::set<Region> regions;
+    for (const ChunkPos chunk : chunks) regions.insert(regionOf(chunk));
+    server.sharing.shared->wantRegions({regions.begin(), regions.end()});
+}
+
+}  // namespace terrane::net

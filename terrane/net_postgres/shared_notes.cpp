@@ -1,0 +1,96 @@
+#include "terrane/net_postgres/shared_notes.h"
+
+#include <charconv>
+
+#include "terrane/net/message_types.h"
+#include "terrane/net/wire.h"
+#include "terrane/store/chunk_key.h"
+
+namespace terrane::net_postgres {
+namespace {
+
+constexpr char kHexDigits[] = "0123456789abcdef";
+
+// Reads and writes are one description each (net/wire.h).
+template <class Wire, class N>
+void describe(Wire& wire, N& note) {
+    using T = std::remove_const_t<N>;
+    if constexpr (requires { note.player; }) {
+        wire.number(note.player);
+    } else if constexpr (std::is_same_v<T, LineNote>) {
+        wire.text(note.line.name, net::kMaxNameBytes);
+        wire.text(note.line.text, net::kMaxChatBytes);
+    } else if constexpr (std::is_same_v<T, PosesNote>) {
+        wire.list(note.players, kMaxPosesInNote, [&](auto& player) {
+            wire.number(player.id);
+            net::describePose(wire, player.pose);
+            wire.flag(player.swings);
+        });
+    } else if constexpr (std::is_same_v<T, TilesNote>) {
+        wire.list(note.tiles, kMaxTilesInNote, [&](auto& tile) {
+            wire.integer(tile.x);
+            wire.integer(tile.y);
+            wire.fixed(tile.level);
+            wire.require(world::isInWorld(tile));
+        });
+    }
+}
+
+int digit(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+}
+
+std::optional<net::Bytes> fromHex(std::string_view text) {
+    if (text.size() % 2 != 0) return std::nullopt;
+    net::Bytes bytes;
+    bytes.reserve(text.size() / 2);
+    for (std::size_t at = 0; at < text.size(); at += 2) {
+        const int high = digit(text[at]), low = digit(text[at + 1]);
+        if (high < 0 || low < 0) return std::nullopt;
+        bytes.push_back(static_cast<std::byte>(high * 16 + low));
+    }
+    return bytes;
+}
+
+template <std::size_t I = 0>
+std::optional<Note> noteOfKind(std::size_t kind, net::ByteView bytes) {
+    if constexpr (I == std::variant_size_v<Note>) {
+        return std::nullopt;
+    } else {
+        if (kind != I) return noteOfKind<I + 1>(kind, bytes);
+        std::variant_alternative_t<I, Note> note{};
+        net::WireReader wire(bytes);
+        describe(wire, note);
+        return wire.isComplete() ? std::optional<Note>(std::move(note)) : std::nullopt;
+    }
+}
+
+}  // namespace
+
+std::string noteText(std::int64_t server, const Note& note) {
+    net::Bytes bytes;
+    net::WireWriter wire(bytes);
+    std::visit([&](const auto& kind) { describe(wire, kind); }, note);
+    std::string text = fmt::format("{}{:c}", server, static_cast<char>('a' + note.index()));
+    for (const std::byte byte : bytes) {
+        text += kHexDigits[std::to_integer<int>(byte) >> 4];
+        text += kHexDigits[std::to_integer<int>(byte) & 15];
+    }
+    return text;
+}
+
+std::optional<ReadNote> readNote(std::string_view text) {
+    ReadNote read;
+    const char* end = text.data() + text.size();
+    const auto [next, error] = std::from_chars(text.data(), end, read.server);
+    if (error != std::errc() || next == end || *next < 'a') return std::nullopt;
+    const auto bytes = fromHex(std::string_view(next + 1, static_cast<std::size_t>(end - next - 1)));
+    if (!bytes) return std::nullopt;
+    auto note = noteOfKind(static_cast<std::size_t>(*next - 'a'), *bytes);
+    if (!note) return std::nullopt;
+    read.note = std::move(*note);
+    return read;
+}
+
+}  // namespace terrane::net_postgres
