@@ -7,16 +7,18 @@ import time
 
 
 class Server:
-    """A server on a free port. `folder` keeps its world, log and statistics."""
+    """A server on a free port. `folder` keeps its world, log and statistics; `url`: the world is in a database."""
 
-    def __init__(self, program, folder, port=0, *arguments):
+    def __init__(self, program, folder, port=0, *arguments, url=None):
         self.world, self.statistics = folder / "world.sqlite", folder / "statistics.jsonl"
         self.log = open(folder / "log.txt", "a+", encoding="utf-8")
         self.begin = self.log.seek(0, os.SEEK_END)
         self.process = subprocess.Popen(
-            [program, "serve", "--world", self.world, "--address", "127.0.0.1", "--port", str(port), "--max-players",
+            [program, "serve", "--world", url or self.world, "--address", "127.0.0.1", "--port", str(port), "--max-players",
              "4096", "--statistics", self.statistics, *arguments],
-            stdin=subprocess.DEVNULL, stdout=self.log, stderr=self.log)
+            stdin=subprocess.DEVNULL, stdout=self.log, stderr=self.log,
+            # Its key, where the world has no folder.
+            env={**os.environ, "XDG_DATA_HOME": str(folder)})
         self.port = self.wait_for_port()
 
     def wait_for_port(self):

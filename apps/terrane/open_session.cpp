@@ -62,11 +62,11 @@ bool storesGenerated(store::ChunkStore& store, const SaveOptions& save) {
 }  // namespace
 
 base::Result<game::SessionParts> openSessionParts(WorldOptions& options, const SaveOptions& save,
-                                                  store::WorldAccess access) {
+                                                  store::WorldAccess access, store::WorldSharing sharing) {
     auto loaded = content::loadBlocks();
     if (!loaded) return tl::unexpected(loaded.error());
     auto blocks = std::make_unique<const world::BlockRegistry>(std::move(*loaded));
-    auto opened = openSave(options, save, access, *blocks);
+    auto opened = openSave(options, save, access, *blocks, sharing);
     if (!opened) return tl::unexpected(opened.error());
     auto generators =
         gen::makeLevelGenerators(options.effectiveGenerator(), *blocks, options.effectiveSeed());

@@ -23,6 +23,7 @@ base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const wo
 // What a session is made of, with workers for everything. Without a named world edits last until the program
 // ends. `options` get the seed and generator of the world.
 base::Result<game::SessionParts> openSessionParts(WorldOptions& options, const SaveOptions& save,
-                                                  store::WorldAccess access);
+                                                  store::WorldAccess access,
+                                                  store::WorldSharing sharing = store::WorldSharing::Alone);
 
 }  // namespace terrane::app

@@ -111,9 +111,13 @@ void tellChangedTiles(ServerState& server) {
 }
 
 void takeWrittenTiles(ServerState& server) {
-    const std::lock_guard lock(server.writtenTiles->mutex);
-    server.tilesToTell.insert(server.writtenTiles->tiles.begin(), server.writtenTiles->tiles.end());
-    server.writtenTiles->tiles.clear();
+    std::vector<ChunkPos> tiles;
+    {
+        const std::lock_guard lock(server.writtenTiles->mutex);
+        tiles.swap(server.writtenTiles->tiles);
+    }
+    server.tilesToTell.insert(tiles.begin(), tiles.end());
+    if (server.sharing.shared && !tiles.empty()) server.sharing.shared->tellTiles(tiles);
 }
 
 ChunkDifference valuesNow(const world::World& world, ChunkPos pos, std::vector<world::BlockIndex>& indices) {

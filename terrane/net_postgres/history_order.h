@@ -1,9 +1,9 @@
-// Who was first: decides which edits of one server are accepted, by what it knew when it made them. A plain class,
-// for the thread that writes the history.
+// Who was first: decides which edits of one server are accepted, by what it knew when it made them. A plain
+// class, for the thread that writes the history.
 //
-// What a server hears (edits of others, refusals of its own) has numbers in the order in which it hears it. An own
-// edit was made after the server had heard up to some number, its basis. It is refused where one of its blocks
-// became another one by something that it had not heard.
+// What a server hears (edits of others, refusals of its own) has numbers in the order in which it hears it.
+// An own edit was made after the server had heard up to some number, its basis. It is refused where one of
+// its blocks became another one by something that it had not heard.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What servers tell each other through NOTIFY: a line of text each, of at most 8,000 bytes (PostgreSQL's limit). A
-// server's number, then a letter and hexadecimal digits. Plain values and functions.
+// What servers tell each other through NOTIFY: a line of text each, of at most 8,000 bytes (PostgreSQL's
+// limit). A server's number, then a letter and hexadecimal digits. Plain values and functions.
 #pragma once
 
 #include <string>

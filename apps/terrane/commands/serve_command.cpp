@@ -1,4 +1,6 @@
 // terrane serve: a world for several players over a network.
+#include <unistd.h>
+
 #include <boost/asio/io_context.hpp>
 #include <filesystem>
 #include <memory>
@@ -9,54 +11,70 @@
 #include "apps/terrane/serve/open_file_limit.h"
 #include "apps/terrane/serve/serve_options.h"
 #include "apps/terrane/serve/server_statistics.h"
+#include "apps/terrane/serve/world_records.h"
 #include "apps/terrane/settings.h"
 #include "terrane/base/log.h"
 #include "terrane/net/server_console.h"
 #include "terrane/net/server_host.h"
 #include "terrane/net/server_loop.h"
-#include "terrane/net/sqlite_records.h"
+#include "terrane/store_postgres/any_world.h"
 
 namespace terrane::app {
 namespace {
 
-// Beside the world's own file.
-std::filesystem::path beside(const std::filesystem::path& world, const std::string& ending) {
-    std::filesystem::path path = world;
-    return path.replace_extension(ending);
+std::filesystem::path withEnding(const std::filesystem::path& files, const std::string& ending) {
+    return files.string() + ending;
 }
 
-base::Result<void> readSettings(ServeOptions& options, const std::filesystem::path& world,
+base::Result<void> readSettings(ServeOptions& options, const std::filesystem::path& files,
                                 CLI::App& command) {
     std::error_code ignored;
-    if (options.settingsFile.empty()) return applySettings(beside(world, ".server.toml"), command, {});
+    if (options.settingsFile.empty()) return applySettings(withEnding(files, ".server.toml"), command, {});
     if (!std::filesystem::exists(options.settingsFile, ignored))
         return base::fail(base::ErrorCode::NotFound, "{}: there is no such file", options.settingsFile);
     return applySettings(options.settingsFile, command, {});
 }
 
+// Where players of other servers find this one.
+std::string publicAddress(const ServeOptions& options, std::uint16_t port) {
+    if (!options.publicAddress.empty()) return options.publicAddress;
+    const std::string& address = options.listen.address;
+    const bool isAll = address == "::" || address == "0.0.0.0";
+    char host[256] = "localhost";
+    if (isAll) (void)::gethostname(host, sizeof host - 1);
+    const std::string name = isAll ? host : address;
+    return name.find(':') == std::string::npos ? fmt::format("{}:{}", name, port)
+                                               : fmt::format("[{}]:{}", name, port);
+}
+
 base::Result<void> serve(ServeOptions& options, CLI::App& command) {
-    const auto world = store::fileOf(store::worldLocation(options.save.world));
-    if (!world) return tl::unexpected(world.error());
-    if (auto read = readSettings(options, *world, command); !read) return read;
+    const store::WorldLocation world = store::worldLocation(options.save.world);
+    const auto files = serverFilesOf(world, options.listen.port);
+    if (!files) return tl::unexpected(files.error());
+    if (auto read = readSettings(options, *files, command); !read) return read;
     if (options.isReadOnly) options.server.newcomers = game::Role::Guest;
     auto statistics = ServerStatistics::open(options.statistics);
     if (!statistics) return tl::unexpected(statistics.error());
-    auto parts = openSessionParts(options.world, options.save, store::WorldAccess::ReadWrite);
+    auto parts = openSessionParts(options.world, options.save, store::WorldAccess::ReadWrite,
+                                  store::WorldSharing::Servers);
     if (!parts) return tl::unexpected(parts.error());
     // Players' programs generate what nobody edited: the server needs it rarely, and makes it again.
     parts->storesGenerated = false;
-    auto records = net::SqliteRecords::open(net::serverFilePath(*world), *parts->blocks);
+    auto records = openRecords(world, *parts->blocks);
     if (!records) return tl::unexpected(records.error());
-    auto host = net::openServerHost(std::move(*parts), std::move(*records), options.server,
+    auto host = net::openServerHost(std::move(*parts), std::move(records->records), options.server,
                                     fmt::format("terrane {}", TERRANE_VERSION));
     if (!host) return tl::unexpected(host.error());
     raiseOpenFileLimit();
     boost::asio::io_context context;
     auto sockets =
-        net::ServerSockets::open(context, *host->state, options.listen, beside(*world, ".server.pem"));
+        net::ServerSockets::open(context, *host->state, options.listen, withEnding(*files, ".server.pem"));
     if (!sockets) return tl::unexpected(sockets.error());
-    base::logInfo("{} on port {}, seed {}, generator {}; key {}", options.save.world, (*sockets)->port(),
-                  host->state->world.identity.seed, host->state->world.identity.generator, (*sockets)->key());
+    if (records->tellAddress)
+        records->tellAddress(publicAddress(options, (*sockets)->port()), (*sockets)->key());
+    base::logInfo("{} on port {}, seed {}, generator {}; key {}", store_postgres::shownOf(world),
+                  (*sockets)->port(), host->state->world.identity.seed, host->state->world.identity.generator,
+                  (*sockets)->key());
     net::ServerLoop loop;
     loop.onTick = [&](double milliseconds) { statistics->addTick(*host->state, milliseconds); };
     return net::runServer(context, *host->state, **sockets, loop);
@@ -71,7 +89,9 @@ CommandEntry addServe(CLI::App& app) {
     command->footer(
         "Commands on standard input, for operators in the chat behind a slash:\n" + net::consoleHelp() +
         "\n\nSIGTERM saves and ends, as `stop` does. The server's file NAME.server.sqlite (players, "
-        "claims, history) and\nits key NAME.server.pem lie beside the world.");
+        "claims, history) and\nits key NAME.server.pem lie beside the world. Several servers may serve one "
+        "world in a "
+        "database.");
     return {command, [options, command] { return serve(*options, *command); }};
 }
 

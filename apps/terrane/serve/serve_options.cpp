@@ -19,6 +19,11 @@ void addServeOptions(CLI::App& command, ServeOptions& options) {
         ->capture_default_str();
     command.add_option("--port", options.listen.port, "Port to listen on; 0: one that is free")
         ->capture_default_str();
+    command
+        .add_option("--public-address", options.publicAddress,
+                    "Where players reach this server, for other servers of the same world to tell them; "
+                    "by default the machine's name and the port")
+        ->type_name("HOST:PORT");
     command.add_option("--max-players", options.server.maxPlayers, "How many play at a time")
         ->check(numberFrom(1, 4096))
         ->capture_default_str();

@@ -15,6 +15,7 @@ struct ServeOptions {
     SaveOptions save;
     std::string settingsFile;  // empty: NAME.server.toml beside the world, where there is one
     net::ListenAddress listen;
+    std::string publicAddress;  // empty: by the two
     net::ServerSettings server;
     bool isReadOnly = false;
     std::string statistics;  // file; empty: none

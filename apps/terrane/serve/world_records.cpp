@@ -1,0 +1,63 @@
+#include "apps/terrane/serve/world_records.h"
+
+#include <unistd.h>
+
+#include "terrane/base/digest.h"
+#include "terrane/net/sqlite_records.h"
+#include "terrane/net_postgres/postgres_records.h"
+#include "terrane/store/save_path.h"
+
+namespace terrane::app {
+namespace {
+
+bool isInDatabase(const store::WorldLocation& world) {
+    return world.kind == store::WorldLocation::Kind::Url && store_postgres::isPostgresUrl(world.text);
+}
+
+std::string serverName() {
+    char host[256] = "";
+    if (::gethostname(host, sizeof host - 1) != 0) return fmt::format("process {}", ::getpid());
+    return fmt::format("{} process {}", host, ::getpid());
+}
+
+}  // namespace
+
+base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
+                                       const world::BlockRegistry& blocks) {
+    if (!isInDatabase(world)) {
+        const auto path = store::fileOf(world);
+        if (!path) return tl::unexpected(path.error());
+        auto records = net::SqliteRecords::open(net::serverFilePath(*path), blocks);
+        if (!records) return tl::unexpected(records.error());
+        return WorldRecords{std::move(*records), {}};
+    }
+    const auto address = store_postgres::addressOf(world.text);
+    if (!address) return tl::unexpected(address.error());
+    auto records = net_postgres::PostgresRecords::open(*address, blocks, {serverName(), "", ""});
+    if (!records) return tl::unexpected(records.error());
+    net_postgres::PostgresRecords* shared = records->get();
+    return WorldRecords{std::move(*records), [shared](const std::string& at, const std::string& key) {
+                            shared->tellAddress(at, key);
+                        }};
+}
+
+base::Result<std::filesystem::path> serverFilesOf(const store::WorldLocation& world, std::uint16_t port) {
+    if (!isInDatabase(world)) {
+        auto path = store::fileOf(world);
+        if (path) path->replace_extension();
+        return path;
+    }
+    const auto address = store_postgres::addressOf(world.text);
+    if (!address) return tl::unexpected(address.error());
+    const auto folder = store::dataFolder(store::savePlaces());
+    if (!folder)
+        return base::fail(base::ErrorCode::NotFound,
+                          "there is no folder for the server's key: set XDG_DATA_HOME or HOME");
+    std::error_code error;
+    std::filesystem::create_directories(*folder, error);
+    if (error)
+        return base::fail(base::ErrorCode::Io, "{}: cannot be made: {}", folder->string(), error.message());
+    return *folder / fmt::format("database-{:016x}-{}", base::hash64(address->shown), port);
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,176 @@
+#include "terrane/net_postgres/history_writer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/store_postgres/world_locks.h"
+
+namespace terrane::net_postgres {
+namespace {
+
+using store_postgres::Command;
+using store_postgres::Connection;
+using store_postgres::Parameters;
+using store_postgres::Rows;
+using store_postgres::Statement;
+
+constexpr std::int64_t kEditsAtOnce = 1000;
+
+constexpr Statement kNewest = {"SELECT newest FROM history"};
+constexpr Statement kOthers = {
+    "SELECT number, time, player, chunk, server, blocks FROM edits WHERE number > $1 ORDER BY number LIMIT "
+    "$2"};
+constexpr Statement kAppend = {
+    "INSERT INTO edits (number, time, player, chunk, write, blocks, server) SELECT *, $7 FROM "
+    "unnest($1::bigint[], $2::bigint[], $3::bigint[], $4::bigint[], $5::bigint[], $6::bytea[])"};
+constexpr Statement kSetNewest = {"UPDATE history SET newest = $1"};
+constexpr Statement kHasWrite = {
+    "SELECT EXISTS (SELECT 1 FROM edits WHERE number > $1 AND server = $2 AND write = $3)"};
+constexpr Statement kNotify = {"SELECT pg_notify($1, $2)"};
+
+}  // namespace
+
+Command notifyCommand(const std::string& channel, std::int64_t server, const Note& note) {
+    return {&kNotify, Parameters().text(channel).text(noteText(server, note))};
+}
+
+base::Result<void> HistoryWriter::readOthers(Connection& connection, Heard& heard) {
+    while (true) {
+        const auto rows = connection.run(kOthers, Parameters().number(seen_).number(kEditsAtOnce));
+        if (!rows) return tl::unexpected(rows.error());
+        for (int row = 0; row < rows->count(); ++row) {
+            seen_ = rows->number(row, 0);
+            // Own ones were told when they were written.
+            if (rows->number(row, 4) == server_) continue;
+            auto edit = net::decodeEdit({rows->number(row, 0), rows->number(row, 1), rows->number(row, 2),
+                                         rows->number(row, 3), rows->bytes(row, 5)},
+                                        ids_);
+            if (!edit) {
+                base::logError("{}: {}", connection.shown(), edit.error().message);
+                continue;
+            }
+            const std::uint64_t number = order_.hear(blocksOf(*edit));
+            heard.events.push_back({std::move(*edit), number});
+        }
+        if (rows->count() < kEditsAtOnce) return {};
+    }
+}
+
+base::Result<std::int64_t> HistoryWriter::lockHistory(Connection& connection) {
+    const auto locked =
+        store_postgres::lockForTransaction(connection, address_, store_postgres::WorldLock::History);
+    if (!locked) return tl::unexpected(locked.error());
+    const auto newest = connection.run(kNewest);
+    if (!newest) return tl::unexpected(newest.error());
+    return newest->number(0, 0);
+}
+
+HistoryWriter::Attempt HistoryWriter::decide(const std::vector<QueuedWrite>& batch, std::int64_t newest) {
+    Attempt attempt;
+    attempt.before = attempt.newest = newest;
+    for (const QueuedWrite& write : batch) {
+        if (write.edits.empty()) continue;
+        const bool isAccepted = order_.isAccepted(write.blocks, write.basis);
+        attempt.decisions.push_back({write.number, isAccepted, attempt.newest + 1});
+        // What was made on top of it is refused, too.
+        attempt.heard.push_back(isAccepted ? 0 : order_.hear(write.blocks));
+        if (!isAccepted) continue;
+        attempt.newest += static_cast<std::int64_t>(write.edits.size());
+        attempt.lastAccepted = write.number;
+    }
+    return attempt;
+}
+
+base::Result<void> HistoryWriter::send(Connection& connection, const std::vector<QueuedWrite>& batch,
+                                       Attempt& attempt) {
+    std::vector<std::int64_t> numbers, times, players, chunks, writes;
+    std::vector<store::Bytes> blocks;
+    std::vector<Command> commands;
+    std::vector<std::pair<std::size_t, game::PlayerId>> added;  // which command adds whom
+    auto decision = attempt.decisions.begin();
+    for (const QueuedWrite& write : batch) {
+        if (write.added != game::kNoPlayer) added.push_back({commands.size(), write.added});
+        commands.insert(commands.end(), write.commands.begin(), write.commands.end());
+        if (write.note) commands.push_back(notifyCommand(channel_, server_, *write.note));
+        if (write.edits.empty()) continue;
+        const net::WriteDecision& decided = *decision++;
+        if (!decided.isAccepted) continue;
+        for (const EditToWrite& edit : write.edits) {
+            numbers.push_back(decided.firstNumber + static_cast<std::int64_t>(&edit - write.edits.data()));
+            times.push_back(edit.timeMs);
+            players.push_back(edit.player);
+            chunks.push_back(edit.chunk);
+            writes.push_back(static_cast<std::int64_t>(write.number));
+            blocks.push_back(edit.blocks);
+        }
+    }
+    if (!numbers.empty()) {
+        commands.push_back({&kAppend, Parameters()
+                                          .numbers(numbers)
+                                          .numbers(times)
+                                          .numbers(players)
+                                          .numbers(chunks)
+                                          .numbers(writes)
+                                          .byteStrings(blocks)
+                                          .number(server_)});
+        commands.push_back({&kSetNewest, Parameters().number(attempt.newest)});
+        commands.push_back(notifyCommand(channel_, server_, EditsNote{}));
+    }
+    if (commands.empty()) return {};
+    const auto rows = connection.runAll(commands);
+    if (!rows) return tl::unexpected(rows.error());
+    for (const auto& [command, player] : added)
+        if ((*rows)[command].affected() == 0) attempt.refused.push_back(player);
+    return {};
+}
+
+// Whether a batch whose transaction was cut off at its end is in the database.
+base::Result<bool> HistoryWriter::isThere(Connection& connection, const Attempt& attempt) const {
+    if (attempt.lastAccepted == 0) return false;  // the rest makes no difference the second time
+    const auto rows = connection.run(kHasWrite, Parameters()
+                                                    .number(attempt.before)
+                                                    .number(server_)
+                                                    .number(static_cast<std::int64_t>(attempt.lastAccepted)));
+    if (!rows) return tl::unexpected(rows.error());
+    return rows->number(0, 0) != 0;
+}
+
+void HistoryWriter::finish(Attempt attempt, Heard& heard) {
+    for (std::size_t k = 0; k < attempt.decisions.size(); ++k)
+        heard.events.push_back({attempt.decisions[k], attempt.heard[k]});
+    heard.refused.insert(heard.refused.end(), attempt.refused.begin(), attempt.refused.end());
+    seen_ = std::max(seen_, attempt.newest);
+    heard.isWritten = true;
+}
+
+base::Result<void> HistoryWriter::write(Connection& connection, const std::vector<QueuedWrite>& batch,
+                                        Heard& heard) {
+    if (unsure_) {
+        const auto there = isThere(connection, *unsure_);
+        if (!there) return tl::unexpected(there.error());
+        Attempt attempt = std::move(*unsure_);
+        unsure_.reset();
+        if (*there) {
+            finish(std::move(attempt), heard);
+            return {};
+        }
+    }
+    if (auto begun = connection.execute("BEGIN"); !begun) return begun;
+    const auto newest = lockHistory(connection);
+    auto done = newest ? readOthers(connection, heard) : tl::unexpected(newest.error());
+    if (done) {
+        Attempt attempt = decide(batch, *newest);
+        done = send(connection, batch, attempt);
+        if (done) {
+            unsure_ = std::move(attempt);
+            done = connection.execute("COMMIT");
+            if (done) finish(std::move(*std::exchange(unsure_, std::nullopt)), heard);
+            return done;
+        }
+    }
+    if (connection.isUsable()) (void)connection.execute("ROLLBACK");
+    return done;
+}
+
+}  // namespace terrane::net_postgres

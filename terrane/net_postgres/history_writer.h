@@ -1,0 +1,91 @@
+// Appends a server's writes to the records in PostgreSQL, each batch in one transaction, and reads what other
+// servers appended. For the thread that writes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "terrane/net_postgres/history_order.h"
+#include "terrane/net_postgres/shared_notes.h"
+#include "terrane/store/block_id_map.h"
+#include "terrane/store_postgres/connection.h"
+
+namespace terrane::net_postgres {
+
+// An edit as a row.
+struct EditToWrite {
+    std::int64_t timeMs = 0, player = 0, chunk = 0;
+    net::Bytes blocks;
+};
+
+struct QueuedWrite {
+    std::uint64_t number = 0;
+    // Edits of one command, and the blocks that they change: all of it is accepted or nothing.
+    std::vector<EditToWrite> edits;
+    std::vector<world::BlockPos> blocks;
+    std::uint64_t basis = 0;  // HistoryOrder
+    // Or anything else, with what the other servers are told of it.
+    std::vector<store_postgres::Command> commands;
+    std::optional<Note> note;
+    // The first command adds this player: where it inserts nothing, the name is taken.
+    game::PlayerId added = game::kNoPlayer;
+};
+
+// What the server is to hear.
+struct HeardEvent {
+    net::HistoryEvent event;
+    std::uint64_t heard =
+        0;  // its number (HistoryOrder); 0: it changes nothing that the server does not know
+};
+struct Heard {
+    std::vector<HeardEvent> events;
+    std::vector<game::PlayerId> refused;  // players
+    bool isWritten = false;               // the batch that write() was given
+};
+
+class HistoryWriter {
+  public:
+    // All edits up to `seen` are known. The address and the ids outlive it.
+    HistoryWriter(const store_postgres::Address& address, const store::BlockIdMap& ids, std::string channel,
+                  std::int64_t server, std::int64_t seen)
+        : address_(address), ids_(ids), channel_(std::move(channel)), server_(server), seen_(seen) {}
+
+    // The edits that others appended since. Those of `heard` that were read before an error count.
+    [[nodiscard]] base::Result<void> readOthers(store_postgres::Connection& connection, Heard& heard);
+    // All of the batch, or nothing. Called again with the same batch first of all where it failed.
+    [[nodiscard]] base::Result<void> write(store_postgres::Connection& connection,
+                                           const std::vector<QueuedWrite>& batch, Heard& heard);
+
+    std::int64_t seen() const { return seen_; }
+    // No write with a lower basis will come.
+    void forget(std::uint64_t basis) { order_.forget(basis); }
+
+  private:
+    // A batch on its way: it may be in the database although the connection broke.
+    struct Attempt {
+        std::vector<net::WriteDecision> decisions;
+        std::vector<std::uint64_t> heard;  // of each decision
+        std::vector<game::PlayerId> refused;
+        std::int64_t before = 0, newest = 0;  // of the history, without it and with it
+        std::uint64_t lastAccepted = 0;       // write; 0: none
+    };
+    base::Result<std::int64_t> lockHistory(store_postgres::Connection& connection);
+    Attempt decide(const std::vector<QueuedWrite>& batch, std::int64_t newest);
+    base::Result<void> send(store_postgres::Connection& connection, const std::vector<QueuedWrite>& batch,
+                            Attempt& attempt);
+    base::Result<bool> isThere(store_postgres::Connection& connection, const Attempt& attempt) const;
+    void finish(Attempt attempt, Heard& heard);
+
+    const store_postgres::Address& address_;
+    const store::BlockIdMap& ids_;
+    std::string channel_;
+    std::int64_t server_, seen_;
+    HistoryOrder order_;
+    std::optional<Attempt> unsure_;
+};
+
+// Tells all servers something, now.
+store_postgres::Command notifyCommand(const std::string& channel, std::int64_t server, const Note& note);
+
+}  // namespace terrane::net_postgres

@@ -1,0 +1,115 @@
+// A server's records in PostgreSQL, shared by all servers of the world. A thread of its own writes and
+// listens.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "terrane/net/shared_world.h"
+#include "terrane/net_postgres/history_writer.h"
+#include "terrane/net_postgres/server_rows.h"
+#include "terrane/store_postgres/connection_pool.h"
+
+namespace terrane::net_postgres {
+
+class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
+  public:
+    // Of a world that is there, opened with WorldSharing::Servers. The server is among those of the world
+    // until it ends.
+    [[nodiscard]] static base::Result<std::unique_ptr<PostgresRecords>> open(
+        const store_postgres::Address& address, const world::BlockRegistry& blocks, const ServerName& name);
+    ~PostgresRecords() override;  // writes what waits, if it can within some seconds
+    PostgresRecords(const PostgresRecords&) = delete;
+    PostgresRecords& operator=(const PostgresRecords&) = delete;
+
+    [[nodiscard]] base::Result<std::vector<net::KnownPlayer>> players() override;
+    [[nodiscard]] base::Result<std::vector<game::Claim>> claims() override;
+    [[nodiscard]] base::Result<std::string> text(const std::string& name) override;
+    [[nodiscard]] base::Result<net::HistoryEnds> historyEnds() override;
+    [[nodiscard]] base::Result<void> forEachEdit(const net::EditFilter& filter, net::EditOrder order,
+                                                 const net::UseEdit& use) override;
+    void addPlayer(const net::KnownPlayer& player) override;
+    void changePlayer(game::PlayerId id, const net::PlayerChange& change) override;
+    void addClaim(const game::Claim& claim) override;
+    void removeClaim(const std::string& name) override;
+    void setText(const std::string& name, const std::string& text) override;
+    std::uint64_t append(const std::vector<net::LoggedEdit>& edits) override;
+    void setSavedEdit(std::int64_t) override {}  // that is what tellState() is for
+    // Decided, and told by takeNews().
+    std::uint64_t durable() const override;
+    std::string problem() const override;
+    [[nodiscard]] base::Result<void> flush() override;
+    net::SharedWorld* shared() override { return this; }
+
+    // Where players find the server, once that is known.
+    void tellAddress(const std::string& address, const std::string& key);
+
+    net::SharedNews takeNews() override;
+    void say(const net::SharedLine& line) override;
+    void tellPoses(std::span<const net::OtherPlayer> players) override;
+    void tellTiles(std::span<const world::ChunkPos> tiles) override;
+    void tellJoined(game::PlayerId player) override;
+    void tellLeft(game::PlayerId player) override;
+    game::PlayerId takePlayerNumber() override;
+    void tellState(int players, std::int64_t saved) override;
+    void wantRegions(std::vector<net::Region> regions) override;
+    bool mayGrow(net::Region region) const override;
+    [[nodiscard]] base::Result<std::vector<world::ChunkPos>> unsavedChunks(std::int64_t server) override;
+    void forgetServer(std::int64_t server) override;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    PostgresRecords(const store_postgres::Address& address, store::BlockIdMap ids, ServerName name);
+
+    std::uint64_t queue(QueuedWrite write);
+    void tell(const Note& note);
+    void wake();
+    // Of the thread.
+    void run();
+    void waitForWork();
+    base::Result<void> work();
+    base::Result<void> connect();
+    base::Result<void> listen();
+    base::Result<void> takeNotes(Heard& heard);
+    base::Result<void> takeNote(const Note& note, bool& hasEdits);
+    base::Result<void> writeQueued(Heard& heard);
+    base::Result<void> sendNotes();
+    base::Result<void> beatIfDue();
+    base::Result<void> reservePlayerNumbers();
+    void hand(Heard heard);
+
+    store_postgres::ConnectionPool pool_;  // for what the server's thread waits for
+    store::BlockIdMap ids_;
+    ServerName name_;
+    std::string channel_;
+    std::int64_t server_ = 0;
+    int wakeSocket_ = -1;  // an eventfd
+
+    // Of the thread.
+    std::optional<store_postgres::Connection> connection_;
+    std::unique_ptr<HistoryWriter> writer_;
+    std::vector<QueuedWrite> batch_;  // being written
+    Clock::time_point nextLook_{}, nextBeat_{};
+
+    mutable std::mutex mutex_;  // of all below
+    std::condition_variable written_;
+    std::deque<QueuedWrite> queue_;
+    std::deque<Note> notes_;  // to be sent
+    std::uint64_t queued_ = 0, committed_ = 0, told_ = 0;
+    std::uint64_t attempts_ = 0;
+    std::uint64_t basis_ = 0, heard_ = 0;  // what the server was told; what is in news_
+    net::SharedNews news_;
+    std::vector<game::PlayerId> numbers_;  // for new players
+    std::set<net::Region> wanted_, leased_;
+    Clock::time_point leasedUntil_{};
+    ServerBeat state_;
+    std::string problem_;
+    bool isEnding_ = false;
+    std::thread thread_;
+};
+
+}  // namespace terrane::net_postgres

@@ -1,0 +1,211 @@
+#include "terrane/net_postgres/record_rows.h"
+
+#include <limits>
+
+#include "terrane/game/pose_text.h"
+#include "terrane/net/record_values.h"
+
+namespace terrane::net_postgres {
+namespace {
+
+using store_postgres::Command;
+using store_postgres::Connection;
+using store_postgres::Parameters;
+using store_postgres::Rows;
+using store_postgres::Statement;
+
+constexpr std::int64_t kEditsInPage = 1000;
+constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min(),
+                       kHighest = std::numeric_limits<std::int64_t>::max();
+
+constexpr Statement kPlayers = {"SELECT id, key, name, role, pose, ban FROM players"};
+constexpr Statement kPlayer = {"SELECT id, key, name, role, pose, ban FROM players WHERE id = $1"};
+constexpr Statement kClaims = {"SELECT name, x0, y0, x1, y1, owner, members FROM claims ORDER BY name"};
+constexpr Statement kText = {"SELECT value FROM texts WHERE name = $1"};
+constexpr Statement kEnds = {"SELECT newest, saved FROM history"};
+// $1 to $8: numbers, player (below 0: any), times, chunks, how many.
+constexpr Statement kEditsUp = {
+    "SELECT number, time, player, chunk, blocks FROM edits WHERE number > $1 AND number < $2 AND ($3 < 0 OR "
+    "player = $3) AND time >= $4 AND time < $5 AND chunk BETWEEN $6 AND $7 ORDER BY number LIMIT $8"};
+constexpr Statement kEditsDown = {
+    "SELECT number, time, player, chunk, blocks FROM edits WHERE number > $1 AND number < $2 AND ($3 < 0 OR "
+    "player = $3) AND time >= $4 AND time < $5 AND chunk BETWEEN $6 AND $7 ORDER BY number DESC LIMIT $8"};
+constexpr Statement kAddPlayer = {
+    "INSERT INTO players (id, key, name, role, pose, ban) VALUES ($1, $2, $3, $4, $5, $6) ON CONFLICT DO "
+    "NOTHING"};
+// An empty array leaves a column as it is.
+constexpr Statement kChangePlayer = {
+    "UPDATE players p SET name = CASE WHEN EXISTS (SELECT 1 FROM players o WHERE o.id <> $1 AND "
+    "lower(o.name COLLATE \"C\") = lower(($2::text[])[1] COLLATE \"C\")) THEN name ELSE "
+    "coalesce(($2::text[])[1], name) END, role = coalesce(($3::smallint[])[1], role), "
+    "pose = coalesce(($4::text[])[1], pose), ban = coalesce(($5::text[])[1], ban) WHERE id = $1"};
+constexpr Statement kAddClaim = {
+    "INSERT INTO claims (name, x0, y0, x1, y1, owner, members) VALUES ($1, $2, $3, $4, $5, $6, $7) "
+    "ON CONFLICT (name) DO NOTHING"};
+constexpr Statement kRemoveClaim = {"DELETE FROM claims WHERE name = $1"};
+constexpr Statement kSetText = {
+    "INSERT INTO texts (name, value) VALUES ($1, $2) ON CONFLICT (name) DO UPDATE SET value = "
+    "excluded.value"};
+constexpr Statement kJoined = {
+    "INSERT INTO online (player, server) SELECT $1, number FROM servers WHERE number = $2 "
+    "ON CONFLICT (player) DO UPDATE SET server = excluded.server"};
+constexpr Statement kLeft = {"DELETE FROM online WHERE player = $1 AND server = $2"};
+constexpr Statement kForget = {"DELETE FROM servers WHERE number = $1"};
+constexpr Statement kForgetLeases = {"DELETE FROM growth_leases WHERE server = $1"};
+constexpr Statement kNumbers = {"SELECT nextval('player_numbers') FROM generate_series(1, $1)"};
+
+tl::unexpected<base::Error> damaged(const Connection& connection, std::string_view what) {
+    return base::fail(base::ErrorCode::Damaged, "{}: damaged: {}", connection.shown(), what);
+}
+
+std::optional<net::KnownPlayer> playerOf(const Rows& rows, int row) {
+    return net::knownPlayer({rows.number(row, 0), rows.bytes(row, 1), rows.text(row, 2), rows.number(row, 3),
+                             rows.text(row, 4), rows.text(row, 5)});
+}
+
+// One value, or none.
+std::vector<std::string> textIfGiven(const std::optional<std::string>& text) {
+    return text ? std::vector<std::string>{*text} : std::vector<std::string>{};
+}
+
+}  // namespace
+
+base::Result<std::vector<net::KnownPlayer>> readPlayers(Connection& connection) {
+    const auto rows = connection.run(kPlayers);
+    if (!rows) return tl::unexpected(rows.error());
+    std::vector<net::KnownPlayer> players;
+    for (int row = 0; row < rows->count(); ++row) {
+        auto player = playerOf(*rows, row);
+        if (!player) return damaged(connection, "a player");
+        players.push_back(std::move(*player));
+    }
+    return players;
+}
+
+base::Result<std::optional<net::KnownPlayer>> readPlayer(Connection& connection, game::PlayerId id) {
+    const auto rows = connection.run(kPlayer, Parameters().number(std::int64_t{id}));
+    if (!rows) return tl::unexpected(rows.error());
+    return rows->count() == 1 ? playerOf(*rows, 0) : std::nullopt;
+}
+
+base::Result<std::vector<game::Claim>> readClaims(Connection& connection) {
+    const auto rows = connection.run(kClaims);
+    if (!rows) return tl::unexpected(rows.error());
+    std::vector<game::Claim> claims;
+    for (int row = 0; row < rows->count(); ++row) {
+        auto claim = net::claimOf(
+            {rows->text(row, 0),
+             {rows->number(row, 1), rows->number(row, 2), rows->number(row, 3), rows->number(row, 4)},
+             rows->number(row, 5),
+             rows->text(row, 6)});
+        if (!claim) return damaged(connection, "a claim");
+        claims.push_back(std::move(*claim));
+    }
+    return claims;
+}
+
+base::Result<std::string> readText(Connection& connection, const std::string& name) {
+    const auto rows = connection.run(kText, Parameters().text(name));
+    if (!rows) return tl::unexpected(rows.error());
+    return rows->count() == 1 ? std::string(rows->text(0, 0)) : std::string();
+}
+
+base::Result<net::HistoryEnds> readEnds(Connection& connection) {
+    const auto rows = connection.run(kEnds);
+    if (!rows) return tl::unexpected(rows.error());
+    if (rows->count() != 1) return damaged(connection, "the table history has no one row");
+    return net::HistoryEnds{rows->number(0, 0), rows->number(0, 1)};
+}
+
+base::Result<void> readEdits(Connection& connection, const store::BlockIdMap& ids,
+                             const net::EditFilter& filter, net::EditOrder order, const net::UseEdit& use) {
+    const bool isUp = order == net::EditOrder::OldestFirst;
+    const net::KeyRange chunks =
+        filter.area ? net::chunkKeys(*filter.area) : net::KeyRange{kLowest, kHighest};
+    std::int64_t above = filter.afterNumber, below = kHighest;
+    while (true) {
+        const auto rows = connection.run(isUp ? kEditsUp : kEditsDown,
+                                         Parameters()
+                                             .number(above)
+                                             .number(below)
+                                             .number(filter.player ? std::int64_t{*filter.player} : -1)
+                                             .number(filter.sinceMs.value_or(kLowest))
+                                             .number(filter.untilMs.value_or(kHighest))
+                                             .number(chunks.first)
+                                             .number(chunks.last)
+                                             .number(kEditsInPage));
+        if (!rows) return tl::unexpected(rows.error());
+        for (int row = 0; row < rows->count(); ++row) {
+            (isUp ? above : below) = rows->number(row, 0);
+            const auto edit =
+                net::decodeEdit({rows->number(row, 0), rows->number(row, 1), rows->number(row, 2),
+                                 rows->number(row, 3), rows->bytes(row, 4)},
+                                ids);
+            if (!edit) return tl::unexpected(edit.error());
+            if (!net::isInArea(*edit, filter)) continue;
+            if (auto used = use(*edit); !used) return used;
+        }
+        if (rows->count() < kEditsInPage) return {};
+    }
+}
+
+Command addPlayerCommand(const net::KnownPlayer& player) {
+    return {&kAddPlayer, Parameters()
+                             .number(std::int64_t{player.id})
+                             .bytes(player.key)
+                             .text(player.name)
+                             .integer(static_cast<std::int32_t>(player.role))
+                             .text(player.pose ? game::textOf(*player.pose) : std::string())
+                             .text(player.ban)};
+}
+
+Command changePlayerCommand(game::PlayerId id, const net::PlayerChange& change) {
+    const std::optional<std::string> pose =
+        change.pose ? std::optional(game::textOf(*change.pose)) : std::nullopt;
+    std::vector<std::int16_t> role;
+    if (change.role) role.push_back(static_cast<std::int16_t>(*change.role));
+    return {&kChangePlayer, Parameters()
+                                .number(std::int64_t{id})
+                                .texts(textIfGiven(change.name))
+                                .smallNumbers(role)
+                                .texts(textIfGiven(pose))
+                                .texts(textIfGiven(change.ban))};
+}
+
+Command addClaimCommand(const game::Claim& claim) {
+    return {&kAddClaim, Parameters()
+                            .text(claim.name)
+                            .integer(claim.area.x0)
+                            .integer(claim.area.y0)
+                            .integer(claim.area.x1)
+                            .integer(claim.area.y1)
+                            .number(std::int64_t{claim.owner})
+                            .text(net::membersText(claim.members))};
+}
+
+Command removeClaimCommand(const std::string& name) {
+    return {&kRemoveClaim, Parameters().text(name)};
+}
+Command setTextCommand(const std::string& name, const std::string& text) {
+    return {&kSetText, Parameters().text(name).text(text)};
+}
+Command joinedCommand(game::PlayerId player, std::int64_t server) {
+    return {&kJoined, Parameters().number(std::int64_t{player}).number(server)};
+}
+Command leftCommand(game::PlayerId player, std::int64_t server) {
+    return {&kLeft, Parameters().number(std::int64_t{player}).number(server)};
+}
+std::vector<Command> removeServerCommands(std::int64_t server) {
+    return {{&kForget, Parameters().number(server)}, {&kForgetLeases, Parameters().number(server)}};
+}
+
+base::Result<std::vector<game::PlayerId>> takePlayerNumbers(Connection& connection, std::size_t count) {
+    const auto rows = connection.run(kNumbers, Parameters().integer(static_cast<std::int32_t>(count)));
+    if (!rows) return tl::unexpected(rows.error());
+    std::vector<game::PlayerId> numbers;
+    for (int row = 0; row < rows->count(); ++row)
+        numbers.push_back(static_cast<game::PlayerId>(rows->number(row, 0)));
+    return numbers;
+}
+
+}  // namespace terrane::net_postgres

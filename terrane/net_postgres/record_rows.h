@@ -1,0 +1,40 @@
+// Players, claims, texts and edits of a world's servers as rows in PostgreSQL: reading by a connection, and
+// commands that write them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "terrane/net/server_records.h"
+#include "terrane/store_postgres/connection.h"
+
+namespace terrane::net_postgres {
+
+[[nodiscard]] base::Result<std::vector<net::KnownPlayer>> readPlayers(store_postgres::Connection& connection);
+[[nodiscard]] base::Result<std::optional<net::KnownPlayer>> readPlayer(store_postgres::Connection& connection,
+                                                                       game::PlayerId id);
+[[nodiscard]] base::Result<std::vector<game::Claim>> readClaims(store_postgres::Connection& connection);
+[[nodiscard]] base::Result<std::string> readText(store_postgres::Connection& connection,
+                                                 const std::string& name);
+[[nodiscard]] base::Result<net::HistoryEnds> readEnds(store_postgres::Connection& connection);
+// As net::ServerRecords::forEachEdit(): in pages, so that a long history takes no more memory than a short
+// one.
+[[nodiscard]] base::Result<void> readEdits(store_postgres::Connection& connection,
+                                           const store::BlockIdMap& ids, const net::EditFilter& filter,
+                                           net::EditOrder order, const net::UseEdit& use);
+
+// Inserts nothing where another player has the key or the name.
+store_postgres::Command addPlayerCommand(const net::KnownPlayer& player);
+// A name that another player has stays as it was.
+store_postgres::Command changePlayerCommand(game::PlayerId id, const net::PlayerChange& change);
+store_postgres::Command addClaimCommand(const game::Claim& claim);
+store_postgres::Command removeClaimCommand(const std::string& name);
+store_postgres::Command setTextCommand(const std::string& name, const std::string& text);
+store_postgres::Command joinedCommand(game::PlayerId player, std::int64_t server);
+store_postgres::Command leftCommand(game::PlayerId player, std::int64_t server);
+std::vector<store_postgres::Command> removeServerCommands(std::int64_t server);
+
+[[nodiscard]] base::Result<std::vector<game::PlayerId>> takePlayerNumbers(
+    store_postgres::Connection& connection, std::size_t count);
+
+}  // namespace terrane::net_postgres

@@ -1,0 +1,211 @@
+// The thread of PostgresRecords: writes what is queued, hears what other servers do, says that the server is
+// there.
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/base/profile.h"
+#include "terrane/net_postgres/postgres_records.h"
+#include "terrane/net_postgres/record_rows.h"
+
+namespace terrane::net_postgres {
+namespace {
+
+using store_postgres::Command;
+using store_postgres::Connection;
+
+// Notifications come at once; what one misses, as after a broken connection, is looked up.
+constexpr std::chrono::milliseconds kLookEvery{1000}, kBeatEvery{1000}, kTryAgain{200};
+constexpr std::size_t kMaxBatch = 4096;
+constexpr std::size_t kNotesAtOnce = 256;
+// A lease is used for less than it lasts: it began when the database had it.
+constexpr std::chrono::seconds kLeaseUsed{kGoneSeconds - 2};
+constexpr std::size_t kPlayerNumbers = 64;
+// At the end, where the database does not answer.
+constexpr int kLastAttempts = 25;
+
+}  // namespace
+
+void PostgresRecords::run() {
+    base::setThreadName("records");
+    int failed = 0;
+    while (true) {
+        waitForWork();
+        const auto done = work();
+        std::unique_lock lock(mutex_);
+        ++attempts_;
+        if (!done && problem_.empty()) base::logError("{}", done.error().message);
+        if (done && !problem_.empty()) base::logInfo("{}: it works again", name_.name);
+        problem_ = done ? "" : done.error().message;
+        failed = done ? 0 : failed + 1;
+        written_.notify_all();
+        const bool isEmpty = queue_.empty() && batch_.empty();
+        if (isEnding_ && (isEmpty || failed > kLastAttempts)) break;
+        lock.unlock();
+        if (!done) std::this_thread::sleep_for(kTryAgain);
+    }
+    if (connection_ && connection_->isUsable())
+        (void)removeServer(*connection_, server_, state_.saved);  // of a server that has saved all
+}
+
+void PostgresRecords::waitForWork() {
+    const Clock::time_point next = std::min(nextLook_, nextBeat_);
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(next - Clock::now()).count() + 1;
+    pollfd sockets[] = {{wakeSocket_, POLLIN, 0}, {connection_ ? connection_->socket() : -1, POLLIN, 0}};
+    {
+        const std::lock_guard lock(mutex_);
+        if (isEnding_ || !queue_.empty() || !notes_.empty()) return;
+    }
+    if (batch_.empty() && left > 0) ::poll(sockets, std::size(sockets), static_cast<int>(left));
+    std::uint64_t count = 0;
+    (void)!::read(wakeSocket_, &count, sizeof count);
+}
+
+base::Result<void> PostgresRecords::work() {
+    if (auto connected = connect(); !connected) return connected;
+    Heard heard;
+    auto done = takeNotes(heard);
+    if (done) done = writeQueued(heard);
+    hand(std::move(heard));  // what was heard before an error, too
+    if (!done) return done;
+    if (auto reserved = reservePlayerNumbers(); !reserved) return reserved;
+    if (auto sent = sendNotes(); !sent) return sent;
+    return beatIfDue();
+}
+
+base::Result<void> PostgresRecords::connect() {
+    if (connection_ && connection_->isUsable()) return {};
+    auto connection = Connection::open(pool_.address());
+    if (!connection) return tl::unexpected(connection.error());
+    connection_ = std::move(*connection);
+    nextLook_ = nextBeat_ = {};
+    return listen();
+}
+
+base::Result<void> PostgresRecords::listen() {
+    return connection_->execute("LISTEN " + connection_->quoted(channel_));
+}
+
+base::Result<void> PostgresRecords::takeNotes(Heard& heard) {
+    bool hasEdits = Clock::now() >= nextLook_;
+    for (const store_postgres::Notification& notification : connection_->notifications()) {
+        const auto read = readNote(notification.payload);
+        if (!read || read->server == server_) continue;
+        if (auto taken = takeNote(read->note, hasEdits); !taken) return taken;
+    }
+    if (!hasEdits) return {};
+    nextLook_ = Clock::now() + kLookEvery;
+    return writer_->readOthers(*connection_, heard);
+}
+
+base::Result<void> PostgresRecords::takeNote(const Note& note, bool& hasEdits) {
+    if (std::holds_alternative<EditsNote>(note)) hasEdits = true;
+    if (const auto* changed = std::get_if<PlayerNote>(&note)) {
+        auto player = readPlayer(*connection_, changed->player);
+        if (!player) return tl::unexpected(player.error());
+        const std::lock_guard lock(mutex_);
+        if (*player) news_.players.push_back(std::move(**player));
+    }
+    if (std::holds_alternative<ClaimsNote>(note)) {
+        auto claims = readClaims(*connection_);
+        if (!claims) return tl::unexpected(claims.error());
+        const std::lock_guard lock(mutex_);
+        news_.claims = std::move(*claims);
+    }
+    const std::lock_guard lock(mutex_);
+    if (const auto* joined = std::get_if<JoinedNote>(&note)) news_.joined.push_back(joined->player);
+    if (const auto* left = std::get_if<LeftNote>(&note)) news_.left.push_back(left->player);
+    if (const auto* line = std::get_if<LineNote>(&note)) news_.lines.push_back(line->line);
+    if (const auto* poses = std::get_if<PosesNote>(&note))
+        news_.poses.insert(news_.poses.end(), poses->players.begin(), poses->players.end());
+    if (const auto* tiles = std::get_if<TilesNote>(&note))
+        news_.tiles.insert(news_.tiles.end(), tiles->tiles.begin(), tiles->tiles.end());
+    return {};
+}
+
+// What failed is written first, and alone: nothing is added to it.
+base::Result<void> PostgresRecords::writeQueued(Heard& heard) {
+    if (batch_.empty()) {
+        const std::lock_guard lock(mutex_);
+        const std::size_t count = std::min(queue_.size(), kMaxBatch);
+        std::move(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(count),
+                  std::back_inserter(batch_));
+        queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(count));
+    }
+    if (batch_.empty()) return {};
+    return writer_->write(*connection_, batch_, heard);
+}
+
+// The server hears all of it at once.
+void PostgresRecords::hand(Heard heard) {
+    const std::lock_guard lock(mutex_);
+    for (HeardEvent& event : heard.events) {
+        const auto* decision = std::get_if<net::WriteDecision>(&event.event);
+        if (decision) committed_ = std::max(committed_, decision->write);
+        heard_ = std::max(heard_, event.heard);
+        news_.history.push_back(std::move(event.event));
+    }
+    news_.refused.insert(news_.refused.end(), heard.refused.begin(), heard.refused.end());
+    news_.newest = writer_->seen();
+    if (heard.isWritten && !batch_.empty()) {
+        committed_ = std::max(committed_, batch_.back().number);
+        batch_.clear();
+    }
+    // Writes that wait were made with at least this in mind.
+    const std::uint64_t basis = queue_.empty() ? basis_ : std::min(basis_, queue_.front().basis);
+    if (batch_.empty()) writer_->forget(basis);
+}
+
+base::Result<void> PostgresRecords::sendNotes() {
+    std::vector<Command> commands;
+    {
+        const std::lock_guard lock(mutex_);
+        for (; !notes_.empty() && commands.size() < kNotesAtOnce; notes_.pop_front())
+            commands.push_back(notifyCommand(channel_, server_, notes_.front()));
+    }
+    if (commands.empty()) return {};
+    const auto sent = connection_->runAll(commands);
+    if (!sent) return tl::unexpected(sent.error());
+    return {};
+}
+
+base::Result<void> PostgresRecords::beatIfDue() {
+    const Clock::time_point now = Clock::now();
+    if (now < nextBeat_) return {};
+    ServerBeat state;
+    ServerName name;
+    {
+        const std::lock_guard lock(mutex_);
+        state = state_;
+        name = name_;
+        state.regions = {wanted_.begin(), wanted_.end()};
+    }
+    auto answer = beat(*connection_, name, state);
+    if (!answer) return tl::unexpected(answer.error());
+    nextBeat_ = now + kBeatEvery;
+    const std::lock_guard lock(mutex_);
+    news_.saved = std::max(news_.saved, answer->saved);
+    news_.servers = std::move(answer->others);
+    leased_ = {answer->regions.begin(), answer->regions.end()};
+    leasedUntil_ = now + kLeaseUsed;
+    return {};
+}
+
+base::Result<void> PostgresRecords::reservePlayerNumbers() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (numbers_.size() >= kPlayerNumbers / 2) return {};
+    }
+    auto numbers = takePlayerNumbers(*connection_, kPlayerNumbers);
+    if (!numbers) return tl::unexpected(numbers.error());
+    const std::lock_guard lock(mutex_);
+    // From the back the lowest first.
+    numbers_.insert(numbers_.begin(), numbers->rbegin(), numbers->rend());
+    return {};
+}
+
+}  // namespace terrane::net_postgres

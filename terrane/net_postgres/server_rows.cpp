@@ -1,0 +1,94 @@
+#include "terrane/net_postgres/server_rows.h"
+
+#include "terrane/store/chunk_key.h"
+
+namespace terrane::net_postgres {
+namespace {
+
+using store_postgres::Command;
+using store_postgres::Connection;
+using store_postgres::Parameters;
+using store_postgres::Statement;
+
+constexpr Statement kAddServer = {
+    "INSERT INTO servers (name, address, key, saved) SELECT $1, $2, $3, newest FROM history RETURNING "
+    "number"};
+constexpr Statement kPutServer = {
+    "INSERT INTO servers (number, name, address, key, saved, players, seen) OVERRIDING SYSTEM VALUE "
+    "VALUES ($1, $2, $3, $4, $5, $6, clock_timestamp()) ON CONFLICT (number) DO UPDATE SET saved = "
+    "excluded.saved, "
+    "players = excluded.players, seen = excluded.seen, address = excluded.address, key = excluded.key"};
+constexpr Statement kRemoveServer = {"DELETE FROM servers WHERE number = $1"};
+constexpr Statement kRemoveLeases = {"DELETE FROM growth_leases WHERE server = $1"};
+constexpr Statement kRaiseSaved = {
+    "UPDATE history SET saved = greatest(saved, least(newest, coalesce((SELECT min(saved) FROM servers), "
+    "$1)))"};
+constexpr Statement kSaved = {"SELECT saved FROM history"};
+constexpr Statement kOtherServers = {
+    "SELECT number, name, address, key, players::bigint, "
+    "seen > clock_timestamp() - $2 * interval '1 second' FROM servers WHERE number <> $1 ORDER BY number"};
+constexpr Statement kLease = {
+    "INSERT INTO growth_leases (region, server, until) SELECT region, $2, clock_timestamp() + $3 * interval "
+    "'1 second' FROM unnest($1::bigint[]) AS region ORDER BY region ON CONFLICT (region) DO UPDATE SET "
+    "server = excluded.server, until = excluded.until WHERE growth_leases.server = excluded.server OR "
+    "growth_leases.until < clock_timestamp()"};
+constexpr Statement kLeased = {
+    "SELECT region FROM growth_leases WHERE server = $1 AND until > clock_timestamp()"};
+constexpr Statement kUnsaved = {
+    "SELECT DISTINCT chunk FROM edits WHERE number > (SELECT saved FROM servers WHERE number = $1) AND "
+    "server = $1"};
+
+}  // namespace
+
+base::Result<std::int64_t> addServer(Connection& connection, const ServerName& name) {
+    const auto rows =
+        connection.run(kAddServer, Parameters().text(name.name).text(name.address).text(name.key));
+    if (!rows) return tl::unexpected(rows.error());
+    return rows->number(0, 0);
+}
+
+base::Result<void> removeServer(Connection& connection, std::int64_t server, std::int64_t saved) {
+    const std::vector<Command> commands = {{&kRemoveServer, Parameters().number(server)},
+                                           {&kRemoveLeases, Parameters().number(server)},
+                                           {&kRaiseSaved, Parameters().number(saved)}};
+    const auto done = connection.runAll(commands);
+    if (!done) return tl::unexpected(done.error());
+    return {};
+}
+
+base::Result<BeatAnswer> beat(Connection& connection, const ServerName& name, const ServerBeat& state) {
+    const std::vector<Command> commands = {
+        {&kPutServer, Parameters()
+                          .number(state.server)
+                          .text(name.name)
+                          .text(name.address)
+                          .text(name.key)
+                          .number(state.saved)
+                          .integer(state.players)},
+        {&kRaiseSaved, Parameters().number(state.saved)},
+        {&kLease, Parameters().numbers(state.regions).number(state.server).number(kGoneSeconds)},
+        {&kSaved},
+        {&kOtherServers, Parameters().number(state.server).number(kGoneSeconds)},
+        {&kLeased, Parameters().number(state.server)}};
+    const auto rows = connection.runAll(commands);
+    if (!rows) return tl::unexpected(rows.error());
+    BeatAnswer answer;
+    answer.saved = (*rows)[3].number(0, 0);
+    const store_postgres::Rows& others = (*rows)[4];
+    for (int row = 0; row < others.count(); ++row)
+        answer.others.push_back({others.number(row, 0), std::string(others.text(row, 1)),
+                                 std::string(others.text(row, 2)), std::string(others.text(row, 3)),
+                                 static_cast<int>(others.number(row, 4)), others.number(row, 5) != 0});
+    for (int row = 0; row < (*rows)[5].count(); ++row) answer.regions.push_back((*rows)[5].number(row, 0));
+    return answer;
+}
+
+base::Result<std::vector<world::ChunkPos>> unsavedChunks(Connection& connection, std::int64_t server) {
+    const auto rows = connection.run(kUnsaved, Parameters().number(server));
+    if (!rows) return tl::unexpected(rows.error());
+    std::vector<world::ChunkPos> chunks;
+    for (int row = 0; row < rows->count(); ++row) chunks.push_back(store::posOf(rows->number(row, 0)));
+    return chunks;
+}
+
+}  // namespace terrane::net_postgres
