@@ -28,9 +28,10 @@ void ClientLink::connect() {
     triedAt_ = now_;
     SocketEvents events;
     events.opened = [this](const Bytes& channel, const std::string& serverKey) {
-        const base::Result<bool> isTrusted = events_.trusts(serverKey);
-        if (!isTrusted) return end(isTrusted.error().message);
-        if (!*isTrusted)
+        const base::Result<bool> trusted = isTrusted(serverKey);
+        if (!trusted) return end(trusted.error().message);
+        if (!*trusted && isToldKey_) return onCut("another server answers");
+        if (!*trusted)
             return end(textOf(address_) +
                        ": the server has another key than before: it may be another server");
         channel_ = channel;
@@ -86,6 +87,7 @@ void ClientLink::onMessage(ByteView bytes) {
         cuts_ = 0;
     }
     if (const auto* ping = std::get_if<Ping>(&*message)) return say(Pong{ping->time});
+    if (const auto* servers = std::get_if<Servers>(&*message)) return learnServers(*servers);
     if (stage_ == Stage::Joined) events_.message(*message);
 }
 
@@ -107,6 +109,31 @@ void ClientLink::onCut(const std::string& reason) {
     fillRandom(std::as_writable_bytes(std::span(&share, 1)));
     tryAt_ = now_ + wait + wait * share / 256;
     ++cuts_;
+    goToNext();
+}
+
+// Of a key that a server told nobody is asked.
+base::Result<bool> ClientLink::isTrusted(const std::string& serverKey) {
+    if (isToldKey_) return key_ == serverKey;
+    auto trusted = events_.trusts(serverKey);
+    if (trusted && *trusted) key_ = serverKey;
+    return trusted;
+}
+
+void ClientLink::learnServers(const Servers& servers) {
+    others_.clear();
+    for (const Servers::Place& place : servers.places)
+        if (auto address = serverAddress(place.address); address && !place.key.empty())
+            others_.push_back({*address, place.key});
+}
+
+// All of them one after the other, this one last.
+void ClientLink::goToNext() {
+    if (others_.empty()) return;
+    OtherServer next = std::move(others_.front());
+    others_.erase(others_.begin());
+    others_.push_back({std::exchange(address_, next.address), std::exchange(key_, next.key)});
+    isToldKey_ = true;
 }
 
 void ClientLink::end(const std::string& reason) {

@@ -1,6 +1,6 @@
-// A client's link to a server: connects, logs in, comes back by itself after a cut. What is done with the
-// world is the caller's: it answers WorldOffer, and gets all messages from Joined on. On the thread that runs
-// the context.
+// A client's link to a server: connects, logs in, comes back by itself after a cut, to another server of the
+// same world where the server told of one. What is done with the world is the caller's: it answers
+// WorldOffer, and gets all messages from Joined on. On the thread that runs the context.
 #pragma once
 
 #include <chrono>
@@ -54,6 +54,9 @@ class ClientLink {
     void onMessage(ByteView bytes);
     void onRefused(const Refused& refused);
     void onCut(const std::string& reason);
+    void learnServers(const Servers& servers);
+    void goToNext();
+    base::Result<bool> isTrusted(const std::string& serverKey);
     void end(const std::string& reason);
     void say(const ClientMessage& message);
 
@@ -61,6 +64,14 @@ class ClientLink {
     ServerAddress address_;
     ClientIdentity identity_;
     LinkEvents events_;
+    // Servers of the world that a trusted one told of, with their keys; the own one is not among them.
+    struct OtherServer {
+        ServerAddress address;
+        std::string key;
+    };
+    std::vector<OtherServer> others_;
+    std::string key_;         // of this server
+    bool isToldKey_ = false;  // a server told it
     std::optional<ClientSocket> socket_;
     Bytes channel_;
     Stage stage_ = Stage::Waiting;

@@ -17,6 +17,9 @@ constexpr std::size_t kMaxReasonBytes = 400;
 constexpr std::size_t kMaxGeneratorBytes = 64;  // a generator's name
 constexpr std::size_t kMaxProgramBytes = 64;    // a program's name and version
 constexpr std::size_t kMaxPlayersInMessage = 4096;
+constexpr std::size_t kMaxServersInMessage = 64;
+constexpr std::size_t kMaxAddressBytes = 256;  // of a server
+constexpr std::size_t kServerKeyBytes = 64;    // hexadecimal digits
 // Of a message with its type. A structure of 32 KiB is some 10,000 blocks of a building.
 constexpr std::size_t kMaxStructureWire = 32768;
 constexpr std::size_t kMaxClientMessage = 65536;

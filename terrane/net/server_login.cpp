@@ -191,6 +191,7 @@ void join(ServerState& server, ServerClient& client) {
     send(client, Clock{clock.timeDay, 1 / (60 * clock.dayMinutes)});
     base::logInfo("{} joined from {}", client.name, client.address);
     sayToAll(server, {}, client.name + " joined");
+    if (!server.sharing.servers.empty()) send(client, otherServers(server));
     if (!server.settings.welcome.empty()) say(client, server.settings.welcome);
 }
 

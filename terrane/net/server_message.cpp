@@ -8,9 +8,9 @@ namespace terrane::net {
 namespace {
 
 constexpr std::string_view kServerNames[] = {
-    "Greeting",     "WorldOffer", "Joined",  "Refused",    "ChunkEdits", "BlocksChanged",
-    "ViewComplete", "Done",       "Appears", "Disappears", "Poses",      "Said",
-    "Clock",        "Corrected",  "Ping",    "PlayerList", "RoleChanged"};
+    "Greeting",     "WorldOffer", "Joined",  "Refused",    "ChunkEdits",  "BlocksChanged",
+    "ViewComplete", "Done",       "Appears", "Disappears", "Poses",       "Said",
+    "Clock",        "Corrected",  "Ping",    "PlayerList", "RoleChanged", "Servers"};
 
 // Level as a byte, then x and y as integers: a chunk of the world.
 void describeChunkPos(auto& wire, Of<world::ChunkPos> auto& pos) {
@@ -150,6 +150,12 @@ void describe(auto& wire, Of<PlayerList> auto& m) {
     });
 }
 
+void describe(auto& wire, Of<Servers> auto& m) {
+    wire.list(m.places, kMaxServersInMessage, [&](auto& place) {
+        wire.text(place.address, kMaxAddressBytes);
+        wire.text(place.key, kServerKeyBytes);
+    });
+}
 void describe(auto& wire, Of<RoleChanged> auto& m) {
     wire.choice(m.role, game::Role::Count);
 }

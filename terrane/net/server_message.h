@@ -103,9 +103,17 @@ struct RoleChanged {
     game::Role role = game::Role::Player;
 };
 
+// Other servers of the same world: where else to go when this one is gone.
+struct Servers {
+    struct Place {
+        std::string address, key;  // "host:port"; by which it is known
+    };
+    std::vector<Place> places;
+};
+
 using ServerMessage =
     std::variant<Greeting, WorldOffer, Joined, Refused, ChunkEdits, BlocksChanged, ViewComplete, Done,
-                 Appears, Disappears, Poses, Said, Clock, Corrected, Ping, PlayerList, RoleChanged>;
+                 Appears, Disappears, Poses, Said, Clock, Corrected, Ping, PlayerList, RoleChanged, Servers>;
 
 Bytes encode(const ServerMessage& message);
 // Any bytes may be given: what is no message is an error that names the one it should be.

@@ -150,8 +150,15 @@ void takeServers(ServerState& server, std::vector<OtherServer> servers) {
                       chunks->size());
         sharing.estates.push_back({other.number, sharing.newest, std::move(*chunks)});
     }
-    std::erase_if(servers, [](const OtherServer& other) { return !other.isAlive; });
+    // One that does not know its own place yet cannot be found.
+    std::erase_if(servers, [](const OtherServer& other) { return !other.isAlive || other.address.empty(); });
+    const auto isSame = [](const OtherServer& a, const OtherServer& b) {
+        return a.address == b.address && a.key == b.key;
+    };
+    if (std::ranges::equal(servers, sharing.servers, isSame)) return;
     sharing.servers = std::move(servers);
+    const Bytes message = encode(ServerMessage(otherServers(server)));
+    forEachPlaying(server, [&](ServerClient& client) { sendEncoded(client, message); });
 }
 
 // Loading a chunk adds the tail, which makes it a changed one that is saved.
@@ -280,6 +287,15 @@ void keepSharedSaved(ServerState& server) {
     std::int64_t upTo = sharing.newest;
     for (const auto& [chunk, number] : sharing.firstUnsaved) upTo = std::min(upTo, number - 1);
     history.saving = {upTo, game::saveTimeDay(store, server.session.clock.timeDay)};
+}
+
+Servers otherServers(const ServerState& server) {
+    Servers others;
+    for (const OtherServer& other : server.sharing.servers)
+        if (others.places.size() < kMaxServersInMessage && other.address.size() <= kMaxAddressBytes &&
+            other.key.size() <= kServerKeyBytes && isPlainText(other.address) && isPlainText(other.key))
+            others.places.push_back({other.address, other.key});
+    return others;
 }
 
 bool mayGrow(const ServerState& server, ChunkPos chunk) {

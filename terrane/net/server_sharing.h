@@ -51,7 +51,7 @@ struct SharingState {
     };
     std::unordered_map<game::PlayerId, OtherAt> players;  // on other servers
     std::unordered_map<game::PlayerId, WirePose> toldPoses;
-    std::vector<OtherServer> servers;
+    std::vector<OtherServer> servers;  // that are there
     // Servers that are gone without saving: what they left is loaded, some chunks a tick, and saved.
     struct Estate {
         std::int64_t server = 0, newest = 0;
@@ -73,6 +73,8 @@ void completeLoaded(ServerState& server);
 void keepSharing(ServerState& server);
 // Saves, and notes what is saved; in place of keepSaving().
 void keepSharedSaved(ServerState& server);
+// Other servers of the world, as a client is told.
+Servers otherServers(const ServerState& server);
 // Whether time may pass in a chunk here.
 bool mayGrow(const ServerState& server, world::ChunkPos chunk);
 // Of the chunks that live here: the leases that are wanted.

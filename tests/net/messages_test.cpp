@@ -54,7 +54,8 @@ std::vector<ServerMessage> serverMessages() {
             Corrected{kPose},
             Ping{99},
             PlayerList{{{"Ada", game::Role::Player, 20}, {"Ben", game::Role::Guest, 65535}}},
-            RoleChanged{game::Role::Guest}};
+            RoleChanged{game::Role::Guest},
+            Servers{{{"b.example:4000", std::string(64, 'a')}, {"[::1]:1", ""}}}};
 }
 
 TEST(Messages, EachReadsBack) {

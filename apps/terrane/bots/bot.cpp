@@ -40,7 +40,8 @@ Bot::Bot(boost::asio::io_context& context, BotWorld& world, const BotSettings& s
       number_(number),
       builds_(settings.behaviour == BotBehaviour::Build ||
               std::fmod(number * settings.builders, 1.0) + settings.builders >= 1.0),
-      link_(context, settings.address, identityOf(settings, number),
+      link_(context, settings.servers[static_cast<std::size_t>(number) % settings.servers.size()],
+            identityOf(settings, number),
             {[](const std::string&) { return true; },
              [this](const net::WorldOffer& offer) { return world_.land.prove(offer); },
              [this](const net::ServerMessage& message) { onMessage(message); }}) {}

@@ -24,8 +24,8 @@ enum class BotBehaviour : std::uint8_t {
 };
 
 struct BotSettings {
-    net::ServerAddress address;
-    std::string name = "bot";  // and a number
+    std::vector<net::ServerAddress> servers;  // of one world; bots take turns
+    std::string name = "bot";                 // and a number
     std::string password;
     std::string keyFolder;  // where each bot's key is kept; empty: new keys
     BotBehaviour behaviour = BotBehaviour::Walk;

@@ -21,7 +21,7 @@ namespace terrane::app {
 namespace {
 
 struct BotsOptions {
-    std::string server;
+    std::vector<std::string> servers;
     int count = 10;
     double seconds = 60;
     double joinsPerSecond = 50;
@@ -96,9 +96,11 @@ base::Result<void> writeAcknowledged(const std::string& file, BotWorld& world, c
 }
 
 base::Result<void> runBots(BotsOptions& options) {
-    auto address = net::serverAddress(options.server);
-    if (!address) return tl::unexpected(address.error());
-    options.bots.address = *address;
+    for (const std::string& server : options.servers) {
+        auto address = net::serverAddress(server);
+        if (!address) return tl::unexpected(address.error());
+        options.bots.servers.push_back(*address);
+    }
     auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
     raiseOpenFileLimit();
@@ -141,7 +143,11 @@ base::Result<void> runBots(BotsOptions& options) {
 CommandEntry addBots(CLI::App& app) {
     auto options = std::make_shared<BotsOptions>();
     CLI::App* command = app.add_subcommand("bots", "Let players without screens walk and build on a server");
-    command->add_option("--connect", options->server, "The server")->type_name("HOST[:PORT]")->required();
+    command
+        ->add_option("--connect", options->servers,
+                     "The server; said again, bots take turns among servers of one world")
+        ->type_name("HOST[:PORT]")
+        ->required();
     command->add_option("--count", options->count, "How many")
         ->check(numberFrom(1, 10000))
         ->capture_default_str();

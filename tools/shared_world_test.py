@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""Several servers of one world in PostgreSQL, bots spread over them, of which all build; one server is killed.
+
+    tools/shared_world_test.py PROGRAM [BOTS [SECONDS [SERVERS [BUILDERS]]]]      300, 60, 3, 0.1
+
+Before a kill, edits are timed from one server's bot to another's (seen_ms_p99); after it the bots of the killed server must
+be on the others within 5 s. At the end all is stopped; then each block that a bot was told is kept must be in the world, and
+what the history says must be what the world has.
+"""
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from scratch_postgres import ScratchPostgres
+from server_tools import Server
+
+GENERATOR = "overworld"
+
+
+def start_bots(program, servers, count, seconds, builders, name, folder):
+    places = [word for server in servers for word in ("--connect", f"127.0.0.1:{server.port}")]
+    return subprocess.Popen(
+        [program, "bots", *places, "--count", str(count), "--seconds", str(seconds), "--builders", str(builders), "--name",
+         name, "--acknowledged", str(folder / f"{name}.txt")], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+
+
+def online(postgres):
+    return int(postgres.query("SELECT count(*) FROM terrane.online"))
+
+
+def seconds_until_back(postgres, count, gone):
+    """From now on until all players are on servers other than the one that is gone."""
+    start = time.monotonic()
+    while time.monotonic() - start < 30:
+        if int(postgres.query(f"SELECT count(*) FROM terrane.online WHERE server <> {gone}")) >= count:
+            return time.monotonic() - start
+        time.sleep(0.05)
+    return float("inf")
+
+
+def kept_blocks(folder, name):
+    """Position to block, as the bots were told."""
+    lines = (folder / f"{name}.txt").read_text().split("\n")
+    return {tuple(int(v) for v in line.split()[:3]): line.split()[3] for line in lines if line}
+
+
+def blocks_of_world(program, url, positions, folder):
+    """By dumping the area around all positions, from the chunks as they are saved."""
+    chunks = [(x >> 4, y >> 4) for x, y, _ in positions]
+    x0, y0 = min(x for x, _ in chunks), min(y for _, y in chunks)
+    x1, y1 = max(x for x, _ in chunks) + 1, max(y for _, y in chunks) + 1
+    file = folder / "blocks.npy"
+    subprocess.run([program, "dump", "--what", "blocks", "--world", url, "--area", f"{x0},{y0},{x1},{y1}", "-o", str(file)],
+                   check=True, capture_output=True)
+    names = json.loads(subprocess.run([program, "blocks", "--json"], check=True, capture_output=True, text=True).stdout)
+    by_id = {block["id"]: block["name"] for block in names}
+    depth = (y1 - y0) * 16
+    with open(file, "rb") as f:
+        header = f.read(10)
+        start = 10 + int.from_bytes(header[8:10], "little")
+        answer = {}
+        for x, y, z in positions:
+            f.seek(start + 2 * (((x - x0 * 16) * depth + (y - y0 * 16)) * 256 + z))
+            answer[x, y, z] = by_id[int.from_bytes(f.read(2), "little")]
+    return answer
+
+
+def main():
+    program = sys.argv[1]
+    given = sys.argv[2:] + ["300", "60", "3", "0.1"][len(sys.argv) - 2:]
+    count, seconds, server_count = (int(v) for v in given[:3])
+    builders = float(given[3])
+    problems = []
+    with tempfile.TemporaryDirectory() as folder, ScratchPostgres(durable=True) as postgres:
+        folder = pathlib.Path(folder)
+        servers = []
+        for n in range(server_count):
+            (folder / str(n)).mkdir()
+            servers.append(Server(program, folder / str(n), 0, "--generator", GENERATOR,
+                                  "--spawn-radius", "100", url=postgres.url()))
+        # Until each has heard of the others.
+        time.sleep(3)
+        quiet = start_bots(program, servers, count, seconds / 2, builders, "quiet", folder)
+        before = json.loads(quiet.communicate()[0])
+        bots = start_bots(program, servers, count, seconds / 2, builders, "bot", folder)
+        while online(postgres) < count:
+            time.sleep(0.1)
+        time.sleep(seconds / 6)
+        gone = postgres.query(
+            f"SELECT number FROM terrane.servers WHERE address = '127.0.0.1:{servers[-1].port}'")
+        servers.pop().stop(signal.SIGKILL)
+        back = seconds_until_back(postgres, count, gone)
+        after = json.loads(bots.communicate()[0])
+        # What the killed server left is saved by the others.
+        end = time.monotonic() + 60
+        while time.monotonic() < end and postgres.query("SELECT count(*) FROM terrane.servers") != str(len(servers)):
+            time.sleep(0.5)
+        for server in servers:
+            if server.stop() != 0:
+                problems.append("a server ended badly")
+        left = postgres.query("SELECT newest, saved, (SELECT count(*) FROM terrane.edits), "
+                              "(SELECT count(*) FROM terrane.servers) FROM terrane.history").split("|")
+        kept = {**kept_blocks(folder, "quiet"), **kept_blocks(folder, "bot")}
+        world = blocks_of_world(program, postgres.url(), list(kept), folder)
+        lost = [pos for pos, name in kept.items() if world[pos] != name]
+        checked = subprocess.run([program, "check", postgres.url()], capture_output=True, text=True)
+    print(f"{count} bots on {server_count} servers, {before['edits'] + after['edits']} edits, seen by others after "
+          f"{before['seen_ms_median']:.0f} ms, 99 %: {before['seen_ms_p99']:.0f} ms (decided {before['decided_ms_p99']:.0f}); "
+          f"after a kill all were back within {back:.1f} s, {after['cuts']} cuts; {len(kept)} blocks kept, {len(lost)} lost; "
+          f"history {left[0]}, saved {left[1]}, rows {left[2]}")
+    if back > 5:
+        problems.append("not all bots were back within 5 s")
+    if lost:
+        problems.append(f"lost: {lost[:10]}")
+    if len(kept) < 10:
+        problems.append("hardly any edits")
+    if before["seen_ms_p99"] > 250:
+        problems.append("edits crossed servers in more than 250 ms")
+    if left[0] != left[1] or left[0] != left[2] or left[3] != "0":
+        problems.append(f"newest, saved, rows of the history, servers: {left}")
+    if checked.returncode != 0:
+        problems.append(checked.stdout)
+    for problem in problems:
+        print("failed:", problem)
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
