@@ -141,6 +141,7 @@ void HistoryWriter::finish(Attempt attempt, Heard& heard) {
         heard.events.push_back({attempt.decisions[k], attempt.heard[k]});
     heard.refused.insert(heard.refused.end(), attempt.refused.begin(), attempt.refused.end());
     seen_ = std::max(seen_, attempt.newest);
+    if (attempt.lastAccepted > 0) newestOwn_ = attempt.newest;
     heard.isWritten = true;
 }
 

@@ -58,6 +58,7 @@ class HistoryWriter {
                                            const std::vector<QueuedWrite>& batch, Heard& heard);
 
     std::int64_t seen() const { return seen_; }
+    std::int64_t newestOwn() const { return newestOwn_; }  // edit of this server; 0: none
     // No write with a lower basis will come.
     void forget(std::uint64_t basis) { order_.forget(basis); }
 
@@ -80,7 +81,7 @@ class HistoryWriter {
     const store_postgres::Address& address_;
     const store::BlockIdMap& ids_;
     std::string channel_;
-    std::int64_t server_, seen_;
+    std::int64_t server_, seen_, newestOwn_ = 0;
     HistoryOrder order_;
     std::optional<Attempt> unsure_;
 };

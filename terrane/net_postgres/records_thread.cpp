@@ -48,8 +48,10 @@ void PostgresRecords::run() {
         lock.unlock();
         if (!done) std::this_thread::sleep_for(kTryAgain);
     }
-    if (connection_ && connection_->isUsable())
-        (void)removeServer(*connection_, server_, state_.saved);  // of a server that has saved all
+    // A server that has not saved all stays in the list: others save what it changed.
+    const bool hasSaved = state_.saved >= writer_->newestOwn();
+    if (hasSaved && connection_ && connection_->isUsable())
+        (void)removeServer(*connection_, server_, state_.saved);
 }
 
 void PostgresRecords::waitForWork() {

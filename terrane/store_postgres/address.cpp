@@ -6,6 +6,8 @@
 #include <cctype>
 #include <memory>
 
+#include "terrane/base/printable.h"
+
 namespace terrane::store_postgres {
 namespace {
 
@@ -39,6 +41,19 @@ std::string withoutPercents(std::string_view text) {
         if (isCoded) at += 2;
     }
     return plain;
+}
+
+// A password with "/" or "@" that is not percent-coded: libpq takes parts of it for host, port and database,
+// which messages show.
+bool isMisread(const Options& options, std::string_view url) {
+    const auto has = [&](const char* keyword, char c, std::size_t from) {
+        return valueOf(options, keyword).find(c, from) != std::string::npos;
+    };
+    if (valueOf(options, "port").find_first_not_of("0123456789,") != std::string::npos) return true;
+    if (has("host", '@', 1)) return true;  // the first byte: a socket without a file
+    const std::size_t path = url.find('/', url.find("//") + 2);
+    return path != std::string_view::npos && has("dbname", '@', 0) &&
+           url.find('@', path) != std::string_view::npos;
 }
 
 // Takes the schema out of the URL's parameters.
@@ -83,19 +98,20 @@ bool isPostgresUrl(std::string_view text) {
 base::Result<Address> addressOf(const std::string& url) {
     Address address{url, {}, {}};
     address.schema = takeSchema(address.url);
-    if (address.schema.empty() || address.schema.size() > kMaxSchemaBytes ||
+    // PostgreSQL takes "$user" for the name of the user, also in quotes.
+    if (address.schema.empty() || address.schema.size() > kMaxSchemaBytes || address.schema == "$user" ||
         address.schema.find('\0') != std::string::npos)
         return base::fail(base::ErrorCode::BadInput, "postgresql://…: a schema has a name of 1 to {} bytes",
                           kMaxSchemaBytes);
     char* problem = nullptr;
     const Options given(PQconninfoParse(address.url.c_str(), &problem));
     PQfreemem(problem);  // it repeats the text, a password included
-    if (!given)
+    if (!given || isMisread(given, address.url))
         return base::fail(base::ErrorCode::BadInput,
                           "postgresql://…: not a URL of a database: "
-                          "postgresql://[user[:password]@][host][:port]/database[?schema=NAME]");
-    const Options defaults(PQconndefaults());
-    address.shown = shownOf(given, address.schema);
+                          "postgresql://[user[:password]@][host][:port]/database[?schema=NAME], "
+                          "with / as %2F and @ as %40 in a password");
+    address.shown = base::printable(shownOf(given, address.schema));
     return address;
 }
 

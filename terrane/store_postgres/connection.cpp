@@ -71,6 +71,14 @@ std::string_view viewOf(ByteView bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+// Of several lines, one for each address of a server: that of a server which answered, or the first.
+std::string_view lineOfServer(std::string_view text) {
+    const std::size_t fatal = text.find("FATAL:");
+    if (fatal == std::string_view::npos) return text;
+    const std::size_t end = text.rfind('\n', fatal);
+    return end == std::string_view::npos ? text : text.substr(end + 1);
+}
+
 // The first line of what libpq says, without "ERROR:" before it and hints behind.
 std::string firstLine(std::string_view text) {
     text = text.substr(0, text.find('\n'));
@@ -102,7 +110,7 @@ ErrorCode codeOfConnecting(std::string_view message) {
         (says("role \"") && says("does not exist")))
         return ErrorCode::Refused;
     if (says("database \"") && says("does not exist")) return ErrorCode::NotFound;
-    if (says("could not translate host name")) return ErrorCode::NotFound;
+    if (says("could not translate host name") && !says("Temporary failure")) return ErrorCode::NotFound;
     return ErrorCode::Io;
 }
 
@@ -205,7 +213,7 @@ base::Result<Connection> Connection::open(const Address& address) {
     PGconn* raw = connection.connection_.get();
     if (!raw) return base::fail(ErrorCode::OutOfResources, "{}: no memory", address.shown);
     if (PQstatus(raw) != CONNECTION_OK) {
-        const std::string message = firstLine(PQerrorMessage(raw));
+        const std::string message = firstLine(lineOfServer(PQerrorMessage(raw)));
         const ErrorCode code =
             PQconnectionNeedsPassword(raw) ? ErrorCode::Refused : codeOfConnecting(message);
         return base::fail(code, "{}: cannot be reached: {}", address.shown, message);

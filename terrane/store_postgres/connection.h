@@ -80,7 +80,8 @@ struct Notification {
 class Connection {
   public:
     // Sets what all connections have: the schema as the only place of tables, UTF-8, durable commits.
-    // NotFound where there is no such database, Io where no server answers or the password is wrong.
+    // NotFound where there is no such host or database, Io where no server answers, Refused where the
+    // password is wrong.
     [[nodiscard]] static base::Result<Connection> open(const Address& address);
 
     // One statement, or several without parameters.
@@ -113,6 +114,16 @@ class Connection {
     std::string shown_;
     std::set<const Statement*> prepared_;
 };
+
+// Runs `action` in a transaction, which is undone where it fails.
+template <class Do>
+[[nodiscard]] base::Result<void> inTransaction(Connection& connection, Do action) {
+    if (auto begun = connection.execute("BEGIN"); !begun) return begun;
+    base::Result<void> done = action();
+    if (done) return connection.execute("COMMIT");
+    if (connection.isUsable()) (void)connection.execute("ROLLBACK");
+    return done;
+}
 
 // Whether it makes sense to try again with a new connection: the server restarts, or the network broke.
 bool isPassing(const base::Error& error);

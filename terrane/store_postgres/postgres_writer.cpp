@@ -57,11 +57,15 @@ bool isText(std::string_view text) {
 
 }  // namespace
 
+PostgresWriter::~PostgresWriter() {
+    releaseAllLocks(connection_);
+}
+
 template <class T, class Do>
 base::Result<T> PostgresWriter::inTransaction(Do action) {
     return pool_.retry<T>([&]() -> base::Result<T> {
         if (!connection_.isUsable()) {
-            auto connection = reconnect(pool_.address(), sharing_);
+            auto connection = reconnect(pool_.address(), sharing_, contents_.identity);
             if (!connection) return tl::unexpected(connection.error());
             connection_ = std::move(*connection);
         }

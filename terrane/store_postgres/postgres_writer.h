@@ -17,6 +17,9 @@ class PostgresWriter {
     PostgresWriter(ConnectionPool& pool, const WorldContents& contents, Connection connection,
                    store::WorldSharing sharing)
         : pool_(pool), contents_(contents), connection_(std::move(connection)), sharing_(sharing) {}
+    ~PostgresWriter();
+    PostgresWriter(const PostgresWriter&) = delete;
+    PostgresWriter& operator=(const PostgresWriter&) = delete;
 
     // As store::ChunkRows. A transaction that was cut off at its very end is written again: the rows are the
     // same.

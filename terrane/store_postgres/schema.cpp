@@ -92,15 +92,20 @@ constexpr Column kColumns[] = {
     {"servers", "number", "bigint"},
 };
 
+// A schema that the user may not use is none to current_schema().
 constexpr Statement kCountTables = {
-    "SELECT count(*), count(*) FILTER (WHERE relname = 'terrane_format' AND relkind = 'r') FROM pg_class "
+    "SELECT count(*), count(*) FILTER (WHERE relname = 'terrane_format' AND relkind = 'r'), "
+    "current_schema() IS NULL AND EXISTS (SELECT 1 FROM pg_namespace WHERE nspname = "
+    "(parse_ident(current_setting('search_path')))[1]) FROM pg_class "
     "WHERE relnamespace = (SELECT oid FROM pg_namespace WHERE nspname = current_schema()) "
     "AND relkind IN ('r', 'p', 'v', 'm', 'f')"};
 constexpr Statement kCountSchemas = {"SELECT count(*) FROM pg_namespace WHERE nspname = $1"};
 constexpr Statement kFormat = {"SELECT format::bigint FROM terrane_format"};
+// Not of information_schema, which leaves out what the user has no right to.
 constexpr Statement kColumnTypes = {
-    "SELECT table_name::text, column_name::text, data_type::text FROM information_schema.columns "
-    "WHERE table_schema = current_schema()"};
+    "SELECT relname::text, attname::text, format_type(atttypid, NULL) FROM pg_attribute "
+    "JOIN pg_class ON pg_class.oid = attrelid WHERE relkind IN ('r', 'p') AND attnum > 0 AND NOT attisdropped "
+    "AND relnamespace = (SELECT oid FROM pg_namespace WHERE nspname = current_schema())"};
 
 }  // namespace
 
@@ -111,6 +116,8 @@ std::span<const char* const> formatSteps() {
 base::Result<int> formatOf(Connection& connection, int newest) {
     const auto tables = connection.run(kCountTables);
     if (!tables) return tl::unexpected(tables.error());
+    if (tables->number(0, 2) != 0)
+        return base::fail(ErrorCode::Refused, "{}: this user may not use the schema", connection.shown());
     if (tables->number(0, 0) == 0) return 0;
     if (tables->number(0, 1) == 0)
         return base::fail(ErrorCode::Incompatible, "{}: the schema holds tables of another program, no world",
@@ -128,19 +135,21 @@ base::Result<int> formatOf(Connection& connection, int newest) {
     return static_cast<int>(number);
 }
 
-base::Result<void> migrate(Connection& connection, const std::string& schema, int from,
-                           std::span<const char* const> steps) {
+base::Result<void> migrateInTransaction(Connection& connection, const std::string& schema, int from,
+                                        std::span<const char* const> steps) {
     const auto schemas = connection.run(kCountSchemas, Parameters().text(schema));
     if (!schemas) return tl::unexpected(schemas.error());
-    std::string sql = "BEGIN;";
+    std::string sql;
     // Not "IF NOT EXISTS", which needs the right to make some.
     if (schemas->number(0, 0) == 0) sql += fmt::format("CREATE SCHEMA {};", connection.quoted(schema));
     for (const char* step : steps.subspan(static_cast<std::size_t>(from))) sql += step;
-    sql += fmt::format("DELETE FROM terrane_format; INSERT INTO terrane_format VALUES ({}); COMMIT",
-                       steps.size());
-    auto done = connection.execute(sql);
-    if (!done && connection.isUsable()) (void)connection.execute("ROLLBACK");
-    return done;
+    sql += fmt::format("DELETE FROM terrane_format; INSERT INTO terrane_format VALUES ({})", steps.size());
+    return connection.execute(sql);
+}
+
+base::Result<void> migrate(Connection& connection, const std::string& schema, int from,
+                           std::span<const char* const> steps) {
+    return inTransaction(connection, [&] { return migrateInTransaction(connection, schema, from, steps); });
 }
 
 base::Result<void> checkColumns(Connection& connection) {

@@ -24,7 +24,11 @@ inline constexpr Statement kRemoveSetting = {"DELETE FROM settings WHERE name = 
 // Incompatible where the schema holds other tables, or a format newer than `newest`.
 [[nodiscard]] base::Result<int> formatOf(Connection& connection, int newest = newestFormat());
 
-// Makes the schema and brings its tables to the newest format, all or nothing.
+// Makes the schema and brings its tables to the newest format, in a transaction of the caller.
+[[nodiscard]] base::Result<void> migrateInTransaction(Connection& connection, const std::string& schema,
+                                                      int from,
+                                                      std::span<const char* const> steps = formatSteps());
+// The same in one of its own.
 [[nodiscard]] base::Result<void> migrate(Connection& connection, const std::string& schema, int from,
                                          std::span<const char* const> steps = formatSteps());
 

@@ -1,5 +1,6 @@
 #include "terrane/store_postgres/world_database.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -53,9 +54,10 @@ base::Result<void> addNames(Connection& connection, const std::vector<SavedName>
     return {};
 }
 
+// In one transaction: a world without a seed would be a damaged one.
 base::Result<void> createWorld(Connection& connection, const Address& address,
                                const store::SaveAccess& access) {
-    if (auto made = migrate(connection, address.schema, 0); !made) return made;
+    if (auto made = migrateInTransaction(connection, address.schema, 0); !made) return made;
     std::vector<Command> commands;
     for (const auto& [name, value] : store::metadataOf(*access.create))
         commands.push_back({&kPutSetting, Parameters().text(name).text(value)});
@@ -72,7 +74,9 @@ base::Result<void> makeCurrent(Connection& connection, const Address& address,
     if (*format == 0) {
         if (!access.create) return base::fail(ErrorCode::NotFound, "{}: there is no world", address.shown);
         contents.isNew = true;
-        return doAlone(connection, address, [&] { return createWorld(connection, address, access); });
+        return doAlone(connection, address, [&] {
+            return inTransaction(connection, [&] { return createWorld(connection, address, access); });
+        });
     }
     if (*format == newestFormat()) return {};
     auto done = doAlone(connection, address, [&] { return migrate(connection, address.schema, *format); });
@@ -139,9 +143,12 @@ void reportUnknown(const Connection& connection, const WorldContents& contents) 
 
 // "terrane_backup_1", or the first number that is free.
 base::Result<std::string> freeSchema(Connection& connection, const Address& address) {
+    // Names of more than 63 bytes are cut off by PostgreSQL. Not within a character of UTF-8.
+    std::size_t length = std::min<std::size_t>(address.schema.size(), 48);
+    while (length < address.schema.size() && (address.schema[length] & 0xC0) == 0x80) --length;
+    const std::string start = address.schema.substr(0, length);
     for (int number = 1;; ++number) {
-        // Names of more than 63 bytes are cut off by PostgreSQL.
-        std::string name = fmt::format("{}_backup_{}", address.schema.substr(0, 48), number);
+        std::string name = fmt::format("{}_backup_{}", start, number);
         const auto found = connection.run(kSchemaExists, Parameters().text(name));
         if (!found) return tl::unexpected(found.error());
         if (found->number(0, 0) == 0) return name;
@@ -162,13 +169,9 @@ std::string copySql(Connection& connection, const Address& address, const std::s
     return sql;
 }
 
-base::Result<void> regenerate(Connection& connection, const Address& address, const store::Regeneration& by) {
-    const auto copy = freeSchema(connection, address);
-    if (!copy) return tl::unexpected(copy.error());
-    if (auto done = connection.execute("BEGIN;" + copySql(connection, address, *copy)); !done) {
-        (void)connection.execute("ROLLBACK");
-        return done;
-    }
+base::Result<void> copyAndDelete(Connection& connection, const Address& address,
+                                 const store::Regeneration& by, const std::string& copy) {
+    if (auto copied = connection.execute(copySql(connection, address, copy)); !copied) return copied;
     std::vector<Command> commands;
     if (by.chunks == Regenerate::All) {
         commands.push_back({&kDeleteAllChunks});
@@ -180,11 +183,15 @@ base::Result<void> regenerate(Connection& connection, const Address& address, co
     commands.push_back(
         {&kPutSetting, Parameters().text("generator_version").text(std::to_string(by.generatorVersion))});
     const auto done = connection.runAll(commands);
-    if (!done) {
-        (void)connection.execute("ROLLBACK");
-        return tl::unexpected(done.error());
-    }
-    if (auto committed = connection.execute("COMMIT"); !committed) return committed;
+    if (!done) return tl::unexpected(done.error());
+    return {};
+}
+
+base::Result<void> regenerate(Connection& connection, const Address& address, const store::Regeneration& by) {
+    const auto copy = freeSchema(connection, address);
+    if (!copy) return tl::unexpected(copy.error());
+    auto done = inTransaction(connection, [&] { return copyAndDelete(connection, address, by, *copy); });
+    if (!done) return done;
     base::logInfo("{}: regenerated{}; the world as it was is the schema {}", address.shown,
                   by.chunks == Regenerate::All ? "" : " but for chunks with edits", *copy);
     return {};
@@ -205,8 +212,8 @@ base::Result<void> openContents(Connection& connection, const Address& address,
                                 const world::BlockRegistry& blocks, const store::SaveAccess& access,
                                 WorldContents& contents) {
     if (auto done = makeCurrent(connection, address, access, contents); !done) return done;
-    if (auto can = checkCanWrite(connection); !can) return can;
     if (auto read = readContents(connection, blocks, contents); !read) return read;
+    if (auto can = checkCanWrite(connection); !can) return can;
     if (auto done = regenerateIfAsked(connection, address, blocks, access, contents); !done) return done;
     const std::vector<SavedName>& added = contents.ids.added();
     if (added.empty()) return {};
@@ -249,11 +256,18 @@ base::Result<WorldConnection> openToRead(const Address& address, const world::Bl
     return opened;
 }
 
-base::Result<Connection> reconnect(const Address& address, WorldSharing sharing) {
+base::Result<Connection> reconnect(const Address& address, WorldSharing sharing,
+                                   const store::WorldIdentity& identity) {
     auto connection = Connection::open(address);
     if (!connection) return connection;
     if (auto taken = takeSharedLocks(*connection, address, sharing); !taken)
         return tl::unexpected(taken.error());
+    const auto metadata = readMetadata(*connection);
+    if (!metadata) return tl::unexpected(metadata.error());
+    const auto saved = store::identityFrom(*metadata, address.shown);
+    if (!saved) return tl::unexpected(saved.error());
+    if (auto same = store::requireSame(*saved, identity, address.shown); !same)
+        return tl::unexpected(same.error());
     return connection;
 }
 

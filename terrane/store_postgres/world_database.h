@@ -41,7 +41,9 @@ struct WorldConnection {
 [[nodiscard]] base::Result<WorldConnection> openToRead(const Address& address,
                                                        const world::BlockRegistry& blocks);
 
-// After a connection was lost: a new one with the same locks. Busy where another program took the world.
-[[nodiscard]] base::Result<Connection> reconnect(const Address& address, store::WorldSharing sharing);
+// After a connection was lost: a new one with the same locks, to the world that was `identity`. Busy where
+// another program took it, Incompatible where one regenerated it meanwhile.
+[[nodiscard]] base::Result<Connection> reconnect(const Address& address, store::WorldSharing sharing,
+                                                 const store::WorldIdentity& identity);
 
 }  // namespace terrane::store_postgres

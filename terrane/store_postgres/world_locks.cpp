@@ -2,6 +2,9 @@
 
 #include <xxhash.h>
 
+#include <chrono>
+#include <thread>
+
 namespace terrane::store_postgres {
 namespace {
 
@@ -9,6 +12,8 @@ using base::ErrorCode;
 using store::WorldSharing;
 
 constexpr const char* kWaitForOpening = "20s";
+// The server notices the end of a program, and of a connection that was cut, a moment later.
+constexpr std::chrono::milliseconds kWaitForEnd{500}, kLookAgain{20};
 
 constexpr Statement kLock = {"SELECT pg_advisory_lock($1, $2)"};
 constexpr Statement kTryLock = {"SELECT pg_try_advisory_lock($1, $2)"};
@@ -47,13 +52,28 @@ base::Result<void> tryLock(Connection& connection, const Address& address, World
     return base::fail(ErrorCode::Busy, "{}: open in {}", address.shown, holderOf(connection, address, lock));
 }
 
+base::Result<void> tryLockForAMoment(Connection& connection, const Address& address, WorldLock lock,
+                                     const Statement& how) {
+    const auto end = std::chrono::steady_clock::now() + kWaitForEnd;
+    while (true) {
+        auto taken = tryLock(connection, address, lock, how);
+        const bool isBusy = !taken && taken.error().code == ErrorCode::Busy;
+        if (!isBusy || std::chrono::steady_clock::now() >= end) return taken;
+        std::this_thread::sleep_for(kLookAgain);
+    }
+}
+
 }  // namespace
 
 base::Result<void> takeSharedLocks(Connection& connection, const Address& address, WorldSharing sharing) {
-    if (auto taken = tryLock(connection, address, WorldLock::Identity, kTryLockShared); !taken) return taken;
-    if (sharing == WorldSharing::Generating) return {};
-    return tryLock(connection, address, WorldLock::Edits,
-                   sharing == WorldSharing::Alone ? kTryLock : kTryLockShared);
+    auto taken = tryLockForAMoment(connection, address, WorldLock::Identity, kTryLockShared);
+    if (!taken || sharing == WorldSharing::Generating) return taken;
+    return tryLockForAMoment(connection, address, WorldLock::Edits,
+                             sharing == WorldSharing::Alone ? kTryLock : kTryLockShared);
+}
+
+void releaseAllLocks(Connection& connection) {
+    if (connection.isUsable()) (void)connection.execute("SELECT pg_advisory_unlock_all()");
 }
 
 // Openings of a world come one after the other.
@@ -61,6 +81,9 @@ base::Result<void> waitForOpening(Connection& connection, const Address& address
     const std::string shortly = fmt::format("SET lock_timeout = '{}'", kWaitForOpening);
     if (auto done = connection.execute(shortly); !done) return done;
     const auto taken = connection.run(kLock, lockParameters(address, WorldLock::Opening));
+    if (!taken && taken.error().code == ErrorCode::Busy)
+        return base::fail(ErrorCode::Busy, "{}: being opened in {}", address.shown,
+                          holderOf(connection, address, WorldLock::Opening));
     if (!taken) return tl::unexpected(taken.error());
     return connection.execute("SET lock_timeout = 0");
 }

@@ -24,6 +24,10 @@ enum class WorldLock : std::int32_t {
 [[nodiscard]] base::Result<void> takeSharedLocks(Connection& connection, const Address& address,
                                                  store::WorldSharing sharing);
 
+// Before a connection is closed: the server releases them a moment later, and who opens the world at once
+// would meet them.
+void releaseAllLocks(Connection& connection);
+
 // Of the connection alone. Busy where another one has it, shared or not.
 [[nodiscard]] base::Result<void> takeLock(Connection& connection, const Address& address, WorldLock lock);
 [[nodiscard]] base::Result<void> releaseLock(Connection& connection, const Address& address, WorldLock lock);

@@ -46,6 +46,9 @@ struct TestServer {
                               SqliteRecords::open(folder / "w.server.sqlite", contentBlocks()).value(),
                               settings, "test")
                    .value()) {}
+    TestServer(game::SessionParts parts, std::unique_ptr<ServerRecords> records,
+               const ServerSettings& settings = {})
+        : host(openServerHost(std::move(parts), std::move(records), settings, "test").value()) {}
     ServerState& state() { return *host.state; }
     void tick() { net::tick(state(), now += kServerTick); }
 

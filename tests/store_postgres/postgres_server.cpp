@@ -66,6 +66,8 @@ PostgresServer::~PostgresServer() {
         kill();
     } catch (const std::exception&) {
     }
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
 }
 
 void PostgresServer::start() {
@@ -108,8 +110,9 @@ std::string PostgresServer::query(const std::string& text) const {
 }
 
 PostgresServer& sharedServer() {
-    static base::TempFolder folder;
-    static PostgresServer server(folder / "postgres");
+    // Not in a base::TempFolder: the next one that a test makes would remove it.
+    static PostgresServer server(fs::temp_directory_path() /
+                                 fmt::format("terrane_postgres_{}", ::getpid()));
     return server;
 }
 

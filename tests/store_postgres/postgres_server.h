@@ -4,8 +4,6 @@
 #include <filesystem>
 #include <string>
 
-#include "tests/base/temp_folder.h"
-
 namespace terrane::store_postgres {
 
 class PostgresServer {
@@ -13,7 +11,7 @@ class PostgresServer {
     // Makes its files and starts it. `folder` is empty or not there; PostgreSQL does not run as root, so it
     // is given to its own user then. Throws where PostgreSQL is not installed.
     explicit PostgresServer(std::filesystem::path folder);
-    ~PostgresServer();  // kills it
+    ~PostgresServer();  // kills it, and removes its files
     PostgresServer(const PostgresServer&) = delete;
     PostgresServer& operator=(const PostgresServer&) = delete;
 

@@ -89,6 +89,7 @@ void Bot::onBlocks(const net::BlocksChanged& changed) {
     for (const net::ChangedBlock& block : changed.blocks) {
         const auto sent = world_.unseen.find(world::blockPos(changed.chunk, block.index));
         if (sent == world_.unseen.end() || sent->second.by == player_) continue;
+        if (settings_.servers.size() > 1 && sent->second.server == net::textOf(link_.address())) continue;
         world_.seenMs.push_back(millisecondsBetween(sent->second.at, std::chrono::steady_clock::now()));
         world_.unseen.erase(sent);
     }
@@ -138,7 +139,7 @@ void Bot::build(BotTime now) {
     const world::BlockId id = isThere ? world::kAir : world_.land.blocks().find("stone")->id;
     const net::CommandNumber number = ++lastCommand_;
     pending_[number] = {now, pos, id};
-    world_.unseen[pos] = {now, player_};
+    world_.unseen[pos] = {now, player_, net::textOf(link_.address())};
     ++world_.edits;
     link_.send(net::Edit{number, pos, world::SetBlock{id, 0}, std::nullopt});
 }

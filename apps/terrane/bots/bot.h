@@ -44,8 +44,10 @@ struct BotWorld {
     struct SentEdit {
         BotTime at;
         game::PlayerId by = game::kNoPlayer;
+        std::string server;  // that it was said to
     };
-    std::unordered_map<world::BlockPos, SentEdit, world::BlockPosHash> unseen;  // by another bot
+    // By another bot; where there are several servers, by one on another server.
+    std::unordered_map<world::BlockPos, SentEdit, world::BlockPosHash> unseen;
     // Blocks as decided last, without those of which that is not known because the connection went.
     std::map<world::BlockPos, world::BlockId> acknowledged;
     std::unordered_map<world::BlockPos, int, world::BlockPosHash> owners;  // the bot that alone builds there

@@ -1,0 +1,274 @@
+// Several servers of one world: edits, players, talk, time.
+#include <random>
+
+#include "terrane/net/server_console.h"
+#include "tests/net_postgres/shared_server_fixture.h"
+
+namespace terrane::net_postgres {
+namespace {
+
+using game::EditResult;
+using world::BlockPos;
+
+// Null, unless the chunk is loaded on the server.
+std::optional<world::BlockId> blockOn(TestServer& server, BlockPos pos) {
+    const world::World& world = server.state().session.world();
+    if (!world.maybeChunkAt(world::chunkOf(pos))) return std::nullopt;
+    return world.block(pos);
+}
+
+TEST_F(SharedServersTest, AnEditReachesPlayersOfOtherServers) {
+    TestServer &a = servers_.add(), &b = servers_.add();
+    Guest anna(a, "Anna"), bert(b, "Bert");
+    ASSERT_NE(anna.id, game::kNoPlayer);
+    ASSERT_NE(bert.id, anna.id) << "numbers of players are not given twice";
+    ASSERT_TRUE(servers_.tickUntil([&] { return bert.find<net::ViewComplete>() != nullptr; }));
+    const BlockPos pos = anna.near(1, 0);
+    const auto number = anna.set(pos, "stone");
+    ASSERT_TRUE(servers_.tickUntil([&] { return anna.resultOf(number).has_value(); }));
+    EXPECT_EQ(anna.resultOf(number), EditResult::Applied);
+    ASSERT_TRUE(servers_.tickUntil([&] { return bert.find<net::BlocksChanged>() != nullptr; }));
+    const auto* changed = bert.find<net::BlocksChanged>();
+    EXPECT_EQ(changed->chunk, world::chunkOf(pos));
+    EXPECT_EQ(changed->blocks.at(0).value.id, contentBlock("stone"));
+    // And who comes later is told.
+    Guest carl(b, "Carl");
+    EXPECT_TRUE(servers_.tickUntil([&] { return carl.find<net::ChunkEdits>() != nullptr; }));
+    servers_.stopAll();
+}
+
+TEST_F(SharedServersTest, OfTwoWhoChangeOneBlockAtATimeOneIsFirst) {
+    TestServer &a = servers_.add(), &b = servers_.add();
+    Guest anna(a, "Anna"), bert(b, "Bert");
+    const BlockPos pos = anna.near(1, 1);
+    // Both have the chunk before.
+    const auto warmA = anna.set(anna.near(0, 1), "dirt");
+    ASSERT_TRUE(servers_.tickUntil([&] { return anna.resultOf(warmA).has_value(); }));
+    const auto warmB = bert.set(bert.near(0, -1), "dirt");
+    ASSERT_TRUE(servers_.tickUntil([&] { return bert.resultOf(warmB).has_value(); }));
+    const auto ofAnna = anna.set(pos, "stone", world::kAir), ofBert = bert.set(pos, "dirt", world::kAir);
+    ASSERT_TRUE(servers_.tickUntil(
+        [&] { return anna.resultOf(ofAnna).has_value() && bert.resultOf(ofBert).has_value(); }));
+    const bool annaFirst = anna.resultOf(ofAnna) == EditResult::Applied;
+    EXPECT_EQ(bert.resultOf(ofBert), annaFirst ? EditResult::Conflict : EditResult::Applied);
+    EXPECT_EQ(anna.resultOf(ofAnna), annaFirst ? EditResult::Applied : EditResult::Conflict);
+    const world::BlockId expected = contentBlock(annaFirst ? "stone" : "dirt");
+    EXPECT_TRUE(
+        servers_.tickUntil([&] { return blockOn(a, pos) == expected && blockOn(b, pos) == expected; }));
+    servers_.stopAll();
+}
+
+// Random edits of few blocks by three servers at once: all servers, the history and the store end with the
+// same.
+TEST_F(SharedServersTest, RandomEditsConverge) {
+    std::mt19937 random(7);
+    std::vector<std::unique_ptr<Guest>> guests;
+    for (int k = 0; k < 3; ++k) {
+        TestServer& server = servers_.add();
+        for (int n = 0; n < 2; ++n)
+            guests.push_back(std::make_unique<Guest>(server, fmt::format("p{}{}", k, n)));
+    }
+    const char* blocks[] = {"stone", "dirt", "cyan_glass", "air"};
+    const auto randomPlace = [&](const Guest& guest) {
+        return guest.near(static_cast<int>(random() % 3) - 1, static_cast<int>(random() % 3) - 1,
+                          1 + static_cast<int>(random() % 2));
+    };
+    std::set<BlockPos> places;
+    for (int round = 0; round < 250; ++round) {
+        for (const auto& guest : guests) {
+            if (random() % 3 != 0) continue;
+            const BlockPos pos = randomPlace(*guest);
+            places.insert(pos);
+            guest->set(pos, blocks[random() % std::size(blocks)]);
+        }
+        // Not in step: each hears of the others at its own time.
+        servers_.all()[random() % 3]->tick();
+        if (random() % 4 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    std::size_t applied = 0, refused = 0;
+    ASSERT_TRUE(servers_.tickUntil([&] {
+        applied = refused = 0;
+        for (const auto& guest : guests)
+            for (net::CommandNumber number = 1; number <= guest->last; ++number) {
+                const auto result = guest->resultOf(number);
+                if (!result) return false;
+                (result == EditResult::Conflict ? refused : applied) += 1;
+            }
+        return true;
+    }));
+    EXPECT_GT(applied, 100u);
+    EXPECT_GT(refused, 10u) << "else nothing was tested";
+    const auto isSettled = [&] {
+        for (const auto& server : servers_.all())
+            if (server->state().sharing.newest != servers_.all()[0]->state().sharing.newest ||
+                !server->state().sharing.undecided.empty())
+                return false;
+        return true;
+    };
+    ASSERT_TRUE(servers_.tickUntil(isSettled));
+    for (int k = 0; k < 5; ++k) servers_.tick();
+    std::map<BlockPos, world::BlockId> history;
+    const auto take = [&](const net::LoggedEdit& edit) -> base::Result<void> {
+        for (std::size_t k = 0; k < edit.after.size(); ++k) {
+            const BlockPos pos = world::blockPos(edit.chunk, edit.after[k].index);
+            if (const auto found = history.find(pos); found != history.end()) {
+                EXPECT_EQ(found->second, edit.before[k].value.id)
+                    << "each edit is made on top of the one before";
+            }
+            history[pos] = edit.after[k].value.id;
+        }
+        return {};
+    };
+    ASSERT_TRUE(servers_.all()[0]->state().records.forEachEdit({}, net::EditOrder::OldestFirst, take));
+    for (const auto& [pos, block] : history)
+        for (const auto& server : servers_.all()) EXPECT_EQ(blockOn(*server, pos), block);
+    guests.clear();
+    servers_.stopAll();
+    const auto registry = net::ownBlocks();
+    auto reader = store_postgres::openReader(servers_.address(), *registry).value();
+    for (const auto& [pos, block] : history)
+        EXPECT_EQ(reader->load(world::chunkOf(pos)).chunk->block(world::blockIndex(pos)), block);
+    EXPECT_EQ(postgres_.query("SELECT newest = saved FROM " + schema_ + ".history"), "t");
+}
+
+TEST_F(SharedServersTest, AServerThatComesLaterHasWhatIsNotSavedYet) {
+    TestServer& a = servers_.add();
+    Guest anna(a, "Anna");
+    const BlockPos pos = anna.near(1, 0);
+    const auto number = anna.set(pos, "cyan_glass");
+    ASSERT_TRUE(servers_.tickUntil([&] { return anna.resultOf(number) == EditResult::Applied; }));
+    TestServer& b = servers_.add();
+    EXPECT_TRUE(servers_.tickUntil([&] {
+        (void)b.state().session.pipeline().maybeLoadChunkAt(world::chunkOf(pos));
+        return blockOn(b, pos) == contentBlock("cyan_glass");
+    }));
+    servers_.stopAll();
+}
+
+TEST_F(SharedServersTest, OthersSaveWhatAKilledServerChanged) {
+    TestServer& a = servers_.add();
+    BlockPos pos{};
+    {
+        Guest anna(a, "Anna");
+        pos = anna.near(1, 0);
+        const auto number = anna.set(pos, "cyan_glass");
+        ASSERT_TRUE(servers_.tickUntil([&] { return anna.resultOf(number) == EditResult::Applied; }));
+    }
+    servers_.kill(a);
+    ASSERT_EQ(postgres_.query("SELECT count(*) FROM " + schema_ + ".servers"), "1");
+    EXPECT_EQ(postgres_.query("SELECT saved FROM " + schema_ + ".history"), "0");
+    servers_.add();
+    postgres_.sql("UPDATE " + schema_ + ".servers SET seen = now() - interval '1 minute' WHERE number = 1");
+    EXPECT_TRUE(servers_.tickUntil(
+        [&] { return postgres_.query("SELECT count(*) FROM " + schema_ + ".servers") == "1"; }));
+    servers_.stopAll();
+    EXPECT_EQ(postgres_.query("SELECT saved FROM " + schema_ + ".history"), "1");
+    const auto registry = net::ownBlocks();
+    auto reader = store_postgres::openReader(servers_.address(), *registry).value();
+    EXPECT_EQ(reader->load(world::chunkOf(pos)).chunk->block(world::blockIndex(pos)),
+              contentBlock("cyan_glass"));
+}
+
+TEST_F(SharedServersTest, APlayerIsOnOneServerAtATime) {
+    TestServer &a = servers_.add(), &b = servers_.add();
+    Guest anna(a, "Anna");
+    for (int k = 0; k < 50; ++k) servers_.tick();
+    Guest again(b, "Anna", anna.identity);
+    ASSERT_EQ(again.id, anna.id) << "the other server knows her";
+    ASSERT_TRUE(servers_.tickUntil([&] { return anna.find<net::Refused>() != nullptr; }));
+    EXPECT_EQ(anna.find<net::Refused>()->why, net::Refusal::Replaced);
+    EXPECT_EQ(again.find<net::Refused>(), nullptr);
+    servers_.stopAll();
+}
+
+TEST_F(SharedServersTest, ANameIsGivenOnce) {
+    TestServer &a = servers_.add(), &b = servers_.add();
+    Guest first(a, "Anna"), second(b, "ANNA");  // at the same time: neither server has heard of the other
+    ASSERT_TRUE(servers_.tickUntil(
+        [&] { return (first.find<net::Refused>() != nullptr) != (second.find<net::Refused>() != nullptr); }));
+    Guest& loser = first.find<net::Refused>() ? first : second;
+    EXPECT_EQ(loser.find<net::Refused>()->why, net::Refusal::Name);
+    // Who comes later is refused at once.
+    for (int k = 0; k < 50; ++k) servers_.tick();
+    for (const auto& server : servers_.all()) {
+        Guest third(*server, "anna");
+        EXPECT_EQ(third.id, game::kNoPlayer);
+    }
+    servers_.stopAll();
+}
+
+TEST_F(SharedServersTest, PlayersSeeAndHearEachOtherAcrossServers) {
+    TestServer &a = servers_.add(), &b = servers_.add();
+    Guest anna(a, "Anna"), bert(b, "Bert");
+    ASSERT_TRUE(servers_.tickUntil([&] { return bert.find<net::Appears>() != nullptr; }));
+    EXPECT_EQ(bert.find<net::Appears>()->name, "Anna");
+    EXPECT_EQ(bert.find<net::Appears>()->player, anna.id);
+    anna.wire.say(net::Say{"hello; '\"\\ there"});
+    ASSERT_TRUE(servers_.tickUntil([&] {
+        bert.hear();
+        return std::ranges::any_of(bert.heard, [](const net::ServerMessage& message) {
+            const auto* said = std::get_if<net::Said>(&message);
+            return said && said->name == "Anna" && said->text == "hello; '\"\\ there";
+        });
+    }));
+    anna.wire.say(net::Leave{});
+    EXPECT_TRUE(servers_.tickUntil([&] { return bert.find<net::Disappears>() != nullptr; }));
+    servers_.stopAll();
+}
+
+TEST_F(SharedServersTest, RolesBansAndClaimsHoldEverywhere) {
+    TestServer &a = servers_.add(), &b = servers_.add();
+    Guest anna(a, "Anna"), bert(b, "Bert");
+    for (int k = 0; k < 50; ++k) servers_.tick();
+    EXPECT_EQ(net::runConsoleLine(a.state(), "guest Bert"), "Bert is a guest, who changes no blocks, now");
+    ASSERT_TRUE(servers_.tickUntil([&] { return bert.find<net::RoleChanged>() != nullptr; }));
+    EXPECT_EQ(bert.find<net::RoleChanged>()->role, game::Role::Guest);
+    (void)net::runConsoleLine(a.state(), "claim farm -100 -100 100 100 Anna");
+    ASSERT_TRUE(servers_.tickUntil([&] { return b.state().people.claims().find("farm") != nullptr; }));
+    EXPECT_NE(b.state().session.permissions.claims.find("farm"), nullptr);
+    (void)net::runConsoleLine(a.state(), "ban Bert noise");
+    ASSERT_TRUE(servers_.tickUntil([&] { return bert.find<net::Refused>() != nullptr; }));
+    EXPECT_EQ(bert.find<net::Refused>()->why, net::Refusal::Banned);
+    servers_.stopAll();
+}
+
+// One server alone lets time pass in a region, and the others have what it does there.
+TEST_F(SharedServersTest, WaterFlowsOnOneServerAndIsOnAll) {
+    TestServer &a = servers_.add(), &b = servers_.add();
+    Guest anna(a, "Anna"), bert(b, "Bert");
+    const BlockPos source = anna.near(1, 0, 1);
+    const auto number = anna.set(source, "water");
+    ASSERT_TRUE(servers_.tickUntil([&] { return anna.resultOf(number) == EditResult::Applied; }));
+    const auto one = bert.set(bert.near(0, 1), "stone");  // so that it is loaded there, too
+    ASSERT_TRUE(servers_.tickUntil([&] { return bert.resultOf(one) == EditResult::Applied; }));
+    const std::string flown = "SELECT count(*) FROM " + schema_ + ".edits WHERE player = 0";
+    std::string before;
+    ASSERT_TRUE(servers_.tickUntil([&] {
+        EXPECT_FALSE(net::mayGrow(a.state(), world::chunkOf(source)) &&
+                     net::mayGrow(b.state(), world::chunkOf(source)));
+        for (int k = 0; k < 60; ++k) {
+            servers_.tick();
+            anna.stayAwake();
+            bert.stayAwake();
+            (void)b.state().session.pipeline().maybeLoadChunkAt(world::chunkOf(source));
+        }
+        return std::exchange(before, postgres_.query(flown)) == postgres_.query(flown) && before > "1";
+    })) << "it comes to rest";
+    EXPECT_EQ(postgres_.query("SELECT count(DISTINCT server) FROM " + schema_ + ".edits WHERE player = 0"),
+              "1");
+    for (int dx = -8; dx <= 8; ++dx)
+        for (int dy = -8; dy <= 8; ++dy)
+            for (int dz = -6; dz <= 2; ++dz) {
+                const BlockPos pos{source.x + dx, source.y + dy, source.z + dz};
+                const auto onA = blockOn(a, pos), onB = blockOn(b, pos);
+                if (!onA || !onB) continue;
+                ASSERT_EQ(*onA, *onB) << pos.x << "," << pos.y << "," << pos.z;
+                ASSERT_EQ(a.state().session.world().blockState(pos),
+                          b.state().session.world().blockState(pos));
+            }
+    EXPECT_EQ(blockOn(b, source), contentBlock("water"));
+    servers_.stopAll();
+}
+
+}  // namespace
+}  // namespace terrane::net_postgres
