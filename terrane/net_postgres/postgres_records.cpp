@@ -25,6 +25,22 @@ constexpr std::size_t kMaxNotes = 4096;
 
 }  // namespace
 
+base::Result<net::History> readHistory(const store_postgres::Address& address,
+                                       const world::BlockRegistry& blocks) {
+    auto world = store_postgres::openToRead(address, blocks);
+    if (!world) return tl::unexpected(world.error());
+    const auto players = readPlayers(world->connection);
+    if (!players) return tl::unexpected(players.error());
+    net::History history;
+    for (const net::KnownPlayer& player : *players) history.names[player.id] = player.name;
+    const auto kept = std::make_shared<store_postgres::WorldConnection>(std::move(*world));
+    history.forEachEdit = [kept](const net::EditFilter& filter, net::EditOrder order,
+                                 const net::UseEdit& use) {
+        return readEdits(kept->connection, kept->contents.ids, filter, order, use);
+    };
+    return history;
+}
+
 base::Result<std::unique_ptr<PostgresRecords>> PostgresRecords::open(const store_postgres::Address& address,
                                                                      const world::BlockRegistry& blocks,
                                                                      const ServerName& name) {
@@ -112,6 +128,7 @@ base::Result<void> PostgresRecords::forEachEdit(const net::EditFilter& filter, n
 void PostgresRecords::addPlayer(const net::KnownPlayer& player) {
     QueuedWrite write;
     write.commands.push_back(addPlayerCommand(player));
+    write.commands.push_back(skipPlayerNumberCommand(player.id));
     write.note = PlayerNote{player.id};
     write.added = player.id;
     queue(std::move(write));
@@ -149,6 +166,12 @@ std::uint64_t PostgresRecords::append(const std::vector<net::LoggedEdit>& edits)
         write.blocks.insert(write.blocks.end(), blocks.begin(), blocks.end());
     }
     return queue(std::move(write));
+}
+
+void PostgresRecords::setSavedEdit(std::int64_t number) {
+    QueuedWrite write;
+    write.commands.push_back(setSavedCommand(number));
+    queue(std::move(write));
 }
 
 std::uint64_t PostgresRecords::durable() const {

@@ -9,12 +9,17 @@
 #include <set>
 #include <thread>
 
+#include "terrane/net/history.h"
 #include "terrane/net/shared_world.h"
 #include "terrane/net_postgres/history_writer.h"
 #include "terrane/net_postgres/server_rows.h"
 #include "terrane/store_postgres/connection_pool.h"
 
 namespace terrane::net_postgres {
+
+// The history of a world, which may be served meanwhile.
+[[nodiscard]] base::Result<net::History> readHistory(const store_postgres::Address& address,
+                                                     const world::BlockRegistry& blocks);
 
 class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
   public:
@@ -38,7 +43,7 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     void removeClaim(const std::string& name) override;
     void setText(const std::string& name, const std::string& text) override;
     std::uint64_t append(const std::vector<net::LoggedEdit>& edits) override;
-    void setSavedEdit(std::int64_t) override {}  // that is what tellState() is for
+    void setSavedEdit(std::int64_t number) override;  // for copies: servers say tellState()
     // Decided, and told by takeNews().
     std::uint64_t durable() const override;
     std::string problem() const override;

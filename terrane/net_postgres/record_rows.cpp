@@ -52,6 +52,9 @@ constexpr Statement kJoined = {
 constexpr Statement kLeft = {"DELETE FROM online WHERE player = $1 AND server = $2"};
 constexpr Statement kForget = {"DELETE FROM servers WHERE number = $1"};
 constexpr Statement kForgetLeases = {"DELETE FROM growth_leases WHERE server = $1"};
+constexpr Statement kSetSaved = {"UPDATE history SET saved = least(newest, greatest(saved, $1))"};
+constexpr Statement kSkipNumber = {
+    "SELECT setval('player_numbers', greatest($1, (SELECT last_value FROM player_numbers)))"};
 constexpr Statement kNumbers = {"SELECT nextval('player_numbers') FROM generate_series(1, $1)"};
 
 tl::unexpected<base::Error> damaged(const Connection& connection, std::string_view what) {
@@ -194,6 +197,12 @@ Command joinedCommand(game::PlayerId player, std::int64_t server) {
 }
 Command leftCommand(game::PlayerId player, std::int64_t server) {
     return {&kLeft, Parameters().number(std::int64_t{player}).number(server)};
+}
+Command setSavedCommand(std::int64_t number) {
+    return {&kSetSaved, Parameters().number(number)};
+}
+Command skipPlayerNumberCommand(game::PlayerId player) {
+    return {&kSkipNumber, Parameters().number(std::int64_t{player})};
 }
 std::vector<Command> removeServerCommands(std::int64_t server) {
     return {{&kForget, Parameters().number(server)}, {&kForgetLeases, Parameters().number(server)}};

@@ -32,6 +32,9 @@ store_postgres::Command removeClaimCommand(const std::string& name);
 store_postgres::Command setTextCommand(const std::string& name, const std::string& text);
 store_postgres::Command joinedCommand(game::PlayerId player, std::int64_t server);
 store_postgres::Command leftCommand(game::PlayerId player, std::int64_t server);
+store_postgres::Command setSavedCommand(std::int64_t number);
+// Numbers of players go on above this one.
+store_postgres::Command skipPlayerNumberCommand(game::PlayerId player);
 std::vector<store_postgres::Command> removeServerCommands(std::int64_t server);
 
 [[nodiscard]] base::Result<std::vector<game::PlayerId>> takePlayerNumbers(

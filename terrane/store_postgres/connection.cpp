@@ -237,6 +237,15 @@ base::Error Connection::errorOf(const pg_result* result) const {
     return {code, fmt::format("{}: {}", shown_, message.empty() ? "the connection is lost" : message)};
 }
 
+// An error without SQLSTATE is libpq's own. It can come before the state of the connection tells that it is
+// broken: where writing failed, and the last words of the server wait to be read.
+base::Error Connection::failureOf(const pg_result* result) {
+    base::Error error = errorOf(result);
+    if (PQresultErrorField(result, PG_DIAG_SQLSTATE)) return error;
+    connection_ = nullptr;
+    return {ErrorCode::Io, std::move(error.message)};
+}
+
 // Prepared statements have names for the length of a connection.
 std::string Connection::nameOf(const Statement& statement) const {
     return fmt::format("s{:x}", reinterpret_cast<std::uintptr_t>(&statement));
@@ -273,9 +282,11 @@ bool Connection::send(const Command& command, std::vector<const Statement*>& pre
 base::Result<void> Connection::collect(std::vector<Rows>& rows) {
     PGconn* raw = connection_.get();
     base::Result<void> done;
-    for (bool isEnd = false; !isEnd && isUsable();) {
+    int nothing = 0;  // how often in a row: once between two statements, for ever where it broke
+    for (bool isEnd = false; !isEnd && isUsable() && nothing < 2;) {
         PGresult* result = PQgetResult(raw);
-        if (!result) continue;  // between two statements
+        nothing = result ? 0 : nothing + 1;
+        if (!result) continue;
         Rows taken(result);
         switch (PQresultStatus(result)) {
             case PGRES_PIPELINE_SYNC:
@@ -288,10 +299,11 @@ base::Result<void> Connection::collect(std::vector<Rows>& rows) {
                 if (done) rows.push_back(std::move(taken));
                 break;
             default:
-                if (done) done = tl::unexpected(errorOf(result));
+                if (done) done = tl::unexpected(failureOf(result));
         }
     }
-    if (done && !isUsable()) done = tl::unexpected(errorOf(nullptr));
+    if (nothing == 2) connection_ = nullptr;
+    if (done && !isUsable()) done = base::fail(ErrorCode::Io, "{}: the connection is lost", shown_);
     return done;
 }
 
@@ -337,7 +349,7 @@ base::Result<void> Connection::execute(const std::string& sql) {
     const Rows rows(result);
     const ExecStatusType status = PQresultStatus(result);
     if (status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK || status == PGRES_EMPTY_QUERY) return {};
-    return tl::unexpected(errorOf(result));
+    return tl::unexpected(failureOf(result));
 }
 
 std::string Connection::quoted(std::string_view name) const {

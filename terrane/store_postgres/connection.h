@@ -106,6 +106,7 @@ class Connection {
     };
     explicit Connection(pg_conn* connection, std::string shown);
     base::Error errorOf(const pg_result* result) const;
+    base::Error failureOf(const pg_result* result);
     std::string nameOf(const Statement& statement) const;
     bool send(const Command& command, std::vector<const Statement*>& prepares);
     base::Result<void> collect(std::vector<Rows>& rows);

@@ -5,11 +5,13 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/serve/world_records.h"
 #include "terrane/base/log.h"
 #include "terrane/base/printable.h"
 #include "terrane/base/progress_bar.h"
 #include "terrane/base/stop_signals.h"
 #include "terrane/content/built_in.h"
+#include "terrane/net/records_copy.h"
 #include "terrane/store/world_copy.h"
 #include "terrane/store_postgres/any_world.h"
 
@@ -39,15 +41,32 @@ void print(const CopyOptions& options, const store::CopyReport& report) {
                         report.firstDamage);
 }
 
-base::Result<void> copy(CopyOptions& options) {
-    const auto blocks = content::loadBlocks();
-    if (!blocks) return tl::unexpected(blocks.error());
-    auto from = store_postgres::openAnyRowsToRead(store::worldLocation(options.from), *blocks);
+// Players, claims and the history, where servers of the world left some.
+base::Result<void> copyServers(const CopyOptions& options, const world::BlockRegistry& blocks) {
+    const store::WorldLocation from = store::worldLocation(options.from),
+                               to = store::worldLocation(options.to);
+    if (!hasRecords(from)) return {};
+    const auto source = openRecords(from, blocks);
+    if (!source) return tl::unexpected(source.error());
+    const auto players = source->records->players();
+    if (!players) return tl::unexpected(players.error());
+    if (players->empty()) return {};
+    const auto target = openRecords(to, blocks);
+    if (!target) return tl::unexpected(target.error());
+    const auto copied = net::copyRecords(*source->records, *target->records);
+    if (!copied) return tl::unexpected(copied.error());
+    base::logInfo("{} players, {} claims and {} edits of the history copied", copied->players, copied->claims,
+                  copied->edits);
+    return {};
+}
+
+base::Result<void> copyChunks(CopyOptions& options, const world::BlockRegistry& blocks) {
+    auto from = store_postgres::openAnyRowsToRead(store::worldLocation(options.from), blocks);
     if (!from) return tl::unexpected(from.error());
     const auto total = (*from)->rowCount();
     if (!total) return tl::unexpected(total.error());
     auto to =
-        store_postgres::openAnyRows(store::worldLocation(options.to), *blocks, store::accessOfCopy(**from));
+        store_postgres::openAnyRows(store::worldLocation(options.to), blocks, store::accessOfCopy(**from));
     if (!to) return tl::unexpected(to.error());
     const base::StopSignals signals;
     // Copied, then compared.
@@ -60,6 +79,13 @@ base::Result<void> copy(CopyOptions& options) {
     options.foundDamage = report->damaged > 0;
     print(options, *report);
     return {};
+}
+
+base::Result<void> copy(CopyOptions& options) {
+    const auto blocks = content::loadBlocks();
+    if (!blocks) return tl::unexpected(blocks.error());
+    if (auto copied = copyChunks(options, *blocks); !copied) return copied;
+    return copyServers(options, *blocks);
 }
 
 }  // namespace

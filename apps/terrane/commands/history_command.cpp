@@ -5,12 +5,9 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/serve/world_records.h"
 #include "terrane/base/printable.h"
 #include "terrane/content/built_in.h"
-#include "terrane/net/history_file.h"
-#include "terrane/net/people.h"
-#include "terrane/net/server_file.h"
-#include "terrane/store/open_world.h"
 
 namespace terrane::app {
 namespace {
@@ -43,13 +40,11 @@ std::string textOfBlocks(const net::ChangedBlock& first, const net::ChunkDiffere
 base::Result<void> printHistory(const HistoryOptions& options) {
     auto blocks = content::loadBlocks();
     if (!blocks) return tl::unexpected(blocks.error());
-    const auto world = store::fileOf(store::worldLocation(options.save.world));
-    if (!world) return tl::unexpected(world.error());
-    auto history = net::HistoryFile::open(net::serverFilePath(*world), *blocks);
+    const auto history = openHistory(store::worldLocation(options.save.world), *blocks);
     if (!history) return tl::unexpected(history.error());
     net::EditFilter filter;
     if (!options.player.empty()) {
-        filter.player = history->playerCalled(options.player);
+        filter.player = net::playerCalled(*history, options.player);
         if (!filter.player)
             return base::fail(base::ErrorCode::NotFound, "nobody called {} ever played here", options.player);
     }
@@ -70,13 +65,13 @@ base::Result<void> printHistory(const HistoryOptions& options) {
         }
         const world::BlockPos pos = world::blockPos(edit.chunk, edit.after.front().index);
         base::printLine("{} {} at {} {} {}: {} to {}{}", textOfTime(edit.timeMs),
-                        history->nameOf(edit.player), pos.x, pos.y, pos.z,
+                        net::nameOf(*history, edit.player), pos.x, pos.y, pos.z,
                         textOfBlocks(edit.before.front(), edit.before, *blocks),
                         textOfBlocks(edit.after.front(), edit.after, *blocks),
                         edit.after.size() > 1 ? fmt::format(", {} blocks", edit.after.size()) : "");
         return {};
     };
-    const auto done = history->forEach(filter, print);
+    const auto done = history->forEachEdit(filter, net::EditOrder::NewestFirst, print);
     if (isCut) return {};
     return done;
 }

@@ -41,6 +41,25 @@ base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
                         }};
 }
 
+base::Result<net::History> openHistory(const store::WorldLocation& world,
+                                       const world::BlockRegistry& blocks) {
+    if (isInDatabase(world)) {
+        const auto address = store_postgres::addressOf(world.text);
+        if (!address) return tl::unexpected(address.error());
+        return net_postgres::readHistory(*address, blocks);
+    }
+    const auto path = store::fileOf(world);
+    if (!path) return tl::unexpected(path.error());
+    return net::readHistoryFile(net::serverFilePath(*path), blocks);
+}
+
+bool hasRecords(const store::WorldLocation& world) {
+    if (isInDatabase(world)) return true;
+    const auto path = store::fileOf(world);
+    std::error_code ignored;
+    return path && std::filesystem::exists(net::serverFilePath(*path), ignored);
+}
+
 base::Result<std::filesystem::path> serverFilesOf(const store::WorldLocation& world, std::uint16_t port) {
     if (!isInDatabase(world)) {
         auto path = store::fileOf(world);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "terrane/net/history.h"
 #include "terrane/net/server_records.h"
 #include "terrane/store/world_location.h"
 
@@ -21,6 +22,12 @@ struct WorldRecords {
 // Of a world that is open. Errors name the file or the database.
 [[nodiscard]] base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
                                                      const world::BlockRegistry& blocks);
+
+// The same without a server: what servers of the world did.
+[[nodiscard]] base::Result<net::History> openHistory(const store::WorldLocation& world,
+                                                     const world::BlockRegistry& blocks);
+// Whether servers of the world left records; false where there is nothing to copy.
+[[nodiscard]] bool hasRecords(const store::WorldLocation& world);
 
 // Files that belong to a server and not to its world: "a/home" for a/home.sqlite, and for a world in a
 // database a name in the folder of worlds that ends with the server's port. ".server.pem" and the like are

@@ -13,6 +13,19 @@ base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
     return WorldRecords{std::move(*records), {}};
 }
 
+base::Result<net::History> openHistory(const store::WorldLocation& world,
+                                       const world::BlockRegistry& blocks) {
+    const auto path = store::fileOf(world);
+    if (!path) return tl::unexpected(path.error());
+    return net::readHistoryFile(net::serverFilePath(*path), blocks);
+}
+
+bool hasRecords(const store::WorldLocation& world) {
+    const auto path = store::fileOf(world);
+    std::error_code ignored;
+    return path && std::filesystem::exists(net::serverFilePath(*path), ignored);
+}
+
 base::Result<std::filesystem::path> serverFilesOf(const store::WorldLocation& world, std::uint16_t) {
     auto path = store::fileOf(world);
     if (path) path->replace_extension();

@@ -1,6 +1,7 @@
-#include "terrane/net/history_file.h"
+#include "terrane/net/history.h"
 
 #include <algorithm>
+#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -9,8 +10,7 @@
 
 namespace terrane::net {
 
-base::Result<HistoryFile> HistoryFile::open(const std::filesystem::path& file,
-                                            const world::BlockRegistry& blocks) {
+base::Result<History> readHistoryFile(const std::filesystem::path& file, const world::BlockRegistry& blocks) {
     std::error_code error;
     if (!std::filesystem::exists(file, error))
         return base::fail(base::ErrorCode::NotFound, "{}: there is no such file: no server had this world",
@@ -21,31 +21,32 @@ base::Result<HistoryFile> HistoryFile::open(const std::filesystem::path& file,
     if (!names) return tl::unexpected(names.error());
     auto ids = store::BlockIdMap::make(blocks, *names);
     if (!ids) return tl::unexpected(ids.error());
-    HistoryFile history(std::move(*database), std::move(*ids));
+    History history;
     const auto take = [&](const store::Statement& row) -> base::Result<void> {
-        history.names_[static_cast<game::PlayerId>(row.number(0))] = row.text(1);
+        history.names[static_cast<game::PlayerId>(row.number(0))] = row.text(1);
         return {};
     };
-    if (auto done = store::forEachRow(history.database_, "SELECT id, name FROM players", take); !done)
+    if (auto done = store::forEachRow(*database, "SELECT id, name FROM players", take); !done)
         return tl::unexpected(done.error());
+    const auto kept = std::make_shared<store::Database>(std::move(*database));
+    history.forEachEdit = [kept, ids = std::move(*ids)](const EditFilter& filter, EditOrder order,
+                                                        const UseEdit& use) {
+        return forEachEdit(*kept, ids, filter, order, use);
+    };
     return history;
 }
 
-std::optional<game::PlayerId> HistoryFile::playerCalled(std::string_view name) const {
+std::optional<game::PlayerId> playerCalled(const History& history, std::string_view name) {
     const auto isEqual = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
-    for (const auto& [id, known] : names_)
+    for (const auto& [id, known] : history.names)
         if (std::ranges::equal(known, name, isEqual)) return id;
     return std::nullopt;
 }
 
-std::string HistoryFile::nameOf(game::PlayerId player) const {
+std::string nameOf(const History& history, game::PlayerId player) {
     if (player == game::kNoPlayer) return "the server";
-    const auto found = names_.find(player);
-    return found == names_.end() ? fmt::format("player {}", player) : found->second;
-}
-
-base::Result<void> HistoryFile::forEach(const EditFilter& filter, const UseEdit& use) {
-    return forEachEdit(database_, ids_, filter, EditOrder::NewestFirst, use);
+    const auto found = history.names.find(player);
+    return found == history.names.end() ? fmt::format("player {}", player) : found->second;
 }
 
 }  // namespace terrane::net
