@@ -89,6 +89,8 @@ std::string firstLine(std::string_view text) {
     return std::string(text);
 }
 
+constexpr std::string_view kDiskFull = "53100";
+
 // By SQLSTATE (PostgreSQL's documentation, appendix A).
 ErrorCode codeOf(std::string_view state) {
     const std::string_view category = state.substr(0, 2);
@@ -230,10 +232,14 @@ base::Result<Connection> Connection::open(const Address& address) {
 }
 
 base::Error Connection::errorOf(const pg_result* result) const {
-    const char* state = result ? PQresultErrorField(result, PG_DIAG_SQLSTATE) : nullptr;
+    const char* stateText = result ? PQresultErrorField(result, PG_DIAG_SQLSTATE) : nullptr;
+    const std::string_view state = stateText ? stateText : "";
     const char* primary = result ? PQresultErrorField(result, PG_DIAG_MESSAGE_PRIMARY) : nullptr;
     const std::string message = firstLine(primary ? primary : PQerrorMessage(connection_.get()));
-    const ErrorCode code = state ? codeOf(state) : isUsable() ? ErrorCode::Failed : ErrorCode::Io;
+    const ErrorCode own = isUsable() ? ErrorCode::Failed : ErrorCode::Io;
+    const ErrorCode code = state.empty() ? own : codeOf(state);
+    if (state == kDiskFull)
+        return {code, fmt::format("{}: the disk of the server is full: {}", shown_, message)};
     return {code, fmt::format("{}: {}", shown_, message.empty() ? "the connection is lost" : message)};
 }
 

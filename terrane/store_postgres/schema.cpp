@@ -21,8 +21,8 @@ CREATE TABLE quarantine (number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
     reason text NOT NULL, data bytea NOT NULL);
 )";
 
-// The queue of `terrane work`. Jobs are squares of chunks, by area and place. state: 0 waiting, 1 done, 2 cancelled;
-// one that is worked on waits with a lease.
+// The queue of `terrane work`. Jobs are squares of chunks, by area and place. state: 0 waiting, 1 done, 2
+// cancelled; one that is worked on waits with a lease.
 constexpr const char* kWorkTables = R"(
 CREATE TABLE work_state (is_paused boolean NOT NULL);
 INSERT INTO work_state VALUES (false);
@@ -37,8 +37,8 @@ CREATE TABLE workers (number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY, na
     chunks bigint NOT NULL DEFAULT 0, rate double precision NOT NULL DEFAULT 0, job bigint);
 )";
 
-// Of servers. `edits` is the history, numbered without gaps in the order in which edits were accepted; `write` says
-// which of its server's writes an edit is. Up to history.saved all are in `chunks`.
+// Of servers. `edits` is the history, numbered without gaps in the order in which edits were accepted;
+// `write` says which of its server's writes an edit is. Up to history.saved all are in `chunks`.
 constexpr const char* kServerTables = R"(
 CREATE TABLE texts (name text PRIMARY KEY, value text NOT NULL);
 CREATE SEQUENCE player_numbers MINVALUE 2;
@@ -104,7 +104,8 @@ constexpr Statement kFormat = {"SELECT format::bigint FROM terrane_format"};
 // Not of information_schema, which leaves out what the user has no right to.
 constexpr Statement kColumnTypes = {
     "SELECT relname::text, attname::text, format_type(atttypid, NULL) FROM pg_attribute "
-    "JOIN pg_class ON pg_class.oid = attrelid WHERE relkind IN ('r', 'p') AND attnum > 0 AND NOT attisdropped "
+    "JOIN pg_class ON pg_class.oid = attrelid WHERE relkind IN ('r', 'p') AND attnum > 0 AND NOT "
+    "attisdropped "
     "AND relnamespace = (SELECT oid FROM pg_namespace WHERE nspname = current_schema())"};
 
 }  // namespace

@@ -220,20 +220,27 @@ base::Result<void> openContents(Connection& connection, const Address& address,
     return doAlone(connection, address, [&] { return addNames(connection, added); });
 }
 
+base::Result<void> lockAndOpen(WorldConnection& opened, const Address& address,
+                               const world::BlockRegistry& blocks, const store::SaveAccess& access,
+                               WorldSharing sharing) {
+    Connection& connection = opened.connection;
+    if (auto waited = waitForOpening(connection, address); !waited) return waited;
+    if (auto taken = takeSharedLocks(connection, address, sharing); !taken) return taken;
+    auto done = openContents(connection, address, blocks, access, opened.contents);
+    return done ? releaseLock(connection, address, WorldLock::Opening) : done;
+}
+
 }  // namespace
 
 base::Result<WorldConnection> openToWrite(const Address& address, const world::BlockRegistry& blocks,
                                           const store::SaveAccess& access, WorldSharing sharing) {
     auto connection = Connection::open(address);
     if (!connection) return tl::unexpected(connection.error());
-    if (auto waited = waitForOpening(*connection, address); !waited) return tl::unexpected(waited.error());
-    if (auto taken = takeSharedLocks(*connection, address, sharing); !taken)
-        return tl::unexpected(taken.error());
     WorldConnection opened{std::move(*connection), {}};
-    if (auto done = openContents(opened.connection, address, blocks, access, opened.contents); !done)
+    if (auto done = lockAndOpen(opened, address, blocks, access, sharing); !done) {
+        releaseAllLocks(opened.connection);
         return tl::unexpected(done.error());
-    if (auto released = releaseLock(opened.connection, address, WorldLock::Opening); !released)
-        return tl::unexpected(released.error());
+    }
     reportUnknown(opened.connection, opened.contents);
     return opened;
 }

@@ -89,7 +89,7 @@ base::Result<void> waitForOpening(Connection& connection, const Address& address
 }
 
 base::Result<void> takeLock(Connection& connection, const Address& address, WorldLock lock) {
-    return tryLock(connection, address, lock, kTryLock);
+    return tryLockForAMoment(connection, address, lock, kTryLock);
 }
 
 base::Result<void> releaseLock(Connection& connection, const Address& address, WorldLock lock) {

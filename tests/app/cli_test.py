@@ -703,16 +703,19 @@ class Saves(ProgramTest):
         again = self.run_here("generate", *area, "--world", "b.sqlite")
         self.assertEqual((again.returncode, json.loads(again.stdout)["skipped"]), (0, 1), again.stderr)
 
-    def test_worlds_in_databases_are_not_supported(self):
-        url = "postgresql://me:secret@host/name"
+    def test_databases_that_cannot_be_reached_are_told_without_their_password(self):
+        url = "postgresql://me:secret@127.0.0.1:1/name"
         out = self.folder / "out.png"
         for command in (("generate", "--radius", "0"), ("map", "--radius", "0", "-o", out),
                         ("dump", "--area", "0,0,1,1", "-o", self.folder / "out.npy"), ("render", "--scene", "landscape", "-o", out),
                         ("flight-bench", "--json")):
             done = run(*command, "--world", url)
             self.assertRefused(done, command)
-            self.assertIn("not supported by this build", done.stderr)
+            self.assertIn("postgresql://127.0.0.1:1/name: cannot be reached", done.stderr)
             self.assertNotIn("secret", done.stderr)
+        done = run("generate", "--radius", "0", "--world", "mysql://me:secret@host/name")
+        self.assertRefused(done, "another kind of database")
+        self.assertNotIn("secret", done.stderr)
 
     def test_save_game_is_the_old_name_of_world(self):
         area = ("--backend", "cpu", "--radius", "0", *FLAT)

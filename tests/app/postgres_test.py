@@ -109,8 +109,10 @@ class Refused(Postgres):
 
     def test_an_older_format_is_brought_to_the_newest(self):
         self.succeed("generate", "--radius", "1", "--world", self.url)
-        _server.query(f"DROP TABLE {self.schema}.jobs, {self.schema}.work_areas, {self.schema}.workers, "
-                      f"{self.schema}.work_state; UPDATE {self.schema}.terrane_format SET format = 1")
+        newer = ("jobs", "work_areas", "workers", "work_state", "texts", "players", "claims", "edits", "history", "online",
+                 "servers", "growth_leases")
+        _server.query(f"DROP TABLE {', '.join(f'{self.schema}.{table}' for table in newer)}; "
+                      f"DROP SEQUENCE {self.schema}.player_numbers; UPDATE {self.schema}.terrane_format SET format = 1")
         self.assertRefused(run("check", self.url), "reading changes nothing")
         done = run("generate", "--radius", "1", "--world", self.url)
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -61,8 +61,8 @@ TEST(Address, TheSchemaIsAParameter) {
 }
 
 TEST(Address, NoSchemaOfSuchAName) {
-    for (const std::string& schema : {std::string(), std::string(64, 'x'), std::string("a%00b"),
-                                      std::string("%24user")}) {
+    for (const std::string& schema :
+         {std::string(), std::string(64, 'x'), std::string("a%00b"), std::string("%24user")}) {
         const auto address = addressOf("postgresql://me:secret@h/d?schema=" + schema);
         ASSERT_FALSE(address) << schema;
         EXPECT_EQ(address.error().code, base::ErrorCode::BadInput);
@@ -74,10 +74,16 @@ TEST(Address, NoSchemaOfSuchAName) {
 // A password with characters that a URL has for other things is the usual mistake.
 TEST(Address, AMessageOfABadUrlHoldsNothingOfIt) {
     for (const char* url : {
-             "postgresql://me:secret@host/db?nonsense=secret", "postgresql://me:secret@host/db?secret",
-             "postgresql://me:sec%zzret@host/db", "postgresql://me:secret@[::1/db", "postgresql://me:secret/x@host/db",
-             "postgresql://me:1/secret@host/db", "postgresql://me:x@secret@host/db", "postgresql://me:x?@secret@host/db",
-             "postgresql://me:x/y?secret@host/db", "postgresql://host:secret/db",
+             "postgresql://me:secret@host/db?nonsense=secret",
+             "postgresql://me:secret@host/db?secret",
+             "postgresql://me:sec%zzret@host/db",
+             "postgresql://me:secret@[::1/db",
+             "postgresql://me:secret/x@host/db",
+             "postgresql://me:1/secret@host/db",
+             "postgresql://me:x@secret@host/db",
+             "postgresql://me:x?@secret@host/db",
+             "postgresql://me:x/y?secret@host/db",
+             "postgresql://host:secret/db",
          }) {
         const auto address = addressOf(url);
         ASSERT_FALSE(address) << url << " is shown as " << address->shown;

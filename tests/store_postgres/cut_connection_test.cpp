@@ -22,7 +22,8 @@ class CutConnectionTest : public PostgresWorldTest {
         while (!isEnding_) {
             cuts_ += std::stoi(sharedServer().query(
                 "SELECT count(*) FILTER (WHERE pg_terminate_backend(pid)) FROM pg_stat_activity "
-                "WHERE state <> 'idle' AND application_name = '" + schema_ + "'"));
+                "WHERE state <> 'idle' AND application_name = '" +
+                schema_ + "'"));
             std::this_thread::sleep_for(kPauseBetweenCuts);
         }
     }

@@ -11,8 +11,9 @@ using base::ErrorCode;
 class ForeignTablesTest : public PostgresWorldTest {
   protected:
     void expectRefused(ErrorCode code, const std::string& reason) {
-        for (const base::Error& error : {errorOf(tryOpen()), errorOf(tryOpen(kWorldMustBeThere)),
-                                         errorOf(tryOpen(regenerateBy(9))), errorOf(openReader(address_, registry_))})
+        for (const base::Error& error :
+             {errorOf(tryOpen()), errorOf(tryOpen(kWorldMustBeThere)), errorOf(tryOpen(regenerateBy(9))),
+              errorOf(openReader(address_, registry_))})
             expectError(error, code, address_.shown, reason);
     }
     // A world that is then changed.
@@ -26,8 +27,10 @@ class ForeignTablesTest : public PostgresWorldTest {
     Connection connect() { return Connection::open(address_).value(); }
     // What is there: tables and the row of a format.
     std::string tables() {
-        return query("SELECT string_agg(relname, ' ' ORDER BY relname) FROM pg_class WHERE relkind = 'r' "
-                     "AND relnamespace = '" + schema_ + "'::regnamespace");
+        return query(
+            "SELECT string_agg(relname, ' ' ORDER BY relname) FROM pg_class WHERE relkind = 'r' "
+            "AND relnamespace = '" +
+            schema_ + "'::regnamespace");
     }
 };
 
@@ -64,20 +67,25 @@ TEST_F(ForeignTablesTest, OtherColumns) {
 }
 
 TEST_F(ForeignTablesTest, Settings) {
-    expectDamage("DELETE FROM settings WHERE name = 'seed'", ErrorCode::Damaged, "the setting seed is missing");
-    expectDamage("UPDATE settings SET value = 'x' WHERE name = 'seed'", ErrorCode::Damaged, "the setting seed is \"x\"");
-    expectDamage("DELETE FROM settings WHERE name = 'generator'", ErrorCode::Damaged, "the setting generator is missing");
-    expectDamage("INSERT INTO settings SELECT 'x' || n, '' FROM generate_series(1, 5000) AS n", ErrorCode::Damaged,
-                 "more than 4096 settings");
+    expectDamage("DELETE FROM settings WHERE name = 'seed'", ErrorCode::Damaged,
+                 "the setting seed is missing");
+    expectDamage("UPDATE settings SET value = 'x' WHERE name = 'seed'", ErrorCode::Damaged,
+                 "the setting seed is \"x\"");
+    expectDamage("DELETE FROM settings WHERE name = 'generator'", ErrorCode::Damaged,
+                 "the setting generator is missing");
+    expectDamage("INSERT INTO settings SELECT 'x' || n, '' FROM generate_series(1, 5000) AS n",
+                 ErrorCode::Damaged, "more than 4096 settings");
     expectDamage("INSERT INTO settings VALUES ('x', repeat('x', 17 << 20))", ErrorCode::Damaged,
                  "more than 16777216 bytes");
 }
 
 TEST_F(ForeignTablesTest, BlockNames) {
-    expectDamage("ALTER TABLE blocks DROP CONSTRAINT blocks_id_check; INSERT INTO blocks VALUES (70000, 'far')",
-                 ErrorCode::Damaged, "the block far has the id 70000");
-    expectDamage("ALTER TABLE blocks DROP CONSTRAINT blocks_name_key; INSERT INTO blocks VALUES (99, 'stone')",
-                 ErrorCode::Damaged, "the block stone is there twice");
+    expectDamage(
+        "ALTER TABLE blocks DROP CONSTRAINT blocks_id_check; INSERT INTO blocks VALUES (70000, 'far')",
+        ErrorCode::Damaged, "the block far has the id 70000");
+    expectDamage(
+        "ALTER TABLE blocks DROP CONSTRAINT blocks_name_key; INSERT INTO blocks VALUES (99, 'stone')",
+        ErrorCode::Damaged, "the block stone is there twice");
     expectDamage("ALTER TABLE blocks DROP CONSTRAINT blocks_pkey; INSERT INTO blocks VALUES (1, 'other')",
                  ErrorCode::Damaged, "is there twice");
 }
@@ -88,7 +96,8 @@ TEST_F(ForeignTablesTest, AnOlderFormatIsMigratedWhereItIsWritten) {
         Connection connection = connect();
         ASSERT_TRUE(migrate(connection, schema_, 0, former));
     }
-    sql("INSERT INTO settings VALUES ('seed', '7'), ('generator', 'flat'), ('generator_version', '3'), ('player', '1,2')");
+    sql("INSERT INTO settings VALUES ('seed', '7'), ('generator', 'flat'), ('generator_version', '3'), "
+        "('player', '1,2')");
     expectError(errorOf(openReader(address_, registry_)), ErrorCode::Incompatible, address_.shown,
                 "it is brought to format");
     EXPECT_EQ(query("SELECT format FROM terrane_format"), std::to_string(former.size()));
@@ -100,13 +109,16 @@ TEST_F(ForeignTablesTest, AnOlderFormatIsMigratedWhereItIsWritten) {
 }
 
 TEST_F(ForeignTablesTest, AMigrationIsAllOrNothing) {
-    const char* steps[] = {"CREATE TABLE terrane_format (format integer NOT NULL); CREATE TABLE a (x integer);",
-                           "CREATE TABLE b (x integer);", "CREATE TABLE c (x integer); SELECT 1 / 0;"};
+    const char* steps[] = {
+        "CREATE TABLE terrane_format (format integer NOT NULL); CREATE TABLE a (x integer);",
+        "CREATE TABLE b (x integer);", "CREATE TABLE c (x integer); SELECT 1 / 0;"};
     Connection connection = connect();
-    expectError(errorOf(migrate(connection, schema_, 0, steps)), ErrorCode::Failed, address_.shown, "division by zero");
+    expectError(errorOf(migrate(connection, schema_, 0, steps)), ErrorCode::Failed, address_.shown,
+                "division by zero");
     EXPECT_EQ(query("SELECT count(*) FROM pg_namespace WHERE nspname = '" + schema_ + "'"), "0");
     ASSERT_TRUE(migrate(connection, schema_, 0, std::span(steps).first(1)));
-    expectError(errorOf(migrate(connection, schema_, 1, steps)), ErrorCode::Failed, address_.shown, "division by zero");
+    expectError(errorOf(migrate(connection, schema_, 1, steps)), ErrorCode::Failed, address_.shown,
+                "division by zero");
     EXPECT_EQ(tables(), "a terrane_format");
     ASSERT_TRUE(migrate(connection, schema_, 1, std::span(steps).first(2)));
     EXPECT_EQ(tables(), "a b terrane_format");

@@ -27,7 +27,8 @@ TEST_F(OpenFaultsTest, WrongPassword) {
     for (const char* user : {"postgres:wr0ng", "postgres", "nobody:wr0ng"}) {
         address_ = addressOf(sharedServer().networkUrl(user)).value();
         const base::Error error = errorOfWriting();
-        expectError(error, ErrorCode::Refused, fmt::format("postgresql://127.0.0.1:{}/postgres", sharedServer().port()),
+        expectError(error, ErrorCode::Refused,
+                    fmt::format("postgresql://127.0.0.1:{}/postgres", sharedServer().port()),
                     "cannot be reached: ");
         EXPECT_THAT(error.message, HasSubstr("password"));
         EXPECT_THAT(error.message, Not(HasSubstr("wr0ng")));
@@ -88,7 +89,8 @@ TEST_F(OpenFaultsTest, AUserWhoMayOnlyRead) {
     expectRefused(ErrorCode::Refused, "permission denied for table terrane_format");
     sql("GRANT SELECT ON terrane_format, settings, blocks, chunks TO reader");
     for (const auto& access : {kCreateWorld, kWorldMustBeThere, regenerateBy(9)})
-        expectError(errorOfWriting(access), ErrorCode::Refused, address_.shown, "may read the world, not write it");
+        expectError(errorOfWriting(access), ErrorCode::Refused, address_.shown,
+                    "may read the world, not write it");
     const auto reader = openReader(address_, registry_);
     ASSERT_TRUE(reader) << reader.error().message;
     EXPECT_EQ(*(*reader)->load({2, 0}).chunk, *store::numberedChunk(2));
@@ -103,21 +105,22 @@ TEST_F(OpenFaultsTest, AUserWhoMayOnlyRead) {
 }
 
 TEST_F(OpenFaultsTest, AReadOnlyDatabase) {
-    sharedServer().sql("CREATE DATABASE readonly");
-    address_ = addressOf(urlWith("readonly")).value();
+    const std::string database = freshDatabase();
+    address_ = addressOf(urlWith(database)).value();
     makeWorld();
-    sharedServer().sql("ALTER DATABASE readonly SET default_transaction_read_only = on");
+    sharedServer().sql("ALTER DATABASE " + database + " SET default_transaction_read_only = on");
     expectError(errorOfWriting(), ErrorCode::Refused, address_.shown, "the database is read-only");
     const auto reader = openReader(address_, registry_);
     ASSERT_TRUE(reader) << reader.error().message;
     EXPECT_EQ(*(*reader)->load({2, 0}).chunk, *store::numberedChunk(2));
-    address_ = addressOf(urlWith("readonly") + "&schema=new").value();
+    address_ = addressOf(urlWith(database) + "&schema=new").value();
     expectError(errorOfWriting(), ErrorCode::Refused, address_.shown, "read-only transaction");
 }
 
 TEST_F(OpenFaultsTest, ADatabaseInAnotherEncoding) {
-    sharedServer().sql("CREATE DATABASE latin ENCODING 'LATIN1' TEMPLATE template0 LC_COLLATE 'C' LC_CTYPE 'C'");
-    address_ = addressOf(urlWith("latin")).value();
+    address_ =
+        addressOf(urlWith(freshDatabase(" ENCODING 'LATIN1' TEMPLATE template0 LC_COLLATE 'C' LC_CTYPE 'C'")))
+            .value();
     expectRefused(ErrorCode::Incompatible, "its encoding is LATIN1, expected UTF8");
 }
 

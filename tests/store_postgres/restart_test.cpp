@@ -31,7 +31,8 @@ class RestartTest : public PostgresWorldTest {
         return std::move(*store);
     }
     static bool waitUntilDurable(PostgresStore& store) {
-        for (const auto end = std::chrono::steady_clock::now() + 20s; std::chrono::steady_clock::now() < end;) {
+        for (const auto end = std::chrono::steady_clock::now() + 20s;
+             std::chrono::steady_clock::now() < end;) {
             const store::SaveStatus status = store.status();
             if (status.durable == status.queued) return true;
             std::this_thread::sleep_for(5ms);
@@ -157,7 +158,8 @@ TEST_F(RestartTest, WhatCouldNotBeReadIsPutAsideBeforeItIsReplaced) {
 TEST_F(RestartTest, AStoppedServerIsNotOpened) {
     server_->stop();
     expectError(errorOf(tryOpen()), base::ErrorCode::Io, address_.shown, "cannot be reached: ");
-    expectError(errorOf(openReader(address_, registry_)), base::ErrorCode::Io, address_.shown, "cannot be reached: ");
+    expectError(errorOf(openReader(address_, registry_)), base::ErrorCode::Io, address_.shown,
+                "cannot be reached: ");
     server_->start();
     EXPECT_TRUE(tryOpen());
 }

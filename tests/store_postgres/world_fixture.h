@@ -35,6 +35,13 @@ inline std::string urlWith(const std::string& database, const std::string& user 
     return url;
 }
 
+// The name of a new database in the shared server.
+inline std::string freshDatabase(const std::string& options = "") {
+    std::string name = "database_" + freshSchema();
+    sharedServer().sql("CREATE DATABASE " + name + options);
+    return name;
+}
+
 // An error in one line that names where, and says why.
 inline void expectError(const base::Error& error, base::ErrorCode code, const std::string& where,
                         const std::string& reason) {
@@ -71,17 +78,17 @@ class PostgresWorldTest : public testing::Test {
         ASSERT_TRUE(store->flush());
     }
     // As another program would, which keeps to none of the module's rules.
-    void sql(const std::string& text) {
-        (void)query(text);
-    }
+    void sql(const std::string& text) { (void)query(text); }
     std::string query(const std::string& text) {
-        return sharedServer().query("SET client_min_messages = error; SET search_path = \"" + schema_ + "\"; " +
-                                    text);
+        return sharedServer().query("SET client_min_messages = error; SET search_path = \"" + schema_ +
+                                    "\"; " + text);
     }
     // Ends the connections of the store whose URL names this program, and waits until they are gone.
     void cutConnectionsOf(const std::string& program) {
-        sharedServer().sql("SELECT pg_terminate_backend(pid, 5000) FROM pg_stat_activity "
-                           "WHERE application_name = '" + program + "'");
+        sharedServer().sql(
+            "SELECT pg_terminate_backend(pid, 5000) FROM pg_stat_activity "
+            "WHERE application_name = '" +
+            program + "'");
     }
 
     std::string schema_ = freshSchema();
