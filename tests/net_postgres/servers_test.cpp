@@ -157,6 +157,9 @@ TEST_F(SharedServersTest, OthersSaveWhatAKilledServerChanged) {
     servers_.kill(a);
     ASSERT_EQ(postgres_.query("SELECT count(*) FROM " + schema_ + ".servers"), "1");
     EXPECT_EQ(postgres_.query("SELECT saved FROM " + schema_ + ".history"), "0");
+    const auto alone = store_postgres::PostgresStore::open(servers_.address(), contentBlocks(), {});
+    ASSERT_FALSE(alone) << "who plays alone would lose the edit";
+    EXPECT_EQ(alone.error().code, base::ErrorCode::Incompatible);
     servers_.add();
     postgres_.sql("UPDATE " + schema_ + ".servers SET seen = now() - interval '1 minute' WHERE number = 1");
     EXPECT_TRUE(servers_.tickUntil(

@@ -61,21 +61,22 @@ TEST_F(SharingTest, OtherWorldsAreNoMatter) {
 
 // A server notices the end of a connection a moment later: the locks are given up before.
 TEST_F(SharingTest, ItIsFreeAtOnceWhenItIsClosed) {
-    address_ = addressIn(sharedServer(), schema_, "application_name=" + schema_);
-    const std::string locks =
+    constexpr Statement kLocks = {
         "SELECT count(*) FROM pg_locks JOIN pg_stat_activity USING (pid) "
-        "WHERE locktype = 'advisory' AND application_name = '" +
-        schema_ + "'";
+        "WHERE locktype = 'advisory' AND application_name = $1"};
+    Connection watching = Connection::open(address_).value();
+    const auto locks = [&] { return watching.run(kLocks, Parameters().text(schema_)).value().number(0, 0); };
+    address_ = addressIn(sharedServer(), schema_, "application_name=" + schema_);
     for (int round = 0; round < 10; ++round) {
         {
             const auto store = open();
-            EXPECT_EQ(query(locks), "2");
+            EXPECT_EQ(locks(), 2);
         }
-        EXPECT_EQ(query(locks), "0");
+        EXPECT_EQ(locks(), 0);
         store::SaveAccess access = kCreateWorld;
         access.decide = [](const store::WorldIdentity&) { return base::fail("not this one"); };
         EXPECT_FALSE(tryOpen(access));
-        EXPECT_EQ(query(locks), "0");
+        EXPECT_EQ(locks(), 0);
     }
 }
 
