@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "terrane/net/server_state.h"
+#include "terrane/net/shared_world.h"
 
 namespace terrane::net {
 namespace {

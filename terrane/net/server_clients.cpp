@@ -30,6 +30,14 @@ void say(ServerClient& client, const std::string& text) {
     for (const std::string_view line : linesOf(text)) send(client, Said{{}, plainText(line, kMaxChatBytes)});
 }
 
+void setTimeHere(ServerState& server, double timeDay) {
+    game::DayClock& clock = server.session.clock;
+    clock.timeDay = timeDay;
+    forEachPlaying(server, [&](ServerClient& client) {
+        send(client, Clock{clock.timeDay, 1 / (60 * clock.dayMinutes)});
+    });
+}
+
 void sayHere(ServerState& server, const std::string& name, const std::string& text) {
     for (const std::string_view line : linesOf(text)) {
         const Bytes message = encode(ServerMessage(Said{name, plainText(line, kMaxChatBytes)}));

@@ -15,6 +15,8 @@ void sendEncoded(ServerClient& client, ByteView message);
 // Lines to one player, or to all who play. No name: the server speaks. Any bytes may be in them; what a
 // message cannot have is escaped, and long lines are cut.
 void say(ServerClient& client, const std::string& text);
+// The time of day on this server.
+void setTimeHere(ServerState& server, double timeDay);
 // To the players of this server alone, and to those of all.
 void sayHere(ServerState& server, const std::string& name, const std::string& text);
 void sayToAll(ServerState& server, const std::string& name, const std::string& text);

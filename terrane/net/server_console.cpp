@@ -53,6 +53,10 @@ std::string list(ServerState& server, Words) {
                             : client.role == game::Role::Guest  ? ", guest"
                                                                 : "");
     });
+    for (const auto& [id, other] : server.sharing.players) {
+        const KnownPlayer* known = server.people.byId(id);
+        if (known && !server.playing.contains(id)) text += fmt::format("\n{} on another server", known->name);
+    }
     return text;
 }
 
@@ -180,11 +184,8 @@ std::string rollbackLine(ServerState& server, Words words) {
 std::string setTime(ServerState& server, Words words) {
     const auto time = numberFrom<double>(words[0]);
     if (!time || !(*time >= 0 && *time < 1)) return "a time of day is 0 (midnight) to below 1; 0.5 is noon";
-    game::DayClock& clock = server.session.clock;
-    clock.timeDay = *time;
-    forEachPlaying(server, [&](ServerClient& client) {
-        send(client, Clock{clock.timeDay, 1 / (60 * clock.dayMinutes)});
-    });
+    setTimeHere(server, *time);
+    if (server.sharing.shared) server.sharing.shared->tellTime(*time);
     return "the time is set";
 }
 

@@ -40,6 +40,9 @@ struct HistoryEnds {
     std::int64_t saved = 0;   // all edits up to this one are in the world's own store
 };
 
+// In texts: the hash of the password; empty: none is needed.
+inline constexpr const char* kPasswordText = "password";
+
 class SharedWorld;  // shared_world.h
 
 class ServerRecords {

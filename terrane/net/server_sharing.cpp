@@ -144,11 +144,9 @@ void takeServers(ServerState& server, std::vector<OtherServer> servers) {
             return estate.server == other.number;
         });
         if (other.isAlive || !isNew) continue;
-        auto chunks = sharing.shared->unsavedChunks(other.number);
-        if (!chunks) continue;
         base::logInfo("the server {} is gone; {} chunks that it changed are saved here", other.name,
-                      chunks->size());
-        sharing.estates.push_back({other.number, sharing.newest, std::move(*chunks)});
+                      other.unsaved.size());
+        sharing.estates.push_back({other.number, sharing.newest, other.unsaved});
     }
     // One that does not know its own place yet cannot be found.
     std::erase_if(servers, [](const OtherServer& other) { return !other.isAlive || other.address.empty(); });
@@ -244,6 +242,8 @@ void takeNews(ServerState& server) {
     takePoses(server, news);
     for (const SharedLine& line : news.lines) sayHere(server, line.name, line.text);
     server.tilesToTell.insert(news.tiles.begin(), news.tiles.end());
+    if (news.passwordHash) server.passwordHash = *news.passwordHash;
+    if (news.timeDay) setTimeHere(server, *news.timeDay);
     if (news.servers) takeServers(server, std::move(*news.servers));
 }
 

@@ -35,9 +35,6 @@ struct ServerParts {
     WorldFingerprint fingerprint;  // of the session's world
 };
 
-// In ServerRecords' texts; empty: none is needed.
-constexpr const char* kPasswordText = "password";
-
 // Tiles that the store's thread wrote.
 struct WrittenTiles {
     std::mutex mutex;

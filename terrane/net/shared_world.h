@@ -41,6 +41,9 @@ struct OtherServer {
     std::string name, address, key;  // "host:port" where players reach it, its public key
     int players = 0;
     bool isAlive = true;
+    // Of one that is gone without saving: the chunks that it changed and did not save. When these are in the
+    // store, forgetServer().
+    std::vector<world::ChunkPos> unsaved = {};
 };
 
 // What happened since the last call, in its order.
@@ -55,6 +58,8 @@ struct SharedNews {
     std::vector<game::PlayerId> left;     // another server
     std::optional<std::vector<game::Claim>> claims;  // all, where some changed
     std::vector<SharedLine> lines;
+    std::optional<std::string> passwordHash;  // where it was changed
+    std::optional<double> timeDay;            // where somebody set the time
     std::vector<OtherPlayer> poses;
     std::vector<world::ChunkPos> tiles;               // that others wrote
     std::optional<std::vector<OtherServer>> servers;  // all others, where that was looked up
@@ -74,6 +79,7 @@ class SharedWorld {
     virtual SharedNews takeNews() = 0;
 
     virtual void say(const SharedLine& line) = 0;
+    virtual void tellTime(double timeDay) = 0;
     virtual void tellPoses(std::span<const OtherPlayer> players) = 0;  // that moved
     virtual void tellTiles(std::span<const world::ChunkPos> tiles) = 0;
     // A player is on one server at a time: it leaves the others, which hear of it.
@@ -88,9 +94,6 @@ class SharedWorld {
     virtual void wantRegions(std::vector<Region> regions) = 0;
     virtual bool mayGrow(Region region) const = 0;
 
-    // A server that is gone without saving: the chunks that it changed and did not save. When these are in
-    // the store, forgetServer().
-    [[nodiscard]] virtual base::Result<std::vector<world::ChunkPos>> unsavedChunks(std::int64_t server) = 0;
     virtual void forgetServer(std::int64_t server) = 0;
 };
 

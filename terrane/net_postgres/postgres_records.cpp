@@ -154,6 +154,7 @@ void PostgresRecords::removeClaim(const std::string& name) {
 void PostgresRecords::setText(const std::string& name, const std::string& text) {
     QueuedWrite write;
     write.commands.push_back(setTextCommand(name, text));
+    if (name == net::kPasswordText) write.note = PasswordNote{};
     queue(std::move(write));
 }
 
@@ -210,6 +211,9 @@ void PostgresRecords::tellAddress(const std::string& address, const std::string&
 void PostgresRecords::say(const net::SharedLine& line) {
     tell(LineNote{line});
 }
+void PostgresRecords::tellTime(double timeDay) {
+    tell(TimeNote{static_cast<std::uint32_t>(timeDay * kTimeSteps)});
+}
 void PostgresRecords::tellPoses(std::span<const net::OtherPlayer> players) {
     for (std::size_t first = 0; first < players.size(); first += kMaxPosesInNote) {
         const auto part = players.subspan(first, std::min(kMaxPosesInNote, players.size() - first));
@@ -258,10 +262,6 @@ bool PostgresRecords::mayGrow(net::Region region) const {
     return Clock::now() < leasedUntil_ && leased_.contains(region);
 }
 
-base::Result<std::vector<world::ChunkPos>> PostgresRecords::unsavedChunks(std::int64_t server) {
-    return pool_.run<std::vector<world::ChunkPos>>(
-        [&](Connection& c) { return net_postgres::unsavedChunks(c, server); });
-}
 void PostgresRecords::forgetServer(std::int64_t server) {
     QueuedWrite write;
     write.commands = removeServerCommands(server);

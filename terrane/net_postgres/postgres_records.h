@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <deque>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -55,6 +56,7 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
 
     net::SharedNews takeNews() override;
     void say(const net::SharedLine& line) override;
+    void tellTime(double timeDay) override;
     void tellPoses(std::span<const net::OtherPlayer> players) override;
     void tellTiles(std::span<const world::ChunkPos> tiles) override;
     void tellJoined(game::PlayerId player) override;
@@ -63,7 +65,7 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     void tellState(int players, std::int64_t saved) override;
     void wantRegions(std::vector<net::Region> regions) override;
     bool mayGrow(net::Region region) const override;
-    [[nodiscard]] base::Result<std::vector<world::ChunkPos>> unsavedChunks(std::int64_t server) override;
+
     void forgetServer(std::int64_t server) override;
 
   private:
@@ -84,6 +86,7 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     base::Result<void> writeQueued(Heard& heard);
     base::Result<void> sendNotes();
     base::Result<void> beatIfDue();
+    base::Result<void> findUnsaved(std::vector<net::OtherServer>& others);
     base::Result<void> reservePlayerNumbers();
     void hand(Heard heard);
 
@@ -99,6 +102,7 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     std::unique_ptr<HistoryWriter> writer_;
     std::vector<QueuedWrite> batch_;  // being written
     Clock::time_point nextLook_{}, nextBeat_{};
+    std::map<std::int64_t, std::vector<world::ChunkPos>> gone_;  // servers, with what they did not save
 
     mutable std::mutex mutex_;  // of all below
     std::condition_variable written_;

@@ -112,6 +112,12 @@ base::Result<void> PostgresRecords::takeNote(const Note& note, bool& hasEdits) {
         const std::lock_guard lock(mutex_);
         if (*player) news_.players.push_back(std::move(**player));
     }
+    if (std::holds_alternative<PasswordNote>(note)) {
+        auto hash = readText(*connection_, net::kPasswordText);
+        if (!hash) return tl::unexpected(hash.error());
+        const std::lock_guard lock(mutex_);
+        news_.passwordHash = std::move(*hash);
+    }
     if (std::holds_alternative<ClaimsNote>(note)) {
         auto claims = readClaims(*connection_);
         if (!claims) return tl::unexpected(claims.error());
@@ -121,6 +127,7 @@ base::Result<void> PostgresRecords::takeNote(const Note& note, bool& hasEdits) {
     const std::lock_guard lock(mutex_);
     if (const auto* joined = std::get_if<JoinedNote>(&note)) news_.joined.push_back(joined->player);
     if (const auto* left = std::get_if<LeftNote>(&note)) news_.left.push_back(left->player);
+    if (const auto* time = std::get_if<TimeNote>(&note)) news_.timeDay = time->timeDay / kTimeSteps;
     if (const auto* line = std::get_if<LineNote>(&note)) news_.lines.push_back(line->line);
     if (const auto* poses = std::get_if<PosesNote>(&note))
         news_.poses.insert(news_.poses.end(), poses->players.begin(), poses->players.end());
@@ -189,11 +196,31 @@ base::Result<void> PostgresRecords::beatIfDue() {
     auto answer = beat(*connection_, name, state);
     if (!answer) return tl::unexpected(answer.error());
     nextBeat_ = now + kBeatEvery;
+    if (auto found = findUnsaved(answer->others); !found) return found;
     const std::lock_guard lock(mutex_);
     news_.saved = std::max(news_.saved, answer->saved);
     news_.servers = std::move(answer->others);
     leased_ = {answer->regions.begin(), answer->regions.end()};
     leasedUntil_ = now + kLeaseUsed;
+    return {};
+}
+
+// Looked up once; the server may hear of it later than this.
+base::Result<void> PostgresRecords::findUnsaved(std::vector<net::OtherServer>& others) {
+    for (net::OtherServer& other : others) {
+        if (other.isAlive) {
+            gone_.erase(other.number);
+            continue;
+        }
+        const auto [known, isNew] = gone_.try_emplace(other.number);
+        if (isNew) {
+            auto chunks = unsavedChunks(*connection_, other.number);
+            if (!chunks) gone_.erase(known);
+            if (!chunks) return tl::unexpected(chunks.error());
+            known->second = std::move(*chunks);
+        }
+        other.unsaved = known->second;
+    }
     return {};
 }
 

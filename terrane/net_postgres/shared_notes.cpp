@@ -17,6 +17,8 @@ void describe(Wire& wire, N& note) {
     using T = std::remove_const_t<N>;
     if constexpr (requires { note.player; }) {
         wire.number(note.player);
+    } else if constexpr (std::is_same_v<T, TimeNote>) {
+        wire.fixed(note.timeDay);
     } else if constexpr (std::is_same_v<T, LineNote>) {
         wire.text(note.line.name, net::kMaxNameBytes);
         wire.text(note.line.text, net::kMaxChatBytes);

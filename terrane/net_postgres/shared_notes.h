@@ -31,8 +31,13 @@ struct PosesNote {
 struct TilesNote {
     std::vector<world::ChunkPos> tiles;
 };
-using Note =
-    std::variant<EditsNote, ClaimsNote, PlayerNote, JoinedNote, LeftNote, LineNote, PosesNote, TilesNote>;
+struct PasswordNote {};                      // it is another one, or none
+constexpr double kTimeSteps = 4294967296.0;  // a day
+struct TimeNote {                            // somebody set the time of day
+    std::uint32_t timeDay = 0;               // in steps of kTimeSteps
+};
+using Note = std::variant<EditsNote, ClaimsNote, PlayerNote, JoinedNote, LeftNote, LineNote, PosesNote,
+                          TilesNote, PasswordNote, TimeNote>;
 
 // At most so many fit one note.
 constexpr std::size_t kMaxPosesInNote = 120, kMaxTilesInNote = 300;

@@ -24,6 +24,8 @@ TEST(Notes, ReadBack) {
     EXPECT_EQ(roundTrip(PlayerNote{7}).player, 7u);
     EXPECT_EQ(roundTrip(JoinedNote{0xFFFFFFFF}).player, 0xFFFFFFFF);
     EXPECT_EQ(roundTrip(LeftNote{3}).player, 3u);
+    roundTrip(PasswordNote{});
+    EXPECT_EQ(roundTrip(TimeNote{0x80000000}).timeDay, 0x80000000);
     const LineNote line = roundTrip(LineNote{{"Žofie", std::string(400, '\'')}});
     EXPECT_EQ(line.line.name, "Žofie");
     EXPECT_EQ(line.line.text, std::string(400, '\''));

@@ -229,6 +229,10 @@ TEST_F(SharedServersTest, RolesBansAndClaimsHoldEverywhere) {
     (void)net::runConsoleLine(a.state(), "claim farm -100 -100 100 100 Anna");
     ASSERT_TRUE(servers_.tickUntil([&] { return b.state().people.claims().find("farm") != nullptr; }));
     EXPECT_NE(b.state().session.permissions.claims.find("farm"), nullptr);
+    (void)net::runConsoleLine(a.state(), "password sesame");
+    ASSERT_TRUE(servers_.tickUntil([&] { return !b.state().passwordHash.empty(); }));
+    (void)net::runConsoleLine(a.state(), "time 0.75");
+    EXPECT_TRUE(servers_.tickUntil([&] { return std::abs(b.state().session.clock.timeDay - 0.75) < 0.01; }));
     (void)net::runConsoleLine(a.state(), "ban Bert noise");
     ASSERT_TRUE(servers_.tickUntil([&] { return bert.find<net::Refused>() != nullptr; }));
     EXPECT_EQ(bert.find<net::Refused>()->why, net::Refusal::Banned);
