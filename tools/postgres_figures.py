@@ -22,6 +22,7 @@ import time
 from scratch_postgres import ScratchPostgres
 
 RADIUS = 64
+AREA, AREA_CHUNKS = "-128,-128,128,128", 256 * 256  # of workers: 64 whole squares
 
 
 def processor_seconds_of(pids):
@@ -50,13 +51,13 @@ def run(*command):
 def workers(program, postgres, schema, count):
     """Chunks a second of so many workers together, from the first's begin to the last's end."""
     url = postgres.url(schema)
-    run(program, "work", url, "--radius", RADIUS, "--add-only")
+    run(program, "work", url, "--area", AREA, "--add-only")
     start = time.monotonic()
     processes = [subprocess.Popen([program, "work", url, "--threads", "1", "--backend", "cpu"], stdout=subprocess.DEVNULL,
                                   stderr=subprocess.DEVNULL) for _ in range(count)]
     for process in processes:
         assert process.wait() == 0
-    return (2 * RADIUS + 1) ** 2 / (time.monotonic() - start)
+    return AREA_CHUNKS / (time.monotonic() - start)
 
 
 def cpu(program, postgres, folder, n):

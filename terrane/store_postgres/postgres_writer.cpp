@@ -178,7 +178,8 @@ base::Result<void> PostgresWriter::writeMetadata(const store::Metadata& metadata
     return {};
 }
 
-// Rows in the order of their keys: two writers wait for each other, and never in a circle.
+// Rows in the order of their keys, so that two writers hardly ever wait for each other in a circle.
+// PostgreSQL ends that, and it is tried again.
 base::Result<void> PostgresWriter::writeChunks(std::span<const ChunkRow> rows, Provenance provenance) {
     std::vector<std::int64_t> keys;
     for (const ChunkRow& row : rows) keys.push_back(store::keyOf(row.pos));

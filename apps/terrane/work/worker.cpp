@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 // Chunks generated at once: enough for all threads or a batch of the GPU.
 constexpr std::size_t kBatch = 128;
 constexpr std::chrono::seconds kRenewEvery{2};
-constexpr std::chrono::milliseconds kLookEvery{500};  // for a job, where there is none
+constexpr std::chrono::milliseconds kLookEvery{200};  // for a job, where there is none
 
 std::vector<world::ChunkPos> positionsOf(const world::ChunkArea& area) {
     std::vector<world::ChunkPos> positions;
