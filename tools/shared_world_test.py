@@ -3,9 +3,9 @@
 
     tools/shared_world_test.py PROGRAM [BOTS [SECONDS [SERVERS [BUILDERS]]]]      300, 60, 3, 0.1
 
-Before a kill, edits are timed from one server's bot to another's (seen_ms_p99); after it the bots of the killed server must
-be on the others within 5 s. At the end all is stopped; then each block that a bot was told is kept must be in the world, and
-what the history says must be what the world has.
+Before the kill, edits are timed from one server's bot to another server's (seen_ms_p99); after it the bots of the killed
+server must be on the others within 5 s. At the end all is stopped; then each block that a bot was told is kept must be in the
+world, the history must have no gap, and all of it must be in the chunks.
 """
 import json
 import pathlib
