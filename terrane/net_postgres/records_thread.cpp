@@ -26,13 +26,13 @@ constexpr std::size_t kNotesAtOnce = 256;
 constexpr std::chrono::seconds kLeaseUsed{kGoneSeconds - 2};
 constexpr std::size_t kPlayerNumbers = 64;
 // At the end, where the database does not answer.
-constexpr int kLastAttempts = 25;
+constexpr std::chrono::seconds kLastAttempts{10};
 
 }  // namespace
 
 void PostgresRecords::run() {
     base::setThreadName("records");
-    int failed = 0;
+    std::optional<Clock::time_point> endBy;
     while (true) {
         waitForWork();
         const auto done = work();
@@ -41,10 +41,10 @@ void PostgresRecords::run() {
         if (!done && problem_.empty()) base::logError("{}", done.error().message);
         if (done && !problem_.empty()) base::logInfo("{}: it works again", name_.name);
         problem_ = done ? "" : done.error().message;
-        failed = done ? 0 : failed + 1;
         written_.notify_all();
         const bool isEmpty = queue_.empty() && batch_.empty();
-        if (isEnding_ && (isEmpty || failed > kLastAttempts)) break;
+        if (isEnding_ && !endBy) endBy = Clock::now() + kLastAttempts;
+        if (isEnding_ && (isEmpty || Clock::now() > *endBy)) break;
         lock.unlock();
         if (!done) std::this_thread::sleep_for(kTryAgain);
     }

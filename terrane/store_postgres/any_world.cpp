@@ -43,7 +43,10 @@ StoreResult openDatabase(const Address& address, const world::BlockRegistry& blo
     access.decide = [&](const store::WorldIdentity& saved) {
         return store::compareWorld(saved, request.wanted, request.versionOf, address.shown);
     };
-    auto store = PostgresStore::open(address, blocks, access, request.sharing, request.limits);
+    RetryTimes times;
+    // What a server cannot read it would make anew, and so lose what was built there: it rather waits.
+    if (request.sharing == store::WorldSharing::Servers) times.reading = std::chrono::minutes(10);
+    auto store = PostgresStore::open(address, blocks, access, request.sharing, request.limits, times);
     if (!store) return tl::unexpected(store.error());
     if (auto whole = store::requireWhole(**store, address.shown); !whole)
         return tl::unexpected(whole.error());

@@ -13,9 +13,10 @@
 
 namespace terrane::store_postgres {
 
-// The pauses between attempts, which double, and how long it is tried at all.
+// The pauses between attempts, which double, and how long it is tried at all: what a queue writes it tries
+// again later, what is read is needed now.
 struct RetryTimes {
-    std::chrono::milliseconds first{50}, longest{2000}, total{30000};
+    std::chrono::milliseconds first{50}, longest{2000}, total{30000}, reading = total;
 };
 
 class ConnectionPool {
@@ -25,10 +26,10 @@ class ConnectionPool {
 
     const Address& address() const { return address_; }
 
-    // Runs `use` with a connection of its own, again while isPassing(). Any thread.
+    // Runs `use`, which reads, with a connection of its own, again while isPassing(). Any thread.
     template <class T>
     [[nodiscard]] base::Result<T> run(const std::function<base::Result<T>(Connection&)>& use) {
-        return retry<T>([&]() -> base::Result<T> {
+        return retryFor<T>(times_.reading, [&]() -> base::Result<T> {
             auto connection = take();
             if (!connection) return tl::unexpected(connection.error());
             auto result = use(*connection);
@@ -37,10 +38,17 @@ class ConnectionPool {
         });
     }
 
-    // The same without a connection.
+    // The same without a connection, for writing.
     template <class T>
     [[nodiscard]] base::Result<T> retry(const std::function<base::Result<T>()>& attempt) {
-        const auto end = std::chrono::steady_clock::now() + times_.total;
+        return retryFor<T>(times_.total, attempt);
+    }
+
+  private:
+    template <class T>
+    base::Result<T> retryFor(std::chrono::milliseconds total,
+                             const std::function<base::Result<T>()>& attempt) {
+        const auto end = std::chrono::steady_clock::now() + total;
         for (auto pause = times_.first;; pause = std::min(2 * pause, times_.longest)) {
             auto result = attempt();
             if (result || !isPassing(result.error()) || std::chrono::steady_clock::now() + pause > end)
@@ -49,7 +57,6 @@ class ConnectionPool {
         }
     }
 
-  private:
     base::Result<Connection> take();
     void giveBack(Connection connection);  // a broken one takes the idle ones with it, which are as old
 

@@ -148,9 +148,10 @@ class Copy(Postgres):
                 f"query_to_xml('SELECT count(*) > 600 AS c FROM {self.table}', false, true, '')))[1]::text END"):
             time.sleep(0.002)
         copy.send_signal(signal.SIGKILL)
-        killed = copy.wait() != 0
-        if killed:
-            self.assertLess(self.rows(), 81 * 81)
+        copy.wait()
+        # The kill may have come too late.
+        mark = _server.query(f"SELECT value FROM {self.schema}.settings WHERE name = 'copy'")
+        if mark.startswith("unfinished"):
             self.assertRefused(run("generate", "--radius", "1", "--world", self.url), "not finished")
             copied = json.loads(self.succeed("copy", file, self.url, "--json"))
             self.assertEqual(copied["chunks"], 81 * 81)
