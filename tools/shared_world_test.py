@@ -5,7 +5,7 @@
 
 Before the kill, edits are timed from one server's bot to another server's (seen_ms_p99); after it the bots of the killed
 server must be on the others within 5 s. At the end all is stopped; then each block that a bot was told is kept must be in the
-world, the history must have no gap, and all of it must be in the chunks.
+world, the history must have no gap, all of it must be in the chunks, and far tiles must follow from these.
 """
 import json
 import pathlib
@@ -69,6 +69,18 @@ def blocks_of_world(program, url, positions, folder):
     return answer
 
 
+def tiles_digest(postgres):
+    return postgres.query("SELECT count(*), md5(string_agg(key || ' ' || encode(data, 'hex'), ',' ORDER BY key)) "
+                          "FROM terrane.chunks WHERE key >= 1::bigint << 56")
+
+
+def derive_tiles_again(program, postgres, folder):
+    """All of them, from the chunks, by a server that misses the mark that they are there."""
+    postgres.query("DELETE FROM terrane.settings WHERE name = 'tiles'")
+    (folder / "again").mkdir()
+    return Server(program, folder / "again", 0, url=postgres.url()).stop()
+
+
 def main():
     program = sys.argv[1]
     given = sys.argv[2:] + ["300", "60", "3", "0.1"][len(sys.argv) - 2:]
@@ -108,10 +120,13 @@ def main():
         world = blocks_of_world(program, postgres.url(), list(kept), folder)
         lost = [pos for pos, name in kept.items() if world[pos] != name]
         checked = subprocess.run([program, "check", postgres.url()], capture_output=True, text=True)
+        tiles = tiles_digest(postgres)
+        if derive_tiles_again(program, postgres, folder) != 0 or tiles_digest(postgres) != tiles:
+            problems.append("tiles do not follow from the chunks")
     print(f"{count} bots on {server_count} servers, {before['edits'] + after['edits']} edits, seen by others after "
           f"{before['seen_ms_median']:.0f} ms, 99 %: {before['seen_ms_p99']:.0f} ms (decided {before['decided_ms_p99']:.0f}); "
           f"after a kill all were back within {back:.1f} s, {after['cuts']} cuts; {len(kept)} blocks kept, {len(lost)} lost; "
-          f"history {left[0]}, saved {left[1]}, rows {left[2]}")
+          f"history {left[0]}, saved {left[1]}, rows {left[2]}, tiles {tiles.split('|')[0]}")
     # Times are judged where there are many bots: a test of some on a busy machine says nothing of them.
     is_measured = count >= 100
     if back > (5 if is_measured else 30):
