@@ -48,8 +48,8 @@ void settle(SharingState& sharing, const LoggedEdit& edit) {
         const auto found = sharing.settled.find(world::blockPos(edit.chunk, block.index));
         if (--found->second.undecided == 0) sharing.settled.erase(found);
     }
-    const auto chunk = sharing.undecidedChunks.find(edit.chunk);
-    if (--chunk->second == 0) sharing.undecidedChunks.erase(chunk);
+    const auto chunk = sharing.undecidedChunks->find(edit.chunk);
+    if (--chunk->second == 0) sharing.undecidedChunks->erase(chunk);
 }
 
 void accept(ServerState& server, const std::vector<LoggedEdit>& edits, std::int64_t number) {
@@ -208,7 +208,8 @@ base::Result<void> beginSharing(ServerState& server) {
     const EditFilter unsaved{.afterNumber = ends->saved};
     if (auto read = server.records.forEachEdit(unsaved, EditOrder::OldestFirst, take); !read) return read;
     stream::ChunkPipeline& pipeline = server.session.pipeline();
-    pipeline.setSaveFilter([&sharing](ChunkPos chunk) { return !sharing.undecidedChunks.contains(chunk); });
+    pipeline.setSaveFilter(
+        [undecided = sharing.undecidedChunks](ChunkPos chunk) { return !undecided->contains(chunk); });
     (void)pipeline.takeLoaded();
     return {};
 }
@@ -217,7 +218,7 @@ void noteWrite(ServerState& server, std::uint64_t write, std::vector<LoggedEdit>
     SharingState& sharing = server.sharing;
     if (!sharing.shared) return;
     for (const LoggedEdit& edit : edits) {
-        ++sharing.undecidedChunks[edit.chunk];
+        ++(*sharing.undecidedChunks)[edit.chunk];
         for (const ChangedBlock& block : edit.before) {
             const world::BlockPos pos = world::blockPos(edit.chunk, block.index);
             ++sharing.settled.try_emplace(pos, SharingState::Settled{block.value, 0}).first->second.undecided;

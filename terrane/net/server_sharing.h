@@ -9,6 +9,7 @@
 
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -32,7 +33,9 @@ struct SharingState {
         int undecided = 0;  // own writes that change the block
     };
     std::unordered_map<world::BlockPos, Settled, world::BlockPosHash> settled;
-    std::unordered_map<world::ChunkPos, int, world::ChunkPosHash> undecidedChunks;
+    // How many own writes of a chunk are. The pipeline looks here to its end, which is after the server's.
+    using ChunkCounts = std::unordered_map<world::ChunkPos, int, world::ChunkPosHash>;
+    std::shared_ptr<ChunkCounts> undecidedChunks = std::make_shared<ChunkCounts>();
     std::set<std::uint64_t> refused;  // writes; whoever made them is not told yet
 
     // Edits that the store may lack, in ascending order.
