@@ -62,6 +62,8 @@ const ChunkDifference* EditedChunks::maybeDifference(ChunkPos pos) {
 void EditedChunks::findDifference(ChunkPos pos, Known& known) {
     known.isPending = true;
     known.job = ++jobCount_;
+    if (tailOf_ && pos.level == 0) known.difference = tailOf_(pos);
+    blockCount_ += known.difference.size();
     const auto work = [pos, job = known.job,
                        snapshot = pos.level == 0 ? parts_.world.maybeChunkAt(pos) : nullptr, &parts = parts_,
                        results = results_](const base::CancelToken&) {

@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "terrane/base/job_system.h"
@@ -42,6 +44,9 @@ class EditedChunks {
     void onChanged(world::ChunkPos pos, const ChunkDifference& newer);
     // A tile's row in the store changed.
     void onTileChanged(world::ChunkPos tile);
+    // Blocks of a chunk that the store may lack, to be added to what it has; none without a function.
+    using TailOf = std::function<ChunkDifference(world::ChunkPos)>;
+    void setTail(TailOf tailOf) { tailOf_ = std::move(tailOf); }
     // Takes in what workers found.
     void update();
 
@@ -64,6 +69,7 @@ class EditedChunks {
     void forgetOld();
 
     Parts parts_;
+    TailOf tailOf_;
     std::array<std::unordered_set<world::ChunkPos, world::ChunkPosHash>, world::kMaxLevel + 1> positions_;
     std::unordered_map<world::ChunkPos, Known, world::ChunkPosHash> known_;
     std::size_t blockCount_ = 0;

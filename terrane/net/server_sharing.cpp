@@ -18,11 +18,21 @@ constexpr std::chrono::seconds kStateEvery{1}, kSaveEvery{5};
 constexpr std::uint64_t kTicksPerPoses = 4, kTicksPerAllPoses = 40;
 // Of whom nothing was heard for so long is not there.
 constexpr std::chrono::seconds kForgetAfter{8};
+constexpr std::chrono::seconds kKeepTail{60};
 // What a server that is gone left, in a tick: some milliseconds.
 constexpr std::size_t kEstateChunks = 8;
 
 void addToTail(SharingState& sharing, ChunkPos chunk, std::int64_t number, const ChunkDifference& after) {
     sharing.tail[chunk].push_back({number, after});
+}
+
+// What the store may lack of a chunk.
+ChunkDifference tailOf(const SharingState& sharing, ChunkPos pos) {
+    ChunkDifference blocks;
+    const auto found = sharing.tail.find(pos);
+    if (found == sharing.tail.end()) return blocks;
+    for (const SharingState::TailEdit& edit : found->second) mergeInto(blocks, edit.after);
+    return blocks;
 }
 
 void noteUnsaved(ServerState& server, ChunkPos chunk, std::int64_t number) {
@@ -89,10 +99,17 @@ void applyDecision(ServerState& server, const WriteDecision& decision) {
     server.sharing.refused.insert(decision.write);
 }
 
-// Edits up to `saved` are in the store: whoever loads a chunk from now on finds them there.
-void dropTail(SharingState& sharing, std::int64_t saved) {
-    if (saved <= sharing.saved) return;
-    sharing.saved = saved;
+// Edits up to `saved` are in the store: whoever reads a chunk from now on finds them there. What was read
+// before may still be on its way from a worker.
+void dropTail(SharingState& sharing, std::int64_t nowSaved, Time now) {
+    if (nowSaved > sharing.saved) sharing.savedAt.push_back({now, nowSaved});
+    sharing.saved = std::max(sharing.saved, nowSaved);
+    std::optional<std::int64_t> before;
+    for (; !sharing.savedAt.empty() && now - sharing.savedAt.front().first > kKeepTail;
+         sharing.savedAt.pop_front())
+        before = sharing.savedAt.front().second;
+    if (!before) return;
+    const std::int64_t saved = *before;
     for (auto& [chunk, edits] : sharing.tail)
         std::erase_if(edits, [&](const SharingState::TailEdit& edit) { return edit.number <= saved; });
     std::erase_if(sharing.tail, [](const auto& entry) { return entry.second.empty(); });
@@ -168,7 +185,10 @@ void takeOverEstates(ServerState& server) {
         if (!server.session.pipeline().maybeLoadChunkAt(estate.chunks.back())) return;
         estate.chunks.pop_back();
     }
-    if (!estate.chunks.empty() || sharing.ownSaved < estate.newest) return;
+    if (!estate.chunks.empty()) return;
+    // A save that runs may have begun without the last of them.
+    if (!estate.savedBy) estate.savedBy = sharing.savesBegun + 1;
+    if (sharing.savesDone < *estate.savedBy || sharing.ownSaved < estate.newest) return;
     sharing.shared->forgetServer(estate.server);
     sharing.estates.pop_front();
 }
@@ -211,6 +231,7 @@ base::Result<void> beginSharing(ServerState& server) {
     pipeline.setSaveFilter(
         [undecided = sharing.undecidedChunks](ChunkPos chunk) { return !undecided->contains(chunk); });
     (void)pipeline.takeLoaded();
+    server.edited.setTail([&sharing](ChunkPos chunk) { return tailOf(sharing, chunk); });
     return {};
 }
 
@@ -238,7 +259,7 @@ void takeNews(ServerState& server) {
             applyDecision(server, std::get<WriteDecision>(event));
     }
     sharing.newest = std::max(sharing.newest, news.newest);
-    dropTail(sharing, news.saved);
+    dropTail(sharing, news.saved, server.now);
     takePeople(server, news);
     takePoses(server, news);
     for (const SharedLine& line : news.lines) sayHere(server, line.name, line.text);
@@ -254,8 +275,13 @@ void completeLoaded(ServerState& server) {
     for (const ChunkPos pos : server.session.pipeline().takeLoaded()) {
         const auto found = sharing.tail.find(pos);
         if (found == sharing.tail.end()) continue;
-        ChunkDifference blocks;
-        for (const SharingState::TailEdit& edit : found->second) mergeInto(blocks, edit.after);
+        // Mostly the store has them.
+        ChunkDifference blocks = tailOf(sharing, pos);
+        std::erase_if(blocks, [&](const ChangedBlock& block) {
+            return world::blockValue(server.session.world(), world::blockPos(pos, block.index)) ==
+                   block.value;
+        });
+        if (blocks.empty()) continue;
         server.session.setBlocks(placedBlocks(pos, blocks));
         noteUnsaved(server, pos, found->second.front().number);
     }
@@ -278,11 +304,13 @@ void keepSharedSaved(ServerState& server) {
     store::ChunkStore& store = server.session.store();
     if (history.saving && store.status().durable >= history.saving->save) {
         sharing.ownSaved = history.saving->edit;
+        sharing.savesDone = sharing.savesBegun;
         history.saving.reset();
     }
     if (history.saving || server.now < history.nextSave) return;
     history.nextSave = server.now + kSaveEvery;
     stream::ChunkPipeline& pipeline = server.session.pipeline();
+    ++sharing.savesBegun;
     pipeline.saveAll();
     std::erase_if(sharing.firstUnsaved, [&](const auto& entry) { return !pipeline.isUnsaved(entry.first); });
     std::int64_t upTo = sharing.newest;

@@ -14,6 +14,7 @@
 #include <set>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "terrane/net/server_client.h"
@@ -44,8 +45,9 @@ struct SharingState {
         ChunkDifference after;
     };
     std::unordered_map<world::ChunkPos, std::vector<TailEdit>, world::ChunkPosHash> tail;
-    std::int64_t newest = 0, saved = 0;  // edits: heard of; in the store, of all servers
-    std::int64_t ownSaved = 0;           // up to this one none waits here to be saved
+    std::int64_t newest = 0, saved = 0;                 // edits: heard of; in the store, of all servers
+    std::deque<std::pair<Time, std::int64_t>> savedAt;  // what `saved` was, for chunks that are being loaded
+    std::int64_t ownSaved = 0;                          // up to this one none waits here to be saved
     std::unordered_map<world::ChunkPos, std::int64_t, world::ChunkPosHash> firstUnsaved;  // edit of a chunk
 
     struct OtherAt {
@@ -58,9 +60,11 @@ struct SharingState {
     // Servers that are gone without saving: what they left is loaded, some chunks a tick, and saved.
     struct Estate {
         std::int64_t server = 0, newest = 0;
-        std::vector<world::ChunkPos> chunks;
+        std::vector<world::ChunkPos> chunks;        // that are not loaded yet
+        std::optional<std::uint64_t> savedBy = {};  // the save that has all of them
     };
     std::deque<Estate> estates;
+    std::uint64_t savesBegun = 0, savesDone = 0;
     Time nextState{};
 };
 

@@ -131,6 +131,24 @@ TEST_F(SharedServersTest, RandomEditsConverge) {
     EXPECT_EQ(postgres_.query("SELECT newest = saved FROM " + schema_ + ".history"), "t");
 }
 
+// The other server has not loaded the chunk, its row is not saved, and nobody there has looked at it before.
+TEST_F(SharedServersTest, WhoComesLaterIsToldWhatIsNotSavedYet) {
+    TestServer &a = servers_.add(), &b = servers_.add();
+    Guest anna(a, "Anna");
+    const auto number = anna.set(anna.near(1, 0), "cyan_glass");
+    ASSERT_TRUE(servers_.tickUntil([&] { return anna.resultOf(number) == EditResult::Applied; }));
+    ASSERT_TRUE(servers_.tickUntil([&] { return b.state().sharing.newest == 1; }));
+    ASSERT_EQ(postgres_.query("SELECT count(*) FROM " + schema_ + ".chunks"), "0")
+        << "else nothing is tested";
+    Guest bert(b, "Bert");
+    ASSERT_TRUE(servers_.tickUntil([&] { return bert.find<net::ChunkEdits>() != nullptr; }));
+    const auto* edits = bert.find<net::ChunkEdits>();
+    EXPECT_EQ(edits->chunk, world::chunkOf(anna.near(1, 0)));
+    ASSERT_EQ(edits->blocks.size(), 1u);
+    EXPECT_EQ(edits->blocks[0].value.id, contentBlock("cyan_glass"));
+    servers_.stopAll();
+}
+
 TEST_F(SharedServersTest, AServerThatComesLaterHasWhatIsNotSavedYet) {
     TestServer& a = servers_.add();
     Guest anna(a, "Anna");
