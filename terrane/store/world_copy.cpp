@@ -216,7 +216,7 @@ SaveAccess accessOfCopy(const ReadableRows& from) {
     return access;
 }
 
-base::Result<CopyReport> copyWorld(ReadableRows& from, ChunkRows& to, const RowsProgress& progress) {
+base::Result<std::int64_t> beginCopy(const ReadableRows& from, ChunkRows& to) {
     const auto mark = to.metadata().find(kCopyMark);
     const auto first = to.rowsAfter(kBeforeAll, 1);
     if (!first) return tl::unexpected(first.error());
@@ -236,7 +236,12 @@ base::Result<CopyReport> copyWorld(ReadableRows& from, ChunkRows& to, const Rows
         begun.metadata.emplace(kCopyMark, unfinished(kBeforeAll));
         if (auto done = to.change(begun); !done) return tl::unexpected(done.error());
     }
-    return Copy(from, to, progress).run(lastKey.value_or(kBeforeAll));
+    return lastKey.value_or(kBeforeAll);
+}
+
+base::Result<CopyReport> copyWorld(ReadableRows& from, ChunkRows& to, std::int64_t lastKey,
+                                   const RowsProgress& progress) {
+    return Copy(from, to, progress).run(lastKey);
 }
 
 }  // namespace terrane::store

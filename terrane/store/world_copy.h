@@ -26,10 +26,14 @@ using RowsProgress = std::function<bool(std::uint64_t rows)>;
 // What a world to copy into is made with.
 SaveAccess accessOfCopy(const ReadableRows& from);
 
-// `to` was opened with that access. Rows of both are compared at the end, and copied again where they differ
+// Marks `to`, which was opened with that access, as a copy of `from` that has not ended, and gives the last
+// key that it has. Incompatible where it holds a world, but a copy that was begun of this one.
+[[nodiscard]] base::Result<std::int64_t> beginCopy(const ReadableRows& from, ChunkRows& to);
+
+// Copies what comes after the key. Rows of both are compared at the end, and copied again where they differ
 // because another program plays `from`; an error where they still do after three times. Busy where `progress`
-// ended it; Incompatible where `to` holds a world that is no copy that was begun of this one.
-[[nodiscard]] base::Result<CopyReport> copyWorld(ReadableRows& from, ChunkRows& to,
+// ended it.
+[[nodiscard]] base::Result<CopyReport> copyWorld(ReadableRows& from, ChunkRows& to, std::int64_t lastKey,
                                                  const RowsProgress& progress = {});
 
 // Metadata of a copy: "unfinished KEY" with the last key that it has, then "finished".

@@ -13,6 +13,7 @@ from support import ProgramTest, run
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "tools"))
 from scratch_postgres import ScratchPostgres, free_port  # noqa: E402
+from server_tools import Server, bots_command  # noqa: E402
 
 _server = None
 
@@ -137,6 +138,25 @@ class Copy(Postgres):
         self.succeed("generate", "--radius", "0", "--world", self.url)
         self.assertRefused(run("copy", file, self.url), "another world")
         self.assertEqual(self.rows(), 1)
+
+    def test_what_servers_keep_comes_along_and_not_while_one_runs(self):
+        server = Server(support.program(), self.folder, 0, "--generator", "overworld")
+        bots = subprocess.run(bots_command(support.program(), server.port, "--count", "2", "--seconds", "3", "--behaviour", "build"),
+                              capture_output=True, text=True)
+        self.assertEqual(bots.returncode, 0, bots.stderr)
+        done = run("copy", server.world, self.url)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertRegex(done.stderr, r"error: .*world\.server\.sqlite: open in another program")
+        self.assertEqual(server.stop(), 0)
+        self.succeed("copy", server.world, self.url)
+        there, back = self.succeed("history", "--world", self.url), self.folder / "back.sqlite"
+        self.assertEqual(there, self.succeed("history", "--world", server.world))
+        self.assertRegex(there, "bot[01] at ")
+        self.succeed("copy", self.url, back)
+        self.assertEqual(there, self.succeed("history", "--world", back))
+        (self.folder / "again").mkdir()
+        again = Server(support.program(), self.folder / "again", 0, url=self.url)
+        self.assertEqual(again.stop(), 0, "a server takes the copy")
 
     def test_a_killed_copy_goes_on(self):
         file = self.folder / "a.sqlite"

@@ -60,7 +60,11 @@ base::Result<void> copyServers(const CopyOptions& options, const world::BlockReg
     return {};
 }
 
-base::Result<void> copyChunks(CopyOptions& options, const world::BlockRegistry& blocks) {
+// What servers keep comes first: where one runs, the copy has not ended and goes on later.
+base::Result<void> copy(CopyOptions& options) {
+    const auto loaded = content::loadBlocks();
+    if (!loaded) return tl::unexpected(loaded.error());
+    const world::BlockRegistry& blocks = *loaded;
     auto from = store_postgres::openAnyRowsToRead(store::worldLocation(options.from), blocks);
     if (!from) return tl::unexpected(from.error());
     const auto total = (*from)->rowCount();
@@ -68,10 +72,13 @@ base::Result<void> copyChunks(CopyOptions& options, const world::BlockRegistry& 
     auto to =
         store_postgres::openAnyRows(store::worldLocation(options.to), blocks, store::accessOfCopy(**from));
     if (!to) return tl::unexpected(to.error());
+    const auto lastKey = store::beginCopy(**from, **to);
+    if (!lastKey) return tl::unexpected(lastKey.error());
+    if (auto copied = copyServers(options, blocks); !copied) return copied;
     const base::StopSignals signals;
     // Copied, then compared.
     base::ProgressBar bar("copying", static_cast<std::size_t>(2 * *total));
-    const auto report = store::copyWorld(**from, **to, [&](std::uint64_t rows) {
+    const auto report = store::copyWorld(**from, **to, *lastKey, [&](std::uint64_t rows) {
         bar.set(static_cast<std::size_t>(std::min(rows, 2 * *total)));
         return !signals.stopAsked();
     });
@@ -79,13 +86,6 @@ base::Result<void> copyChunks(CopyOptions& options, const world::BlockRegistry& 
     options.foundDamage = report->damaged > 0;
     print(options, *report);
     return {};
-}
-
-base::Result<void> copy(CopyOptions& options) {
-    const auto blocks = content::loadBlocks();
-    if (!blocks) return tl::unexpected(blocks.error());
-    if (auto copied = copyChunks(options, *blocks); !copied) return copied;
-    return copyServers(options, *blocks);
 }
 
 }  // namespace
