@@ -259,6 +259,7 @@ void takeNews(ServerState& server) {
             applyDecision(server, std::get<WriteDecision>(event));
     }
     sharing.newest = std::max(sharing.newest, news.newest);
+    server.session.store().setVersion(sharing.newest);
     dropTail(sharing, news.saved, server.now);
     takePeople(server, news);
     takePoses(server, news);

@@ -99,6 +99,10 @@ class ChunkStore : public ReadableStore {
     // value of kDerivedRowsMark. setDerivedRows() comes first.
     [[nodiscard]] virtual base::Result<void> deriveAll(std::string_view rules) = 0;
 
+    // For a world that several servers write: what is saved from now on has all edits of their history up to
+    // this one, and an older snapshot that comes late never replaces a newer one. Others ignore it.
+    virtual void setVersion(std::int64_t /*newestEdit*/) {}
+
     virtual bool isPersistent() const = 0;  // false: all is lost when the program ends
 };
 

@@ -117,7 +117,7 @@ world::ChunkPtr OverlayStore::editedChunk(world::ChunkPos pos) {
 
 base::Result<void> OverlayStore::write(const SaveBatch& batch) {
     const std::lock_guard writing(writeMutex_);
-    const std::vector<ChunkRow> edited = batch.editedChunks();
+    const std::vector<ChunkRow> edited = editedOf(batch.chunks);
     std::vector<ChunkRow> derived;
     if (!edited.empty() && derivedRows_.derive)
         derived = derivedRows_.derive(edited, [this](world::ChunkPos pos) { return editedChunk(pos); });

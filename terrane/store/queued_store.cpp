@@ -103,7 +103,7 @@ bool QueuedStore::contains(world::ChunkPos pos) {
 
 SaveNumber QueuedStore::save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) {
     if (provenance == Provenance::Generated && isUnread(pos)) return queue_->status().queued;
-    return queue_->add(pos, {std::move(chunk), provenance});
+    return queue_->add(pos, {std::move(chunk), provenance, version_});
 }
 
 std::optional<std::string> QueuedStore::metadata(std::string_view name) {
@@ -144,9 +144,8 @@ base::Result<DerivedBatch> QueuedStore::derive(const std::vector<ChunkRow>& edit
 
 base::Result<void> QueuedStore::write(const SaveBatch& batch) {
     const std::lock_guard writing(writeMutex_);
-    const std::vector<ChunkRow> edited = batch.editedChunks();
     std::vector<ChunkRow> derivedRows;
-    const auto deriveBatch = [&](const ReadRow& read) {
+    const auto deriveBatch = [&](const std::vector<ChunkRow>& edited, const ReadRow& read) {
         auto derived = derive(edited, read);
         if (derived) derivedRows = derived->rows;
         return derived;

@@ -2,6 +2,7 @@
 // kind of database it is, ChunkRows knows: SqliteStore is one of a file.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -23,8 +24,9 @@ struct DerivedBatch {
 };
 
 using ReadRow = std::function<StoredRow(world::ChunkPos)>;
-// Derives them by what `read` finds: the database as it is without the batch.
-using DeriveBatch = std::function<base::Result<DerivedBatch>(const ReadRow& read)>;
+// Derives them from the batch's edited chunks by what `read` finds: the database as it is without the batch.
+using DeriveBatch =
+    std::function<base::Result<DerivedBatch>(const std::vector<ChunkRow>& edited, const ReadRow& read)>;
 
 // What is written into a world as it is, in one transaction.
 struct RowChanges {
@@ -115,6 +117,7 @@ class QueuedStore : public ChunkStore {
     void setDerivedRows(DerivedRows rows) override;
     [[nodiscard]] base::Result<void> deriveAll(std::string_view rules) override;
     const WorldIdentity& identity() const override { return rows_->identity(); }
+    void setVersion(std::int64_t newestEdit) override { version_ = newestEdit; }
     bool isPersistent() const override { return true; }
 
   private:
@@ -127,6 +130,7 @@ class QueuedStore : public ChunkStore {
 
     std::unique_ptr<ChunkRows> rows_;
     EntityBudget budget_;
+    std::atomic<std::int64_t> version_ = 0;
     std::mutex metadataMutex_;
     Metadata metadata_;
     std::mutex unreadMutex_;

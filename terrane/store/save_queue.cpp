@@ -11,10 +11,8 @@
 namespace terrane::store {
 namespace {
 
-using Chunks = decltype(SaveBatch::chunks);
-
 // The newer one counts, but for a generated chunk after an edited one.
-void put(Chunks& chunks, world::ChunkPos pos, WaitingChunk newer) {
+void put(WaitingChunks& chunks, world::ChunkPos pos, WaitingChunk newer) {
     const auto [entry, isNew] = chunks.try_emplace(pos, newer);
     if (!isNew && newer.provenance >= entry->second.provenance) entry->second = std::move(newer);
 }
@@ -57,7 +55,7 @@ std::string contentOf(const SaveBatch& batch) noexcept {
 
 }  // namespace
 
-std::vector<ChunkRow> SaveBatch::editedChunks() const {
+std::vector<ChunkRow> editedOf(const WaitingChunks& chunks) {
     std::vector<ChunkRow> edited;
     for (const auto& [pos, chunk] : chunks)
         if (pos.level == 0 && chunk.provenance == Provenance::Edited) edited.push_back({pos, chunk.chunk});

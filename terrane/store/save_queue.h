@@ -25,6 +25,7 @@ namespace terrane::store {
 struct WaitingChunk {
     world::ChunkPtr chunk;
     Provenance provenance = Provenance::Generated;
+    std::int64_t version = 0;  // ChunkStore::setVersion()
 };
 
 // A row that is no chunk: to be moved aside if it still has the same bytes.
@@ -45,14 +46,16 @@ struct KeyOrder {
 
 using ChunkPosSet = std::set<world::ChunkPos, KeyOrder>;
 
+// Sorted by key: pages of a file are filled one after the other.
+using WaitingChunks = std::map<world::ChunkPos, WaitingChunk, KeyOrder>;
+std::vector<ChunkRow> editedOf(const WaitingChunks& chunks);  // of level 0
+
 struct SaveBatch {
-    // Sorted by key: pages of a file are filled one after the other.
-    std::map<world::ChunkPos, WaitingChunk, KeyOrder> chunks;
+    WaitingChunks chunks;
     std::map<std::string, std::string> metadata;
     std::list<DamagedRow> damaged;
 
     bool isEmpty() const { return chunks.empty() && metadata.empty() && damaged.empty(); }
-    std::vector<ChunkRow> editedChunks() const;  // of level 0
 };
 
 // A clock that a test sets, for queues without a thread: they write when writeIfDue() is called, by flush()

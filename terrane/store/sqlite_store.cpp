@@ -26,7 +26,8 @@ class SqliteRows : public SqliteReadRows<ChunkRows> {
     // Rows are derived before the transaction begins, and read what is in the file by other connections.
     base::Result<bool> write(const SaveBatch& batch, const ChunkPosSet& unread,
                              const DeriveBatch& derive) override {
-        const auto derived = derive([this](world::ChunkPos pos) { return reader_.read(pos); });
+        const auto derived =
+            derive(editedOf(batch.chunks), [this](world::ChunkPos pos) { return reader_.read(pos); });
         if (!derived) return tl::unexpected(derived.error());
         return writer_->write(batch, unread, *derived);
     }

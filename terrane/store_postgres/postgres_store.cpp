@@ -55,6 +55,7 @@ class PostgresRows : public PostgresReadRows<store::ChunkRows> {
                                  store::EntityBudget& budget) override {
         return writer_.deriveAll(rows, rules, budget);
     }
+    std::int64_t newestEdit() const { return contents_.newestEdit; }
     base::Result<void> change(const store::RowChanges& changes) override { return writer_.change(changes); }
 
   private:
@@ -63,13 +64,26 @@ class PostgresRows : public PostgresReadRows<store::ChunkRows> {
 
 }  // namespace
 
+namespace {
+
+base::Result<std::unique_ptr<PostgresRows>> openPostgresRows(const Address& address,
+                                                             const world::BlockRegistry& blocks,
+                                                             const store::SaveAccess& access,
+                                                             store::WorldSharing sharing, RetryTimes times) {
+    auto opened = openToWrite(address, blocks, access, sharing);
+    if (!opened) return tl::unexpected(opened.error());
+    return std::make_unique<PostgresRows>(address, times, std::move(*opened), sharing);
+}
+
+}  // namespace
+
 base::Result<std::unique_ptr<store::ChunkRows>> openRows(const Address& address,
                                                          const world::BlockRegistry& blocks,
                                                          const store::SaveAccess& access,
                                                          store::WorldSharing sharing, RetryTimes times) {
-    auto opened = openToWrite(address, blocks, access, sharing);
-    if (!opened) return tl::unexpected(opened.error());
-    return std::make_unique<PostgresRows>(address, times, std::move(*opened), sharing);
+    auto rows = openPostgresRows(address, blocks, access, sharing, times);
+    if (!rows) return tl::unexpected(rows.error());
+    return std::move(*rows);
 }
 
 base::Result<std::unique_ptr<store::ReadableRows>> openRowsToRead(const Address& address,
@@ -84,9 +98,12 @@ base::Result<std::unique_ptr<store::ReadableRows>> openRowsToRead(const Address&
 base::Result<std::unique_ptr<PostgresStore>> PostgresStore::open(
     const Address& address, const world::BlockRegistry& blocks, const store::SaveAccess& access,
     store::WorldSharing sharing, const store::SaveLimits& limits, RetryTimes times) {
-    auto rows = openRows(address, blocks, access, sharing, times);
+    auto rows = openPostgresRows(address, blocks, access, sharing, times);
     if (!rows) return tl::unexpected(rows.error());
-    return std::unique_ptr<PostgresStore>(new PostgresStore(std::move(*rows), limits));
+    const std::int64_t version = (*rows)->newestEdit();
+    std::unique_ptr<PostgresStore> store(new PostgresStore(std::move(*rows), limits));
+    store->setVersion(version);
+    return store;
 }
 
 base::Result<std::unique_ptr<store::ReadableStore>> openReader(const Address& address,

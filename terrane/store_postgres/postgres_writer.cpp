@@ -17,12 +17,19 @@ namespace {
 using store::ChunkRow;
 using store::Provenance;
 using store::StoredRow;
+using store::WaitingChunks;
 using world::ChunkPos;
 
+// Tiles are derived from what is there, so the last one is right.
 constexpr Statement kPutChunks = {
-    "INSERT INTO chunks (key, origin, data) SELECT * FROM unnest($1::bigint[], $2::smallint[], $3::bytea[]) "
-    "ON CONFLICT (key) DO UPDATE SET origin = excluded.origin, data = excluded.data "
-    "WHERE excluded.origin <> 0 OR chunks.origin = 0"};
+    "INSERT INTO chunks (key, origin, data, version) SELECT * FROM unnest($1::bigint[], $2::smallint[], "
+    "$3::bytea[], $4::bigint[]) ON CONFLICT (key) DO UPDATE SET origin = excluded.origin, data = "
+    "excluded.data, "
+    "version = excluded.version WHERE (excluded.origin <> 0 OR chunks.origin = 0) AND "
+    "(excluded.version >= chunks.version OR chunks.key >= 72057594037927936)"};  // 2^56
+constexpr Statement kNewer = {
+    "SELECT key FROM chunks JOIN unnest($1::bigint[], $2::bigint[]) AS batch(k, v) ON key = k WHERE version "
+    "> v"};
 constexpr Statement kReplaceChunks = {
     "INSERT INTO chunks (key, origin, data) SELECT * FROM unnest($1::bigint[], $2::smallint[], $3::bytea[]) "
     "ON CONFLICT (key) DO UPDATE SET origin = excluded.origin, data = excluded.data"};
@@ -97,10 +104,13 @@ base::Result<void> PostgresWriter::deriveAll(const store::DerivedRows& rows, std
 base::Result<bool> PostgresWriter::writeBatch(const store::SaveBatch& batch, const store::ChunkPosSet& unread,
                                               const store::DeriveBatch& derive) {
     isComplete_ = true;
-    if (!batch.editedChunks().empty())
+    if (!store::editedOf(batch.chunks).empty())
         if (auto locked = lockForTransaction(connection_, pool_.address(), WorldLock::Tiles); !locked)
             return tl::unexpected(locked.error());
-    const auto derived = derive([this](ChunkPos pos) { return readRow(connection_, pos); });
+    auto chunks = newestChunks(batch);
+    if (!chunks) return tl::unexpected(chunks.error());
+    const auto derived =
+        derive(store::editedOf(*chunks), [this](ChunkPos pos) { return readRow(connection_, pos); });
     if (!derived) return tl::unexpected(derived.error());
     isComplete_ = derived->isComplete;
     for (const store::DamagedRow& row : batch.damaged)
@@ -108,11 +118,7 @@ base::Result<bool> PostgresWriter::writeBatch(const store::SaveBatch& batch, con
     for (const ChunkPos pos : unread)
         if (auto done = putAside(pos, "could not be read when it was replaced"); !done)
             return tl::unexpected(done.error());
-    std::vector<ChunkRow> generated, edited;
-    for (const auto& [pos, chunk] : batch.chunks)
-        (chunk.provenance == Provenance::Edited ? edited : generated).push_back({pos, chunk.chunk});
-    if (auto done = writeChunks(generated, Provenance::Generated); !done) return tl::unexpected(done.error());
-    if (auto done = writeChunks(edited, Provenance::Edited); !done) return tl::unexpected(done.error());
+    if (auto done = writeChunks(*chunks); !done) return tl::unexpected(done.error());
     if (auto done = writeDerived(derived->rows); !done) return tl::unexpected(done.error());
     store::Metadata metadata(batch.metadata.begin(), batch.metadata.end());
     if (auto done = writeMetadata(metadata); !done) return tl::unexpected(done.error());
@@ -178,35 +184,53 @@ base::Result<void> PostgresWriter::writeMetadata(const store::Metadata& metadata
     return {};
 }
 
-// Rows in the order of their keys, so that two writers hardly ever wait for each other in a circle.
-// PostgreSQL ends that, and it is tried again.
-base::Result<void> PostgresWriter::writeChunks(std::span<const ChunkRow> rows, Provenance provenance) {
-    std::vector<std::int64_t> keys;
-    for (const ChunkRow& row : rows) keys.push_back(store::keyOf(row.pos));
+// The batch without chunks of which another server has written a newer snapshot.
+base::Result<WaitingChunks> PostgresWriter::newestChunks(const store::SaveBatch& batch) {
+    WaitingChunks chunks = batch.chunks;
+    std::vector<std::int64_t> keys, versions;
+    for (const ChunkRow& row : store::editedOf(chunks)) {
+        keys.push_back(store::keyOf(row.pos));
+        versions.push_back(chunks.at(row.pos).version);
+    }
+    if (keys.empty()) return chunks;
+    const auto newer = connection_.run(kNewer, Parameters().numbers(keys).numbers(versions));
+    if (!newer) return tl::unexpected(newer.error());
+    for (int row = 0; row < newer->count(); ++row) chunks.erase(store::posOf(newer->number(row, 0)));
+    return chunks;
+}
+
+// Rows in the order of their keys, so that two writers wait for each other, and not in a circle.
+base::Result<void> PostgresWriter::writeChunks(const WaitingChunks& chunks) {
+    std::vector<std::int64_t> keys, versions;
+    for (const auto& [pos, chunk] : chunks) keys.push_back(store::keyOf(pos));
     if (auto done = putAsideDamaged(keys); !done) return done;
-    const bool isEdited = provenance == Provenance::Edited;
     keys.clear();
+    std::vector<std::int16_t> origins;
     std::vector<store::Bytes> data;
     std::size_t bytes = 0;
     const auto put = [&]() -> base::Result<void> {
-        const std::vector<std::int16_t> origins(keys.size(), isEdited ? 1 : 0);
-        const auto done =
-            connection_.run(kPutChunks, Parameters().numbers(keys).smallNumbers(origins).byteStrings(data));
+        const auto done = connection_.run(
+            kPutChunks, Parameters().numbers(keys).smallNumbers(origins).byteStrings(data).numbers(versions));
         keys.clear();
+        versions.clear();
+        origins.clear();
         data.clear();
         bytes = 0;
         if (!done) return tl::unexpected(done.error());
         return {};
     };
-    for (const ChunkRow& row : rows) {
-        auto encoded = store::encodeChunk(*row.chunk, contents_.ids, store::checksumSeed(row.pos, isEdited));
+    for (const auto& [pos, chunk] : chunks) {
+        const bool isEdited = chunk.provenance == Provenance::Edited;
+        auto encoded = store::encodeChunk(*chunk.chunk, contents_.ids, store::checksumSeed(pos, isEdited));
         if (!encoded) {
-            base::logError("{}: {}: {}; it is not saved", connection_.shown(), store::nameOf(row.pos),
+            base::logError("{}: {}: {}; it is not saved", connection_.shown(), store::nameOf(pos),
                            encoded.error().message);
             isComplete_ = false;
             continue;
         }
-        keys.push_back(store::keyOf(row.pos));
+        keys.push_back(store::keyOf(pos));
+        versions.push_back(chunk.version);
+        origins.push_back(isEdited ? 1 : 0);
         bytes += encoded->size();
         data.push_back(std::move(*encoded));
         if (bytes < kBytesAtOnce) continue;
@@ -216,16 +240,15 @@ base::Result<void> PostgresWriter::writeChunks(std::span<const ChunkRow> rows, P
 }
 
 base::Result<void> PostgresWriter::writeDerived(std::span<const ChunkRow> rows) {
-    std::vector<ChunkRow> written;
+    WaitingChunks written;
     std::vector<std::int64_t> deleted;
     for (const ChunkRow& row : rows) {
         if (row.chunk)
-            written.push_back(row);
+            written.insert({row.pos, {row.chunk, Provenance::Edited}});
         else
             deleted.push_back(store::keyOf(row.pos));
     }
-    std::ranges::sort(written, {}, [](const ChunkRow& row) { return store::keyOf(row.pos); });
-    if (auto done = writeChunks(written, Provenance::Edited); !done || deleted.empty()) return done;
+    if (auto done = writeChunks(written); !done || deleted.empty()) return done;
     const auto done = connection_.run(kDeleteChunks, Parameters().numbers(deleted));
     if (!done) return tl::unexpected(done.error());
     return {};

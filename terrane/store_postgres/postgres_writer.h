@@ -40,7 +40,8 @@ class PostgresWriter {
     base::Result<void> putAside(world::ChunkPos pos, std::string_view reason);
     base::Result<void> putAsideDamaged(const std::vector<std::int64_t>& keys);
     base::Result<void> writeDerived(std::span<const store::ChunkRow> rows);
-    base::Result<void> writeChunks(std::span<const store::ChunkRow> rows, store::Provenance provenance);
+    base::Result<store::WaitingChunks> newestChunks(const store::SaveBatch& batch);
+    base::Result<void> writeChunks(const store::WaitingChunks& chunks);
     base::Result<void> changeRows(const store::RowChanges& changes);
     base::Result<void> writeMetadata(const store::Metadata& metadata);
 

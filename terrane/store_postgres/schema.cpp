@@ -8,13 +8,13 @@ namespace {
 using base::ErrorCode;
 
 // Data of chunks is compressed already. Rows up to a page stay in one place, which spares loading a look into
-// another table.
+// another table. `version`: the row has all edits of the history up to this one.
 constexpr const char* kWorldTables = R"(
 CREATE TABLE terrane_format (format integer NOT NULL);
 CREATE TABLE settings (name text COLLATE "C" PRIMARY KEY, value text NOT NULL);
 CREATE TABLE blocks (id integer PRIMARY KEY CHECK (id BETWEEN 0 AND 65535), name text COLLATE "C" NOT NULL UNIQUE);
-CREATE TABLE chunks (key bigint PRIMARY KEY, origin smallint NOT NULL CHECK (origin IN (0, 1)), data bytea NOT NULL)
-    WITH (toast_tuple_target = 8160);
+CREATE TABLE chunks (key bigint PRIMARY KEY, origin smallint NOT NULL CHECK (origin IN (0, 1)), data bytea NOT NULL,
+    version bigint NOT NULL DEFAULT 0) WITH (toast_tuple_target = 8160);
 ALTER TABLE chunks ALTER COLUMN data SET STORAGE EXTERNAL;
 CREATE INDEX edited_chunks ON chunks (key) WHERE origin = 1;
 CREATE TABLE quarantine (number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY, key bigint NOT NULL,
@@ -75,6 +75,7 @@ constexpr Column kColumns[] = {
     {"chunks", "key", "bigint"},
     {"chunks", "origin", "smallint"},
     {"chunks", "data", "bytea"},
+    {"chunks", "version", "bigint"},
     {"quarantine", "number", "bigint"},
     {"quarantine", "key", "bigint"},
     {"quarantine", "reason", "text"},

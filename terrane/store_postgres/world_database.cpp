@@ -23,7 +23,7 @@ constexpr Statement kCanWrite = {
     "SELECT has_table_privilege('chunks', 'INSERT') AND has_table_privilege('chunks', 'UPDATE') "
     "AND has_table_privilege('settings', 'INSERT'), current_setting('transaction_read_only') = 'on'"};
 constexpr Statement kSettings = {"SELECT name, value FROM settings"};
-constexpr Statement kUnsavedEdits = {"SELECT newest - saved FROM history"};
+constexpr Statement kHistory = {"SELECT newest, newest - saved FROM history"};
 constexpr Statement kBlocks = {"SELECT id, name FROM blocks ORDER BY id"};
 constexpr Statement kAddBlocks = {
     "INSERT INTO blocks (id, name) SELECT * FROM unnest($1::bigint[], $2::text[])"};
@@ -209,11 +209,15 @@ base::Result<void> regenerateIfAsked(Connection& connection, const Address& addr
     return done ? readContents(connection, blocks, contents) : done;
 }
 
-// What servers that were killed left in the history alone, which only servers add to the chunks.
-base::Result<void> requireSavedHistory(Connection& connection) {
-    const auto unsaved = connection.run(kUnsavedEdits);
-    if (!unsaved) return tl::unexpected(unsaved.error());
-    if (unsaved->count() == 1 && unsaved->number(0, 0) == 0) return {};
+// What servers that were killed left in the history alone, only servers add to the chunks.
+base::Result<void> readHistory(Connection& connection, WorldSharing sharing, WorldContents& contents) {
+    const auto history = connection.run(kHistory);
+    if (!history) return tl::unexpected(history.error());
+    if (history->count() != 1)
+        return base::fail(ErrorCode::Damaged, "{}: damaged: the table history has not one row",
+                          connection.shown());
+    contents.newestEdit = history->number(0, 0);
+    if (sharing != WorldSharing::Alone || history->number(0, 1) == 0) return {};
     return base::fail(ErrorCode::Incompatible,
                       "{}: a server was killed, and its last edits are in the history alone: start and stop "
                       "`terrane serve` on this world once",
@@ -226,8 +230,7 @@ base::Result<void> openContents(Connection& connection, const Address& address,
     if (auto done = makeCurrent(connection, address, access, contents); !done) return done;
     if (auto read = readContents(connection, blocks, contents); !read) return read;
     if (auto can = checkCanWrite(connection); !can) return can;
-    if (sharing == WorldSharing::Alone)
-        if (auto saved = requireSavedHistory(connection); !saved) return saved;
+    if (auto read = readHistory(connection, sharing, contents); !read) return read;
     if (auto done = regenerateIfAsked(connection, address, blocks, access, contents); !done) return done;
     const std::vector<SavedName>& added = contents.ids.added();
     if (added.empty()) return {};

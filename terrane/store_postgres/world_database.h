@@ -21,6 +21,7 @@ namespace terrane::store_postgres {
 struct WorldContents {
     bool isNew = false;
     int format = 0;
+    std::int64_t newestEdit = 0;  // of the servers' history; of a world that is opened to write
     store::Metadata metadata;
     store::WorldIdentity identity;
     store::BlockIdMap ids;

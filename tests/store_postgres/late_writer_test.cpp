@@ -1,0 +1,43 @@
+// Two servers write one chunk: a snapshot that comes late never replaces a newer one.
+#include "tests/store_postgres/world_fixture.h"
+
+namespace terrane::store_postgres {
+namespace {
+
+TEST(LateWriter, ReplacesNothingNewer) {
+    const Address address = addressIn(sharedServer(), freshSchema());
+    const world::BlockRegistry registry = store::testRegistry();
+    const auto open = [&] {
+        return PostgresStore::open(address, registry, kCreateWorld, store::WorldSharing::Servers,
+                                   store::kNever)
+            .value();
+    };
+    const auto early = open(), late = open();
+    const world::ChunkPos pos{3, -4};
+    early->setVersion(60);
+    early->save(pos, store::numberedChunk(60), store::Provenance::Edited);
+    ASSERT_TRUE(early->flush());
+    // What this server saved when it had heard less, and could not write until now.
+    late->setVersion(50);
+    late->save(pos, store::numberedChunk(50), store::Provenance::Edited);
+    std::size_t derived = 0;
+    late->setDerivedRows({[&](std::span<const store::ChunkRow> edited, const store::ReadEdited&) {
+                              derived += edited.size();
+                              return std::vector<store::ChunkRow>();
+                          },
+                          {}});
+    ASSERT_TRUE(late->flush());
+    EXPECT_EQ(*early->load(pos).chunk, *store::numberedChunk(60));
+    EXPECT_EQ(derived, 0u) << "no tile follows from what is not written";
+    // As new or newer: it does.
+    for (const int version : {60, 61}) {
+        late->setVersion(version);
+        late->save(pos, store::numberedChunk(version + 100), store::Provenance::Edited);
+        ASSERT_TRUE(late->flush());
+        EXPECT_EQ(*early->load(pos).chunk, *store::numberedChunk(version + 100));
+    }
+    EXPECT_EQ(derived, 2u);
+}
+
+}  // namespace
+}  // namespace terrane::store_postgres
