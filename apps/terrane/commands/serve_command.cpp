@@ -1,11 +1,10 @@
 // terrane serve: a world for several players over a network.
-#include <unistd.h>
-
 #include <boost/asio/io_context.hpp>
 #include <filesystem>
 #include <memory>
 
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/machine_name.h"
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/serve/open_file_limit.h"
@@ -40,9 +39,7 @@ std::string publicAddress(const ServeOptions& options, std::uint16_t port) {
     if (!options.publicAddress.empty()) return options.publicAddress;
     const std::string& address = options.listen.address;
     const bool isAll = address == "::" || address == "0.0.0.0";
-    char host[256] = "localhost";
-    if (isAll) (void)::gethostname(host, sizeof host - 1);
-    const std::string name = isAll ? host : address;
+    const std::string name = isAll ? machineName() : address;
     return name.find(':') == std::string::npos ? fmt::format("{}:{}", name, port)
                                                : fmt::format("[{}]:{}", name, port);
 }
@@ -90,8 +87,7 @@ CommandEntry addServe(CLI::App& app) {
         "Commands on standard input, for operators in the chat behind a slash:\n" + net::consoleHelp() +
         "\n\nSIGTERM saves and ends, as `stop` does. The server's file NAME.server.sqlite (players, "
         "claims, history) and\nits key NAME.server.pem lie beside the world. Several servers may serve one "
-        "world in a "
-        "database.");
+        "world in a database.");
     return {command, [options, command] { return serve(*options, *command); }};
 }
 

@@ -1,6 +1,4 @@
 // terrane work: generates areas of a world in a database, with any number of machines.
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -9,9 +7,10 @@
 
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/machine_name.h"
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/work/worker.h"
+#include "apps/terrane/worker/worker.h"
 #include "terrane/base/log.h"
 #include "terrane/base/printable.h"
 #include "terrane/base/stop_signals.h"
@@ -83,12 +82,6 @@ base::Result<void> printStatus(store_postgres::ConnectionPool& pool, bool json) 
     return {};
 }
 
-std::string workerName() {
-    char host[256] = "";
-    if (::gethostname(host, sizeof host - 1) != 0) return fmt::format("process {}", ::getpid());
-    return fmt::format("{} process {}", host, ::getpid());
-}
-
 base::Result<void> addArea(store_postgres::ConnectionPool& pool, const WorkOptions& options) {
     if (!options.radius && !options.area) return {};
     const int r = options.radius.value_or(0);
@@ -108,7 +101,7 @@ base::Result<void> runWorker(WorkOptions& options, store_postgres::ConnectionPoo
     const base::StopSignals signals;
     const auto start = std::chrono::steady_clock::now();
     const auto result = work(
-        {*generator->worker, store, pool, workerName(), options.waits, [&] { return signals.stopAsked(); }});
+        {*generator->worker, store, pool, processName(), options.waits, [&] { return signals.stopAsked(); }});
     if (!result) return tl::unexpected(result.error());
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const double rate = static_cast<double>(result->chunks) / std::max(seconds, 1e-3);

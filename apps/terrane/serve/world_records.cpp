@@ -1,7 +1,6 @@
 #include "apps/terrane/serve/world_records.h"
 
-#include <unistd.h>
-
+#include "apps/terrane/machine_name.h"
 #include "terrane/base/digest.h"
 #include "terrane/net/sqlite_records.h"
 #include "terrane/net_postgres/postgres_records.h"
@@ -12,12 +11,6 @@ namespace {
 
 bool isInDatabase(const store::WorldLocation& world) {
     return world.kind == store::WorldLocation::Kind::Url && store_postgres::isPostgresUrl(world.text);
-}
-
-std::string serverName() {
-    char host[256] = "";
-    if (::gethostname(host, sizeof host - 1) != 0) return fmt::format("process {}", ::getpid());
-    return fmt::format("{} process {}", host, ::getpid());
 }
 
 }  // namespace
@@ -33,7 +26,7 @@ base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
     }
     const auto address = store_postgres::addressOf(world.text);
     if (!address) return tl::unexpected(address.error());
-    auto records = net_postgres::PostgresRecords::open(*address, blocks, {serverName(), "", ""});
+    auto records = net_postgres::PostgresRecords::open(*address, blocks, {processName(), "", ""});
     if (!records) return tl::unexpected(records.error());
     net_postgres::PostgresRecords* shared = records->get();
     return WorldRecords{std::move(*records), [shared](const std::string& at, const std::string& key) {

@@ -1,4 +1,4 @@
-#include "apps/terrane/work/worker.h"
+#include "apps/terrane/worker/worker.h"
 
 #include <algorithm>
 #include <chrono>
