@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/ui_style.h"
 #include "terrane/net/client_socket.h"
 #include "terrane/net/people.h"
