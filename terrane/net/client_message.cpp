@@ -1,5 +1,6 @@
 #include "terrane/net/client_message.h"
 
+#include "terrane/net/chunk_difference.h"
 #include "terrane/net/message_codec.h"
 
 namespace terrane::net {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "terrane/base/result.h"
 #include "terrane/net/wire.h"
 
 namespace boost::asio {
