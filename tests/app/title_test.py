@@ -4,6 +4,7 @@
 Needs what window_test.py needs."""
 import contextlib
 import re
+import signal
 import sqlite3
 import subprocess
 import time
@@ -47,6 +48,13 @@ class Player(window_test.Game):
         while self.process.poll() is None and self.pixels() == before and time.monotonic() < deadline:
             time.sleep(0.02)
         self.display.xdotool("keyup", key)
+        self.settle()
+
+    def press_within_a_frame(self, key):
+        """The program sleeps while the key goes down and up."""
+        self.process.send_signal(signal.SIGSTOP)
+        self.press(key)
+        self.process.send_signal(signal.SIGCONT)
         self.settle()
 
     def choose(self, *keys):
@@ -173,6 +181,20 @@ class Title(TitleScript):
             player.hold("Escape")
             self.quit(player)
         self.assertTrue(self.succeed("check", self.worlds / f"{self.names()[0]}.sqlite").endswith("good\n"))
+
+    def test_keys_that_are_down_within_one_frame(self):
+        self.worlds.mkdir(exist_ok=True)
+        self.succeed("generate", "--world", self.worlds / "home.sqlite", "--radius", "1", "--generator", "flat")
+        with window_test.Display() as display:
+            player = self.open(display)
+            for key in ("Down", "Return", "Down", "Right", "Right", "Return"):  # Worlds, Rename
+                player.press_within_a_frame(key)
+            player.display.xdotool("type", "--delay", "200", "hut")
+            player.press_within_a_frame("Return")
+            player.wait_for(lambda: self.names() == ["hut"])
+            player.settle()
+            player.press_within_a_frame("Escape")
+            self.quit(player)
 
     def test_settings_are_kept(self):
         settings = self.folder / "terrane" / "settings.toml"

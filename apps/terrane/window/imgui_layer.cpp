@@ -5,6 +5,8 @@
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
 
+#include <algorithm>
+
 #include "apps/terrane/window/font.h"
 
 #include "apps/terrane/window/ui_style.h"
@@ -12,7 +14,23 @@
 namespace terrane::app {
 namespace {
 
+struct UiKey {
+    Key key;
+    ImGuiKey imguiKey;
+};
+
+constexpr UiKey kUiKeys[] = {
+    {Key::Enter, ImGuiKey_Enter},      {Key::Escape, ImGuiKey_Escape}, {Key::Space, ImGuiKey_Space},
+    {Key::Tab, ImGuiKey_Tab},          {Key::Delete, ImGuiKey_Delete}, {Key::Left, ImGuiKey_LeftArrow},
+    {Key::Right, ImGuiKey_RightArrow}, {Key::Up, ImGuiKey_UpArrow},    {Key::Down, ImGuiKey_DownArrow}};
+
 constexpr float kFontPixels = 13;  // of Dear ImGui's own font, for which all sizes here are meant
+
+// In Dear ImGui's array of keys; -1 for a key that it does not use.
+int indexOf(Key key) {
+    const auto* found = std::ranges::find(kUiKeys, key, &UiKey::key);
+    return found == std::end(kUiKeys) ? -1 : ImGui::GetKeyIndex(found->imguiKey);
+}
 
 // Drawn again in the size that it has on the screen, so that it is sharp.
 void setFont(float pixels) {
@@ -53,9 +71,24 @@ void ImguiLayer::beginFrame(bool isCursorCaptured, bool isInMenu) {
     }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    holdShortPresses();
     if (isInMenu) activateByEnter();
     followScale();
     ImGui::NewFrame();
+}
+
+// Dear ImGui 1.86 sees only which keys are down when a frame begins. A key that went down and up since the
+// last frame counts as down for one frame.
+void ImguiLayer::holdShortPresses() {
+    bool(&isDown)[IM_ARRAYSIZE(ImGuiIO::KeysDown)] = ImGui::GetIO().KeysDown;
+    for (const Key key : shortPresses_) isDown[indexOf(key)] = window_->keyDown(key);
+    shortPresses_.clear();
+    for (const InputEvent& event : window_->events()) {
+        if (event.type != InputEvent::Type::KeyPress || indexOf(event.key) < 0 || window_->keyDown(event.key))
+            continue;
+        shortPresses_.push_back(event.key);
+        isDown[indexOf(event.key)] = true;
+    }
 }
 
 // Enter chooses, as Space does. One that ends the typing chooses nothing, however long it is held.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <vector>
 
 #include "apps/terrane/window/window.h"
 
@@ -37,6 +38,7 @@ class ImguiLayer {
         bool operator==(const Scale&) const = default;
     };
     void followScale();
+    void holdShortPresses();
     void activateByEnter();
 
     const Window* window_;
@@ -45,6 +47,7 @@ class ImguiLayer {
     float textSize_ = 1;
     Enter enter_ = Enter::Up;
     Scale scale_;
+    std::vector<Key> shortPresses_;  // down and up within the last frame
 };
 
 // How much larger than designed the user interface is drawn, in Dear ImGui's units. During a frame.
