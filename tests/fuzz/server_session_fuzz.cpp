@@ -11,6 +11,7 @@
 #include "terrane/net/frames.h"
 #include "terrane/net/server_console.h"
 #include "terrane/net/server_host.h"
+#include "terrane/net/sqlite_records.h"
 #include "terrane/store/memory_store.h"
 #include "terrane/store/structure_file.h"
 #include "tests/fuzz/fuzz_folder.h"
@@ -43,7 +44,8 @@ net::ServerHost openHost() {
     auto store =
         std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "flat", gen::generatorVersion("flat")});
     game::SessionParts parts{std::move(blocks), std::move(generators), std::move(store), 1};
-    return net::openServerHost(std::move(parts), fuzz::fuzzFolder() / "w.server.sqlite", {}, "fuzz").value();
+    auto records = net::SqliteRecords::open(fuzz::fuzzFolder() / "w.server.sqlite", *parts.blocks).value();
+    return net::openServerHost(std::move(parts), std::move(records), {}, "fuzz").value();
 }
 
 class FuzzServer {
@@ -266,8 +268,9 @@ class FuzzServer {
     }
     void forgetHistory() {
         forgotten_ = server().history.newest;
-        server().file.write([](store::Database& database) { return database.execute("DELETE FROM edits"); });
-        require(server().file.flush().has_value());
+        auto& records = static_cast<net::SqliteRecords&>(server().records);
+        records.file().write([](store::Database& database) { return database.execute("DELETE FROM edits"); });
+        require(records.flush().has_value());
     }
 
     net::ServerHost host_;
