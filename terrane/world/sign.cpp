@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <span>
 
+#include "terrane/base/utf8.h"
 #include "terrane/world/block_model.h"
 
 namespace terrane::world {
@@ -17,37 +18,15 @@ bool isControl(char32_t c) {
     return c < 0x20 || (c >= 0x7F && c < 0xA0);
 }
 
-// How many bytes a character has that begins so; 0 for none.
-std::size_t lengthOf(unsigned char first) {
-    if (first < 0x80) return 1;
-    if (first >= 0xC2 && first < 0xE0) return 2;
-    if (first >= 0xE0 && first < 0xF0) return 3;
-    return first >= 0xF0 && first < 0xF5 ? 4 : 0;
-}
-
-bool isCharacter(char32_t c, std::size_t length) {
-    constexpr std::array<char32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
-    const bool isSurrogate = c >= 0xD800 && c < 0xE000;
-    return c >= kLeast[length] && c <= 0x10FFFF && !isSurrogate;
-}
-
 }  // namespace
 
 std::optional<std::u32string> charactersOf(std::string_view utf8) {
     std::u32string characters;
     while (!utf8.empty()) {
-        const auto first = static_cast<unsigned char>(utf8.front());
-        const std::size_t length = lengthOf(first);
-        if (length == 0 || length > utf8.size()) return std::nullopt;
-        char32_t c = length == 1 ? first : first & (0x7Fu >> length);
-        for (std::size_t k = 1; k < length; ++k) {
-            const auto next = static_cast<unsigned char>(utf8[k]);
-            if ((next & 0xC0) != 0x80) return std::nullopt;
-            c = c << 6 | (next & 0x3Fu);
-        }
-        if (!isCharacter(c, length)) return std::nullopt;
-        characters.push_back(c);
-        utf8.remove_prefix(length);
+        const base::Character next = base::firstCharacter(utf8);
+        if (next.bytes == 0) return std::nullopt;
+        characters.push_back(next.code);
+        utf8.remove_prefix(next.bytes);
     }
     return characters;
 }
