@@ -36,7 +36,11 @@ base::Result<net::History> readHistory(const store_postgres::Address& address,
     const auto kept = std::make_shared<store_postgres::WorldConnection>(std::move(*world));
     history.forEachEdit = [kept](const net::EditFilter& filter, net::EditOrder order,
                                  const net::UseEdit& use) {
-        return readEdits(kept->connection, kept->contents.ids, filter, order, use);
+        return net_postgres::forEachEdit(
+            [&](std::optional<std::int64_t> last) {
+                return readEdits(kept->connection, kept->contents.ids, filter, order, last);
+            },
+            use);
     };
     return history;
 }
@@ -122,7 +126,12 @@ base::Result<net::HistoryEnds> PostgresRecords::historyEnds() {
 }
 base::Result<void> PostgresRecords::forEachEdit(const net::EditFilter& filter, net::EditOrder order,
                                                 const net::UseEdit& use) {
-    return pool_.run<void>([&](Connection& c) { return readEdits(c, ids_, filter, order, use); });
+    return net_postgres::forEachEdit(
+        [&](std::optional<std::int64_t> last) {
+            return pool_.run<EditPage>(
+                [&](Connection& c) { return readEdits(c, ids_, filter, order, last); });
+        },
+        use);
 }
 
 void PostgresRecords::addPlayer(const net::KnownPlayer& player) {

@@ -1,6 +1,7 @@
 #include "terrane/net_postgres/record_rows.h"
 
 #include <limits>
+#include <utility>
 
 #include "terrane/game/pose_text.h"
 #include "terrane/net/record_values.h"
@@ -50,8 +51,6 @@ constexpr Statement kJoined = {
     "INSERT INTO online (player, server) SELECT $1, number FROM servers WHERE number = $2 "
     "ON CONFLICT (player) DO UPDATE SET server = excluded.server"};
 constexpr Statement kLeft = {"DELETE FROM online WHERE player = $1 AND server = $2"};
-constexpr Statement kForget = {"DELETE FROM servers WHERE number = $1"};
-constexpr Statement kForgetLeases = {"DELETE FROM growth_leases WHERE server = $1"};
 constexpr Statement kSetSaved = {"UPDATE history SET saved = least(newest, greatest(saved, $1))"};
 constexpr Statement kSkipNumber = {
     "SELECT setval('player_numbers', greatest($1, (SELECT last_value FROM player_numbers)))"};
@@ -120,36 +119,45 @@ base::Result<net::HistoryEnds> readEnds(Connection& connection) {
     return net::HistoryEnds{rows->number(0, 0), rows->number(0, 1)};
 }
 
-base::Result<void> readEdits(Connection& connection, const store::BlockIdMap& ids,
-                             const net::EditFilter& filter, net::EditOrder order, const net::UseEdit& use) {
+base::Result<EditPage> readEdits(Connection& connection, const store::BlockIdMap& ids,
+                                 const net::EditFilter& filter, net::EditOrder order,
+                                 std::optional<std::int64_t> last) {
     const bool isUp = order == net::EditOrder::OldestFirst;
     const net::KeyRange chunks =
         filter.area ? net::chunkKeys(*filter.area) : net::KeyRange{kLowest, kHighest};
-    std::int64_t above = filter.afterNumber, below = kHighest;
-    while (true) {
-        const auto rows = connection.run(isUp ? kEditsUp : kEditsDown,
-                                         Parameters()
-                                             .number(above)
-                                             .number(below)
-                                             .number(filter.player ? std::int64_t{*filter.player} : -1)
-                                             .number(filter.sinceMs.value_or(kLowest))
-                                             .number(filter.untilMs.value_or(kHighest))
-                                             .number(chunks.first)
-                                             .number(chunks.last)
-                                             .number(kEditsInPage));
-        if (!rows) return tl::unexpected(rows.error());
-        for (int row = 0; row < rows->count(); ++row) {
-            (isUp ? above : below) = rows->number(row, 0);
-            const auto edit =
-                net::decodeEdit({rows->number(row, 0), rows->number(row, 1), rows->number(row, 2),
-                                 rows->number(row, 3), rows->bytes(row, 4)},
-                                ids);
-            if (!edit) return tl::unexpected(edit.error());
-            if (!net::isInArea(*edit, filter)) continue;
-            if (auto used = use(*edit); !used) return used;
-        }
-        if (rows->count() < kEditsInPage) return {};
+    const auto rows = connection.run(isUp ? kEditsUp : kEditsDown,
+                                     Parameters()
+                                         .number(isUp && last ? *last : filter.afterNumber)
+                                         .number(!isUp && last ? *last : kHighest)
+                                         .number(filter.player ? std::int64_t{*filter.player} : -1)
+                                         .number(filter.sinceMs.value_or(kLowest))
+                                         .number(filter.untilMs.value_or(kHighest))
+                                         .number(chunks.first)
+                                         .number(chunks.last)
+                                         .number(kEditsInPage));
+    if (!rows) return tl::unexpected(rows.error());
+    EditPage page;
+    for (int row = 0; row < rows->count(); ++row) {
+        auto edit = net::decodeEdit({rows->number(row, 0), rows->number(row, 1), rows->number(row, 2),
+                                     rows->number(row, 3), rows->bytes(row, 4)},
+                                    ids);
+        if (!edit) return tl::unexpected(edit.error());
+        if (net::isInArea(*edit, filter)) page.edits.push_back(std::move(*edit));
     }
+    if (rows->count() == kEditsInPage) page.last = rows->number(rows->count() - 1, 0);
+    return page;
+}
+
+base::Result<void> forEachEdit(const ReadEditPage& read, const net::UseEdit& use) {
+    std::optional<std::int64_t> last;
+    do {
+        const auto page = read(last);
+        if (!page) return tl::unexpected(page.error());
+        for (const net::LoggedEdit& edit : page->edits)
+            if (auto used = use(edit); !used) return used;
+        last = page->last;
+    } while (last);
+    return {};
 }
 
 Command addPlayerCommand(const net::KnownPlayer& player) {
@@ -203,9 +211,6 @@ Command setSavedCommand(std::int64_t number) {
 }
 Command skipPlayerNumberCommand(game::PlayerId player) {
     return {&kSkipNumber, Parameters().number(std::int64_t{player})};
-}
-std::vector<Command> removeServerCommands(std::int64_t server) {
-    return {{&kForget, Parameters().number(server)}, {&kForgetLeases, Parameters().number(server)}};
 }
 
 base::Result<std::vector<game::PlayerId>> takePlayerNumbers(Connection& connection, std::size_t count) {

@@ -2,6 +2,7 @@
 // commands that write them.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -17,11 +18,18 @@ namespace terrane::net_postgres {
 [[nodiscard]] base::Result<std::string> readText(store_postgres::Connection& connection,
                                                  const std::string& name);
 [[nodiscard]] base::Result<net::HistoryEnds> readEnds(store_postgres::Connection& connection);
-// As net::ServerRecords::forEachEdit(): in pages, so that a long history takes no more memory than a short
-// one.
-[[nodiscard]] base::Result<void> readEdits(store_postgres::Connection& connection,
-                                           const store::BlockIdMap& ids, const net::EditFilter& filter,
-                                           net::EditOrder order, const net::UseEdit& use);
+// A part of the history, so that a long one takes no more memory than a short one.
+struct EditPage {
+    std::vector<net::LoggedEdit> edits;  // that the filter means
+    std::optional<std::int64_t> last;    // the number of the last one that was looked at; none at the end
+};
+// The edits behind `last`, or the first ones.
+[[nodiscard]] base::Result<EditPage> readEdits(store_postgres::Connection& connection,
+                                               const store::BlockIdMap& ids, const net::EditFilter& filter,
+                                               net::EditOrder order, std::optional<std::int64_t> last);
+// As net::ServerRecords::forEachEdit(). A page that is read again where the connection broke is used once.
+using ReadEditPage = std::function<base::Result<EditPage>(std::optional<std::int64_t> last)>;
+[[nodiscard]] base::Result<void> forEachEdit(const ReadEditPage& read, const net::UseEdit& use);
 
 // Inserts nothing where another player has the key or the name.
 store_postgres::Command addPlayerCommand(const net::KnownPlayer& player);
@@ -35,7 +43,6 @@ store_postgres::Command leftCommand(game::PlayerId player, std::int64_t server);
 store_postgres::Command setSavedCommand(std::int64_t number);
 // Numbers of players go on above this one.
 store_postgres::Command skipPlayerNumberCommand(game::PlayerId player);
-std::vector<store_postgres::Command> removeServerCommands(std::int64_t server);
 
 [[nodiscard]] base::Result<std::vector<game::PlayerId>> takePlayerNumbers(
     store_postgres::Connection& connection, std::size_t count);

@@ -176,10 +176,7 @@ base::Result<void> PostgresRecords::sendNotes() {
         for (; !notes_.empty() && commands.size() < kNotesAtOnce; notes_.pop_front())
             commands.push_back(notifyCommand(channel_, server_, notes_.front()));
     }
-    if (commands.empty()) return {};
-    const auto sent = connection_->runAll(commands);
-    if (!sent) return tl::unexpected(sent.error());
-    return {};
+    return commands.empty() ? base::Result<void>() : connection_->changeAll(commands);
 }
 
 base::Result<void> PostgresRecords::beatIfDue() {

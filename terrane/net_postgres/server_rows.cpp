@@ -47,13 +47,14 @@ base::Result<std::int64_t> addServer(Connection& connection, const ServerName& n
     return rows->number(0, 0);
 }
 
+std::vector<Command> removeServerCommands(std::int64_t server) {
+    return {{&kRemoveServer, Parameters().number(server)}, {&kRemoveLeases, Parameters().number(server)}};
+}
+
 base::Result<void> removeServer(Connection& connection, std::int64_t server, std::int64_t saved) {
-    const std::vector<Command> commands = {{&kRemoveServer, Parameters().number(server)},
-                                           {&kRemoveLeases, Parameters().number(server)},
-                                           {&kRaiseSaved, Parameters().number(saved)}};
-    const auto done = connection.runAll(commands);
-    if (!done) return tl::unexpected(done.error());
-    return {};
+    std::vector<Command> commands = removeServerCommands(server);
+    commands.push_back({&kRaiseSaved, Parameters().number(saved)});
+    return connection.changeAll(commands);
 }
 
 base::Result<BeatAnswer> beat(Connection& connection, const ServerName& name, const ServerBeat& state) {

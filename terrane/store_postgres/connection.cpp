@@ -262,15 +262,16 @@ bool Connection::isUsable() const {
 }
 
 // Queues a statement, and before it what prepares it. Notes what each will answer.
-bool Connection::send(const Command& command, std::vector<const Statement*>& prepares) {
+bool Connection::send(const Queued& queued, std::vector<const Statement*>& prepares) {
     PGconn* raw = connection_.get();
-    const Parameters& parameters = command.parameters;
+    const Statement* statement = queued.statement;
+    const Parameters& parameters = *queued.parameters;
     const auto count = static_cast<int>(parameters.values_.size());
-    const std::string name = nameOf(*command.statement);
-    if (!prepared_.contains(command.statement) && std::ranges::count(prepares, command.statement) == 0) {
+    const std::string name = nameOf(*statement);
+    if (!prepared_.contains(statement) && std::ranges::count(prepares, statement) == 0) {
         const std::vector<Oid> types(parameters.types_.begin(), parameters.types_.end());
-        if (!PQsendPrepare(raw, name.c_str(), command.statement->sql, count, types.data())) return false;
-        prepares.push_back(command.statement);
+        if (!PQsendPrepare(raw, name.c_str(), statement->sql, count, types.data())) return false;
+        prepares.push_back(statement);
     }
     std::vector<const char*> values;
     std::vector<int> lengths;
@@ -313,13 +314,13 @@ base::Result<void> Connection::collect(std::vector<Rows>& rows) {
     return done;
 }
 
-base::Result<std::vector<Rows>> Connection::runAll(std::span<const Command> commands) {
+base::Result<std::vector<Rows>> Connection::runQueued(std::span<const Queued> queue) {
     PGconn* raw = connection_.get();
     if (!isUsable()) return base::fail(ErrorCode::Io, "{}: the connection is lost", shown_);
     if (!PQenterPipelineMode(raw)) return tl::unexpected(errorOf(nullptr));
     std::vector<const Statement*> prepares;  // of each result; null: it is an answer
     bool isSent = true;
-    for (const Command& command : commands) isSent = isSent && send(command, prepares);
+    for (const Queued& queued : queue) isSent = isSent && send(queued, prepares);
     isSent = isSent && PQpipelineSync(raw) != 0;
     if (!isSent) {
         base::Error error = errorOf(nullptr);
@@ -337,16 +338,30 @@ base::Result<std::vector<Rows>> Connection::runAll(std::span<const Command> comm
             answers.push_back(std::move(results[k]));
     }
     if (!done) return tl::unexpected(done.error());
-    if (answers.size() == commands.size()) return answers;
+    if (answers.size() == queue.size()) return answers;
     return base::fail(ErrorCode::Io, "{}: it gave {} answers to {} statements", shown_, answers.size(),
-                      commands.size());
+                      queue.size());
+}
+
+base::Result<std::vector<Rows>> Connection::runAll(std::span<const Command> commands) {
+    std::vector<Queued> queue;
+    for (const Command& command : commands) queue.push_back({command.statement, &command.parameters});
+    return runQueued(queue);
 }
 
 base::Result<Rows> Connection::run(const Statement& statement, const Parameters& parameters) {
-    const Command command{&statement, parameters};
-    auto rows = runAll(std::span(&command, 1));
+    const Queued queued{&statement, &parameters};
+    auto rows = runQueued(std::span(&queued, 1));
     if (!rows) return tl::unexpected(rows.error());
     return std::move(rows->front());
+}
+
+base::Result<void> Connection::change(const Statement& statement, const Parameters& parameters) {
+    return run(statement, parameters).map([](const Rows&) {});
+}
+
+base::Result<void> Connection::changeAll(std::span<const Command> commands) {
+    return runAll(commands).map([](const std::vector<Rows>&) {});
 }
 
 base::Result<void> Connection::execute(const std::string& sql) {

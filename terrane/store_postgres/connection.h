@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "terrane/base/result.h"
@@ -84,11 +85,14 @@ class Connection {
     // password is wrong.
     [[nodiscard]] static base::Result<Connection> open(const Address& address);
 
-    // One statement, or several without parameters.
     [[nodiscard]] base::Result<Rows> run(const Statement& statement, const Parameters& parameters = {});
-    [[nodiscard]] base::Result<void> execute(const std::string& sql);
     // All in one round trip (pipeline mode), as one transaction: all or nothing.
     [[nodiscard]] base::Result<std::vector<Rows>> runAll(std::span<const Command> commands);
+    // The same where nobody asks for the rows.
+    [[nodiscard]] base::Result<void> change(const Statement& statement, const Parameters& parameters = {});
+    [[nodiscard]] base::Result<void> changeAll(std::span<const Command> commands);
+    // One statement or several without parameters, as text.
+    [[nodiscard]] base::Result<void> execute(const std::string& sql);
 
     // A name as SQL has it, quoted.
     std::string quoted(std::string_view name) const;
@@ -108,7 +112,12 @@ class Connection {
     base::Error errorOf(const pg_result* result) const;
     base::Error failureOf(const pg_result* result);
     std::string nameOf(const Statement& statement) const;
-    bool send(const Command& command, std::vector<const Statement*>& prepares);
+    struct Queued {
+        const Statement* statement;
+        const Parameters* parameters;
+    };
+    base::Result<std::vector<Rows>> runQueued(std::span<const Queued> queue);
+    bool send(const Queued& queued, std::vector<const Statement*>& prepares);
     base::Result<void> collect(std::vector<Rows>& rows);
 
     std::unique_ptr<pg_conn, Close> connection_;
@@ -116,13 +125,16 @@ class Connection {
     std::set<const Statement*> prepared_;
 };
 
-// Runs `action` in a transaction, which is undone where it fails.
+// Runs `action`, which gives a base::Result, in a transaction, which is undone where it fails.
 template <class Do>
-[[nodiscard]] base::Result<void> inTransaction(Connection& connection, Do action) {
-    if (auto begun = connection.execute("BEGIN"); !begun) return begun;
-    base::Result<void> done = action();
-    if (done) return connection.execute("COMMIT");
-    if (connection.isUsable()) (void)connection.execute("ROLLBACK");
+[[nodiscard]] std::invoke_result_t<Do> inTransaction(Connection& connection, Do action) {
+    if (auto begun = connection.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
+    auto done = action();
+    if (!done) {
+        if (connection.isUsable()) (void)connection.execute("ROLLBACK");
+        return done;
+    }
+    if (auto committed = connection.execute("COMMIT"); !committed) return tl::unexpected(committed.error());
     return done;
 }
 

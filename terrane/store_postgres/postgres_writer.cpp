@@ -5,6 +5,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
+#include "terrane/base/utf8.h"
 #include "terrane/store/chunk_codec.h"
 #include "terrane/store/chunk_key.h"
 #include "terrane/store_postgres/postgres_rows.h"
@@ -45,21 +46,7 @@ constexpr std::size_t kBytesAtOnce = 8 << 20;
 
 // PostgreSQL keeps text that is UTF-8 without zeros.
 bool isText(std::string_view text) {
-    if (text.find('\0') != std::string_view::npos) return false;
-    for (std::size_t at = 0; at < text.size();) {
-        const auto lead = static_cast<unsigned char>(text[at]);
-        const std::size_t length = lead < 0x80 ? 1 : lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-        if ((lead >= 0x80 && lead < 0xC2) || lead > 0xF4 || at + length > text.size()) return false;
-        for (std::size_t k = 1; k < length; ++k)
-            if ((static_cast<unsigned char>(text[at + k]) & 0xC0) != 0x80) return false;
-        const auto second = length > 1 ? static_cast<unsigned char>(text[at + 1]) : 0;
-        // Too long a form, halves of a pair, beyond the last character.
-        if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
-            (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F))
-            return false;
-        at += length;
-    }
-    return true;
+    return text.find('\0') == std::string_view::npos && base::isUtf8(text);
 }
 
 }  // namespace
@@ -76,15 +63,7 @@ base::Result<T> PostgresWriter::inTransaction(Do action) {
             if (!connection) return tl::unexpected(connection.error());
             connection_ = std::move(*connection);
         }
-        if (auto begun = connection_.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
-        base::Result<T> done = action();
-        if (done) {
-            auto committed = connection_.execute("COMMIT");
-            if (!committed) return tl::unexpected(committed.error());
-        } else if (connection_.isUsable()) {
-            (void)connection_.execute("ROLLBACK");
-        }
-        return done;
+        return store_postgres::inTransaction(connection_, action);
     });
 }
 
@@ -130,8 +109,8 @@ base::Result<void> PostgresWriter::deriveRows(const store::DerivedRows& rows, st
     isComplete_ = true;
     if (auto locked = lockForTransaction(connection_, pool_.address(), WorldLock::Tiles); !locked)
         return locked;
-    const auto deleted = connection_.run(kDeleteTiles, Parameters().number(store::kFirstTileKey));
-    if (!deleted) return tl::unexpected(deleted.error());
+    auto deleted = connection_.change(kDeleteTiles, Parameters().number(store::kFirstTileKey));
+    if (!deleted) return deleted;
     auto edited = readEditedChunks(connection_);
     if (!edited) return tl::unexpected(edited.error());
     store::SavedRows saved([this](ChunkPos pos) { return readRow(connection_, pos); }, contents_.ids, budget);
@@ -141,9 +120,7 @@ base::Result<void> PostgresWriter::deriveRows(const store::DerivedRows& rows, st
     auto derived = store::deriveInGroups(rows, std::move(*edited), saved.reader(), write);
     if (!derived) return derived;
     if (!saved.result()) return saved.result();
-    const auto marked = connection_.run(kPutSetting, Parameters().text(store::kDerivedRowsMark).text(rules));
-    if (!marked) return tl::unexpected(marked.error());
-    return {};
+    return connection_.change(kPutSetting, Parameters().text(store::kDerivedRowsMark).text(rules));
 }
 
 base::Result<void> PostgresWriter::change(const store::RowChanges& changes) {
@@ -160,11 +137,12 @@ base::Result<void> PostgresWriter::changeRows(const store::RowChanges& changes) 
         origins.push_back(row.row.provenance == Provenance::Edited ? 1 : 0);
         data.push_back(row.row.data);
     }
-    const std::vector<Command> commands = {
-        {&kReplaceChunks, Parameters().numbers(keys).smallNumbers(origins).byteStrings(data)},
-        {&kDeleteChunks, Parameters().numbers(changes.deleted)}};
-    const auto done = connection_.runAll(commands);
-    if (!done) return tl::unexpected(done.error());
+    const auto rows = Parameters().numbers(keys).smallNumbers(origins).byteStrings(data);
+    if (auto done = connection_.change(kReplaceChunks, rows); !done) return done;
+    if (!changes.deleted.empty()) {
+        auto done = connection_.change(kDeleteChunks, Parameters().numbers(changes.deleted));
+        if (!done) return done;
+    }
     return writeMetadata(changes.metadata);
 }
 
@@ -178,10 +156,7 @@ base::Result<void> PostgresWriter::writeMetadata(const store::Metadata& metadata
                            name.substr(0, 64));
     }
     if (!isComplete_) commands.push_back({&kRemoveSetting, Parameters().text(store::kDerivedRowsMark)});
-    if (commands.empty()) return {};
-    const auto done = connection_.runAll(commands);
-    if (!done) return tl::unexpected(done.error());
-    return {};
+    return commands.empty() ? base::Result<void>() : connection_.changeAll(commands);
 }
 
 // The batch without chunks of which another server has written a newer snapshot.
@@ -209,15 +184,14 @@ base::Result<void> PostgresWriter::writeChunks(const WaitingChunks& chunks) {
     std::vector<store::Bytes> data;
     std::size_t bytes = 0;
     const auto put = [&]() -> base::Result<void> {
-        const auto done = connection_.run(
+        auto done = connection_.change(
             kPutChunks, Parameters().numbers(keys).smallNumbers(origins).byteStrings(data).numbers(versions));
         keys.clear();
         versions.clear();
         origins.clear();
         data.clear();
         bytes = 0;
-        if (!done) return tl::unexpected(done.error());
-        return {};
+        return done;
     };
     for (const auto& [pos, chunk] : chunks) {
         const bool isEdited = chunk.provenance == Provenance::Edited;
@@ -249,17 +223,13 @@ base::Result<void> PostgresWriter::writeDerived(std::span<const ChunkRow> rows) 
             deleted.push_back(store::keyOf(row.pos));
     }
     if (auto done = writeChunks(written); !done || deleted.empty()) return done;
-    const auto done = connection_.run(kDeleteChunks, Parameters().numbers(deleted));
-    if (!done) return tl::unexpected(done.error());
-    return {};
+    return connection_.change(kDeleteChunks, Parameters().numbers(deleted));
 }
 
 base::Result<void> PostgresWriter::putAside(ChunkPos pos, std::string_view reason) {
     isComplete_ = false;
     const std::string_view text = isText(reason) ? reason : "damaged";
-    const auto done = connection_.run(kPutAside, Parameters().number(store::keyOf(pos)).text(text));
-    if (!done) return tl::unexpected(done.error());
-    return {};
+    return connection_.change(kPutAside, Parameters().number(store::keyOf(pos)).text(text));
 }
 
 base::Result<void> PostgresWriter::quarantine(const store::DamagedRow& row) {

@@ -56,11 +56,6 @@ constexpr Statement kWorkers = {
     "LEFT JOIN jobs ON jobs.number = workers.job AND jobs.worker = workers.number AND jobs.state = 0 "
     "WHERE seen > clock_timestamp() - interval '1 minute' ORDER BY workers.number"};
 
-base::Result<void> resultOf(const base::Result<std::vector<Rows>>& rows) {
-    if (!rows) return tl::unexpected(rows.error());
-    return {};
-}
-
 world::ChunkArea areaOf(const Rows& rows, int row, int column) {
     const auto at = [&](int k) { return static_cast<std::int32_t>(rows.number(row, column + k)); };
     return {at(0), at(1), at(2), at(3)};
@@ -94,24 +89,24 @@ JobColumns jobsOf(const world::ChunkArea& area, JobOrder order) {
     return jobs;
 }
 
-// In a transaction that has begun.
+// Within a transaction.
 base::Result<bool> addAreaLocked(Connection& connection, const world::ChunkArea& area, JobOrder order) {
-    if (auto locked = connection.run(kLockAreas); !locked) return tl::unexpected(locked.error());
+    if (auto locked = connection.change(kLockAreas); !locked) return tl::unexpected(locked.error());
     const auto there = connection.run(kHasArea, parametersOf(area));
     if (!there) return tl::unexpected(there.error());
     if (there->number(0, 0) != 0) return false;
     const auto added = connection.run(kAddArea, parametersOf(area));
     if (!added) return tl::unexpected(added.error());
     const JobColumns jobs = jobsOf(area, order);
-    const auto done = connection.run(kAddJobs, Parameters()
-                                                   .number(added->number(0, 0))
-                                                   .numbers(jobs.place)
-                                                   .numbers(jobs.x0)
-                                                   .numbers(jobs.y0)
-                                                   .numbers(jobs.x1)
-                                                   .numbers(jobs.y1));
-    if (!done) return tl::unexpected(done.error());
-    return true;
+    return connection
+        .change(kAddJobs, Parameters()
+                              .number(added->number(0, 0))
+                              .numbers(jobs.place)
+                              .numbers(jobs.x0)
+                              .numbers(jobs.y0)
+                              .numbers(jobs.x1)
+                              .numbers(jobs.y1))
+        .map([] { return true; });
 }
 
 }  // namespace
@@ -133,12 +128,7 @@ base::Result<bool> addArea(Connection& connection, const world::ChunkArea& area,
     if (jobs > kMaxJobs)
         return base::fail(base::ErrorCode::BadInput, "an area of {} chunks is too large; at most {}",
                           area.chunkCount(), kMaxJobs * kJobSide * kJobSide);
-    if (auto begun = connection.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
-    auto added = addAreaLocked(connection, area, order);
-    const auto ended =
-        connection.isUsable() ? connection.execute(added ? "COMMIT" : "ROLLBACK") : base::Result<void>();
-    if (added && !ended) return tl::unexpected(ended.error());
-    return added;
+    return inTransaction(connection, [&] { return addAreaLocked(connection, area, order); });
 }
 
 base::Result<std::int64_t> addWorker(Connection& connection, const std::string& name) {
@@ -150,7 +140,7 @@ base::Result<std::int64_t> addWorker(Connection& connection, const std::string& 
 base::Result<void> removeWorker(Connection& connection, std::int64_t worker) {
     const std::vector<Command> commands = {{&kGiveBack, Parameters().number(worker)},
                                            {&kRemoveWorker, Parameters().number(worker)}};
-    return resultOf(connection.runAll(commands));
+    return connection.changeAll(commands);
 }
 
 base::Result<std::optional<Job>> takeJob(Connection& connection, std::int64_t worker) {
@@ -173,18 +163,15 @@ base::Result<bool> renewLease(Connection& connection, std::int64_t worker, const
 }
 
 base::Result<void> tellAlive(Connection& connection, std::int64_t worker, std::int64_t chunks) {
-    const Command command{&kTellAlive, Parameters().number(worker).number(chunks)};
-    return resultOf(connection.runAll(std::span(&command, 1)));
+    return connection.change(kTellAlive, Parameters().number(worker).number(chunks));
 }
 
 base::Result<void> finishJob(Connection& connection, const Job& job) {
-    const Command command{&kFinish, Parameters().number(job.number)};
-    return resultOf(connection.runAll(std::span(&command, 1)));
+    return connection.change(kFinish, Parameters().number(job.number));
 }
 
 base::Result<void> setPaused(Connection& connection, bool isPaused) {
-    const Command command{&kPause, Parameters().number(isPaused ? 1 : 0)};
-    return resultOf(connection.runAll(std::span(&command, 1)));
+    return connection.change(kPause, Parameters().number(isPaused ? 1 : 0));
 }
 
 base::Result<std::int64_t> cancelJobs(Connection& connection) {

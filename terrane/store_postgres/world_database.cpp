@@ -50,9 +50,7 @@ base::Result<void> addNames(Connection& connection, const std::vector<SavedName>
         numbers.push_back(name.id);
         names.push_back(name.name);
     }
-    const auto done = connection.run(kAddBlocks, Parameters().numbers(numbers).texts(names));
-    if (!done) return tl::unexpected(done.error());
-    return {};
+    return connection.change(kAddBlocks, Parameters().numbers(numbers).texts(names));
 }
 
 // In one transaction: a world without a seed would be a damaged one.
@@ -62,8 +60,7 @@ base::Result<void> createWorld(Connection& connection, const Address& address,
     std::vector<Command> commands;
     for (const auto& [name, value] : store::metadataOf(*access.create))
         commands.push_back({&kPutSetting, Parameters().text(name).text(value)});
-    auto done = connection.runAll(commands);
-    if (!done) return tl::unexpected(done.error());
+    if (auto done = connection.changeAll(commands); !done) return done;
     return addNames(connection, access.blockNames);
 }
 
@@ -156,7 +153,7 @@ base::Result<std::string> freeSchema(Connection& connection, const Address& addr
     }
 }
 
-// A world of its own, with everything as it is.
+// A world of its own, with settings, blocks and chunks as they are. Players and history stay where they are.
 std::string copySql(Connection& connection, const Address& address, const std::string& copy) {
     const std::string to = connection.quoted(copy), from = connection.quoted(address.schema);
     std::string sql = fmt::format("CREATE SCHEMA {0}; SET LOCAL search_path = {0};", to);
@@ -183,9 +180,7 @@ base::Result<void> copyAndDelete(Connection& connection, const Address& address,
     commands.push_back({&kRemoveSetting, Parameters().text(store::kDerivedRowsMark)});
     commands.push_back(
         {&kPutSetting, Parameters().text("generator_version").text(std::to_string(by.generatorVersion))});
-    const auto done = connection.runAll(commands);
-    if (!done) return tl::unexpected(done.error());
-    return {};
+    return connection.changeAll(commands);
 }
 
 base::Result<void> regenerate(Connection& connection, const Address& address, const store::Regeneration& by) {

@@ -93,15 +93,11 @@ base::Result<void> takeLock(Connection& connection, const Address& address, Worl
 }
 
 base::Result<void> releaseLock(Connection& connection, const Address& address, WorldLock lock) {
-    const auto released = connection.run(kUnlock, lockParameters(address, lock));
-    if (!released) return tl::unexpected(released.error());
-    return {};
+    return connection.change(kUnlock, lockParameters(address, lock));
 }
 
 base::Result<void> lockForTransaction(Connection& connection, const Address& address, WorldLock lock) {
-    const auto taken = connection.run(kLockTransaction, lockParameters(address, lock));
-    if (!taken) return tl::unexpected(taken.error());
-    return {};
+    return connection.change(kLockTransaction, lockParameters(address, lock));
 }
 
 }  // namespace terrane::store_postgres

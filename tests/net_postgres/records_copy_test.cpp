@@ -89,5 +89,40 @@ TEST_F(SharedServersTest, RecordsGoThereAndBack) {
     servers_.stopAll();
 }
 
+// Pages that are read again are used once. The error of who uses an edit is not taken for one of the
+// database.
+TEST_F(SharedServersTest, EditsComeOnceThoughTheConnectionIsCut) {
+    sharedParts(servers_.address());  // makes the world
+    auto records = PostgresRecords::open(servers_.address(), contentBlocks(), {"test", "", ""}).value();
+    std::vector<net::LoggedEdit> edits;
+    for (std::int64_t number = 1; number <= 2500; ++number) edits.push_back(editOf(number));
+    records->append(edits);
+    ASSERT_TRUE(records->flush());
+    for (const auto order : {net::EditOrder::OldestFirst, net::EditOrder::NewestFirst}) {
+        std::vector<std::int64_t> numbers;
+        const auto take = [&](const net::LoggedEdit& edit) -> base::Result<void> {
+            numbers.push_back(edit.number);
+            if (numbers.size() == 500)
+                postgres_.query(
+                    "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE pid <> "
+                    "pg_backend_pid() AND application_name = 'terrane'");
+            return {};
+        };
+        const auto read = records->forEachEdit({}, order, take);
+        ASSERT_TRUE(read) << read.error().message;
+        if (order == net::EditOrder::NewestFirst) std::ranges::reverse(numbers);
+        ASSERT_EQ(numbers.size(), 2500u);
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+            EXPECT_EQ(numbers[k], static_cast<std::int64_t>(k) + 1);
+    }
+    int used = 0;
+    const auto fail = [&](const net::LoggedEdit&) -> base::Result<void> {
+        ++used;
+        return base::fail(base::ErrorCode::Io, "no more");
+    };
+    EXPECT_EQ(records->forEachEdit({}, net::EditOrder::OldestFirst, fail).error().message, "no more");
+    EXPECT_EQ(used, 1);
+}
+
 }  // namespace
 }  // namespace terrane::net_postgres
