@@ -16,6 +16,7 @@
 #include "terrane/game/edit_command.h"
 #include "terrane/game/edit_history.h"
 #include "terrane/game/permissions.h"
+#include "terrane/game/session_parts.h"
 #include "terrane/gen/level_generators.h"
 #include "terrane/light/light_table.h"
 #include "terrane/store/chunk_store.h"
@@ -26,30 +27,6 @@
 #include "terrane/world/world.h"
 
 namespace terrane::game {
-
-// What a session is made of.
-struct SessionParts {
-    std::unique_ptr<const world::BlockRegistry> blocks;  // stays where it is: others refer to it
-    gen::LevelGenerators generators;                     // has level 0
-    std::unique_ptr<store::ChunkStore> store;
-    unsigned threads = 1;         // workers
-    bool storesGenerated = true;  // chunks without edits too
-    // Null: workers generate and light. They outlive the session.
-    gen::BatchGenerator* batchGenerator = nullptr;
-    light::BatchLighter* batchLighter = nullptr;
-    stream::MeshPolicy meshing = stream::MeshPolicy::Workers;
-    // Told of tiles of the store that edits changed, on a thread of the store; may be empty.
-    stream::TileListener tileListener = {};
-};
-
-// A server, which decides on what players do in place of a session that shows its world. Edits are applied at
-// once, ahead of the decision; what changes many blocks waits for it. Time passes there, too: plants and
-// liquids change only as it says (setBlocks()).
-struct Authority {
-    std::function<void(const EditCommand&, std::span<const ChangedBlock> changed)> edited;
-    std::function<void(const BuildCommand&)> build;
-    std::function<void(PlayerId, HistoryWay)> takeBack;
-};
 
 class Session {
   public:

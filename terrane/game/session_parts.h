@@ -1,0 +1,45 @@
+// What a game::Session is made from, and who may decide in its place (session.h).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "terrane/game/build_command.h"
+#include "terrane/game/edit_command.h"
+#include "terrane/game/edit_history.h"
+#include "terrane/gen/batch_generator.h"
+#include "terrane/gen/level_generators.h"
+#include "terrane/light/batch_lighter.h"
+#include "terrane/store/chunk_store.h"
+#include "terrane/stream/pipeline_types.h"
+#include "terrane/stream/tile_pipeline.h"
+#include "terrane/world/block_registry.h"
+
+namespace terrane::game {
+
+// What a session is made of.
+struct SessionParts {
+    std::unique_ptr<const world::BlockRegistry> blocks;  // stays where it is: others refer to it
+    gen::LevelGenerators generators;                     // has level 0
+    std::unique_ptr<store::ChunkStore> store;
+    unsigned threads = 1;         // workers
+    bool storesGenerated = true;  // chunks without edits too
+    // Null: workers generate and light. They outlive the session.
+    gen::BatchGenerator* batchGenerator = nullptr;
+    light::BatchLighter* batchLighter = nullptr;
+    stream::MeshPolicy meshing = stream::MeshPolicy::Workers;
+    // Told of tiles of the store that edits changed, on a thread of the store; may be empty.
+    stream::TileListener tileListener = {};
+};
+
+// A server, which decides on what players do in place of a session that shows its world. Edits are applied at
+// once, ahead of the decision; what changes many blocks waits for it. Time passes there, too: plants and
+// liquids change only as it says (setBlocks()).
+struct Authority {
+    std::function<void(const EditCommand&, std::span<const ChangedBlock> changed)> edited;
+    std::function<void(const BuildCommand&)> build;
+    std::function<void(PlayerId, HistoryWay)> takeBack;
+};
+
+}  // namespace terrane::game
