@@ -48,7 +48,8 @@ base::Result<LoggedEdit> decodeEdit(const EditRow& row, const store::BlockIdMap&
     WireReader wire(row.blocks);
     readBlocks(wire, edit.before);
     readBlocks(wire, edit.after);
-    const bool isRead = wire.isComplete() && world::isInWorld(edit.chunk) && haveSameBlocks(edit);
+    const bool isPlace = world::isInWorld(edit.chunk) && edit.chunk.level == 0;
+    const bool isRead = wire.isComplete() && isPlace && haveSameBlocks(edit);
     if (isRead && takeSessionIds(edit.before, ids) && takeSessionIds(edit.after, ids)) return edit;
     return base::fail(base::ErrorCode::Damaged, "edit {} is damaged", edit.number);
 }

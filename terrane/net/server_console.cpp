@@ -72,7 +72,7 @@ std::string kick(ServerState& server, Words words) {
 std::string ban(ServerState& server, Words words) {
     const KnownPlayer* player = server.people.byName(words[0]);
     if (!player) return unknownPlayer(words[0]);
-    std::string reason = joined(words.subspan(1));
+    std::string reason = plainText(joined(words.subspan(1)), kMaxReasonBytes);
     if (reason.empty()) reason = "no reason given";
     server.people.setBan(player->id, reason);
     if (ServerClient* client = playingClient(server, player->id))

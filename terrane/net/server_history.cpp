@@ -81,6 +81,7 @@ base::Result<void> saveEverything(ServerState& server) {
     // A roll-back that has begun ends.
     while (!server.rollbacks.empty()) {
         (void)server.session.pipeline().chunkAt(server.rollbacks.front().chunk);
+        completeLoaded(server);
         continueRollbacks(server);
     }
     if (auto decided = decideAll(server); !decided) return decided;

@@ -12,14 +12,6 @@ constexpr std::string_view kServerNames[] = {
     "ViewComplete", "Done",       "Appears", "Disappears", "Poses",       "Said",
     "Clock",        "Corrected",  "Ping",    "PlayerList", "RoleChanged", "Servers"};
 
-// Level as a byte, then x and y as integers: a chunk of the world.
-void describeChunkPos(auto& wire, Of<world::ChunkPos> auto& pos) {
-    wire.fixed(pos.level);
-    wire.integer(pos.x);
-    wire.integer(pos.y);
-    wire.require(pos.level <= world::kMaxLevel && world::isInWorld(pos));
-}
-
 template <class Wire, Of<double> T>
 void describeDouble(Wire& wire, T& value) {
     auto bits = std::bit_cast<std::uint64_t>(value);

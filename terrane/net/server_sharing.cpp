@@ -19,8 +19,8 @@ constexpr std::uint64_t kTicksPerPoses = 4, kTicksPerAllPoses = 40;
 // Of whom nothing was heard for so long is not there.
 constexpr std::chrono::seconds kForgetAfter{8};
 constexpr std::chrono::seconds kKeepTail{60};
-// What a server that is gone left, in a tick: some milliseconds.
-constexpr std::size_t kEstateChunks = 8;
+// What a server that is gone left, in a tick: some milliseconds. So many more are asked for meanwhile.
+constexpr std::size_t kEstateChunks = 8, kEstateAhead = 32;
 
 void addToTail(SharingState& sharing, ChunkPos chunk, std::int64_t number, const ChunkDifference& after) {
     sharing.tail[chunk].push_back({number, after});
@@ -157,10 +157,17 @@ void takePoses(ServerState& server, const SharedNews& news) {
 void takeServers(ServerState& server, std::vector<OtherServer> servers) {
     SharingState& sharing = server.sharing;
     for (const OtherServer& other : servers) {
-        const bool isNew = std::ranges::none_of(sharing.estates, [&](const SharingState::Estate& estate) {
+        const auto isItsEstate = [&](const SharingState::Estate& estate) {
             return estate.server == other.number;
-        });
-        if (other.isAlive || !isNew) continue;
+        };
+        // It had only stalled: what it changed is its own to save.
+        if (other.isAlive) {
+            std::erase_if(sharing.estates, isItsEstate);
+            sharing.forgotten.erase(other.number);
+            continue;
+        }
+        if (sharing.forgotten.contains(other.number) || std::ranges::any_of(sharing.estates, isItsEstate))
+            continue;
         base::logInfo("the server {} is gone; {} chunks that it changed are saved here", other.name,
                       other.unsaved.size());
         sharing.estates.push_back({other.number, sharing.newest, other.unsaved});
@@ -181,8 +188,11 @@ void takeOverEstates(ServerState& server) {
     SharingState& sharing = server.sharing;
     if (sharing.estates.empty()) return;
     SharingState::Estate& estate = sharing.estates.front();
+    stream::ChunkPipeline& pipeline = server.session.pipeline();
+    for (const ChunkPos chunk : std::span(estate.chunks).last(std::min(kEstateAhead, estate.chunks.size())))
+        (void)pipeline.maybeLoadChunkAt(chunk);
     for (std::size_t k = 0; k < kEstateChunks && !estate.chunks.empty(); ++k) {
-        if (!server.session.pipeline().maybeLoadChunkAt(estate.chunks.back())) return;
+        if (!pipeline.maybeLoadChunkAt(estate.chunks.back())) return;
         estate.chunks.pop_back();
     }
     if (!estate.chunks.empty()) return;
@@ -190,6 +200,7 @@ void takeOverEstates(ServerState& server) {
     if (!estate.savedBy) estate.savedBy = sharing.savesBegun + 1;
     if (sharing.savesDone < *estate.savedBy || sharing.ownSaved < estate.newest) return;
     sharing.shared->forgetServer(estate.server);
+    sharing.forgotten.insert(estate.server);
     sharing.estates.pop_front();
 }
 

@@ -64,6 +64,7 @@ struct SharingState {
         std::optional<std::uint64_t> savedBy = {};  // the save that has all of them
     };
     std::deque<Estate> estates;
+    std::set<std::int64_t> forgotten;  // servers whose estates are saved; lists of servers may come later
     std::uint64_t savesBegun = 0, savesDone = 0;
     Time nextState{};
 };

@@ -1,10 +1,11 @@
-// Where players are, as it travels: positions in steps of 1/64 block, directions in steps of 1/65536 turn,
-// those of other players in 1/256 turn. Plain values and functions; any thread.
+// Places as they travel: of chunks, and where players are: positions in steps of 1/64 block, directions in
+// steps of 1/65536 turn, those of other players in 1/256 turn. Plain values and functions; any thread.
 #pragma once
 
 #include <cstdint>
 
 #include "terrane/net/wire.h"
+#include "terrane/world/coords.h"
 #include "terrane/world/pose.h"
 
 namespace terrane::net {
@@ -31,6 +32,15 @@ struct PoseChange {
     bool swings = false;                  // broke or placed a block since
     bool operator==(const PoseChange&) const = default;
 };
+
+// Level as a byte, then x and y as integers: a chunk of the world.
+template <class Wire, class Pos>
+void describeChunkPos(Wire& wire, Pos& pos) {
+    wire.fixed(pos.level);
+    wire.integer(pos.x);
+    wire.integer(pos.y);
+    wire.require(pos.level <= world::kMaxLevel && world::isInWorld(pos));
+}
 
 template <class Wire, class Pose>
 void describePose(Wire& wire, Pose& pose) {

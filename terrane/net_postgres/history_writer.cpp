@@ -25,8 +25,9 @@ constexpr Statement kAppend = {
     "INSERT INTO edits (number, time, player, chunk, write, blocks, server) SELECT *, $7 FROM "
     "unnest($1::bigint[], $2::bigint[], $3::bigint[], $4::bigint[], $5::bigint[], $6::bytea[])"};
 constexpr Statement kSetNewest = {"UPDATE history SET newest = $1"};
-constexpr Statement kHasWrite = {
-    "SELECT EXISTS (SELECT 1 FROM edits WHERE number > $1 AND server = $2 AND write = $3)"};
+constexpr Statement kHasPlayer = {"SELECT EXISTS (SELECT 1 FROM players WHERE id = $1 AND key = $2)"};
+// Whatever the database's default is: what is read under the lock has to be what others committed before.
+constexpr const char* kBegin = "BEGIN ISOLATION LEVEL READ COMMITTED";
 constexpr Statement kNotify = {"SELECT pg_notify($1, $2)"};
 
 }  // namespace
@@ -35,24 +36,28 @@ Command notifyCommand(const std::string& channel, std::int64_t server, const Not
     return {&kNotify, Parameters().text(channel).text(noteText(server, note))};
 }
 
+// Own ones were told when they were written, but for those of a batch whose transaction was cut off at its
+// end: now it is known that it is there.
+void HistoryWriter::readRow(const Rows& rows, int row, const std::string& shown, Heard& heard) {
+    if (rows.number(row, 0) <= seen_) return;
+    seen_ = rows.number(row, 0);
+    if (rows.number(row, 4) == server_) {
+        if (unsure_) finish(*std::exchange(unsure_, std::nullopt), heard);
+        return;
+    }
+    auto edit = net::decodeEdit({rows.number(row, 0), rows.number(row, 1), rows.number(row, 2),
+                                 rows.number(row, 3), rows.bytes(row, 5)},
+                                ids_);
+    if (!edit) return base::logError("{}: {}", shown, edit.error().message);
+    const std::uint64_t number = order_.hear(blocksOf(*edit));
+    heard.events.push_back({std::move(*edit), number});
+}
+
 base::Result<void> HistoryWriter::readOthers(Connection& connection, Heard& heard) {
     while (true) {
         const auto rows = connection.run(kOthers, Parameters().number(seen_).number(kEditsAtOnce));
         if (!rows) return tl::unexpected(rows.error());
-        for (int row = 0; row < rows->count(); ++row) {
-            seen_ = rows->number(row, 0);
-            // Own ones were told when they were written.
-            if (rows->number(row, 4) == server_) continue;
-            auto edit = net::decodeEdit({rows->number(row, 0), rows->number(row, 1), rows->number(row, 2),
-                                         rows->number(row, 3), rows->bytes(row, 5)},
-                                        ids_);
-            if (!edit) {
-                base::logError("{}: {}", connection.shown(), edit.error().message);
-                continue;
-            }
-            const std::uint64_t number = order_.hear(blocksOf(*edit));
-            heard.events.push_back({std::move(*edit), number});
-        }
+        for (int row = 0; row < rows->count(); ++row) readRow(*rows, row, connection.shown(), heard);
         if (rows->count() < kEditsAtOnce) return {};
     }
 }
@@ -68,7 +73,7 @@ base::Result<std::int64_t> HistoryWriter::lockHistory(Connection& connection) {
 
 HistoryWriter::Attempt HistoryWriter::decide(const std::vector<QueuedWrite>& batch, std::int64_t newest) {
     Attempt attempt;
-    attempt.before = attempt.newest = newest;
+    attempt.newest = newest;
     for (const QueuedWrite& write : batch) {
         if (write.edits.empty()) continue;
         const bool isAccepted = order_.isAccepted(write.blocks, write.basis);
@@ -77,7 +82,7 @@ HistoryWriter::Attempt HistoryWriter::decide(const std::vector<QueuedWrite>& bat
         attempt.heard.push_back(isAccepted ? 0 : order_.hear(write.blocks));
         if (!isAccepted) continue;
         attempt.newest += static_cast<std::int64_t>(write.edits.size());
-        attempt.lastAccepted = write.number;
+        attempt.hasEdits = true;
     }
     return attempt;
 }
@@ -87,11 +92,15 @@ base::Result<void> HistoryWriter::send(Connection& connection, const std::vector
     std::vector<std::int64_t> numbers, times, players, chunks, writes;
     std::vector<store::Bytes> blocks;
     std::vector<Command> commands;
-    std::vector<std::pair<std::size_t, game::PlayerId>> added;  // which command adds whom
+    std::vector<std::pair<std::size_t, game::PlayerId>> added;  // which command tells whether who is there
     auto decision = attempt.decisions.begin();
     for (const QueuedWrite& write : batch) {
-        if (write.added != game::kNoPlayer) added.push_back({commands.size(), write.added});
         commands.insert(commands.end(), write.commands.begin(), write.commands.end());
+        if (write.added) {
+            added.push_back({commands.size(), write.added->id});
+            commands.push_back(
+                {&kHasPlayer, Parameters().number(std::int64_t{write.added->id}).bytes(write.added->key)});
+        }
         if (write.note) commands.push_back(notifyCommand(channel_, server_, *write.note));
         if (write.edits.empty()) continue;
         const net::WriteDecision& decided = *decision++;
@@ -121,52 +130,39 @@ base::Result<void> HistoryWriter::send(Connection& connection, const std::vector
     const auto rows = connection.runAll(commands);
     if (!rows) return tl::unexpected(rows.error());
     for (const auto& [command, player] : added)
-        if ((*rows)[command].affected() == 0) attempt.refused.push_back(player);
+        if ((*rows)[command].number(0, 0) == 0) attempt.refused.push_back(player);
     return {};
 }
 
-// Whether a batch whose transaction was cut off at its end is in the database.
-base::Result<bool> HistoryWriter::isThere(Connection& connection, const Attempt& attempt) const {
-    if (attempt.lastAccepted == 0) return false;  // the rest makes no difference the second time
-    const auto rows = connection.run(kHasWrite, Parameters()
-                                                    .number(attempt.before)
-                                                    .number(server_)
-                                                    .number(static_cast<std::int64_t>(attempt.lastAccepted)));
-    if (!rows) return tl::unexpected(rows.error());
-    return rows->number(0, 0) != 0;
-}
-
-void HistoryWriter::finish(Attempt attempt, Heard& heard) {
+void HistoryWriter::finish(const Attempt& attempt, Heard& heard) {
     for (std::size_t k = 0; k < attempt.decisions.size(); ++k)
         heard.events.push_back({attempt.decisions[k], attempt.heard[k]});
     heard.refused.insert(heard.refused.end(), attempt.refused.begin(), attempt.refused.end());
     seen_ = std::max(seen_, attempt.newest);
-    if (attempt.lastAccepted > 0) newestOwn_ = attempt.newest;
+    if (attempt.hasEdits) newestOwn_ = attempt.newest;
     heard.isWritten = true;
 }
 
+void HistoryWriter::refuse(const QueuedWrite& write, Heard& heard) {
+    if (!write.edits.empty())
+        heard.events.push_back({net::WriteDecision{write.number, false, 0}, order_.hear(write.blocks)});
+    heard.isWritten = true;
+}
+
+// A transaction whose end was cut off, and which has not ended, holds the lock until it has.
 base::Result<void> HistoryWriter::write(Connection& connection, const std::vector<QueuedWrite>& batch,
                                         Heard& heard) {
-    if (unsure_) {
-        const auto there = isThere(connection, *unsure_);
-        if (!there) return tl::unexpected(there.error());
-        Attempt attempt = std::move(*unsure_);
-        unsure_.reset();
-        if (*there) {
-            finish(std::move(attempt), heard);
-            return {};
-        }
-    }
-    if (auto begun = connection.execute("BEGIN"); !begun) return begun;
+    if (auto begun = connection.execute(kBegin); !begun) return begun;
     const auto newest = lockHistory(connection);
     auto done = newest ? readOthers(connection, heard) : tl::unexpected(newest.error());
-    if (done) {
+    if (done && !heard.isWritten) {
+        unsure_.reset();
         Attempt attempt = decide(batch, *newest);
         done = send(connection, batch, attempt);
         if (done) {
             unsure_ = std::move(attempt);
             done = connection.execute("COMMIT");
-            if (done) finish(std::move(*std::exchange(unsure_, std::nullopt)), heard);
+            if (done) finish(*std::exchange(unsure_, std::nullopt), heard);
             return done;
         }
     }

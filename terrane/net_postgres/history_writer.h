@@ -28,8 +28,12 @@ struct QueuedWrite {
     // Or anything else, with what the other servers are told of it.
     std::vector<store_postgres::Command> commands;
     std::optional<Note> note;
-    // The first command adds this player: where it inserts nothing, the name is taken.
-    game::PlayerId added = game::kNoPlayer;
+    // The commands add this player: where it is not there after them, another one has the name.
+    struct Added {
+        game::PlayerId id = game::kNoPlayer;
+        net::PublicKey key{};
+    };
+    std::optional<Added> added = {};
 };
 
 // What the server is to hear.
@@ -41,7 +45,7 @@ struct HeardEvent {
 struct Heard {
     std::vector<HeardEvent> events;
     std::vector<game::PlayerId> refused;  // players
-    bool isWritten = false;               // the batch that write() was given
+    bool isWritten = false;               // the batch that write() was given, now or before
 };
 
 class HistoryWriter {
@@ -53,9 +57,13 @@ class HistoryWriter {
 
     // The edits that others appended since. Those of `heard` that were read before an error count.
     [[nodiscard]] base::Result<void> readOthers(store_postgres::Connection& connection, Heard& heard);
-    // All of the batch, or nothing. Called again with the same batch first of all where it failed.
+    // All of the batch, or nothing. Where it failed, the batch may be in the database all the same: it is
+    // written again, before any other, unless readOthers() said meanwhile that it is there.
     [[nodiscard]] base::Result<void> write(store_postgres::Connection& connection,
                                            const std::vector<QueuedWrite>& batch, Heard& heard);
+
+    // Gives a write up that the database will never take.
+    void refuse(const QueuedWrite& write, Heard& heard);
 
     std::int64_t seen() const { return seen_; }
     std::int64_t newestOwn() const { return newestOwn_; }  // edit of this server; 0: none
@@ -68,15 +76,15 @@ class HistoryWriter {
         std::vector<net::WriteDecision> decisions;
         std::vector<std::uint64_t> heard;  // of each decision
         std::vector<game::PlayerId> refused;
-        std::int64_t before = 0, newest = 0;  // of the history, without it and with it
-        std::uint64_t lastAccepted = 0;       // write; 0: none
+        std::int64_t newest = 0;  // of the history, with it
+        bool hasEdits = false;    // that are accepted
     };
     base::Result<std::int64_t> lockHistory(store_postgres::Connection& connection);
     Attempt decide(const std::vector<QueuedWrite>& batch, std::int64_t newest);
     base::Result<void> send(store_postgres::Connection& connection, const std::vector<QueuedWrite>& batch,
                             Attempt& attempt);
-    base::Result<bool> isThere(store_postgres::Connection& connection, const Attempt& attempt) const;
-    void finish(Attempt attempt, Heard& heard);
+    void readRow(const store_postgres::Rows& rows, int row, const std::string& shown, Heard& heard);
+    void finish(const Attempt& attempt, Heard& heard);
 
     const store_postgres::Address& address_;
     const store::BlockIdMap& ids_;

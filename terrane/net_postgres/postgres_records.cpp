@@ -12,7 +12,6 @@
 #include "terrane/net/record_values.h"
 #include "terrane/net_postgres/record_rows.h"
 #include "terrane/store/chunk_key.h"
-#include "terrane/store_postgres/world_database.h"
 
 namespace terrane::net_postgres {
 namespace {
@@ -20,7 +19,8 @@ namespace {
 using store_postgres::Connection;
 using store_postgres::Parameters;
 
-// Sent with the next beat of the thread; more are dropped: who moves is told again.
+// That wait to be sent. More are dropped, as while the database is away for long: lines of chat, times and
+// far tiles are not told then. Where players are is told again, and not kept while the database is away.
 constexpr std::size_t kMaxNotes = 4096;
 
 }  // namespace
@@ -45,33 +45,43 @@ base::Result<net::History> readHistory(const store_postgres::Address& address,
     return history;
 }
 
+base::Result<std::unique_ptr<PostgresRecords>> PostgresRecords::openToRead(
+    const store_postgres::Address& address, const world::BlockRegistry& blocks, const ServerName& name) {
+    auto world = store_postgres::openToRead(address, blocks);
+    if (!world) return tl::unexpected(world.error());
+    std::unique_ptr<PostgresRecords> records(new PostgresRecords(address, std::move(world->contents), name));
+    records->connection_ = std::move(world->connection);
+    return records;
+}
+
 base::Result<std::unique_ptr<PostgresRecords>> PostgresRecords::open(const store_postgres::Address& address,
                                                                      const world::BlockRegistry& blocks,
                                                                      const ServerName& name) {
-    auto world = store_postgres::openToRead(address, blocks);
-    if (!world) return tl::unexpected(world.error());
-    std::unique_ptr<PostgresRecords> records(
-        new PostgresRecords(address, std::move(world->contents.ids), name));
-    records->connection_ = std::move(world->connection);
+    auto opened = openToRead(address, blocks, name);
+    if (!opened) return opened;
+    std::unique_ptr<PostgresRecords> records = std::move(*opened);
     if (auto listening = records->listen(); !listening) return tl::unexpected(listening.error());
     const auto server = addServer(*records->connection_, name);
     if (!server) return tl::unexpected(server.error());
+    const auto openings = store_postgres::readOpenings(*records->connection_);
+    if (!openings) return tl::unexpected(openings.error());
+    records->contents_.openings = *openings;
     const auto ends = records->historyEnds();
     if (!ends) return tl::unexpected(ends.error());
     records->server_ = *server;
     records->state_ = {*server, ends->newest, 0, {}};
     records->news_.newest = ends->newest;
     records->news_.saved = ends->saved;
-    records->writer_ = std::make_unique<HistoryWriter>(records->pool_.address(), records->ids_,
+    records->writer_ = std::make_unique<HistoryWriter>(records->pool_.address(), records->contents_.ids,
                                                        records->channel_, *server, ends->newest);
     records->thread_ = std::thread([self = records.get()] { self->run(); });
     return records;
 }
 
-PostgresRecords::PostgresRecords(const store_postgres::Address& address, store::BlockIdMap ids,
-                                 ServerName name)
+PostgresRecords::PostgresRecords(const store_postgres::Address& address,
+                                 store_postgres::WorldContents contents, ServerName name)
     : pool_(address),
-      ids_(std::move(ids)),
+      contents_(std::move(contents)),
       name_(std::move(name)),
       channel_(fmt::format("terrane_{:016x}", base::hash64(address.schema))),
       wakeSocket_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
@@ -106,7 +116,8 @@ std::uint64_t PostgresRecords::queue(QueuedWrite write) {
 void PostgresRecords::tell(const Note& note) {
     {
         const std::lock_guard lock(mutex_);
-        if (notes_.size() >= kMaxNotes) return;
+        const bool isOld = !problem_.empty() && std::holds_alternative<PosesNote>(note);
+        if (isOld || notes_.size() >= kMaxNotes) return;
         notes_.push_back(note);
     }
     wake();
@@ -129,7 +140,7 @@ base::Result<void> PostgresRecords::forEachEdit(const net::EditFilter& filter, n
     return net_postgres::forEachEdit(
         [&](std::optional<std::int64_t> last) {
             return pool_.run<EditPage>(
-                [&](Connection& c) { return readEdits(c, ids_, filter, order, last); });
+                [&](Connection& c) { return readEdits(c, contents_.ids, filter, order, last); });
         },
         use);
 }
@@ -139,7 +150,7 @@ void PostgresRecords::addPlayer(const net::KnownPlayer& player) {
     write.commands.push_back(addPlayerCommand(player));
     write.commands.push_back(skipPlayerNumberCommand(player.id));
     write.note = PlayerNote{player.id};
-    write.added = player.id;
+    write.added = {player.id, player.key};
     queue(std::move(write));
 }
 void PostgresRecords::changePlayer(game::PlayerId id, const net::PlayerChange& change) {
@@ -170,8 +181,8 @@ void PostgresRecords::setText(const std::string& name, const std::string& text) 
 std::uint64_t PostgresRecords::append(const std::vector<net::LoggedEdit>& edits) {
     QueuedWrite write;
     for (const net::LoggedEdit& edit : edits) {
-        write.edits.push_back(
-            {edit.timeMs, std::int64_t{edit.player}, store::keyOf(edit.chunk), net::encodeEdit(edit, ids_)});
+        write.edits.push_back({edit.timeMs, std::int64_t{edit.player}, store::keyOf(edit.chunk),
+                               net::encodeEdit(edit, contents_.ids)});
         const std::vector<world::BlockPos> blocks = blocksOf(edit);
         write.blocks.insert(write.blocks.end(), blocks.begin(), blocks.end());
     }
@@ -273,7 +284,7 @@ bool PostgresRecords::mayGrow(net::Region region) const {
 
 void PostgresRecords::forgetServer(std::int64_t server) {
     QueuedWrite write;
-    write.commands = removeServerCommands(server);
+    write.commands.push_back(forgetServerCommand(server));
     queue(std::move(write));
 }
 

@@ -15,6 +15,7 @@
 #include "terrane/net_postgres/history_writer.h"
 #include "terrane/net_postgres/server_rows.h"
 #include "terrane/store_postgres/connection_pool.h"
+#include "terrane/store_postgres/world_database.h"
 
 namespace terrane::net_postgres {
 
@@ -27,6 +28,9 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     // Of a world that is there, opened with WorldSharing::Servers. The server is among those of the world
     // until it ends.
     [[nodiscard]] static base::Result<std::unique_ptr<PostgresRecords>> open(
+        const store_postgres::Address& address, const world::BlockRegistry& blocks, const ServerName& name);
+    // To read players, claims, texts and edits, and nothing else: changes nothing in the database.
+    [[nodiscard]] static base::Result<std::unique_ptr<PostgresRecords>> openToRead(
         const store_postgres::Address& address, const world::BlockRegistry& blocks, const ServerName& name);
     ~PostgresRecords() override;  // writes what waits, if it can within some seconds
     PostgresRecords(const PostgresRecords&) = delete;
@@ -70,7 +74,8 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
 
   private:
     using Clock = std::chrono::steady_clock;
-    PostgresRecords(const store_postgres::Address& address, store::BlockIdMap ids, ServerName name);
+    PostgresRecords(const store_postgres::Address& address, store_postgres::WorldContents contents,
+                    ServerName name);
 
     std::uint64_t queue(QueuedWrite write);
     void tell(const Note& note);
@@ -81,6 +86,8 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     base::Result<void> work();
     base::Result<void> connect();
     base::Result<void> listen();
+    base::Result<void> lookUp();
+    void keepNotices();
     base::Result<void> takeNotes(Heard& heard);
     base::Result<void> takeNote(const Note& note, bool& hasEdits);
     base::Result<void> writeQueued(Heard& heard);
@@ -91,7 +98,7 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     void hand(Heard heard);
 
     store_postgres::ConnectionPool pool_;  // for what the server's thread waits for
-    store::BlockIdMap ids_;
+    store_postgres::WorldContents contents_;
     ServerName name_;
     std::string channel_;
     std::int64_t server_ = 0;
@@ -101,6 +108,9 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     std::optional<store_postgres::Connection> connection_;
     std::unique_ptr<HistoryWriter> writer_;
     std::vector<QueuedWrite> batch_;  // being written
+    std::size_t oneByOne_ = 0;        // so many writes are tried by themselves
+    std::vector<store_postgres::Notification> notices_;
+    bool mustLookUp_ = false;  // notes were missed
     Clock::time_point nextLook_{}, nextBeat_{};
     std::map<std::int64_t, std::vector<world::ChunkPos>> gone_;  // servers, with what they did not save
 

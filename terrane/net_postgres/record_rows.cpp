@@ -50,10 +50,12 @@ constexpr Statement kSetText = {
 constexpr Statement kJoined = {
     "INSERT INTO online (player, server) SELECT $1, number FROM servers WHERE number = $2 "
     "ON CONFLICT (player) DO UPDATE SET server = excluded.server"};
+constexpr Statement kElsewhere = {"SELECT player FROM online WHERE server <> $1"};
 constexpr Statement kLeft = {"DELETE FROM online WHERE player = $1 AND server = $2"};
 constexpr Statement kSetSaved = {"UPDATE history SET saved = least(newest, greatest(saved, $1))"};
+// Those who come by themselves have a number of the sequence; those who are copied may have a higher one.
 constexpr Statement kSkipNumber = {
-    "SELECT setval('player_numbers', greatest($1, (SELECT last_value FROM player_numbers)))"};
+    "SELECT setval('player_numbers', $1) FROM player_numbers WHERE last_value < $1"};
 constexpr Statement kNumbers = {"SELECT nextval('player_numbers') FROM generate_series(1, $1)"};
 
 tl::unexpected<base::Error> damaged(const Connection& connection, std::string_view what) {
@@ -63,6 +65,13 @@ tl::unexpected<base::Error> damaged(const Connection& connection, std::string_vi
 std::optional<net::KnownPlayer> playerOf(const Rows& rows, int row) {
     return net::knownPlayer({rows.number(row, 0), rows.bytes(row, 1), rows.text(row, 2), rows.number(row, 3),
                              rows.text(row, 4), rows.text(row, 5)});
+}
+
+std::vector<game::PlayerId> playersOf(const Rows& rows) {
+    std::vector<game::PlayerId> players;
+    for (int row = 0; row < rows.count(); ++row)
+        players.push_back(static_cast<game::PlayerId>(rows.number(row, 0)));
+    return players;
 }
 
 // One value, or none.
@@ -117,6 +126,12 @@ base::Result<net::HistoryEnds> readEnds(Connection& connection) {
     if (!rows) return tl::unexpected(rows.error());
     if (rows->count() != 1) return damaged(connection, "the table history has no one row");
     return net::HistoryEnds{rows->number(0, 0), rows->number(0, 1)};
+}
+
+base::Result<std::vector<game::PlayerId>> readElsewhere(Connection& connection, std::int64_t server) {
+    const auto rows = connection.run(kElsewhere, Parameters().number(server));
+    if (!rows) return tl::unexpected(rows.error());
+    return playersOf(*rows);
 }
 
 base::Result<EditPage> readEdits(Connection& connection, const store::BlockIdMap& ids,
@@ -216,10 +231,7 @@ Command skipPlayerNumberCommand(game::PlayerId player) {
 base::Result<std::vector<game::PlayerId>> takePlayerNumbers(Connection& connection, std::size_t count) {
     const auto rows = connection.run(kNumbers, Parameters().integer(static_cast<std::int32_t>(count)));
     if (!rows) return tl::unexpected(rows.error());
-    std::vector<game::PlayerId> numbers;
-    for (int row = 0; row < rows->count(); ++row)
-        numbers.push_back(static_cast<game::PlayerId>(rows->number(row, 0)));
-    return numbers;
+    return playersOf(*rows);
 }
 
 }  // namespace terrane::net_postgres

@@ -18,6 +18,9 @@ namespace terrane::net_postgres {
 [[nodiscard]] base::Result<std::string> readText(store_postgres::Connection& connection,
                                                  const std::string& name);
 [[nodiscard]] base::Result<net::HistoryEnds> readEnds(store_postgres::Connection& connection);
+// Players who are on other servers than this one.
+[[nodiscard]] base::Result<std::vector<game::PlayerId>> readElsewhere(store_postgres::Connection& connection,
+                                                                      std::int64_t server);
 // A part of the history, so that a long one takes no more memory than a short one.
 struct EditPage {
     std::vector<net::LoggedEdit> edits;  // that the filter means

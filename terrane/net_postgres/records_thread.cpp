@@ -18,7 +18,8 @@ namespace {
 using store_postgres::Command;
 using store_postgres::Connection;
 
-// Notifications come at once; what one misses, as after a broken connection, is looked up.
+// Notifications come at once. What one misses is looked up: edits each second, all else after a broken
+// connection.
 constexpr std::chrono::milliseconds kLookEvery{1000}, kBeatEvery{1000}, kTryAgain{200};
 constexpr std::size_t kMaxBatch = 4096;
 constexpr std::size_t kNotesAtOnce = 256;
@@ -62,7 +63,10 @@ void PostgresRecords::waitForWork() {
         const std::lock_guard lock(mutex_);
         if (isEnding_ || !queue_.empty() || !notes_.empty()) return;
     }
-    if (batch_.empty() && left > 0) ::poll(sockets, std::size(sockets), static_cast<int>(left));
+    // What came with an answer does not wake poll().
+    if (connection_) keepNotices();
+    if (batch_.empty() && notices_.empty() && left > 0)
+        ::poll(sockets, std::size(sockets), static_cast<int>(left));
     std::uint64_t count = 0;
     (void)!::read(wakeSocket_, &count, sizeof count);
 }
@@ -79,25 +83,66 @@ base::Result<void> PostgresRecords::work() {
     return beatIfDue();
 }
 
+// With the locks of a server: who plays alone or makes the world anew waits until this one has ended.
 base::Result<void> PostgresRecords::connect() {
-    if (connection_ && connection_->isUsable()) return {};
-    auto connection = Connection::open(pool_.address());
-    if (!connection) return tl::unexpected(connection.error());
-    connection_ = std::move(*connection);
-    nextLook_ = nextBeat_ = {};
-    return listen();
+    if (!connection_ || !connection_->isUsable()) {
+        auto connection = store_postgres::reconnect(pool_.address(), store::WorldSharing::Servers, contents_);
+        if (!connection) return tl::unexpected(connection.error());
+        connection_ = std::move(*connection);
+        nextLook_ = nextBeat_ = {};
+        mustLookUp_ = true;
+        if (auto listening = listen(); !listening) return listening;
+    }
+    return mustLookUp_ ? lookUp() : base::Result<void>();
+}
+
+// All that notes tell of people. What is queued here is newer: its own note tells it once more.
+base::Result<void> PostgresRecords::lookUp() {
+    auto players = readPlayers(*connection_);
+    if (!players) return tl::unexpected(players.error());
+    auto claims = readClaims(*connection_);
+    if (!claims) return tl::unexpected(claims.error());
+    auto hash = readText(*connection_, net::kPasswordText);
+    if (!hash) return tl::unexpected(hash.error());
+    auto elsewhere = readElsewhere(*connection_, server_);
+    if (!elsewhere) return tl::unexpected(elsewhere.error());
+    mustLookUp_ = false;
+    const std::lock_guard lock(mutex_);
+    std::move(players->begin(), players->end(), std::back_inserter(news_.players));
+    news_.claims = std::move(*claims);
+    news_.passwordHash = std::move(*hash);
+    const auto joinsHere = [&](game::PlayerId player) {
+        const auto isJoin = [&](const QueuedWrite& write) {
+            const auto* joined = write.note ? std::get_if<JoinedNote>(&*write.note) : nullptr;
+            return joined && joined->player == player;
+        };
+        return std::ranges::any_of(batch_, isJoin) || std::ranges::any_of(queue_, isJoin);
+    };
+    for (const game::PlayerId player : *elsewhere)
+        if (!joinsHere(player)) news_.joined.push_back(player);
+    return {};
 }
 
 base::Result<void> PostgresRecords::listen() {
     return connection_->execute("LISTEN " + connection_->quoted(channel_));
 }
 
+void PostgresRecords::keepNotices() {
+    for (store_postgres::Notification& notice : connection_->notifications())
+        notices_.push_back(std::move(notice));
+}
+
 base::Result<void> PostgresRecords::takeNotes(Heard& heard) {
+    keepNotices();
     bool hasEdits = Clock::now() >= nextLook_;
-    for (const store_postgres::Notification& notification : connection_->notifications()) {
-        const auto read = readNote(notification.payload);
-        if (!read || read->server == server_) continue;
-        if (auto taken = takeNote(read->note, hasEdits); !taken) return taken;
+    for (const store_postgres::Notification& notice : std::exchange(notices_, {})) {
+        const auto read = readNote(notice.payload);
+        // An own change may have been made before another one's was heard, and be the newer one.
+        if (!read || (read->server == server_ && !isOfRows(read->note))) continue;
+        if (auto taken = takeNote(read->note, hasEdits); !taken) {
+            mustLookUp_ = true;
+            return taken;
+        }
     }
     if (!hasEdits) return {};
     nextLook_ = Clock::now() + kLookEvery;
@@ -138,15 +183,30 @@ base::Result<void> PostgresRecords::takeNote(const Note& note, bool& hasEdits) {
 
 // What failed is written first, and alone: nothing is added to it.
 base::Result<void> PostgresRecords::writeQueued(Heard& heard) {
+    if (heard.isWritten) return {};
     if (batch_.empty()) {
         const std::lock_guard lock(mutex_);
-        const std::size_t count = std::min(queue_.size(), kMaxBatch);
+        const std::size_t count = std::min(queue_.size(), oneByOne_ > 0 ? 1 : kMaxBatch);
+        if (oneByOne_ > 0) --oneByOne_;
         std::move(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(count),
                   std::back_inserter(batch_));
         queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(count));
     }
     if (batch_.empty()) return {};
-    return writer_->write(*connection_, batch_, heard);
+    auto done = writer_->write(*connection_, batch_, heard);
+    if (done || done.error().code != base::ErrorCode::Failed) return done;
+    // The database is there, and does not take this. Which of it, one by one tells; that one is given up.
+    base::logError("{}; {}", done.error().message,
+                   batch_.size() > 1 ? "it is tried one by one" : "it is given up");
+    if (batch_.size() == 1) {
+        writer_->refuse(batch_.front(), heard);
+        return {};
+    }
+    const std::lock_guard lock(mutex_);
+    oneByOne_ = batch_.size();
+    std::move(batch_.begin(), batch_.end(), std::inserter(queue_, queue_.begin()));
+    batch_.clear();
+    return {};
 }
 
 // The server hears all of it at once.
@@ -173,10 +233,16 @@ base::Result<void> PostgresRecords::sendNotes() {
     std::vector<Command> commands;
     {
         const std::lock_guard lock(mutex_);
-        for (; !notes_.empty() && commands.size() < kNotesAtOnce; notes_.pop_front())
-            commands.push_back(notifyCommand(channel_, server_, notes_.front()));
+        for (const Note& note : notes_) {
+            if (commands.size() == kNotesAtOnce) break;
+            commands.push_back(notifyCommand(channel_, server_, note));
+        }
     }
-    return commands.empty() ? base::Result<void>() : connection_->changeAll(commands);
+    if (commands.empty()) return {};
+    if (auto sent = connection_->changeAll(commands); !sent) return sent;
+    const std::lock_guard lock(mutex_);
+    notes_.erase(notes_.begin(), notes_.begin() + static_cast<std::ptrdiff_t>(commands.size()));
+    return {};
 }
 
 base::Result<void> PostgresRecords::beatIfDue() {
@@ -204,6 +270,9 @@ base::Result<void> PostgresRecords::beatIfDue() {
 
 // Looked up once; the server may hear of it later than this.
 base::Result<void> PostgresRecords::findUnsaved(std::vector<net::OtherServer>& others) {
+    std::erase_if(gone_, [&](const auto& entry) {
+        return std::ranges::none_of(others, [&](const auto& other) { return other.number == entry.first; });
+    });
     for (net::OtherServer& other : others) {
         if (other.isAlive) {
             gone_.erase(other.number);

@@ -20,9 +20,14 @@ constexpr Statement kPutServer = {
     "players = excluded.players, seen = excluded.seen, address = excluded.address, key = excluded.key"};
 constexpr Statement kRemoveServer = {"DELETE FROM servers WHERE number = $1"};
 constexpr Statement kRemoveLeases = {"DELETE FROM growth_leases WHERE server = $1"};
+constexpr Statement kForgetServer = {
+    "WITH gone AS (DELETE FROM servers WHERE number = $1 AND seen < clock_timestamp() - $2 * interval '1 "
+    "second' RETURNING number) DELETE FROM growth_leases USING gone WHERE server = gone.number"};
+// Only where it rises: who appends edits writes the row, too.
 constexpr Statement kRaiseSaved = {
-    "UPDATE history SET saved = greatest(saved, least(newest, coalesce((SELECT min(saved) FROM servers), "
-    "$1)))"};
+    "WITH now AS (SELECT coalesce((SELECT min(saved) FROM servers), $1) AS saved) "
+    "UPDATE history SET saved = least(newest, now.saved) FROM now WHERE history.saved < least(newest, "
+    "now.saved)"};
 constexpr Statement kSaved = {"SELECT saved FROM history"};
 constexpr Statement kOtherServers = {
     "SELECT number, name, address, key, players::bigint, "
@@ -47,14 +52,15 @@ base::Result<std::int64_t> addServer(Connection& connection, const ServerName& n
     return rows->number(0, 0);
 }
 
-std::vector<Command> removeServerCommands(std::int64_t server) {
-    return {{&kRemoveServer, Parameters().number(server)}, {&kRemoveLeases, Parameters().number(server)}};
+base::Result<void> removeServer(Connection& connection, std::int64_t server, std::int64_t saved) {
+    const std::vector<Command> commands = {{&kRemoveServer, Parameters().number(server)},
+                                           {&kRemoveLeases, Parameters().number(server)},
+                                           {&kRaiseSaved, Parameters().number(saved)}};
+    return connection.changeAll(commands);
 }
 
-base::Result<void> removeServer(Connection& connection, std::int64_t server, std::int64_t saved) {
-    std::vector<Command> commands = removeServerCommands(server);
-    commands.push_back({&kRaiseSaved, Parameters().number(saved)});
-    return connection.changeAll(commands);
+Command forgetServerCommand(std::int64_t server) {
+    return {&kForgetServer, Parameters().number(server).number(kGoneSeconds)};
 }
 
 base::Result<BeatAnswer> beat(Connection& connection, const ServerName& name, const ServerBeat& state) {

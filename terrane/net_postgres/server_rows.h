@@ -21,11 +21,12 @@ struct ServerName {
 // The new server's number; it has nothing to save.
 [[nodiscard]] base::Result<std::int64_t> addServer(store_postgres::Connection& connection,
                                                    const ServerName& name);
-// Its row, its players and leases go.
-std::vector<store_postgres::Command> removeServerCommands(std::int64_t server);
-// The same, at its end. `saved`: up to this edit it has nothing to save.
+// Its row, its players and leases go, at its end. `saved`: up to this edit it has nothing to save.
 [[nodiscard]] base::Result<void> removeServer(store_postgres::Connection& connection, std::int64_t server,
                                               std::int64_t saved);
+
+// The same of another server, unless it is heard of again.
+store_postgres::Command forgetServerCommand(std::int64_t server);
 
 struct ServerBeat {
     std::int64_t server = 0, saved = 0;

@@ -29,12 +29,7 @@ void describe(Wire& wire, N& note) {
             wire.flag(player.swings);
         });
     } else if constexpr (std::is_same_v<T, TilesNote>) {
-        wire.list(note.tiles, kMaxTilesInNote, [&](auto& tile) {
-            wire.integer(tile.x);
-            wire.integer(tile.y);
-            wire.fixed(tile.level);
-            wire.require(world::isInWorld(tile));
-        });
+        wire.list(note.tiles, kMaxTilesInNote, [&](auto& tile) { net::describeChunkPos(wire, tile); });
     }
 }
 
@@ -69,6 +64,11 @@ std::optional<Note> noteOfKind(std::size_t kind, net::ByteView bytes) {
 }
 
 }  // namespace
+
+bool isOfRows(const Note& note) {
+    return std::holds_alternative<PlayerNote>(note) || std::holds_alternative<ClaimsNote>(note) ||
+           std::holds_alternative<PasswordNote>(note);
+}
 
 std::string noteText(std::int64_t server, const Note& note) {
     net::Bytes bytes;

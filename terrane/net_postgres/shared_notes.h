@@ -42,6 +42,9 @@ using Note = std::variant<EditsNote, ClaimsNote, PlayerNote, JoinedNote, LeftNot
 // At most so many fit one note.
 constexpr std::size_t kMaxPosesInNote = 120, kMaxTilesInNote = 300;
 
+// It says that rows of people changed, and to look at them.
+bool isOfRows(const Note& note);
+
 std::string noteText(std::int64_t server, const Note& note);
 struct ReadNote {
     std::int64_t server = 0;

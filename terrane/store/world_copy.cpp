@@ -8,6 +8,7 @@
 #include "terrane/base/log.h"
 #include "terrane/store/chunk_codec.h"
 #include "terrane/store/chunk_key.h"
+#include "terrane/store/derived_rows.h"
 
 namespace terrane::store {
 namespace {
@@ -189,6 +190,7 @@ class Copy {
         RowChanges changes;
         changes.metadata = from_.metadata();
         changes.metadata.insert_or_assign(std::string(kCopyMark), std::string(kFinished));
+        if (report_.damaged > 0) changes.metadata.erase(std::string(kDerivedRowsMark));
         return changes;
     }
 
@@ -217,6 +219,10 @@ SaveAccess accessOfCopy(const ReadableRows& from) {
 }
 
 base::Result<std::int64_t> beginCopy(const ReadableRows& from, ChunkRows& to) {
+    const auto source = from.metadata().find(kCopyMark);
+    if (source != from.metadata().end() && lastKeyOf(source->second))
+        return base::fail(ErrorCode::Incompatible, "{}: a copy that was not finished; start it again",
+                          from.name());
     const auto mark = to.metadata().find(kCopyMark);
     const auto first = to.rowsAfter(kBeforeAll, 1);
     if (!first) return tl::unexpected(first.error());

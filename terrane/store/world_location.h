@@ -23,7 +23,7 @@ struct WorldLocation {
 WorldLocation worldLocation(std::string text);
 
 // The file that a name or a file stands for, whether it is there or not. An error for what cannot be the name
-// of a save, and for a URL: no build can open one yet.
+// of a save, and for a URL, which is no file.
 [[nodiscard]] base::Result<std::filesystem::path> fileOf(const WorldLocation& location);
 
 // Bytes on disk of the file and of what SQLite has not moved into it yet; 0 where there is none.

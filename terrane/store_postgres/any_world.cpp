@@ -44,8 +44,8 @@ StoreResult openDatabase(const Address& address, const world::BlockRegistry& blo
         return store::compareWorld(saved, request.wanted, request.versionOf, address.shown);
     };
     RetryTimes times;
-    // What a server cannot read it would make anew, and so lose what was built there: it rather waits.
-    if (request.sharing == store::WorldSharing::Servers) times.reading = std::chrono::minutes(10);
+    // What cannot be read is made anew, and what was built there is lost to players: they rather wait.
+    if (request.sharing != store::WorldSharing::Generating) times.reading = std::chrono::minutes(10);
     auto store = PostgresStore::open(address, blocks, access, request.sharing, request.limits, times);
     if (!store) return tl::unexpected(store.error());
     if (auto whole = store::requireWhole(**store, address.shown); !whole)

@@ -89,7 +89,7 @@ std::string firstLine(std::string_view text) {
     return std::string(text);
 }
 
-constexpr std::string_view kDiskFull = "53100";
+constexpr std::string_view kDiskFull = "53100", kReadOnly = "25006";
 
 // By SQLSTATE (PostgreSQL's documentation, appendix A).
 ErrorCode codeOf(std::string_view state) {
@@ -119,10 +119,15 @@ ErrorCode codeOfConnecting(std::string_view message) {
 // What the server says besides, which libpq would print.
 void ignoreNotice(void*, const PGresult*) {}
 
+// Also what the server does about a program that stands still or is gone: others wait for its locks.
 constexpr Statement kSetUp = {
     "SELECT set_config('search_path', $1, false), set_config('client_min_messages', 'warning', false), "
     "set_config('synchronous_commit', CASE WHEN current_setting('synchronous_commit') = 'off' THEN 'on' "
-    "ELSE current_setting('synchronous_commit') END, false), current_setting('server_encoding')"};
+    "ELSE current_setting('synchronous_commit') END, false), current_setting('server_encoding'), "
+    "set_config('idle_in_transaction_session_timeout', '60s', false), set_config('tcp_keepalives_idle', "
+    "'10', false), "
+    "set_config('tcp_keepalives_interval', '5', false), set_config('tcp_keepalives_count', '4', false), "
+    "set_config('tcp_user_timeout', '30000', false)"};
 
 }  // namespace
 
@@ -247,7 +252,10 @@ base::Error Connection::errorOf(const pg_result* result) const {
 // broken: where writing failed, and the last words of the server wait to be read.
 base::Error Connection::failureOf(const pg_result* result) {
     base::Error error = errorOf(result);
-    if (PQresultErrorField(result, PG_DIAG_SQLSTATE)) return error;
+    const char* state = PQresultErrorField(result, PG_DIAG_SQLSTATE);
+    // A server that does not write any more: another one may have taken its place.
+    if (state && state == kReadOnly) connection_ = nullptr;
+    if (state) return error;
     connection_ = nullptr;
     return {ErrorCode::Io, std::move(error.message)};
 }

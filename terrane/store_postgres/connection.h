@@ -1,6 +1,6 @@
 // A connection to PostgreSQL: statements with binary parameters, each prepared once, sent one by one or many
-// in one round trip. Used by one thread at a time. Errors are one line that names the database, without its
-// user and password.
+// in one round trip. Used by one thread at a time. Errors are one line that names the database, without a
+// password.
 #pragma once
 
 #include <cstdint>
@@ -86,7 +86,7 @@ class Connection {
     [[nodiscard]] static base::Result<Connection> open(const Address& address);
 
     [[nodiscard]] base::Result<Rows> run(const Statement& statement, const Parameters& parameters = {});
-    // All in one round trip (pipeline mode), as one transaction: all or nothing.
+    // All in one round trip (pipeline mode); outside of a transaction as one of their own: all or nothing.
     [[nodiscard]] base::Result<std::vector<Rows>> runAll(std::span<const Command> commands);
     // The same where nobody asks for the rows.
     [[nodiscard]] base::Result<void> change(const Statement& statement, const Parameters& parameters = {});

@@ -59,7 +59,7 @@ template <class T, class Do>
 base::Result<T> PostgresWriter::inTransaction(Do action) {
     return pool_.retry<T>([&]() -> base::Result<T> {
         if (!connection_.isUsable()) {
-            auto connection = reconnect(pool_.address(), sharing_, contents_.identity);
+            auto connection = reconnect(pool_.address(), sharing_, contents_);
             if (!connection) return tl::unexpected(connection.error());
             connection_ = std::move(*connection);
         }
@@ -94,9 +94,11 @@ base::Result<bool> PostgresWriter::writeBatch(const store::SaveBatch& batch, con
     isComplete_ = derived->isComplete;
     for (const store::DamagedRow& row : batch.damaged)
         if (auto done = quarantine(row); !done) return tl::unexpected(done.error());
+    // A newer row of another server stays, whatever could not be read before.
     for (const ChunkPos pos : unread)
-        if (auto done = putAside(pos, "could not be read when it was replaced"); !done)
-            return tl::unexpected(done.error());
+        if (chunks->contains(pos))
+            if (auto done = putAside(pos, "could not be read when it was replaced"); !done)
+                return tl::unexpected(done.error());
     if (auto done = writeChunks(*chunks); !done) return tl::unexpected(done.error());
     if (auto done = writeDerived(derived->rows); !done) return tl::unexpected(done.error());
     store::Metadata metadata(batch.metadata.begin(), batch.metadata.end());

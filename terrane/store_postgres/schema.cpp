@@ -38,7 +38,8 @@ CREATE TABLE workers (number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY, na
 )";
 
 // Of servers. `edits` is the history, numbered without gaps in the order in which edits were accepted;
-// `write` says which of its server's writes an edit is. Up to history.saved all are in `chunks`.
+// `write` says which of its server's writes an edit is. Up to history.saved all are in `chunks`;
+// history.openings counts who had the world for itself.
 constexpr const char* kServerTables = R"(
 CREATE TABLE texts (name text PRIMARY KEY, value text NOT NULL);
 CREATE SEQUENCE player_numbers MINVALUE 2;
@@ -51,7 +52,7 @@ CREATE TABLE edits (number bigint PRIMARY KEY, time bigint NOT NULL, player bigi
     server bigint NOT NULL, write bigint NOT NULL, blocks bytea NOT NULL);
 CREATE INDEX edits_of_chunk ON edits (chunk, number);
 CREATE INDEX edits_of_player ON edits (player, number);
-CREATE TABLE history (newest bigint NOT NULL, saved bigint NOT NULL);
+CREATE TABLE history (newest bigint NOT NULL, saved bigint NOT NULL, openings bigint NOT NULL DEFAULT 0);
 INSERT INTO history VALUES (0, 0);
 CREATE TABLE servers (number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY, name text NOT NULL, address text NOT NULL,
     key text NOT NULL, players integer NOT NULL DEFAULT 0, saved bigint NOT NULL,
@@ -90,6 +91,7 @@ constexpr Column kColumns[] = {
     {"edits", "blocks", "bytea"},
     {"history", "newest", "bigint"},
     {"history", "saved", "bigint"},
+    {"history", "openings", "bigint"},
     {"servers", "number", "bigint"},
 };
 

@@ -6,7 +6,7 @@
 namespace terrane::store_postgres {
 namespace {
 
-// A queue has no more jobs of one area: 2^30 chunks.
+// Of one area; whole squares have 2^30 chunks.
 constexpr std::int64_t kMaxJobs = 1 << 20;
 
 constexpr Statement kHasArea = {
@@ -124,10 +124,13 @@ std::int64_t spiralPlace(std::int64_t x, std::int64_t y) {
 }
 
 base::Result<bool> addArea(Connection& connection, const world::ChunkArea& area, JobOrder order) {
-    const std::int64_t jobs = (area.chunkCount() / kJobSide) / kJobSide;
-    if (jobs > kMaxJobs)
-        return base::fail(base::ErrorCode::BadInput, "an area of {} chunks is too large; at most {}",
-                          area.chunkCount(), kMaxJobs * kJobSide * kJobSide);
+    const auto squares = [](std::int64_t first, std::int64_t end) {
+        return ((end - 1) >> 5) - (first >> 5) + 1;
+    };
+    if (squares(area.x0, area.x1) * squares(area.y0, area.y1) > kMaxJobs)
+        return base::fail(base::ErrorCode::BadInput,
+                          "an area of {} chunks is too large; at most {} squares of {}×{}", area.chunkCount(),
+                          kMaxJobs, kJobSide, kJobSide);
     return inTransaction(connection, [&] { return addAreaLocked(connection, area, order); });
 }
 

@@ -23,7 +23,8 @@ constexpr Statement kCanWrite = {
     "SELECT has_table_privilege('chunks', 'INSERT') AND has_table_privilege('chunks', 'UPDATE') "
     "AND has_table_privilege('settings', 'INSERT'), current_setting('transaction_read_only') = 'on'"};
 constexpr Statement kSettings = {"SELECT name, value FROM settings"};
-constexpr Statement kHistory = {"SELECT newest, newest - saved FROM history"};
+constexpr Statement kHistory = {"SELECT newest, newest - saved, openings FROM history"};
+constexpr Statement kRaiseOpenings = {"UPDATE history SET openings = openings + 1 RETURNING openings"};
 constexpr Statement kBlocks = {"SELECT id, name FROM blocks ORDER BY id"};
 constexpr Statement kAddBlocks = {
     "INSERT INTO blocks (id, name) SELECT * FROM unnest($1::bigint[], $2::text[])"};
@@ -158,8 +159,10 @@ std::string copySql(Connection& connection, const Address& address, const std::s
     const std::string to = connection.quoted(copy), from = connection.quoted(address.schema);
     std::string sql = fmt::format("CREATE SCHEMA {0}; SET LOCAL search_path = {0};", to);
     for (const char* step : formatSteps()) sql += step;
-    for (const char* table : {"terrane_format", "settings", "blocks", "chunks"})
+    for (const char* table : {"terrane_format", "settings", "blocks"})
         sql += fmt::format("INSERT INTO {0}.{2} SELECT * FROM {1}.{2};", to, from, table);
+    // Without their versions: its history begins anew.
+    sql += fmt::format("INSERT INTO {0}.chunks SELECT key, origin, data FROM {1}.chunks;", to, from);
     sql += fmt::format(
         "INSERT INTO {0}.quarantine (key, reason, data) SELECT key, reason, data FROM "
         "{1}.quarantine ORDER BY number; SET LOCAL search_path = {1};",
@@ -193,6 +196,13 @@ base::Result<void> regenerate(Connection& connection, const Address& address, co
     return {};
 }
 
+base::Result<void> raiseOpenings(Connection& connection, WorldContents& contents) {
+    const auto raised = connection.run(kRaiseOpenings);
+    if (!raised) return tl::unexpected(raised.error());
+    contents.openings = raised->number(0, 0);
+    return {};
+}
+
 base::Result<void> regenerateIfAsked(Connection& connection, const Address& address,
                                      const world::BlockRegistry& blocks, const store::SaveAccess& access,
                                      WorldContents& contents) {
@@ -201,7 +211,9 @@ base::Result<void> regenerateIfAsked(Connection& connection, const Address& addr
     if (!by) return tl::unexpected(by.error());
     if (by->chunks == Regenerate::None) return {};
     auto done = doAlone(connection, address, [&] { return regenerate(connection, address, *by); });
-    return done ? readContents(connection, blocks, contents) : done;
+    if (!done) return done;
+    if (auto raised = raiseOpenings(connection, contents); !raised) return raised;
+    return readContents(connection, blocks, contents);
 }
 
 // What servers that were killed left in the history alone, only servers add to the chunks.
@@ -212,6 +224,7 @@ base::Result<void> readHistory(Connection& connection, WorldSharing sharing, Wor
         return base::fail(ErrorCode::Damaged, "{}: damaged: the table history has not one row",
                           connection.shown());
     contents.newestEdit = history->number(0, 0);
+    contents.openings = history->number(0, 2);
     if (sharing != WorldSharing::Alone || history->number(0, 1) == 0) return {};
     return base::fail(ErrorCode::Incompatible,
                       "{}: a server was killed, and its last edits are in the history alone: start and stop "
@@ -227,6 +240,8 @@ base::Result<void> openContents(Connection& connection, const Address& address,
     if (auto can = checkCanWrite(connection); !can) return can;
     if (auto read = readHistory(connection, sharing, contents); !read) return read;
     if (auto done = regenerateIfAsked(connection, address, blocks, access, contents); !done) return done;
+    if (sharing == WorldSharing::Alone)
+        if (auto raised = raiseOpenings(connection, contents); !raised) return raised;
     const std::vector<SavedName>& added = contents.ids.added();
     if (added.empty()) return {};
     return doAlone(connection, address, [&] { return addNames(connection, added); });
@@ -275,8 +290,14 @@ base::Result<WorldConnection> openToRead(const Address& address, const world::Bl
     return opened;
 }
 
+base::Result<std::int64_t> readOpenings(Connection& connection) {
+    const auto history = connection.run(kHistory);
+    if (!history) return tl::unexpected(history.error());
+    return history->count() == 1 ? history->number(0, 2) : -1;
+}
+
 base::Result<Connection> reconnect(const Address& address, WorldSharing sharing,
-                                   const store::WorldIdentity& identity) {
+                                   const WorldContents& contents) {
     auto connection = Connection::open(address);
     if (!connection) return connection;
     if (auto taken = takeSharedLocks(*connection, address, sharing); !taken)
@@ -285,9 +306,17 @@ base::Result<Connection> reconnect(const Address& address, WorldSharing sharing,
     if (!metadata) return tl::unexpected(metadata.error());
     const auto saved = store::identityFrom(*metadata, address.shown);
     if (!saved) return tl::unexpected(saved.error());
-    if (auto same = store::requireSame(*saved, identity, address.shown); !same)
+    if (auto same = store::requireSame(*saved, contents.identity, address.shown); !same)
         return tl::unexpected(same.error());
-    return connection;
+    // What generates, others may play in: it replaces nothing of theirs.
+    if (sharing == WorldSharing::Generating) return connection;
+    const auto openings = readOpenings(*connection);
+    if (!openings) return tl::unexpected(openings.error());
+    if (*openings == contents.openings) return connection;
+    return base::fail(ErrorCode::Incompatible,
+                      "{}: another program had the world for itself while the connection was lost; what was "
+                      "not saved before is not saved over what it did",
+                      address.shown);
 }
 
 }  // namespace terrane::store_postgres

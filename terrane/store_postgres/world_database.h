@@ -21,7 +21,9 @@ namespace terrane::store_postgres {
 struct WorldContents {
     bool isNew = false;
     int format = 0;
-    std::int64_t newestEdit = 0;  // of the servers' history; of a world that is opened to write
+    std::int64_t newestEdit = 0;  // of the servers' history
+    // How often a program had the world for itself, or made it anew, up to this opening; of a world to write.
+    std::int64_t openings = 0;
     store::Metadata metadata;
     store::WorldIdentity identity;
     store::BlockIdMap ids;
@@ -42,9 +44,12 @@ struct WorldConnection {
 [[nodiscard]] base::Result<WorldConnection> openToRead(const Address& address,
                                                        const world::BlockRegistry& blocks);
 
-// After a connection was lost: a new one with the same locks, to the world that was `identity`. Busy where
-// another program took it, Incompatible where one regenerated it meanwhile.
+// WorldContents::openings as of now.
+[[nodiscard]] base::Result<std::int64_t> readOpenings(Connection& connection);
+
+// After a connection was lost: a new one with the same locks, to the world that was opened with `contents`.
+// Busy where another program has it, Incompatible where one had it for itself or regenerated it meanwhile.
 [[nodiscard]] base::Result<Connection> reconnect(const Address& address, store::WorldSharing sharing,
-                                                 const store::WorldIdentity& identity);
+                                                 const WorldContents& contents);
 
 }  // namespace terrane::store_postgres

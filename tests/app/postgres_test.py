@@ -160,7 +160,7 @@ class Copy(Postgres):
 
     def test_a_killed_copy_goes_on(self):
         file = self.folder / "a.sqlite"
-        self.succeed("generate", "--radius", "40", "--world", file, "--generator", "flat")
+        self.succeed("generate", "--radius", "60", "--world", file, "--generator", "flat")
         copy = subprocess.Popen([support.program(), "copy", str(file), self.url], stdout=subprocess.DEVNULL,
                                 stderr=subprocess.DEVNULL)
         while copy.poll() is None and "t" not in _server.query(
@@ -169,14 +169,25 @@ class Copy(Postgres):
             time.sleep(0.002)
         copy.send_signal(signal.SIGKILL)
         copy.wait()
-        # The kill may have come too late.
         mark = _server.query(f"SELECT value FROM {self.schema}.settings WHERE name = 'copy'")
-        if mark.startswith("unfinished"):
-            self.assertRefused(run("generate", "--radius", "1", "--world", self.url), "not finished")
-            copied = json.loads(self.succeed("copy", file, self.url, "--json"))
-            self.assertEqual(copied["chunks"], 81 * 81)
-            self.assertLess(copied["copied"], 81 * 81, "it went on where it was")
-        self.assertEqual(self.digest(40, "--world", self.url), self.digest(40, "--generator", "flat"))
+        self.assertTrue(mark.startswith("unfinished"), mark)
+        self.assertRefused(run("generate", "--radius", "1", "--world", self.url), "not finished")
+        self.assertRefused(run("copy", self.url, self.folder / "b.sqlite"), "not finished")
+        copied = json.loads(self.succeed("copy", file, self.url, "--json"))
+        self.assertEqual(copied["chunks"], 121 * 121)
+        self.assertLess(copied["copied"], 121 * 121, "it went on where it was")
+        self.assertEqual(self.digest(20, "--world", self.url), self.digest(20, "--generator", "flat"))
+
+    def test_a_copy_of_a_world_that_may_only_be_read(self):
+        """Players and history, too: nothing is written where they come from."""
+        server = Server(support.program(), self.folder, 0, "--generator", "flat", url=self.url)
+        self.succeed("bots", "--connect", f"127.0.0.1:{server.port}", "--count", "3", "--seconds", "4",
+                     "--builders", "1")
+        self.assertEqual(server.stop(), 0)
+        source = self.url + ("&" if "?" in self.url else "?") + "options=-c%20default_transaction_read_only%3Don"
+        self.succeed("copy", source, self.folder / "a.sqlite")
+        self.assertIn("bot", self.succeed("history", "--world", self.folder / "a.sqlite"))
+
 
     def test_damaged_chunks_are_left_out_and_told(self):
         self.succeed("generate", "--radius", "1", "--world", self.url)

@@ -295,5 +295,57 @@ TEST_F(SharedServersTest, WaterFlowsOnOneServerAndIsOnAll) {
     servers_.stopAll();
 }
 
+// One change that is no UTF-8 waits for nobody: those around it are made.
+TEST_F(SharedServersTest, WhatTheDatabaseRefusesIsGivenUp) {
+    TestServer& a = servers_.add();
+    Guest anna(a, "Anna");
+    net::ServerRecords& records = a.state().records;
+    records.setText("before", "1");
+    records.setText("wrong", "L\xE4rm");
+    records.setText("after", "2");
+    const auto number = anna.set(anna.near(1, 0), "cyan_glass");
+    ASSERT_TRUE(servers_.tickUntil([&] { return anna.resultOf(number) == EditResult::Applied; }));
+    EXPECT_EQ(postgres_.query("SELECT count(*) FROM " + schema_ + ".texts WHERE name IN ('before', 'after')"),
+              "2");
+    EXPECT_EQ(postgres_.query("SELECT count(*) FROM " + schema_ + ".texts WHERE name = 'wrong'"), "0");
+    servers_.stopAll();
+}
+
+// Nobody tells of it: as what was told while the connection was broken.
+TEST_F(SharedServersTest, WhatWasMissedIsLookedUp) {
+    TestServer& a = servers_.add();
+    Guest anna(a, "Anna"), bert(a, "Bert");
+    for (int k = 0; k < 50; ++k) servers_.tick();
+    postgres_.sql("UPDATE " + schema_ + ".players SET ban = 'noise' WHERE name = 'Bert'");
+    postgres_.sql("INSERT INTO " + schema_ + ".texts VALUES ('password', 'a hash')");
+    postgres_.sql("INSERT INTO " + schema_ + ".claims VALUES ('farm', 0, 0, 9, 9, 5, '')");
+    for (int k = 0; k < 50; ++k) servers_.tick();
+    EXPECT_EQ(bert.find<net::Refused>(), nullptr);
+    postgres_.query(
+        "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE pid <> pg_backend_pid() AND "
+        "application_name = 'terrane'");
+    ASSERT_TRUE(servers_.tickUntil([&] { return bert.find<net::Refused>() != nullptr; }));
+    EXPECT_EQ(bert.find<net::Refused>()->why, net::Refusal::Banned);
+    EXPECT_EQ(a.state().passwordHash, "a hash");
+    EXPECT_EQ(a.state().people.claims().all().size(), 1u);
+    EXPECT_EQ(anna.find<net::Refused>(), nullptr) << "she plays here, and nowhere else";
+    servers_.stopAll();
+}
+
+// A server that stalled is heard of again: its edits are its own to save.
+TEST_F(SharedServersTest, AServerThatHadOnlyStalledIsNotForgotten) {
+    TestServer &a = servers_.add(), &b = servers_.add();
+    Guest anna(a, "Anna");
+    const auto number = anna.set(anna.near(1, 0), "cyan_glass");
+    ASSERT_TRUE(servers_.tickUntil([&] { return anna.resultOf(number) == EditResult::Applied; }));
+    // As b finds it, before a says again that it is there.
+    b.state().sharing.estates.push_back({1, 1, {world::chunkOf(anna.near(1, 0))}});
+    net::SharedWorld& shared = *b.state().records.shared();
+    shared.forgetServer(1);
+    ASSERT_TRUE(servers_.tickUntil([&] { return b.state().sharing.estates.empty(); }));
+    EXPECT_EQ(postgres_.query("SELECT count(*) FROM " + schema_ + ".servers"), "2");
+    servers_.stopAll();
+}
+
 }  // namespace
 }  // namespace terrane::net_postgres

@@ -39,5 +39,24 @@ TEST(LateWriter, ReplacesNothingNewer) {
     EXPECT_EQ(derived, 2u);
 }
 
+// The schema that a regeneration leaves behind has a history of its own, which begins anew.
+TEST_F(PostgresWorldTest, EditsInABackupAreKept) {
+    const world::ChunkPos pos{3, -4};
+    {
+        const auto store = open();
+        store->setVersion(60);
+        store->save(pos, store::numberedChunk(60), store::Provenance::Edited);
+        ASSERT_TRUE(store->flush());
+    }
+    ASSERT_TRUE(tryOpen(regenerateBy(9, store::Regenerate::All)));
+    address_ = addressIn(sharedServer(), schema_ + "_backup_1");
+    {
+        const auto backup = open();
+        backup->save(pos, store::numberedChunk(61), store::Provenance::Edited);
+        ASSERT_TRUE(backup->flush());
+    }
+    EXPECT_EQ(*open()->load(pos).chunk, *store::numberedChunk(61));
+}
+
 }  // namespace
 }  // namespace terrane::store_postgres

@@ -46,14 +46,14 @@ base::Result<void> copyServers(const CopyOptions& options, const world::BlockReg
     const store::WorldLocation from = store::worldLocation(options.from),
                                to = store::worldLocation(options.to);
     if (!hasRecords(from)) return {};
-    const auto source = openRecords(from, blocks);
+    const auto source = openRecordsToRead(from, blocks);
     if (!source) return tl::unexpected(source.error());
-    const auto players = source->records->players();
+    const auto players = (*source)->players();
     if (!players) return tl::unexpected(players.error());
     if (players->empty()) return {};
     const auto target = openRecords(to, blocks);
     if (!target) return tl::unexpected(target.error());
-    const auto copied = net::copyRecords(*source->records, *target->records);
+    const auto copied = net::copyRecords(**source, *target->records);
     if (!copied) return tl::unexpected(copied.error());
     base::logInfo("{} players, {} claims and {} edits of the history copied", copied->players, copied->claims,
                   copied->edits);

@@ -34,6 +34,20 @@ base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
                         }};
 }
 
+base::Result<std::unique_ptr<net::ServerRecords>> openRecordsToRead(const store::WorldLocation& world,
+                                                                    const world::BlockRegistry& blocks) {
+    if (!isInDatabase(world)) {
+        auto records = openRecords(world, blocks);
+        if (!records) return tl::unexpected(records.error());
+        return std::move(records->records);
+    }
+    const auto address = store_postgres::addressOf(world.text);
+    if (!address) return tl::unexpected(address.error());
+    auto records = net_postgres::PostgresRecords::openToRead(*address, blocks, {processName(), "", ""});
+    if (!records) return tl::unexpected(records.error());
+    return std::move(*records);
+}
+
 base::Result<net::History> openHistory(const store::WorldLocation& world,
                                        const world::BlockRegistry& blocks) {
     if (isInDatabase(world)) {

@@ -22,6 +22,9 @@ struct WorldRecords {
 // Of a world that is open. Errors name the file or the database.
 [[nodiscard]] base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
                                                      const world::BlockRegistry& blocks);
+// To be read alone: a database may be a replica.
+[[nodiscard]] base::Result<std::unique_ptr<net::ServerRecords>> openRecordsToRead(
+    const store::WorldLocation& world, const world::BlockRegistry& blocks);
 
 // The same without a server: what servers of the world did.
 [[nodiscard]] base::Result<net::History> openHistory(const store::WorldLocation& world,

@@ -13,6 +13,13 @@ base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
     return WorldRecords{std::move(*records), {}};
 }
 
+base::Result<std::unique_ptr<net::ServerRecords>> openRecordsToRead(const store::WorldLocation& world,
+                                                                    const world::BlockRegistry& blocks) {
+    auto records = openRecords(world, blocks);
+    if (!records) return tl::unexpected(records.error());
+    return std::move(records->records);
+}
+
 base::Result<net::History> openHistory(const store::WorldLocation& world,
                                        const world::BlockRegistry& blocks) {
     const auto path = store::fileOf(world);
