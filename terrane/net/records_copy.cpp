@@ -1,5 +1,6 @@
 #include "terrane/net/records_copy.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 

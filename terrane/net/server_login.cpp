@@ -165,6 +165,13 @@ bool mayJoinAgain(ServerState& server, ServerClient& client, game::PlayerId play
     return may;
 }
 
+// Who comes from a server that is gone goes on where it was seen last.
+world::Pose lastPose(const ServerState& server, const KnownPlayer& player) {
+    const auto elsewhere = server.sharing.players.find(player.id);
+    if (elsewhere != server.sharing.players.end()) return poseOf(elsewhere->second.at.pose);
+    return player.pose ? *player.pose : newcomersPose(server);
+}
+
 void join(ServerState& server, ServerClient& client) {
     const bool needsNumber = server.sharing.shared && !server.people.byKey(client.key);
     const game::PlayerId number = needsNumber ? server.sharing.shared->takePlayerNumber() : game::kNoPlayer;
@@ -174,7 +181,7 @@ void join(ServerState& server, ServerClient& client) {
     replaceFormer(server, player);
     if (!mayJoinAgain(server, client, player.id))
         return refuse(server, client, Refusal::TooMuch, "you join too often: try again in some seconds");
-    const world::Pose pose = player.pose ? *player.pose : newcomersPose(server);
+    const world::Pose pose = lastPose(server, player);
     client.stage = Stage::Playing;
     client.player = player.id;
     client.role = player.role;

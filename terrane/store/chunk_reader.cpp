@@ -88,23 +88,32 @@ base::Result<std::vector<world::ChunkPos>> readEditedChunks(Database& database) 
     return edited;
 }
 
-base::Result<std::vector<KeyedRow>> ChunkReader::rowsAfter(std::int64_t key, std::size_t count) {
-    auto connection = takeConnection();
-    if (!connection) return tl::unexpected(connection.error());
+base::Result<std::vector<KeyedRow>> ChunkReader::readRowsAfter(Database& database, std::int64_t key,
+                                                               std::size_t count) const {
+    auto select = database.prepare(
+        fmt::format("SELECT data, origin, key FROM chunks WHERE key > {} ORDER BY key LIMIT {}", key, count));
+    if (!select) return tl::unexpected(select.error());
     std::vector<KeyedRow> rows;
-    const auto take = [&](const Statement& row) -> base::Result<void> {
-        const std::int64_t next = row.number(2);
+    std::size_t bytes = 0;
+    while (bytes < kBytesOfRows) {
+        const auto row = select->step();
+        if (!row) return tl::unexpected(row.error());
+        if (!*row) break;
+        const std::int64_t next = select->number(2);
         if (next <= (rows.empty() ? key : rows.back().key))
             return base::fail(base::ErrorCode::Damaged, "{}: damaged: its chunks are out of order",
                               path_.string());
-        rows.push_back({next, storedChunk(row, posOf(next), format_)});
-        return {};
-    };
-    const std::string sql =
-        fmt::format("SELECT data, origin, key FROM chunks WHERE key > {} ORDER BY key LIMIT {}", key, count);
-    const auto read = forEachRow((*connection)->database, sql, take);
+        rows.push_back({next, storedChunk(*select, posOf(next), format_)});
+        bytes += rows.back().row.data.size();
+    }
+    return rows;
+}
+
+base::Result<std::vector<KeyedRow>> ChunkReader::rowsAfter(std::int64_t key, std::size_t count) {
+    auto connection = takeConnection();
+    if (!connection) return tl::unexpected(connection.error());
+    auto rows = readRowsAfter((*connection)->database, key, count);
     giveBack(std::move(*connection));
-    if (!read) return tl::unexpected(read.error());
     return rows;
 }
 

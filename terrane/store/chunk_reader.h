@@ -24,6 +24,9 @@ struct StoredChunk {
     std::uint64_t seed = 0;  // of its checksum
 };
 
+// Of the data of rows in memory at once, and one row more.
+constexpr std::size_t kBytesOfRows = std::size_t{8} << 20;
+
 struct KeyedRow {
     std::int64_t key = 0;
     StoredChunk row;
@@ -66,6 +69,8 @@ class ChunkReader {
     [[nodiscard]] base::Result<std::uint64_t> rowCount();
 
   private:
+    base::Result<std::vector<KeyedRow>> readRowsAfter(Database& database, std::int64_t key,
+                                                      std::size_t count) const;
     struct Connection {
         Database database;
         Statement select, count, begin, end;

@@ -55,7 +55,8 @@ class ReadableRows {
     [[nodiscard]] virtual base::Result<bool> contains(world::ChunkPos pos) = 0;
     // As ReadableStore::editedChunks().
     [[nodiscard]] virtual base::Result<std::vector<world::ChunkPos>> editedChunks() = 0;
-    // The next rows in the order of keys, of all levels; fewer than `count` at the end.
+    // The next rows in the order of keys, of all levels: at most `count`, and no more once they have
+    // kBytesOfRows. None at the end.
     [[nodiscard]] virtual base::Result<std::vector<KeyedRow>> rowsAfter(std::int64_t key,
                                                                         std::size_t count) = 0;
     [[nodiscard]] virtual base::Result<std::uint64_t> rowCount() = 0;

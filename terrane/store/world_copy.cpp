@@ -47,7 +47,7 @@ base::Result<std::vector<KeyedRow>> goodRowsAfter(ReadableRows& world, std::int6
                                                   CopyReport& report) {
     auto rows = world.rowsAfter(key, kRowsAtOnce);
     if (!rows) return rows;
-    isEnd = rows->size() < kRowsAtOnce;
+    isEnd = rows->empty();
     for (const KeyedRow& row : *rows)
         if (row.row.seed != checksumSeed(posOf(row.key), row.row.provenance == Provenance::Edited))
             return base::fail(ErrorCode::Incompatible,
@@ -147,6 +147,7 @@ class Copy {
         CopyReport ignored;
         RowWalk source(from_, report_), target(to_, ignored);
         RowChanges changes;
+        std::size_t changedBytes = 0;
         bool isSame = true;
         while (true) {
             const auto a = source.current(), b = target.current();
@@ -161,12 +162,16 @@ class Copy {
                 ++report_.rows;
                 report_.bytes += (*a)->row.data.size();
                 const bool isThere = *b && (*b)->key == (*a)->key;
-                if (!isThere || !isEqual(**a, **b)) changes.rows.push_back(**a);
+                if (!isThere || !isEqual(**a, **b)) {
+                    changes.rows.push_back(**a);
+                    changedBytes += (*a)->row.data.size();
+                }
                 source.step();
                 if (isThere) target.step();
             }
-            if (changes.rows.size() + changes.deleted.size() >= kRowsAtOnce) {
+            if (changes.rows.size() + changes.deleted.size() >= kRowsAtOnce || changedBytes >= kBytesOfRows) {
                 isSame = false;
+                changedBytes = 0;
                 if (auto done = repair(changes); !done) return tl::unexpected(done.error());
             }
             if (report_.rows % kRowsAtOnce == 0)

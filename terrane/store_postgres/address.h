@@ -15,7 +15,7 @@ constexpr std::string_view kDefaultSchema = "terrane";
 struct Address {
     std::string url;     // for libpq, without the schema. May hold a password: never printed
     std::string schema;  // 1 to 63 bytes
-    // For messages: host, port, database and schema, nothing of a user.
+    // For messages: host, port, database and schema, no user and no password.
     std::string shown;
 };
 

@@ -38,8 +38,8 @@ base::Result<void> checkChunks(WorldConnection& world, store::CheckReport& repor
     while (true) {
         const auto rows = readRowsAfter(world.connection, key, kRowsCheckedAtOnce);
         if (!rows) return tl::unexpected(rows.error());
+        if (rows->empty()) return {};
         for (const store::KeyedRow& row : *rows) addRow(report, row, world.contents.ids);
-        if (rows->size() < kRowsCheckedAtOnce) return {};
         key = rows->back().key;
     }
 }

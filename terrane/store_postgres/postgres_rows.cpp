@@ -18,14 +18,19 @@ using world::ChunkPos;
 constexpr Statement kRead = {"SELECT " TERRANE_CHUNK_DATA ", origin FROM chunks WHERE key = $1"};
 constexpr Statement kReadMany = {"SELECT key, " TERRANE_CHUNK_DATA
                                  ", origin FROM chunks WHERE key = ANY ($1)"};
-constexpr Statement kRowsAfter = {"SELECT key, " TERRANE_CHUNK_DATA
-                                  ", origin FROM chunks WHERE key > $1 ORDER BY key LIMIT $2"};
+constexpr Statement kRowsAfter = {
+    "SELECT key, data, origin FROM (SELECT key, data, origin, coalesce(sum(octet_length(data)) OVER (ORDER "
+    "BY key ROWS "
+    "BETWEEN UNBOUNDED PRECEDING AND 1 PRECEDING), 0) AS before FROM (SELECT key, " TERRANE_CHUNK_DATA
+    " AS data, origin FROM chunks WHERE key > $1 ORDER BY key LIMIT $2) AS page) AS counted WHERE before < "
+    "$3 "
+    "ORDER BY key"};
 constexpr Statement kCount = {"SELECT count(*) FROM chunks"};
 constexpr Statement kContains = {"SELECT EXISTS (SELECT 1 FROM chunks WHERE key = $1)"};
 constexpr Statement kEdited = {
     "SELECT key FROM chunks WHERE origin = 1 AND key >= 0 AND key < $1 ORDER BY key"};
 
-// Fetched at once: up to 2 MB, as rows are about 1 to 10 KB.
+// Fetched at once: about 2 MB, as rows are 1 to 10 KB.
 constexpr std::size_t kRowsAtOnce = 256;
 
 }  // namespace
@@ -41,6 +46,19 @@ StoredChunk storedChunk(const Rows& rows, int row, int column, ChunkPos pos) {
     chunk.seed = store::checksumSeed(pos, origin != 0);
     return chunk;
 }
+
+namespace {
+
+std::vector<store::KeyedRow> keyedRows(const Rows& found) {
+    std::vector<store::KeyedRow> rows;
+    for (int row = 0; row < found.count(); ++row) {
+        const std::int64_t at = found.number(row, 0);
+        rows.push_back({at, storedChunk(found, row, 1, store::posOf(at))});
+    }
+    return rows;
+}
+
+}  // namespace
 
 StoredRow readRow(Connection& connection, ChunkPos pos) {
     const auto rows = connection.run(kRead, Parameters().number(store::keyOf(pos)));
@@ -58,17 +76,22 @@ base::Result<std::vector<ChunkPos>> readEditedChunks(Connection& connection) {
     return edited;
 }
 
+base::Result<std::vector<store::KeyedRow>> readRows(Connection& connection,
+                                                    std::span<const std::int64_t> keys) {
+    const auto found = connection.run(kReadMany, Parameters().numbers(keys));
+    if (!found) return tl::unexpected(found.error());
+    return keyedRows(*found);
+}
+
 base::Result<std::vector<store::KeyedRow>> readRowsAfter(Connection& connection, std::int64_t key,
                                                          std::size_t count) {
     const auto found =
-        connection.run(kRowsAfter, Parameters().number(key).number(static_cast<std::int64_t>(count)));
+        connection.run(kRowsAfter, Parameters()
+                                       .number(key)
+                                       .number(static_cast<std::int64_t>(count))
+                                       .number(static_cast<std::int64_t>(store::kBytesOfRows)));
     if (!found) return tl::unexpected(found.error());
-    std::vector<store::KeyedRow> rows;
-    for (int row = 0; row < found->count(); ++row) {
-        const std::int64_t at = found->number(row, 0);
-        rows.push_back({at, storedChunk(*found, row, 1, store::posOf(at))});
-    }
-    return rows;
+    return keyedRows(*found);
 }
 
 base::Result<std::vector<store::KeyedRow>> ChunkQueries::rowsAfter(std::int64_t key, std::size_t count) {

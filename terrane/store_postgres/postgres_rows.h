@@ -27,7 +27,11 @@ class ChunkQueries {
 
 // By one connection: what its transaction sees.
 [[nodiscard]] store::StoredRow readRow(Connection& connection, world::ChunkPos pos);
+// Those that are there, in no order: all of them in memory at once.
+[[nodiscard]] base::Result<std::vector<store::KeyedRow>> readRows(Connection& connection,
+                                                                  std::span<const std::int64_t> keys);
 [[nodiscard]] base::Result<std::vector<world::ChunkPos>> readEditedChunks(Connection& connection);
+// As store::ReadableRows::rowsAfter().
 [[nodiscard]] base::Result<std::vector<store::KeyedRow>> readRowsAfter(Connection& connection,
                                                                        std::int64_t key, std::size_t count);
 // The row that the columns from `column` on have: data, origin.

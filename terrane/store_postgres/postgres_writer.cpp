@@ -35,14 +35,13 @@ constexpr Statement kReplaceChunks = {
     "INSERT INTO chunks (key, origin, data) SELECT * FROM unnest($1::bigint[], $2::smallint[], $3::bytea[]) "
     "ON CONFLICT (key) DO UPDATE SET origin = excluded.origin, data = excluded.data"};
 constexpr Statement kDeleteChunks = {"DELETE FROM chunks WHERE key = ANY ($1)"};
-constexpr Statement kExisting = {"SELECT key FROM chunks WHERE key = ANY ($1)"};
 constexpr Statement kPutAside = {
     "WITH gone AS (DELETE FROM chunks WHERE key = $1 RETURNING key, data) "
     "INSERT INTO quarantine (key, reason, data) SELECT key, $2, data FROM gone"};
 constexpr Statement kDeleteTiles = {"DELETE FROM chunks WHERE key >= $1"};
 
-// Of data in one statement.
-constexpr std::size_t kBytesAtOnce = 8 << 20;
+// Of data in one statement, and rows that are looked at together.
+constexpr std::size_t kBytesAtOnce = 8 << 20, kKeysAtOnce = 64;
 
 // PostgreSQL keeps text that is UTF-8 without zeros.
 bool isText(std::string_view text) {
@@ -244,23 +243,21 @@ base::Result<void> PostgresWriter::quarantine(const store::DamagedRow& row) {
 
 // What is there is looked at before it is overwritten: a row that was damaged is kept, also where nobody has
 // tried to load it.
-base::Result<void> PostgresWriter::putAsideDamaged(const std::vector<std::int64_t>& keys) {
-    if (keys.empty()) return {};
-    const auto existing = connection_.run(kExisting, Parameters().numbers(keys));
-    if (!existing) return tl::unexpected(existing.error());
-    for (int row = 0; row < existing->count(); ++row) {
-        const ChunkPos pos = store::posOf(existing->number(row, 0));
-        const StoredRow stored = readRow(connection_, pos);
-        if (!stored) return tl::unexpected(stored.error());
-        if (!*stored) continue;
-        std::string problem = (*stored)->problem;
-        if (problem.empty())
-            if (auto good = store::verifyChunk((*stored)->data, (*stored)->seed); !good)
-                problem = good.error().message;
-        if (problem.empty()) continue;
-        base::logWarning("{}: {}: {}; what it had is kept in the table quarantine", connection_.shown(),
-                         store::nameOf(pos), problem);
-        if (auto done = putAside(pos, problem); !done) return done;
+base::Result<void> PostgresWriter::putAsideDamaged(std::span<const std::int64_t> keys) {
+    for (; !keys.empty(); keys = keys.subspan(std::min(kKeysAtOnce, keys.size()))) {
+        const auto rows = readRows(connection_, keys.first(std::min(kKeysAtOnce, keys.size())));
+        if (!rows) return tl::unexpected(rows.error());
+        for (const store::KeyedRow& row : *rows) {
+            std::string problem = row.row.problem;
+            if (problem.empty())
+                if (auto good = store::verifyChunk(row.row.data, row.row.seed); !good)
+                    problem = good.error().message;
+            if (problem.empty()) continue;
+            const ChunkPos pos = store::posOf(row.key);
+            base::logWarning("{}: {}: {}; what it had is kept in the table quarantine", connection_.shown(),
+                             store::nameOf(pos), problem);
+            if (auto done = putAside(pos, problem); !done) return done;
+        }
     }
     return {};
 }

@@ -38,7 +38,7 @@ class PostgresWriter {
                                   store::EntityBudget& budget);
     base::Result<void> quarantine(const store::DamagedRow& row);
     base::Result<void> putAside(world::ChunkPos pos, std::string_view reason);
-    base::Result<void> putAsideDamaged(const std::vector<std::int64_t>& keys);
+    base::Result<void> putAsideDamaged(std::span<const std::int64_t> keys);
     base::Result<void> writeDerived(std::span<const store::ChunkRow> rows);
     base::Result<store::WaitingChunks> newestChunks(const store::SaveBatch& batch);
     base::Result<void> writeChunks(const store::WaitingChunks& chunks);
