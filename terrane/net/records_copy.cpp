@@ -29,11 +29,11 @@ base::Result<RecordsCopied> copyRecords(ServerRecords& from, ServerRecords& to) 
     const auto ends = from.historyEnds(), begun = to.historyEnds();
     if (!ends || !begun) return tl::unexpected((!ends ? ends : begun).error());
     if (ends->saved < ends->newest)
-        return base::fail(
-            base::ErrorCode::Incompatible,
-            "the world lacks {} edits of its history, as a server that was killed leaves it: start and "
-            "stop its server before it is copied",
-            ends->newest - ends->saved);
+        return base::fail(base::ErrorCode::Incompatible,
+                          "its chunks lack {} edits of its history: stop its server, or start and stop it "
+                          "where it was killed, "
+                          "before it is copied",
+                          ends->newest - ends->saved);
     if (begun->newest > ends->newest)
         return base::fail(base::ErrorCode::Incompatible,
                           "the copy has a history of its own: {} edits, expected {}", begun->newest,

@@ -8,6 +8,16 @@ std::string nameOf(world::ChunkPos pos) {
     return name;
 }
 
+base::Result<std::vector<world::ChunkPos>> missingOf(std::span<const world::ChunkPos> positions,
+                                                     std::span<const LoadedChunk> stored) {
+    std::vector<world::ChunkPos> missing;
+    for (std::size_t k = 0; k < positions.size(); ++k) {
+        if (stored[k].isUnread) return base::fail(base::ErrorCode::Io, "{}", stored[k].problem);
+        if (!stored[k].chunk) missing.push_back(positions[k]);
+    }
+    return missing;
+}
+
 std::vector<LoadedChunk> ReadableStore::loadMany(std::span<const world::ChunkPos> positions) {
     std::vector<LoadedChunk> loaded;
     loaded.reserve(positions.size());

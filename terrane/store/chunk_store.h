@@ -44,6 +44,12 @@ struct LoadedChunk {
 // "chunk 5,-6", of higher levels "chunk 5,-6 of level 2".
 std::string nameOf(world::ChunkPos pos);
 
+// Of `positions`, those of which nothing is stored, or what is stored is damaged: to be generated. `stored`:
+// what loadMany() gave of them. Io where one could not be read: it may be there, and a generated one would
+// not be saved.
+[[nodiscard]] base::Result<std::vector<world::ChunkPos>> missingOf(std::span<const world::ChunkPos> positions,
+                                                                   std::span<const LoadedChunk> stored);
+
 // A world to be read.
 class ReadableStore {
   public:

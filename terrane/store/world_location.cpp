@@ -1,5 +1,6 @@
 #include "terrane/store/world_location.h"
 
+#include <algorithm>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -11,11 +12,19 @@ namespace {
 
 constexpr std::string_view kSchemeEnd = "://";
 
+// A URL, or nearly one, of a database: what is misspelled may hold a password, and is no name of a file.
+bool isMeantAsDatabase(std::string_view text) {
+    constexpr std::string_view kStart = "postgres";
+    const auto isSame = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
+    return std::ranges::equal(text.substr(0, kStart.size()), kStart, isSame) &&
+           text.find_first_of(":@") != std::string_view::npos;
+}
+
 }  // namespace
 
 WorldLocation worldLocation(std::string text) {
     using Kind = WorldLocation::Kind;
-    const bool isUrl = text.find(kSchemeEnd) != std::string::npos;
+    const bool isUrl = text.find(kSchemeEnd) != std::string::npos || isMeantAsDatabase(text);
     const bool isFile = text.find('/') != std::string::npos || text.ends_with(".sqlite");
     return {isUrl ? Kind::Url : isFile ? Kind::File : Kind::Name, std::move(text)};
 }
@@ -30,9 +39,10 @@ base::Result<std::filesystem::path> fileOf(const WorldLocation& location) {
             break;
     }
     // The rest of a URL may hold a password.
-    const std::string scheme = location.text.substr(0, location.text.find(kSchemeEnd));
-    return base::fail(base::ErrorCode::Unsupported,
-                      "{}://…: a world in a database is not supported by this build", scheme);
+    const std::string scheme = location.text.substr(0, location.text.find_first_of(":/@"));
+    return base::fail(
+        base::ErrorCode::Unsupported,
+        "{}…: no URL of a world; a database is postgresql://host/database, where the build has them", scheme);
 }
 
 std::uintmax_t bytesOnDisk(const WorldLocation& location) {

@@ -31,6 +31,8 @@ constexpr Statement kAddBlocks = {
 constexpr Statement kSchemaExists = {"SELECT count(*) FROM pg_namespace WHERE nspname = $1"};
 constexpr Statement kDeleteGenerated = {"DELETE FROM chunks WHERE origin = 0 OR key >= $1"};
 constexpr Statement kDeleteAllChunks = {"DELETE FROM chunks"};
+// What was made is to be made again, where somebody asks for it.
+constexpr const char* kDeleteWork = "DELETE FROM jobs; DELETE FROM work_areas;";
 constexpr Statement kDeleteQuarantine = {"DELETE FROM quarantine"};
 
 base::Result<void> checkCanWrite(Connection& connection) {
@@ -173,6 +175,7 @@ std::string copySql(Connection& connection, const Address& address, const std::s
 base::Result<void> copyAndDelete(Connection& connection, const Address& address,
                                  const store::Regeneration& by, const std::string& copy) {
     if (auto copied = connection.execute(copySql(connection, address, copy)); !copied) return copied;
+    if (auto deleted = connection.execute(kDeleteWork); !deleted) return deleted;
     std::vector<Command> commands;
     if (by.chunks == Regenerate::All) {
         commands.push_back({&kDeleteAllChunks});

@@ -36,9 +36,30 @@ TEST(WorldLocation, AUrlIsNotSupportedAndItsPasswordNotPrinted) {
     const auto file = fileOf(worldLocation("postgresql://me:secret@host/name"));
     ASSERT_FALSE(file);
     EXPECT_EQ(file.error().code, ErrorCode::Unsupported);
-    EXPECT_THAT(file.error().message, HasSubstr("postgresql://"));
-    EXPECT_THAT(file.error().message, HasSubstr("not supported by this build"));
+    EXPECT_THAT(file.error().message, HasSubstr("postgresql"));
+    EXPECT_THAT(file.error().message, HasSubstr("no URL of a world"));
     EXPECT_THAT(file.error().message, Not(HasSubstr("secret")));
+}
+
+TEST(WorldLocation, WhatIsNearlyAUrlIsNoFile) {
+    for (const char* text :
+         {"postgresql:/me:secret@host/name", "postgresql//me:secret@host/name", "postgres:me:secret@host",
+          "PostgreSQL:me:secret", "postgresq://me:secret@host/name"}) {
+        EXPECT_EQ(worldLocation(text).kind, Kind::Url) << text;
+        EXPECT_THAT(fileOf(worldLocation(text)).error().message, Not(HasSubstr("secret"))) << text;
+    }
+    EXPECT_EQ(worldLocation("postgres").kind, Kind::Name);
+    EXPECT_EQ(worldLocation("postgres/a.sqlite").kind, Kind::File);
+}
+
+TEST(MissingOf, WhatCannotBeReadIsNotMissing) {
+    std::vector<LoadedChunk> stored(3);
+    stored[0].chunk = std::make_shared<world::Chunk>();
+    const std::vector<world::ChunkPos> positions{{0, 0}, {1, 0}, {2, 0}};
+    EXPECT_EQ(*missingOf(positions, stored), (std::vector<world::ChunkPos>{{1, 0}, {2, 0}}));
+    stored[2].isUnread = true;
+    stored[2].problem = "the network broke";
+    EXPECT_EQ(missingOf(positions, stored).error().message, "the network broke");
 }
 
 class OpenWorldTest : public testing::Test {

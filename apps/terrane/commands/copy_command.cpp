@@ -54,7 +54,9 @@ base::Result<void> copyServers(const CopyOptions& options, const world::BlockReg
     const auto target = openRecords(to, blocks);
     if (!target) return tl::unexpected(target.error());
     const auto copied = net::copyRecords(**source, *target->records);
-    if (!copied) return tl::unexpected(copied.error());
+    if (!copied)
+        return base::fail(copied.error().code, "{}: {}", store_postgres::shownOf(from),
+                          copied.error().message);
     base::logInfo("{} players, {} claims and {} edits of the history copied", copied->players, copied->claims,
                   copied->edits);
     return {};

@@ -84,9 +84,9 @@ class AreaGenerator {
         // A damaged chunk is not stored; loading reports it and puts it aside.
         std::vector<store::LoadedChunk> stored(positions.size());
         if (save_) stored = save_->loadMany(positions);
-        std::vector<world::ChunkPos> missing;
-        for (std::size_t k = 0; k < positions.size(); ++k)
-            if (!stored[k].chunk) missing.push_back(positions[k]);
+        const auto found = store::missingOf(positions, stored);
+        if (!found) return tl::unexpected(found.error());
+        const std::vector<world::ChunkPos>& missing = *found;
         auto chunks = gen::generateAll(generator_, missing);
         if (!chunks) return tl::unexpected(chunks.error());
         chunks_ = std::move(*chunks);

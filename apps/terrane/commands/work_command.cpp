@@ -90,7 +90,7 @@ base::Result<void> addArea(store_postgres::ConnectionPool& pool, const WorkOptio
         [&](Connection& connection) { return store_postgres::addArea(connection, area, options.order); });
     if (!added) return tl::unexpected(added.error());
     if (!*added)
-        base::logInfo("the area {},{} to {},{} is in the queue already", area.x0, area.y0, area.x1, area.y1);
+        base::logInfo("the area {},{} to {},{} was added before", area.x0, area.y0, area.x1, area.y1);
     return {};
 }
 

@@ -67,6 +67,9 @@ class Worker {
             [](Connection& connection) { return workStatus(connection); });
         if (!status) return tl::unexpected(status.error());
         if (!parts_.waits && status->waiting + status->working == 0) return true;
+        if (status->isPaused && !std::exchange(saidPaused_, true))
+            base::logInfo("the work is paused: `terrane work URL --continue` lets it go on");
+        if (!status->isPaused) saidPaused_ = false;
         const auto told = parts_.pool.run<void>([&](Connection& connection) {
             return tellAlive(connection, number_, std::exchange(untold_, 0));
         });
@@ -93,14 +96,13 @@ class Worker {
     // Chunks are written while the next are made.
     base::Result<void> makeBatch(std::span<const world::ChunkPos> positions) {
         const std::vector<store::LoadedChunk> stored = parts_.store.loadMany(positions);
-        std::vector<world::ChunkPos> missing;
-        for (std::size_t k = 0; k < positions.size(); ++k)
-            if (!stored[k].chunk) missing.push_back(positions[k]);
-        auto chunks = gen::generateAll(parts_.generator, missing);
+        const auto missing = store::missingOf(positions, stored);
+        if (!missing) return tl::unexpected(missing.error());
+        auto chunks = gen::generateAll(parts_.generator, *missing);
         if (!chunks) return tl::unexpected(chunks.error());
-        for (std::size_t k = 0; k < missing.size(); ++k)
-            parts_.store.save(missing[k], std::move((*chunks)[k]), store::Provenance::Generated);
-        const auto made = static_cast<std::int64_t>(missing.size());
+        for (std::size_t k = 0; k < missing->size(); ++k)
+            parts_.store.save((*missing)[k], std::move((*chunks)[k]), store::Provenance::Generated);
+        const auto made = static_cast<std::int64_t>(missing->size());
         result_.chunks += made;
         result_.skipped += static_cast<std::int64_t>(positions.size()) - made;
         untold_ += made;
@@ -135,7 +137,7 @@ class Worker {
     WorkerResult result_;
     std::int64_t untold_ = 0;  // chunks that others do not know of
     Clock::time_point renewed_{};
-    bool isFirst_ = true;
+    bool isFirst_ = true, saidPaused_ = false;
 };
 
 }  // namespace
