@@ -15,34 +15,12 @@
 #include "terrane/base/result.h"
 #include "terrane/store/bytes.h"
 #include "terrane/store_postgres/address.h"
+#include "terrane/store_postgres/parameters.h"
 
 struct pg_conn;
 struct pg_result;
 
 namespace terrane::store_postgres {
-
-using store::Bytes;
-using store::ByteView;
-
-// Values of $1, $2, … in their binary forms.
-class Parameters {
-  public:
-    Parameters& number(std::int64_t value);   // bigint
-    Parameters& integer(std::int32_t value);  // integer
-    Parameters& text(std::string_view value);
-    Parameters& bytes(ByteView value);  // copied
-    // Arrays of one dimension.
-    Parameters& numbers(std::span<const std::int64_t> values);  // bigint[]
-    Parameters& smallNumbers(std::span<const std::int16_t> values);
-    Parameters& texts(std::span<const std::string> values);
-    Parameters& byteStrings(std::span<const Bytes> values);  // bytea[]
-
-  private:
-    friend class Connection;
-    void add(std::uint32_t type, std::string bytes);
-    std::vector<std::uint32_t> types_;
-    std::vector<std::string> values_;
-};
 
 // Text that stays where it is for the life of the program: a connection prepares it once.
 struct Statement {
