@@ -12,7 +12,8 @@ base::Result<std::vector<world::ChunkPos>> missingOf(std::span<const world::Chun
                                                      std::span<const LoadedChunk> stored) {
     std::vector<world::ChunkPos> missing;
     for (std::size_t k = 0; k < positions.size(); ++k) {
-        if (stored[k].isUnread) return base::fail(base::ErrorCode::Io, "{}", stored[k].problem);
+        if (stored[k].isUnread && !stored[k].isOverBudget)
+            return base::fail(base::ErrorCode::Io, "{}", stored[k].problem);
         if (!stored[k].chunk) missing.push_back(positions[k]);
     }
     return missing;

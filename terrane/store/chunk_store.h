@@ -45,8 +45,8 @@ struct LoadedChunk {
 std::string nameOf(world::ChunkPos pos);
 
 // Of `positions`, those of which nothing is stored, or what is stored is damaged: to be generated. `stored`:
-// what loadMany() gave of them. Io where one could not be read: it may be there, and a generated one would
-// not be saved.
+// what loadMany() gave of them. One over the budget of memory counts as damaged, and stays as it is. Io where
+// one could not be read for another reason: it may be there, and a generated one would not be saved.
 [[nodiscard]] base::Result<std::vector<world::ChunkPos>> missingOf(std::span<const world::ChunkPos> positions,
                                                                    std::span<const LoadedChunk> stored);
 

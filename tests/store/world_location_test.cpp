@@ -60,6 +60,8 @@ TEST(MissingOf, WhatCannotBeReadIsNotMissing) {
     stored[2].isUnread = true;
     stored[2].problem = "the network broke";
     EXPECT_EQ(missingOf(positions, stored).error().message, "the network broke");
+    stored[2].isOverBudget = true;
+    EXPECT_EQ(missingOf(positions, stored)->size(), 2u);
 }
 
 class OpenWorldTest : public testing::Test {
