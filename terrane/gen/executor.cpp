@@ -51,19 +51,27 @@ void fillLayers(std::uint16_t* layers, int count, std::uint16_t block) {
 
 }  // namespace
 
-void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result,
-                     std::span<ColumnValues* const> fieldResults) {
+void Executor::begin3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result) {
     const Program& program = pass.program();
-    assert(program.is3D && program.block && fieldResults.size() == program.fields.size());
+    assert(program.is3D && program.block);
     prepareTile(program, inputs);
-    for (ColumnValues* field : fieldResults) field->fill(0);
     runInstructions(program.column, context_);
     ranges_.begin(pass.plan(), context_.arena, context_.blocks, context_.stamps, inputs.layerRanges);
     slabs_.clear();
-    TileRun run{pass, inputs, result, fieldResults};
+    run_ = {&pass, &result, {}};
+    lowestMade_ = slabBottom_ = world::kChunkHeight;
+    nextLayers_ = kFirstSlab;
+}
+
+void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result,
+                     std::span<ColumnValues* const> fieldResults) {
+    assert(fieldResults.size() == pass.program().fields.size());
+    for (ColumnValues* field : fieldResults) field->fill(0);
+    begin3D(pass, inputs, result);
+    run_.fieldResults = fieldResults;
     if (!shortens_) {
         slabs_.push_back({SlabRun::Way::Whole, world::kChunkHeight, pass.layerInstructions()});
-        return runLayers(run, program, 0, world::kChunkHeight);
+        return runLayers(pass.program(), 0, world::kChunkHeight);
     }
     int height = kFirstSlab;
     for (int z = 0; z < world::kChunkHeight;) {
@@ -73,19 +81,58 @@ void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray
             height = std::max(height / 4, kLowestSlab);
             continue;
         }
-        runSlab(run, z, height);
+        runSlab(z, height);
         z += height;
         if (ranges_.isSettled()) height = std::min(2 * height, kHighestSlab);
     }
 }
 
+// A slab that must be computed layer by layer is made a few layers at a time, the next may be one too many;
+// what was found for it holds for its rest. Slabs stay as high as kFirstSlab: rows without wanted columns
+// that take a branch skip it anyway.
+void Executor::runDown(int lowest, const WantedColumns& wanted) {
+    context_.rows = wanted.rows();
+    context_.wanted = wanted.lanes();
+    assert(run_.pass && lowest >= 0 && lowest < lowestMade_);
+    if (lowestMade_ > slabBottom_) return continueSlab(std::max(lowest, slabBottom_));
+    int height = std::min(nextLayers_, lowestMade_ - lowest);
+    ranges_.analyze(lowestMade_ - height, height);
+    while (!ranges_.isSettled() && height > kFirstSlab) {
+        height = std::max(height / 4, kFirstSlab);
+        ranges_.analyze(lowestMade_ - height, height);
+    }
+    slabs_.clear();
+    slabBottom_ = lowestMade_ - height;
+    slabProgram_ = nullptr;
+    if (!ranges_.block()) {
+        const ShortPass* pass = run_.pass->find(ranges_.decisions());
+        if (!pass) slabProgram_ = &run_.pass->program();
+        if (pass && pass->kind == ShortPass::Kind::EachLayer) {
+            slabProgram_ = &pass->program;
+            startShort(*pass, slabBottom_);
+        }
+    }
+    nextLayers_ = ranges_.isSettled() && !slabProgram_ ? std::min(2 * height, kHighestSlab) : kFirstSlab;
+    if (slabProgram_) return continueSlab(std::max(lowest, slabBottom_));
+    runSlab(slabBottom_, height);
+    lowestMade_ = slabBottom_;
+}
+
+void Executor::continueSlab(int lowest) {
+    const int count = std::min(lowestMade_ - lowest, kLowestSlab);
+    context_.program = slabProgram_;
+    runLayers(*slabProgram_, lowestMade_ - count, count);
+    context_.program = &run_.pass->program();
+    lowestMade_ -= count;
+}
+
 // As far as needed by what ranges_ found of it.
-void Executor::runSlab(TileRun& run, int z, int count) {
+void Executor::runSlab(int z, int count) {
     bool writesNothing = true;
-    for (std::size_t k = 0; k < run.fieldResults.size(); ++k) {
+    for (std::size_t k = 0; k < run_.fieldResults.size(); ++k) {
         writesNothing = writesNothing && ranges_.writesNothing(k);
     }
-    std::uint16_t* layers = run.result.data() + z * kTileLanes;
+    std::uint16_t* layers = run_.result->data() + z * kTileLanes;
     const std::optional<std::uint16_t> block = ranges_.block();
     if (block && writesNothing) {
         fillLayers(layers, count, *block);
@@ -93,19 +140,19 @@ void Executor::runSlab(TileRun& run, int z, int count) {
         slabs_.push_back({SlabRun::Way::Filled, count, 0});
         return;
     }
-    const ShortPass* pass = run.pass.find(ranges_.decisions());
+    const ShortPass* pass = run_.pass->find(ranges_.decisions());
     if (pass) {
-        runShort(run, *pass, z, count);
+        runShort(*pass, z, count);
     } else {
-        runLayers(run, run.pass.program(), z, count);
-        slabs_.push_back({SlabRun::Way::Whole, count, run.pass.layerInstructions()});
+        runLayers(run_.pass->program(), z, count);
+        slabs_.push_back({SlabRun::Way::Whole, count, run_.pass->layerInstructions()});
     }
 }
 
-void Executor::runShort(TileRun& run, const ShortPass& pass, int z, int count) {
+void Executor::runShort(const ShortPass& pass, int z, int count) {
     const Program& program = pass.program;
     const std::size_t instructions = pass.layerInstructions;
-    std::uint16_t* layers = run.result.data() + z * kTileLanes;
+    std::uint16_t* layers = run_.result->data() + z * kTileLanes;
     const std::size_t layerBytes = kTileLanes * sizeof(*layers);
     if (pass.kind == ShortPass::Kind::CopyBlocks) {
         std::memcpy(layers, context_.blocks + z * kTileLanes, static_cast<std::size_t>(count) * layerBytes);
@@ -114,6 +161,22 @@ void Executor::runShort(TileRun& run, const ShortPass& pass, int z, int count) {
         slabs_.push_back({SlabRun::Way::Copied, count, 0});
         return;
     }
+    startShort(pass, z);
+    if (pass.kind == ShortPass::Kind::OneLayer) {
+        runLayers(program, z, 1);
+        for (int k = 1; k < count; ++k) std::memcpy(layers + k * kTileLanes, layers, layerBytes);
+        std::fill_n(layerRanges_.begin() + z, count, layerRanges_[static_cast<std::size_t>(z)]);
+        slabs_.push_back({SlabRun::Way::Repeated, count, instructions});
+    } else {
+        runLayers(program, z, count);
+        slabs_.push_back({SlabRun::Way::Short, count, instructions});
+    }
+    context_.program = &run_.pass->program();
+}
+
+// Fills what its layers share; `z` of one of them.
+void Executor::startShort(const ShortPass& pass, int z) {
+    const Program& program = pass.program;
     if (arena_.size() < program.arenaRows) {
         arena_.resize(program.arenaRows);
         context_.arena = arena_.front().lanes.data();
@@ -124,28 +187,18 @@ void Executor::runShort(TileRun& run, const ShortPass& pass, int z, int count) {
     for (const std::uint32_t n : program.noises) prepareNoise(n);
     context_.z = z;
     runInstructions(program.column, context_);
-    if (pass.kind == ShortPass::Kind::OneLayer) {
-        runLayers(run, program, z, 1);
-        for (int k = 1; k < count; ++k) std::memcpy(layers + k * kTileLanes, layers, layerBytes);
-        std::fill_n(layerRanges_.begin() + z, count, layerRanges_[static_cast<std::size_t>(z)]);
-        slabs_.push_back({SlabRun::Way::Repeated, count, instructions});
-    } else {
-        runLayers(run, program, z, count);
-        slabs_.push_back({SlabRun::Way::Short, count, instructions});
-    }
-    context_.program = &run.pass.program();
 }
 
-void Executor::runLayers(TileRun& run, const Program& program, int z, int count) {
+void Executor::runLayers(const Program& program, int z, int count) {
     for (const std::uint32_t n : program.noises) prepareNoise(n);
     for (int end = z + count; z < end; ++z) {
         context_.z = z;
         std::fill_n(row(program.z), kRowLanes, bitsOf(z));
         runInstructions(program.layer, context_);
         layerRanges_[static_cast<std::size_t>(z)] =
-            writeLayer(*program.block, run.result.data() + z * kTileLanes);
-        for (std::size_t k = 0; k < run.fieldResults.size(); ++k) {
-            addToField(program.fields[k].value, *run.fieldResults[k]);
+            writeLayer(*program.block, run_.result->data() + z * kTileLanes);
+        for (std::size_t k = 0; k < run_.fieldResults.size(); ++k) {
+            addToField(program.fields[k].value, *run_.fieldResults[k]);
         }
     }
 }
@@ -169,6 +222,8 @@ BlockRange Executor::writeLayer(Operand block, std::uint16_t* layer) {
 void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
     if (arena_.size() < program.arenaRows) arena_.resize(program.arenaRows);
     context_.program = &program;
+    context_.rows = kAllRows;
+    context_.wanted = nullptr;
     context_.arena = arena_.front().lanes.data();
     for (std::size_t n = 0; n < inputs.blocks.size(); ++n) {
         context_.blocksAround[n] = inputs.blocks[n] ? inputs.blocks[n]->data() : nullptr;

@@ -10,6 +10,7 @@
 #include "terrane/gen/kernels.h"
 #include "terrane/gen/seeds.h"
 #include "terrane/gen/voxel_pass.h"
+#include "terrane/gen/wanted_columns.h"
 #include "terrane/world/coords.h"
 
 namespace terrane::gen {
@@ -61,10 +62,19 @@ class Executor {
     // `fieldResults`: of the fields that the pass writes, in the order of program.fields.
     void run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result,
                std::span<ColumnValues* const> fieldResults = {});
+    // The same pass from the top down, as far as somebody asks: begin3D(), then runDown() until enough is
+    // there. Writes no fields. Refers to its arguments until then; nothing else runs in between.
+    void begin3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result);
+    // Makes some of the layers from `lowest` on that are not made, the highest ones and at least one. Columns
+    // that are not wanted, and never will be again, get any blocks.
+    void runDown(int lowest, const WantedColumns& wanted);
+    // The lowest layer that is made; world::kChunkHeight before the first.
+    int lowestMade() const { return lowestMade_; }
     // Whether run3D leaves out what cannot change the result. Tests compare.
     void setShortens(bool shortens) { shortens_ = shortens; }
     // Of the last run3D, from the bottom.
     std::span<const SlabRun> slabs() const { return slabs_; }
+    // Of its layers, or of those that runDown made.
     const LayerRanges& layerRanges() const { return layerRanges_; }
 
   private:
@@ -75,16 +85,11 @@ class Executor {
     Bits* row(Operand o) { return context_.arena + static_cast<std::size_t>(o.row) * kRowLanes; }
     void prepareNoise(std::uint32_t noise);
 
-    // What the layers of a tile are made of, while run3D runs.
-    struct TileRun {
-        const VoxelPass& pass;
-        const PassInputs& inputs;
-        BlockArray& result;
-        std::span<ColumnValues* const> fieldResults;
-    };
-    void runSlab(TileRun& run, int z, int count);
-    void runLayers(TileRun& run, const Program& program, int z, int count);
-    void runShort(TileRun& run, const ShortPass& pass, int z, int count);
+    void runSlab(int z, int count);
+    void runLayers(const Program& program, int z, int count);
+    void runShort(const ShortPass& pass, int z, int count);
+    void startShort(const ShortPass& pass, int z);
+    void continueSlab(int lowest);
     BlockRange writeLayer(Operand block, std::uint16_t* layer);
     void addToField(Operand value, ColumnValues& field);
 
@@ -103,6 +108,18 @@ class Executor {
     LayerRanges layerRanges_{};
     bool shortens_ = true;
     std::vector<SlabRun> slabs_;
+    // What the layers of a tile are made of, while a 3D pass runs.
+    struct TileRun {
+        const VoxelPass* pass = nullptr;
+        BlockArray* result = nullptr;
+        std::span<ColumnValues* const> fieldResults;
+    };
+    TileRun run_;
+    // Of runDown.
+    int lowestMade_ = 0;                    // z of the lowest layer that is made
+    int nextLayers_ = 0;                    // how many layers the next slab should have
+    int slabBottom_ = 0;                    // z of the lowest layer of the slab that is being made
+    const Program* slabProgram_ = nullptr;  // makes its layers
 };
 
 }  // namespace terrane::gen

@@ -16,11 +16,14 @@ struct Generator::Impl {
     // A thread's own: the scratch memory of passes, and the results that no neighbor needs.
     struct Worker {
         Worker(const GeneratorGraph& graph, const Seeds& seeds, DrainageMaps& drainages)
-            : executor(graph.noises, seeds, {graph.shapes.get(), &drainages}), fields(graph.fields.size()) {
+            : executor(graph.noises, seeds, {graph.shapes.get(), &drainages}),
+              downPasses(graph.noises, seeds, {graph.shapes.get(), &drainages}),
+              fields(graph.fields.size()) {
             for (auto& b : blocks) b = std::make_unique_for_overwrite<BlockArray>();
         }
 
         Executor executor;
+        DownPasses downPasses;
         std::vector<ColumnValues> fields;                   // by field
         std::array<std::unique_ptr<BlockArray>, 2> blocks;  // of the newest two 3D passes, in turn
         LayerRanges layerRanges{};                          // of the newest one
@@ -33,6 +36,7 @@ struct Generator::Impl {
           seeds(makeSeeds(graph, seed)),
           drainages(graph.drainages, seed),
           shared(sharedPasses(graph)),
+          firstDown(canRunDown(graph) ? firstDownPass(graph) : static_cast<int>(graph.passes.size())),
           cache(std::max(size.minChunks, size.bytes / workBytes()), graph.fields.size(),
                 static_cast<std::size_t>(shared)) {
         for (const PassGraph& pass : graph.passes) {
@@ -81,6 +85,7 @@ struct Generator::Impl {
     // Who runs a pass waits only for lower passes of other chunks, so that threads never wait in a circle.
     void advance(world::ChunkPos pos, ChunkWork& work, int passes, Worker& worker);
     void runPass(world::ChunkPos pos, ChunkWork& work, int pass, Worker& worker);
+    void runDown(world::ChunkPos pos, ChunkWork& work, const LayerTaker& take, Worker& worker);
     // The pass's inputs; `works` keeps the neighbors alive.
     PassInputs inputsOf(world::ChunkPos pos, ChunkWork& work, int pass, const Works& works, Worker& worker);
     void advanceNeighbors(world::ChunkPos pos, int pass, Works& works, Worker& worker);
@@ -94,6 +99,7 @@ struct Generator::Impl {
     std::vector<Program> programs;                              // by pass: of 2D ones
     std::vector<std::unique_ptr<const VoxelPass>> voxelPasses;  // by pass: of 3D ones
     int shared;                                                 // passes
+    int firstDown;                                              // of those that generateDown() runs together
     PassCache cache;
     std::mutex workerMutex;
     std::vector<std::unique_ptr<Worker>> idleWorkers;
@@ -166,6 +172,17 @@ void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Wo
     } else {
         worker.executor.run2D(program, inputs, results);
     }
+}
+
+void Generator::Impl::runDown(world::ChunkPos pos, ChunkWork& work, const LayerTaker& take, Worker& worker) {
+    std::vector<Works> works(programs.size());
+    worker.downPasses.clear();
+    for (int pass = firstDown; pass < static_cast<int>(programs.size()); ++pass) {
+        const auto number = static_cast<std::size_t>(pass);
+        advanceNeighbors(pos, pass, works[number], worker);
+        worker.downPasses.add(*voxelPasses[number], inputsOf(pos, work, pass, works[number], worker));
+    }
+    worker.downPasses.run(take);
 }
 
 void Generator::Impl::advance(world::ChunkPos pos, ChunkWork& work, int passes, Worker& worker) {
@@ -273,6 +290,19 @@ world::Chunk Generator::generate(world::ChunkPos pos, std::vector<PassReport>* r
     worker->report = nullptr;
     impl.giveBack(std::move(worker));
     return chunk;
+}
+
+void Generator::generateDown(world::ChunkPos pos, const LayerTaker& take) const {
+    TERRANE_ZONE("generate chunk from the top");
+    Impl& impl = *impl_;
+    assert(canRunDown(impl.graph) && "its last pass is 3D");
+    requireGenerated(pos, impl.graph.level);
+    auto worker = impl.borrowWorker();
+    const auto work = impl.cache.get(pos);
+    impl.advance(pos, *work, impl.shared, *worker);
+    for (int pass = impl.shared; pass < impl.firstDown; ++pass) impl.runPass(pos, *work, pass, *worker);
+    impl.runDown(pos, *work, take, *worker);
+    impl.giveBack(std::move(worker));
 }
 
 }  // namespace terrane::gen

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "terrane/base/result.h"
+#include "terrane/gen/down_passes.h"
 #include "terrane/gen/executor.h"
 #include "terrane/gen/generator_graph.h"
 #include "terrane/world/chunk.h"
@@ -66,6 +67,12 @@ class Generator {
 
     // The same, and how its 3D passes went as far as neighbors had not asked for them.
     world::Chunk generate(world::ChunkPos pos, std::vector<PassReport>& report) const;
+
+    // The chunk's blocks from the top down, no deeper than `take` asks for: cheaper than generate() for those
+    // who look at the land from above. Calls it with one layer after the other until it wants no column
+    // any more; layers of one block that are the same as the one above are left out. Threads and errors as
+    // generate(); `take` may throw.
+    void generateDown(world::ChunkPos pos, const LayerTaker& take) const;
 
     // What 2D passes write to a field in the chunk's columns, x + 16 y, of a graph that has no 3D passes
     // (tint_graph.h). Threads and errors as generate().

@@ -1,6 +1,7 @@
 #include "terrane/gen/kernels.h"
 
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 #include "terrane/world/coords.h"
@@ -74,20 +75,24 @@ HWY_INLINE VI floatBits(VF v) {
     return hn::IfThenElse(isNaN, hn::Set(di, 0x7FC00000), bits);
 }
 
-// No instruction set divides integers in lanes.
-void floorDivide(const Instruction& i, Bits* arena, const RowList& rows) {
-    const auto evaluate = record(Op::FloorDivideI).evaluate;
-    const int count = i.dst.rowStep ? rows.count : 1;
-    for (int k = 0; k < count; ++k) {
-        const int row = i.dst.rowStep ? rows.rows[k] : 0;
-        const Bits* a = rowOf(arena, i.args[0], row);
-        const Bits* b = rowOf(arena, i.args[1], row);
-        Bits* out = rowOf(arena, i.dst, row);
-        for (int lane = 0; lane < kRowLanes; ++lane) {
-            const std::array<Bits, 2> args = {a[lane], b[lane]};
-            out[lane] = evaluate(args);
-        }
-    }
+// No instruction set divides integers in lanes. As doubles the quotient is rounded to a whole number only
+// where it is one: others are at least 2^-31 away from those, relative to quotients below 2^31, and doubles
+// round by 2^-53.
+HWY_INLINE VI floorDivide(VI a, VI b) {
+    const VI one = hn::Set(di, 1), divisor = hn::Max(b, one);
+#if HWY_TARGET == HWY_SCALAR  // has no halves
+    const double quotient = static_cast<double>(hn::GetLane(a)) / hn::GetLane(divisor);
+    const VI whole = hn::Set(di, static_cast<std::int32_t>(std::floor(quotient)));
+#else
+    const hn::Half<DI> half;
+    const hn::Rebind<double, hn::Half<DI> > wide;
+    const auto divided = [&](auto p, auto q) HWY_ATTR {
+        return hn::DemoteTo(half, hn::Floor(hn::Div(hn::PromoteTo(wide, p), hn::PromoteTo(wide, q))));
+    };
+    const VI whole = hn::Combine(di, divided(hn::UpperHalf(half, a), hn::UpperHalf(half, divisor)),
+                                 divided(hn::LowerHalf(half, a), hn::LowerHalf(half, divisor)));
+#endif
+    return hn::IfThenZeroElse(hn::Lt(b, one), whole);
 }
 
 void run(const InstructionList& list, TileContext& c, const RowList& rows);
@@ -127,7 +132,8 @@ void loop(const Instruction& i, TileContext& c, const RowList& rows) {
     }
 }
 
-// Splits the rows by whether some lane takes the branch, and whether some lane does not.
+// Splits the rows by whether some lane takes the branch, and whether some lane does not. Lanes that nobody
+// wants count as neither.
 void branch(const Instruction& i, TileContext& c, const RowList& rows) {
     const Branch& b = c.program->branches[i.imm];
     RowList taken{{}, 0}, notTaken{{}, 0};
@@ -136,9 +142,10 @@ void branch(const Instruction& i, TileContext& c, const RowList& rows) {
         const std::uint8_t row = rows.rows[k];
         bool all = true, none = true;
         for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(di)) {
-            const auto mask = hn::MaskFromVec(loadI(condition.at(row, lane)));
-            all = all && hn::AllTrue(di, mask);
-            none = none && hn::AllFalse(di, mask);
+            const VI holds = loadI(condition.at(row, lane));
+            const VI wanted = c.wanted ? loadI(c.wanted + row * kRowLanes + lane) : hn::Set(di, -1);
+            all = all && hn::AllFalse(di, hn::MaskFromVec(hn::AndNot(holds, wanted)));
+            none = none && hn::AllFalse(di, hn::MaskFromVec(hn::And(holds, wanted)));
         }
         // Without branches, which nobody could predict.
         taken.rows[taken.count] = row;
@@ -208,7 +215,7 @@ void runOne(const Instruction& i, TileContext& c, const RowList& rows) {
         case Op::LoopOut:
             return loop(i, c, rows);
         case Op::FloorDivideI:
-            return floorDivide(i, a, rows);
+            return binaryI(i, a, rows, [](VI p, VI q) HWY_ATTR { return floorDivide(p, q); });
         case Op::Hash2:
         case Op::Hash3:
             return hash(i, c, rows);
@@ -249,8 +256,11 @@ void run(const InstructionList& list, TileContext& c, const RowList& rows) {
 }
 
 void runAll(const InstructionList& list, TileContext& c) {
-    RowList rows{{}, kTileSize};
-    for (int k = 0; k < kTileSize; ++k) rows.rows[k] = static_cast<std::uint8_t>(k);
+    RowList rows{{}, 0};
+    for (int k = 0; k < kTileSize; ++k) {
+        rows.rows[rows.count] = static_cast<std::uint8_t>(k);
+        rows.count += c.rows >> k & 1;
+    }
     run(list, c, rows);
 }
 

@@ -44,9 +44,13 @@ struct TileContext {
     std::array<const std::uint16_t*, 9> blocksAround{};
     std::vector<StampTile> stamps;  // by the pass's stamps, painted
     std::int32_t z = 0;             // of the layer
+    RowMask rows = kAllRows;        // for which instructions run
+    // All bits of a column, or none where nobody wants its values; null: all are wanted.
+    const Bits* wanted = nullptr;
 };
 
-// Runs a list for all rows of the tile.
+// Runs a list for the context's rows of the tile. Values that are the same in all columns have theirs
+// whichever rows these are.
 void runInstructions(const InstructionList& list, TileContext& context);
 
 // Names of the instruction sets this machine can run, best first, as Highway calls them.

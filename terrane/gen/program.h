@@ -17,6 +17,10 @@ constexpr int kTileSize = 16;                      // columns along x and along 
 constexpr int kTileLanes = kTileSize * kTileSize;  // lane = x + 16 y
 constexpr int kRowLanes = kTileSize;               // lanes of a row: 64 bytes
 
+// Rows of a tile: bit y for the columns of equal y.
+using RowMask = std::uint16_t;
+constexpr RowMask kAllRows = 0xFFFF;
+
 // Operands count rows in 16 bits: 65,536 × 64 bytes = 4 MiB.
 constexpr std::uint32_t kMaxArenaRows = 65536;
 

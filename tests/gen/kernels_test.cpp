@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/gen/pass_runner.h"
@@ -227,6 +228,54 @@ TEST(SimdTargets, AreTheMachinesAlsoWhileOneIsChosen) {
     ASSERT_TRUE(chooseSimdTarget(targets.back()));
     EXPECT_EQ(simdTargets(), targets);
     EXPECT_TRUE(chooseSimdTarget(""));
+}
+
+// Dividends and divisors at the edges of 32 bits, and around multiples of each other.
+std::vector<std::pair<std::int32_t, std::int32_t>> divisions() {
+    constexpr std::int32_t kLow = std::numeric_limits<std::int32_t>::min(),
+                           kHigh = std::numeric_limits<std::int32_t>::max();
+    const std::vector<std::int32_t> edges = {kLow, kLow + 1, kLow + 2, -65537, -3,      -2,        -1,   0,
+                                             1,    2,        3,        65536,  1 << 30, kHigh - 1, kHigh};
+    std::vector<std::pair<std::int32_t, std::int32_t>> result;
+    for (const std::int32_t a : edges)
+        for (const std::int32_t b : edges) result.emplace_back(a, b);
+    std::mt19937 random(3);
+    for (int k = 0; k < 3000; ++k) {
+        const auto b = static_cast<std::int32_t>(random() >> random() % 32);
+        const std::int32_t a =
+            wrapped(static_cast<std::int32_t>(random() >> random() % 32) * std::int64_t{b});
+        for (const int off : {-1, 0, 1}) result.emplace_back(wrapped(std::int64_t{a} + off), b);
+        result.emplace_back(static_cast<std::int32_t>(random()), b);
+    }
+    while (result.size() % kTileLanes != 0) result.emplace_back(0, 1);
+    return result;
+}
+
+TEST(FloorDivide, IsThatOfItsRecordAtTheEdges) {
+    PassRunner runner(build([](GeneratorBuilder& g) {
+        const auto a = g.field<Int>("a"), b = g.field<Int>("b"), quotient = g.field<Int>("quotient");
+        g.pass2D("inputs", [&](Pass& p) {
+            p.set(a, p.x());
+            p.set(b, p.y());
+        });
+        g.pass2D("divide", [&](Pass& p) { p.set(quotient, floorDivide(p.read(a), p.read(b))); });
+        g.pass3D("last", [&](Pass& p) { p.setBlock(Block(p.read(quotient))); });
+    }));
+    const auto pairs = divisions();
+    onEachTarget([&] {
+        for (std::size_t first = 0; first < pairs.size(); first += kTileLanes) {
+            for (std::size_t k = 0; k < kTileLanes; ++k) {
+                runner.fields[0][k] = bitsOf(pairs[first + k].first);
+                runner.fields[1][k] = bitsOf(pairs[first + k].second);
+            }
+            const ColumnValues quotients = runner.run2D(1).front();
+            for (std::size_t k = 0; k < kTileLanes; ++k) {
+                const std::array<Bits, 2> args = {runner.fields[0][k], runner.fields[1][k]};
+                ASSERT_EQ(asInt(quotients[k]), asInt(record(Op::FloorDivideI).evaluate(args)))
+                    << asInt(args[0]) << " / " << asInt(args[1]);
+            }
+        }
+    });
 }
 
 }  // namespace

@@ -1,19 +1,19 @@
-// The biome of a place, for generators that have them: from the 2D passes alone. Used on one thread.
+// The biome of a place, for generators that have them. Used on one thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string_view>
+#include <utility>
 
-#include "terrane/gen/generator.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/gen/generators/biomes.h"
 
 namespace terrane::gen {
 
 class BiomeMap {
   public:
-    // None where the built-in generator of this name has no biomes.
+    // As Biomes::create().
     static std::optional<BiomeMap> create(std::string_view generator, const world::BlockRegistry& blocks,
                                           std::uint64_t seed);
 
@@ -21,13 +21,11 @@ class BiomeMap {
     std::string_view at(std::int32_t x, std::int32_t y);
 
   private:
-    BiomeMap(std::unique_ptr<Generator> generator, std::uint32_t field)
-        : generator_(std::move(generator)), field_(field) {}
+    explicit BiomeMap(Biomes biomes) : biomes_(std::move(biomes)) {}
 
-    std::unique_ptr<Generator> generator_;
-    std::uint32_t field_;  // of the graph
+    Biomes biomes_;
     std::optional<world::ChunkPos> chunk_;
-    std::array<Bits, 256> biomes_{};  // of that chunk's columns, x + 16 y
+    std::array<std::uint8_t, 256> numbers_{};  // of that chunk's columns
 };
 
 }  // namespace terrane::gen

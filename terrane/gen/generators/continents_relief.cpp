@@ -58,11 +58,15 @@ Relief relief(Pass& p, const Fields& f) {
     const Float temperature = p.read(f.temperature), moisture = p.read(f.moisture), land = p.read(f.land);
     const Float mountains = p.read(f.mountains), base = p.read(f.base);
     const Float inland = smoothstep(0.015f, 0.09f, land), flat = 1.0f - smoothstep(0.05f, 0.3f, mountains);
-    const Eroded eroded = erode(p, "gullies", p.slope(f.base),
-                                inland * smoothstep(kSea + 1.0f, kSea + 24.0f, base) *
-                                    (max(mountains, p.read(f.volcanic)) * 0.65f + 0.35f),
-                                {.size = 128, .octaves = 5, .depth = 0.22f, .fullSlope = 0.4f});
-    Var<Float> height = p.var(base + eroded.height + smoothstep(0.0f, 0.4f, mountains) * 13.0f);
+    const Float erosion = inland * smoothstep(kSea + 1.0f, kSea + 24.0f, base) *
+                          (max(mountains, p.read(f.volcanic)) * 0.65f + 0.35f);
+    Var<Float> gullies = p.var(Float(0.0f));
+    p.if_(erosion > 0.0f, [&] {
+        gullies = erode(p, "gullies", p.slope(f.base), erosion,
+                        {.size = 128, .octaves = 5, .depth = 0.22f, .fullSlope = 0.4f})
+                      .height;
+    });
+    Var<Float> height = p.var(base + gullies + smoothstep(0.0f, 0.4f, mountains) * 13.0f);
     Var<Float> rocky = p.var(Float(0.0f));
     const Float canyon = canyonLand(temperature, moisture) * inland * flat;
     p.if_(canyon > 0.0f, [&] {

@@ -1,0 +1,60 @@
+#include "terrane/gen/generators/biomes.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/gen/generators/continents.h"
+
+namespace terrane::gen {
+namespace {
+
+constexpr std::size_t kCount = static_cast<std::size_t>(continents::Biome::Count);
+
+base::Result<GeneratorGraph> columnPasses(const std::string& generator, const world::BlockRegistry& blocks,
+                                          int level) {
+    auto graph = makeGenerator(generator, blocks, level);
+    if (graph) std::erase_if(graph->passes, [](const PassGraph& pass) { return pass.is3D; });
+    return graph;
+}
+
+}  // namespace
+
+std::optional<Biomes> Biomes::create(std::string_view generator, const world::BlockRegistry& blocks,
+                                     std::uint64_t seed) {
+    if (generator != "continents") return std::nullopt;
+    const std::string name(generator);
+    const auto graph = columnPasses(name, blocks, 0);
+    if (!graph) return std::nullopt;
+    const auto field = std::ranges::find(graph->fields, "biome", &FieldInfo::name);
+    if (field == graph->fields.end()) return std::nullopt;
+    const auto number = static_cast<std::uint32_t>(field - graph->fields.begin());
+    return Biomes(
+        LevelGenerators([name, &blocks](int level) { return columnPasses(name, blocks, level); }, seed),
+        number);
+}
+
+std::span<const std::string_view> Biomes::names() {
+    static const auto kNames = [] {
+        std::array<std::string_view, kCount> names;
+        for (std::size_t k = 0; k < kCount; ++k)
+            names[k] = continents::biomeName(static_cast<continents::Biome>(k));
+        return names;
+    }();
+    return kNames;
+}
+
+std::array<std::uint8_t, 256> Biomes::of(world::ChunkPos chunk) const {
+    const auto generator = generators_.at(chunk.level);
+    if (!generator) throw std::invalid_argument(generator.error().message);
+    const auto columns = (*generator)->columns(chunk, field_);
+    std::array<std::uint8_t, 256> numbers;
+    std::ranges::transform(columns, numbers.begin(), [](Bits biome) {
+        return static_cast<std::uint8_t>(std::min<Bits>(biome, kCount - 1));
+    });
+    return numbers;
+}
+
+}  // namespace terrane::gen

@@ -1,0 +1,37 @@
+// The biomes of chunks of any level, for generators that have them: from the 2D passes alone. Any thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "terrane/gen/level_generators.h"
+#include "terrane/world/block_registry.h"
+
+namespace terrane::gen {
+
+class Biomes {
+  public:
+    // None where the built-in generator of this name has no biomes. `blocks` outlives it.
+    static std::optional<Biomes> create(std::string_view generator, const world::BlockRegistry& blocks,
+                                        std::uint64_t seed);
+
+    // In words, by number: "birch forest".
+    static std::span<const std::string_view> names();
+
+    // The numbers of the biomes of a chunk's columns, x + 16 y. Takes about 0.1 ms, and the first time of a
+    // level some milliseconds. Throws std::invalid_argument for a position outside the world.
+    std::array<std::uint8_t, 256> of(world::ChunkPos chunk) const;
+
+  private:
+    Biomes(LevelGenerators generators, std::uint32_t field)
+        : generators_(std::move(generators)), field_(field) {}
+
+    LevelGenerators generators_;  // of the 2D passes
+    std::uint32_t field_;         // of their graphs
+};
+
+}  // namespace terrane::gen

@@ -1,0 +1,232 @@
+#include "terrane/gen/down_passes.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "terrane/gen/generators/catalogue.h"
+#include "tests/gen/gen_fixture.h"
+
+namespace terrane::gen {
+namespace {
+
+using Layer = std::span<const BlockId, kTileLanes>;
+
+// A column is wanted down to a random height, some down to the bottom.
+std::vector<int> randomDepths(std::mt19937& random) {
+    std::vector<int> depths(kTileLanes);
+    const int low = static_cast<int>(random() % 250);
+    for (int& depth : depths) depth = random() % 20 == 0 ? 0 : low + static_cast<int>(random() % 6);
+    return depths;
+}
+
+// The chunk's blocks as layers from the top have them, each column down to its depth and others unknown.
+std::vector<std::optional<BlockId>> seenFromAbove(const Generator& generator, ChunkPos pos,
+                                                  const std::vector<int>& depths) {
+    std::vector<std::optional<BlockId>> seen(world::kBlocksPerChunk);
+    const auto note = [&](int z, auto blockOf) {
+        for (std::size_t k = 0; k < kTileLanes; ++k)
+            if (z >= depths[k]) seen[static_cast<std::size_t>(z) * kTileLanes + k] = blockOf(k);
+    };
+    int above = world::kChunkHeight;
+    BlockId blockAbove = 0;  // of the layers that are left out
+    generator.generateDown(pos, [&](int z, Layer layer, WantedColumns& wanted) {
+        EXPECT_LT(z, above);
+        while (--above > z) note(above, [&](std::size_t) { return blockAbove; });
+        note(z, [&](std::size_t k) { return layer[k]; });
+        blockAbove = layer[0];
+        for (std::size_t k = 0; k < kTileLanes; ++k)
+            if (z <= depths[k]) wanted.drop(k);
+    });
+    while (--above >= 0) note(above, [&](std::size_t) { return blockAbove; });
+    return seen;
+}
+
+// From above first: what a whole chunk leaves behind must not help.
+void expectLayersOf(const Generator& generator, ChunkPos pos, const std::vector<int>& depths) {
+    const auto seen = seenFromAbove(generator, pos, depths);
+    const std::vector<BlockId> whole = blocksOf(generator.generate(pos));
+    for (std::size_t i = 0; i < whole.size(); ++i)
+        ASSERT_EQ(seen[i].value_or(whole[i]), whole[i])
+            << "column " << i % kTileLanes << ", z " << i / kTileLanes;
+}
+
+void expectSameDown(const Generator& generator, int chunks) {
+    std::mt19937 random(7);
+    for (int k = 0; k < chunks && !testing::Test::HasFatalFailure(); ++k) {
+        const auto at = [&] { return static_cast<std::int32_t>(random() % 20000) - 10000; };
+        const ChunkPos pos = {at() >> generator.level(), at() >> generator.level(),
+                              static_cast<std::uint8_t>(generator.level())};
+        SCOPED_TRACE(testing::PrintToString(pos));
+        expectLayersOf(generator, pos, randomDepths(random));
+    }
+}
+
+TEST(GenerateDown, LayersAreThoseOfTheWholeChunk) {
+#ifdef NDEBUG
+    constexpr int kChunks = 20;
+#else
+    constexpr int kChunks = 1;
+#endif
+    for (const std::string& name : generatorNames())
+        for (int level = 0; level <= world::kMaxLevel; ++level) {
+            SCOPED_TRACE(name + ", level " + std::to_string(level));
+            auto graph = makeGenerator(name, contentBlocks(), level);
+            ASSERT_TRUE(graph.has_value()) << graph.error().message;
+            const bool isSlow = name == "hills3d" || name == "voronoi";
+            expectSameDown(Generator(std::move(*graph), 3), isSlow ? (kChunks + 4) / 5 : kChunks);
+            if (HasFatalFailure()) return;
+        }
+}
+
+// Hollow ground with some noise in space.
+void hollowGround(Pass& p) {
+    const Bool isGround = Float(p.z()) < p.perlin2D("hills", 16, {10.0f, 30.0f}) + 100.0f;
+    p.setBlock(select(isGround && p.perlin3D("holes", 12, {1.0f}) < 0.25f, p.block("stone"), p.block("air")));
+}
+
+// What is so many blocks above or below is turned into something else.
+void nearLayers(Pass& p, int below, int above) {
+    const Bool isOpen = p.blockInColumn(p.z() + above) == p.block("air");
+    const Bool isHigh = p.blockInColumn(p.z() - below) == p.block("air");
+    const Block here = p.blockHere();
+    const Bool changes = p.perlin3D("changes " + std::to_string(below), 8, {1.0f}) > -0.1f;
+    p.if_(changes, [&] {
+        p.setBlock(
+            select(isOpen && isHigh, p.block("water"), select(isOpen || isHigh, p.block("dirt"), here)));
+    });
+}
+
+void expectSameDown(const Write& write) {
+    expectSameDown(Generator(build(write), kTestSeed), 10);
+}
+
+TEST(GenerateDown, PassesReadLayersBelowAndAbove) {
+    expectSameDown([](GeneratorBuilder& g) {
+        g.pass3D("ground", hollowGround);
+        g.pass3D("first", [](Pass& p) { nearLayers(p, 5, 2); });
+        g.pass3D("second", [](Pass& p) { nearLayers(p, 1, 9); });
+        g.pass3D("third", [](Pass& p) { nearLayers(p, 40, 0); });
+    });
+}
+
+TEST(GenerateDown, APassMayReadAnyLayer) {
+    expectSameDown([](GeneratorBuilder& g) {
+        g.pass3D("ground", hollowGround);
+        g.pass3D("floor", [](Pass& p) {
+            const Bool isHollow =
+                p.blockInColumn(Int(p.perlin2D("where", 8, {40.0f})) + 60) == p.block("air");
+            p.setBlock(select(isHollow && p.z() > 150, p.block("water"), p.blockHere()));
+        });
+        g.pass3D("mirror", [](Pass& p) { p.setBlock(p.blockInColumn(255 - p.z())); });
+    });
+}
+
+TEST(GenerateDown, APassMayReadNeighborsAndFieldsOf3DPasses) {
+    expectSameDown([](GeneratorBuilder& g) {
+        const auto low = g.field<Int>("low");
+        g.pass3D("ground", hollowGround);
+        g.pass3D("spread", [&](Pass& p) {
+            p.setBlock(p.blockAt({3, -2}, p.z() + 1));
+            p.setAt(low, Int(20), Int(p.blockHere()));
+        });
+        g.pass3D("last", [&](Pass& p) {
+            p.setBlock(
+                select(p.read(low) == Int(p.block("stone")), p.blockInColumn(p.z() - 1), p.blockHere()));
+        });
+    });
+}
+
+TEST(GenerateDown, NothingIsMadeOnceNoColumnIsWanted) {
+    const Generator generator(build([](GeneratorBuilder& g) { g.pass3D("ground", hollowGround); }),
+                              kTestSeed);
+    int layers = 0;
+    generator.generateDown({0, 0}, [&](int, Layer, WantedColumns& wanted) {
+        if (++layers == 3) wanted.dropAll();
+    });
+    EXPECT_EQ(layers, 3);
+}
+
+TEST(GenerateDown, RefusesOtherLevels) {
+    const Generator generator(build([](GeneratorBuilder& g) { g.pass3D("ground", hollowGround); }),
+                              kTestSeed);
+    EXPECT_THROW(generator.generateDown({0, 0, 1}, [](int, Layer, WantedColumns&) {}), std::invalid_argument);
+}
+
+std::optional<int> readBelow(const std::function<void(Pass&)>& pass) {
+    const GeneratorGraph graph = build([&](GeneratorBuilder& g) {
+        g.pass3D("ground", hollowGround);
+        g.pass3D("reads", pass);
+    });
+    return layersReadBelow(graph.passes.back());
+}
+
+TEST(LayersReadBelow, CountsFromZ) {
+    EXPECT_EQ(readBelow([](Pass& p) { p.setBlock(p.blockHere()); }), 0);
+    EXPECT_EQ(readBelow([](Pass& p) { nearLayers(p, 7, 2); }), 7);
+    EXPECT_EQ(readBelow([](Pass& p) { p.setBlock(p.blockInColumn(p.z() + 3)); }), 0);
+    EXPECT_EQ(readBelow([](Pass& p) { p.setBlock(p.blockInColumn(Int(-3) + p.z())); }), 3);
+}
+
+TEST(LayersReadBelow, IsUnknownBeyondAChunk) {
+    const auto above = [](std::int32_t blocks) {
+        return readBelow([blocks](Pass& p) { p.setBlock(p.blockInColumn(p.z() + blocks)); });
+    };
+    EXPECT_EQ(above(world::kChunkHeight), 0);
+    EXPECT_EQ(above(-world::kChunkHeight), world::kChunkHeight);
+    for (const std::int32_t far : {world::kChunkHeight + 1, -world::kChunkHeight - 1, INT32_MAX, INT32_MIN}) {
+        EXPECT_EQ(above(far), std::nullopt) << far;
+        EXPECT_EQ(readBelow([far](Pass& p) { p.setBlock(p.blockInColumn(p.z() - far)); }), std::nullopt);
+        EXPECT_EQ(readBelow([far](Pass& p) { p.setBlock(p.blockInColumn(Int(far) + p.z())); }), std::nullopt);
+    }
+}
+
+TEST(CanRunDown, NeedsAPassThatMakesBlocks) {
+    GeneratorGraph graph = build([](GeneratorBuilder& g) {
+        const auto height = g.field<Int>("height");
+        g.pass2D("heights", [&](Pass& p) { p.set(height, Int(p.x())); });
+        g.pass3D("ground", [&](Pass& p) {
+            p.setBlock(select(p.z() < p.read(height), p.block("stone"), p.block("air")));
+        });
+    });
+    EXPECT_TRUE(canRunDown(graph));
+    EXPECT_EQ(firstDownPass(graph), 1);
+    EXPECT_FALSE(canRunDown(GeneratorGraph()));
+    graph.passes.pop_back();
+    EXPECT_FALSE(canRunDown(graph));
+#ifndef NDEBUG
+    EXPECT_DEATH(firstDownPass(graph), "canRunDown");
+    const Generator columns(std::move(graph), kTestSeed);
+    EXPECT_DEATH(columns.generateDown({0, 0}, [](int, Layer, WantedColumns&) {}), "3D");
+#endif
+}
+
+TEST(LayersReadBelow, IsUnknownWhereAHeightIsNoConstantFromZ) {
+    EXPECT_EQ(readBelow([](Pass& p) { p.setBlock(p.blockInColumn(40)); }), std::nullopt);
+    EXPECT_EQ(readBelow([](Pass& p) { p.setBlock(p.blockInColumn(p.x())); }), std::nullopt);
+    EXPECT_EQ(readBelow([](Pass& p) { p.setBlock(p.blockInColumn(3 - p.z())); }), std::nullopt);
+    EXPECT_EQ(readBelow([](Pass& p) { p.setBlock(p.blockAt({1, 0}, p.z())); }), std::nullopt);
+}
+
+TEST(WantedColumns, AreDroppedOneByOne) {
+    WantedColumns wanted;
+    EXPECT_EQ(wanted.rows(), kAllRows);
+    for (std::size_t k = 32; k < 47; ++k) wanted.drop(k);
+    wanted.drop(32);
+    EXPECT_FALSE(wanted.has(32));
+    EXPECT_TRUE(wanted.has(47));
+    EXPECT_EQ(wanted.rows(), kAllRows);
+    wanted.drop(47);
+    EXPECT_EQ(wanted.rows(), kAllRows & ~(1 << 2));
+    wanted.dropAll();
+    EXPECT_EQ(wanted.rows(), 0);
+    EXPECT_FALSE(wanted.has(255));
+}
+
+}  // namespace
+}  // namespace terrane::gen
