@@ -64,20 +64,46 @@ Result<Image> decodePng(std::string_view bytes, std::string_view name, std::int6
     return image;
 }
 
-Result<std::string> encodePng(const Image& image) {
+namespace {
+
+// `pixels` as png.format says.
+Result<std::string> encode(PngImage& png, const std::uint8_t* pixels) {
+    png_alloc_size_t sizeBytes = PNG_IMAGE_PNG_SIZE_MAX(png);
+    std::string bytes(sizeBytes, '\0');
+    if (png_image_write_to_memory(&png, bytes.data(), &sizeBytes, 0, pixels, 0, nullptr) == 0) {
+        return fail("{} × {} pixels cannot be written as PNG: {}", png.width, png.height, png.message);
+    }
+    bytes.resize(sizeBytes);
+    return bytes;
+}
+
+void setSize(PngImage& png, const Image& image) {
     assert(image.width > 0 && image.height > 0 && "an image without pixels cannot be a PNG");
-    PngImage png;
     png.width = static_cast<png_uint_32>(image.width);
     png.height = static_cast<png_uint_32>(image.height);
     png.format = PNG_FORMAT_RGBA;
     assert(image.rgba.size() == std::size_t{png.width} * png.height * 4 && "four bytes for each pixel");
-    png_alloc_size_t sizeBytes = PNG_IMAGE_PNG_SIZE_MAX(png);
-    std::string bytes(sizeBytes, '\0');
-    if (png_image_write_to_memory(&png, bytes.data(), &sizeBytes, 0, image.rgba.data(), 0, nullptr) == 0) {
-        return fail("{} × {} pixels cannot be written as PNG: {}", image.width, image.height, png.message);
+}
+
+}  // namespace
+
+Result<std::string> encodePng(const Image& image) {
+    PngImage png;
+    setSize(png, image);
+    return encode(png, image.rgba.data());
+}
+
+Result<std::string> encodePngFast(const Image& image) {
+    PngImage png;
+    setSize(png, image);
+    png.flags |= PNG_IMAGE_FLAG_FAST;
+    std::vector<std::uint8_t> rgb;
+    for (std::size_t k = 0; k < image.rgba.size(); k += 4) {
+        if (image.rgba[k + 3] != 255) return encode(png, image.rgba.data());
+        rgb.insert(rgb.end(), {image.rgba[k], image.rgba[k + 1], image.rgba[k + 2]});
     }
-    bytes.resize(sizeBytes);
-    return bytes;
+    png.format = PNG_FORMAT_RGB;
+    return encode(png, rgb.data());
 }
 
 Result<Image> readPng(const std::filesystem::path& path, std::int64_t maxPixels) {

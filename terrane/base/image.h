@@ -29,6 +29,9 @@ constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 26;
 // The image must have at least one pixel and exactly the bytes its size asks for. The compressed bytes depend
 // on the version of zlib: compare decoded images.
 [[nodiscard]] Result<std::string> encodePng(const Image& image);
+// The same image in a quarter of the time and bytes that are a fifth fewer to a third more (measured on maps
+// of 256×256 pixels), without alpha where all pixels are opaque.
+[[nodiscard]] Result<std::string> encodePngFast(const Image& image);
 
 [[nodiscard]] Result<Image> readPng(const std::filesystem::path& path,
                                     std::int64_t maxPixels = kMaxImagePixels);

@@ -10,10 +10,10 @@
 #include <variant>
 #include <vector>
 
+#include "terrane/base/token_bucket.h"
 #include "terrane/net/client_message.h"
 #include "terrane/net/server_message.h"
 #include "terrane/net/sight.h"
-#include "terrane/net/token_bucket.h"
 
 namespace terrane::net {
 
@@ -22,13 +22,13 @@ using ConnectionId = std::uint64_t;  // ascending
 
 // What a client may do, beyond which it waits or is sent away.
 struct ClientBuckets {
-    TokenBucket messages{120, 400};
-    TokenBucket blocks{20000, 131072};  // of Fill and Place
-    TokenBucket edits{60, 240};
-    TokenBucket chat{1, 8};
-    TokenBucket lists{1, 4};
-    TokenBucket joins{0.2, 10};
-    TokenBucket blocksAway;  // movement; ServerSettings::maxSpeed
+    base::TokenBucket messages{120, 400};
+    base::TokenBucket blocks{20000, 131072};  // of Fill and Place
+    base::TokenBucket edits{60, 240};
+    base::TokenBucket chat{1, 8};
+    base::TokenBucket lists{1, 4};
+    base::TokenBucket joins{0.2, 10};
+    base::TokenBucket blocksAway;  // movement; ServerSettings::maxSpeed
 
     explicit ClientBuckets(double maxSpeed) : blocksAway(maxSpeed, 2 * maxSpeed) {}
 };

@@ -6,8 +6,6 @@
 #include <map>
 #include <random>
 
-#include "terrane/net/token_bucket.h"
-
 namespace terrane::net {
 namespace {
 
@@ -133,19 +131,6 @@ TEST(Sight, TellsOfAnArmThatSwings) {
     ASSERT_EQ(changes.poses.size(), 1u);
     EXPECT_TRUE(changes.poses[0].swings);
     EXPECT_TRUE(update(8).poses.empty()) << "once";
-}
-
-TEST(TokenBucket, GivesSoManyASecond) {
-    TokenBucket bucket(10, 5);
-    TokenBucket::Time now{std::chrono::seconds(1)};
-    for (int k = 0; k < 5; ++k) EXPECT_TRUE(bucket.take(1, now));
-    EXPECT_FALSE(bucket.take(1, now));
-    now += std::chrono::milliseconds(100);
-    EXPECT_TRUE(bucket.take(1, now));
-    EXPECT_FALSE(bucket.take(1, now));
-    now += std::chrono::hours(1);
-    EXPECT_FALSE(bucket.take(6, now)) << "no more than `most`";
-    EXPECT_TRUE(bucket.take(5, now));
 }
 
 }  // namespace

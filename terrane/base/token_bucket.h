@@ -5,7 +5,7 @@
 #include <chrono>
 #include <optional>
 
-namespace terrane::net {
+namespace terrane::base {
 
 class TokenBucket {
   public:
@@ -35,4 +35,4 @@ class TokenBucket {
     std::optional<Time> last_;
 };
 
-}  // namespace terrane::net
+}  // namespace terrane::base
