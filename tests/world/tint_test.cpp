@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "terrane/world/map_image.h"
-#include "tests/world/content_blocks.h"
-
 namespace terrane::world {
 namespace {
 
@@ -24,34 +21,6 @@ TEST(Tint, NeutralBecomesTheTint) {
     }
     expectNear(tinted({0.3f, 0.6f, 0.9f}, kNeutralTint), {0.3f, 0.6f, 0.9f}, 1e-6f);
     EXPECT_GE(tinted(glm::vec3(0.5f), 0).r, 0.0f) << "a black tint is a number";
-}
-
-// Flat grass, a chunk of it tinted, and stone.
-TEST(Tint, MapsShowIt) {
-    const auto mapOf = [](std::string_view name, PackedColor tint) {
-        Chunk chunk;
-        for (int k = 0; k < kChunkSize * kChunkSize; ++k)
-            chunk.setBlock(blockIndex(k % 16, k / 16, 70), contentBlock(name));
-        MapSource source{{0, 0, 1, 1}, 0, [&](std::span<const ChunkPos> row) {
-                             return base::Result<std::vector<Chunk>>(std::vector<Chunk>(row.size(), chunk));
-                         }};
-        source.tint = [=](ChunkPos) {
-            TintTile tile;
-            tile.fill(tint);
-            return tile;
-        };
-        const TextureSource textures = [](std::string_view) -> base::Result<base::Image> {
-            return base::Image{1, 1, {95, 135, 50, 255}};
-        };
-        base::JobSystem jobs(1);
-        const base::Image image =
-            drawMap(source, contentBlocks(), textures, jobs, [](std::size_t) {}).value();
-        return glm::ivec3(image.rgba[400], image.rgba[401], image.rgba[402]);
-    };
-    const glm::ivec3 plain = mapOf("grass", kNeutralTint), dry = mapOf("grass", packColor(190, 135, 50));
-    EXPECT_NEAR(dry.r, 2 * plain.r, 2);
-    EXPECT_NEAR(dry.g, plain.g, 1);
-    EXPECT_EQ(mapOf("stone", packColor(190, 135, 50)), mapOf("stone", kNeutralTint));
 }
 
 }  // namespace

@@ -1,0 +1,41 @@
+// Isometric tiles: land seen from the southeast and above, without perspective. Any thread.
+//
+// A point at x, y, z (blocks) is at the pixel (of zoom 0, to the right and downward)
+//     X = -x - y,  Y = (y - x) / 2 - kIsometricHeight · z
+// so a column is two pixels wide and one deep, and a block 1.25 pixels high (dimetric projection, 2 : 1). At
+// zoom z all of it is 2^z times as large.
+#pragma once
+
+#include <vector>
+
+#include "terrane/base/image.h"
+#include "terrane/map/map_colors.h"
+#include "terrane/map/surface_source.h"
+#include "terrane/map/tint_field.h"
+
+namespace terrane::map {
+
+constexpr double kIsometricHeight = 1.25;
+
+// Tile x, y of a zoom: its pixels from 256 x, 256 y on.
+struct IsometricTile {
+    int zoom = 0;
+    std::int32_t x = 0, y = 0;
+};
+
+// The chunks that may be seen in a tile, of level levelOf(zoom), the farthest from the eye first.
+std::vector<world::ChunkPos> chunksSeen(const IsometricTile& tile);
+
+// The tiles of a zoom, whose level is the chunk's, in which it may be seen.
+std::vector<IsometricTile> tilesSeeing(world::ChunkPos chunk, int zoom);
+
+// `surfaces` and `tints`: of `chunks`, which are those that chunksSeen() gives; a tint for each chunk as a
+// whole.
+struct IsometricLand {
+    std::span<const world::ChunkPos> chunks;
+    std::span<const SurfacePtr> surfaces;
+    std::span<const world::PackedColor> tints;
+};
+base::Image paintIsometric(const IsometricTile& tile, const IsometricLand& land, const MapColors& colors);
+
+}  // namespace terrane::map

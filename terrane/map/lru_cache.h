@@ -1,0 +1,60 @@
+// A cache of the items that were used last, as many as fit into a number of bytes. Not synchronized.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <list>
+#include <unordered_map>
+#include <utility>
+
+namespace terrane::map {
+
+template <class Key, class Value, class Hash = std::hash<Key>>
+class LruCache {
+  public:
+    explicit LruCache(std::size_t maxBytes) : maxBytes_(maxBytes) {}
+
+    // Null where it is not there. It counts as used now. The pointer holds until the next call of another
+    // function.
+    const Value* find(const Key& key) {
+        const auto found = places_.find(key);
+        if (found == places_.end()) return nullptr;
+        items_.splice(items_.begin(), items_, found->second);
+        return &items_.front().value;
+    }
+
+    // As find(), but it does not count as used.
+    bool contains(const Key& key) const { return places_.contains(key); }
+
+    // In place of what the key has. Forgets what was not used for longest.
+    void put(const Key& key, Value value, std::size_t bytes) {
+        erase(key);
+        items_.push_front({key, std::move(value), bytes});
+        places_[key] = items_.begin();
+        bytes_ += bytes;
+        while (bytes_ > maxBytes_ && !items_.empty()) erase(Key(items_.back().key));
+    }
+
+    void erase(const Key& key) {
+        const auto found = places_.find(key);
+        if (found == places_.end()) return;
+        bytes_ -= found->second->bytes;
+        items_.erase(found->second);
+        places_.erase(found);
+    }
+
+    std::size_t bytes() const { return bytes_; }
+    std::size_t count() const { return items_.size(); }
+
+  private:
+    struct Item {
+        Key key;
+        Value value;
+        std::size_t bytes;
+    };
+    std::size_t maxBytes_, bytes_ = 0;
+    std::list<Item> items_;  // used last first
+    std::unordered_map<Key, typename std::list<Item>::iterator, Hash> places_;
+};
+
+}  // namespace terrane::map

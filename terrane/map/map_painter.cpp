@@ -1,0 +1,171 @@
+#include "terrane/map/map_painter.h"
+
+#include <type_traits>
+#include <utility>
+
+#include "terrane/base/digest.h"
+#include "terrane/map/isometric.h"
+#include "terrane/map/overlays.h"
+#include "terrane/map/paint.h"
+
+namespace terrane::map {
+
+using world::ChunkPos;
+
+namespace {
+
+int columnsAcross(int zoom) {
+    return zoom > 0 ? kTilePixels >> zoom : kTilePixels;
+}
+int pixelsAcross(int zoom) {  // of a column
+    return zoom > 0 ? 1 << zoom : 1;
+}
+
+ColumnRect widened(const ColumnRect& rect, int margin) {
+    return {rect.level, rect.x0 - margin, rect.y0 - margin, rect.width + 2 * margin,
+            rect.height + 2 * margin};
+}
+
+// In the order of the area's columns.
+std::vector<std::uint8_t> biomesOf(const gen::Biomes& biomes, const ColumnRect& rect) {
+    std::vector<std::uint8_t> numbers(static_cast<std::size_t>(rect.width) *
+                                      static_cast<std::size_t>(rect.height));
+    for (const ChunkPos chunk : chunksTouching(rect)) {
+        if (!world::isInWorld(chunk)) continue;
+        const auto columns = biomes.of(chunk);
+        copyChunk(rect, chunk, columns, numbers);
+    }
+    return numbers;
+}
+
+}  // namespace
+
+std::uint32_t rgbNumber(const glm::vec3& color) {
+    const Rgb rgb = rgbOf(color);
+    return std::uint32_t{rgb.red} << 16 | std::uint32_t{rgb.green} << 8 | rgb.blue;
+}
+
+int marginOf(Layer layer) {
+    if (layer == Layer::Biome) return 0;
+    return layer == Layer::Night ? kLampMargin : kReliefMargin;
+}
+
+ColumnRect columnsOf(const MapTile& tile) {
+    const int across = columnsAcross(tile.zoom);
+    const ColumnRect columns{levelOf(tile.zoom), std::int64_t{tile.x} * across, std::int64_t{tile.y} * across,
+                             across, across};
+    return widened(columns, marginOf(tile.layer));
+}
+
+base::Result<MapPainter> MapPainter::create(Parts parts) {
+    auto colors = mapColors(parts.blocks, parts.textures);
+    if (!colors) return tl::unexpected(colors.error());
+    return MapPainter(std::move(parts), std::move(*colors));
+}
+
+MapPainter::MapPainter(Parts parts, MapColors colors)
+    : kinds_(std::make_unique<SurfaceKinds>(surfaceKinds(parts.blocks))),
+      colors_(std::move(colors)),
+      biomes_(std::move(parts.biomes)),
+      surfaces_(std::make_unique<SurfaceSource>(
+          SurfaceSource::Parts{parts.generators, *kinds_, parts.store, parts.cache})),
+      tints_(std::make_unique<TintSource>(parts.generators)) {}
+
+std::vector<ChunkPos> MapPainter::chunksFor(const MapTile& tile) {
+    if (tile.layer == Layer::Biome) return {};
+    if (tile.layer == Layer::Isometric) return chunksSeen({tile.zoom, tile.x, tile.y});
+    return chunksTouching(columnsOf(tile));
+}
+
+std::vector<MapTile> MapPainter::tilesShowing(ChunkPos chunk) {
+    std::vector<MapTile> tiles;
+    for (int zoom = kMinZoom; zoom <= kMaxZoom; ++zoom) {
+        if (levelOf(zoom) != chunk.level) continue;
+        for (const Layer layer : {Layer::Day, Layer::Night, Layer::Height}) {
+            const int across = columnsAcross(zoom), margin = marginOf(layer);
+            const auto tileAt = [&](std::int64_t column) {
+                return static_cast<std::int32_t>(tileOf(column, across));
+            };
+            const std::int64_t x = std::int64_t{chunk.x} * world::kChunkSize,
+                               y = std::int64_t{chunk.y} * world::kChunkSize;
+            for (std::int32_t ty = tileAt(y - margin); ty <= tileAt(y + world::kChunkSize - 1 + margin); ++ty)
+                for (std::int32_t tx = tileAt(x - margin); tx <= tileAt(x + world::kChunkSize - 1 + margin);
+                     ++tx)
+                    tiles.push_back({layer, zoom, tx, ty});
+        }
+        for (const IsometricTile& tile : tilesSeeing(chunk, zoom))
+            tiles.push_back({Layer::Isometric, zoom, tile.x, tile.y});
+    }
+    return tiles;
+}
+
+base::Result<base::Image> MapPainter::isometricImage(const MapTile& tile,
+                                                     std::span<const EditedChunk> edited) {
+    const IsometricTile pixels{tile.zoom, tile.x, tile.y};
+    const std::vector<ChunkPos> chunks = chunksSeen(pixels);
+    const auto surfaces = surfaces_->surfaces(chunks, edited);
+    if (!surfaces) return tl::unexpected(surfaces.error());
+    std::vector<world::PackedColor> tints;
+    for (const ChunkPos chunk : chunks) tints.push_back(tints_->of(chunk));
+    return paintIsometric(pixels, {chunks, *surfaces, tints}, colors_);
+}
+
+base::Result<base::Image> MapPainter::image(const MapTile& tile, std::span<const EditedChunk> edited) {
+    if (tile.layer == Layer::Isometric) return isometricImage(tile, edited);
+    const ColumnRect rect = columnsOf(tile);
+    const int scale = pixelsAcross(tile.zoom);
+    if (tile.layer == Layer::Biome) return paintBiomes(rect, scale, biomesOf(*biomes_, rect));
+    const auto surfaces = surfaces_->area(rect, edited);
+    if (!surfaces) return tl::unexpected(surfaces.error());
+    const bool isHeight = tile.layer == Layer::Height;
+    const TintField tint = isHeight ? TintField() : tints_->field(rect);
+    const PaintedArea area{*surfaces, tint, marginOf(tile.layer), scale};
+    if (isHeight) return paintHeights(area);
+    return tile.layer == Layer::Night ? paintNight(area, colors_) : paintDay(area, colors_);
+}
+
+base::Result<base::Image> MapPainter::paintArea(const ColumnRect& rect, const EditedPositions& edited) {
+    const ColumnRect wide = widened(rect, kReliefMargin);
+    const auto surfaces = surfaces_->area(wide, edited.among(chunksTouching(wide)));
+    if (!surfaces) return tl::unexpected(surfaces.error());
+    const TintField tint = tints_->field(wide);
+    return paintDay({*surfaces, tint, kReliefMargin, 1}, colors_);
+}
+
+std::uint64_t MapPainter::colorDigest() const {
+    // Another way of painting gets another number: folders of images are not mixed
+    // (apps/terrane/maps/static_map.h).
+    constexpr int kPainting = 1;
+    std::string text = fmt::format("{}", kPainting);
+    for (const BlockColor& color : colors_) text += fmt::format(" {:08x}", rgbNumber(color.mean));
+    return base::hash64(text);
+}
+
+base::Result<std::string> MapPainter::paint(const MapTile& tile, std::span<const EditedChunk> edited) {
+    if (!hasLayer(tile.layer)) return base::fail(base::ErrorCode::NotFound, "the generator has no biomes");
+    const auto painted = image(tile, edited);
+    if (!painted) return tl::unexpected(painted.error());
+    return base::encodePngFast(*painted);
+}
+
+base::Result<std::uint64_t> MapPainter::surfaceDigest(ChunkPos pos, std::span<const EditedChunk> edited) {
+    const auto surfaces = surfaces_->surfaces(std::span(&pos, 1), edited);
+    if (!surfaces) return tl::unexpected(surfaces.error());
+    static_assert(std::has_unique_object_representations_v<Surface>);
+    const Surface& surface = *surfaces->front();
+    return base::hash64(std::string_view(reinterpret_cast<const char*>(surface.data()), sizeof(surface)));
+}
+
+base::Result<ColumnFacts> MapPainter::facts(std::int32_t x, std::int32_t y,
+                                            std::span<const EditedChunk> edited) {
+    const ChunkPos chunk = world::chunkOf({x, y, 0});
+    const auto surfaces = surfaces_->surfaces(std::span(&chunk, 1), edited);
+    if (!surfaces) return tl::unexpected(surfaces.error());
+    const auto index = static_cast<std::size_t>((x & 15) + 16 * (y & 15));
+    const SurfaceColumn& column = (*surfaces->front())[index];
+    const bool isLiquid = column.top < colors_.size() && colors_[column.top].kind == SurfaceKind::Liquid;
+    return ColumnFacts{column.top, column.topZ, isLiquid ? column.topZ - column.underZ : 0,
+                       biomes_ ? gen::Biomes::names()[biomes_->of(chunk)[index]] : std::string_view()};
+}
+
+}  // namespace terrane::map

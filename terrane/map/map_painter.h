@@ -1,0 +1,82 @@
+// Paints tiles of a world's map: finds the surfaces, chooses the painter of the layer, and makes a PNG. Any
+// thread, any number at a time.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "terrane/base/result.h"
+#include "terrane/gen/generators/biomes.h"
+#include "terrane/map/edited_positions.h"
+#include "terrane/map/map_colors.h"
+#include "terrane/map/map_tile.h"
+#include "terrane/map/surface_source.h"
+#include "terrane/map/tint_field.h"
+
+namespace terrane::map {
+
+// Of one column of level 0, for who points at it.
+struct ColumnFacts {
+    world::BlockId top = world::kAir;  // the topmost block, no plant but one that shines
+    int topZ = 0;
+    int depth = 0;           // blocks of liquid, if it is one
+    std::string_view biome;  // empty where the generator has none
+};
+
+// The columns around a tile that change its image, at each side; of layers seen from above.
+int marginOf(Layer layer);
+// The columns that a tile seen from above is painted from: its own and the margin.
+ColumnRect columnsOf(const MapTile& tile);
+
+class MapPainter {
+  public:
+    struct Parts {
+        const gen::LevelGenerators& generators;
+        const world::BlockRegistry& blocks;
+        const world::TextureSource& textures;   // read by create() alone
+        store::ReadableStore* store = nullptr;  // as SurfaceSource::Parts
+        SurfaceCache* cache = nullptr;
+        std::optional<gen::Biomes> biomes = {};
+    };
+    // Fails where a texture cannot be read. All but the textures outlives it.
+    [[nodiscard]] static base::Result<MapPainter> create(Parts parts);
+
+    // Of all that images follow from besides the land: colors of blocks, and how they are painted.
+    std::uint64_t colorDigest() const;
+    bool hasLayer(Layer layer) const { return layer != Layer::Biome || biomes_.has_value(); }
+    // The chunks whose surfaces a tile shows: who asks for it knows which of them are edited. None of a tile
+    // of biomes, which edits do not change.
+    static std::vector<world::ChunkPos> chunksFor(const MapTile& tile);
+    // The other way round: the tiles, of all layers but biomes and of the zooms of the chunk's level, that
+    // show the chunk.
+    static std::vector<MapTile> tilesShowing(world::ChunkPos chunk);
+    // A PNG file. `edited`: of chunksFor().
+    [[nodiscard]] base::Result<std::string> paint(const MapTile& tile, std::span<const EditedChunk> edited);
+
+    // A rectangle by day, a pixel a column; chunks of `edited` as the store has them.
+    [[nodiscard]] base::Result<base::Image> paintArea(const ColumnRect& rect, const EditedPositions& edited);
+
+    // Of a chunk or tile as `edited` has it, or as generated; equal where it looks the same from above.
+    [[nodiscard]] base::Result<std::uint64_t> surfaceDigest(world::ChunkPos pos,
+                                                            std::span<const EditedChunk> edited);
+
+    // x and y in blocks; `edited`: their chunk, if it is edited.
+    [[nodiscard]] base::Result<ColumnFacts> facts(std::int32_t x, std::int32_t y,
+                                                  std::span<const EditedChunk> edited);
+
+  private:
+    MapPainter(Parts parts, MapColors colors);
+    base::Result<base::Image> isometricImage(const MapTile& tile, std::span<const EditedChunk> edited);
+    base::Result<base::Image> image(const MapTile& tile, std::span<const EditedChunk> edited);
+
+    std::unique_ptr<SurfaceKinds> kinds_;  // the source refers to them
+    MapColors colors_;
+    std::optional<gen::Biomes> biomes_;
+    std::unique_ptr<SurfaceSource> surfaces_;
+    std::unique_ptr<TintSource> tints_;
+};
+
+}  // namespace terrane::map

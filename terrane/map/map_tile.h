@@ -1,0 +1,53 @@
+// How a map is divided: layers, zooms and tiles, and what land a tile shows. Plain values; any thread.
+//
+// North is up: a tile's first row is the one with the smallest y, and its first column the one with the
+// largest x (east is -x, docs/building.md). A tile is 256×256 pixels. At zoom 0 a pixel is a block, at zoom 2
+// a block is 4×4 pixels, at zoom -10 a pixel is 1,024 blocks wide.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "terrane/world/coords.h"
+
+namespace terrane::map {
+
+constexpr int kTilePixels = 256;
+constexpr int kMinZoom = -10, kMaxZoom = 2;
+
+enum class Layer : std::uint8_t { Day, Night, Height, Biome, Isometric };
+constexpr int kLayerCount = 5;
+std::string_view nameOf(Layer layer);  // "day", as URLs have it
+std::optional<Layer> layerNamed(std::string_view name);
+
+// Tile x of zoom z shows the blocks from x · width to (x + 1) · width - 1, width = 256 / 2^z; y as well.
+struct MapTile {
+    Layer layer = Layer::Day;
+    int zoom = 0;
+    std::int32_t x = 0, y = 0;
+
+    auto operator<=>(const MapTile&) const = default;
+};
+
+// The level of the chunks that it is painted from: one column a pixel, at zooms above 0 one block for many.
+constexpr int levelOf(int zoom) {
+    return zoom < 0 ? -zoom : 0;
+}
+constexpr std::int64_t blocksAcross(int zoom) {
+    return zoom < 0 ? std::int64_t{kTilePixels} << -zoom : kTilePixels >> zoom;
+}
+// The number of the tile that holds a column, where tiles are so many columns wide.
+constexpr std::int64_t tileOf(std::int64_t column, std::int64_t across) {
+    return column >= 0 ? column / across : (column + 1) / across - 1;
+}
+struct MapTileHash {
+    std::size_t operator()(const MapTile& tile) const;
+};
+
+// Whether such a tile exists: some of it is in the world.
+bool isInWorld(const MapTile& tile);
+
+}  // namespace terrane::map

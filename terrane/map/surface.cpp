@@ -1,0 +1,131 @@
+#include "terrane/map/surface.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace terrane::map {
+
+using world::BlockId;
+
+namespace {
+
+SurfaceKind kindOf(const SurfaceKinds& kinds, BlockId id) {
+    return id < kinds.size() ? kinds[id] : SurfaceKind::Ground;
+}
+
+bool isAllNothing(const world::Section& section, const SurfaceKinds& kinds) {
+    if (section.isUniform()) return kindOf(kinds, section.uniformValue()) == SurfaceKind::Nothing;
+    return !section.isDense() && std::ranges::all_of(section.palette(), [&](BlockId id) {
+        return kindOf(kinds, id) == SurfaceKind::Nothing;
+    });
+}
+
+// Looks down through one chunk, layer by layer, at the columns of which something that counts is unseen.
+class LookDown {
+  public:
+    explicit LookDown(const SurfaceKinds& kinds) : kinds_(kinds) {}
+
+    // Drops the columns that are done with this layer.
+    void passLayer(int z, std::span<const BlockId, kSurfaceColumns> layer, gen::WantedColumns& wanted) {
+        for (std::size_t y = 0; y < kRow; ++y)
+            if (wanted.rows() >> y & 1u) passRow(z, y * kRow, layer, wanted);
+        isFirst_ = false;
+    }
+
+    const Surface& surface() const { return surface_; }
+
+  private:
+    static constexpr std::size_t kRow = world::kChunkSize, kWord = sizeof(std::uint64_t) / sizeof(BlockId);
+
+    // Four columns at a time: mostly they are done, or have the block of the layer looked at before, which
+    // tells nothing new.
+    void passRow(int z, std::size_t row, std::span<const BlockId, kSurfaceColumns> layer,
+                 gen::WantedColumns& wanted) {
+        for (std::size_t first = row; first < row + kRow; first += kWord) {
+            const std::uint64_t here = wordOf(&layer[first]);
+            if (((here ^ wordOf(&before_[first])) & ~wordOf(&isDone_[first])) == 0 && !isFirst_) continue;
+            for (std::size_t k = first; k < first + kWord; ++k)
+                if (isDone_[k] == 0 && passBlock(z, surface_[k], layer[k])) {
+                    isDone_[k] = kDone;
+                    wanted.drop(k);
+                }
+            std::memcpy(&before_[first], &here, sizeof(here));
+        }
+    }
+
+    static std::uint64_t wordOf(const BlockId* columns) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, columns, sizeof(word));
+        return word;
+    }
+
+    // Whether nothing beneath it counts.
+    bool passBlock(int z, SurfaceColumn& column, BlockId block) const {
+        const SurfaceKind kind = kindOf(kinds_, block);
+        if (kind == SurfaceKind::Nothing) return false;
+        if (column.top == world::kAir) {
+            column.top = block;
+            column.topZ = static_cast<std::uint8_t>(z);
+        }
+        const bool counts = kind == SurfaceKind::Ground ||
+                            (kind == SurfaceKind::Liquid && kindOf(kinds_, column.top) == SurfaceKind::Crown);
+        if (!counts) return false;
+        column.under = block;
+        column.underZ = static_cast<std::uint8_t>(z);
+        return true;
+    }
+
+    static constexpr BlockId kDone = 0xFFFF;  // all bits of a column in a word
+
+    const SurfaceKinds& kinds_;
+    std::array<BlockId, kSurfaceColumns> before_{};  // looked at last, by column
+    std::array<BlockId, kSurfaceColumns> isDone_{};  // `under` was seen
+    bool isFirst_ = true;
+    Surface surface_{};
+};
+
+}  // namespace
+
+SurfaceKinds surfaceKinds(const world::BlockRegistry& blocks) {
+    SurfaceKinds kinds;
+    for (const world::BlockType& type : blocks.types()) {
+        using enum world::Shape;
+        const bool isPlant = type.shape == Cross || type.shape == Hash;
+        const bool shines = *std::ranges::max_element(type.emission) > 0;
+        if (type.shape == None || (isPlant && !shines))
+            kinds.push_back(SurfaceKind::Nothing);
+        else if (type.shape == Liquid)
+            kinds.push_back(SurfaceKind::Liquid);
+        else
+            kinds.push_back(isPlant || (type.shape == Cube && !type.opaqueCube) ? SurfaceKind::Crown
+                                                                                : SurfaceKind::Ground);
+    }
+    return kinds;
+}
+
+Surface surfaceOf(const world::Chunk& chunk, const SurfaceKinds& kinds) {
+    LookDown look(kinds);
+    gen::WantedColumns wanted;
+    std::array<BlockId, world::kBlocksPerSection> blocks;
+    for (int s = world::kSectionsPerChunk; s-- > 0;) {
+        const world::Section& section = chunk.section(s);
+        if (isAllNothing(section, kinds)) continue;
+        section.unpack(blocks);
+        for (int layer = world::kSectionSize; layer-- > 0;) {
+            const auto first = blocks.begin() + static_cast<std::ptrdiff_t>(layer * kSurfaceColumns);
+            look.passLayer(s * world::kSectionSize + layer,
+                           std::span<const BlockId, kSurfaceColumns>(first, kSurfaceColumns), wanted);
+            if (wanted.rows() == 0) return look.surface();
+        }
+    }
+    return look.surface();
+}
+
+Surface surfaceOf(const gen::Generator& generator, world::ChunkPos pos, const SurfaceKinds& kinds) {
+    LookDown look(kinds);
+    generator.generateDown(
+        pos, [&](int z, auto layer, gen::WantedColumns& wanted) { look.passLayer(z, layer, wanted); });
+    return look.surface();
+}
+
+}  // namespace terrane::map

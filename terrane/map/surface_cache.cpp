@@ -1,0 +1,285 @@
+#include "terrane/map/surface_cache.h"
+
+#include <map>
+#include <mutex>
+#include <system_error>
+#include <unordered_map>
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/map/surface_codec.h"
+#include "terrane/store/chunk_key.h"
+#include "terrane/store/file_lock.h"
+#include "terrane/store/sqlite.h"
+
+namespace terrane::map {
+namespace {
+
+// How surfaces are found and rows made from them: another way gets another name, and files of the old one are
+// begun anew.
+constexpr std::string_view kForm = "2";
+
+// The share of the file's bytes that rows may take. The rest is for pages of SQLite's own: the schema and the
+// inner pages of the tables.
+constexpr double kFilled = 0.9;
+
+// Uses are numbered from here on, so that each number takes 8 bytes in a row: SQLite changes a row in its
+// place where it stays as long, and else writes all of it elsewhere.
+constexpr std::int64_t kFirstUse = std::int64_t{1} << 48;
+
+// The room of a row in the file: it may leave half of its last page empty, so whole pages are counted. (Rows
+// of 2.5 KB took 1.6 times their bytes.)
+constexpr std::int64_t kPageBytes = 4096, kRowHeadBytes = 32;
+std::int64_t roomOf(std::int64_t blobBytes) {
+    return ((blobBytes + kRowHeadBytes) / kPageBytes + 1) * kPageBytes;
+}
+
+// What a connection is told first. Nothing here has to survive a crash: a damaged file is begun anew.
+constexpr const char* kSettings =
+    "PRAGMA page_size = 4096; PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; PRAGMA locking_mode = "
+    "EXCLUSIVE;";
+constexpr const char* kSchema =
+    "CREATE TABLE IF NOT EXISTS origin (text TEXT NOT NULL);"
+    "CREATE TABLE IF NOT EXISTS surfaces (key INTEGER PRIMARY KEY, used INTEGER NOT NULL, bytes BLOB NOT "
+    "NULL);";
+
+std::int64_t keyOf(BlobPos pos) {
+    return store::keyOf({pos.x, pos.y, pos.level});
+}
+
+std::string originOf(const std::string& origin) {
+    return fmt::format("{} {}", kForm, origin);
+}
+
+base::Result<bool> hasNoSurfaces(store::Database& database) {
+    bool isEmpty = true;
+    const auto read =
+        store::forEachRow(database, "SELECT 1 FROM surfaces LIMIT 1", [&](const store::Statement&) {
+            isEmpty = false;
+            return base::Result<void>();
+        });
+    if (!read) return tl::unexpected(read.error());
+    return isEmpty;
+}
+
+// SQLite keeps the pages of rows that are deleted, so a file never shrinks.
+void removeWhereLarger(const std::filesystem::path& file, std::int64_t maxBytes) {
+    std::error_code error;
+    const auto bytes = std::filesystem::file_size(file, error);
+    if (!error && bytes > static_cast<std::uintmax_t>(maxBytes)) std::filesystem::remove(file, error);
+}
+
+// A connection to a file of this origin; an error where it is another file, or of another origin.
+base::Result<store::Database> openFile(const std::filesystem::path& file, const std::string& origin) {
+    auto database = store::Database::open(file, store::OpenMode::Create);
+    if (!database) return database;
+    if (auto set = database->execute(kSettings); !set) return tl::unexpected(set.error());
+    if (auto made = database->execute(kSchema); !made) return tl::unexpected(made.error());
+    std::string found;
+    const auto read =
+        store::forEachRow(*database, "SELECT text FROM origin", [&](const store::Statement& row) {
+            found = row.text(0);
+            return base::Result<void>();
+        });
+    if (!read) return tl::unexpected(read.error());
+    if (found == origin) return database;
+    if (!found.empty())
+        return base::fail(base::ErrorCode::Incompatible, "{}: of another world", file.string());
+    const auto empty = hasNoSurfaces(*database);
+    if (!empty) return tl::unexpected(empty.error());
+    if (!*empty)
+        return base::fail(base::ErrorCode::Incompatible, "{}: does not say of which world it is",
+                          file.string());
+    auto insert = database->prepare("INSERT INTO origin VALUES (?)");
+    if (!insert) return tl::unexpected(insert.error());
+    insert->bind(1, std::string_view(origin));
+    if (auto written = insert->run(); !written) return tl::unexpected(written.error());
+    return database;
+}
+
+// Errors that a new file in this place would not have.
+bool isOtherFile(const base::Error& error) {
+    using enum base::ErrorCode;
+    return error.code == Incompatible || error.code == Damaged || error.code == Failed;
+}
+
+}  // namespace
+
+struct SurfaceCache::Impl {
+    Impl(store::Database opened, std::int64_t most) : database(std::move(opened)), maxBytes(most) {}
+
+    static base::Result<std::unique_ptr<Impl>> open(const std::filesystem::path& file,
+                                                    const std::string& origin, std::int64_t maxBytes);
+    base::Result<void> prepare();
+    base::Result<void> write(std::int64_t key, store::ByteView bytes);
+    base::Result<void> forget(std::int64_t key);
+    void noteUse(std::int64_t key);
+    void check(const base::Result<void>& done);
+    void keepUses();
+
+    struct Row {
+        std::int64_t used = 0, bytes = 0;  // of the file
+    };
+    std::optional<store::FileLock> lock;  // ends after the database
+    std::mutex mutex;                     // of all below
+    store::Database database;
+    std::optional<store::Statement> select, insert, remove;
+    std::int64_t maxBytes, bytes = 0;
+    std::int64_t uses = kFirstUse;               // of the newest one
+    std::unordered_map<std::int64_t, Row> rows;  // by key
+    std::map<std::int64_t, std::int64_t> byUse;  // keys
+    bool isBroken = false;                       // and nothing is written any more
+};
+
+base::Result<void> SurfaceCache::Impl::prepare() {
+    const auto read = store::forEachRow(database, "SELECT key, length(bytes) FROM surfaces ORDER BY used",
+                                        [&](const store::Statement& row) {
+                                            rows[row.number(0)] = {++uses, roomOf(row.number(1))};
+                                            byUse[uses] = row.number(0);
+                                            bytes += roomOf(row.number(1));
+                                            return base::Result<void>();
+                                        });
+    if (!read) return read;
+    const auto make = [&](std::optional<store::Statement>& statement, std::string_view sql) {
+        auto made = database.prepare(sql);
+        if (made) statement.emplace(std::move(*made));
+        return made ? base::Result<void>() : tl::unexpected(made.error());
+    };
+    if (auto made = make(select, "SELECT bytes FROM surfaces WHERE key = ?"); !made) return made;
+    if (auto made = make(insert, "INSERT OR REPLACE INTO surfaces VALUES (?, ?, ?)"); !made) return made;
+    return make(remove, "DELETE FROM surfaces WHERE key = ?");
+}
+
+void SurfaceCache::Impl::noteUse(std::int64_t key) {
+    Row& row = rows.at(key);
+    byUse.erase(row.used);
+    row.used = ++uses;
+    byUse[uses] = key;
+}
+
+base::Result<void> SurfaceCache::Impl::forget(std::int64_t key) {
+    const auto found = rows.find(key);
+    if (found == rows.end()) return {};
+    bytes -= found->second.bytes;
+    byUse.erase(found->second.used);
+    rows.erase(found);
+    remove->bind(1, key);
+    return remove->run();
+}
+
+base::Result<void> SurfaceCache::Impl::write(std::int64_t key, store::ByteView blob) {
+    const std::int64_t size = roomOf(static_cast<std::int64_t>(blob.size()));
+    const auto most = static_cast<std::int64_t>(static_cast<double>(maxBytes) * kFilled);
+    if (auto forgotten = forget(key); !forgotten) return forgotten;
+    while (!byUse.empty() && bytes + size > most)
+        if (auto forgotten = forget(byUse.begin()->second); !forgotten) return forgotten;
+    if (size > most) return {};
+    insert->bind(1, key);
+    insert->bind(2, ++uses);
+    insert->bind(3, blob);
+    if (auto written = insert->run(); !written) return written;
+    rows[key] = {uses, size};
+    byUse[uses] = key;
+    bytes += size;
+    return {};
+}
+
+void SurfaceCache::Impl::check(const base::Result<void>& done) {
+    if (done || isBroken) return;
+    isBroken = true;
+    base::logWarning("{}; the map keeps nothing on the disk any more", done.error().message);
+}
+
+// The order of uses, for the next program.
+void SurfaceCache::Impl::keepUses() {
+    auto transaction = store::Transaction::begin(database);
+    if (!transaction) return check(tl::unexpected(transaction.error()));
+    auto update = database.prepare("UPDATE surfaces SET used = ? WHERE key = ?");
+    if (!update) return check(tl::unexpected(update.error()));
+    for (const auto& [use, key] : byUse) {
+        update->bind(1, use);
+        update->bind(2, key);
+        if (auto written = update->run(); !written) return check(written);
+    }
+    check(transaction->commit());
+}
+
+base::Result<std::unique_ptr<SurfaceCache::Impl>> SurfaceCache::Impl::open(const std::filesystem::path& file,
+                                                                           const std::string& origin,
+                                                                           std::int64_t maxBytes) {
+    auto database = openFile(file, originOf(origin));
+    if (!database) return tl::unexpected(database.error());
+    auto impl = std::make_unique<Impl>(std::move(*database), maxBytes);
+    if (auto prepared = impl->prepare(); !prepared) return tl::unexpected(prepared.error());
+    return impl;
+}
+
+base::Result<std::unique_ptr<SurfaceCache>> SurfaceCache::open(const std::filesystem::path& file,
+                                                               const std::string& origin,
+                                                               std::int64_t maxBytes) {
+    // SQLite's own lock would let two programs read, until one of them writes.
+    auto lock = store::FileLock::acquire(file, store::FileLock::Kind::Exclusive);
+    if (!lock) return tl::unexpected(lock.error());
+    removeWhereLarger(file, maxBytes);
+    auto impl = Impl::open(file, origin, maxBytes);
+    if (!impl && isOtherFile(impl.error())) {
+        std::error_code error;
+        std::filesystem::remove(file, error);
+        impl = Impl::open(file, origin, maxBytes);
+    }
+    if (!impl) return tl::unexpected(impl.error());
+    (*impl)->lock = std::move(*lock);
+    return std::unique_ptr<SurfaceCache>(new SurfaceCache(std::move(*impl)));
+}
+
+SurfaceCache::SurfaceCache(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+SurfaceCache::~SurfaceCache() {
+    if (!impl_->isBroken) impl_->keepUses();
+}
+
+bool SurfaceCache::contains(BlobPos pos) const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->rows.contains(keyOf(pos));
+}
+
+std::optional<std::vector<SurfaceColumn>> SurfaceCache::find(BlobPos pos) {
+    const std::int64_t key = keyOf(pos);
+    store::Bytes bytes;
+    {
+        const std::lock_guard lock(impl_->mutex);
+        if (!impl_->rows.contains(key)) return std::nullopt;
+        impl_->noteUse(key);
+        impl_->select->bind(1, key);
+        const auto row = impl_->select->step();
+        if (row && *row) {
+            const store::ByteView blob = impl_->select->blob(0);
+            bytes.assign(blob.begin(), blob.end());
+        }
+        impl_->select->reset();
+    }
+    auto columns = decodeSurfaces(bytes);
+    if (columns) return std::move(*columns);
+    const std::lock_guard lock(impl_->mutex);
+    if (!impl_->isBroken) impl_->check(impl_->forget(key));
+    return std::nullopt;
+}
+
+void SurfaceCache::put(BlobPos pos, std::span<const SurfaceColumn> columns) {
+    if (isBroken()) return;
+    const store::Bytes bytes = encodeSurfaces(columns);
+    const std::lock_guard lock(impl_->mutex);
+    if (!impl_->isBroken) impl_->check(impl_->write(keyOf(pos), bytes));
+}
+
+bool SurfaceCache::isBroken() const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->isBroken;
+}
+
+std::int64_t SurfaceCache::bytes() const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->bytes;
+}
+
+}  // namespace terrane::map

@@ -1,0 +1,237 @@
+#include "terrane/map/surface_source.h"
+
+#include <algorithm>
+#include <mutex>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include "terrane/map/lru_cache.h"
+#include "terrane/map/surface_codec.h"
+
+namespace terrane::map {
+
+using world::ChunkPos;
+
+namespace {
+
+// Of generated chunks: those of 150 tiles, so that neighbors share the chunks at their borders.
+constexpr std::size_t kMemoryBytes = std::size_t{64} << 20;
+constexpr std::size_t kNoteBytes = 128;  // of an edited chunk that was not generated
+constexpr int kBlobChunks = kBlobColumns / world::kChunkSize;
+
+BlobPos blobOf(ChunkPos chunk) {
+    static_assert(kBlobChunks == 16);
+    return {chunk.x >> 4, chunk.y >> 4, chunk.level};
+}
+
+// The chunks of a blob, in the order of x + 16 y.
+std::vector<ChunkPos> chunksOf(BlobPos blob) {
+    std::vector<ChunkPos> chunks;
+    for (int k = 0; k < kBlobChunks * kBlobChunks; ++k)
+        chunks.push_back(
+            {blob.x * kBlobChunks + k % kBlobChunks, blob.y * kBlobChunks + k / kBlobChunks, blob.level});
+    return chunks;
+}
+
+// Where a row of a chunk begins among the columns of its blob.
+std::size_t rowOfBlob(ChunkPos chunk, int row) {
+    const auto x = static_cast<std::size_t>(chunk.x & 15), y = static_cast<std::size_t>(chunk.y & 15);
+    return (y * world::kChunkSize + static_cast<std::size_t>(row)) * kBlobColumns + x * world::kChunkSize;
+}
+
+}  // namespace
+
+using SurfaceMap = std::unordered_map<ChunkPos, SurfacePtr, world::ChunkPosHash>;
+
+struct SurfaceSource::Impl {
+    explicit Impl(const Parts& theParts) : parts(theParts) {}
+
+    SurfacePtr remembered(ChunkPos pos) {
+        const std::lock_guard lock(mutex);
+        const SurfacePtr* found = surfaces.find(pos);
+        return found ? *found : nullptr;
+    }
+    void remember(ChunkPos pos, const SurfacePtr& surface) {
+        const std::lock_guard lock(mutex);
+        surfaces.put(pos, surface, sizeof(Surface) + 128);
+    }
+    base::Result<SurfacePtr> generated(ChunkPos pos);
+    // By position, of those of the chunks that are edited; null where the store has none.
+    base::Result<SurfaceMap> editedAmong(std::span<const ChunkPos> chunks,
+                                         std::span<const EditedChunk> edited);
+    base::Result<void> loadEdited(std::span<const ChunkPos> chunks, SurfaceMap& result);
+    void noteEdited(const SurfaceMap& edited);
+    void readBlobs(std::span<const ChunkPos> chunks);
+    void readBlob(BlobPos blob);
+    bool isWhole(BlobPos blob);
+    void writeBlobs(std::span<const ChunkPos> chunks);
+    void writeBlob(BlobPos blob);
+
+    Parts parts;
+    std::mutex mutex;  // of the surfaces: as generated, null where a chunk is edited
+    LruCache<ChunkPos, SurfacePtr, world::ChunkPosHash> surfaces{kMemoryBytes};
+};
+
+base::Result<SurfacePtr> SurfaceSource::Impl::generated(ChunkPos pos) {
+    if (SurfacePtr known = remembered(pos)) return known;
+    const auto generator = parts.generators.at(pos.level);
+    if (!generator) return tl::unexpected(generator.error());
+    const auto surface = std::make_shared<const Surface>(surfaceOf(**generator, pos, parts.kinds));
+    remember(pos, surface);
+    return surface;
+}
+
+base::Result<SurfaceMap> SurfaceSource::Impl::editedAmong(std::span<const ChunkPos> chunks,
+                                                          std::span<const EditedChunk> edited) {
+    if (edited.empty()) return SurfaceMap();
+    std::unordered_map<ChunkPos, const EditedChunk*, world::ChunkPosHash> editedAt;
+    for (const EditedChunk& chunk : edited) editedAt[chunk.pos] = &chunk;
+    SurfaceMap result;
+    std::vector<ChunkPos> stored;
+    for (const ChunkPos pos : chunks) {
+        const auto found = editedAt.find(pos);
+        if (found == editedAt.end() || !world::isInWorld(pos)) continue;
+        const auto [at, isNew] = result.emplace(pos, nullptr);
+        if (!isNew) continue;
+        if (const world::ChunkPtr& live = found->second->chunk)
+            at->second = std::make_shared<const Surface>(surfaceOf(*live, parts.kinds));
+        else
+            stored.push_back(pos);
+    }
+    if (auto loaded = loadEdited(stored, result); !loaded) return tl::unexpected(loaded.error());
+    return result;
+}
+
+// Those that are damaged count as generated, as they do in a game. One that could not be read may be whole.
+base::Result<void> SurfaceSource::Impl::loadEdited(std::span<const ChunkPos> chunks, SurfaceMap& result) {
+    if (chunks.empty() || !parts.store) return {};
+    const std::vector<store::LoadedChunk> loaded = parts.store->loadMany(chunks);
+    for (std::size_t k = 0; k < chunks.size(); ++k) {
+        if (loaded[k].isUnread && !loaded[k].isOverBudget)
+            return base::fail(base::ErrorCode::Io, "{}: {}", store::nameOf(chunks[k]), loaded[k].problem);
+        if (loaded[k].chunk)
+            result[chunks[k]] = std::make_shared<const Surface>(surfaceOf(*loaded[k].chunk, parts.kinds));
+    }
+    return {};
+}
+
+// A blob needs them as generated: they are made when it is whole but for them.
+void SurfaceSource::Impl::noteEdited(const SurfaceMap& edited) {
+    const std::lock_guard lock(mutex);
+    for (const auto& [pos, surface] : edited)
+        if (!surfaces.contains(pos)) surfaces.put(pos, nullptr, kNoteBytes);
+}
+
+void SurfaceSource::Impl::readBlob(BlobPos blob) {
+    const auto columns = parts.cache->find(blob);
+    if (!columns) return;
+    for (const ChunkPos chunk : chunksOf(blob)) {
+        Surface surface;
+        for (int row = 0; row < world::kChunkSize; ++row)
+            std::copy_n(columns->begin() + static_cast<std::ptrdiff_t>(rowOfBlob(chunk, row)),
+                        world::kChunkSize, surface.begin() + row * world::kChunkSize);
+        remember(chunk, std::make_shared<const Surface>(surface));
+    }
+}
+
+// Of the chunks that memory lacks.
+void SurfaceSource::Impl::readBlobs(std::span<const ChunkPos> chunks) {
+    std::set<BlobPos> seen;
+    for (const ChunkPos chunk : chunks)
+        if (!seen.contains(blobOf(chunk)) && !remembered(chunk)) {
+            seen.insert(blobOf(chunk));
+            readBlob(blobOf(chunk));
+        }
+}
+
+// Looks at the chunks in the order of rows, up to the first one that memory lacks: some 10 µs at most.
+bool SurfaceSource::Impl::isWhole(BlobPos blob) {
+    const std::vector<ChunkPos> chunks = chunksOf(blob);
+    const std::lock_guard lock(mutex);
+    return std::ranges::all_of(chunks, [&](ChunkPos chunk) { return surfaces.contains(chunk); });
+}
+
+// Those that these chunks have made whole: tiles need not have all chunks of a blob.
+void SurfaceSource::Impl::writeBlobs(std::span<const ChunkPos> chunks) {
+    if (parts.cache->isBroken()) return;
+    std::set<BlobPos> blobs;
+    for (const ChunkPos chunk : chunks) blobs.insert(blobOf(chunk));
+    for (const BlobPos blob : blobs)
+        if (!parts.cache->contains(blob) && isWhole(blob)) writeBlob(blob);
+}
+
+// Not where there are edited chunks and no generator to make them anew.
+void SurfaceSource::Impl::writeBlob(BlobPos blob) {
+    std::vector<SurfaceColumn> columns(kColumnsOfBlob);
+    for (const ChunkPos chunk : chunksOf(blob)) {
+        const auto surface = generated(chunk);
+        if (!surface) return;
+        for (int row = 0; row < world::kChunkSize; ++row)
+            std::copy_n((*surface)->begin() + row * world::kChunkSize, world::kChunkSize,
+                        columns.begin() + static_cast<std::ptrdiff_t>(rowOfBlob(chunk, row)));
+    }
+    parts.cache->put(blob, columns);
+}
+
+SurfaceSource::SurfaceSource(const Parts& parts) : impl_(std::make_unique<Impl>(parts)) {}
+SurfaceSource::~SurfaceSource() = default;
+
+base::Result<std::vector<SurfacePtr>> SurfaceSource::surfaces(std::span<const ChunkPos> chunks,
+                                                              std::span<const EditedChunk> edited) {
+    static const auto kEmpty = std::make_shared<const Surface>();
+    const auto asEdited = impl_->editedAmong(chunks, edited);
+    if (!asEdited) return tl::unexpected(asEdited.error());
+    if (impl_->parts.cache) impl_->readBlobs(chunks);
+    std::vector<SurfacePtr> surfaces;
+    for (const ChunkPos chunk : chunks) {
+        if (!world::isInWorld(chunk)) {
+            surfaces.push_back(kEmpty);
+            continue;
+        }
+        const auto found = asEdited->find(chunk);
+        auto surface = found != asEdited->end() && found->second ? base::Result<SurfacePtr>(found->second)
+                                                                 : impl_->generated(chunk);
+        if (!surface) return tl::unexpected(surface.error());
+        surfaces.push_back(std::move(*surface));
+    }
+    if (impl_->parts.cache) {
+        impl_->noteEdited(*asEdited);
+        impl_->writeBlobs(chunks);
+    }
+    return surfaces;
+}
+
+ColumnRect columnsOf(const world::ChunkArea& chunks, int level) {
+    constexpr int kSize = world::kChunkSize;
+    return {level, std::int64_t{chunks.x0} * kSize, std::int64_t{chunks.y0} * kSize,
+            (chunks.x1 - chunks.x0) * kSize, (chunks.y1 - chunks.y0) * kSize};
+}
+
+ChunkPos chunkAt(std::int64_t x, std::int64_t y, int level) {
+    constexpr std::int64_t kBeyond = std::int64_t{world::kMaxChunk} + 1;
+    return {static_cast<std::int32_t>(std::clamp(x, -kBeyond - 1, kBeyond)),
+            static_cast<std::int32_t>(std::clamp(y, -kBeyond - 1, kBeyond)),
+            static_cast<std::uint8_t>(level)};
+}
+
+std::vector<ChunkPos> chunksTouching(const ColumnRect& rect) {
+    const auto chunkOf = [](std::int64_t column) { return column >> 4; };
+    std::vector<ChunkPos> chunks;
+    for (std::int64_t y = chunkOf(rect.y0); y <= chunkOf(rect.y0 + rect.height - 1); ++y)
+        for (std::int64_t x = chunkOf(rect.x0); x <= chunkOf(rect.x0 + rect.width - 1); ++x)
+            chunks.push_back(chunkAt(x, y, rect.level));
+    return chunks;
+}
+
+base::Result<SurfaceArea> SurfaceSource::area(const ColumnRect& rect, std::span<const EditedChunk> edited) {
+    const std::vector<ChunkPos> chunks = chunksTouching(rect);
+    const auto found = surfaces(chunks, edited);
+    if (!found) return tl::unexpected(found.error());
+    SurfaceArea area{rect, std::vector<SurfaceColumn>(static_cast<std::size_t>(rect.width) *
+                                                      static_cast<std::size_t>(rect.height))};
+    for (std::size_t k = 0; k < chunks.size(); ++k) copyChunk(rect, chunks[k], *(*found)[k], area.columns);
+    return area;
+}
+
+}  // namespace terrane::map

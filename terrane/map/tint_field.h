@@ -1,0 +1,44 @@
+// The tint of grass and leaves over an area of a map, from a few samples: it changes slowly. Any thread.
+#pragma once
+
+#include <mutex>
+#include <vector>
+
+#include "terrane/gen/level_generators.h"
+#include "terrane/map/lru_cache.h"
+#include "terrane/map/surface_source.h"
+#include "terrane/world/tint.h"
+
+namespace terrane::map {
+
+// Samples 16 columns apart: sample (i, j) is at column x0 + 16 i, y0 + 16 j.
+struct TintField {
+    static constexpr int kStep = 16;
+    std::int64_t x0 = 0, y0 = 0;
+    int width = 0, height = 0;  // samples
+    std::vector<world::PackedColor> samples;
+
+    world::PackedColor at(int i, int j) const { return samples[static_cast<std::size_t>(j * width + i)]; }
+};
+
+// Makes such fields, and remembers the tints that neighbors need.
+class TintSource {
+  public:
+    // `generators` outlives this.
+    explicit TintSource(const gen::LevelGenerators& generators) : generators_(generators) {}
+
+    // Reaches beyond the rectangle, so that each of its columns lies between four samples. Neutral where the
+    // generator has no tint, and outside the world.
+    TintField field(const ColumnRect& rect);
+    // Of a chunk as a whole.
+    world::PackedColor of(world::ChunkPos chunk);
+
+  private:
+    world::PackedColor sample(int level, std::int64_t x, std::int64_t y);
+
+    const gen::LevelGenerators& generators_;
+    std::mutex mutex_;  // of the tiles
+    LruCache<world::ChunkPos, std::shared_ptr<const world::TintTile>, world::ChunkPosHash> tiles_{4 << 20};
+};
+
+}  // namespace terrane::map

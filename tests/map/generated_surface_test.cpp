@@ -1,0 +1,34 @@
+// Surfaces straight from a generator are those of the chunks that it makes.
+#include <random>
+#include <string>
+
+#include "tests/map/map_fixture.h"
+
+namespace terrane::map {
+namespace {
+
+// Builds with assertions run without optimization and take fifty times as long.
+#ifdef NDEBUG
+constexpr int kChunks = 24;
+#else
+constexpr int kChunks = 4;
+#endif
+
+TEST(GeneratedSurface, IsThatOfTheWholeChunk) {
+    std::mt19937 random(5);
+    for (const std::string& name : gen::generatorNames()) {
+        const gen::LevelGenerators& generators = generatorsOf(name);
+        const int chunks = name == "hills3d" || name == "voronoi" ? kChunks / 4 : kChunks;
+        for (int k = 0; k < chunks * (world::kMaxLevel + 1); ++k) {
+            const int level = k / chunks;
+            const auto at = [&] { return (static_cast<std::int32_t>(random() % 40000) - 20000) >> level; };
+            const world::ChunkPos pos{at(), at(), static_cast<std::uint8_t>(level)};
+            const Surface fromAbove = surfaceOf(**generators.at(level), pos, contentKinds());
+            ASSERT_EQ(fromAbove, surfaceOf(generators.generate(pos), contentKinds()))
+                << name << ", " << testing::PrintToString(pos);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace terrane::map
