@@ -13,21 +13,21 @@ namespace {
 constexpr std::string_view kPlaces = "places";  // name of metadata
 constexpr int kPoseNumbers = 5;
 
+bool isContinuation(char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) == 0x80;  // of a character in UTF-8
+}
+
+}  // namespace
+
 std::optional<Place> placeFrom(const std::string& line) {
     std::istringstream in(line);
     std::string pose, number, name;
     for (int k = 0; k < kPoseNumbers && in >> number; ++k) pose += (k == 0 ? "" : " ") + number;
     std::getline(in >> std::ws, name);
     const auto at = poseFrom(pose);
-    if (!at || name.empty() || placeName(name) != name) return std::nullopt;
+    if (!at || placeName(name) != name) return std::nullopt;
     return Place{name, *at};
 }
-
-bool isContinuation(char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) == 0x80;  // of a character in UTF-8
-}
-
-}  // namespace
 
 std::string textOf(const std::vector<Place>& places) {
     std::string text;
@@ -39,7 +39,7 @@ std::vector<Place> placesFrom(std::string_view text) {
     std::vector<Place> places;
     std::istringstream in{std::string(text)};
     for (std::string line; places.size() < kMaxPlaces && std::getline(in, line);)
-        if (auto place = placeFrom(line)) places.push_back(*std::move(place));
+        if (auto place = placeFrom(line); place && !place->name.empty()) places.push_back(*std::move(place));
     return places;
 }
 

@@ -22,7 +22,9 @@ constexpr std::size_t kMaxPlaces = 200, kMaxPlaceName = 60;
 
 // A line a place, "X Y Z YAW PITCH NAME".
 std::string textOf(const std::vector<Place>& places);
-// Lines that are no place are left out, and what is beyond kMaxPlaces.
+// The name may be missing. Nothing for anything else.
+std::optional<Place> placeFrom(const std::string& line);
+// Lines that are no place, or have no name, are left out, and what is beyond kMaxPlaces.
 std::vector<Place> placesFrom(std::string_view text);
 
 // Without control characters and spaces at its ends; cut to kMaxPlaceName bytes, between characters.

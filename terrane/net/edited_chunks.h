@@ -34,6 +34,9 @@ class EditedChunks {
     // Chunks of level 0: the tiles above them are edited as well. False where all were so already.
     bool add(world::ChunkPos chunk);
     std::size_t count(int level) const { return positions_[static_cast<std::size_t>(level)].size(); }
+    const std::unordered_set<world::ChunkPos, world::ChunkPosHash>& positions(int level) const {
+        return positions_[static_cast<std::size_t>(level)];
+    }
     // Up to `radius` (Chebyshev) around a chunk or tile, in no order.
     std::vector<world::ChunkPos> within(world::ChunkPos middle, int radius) const;
 

@@ -2,11 +2,14 @@
 
 #include <charconv>
 #include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <span>
 
 #include "terrane/net/keys.h"
 #include "terrane/net/server_clients.h"
 #include "terrane/net/server_history.h"
+#include "terrane/net/server_places.h"
 
 namespace terrane::net {
 namespace {
@@ -181,6 +184,27 @@ std::string rollbackLine(ServerState& server, Words words) {
                  : count.error().message;
 }
 
+std::string mark(ServerState& server, Words words) {
+    world::Pose pose;
+    for (int k = 0; k < 3; ++k) {
+        const auto number = numberFrom<double>(words[static_cast<std::size_t>(k)]);
+        if (!number) return "a place is three numbers and a name: X Y Z NAME; in the chat a name alone";
+        pose.position[k] = *number;
+    }
+    if (!std::isfinite(glm::dot(pose.position, pose.position)) ||
+        !world::isInWorld(world::chunkOf(pose.position)))
+        return "this place is not in the world";
+    return markPlace(server, joined(words.subspan(3)), pose, true);
+}
+
+std::string unmark(ServerState& server, Words words) {
+    return unmarkPlace(server, joined(words));
+}
+
+std::string marks(ServerState& server, Words) {
+    return placeList(server);
+}
+
 std::string setTime(ServerState& server, Words words) {
     const auto time = numberFrom<double>(words[0]);
     if (!time || !(*time >= 0 && *time < 1)) return "a time of day is 0 (midnight) to below 1; 0.5 is noon";
@@ -233,6 +257,10 @@ constexpr ConsoleCommand kCommands[] = {
     {"claims", "", "all claims", 0, 0, claims},
     {"rollback", "PLAYER|* MINUTES [X0 Y0 X1 Y1]", "takes back what a player, or anybody, changed", 2, 6,
      rollbackLine},
+    {"mark", "X Y Z NAME", "gives a place a name, for maps; players name where they stand: /mark NAME", 4,
+     kAny, mark},
+    {"unmark", "NAME", "takes the name away", 1, kAny, unmark},
+    {"marks", "", "all places that have names", 0, 0, marks},
     {"time", "0…1", "sets the time of day: 0 midnight, 0.5 noon", 1, 1, setTime},
     {"password", "PASSWORD|off", "who joins needs it from now on", 1, 1, setPassword},
     {"save", "", "writes all that changed to disk, as happens by itself every five seconds", 0, 0, save},

@@ -8,6 +8,7 @@
 #include "terrane/net/server_clients.h"
 #include "terrane/net/server_commands.h"
 #include "terrane/net/server_console.h"
+#include "terrane/net/server_places.h"
 
 namespace terrane::net {
 namespace {
@@ -51,6 +52,9 @@ void onSay(ServerState& server, ServerClient& client, const Say& message) {
         base::logInfo("<{}> {}", client.name, message.text);
         return sayToAll(server, client.name, message.text);
     }
+    constexpr std::string_view kMark = "/mark ";
+    if (message.text.starts_with(kMark))
+        return say(client, markHere(server, client, std::string_view(message.text).substr(kMark.size())));
     if (client.role != game::Role::Operator) return say(client, "only operators give commands");
     // Not what stands behind it, which may be a password.
     base::logInfo("{} gives the command {}", client.name, message.text.substr(0, message.text.find(' ')));

@@ -7,6 +7,7 @@
 #include "terrane/base/log.h"
 #include "terrane/game/player_state.h"
 #include "terrane/net/server_clients.h"
+#include "terrane/net/server_places.h"
 #include "terrane/net/server_view.h"
 
 namespace terrane::net {
@@ -101,7 +102,9 @@ void applyDecision(ServerState& server, const WriteDecision& decision) {
 
 // Edits up to `saved` are in the store: whoever reads a chunk from now on finds them there. What was read
 // before may still be on its way from a worker.
-void dropTail(SharingState& sharing, std::int64_t nowSaved, Time now) {
+void dropTail(ServerState& server, std::int64_t nowSaved) {
+    SharingState& sharing = server.sharing;
+    const Time now = server.now;
     if (nowSaved > sharing.saved) sharing.savedAt.push_back({now, nowSaved});
     sharing.saved = std::max(sharing.saved, nowSaved);
     std::optional<std::int64_t> before;
@@ -110,8 +113,12 @@ void dropTail(SharingState& sharing, std::int64_t nowSaved, Time now) {
         before = sharing.savedAt.front().second;
     if (!before) return;
     const std::int64_t saved = *before;
+    std::vector<ChunkPos> changed;  // in the store
     for (auto& [chunk, edits] : sharing.tail)
-        std::erase_if(edits, [&](const SharingState::TailEdit& edit) { return edit.number <= saved; });
+        if (std::erase_if(edits, [&](const SharingState::TailEdit& edit) { return edit.number <= saved; }) >
+            0)
+            changed.push_back(chunk);
+    if (server.onChanged && !changed.empty()) server.onChanged(changed);
     std::erase_if(sharing.tail, [](const auto& entry) { return entry.second.empty(); });
 }
 
@@ -271,11 +278,12 @@ void takeNews(ServerState& server) {
     }
     sharing.newest = std::max(sharing.newest, news.newest);
     server.session.store().setVersion(sharing.newest);
-    dropTail(sharing, news.saved, server.now);
+    dropTail(server, news.saved);
     takePeople(server, news);
     takePoses(server, news);
     for (const SharedLine& line : news.lines) sayHere(server, line.name, line.text);
-    server.tilesToTell.insert(news.tiles.begin(), news.tiles.end());
+    onTilesChanged(server, news.tiles);
+    for (const PlaceChange& change : news.places) applyPlaceChange(server, change);
     if (news.passwordHash) server.passwordHash = *news.passwordHash;
     if (news.timeDay) setTimeHere(server, *news.timeDay);
     if (news.servers) takeServers(server, std::move(*news.servers));

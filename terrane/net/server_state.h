@@ -4,10 +4,12 @@
 
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -94,7 +96,7 @@ struct ServerState {
 
     std::map<ConnectionId, ServerClient> clients;
     std::unordered_map<game::PlayerId, ConnectionId> playing;
-    std::map<std::string, TokenBucket> newPlayers;  // of an address, since it had its last
+    std::map<std::string, base::TokenBucket> newPlayers;  // of an address, since it had its last
     std::unordered_map<game::PlayerId, FormerClient> left;
     std::uint64_t tick = 0;
     Time now{};
@@ -110,6 +112,9 @@ struct ServerState {
     std::optional<PasswordCheck> passwordCheck;
     std::deque<WaitingPassword> passwordQueue;
     bool isStopping = false;
+    // Told of chunks whose blocks changed, and of tiles of the store that changed with them; for maps. May be
+    // empty.
+    std::function<void(std::span<const world::ChunkPos>)> onChanged;
 
     base::JobSystem jobs{1};  // for differences and passwords; ends before what they use
 };

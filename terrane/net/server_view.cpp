@@ -116,7 +116,7 @@ void takeWrittenTiles(ServerState& server) {
         const std::lock_guard lock(server.writtenTiles->mutex);
         tiles.swap(server.writtenTiles->tiles);
     }
-    server.tilesToTell.insert(tiles.begin(), tiles.end());
+    onTilesChanged(server, tiles);
     if (server.sharing.shared && !tiles.empty()) server.sharing.shared->tellTiles(tiles);
 }
 
@@ -131,9 +131,15 @@ ChunkDifference valuesNow(const world::World& world, ChunkPos pos, std::vector<w
 
 }  // namespace
 
+void onTilesChanged(ServerState& server, std::span<const ChunkPos> tiles) {
+    server.tilesToTell.insert(tiles.begin(), tiles.end());
+    if (server.onChanged && !tiles.empty()) server.onChanged(tiles);
+}
+
 void tellBlocks(ServerState& server, ChunkPos pos, const ChunkDifference& blocks) {
     const bool isNew = server.edited.add(pos);
     server.edited.onChanged(pos, blocks);
+    if (server.onChanged) server.onChanged(std::span(&pos, 1));
     std::vector<Bytes> messages;
     for (const std::span<const ChangedBlock> part : partsOf(blocks))
         messages.push_back(

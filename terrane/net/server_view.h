@@ -14,6 +14,8 @@ constexpr int kNearestTile = 3, kFarthestTile = 33;
 void tellChangedBlocks(ServerState& server);
 // Blocks of one chunk, which need not be loaded, to all in whose view they are.
 void tellBlocks(ServerState& server, world::ChunkPos chunk, const ChunkDifference& blocks);
+// Tiles of the store changed: their clients are told in a later tick.
+void onTilesChanged(ServerState& server, std::span<const world::ChunkPos> tiles);
 // Looks where clients ask to, and tells what they lack of their views as fast as they read. In each tick,
 // after tellChangedBlocks().
 void tellViews(ServerState& server);

@@ -36,6 +36,12 @@ struct OtherPlayer {
 struct SharedLine {
     std::string name, text;  // no name: the servers say it
 };
+// A place got a name or a new place, or lost its name.
+struct PlaceChange {
+    std::string name;  // game::placeName()
+    WirePose pose;
+    bool isGone = false;
+};
 struct OtherServer {
     std::int64_t number = 0;
     std::string name, address, key;  // "host:port" where players reach it, its public key
@@ -61,6 +67,7 @@ struct SharedNews {
     std::optional<std::string> passwordHash;  // where it was changed
     std::optional<double> timeDay;            // where somebody set the time
     std::vector<OtherPlayer> poses;
+    std::vector<PlaceChange> places;
     std::vector<world::ChunkPos> tiles;               // that others wrote
     std::optional<std::vector<OtherServer>> servers;  // all others, where that was looked up
 };
@@ -81,6 +88,7 @@ class SharedWorld {
     virtual void say(const SharedLine& line) = 0;
     virtual void tellTime(double timeDay) = 0;
     virtual void tellPoses(std::span<const OtherPlayer> players) = 0;  // that moved
+    virtual void tellPlace(const PlaceChange& change) = 0;
     virtual void tellTiles(std::span<const world::ChunkPos> tiles) = 0;
     // A player is on one server at a time: it leaves the others, which hear of it.
     virtual void tellJoined(game::PlayerId player) = 0;

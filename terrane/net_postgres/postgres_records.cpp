@@ -231,6 +231,10 @@ void PostgresRecords::tellAddress(const std::string& address, const std::string&
 void PostgresRecords::say(const net::SharedLine& line) {
     tell(LineNote{line});
 }
+void PostgresRecords::tellPlace(const net::PlaceChange& change) {
+    tell(PlaceNote{change});
+}
+
 void PostgresRecords::tellTime(double timeDay) {
     tell(TimeNote{static_cast<std::uint32_t>(timeDay * kTimeSteps)});
 }

@@ -61,6 +61,7 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     net::SharedNews takeNews() override;
     void say(const net::SharedLine& line) override;
     void tellTime(double timeDay) override;
+    void tellPlace(const net::PlaceChange& change) override;
     void tellPoses(std::span<const net::OtherPlayer> players) override;
     void tellTiles(std::span<const world::ChunkPos> tiles) override;
     void tellJoined(game::PlayerId player) override;

@@ -173,6 +173,7 @@ base::Result<void> PostgresRecords::takeNote(const Note& note, bool& hasEdits) {
     if (const auto* joined = std::get_if<JoinedNote>(&note)) news_.joined.push_back(joined->player);
     if (const auto* left = std::get_if<LeftNote>(&note)) news_.left.push_back(left->player);
     if (const auto* time = std::get_if<TimeNote>(&note)) news_.timeDay = time->timeDay / kTimeSteps;
+    if (const auto* place = std::get_if<PlaceNote>(&note)) news_.places.push_back(place->change);
     if (const auto* line = std::get_if<LineNote>(&note)) news_.lines.push_back(line->line);
     if (const auto* poses = std::get_if<PosesNote>(&note))
         news_.poses.insert(news_.poses.end(), poses->players.begin(), poses->players.end());

@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "terrane/game/places.h"
 #include "terrane/net/message_types.h"
 #include "terrane/net/wire.h"
 #include "terrane/store/chunk_key.h"
@@ -19,6 +20,10 @@ void describe(Wire& wire, N& note) {
         wire.number(note.player);
     } else if constexpr (std::is_same_v<T, TimeNote>) {
         wire.fixed(note.timeDay);
+    } else if constexpr (std::is_same_v<T, PlaceNote>) {
+        wire.text(note.change.name, game::kMaxPlaceName);
+        net::describePose(wire, note.change.pose);
+        wire.flag(note.change.isGone);
     } else if constexpr (std::is_same_v<T, LineNote>) {
         wire.text(note.line.name, net::kMaxNameBytes);
         wire.text(note.line.text, net::kMaxChatBytes);

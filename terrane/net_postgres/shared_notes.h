@@ -31,13 +31,16 @@ struct PosesNote {
 struct TilesNote {
     std::vector<world::ChunkPos> tiles;
 };
+struct PlaceNote {
+    net::PlaceChange change;
+};
 struct PasswordNote {};                      // it is another one, or none
 constexpr double kTimeSteps = 4294967296.0;  // a day
 struct TimeNote {                            // somebody set the time of day
     std::uint32_t timeDay = 0;               // in steps of kTimeSteps
 };
 using Note = std::variant<EditsNote, ClaimsNote, PlayerNote, JoinedNote, LeftNote, LineNote, PosesNote,
-                          TilesNote, PasswordNote, TimeNote>;
+                          TilesNote, PasswordNote, TimeNote, PlaceNote>;
 
 // At most so many fit one note.
 constexpr std::size_t kMaxPosesInNote = 120, kMaxTilesInNote = 300;

@@ -24,6 +24,10 @@ TEST(Notes, ReadBack) {
     EXPECT_EQ(roundTrip(PlayerNote{7}).player, 7u);
     EXPECT_EQ(roundTrip(JoinedNote{0xFFFFFFFF}).player, 0xFFFFFFFF);
     EXPECT_EQ(roundTrip(LeftNote{3}).player, 3u);
+    const PlaceNote place = roundTrip(PlaceNote{{"Dům", {1, 2, 3, 4, 5}, true}});
+    EXPECT_EQ(place.change.name, "Dům");
+    EXPECT_EQ(place.change.pose, (net::WirePose{1, 2, 3, 4, 5}));
+    EXPECT_TRUE(place.change.isGone);
     roundTrip(PasswordNote{});
     EXPECT_EQ(roundTrip(TimeNote{0x80000000}).timeDay, 0x80000000);
     const LineNote line = roundTrip(LineNote{{"Žofie", std::string(400, '\'')}});

@@ -1,6 +1,7 @@
 // Several servers of one world: edits, players, talk, time.
 #include <random>
 
+#include "terrane/game/places.h"
 #include "terrane/net/server_console.h"
 #include "tests/net_postgres/shared_server_fixture.h"
 
@@ -251,6 +252,12 @@ TEST_F(SharedServersTest, RolesBansAndClaimsHoldEverywhere) {
     ASSERT_TRUE(servers_.tickUntil([&] { return !b.state().passwordHash.empty(); }));
     (void)net::runConsoleLine(a.state(), "time 0.75");
     EXPECT_TRUE(servers_.tickUntil([&] { return std::abs(b.state().session.clock.timeDay - 0.75) < 0.01; }));
+    (void)net::runConsoleLine(a.state(), "mark 5 -6 70 The mill");
+    const auto places = [&] { return game::savedPlaces(b.state().session.store()); };
+    EXPECT_TRUE(servers_.tickUntil([&] { return places().size() == 1; }));
+    EXPECT_EQ(places().at(0).name, "The mill");
+    (void)net::runConsoleLine(b.state(), "unmark The mill");
+    EXPECT_TRUE(servers_.tickUntil([&] { return game::savedPlaces(a.state().session.store()).empty(); }));
     (void)net::runConsoleLine(a.state(), "ban Bert noise");
     ASSERT_TRUE(servers_.tickUntil([&] { return bert.find<net::Refused>() != nullptr; }));
     EXPECT_EQ(bert.find<net::Refused>()->why, net::Refusal::Banned);

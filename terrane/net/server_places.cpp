@@ -1,0 +1,65 @@
+#include "terrane/net/server_places.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "terrane/game/places.h"
+
+namespace terrane::net {
+namespace {
+
+// Changes it here, and tells the other servers of the world.
+void change(ServerState& server, const PlaceChange& change) {
+    applyPlaceChange(server, change);
+    if (server.sharing.shared) server.sharing.shared->tellPlace(change);
+}
+
+bool hasPlace(ServerState& server, const std::string& name) {
+    return std::ranges::count(game::savedPlaces(server.session.store()), name, &game::Place::name) > 0;
+}
+
+}  // namespace
+
+void applyPlaceChange(ServerState& server, const PlaceChange& change) {
+    std::vector<game::Place> places = game::savedPlaces(server.session.store());
+    if (change.isGone)
+        std::erase_if(places, [&](const game::Place& place) { return place.name == change.name; });
+    else
+        (void)game::namePlace(places, change.name, poseOf(change.pose));
+    game::savePlaces(server.session.store(), places);
+}
+
+std::string markPlace(ServerState& server, std::string_view typed, const world::Pose& pose, bool mayMove) {
+    const std::string name = game::placeName(typed);
+    if (name.empty()) return "a place needs a name: mark NAME";
+    const bool isTaken = hasPlace(server, name);
+    if (isTaken && !mayMove) return fmt::format("there is a place {}: operators alone move it", name);
+    if (!isTaken && game::savedPlaces(server.session.store()).size() >= game::kMaxPlaces)
+        return fmt::format("{} places have names already, no more can: unmark removes one", game::kMaxPlaces);
+    change(server, {name, wirePose(pose), false});
+    return fmt::format("{} is marked", name);
+}
+
+std::string unmarkPlace(ServerState& server, std::string_view typed) {
+    const std::string name = game::placeName(typed);
+    if (!hasPlace(server, name)) return fmt::format("there is no place {}: marks lists them", name);
+    change(server, {name, {}, true});
+    return fmt::format("{} is no longer marked", name);
+}
+
+std::string placeList(ServerState& server) {
+    const std::vector<game::Place> places = game::savedPlaces(server.session.store());
+    std::string text = fmt::format("{} places", places.size());
+    for (const game::Place& place : places) {
+        const auto& at = place.pose.position;
+        text += fmt::format("\n{} at {:.0f} {:.0f} {:.0f}", place.name, at.x, at.y, at.z);
+    }
+    return text;
+}
+
+std::string markHere(ServerState& server, const ServerClient& client, std::string_view name) {
+    if (client.role == game::Role::Guest) return "guests mark no places";
+    return markPlace(server, name, poseOf(client.pose), client.role == game::Role::Operator);
+}
+
+}  // namespace terrane::net
