@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Feeds all that reads files from outside with bytes that libFuzzer thinks up, under the address and
 # undefined-behavior sanitizers: saves, chunks, structures, block types, languages, path files, settings, bookmarks,
-# textures, sounds, messages of the network, what connections do to a server. What it finds interesting stays in
-# build-fuzz/corpus for the next time, which begins with what tests/fuzz/corpus keeps.
+# textures, sounds, messages of the network, what connections do to a server, targets of browsers, caches of maps. What
+# it finds interesting stays in build-fuzz/corpus for the next time, which begins with what tests/fuzz/corpus keeps.
 #
 #   tools/fuzz.sh [SECONDS] [NAME…]    10 seconds each unless told otherwise, two at a time; NAME as in
 #                                      tests/fuzz/NAME_fuzz.cpp, all of them where none is named. Exits with an

@@ -1,6 +1,7 @@
-// libFuzzer: any text as bookmarks. What is read must come back when it is written.
+// libFuzzer: any text as bookmarks, and as places with names. What is read must come back when it is written.
 #include "terrane/game/bookmarks.h"
 
+#include "terrane/game/places.h"
 #include "terrane/game/pose_text.h"
 #include "tests/fuzz/fuzz_folder.h"
 #include "tests/fuzz/fuzz_input.h"
@@ -8,7 +9,10 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace terrane;
     const std::filesystem::path file = fuzz::fuzzFolder() / "bookmarks.txt";
-    fuzz::writeWhole(file, fuzz::FuzzInput(data, size).restAsText());
+    const std::string text(fuzz::FuzzInput(data, size).restAsText());
+    fuzz::writeWhole(file, text);
+    const std::vector<game::Place> places = game::placesFrom(text);
+    fuzz::require(game::placesFrom(game::textOf(places)) == places);
     const auto bookmarks = game::readBookmarks({file, {}});
     if (!bookmarks) {
         fuzz::requireReason(bookmarks.error());

@@ -1,0 +1,46 @@
+// The page that shows a map, and what it is told of a world. Any thread.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/base/embedded.h"
+#include "terrane/map/tiles_of_area.h"
+#include "terrane/store/world_identity.h"
+
+namespace terrane::web {
+
+// Somebody or something with a name, in blocks.
+struct NamedPlace {
+    std::string name;
+    double x = 0, y = 0, z = 0;
+
+    bool operator==(const NamedPlace&) const = default;
+};
+
+struct PageFacts {
+    store::WorldIdentity identity;
+    std::string name;  // of the world, for people
+    NamedPlace spawn;
+    std::vector<NamedPlace> places = {};
+    std::vector<std::string> layers = {};
+    int minZoom = 0, maxZoom = 0;
+    std::uint64_t edits = 0;                  // number of the last event of edits
+    bool isLive = true;                       // a program answers, not files alone
+    std::optional<map::BlockRect> area = {};  // that there are tiles of; none: all of the world
+};
+// JSON.
+std::string textOf(const PageFacts& facts);
+std::string textOf(const std::vector<NamedPlace>& places);
+// The same as a script for the page: world.js.
+std::string scriptOf(const PageFacts& facts);
+
+// The files of the page, but for world.js.
+std::span<const base::EmbeddedFile> pageFiles();
+const base::EmbeddedFile* pageFile(std::string_view name);  // null where there is none
+std::string_view typeOf(std::string_view fileName);         // for Content-Type
+
+}  // namespace terrane::web

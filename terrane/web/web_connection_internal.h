@@ -1,0 +1,70 @@
+// One browser's connection, as web_server_internal.h keeps it. On the web's thread.
+#pragma once
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/streambuf.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "terrane/base/token_bucket.h"
+#include "terrane/web/event_hub.h"
+#include "terrane/web/web_server.h"
+
+namespace terrane::web {
+
+using Tcp = boost::asio::ip::tcp;
+using SocketError = boost::system::error_code;
+using Time = std::chrono::steady_clock::time_point;
+using RequestParser = boost::beast::http::request_parser<boost::beast::http::empty_body>;
+
+enum class Stage : std::uint8_t {
+    Idle,       // between requests, or before the first
+    Answering,  // somebody looks for the answer
+    Sending,
+    Streaming,  // events
+    Closed
+};
+
+// What one address does.
+struct AddressUse {
+    std::size_t connections = 0, answering = 0;
+    base::TokenBucket requests;
+    Time seen = std::chrono::steady_clock::now();
+};
+
+struct Connection {
+    Connection(std::uint64_t number, Tcp::socket opened, std::size_t headerBytes)
+        : id(number), socket(std::move(opened)), buffer(headerBytes) {}
+
+    std::uint64_t id;
+    Tcp::socket socket;
+    std::string address;        // of IPv6 its network
+    AddressUse* use = nullptr;  // of the address
+    bool isLimited = true;      // by it
+    Stage stage = Stage::Idle;
+    Time since = std::chrono::steady_clock::now();  // in this stage
+    std::optional<Time> begun = {};  // when the first bytes of a request were seen, while it is read
+
+    boost::asio::streambuf buffer;  // what was read and not answered: no more than one header may have
+    std::uint64_t request = 0;      // number: answers to former ones come too late
+    bool isHead = false, keepsOpen = true;
+    std::string knownTag;
+    Cancel cancel;
+
+    std::string header;
+    std::shared_ptr<const std::string> body;
+
+    std::deque<EventText> events;  // the first one is being sent, if isSending
+    std::size_t eventBytes = 0;
+    bool isSending = false;
+};
+using ConnectionPtr = std::shared_ptr<Connection>;
+
+}  // namespace terrane::web

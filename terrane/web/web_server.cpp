@@ -1,0 +1,164 @@
+#include "terrane/web/web_server.h"
+
+#include <algorithm>
+#include <boost/asio/ip/v6_only.hpp>
+#include <utility>
+#include <vector>
+
+#include "terrane/web/web_server_internal.h"
+
+namespace terrane::web {
+
+namespace asio = boost::asio;
+
+namespace {
+
+asio::ip::address addressOf(const Tcp::endpoint& peer) {
+    const auto address = peer.address();
+    const bool isMapped = address.is_v6() && address.to_v6().is_v4_mapped();
+    return isMapped ? asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()) : address;
+}
+
+// Who has an IPv6 address has 2^64 of them.
+std::string networkOf(const asio::ip::address& address) {
+    if (address.is_v4()) return address.to_string();
+    auto bytes = address.to_v6().to_bytes();
+    std::fill(bytes.begin() + 8, bytes.end(), std::uint8_t{0});
+    return asio::ip::address_v6(bytes).to_string();
+}
+
+}  // namespace
+
+base::Result<void> WebServer::Impl::listen(const WebAddress& address) {
+    SocketError error;
+    const auto parsed = asio::ip::make_address(address.address, error);
+    if (error)
+        return base::fail(base::ErrorCode::BadInput,
+                          "{}: not an address to listen on, such as 127.0.0.1 or ::", address.address);
+    const Tcp::endpoint endpoint(parsed, address.port);
+    acceptor.open(endpoint.protocol(), error);
+    if (!error) acceptor.set_option(Tcp::acceptor::reuse_address(true), error);
+    if (!error && parsed.is_v6()) acceptor.set_option(asio::ip::v6_only(false), error);
+    if (!error) acceptor.bind(endpoint, error);
+    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+    if (error)
+        return base::fail(error == asio::error::address_in_use ? base::ErrorCode::Busy : base::ErrorCode::Io,
+                          "{} port {}: cannot be listened on: {}", address.address, address.port,
+                          error.message());
+    accept();
+    return {};
+}
+
+void WebServer::Impl::accept() {
+    isAccepting = true;
+    acceptor.async_accept([this, self = shared_from_this()](const SocketError& error, Tcp::socket socket) {
+        isAccepting = false;
+        // No more files, as it may be: the next tick tries again.
+        if (error || !acceptor.is_open()) return;
+        add(std::move(socket));
+        accept();
+    });
+}
+
+// Who asks for nothing goes first, then who listens, the longest in its stage before others.
+void WebServer::Impl::makeRoom() {
+    if (connections.size() < limits.connections) return;
+    const auto rank = [](const Connection& connection) {
+        return connection.stage == Stage::Idle ? 0 : connection.stage == Stage::Streaming ? 1 : 2;
+    };
+    const auto first = std::ranges::min_element(connections, {}, [&](const auto& entry) {
+        return std::pair(rank(*entry.second), entry.second->since);
+    });
+    ++statistics.refused;
+    close(ConnectionPtr(first->second));
+}
+
+void WebServer::Impl::add(Tcp::socket socket) {
+    SocketError error;
+    const Tcp::endpoint peer = socket.remote_endpoint(error);
+    if (error) return;
+    const auto connection = std::make_shared<Connection>(++lastId, std::move(socket), limits.headerBytes);
+    const asio::ip::address address = addressOf(peer);
+    connection->address = networkOf(address);
+    connection->isLimited = !address.is_loopback();
+    const AddressUse unused{0, 0, {limits.requestsPerSecond, limits.requestsAtOnce}};
+    AddressUse& use = addresses.try_emplace(connection->address, unused).first->second;
+    if (connection->isLimited && use.connections >= limits.connectionsOfAddress) {
+        ++statistics.refused;
+        return;
+    }
+    makeRoom();
+    connection->use = &use;
+    connection->socket.set_option(Tcp::no_delay(true), error);
+    ++use.connections;
+    ++statistics.opened;
+    connections[connection->id] = connection;
+    read(connection);
+}
+
+void WebServer::Impl::close(const ConnectionPtr& connection) {
+    if (connections.erase(connection->id) == 0) return;
+    if (connection->stage == Stage::Streaming) --statistics.listeners;
+    enter(*connection, Stage::Closed);
+    --connection->use->connections;
+    SocketError ignored;
+    connection->socket.shutdown(Tcp::socket::shutdown_both, ignored);
+    connection->socket.close(ignored);
+    if (const Cancel cancel = std::exchange(connection->cancel, nullptr)) cancel();
+}
+
+bool WebServer::Impl::isSlow(Connection& connection, Time time) const {
+    if (connection.stage == Stage::Sending) return time - connection.since > limits.sentWithin;
+    if (connection.stage != Stage::Idle) return false;
+    // The first request is due as soon as one that has begun.
+    if (!connection.begun && connection.request == 0) connection.begun = connection.since;
+    if (!connection.begun && connection.buffer.size() > 0) connection.begun = time;
+    if (connection.begun) return time - *connection.begun > limits.headerWithin;
+    return time - connection.since > limits.idleFor;
+}
+
+void WebServer::Impl::closeSlow() {
+    const Time time = std::chrono::steady_clock::now();
+    std::vector<ConnectionPtr> slow;
+    for (const auto& [id, connection] : connections) {
+        if (isSlow(*connection, time)) slow.push_back(connection);
+    }
+    for (const ConnectionPtr& connection : slow) close(connection);
+    std::erase_if(addresses, [&](const auto& entry) {
+        return entry.second.connections == 0 && time - entry.second.seen > std::chrono::seconds(60);
+    });
+}
+
+base::Result<std::unique_ptr<WebServer>> WebServer::open(asio::io_context& context, const WebAddress& address,
+                                                         AnswerRoute answer, EventHub& events,
+                                                         const WebLimits& limits) {
+    auto impl = std::make_shared<Impl>(context, std::move(answer), events, limits);
+    if (auto listening = impl->listen(address); !listening) return tl::unexpected(listening.error());
+    return std::unique_ptr<WebServer>(new WebServer(std::move(impl)));
+}
+
+WebServer::WebServer(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+WebServer::~WebServer() {
+    SocketError ignored;
+    impl_->acceptor.close(ignored);
+    impl_->answer = nullptr;  // what it refers to may end now
+    while (!impl_->connections.empty()) impl_->close(ConnectionPtr(impl_->connections.begin()->second));
+}
+
+std::uint16_t WebServer::port() const {
+    SocketError error;
+    return impl_->acceptor.local_endpoint(error).port();
+}
+
+const WebStatistics& WebServer::statistics() const {
+    impl_->statistics.connections = impl_->connections.size();
+    return impl_->statistics;
+}
+
+void WebServer::tick() {
+    impl_->closeSlow();
+    if (impl_->acceptor.is_open() && !impl_->isAccepting) impl_->accept();
+}
+
+}  // namespace terrane::web
