@@ -645,6 +645,8 @@ class Saves(ProgramTest):
         self.succeed("map", *area, "-o", plain, *FLAT)
         self.succeed("map", *area, "-o", drawn, "--world", self.save)
         self.assertEqual(plain.read_bytes(), drawn.read_bytes(), "the save has the generator, too")
+        middle = (2**27 << 28) + 2**27  # chunk 0,0: what nobody edited is as generated
+        self.edit_chunk(middle, self.sql(f"SELECT data FROM chunks WHERE key = {middle}")[0][0])
         self.sql("UPDATE blocks SET name = 'sand_' WHERE name = 'sand'")
         self.sql("UPDATE blocks SET name = 'sand' WHERE name = 'grass'")
         before = self.save.read_bytes()
@@ -679,7 +681,7 @@ class Saves(ProgramTest):
             plain, edited = Image(self.folder / "plain.png").rows, Image(self.folder / "edited.png").rows
             changed = {(x // size, y // size) for y, row in enumerate(plain) for x, pixel in enumerate(row)
                        if edited[y][x] != pixel}
-            places = {(x - 2, 3 - y) for x, y in changed}  # y points up in a map
+            places = {(3 - x, y - 2) for x, y in changed}  # north, -y, is up, and east, -x, to the right
             self.assertIn((1, 0), places)
             self.assertTrue(all(abs(x - 1) <= 1 and abs(y) <= 1 for x, y in places), "shade may reach a neighbor")
         self.assertEqual(self.save.read_bytes(), before)

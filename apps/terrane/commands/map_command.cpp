@@ -2,16 +2,14 @@
 #include <memory>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/open_session.h"
+#include "apps/terrane/maps/http_map.h"
+#include "apps/terrane/maps/map_options.h"
+#include "apps/terrane/maps/map_world.h"
+#include "apps/terrane/maps/static_map.h"
 #include "apps/terrane/options.h"
 #include "terrane/base/log.h"
 #include "terrane/base/progress_bar.h"
-#include "terrane/content/built_in.h"
-#include "terrane/content/resource_pack.h"
-#include "terrane/gen/generators/catalogue.h"
-#include "terrane/stream/area_chunks.h"
-#include "terrane/stream/tile_rows.h"
-#include "terrane/world/map_image.h"
+#include "terrane/map/area_image.h"
 
 namespace terrane::app {
 namespace {
@@ -23,47 +21,43 @@ struct MapOptions {
     std::optional<world::ChunkArea> area;
     int level = 0;
     std::string output, resourcePack;
+    MapSiteOptions site;
+    StaticMapOptions files;
 };
 
 // 16,384² pixels: an image of 1 GiB in memory.
 constexpr std::int64_t kMaxChunksInMap = 1024 * 1024;
 
-base::Result<void> writeMap(MapOptions& options) {
-    if (!options.area && !options.radius) return base::fail("map needs --radius or --area");
+base::Result<world::ChunkArea> areaOf(const MapOptions& options) {
+    if (!options.area && !options.radius)
+        return base::fail(base::ErrorCode::BadInput, "map needs --radius or --area");
     const int r = options.radius.value_or(0);
-    const world::ChunkArea area =
-        world::areaOver(options.area.value_or(world::ChunkArea{-r, -r, r + 1, r + 1}), options.level);
+    return options.area.value_or(world::ChunkArea{-r, -r, r + 1, r + 1});
+}
+
+base::Result<void> writeMap(MapOptions& options) {
+    const auto chosen = areaOf(options);
+    if (!chosen) return tl::unexpected(chosen.error());
+    const world::ChunkArea area = world::areaOver(*chosen, options.level);
     if (area.chunkCount() > kMaxChunksInMap) {
         return base::fail("{} chunks, a map shows at most {}; a higher --level shows more land",
                           area.chunkCount(), kMaxChunksInMap);
     }
-    auto blocks = content::loadBlocks();
-    if (!blocks) return tl::unexpected(blocks.error());
-    auto save = openSave(options.world, options.save, store::WorldAccess::ReadOnly, *blocks);
-    if (!save) return tl::unexpected(save.error());
-    const auto generators =
-        gen::makeLevelGenerators(options.world.effectiveGenerator(), *blocks, options.world.effectiveSeed());
-    if (!generators) return tl::unexpected(generators.error());
-    const auto generator = generators->at(options.level);
-    if (!generator) return tl::unexpected(generator.error());
-    const std::unique_ptr<store::ChunkStore> store = std::move(*save);  // ends before the generators
-    if (store && options.level > 0) {
-        stream::keepTileRows(*store, *generators, *blocks, {});
-        if (auto built = stream::buildTileRows(*store); !built) return built;
-    }
-    auto textures = content::loadTextures(options.resourcePack, *blocks);
-    if (!textures) return tl::unexpected(textures.error());
-    base::JobSystem jobs(threadCount(options.world));
+    const auto world = openMapWorld(options.world, options.save, options.resourcePack);
+    if (!world) return tl::unexpected(world.error());
+    auto painter = painterOf(**world);
+    if (!painter) return tl::unexpected(painter.error());
+    map::EditedPositions edited;
+    for (const world::ChunkPos chunk : (*world)->edited) edited.add(chunk);
+    base::JobSystem jobs((*world)->parts.threads);
     base::Result<base::Image> image;
     {
-        base::ProgressBar bar("mapping", static_cast<std::size_t>(area.y1 - area.y0));
-        world::MapSource source{area, static_cast<std::uint8_t>(options.level),
-                                [&](std::span<const world::ChunkPos> row) {
-                                    return stream::chunksAt(row, store.get(), **generator, jobs);
-                                }};
-        if (generators->hasTint())
-            source.tint = [&](world::ChunkPos pos) { return generators->tint(pos).value(); };
-        image = world::drawMap(source, *blocks, *textures, jobs, [&](std::size_t rows) { bar.set(rows); });
+        const map::ColumnRect rect = map::columnsOf(area, options.level);
+        base::ProgressBar bar("mapping", static_cast<std::size_t>(rect.height));
+        image = map::drawArea(*painter, rect, edited, jobs, [&](int rows) {
+            bar.set(static_cast<std::size_t>(rows));
+            return true;
+        });
     }
     if (!image) return tl::unexpected(image.error());
     if (auto written = base::writePng(options.output, *image); !written) return written;
@@ -72,11 +66,47 @@ base::Result<void> writeMap(MapOptions& options) {
     return {};
 }
 
+// Options that the way a map is made does not know.
+base::Result<void> checkOptions(const MapOptions& options, const CLI::App& command) {
+    const int ways = !options.output.empty() + !options.site.http.empty() + !options.files.folder.empty();
+    if (ways != 1)
+        return base::fail(base::ErrorCode::BadInput,
+                          "map needs one of -o FILE, --http PORT and --tiles FOLDER");
+    const auto belongs = [&](std::string_view name) {
+        if (!options.output.empty()) return name == "--radius" || name == "--area" || name == "--level";
+        if (!options.site.http.empty()) return name.starts_with("--map-");
+        return name == "--radius" || name == "--area" || name == "--max-zoom" || name == "--layers" ||
+               name == "--map-places";
+    };
+    for (const char* name : {"--radius", "--area", "--level", "--max-zoom", "--layers", "--map-places",
+                             "--map-disk", "--map-memory"}) {
+        const CLI::Option* option = command.get_option_no_throw(name);
+        if (option && !option->empty() && !belongs(name))
+            return base::fail(base::ErrorCode::BadInput, "{} does not go with {}", name,
+                              !options.output.empty()      ? "-o"
+                              : !options.site.http.empty() ? "--http"
+                                                           : "--tiles");
+    }
+    return {};
+}
+
+base::Result<void> runMap(MapOptions& options, const CLI::App& command) {
+    if (auto checked = checkOptions(options, command); !checked) return checked;
+    if (!options.output.empty()) return writeMap(options);
+    if (!options.site.http.empty())
+        return showMap(options.world, options.save, options.resourcePack, options.site);
+    const auto area = areaOf(options);
+    if (!area) return tl::unexpected(area.error());
+    options.files.places = options.site.places;
+    return writeStaticMap(options.world, options.save, options.resourcePack, *area, options.files);
+}
+
 }  // namespace
 
 CommandEntry addMap(CLI::App& app) {
     auto options = std::make_shared<MapOptions>();
-    CLI::App* command = app.add_subcommand("map", "Draw a map of an area from above into a PNG file");
+    CLI::App* command = app.add_subcommand(
+        "map", "Draw a map of an area into a PNG file or a folder of files, or show it to browsers");
     auto* radius = command->add_option("--radius", options->radius, "Chunks around 0,0: (2R+1)² of them")
                        ->check(numberFrom(0, world::kMaxChunk));
     addAreaOption(*command, options->area);
@@ -84,10 +114,13 @@ CommandEntry addMap(CLI::App& app) {
     command->add_option("--level", options->level, "A pixel is 2^LEVEL blocks wide")
         ->check(numberFrom(0, world::kMaxLevel));
     addOutputOption(*command, options->output, {".png"}, "The PNG file");
+    command->get_option("--output")->required(false);
     addWorldOptions(*command, options->world);
     addWorldOption(*command, options->save, "World to take the chunks from; what it lacks is generated");
     addResourcePackOption(*command, options->resourcePack);
-    return {command, [options] { return writeMap(*options); }};
+    addMapSiteOptions(*command, options->site, false);
+    addStaticMapOptions(*command, options->files);
+    return {command, [options, command] { return runMap(*options, *command); }};
 }
 
 }  // namespace terrane::app

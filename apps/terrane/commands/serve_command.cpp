@@ -5,6 +5,7 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/machine_name.h"
+#include "apps/terrane/maps/server_map.h"
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/serve/open_file_limit.h"
@@ -50,6 +51,7 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     if (!files) return tl::unexpected(files.error());
     if (auto read = readSettings(options, *files, command); !read) return read;
     if (options.isReadOnly) options.server.newcomers = game::Role::Guest;
+    if (auto checked = checkMapSite(options.map); !checked) return checked;
     auto statistics = ServerStatistics::open(options.statistics);
     if (!statistics) return tl::unexpected(statistics.error());
     auto parts = openSessionParts(options.world, options.save, store::WorldAccess::ReadWrite,
@@ -72,8 +74,13 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     base::logInfo("{} on port {}, seed {}, generator {}; key {}", store_postgres::shownOf(world),
                   (*sockets)->port(), host->state->world.identity.seed, host->state->world.identity.generator,
                   (*sockets)->key());
+    const auto map = ServerMap::open(context, *host->state, options.save.world, options.map, *files);
+    if (!map) return tl::unexpected(map.error());
     net::ServerLoop loop;
-    loop.onTick = [&](double milliseconds) { statistics->addTick(*host->state, milliseconds); };
+    loop.onTick = [&](double milliseconds) {
+        statistics->addTick(*host->state, milliseconds);
+        if (*map) (*map)->tick(milliseconds);
+    };
     return net::runServer(context, *host->state, **sockets, loop);
 }
 

@@ -63,6 +63,7 @@ void addServeOptions(CLI::App& command, ServeOptions& options) {
         .add_option("--statistics", options.statistics,
                     "Write a line (JSON) each ten seconds: ticks, players, memory, network")
         ->type_name("FILE");
+    addMapSiteOptions(command, options.map, true);
 }
 
 }  // namespace terrane::app

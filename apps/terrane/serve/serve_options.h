@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "apps/terrane/maps/map_options.h"
 #include "apps/terrane/option_values.h"
 #include "terrane/net/server_settings.h"
 #include "terrane/net/server_sockets.h"
@@ -18,6 +19,7 @@ struct ServeOptions {
     std::string publicAddress;  // empty: by the two
     net::ServerSettings server;
     bool isReadOnly = false;
+    MapSiteOptions map;
     std::string statistics;  // file; empty: none
 };
 

@@ -14,8 +14,7 @@
 #include "terrane/base/profile.h"
 #include "terrane/content/built_in.h"
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/stream/area_chunks.h"
-#include "terrane/world/map_image.h"
+#include "terrane/map/area_image.h"
 
 namespace terrane::app {
 namespace {
@@ -38,8 +37,6 @@ struct MapPreview::Work {
 
     void run();
     void draw(const World& world);
-    base::Result<base::Image> drawLevel(const World& world, const gen::LevelGenerators& generators,
-                                        int level);
     bool isOutdated(const World& world) {
         const std::lock_guard lock(mutex);
         return isEnding || wanted != world;
@@ -84,26 +81,15 @@ void MapPreview::Work::run() {
 void MapPreview::Work::draw(const World& world) {
     auto generators = gen::makeLevelGenerators(world.generator, blocks, world.seed);
     if (!generators) return give(world, tl::unexpected(generators.error()), true);
+    auto painter = map::MapPainter::create({*generators, blocks, content::builtInTextures()});
+    if (!painter) return give(world, tl::unexpected(painter.error()), true);
     for (const int level : kLevels) {
         if (isOutdated(world)) return;
-        give(world, drawLevel(world, *generators, level), level == std::end(kLevels)[-1]);
+        const std::int32_t half = kBlocks / 2 / (16 << level);
+        const map::ColumnRect rect = map::columnsOf({-half, -half, half, half}, level);
+        auto image = map::drawArea(*painter, rect, {}, jobs, [&](int) { return !isOutdated(world); });
+        give(world, std::move(image), level == std::end(kLevels)[-1]);
     }
-}
-
-base::Result<base::Image> MapPreview::Work::drawLevel(const World& world,
-                                                      const gen::LevelGenerators& generators, int level) {
-    const auto generator = generators.at(level);
-    if (!generator) return tl::unexpected(generator.error());
-    const std::int32_t half = kBlocks / 2 / (16 << level);
-    world::MapSource source{
-        {-half, -half, half, half},
-        static_cast<std::uint8_t>(level),
-        [&](std::span<const world::ChunkPos> row) -> base::Result<std::vector<world::Chunk>> {
-            if (isOutdated(world)) return base::fail("outdated");
-            return stream::chunksAt(row, nullptr, **generator, jobs);
-        }};
-    if (generators.hasTint()) source.tint = [&](world::ChunkPos pos) { return generators.tint(pos).value(); };
-    return world::drawMap(source, blocks, content::builtInTextures(), jobs, [](std::size_t) {});
 }
 
 MapPreview::MapPreview(const world::BlockRegistry& blocks) : work_(std::make_unique<Work>(blocks)) {}

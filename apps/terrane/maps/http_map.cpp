@@ -1,0 +1,71 @@
+#include "apps/terrane/maps/http_map.h"
+
+#include <boost/asio/io_context.hpp>
+#include <chrono>
+
+#include "apps/terrane/maps/place_file.h"
+#include "apps/terrane/maps/site_parts.h"
+#include "apps/terrane/serve/open_file_limit.h"
+#include "terrane/base/digest.h"
+#include "terrane/base/log.h"
+#include "terrane/base/stop_signals.h"
+#include "terrane/store/save_path.h"
+#include "terrane/store/world_location.h"
+#include "terrane/web/map_site.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr std::chrono::milliseconds kTick{50};
+
+// Beside the world's file; for land that is in no file in the data folder, by what it follows from. Empty
+// where there is no such folder.
+std::filesystem::path cacheFile(const SaveOptions& save, const std::string& origin) {
+    std::error_code error;
+    const store::WorldLocation location = store::worldLocation(save.world);
+    if (!save.world.empty() && location.kind != store::WorldLocation::Kind::Url)
+        if (auto file = store::fileOf(location)) return file->replace_extension(kMapCacheEnding);
+    const auto folder = store::dataFolder(store::savePlaces());
+    if (!folder) return {};
+    std::filesystem::create_directories(*folder, error);
+    return *folder / fmt::format("generated-{:016x}{}", base::hash64(origin), kMapCacheEnding);
+}
+
+}  // namespace
+
+base::Result<void> showMap(WorldOptions& worldOptions, const SaveOptions& save,
+                           const std::string& resourcePack, const MapSiteOptions& options) {
+    const auto address = webAddressFrom(options.http);
+    if (!address) return tl::unexpected(address.error());
+    const auto places = readPlaceFile(options.places);
+    if (!places) return tl::unexpected(places.error());
+    const auto world = openMapWorld(worldOptions, save, resourcePack);
+    if (!world) return tl::unexpected(world.error());
+    const auto spawn = spawnOf(**world);
+    if (!spawn) return tl::unexpected(spawn.error());
+    const game::SessionParts& opened = (*world)->parts;
+    const std::string origin = originOf(opened.store->identity(), *opened.blocks);
+    const std::filesystem::path file = cacheFile(save, origin);
+    const auto cache = openMapCache(file, origin, file.empty() ? 0 : options.diskMegabytes);
+    web::MapSiteParts parts{opened.generators, *opened.blocks,      (*world)->textures,
+                            *opened.store,     titleOf(save.world), *spawn};
+    parts.threads = opened.threads;
+    parts.cache = cache.get();
+    parts.tileBytes = static_cast<std::size_t>(options.memoryMegabytes) * 1'000'000;
+    parts.edited = (*world)->edited;
+    parts.places = [all = allPlaces(*opened.store, *places)] { return all; };
+    raiseOpenFileLimit();
+    boost::asio::io_context context;
+    auto site = web::MapSite::open(context, std::move(parts), *address);
+    if (!site) return tl::unexpected(site.error());
+    base::logInfo("the map is at {}", urlOf(*address, (*site)->port()));
+    const base::StopSignals signals;
+    while (!signals.stopAsked()) {
+        context.restart();
+        context.run_for(kTick);
+        (*site)->tick();
+    }
+    return {};
+}
+
+}  // namespace terrane::app

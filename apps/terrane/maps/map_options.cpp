@@ -1,0 +1,83 @@
+#include "apps/terrane/maps/map_options.h"
+
+#include "apps/terrane/maps/place_file.h"
+#include "apps/terrane/maps/site_parts.h"
+#include "apps/terrane/options.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr double kMaxMegabytes = 1e6;
+
+CLI::Validator notEmpty() {
+    return CLI::Validator([](const std::string& value) { return value.empty() ? "is empty" : ""; }, "");
+}
+
+void addPlayerOption(CLI::App& command, MapSiteOptions& options) {
+    addChoice<ShownPlayers>(
+        command, "--map-players", options.players,
+        {{"none", ShownPlayers::None}, {"surface", ShownPlayers::Surface}, {"all", ShownPlayers::All}},
+        "Players that a map shows; \"surface\" leaves out those who are under ground");
+}
+
+}  // namespace
+
+void addMapSiteOptions(CLI::App& command, MapSiteOptions& options, bool isServer) {
+    command
+        .add_option(
+            "--http", options.http,
+            "Show a map to browsers at this port of this machine; 0: a port that is free. With an address, "
+            "such as 0.0.0.0:8080 or [::]:8080, to others")
+        ->check(notEmpty())
+        ->type_name("[ADDRESS:]PORT");
+    command
+        .add_option("--map-disk", options.diskMegabytes,
+                    "Megabytes of a file that keeps what maps were drawn from; 0: no file")
+        ->check(numberFrom(0, kMaxMegabytes))
+        ->capture_default_str();
+    command.add_option("--map-memory", options.memoryMegabytes, "Megabytes of map images in memory")
+        ->check(numberFrom(1, kMaxMegabytes))
+        ->capture_default_str();
+    command
+        .add_option(
+            "--map-places", options.places,
+            "File of places that a map shows, a line \"X Y Z YAW PITCH NAME\" each, such as bookmarks.txt; "
+            "those without a name are numbered")
+        ->check(notEmpty())
+        ->type_name("FILE");
+    if (!isServer) return;
+    command.add_option("--map-threads", options.threads, "Threads that draw the map")
+        ->check(numberFrom(1, 256))
+        ->capture_default_str();
+    addPlayerOption(command, options);
+}
+
+base::Result<void> checkMapSite(const MapSiteOptions& options) {
+    if (options.http.empty()) return {};
+    if (const auto address = webAddressFrom(options.http); !address) return tl::unexpected(address.error());
+    if (const auto places = readPlaceFile(options.places); !places) return tl::unexpected(places.error());
+    return {};
+}
+
+void addStaticMapOptions(CLI::App& command, StaticMapOptions& options) {
+    command
+        .add_option("--tiles", options.folder,
+                    "Write the map as a folder of files, a web page and its images; those that are there "
+                    "already stay, "
+                    "but for those of land that somebody changed")
+        ->check(notEmpty())
+        ->type_name("FOLDER");
+    command
+        .add_option("--max-zoom", options.maxZoom,
+                    "The finest images of --tiles: 2 has 4 pixels a block, -1 two blocks a pixel")
+        ->check(numberFrom(map::kMinZoom, map::kMaxZoom))
+        ->capture_default_str();
+    command
+        .add_option("--layers", options.layers,
+                    "Layers of --tiles: day, night, height, biome, isometric; by default all")
+        ->delimiter(',')
+        ->check(notEmpty())
+        ->type_name("LAYER,…");
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,35 @@
+// Options of maps for browsers, as `serve` and `map` have them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "terrane/base/result.h"
+
+#include "apps/terrane/maps/static_map.h"
+
+namespace CLI {
+class App;
+}
+
+namespace terrane::app {
+
+enum class ShownPlayers : std::uint8_t { None, Surface, All };
+
+struct MapSiteOptions {
+    std::string http;  // "PORT" or "ADDRESS:PORT"; empty: no map
+    int diskMegabytes = 300, memoryMegabytes = 64;
+    unsigned threads = 1;
+    std::string places;  // file; empty: none
+    ShownPlayers players = ShownPlayers::Surface;
+};
+
+// --http and --map-…; those about players and threads for servers alone. A build without maps has none of
+// them.
+void addMapSiteOptions(CLI::App& command, MapSiteOptions& options, bool isServer);
+// Finds what is wrong with the address and the file of places, before anything is opened or made.
+[[nodiscard]] base::Result<void> checkMapSite(const MapSiteOptions& options);
+// --tiles and what belongs to it.
+void addStaticMapOptions(CLI::App& command, StaticMapOptions& options);
+
+}  // namespace terrane::app

@@ -1,0 +1,35 @@
+#include "apps/terrane/maps/map_world.h"
+
+#include <utility>
+
+#include "apps/terrane/open_session.h"
+#include "terrane/content/resource_pack.h"
+#include "terrane/stream/tile_rows.h"
+
+namespace terrane::app {
+
+base::Result<std::unique_ptr<MapWorld>> openMapWorld(WorldOptions& options, const SaveOptions& save,
+                                                     const std::string& resourcePack) {
+    auto parts = openSessionParts(options, save, store::WorldAccess::ReadOnly);
+    if (!parts) return tl::unexpected(parts.error());
+    auto world = std::make_unique<MapWorld>(MapWorld{std::move(*parts), {}, {}});
+    store::ChunkStore& store = *world->parts.store;
+    stream::keepTileRows(store, world->parts.generators, *world->parts.blocks, {});
+    if (auto built = stream::buildTileRows(store); !built) return tl::unexpected(built.error());
+    auto edited = store.editedChunks();
+    if (!edited) return tl::unexpected(edited.error());
+    world->edited = std::move(*edited);
+    auto textures = content::loadTextures(resourcePack, *world->parts.blocks);
+    if (!textures) return tl::unexpected(textures.error());
+    world->textures = std::move(*textures);
+    return world;
+}
+
+base::Result<map::MapPainter> painterOf(MapWorld& world, map::SurfaceCache* cache) {
+    const store::WorldIdentity& identity = world.parts.store->identity();
+    return map::MapPainter::create(
+        {world.parts.generators, *world.parts.blocks, world.textures, world.parts.store.get(), cache,
+         gen::Biomes::create(identity.generator, *world.parts.blocks, identity.seed)});
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,89 @@
+#include "apps/terrane/maps/server_map.h"
+
+#include <utility>
+#include <vector>
+
+#include "apps/terrane/maps/place_file.h"
+#include "apps/terrane/maps/player_list.h"
+#include "apps/terrane/maps/site_parts.h"
+#include "terrane/base/log.h"
+#include "terrane/content/resource_pack.h"
+#include "terrane/web/map_site.h"
+
+namespace terrane::app {
+namespace {
+
+void addMetrics(web::MetricsText& text, net::ServerState& server, const web::Histogram& ticks) {
+    text.gauge("terrane_players", "Players on this server.", static_cast<double>(server.playing.size()));
+    text.gauge("terrane_loaded_chunks", "Chunks in memory.",
+               static_cast<double>(server.session.world().chunkCount()));
+    text.gauge("terrane_edited_chunks", "Chunks that players changed.",
+               static_cast<double>(server.edited.count(0)));
+    text.counter("terrane_edits_total", "Edits in the world's history.",
+                 static_cast<double>(server.history.newest));
+    text.histogram("terrane_tick_seconds", "Time that ticks of the game took.", ticks);
+}
+
+}  // namespace
+
+struct ServerMap::Impl {
+    explicit Impl(net::ServerState& played) : server(played) {}
+
+    net::ServerState& server;
+    web::Histogram ticks{{0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5}};
+    std::unique_ptr<map::SurfaceCache> cache;
+    std::unique_ptr<web::MapSite> site;
+};
+
+base::Result<std::unique_ptr<ServerMap>> ServerMap::open(boost::asio::io_context& context,
+                                                         net::ServerState& server, const std::string& world,
+                                                         const MapSiteOptions& options,
+                                                         const std::filesystem::path& files) {
+    if (options.http.empty()) return nullptr;
+    const auto address = webAddressFrom(options.http);
+    if (!address) return tl::unexpected(address.error());
+    auto places = readPlaceFile(options.places);
+    if (!places) return tl::unexpected(places.error());
+    game::Session& session = server.session;
+    const auto textures = content::loadTextures({}, session.blocks());
+    if (!textures) return tl::unexpected(textures.error());
+    auto impl = std::make_unique<Impl>(server);
+    impl->cache = openMapCache(files.string() + kMapCacheEnding,
+                               originOf(server.world.identity, session.blocks()), options.diskMegabytes);
+    const auto& edited = server.edited.positions(0);
+    web::MapSiteParts parts{session.generators(), session.blocks(), *textures,
+                            session.store(),      titleOf(world),   namedPlace("", server.spawn)};
+    parts.threads = options.threads;
+    parts.cache = impl->cache.get();
+    parts.tileBytes = static_cast<std::size_t>(options.memoryMegabytes) * 1'000'000;
+    parts.edited.assign(edited.begin(), edited.end());
+    parts.liveChunk = [&](world::ChunkPos pos) { return session.world().maybeChunkAt(pos); };
+    parts.players = [list = PlayerList(server, options.players)]() mutable { return list.now(); };
+    parts.places = [&server, ofFile = std::move(*places)] {
+        return allPlaces(server.session.store(), ofFile);
+    };
+    parts.metrics = [&server, &ticks = impl->ticks](web::MetricsText& text) {
+        addMetrics(text, server, ticks);
+    };
+    auto site = web::MapSite::open(context, std::move(parts), *address);
+    if (!site) return tl::unexpected(site.error());
+    impl->site = std::move(*site);
+    server.onChanged = [&shown = *impl->site](std::span<const world::ChunkPos> chunks) {
+        shown.onChanged(chunks);
+    };
+    base::logInfo("the map is at {}", urlOf(*address, impl->site->port()));
+    return std::unique_ptr<ServerMap>(new ServerMap(std::move(impl)));
+}
+
+ServerMap::ServerMap(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+ServerMap::~ServerMap() {
+    impl_->server.onChanged = nullptr;
+}
+
+void ServerMap::tick(double milliseconds) {
+    impl_->ticks.add(milliseconds / 1000);
+    impl_->site->tick();
+}
+
+}  // namespace terrane::app

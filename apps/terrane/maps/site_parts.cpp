@@ -1,0 +1,102 @@
+#include "apps/terrane/maps/site_parts.h"
+
+#include <boost/asio/ip/address.hpp>
+#include <charconv>
+
+#include "terrane/base/digest.h"
+#include "terrane/base/log.h"
+#include "terrane/game/spawn.h"
+#include "terrane/store/world_location.h"
+
+namespace terrane::app {
+namespace {
+
+base::Result<web::WebAddress> notAnAddress(const std::string& text) {
+    return base::fail(base::ErrorCode::BadInput,
+                      "--http: {} is no port or ADDRESS:PORT, such as 8080 or [::]:8080", text);
+}
+
+}  // namespace
+
+base::Result<web::WebAddress> webAddressFrom(const std::string& text) {
+    web::WebAddress address;
+    const std::size_t colon = text.rfind(':');
+    std::string_view port = text;
+    if (colon != std::string::npos) {
+        address.address = text.substr(0, colon);
+        port.remove_prefix(colon + 1);
+        const bool isBracketed = address.address.starts_with('[') && address.address.ends_with(']');
+        if (isBracketed) address.address = address.address.substr(1, address.address.size() - 2);
+        const bool hasColon = address.address.find(':') != std::string::npos;
+        if (address.address.empty() || hasColon != isBracketed) return notAnAddress(text);
+    }
+    const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), address.port);
+    if (error != std::errc() || end != port.data() + port.size()) return notAnAddress(text);
+    boost::system::error_code wrong;
+    boost::asio::ip::make_address(address.address, wrong);
+    if (wrong)
+        return base::fail(base::ErrorCode::BadInput,
+                          "--http: {} is no address to listen on, such as 127.0.0.1 or ::", address.address);
+    return address;
+}
+
+std::string urlOf(const web::WebAddress& address, std::uint16_t port) {
+    const bool isAll = address.address == "0.0.0.0" || address.address == "::";
+    if (isAll) return fmt::format("http://localhost:{}/", port);
+    const bool isV6 = address.address.find(':') != std::string::npos;
+    return isV6 ? fmt::format("http://[{}]:{}/", address.address, port)
+                : fmt::format("http://{}:{}/", address.address, port);
+}
+
+std::string originOf(const store::WorldIdentity& identity, const world::BlockRegistry& blocks) {
+    const map::SurfaceKinds kinds = map::surfaceKinds(blocks);
+    std::string names;
+    for (std::size_t id = 0; id < kinds.size(); ++id)
+        names += fmt::format("{} {}\n", blocks.types()[id].name, static_cast<int>(kinds[id]));
+    return fmt::format("{} {} {} {:016x}", identity.seed, identity.generator, identity.generatorVersion,
+                       base::hash64(names));
+}
+
+std::unique_ptr<map::SurfaceCache> openMapCache(const std::filesystem::path& file, const std::string& origin,
+                                                int megabytes) {
+    if (megabytes == 0) return nullptr;
+    auto cache = map::SurfaceCache::open(file, origin, std::int64_t{megabytes} * 1'000'000);
+    if (cache) return std::move(*cache);
+    base::logWarning("{}; the map keeps nothing on the disk", cache.error().message);
+    return nullptr;
+}
+
+std::string titleOf(const std::string& world) {
+    if (world.empty()) return "Terrane";
+    if (store::worldLocation(world).kind != store::WorldLocation::Kind::Url)
+        return std::filesystem::path(world).stem().string();
+    // Not what stands before it, which may be a password.
+    const std::string_view path = std::string_view(world).substr(0, world.find('?'));
+    const std::size_t slash = path.rfind('/');
+    const bool hasName = slash + 1 < path.size() && slash > 0 && path[slash - 1] != '/';
+    return hasName ? std::string(path.substr(slash + 1)) : "Terrane";
+}
+
+web::NamedPlace namedPlace(const std::string& name, const world::Pose& pose) {
+    return {name, pose.position.x, pose.position.y, pose.position.z};
+}
+
+std::vector<web::NamedPlace> namedPlaces(const std::vector<game::Place>& places) {
+    std::vector<web::NamedPlace> named;
+    for (const game::Place& place : places) named.push_back(namedPlace(place.name, place.pose));
+    return named;
+}
+
+std::vector<web::NamedPlace> allPlaces(store::ReadableStore& store, const std::vector<game::Place>& ofFile) {
+    std::vector<game::Place> places = game::savedPlaces(store);
+    places.insert(places.end(), ofFile.begin(), ofFile.end());
+    return namedPlaces(places);
+}
+
+base::Result<web::NamedPlace> spawnOf(const MapWorld& world) {
+    const auto generator = world.parts.generators.at(0);
+    if (!generator) return tl::unexpected(generator.error());
+    return namedPlace("", game::findSpawn(**generator, *world.parts.blocks));
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,190 @@
+#include "apps/terrane/maps/static_map.h"
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <mutex>
+#include <utility>
+
+#include "apps/terrane/maps/place_file.h"
+#include "apps/terrane/maps/site_parts.h"
+#include "terrane/base/files.h"
+#include "terrane/base/job_system.h"
+#include "terrane/base/log.h"
+#include "terrane/base/progress_bar.h"
+#include "terrane/base/stop_signals.h"
+#include "terrane/map/edited_positions.h"
+#include "terrane/map/map_painter.h"
+#include "terrane/map/tiles_of_area.h"
+
+namespace terrane::app {
+namespace {
+
+namespace fs = std::filesystem;
+using map::Layer;
+using map::MapTile;
+
+// The file that says which world a folder shows.
+constexpr const char* kOriginFile = "terrane-map.txt";
+// A few days of work; 300 GB.
+constexpr std::int64_t kMaxTiles = 10'000'000;
+
+base::Result<void> prepareFolder(const fs::path& folder, const std::string& origin) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        return base::fail(base::ErrorCode::Io, "{}: cannot be made: {}", folder.string(), error.message());
+    const fs::path file = folder / kOriginFile;
+    if (fs::exists(file, error)) {
+        const auto found = base::readFile(file);
+        if (!found) return tl::unexpected(found.error());
+        if (*found == origin + "\n") return {};
+        return base::fail(
+            base::ErrorCode::Incompatible,
+            "{}: has the map of another world, or one in other colors; empty it, or name another folder",
+            folder.string());
+    }
+    if (!fs::is_empty(folder, error))
+        return base::fail(base::ErrorCode::BadInput, "{}: has other files, and no map of Terrane",
+                          folder.string());
+    return base::writeFile(file, origin + "\n");
+}
+
+base::Result<void> writePage(const fs::path& folder, const web::PageFacts& facts) {
+    for (const base::EmbeddedFile& file : web::pageFiles())
+        if (auto written = base::writeFile(folder / file.path, file.data); !written) return written;
+    return base::writeFile(folder / "world.js", web::scriptOf(facts));
+}
+
+// The finest zoom, of those from 0 down, at which the area is no wider than a tile.
+int leastZoom(const map::BlockRect& area) {
+    const std::int64_t width = std::max(area.x1 - area.x0, area.y1 - area.y0);
+    int zoom = 0;
+    while (zoom > map::kMinZoom && map::blocksAcross(zoom) < width) --zoom;
+    return zoom;
+}
+
+base::Result<std::vector<Layer>> layersOf(const std::vector<std::string>& names,
+                                          const map::MapPainter& painter) {
+    std::vector<Layer> layers;
+    for (const std::string& name : names) {
+        const auto layer = map::layerNamed(name);
+        if (!layer) return base::fail(base::ErrorCode::BadInput, "--layers: there is no layer {}", name);
+        if (!painter.hasLayer(*layer))
+            return base::fail(base::ErrorCode::BadInput, "--layers: the generator has no {}", name);
+        layers.push_back(*layer);
+    }
+    for (int k = 0; names.empty() && k < map::kLayerCount; ++k)
+        if (painter.hasLayer(static_cast<Layer>(k))) layers.push_back(static_cast<Layer>(k));
+    const bool hasBase = std::ranges::any_of(
+        layers, [](Layer layer) { return layer != Layer::Height && layer != Layer::Biome; });
+    if (!hasBase)
+        return base::fail(base::ErrorCode::BadInput,
+                          "--layers: height and biome lie over day, night or isometric: name one of these");
+    return layers;
+}
+
+class TileWriter {
+  public:
+    TileWriter(map::MapPainter& painter, const map::EditedPositions& edited, const fs::path& folder)
+        : painter_(painter), edited_(edited), folder_(folder) {}
+
+    // Nothing where the file is there and shows no edits. Any thread.
+    void write(const MapTile& tile) {
+        if (hasFailed_) return;
+        const fs::path file = folder_ / map::pathOf(tile);
+        const std::vector<map::EditedChunk> edited = edited_.among(map::MapPainter::chunksFor(tile));
+        std::error_code error;
+        if (edited.empty() && fs::exists(file, error)) return;
+        const auto png = painter_.paint(tile, edited);
+        if (!png) return fail(png.error());
+        fs::create_directories(file.parent_path(), error);
+        if (auto written = base::writeFile(file, *png); !written) return fail(written.error());
+        ++written_;
+    }
+
+    std::size_t written() const { return written_; }
+    base::Result<void> result() const { return hasFailed_ ? tl::unexpected(error_) : base::Result<void>(); }
+
+  private:
+    void fail(const base::Error& error) {
+        const std::lock_guard lock(mutex_);
+        if (hasFailed_) return;
+        error_ = error;
+        hasFailed_ = true;
+    }
+
+    map::MapPainter& painter_;
+    const map::EditedPositions& edited_;
+    fs::path folder_;
+    std::atomic<std::size_t> written_ = 0;
+    std::atomic<bool> hasFailed_ = false;
+    std::mutex mutex_;  // of the error
+    base::Error error_;
+};
+
+// False where a signal ended it.
+base::Result<bool> writeTiles(std::span<const MapTile> tiles, TileWriter& writer, base::JobSystem& jobs) {
+    constexpr std::size_t kAtATime = 64;
+    const base::StopSignals signals;
+    base::ProgressBar bar("mapping", tiles.size());
+    for (std::size_t done = 0; done < tiles.size(); done += kAtATime) {
+        if (signals.stopAsked()) return false;
+        const auto some = tiles.subspan(done, std::min(kAtATime, tiles.size() - done));
+        if (auto ran = base::parallelFor(jobs, some.size(), [&](std::size_t k) { writer.write(some[k]); });
+            !ran)
+            return tl::unexpected(ran.error());
+        if (auto result = writer.result(); !result) return tl::unexpected(result.error());
+        bar.set(done + some.size());
+    }
+    return true;
+}
+
+}  // namespace
+
+base::Result<void> writeStaticMap(WorldOptions& worldOptions, const SaveOptions& save,
+                                  const std::string& resourcePack, const world::ChunkArea& chunks,
+                                  const StaticMapOptions& options) {
+    const auto places = readPlaceFile(options.places);
+    if (!places) return tl::unexpected(places.error());
+    const auto world = openMapWorld(worldOptions, save, resourcePack);
+    if (!world) return tl::unexpected(world.error());
+    const game::SessionParts& opened = (*world)->parts;
+    const store::WorldIdentity& identity = opened.store->identity();
+    const auto spawn = spawnOf(**world);
+    if (!spawn) return tl::unexpected(spawn.error());
+    auto painter = painterOf(**world);
+    if (!painter) return tl::unexpected(painter.error());
+    const auto layers = layersOf(options.layers, *painter);
+    if (!layers) return tl::unexpected(layers.error());
+    const map::BlockRect area = map::blocksOf(chunks);
+    const int minZoom = std::min(leastZoom(area), options.maxZoom);
+    if (map::countTiles(area, *layers, minZoom, options.maxZoom) > kMaxTiles)
+        return base::fail(base::ErrorCode::BadInput,
+                          "a map has at most {} images; a lower --max-zoom needs fewer", kMaxTiles);
+    const std::string origin =
+        fmt::format("{} {:016x}", originOf(identity, *opened.blocks), painter->colorDigest());
+    if (auto prepared = prepareFolder(options.folder, origin); !prepared) return prepared;
+
+    web::PageFacts facts{.identity = identity, .name = titleOf(save.world), .spawn = *spawn};
+    facts.places = allPlaces(*opened.store, *places);
+    for (const Layer layer : *layers) facts.layers.emplace_back(map::nameOf(layer));
+    facts.minZoom = minZoom;
+    facts.maxZoom = options.maxZoom;
+    facts.isLive = false;
+    facts.area = area;
+    if (auto written = writePage(options.folder, facts); !written) return written;
+
+    map::EditedPositions edited;
+    for (const world::ChunkPos chunk : (*world)->edited) edited.add(chunk);
+    TileWriter writer(*painter, edited, options.folder);
+    base::JobSystem jobs(opened.threads);
+    const std::vector<MapTile> tiles = map::tilesOf(area, *layers, minZoom, options.maxZoom);
+    const auto isDone = writeTiles(tiles, writer, jobs);
+    if (!isDone) return tl::unexpected(isDone.error());
+    base::logInfo("{}: {} of {} images written{}", options.folder, writer.written(), tiles.size(),
+                  *isDone ? "; open index.html" : " before it was stopped: the same command goes on");
+    return {};
+}
+
+}  // namespace terrane::app
