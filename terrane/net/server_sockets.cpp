@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/ip/v6_only.hpp>
 #include <boost/asio/ssl/stream.hpp>
 #include <boost/asio/write.hpp>
 #include <map>
 #include <utility>
 
 #include "terrane/base/log.h"
+#include "terrane/base/tcp_listen.h"
 #include "terrane/net/frames.h"
 #include "terrane/net/server.h"
 #include "terrane/net/tls.h"
@@ -52,15 +52,6 @@ std::string addressOf(const Tcp::socket& socket) {
     return error ? std::string("somewhere") : endpoint.address().to_string();
 }
 
-base::Result<Tcp::endpoint> endpointOf(const ListenAddress& address) {
-    SocketError error;
-    const auto parsed = asio::ip::make_address(address.address, error);
-    if (error)
-        return base::fail(base::ErrorCode::BadInput,
-                          "{}: not an address to listen on, such as 0.0.0.0 or ::1", address.address);
-    return Tcp::endpoint(parsed, address.port);
-}
-
 }  // namespace
 
 struct ServerSockets::Impl : std::enable_shared_from_this<ServerSockets::Impl> {
@@ -96,19 +87,12 @@ struct ServerSockets::Impl : std::enable_shared_from_this<ServerSockets::Impl> {
 };
 
 base::Result<void> ServerSockets::Impl::listen(const ListenAddress& address) {
-    const auto endpoint = endpointOf(address);
-    if (!endpoint) return tl::unexpected(endpoint.error());
+    if (auto listens = base::listenAt(acceptor, address.address, address.port); !listens) return listens;
     SocketError error;
-    acceptor.open(endpoint->protocol(), error);
-    if (!error) acceptor.set_option(Tcp::acceptor::reuse_address(true), error);
-    if (!error && endpoint->address().is_v6()) acceptor.set_option(asio::ip::v6_only(false), error);
-    if (!error) acceptor.bind(*endpoint, error);
-    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
-    if (!error) acceptor.non_blocking(true, error);
+    acceptor.non_blocking(true, error);
     if (error)
-        return base::fail(error == asio::error::address_in_use ? base::ErrorCode::Busy : base::ErrorCode::Io,
-                          "{} port {}: cannot be listened on: {}", address.address, address.port,
-                          error.message());
+        return base::fail(base::ErrorCode::Io, "{} port {}: cannot be listened on: {}", address.address,
+                          address.port, error.message());
     accept();
     return {};
 }

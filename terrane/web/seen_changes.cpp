@@ -33,7 +33,8 @@ void SeenChanges::add(std::span<const ChunkPos> chunks, const map::EditedPositio
     }
 }
 
-// In doubt it is seen: where it was edited before the map began, or cannot be read.
+// In doubt it is seen: where it was edited before the map began, or cannot be read. So is all of a job that
+// failed.
 std::vector<ChunkPos> SeenChanges::seenAmong(map::MapPainter& painter, const std::vector<Change>& changes,
                                              Digests& digests) {
     std::vector<ChunkPos> seen;
@@ -52,23 +53,27 @@ std::vector<ChunkPos> SeenChanges::seenAmong(map::MapPainter& painter, const std
 }
 
 void SeenChanges::look() {
+    if (isLooking_ && job_.state() == base::JobState::Failed) {  // no memory
+        isLooking_ = false;
+        parts_.seen(looking_);
+    }
     if (isLooking_ || added_.empty()) return;
     isLooking_ = true;
-    const std::vector<ChunkPos> added(added_.begin(), added_.end());
+    looking_.assign(added_.begin(), added_.end());
     added_.clear();
     const auto changes = std::make_shared<std::vector<Change>>();
-    for (map::EditedChunk& chunk : parts_.editedAmong(added)) {
+    for (map::EditedChunk& chunk : parts_.editedAmong(looking_)) {
         const bool wasGenerated = generated_.erase(chunk.pos) > 0;
         changes->push_back({std::move(chunk), wasGenerated});
     }
     // Before tiles, which are to have it.
-    parts_.jobs.submit(-1, [this, changes, digests = digests_, alive = isAlive_, &painter = parts_.painter,
-                            post = parts_.post](const base::CancelToken&) {
-        auto seen = std::make_shared<std::vector<ChunkPos>>(seenAmong(painter, *changes, *digests));
-        post([this, seen, alive] {
+    job_ = parts_.jobs.submit(-1, [this, changes, digests = digests_, alive = isAlive_,
+                                   &painter = parts_.painter, post = parts_.post](const base::CancelToken&) {
+        std::vector<ChunkPos> seen = seenAmong(painter, *changes, *digests);
+        post([this, seen = std::move(seen), alive] {
             if (!*alive) return;
             isLooking_ = false;
-            if (!seen->empty()) parts_.seen(*seen);
+            if (!seen.empty()) parts_.seen(seen);
         });
     });
 }

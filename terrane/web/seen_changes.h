@@ -28,7 +28,7 @@ class SeenChanges {
         // Called with the chunks and tiles that look different from above.
         std::function<void(std::span<const world::ChunkPos>)> seen;
     };
-    // The jobs end before this does.
+    // Of the parts the painter and the jobs outlive this; what a job finds after that is dropped.
     explicit SeenChanges(Parts parts) : parts_(std::move(parts)) {}
     ~SeenChanges() { *isAlive_ = false; }
 
@@ -53,6 +53,8 @@ class SeenChanges {
     std::shared_ptr<Digests> digests_ =
         std::make_shared<Digests>();  // of surfaces; the job's, while one runs
     bool isLooking_ = false;
+    std::vector<world::ChunkPos> looking_;  // what the job looks at
+    base::JobHandle job_;
     std::shared_ptr<bool> isAlive_ = std::make_shared<bool>(true);  // what is posted may come after the end
 };
 

@@ -60,13 +60,13 @@ void WebServer::Impl::handle(const ConnectionPtr& connection, const RequestParse
     connection->isHead = request.method() == http::verb::head;
     if (const auto tag = request.find(http::field::if_none_match); tag != request.end())
         connection->knownTag = std::string(tag->value());
-    if (hasBody) return reply(connection, textAnswer(413, "a request has no body here\n"));
-    if (request.method() != http::verb::get && !connection->isHead)
-        return reply(connection, textAnswer(405, "GET and HEAD alone\n"));
     if (!mayAsk(*connection)) {
         ++statistics.refused;
         return reply(connection, busyAnswer(429, "too many requests\n"));
     }
+    if (hasBody) return reply(connection, textAnswer(413, "a request has no body here\n"));
+    if (request.method() != http::verb::get && !connection->isHead)
+        return reply(connection, textAnswer(405, "GET and HEAD alone\n"));
     const auto target = parseTarget({request.target().data(), request.target().size()});
     if (!target) return reply(connection, textAnswer(400, "not a path\n"));
     const Route route = routeOf(*target);

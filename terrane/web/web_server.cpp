@@ -1,10 +1,10 @@
 #include "terrane/web/web_server.h"
 
 #include <algorithm>
-#include <boost/asio/ip/v6_only.hpp>
 #include <utility>
 #include <vector>
 
+#include "terrane/base/tcp_listen.h"
 #include "terrane/web/web_server_internal.h"
 
 namespace terrane::web {
@@ -30,21 +30,7 @@ std::string networkOf(const asio::ip::address& address) {
 }  // namespace
 
 base::Result<void> WebServer::Impl::listen(const WebAddress& address) {
-    SocketError error;
-    const auto parsed = asio::ip::make_address(address.address, error);
-    if (error)
-        return base::fail(base::ErrorCode::BadInput,
-                          "{}: not an address to listen on, such as 127.0.0.1 or ::", address.address);
-    const Tcp::endpoint endpoint(parsed, address.port);
-    acceptor.open(endpoint.protocol(), error);
-    if (!error) acceptor.set_option(Tcp::acceptor::reuse_address(true), error);
-    if (!error && parsed.is_v6()) acceptor.set_option(asio::ip::v6_only(false), error);
-    if (!error) acceptor.bind(endpoint, error);
-    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
-    if (error)
-        return base::fail(error == asio::error::address_in_use ? base::ErrorCode::Busy : base::ErrorCode::Io,
-                          "{} port {}: cannot be listened on: {}", address.address, address.port,
-                          error.message());
+    if (auto listens = base::listenAt(acceptor, address.address, address.port); !listens) return listens;
     accept();
     return {};
 }
