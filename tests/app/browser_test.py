@@ -5,12 +5,10 @@ Needs chromium, chromium-driver and python3-selenium; skipped where they are mis
 for images of the page."""
 import os
 import pathlib
-import re
 import shutil
 import sqlite3
 import subprocess
 import sys
-import tempfile
 import time
 
 import support
@@ -42,39 +40,12 @@ def start_browser():
     return webdriver.Chrome(service=Service(DRIVER), options=options)
 
 
-class Program:
+class Program(support.RunningProgram):
     """`terrane serve` or `terrane map --http`, until the test ends."""
 
     def __init__(self, folder, *arguments):
-        self.log = tempfile.TemporaryFile(mode="w+")
-        self.process = subprocess.Popen(
-            [support.program(), *map(str, arguments)], stdin=subprocess.PIPE, stdout=self.log, stderr=self.log, text=True,
-            env=support.environment(None, folder))
+        super().__init__(folder, *arguments)
         self.url = self.wait_for(r"the map is at (http://\S+)")[1]
-
-    def output(self):
-        self.log.seek(0)
-        return self.log.read()
-
-    def wait_for(self, pattern):
-        deadline = time.monotonic() + HANG_SECONDS
-        while time.monotonic() < deadline:
-            if found := re.search(pattern, self.output()):
-                return found
-            if self.process.poll() is not None:
-                break
-            time.sleep(0.05)
-        raise RuntimeError(f"no {pattern} in: {self.output()}")
-
-    def say(self, line):
-        self.process.stdin.write(line + "\n")
-        self.process.stdin.flush()
-
-    def clean_up(self):
-        self.process.kill()
-        self.process.wait(HANG_SECONDS)
-        self.process.stdin.close()
-        self.log.close()
 
 
 class Page:

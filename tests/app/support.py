@@ -2,11 +2,13 @@
 import ast
 import os
 import pathlib
+import re
 import shutil
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import zlib
 
@@ -47,6 +49,40 @@ def run(*arguments, display=None):
     """Runs the program to its end. Without `display` it finds no display server."""
     return subprocess.run([_program, *map(str, arguments)], capture_output=True, text=True, timeout=HANG_SECONDS,
                           env=environment(display), check=False)
+
+
+class RunningProgram:
+    """The program while it goes on: what it logs, and its console."""
+
+    def __init__(self, folder, *arguments):
+        self.log = tempfile.TemporaryFile(mode="w+")
+        self.process = subprocess.Popen([_program, *map(str, arguments)], stdin=subprocess.PIPE, stdout=self.log,
+                                        stderr=self.log, text=True, env=environment(None, folder))
+
+    def output(self):
+        self.log.seek(0)
+        return self.log.read()
+
+    def wait_for(self, pattern):
+        """The match of what it logs; an error where it ends without."""
+        deadline = time.monotonic() + HANG_SECONDS
+        while time.monotonic() < deadline:
+            if found := re.search(pattern, self.output()):
+                return found
+            if self.process.poll() is not None:
+                break
+            time.sleep(0.05)
+        raise RuntimeError(f"no {pattern} in: {self.output()}")
+
+    def say(self, line):
+        self.process.stdin.write(line + "\n")
+        self.process.stdin.flush()
+
+    def clean_up(self):
+        self.process.kill()
+        self.process.wait(HANG_SECONDS)
+        self.process.stdin.close()
+        self.log.close()
 
 
 class ProgramTest(unittest.TestCase):

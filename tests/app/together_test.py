@@ -4,11 +4,8 @@
 Needs what window_test.py needs. TERRANE_SCREENSHOTS names a folder for images of the windows."""
 import os
 import pathlib
-import re
 import signal
 import subprocess
-import tempfile
-import time
 
 import support
 import title_test
@@ -17,41 +14,13 @@ from support import HANG_SECONDS, ProgramTest
 from window_test import SIZE, is_green, is_grey
 
 
-class Server:
+class Server(support.RunningProgram):
     """A server of a flat world, on a port that is free."""
 
     def __init__(self, folder):
         self.world = folder / "world.sqlite"
-        self.log = tempfile.TemporaryFile(mode="w+")
-        self.process = subprocess.Popen(
-            [support.program(), "serve", "--world", self.world, "--generator", "flat", "--address", "127.0.0.1",
-             "--port", "0"], stdin=subprocess.PIPE, stdout=self.log, stderr=self.log, text=True,
-            env=support.environment(None, folder))
+        super().__init__(folder, "serve", "--world", self.world, "--generator", "flat", "--address", "127.0.0.1", "--port", "0")
         self.port = int(self.wait_for(r"on port (\d+)")[1])
-
-    def output(self):
-        self.log.seek(0)
-        return self.log.read()
-
-    def wait_for(self, pattern):
-        deadline = time.monotonic() + HANG_SECONDS
-        while time.monotonic() < deadline:
-            if found := re.search(pattern, self.output()):
-                return found
-            if self.process.poll() is not None:
-                break
-            time.sleep(0.05)
-        raise RuntimeError(f"no {pattern} in: {self.output()}")
-
-    def clean_up(self):
-        self.process.kill()
-        self.process.wait(HANG_SECONDS)
-        self.process.stdin.close()
-        self.log.close()
-
-    def say(self, line):
-        self.process.stdin.write(line + "\n")
-        self.process.stdin.flush()
 
 
 def keep(display, game, name):
