@@ -36,6 +36,10 @@ class SharedServers {
     TestServer& add() {
         auto parts = sharedParts(address_);
         auto records = PostgresRecords::open(address_, *parts.blocks, {"test", "", ""}).value();
+        // Numbers of players come on another thread: guests of a test join at once.
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+        while (records->takePlayerNumber() == game::kNoPlayer && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
         servers_.push_back(std::make_unique<TestServer>(std::move(parts), std::move(records)));
         return *servers_.back();
     }
