@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "terrane/world/behavior_template.h"
 #include "terrane/world/block_edit.h"
 #include "terrane/world/liquid_flow.h"
 #include "terrane/world/shape_behaviors.h"
@@ -75,20 +76,45 @@ BlockBehavior container() {
             }};
 }
 
-}  // namespace
+template <class T>
+std::shared_ptr<const T> findNamed(const std::vector<std::shared_ptr<const T>>& list, std::string_view name) {
+    const auto found = std::ranges::find(list, name, [](const auto& entry) { return entry->name; });
+    return found == list.end() ? nullptr : *found;
+}
 
-void BehaviorTable::add(BlockBehavior behavior) {
-    auto added = std::make_shared<const BlockBehavior>(std::move(behavior));
-    const auto same = std::ranges::find(behaviors_, added->name, [](const auto& b) { return b->name; });
-    if (same == behaviors_.end())
-        behaviors_.push_back(std::move(added));
+template <class T>
+void addNamed(std::vector<std::shared_ptr<const T>>& list, T value) {
+    auto added = std::make_shared<const T>(std::move(value));
+    const auto same = std::ranges::find(list, added->name, [](const auto& entry) { return entry->name; });
+    if (same == list.end())
+        list.push_back(std::move(added));
     else
         *same = std::move(added);
 }
 
+}  // namespace
+
+void BehaviorTable::add(BlockBehavior behavior) {
+    addNamed(behaviors_, std::move(behavior));
+}
+
+void BehaviorTable::addTemplate(BehaviorTemplate behavior) {
+    addNamed(templates_, std::move(behavior));
+}
+
 BehaviorPtr BehaviorTable::find(std::string_view name) const {
-    const auto found = std::ranges::find(behaviors_, name, [](const auto& b) { return b->name; });
-    return found == behaviors_.end() ? nullptr : *found;
+    return findNamed(behaviors_, name);
+}
+
+std::shared_ptr<const BehaviorTemplate> BehaviorTable::findTemplate(std::string_view name) const {
+    return findNamed(templates_, name);
+}
+
+std::vector<std::string_view> BehaviorTable::names() const {
+    std::vector<std::string_view> names;
+    for (const BehaviorPtr& behavior : behaviors_) names.push_back(behavior->name);
+    for (const auto& behavior : templates_) names.push_back(behavior->name);
+    return names;
 }
 
 bool hasBehavior(const BlockType& type, std::string_view name) {
@@ -101,6 +127,7 @@ const BehaviorTable& builtInBehaviors() {
         for (BlockBehavior (*make)() : {plant, crop, falling, container, flows}) made.add(make());
         for (BlockBehavior& behavior : shapeBehaviors()) made.add(std::move(behavior));
         made.add(signBehavior());
+        for (BehaviorTemplate& behavior : builtInTemplates()) made.addTemplate(std::move(behavior));
         return made;
     }();
     return table;

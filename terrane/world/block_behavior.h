@@ -50,16 +50,20 @@ struct BlockBehavior {
 };
 
 using BehaviorPtr = std::shared_ptr<const BlockBehavior>;
+struct BehaviorTemplate;  // behavior_template.h
 
 class BehaviorTable {
   public:
     // Takes the place of one with the same name.
     void add(BlockBehavior behavior);
+    void addTemplate(BehaviorTemplate behavior);
     BehaviorPtr find(std::string_view name) const;  // null where there is none
-    const std::vector<BehaviorPtr>& behaviors() const { return behaviors_; }
+    std::shared_ptr<const BehaviorTemplate> findTemplate(std::string_view name) const;
+    std::vector<std::string_view> names() const;  // of both kinds
 
   private:
     std::vector<BehaviorPtr> behaviors_;
+    std::vector<std::shared_ptr<const BehaviorTemplate>> templates_;
 };
 
 // plant      needs ground: a full block, or its own kind (cactus); it goes when the block below goes
@@ -67,7 +71,7 @@ class BehaviorTable {
 // falling    falls through air and liquids when it is placed or when the block below goes
 // flows      of a liquid: it flows (liquid_flow.h)
 // container  holds BlockType::slots stacks of items
-// and those of shape_behaviors.h
+// and those of shape_behaviors.h; with parameters those of behavior_template.h
 const BehaviorTable& builtInBehaviors();
 
 bool hasBehavior(const BlockType& type, std::string_view name);

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,6 +44,7 @@ struct ShapeDescription {
     std::vector<ShapeBox> arms;   // what an arm toward +y adds; empty: there are none
     int line = 0;                 // of its table in the file
 };
+using ShapePtr = std::shared_ptr<const ShapeDescription>;
 
 struct ModelFace {
     std::uint16_t shapeFace = 0;  // index into the table of all shape faces

@@ -9,6 +9,7 @@
 
 #include "terrane/world/behavior_parser.h"
 #include "terrane/world/content_table.h"
+#include "terrane/world/shape_parser.h"
 #include "terrane/world/sound_parser.h"
 
 namespace terrane::world {
@@ -243,17 +244,21 @@ const toml::array* tablesOf(ContentTable& top, std::string_view kind) {
     return tables;
 }
 
-base::Result<std::vector<BlockDescription>> readBlocks(const toml::table& root, std::string_view file,
-                                                       const BehaviorTable& behaviors) {
+base::Result<BlockFile> readBlocks(const toml::table& root, std::string_view file,
+                                   const BehaviorTable& behaviors, std::span<const ShapePtr> givenShapes) {
     std::optional<std::string> error;
-    std::vector<BlockDescription> blocks;
+    BlockFile read;
+    std::vector<BlockDescription>& blocks = read.blocks;
     std::unordered_set<std::string> names{"air", "missing"};
 
     ContentTable top(root, file, error);
     top.rejectUnknown(std::initializer_list<std::string_view>{"block", "shape"});
     std::vector<std::string_view> builtIn;
     for (const EnumName<Shape>& entry : kShapes) builtIn.push_back(entry.name);
-    const std::vector<ShapePtr> shapes = readShapes(tablesOf(top, "shape"), builtIn, file, error);
+    for (const ShapePtr& shape : givenShapes) builtIn.push_back(shape->name);
+    read.shapes = readShapes(tablesOf(top, "shape"), builtIn, file, error);
+    std::vector<ShapePtr> shapes(givenShapes.begin(), givenShapes.end());
+    shapes.insert(shapes.end(), read.shapes.begin(), read.shapes.end());
     const toml::array* tables = tablesOf(top, "block");
     for (std::size_t i = 0; tables && !error && i < tables->size(); ++i) {
         ContentTable table(*(*tables)[i].as_table(), file, error);
@@ -261,19 +266,20 @@ base::Result<std::vector<BlockDescription>> readBlocks(const toml::table& root, 
             table.wrong(table.line(), "block",
                         fmt::format("expected at most {}, got more", kMaxDescribedBlocks));
         blocks.push_back(readBlock(table, behaviors, shapes));
+        blocks.back().file = file;
         if (!names.insert(blocks.back().type.name).second && !error)
             table.expected(*table.node("name"), "name", "a name not used before");
     }
     if (error) return tl::unexpected(oneLine(std::move(*error)));
-    return blocks;
+    return read;
 }
 
 }  // namespace
 
-base::Result<std::vector<BlockDescription>> parseBlocks(std::string_view toml, std::string_view file,
-                                                        const BehaviorTable& behaviors) {
+base::Result<BlockFile> parseBlocks(std::string_view toml, std::string_view file,
+                                    const BehaviorTable& behaviors, std::span<const ShapePtr> shapes) {
     try {
-        return readBlocks(toml::parse(toml), file, behaviors);
+        return readBlocks(toml::parse(toml), file, behaviors, shapes);
     } catch (const toml::parse_error& error) {  // the only way this library tells of wrong syntax
         return tl::unexpected(
             oneLine(fmt::format("{}:{}: syntax: {}", file, error.source().begin.line, error.description())));

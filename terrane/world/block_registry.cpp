@@ -2,9 +2,12 @@
 
 #include <cassert>
 #include <map>
+#include <memory>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 
+#include "terrane/base/printable.h"
 #include "terrane/world/block_parser.h"
 #include "terrane/world/model_table.h"
 
@@ -101,28 +104,57 @@ void simplifyModel(BlockDescription& block) {
     block.type.model = nullptr;
 }
 
-auto tooManyFaces(std::string_view name, int line) {
-    return base::fail("{}:{}: texture: expected at most {} different faces in all blocks, got more", name,
-                      line, kMaxNumbered);
+auto tooManyFaces(const BlockDescription& block) {
+    return base::fail("{}:{}: texture: expected at most {} different faces in all blocks, got more",
+                      block.file, block.line, kMaxNumbered);
+}
+
+// Names must be unique, and blocks that behaviors name must be there.
+base::Result<void> checkNames(std::span<const BlockDescription> blocks) {
+    std::unordered_set<std::string_view> names{"air", "missing"};
+    for (const BlockDescription& block : blocks)
+        if (!names.insert(block.type.name).second)
+            return base::fail(base::ErrorCode::BadInput,
+                              "{}:{}: name: expected a name not used before, got \"{}\"", block.file,
+                              block.line, block.type.name);
+    for (const BlockDescription& block : blocks)
+        for (const BehaviorCall& call : block.calls)
+            for (const auto& [parameter, name] : call.arguments.blocks)
+                if (!names.contains(name))
+                    return base::fail(base::ErrorCode::BadInput,
+                                      "{}:{}: behaviors.{}: expected the name of a block, got \"{}\"",
+                                      block.file, call.line, parameter, base::printable(name));
+    return {};
 }
 
 }  // namespace
 
 base::Result<BlockRegistry> BlockRegistry::parse(std::string_view toml, std::string_view name,
                                                  const BehaviorTable& behaviors) {
-    auto blocks = parseBlocks(toml, name, behaviors);
-    if (!blocks) return tl::unexpected(blocks.error());
-    blocks->push_back(describeMissing());
+    auto file = parseBlocks(toml, name, behaviors);
+    if (!file) return tl::unexpected(file.error());
+    return fromDescriptions(std::move(file->blocks), name);
+}
+
+base::Result<BlockRegistry> BlockRegistry::fromDescriptions(std::vector<BlockDescription> blocks,
+                                                            std::string_view name) {
+    if (blocks.size() > kMaxDescribedBlocks)
+        return base::fail(base::ErrorCode::BadInput, "{}: expected at most {} blocks, got {}", name,
+                          kMaxDescribedBlocks, blocks.size());
+    if (auto checked = checkNames(blocks); !checked) return tl::unexpected(checked.error());
+    blocks.push_back(describeMissing());
 
     BlockRegistry registry;
     Materials materials;
     ModelTable models;
     registry.types_.push_back(describeAir());
-    for (BlockDescription& block : *blocks) {
+    for (BlockDescription& block : blocks) {
         BlockType& type = block.type;
+        for (const BehaviorCall& call : block.calls)
+            type.behaviors.push_back(std::make_shared<const BlockBehavior>(behaviorOf(call)));
         type.id = static_cast<BlockId>(registry.types_.size());
         type.opaqueCube = isOpaqueCube(block);
-        if (!materials.numberFaces(block)) return tooManyFaces(name, block.line);
+        if (!materials.numberFaces(block)) return tooManyFaces(block);
         if (block.shape) type.model = models.modelOf(block.shape);
         registry.types_.push_back(type);
     }
@@ -133,13 +165,13 @@ base::Result<BlockRegistry> BlockRegistry::parse(std::string_view toml, std::str
     assert(registry.types_.size() <= kMaxNumbered && "the parser limits blocks to what ids can tell apart");
     registry.missing_ = registry.types_.back().id;
     registry.farTypes_ = registry.types_;
-    for (std::size_t k = 0; k < blocks->size(); ++k) {
-        BlockDescription& block = (*blocks)[k];
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+        BlockDescription& block = blocks[k];
         block.type = registry.types_[k + 1];
         if (block.type.shape != Shape::Cube && block.type.shape != Shape::Model) continue;
         if (block.type.shape == Shape::Model) simplifyModel(block);
         lookFromAfar(block);
-        if (!materials.numberFaces(block)) return tooManyFaces(name, block.line);
+        if (!materials.numberFaces(block)) return tooManyFaces(block);
         registry.farTypes_[k + 1] = block.type;
     }
     registry.materials_ = materials.takeMaterials();

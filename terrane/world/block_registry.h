@@ -1,4 +1,4 @@
-// All block types of a session, read from a content file. Immutable once made; shared by all threads.
+// All block types of a session, read from content files. Immutable once made; shared by all threads.
 #pragma once
 
 #include <span>
@@ -14,6 +14,8 @@
 
 namespace terrane::world {
 
+struct BlockDescription;  // block_description.h
+
 class BlockRegistry {
   public:
     // Reads the content file's text. `name` stands in errors, which read "name:line: key: what is wrong".
@@ -21,6 +23,12 @@ class BlockRegistry {
     // `behaviors`: those that blocks may name.
     [[nodiscard]] static base::Result<BlockRegistry> parse(
         std::string_view toml, std::string_view name, const BehaviorTable& behaviors = builtInBehaviors());
+
+    // The same from descriptions: those of several files, or made by a program. Names are unique and none of
+    // "air", "missing"; textures and blocks of behaviors are named as the registry is to know them. `name`
+    // stands in errors that are of no block.
+    [[nodiscard]] static base::Result<BlockRegistry> fromDescriptions(std::vector<BlockDescription> blocks,
+                                                                      std::string_view name);
 
     std::span<const BlockType> types() const { return types_; }  // index is the id
     const BlockType& type(BlockId id) const { return types_[id < types_.size() ? id : missing_]; }

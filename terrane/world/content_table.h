@@ -42,6 +42,8 @@ class ContentTable {
 
     const toml::node* node(std::string_view key) const { return table_.get(key); }
     int line() const { return lineOf(table_); }
+    // A table inside this one, whose errors join those of this one.
+    ContentTable inner(const toml::table& table) const { return ContentTable(table, file_, error_); }
 
     void wrong(int line, std::string_view key, std::string_view what);
     void expected(const toml::node& node, std::string_view key, std::string_view what);
@@ -89,7 +91,7 @@ class ContentTable {
             result.fill(read(*found, key));
             return result;
         }
-        ContentTable(*inner, file_, error_).rejectUnknown(names, fmt::format("{}.", key));
+        this->inner(*inner).rejectUnknown(names, fmt::format("{}.", key));
         for (std::size_t n = 0; n < N; ++n)
             if (const toml::node* value = inner->get(names[n]))
                 result[n] = read(*value, fmt::format("{}.{}", key, names[n]));

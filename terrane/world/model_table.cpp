@@ -25,8 +25,11 @@ std::shared_ptr<const BlockModel> ModelTable::modelOf(const ShapePtr& shape) {
     auto model = std::make_shared<BlockModel>();
     model->stateMask = formMask(*shape);
     model->isBulky = filledParts(shape->boxes) >= kBulkyParts;
-    for (unsigned state = 0; state <= model->stateMask; ++state)
-        model->forms.push_back(formOf(boxesOf(*shape, static_cast<std::uint16_t>(state & model->stateMask))));
+    for (unsigned state = 0; state <= model->stateMask; ++state) {
+        const unsigned form = state & model->stateMask;  // that of a lower state where other bits are set
+        model->forms.push_back(form < state ? model->forms[form]
+                                            : formOf(boxesOf(*shape, static_cast<std::uint16_t>(form))));
+    }
     known = std::move(model);
     return known;
 }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "terrane/world/block_model.h"
-#include "terrane/world/shape_parser.h"
 
 namespace terrane::world {
 

@@ -13,8 +13,6 @@
 
 namespace terrane::world {
 
-using ShapePtr = std::shared_ptr<const ShapeDescription>;
-
 // `tables` may be null. Names must not be among `taken`. What is wrong goes to `error`.
 std::vector<ShapePtr> readShapes(const toml::array* tables, std::span<const std::string_view> taken,
                                  std::string_view file, std::optional<std::string>& error);

@@ -259,9 +259,9 @@ TEST_F(OwnBehaviors, OnesThatNeverEndAreCutOff) {
 
 TEST(BehaviorTable, ABehaviorTakesThePlaceOfOneWithItsName) {
     BehaviorTable behaviors = builtInBehaviors();
-    const std::size_t count = behaviors.behaviors().size();
+    const std::size_t count = behaviors.names().size();
     behaviors.add({.name = "falling"});
-    EXPECT_EQ(behaviors.behaviors().size(), count);
+    EXPECT_EQ(behaviors.names().size(), count);
     EXPECT_FALSE(behaviors.find("falling")->neighborChanged);
     EXPECT_TRUE(builtInBehaviors().find("falling")->neighborChanged);
     EXPECT_EQ(behaviors.find("nothing"), nullptr);

@@ -21,10 +21,10 @@ std::string errorOf(std::string_view toml) {
 }
 
 BlockDescription only(std::string_view toml) {
-    const auto blocks = parseBlocks(toml, "blocks.toml");
-    EXPECT_TRUE(blocks) << (blocks ? "" : blocks.error().message);
-    if (!blocks || blocks->size() != 1) return {};
-    return blocks->front();
+    const auto file = parseBlocks(toml, "blocks.toml");
+    EXPECT_TRUE(file) << (file ? "" : file.error().message);
+    if (!file || file->blocks.size() != 1) return {};
+    return file->blocks.front();
 }
 
 struct BadLine {
@@ -89,10 +89,11 @@ TEST(BlockParser, BadLines) {
         {"wave_height = 0.1",
          "blocks.toml:5: wave_height: expected wave_height only with the shape liquid and animation = "
          "\"liquid_surface\", got 0.1"},
-        {"behaviors = \"falling\"", "blocks.toml:5: behaviors: expected an array of names, got \"falling\""},
+        {"behaviors = \"falling\"",
+         "blocks.toml:5: behaviors: expected an array of names and tables, got \"falling\""},
         {"behaviors = [\"plant\",\n \"flies\"]",
          "blocks.toml:6: behaviors: expected one of plant, crop, falling, container, flows, stands, leans, "
-         "stands_or_leans, connects, opens, door, sign, got \"flies\""},
+         "stands_or_leans, connects, opens, door, sign, used_becomes, touched_becomes, got \"flies\""},
         {"alpha = \"test\"", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
         {"alpha = { top = \"blend\" }", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
         {"[[block]]\nname = \"rock\"\nshape = \"cube\"\ntexture = \"rock\"",
@@ -317,9 +318,9 @@ TEST(BlockParser, BoxesOfShapes) {
 }
 
 TEST(BlockParser, EmptyFileHasNoBlocks) {
-    const auto blocks = parseBlocks("# nothing\n", "blocks.toml");
-    ASSERT_TRUE(blocks);
-    EXPECT_TRUE(blocks->empty());
+    const auto file = parseBlocks("# nothing\n", "blocks.toml");
+    ASSERT_TRUE(file);
+    EXPECT_TRUE(file->blocks.empty());
 }
 
 }  // namespace

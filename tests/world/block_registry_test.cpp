@@ -1,5 +1,6 @@
 #include "terrane/world/block_registry.h"
 
+#include "terrane/world/block_description.h"
 #include "terrane/world/block_model.h"
 
 #include <gtest/gtest.h>
@@ -349,6 +350,24 @@ TEST(Content, MaterialsAreUnique) {
         for (std::size_t b = a + 1; b < materials.size(); ++b) EXPECT_FALSE(materials[a] == materials[b]);
     const std::set<std::string> textures(content().textures().begin(), content().textures().end());
     EXPECT_EQ(textures.size(), content().textures().size());
+}
+
+// Made by a program, without a file.
+TEST(BlockRegistry, IsMadeFromDescriptions) {
+    BlockDescription stone;
+    stone.type.name = "mine:stone";
+    stone.type.emission = {0, 7, 0};
+    stone.faces.fill({.texture = "mine:stone"});
+    const auto blocks = BlockRegistry::fromDescriptions({stone}, "program");
+    ASSERT_TRUE(blocks) << blocks.error().message;
+    ASSERT_NE(blocks->find("mine:stone"), nullptr);
+    EXPECT_EQ(blocks->find("mine:stone")->emission[1], 7);
+    EXPECT_TRUE(blocks->find("mine:stone")->opaqueCube);
+    EXPECT_EQ(blocks->textures()[0], "mine:stone");
+    stone.file = "program";
+    const auto twice = BlockRegistry::fromDescriptions({stone, stone}, "program");
+    ASSERT_FALSE(twice);
+    EXPECT_EQ(twice.error().message, "program:0: name: expected a name not used before, got \"mine:stone\"");
 }
 
 }  // namespace

@@ -1,0 +1,43 @@
+// Block types before they have numbers: a description names its textures, and blocks that its behaviors name.
+// Read from a file (block_parser.h), or made by a program; BlockRegistry::fromDescriptions() makes types of
+// them. Plain values.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "terrane/world/behavior_template.h"
+#include "terrane/world/block_model.h"
+#include "terrane/world/block_type.h"
+
+namespace terrane::world {
+
+// What one face looks like.
+struct FaceLook {
+    std::string texture;
+    AlphaMode alpha = AlphaMode::Unused;
+    bool twoSided = false;
+    Wrap wrap = Wrap::Quad;
+    Filtering filtering = Filtering::Option;
+    bool tinted = false;
+};
+
+struct BlockDescription {
+    BlockType type;  // all but id and materials
+    std::array<FaceLook, kFaceCount> faces;
+    std::vector<FaceLook> growth;  // of all faces, youngest stage first
+    Animation animation = Animation::None;
+    ShapePtr shape;                   // of Shape::Model
+    std::vector<BehaviorCall> calls;  // behaviors with arguments; block names as the file has them
+    std::string file;                 // for messages; of a program: its name
+    int line = 0;                     // of its table in the file
+};
+
+// A cube that hides what touches it: no face lets the eye through.
+bool isOpaqueCube(const BlockDescription& block);
+
+// The boxes a shape fills where the file names none.
+Box shapeBox(Shape shape);
+
+}  // namespace terrane::world
