@@ -164,8 +164,9 @@ base::Result<int> build(const std::string& path, BlockPos middle) {
     auto blocks = std::make_unique<const world::BlockRegistry>(std::move(*loaded));
     store::WorldRequest request;
     request.access = store::WorldAccess::ReadWrite;
-    request.create = store::WorldIdentity{kSeed, kGenerator, gen::generatorVersion(kGenerator)};
-    request.versionOf = gen::generatorVersion;
+    request.create =
+        store::WorldIdentity{kSeed, kGenerator, gen::versionOf(gen::builtInGenerators(), kGenerator)};
+    request.versionOf = [](std::string_view name) { return gen::versionOf(gen::builtInGenerators(), name); };
     auto opened = store::openWorld(store::worldLocation(path), *blocks, request);
     if (!opened) return tl::unexpected(opened.error());
     auto generators = gen::makeLevelGenerators(kGenerator, *blocks, kSeed);

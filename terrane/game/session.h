@@ -121,7 +121,7 @@ class Session {
     EditResult editAhead(const EditCommand& command);
 
     // They refer to each other: destroyed in reverse order.
-    std::unique_ptr<const world::BlockRegistry> blocks_;
+    std::shared_ptr<const world::BlockRegistry> blocks_;
     world::BlockRegistry farBlocks_;
     light::LightTable lights_;
     gen::LevelGenerators generators_;

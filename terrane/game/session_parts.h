@@ -20,7 +20,7 @@ namespace terrane::game {
 
 // What a session is made of.
 struct SessionParts {
-    std::unique_ptr<const world::BlockRegistry> blocks;  // stays where it is: others refer to it
+    std::shared_ptr<const world::BlockRegistry> blocks;  // stays where it is: others refer to it
     gen::LevelGenerators generators;                     // has level 0
     std::unique_ptr<store::ChunkStore> store;
     unsigned threads = 1;         // workers

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "terrane/gen/branch_depth.h"
 #include "terrane/gen/program.h"
 #include "terrane/gen/tint_graph.h"
 
@@ -37,6 +38,10 @@ std::uint32_t GeneratorBuilder::newField(std::string_view name, Type type) {
 
 void GeneratorBuilder::setTint(std::uint32_t field, Type type) {
     if (tint_) errors_.push_back("tint is given twice");
+    if (field >= generator_.fields.size()) {
+        errors_.push_back("tint: this generator has no such field");
+        return;
+    }
     if (type != Type::Int) {
         errors_.push_back(fmt::format("tint: field \"{}\" holds no packed colors, which are Int",
                                       generator_.fields[field].name));
@@ -133,6 +138,16 @@ void GeneratorBuilder::checkRegisters() {
     for (const DrainageGraph& map : generator_.drainages) check(map.heights, map.noises);
 }
 
+// Before anything that calls itself for each level of branches.
+void GeneratorBuilder::checkBranches(const GeneratorGraph& generator) {
+    const auto check = [this](const PassGraph& pass) {
+        if (std::string mistake = branchMistake(pass); !mistake.empty())
+            errors_.push_back(std::move(mistake));
+    };
+    for (const PassGraph& pass : generator.passes) check(pass);
+    for (const DrainageGraph& map : generator.drainages) check(map.heights);
+}
+
 base::Result<GeneratorGraph> GeneratorBuilder::finish() {
     if (generator_.passes.empty() || !generator_.passes.back().is3D) {
         errors_.push_back("the last pass must be a 3D pass");
@@ -143,10 +158,14 @@ base::Result<GeneratorGraph> GeneratorBuilder::finish() {
                                           last.name, generator_.fields[f.field].name));
         }
     }
+    if (errors_.empty()) checkBranches(generator_);
     if (errors_.empty()) checkRegisters();
     if (errors_.empty() && tint_) {
         if (const std::string mistake = cutTint(generator_, *tint_); !mistake.empty())
             errors_.push_back(mistake);
+        // Without the outputs that it cuts out, nodes stand deeper.
+        if (errors_.empty()) checkBranches(generator_);
+        if (errors_.empty()) checkBranches(generator_.tint->passes);
     }
     if (errors_.empty()) makeShapeTable();
     if (!errors_.empty()) {

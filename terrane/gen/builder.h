@@ -65,6 +65,11 @@ class GeneratorBuilder {
     // A shape that passes can stamp. Its number: 0, 1, 2 … in the order of the calls, at most kMaxShapes.
     int shape(const VoxelShape& shape);
 
+    // Those so far, one line each: for who can name the line of the call that made one (terrane/lua).
+    const std::vector<std::string>& mistakes() const { return errors_; }
+    // The generator as far as it is recorded. It makes sense where there are no mistakes.
+    const GeneratorGraph& recorded() const { return generator_; }
+
     [[nodiscard]] base::Result<GeneratorGraph> finish();
 
   private:
@@ -78,6 +83,7 @@ class GeneratorBuilder {
     NoiseCall checkedNoise(Pass& pass, std::string_view kind, NoiseCall call);
     std::uint32_t noiseIndex(const NoiseCall& call);
     std::uint32_t hashSlot(const std::string& seedName);
+    void checkBranches(const GeneratorGraph& generator);
     void checkRegisters();
     void makeShapeTable();
 

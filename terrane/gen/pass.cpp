@@ -53,6 +53,10 @@ int Pass::step() const {
     return generator_.step();
 }
 
+const std::vector<std::string>& Pass::mistakes() const {
+    return generator_.mistakes();
+}
+
 Block Pass::block(std::string_view name) {
     if (name == "air") return Block(world::kAir);
     const world::BlockType* type = generator_.blocks_.find(name);
@@ -125,6 +129,7 @@ bool Pass::claimField(std::uint32_t field) {
 }
 
 void Pass::setField(std::uint32_t field, [[maybe_unused]] Type type, Value value) {
+    if (!requireField(field)) return;
     const FieldInfo& info = generator_.generator_.fields[field];
     assert(info.type == type && "a field's type is part of its C++ type");
     if (graph_.is3D) return error(fmt::format("field \"{}\": 3D passes write fields with setAt", info.name));
@@ -135,8 +140,8 @@ void Pass::setField(std::uint32_t field, [[maybe_unused]] Type type, Value value
 }
 
 void Pass::setFieldAt(std::uint32_t field, Type type, Int atZ, Value value) {
+    if (!requireField(field) || !require3D("setAt")) return;
     const std::string name = generator_.generator_.fields[field].name;
-    if (!require3D("setAt")) return;
     if (branchDepth_ > 0) return error(fmt::format("field \"{}\": setAt stands inside if_ or while_", name));
     if (generator_.generator_.fields[field].writtenBy == number_) {
         return error(fmt::format("field \"{}\" is set twice", name));

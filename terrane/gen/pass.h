@@ -108,6 +108,10 @@ class Pass {
     // of one it has its foot, at height `base`. Where shapes meet, stamp_tile.h says which stays.
     Block stamp(Field<Int> shape, Field<Int> base);
 
+    // Of the builder that the pass belongs to, so far.
+    const std::vector<std::string>& mistakes() const;
+    std::size_t nodeCount() const { return graph_.graph.size(); }
+
   private:
     template <class T>
     friend class Var;
@@ -138,6 +142,7 @@ class Pass {
     bool claimField(std::uint32_t field);
     void checkOffset(std::string_view what, IVec2 offset);
     bool require3D(std::string_view what);
+    bool requireField(std::uint32_t field);
     bool requireWritten(std::uint32_t field);
     bool requireBlocks();
     void error(std::string_view message);

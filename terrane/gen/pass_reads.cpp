@@ -6,7 +6,15 @@
 
 namespace terrane::gen {
 
+// A field of another generator may have a number beyond those of this one.
+bool Pass::requireField(std::uint32_t field) {
+    const bool isThere = field < generator_.generator_.fields.size();
+    if (!isThere) error("this generator has no such field");
+    return isThere;
+}
+
 bool Pass::requireWritten(std::uint32_t field) {
+    if (!requireField(field)) return false;
     const FieldInfo& info = generator_.generator_.fields[field];
     const bool earlier = info.writtenBy >= 0 && info.writtenBy < number_;
     if (!earlier) error(fmt::format("field \"{}\" is read, but no earlier pass writes it", info.name));
@@ -35,6 +43,7 @@ void Pass::checkOffset(std::string_view what, IVec2 offset) {
 
 Value Pass::readFieldAt(std::uint32_t field, Type type, IVec2 offset) {
     requireWritten(field);
+    if (!requireField(field)) return {nullptr, 0};
     checkOffset(fmt::format("field \"{}\"", generator_.generator_.fields[field].name), offset);
     return readColumn(field, type, nearestColumn(offset));
 }

@@ -108,12 +108,16 @@ std::string shapeMistake(const VoxelShape& shape, const world::BlockRegistry& bl
         if (isTaken[at]) return fmt::format("voxel ({}, {}, {}) is there twice", v.x, v.y, v.z);
         isTaken[at] = true;
     }
+    const auto isFoot = [](const ShapeVoxel& v) { return v.x == 0 && v.y == 0; };
+    if (std::none_of(shape.voxels.begin(), shape.voxels.end(), isFoot)) {
+        return "has no voxel at x = y = 0, its foot, which wide columns join the rest to";
+    }
     return "";
 }
 
 void addShape(ShapeTable& table, const VoxelShape& shape, int level, const world::BlockRegistry& blocks) {
     const std::vector<Voxel> voxels = voxelsByRank(coarsened(shape, level), blocks);
-    assert(!voxels.empty());
+    assert(!voxels.empty() && "shapeMistake demands a foot, which every level keeps");
     ShapeRecord record;
     std::size_t next = 0;
     for (int rank = 0; rank <= kMaxShapeRank; ++rank) {

@@ -18,13 +18,13 @@ namespace {
 using testing::HasSubstr;
 
 TEST(Catalogue, NamesTheGeneratorsThatComeWithTerrane) {
-    const std::vector<std::string> names = generatorNames();
+    const std::vector<std::string> names = namesOf(builtInGenerators());
     EXPECT_THAT(names, testing::IsSupersetOf({"overworld", "flat"}));
     EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size()) << "each name once";
 }
 
 TEST(Catalogue, EveryGeneratorIsWithoutMistakes) {
-    for (const std::string& name : generatorNames()) {
+    for (const std::string& name : namesOf(builtInGenerators())) {
         const auto graph = makeGenerator(name, contentBlocks());
         ASSERT_TRUE(graph.has_value()) << graph.error().message;
         EXPECT_EQ(graph->name, name);
@@ -37,7 +37,8 @@ TEST(Catalogue, AnUnknownNameListsTheKnownOnes) {
     const auto graph = makeGenerator("underworld", contentBlocks());
     ASSERT_FALSE(graph.has_value());
     EXPECT_THAT(graph.error().message, HasSubstr("unknown generator \"underworld\""));
-    for (const std::string& name : generatorNames()) EXPECT_THAT(graph.error().message, HasSubstr(name));
+    for (const std::string& name : namesOf(builtInGenerators()))
+        EXPECT_THAT(graph.error().message, HasSubstr(name));
 }
 
 // So many chunks by the names of their blocks: the ids may change with the content file.
@@ -67,14 +68,14 @@ TEST(Catalogue, AVersionAlwaysMakesTheSameBlocks) {
                                                   {"flat", {1, "4d68fdbedf2c769f7ee583e97eec48d1"}},
                                                   {"hills3d", {1, "80f368ad4c46696c44247587b0ba3ac9"}},
                                                   {"voronoi", {1, "4b6e6a3b3283b87d7c6373b014117425"}}};
-    for (const std::string& name : generatorNames()) {
+    for (const std::string& name : namesOf(builtInGenerators())) {
         const std::string digest = digestOf(name, 0, 20);
         ASSERT_TRUE(pinned.contains(name)) << name << " is new: pin its digest " << digest;
         EXPECT_EQ(digest, pinned.at(name).digest)
             << "the generator " << name
             << " makes other blocks than before: raise its version in catalogue.cpp, "
             << "or saves mix chunks that do not fit together, and pin version and digest here";
-        EXPECT_EQ(generatorVersion(name), pinned.at(name).version)
+        EXPECT_EQ(versionOf(builtInGenerators(), name), pinned.at(name).version)
             << name << " has a new version: pin it here, with its digest";
     }
 }
@@ -105,7 +106,7 @@ TEST(Catalogue, AVersionAlwaysMakesTheSameTiles) {
         {"voronoi",
          "75aa40 4d5898 6ddf40 a068ba 44e6cd 4581b1 17a265 17a265 17a265 17a265 17a265 17a265 17a265 17a265 "
          "17a265"}};
-    for (const std::string& name : generatorNames()) {
+    for (const std::string& name : namesOf(builtInGenerators())) {
         const std::string digests = farDigestsOf(name);
         EXPECT_TRUE(pinned.contains(name)) << name << " is new: pin its digests " << digests;
         if (!pinned.contains(name)) continue;

@@ -73,7 +73,7 @@ TEST(GenerateDown, LayersAreThoseOfTheWholeChunk) {
 #else
     constexpr int kChunks = 1;
 #endif
-    for (const std::string& name : generatorNames())
+    for (const std::string& name : namesOf(builtInGenerators()))
         for (int level = 0; level <= world::kMaxLevel; ++level) {
             SCOPED_TRACE(name + ", level " + std::to_string(level));
             auto graph = makeGenerator(name, contentBlocks(), level);

@@ -191,7 +191,7 @@ TEST(Stamps, TooManyShapesAreRefused) {
             VoxelShape shape = {"post", {{"stone", 1}}, {{0, 0, 0, 0}}};
             if (size > 0) {
                 const auto low = static_cast<std::int8_t>(-size);
-                shape.voxels = {{low, low, -8, 0}, {size, size, 48, 0}};
+                shape.voxels = {{low, low, -8, 0}, {0, 0, 0, 0}, {size, size, 48, 0}};
             }
             for (int k = 0; k < count; ++k) g.shape(shape);
             g.pass2D("feet", [&](Pass& p) { p.set(number, Int(0)); });

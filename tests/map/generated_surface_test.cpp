@@ -16,7 +16,7 @@ constexpr int kChunks = 4;
 
 TEST(GeneratedSurface, IsThatOfTheWholeChunk) {
     std::mt19937 random(5);
-    for (const std::string& name : gen::generatorNames()) {
+    for (const std::string& name : gen::namesOf(gen::builtInGenerators())) {
         const gen::LevelGenerators& generators = generatorsOf(name);
         const int chunks = name == "hills3d" || name == "voronoi" ? kChunks / 4 : kChunks;
         for (int k = 0; k < chunks * (world::kMaxLevel + 1); ++k) {

@@ -20,8 +20,8 @@ using world::ChunkPos;
 class MapSiteTest : public testing::Test {
   protected:
     MapSiteParts parts(const std::string& generator) {
-        store_ = std::make_unique<store::MemoryStore>(
-            store::WorldIdentity{map::kMapSeed, generator, gen::generatorVersion(generator)});
+        store_ = std::make_unique<store::MemoryStore>(store::WorldIdentity{
+            map::kMapSeed, generator, gen::versionOf(gen::builtInGenerators(), generator)});
         MapSiteParts parts{.generators = map::generatorsOf(generator),
                            .blocks = contentBlocks(),
                            .textures = textures_,

@@ -2,54 +2,63 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "terrane/base/nearest_name.h"
 
 namespace terrane::gen {
 namespace {
 
-struct Entry {
-    std::string_view name;
-    int version;  // one more with every change that changes a block; catalogue_test.cpp tells
-    void (*write)(GeneratorBuilder&);
-};
+CatalogueEntry builtIn(std::string name, int version, void (*write)(GeneratorBuilder&)) {
+    const auto record = [name, write](const world::BlockRegistry& blocks, int level) {
+        GeneratorBuilder builder(name, blocks, level);
+        write(builder);
+        return builder.finish();
+    };
+    return {name, version, record};
+}
 
-constexpr Entry kGenerators[] = {{"overworld", 2, writeOverworld},
-                                 {"continents", 1, writeContinents},
-                                 {"flat", 1, writeFlat},
-                                 {"hills3d", 1, writeHills3D},
-                                 {"voronoi", 1, writeVoronoi}};
+const CatalogueEntry* find(const GeneratorCatalogue& catalogue, std::string_view name) {
+    const auto found = std::ranges::find(catalogue, name, &CatalogueEntry::name);
+    return found == catalogue.end() ? nullptr : &*found;
+}
 
 }  // namespace
 
-std::vector<std::string> generatorNames() {
+// Versions are one more with every change that changes a block; catalogue_test.cpp tells.
+const GeneratorCatalogue& builtInGenerators() {
+    static const GeneratorCatalogue catalogue = {
+        builtIn("overworld", 2, writeOverworld), builtIn("continents", 1, writeContinents),
+        builtIn("flat", 1, writeFlat), builtIn("hills3d", 1, writeHills3D),
+        builtIn("voronoi", 1, writeVoronoi)};
+    return catalogue;
+}
+
+std::vector<std::string> namesOf(const GeneratorCatalogue& catalogue) {
     std::vector<std::string> names;
-    for (const Entry& entry : kGenerators) names.emplace_back(entry.name);
+    for (const CatalogueEntry& entry : catalogue) names.push_back(entry.name);
     return names;
 }
 
-int generatorVersion(std::string_view name) {
-    for (const Entry& entry : kGenerators)
-        if (entry.name == name) return entry.version;
-    return 0;
+int versionOf(const GeneratorCatalogue& catalogue, std::string_view name) {
+    const CatalogueEntry* entry = find(catalogue, name);
+    return entry ? entry->version : 0;
 }
 
 base::Result<GeneratorGraph> makeGenerator(std::string_view name, const world::BlockRegistry& blocks,
-                                           int level) {
-    for (const Entry& entry : kGenerators) {
-        if (entry.name != name) continue;
-        GeneratorBuilder builder(std::string(name), blocks, level);
-        entry.write(builder);
-        return builder.finish();
-    }
-    const std::vector<std::string> names = generatorNames();
+                                           int level, const GeneratorCatalogue& catalogue) {
+    if (const CatalogueEntry* entry = find(catalogue, name)) return entry->record(blocks, level);
+    const std::vector<std::string> names = namesOf(catalogue);
     return base::fail("unknown generator \"{}\": known are {}{}", name, fmt::join(names, ", "),
                       base::didYouMean(name, names));
 }
 
 base::Result<LevelGenerators> makeLevelGenerators(std::string_view name, const world::BlockRegistry& blocks,
-                                                  std::uint64_t seed) {
-    LevelGenerators made(
-        [name = std::string(name), &blocks](int level) { return makeGenerator(name, blocks, level); }, seed);
+                                                  std::uint64_t seed, const GeneratorCatalogue& catalogue) {
+    const CatalogueEntry* entry = find(catalogue, name);
+    if (!entry) return tl::unexpected(makeGenerator(name, blocks, 0, catalogue).error());
+    LevelGenerators made([record = entry->record, &blocks](int level) { return record(blocks, level); },
+                         seed);
     if (auto first = made.at(0); !first) return tl::unexpected(first.error());
     return made;
 }

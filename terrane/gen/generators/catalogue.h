@@ -1,6 +1,8 @@
-// The generators that come with Terrane, by name. Any thread; each call has a builder of its own.
+// Generators by name: those that come with Terrane, and those that a program adds, such as scripts of packs.
+// Any thread; each call has a builder of its own.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,19 +13,33 @@
 
 namespace terrane::gen {
 
-std::vector<std::string> generatorNames();
+struct CatalogueEntry {
+    std::string name;
+    // The same name and version make the same blocks: saves hold both. At least 1.
+    int version = 1;
+    // Records the graph of one level.
+    std::function<base::Result<GeneratorGraph>(const world::BlockRegistry& blocks, int level)> record;
+};
 
-// The same name and version make the same blocks: saves hold both. 0 for an unknown name.
-int generatorVersion(std::string_view name);
+// Names are unique. A plain value.
+using GeneratorCatalogue = std::vector<CatalogueEntry>;
+
+const GeneratorCatalogue& builtInGenerators();
+
+std::vector<std::string> namesOf(const GeneratorCatalogue& catalogue);
+
+// 0 for an unknown name.
+int versionOf(const GeneratorCatalogue& catalogue, std::string_view name);
 
 // The graph of one level. An unknown name is an error that lists the known ones.
-[[nodiscard]] base::Result<GeneratorGraph> makeGenerator(std::string_view name,
-                                                         const world::BlockRegistry& blocks, int level = 0);
+[[nodiscard]] base::Result<GeneratorGraph> makeGenerator(
+    std::string_view name, const world::BlockRegistry& blocks, int level = 0,
+    const GeneratorCatalogue& catalogue = builtInGenerators());
 
 // The same for all levels of a world. The block types outlive it.
-[[nodiscard]] base::Result<LevelGenerators> makeLevelGenerators(std::string_view name,
-                                                                const world::BlockRegistry& blocks,
-                                                                std::uint64_t seed);
+[[nodiscard]] base::Result<LevelGenerators> makeLevelGenerators(
+    std::string_view name, const world::BlockRegistry& blocks, std::uint64_t seed,
+    const GeneratorCatalogue& catalogue = builtInGenerators());
 
 void writeOverworld(
     GeneratorBuilder& g);  // overworld.cpp: seas, rivers, plains, deserts, mountains, caves, plants
