@@ -1,0 +1,182 @@
+// Operators of expressions, and their comparisons, which Lua's own operators cannot be: those give booleans.
+#include <utility>
+
+#include "terrane/lua/function_tables_internal.h"
+
+namespace terrane::lua {
+namespace {
+
+using gen::Bool;
+using gen::Float;
+using gen::Int;
+
+[[noreturn]] void noOperator(std::string_view sign, Kind kind) {
+    std::string_view advice;
+    if (sign == "/" && kind == Kind::Int) advice = ": write // for whole numbers, or float(a) / b";
+    if (sign == "//" && kind == Kind::Float) advice = ": write floor(a / b)";
+    fail("{} has no operator {}{}", nameOf(kind), sign, advice);
+}
+
+template <class T, class Operation>
+int applyTo(Call& c, std::string_view sign, Operation operation) {
+    if constexpr (std::is_invocable_v<Operation, T, T>) {
+        return c.push(operation(c.get<T>(1), c.get<T>(2)));
+    } else {
+        noOperator(sign, kKindOf<T>);
+    }
+}
+
+// The operation on two values of one kind, where the kind has it.
+template <class Operation>
+int binary(Call& c, std::string_view sign, Operation operation) {
+    const Kind kind = c.commonKind({1, 2});
+    switch (kind) {
+        case Kind::Bool:
+            return applyTo<Bool>(c, sign, operation);
+        case Kind::Int:
+            return applyTo<Int>(c, sign, operation);
+        case Kind::Float:
+            return applyTo<Float>(c, sign, operation);
+        case Kind::Block:
+            return applyTo<gen::Block>(c, sign, operation);
+        case Kind::Vec2:
+            return applyTo<gen::Vec2>(c, sign, operation);
+        case Kind::Vec3:
+            return applyTo<gen::Vec3>(c, sign, operation);
+        case Kind::IVec2:
+            return applyTo<gen::IVec2>(c, sign, operation);
+        default:
+            noOperator(sign, kind);
+    }
+}
+
+bool isVector(Call& c, int argument) {
+    const Expression* e = c.expression(argument);
+    return e != nullptr && (e->kind == Kind::Vec2 || e->kind == Kind::Vec3);
+}
+
+// clang-format off
+int add(Call& c) { return binary(c, "+", [](auto a, auto b) -> decltype(a + b) { return a + b; }); }
+int subtract(Call& c) { return binary(c, "-", [](auto a, auto b) -> decltype(a - b) { return a - b; }); }
+int equal(Call& c) { return binary(c, ":eq", [](auto a, auto b) -> decltype(a == b) { return a == b; }); }
+int notEqual(Call& c) { return binary(c, ":ne", [](auto a, auto b) -> decltype(!(a == b)) { return !(a == b); }); }
+int less(Call& c) { return binary(c, ":lt", [](auto a, auto b) -> decltype(a < b) { return a < b; }); }
+int lessEqual(Call& c) { return binary(c, ":le", [](auto a, auto b) -> decltype(a <= b) { return a <= b; }); }
+int greater(Call& c) { return binary(c, ":gt", [](auto a, auto b) -> decltype(b < a) { return b < a; }); }
+int greaterEqual(Call& c) { return binary(c, ":ge", [](auto a, auto b) -> decltype(b <= a) { return b <= a; }); }
+int divide(Call& c) { return binary(c, "/", [](auto a, auto b) -> decltype(a / b) { return a / b; }); }
+int shiftLeft(Call& c) { return binary(c, "<<", [](auto a, auto b) -> decltype(a << b) { return a << b; }); }
+int shiftRight(Call& c) { return binary(c, ">>", [](auto a, auto b) -> decltype(a >> b) { return a >> b; }); }
+// clang-format on
+
+int multiply(Call& c) {
+    const bool first = isVector(c, 1), second = isVector(c, 2);
+    if (first == second) {
+        return binary(c, "*", [](auto a, auto b) -> decltype(a * b) { return a * b; });
+    }
+    const int vector = first ? 1 : 2, factor = first ? 2 : 1;
+    const Float by = c.get<Float>(factor);
+    if (c.expression(vector)->kind == Kind::Vec2) return c.push(c.get<gen::Vec2>(vector) * by);
+    return c.push(c.get<gen::Vec3>(vector) * by);
+}
+
+int negate(Call& c) {
+    const Kind kind = c.commonKind({1});
+    if (kind == Kind::Int) return c.push(-c.get<Int>(1));
+    if (kind == Kind::Float) return c.push(-c.get<Float>(1));
+    if (kind == Kind::Vec2) return c.push(c.get<gen::Vec2>(1) * Float(-1.0f));
+    if (kind == Kind::Vec3) return c.push(c.get<gen::Vec3>(1) * Float(-1.0f));
+    noOperator("-", kind);
+}
+
+int floorDivide(Call& c) {
+    const Kind kind = c.commonKind({1, 2});
+    if (kind != Kind::Int) noOperator("//", kind);
+    return c.push(gen::floorDivide(c.get<Int>(1), c.get<Int>(2)));
+}
+
+int modulo(Call& c) {
+    const Kind kind = c.commonKind({1, 2});
+    if (kind != Kind::Int) noOperator("%", kind);
+    return c.push(gen::floorModulo(c.get<Int>(1), c.get<Int>(2)));
+}
+
+int power(Call& c) {
+    const Kind kind = c.commonKind({1, 2});
+    const bool isFloat = kind == Kind::Float;
+    if (!isFloat) noOperator("^", kind);
+    return c.push(gen::pow(c.get<Float>(1), c.get<Float>(2)));
+}
+
+int bitAnd(Call& c) {
+    const Kind kind = c.commonKind({1, 2});
+    if (kind == Kind::Bool) return c.push(c.get<Bool>(1) && c.get<Bool>(2));
+    if (kind == Kind::Int) return c.push(c.get<Int>(1) & c.get<Int>(2));
+    noOperator("&", kind);
+}
+
+int bitOr(Call& c) {
+    const Kind kind = c.commonKind({1, 2});
+    if (kind == Kind::Bool) return c.push(c.get<Bool>(1) || c.get<Bool>(2));
+    if (kind == Kind::Int) return c.push(c.get<Int>(1) | c.get<Int>(2));
+    noOperator("|", kind);
+}
+
+int bitXor(Call& c) {
+    const Kind kind = c.commonKind({1, 2});
+    if (kind == Kind::Int) return c.push(c.get<Int>(1) ^ c.get<Int>(2));
+    noOperator("~", kind);
+}
+
+int bitNot(Call& c) {
+    const Kind kind = c.commonKind({1});
+    if (kind == Kind::Bool) return c.push(!c.get<Bool>(1));
+    if (kind == Kind::Int) return c.push(c.get<Int>(1) ^ Int(-1));
+    noOperator("~", kind);
+}
+
+int refuseLess(Call&) {
+    fail("< and > compare no expressions: write a:lt(b) or a:gt(b)");
+}
+
+int refuseLessEqual(Call&) {
+    fail("<= and >= compare no expressions: write a:le(b) or a:ge(b)");
+}
+
+int refuseEqual(Call&) {
+    fail("== and ~= compare no expressions: write a:eq(b) or a:ne(b)");
+}
+
+int refuseJoin(Call& c) {
+    fail(".. joins texts; this is {}", c.described(lua_isuserdata(c.L, 1) ? 1 : 2));
+}
+
+int refuseLength(Call& c) {
+    fail("# counts lists; the length of a vector is length(v); this is {}", c.described(1));
+}
+
+int refuseCall(Call& c) {
+    fail("{} is no function", c.described(1));
+}
+
+constexpr Function kOperators[] = {
+    {"__add", add},          {"__sub", subtract},      {"__mul", multiply},     {"__div", divide},
+    {"__idiv", floorDivide}, {"__mod", modulo},        {"__pow", power},        {"__unm", negate},
+    {"__band", bitAnd},      {"__bor", bitOr},         {"__bxor", bitXor},      {"__bnot", bitNot},
+    {"__shl", shiftLeft},    {"__shr", shiftRight},    {"__lt", refuseLess},    {"__le", refuseLessEqual},
+    {"__eq", refuseEqual},   {"__concat", refuseJoin}, {"__len", refuseLength}, {"__call", refuseCall}};
+
+constexpr Function kComparisons[] = {{"lt", less},         {"le", lessEqual}, {"gt", greater},
+                                     {"ge", greaterEqual}, {"eq", equal},     {"ne", notEqual}};
+
+}  // namespace
+
+std::span<const Function> operators() {
+    return kOperators;
+}
+
+std::span<const Function> comparisons() {
+    return kComparisons;
+}
+
+}  // namespace terrane::lua

@@ -1,0 +1,19 @@
+// Tables of named numbers, {size = 128, octaves = 5}, as arguments.
+#pragma once
+
+#include <initializer_list>
+#include <variant>
+
+#include "terrane/lua/call_internal.h"
+
+namespace terrane::lua {
+
+struct Option {
+    const char* name;
+    std::variant<int*, float*> value;  // int also for those declared as a whole number
+};
+
+// Sets what the table names. Throws where it names anything else.
+void readOptions(Call& c, int argument, std::initializer_list<Option> options);
+
+}  // namespace terrane::lua

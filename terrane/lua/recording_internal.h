@@ -1,0 +1,72 @@
+// The state that functions of a script share while it runs: the generator that it records, the open pass, the
+// used part of its limits. Each Lua state has one Recording. One thread.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <lua.hpp>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/gen/builder.h"
+#include "terrane/lua/budget_internal.h"
+#include "terrane/lua/expression_internal.h"
+#include "terrane/lua/script.h"
+
+namespace terrane::lua {
+
+// Finds the blocks of a registry by the names that scripts use, and keeps the names that it found.
+class BlockNames {
+  public:
+    using Aliases = std::map<std::string, std::string, std::less<>>;
+
+    // `aliases`: names in the registry, by name in the script.
+    BlockNames(const world::BlockRegistry& blocks, std::string_view pack, Aliases aliases = {})
+        : blocks_(blocks), pack_(pack), aliases_(std::move(aliases)) {}
+
+    // Returns the registry's name of a block. A block of the pack comes first. Throws ScriptError where there
+    // is none.
+    std::string find(std::string_view name);
+    // Returns the registry's names from find() and addUsed() in the order of first use, without air.
+    const std::vector<std::string>& used() const { return used_; }
+    void addUsed(std::string_view name);
+
+  private:
+    const world::BlockRegistry& blocks_;
+    std::string pack_;
+    Aliases aliases_;
+    std::vector<std::string> used_;
+};
+
+// A gen::Var without its type.
+struct Variable {
+    Kind kind;
+    std::function<gen::Value()> read;
+    std::function<void(gen::Value)> write;
+};
+
+struct Recording {
+    Recording(gen::GeneratorBuilder& generator, BlockNames& names) : builder(generator), blocks(names) {}
+
+    gen::GeneratorBuilder& builder;
+    BlockNames& blocks;
+    Budget budget{Limits{}};
+
+    // The open pass. Null outside of the functions that scripts give to pass2D, pass3D and drainage.
+    gen::Pass* pass = nullptr;
+    std::uint32_t passNumber = 0;  // counts passes from 1: values know theirs
+    std::vector<Variable> variables;
+    std::size_t passCount = 0, nodesBefore = 0;  // nodesBefore: nodes in finished passes
+    std::size_t chargedNodes = 0;                // nodes of the open pass that were counted as steps
+
+    std::vector<Kind> fields;  // by number
+    std::size_t drainageCount = 0, voxelCount = 0;
+    std::set<std::string, std::less<>> seedNames;
+    bool hasTrees = false;
+    int printedLines = 0;
+};
+
+}  // namespace terrane::lua

@@ -1,0 +1,122 @@
+#include "terrane/lua/script.h"
+
+#include <algorithm>
+
+#include "terrane/base/digest.h"
+#include "terrane/base/nearest_name.h"
+#include "terrane/gen/graph_hash.h"
+#include "terrane/lua/call_internal.h"
+#include "terrane/lua/graph_limits_internal.h"
+#include "terrane/lua/state_internal.h"
+
+namespace terrane::lua {
+
+std::string BlockNames::find(std::string_view name) {
+    if (name == "air") return std::string(name);
+    const std::string ofPack = pack_.empty() ? std::string() : fmt::format("{}:{}", pack_, name);
+    for (std::string candidate : {ofPack, std::string(name)}) {
+        if (const auto alias = aliases_.find(candidate); alias != aliases_.end()) candidate = alias->second;
+        if (candidate.empty() || blocks_.find(candidate) == nullptr) continue;
+        addUsed(candidate);
+        return candidate;
+    }
+    std::vector<std::string> known;
+    const std::string prefix = pack_ + ":";
+    for (const world::BlockType& type : blocks_.types())
+        known.push_back(type.name.starts_with(prefix) ? type.name.substr(prefix.size()) : type.name);
+    fail("unknown block \"{}\"{}", name, base::didYouMean(name, known));
+}
+
+void BlockNames::addUsed(std::string_view name) {
+    if (std::find(used_.begin(), used_.end(), name) == used_.end()) used_.emplace_back(name);
+}
+
+namespace {
+
+constexpr std::size_t kMaxScriptBytes = std::size_t{1} << 20;
+
+base::Result<gen::GeneratorGraph> record(const Script& script, const std::string& generator,
+                                         BlockNames& names, const world::BlockRegistry& blocks, int level) {
+    if (script.text.size() > kMaxScriptBytes)
+        return base::fail("{}: more than {} bytes", script.file, kMaxScriptBytes);
+    gen::GeneratorBuilder builder(generator, blocks, level);
+    Recording recording(builder, names);
+    const StatePtr state = makeState(recording);
+    if (!state) return base::fail(base::ErrorCode::OutOfResources, "{}: no memory to run it", script.file);
+    if (std::string reason = runScript(state.get(), script); !reason.empty())
+        return base::fail(base::ErrorCode::BadInput, "{}", reason);
+    // Before finish() compiles it, which takes the longest for what is too much.
+    const std::string early = builder.mistakes().empty() ? unboundedWork(builder.recorded()) : "";
+    if (!early.empty()) return base::fail(base::ErrorCode::BadInput, "{}: {}", script.file, early);
+    auto graph = builder.finish();
+    if (!graph) return base::fail(base::ErrorCode::BadInput, "{}: {}", script.file, graph.error().message);
+    if (const std::string reason = unboundedWork(*graph); !reason.empty())
+        return base::fail(base::ErrorCode::BadInput, "{}: {}", script.file, reason);
+    return graph;
+}
+
+// Names as content files may have them, for those of packs: "pack:block".
+BlockNames::Aliases aliasesOf(const std::vector<std::string>& names) {
+    BlockNames::Aliases aliases;
+    const auto isTaken = [&](const std::string& alias) {
+        return std::find(names.begin(), names.end(), alias) != names.end() ||
+               std::any_of(aliases.begin(), aliases.end(), [&](const auto& a) { return a.second == alias; });
+    };
+    for (const std::string& name : names) {
+        std::string alias = name;
+        for (char& letter : alias) {
+            const bool isAllowed =
+                (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') || letter == '_';
+            if (!isAllowed) letter = '_';
+        }
+        if (alias == name) continue;
+        while (isTaken(alias)) alias += '_';
+        aliases.emplace(name, alias);
+    }
+    return aliases;
+}
+
+// A registry with these blocks alone. What they look like makes no difference to a graph.
+base::Result<world::BlockRegistry> registryOf(const std::vector<std::string>& names,
+                                              const BlockNames::Aliases& aliases) {
+    std::string toml;
+    for (std::string name : names) {
+        if (const auto alias = aliases.find(name); alias != aliases.end()) name = alias->second;
+        if (name != "missing")
+            toml += fmt::format("[[block]]\nname = \"{}\"\nshape = \"cube\"\ntexture = \"stone\"\n", name);
+    }
+    return world::BlockRegistry::parse(toml, "blocks of a script");
+}
+
+}  // namespace
+
+base::Result<gen::GeneratorGraph> recordScript(const Script& script, const ScriptNames& names,
+                                               const world::BlockRegistry& blocks, int level) {
+    BlockNames blockNames(blocks, names.pack);
+    return record(script, names.generator, blockNames, blocks, level);
+}
+
+base::Result<int> scriptVersion(const Script& script, const ScriptNames& names,
+                                const world::BlockRegistry& blocks) {
+    // Level 0 decides what other levels record, unless the script asks for the step.
+    const int lastLevel = script.text.find("step") == std::string::npos ? 0 : world::kMaxLevel;
+    BlockNames used(blocks, names.pack);
+    for (int level = 0; level <= lastLevel; ++level)
+        if (auto first = record(script, names.generator, used, blocks, level); !first)
+            return tl::unexpected(first.error());
+    const BlockNames::Aliases aliases = aliasesOf(used.used());
+    const auto registry = registryOf(used.used(), aliases);
+    if (!registry) return tl::unexpected(registry.error());
+    std::string text;
+    for (int level = 0; level <= lastLevel; ++level) {
+        BlockNames again(*registry, names.pack, aliases);
+        const auto graph = record(script, names.generator, again, *registry, level);
+        if (!graph) return tl::unexpected(graph.error());
+        text += fmt::format("{:016x}", gen::graphHash(*graph));
+    }
+    for (const std::string& name : used.used()) text += "\n" + name;
+    const auto version = static_cast<int>(base::hash64(text) & 0x7FFFFFFFu);
+    return std::max(version, 1);
+}
+
+}  // namespace terrane::lua

@@ -1,0 +1,39 @@
+// Generators written in Lua (docs/lua.md). A script runs once for each level of detail and records a graph,
+// as gen::GeneratorBuilder does for C++; nothing of Lua runs when chunks are made.
+//
+// Used by whoever opens a world whose generator is a script. Any thread: each call has a Lua state of its
+// own. Scripts are untrusted: they reach no files, no clock and no other script, and a limit stops each of
+// memory, steps, time and what they record (limits_internal.h). The same script gives the same graph on every
+// machine.
+#pragma once
+
+#include <string>
+
+#include "terrane/base/result.h"
+#include "terrane/gen/generator_graph.h"
+#include "terrane/world/block_registry.h"
+
+namespace terrane::lua {
+
+struct Script {
+    std::string text;  // source; compiled scripts are refused
+    std::string file;  // stands in errors: "generators/isles.lua:12: unknown block "gras""
+};
+
+struct ScriptNames {
+    std::string generator;  // name of the graph
+    std::string pack;       // block "x" is "PACK:x" where the registry has it, else "x"; empty: only "x"
+};
+
+// The graph of one level, 0…world::kMaxLevel. An error is one line, "FILE:LINE: reason", or "FILE: reason"
+// where it concerns the whole generator.
+[[nodiscard]] base::Result<gen::GeneratorGraph> recordScript(const Script& script, const ScriptNames& names,
+                                                             const world::BlockRegistry& blocks, int level);
+
+// 1…2^31 − 1: a hash of what the script records (at level 0; at all levels where it names the step) and of
+// the names of its blocks. It does not depend on the other blocks of the registry, nor on names of passes,
+// comments or layout. Saves keep it as the generator's version.
+[[nodiscard]] base::Result<int> scriptVersion(const Script& script, const ScriptNames& names,
+                                              const world::BlockRegistry& blocks);
+
+}  // namespace terrane::lua

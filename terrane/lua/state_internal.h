@@ -1,0 +1,24 @@
+// A Lua state with nothing in it but what scripts may use. One thread.
+#pragma once
+
+#include <lua.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "terrane/lua/recording_internal.h"
+
+namespace terrane::lua {
+
+struct CloseState {
+    void operator()(lua_State* state) const { lua_close(state); }
+};
+using StatePtr = std::unique_ptr<lua_State, CloseState>;
+
+// The recording outlives the state, whose memory it counts. Null where there is no memory.
+StatePtr makeState(Recording& recording);
+
+// Runs the script; the reason where it does not come to its end, "FILE:LINE: reason".
+std::string runScript(lua_State* state, const Script& script);
+
+}  // namespace terrane::lua

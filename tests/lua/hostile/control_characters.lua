@@ -1,0 +1,1 @@
+error("\27[31mred\n\nlines\0end")

@@ -1,0 +1,4 @@
+::again::
+local t = {}
+t.x = 1
+goto again

@@ -1,0 +1,2 @@
+local map = g:drainage("d", {}, function(p) return 1 end)
+local x = -map
