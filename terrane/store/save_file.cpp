@@ -131,16 +131,18 @@ base::Result<void> deleteRegenerated(Database& database, const Regeneration& by)
     return metadata->put("generator_version", std::to_string(by.generatorVersion));
 }
 
-// The copy is made before anything is deleted.
+// A copy that is wanted is made before anything is deleted.
 base::Result<void> regenerate(SaveFile& file, const fs::path& path, const Regeneration& by) {
-    const fs::path backup = backupPath(path, "backup");
-    if (auto copied = file.database.backUpTo(backup); !copied) return copied;
+    const fs::path backup = by.keepsCopy ? backupPath(path, "backup") : fs::path();
+    if (by.keepsCopy)
+        if (auto copied = file.database.backUpTo(backup); !copied) return copied;
     auto transaction = Transaction::begin(file.database);
     if (!transaction) return tl::unexpected(transaction.error());
     if (auto done = deleteRegenerated(file.database, by); !done) return done;
     if (auto done = transaction->commit(); !done) return done;
-    base::logInfo("{}: regenerated{}; the world as it was is {}", path.string(),
-                  by.chunks == Regenerate::All ? "" : " but for chunks with edits", backup.string());
+    base::logInfo("{}: regenerated{}{}{}", path.string(),
+                  by.chunks == Regenerate::All ? "" : " but for chunks with edits",
+                  by.keepsCopy ? "; the world as it was is " : "", backup.string());
     return {};
 }
 
@@ -238,6 +240,31 @@ base::Result<ReadLock> lockToRead(const fs::path& path) {
                       path.string());
 }
 
+// A save of a format that is known, with what its metadata and names of blocks are read from.
+base::Result<SaveFile> openReadable(const fs::path& name) {
+    const auto own = ownPath(name);
+    if (!own) return tl::unexpected(own.error());
+    const fs::path& path = *own;
+    auto isThere = checkFile(path);
+    if (!isThere) return tl::unexpected(isThere.error());
+    if (!*isThere) return notASave(path);
+    if (auto checked = checkCompanions(path); !checked) return tl::unexpected(checked.error());
+    auto lock = lockToRead(path);
+    if (!lock) return tl::unexpected(lock.error());
+    // Without a log nothing needs to be made beside the file, which may be impossible.
+    const OpenMode mode = hasLog(path) || !lock->inUse.empty() ? OpenMode::ReadOnly : OpenMode::Immutable;
+    auto database = Database::open(path, mode);
+    if (!database) return tl::unexpected(database.error());
+    SaveFile file{std::move(lock->lock), std::move(*database), mode, false, std::move(lock->inUse)};
+    if (auto begun = file.database.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
+    auto kind = classify(file.database);
+    if (!kind) return tl::unexpected(kind.error());
+    if (*kind == SaveKind::Empty) return notASave(path);
+    if (auto same = checkSchema(file.database); !same) return tl::unexpected(same.error());
+    if (auto done = readFormat(file); !done) return tl::unexpected(done.error());
+    return file;
+}
+
 }  // namespace
 
 bool isWritable(const fs::path& path) {
@@ -282,29 +309,18 @@ base::Result<SaveFile> openToWrite(const fs::path& name, const world::BlockRegis
 }
 
 base::Result<SaveFile> openToRead(const fs::path& name, const world::BlockRegistry& registry) {
-    const auto own = ownPath(name);
-    if (!own) return tl::unexpected(own.error());
-    const fs::path& path = *own;
-    auto isThere = checkFile(path);
-    if (!isThere) return tl::unexpected(isThere.error());
-    if (!*isThere) return notASave(path);
-    if (auto checked = checkCompanions(path); !checked) return tl::unexpected(checked.error());
-    auto lock = lockToRead(path);
-    if (!lock) return tl::unexpected(lock.error());
-    // Without a log nothing needs to be made beside the file, which may be impossible.
-    const OpenMode mode = hasLog(path) || !lock->inUse.empty() ? OpenMode::ReadOnly : OpenMode::Immutable;
-    auto database = Database::open(path, mode);
-    if (!database) return tl::unexpected(database.error());
-    SaveFile file{std::move(lock->lock), std::move(*database), mode, false, std::move(lock->inUse)};
-    if (auto begun = file.database.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
-    auto kind = classify(file.database);
-    if (!kind) return tl::unexpected(kind.error());
-    if (*kind == SaveKind::Empty) return notASave(path);
-    if (auto same = checkSchema(file.database); !same) return tl::unexpected(same.error());
-    if (auto done = readFormat(file); !done) return tl::unexpected(done.error());
-    if (auto done = readContents(file, registry); !done) return tl::unexpected(done.error());
-    reportUnknown(file);
+    auto file = openReadable(name);
+    if (!file) return file;
+    if (auto done = readContents(*file, registry); !done) return tl::unexpected(done.error());
+    reportUnknown(*file);
     return file;
+}
+
+base::Result<Metadata> readSavedMetadata(const fs::path& name) {
+    auto file = openReadable(name);
+    if (!file) return tl::unexpected(file.error());
+    if (const auto names = readNamed(*file); !names) return tl::unexpected(names.error());
+    return std::move(file->metadata);
 }
 
 }  // namespace terrane::store

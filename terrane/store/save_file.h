@@ -40,6 +40,9 @@ struct SaveFile {
 [[nodiscard]] base::Result<SaveFile> openToRead(const std::filesystem::path& path,
                                                 const world::BlockRegistry& registry);
 
+// The metadata alone. Errors as openToRead().
+[[nodiscard]] base::Result<Metadata> readSavedMetadata(const std::filesystem::path& path);
+
 // Whether the save, or a new one, could be written there: the file, its folder, their file system.
 bool isWritable(const std::filesystem::path& path);
 

@@ -28,10 +28,13 @@ base::Result<Regeneration> compareWorld(const WorldIdentity& saved, const Wanted
         return base::fail(ErrorCode::Incompatible,
                           "{}: made by the generator {}, which this program does not have", where, generator);
     }
+    const bool takesAnyVersion = wanted.regenerate != Regenerate::None || wanted.followsGenerator;
     const WorldIdentity expected{wanted.seed.value_or(saved.seed), generator,
-                                 wanted.regenerate == Regenerate::None ? version : saved.generatorVersion};
+                                 takesAnyVersion ? saved.generatorVersion : version};
     if (auto same = requireSame(saved, expected, where); !same) return tl::unexpected(same.error());
-    return Regeneration{wanted.regenerate, version};
+    if (wanted.regenerate != Regenerate::None || saved.generatorVersion == version)
+        return Regeneration{wanted.regenerate, version};
+    return Regeneration{Regenerate::AllButEdited, version, false};
 }
 
 }  // namespace terrane::store

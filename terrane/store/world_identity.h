@@ -36,12 +36,16 @@ struct WantedWorld {
     std::optional<std::uint64_t> seed;
     std::optional<std::string> generator;
     Regenerate regenerate = Regenerate::None;
+    // Who works on a generator: where it has another version now, chunks without edits are made anew, and no
+    // copy is kept.
+    bool followsGenerator = false;
 };
 
 // What is to be done with a world that is taken: by which version of its generator it goes on.
 struct Regeneration {
     Regenerate chunks = Regenerate::None;
     int generatorVersion = 0;
+    bool keepsCopy = true;
 };
 
 // The version that the program has of a generator; 0: the program does not have it.

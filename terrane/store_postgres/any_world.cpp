@@ -3,10 +3,12 @@
 #include <cassert>
 #include <utility>
 
+#include "terrane/store/save_file.h"
 #include "terrane/store/sqlite_reader.h"
 #include "terrane/store/sqlite_store.h"
 #include "terrane/store_postgres/postgres_check.h"
 #include "terrane/store_postgres/postgres_store.h"
+#include "terrane/store_postgres/world_database.h"
 
 namespace terrane::store_postgres {
 namespace {
@@ -82,6 +84,12 @@ base::Result<std::unique_ptr<store::ReadableRows>> openAnyRowsToRead(const store
     return open(
         location, [&](const Address& address) { return openRowsToRead(address, blocks); },
         [&](const std::filesystem::path& path) { return store::openSqliteToRead(path, blocks); });
+}
+
+base::Result<store::Metadata> anyWorldMetadata(const store::WorldLocation& location) {
+    return open(
+        location, [&](const Address& address) { return readDatabaseMetadata(address); },
+        [&](const std::filesystem::path& path) { return store::readSavedMetadata(path); });
 }
 
 base::Result<std::unique_ptr<store::ChunkRows>> openAnyRows(const store::WorldLocation& location,

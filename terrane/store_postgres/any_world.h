@@ -22,6 +22,9 @@ std::string shownOf(const store::WorldLocation& location);
 [[nodiscard]] base::Result<store::CheckReport> checkAnyWorld(const store::WorldLocation& location,
                                                              const world::BlockRegistry& blocks);
 
+// The metadata of a world that is there. Errors as opening it to read gives them.
+[[nodiscard]] base::Result<store::Metadata> anyWorldMetadata(const store::WorldLocation& location);
+
 // The rows of a world, for a copy (store/world_copy.h).
 [[nodiscard]] base::Result<std::unique_ptr<store::ReadableRows>> openAnyRowsToRead(
     const store::WorldLocation& location, const world::BlockRegistry& blocks);

@@ -1,4 +1,5 @@
 // In a build without libpq.
+#include "terrane/store/save_file.h"
 #include "terrane/store/sqlite_reader.h"
 #include "terrane/store/sqlite_store.h"
 #include "terrane/store_postgres/any_world.h"
@@ -27,6 +28,12 @@ base::Result<std::unique_ptr<store::ReadableRows>> openAnyRowsToRead(const store
     const auto path = store::fileOf(location);
     if (!path) return tl::unexpected(path.error());
     return store::openSqliteToRead(*path, blocks);
+}
+
+base::Result<store::Metadata> anyWorldMetadata(const store::WorldLocation& location) {
+    const auto path = store::fileOf(location);
+    if (!path) return tl::unexpected(path.error());
+    return store::readSavedMetadata(*path);
 }
 
 base::Result<std::unique_ptr<store::ChunkRows>> openAnyRows(const store::WorldLocation& location,

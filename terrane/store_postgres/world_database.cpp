@@ -172,9 +172,11 @@ std::string copySql(Connection& connection, const Address& address, const std::s
     return sql;
 }
 
+// `copy`: empty for none.
 base::Result<void> copyAndDelete(Connection& connection, const Address& address,
                                  const store::Regeneration& by, const std::string& copy) {
-    if (auto copied = connection.execute(copySql(connection, address, copy)); !copied) return copied;
+    if (!copy.empty())
+        if (auto copied = connection.execute(copySql(connection, address, copy)); !copied) return copied;
     if (auto deleted = connection.execute(kDeleteWork); !deleted) return deleted;
     std::vector<Command> commands;
     if (by.chunks == Regenerate::All) {
@@ -190,12 +192,13 @@ base::Result<void> copyAndDelete(Connection& connection, const Address& address,
 }
 
 base::Result<void> regenerate(Connection& connection, const Address& address, const store::Regeneration& by) {
-    const auto copy = freeSchema(connection, address);
+    const auto copy = by.keepsCopy ? freeSchema(connection, address) : std::string();
     if (!copy) return tl::unexpected(copy.error());
     auto done = inTransaction(connection, [&] { return copyAndDelete(connection, address, by, *copy); });
     if (!done) return done;
-    base::logInfo("{}: regenerated{}; the world as it was is the schema {}", address.shown,
-                  by.chunks == Regenerate::All ? "" : " but for chunks with edits", *copy);
+    base::logInfo("{}: regenerated{}{}{}", address.shown,
+                  by.chunks == Regenerate::All ? "" : " but for chunks with edits",
+                  by.keepsCopy ? "; the world as it was is the schema " : "", *copy);
     return {};
 }
 
@@ -291,6 +294,15 @@ base::Result<WorldConnection> openToRead(const Address& address, const world::Bl
         return tl::unexpected(read.error());
     reportUnknown(opened.connection, opened.contents);
     return opened;
+}
+
+base::Result<store::Metadata> readDatabaseMetadata(const Address& address) {
+    auto connection = Connection::open(address);
+    if (!connection) return tl::unexpected(connection.error());
+    const auto format = formatOf(*connection);
+    if (!format) return tl::unexpected(format.error());
+    if (*format == 0) return base::fail(ErrorCode::NotFound, "{}: there is no world", address.shown);
+    return readMetadata(*connection);
 }
 
 base::Result<std::int64_t> readOpenings(Connection& connection) {

@@ -44,6 +44,9 @@ struct WorldConnection {
 [[nodiscard]] base::Result<WorldConnection> openToRead(const Address& address,
                                                        const world::BlockRegistry& blocks);
 
+// The metadata alone. NotFound where there is no world.
+[[nodiscard]] base::Result<store::Metadata> readDatabaseMetadata(const Address& address);
+
 // WorldContents::openings as of now.
 [[nodiscard]] base::Result<std::int64_t> readOpenings(Connection& connection);
 

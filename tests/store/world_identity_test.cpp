@@ -68,5 +68,20 @@ TEST(CompareWorld, AnotherVersionIsRefusedUnlessRegenerated) {
                 HasSubstr("generator flat, which this program does not have"));
 }
 
+// Who works on a generator: only another version regenerates chunks, and no copy is kept.
+TEST(CompareWorld, FollowsTheGeneratorWhereAsked) {
+    const WantedWorld follows{.seed = {}, .generator = {}, .followsGenerator = true};
+    const auto same = compare(follows, 3);
+    ASSERT_TRUE(same) << same.error().message;
+    EXPECT_EQ(same->chunks, Regenerate::None);
+    const auto other = compare(follows, 5);
+    ASSERT_TRUE(other) << other.error().message;
+    EXPECT_EQ(other->chunks, Regenerate::AllButEdited);
+    EXPECT_EQ(other->generatorVersion, 5);
+    EXPECT_FALSE(other->keepsCopy);
+    EXPECT_FALSE(compare({.seed = 8, .generator = {}, .followsGenerator = true}, 5));
+    EXPECT_TRUE(compare({.seed = {}, .generator = {}, .regenerate = Regenerate::All}, 5)->keepsCopy);
+}
+
 }  // namespace
 }  // namespace terrane::store
