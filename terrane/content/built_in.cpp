@@ -18,6 +18,12 @@ std::optional<std::string_view> findContent(std::string_view path) {
     return std::nullopt;
 }
 
+std::vector<BuiltInFile> builtInFiles() {
+    std::vector<BuiltInFile> files;
+    for (const base::EmbeddedFile& file : embedded::content()) files.push_back({file.path, file.data});
+    return files;
+}
+
 base::Result<world::BlockRegistry> loadBlocks(const world::BehaviorTable& behaviors) {
     const auto text = findContent("blocks.toml");
     if (!text) return base::fail("blocks.toml: not in the program");

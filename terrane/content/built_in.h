@@ -1,6 +1,9 @@
 // What is compiled in: block types and textures; for shaders see gpu/built_in_shaders.h.
 #pragma once
 
+#include <string_view>
+#include <vector>
+
 #include "terrane/base/result.h"
 #include "terrane/world/block_registry.h"
 #include "terrane/world/texture_source.h"
@@ -11,5 +14,11 @@ namespace terrane::content {
 base::Result<world::BlockRegistry> loadBlocks(
     const world::BehaviorTable& behaviors = world::builtInBehaviors());
 world::TextureSource builtInTextures();
+
+// The files that are compiled in: "pack.toml", "blocks.toml", "textures/NAME.png", "languages/CODE.toml".
+struct BuiltInFile {
+    std::string_view path, data;  // live as long as the program
+};
+std::vector<BuiltInFile> builtInFiles();
 
 }  // namespace terrane::content

@@ -100,7 +100,7 @@ std::string_view languageOfLocale(std::string_view locale) {
 std::string blockName(const Language& language, const world::BlockType& type) {
     const auto found = language.blocks.find(type.name);
     if (found != language.blocks.end()) return found->second;
-    std::string words = type.name;
+    std::string words = type.name.substr(type.name.find(':') + 1);  // without the name of its pack
     std::ranges::replace(words, '_', ' ');
     if (!words.empty() && words[0] >= 'a' && words[0] <= 'z')
         words[0] = static_cast<char>(words[0] - 'a' + 'A');

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <system_error>
 #include <vector>
 
@@ -19,39 +20,50 @@ namespace fs = std::filesystem;
 
 using Images = std::map<std::string, base::Image, std::less<>>;  // by the name of the texture
 
-base::Result<std::vector<fs::path>> pngFilesIn(const fs::path& folder) {
-    std::vector<fs::path> files;
-    std::error_code error;
+// A texture's name by its file: "stone", "isles:glow_rock".
+struct TextureFile {
+    std::string name;
+    fs::path path;
+};
+
+void addPngFiles(std::vector<TextureFile>& files, const fs::path& folder, const std::string& prefix,
+                 std::error_code& error) {
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-        if (it->path().extension() == ".png") files.push_back(it->path());
+        const fs::path& path = it->path();
+        if (path.extension() == ".png") files.push_back({prefix + path.stem().string(), path});
     }
+}
+
+// `packs`: names of content packs, each with a folder of its own.
+base::Result<std::vector<TextureFile>> pngFilesIn(const fs::path& folder,
+                                                  const std::set<std::string>& packs) {
+    std::vector<TextureFile> files;
+    std::error_code error, ignored;
+    addPngFiles(files, folder, {}, error);
+    for (const std::string& pack : packs)
+        if (fs::is_directory(folder / pack, ignored)) addPngFiles(files, folder / pack, pack + ":", error);
     if (error)
         return base::fail("{}: cannot be read as a resource pack: {}", folder.string(), error.message());
-    std::ranges::sort(files);  // the system gives them in any order
+    std::ranges::sort(files, {}, &TextureFile::path);  // the system gives them in any order
     return files;
 }
 
 base::Result<base::Image> readTexture(const fs::path& file) {
     auto image = base::readPng(file, std::int64_t{kMaxTextureSide} * kMaxTextureSide);
     if (!image) return image;
-    if (image->width != image->height || !std::has_single_bit(static_cast<unsigned>(image->width)) ||
-        image->width > kMaxTextureSide) {
-        return base::fail(
-            "{}: {} × {} pixels; a texture is square, its side a power of two from 1 to {} (there are no "
-            "strips "
-            "of frames)",
-            file.string(), image->width, image->height, kMaxTextureSide);
-    }
+    if (auto checked = checkTexture(*image, file.string()); !checked) return tl::unexpected(checked.error());
     return image;
 }
 
 base::Result<Images> readPack(const fs::path& folder, std::span<const std::string> names) {
-    const auto files = pngFilesIn(folder);
+    std::set<std::string> packs;
+    for (const std::string& name : names)
+        if (const auto colon = name.find(':'); colon != name.npos) packs.insert(name.substr(0, colon));
+    const auto files = pngFilesIn(folder, packs);
     if (!files) return tl::unexpected(files.error());
     Images images;
     std::vector<base::Error> errors;
-    for (const fs::path& file : *files) {
-        const std::string name = file.stem().string();
+    for (const auto& [name, file] : *files) {
         if (std::ranges::find(names, name) == names.end()) {
             base::logWarning("{}: not used, since no texture has this name (see terrane blocks --json)",
                              file.string());
@@ -71,15 +83,25 @@ base::Result<Images> readPack(const fs::path& folder, std::span<const std::strin
 
 }  // namespace
 
-base::Result<world::TextureSource> loadTextures(const std::string& folder,
-                                                const world::BlockRegistry& blocks) {
-    const world::TextureSource builtIn = builtInTextures();
-    if (folder.empty()) return builtIn;
+base::Result<void> checkTexture(const base::Image& image, const std::string& where) {
+    if (image.width == image.height && std::has_single_bit(static_cast<unsigned>(image.width)) &&
+        image.width <= kMaxTextureSide)
+        return {};
+    return base::fail(
+        base::ErrorCode::BadInput,
+        "{}: {} × {} pixels; a texture is square, its side a power of two from 1 to {} (there are no strips "
+        "of frames)",
+        where, image.width, image.height, kMaxTextureSide);
+}
+
+base::Result<world::TextureSource> loadTextures(const std::string& folder, const world::BlockRegistry& blocks,
+                                                const world::TextureSource& otherwise) {
+    if (folder.empty()) return otherwise;
     auto images = readPack(folder, blocks.textures());
     if (!images) return tl::unexpected(images.error());
     for (const std::string& name : blocks.textures()) {
         if (images->contains(name)) continue;
-        auto image = builtIn(name);
+        auto image = otherwise(name);
         if (!image) return tl::unexpected(image.error());
         (*images)[name] = std::move(*image);
     }

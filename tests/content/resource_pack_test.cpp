@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "terrane/content/built_in.h"
+#include "terrane/world/block_description.h"
 #include "tests/base/temp_folder.h"
 
 namespace terrane::content {
@@ -50,6 +51,23 @@ TEST_F(ResourcePack, TexturesKeepTheirSizes) {
     EXPECT_EQ(texture("stone").rgba, halves(64).rgba);
     EXPECT_EQ(texture("sand").rgba, halves(2).rgba);
     EXPECT_EQ(texture("dirt").rgba, builtInTextures()("dirt").value().rgba);
+}
+
+// Textures of a content pack lie in a folder of its name.
+TEST_F(ResourcePack, AFolderHoldsTheTexturesOfAContentPack) {
+    const auto blocks = world::BlockRegistry::fromDescriptions(
+        [] {
+            world::BlockDescription glow;
+            glow.type.name = "isles:glow";
+            glow.faces.fill({.texture = "isles:glow"});
+            return std::vector{glow};
+        }(),
+        "blocks");
+    std::filesystem::create_directories(folder_.path() / "isles");
+    add("isles/glow.png", halves(16));
+    const auto textures = loadTextures(folder_.path().string(), blocks.value());
+    ASSERT_TRUE(textures) << textures.error().message;
+    EXPECT_EQ((*textures)("isles:glow").value().rgba, halves(16).rgba);
 }
 
 TEST_F(ResourcePack, FilesThatCannotBeUsedAreNamed) {

@@ -1,0 +1,201 @@
+#include "terrane/pack/content.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <unordered_set>
+#include <utility>
+
+#include "terrane/content/built_in.h"
+#include "terrane/content/resource_pack.h"
+#include "terrane/lua/script.h"
+#include "terrane/pack/pack_order.h"
+#include "terrane/world/block_parser.h"
+
+namespace terrane::pack {
+namespace {
+
+const std::string* fileOf(const Pack& pack, std::string_view path) {
+    const auto found = pack.files.find(path);
+    return found == pack.files.end() ? nullptr : &found->second;
+}
+
+std::string texturePath(std::string_view name) {
+    return fmt::format("textures/{}.png", name);
+}
+
+// The pack's own texture, or the built-in one.
+std::string textureName(const Pack& pack, const Pack& builtIn, const std::string& name) {
+    if (name.empty() || fileOf(pack, texturePath(name))) return qualified(pack, name);
+    return fileOf(builtIn, texturePath(name)) ? name : std::string();
+}
+
+base::Result<void> qualifyTextures(const Pack& pack, const Pack& builtIn, world::BlockDescription& block) {
+    const auto qualify = [&](world::FaceLook& face) -> base::Result<void> {
+        std::string name = textureName(pack, builtIn, face.texture);
+        if (name.empty())
+            return base::fail(base::ErrorCode::BadInput,
+                              "{}:{}: texture: there is no textures/{}.png in the pack, and no built-in one",
+                              block.file, block.line, face.texture);
+        face.texture = std::move(name);
+        return {};
+    };
+    for (world::FaceLook& face : block.faces)
+        if (auto done = qualify(face); !done) return done;
+    for (world::FaceLook& face : block.growth)
+        if (auto done = qualify(face); !done) return done;
+    return {};
+}
+
+// Blocks of packs, as they are read one after the other.
+struct BlockCollector {
+    const world::BehaviorTable& behaviors;
+    std::vector<world::BlockDescription> blocks;
+    std::vector<world::ShapePtr> builtInShapes;
+};
+
+// Blocks that behaviors name are the pack's own where it has them.
+void qualifyBlocks(const Pack& pack, std::vector<world::BlockDescription>& blocks) {
+    std::unordered_set<std::string> own;
+    for (const world::BlockDescription& block : blocks) own.insert(block.type.name);
+    for (world::BlockDescription& block : blocks) {
+        block.type.name = qualified(pack, block.type.name);
+        for (world::BehaviorCall& call : block.calls)
+            for (auto& [parameter, name] : call.arguments.blocks)
+                if (own.contains(name)) name = qualified(pack, name);
+    }
+}
+
+base::Result<void> readBlocks(const Pack& pack, const Pack& builtIn, BlockCollector& collector) {
+    const std::string* text = fileOf(pack, "blocks.toml");
+    if (!text) return {};
+    auto read =
+        world::parseBlocks(*text, placeOf(pack, "blocks.toml"), collector.behaviors, collector.builtInShapes);
+    if (!read) return tl::unexpected(read.error());
+    for (world::BlockDescription& block : read->blocks)
+        if (auto done = qualifyTextures(pack, builtIn, block); !done) return done;
+    qualifyBlocks(pack, read->blocks);
+    std::ranges::move(read->blocks, std::back_inserter(collector.blocks));
+    if (&pack == &builtIn) collector.builtInShapes = std::move(read->shapes);
+    return {};
+}
+
+// Textures by the names that blocks have for them.
+world::TextureSource texturesOf(std::shared_ptr<const std::vector<Pack>> packs) {
+    return [packs = std::move(packs)](std::string_view name) -> base::Result<base::Image> {
+        const auto colon = name.find(':');
+        const std::string_view prefix = colon == name.npos ? kBuiltInPack : name.substr(0, colon);
+        const std::string path = texturePath(colon == name.npos ? name : name.substr(colon + 1));
+        for (const Pack& pack : *packs)
+            if (const std::string* data = pack.info.name == prefix ? fileOf(pack, path) : nullptr)
+                return base::decodePng(*data, placeOf(pack, path));
+        return base::fail("{}: there is none in the pack {}", path, prefix);
+    };
+}
+
+// All textures of a session lie in one array, as wide as the widest.
+constexpr std::size_t kMaxTextureBytes = std::size_t{1} << 30;
+
+// Decodes the textures of packs once, so that what is wrong with one comes to light here.
+base::Result<void> checkTextures(const std::vector<Pack>& packs, std::size_t count) {
+    std::size_t widest = 16;
+    for (const Pack& pack : packs) {
+        if (pack.info.name == kBuiltInPack) continue;
+        for (const auto& [path, data] : pack.files) {
+            if (!path.starts_with("textures/")) continue;
+            const auto image = base::decodePng(
+                data, placeOf(pack, path), std::int64_t{content::kMaxTextureSide} * content::kMaxTextureSide);
+            if (!image) return tl::unexpected(image.error());
+            if (auto checked = content::checkTexture(*image, placeOf(pack, path)); !checked) return checked;
+            widest = std::max(widest, static_cast<std::size_t>(image->width));
+        }
+    }
+    if (widest * widest * 4 * count > kMaxTextureBytes)
+        return base::fail(base::ErrorCode::BadInput,
+                          "{} textures as wide as the widest, {} pixels, take more than {} MiB", count,
+                          widest, kMaxTextureBytes >> 20);
+    return {};
+}
+
+base::Result<void> checkLanguages(const Pack& pack) {
+    for (const auto& [path, text] : pack.files)
+        if (path.starts_with("languages/"))
+            if (const auto read = content::parseLanguage(text, placeOf(pack, path)); !read)
+                return tl::unexpected(read.error());
+    return {};
+}
+
+// Packs of servers must not keep a client for minutes: a script may take 100 ms a level.
+constexpr std::chrono::seconds kLongestRecording{10};
+
+// Records each script of a pack.
+base::Result<void> addGenerators(const Pack& pack, const world::BlockRegistry& blocks,
+                                 std::chrono::steady_clock::time_point until,
+                                 gen::GeneratorCatalogue& generators) {
+    constexpr std::string_view kFolder = "generators/", kEnding = ".lua";
+    for (auto file = pack.files.lower_bound(kFolder);
+         file != pack.files.end() && file->first.starts_with(kFolder); ++file) {
+        const std::string_view path = file->first;
+        const std::string name =
+            qualified(pack, path.substr(kFolder.size(), path.size() - kFolder.size() - kEnding.size()));
+        const auto script =
+            std::make_shared<const lua::Script>(lua::Script{file->second, placeOf(pack, path)});
+        const lua::ScriptNames names{name, pack.info.name == kBuiltInPack ? std::string() : pack.info.name};
+        if (std::chrono::steady_clock::now() > until)
+            return base::fail(base::ErrorCode::BadInput, "{}: the scripts of the packs take more than {} s",
+                              placeOf(pack, path), kLongestRecording.count());
+        const auto version = lua::scriptVersion(*script, names, blocks);
+        if (!version) return tl::unexpected(version.error());
+        const auto record = [script, names](const world::BlockRegistry& registry, int level) {
+            return lua::recordScript(*script, names, registry, level);
+        };
+        generators.push_back({name, *version, record});
+    }
+    return {};
+}
+
+}  // namespace
+
+base::Result<Content> loadContent(std::vector<Pack> packs, const world::BehaviorTable& behaviors) {
+    auto builtIn = builtInPack();
+    if (!builtIn) return tl::unexpected(builtIn.error());
+    auto ordered = inOrder(std::move(*builtIn), std::move(packs));
+    if (!ordered) return tl::unexpected(ordered.error());
+    Content content;
+    content.packs = std::make_shared<const std::vector<Pack>>(std::move(*ordered));
+
+    BlockCollector collector{behaviors, {}, {}};
+    for (const Pack& pack : *content.packs)
+        if (auto read = readBlocks(pack, content.packs->front(), collector); !read)
+            return tl::unexpected(read.error());
+    auto blocks = world::BlockRegistry::fromDescriptions(std::move(collector.blocks), "blocks.toml");
+    if (!blocks) return tl::unexpected(blocks.error());
+    content.blocks = std::make_shared<const world::BlockRegistry>(std::move(*blocks));
+    if (auto checked = checkTextures(*content.packs, content.blocks->textures().size()); !checked)
+        return tl::unexpected(checked.error());
+    content.textures = texturesOf(content.packs);
+    content.generators = gen::builtInGenerators();
+    const auto until = std::chrono::steady_clock::now() + kLongestRecording;
+    for (const Pack& pack : *content.packs)
+        if (auto checked = checkLanguages(pack); !checked) return tl::unexpected(checked.error());
+    for (const Pack& pack : *content.packs)
+        if (auto added = addGenerators(pack, *content.blocks, until, content.generators); !added)
+            return tl::unexpected(added.error());
+    return content;
+}
+
+base::Result<void> addBlockNames(content::Language& language, const Content& content, std::string_view code) {
+    for (const Pack& pack : *content.packs) {
+        if (pack.info.name == kBuiltInPack) continue;  // those are in the language already
+        const std::string wanted = fmt::format("languages/{}.toml", code);
+        const std::string path = fileOf(pack, wanted) ? wanted : "languages/en.toml";
+        const std::string* text = fileOf(pack, path);
+        if (!text) continue;
+        auto read = content::parseLanguage(*text, placeOf(pack, path));
+        if (!read) return tl::unexpected(read.error());
+        for (auto& [name, shown] : read->blocks) language.blocks[qualified(pack, name)] = std::move(shown);
+    }
+    return {};
+}
+
+}  // namespace terrane::pack

@@ -1,0 +1,36 @@
+// The block types, textures and generators of a session, put together from content packs. Made on the thread
+// that starts a session; afterwards any thread reads it.
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "terrane/content/language.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/pack/pack.h"
+#include "terrane/world/block_registry.h"
+#include "terrane/world/texture_source.h"
+
+namespace terrane::pack {
+
+struct Content {
+    // In the order of loading, the built-in one first. Those whose files textures are read from.
+    std::shared_ptr<const std::vector<Pack>> packs;
+    std::shared_ptr<const world::BlockRegistry> blocks;
+    world::TextureSource textures;
+    gen::GeneratorCatalogue generators;  // the built-in ones, then scripts: "isles:floating"
+};
+
+// The built-in pack and `packs`, each after those that it requires, otherwise in the order given. Block ids
+// follow that order; saves keep names. In a pack a name means its own block, texture or shape first, then the
+// built-in one. Generators are recorded once, so that what is wrong with a script comes to light here. Errors
+// name file, line and key.
+[[nodiscard]] base::Result<Content> loadContent(
+    std::vector<Pack> packs, const world::BehaviorTable& behaviors = world::builtInBehaviors());
+
+// Adds the names that the packs have for their blocks in this language, or in English where they have none.
+[[nodiscard]] base::Result<void> addBlockNames(content::Language& language, const Content& content,
+                                               std::string_view code);
+
+}  // namespace terrane::pack

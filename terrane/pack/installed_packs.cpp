@@ -1,0 +1,87 @@
+#include "terrane/pack/installed_packs.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/pack/pack_files.h"
+#include "terrane/store/save_path.h"
+
+namespace terrane::pack {
+namespace {
+
+constexpr std::size_t kMaxRequired = 256;
+
+// A pack that is named, rather than its path, has that name: worlds and other packs find it by it.
+base::Result<Pack> readNamed(const std::string& nameOrPath) {
+    const auto path = findPack(nameOrPath, packFolders());
+    if (!path) return tl::unexpected(path.error());
+    auto read = readPack(*path);
+    const bool isNamed = isPackName(nameOrPath) && *path != std::filesystem::path(nameOrPath);
+    if (read && isNamed && read->info.name != nameOrPath)
+        return base::fail(base::ErrorCode::BadInput,
+                          "{}: this pack is called \"{}\": in the packs folder it has that name, too",
+                          path->string(), read->info.name);
+    return read;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> packFolders() {
+    const auto folder = store::dataFolder(store::savePlaces());
+    return folder ? std::vector{*folder / "packs"} : std::vector<std::filesystem::path>();
+}
+
+base::Result<std::vector<Pack>> readPacks(const std::vector<std::string>& namesOrPaths) {
+    std::vector<Pack> packs;
+    for (const std::string& nameOrPath : namesOrPaths) {
+        if (hasPack(packs, nameOrPath)) continue;  // its path was given before
+        auto read = readNamed(nameOrPath);
+        if (!read) return tl::unexpected(read.error());
+        packs.push_back(std::move(*read));
+    }
+    return packs;
+}
+
+base::Result<void> addPacks(std::vector<Pack>& packs, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+        if (hasPack(packs, name)) continue;
+        auto read = readNamed(name);
+        if (read) {
+            packs.push_back(std::move(*read));
+        } else if (read.error().code == base::ErrorCode::NotFound) {
+            base::logWarning("the world was made with the content pack \"{}\": {}", name,
+                             read.error().message);
+        } else {
+            return tl::unexpected(read.error());
+        }
+    }
+    return {};
+}
+
+base::Result<void> addRequired(std::vector<Pack>& packs) {
+    for (std::size_t k = 0; k < packs.size() && packs.size() < kMaxRequired; ++k) {
+        const std::vector<std::string> required = packs[k].info.requiredPacks;
+        for (const std::string& name : required) {
+            if (hasPack(packs, name) || name == kBuiltInPack) continue;
+            auto read = readNamed(name);
+            if (!read)
+                return base::fail(read.error().code, "{}/pack.toml: requires: {}", packs[k].where,
+                                  read.error().message);
+            packs.push_back(std::move(*read));
+        }
+    }
+    return {};
+}
+
+base::Result<Content> loadAgain(const Content& content) {
+    std::vector<std::string> paths;
+    for (const Pack& pack : *content.packs)
+        if (pack.info.name != kBuiltInPack) paths.push_back(pack.where);
+    auto packs = readPacks(paths);
+    if (!packs) return tl::unexpected(packs.error());
+    if (auto added = addRequired(*packs); !added) return tl::unexpected(added.error());
+    return loadContent(std::move(*packs));
+}
+
+}  // namespace terrane::pack

@@ -1,0 +1,145 @@
+#include "terrane/pack/pack.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "terrane/content/built_in.h"
+#include "terrane/world/content_table.h"
+
+namespace terrane::pack {
+namespace {
+
+constexpr std::string_view kInfoFile = "pack.toml";
+constexpr int kFormat = 1;
+constexpr std::size_t kMaxInfoText = 1024;  // bytes
+constexpr std::size_t kMaxListed = 64;      // authors, required packs
+
+constexpr std::array<std::string_view, 8> kInfoKeys{"format",      "name",    "version", "title",
+                                                    "description", "license", "authors", "requires"};
+
+// The name of a file without folder and ending; empty where the path is another kind of file.
+std::string_view nameIn(std::string_view path, std::string_view folder, std::string_view ending) {
+    if (!path.starts_with(folder) || !path.ends_with(ending) || path.size() <= folder.size() + ending.size())
+        return {};
+    const std::string_view name = path.substr(folder.size(), path.size() - folder.size() - ending.size());
+    const bool isName = name.size() <= kMaxFileName &&
+                        name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == name.npos;
+    return isName ? name : std::string_view();
+}
+
+std::string textOf(world::ContentTable& table, std::string_view key) {
+    const toml::node* node = table.node(key);
+    if (!node) return {};
+    const auto text = node->value_exact<std::string>();
+    if (!text || text->size() > kMaxInfoText)
+        table.expected(*node, key, fmt::format("a text of at most {} bytes", kMaxInfoText));
+    return text.value_or("");
+}
+
+std::vector<std::string> textsOf(world::ContentTable& table, std::string_view key) {
+    const toml::node* node = table.node(key);
+    if (!node) return {};
+    const toml::array* list = node->as_array();
+    std::vector<std::string> texts;
+    for (std::size_t k = 0; list && k < list->size() && k < kMaxListed; ++k)
+        if (const auto text = (*list)[k].value_exact<std::string>(); text && text->size() <= kMaxInfoText)
+            texts.push_back(*text);
+    if (!list || texts.size() != list->size())
+        table.expected(*node, key, fmt::format("at most {} texts", kMaxListed));
+    return texts;
+}
+
+void readName(world::ContentTable& table, PackInfo& info) {
+    const toml::node* name = table.node("name");
+    if (!name) return table.missing("name");
+    info.name = textOf(table, "name");
+    if (!isPackName(info.name))
+        table.expected(*name, "name", fmt::format("1 to {} of a-z, 0-9 and _", kMaxPackName));
+}
+
+base::Result<PackInfo> readInfo(const toml::table& root, std::string_view file) {
+    std::optional<std::string> error;
+    world::ContentTable table(root, file, error);
+    table.rejectUnknown(kInfoKeys);
+    PackInfo info;
+    if (const toml::node* format = table.node("format"))
+        table.numberOf(*format, "format", kFormat, kFormat);
+    else
+        table.missing("format", "format = 1");
+    readName(table, info);
+    info.version = textOf(table, "version");
+    info.title = textOf(table, "title");
+    info.description = textOf(table, "description");
+    info.license = textOf(table, "license");
+    info.authors = textsOf(table, "authors");
+    info.requiredPacks = textsOf(table, "requires");
+    for (const std::string& name : info.requiredPacks)
+        if (!isPackName(name)) table.expected(*table.node("requires"), "requires", "names of packs");
+    if (error) return base::fail(base::ErrorCode::BadInput, "{}", world::inOneLine(*error));
+    return info;
+}
+
+}  // namespace
+
+bool isPackName(std::string_view text) {
+    return !text.empty() && text.size() <= kMaxPackName &&
+           text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string_view::npos;
+}
+
+bool hasPack(const std::vector<Pack>& packs, std::string_view name) {
+    return std::ranges::any_of(packs, [&](const Pack& pack) { return pack.info.name == name; });
+}
+
+bool isPackPath(std::string_view path) {
+    return path == kInfoFile || path == "blocks.toml" || !nameIn(path, "textures/", ".png").empty() ||
+           !nameIn(path, "generators/", ".lua").empty() || !nameIn(path, "languages/", ".toml").empty();
+}
+
+base::Result<Pack> makePack(PackFiles files, std::string where) {
+    const auto info = files.find(kInfoFile);
+    if (info == files.end())
+        return base::fail(base::ErrorCode::BadInput, "{}: no content pack: there is no pack.toml", where);
+    Pack pack{{}, {}, std::move(where)};
+    const std::string file = pack.where + "/pack.toml";
+    try {
+        auto read = readInfo(toml::parse(info->second), file);
+        if (!read) return tl::unexpected(read.error());
+        pack.info = std::move(*read);
+    } catch (const toml::parse_error& error) {  // the only way this library tells of wrong syntax
+        return base::fail(base::ErrorCode::BadInput, "{}",
+                          world::inOneLine(fmt::format("{}:{}: syntax: {}", file, error.source().begin.line,
+                                                       error.description())));
+    }
+    std::size_t scripts = 0;
+    for (const auto& [path, data] : files) {
+        const bool isScript = path.ends_with(".lua");
+        const std::size_t most = isScript ? kMaxScriptBytes : kMaxTableBytes;
+        if (data.size() > most && !path.ends_with(".png"))
+            return base::fail(base::ErrorCode::BadInput, "{}/{}: more than {} KiB", pack.where, path,
+                              most >> 10);
+        if (isScript && ++scripts > kMaxGenerators)
+            return base::fail(base::ErrorCode::BadInput, "{}: more than {} generators", pack.where,
+                              kMaxGenerators);
+    }
+    pack.files = std::move(files);
+    return pack;
+}
+
+std::string placeOf(const Pack& pack, std::string_view path) {
+    return pack.where.empty() ? std::string(path) : fmt::format("{}/{}", pack.where, path);
+}
+
+std::string qualified(const Pack& pack, std::string_view name) {
+    return pack.info.name == kBuiltInPack ? std::string(name) : fmt::format("{}:{}", pack.info.name, name);
+}
+
+base::Result<Pack> builtInPack() {
+    PackFiles files;
+    for (const content::BuiltInFile& file : content::builtInFiles())
+        if (isPackPath(file.path)) files.emplace(file.path, file.data);
+    return makePack(std::move(files), "");
+}
+
+}  // namespace terrane::pack

@@ -1,0 +1,65 @@
+// A content pack: block types, textures, generators and names of blocks as files (docs/packs.md). Read from a
+// folder or a zip file (pack_files.h), or from the archive that servers send (pack_archive.h). Plain values;
+// any thread.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/base/result.h"
+
+namespace terrane::pack {
+
+// Bounds of one pack. What is read of untrusted packs stays below them.
+constexpr std::size_t kMaxFiles = 4096;
+constexpr std::size_t kMaxPackBytes = std::size_t{64} << 20;  // of all files together
+constexpr std::size_t kMaxScriptBytes = std::size_t{1} << 20;
+constexpr std::size_t kMaxTableBytes = std::size_t{4} << 20;  // of a TOML file
+constexpr std::size_t kMaxGenerators = 64;
+constexpr std::size_t kMaxFileName = 31;  // bytes, without ending: a generator's PACK:NAME has at most 64
+constexpr std::size_t kMaxPackName = 32;  // bytes
+
+// The pack that comes with the program. Its blocks and textures have no prefix.
+constexpr std::string_view kBuiltInPack = "terrane";
+
+// What pack.toml says.
+struct PackInfo {
+    std::string name;  // a-z, 0-9, _
+    std::string version;
+    std::string title, description, license;
+    std::vector<std::string> authors;
+    std::vector<std::string> requiredPacks;  // loaded before it
+};
+
+// File contents by path: "pack.toml", "textures/glow_rock.png".
+using PackFiles = std::map<std::string, std::string, std::less<>>;
+
+struct Pack {
+    PackInfo info;
+    PackFiles files;
+    std::string where;  // the folder or file, for messages
+};
+
+bool isPackName(std::string_view text);
+bool hasPack(const std::vector<Pack>& packs, std::string_view name);
+
+// Whether a file of this path belongs to packs: pack.toml, blocks.toml, textures/NAME.png,
+// generators/NAME.lua, languages/CODE.toml. Others are left out.
+bool isPackPath(std::string_view path);
+
+// Reads pack.toml. Errors read "WHERE/pack.toml:line: key: what is wrong".
+[[nodiscard]] base::Result<Pack> makePack(PackFiles files, std::string where);
+
+// The path of a file for messages: "WHERE/blocks.toml"; of the built-in pack "blocks.toml".
+std::string placeOf(const Pack& pack, std::string_view path);
+
+// The name that a block, texture or generator of the pack has outside of it: "isles:glow_rock"; of the
+// built-in pack the name itself.
+std::string qualified(const Pack& pack, std::string_view name);
+
+// The pack that comes with the program.
+[[nodiscard]] base::Result<Pack> builtInPack();
+
+}  // namespace terrane::pack

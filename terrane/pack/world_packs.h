@@ -1,0 +1,20 @@
+// The packs that a world remembers: the metadata "packs" of its save, a line "NAME VERSION HASH" each. Any
+// thread.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "terrane/pack/content.h"
+#include "terrane/store/chunk_store.h"
+#include "terrane/store/metadata.h"
+
+namespace terrane::pack {
+
+// Names, at most 256; lines that hold none are left out.
+std::vector<std::string> rememberedPacks(const store::Metadata& metadata);
+
+// Names that the world has stay: it may still have blocks of a pack that is not loaded now.
+void rememberPacks(store::ChunkStore& store, const Content& content);
+
+}  // namespace terrane::pack
