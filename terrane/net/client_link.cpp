@@ -25,6 +25,8 @@ ClientLink::ClientLink(boost::asio::io_context& context, ServerAddress address, 
 
 void ClientLink::connect() {
     stage_ = Stage::Connecting;
+    fetch_.reset();
+    hasOffer_ = false;
     triedAt_ = now_;
     SocketEvents events;
     events.opened = [this](const Bytes& channel, const std::string& serverKey) {
@@ -77,10 +79,8 @@ void ClientLink::onMessage(ByteView bytes) {
     if (const auto* refused = std::get_if<Refused>(&*message)) return onRefused(*refused);
     if (const auto* greeting = std::get_if<Greeting>(&*message))
         return say(loginOf(identity_, *greeting, channel_));
-    if (const auto* offer = std::get_if<WorldOffer>(&*message)) {
-        const auto digests = events_.prove(*offer);
-        return digests ? say(Proof{*digests}) : end(digests.error().message);
-    }
+    if (const auto* offer = std::get_if<WorldOffer>(&*message)) return onOffer(*offer);
+    if (const auto* part = std::get_if<PackPart>(&*message)) return onPackPart(*part);
     if (std::holds_alternative<Joined>(*message)) {
         stage_ = Stage::Joined;
         wasJoined_ = true;
@@ -89,6 +89,39 @@ void ClientLink::onMessage(ByteView bytes) {
     if (const auto* ping = std::get_if<Ping>(&*message)) return say(Pong{ping->time});
     if (const auto* servers = std::get_if<Servers>(&*message)) return learnServers(*servers);
     if (stage_ == Stage::Joined) events_.message(*message);
+}
+
+void ClientLink::onOffer(const WorldOffer& offer) {
+    if (std::exchange(hasOffer_, true)) return end("the server offered its world twice");
+    fetch_ = PackFetch{offer, {}, {}};
+    if (events_.missingPacks) {
+        auto missing = events_.missingPacks(offer);
+        if (!missing) return end(missing.error().message);
+        fetch_->wanted = std::move(*missing);
+    }
+    fetchOrProve();
+}
+
+void ClientLink::onPackPart(const PackPart& part) {
+    triedAt_ = now_;
+    if (!fetch_) return end("the server sent a part of a pack that was not asked for");
+    const auto isWhole = takePart(*fetch_, part);
+    if (!isWhole) return end(isWhole.error().message);
+    if (*isWhole) {
+        const Bytes archive = std::exchange(fetch_->archive, {});
+        fetch_->wanted.pop_back();
+        const auto taken = events_.packArrived(fetch_->offer.packs[part.number], archive);
+        if (!taken) return end(taken.error().message);
+    }
+    fetchOrProve();
+}
+
+void ClientLink::fetchOrProve() {
+    if (const auto ask = nextPart(*fetch_)) return say(*ask);
+    const WorldOffer offer = std::move(fetch_->offer);
+    fetch_.reset();
+    const auto digests = events_.prove(offer);
+    digests ? say(Proof{*digests}) : end(digests.error().message);
 }
 
 // A server that stops may start again: whoever was in its world waits for that.

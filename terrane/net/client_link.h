@@ -10,6 +10,7 @@
 
 #include "terrane/net/client_login.h"
 #include "terrane/net/client_socket.h"
+#include "terrane/net/pack_fetch.h"
 
 namespace terrane::net {
 
@@ -20,6 +21,11 @@ struct LinkEvents {
     // The digests of the sample chunks, or why this program cannot play there.
     std::function<base::Result<SampleDigests>(const WorldOffer&)> prove;
     std::function<void(const ServerMessage&)> message;
+    // The numbers in `packs` of the offer of those that are to be fetched first, or why this program cannot
+    // play there. An empty function: none.
+    std::function<base::Result<std::vector<std::uint8_t>>(const WorldOffer&)> missingPacks = {};
+    // One of them, as the server sent it.
+    std::function<base::Result<void>(const PackOffer&, const Bytes& archive)> packArrived = {};
 };
 
 class ClientLink {
@@ -52,6 +58,9 @@ class ClientLink {
   private:
     void connect();
     void onMessage(ByteView bytes);
+    void onOffer(const WorldOffer& offer);
+    void onPackPart(const PackPart& part);
+    void fetchOrProve();
     void onRefused(const Refused& refused);
     void onCut(const std::string& reason);
     void learnServers(const Servers& servers);
@@ -74,6 +83,8 @@ class ClientLink {
     bool isToldKey_ = false;  // a server told it
     std::optional<ClientSocket> socket_;
     Bytes channel_;
+    std::optional<PackFetch> fetch_;  // from WorldOffer to Proof
+    bool hasOffer_ = false;           // of this connection
     Stage stage_ = Stage::Waiting;
     std::string reason_;
     std::chrono::steady_clock::time_point now_{}, tryAt_{}, triedAt_{}, heardAt_{};

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::string_view kClientNames[] = {"Hello", "Login",      "Proof", "View",     "Move",
                                              "Edit",  "Fill",       "Place", "TakeBack", "Say",
-                                             "Pong",  "AskPlayers", "Leave"};
+                                             "Pong",  "AskPlayers", "Leave", "AskPack"};
 
 // What a client may do to a block; the order is the one on the wire.
 enum class ChangeKind : std::uint8_t { SetBlock, SetEntityData, UseBlock, Count };
@@ -125,6 +125,11 @@ void describe(auto& wire, Of<Pong> auto& m) {
 
 void describe(auto&, Of<AskPlayers> auto&) {}
 void describe(auto&, Of<Leave> auto&) {}
+
+void describe(auto& wire, Of<AskPack> auto& m) {
+    wire.fixed(m.number);
+    wire.fixed(m.offset);
+}
 
 constexpr auto kDescribeClient = [](auto& wire, auto& message) { describe(wire, message); };
 

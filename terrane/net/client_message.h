@@ -73,9 +73,14 @@ struct Pong {
 // Asks for PlayerList.
 struct AskPlayers {};
 struct Leave {};
+// Asks for PackPart: the next bytes of a pack of WorldOffer, by its number there. Before Proof.
+struct AskPack {
+    std::uint8_t number = 0;
+    std::uint32_t offset = 0;
+};
 
-using ClientMessage =
-    std::variant<Hello, Login, Proof, View, Move, Edit, Fill, Place, TakeBack, Say, Pong, AskPlayers, Leave>;
+using ClientMessage = std::variant<Hello, Login, Proof, View, Move, Edit, Fill, Place, TakeBack, Say, Pong,
+                                   AskPlayers, Leave, AskPack>;
 
 Bytes encode(const ClientMessage& message);
 // Any bytes may be given: what is no message is an error that names the one it should be.

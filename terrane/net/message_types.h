@@ -8,7 +8,7 @@
 namespace terrane::net {
 
 constexpr std::uint32_t kMagic = 0x4E524554;  // "TERN"
-constexpr std::uint16_t kProtocolVersion = 1;
+constexpr std::uint16_t kProtocolVersion = 2;
 
 constexpr std::size_t kMaxNameBytes = 24;  // of a player or a claim
 constexpr std::size_t kMaxPasswordBytes = 128;
@@ -18,6 +18,9 @@ constexpr std::size_t kMaxGeneratorBytes = 64;  // a generator's name
 constexpr std::size_t kMaxProgramBytes = 64;    // a program's name and version
 constexpr std::size_t kMaxPlayersInMessage = 4096;
 constexpr std::size_t kMaxServersInMessage = 64;
+constexpr std::size_t kMaxPacks = 64;          // of a world
+constexpr std::size_t kMaxPackNameBytes = 64;  // and of its version
+constexpr std::size_t kMaxPackPart = 196608;   // bytes of a pack in a message
 constexpr std::size_t kMaxAddressBytes = 256;  // of a server
 constexpr std::size_t kServerKeyBytes = 64;    // hexadecimal digits
 // Of a message with its type. A structure of 32 KiB is some 10,000 blocks of a building.

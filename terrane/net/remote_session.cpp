@@ -2,17 +2,16 @@
 
 #include <utility>
 
-#include "terrane/gen/generators/catalogue.h"
-
 namespace terrane::net {
 
-base::Result<gen::Generator> offeredGenerator(const WorldOffer& offer, const world::BlockRegistry& blocks) {
+base::Result<gen::Generator> offeredGenerator(const WorldOffer& offer, const world::BlockRegistry& blocks,
+                                              const gen::GeneratorCatalogue& generators) {
     store::WorldIdentity own{offer.world.identity.seed, {}, 0};
-    auto graph = gen::makeGenerator(offer.world.identity.generator, blocks);
+    auto graph = gen::makeGenerator(offer.world.identity.generator, blocks, 0, generators);
     WorldFingerprint client{own, 0, blocksHash(blocks)};
     if (graph) {
         own.generator = offer.world.identity.generator;
-        own.generatorVersion = gen::generatorVersion(own.generator);
+        own.generatorVersion = gen::versionOf(generators, own.generator);
         client = worldFingerprint(own, *graph, blocks);
     }
     const std::string difference = differenceOf(offer.world, client);
@@ -23,10 +22,11 @@ base::Result<gen::Generator> offeredGenerator(const WorldOffer& offer, const wor
 }
 
 base::Result<RemoteSessionParts> remoteSessionParts(const store::WorldIdentity& identity,
-                                                    std::unique_ptr<const world::BlockRegistry> blocks,
-                                                    unsigned threads) {
-    auto forSession = gen::makeLevelGenerators(identity.generator, *blocks, identity.seed);
-    auto forStore = gen::makeLevelGenerators(identity.generator, *blocks, identity.seed);
+                                                    std::shared_ptr<const world::BlockRegistry> blocks,
+                                                    unsigned threads,
+                                                    const gen::GeneratorCatalogue& generators) {
+    auto forSession = gen::makeLevelGenerators(identity.generator, *blocks, identity.seed, generators);
+    auto forStore = gen::makeLevelGenerators(identity.generator, *blocks, identity.seed, generators);
     if (!forSession || !forStore) return tl::unexpected((!forSession ? forSession : forStore).error());
     auto store = std::make_unique<RemoteStore>(identity, std::move(*forStore));
     RemoteStore* const told = store.get();

@@ -72,6 +72,8 @@ struct ServerClient {
     // From Login on.
     std::string name;
     PublicKey key{};
+    std::vector<std::uint32_t> sentOfPacks;  // bytes of each, by its number in the offer
+    int packParts = 0;                       // that were sent
 
     // Of who plays.
     game::PlayerId player = game::kNoPlayer;

@@ -3,14 +3,14 @@
 #include <utility>
 
 #include "terrane/game/player_state.h"
-#include "terrane/gen/generators/catalogue.h"
 
 namespace terrane::net {
 
 base::Result<ServerHost> openServerHost(game::SessionParts parts, std::unique_ptr<ServerRecords> records,
-                                        const ServerSettings& settings, const std::string& program) {
+                                        const ServerSettings& settings, const std::string& program,
+                                        const ServerContent& content) {
     const store::WorldIdentity identity = parts.store->identity();
-    auto graph = gen::makeGenerator(identity.generator, *parts.blocks);
+    auto graph = gen::makeGenerator(identity.generator, *parts.blocks, 0, content.generators);
     if (!graph) return tl::unexpected(graph.error());
     const WorldFingerprint fingerprint = worldFingerprint(identity, *graph, *parts.blocks);
     auto people = People::read(*records);
@@ -24,8 +24,8 @@ base::Result<ServerHost> openServerHost(game::SessionParts parts, std::unique_pt
         host.session->clock.timeDay = *time;
     host.records = std::move(records);
     host.people = std::make_unique<People>(std::move(*people));
-    auto state =
-        openServer({*host.session, *host.records, *host.people, program, fingerprint}, settings, tiles);
+    auto state = openServer({*host.session, *host.records, *host.people, program, fingerprint, content.packs},
+                            settings, tiles);
     if (!state) return tl::unexpected(state.error());
     host.state = std::move(*state);
     return host;

@@ -8,6 +8,7 @@
 #include "terrane/game/spawn.h"
 #include "terrane/net/keys.h"
 #include "terrane/net/server_clients.h"
+#include "terrane/net/server_packs.h"
 #include "terrane/world/character.h"
 
 namespace terrane::net {
@@ -64,7 +65,9 @@ void refuseStranger(ServerState& server, ServerClient& client) {
 
 void offerWorld(ServerState& server, ServerClient& client) {
     client.stage = Stage::Proof;
-    send(client, WorldOffer{server.world, server.samples});
+    WorldOffer offer{server.world, server.samples, {}};
+    for (const OfferedPack& pack : server.packs) offer.packs.push_back(pack.offer);
+    send(client, offer);
 }
 
 void onLogin(ServerState& server, ServerClient& client, const Login& login) {
@@ -230,6 +233,8 @@ void onLoginMessage(ServerState& server, ServerClient& client, const ClientMessa
     const auto* proof = std::get_if<Proof>(&message);
     if (hello && client.stage == Stage::Hello) return onHello(server, client, *hello);
     if (login && client.stage == Stage::Login) return onLogin(server, client, *login);
+    if (const auto* ask = std::get_if<AskPack>(&message); ask && client.stage == Stage::Proof)
+        return onAskPack(server, client, *ask);
     if (proof && client.stage == Stage::Proof) return onProof(server, client, *proof);
     refuse(server, client, Refusal::Disorder,
            fmt::format("the message {} does not come at this time", nameOf(message)));
@@ -240,7 +245,7 @@ void updateLogins(ServerState& server) {
     if (!server.passwordCheck && !server.passwordQueue.empty()) startPasswordCheck(server);
     for (auto& [id, client] : server.clients) {
         const bool logsIn = client.stage != Stage::Playing && client.stage != Stage::Closed;
-        if (logsIn && server.now - client.openedAt > server.settings.loginWithin)
+        if (logsIn && server.now - client.openedAt > server.settings.loginWithin + timeForPacks(client))
             refuse(server, client, Refusal::Silent, "the login took too long");
     }
 }

@@ -8,9 +8,9 @@ namespace terrane::net {
 namespace {
 
 constexpr std::string_view kServerNames[] = {
-    "Greeting",     "WorldOffer", "Joined",  "Refused",    "ChunkEdits",  "BlocksChanged",
-    "ViewComplete", "Done",       "Appears", "Disappears", "Poses",       "Said",
-    "Clock",        "Corrected",  "Ping",    "PlayerList", "RoleChanged", "Servers"};
+    "Greeting", "WorldOffer", "Joined",      "Refused", "ChunkEdits", "BlocksChanged", "ViewComplete",
+    "Done",     "Appears",    "Disappears",  "Poses",   "Said",       "Clock",         "Corrected",
+    "Ping",     "PlayerList", "RoleChanged", "Servers", "PackPart"};
 
 template <class Wire, Of<double> T>
 void describeDouble(Wire& wire, T& value) {
@@ -32,6 +32,12 @@ void describe(auto& wire, Of<WorldOffer> auto& m) {
     wire.fixed(m.world.graph);
     wire.fixed(m.world.blocks);
     for (auto& pos : m.samples) describeChunkPos(wire, pos);
+    wire.list(m.packs, kMaxPacks, [&](auto& pack) {
+        wire.text(pack.name, kMaxPackNameBytes);
+        wire.text(pack.version, kMaxPackNameBytes);
+        wire.array(pack.hash);
+        wire.fixed(pack.bytes);
+    });
 }
 
 void describe(auto& wire, Of<Joined> auto& m) {
@@ -150,6 +156,12 @@ void describe(auto& wire, Of<Servers> auto& m) {
 }
 void describe(auto& wire, Of<RoleChanged> auto& m) {
     wire.choice(m.role, game::Role::Count);
+}
+
+void describe(auto& wire, Of<PackPart> auto& m) {
+    wire.fixed(m.number);
+    wire.fixed(m.offset);
+    wire.data(m.data, kMaxPackPart);
 }
 
 constexpr auto kDescribeServer = [](auto& wire, auto& message) { describe(wire, message); };

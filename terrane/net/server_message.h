@@ -25,10 +25,18 @@ struct Greeting {
     Nonce nonce{};  // of this connection
     bool needsPassword = false;
 };
+// A content pack of the world. `hash`: SHA-256 of its contents (docs/protocol.md); `bytes`: of the archive.
+struct PackOffer {
+    std::string name, version;
+    std::array<std::byte, 32> hash{};
+    std::uint32_t bytes = 0;
+    bool operator==(const PackOffer&) const = default;
+};
 // Answers Login.
 struct WorldOffer {
     WorldFingerprint world;
     SamplePositions samples{};
+    std::vector<PackOffer> packs;  // beside the built-in one, in the order of loading
 };
 struct Joined {
     game::PlayerId player = 0;
@@ -111,9 +119,16 @@ struct Servers {
     std::vector<Place> places;
 };
 
-using ServerMessage =
-    std::variant<Greeting, WorldOffer, Joined, Refused, ChunkEdits, BlocksChanged, ViewComplete, Done,
-                 Appears, Disappears, Poses, Said, Clock, Corrected, Ping, PlayerList, RoleChanged, Servers>;
+// Answers AskPack.
+struct PackPart {
+    std::uint8_t number = 0;
+    std::uint32_t offset = 0;
+    Bytes data;  // at most kMaxPackPart
+};
+
+using ServerMessage = std::variant<Greeting, WorldOffer, Joined, Refused, ChunkEdits, BlocksChanged,
+                                   ViewComplete, Done, Appears, Disappears, Poses, Said, Clock, Corrected,
+                                   Ping, PlayerList, RoleChanged, Servers, PackPart>;
 
 Bytes encode(const ServerMessage& message);
 // Any bytes may be given: what is no message is an error that names the one it should be.

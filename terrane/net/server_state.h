@@ -28,6 +28,12 @@ namespace terrane::net {
 
 constexpr std::chrono::milliseconds kServerTick{50};
 
+// A content pack of the world, as clients that lack it get it.
+struct OfferedPack {
+    PackOffer offer;
+    std::shared_ptr<const Bytes> archive;
+};
+
 // What a server is made of; everything outlives it.
 struct ServerParts {
     game::Session& session;
@@ -35,6 +41,7 @@ struct ServerParts {
     People& people;
     std::string program;           // and its version
     WorldFingerprint fingerprint;  // of the session's world
+    std::vector<OfferedPack> packs = {};
 };
 
 // Tiles that the store's thread wrote.
@@ -79,6 +86,7 @@ struct ServerState {
           records(serverParts.records),
           people(serverParts.people),
           program(serverParts.program),
+          packs(serverParts.packs),
           settings(serverSettings),
           edited({session.generators(), session.store(), session.world(), jobs}) {}
 
@@ -86,6 +94,7 @@ struct ServerState {
     ServerRecords& records;
     People& people;
     std::string program;
+    std::vector<OfferedPack> packs;
     ServerSettings settings;
 
     WorldFingerprint world;

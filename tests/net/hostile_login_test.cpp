@@ -251,14 +251,15 @@ const std::vector<ClientMessage>& oneOfEach() {
                                                      Say{"x"},
                                                      Pong{0},
                                                      AskPlayers{},
-                                                     Leave{}};
+                                                     Leave{},
+                                                     AskPack{0, 0}};
     return messages;
 }
 
 TEST_F(HostileLogin, EachMessageAtEachStage) {
     start();
     using Stage = ServerClient::Stage;
-    static_assert(std::variant_size_v<ClientMessage> == 13, "a message of each kind");
+    static_assert(std::variant_size_v<ClientMessage> == 14, "a message of each kind");
     int number = 0;
     for (const Stage stage :
          {Stage::Hello, Stage::Login, Stage::Password, Stage::Proof, Stage::Playing, Stage::Closed})
@@ -277,7 +278,8 @@ TEST_F(HostileLogin, EachMessageAtEachStage) {
             (void)wire.take();
             ASSERT_EQ(clientOf(wire).stage, stage);
             wire.say(message);
-            const bool isLogin = message.index() <= 2;  // Hello, Login, Proof
+            // Hello, Login, Proof
+            const bool isLogin = message.index() <= 2 || std::holds_alternative<AskPack>(message);
             Refusal expected = (stage == Stage::Playing) == isLogin ? Refusal::Disorder : Refusal::Count;
             if (stage != Stage::Playing) expected = Refusal::Disorder;
             if (stage == Stage::Closed) expected = Refusal::Count;

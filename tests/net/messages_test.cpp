@@ -29,13 +29,14 @@ std::vector<ClientMessage> clientMessages() {
             Say{"hello there"},
             Pong{123456},
             AskPlayers{},
-            Leave{}};
+            Leave{},
+            AskPack{1, 65536}};
 }
 
 std::vector<ServerMessage> serverMessages() {
     Nonce nonce{};
     nonce[5] = std::byte{3};
-    WorldOffer offer{{{42, "continents", 3}, 77, 88}, {}};
+    WorldOffer offer{{{42, "continents", 3}, 77, 88}, {}, {{"isles", "1.2", {}, 4096}}};
     offer.samples[7] = {-9, 11};
     const ChunkDifference blocks{{5, {3, 1, {}}}, {6, {3, 1, {}}}, {900, {2, 0, {}}}};
     return {Greeting{"terrane 0.2", nonce, true},
@@ -55,7 +56,8 @@ std::vector<ServerMessage> serverMessages() {
             Ping{99},
             PlayerList{{{"Ada", game::Role::Player, 20}, {"Ben", game::Role::Guest, 65535}}},
             RoleChanged{game::Role::Guest},
-            Servers{{{"b.example:4000", std::string(64, 'a')}, {"[::1]:1", ""}}}};
+            Servers{{{"b.example:4000", std::string(64, 'a')}, {"[::1]:1", ""}}},
+            PackPart{1, 65536, {std::byte{1}, std::byte{2}}}};
 }
 
 TEST(Messages, EachReadsBack) {
@@ -154,11 +156,11 @@ TEST(Messages, WhatFollowsAMessageIsRefused) {
 
 // A newer client is told that it is newer: its hello may go on as it likes.
 TEST(Messages, AHelloOfAnotherVersionIsRead) {
-    Bytes bytes = encode(ClientMessage(Hello{kMagic, 2, "x"}));
+    Bytes bytes = encode(ClientMessage(Hello{kMagic, kProtocolVersion + 1, "x"}));
     bytes.insert(bytes.end(), 100, std::byte{0xFF});
     const auto read = decodeClientMessage(bytes);
     ASSERT_TRUE(read);
-    EXPECT_EQ(std::get<Hello>(*read).version, 2);
+    EXPECT_EQ(std::get<Hello>(*read).version, kProtocolVersion + 1);
     EXPECT_FALSE(decodeClientMessage(encode(ClientMessage(Hello{kMagic + 1, kProtocolVersion, "x"}))));
 }
 

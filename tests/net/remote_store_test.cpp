@@ -16,7 +16,7 @@ gen::LevelGenerators overworld() {
 class RemoteStoreTest : public testing::Test {
   protected:
     gen::LevelGenerators generators_ = overworld();
-    RemoteStore store_{{1, "overworld", gen::generatorVersion("overworld")}, overworld()};
+    RemoteStore store_{{1, "overworld", gen::versionOf(gen::builtInGenerators(), "overworld")}, overworld()};
 };
 
 TEST_F(RemoteStoreTest, WhatTheServerDoesNotTellIsGenerated) {

@@ -32,8 +32,8 @@ inline game::SessionParts serverParts(const std::filesystem::path& world) {
     auto blocks = ownBlocks();
     const std::string generator(kTestGenerator);
     store::WorldRequest request;
-    request.create = store::WorldIdentity{1, generator, gen::generatorVersion(generator)};
-    request.versionOf = gen::generatorVersion;
+    request.create = store::WorldIdentity{1, generator, gen::versionOf(gen::builtInGenerators(), generator)};
+    request.versionOf = [](std::string_view name) { return gen::versionOf(gen::builtInGenerators(), name); };
     auto store = store::openWorld(store::worldLocation(world.string()), *blocks, request).value();
     auto generators = gen::makeLevelGenerators(generator, *blocks, 1).value();
     return {std::move(blocks), std::move(generators), std::move(store), 2};
@@ -41,10 +41,11 @@ inline game::SessionParts serverParts(const std::filesystem::path& world) {
 
 // A server on a world in a folder.
 struct TestServer {
-    explicit TestServer(const std::filesystem::path& folder, const ServerSettings& settings = {})
+    explicit TestServer(const std::filesystem::path& folder, const ServerSettings& settings = {},
+                        const ServerContent& content = {})
         : host(openServerHost(serverParts(folder / "w.sqlite"),
                               SqliteRecords::open(folder / "w.server.sqlite", contentBlocks()).value(),
-                              settings, "test")
+                              settings, "test", content)
                    .value()) {}
     TestServer(game::SessionParts parts, std::unique_ptr<ServerRecords> records,
                const ServerSettings& settings = {})

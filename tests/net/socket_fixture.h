@@ -12,8 +12,9 @@ namespace terrane::net {
 
 struct SocketServer {
     SocketServer(boost::asio::io_context& context, const std::filesystem::path& folder,
-                 std::uint16_t port = 0, const ServerSettings& settings = {})
-        : server(folder, settings),
+                 std::uint16_t port = 0, const ServerSettings& settings = {},
+                 const ServerContent& content = {})
+        : server(folder, settings, content),
           sockets(
               ServerSockets::open(context, server.state(), {"127.0.0.1", port}, folder / "key.pem").value()) {
     }

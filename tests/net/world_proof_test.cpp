@@ -16,8 +16,8 @@ gen::GeneratorGraph graphOf(const std::string& name) {
 }
 
 WorldFingerprint fingerprint(const std::string& generator) {
-    return worldFingerprint({1, generator, gen::generatorVersion(generator)}, graphOf(generator),
-                            contentBlocks());
+    return worldFingerprint({1, generator, gen::versionOf(gen::builtInGenerators(), generator)},
+                            graphOf(generator), contentBlocks());
 }
 
 TEST(WorldProof, EqualProgramsAgree) {

@@ -22,7 +22,7 @@ inline game::SessionParts sharedParts(const store_postgres::Address& address) {
     auto blocks = net::ownBlocks();
     const std::string generator(net::kTestGenerator);
     store::SaveAccess access;
-    access.create = store::WorldIdentity{1, generator, gen::generatorVersion(generator)};
+    access.create = store::WorldIdentity{1, generator, gen::versionOf(gen::builtInGenerators(), generator)};
     auto store =
         store_postgres::PostgresStore::open(address, *blocks, access, store::WorldSharing::Servers).value();
     auto generators = gen::makeLevelGenerators(generator, *blocks, 1).value();

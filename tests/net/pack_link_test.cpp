@@ -1,0 +1,100 @@
+// A client's link that gets content packs before it joins, over sockets.
+#include <gtest/gtest.h>
+
+#include "tests/net/socket_fixture.h"
+
+namespace terrane::net {
+namespace {
+
+class PackLink : public testing::Test {
+  protected:
+    // Until the link is joined or has ended.
+    void run(LinkEvents events) {
+        ClientLink link(context_, {"127.0.0.1", server_.sockets->port()}, testIdentity("ann"),
+                        std::move(events));
+        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (link.stage() == ClientLink::Stage::Connecting && std::chrono::steady_clock::now() < deadline) {
+            link.update(std::chrono::steady_clock::now());
+            server_.update();
+            context_.restart();
+            context_.run_for(std::chrono::milliseconds(5));
+        }
+        stage_ = link.stage();
+        reason_ = link.reason();
+    }
+    LinkEvents events() {
+        return {[](const std::string&) { return true; },
+                [this](const WorldOffer& offer) -> base::Result<SampleDigests> {
+                    proved_ = true;
+                    return sampleDigests(*offeredGenerator(offer, contentBlocks()), offer.samples);
+                },
+                [](const ServerMessage&) {},
+                [](const WorldOffer&) {
+                    return std::vector<std::uint8_t>{1, 0};
+                },
+                [this](const PackOffer& offer, const Bytes& archive) -> base::Result<void> {
+                    got_[offer.name] = archive;
+                    return {};
+                }};
+    }
+    static ServerContent content() {
+        ServerContent made;
+        for (const std::size_t size : {kMaxPackPart + 1, std::size_t{10}}) {
+            auto archive = std::make_shared<Bytes>(size);
+            fillRandom(*archive);
+            made.packs.push_back(
+                {{"p" + std::to_string(made.packs.size()), "", {}, static_cast<std::uint32_t>(size)},
+                 archive});
+        }
+        return made;
+    }
+
+    base::TempFolder folder_;
+    boost::asio::io_context context_;
+    ServerContent content_ = content();
+    SocketServer server_{context_, folder_.path(), 0, {}, content_};
+    ClientLink::Stage stage_{};
+    std::string reason_;
+    bool proved_ = false;
+    std::map<std::string, Bytes> got_;
+};
+
+TEST_F(PackLink, GetsWhatItLacksAndJoins) {
+    run(events());
+    EXPECT_EQ(stage_, ClientLink::Stage::Joined) << reason_;
+    EXPECT_EQ(got_["p0"], *content_.packs[0].archive);
+    EXPECT_EQ(got_["p1"], *content_.packs[1].archive);
+}
+
+TEST_F(PackLink, JoinsWithoutPacksThatItHas) {
+    LinkEvents has = events();
+    has.missingPacks = [](const WorldOffer&) { return std::vector<std::uint8_t>(); };
+    run(has);
+    EXPECT_EQ(stage_, ClientLink::Stage::Joined) << reason_;
+    EXPECT_TRUE(got_.empty());
+}
+
+TEST_F(PackLink, EndsWhereThePlayerDoesNotAcceptThem) {
+    LinkEvents refuses = events();
+    refuses.missingPacks = [](const WorldOffer&) -> base::Result<std::vector<std::uint8_t>> {
+        return base::fail("packs are missing");
+    };
+    run(refuses);
+    EXPECT_EQ(stage_, ClientLink::Stage::Ended);
+    EXPECT_EQ(reason_, "packs are missing");
+    EXPECT_FALSE(proved_);
+}
+
+TEST_F(PackLink, EndsWhereAPackIsAnother) {
+    LinkEvents refuses = events();
+    refuses.packArrived = [](const PackOffer& offer, const Bytes&) -> base::Result<void> {
+        return base::fail("{} is another pack", offer.name);
+    };
+    run(refuses);
+    EXPECT_EQ(stage_, ClientLink::Stage::Ended);
+    EXPECT_EQ(reason_, "p0 is another pack");
+    EXPECT_FALSE(proved_);
+}
+
+}  // namespace
+}  // namespace terrane::net
