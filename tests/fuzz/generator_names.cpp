@@ -3,7 +3,12 @@
 
 namespace terrane::gen {
 
-std::vector<std::string> generatorNames() {
+const GeneratorCatalogue& builtInGenerators() {
+    static const GeneratorCatalogue catalogue;
+    return catalogue;
+}
+
+std::vector<std::string> namesOf(const GeneratorCatalogue&) {
     return {"overworld", "flat"};
 }
 

@@ -41,8 +41,8 @@ net::ServerHost openHost() {
     base::setLogLevel(base::LogLevel::Silent);
     auto blocks = std::make_unique<const world::BlockRegistry>(content::loadBlocks().value());
     auto generators = gen::makeLevelGenerators("flat", *blocks, 1).value();
-    auto store =
-        std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "flat", gen::generatorVersion("flat")});
+    auto store = std::make_unique<store::MemoryStore>(
+        store::WorldIdentity{1, "flat", gen::versionOf(gen::builtInGenerators(), "flat")});
     game::SessionParts parts{std::move(blocks), std::move(generators), std::move(store), 1};
     auto records = net::SqliteRecords::open(fuzz::fuzzFolder() / "w.server.sqlite", *parts.blocks).value();
     return net::openServerHost(std::move(parts), std::move(records), {}, "fuzz").value();

@@ -1,0 +1,153 @@
+#include "apps/terrane/formats/export_source.h"
+
+#include <algorithm>
+#include <functional>
+#include <unordered_map>
+#include <utility>
+
+#include "apps/terrane/open_session.h"
+#include "apps/terrane/options.h"
+#include "terrane/base/progress_bar.h"
+#include "terrane/base/stop_signals.h"
+#include "terrane/content/resource_pack.h"
+#include "terrane/stream/area_chunks.h"
+
+namespace terrane::app {
+namespace {
+
+// Chunks loaded at once.
+constexpr std::size_t kExportBatch = 64;
+
+base::Result<world::BlockBox> parseBox(const std::string& text) {
+    const auto n = parseNumbers(text, 6, "--box: expected X0,Y0,Z0,X1,Y1,Z1 in blocks");
+    constexpr double kFarthest = 2147483647;
+    for (const double number : n)
+        if (number != static_cast<double>(static_cast<std::int64_t>(number)) || number < -kFarthest - 1 ||
+            number > kFarthest)
+            return base::fail(base::ErrorCode::BadInput,
+                              "--box: expected whole numbers within the world, got \"{}\"", text);
+    if (n[0] >= n[3] || n[1] >= n[4] || n[2] >= n[5])
+        return base::fail(base::ErrorCode::BadInput, "--box: \"{}\" is empty: the end X1,Y1,Z1 is excluded",
+                          text);
+    if (n[2] < 0 || n[5] > world::kChunkHeight)
+        return base::fail(base::ErrorCode::BadInput, "--box: heights are from 0 to {}, got \"{}\"",
+                          world::kChunkHeight, text);
+    const auto pos = [&](std::size_t first, int less) {
+        return world::BlockPos{static_cast<std::int32_t>(n[first] - less),
+                               static_cast<std::int32_t>(n[first + 1] - less),
+                               static_cast<std::int32_t>(n[first + 2] - less)};
+    };
+    return world::BlockBox{pos(0, 0), pos(3, 1)};
+}
+
+base::Result<world::BlockBox> boxOf(const ExportOptions& options) {
+    if (options.area.has_value() == !options.box.empty())
+        return base::fail(base::ErrorCode::BadInput, "export needs one of --area and --box");
+    if (!options.area) return parseBox(options.box);
+    const world::ChunkArea& area = *options.area;
+    const world::BlockPos high = world::blockPos({area.x1 - 1, area.y1 - 1}, 0);
+    constexpr int kLast = world::kChunkSize - 1;
+    return world::BlockBox{world::blockPos({area.x0, area.y0}, 0),
+                           {high.x + kLast, high.y + kLast, world::kChunkHeight - 1}};
+}
+
+// Numbers of blocks and states in a palette, as they come.
+class VolumePalette {
+  public:
+    base::Result<std::uint16_t> entryOf(formats::BlockAndState block) {
+        const std::uint32_t key = std::uint32_t{block.id} << 16 | block.state;
+        const auto found = entries_.find(key);
+        if (found != entries_.end()) return found->second;
+        if (blocks.size() > UINT16_MAX) return base::fail("the box has more than 65,536 blocks and states");
+        blocks.push_back(block);
+        return entries_.emplace(key, static_cast<std::uint16_t>(blocks.size() - 1)).first->second;
+    }
+
+    std::vector<formats::BlockAndState> blocks;
+
+  private:
+    std::unordered_map<std::uint32_t, std::uint16_t> entries_;
+};
+
+// The part of the volume that lies in one chunk.
+base::Result<void> copyChunk(const world::BlockBox& box, world::ChunkPos pos, const world::Chunk& chunk,
+                             VolumePalette& palette, formats::BlockVolume& volume) {
+    const world::BlockPos low = world::blockPos(pos, 0);
+    for (int k = 0; k < world::kChunkSize * world::kChunkSize; ++k) {
+        const std::int64_t x = std::int64_t{low.x} + k % world::kChunkSize - box.low.x;
+        const std::int64_t y = std::int64_t{low.y} + k / world::kChunkSize - box.low.y;
+        if (x < 0 || x >= volume.size.x || y < 0 || y >= volume.size.y) continue;
+        for (int z = 0; z < volume.size.z; ++z) {
+            const auto index = static_cast<world::BlockIndex>(k + 256 * (box.low.z + z));
+            const auto entry = palette.entryOf({chunk.block(index), chunk.blockState(index)});
+            if (!entry) return tl::unexpected(entry.error());
+            volume
+                .cells[static_cast<std::size_t>(x + volume.size.x * (y + std::int64_t{volume.size.y} * z))] =
+                *entry;
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+base::Result<ExportSource> openExport(ExportOptions& options) {
+    const auto box = boxOf(options);
+    if (!box) return tl::unexpected(box.error());
+    const auto content = loadContent(options.world, options.save);
+    if (!content) return tl::unexpected(content.error());
+    auto textures = content::loadTextures(options.resourcePack, *content->blocks, content->textures);
+    if (!textures) return tl::unexpected(textures.error());
+    auto save = openSave(options.world, options.save, store::WorldAccess::ReadOnly, *content);
+    if (!save) return tl::unexpected(save.error());
+    auto generator = makeGenerator(options.world, *content);
+    if (!generator) return tl::unexpected(generator.error());
+    return ExportSource{content->blocks, std::move(*textures), std::move(*save), std::move(*generator), *box};
+}
+
+world::ChunkArea chunksOf(const world::BlockBox& box) {
+    const world::ChunkPos low = world::chunkOf(box.low), high = world::chunkOf(box.high);
+    return {low.x, low.y, high.x + 1, high.y + 1};
+}
+
+base::Result<void> forEachChunk(const ExportOptions& options, const ExportSource& source,
+                                const TakeChunk& take) {
+    const world::ChunkArea area = chunksOf(source.box);
+    const std::int64_t width = std::int64_t{area.x1} - area.x0, count = area.chunkCount();
+    base::JobSystem jobs(threadCount(options.world));
+    const base::StopSignals signals;
+    base::ProgressBar bar("exporting", static_cast<std::size_t>(count));
+    std::vector<world::ChunkPos> positions;
+    for (std::int64_t next = 0; next < count;) {
+        if (signals.stopAsked()) return base::fail("stopped after {} of {} chunks", next, count);
+        positions.clear();
+        for (; next < count && positions.size() < kExportBatch; ++next)
+            positions.push_back({static_cast<std::int32_t>(area.x0 + next % width),
+                                 static_cast<std::int32_t>(area.y0 + next / width)});
+        const auto chunks = stream::chunksAt(positions, source.save.get(), source.generator, jobs);
+        if (!chunks) return tl::unexpected(chunks.error());
+        for (std::size_t k = 0; k < positions.size(); ++k)
+            if (auto taken = take(positions[k], (*chunks)[k]); !taken) return taken;
+        bar.set(static_cast<std::size_t>(next));
+    }
+    return {};
+}
+
+base::Result<formats::BlockVolume> readVolume(const ExportOptions& options, const ExportSource& source) {
+    const world::BlockBox& box = source.box;
+    const std::int64_t x = std::int64_t{box.high.x} - box.low.x + 1,
+                       y = std::int64_t{box.high.y} - box.low.y + 1;
+    const std::int64_t z = box.high.z - box.low.z + 1;
+    if (auto checked = formats::checkVolumeSize(x, y, z); !checked) return tl::unexpected(checked.error());
+    formats::BlockVolume volume{{x, y, z}, {}, {}};
+    volume.cells.resize(static_cast<std::size_t>(x * y * z));
+    VolumePalette palette;
+    auto read = forEachChunk(options, source, [&](world::ChunkPos pos, const world::Chunk& chunk) {
+        return copyChunk(box, pos, chunk, palette, volume);
+    });
+    if (!read) return tl::unexpected(read.error());
+    volume.palette = std::move(palette.blocks);
+    return volume;
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,29 @@
+#include "apps/terrane/formats/import_world.h"
+
+#include "apps/terrane/open_session.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/stream/tile_rows.h"
+
+namespace terrane::app {
+
+base::Result<pack::Content> loadImportContent(const ImportOptions& options) {
+    return loadContent(options.world, options.save);
+}
+
+base::Result<ImportWorld> openImportWorld(ImportOptions& options, pack::Content content) {
+    if (options.save.world.empty())
+        return base::fail(base::ErrorCode::BadInput, "import needs --world NAME|FILE|URL");
+    ImportWorld world;
+    world.content = std::move(content);
+    auto store = openSave(options.world, options.save, store::WorldAccess::ReadWrite, world.content);
+    if (!store) return tl::unexpected(store.error());
+    auto generators = gen::makeLevelGenerators(options.world.effectiveGenerator(), *world.content.blocks,
+                                               options.world.effectiveSeed(), world.content.generators);
+    if (!generators) return tl::unexpected(generators.error());
+    world.generators = std::make_unique<gen::LevelGenerators>(std::move(*generators));
+    world.store = std::move(*store);
+    stream::keepTileRows(*world.store, *world.generators, *world.content.blocks, {});
+    return world;
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,196 @@
+#include "apps/terrane/formats/minecraft_import.h"
+
+#include <algorithm>
+#include <unordered_set>
+#include <vector>
+
+#include "apps/terrane/formats/import_report.h"
+#include "apps/terrane/formats/import_world.h"
+#include "apps/terrane/formats/minecraft_world.h"
+#include "apps/terrane/options.h"
+#include "terrane/base/files.h"
+#include "terrane/base/job_system.h"
+#include "terrane/base/progress_bar.h"
+#include "terrane/base/stop_signals.h"
+
+namespace terrane::app {
+namespace {
+
+// Chunks decoded at once, and durable before the next: 128 × about 1 MiB of NBT.
+constexpr std::size_t kImportBatch = 128;
+
+struct DecodedChunk {
+    world::ChunkPos pos;
+    world::ChunkPtr chunk;  // null: `problem` says why, or it has edits already
+    bool isFinished = true, isThere = false;
+    std::string problem;
+    formats::ImportCounts counts;
+};
+
+// "X,Y": where Minecraft's 0,0 comes to lie, in chunks.
+base::Result<world::ChunkPos> movedBy(const std::string& at) {
+    if (at.empty()) return world::ChunkPos{};
+    const auto numbers = parseNumbers(at, 2, "--at: expected X,Y in blocks");
+    for (const double number : numbers) {
+        const double chunks = number / world::kChunkSize;
+        if (chunks != static_cast<double>(static_cast<std::int32_t>(std::clamp(chunks, -1e8, 1e8))))
+            return base::fail(base::ErrorCode::BadInput,
+                              "--at: expected multiples of {} within the world, got \"{}\"",
+                              world::kChunkSize, at);
+    }
+    return world::ChunkPos{static_cast<std::int32_t>(numbers[0] / world::kChunkSize),
+                           static_cast<std::int32_t>(numbers[1] / world::kChunkSize)};
+}
+
+class MinecraftImporter {
+  public:
+    MinecraftImporter(const ImportOptions& options, ImportWorld& world, const formats::BlockMapping& mapping,
+                      const formats::LegacyIds& ids, world::ChunkPos by)
+        : options_(options),
+          world_(world),
+          mapping_(mapping),
+          ids_(ids),
+          by_(by),
+          jobs_(threadCount(options.world)) {}
+
+    // Fails where the world cannot be written; what cannot be read is noted in the report.
+    base::Result<void> run(const std::vector<RegionSource>& regions) {
+        const auto edited = world_.store->editedChunks();
+        if (!edited) return tl::unexpected(edited.error());
+        edited_.insert(edited->begin(), edited->end());
+        const base::StopSignals signals;
+        base::ProgressBar bar("importing", regions.size() * formats::kRegionChunks);
+        for (std::size_t k = 0; k < regions.size(); ++k) {
+            const auto done = importRegion(regions[k], signals, [&](std::size_t chunks) {
+                bar.set(k * formats::kRegionChunks + chunks);
+            });
+            if (!done) return done;
+        }
+        return {};
+    }
+
+    ImportReport& report() { return report_; }
+
+  private:
+    base::Result<void> importRegion(const RegionSource& region, const base::StopSignals& signals,
+                                    const std::function<void(std::size_t)>& progress) {
+        std::vector<int> wanted;
+        base::Result<std::string> bytes;
+        for (int number = 0; number < formats::kRegionChunks; ++number)
+            if (isInArea(region, number)) wanted.push_back(number);
+        if (wanted.empty()) return {};
+        bytes = base::readFile(region.path, formats::kMaxRegionBytes);
+        if (!bytes) {
+            noteDamage(report_, bytes.error().message);
+            return {};
+        }
+        std::erase_if(wanted, [&](int number) { return !formats::regionHasChunk(*bytes, number); });
+        for (std::size_t first = 0; first < wanted.size(); first += kImportBatch) {
+            if (signals.stopAsked())
+                return base::fail("stopped after {} chunks; the same command goes on", report_.chunks);
+            const auto part = std::span(wanted).subspan(first, std::min(kImportBatch, wanted.size() - first));
+            if (auto done = importBatch(region, *bytes, part); !done) return done;
+            progress(static_cast<std::size_t>(part.back()) + 1);
+        }
+        return {};
+    }
+
+    bool isInArea(const RegionSource& region, int number) const {
+        if (!options_.area) return true;
+        const std::int64_t x =
+            std::int64_t{region.pos.x} * formats::kRegionSide + number % formats::kRegionSide;
+        const std::int64_t z =
+            std::int64_t{region.pos.z} * formats::kRegionSide + number / formats::kRegionSide;
+        const world::ChunkArea& area = *options_.area;
+        return x >= area.x0 && x < area.x1 && z >= area.y0 && z < area.y1;
+    }
+
+    base::Result<void> importBatch(const RegionSource& region, std::string_view bytes,
+                                   std::span<const int> numbers) {
+        std::vector<DecodedChunk> decoded(numbers.size());
+        auto ran = base::parallelFor(jobs_, numbers.size(),
+                                     [&](std::size_t k) { decoded[k] = decode(region, bytes, numbers[k]); });
+        if (!ran) return ran;
+        for (DecodedChunk& chunk : decoded) {
+            if (!chunk.problem.empty()) noteDamage(report_, std::move(chunk.problem));
+            if (chunk.isThere) ++report_.skipped;
+            if (!chunk.chunk) continue;
+            ++report_.chunks;
+            report_.unfinished += chunk.isFinished ? 0 : 1;
+            addTo(report_.counts, chunk.counts);
+            world_.store->save(chunk.pos, std::move(chunk.chunk), store::Provenance::Edited);
+        }
+        return world_.store->flush();
+    }
+
+    DecodedChunk decode(const RegionSource& region, std::string_view bytes, int number) const {
+        DecodedChunk result;
+        const auto problem = [&](const base::Error& error) {
+            result.problem =
+                fmt::format("{}: chunk {},{}: {}", region.path.string(), number % formats::kRegionSide,
+                            number / formats::kRegionSide, error.message);
+            return std::move(result);
+        };
+        const auto nbt =
+            formats::readRegionChunk(bytes, number, [&] { return readExternalChunk(region, number); });
+        if (!nbt) return problem(nbt.error());
+        const auto root = formats::decodeNbt(*nbt);
+        if (!root) return problem(root.error());
+        const auto chunk = formats::decodeAnvilChunk(root->compound, ids_);
+        if (!chunk) return problem(chunk.error());
+        const std::int64_t x =
+            std::int64_t{region.pos.x} * formats::kRegionSide + number % formats::kRegionSide;
+        const std::int64_t z =
+            std::int64_t{region.pos.z} * formats::kRegionSide + number / formats::kRegionSide;
+        if (chunk->x != x || chunk->z != z)
+            return problem(
+                {base::ErrorCode::Damaged, fmt::format("says that it is chunk {},{} of the world, and lies "
+                                                       "where {},{} belongs",
+                                                       chunk->x, chunk->z, x, z)});
+        if (x < world::kMinChunk || x > world::kMaxChunk || z < world::kMinChunk || z > world::kMaxChunk)
+            return problem({base::ErrorCode::BadInput, "lies outside the world"});
+        result.pos = world::offsetBy(formats::chunkPosOf(*chunk), by_.x, by_.y);
+        if (!world::isInWorld(result.pos))
+            return problem({base::ErrorCode::BadInput, "lies outside the world"});
+        result.isThere = edited_.contains(result.pos);
+        if (result.isThere || chunk->sections.empty()) return result;
+        result.isFinished = chunk->isFinished;
+        result.chunk = std::make_shared<const world::Chunk>(
+            formats::toChunk(*chunk, mapping_, options_.shift, result.counts));
+        return result;
+    }
+
+    const ImportOptions& options_;
+    ImportWorld& world_;
+    const formats::BlockMapping& mapping_;
+    const formats::LegacyIds& ids_;
+    world::ChunkPos by_;
+    base::JobSystem jobs_;
+    std::unordered_set<world::ChunkPos, world::ChunkPosHash> edited_;
+    ImportReport report_;
+};
+
+}  // namespace
+
+base::Result<void> importMinecraft(ImportOptions& options) {
+    const auto by = movedBy(options.at);
+    if (!by) return tl::unexpected(by.error());
+    const auto regions = regionsOf(options.source, options.dimension);
+    if (!regions) return tl::unexpected(regions.error());
+    const auto ids = formats::builtInLegacyIds();
+    if (!ids) return tl::unexpected(ids.error());
+    auto content = loadImportContent(options);
+    if (!content) return tl::unexpected(content.error());
+    const auto mapping = formats::loadMapping(*content->blocks, options.mapping);
+    if (!mapping) return tl::unexpected(mapping.error());
+    auto world = openImportWorld(options, std::move(*content));
+    if (!world) return tl::unexpected(world.error());
+    MinecraftImporter importer(options, *world, *mapping, *ids, *by);
+    if (auto done = importer.run(*regions); !done) return done;
+    const ImportReport& report = importer.report();
+    logReport(report);
+    options.exitCode = report.damageCount > 0 ? 1 : 0;
+    return options.report.empty() ? base::Result<void>() : writeReport(report, options.report);
+}
+
+}  // namespace terrane::app

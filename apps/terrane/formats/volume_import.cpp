@@ -1,0 +1,191 @@
+#include "apps/terrane/formats/volume_import.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "apps/terrane/formats/import_report.h"
+#include "apps/terrane/formats/import_world.h"
+#include "apps/terrane/options.h"
+#include "terrane/base/files.h"
+#include "terrane/base/job_system.h"
+#include "terrane/base/log.h"
+#include "terrane/base/progress_bar.h"
+#include "terrane/base/stop_signals.h"
+#include "terrane/formats/schematic.h"
+#include "terrane/formats/vox_blocks.h"
+#include "terrane/store/structure_file.h"
+#include "terrane/stream/area_chunks.h"
+
+namespace terrane::app {
+namespace {
+
+// Chunks loaded and saved at once.
+constexpr std::size_t kPlacedBatch = 64;
+
+using VolumeReader = base::Result<formats::BlockVolume> (*)(std::string_view bytes,
+                                                            const pack::Content& content,
+                                                            const formats::BlockMapping& mapping,
+                                                            formats::ImportCounts& counts);
+
+base::Result<world::BlockPos> cornerOf(const std::string& at) {
+    if (at.empty()) return base::fail(base::ErrorCode::BadInput, "import needs --at X,Y,Z, or -o FILE");
+    const auto numbers = parseNumbers(at, 3, "--at: expected X,Y,Z in blocks");
+    // Far enough from the ends that no corner of a box passes them.
+    constexpr double kFarthest = 2'000'000'000;
+    for (const double number : numbers)
+        if (number != static_cast<double>(static_cast<std::int64_t>(number)) || number < -kFarthest ||
+            number > kFarthest)
+            return base::fail(base::ErrorCode::BadInput,
+                              "--at: expected whole numbers within the world, got \"{}\"", at);
+    return world::BlockPos{static_cast<std::int32_t>(numbers[0]), static_cast<std::int32_t>(numbers[1]),
+                           static_cast<std::int32_t>(numbers[2])};
+}
+
+// The blocks of the volume that lie in one chunk; `corner` is its lowest block.
+void putVolume(const formats::BlockVolume& volume, world::BlockPos corner, bool keepsAir, world::ChunkPos pos,
+               world::Chunk& chunk) {
+    const world::BlockPos low = world::blockPos(pos, 0);
+    for (int k = 0; k < world::kChunkSize * world::kChunkSize; ++k) {
+        const std::int64_t x = std::int64_t{low.x} + k % world::kChunkSize - corner.x;
+        const std::int64_t y = std::int64_t{low.y} + k / world::kChunkSize - corner.y;
+        if (x < 0 || x >= volume.size.x || y < 0 || y >= volume.size.y) continue;
+        for (int z = 0; z < volume.size.z; ++z) {
+            if (!world::isInHeight(corner.z + z)) continue;
+            const auto cell =
+                static_cast<std::size_t>(x + volume.size.x * (y + std::int64_t{volume.size.y} * z));
+            const formats::BlockAndState block = volume.palette[volume.cells[cell]];
+            if (keepsAir && block.id == world::kAir) continue;
+            const auto index = static_cast<world::BlockIndex>(k + 256 * (corner.z + z));
+            chunk.setBlock(index, block.id);
+            if (block.state != 0) chunk.setBlockState(index, block.state);
+        }
+    }
+}
+
+void countOutside(const formats::BlockVolume& volume, int cornerZ, formats::ImportCounts& counts) {
+    const std::size_t layer =
+        static_cast<std::size_t>(volume.size.x) * static_cast<std::size_t>(volume.size.y);
+    for (int z = 0; z < volume.size.z; ++z) {
+        if (world::isInHeight(cornerZ + z)) continue;
+        std::uint64_t& count = cornerZ + z < 0 ? counts.below : counts.above;
+        for (const std::uint16_t cell :
+             std::span(volume.cells).subspan(static_cast<std::size_t>(z) * layer, layer))
+            count += volume.palette[cell].id != world::kAir ? 1 : 0;
+    }
+}
+
+std::vector<world::ChunkPos> chunksOver(const formats::BlockVolume& volume, world::BlockPos corner) {
+    const world::ChunkPos low = world::chunkOf(corner);
+    const world::BlockPos far{corner.x + volume.size.x - 1, corner.y + volume.size.y - 1, corner.z};
+    const world::ChunkPos high = world::chunkOf(far);
+    std::vector<world::ChunkPos> chunks;
+    for (std::int32_t y = low.y; y <= high.y; ++y)
+        for (std::int32_t x = low.x; x <= high.x; ++x) chunks.push_back({x, y});
+    return chunks;
+}
+
+base::Result<void> placeVolume(const ImportOptions& options, ImportWorld& world,
+                               const formats::BlockVolume& volume, world::BlockPos corner) {
+    const auto generator = world.generators->at(0);
+    if (!generator) return tl::unexpected(generator.error());
+    const std::vector<world::ChunkPos> positions = chunksOver(volume, corner);
+    base::JobSystem jobs(threadCount(options.world));
+    const base::StopSignals signals;
+    base::ProgressBar bar("importing", positions.size());
+    for (std::size_t first = 0; first < positions.size(); first += kPlacedBatch) {
+        if (signals.stopAsked()) return base::fail("stopped after {} of {} chunks", first, positions.size());
+        const auto part =
+            std::span(positions).subspan(first, std::min(kPlacedBatch, positions.size() - first));
+        auto chunks = stream::chunksAt(part, world.store.get(), **generator, jobs);
+        if (!chunks) return tl::unexpected(chunks.error());
+        for (std::size_t k = 0; k < part.size(); ++k) {
+            putVolume(volume, corner, options.keepsAir, part[k], (*chunks)[k]);
+            world.store->save(part[k], std::make_shared<const world::Chunk>(std::move((*chunks)[k])),
+                              store::Provenance::Edited);
+        }
+        if (auto flushed = world.store->flush(); !flushed) return flushed;
+        bar.set(first + part.size());
+    }
+    return {};
+}
+
+base::Result<formats::BlockVolume> readSource(const ImportOptions& options, const pack::Content& content,
+                                              VolumeReader reader, formats::ImportCounts& counts) {
+    const auto mapping = formats::loadMapping(*content.blocks, options.mapping);
+    if (!mapping) return tl::unexpected(mapping.error());
+    const auto bytes = base::readFile(options.source, formats::kMaxVoxBytes);
+    if (!bytes) return tl::unexpected(bytes.error());
+    auto volume = reader(*bytes, content, *mapping, counts);
+    if (!volume) return base::fail(volume.error().code, "{}: {}", options.source, volume.error().message);
+    return volume;
+}
+
+base::Result<void> importStructure(const ImportOptions& options, VolumeReader reader, ImportReport& report) {
+    if (!options.save.world.empty() || !options.at.empty())
+        return base::fail(base::ErrorCode::BadInput, "-o does not go with --world and --at");
+    const auto content = loadImportContent(options);
+    if (!content) return tl::unexpected(content.error());
+    const auto volume = readSource(options, *content, reader, report.counts);
+    if (!volume) return tl::unexpected(volume.error());
+    const auto structure = formats::toStructure(*volume, *content->blocks);
+    if (!structure)
+        return base::fail(structure.error().code, "{}: {}", options.source, structure.error().message);
+    return store::writeStructure(options.output, *structure);
+}
+
+base::Result<void> importVolume(ImportOptions& options, VolumeReader reader) {
+    ImportReport report;
+    if (!options.output.empty()) {
+        if (auto done = importStructure(options, reader, report); !done) return done;
+    } else {
+        const auto corner = cornerOf(options.at);
+        if (!corner) return tl::unexpected(corner.error());
+        // Read before a world is made.
+        auto content = loadImportContent(options);
+        if (!content) return tl::unexpected(content.error());
+        const auto volume = readSource(options, *content, reader, report.counts);
+        if (!volume) return tl::unexpected(volume.error());
+        auto world = openImportWorld(options, std::move(*content));
+        if (!world) return tl::unexpected(world.error());
+        if (auto placed = placeVolume(options, *world, *volume, *corner); !placed) return placed;
+        countOutside(*volume, corner->z, report.counts);
+        report.chunks = chunksOver(*volume, *corner).size();
+    }
+    logReport(report);
+    return options.report.empty() ? base::Result<void>() : writeReport(report, options.report);
+}
+
+}  // namespace
+
+base::Result<void> importSchematic(ImportOptions& options) {
+    return importVolume(options,
+                        [](std::string_view bytes, const pack::Content&, const formats::BlockMapping& mapping,
+                           formats::ImportCounts& counts) -> base::Result<formats::BlockVolume> {
+                            const auto ids = formats::builtInLegacyIds();
+                            if (!ids) return tl::unexpected(ids.error());
+                            const auto volume = formats::decodeSchematic(bytes, *ids);
+                            if (!volume) return tl::unexpected(volume.error());
+                            return formats::toBlocks(*volume, mapping, counts);
+                        });
+}
+
+base::Result<void> importVox(ImportOptions& options) {
+    return importVolume(
+        options,
+        [](std::string_view bytes, const pack::Content& content, const formats::BlockMapping& mapping,
+           formats::ImportCounts& counts) -> base::Result<formats::BlockVolume> {
+            const auto image = formats::decodeVox(bytes);
+            if (!image) return tl::unexpected(image.error());
+            const auto tops = world::topColors(*content.blocks, content.textures);
+            if (!tops) return tl::unexpected(tops.error());
+            auto volume = formats::toBlocks(*image, mapping, *content.blocks, *tops);
+            std::array<std::uint64_t, 256> uses{};
+            for (const std::uint8_t cell : image->cells) ++uses[cell];
+            for (std::size_t k = 1; k < uses.size(); ++k)
+                if (uses[k] > 0) counts.blocks[fmt::format("#{:06x}", image->colors[k] >> 8)] += uses[k];
+            return volume;
+        });
+}
+
+}  // namespace terrane::app

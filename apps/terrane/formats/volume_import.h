@@ -1,0 +1,13 @@
+// terrane import schem and vox: a box of blocks into a world or a structure file. Called by
+// import_command.cpp.
+#pragma once
+
+#include "apps/terrane/formats/import_options.h"
+#include "terrane/base/result.h"
+
+namespace terrane::app {
+
+[[nodiscard]] base::Result<void> importSchematic(ImportOptions& options);
+[[nodiscard]] base::Result<void> importVox(ImportOptions& options);
+
+}  // namespace terrane::app

@@ -1,0 +1,36 @@
+// The blocks of a chunk of Minecraft, from its NBT: 1.13 and newer by names, older ones by numbers. Called by
+// `terrane import`. Plain values; any thread.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "terrane/base/result.h"
+#include "terrane/formats/legacy_ids.h"
+#include "terrane/formats/named_state.h"
+#include "terrane/formats/nbt.h"
+
+namespace terrane::formats {
+
+constexpr int kAnvilSectionBlocks = 4096;
+
+struct AnvilSection {
+    int y = 0;                          // in sections of 16 blocks; below 0 since 1.18
+    std::vector<NamedState> palette;    // not empty
+    std::vector<std::uint16_t> blocks;  // x + 16 z + 256 y: palette entries; empty: all are the first one
+};
+
+struct AnvilChunk {
+    std::int32_t x = 0, z = 0;                 // in chunks
+    int dataVersion = 0;                       // 0: before 1.9
+    bool isFinished = true;                    // false: Minecraft has not generated all of it
+    std::vector<AnvilSection> sections;        // those with blocks, in the order of the file
+    std::map<std::string, int> blockEntities;  // how many of each kind: chests, signs
+};
+
+// Damaged where a part is missing, or a block has no palette entry.
+[[nodiscard]] base::Result<AnvilChunk> decodeAnvilChunk(const NbtCompound& root, const LegacyIds& ids);
+
+}  // namespace terrane::formats

@@ -1,0 +1,43 @@
+// A box of blocks on its way from a file into a world, or out of one. Called by the readers and writers of
+// this module and by `terrane import` and `terrane export`. Plain values; any thread.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "terrane/base/result.h"
+#include "terrane/formats/block_mapping.h"
+#include "terrane/formats/minecraft_chunk.h"
+#include "terrane/formats/named_state.h"
+#include "terrane/world/structure.h"
+
+namespace terrane::formats {
+
+// 2^25 blocks × 2 bytes = 64 MiB: a box of 256 blocks in height and 362 in each direction.
+constexpr std::int64_t kMaxVolumeBlocks = std::int64_t{1} << 25;
+
+// z is up. A block's index is x + size.x · (y + size.y · z).
+template <class T>
+struct Volume {
+    glm::ivec3 size{0};                // in blocks, each at least 1
+    std::vector<T> palette;            // at most 65,536
+    std::vector<std::uint16_t> cells;  // palette entries
+};
+using BlockVolume = Volume<BlockAndState>;
+using NamedVolume = Volume<NamedState>;
+
+// An error where a side is below 1, or there are more than kMaxVolumeBlocks.
+[[nodiscard]] base::Result<void> checkVolumeSize(std::int64_t x, std::int64_t y, std::int64_t z);
+
+// Counts what it maps, as toChunk() does.
+[[nodiscard]] BlockVolume toBlocks(const NamedVolume& volume, const BlockMapping& mapping,
+                                   ImportCounts& counts);
+[[nodiscard]] NamedVolume toNames(const BlockVolume& volume, const BlockMapping& mapping);
+
+// OutOfResources where it has more blocks than a structure (world::kMaxStructureBlocks), or is higher than a
+// world.
+[[nodiscard]] base::Result<world::Structure> toStructure(const BlockVolume& volume,
+                                                         const world::BlockRegistry& blocks);
+
+}  // namespace terrane::formats

@@ -1,0 +1,132 @@
+#include "terrane/formats/glb_mesh.h"
+
+#include <array>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "terrane/base/image.h"
+#include "terrane/mesh/shape_faces.h"
+
+namespace terrane::formats {
+namespace {
+
+using shared::ShapeFace;
+using world::AlphaMode;
+
+glm::vec3 toGltf(glm::vec3 v) {
+    return {v.x, v.z, -v.y};
+}
+
+// As the shader that draws quads has it (quad.vert.glsl): a face of a model or of a liquid that flows shows
+// the part of the texture in front of which it lies, others all of it, once a block.
+glm::vec2 uvOf(shared::uint number, const ShapeFace& face, glm::vec2 corner, glm::vec2 extent) {
+    if (number < shared::kShapeFaceFlowTop) return glm::vec2(corner.x, 1 - corner.y) * extent;
+    const glm::vec3 inCell(shared::shapeFaceCorner(face, shared::vec4(0), corner, shared::vec2(1)));
+    const auto along = [&](glm::vec3 axis) {
+        const float at = glm::dot(inCell, glm::sign(axis));
+        return axis.x + axis.y + axis.z < 0 ? at + 1 : at;
+    };
+    return {along(glm::vec3(face.axisU)), 1 - along(glm::vec3(face.axisV))};
+}
+
+GlbAlpha alphaOf(AlphaMode alpha) {
+    switch (alpha) {
+        case AlphaMode::Test:
+        case AlphaMode::TestGlow:
+            return GlbAlpha::Mask;
+        case AlphaMode::Blend:
+            return GlbAlpha::Blend;
+        default:
+            return GlbAlpha::Opaque;
+    }
+}
+
+// Alpha that stands for light or tint is none to other programs.
+void makeOpaque(base::Image& image) {
+    for (std::size_t k = 3; k < image.rgba.size(); k += 4) image.rgba[k] = 255;
+}
+
+// The light that each texel gives: its color times its alpha.
+void keepGlow(base::Image& image) {
+    for (std::size_t k = 0; k + 3 < image.rgba.size(); k += 4) {
+        const unsigned alpha = image.rgba[k + 3];
+        for (std::size_t c = 0; c < 3; ++c)
+            image.rgba[k + c] = static_cast<std::uint8_t>(image.rgba[k + c] * alpha / 255);
+        image.rgba[k + 3] = 255;
+    }
+}
+
+}  // namespace
+
+GlbMesh::GlbMesh(const world::BlockRegistry& blocks, const world::TextureSource& textures)
+    : blocks_(blocks), textures_(textures), faces_(mesh::shapeFaces(blocks)) {}
+
+base::Result<void> GlbMesh::add(const mesh::ChunkMesh& mesh, glm::ivec3 corner) {
+    quads_ += mesh.quads.size();
+    if (quads_ > kMaxGlbQuads)
+        return base::fail(base::ErrorCode::OutOfResources,
+                          "more than {} faces; choose a smaller area, or a box without the ground",
+                          kMaxGlbQuads);
+    for (const shared::Quad quad : mesh.quads) addQuad(quad, corner);
+    return {};
+}
+
+void GlbMesh::addQuad(shared::Quad quad, glm::ivec3 corner) {
+    const shared::uint number = shared::quadShapeFace(quad);
+    const ShapeFace& face = faces_[number];
+    const glm::vec2 extent(shared::quadExtentU(quad), shared::quadExtentV(quad));
+    const shared::vec4 cell(static_cast<float>(shared::quadX(quad)), static_cast<float>(shared::quadY(quad)),
+                            static_cast<float>(shared::quadZ(quad)), 0);
+    GlbPart& part = parts_[shared::quadMaterial(quad)];
+    const auto first = static_cast<std::uint32_t>(part.vertices.size());
+    constexpr std::array<std::array<float, 2>, 4> kCorners{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    for (const auto& [u, v] : kCorners) {
+        const glm::vec2 at(u, v);
+        const glm::vec3 position(shared::shapeFaceCorner(face, cell, at, extent));
+        part.vertices.push_back({toGltf(position + glm::vec3(corner)), toGltf(glm::vec3(face.normal)),
+                                 uvOf(number, face, at, extent)});
+    }
+    for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) part.indices.push_back(first + k);
+}
+
+base::Result<std::size_t> GlbMesh::imageOf(const world::Material& material, bool isGlow, GlbModel& model) {
+    const std::string& texture = blocks_.textures()[material.texture];
+    const bool isOpaque = alphaOf(material.alpha) == GlbAlpha::Opaque;
+    const std::string name = texture + (isGlow ? "_glow" : isOpaque ? "" : "_alpha");
+    const auto [place, isNew] = imageNames_.emplace(name, model.images.size());
+    if (!isNew) return place->second;
+    auto image = textures_(texture);
+    if (!image) return tl::unexpected(image.error());
+    if (isGlow)
+        keepGlow(*image);
+    else if (isOpaque)
+        makeOpaque(*image);
+    auto png = base::encodePng(*image);
+    if (!png) return tl::unexpected(png.error());
+    model.images.push_back({name, std::move(*png)});
+    return place->second;
+}
+
+base::Result<GlbModel> GlbMesh::finish(std::string name) {
+    if (parts_.empty()) return base::fail(base::ErrorCode::NotFound, "there is nothing but air in the area");
+    GlbModel model;
+    model.name = std::move(name);
+    for (auto& [number, part] : parts_) {
+        const world::Material& material = blocks_.materials()[number];
+        const auto image = imageOf(material, false, model);
+        if (!image) return tl::unexpected(image.error());
+        part.image = *image;
+        part.name = model.images[*image].name;
+        part.alpha = alphaOf(material.alpha);
+        part.isTwoSided = material.twoSided;
+        if (material.alpha == AlphaMode::Glow) {
+            const auto glow = imageOf(material, true, model);
+            if (!glow) return tl::unexpected(glow.error());
+            part.glow = static_cast<int>(*glow);
+        }
+        model.parts.push_back(std::move(part));
+    }
+    return model;
+}
+
+}  // namespace terrane::formats

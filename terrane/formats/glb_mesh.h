@@ -1,0 +1,49 @@
+// The meshes of chunks as a model of glTF: a part for each material, whose texture repeats over merged quads.
+// Called by `terrane export`. One thread.
+//
+// Our x, y, z are x, -z, y of the file: z is up here and y there, a block is a meter, and nothing is
+// mirrored.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "terrane/base/result.h"
+#include "terrane/formats/glb_file.h"
+#include "terrane/mesh/chunk_mesh.h"
+#include "terrane/world/block_registry.h"
+#include "terrane/world/texture_source.h"
+
+namespace terrane::formats {
+
+// 4 vertices of 32 bytes and 6 indices of 4 a quad: 608 MiB.
+constexpr std::size_t kMaxGlbQuads = 4'000'000;
+
+class GlbMesh {
+  public:
+    // Both outlive it.
+    GlbMesh(const world::BlockRegistry& blocks, const world::TextureSource& textures);
+
+    // `corner`: where the chunk's lowest block lies in the model, in blocks along our axes. OutOfResources
+    // where there are too many quads.
+    [[nodiscard]] base::Result<void> add(const mesh::ChunkMesh& mesh, glm::ivec3 corner);
+
+    std::size_t quadCount() const { return quads_; }
+    // The model with its textures; an error where there is nothing in it, or a texture is missing. Called
+    // once.
+    [[nodiscard]] base::Result<GlbModel> finish(std::string name);
+
+  private:
+    void addQuad(shared::Quad quad, glm::ivec3 corner);
+    base::Result<std::size_t> imageOf(const world::Material& material, bool isGlow, GlbModel& model);
+
+    const world::BlockRegistry& blocks_;
+    const world::TextureSource& textures_;
+    std::vector<shared::ShapeFace> faces_;
+    std::map<shared::uint, GlbPart> parts_;          // by material
+    std::map<std::string, std::size_t> imageNames_;  // in the model
+    std::size_t quads_ = 0;
+};
+
+}  // namespace terrane::formats

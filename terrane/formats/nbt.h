@@ -1,0 +1,83 @@
+// NBT, the tree of tags in which Minecraft and its tools keep data, uncompressed and big-endian. Read by
+// region_file.h's users and schematic.h. Plain values; any thread.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "terrane/base/result.h"
+
+namespace terrane::formats {
+
+struct NbtTag;
+struct NbtEntry;
+
+struct NbtEnd {  // the type of empty lists
+    bool operator==(const NbtEnd&) const = default;
+};
+struct NbtBytes {
+    std::string bytes;
+    bool operator==(const NbtBytes&) const = default;
+};
+struct NbtList {
+    std::uint8_t type = 0;  // of all tags: their index in NbtTag::Value
+    std::vector<NbtTag> tags;
+    bool operator==(const NbtList& other) const;
+};
+struct NbtCompound {
+    std::vector<NbtEntry> entries;  // in the order of the file
+
+    const NbtTag* find(std::string_view name) const;  // the first of that name; null where there is none
+    // Null where there is none, or one of another type.
+    template <class T>
+    const T* get(std::string_view name) const;
+    // Of any integer type.
+    std::optional<std::int64_t> integer(std::string_view name) const;
+    NbtCompound& add(std::string_view name, NbtTag tag);  // itself, for a chain
+    bool operator==(const NbtCompound& other) const;
+};
+
+struct NbtTag {
+    // The index is the type's number in the file.
+    using Value =
+        std::variant<NbtEnd, std::int8_t, std::int16_t, std::int32_t, std::int64_t, float, double, NbtBytes,
+                     std::string, NbtList, NbtCompound, std::vector<std::int32_t>, std::vector<std::int64_t>>;
+    Value value;
+
+    bool operator==(const NbtTag& other) const { return value == other.value; }
+};
+
+struct NbtEntry {
+    std::string name;
+    NbtTag tag;
+    bool operator==(const NbtEntry&) const = default;
+};
+
+// The outermost tag is a compound with a name, mostly empty. Texts keep their bytes ("modified UTF-8").
+struct NbtRoot {
+    std::string name;
+    NbtCompound compound;
+    bool operator==(const NbtRoot&) const = default;
+};
+
+// Deeper files are refused; those that Minecraft writes have about ten levels.
+constexpr int kMaxNbtDepth = 64;
+// 2^20 tags × 72 bytes = 72 MiB. Arrays count as one tag and are as large as in the file.
+constexpr std::size_t kMaxNbtTags = std::size_t{1} << 20;
+
+// Bytes after the root are ignored, as Minecraft does. Errors say at which byte the data are wrong.
+[[nodiscard]] base::Result<NbtRoot> decodeNbt(std::string_view bytes);
+// Names and texts have at most 65,535 bytes, and the tags of a list are of its type.
+[[nodiscard]] std::string encodeNbt(const NbtRoot& root);
+
+template <class T>
+const T* NbtCompound::get(std::string_view name) const {
+    const NbtTag* tag = find(name);
+    return tag ? std::get_if<T>(&tag->value) : nullptr;
+}
+
+}  // namespace terrane::formats

@@ -1,0 +1,21 @@
+// Properties of Minecraft's blocks and the block states of ours that show the same: facing, halves, open
+// doors, arms of fences, levels of water, growth. Called by block_mapping.h. Plain functions; any thread.
+//
+// Minecraft's x, y, z (east, up, south) are our x, z, -y: north is +y, and nothing is mirrored.
+#pragma once
+
+#include <cstdint>
+
+#include "terrane/formats/named_state.h"
+#include "terrane/world/block_type.h"
+
+namespace terrane::formats {
+
+// The bits of the state that the properties of `state` give a block of `type`; 0 where they say nothing of
+// it. `isOpposite`: the block faces against its property.
+std::uint16_t stateOfProperties(const world::BlockType& type, const NamedState& state, bool isOpposite);
+
+// Adds the properties that say the same as the block state. Those that `named` has already stay.
+void addProperties(const world::BlockType& type, std::uint16_t state, bool isOpposite, NamedState& named);
+
+}  // namespace terrane::formats

@@ -1,0 +1,39 @@
+// Models of MagicaVoxel (.vox, versions 150 and 200): colored voxels, z up as in our worlds. Called by
+// `terrane import` and `terrane export`. Plain functions; any thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/base/result.h"
+
+namespace terrane::formats {
+
+constexpr int kMaxVoxSide = 256;  // of one model; larger boxes are several of them
+constexpr std::size_t kMaxVoxBytes = std::size_t{512} << 20;
+
+struct VoxImage {
+    glm::ivec3 size{0};
+    std::array<std::uint32_t, 256> colors{};  // 0xRRGGBBAA; the first is none
+    std::vector<std::uint8_t> cells;          // x + size.x · (y + size.y · z): colors, 0 is empty
+
+    bool operator==(const VoxImage&) const = default;
+};
+
+// All models of the scene at their places, in the smallest box that holds the models; without a scene the
+// first model. Hidden nodes are left out; of animations the first frame is taken; layers, cameras and
+// materials are ignored. Damaged where it is no such file, OutOfResources where the box is too large
+// (block_volume.h).
+[[nodiscard]] base::Result<VoxImage> decodeVox(std::string_view bytes);
+
+// One model, or several in a scene where a side is longer than kMaxVoxSide. Comes back the same.
+[[nodiscard]] std::string encodeVox(const VoxImage& image);
+
+// What a file without a palette has.
+[[nodiscard]] std::array<std::uint32_t, 256> defaultVoxColors();
+
+}  // namespace terrane::formats

@@ -1,0 +1,31 @@
+// libFuzzer: any bytes as NBT, plain or decompressed. What the reader takes must come back the same when it
+// is written.
+#include "terrane/formats/deflate.h"
+#include "terrane/formats/nbt.h"
+#include "tests/fuzz/fuzz_input.h"
+
+using namespace terrane;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    fuzz::FuzzInput input(data, size);
+    const bool isCompressed = input.byte() % 8 == 7;
+    const std::string_view bytes = input.restAsText();
+    base::Result<std::string> plain = std::string(bytes);
+    if (isCompressed) plain = formats::inflate(bytes, std::size_t{1} << 20);
+    if (!plain) {
+        fuzz::requireReason(plain.error());
+        return 0;
+    }
+    const auto root = formats::decodeNbt(*plain);
+    if (!root) {
+        fuzz::requireReason(root.error());
+        return 0;
+    }
+    const std::string written = formats::encodeNbt(*root);
+    fuzz::require(written.size() <= plain->size());
+    const auto back = formats::decodeNbt(written);
+    fuzz::require(back.has_value());
+    // NaN differs from itself, its bytes do not.
+    fuzz::require(formats::encodeNbt(*back) == written);
+    return 0;
+}
