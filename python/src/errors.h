@@ -1,0 +1,45 @@
+// Errors of the library as Python's exception terrane.Error, and long work without Python's lock.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <exception>
+#include <string>
+#include <utility>
+
+#include "terrane/base/result.h"
+#include "terrane/volume/opened_world.h"
+
+namespace terrane::python {
+
+// Thrown where Python called; becomes terrane.Error.
+struct Failure : std::exception {
+    explicit Failure(base::Error theError) : error(std::move(theError)) {}
+    const char* what() const noexcept override { return error.message.c_str(); }
+    base::Error error;
+};
+
+template <class T>
+T valueOr(base::Result<T> result) {
+    if (!result) throw Failure(std::move(result.error()));
+    if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+
+// For work on the calling thread: every 50 ms it looks whether the user pressed Ctrl+C. To be called without
+// Python's lock.
+volume::GoesOn untilInterrupted();
+
+// Runs work() without Python's lock and returns its value. Throws Failure, and what a signal handler raised.
+template <class Work>
+auto withoutLock(const Work& work) {
+    auto result = [&] {
+        const pybind11::gil_scoped_release unlocked;
+        return work();
+    }();
+    if (PyErr_Occurred()) throw pybind11::error_already_set();
+    return valueOr(std::move(result));
+}
+
+void addErrors(pybind11::module_& module);
+
+}  // namespace terrane::python

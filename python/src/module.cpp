@@ -1,0 +1,27 @@
+// The extension module terrane._terrane, of which the package terrane is made.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "python/src/errors.h"
+#include "python/src/open_world.h"
+#include "python/src/world.h"
+#include "terrane/base/log.h"
+
+namespace py = pybind11;
+
+PYBIND11_MODULE(_terrane, module) {
+    using namespace terrane;
+    module.doc() = "Terrane's worlds as NumPy arrays. Use the package terrane.";
+    base::setLogLevel(base::LogLevel::Warning);
+    python::addErrors(module);
+    module.def(
+        "generators",
+        [](const std::vector<std::string>& content) {
+            return python::withoutLock([&] { return python::generatorNames(content); });
+        },
+        py::arg("content") = std::vector<std::string>(),
+        "The names of all generators, for World(generator=...), those of content packs among them.");
+    python::addWorld(module);
+    module.attr("__version__") = TERRANE_VERSION;
+    module.attr("has_graphics") = TERRANE_PYTHON_GRAPHICS != 0;
+}

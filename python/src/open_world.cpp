@@ -1,0 +1,95 @@
+#include "python/src/open_world.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "terrane/pack/installed_packs.h"
+#include "terrane/pack/world_packs.h"
+#include "terrane/store/memory_store.h"
+#include "terrane/store_postgres/any_world.h"
+
+namespace terrane::python {
+namespace {
+
+// The packs that a call names, and those that a world remembers.
+base::Result<pack::Content> loadContent(const std::vector<std::string>& named,
+                                        const std::vector<std::string>& remembered) {
+    auto packs = pack::readPacks(named);
+    if (!packs) return tl::unexpected(packs.error());
+    if (auto added = pack::addPacks(*packs, remembered); !added) return tl::unexpected(added.error());
+    if (auto added = pack::addRequired(*packs); !added) return tl::unexpected(added.error());
+    return pack::loadContent(std::move(*packs));
+}
+
+// A store, with the generator of the world that it holds.
+base::Result<WorldSources> sourcesOf(pack::Content content, std::unique_ptr<store::ChunkStore> store,
+                                     unsigned threads) {
+    auto generators = generatorsOf(store->identity(), content);
+    if (!generators) return tl::unexpected(generators.error());
+    volume::WorldParts parts{content.blocks, std::move(*generators), std::move(store), threads};
+    return WorldSources{std::move(content), std::move(parts)};
+}
+
+store::WorldIdentity identityOf(const NewWorld& world, const pack::Content& content) {
+    return {world.seed, world.generator, gen::versionOf(content.generators, world.generator)};
+}
+
+}  // namespace
+
+base::Result<std::vector<std::string>> generatorNames(const std::vector<std::string>& content) {
+    const auto loaded = loadContent(content, {});
+    if (!loaded) return tl::unexpected(loaded.error());
+    return gen::namesOf(loaded->generators);
+}
+
+base::Result<gen::LevelGenerators> generatorsOf(const store::WorldIdentity& identity,
+                                                const pack::Content& content) {
+    auto generators =
+        gen::makeLevelGenerators(identity.generator, *content.blocks, identity.seed, content.generators);
+    if (!generators && gen::versionOf(content.generators, identity.generator) == 0)
+        generators.error().code = base::ErrorCode::BadInput;
+    return generators;
+}
+
+base::Result<unsigned> threadCountOf(int threads) {
+    if (threads < 0 || threads > static_cast<int>(kMaxThreads))
+        return base::fail(base::ErrorCode::BadInput, "threads: expected 0 to {}, got {}", kMaxThreads,
+                          threads);
+    if (threads > 0) return static_cast<unsigned>(threads);
+    return std::clamp(std::thread::hardware_concurrency(), 1u, kMaxThreads);
+}
+
+base::Result<WorldSources> generatedWorld(const NewWorld& world, unsigned threads) {
+    auto content = loadContent(world.content, {});
+    if (!content) return tl::unexpected(content.error());
+    auto store = std::make_unique<store::MemoryStore>(identityOf(world, *content));
+    return sourcesOf(std::move(*content), std::move(store), threads);
+}
+
+base::Result<WorldSources> savedWorld(const SavedWorld& world, unsigned threads) {
+    const store::WorldLocation location = store::worldLocation(world.location);
+    const auto metadata = store_postgres::anyWorldMetadata(location);  // opening says what is wrong
+    auto content =
+        loadContent(world.content, metadata ? pack::rememberedPacks(*metadata) : std::vector<std::string>());
+    if (!content) return tl::unexpected(content.error());
+    store::WorldRequest request;
+    request.access = world.isReadOnly ? store::WorldAccess::ReadOnly : store::WorldAccess::ReadWrite;
+    request.wanted = {world.seed, world.generator};
+    request.versionOf = [&](std::string_view name) { return gen::versionOf(content->generators, name); };
+    if (world.isCreated) {
+        const NewWorld otherwise;
+        const NewWorld made{
+            world.seed.value_or(otherwise.seed), world.generator.value_or(otherwise.generator), {}};
+        // Before a save is made: a generator that does not exist has none.
+        if (auto known = gen::makeGenerator(made.generator, *content->blocks, 0, content->generators); !known)
+            return tl::unexpected(known.error());
+        request.create = identityOf(made, *content);
+    }
+    auto store = store_postgres::openAnyWorld(location, *content->blocks, request);
+    if (!store) return tl::unexpected(store.error());
+    if (!world.isReadOnly) pack::rememberPacks(**store, *content);
+    return sourcesOf(std::move(*content), std::move(*store), threads);
+}
+
+}  // namespace terrane::python

@@ -1,0 +1,56 @@
+#include "terrane/volume/opened_world.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "terrane/stream/tile_rows.h"
+
+namespace terrane::volume {
+
+// The calling thread works too.
+OpenedWorld::OpenedWorld(WorldParts parts)
+    : blocks_(std::move(parts.blocks)),
+      lights_(*blocks_),
+      kinds_(map::surfaceKinds(*blocks_)),
+      generators_(std::move(parts.generators)),
+      store_(std::move(parts.store)),
+      surfaces_({generators_, kinds_, store_.get()}),
+      jobs_(std::max(1u, parts.threads) - 1) {}
+
+base::Result<std::unique_ptr<OpenedWorld>> OpenedWorld::create(WorldParts parts) {
+    std::unique_ptr<OpenedWorld> world(new OpenedWorld(std::move(parts)));
+    stream::keepTileRows(*world->store_, world->generators_, *world->blocks_, {});
+    if (auto built = stream::buildTileRows(*world->store_); !built) return tl::unexpected(built.error());
+    return world;
+}
+
+void OpenedWorld::noteEdited(std::span<const world::ChunkPos> chunks) {
+    if (chunks.empty()) return;
+    hasUnsettledTiles_ = true;
+    const std::lock_guard lock(editedMutex_);
+    if (!edited_) return;
+    for (const world::ChunkPos chunk : chunks) edited_->add(chunk);
+}
+
+base::Result<void> OpenedWorld::settleTiles() {
+    if (!hasUnsettledTiles_.exchange(false)) return {};
+    auto flushed = store_->flush();
+    if (!flushed) hasUnsettledTiles_ = true;
+    return flushed;
+}
+
+base::Result<std::vector<map::EditedChunk>> OpenedWorld::editedAmong(
+    std::span<const world::ChunkPos> chunks) {
+    const std::lock_guard lock(editedMutex_);
+    if (!edited_) {
+        // The list lacks chunks that wait to be saved.
+        if (auto flushed = store_->flush(); !flushed) return tl::unexpected(flushed.error());
+        const auto all = store_->editedChunks();
+        if (!all) return tl::unexpected(all.error());
+        edited_.emplace();
+        for (const world::ChunkPos chunk : *all) edited_->add(chunk);
+    }
+    return edited_->among(chunks);
+}
+
+}  // namespace terrane::volume

@@ -1,0 +1,80 @@
+// A world that is read and edited by areas: its block types, generators and store, and the threads that work
+// on it. Python's World holds one; no OpenGL, no clock, no players.
+//
+// Any number of threads may read and write areas at a time. Two writes to one chunk come one after the other.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "terrane/base/job_system.h"
+#include "terrane/gen/level_generators.h"
+#include "terrane/light/light_table.h"
+#include "terrane/map/edited_positions.h"
+#include "terrane/map/surface_source.h"
+#include "terrane/store/chunk_store.h"
+#include "terrane/world/block_registry.h"
+
+namespace terrane::volume {
+
+struct WorldParts {
+    std::shared_ptr<const world::BlockRegistry> blocks;  // stays where it is: others refer to it
+    gen::LevelGenerators generators;                     // has level 0
+    std::unique_ptr<store::ChunkStore> store;
+    unsigned threads = 1;  // that work at a time, the calling one among them; 1 or more
+};
+
+// Asked from time to time on the thread that called: false ends the work with an error (kStopped).
+using GoesOn = std::function<bool()>;
+inline constexpr const char* kStopped = "stopped by the caller";
+
+class OpenedWorld {
+  public:
+    // Builds the tiles of a world that lacks them (stream/tile_rows.h).
+    [[nodiscard]] static base::Result<std::unique_ptr<OpenedWorld>> create(WorldParts parts);
+    OpenedWorld(const OpenedWorld&) = delete;
+    OpenedWorld& operator=(const OpenedWorld&) = delete;
+
+    const world::BlockRegistry& blocks() const { return *blocks_; }
+    const light::LightTable& lights() const { return lights_; }
+    // The generator of a level, 0…15.
+    [[nodiscard]] base::Result<const gen::Generator*> generator(int level) const {
+        return generators_.at(level);
+    }
+    store::ChunkStore& store() { return *store_; }
+    base::JobSystem& jobs() { return jobs_; }
+    map::SurfaceSource& surfaces() { return surfaces_; }
+    std::mutex& editMutex() { return editMutex_; }  // held while chunks are read, changed and saved
+
+    // Edited chunks are saved to the store: tiles follow from them, and the surfaces of the land.
+    void noteEdited(std::span<const world::ChunkPos> chunks);
+    // Waits until tiles of levels above 0 show all edits so far.
+    [[nodiscard]] base::Result<void> settleTiles();
+    // The edited ones of these chunks of any level. The first call reads all rows of a saved world.
+    [[nodiscard]] base::Result<std::vector<map::EditedChunk>> editedAmong(
+        std::span<const world::ChunkPos> chunks);
+
+  private:
+    explicit OpenedWorld(WorldParts parts);
+
+    // They refer to each other: destroyed in reverse order.
+    std::shared_ptr<const world::BlockRegistry> blocks_;
+    light::LightTable lights_;
+    map::SurfaceKinds kinds_;
+    gen::LevelGenerators generators_;
+    std::unique_ptr<store::ChunkStore> store_;  // makes tiles of edited chunks until it ends
+    map::SurfaceSource surfaces_;
+    base::JobSystem jobs_;
+
+    std::mutex editMutex_;
+    std::atomic<bool> hasUnsettledTiles_{false};
+    std::mutex editedMutex_;
+    std::optional<map::EditedPositions> edited_;  // once they were asked for
+};
+
+}  // namespace terrane::volume

@@ -1,0 +1,31 @@
+// Chunks of a world on all of its threads: from the store, else generated. What the other readers of this
+// module are made of. Called by any thread, which works too.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "terrane/volume/opened_world.h"
+
+namespace terrane::volume {
+
+// Which chunks are read.
+struct ChunkList {
+    std::int64_t count = 0;
+    std::function<world::ChunkPos(std::int64_t number)> at;  // called by several threads
+};
+ChunkList chunksOf(const world::ChunkArea& area);  // by y, then x
+
+// Calls use(number, chunk) once for each chunk, on several threads and in any order; the chunk is its own.
+// Chunks outside the world are empty. Chunks that the store has damaged are generated. Fails where the store
+// could not read a chunk that it may have, where a level has no generator, and where `goesOn` says so.
+using UseChunk = std::function<void(std::int64_t number, world::Chunk&& chunk)>;
+[[nodiscard]] base::Result<void> readChunks(OpenedWorld& world, const ChunkList& list, const GoesOn& goesOn,
+                                            const UseChunk& use);
+
+// Calls work(k) for k = 0 … count − 1 on the world's threads; asks goesOn between its own parts of the work.
+// The error is that of the lowest k that has one.
+[[nodiscard]] base::Result<void> forEachPart(OpenedWorld& world, std::int64_t count, const GoesOn& goesOn,
+                                             const std::function<base::Result<void>(std::int64_t)>& work);
+
+}  // namespace terrane::volume

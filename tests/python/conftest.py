@@ -1,0 +1,42 @@
+"""What the tests of the package share. TERRANE_PROGRAM names the program; PYTHONPATH finds the package."""
+import os
+import subprocess
+
+import pytest
+import terrane
+
+HANG_SECONDS = 120
+
+
+@pytest.fixture(scope="session")
+def flat():
+    return terrane.World(seed=3, generator="flat", threads=2)
+
+
+@pytest.fixture(scope="session")
+def land():
+    return terrane.World(seed=1, generator="overworld", threads=2)
+
+
+@pytest.fixture
+def program():
+    """Runs the program and returns what it prints."""
+    path = os.environ.get("TERRANE_PROGRAM")
+    if not path:
+        pytest.skip("TERRANE_PROGRAM is not set")
+
+    def run(*arguments):
+        done = subprocess.run([path, *map(str, arguments)], capture_output=True, text=True, timeout=HANG_SECONDS, check=False)
+        assert done.returncode == 0, done.stderr
+        return done.stdout.strip()
+
+    return run
+
+
+def fails(code, call, *arguments, **options):
+    """The one line that the call fails with."""
+    with pytest.raises(terrane.Error) as caught:
+        call(*arguments, **options)
+    assert caught.value.code == code, str(caught.value)
+    assert "\n" not in str(caught.value) and str(caught.value)
+    return str(caught.value)

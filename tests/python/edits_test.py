@@ -1,0 +1,80 @@
+"""Edits, in memory and in saves."""
+import numpy as np
+import pytest
+import terrane
+
+from conftest import fails
+
+
+def test_arrays_names_and_ids():
+    with terrane.World(generator="flat") as world:
+        stone = world.block_id("stone")
+        assert world.set_blocks(-5, 7, 90, "stone") == 1
+        assert world.set_blocks(-5, 7, 90, stone) == 0
+        assert world.set_blocks(-5, 7, 90, np.array(0)) == 1
+        box = np.random.default_rng(2).integers(0, 20, (9, 30, 40)).astype(np.uint16)
+        assert world.set_blocks(-11, -13, 100, box) == np.count_nonzero(box)
+        assert (world.blocks((-11, -13, 100, 29, 17, 109)) == box).all()
+        for other in (box.astype(np.int32), box.tolist(), np.asfortranarray(box), box[::-1][::-1]):
+            assert world.set_blocks(-11, -13, 100, other) == 0
+        assert world.set_blocks(-11, -13, 100, box[:, ::2]) > 0
+        assert (world.blocks((-11, -13, 100, 29, 2, 109)) == box[:, ::2]).all()
+
+
+def test_wrong_blocks_change_nothing():
+    with terrane.World(generator="flat") as world:
+        count = len(world.block_names)
+        for blocks in (count, -1, 2**16, 2**40, [[[1, count]]], np.full((1, 1, 2), -5)):
+            assert "block id" in fails("bad_input", world.set_blocks, 0, 0, 90, blocks)
+        fails("not_found", world.set_blocks, 0, 0, 90, "stoen")
+        fails("bad_input", world.set_blocks, 0, 0, 90, 1.5)
+        fails("bad_input", world.set_blocks, 0, 0, 90, [1, 2])
+        fails("bad_input", world.set_blocks, 0, 0, 255, np.zeros((2, 1, 1), int))
+        fails("bad_input", world.set_blocks, 2**62, 0, 0, 1)
+        fails("bad_input", world.set_blocks, 0, 0, 0, np.zeros((0, 1, 1), int))
+        assert not world.blocks((0, 0, 90, 16, 16, 256)).any()
+
+
+def test_a_save_keeps_edits(tmp_path, program):
+    file = str(tmp_path / "world.sqlite")
+    assert "world.sqlite" in fails("not_found", terrane.open, file)
+    with terrane.open(file, create=True, seed=9, generator="flat") as world:
+        assert (world.seed, world.generator, world.location) == (9, "flat", file)
+        world.set_blocks(0, 0, 81, np.full((4, 50, 50), world.block_id("sand")))
+        world.flush()
+    with terrane.open(file) as world:
+        assert world.seed == 9
+        assert (world.blocks((0, 0, 81, 50, 50, 85)) == world.block_id("sand")).all()
+        digest = world.digest((0, 0, 4, 4))
+        assert (world.heights((0, 0, 32, 32), 2) == 84).all()
+        # Another that writes.
+        fails("busy", terrane.open, file)
+    assert digest == program("generate", "--area", "0,0,4,4", "--world", file, "--digest")
+    assert "good" in program("check", file) or "16 chunks" in program("check", file)
+    fails("incompatible", terrane.open, file, seed=10)
+    fails("incompatible", terrane.open, file, generator="overworld")
+
+
+def test_read_only_leaves_the_save_as_it_is(tmp_path):
+    file = str(tmp_path / "world.sqlite")
+    with terrane.open(file, create=True, generator="flat") as world:
+        world.set_blocks(3, 3, 90, "stone")
+        world.flush()
+        with terrane.open(file, read_only=True) as reader:
+            assert reader.blocks((3, 3, 90, 4, 4, 91)).all()
+            assert reader.set_blocks(3, 3, 90, "air") == 1
+            assert not reader.blocks((3, 3, 90, 4, 4, 91)).any()
+    with terrane.open(file, read_only=True) as world:
+        assert world.blocks((3, 3, 90, 4, 4, 91)).all()
+
+
+def test_files_that_are_no_worlds(tmp_path):
+    for content in (b"", b"hello" * 1000, b"SQLite format 3\0" + bytes(4096)):
+        file = tmp_path / "odd.sqlite"
+        file.write_bytes(content)
+        with pytest.raises(terrane.Error) as caught:
+            terrane.open(str(file))
+        assert "odd.sqlite" in str(caught.value)
+        assert file.read_bytes() == content
+    fails("not_found", terrane.open, str(tmp_path / "none" / "a.sqlite"))
+    fails("bad_input", terrane.open, "")

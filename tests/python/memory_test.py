@@ -1,0 +1,24 @@
+"""Memory stays; tools/python_leak.py makes 10,000 calls."""
+import os
+import pathlib
+import sys
+
+import terrane
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "tools"))
+import python_leak  # noqa: E402
+
+
+def test_calls_leave_no_memory_behind():
+    before, after = python_leak.growth(rounds=40, warm_rounds=20)
+    assert after - before < 4 << 20, f"{before} to {after} bytes"
+
+
+def test_large_arrays_are_freed():
+    world = terrane.World(generator="flat", threads=2)
+    world.blocks((0, 0, 256, 256))
+    before = python_leak.resident_bytes()
+    for _ in range(6):
+        world.blocks((0, 0, 400, 400)).fill(1)  # 78 MiB
+    assert python_leak.resident_bytes() - before < 60 << 20
+    assert os.getpid() > 0

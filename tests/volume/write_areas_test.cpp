@@ -1,0 +1,88 @@
+#include "terrane/volume/write_areas.h"
+
+#include <gmock/gmock.h>
+
+#include <thread>
+
+#include "terrane/store/open_world.h"
+#include "tests/base/temp_folder.h"
+#include "tests/volume/volume_fixture.h"
+
+namespace terrane::volume {
+namespace {
+
+using world::BlockId;
+
+std::unique_ptr<store::ChunkStore> openFile(const std::filesystem::path& file) {
+    store::WorldRequest request;
+    request.create =
+        store::WorldIdentity{kVolumeSeed, "flat", gen::versionOf(gen::builtInGenerators(), "flat")};
+    request.versionOf = [](std::string_view name) { return gen::versionOf(gen::builtInGenerators(), name); };
+    return store::openWorld(store::worldLocation(file.string()), contentBlocks(), request).value();
+}
+
+// What an array of a whole region says after random edits, against the world.
+TEST(WriteAreas, RandomEditsAreReadBack) {
+    base::TempFolder folder;
+    const BlockArea all{-60, -60, 0, 100, 100, 256};
+    std::vector<BlockId> expected;
+    std::mt19937 random(5);
+    {
+        const auto world = openWorld("flat", openFile(folder / "edited.sqlite"));
+        expected = blocksOf(*world, all);
+        for (int k = 0; k < 30; ++k) {
+            const BlockArea area = randomArea(random);
+            std::vector<BlockId> ids(k % 2 == 0 ? 1 : static_cast<std::size_t>(area.blockCount()));
+            for (BlockId& id : ids) id = static_cast<BlockId>(random() % 9);
+            std::int64_t changed = 0;
+            forEachBlock(area, [&](auto x, auto y, auto z, std::size_t place) {
+                BlockId& block = expected[static_cast<std::size_t>(
+                    x - all.x0 + all.width() * (y - all.y0 + all.depth() * (z - all.z0)))];
+                const BlockId id = ids[ids.size() == 1 ? 0 : place];
+                changed += block != id;
+                block = id;
+            });
+            const auto written = writeArea(*world, area, ids, {});
+            ASSERT_TRUE(written) << written.error().message;
+            EXPECT_EQ(*written, changed);
+        }
+        EXPECT_TRUE(blocksOf(*world, all) == expected);
+        ASSERT_TRUE(world->store().flush());
+    }
+    EXPECT_TRUE(blocksOf(*openWorld("flat", openFile(folder / "edited.sqlite")), all) == expected);
+}
+
+TEST(WriteAreas, AnUnknownIdIsRefusedAndNothingIsWritten) {
+    const auto world = openWorld("flat");
+    const auto types = static_cast<BlockId>(contentBlocks().types().size());
+    const std::vector<BlockId> ids = {1, types};
+    const auto written = writeArea(*world, {0, 0, 90, 2, 1, 91}, ids, {});
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code, base::ErrorCode::BadInput);
+    EXPECT_THAT(blocksOf(*world, {0, 0, 90, 2, 1, 91}), testing::Each(world::kAir));
+}
+
+TEST(WriteAreas, WhatIsThereAlreadyIsNotSaved) {
+    const auto world = openWorld("flat");
+    const BlockId grass = contentBlock("grass");
+    EXPECT_EQ(writeArea(*world, {0, 0, 80, 40, 40, 81}, std::span(&grass, 1), {}).value(), 0);
+    EXPECT_FALSE(world->store().contains({0, 0}));
+}
+
+// Each thread fills blocks of its own in the same chunk.
+TEST(WriteAreas, WritesToOneChunkAreAllKept) {
+    const auto world = openWorld("flat");
+    std::vector<std::thread> threads;
+    for (int k = 0; k < 8; ++k)
+        threads.emplace_back([&world, k] {
+            const auto id = static_cast<BlockId>(k + 1);
+            for (int z = 100; z < 120; ++z)
+                EXPECT_TRUE(writeArea(*world, {k, 0, z, k + 1, 16, z + 1}, std::span(&id, 1), {}));
+        });
+    for (std::thread& thread : threads) thread.join();
+    const auto blocks = blocksOf(*world, {0, 0, 100, 8, 16, 120});
+    for (std::size_t k = 0; k < blocks.size(); ++k) ASSERT_EQ(blocks[k], k % 8 + 1);
+}
+
+}  // namespace
+}  // namespace terrane::volume
