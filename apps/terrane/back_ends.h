@@ -8,6 +8,7 @@
 #include "terrane/gen/batch_generator.h"
 #include "terrane/light/area_solver.h"
 #include "terrane/mesh/batch_mesher.h"
+#include "terrane/pack/content.h"
 #include "terrane/world/block_registry.h"
 
 namespace terrane::app {
@@ -25,7 +26,7 @@ struct OnBackend {
 };
 
 base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const WorldOptions& options, Backend backend,
-                                                                const world::BlockRegistry& blocks);
+                                                                const pack::Content& content);
 // `table` outlives it.
 base::Result<OnBackend<light::AreaSolver>> makeLightSolver(Backend backend, const light::LightTable& table);
 base::Result<OnBackend<mesh::BatchMesher>> makeBatchMesher(Backend backend,

@@ -17,8 +17,8 @@ base::Result<OnBackend<Worker>> onCpu(Backend backend, std::unique_ptr<Worker> w
 }  // namespace
 
 base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const WorldOptions& options, Backend backend,
-                                                                const world::BlockRegistry& blocks) {
-    auto generator = makeGenerator(options, blocks);
+                                                                const pack::Content& content) {
+    auto generator = makeGenerator(options, content);
     if (!generator) return tl::unexpected(generator.error());
     return onCpu(backend, gen::makeCpuGenerator(std::move(*generator), threadCount(options)));
 }

@@ -49,24 +49,26 @@ bool usesGpu(Backend backend) {
 }
 
 base::Result<std::unique_ptr<view::GpuBackEnds>> chooseBackEnds(game::SessionParts& parts,
-                                                                const WorldOptions& world, Backend backend) {
+                                                                const gen::GeneratorCatalogue& generators,
+                                                                Backend backend) {
     if (!usesGpu(backend)) return nullptr;
-    auto graph = gen::makeGenerator(world.effectiveGenerator(), *parts.blocks);
+    const store::WorldIdentity& identity = parts.store->identity();
+    auto graph = gen::makeGenerator(identity.generator, *parts.blocks, 0, generators);
     if (!graph) return tl::unexpected(graph.error());
-    auto made = view::makeGpuBackEnds(gpu::builtInShaders(""), *graph, world.effectiveSeed(), *parts.blocks);
+    auto made = view::makeGpuBackEnds(gpu::builtInShaders(""), *graph, identity.seed, *parts.blocks);
     if (made) view::useBackEnds(parts, **made);
     return made;
 }
 
 base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const WorldOptions& options, Backend backend,
-                                                                const world::BlockRegistry& blocks) {
+                                                                const pack::Content& content) {
     const auto makeCpu = [&]() -> base::Result<std::unique_ptr<gen::BatchGenerator>> {
-        auto generator = makeGenerator(options, blocks);
+        auto generator = makeGenerator(options, content);
         if (!generator) return tl::unexpected(generator.error());
         return gen::makeCpuGenerator(std::move(*generator), threadCount(options));
     };
     const auto makeGpu = [&]() -> base::Result<gen_gpu::GpuGenerator> {
-        auto graph = gen::makeGenerator(options.effectiveGenerator(), blocks);
+        auto graph = makeGraph(options, content);
         if (!graph) return tl::unexpected(graph.error());
         return gen_gpu::GpuGenerator::create(gpu::builtInShaders(""), *graph, options.effectiveSeed());
     };

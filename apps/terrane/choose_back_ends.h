@@ -9,8 +9,10 @@ namespace terrane::app {
 // Of the current context: whether it is to do the work.
 bool usesGpu(Backend backend);
 
-// Null where workers are to do all. Else `parts` use the back ends from here on. The context is current.
+// `generators`: the world's is one of them. Null where workers are to do all. Else `parts` use the back ends
+// from here on. The context is current.
 base::Result<std::unique_ptr<view::GpuBackEnds>> chooseBackEnds(game::SessionParts& parts,
-                                                                const WorldOptions& world, Backend backend);
+                                                                const gen::GeneratorCatalogue& generators,
+                                                                Backend backend);
 
 }  // namespace terrane::app

@@ -1,6 +1,5 @@
 #include "apps/terrane/offscreen.h"
 
-#include "terrane/content/built_in.h"
 #include "terrane/content/resource_pack.h"
 #include "terrane/gpu/built_in_shaders.h"
 #include "terrane/view/memory_budget.h"
@@ -10,9 +9,10 @@ namespace terrane::app {
 base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const OffscreenOptions& options) {
     const GraphicsOptions& graphics = options.graphics;
     WorldOptions world = options.world;
-    auto parts = openSessionParts(world, options.save, options.access);
-    if (!parts) return tl::unexpected(parts.error());
-    auto textures = content::loadTextures(graphics.resourcePack, *parts->blocks);
+    auto opened = openSessionParts(world, options.save, options.access);
+    if (!opened) return tl::unexpected(opened.error());
+    game::SessionParts& parts = opened->parts;
+    auto textures = content::loadTextures(graphics.resourcePack, *parts.blocks, opened->content.textures);
     if (!textures) return tl::unexpected(textures.error());
     auto context = gpu::HeadlessContext::create({.debug = graphics.debugGl});
     if (!context) return tl::unexpected(context.error());
@@ -25,10 +25,10 @@ base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const OffscreenOption
                                                   {},
                                                   {},
                                                   {}});
-    auto backEnds = chooseBackEnds(*parts, world, options.backend);
+    auto backEnds = chooseBackEnds(parts, opened->content.generators, options.backend);
     if (!backEnds) return tl::unexpected(backEnds.error());
     made->backEnds = std::move(*backEnds);
-    auto renderer = render::Renderer::create(made->shaders, *parts->blocks, *textures, made->device);
+    auto renderer = render::Renderer::create(made->shaders, *parts.blocks, *textures, made->device);
     if (!renderer) return tl::unexpected(renderer.error());
     made->renderer = std::move(*renderer);
     made->renderer.setMemoryBudget(view::gpuMemoryBudget(made->device, graphics.gpuMemory));
@@ -36,7 +36,7 @@ base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const OffscreenOption
     if (auto done = made->renderer.configure(graphics.size, made->graphics.render); !done)
         return tl::unexpected(done.error());
     made->renderer.setViewDistance(made->graphics.viewDistance);
-    made->session = std::make_unique<game::Session>(std::move(*parts));
+    made->session = std::make_unique<game::Session>(std::move(parts));
     made->session->pipeline().setMeshOptions(made->graphics.mesh);
     made->view.emplace(*made->session, made->renderer);
     made->view->setHorizon({made->graphics.horizon, made->graphics.detail});

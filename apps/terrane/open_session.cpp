@@ -1,21 +1,21 @@
 #include "apps/terrane/open_session.h"
 
 #include "terrane/base/log.h"
-#include "terrane/content/built_in.h"
 #include "terrane/gen/generators/catalogue.h"
+#include "terrane/pack/world_packs.h"
 #include "terrane/store/memory_store.h"
 #include "terrane/store_postgres/any_world.h"
 
 namespace terrane::app {
 
-store::WorldIdentity identityOf(const WorldOptions& options) {
+store::WorldIdentity identityOf(const WorldOptions& options, const pack::Content& content) {
     const std::string generator = options.effectiveGenerator();
-    return {options.effectiveSeed(), generator, gen::generatorVersion(generator)};
+    return {options.effectiveSeed(), generator, gen::versionOf(content.generators, generator)};
 }
 
 base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options, const SaveOptions& save,
                                                           store::WorldAccess access,
-                                                          const world::BlockRegistry& blocks,
+                                                          const pack::Content& content,
                                                           store::WorldSharing sharing) {
     if (!options.seedText.empty())
         base::logInfo("the seed \"{}\" is the number {}", options.seedText, options.effectiveSeed());
@@ -27,23 +27,27 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
         return nullptr;
     }
     // Before a save is made: a generator that does not exist has none.
-    if (auto known = gen::makeGenerator(options.effectiveGenerator(), blocks); !known)
-        return tl::unexpected(known.error());
+    if (auto known = makeGraph(options, content); !known) return tl::unexpected(known.error());
     store::WorldRequest request;
     request.access = access;
-    if (access != store::WorldAccess::ReadOnly) request.create = identityOf(options);
-    request.wanted = {options.seed, options.generator, save.regenerate};
-    request.versionOf = gen::generatorVersion;
+    if (access != store::WorldAccess::ReadOnly) request.create = identityOf(options, content);
+    request.wanted = {options.seed, options.generator, save.regenerate, save.followsGenerator};
+    request.versionOf = [&](std::string_view name) { return gen::versionOf(content.generators, name); };
     request.sharing = sharing;
-    auto opened = store_postgres::openAnyWorld(store::worldLocation(save.world), blocks, request);
+    auto opened = store_postgres::openAnyWorld(store::worldLocation(save.world), *content.blocks, request);
     if (!opened) return opened;
+    if (access != store::WorldAccess::ReadOnly) pack::rememberPacks(**opened, content);
     options.seed = (*opened)->identity().seed;
     options.generator = (*opened)->identity().generator;
     return opened;
 }
 
-base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const world::BlockRegistry& blocks) {
-    auto graph = gen::makeGenerator(options.effectiveGenerator(), blocks);
+base::Result<gen::GeneratorGraph> makeGraph(const WorldOptions& options, const pack::Content& content) {
+    return gen::makeGenerator(options.effectiveGenerator(), *content.blocks, 0, content.generators);
+}
+
+base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const pack::Content& content) {
+    auto graph = makeGraph(options, content);
     if (!graph) return tl::unexpected(graph.error());
     return gen::Generator(std::move(*graph), options.effectiveSeed());
 }
@@ -61,21 +65,20 @@ bool storesGenerated(store::ChunkStore& store, const SaveOptions& save) {
 
 }  // namespace
 
-base::Result<game::SessionParts> openSessionParts(WorldOptions& options, const SaveOptions& save,
-                                                  store::WorldAccess access, store::WorldSharing sharing) {
-    auto loaded = content::loadBlocks();
-    if (!loaded) return tl::unexpected(loaded.error());
-    auto blocks = std::make_unique<const world::BlockRegistry>(std::move(*loaded));
-    auto opened = openSave(options, save, access, *blocks, sharing);
+base::Result<OpenedWorld> openSessionParts(WorldOptions& options, const SaveOptions& save,
+                                           store::WorldAccess access, store::WorldSharing sharing) {
+    auto content = loadContent(options, save);
+    if (!content) return tl::unexpected(content.error());
+    auto opened = openSave(options, save, access, *content, sharing);
     if (!opened) return tl::unexpected(opened.error());
-    auto generators =
-        gen::makeLevelGenerators(options.effectiveGenerator(), *blocks, options.effectiveSeed());
+    auto generators = gen::makeLevelGenerators(options.effectiveGenerator(), *content->blocks,
+                                               options.effectiveSeed(), content->generators);
     if (!generators) return tl::unexpected(generators.error());
-    if (!*opened) *opened = std::make_unique<store::MemoryStore>(identityOf(options));
-    game::SessionParts parts{std::move(blocks), std::move(*generators), std::move(*opened),
+    if (!*opened) *opened = std::make_unique<store::MemoryStore>(identityOf(options, *content));
+    game::SessionParts parts{content->blocks, std::move(*generators), std::move(*opened),
                              threadCount(options)};
     parts.storesGenerated = storesGenerated(*parts.store, save);
-    return parts;
+    return OpenedWorld{std::move(*content), std::move(parts)};
 }
 
 }  // namespace terrane::app

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "terrane/base/result.h"
 #include "terrane/store/world_identity.h"
@@ -27,6 +28,7 @@ struct WorldOptions {
     std::string seedText;  // that the seed was made from; empty where a number was given
     std::optional<std::string> generator;
     std::string otherwise = kDefaultGenerator;  // a scene's, where a command draws one
+    std::vector<std::string> content;           // packs: names or paths
     unsigned threads = 0;                       // 0: as many as the machine has
 
     std::uint64_t effectiveSeed() const { return seed.value_or(kDefaultSeed); }
@@ -37,6 +39,7 @@ struct WorldOptions {
 struct SaveOptions {
     std::string world;  // a store::WorldLocation; empty: none, edits last until the program ends
     store::Regenerate regenerate = store::Regenerate::None;
+    bool followsGenerator = false;  // store::WantedWorld
     // Whether generated chunks are stored too. The world keeps it; where nothing is said they are.
     std::optional<bool> storeGenerated;
 };

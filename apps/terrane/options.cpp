@@ -100,6 +100,11 @@ CLI::Validator existingFolder() {
     return CLI::Validator(check, "");
 }
 
+CLI::Validator existingFile() {
+    const auto check = [](const std::string& text) { return CLI::ExistingFile(text); };
+    return CLI::Validator(check, "");
+}
+
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const std::string& form) {
     std::vector<double> numbers;
     const char *at = text.data(), *end = text.data() + text.size();
@@ -136,11 +141,21 @@ void addWorldOptions(CLI::App& command, WorldOptions& options) {
         ->default_str(std::to_string(WorldOptions::kDefaultSeed));
     command
         .add_option("--generator", options.generator,
-                    fmt::format("Generator of the world: {}", fmt::join(gen::generatorNames(), ", ")))
+                    fmt::format("Generator of the world, PACK:NAME of a content pack or one of these: {}",
+                                fmt::join(gen::namesOf(gen::builtInGenerators()), ", ")))
         ->type_name("CHOICE")
         ->default_str(WorldOptions::kDefaultGenerator);
+    addContentOption(command, options);
     command.add_option("--threads", options.threads, "Worker threads (default: one for each CPU core)")
         ->check(numberFrom(1, 256));
+}
+
+void addContentOption(CLI::App& command, WorldOptions& options) {
+    command
+        .add_option(
+            "--content", options.content,
+            "Content packs: a name in $XDG_DATA_HOME/terrane/packs, or the path of a folder or zip file")
+        ->type_name("PACK");
 }
 
 void addOutputOption(CLI::App& command, std::string& output, const std::vector<std::string>& endings,
@@ -163,6 +178,12 @@ void addResourcePackOption(CLI::App& command, std::string& folder) {
 void addTraceOption(CLI::App& command, std::string& trace) {
     command
         .add_option("--trace", trace, "Write where the time went, for Perfetto or chrome://tracing (JSON)")
+        ->check(newFile())
+        ->type_name("FILE");
+}
+
+void addReportOption(CLI::App& command, std::string& report) {
+    command.add_option("--report", report, "Write what was read and what was not understood (JSON)")
         ->check(newFile())
         ->type_name("FILE");
 }

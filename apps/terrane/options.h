@@ -16,6 +16,8 @@
 namespace terrane::app {
 
 void addWorldOptions(CLI::App& command, WorldOptions& options);
+// --content, which addWorldOptions() adds, too.
+void addContentOption(CLI::App& command, WorldOptions& options);
 // --merging and --mesh-section-height.
 // "X0,Y0,X1,Y1", the end excluded; not empty and inside the world.
 void addAreaOption(CLI::App& command, std::optional<world::ChunkArea>& area);
@@ -40,9 +42,13 @@ void addResourcePackOption(CLI::App& command, std::string& folder);
 // --trace: the file to write; empty: none.
 void addTraceOption(CLI::App& command, std::string& trace);
 
+// --report: the file to write; empty: none.
+void addReportOption(CLI::App& command, std::string& report);
+
 // For CLI::Option::check.
 CLI::Validator numberFrom(double low, double high);
 CLI::Validator existingFolder();  // empty: none
+CLI::Validator existingFile();
 
 // An option that takes one of a few named values.
 template <class T>

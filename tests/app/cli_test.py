@@ -17,7 +17,7 @@ import time
 import support
 from support import Npy, Image, ProgramTest, run
 
-COMMANDS = ("play", "render", "record", "flight-bench", "generate", "map", "dump", "check", "copy", "work", "serve", "history", "bots", "blocks", "info", "bench", "completion", "man")
+COMMANDS = ("play", "render", "record", "flight-bench", "generate", "map", "dump", "check", "copy", "import", "export", "work", "serve", "history", "bots", "blocks", "packs", "info", "bench", "completion", "man")
 FLAT = ("--generator", "flat")
 
 # Name: opacity to light, emission. Of all blocks that the game starts with.

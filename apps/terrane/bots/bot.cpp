@@ -44,7 +44,11 @@ Bot::Bot(boost::asio::io_context& context, BotWorld& world, const BotSettings& s
             identityOf(settings, number),
             {[](const std::string&) { return true; },
              [this](const net::WorldOffer& offer) { return world_.land.prove(offer); },
-             [this](const net::ServerMessage& message) { onMessage(message); }}) {}
+             [this](const net::ServerMessage& message) { onMessage(message); },
+             [this](const net::WorldOffer& offer) { return missingPacks(world_.land.packs, offer); },
+             [this](const net::PackOffer& offer, const net::Bytes& archive) {
+                 return takePack(world_.land.packs, offer, archive);
+             }}) {}
 
 void Bot::onMessage(const net::ServerMessage& message) {
     if (const auto* joined = std::get_if<net::Joined>(&message)) return onJoined(*joined);

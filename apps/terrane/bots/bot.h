@@ -36,7 +36,7 @@ struct BotSettings {
 
 // What all bots know and count.
 struct BotWorld {
-    explicit BotWorld(std::unique_ptr<const world::BlockRegistry> blocks) : land(std::move(blocks)) {}
+    explicit BotWorld(ClientPacks serverPacks) : land(std::move(serverPacks)) {}
 
     BotLand land;
     std::optional<world::Pose> crowd;  // where the first bot began

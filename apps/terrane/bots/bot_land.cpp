@@ -5,8 +5,13 @@
 namespace terrane::app {
 
 base::Result<net::SampleDigests> BotLand::prove(const net::WorldOffer& offer) {
-    if (generator_ && offer.world == offer_.world && offer.samples == offer_.samples) return digests_;
-    auto generator = net::offeredGenerator(offer, *blocks_);
+    if (generator_ && offer.world == offer_.world && offer.samples == offer_.samples &&
+        offer.packs == offer_.packs)
+        return digests_;
+    auto content = contentOf(packs, offer);
+    if (!content) return tl::unexpected(content.error());
+    content_ = std::move(*content);
+    auto generator = net::offeredGenerator(offer, *content_.blocks, content_.generators);
     if (!generator) return tl::unexpected(generator.error());
     generator_ = std::make_unique<gen::Generator>(std::move(*generator));
     offer_ = offer;

@@ -7,7 +7,7 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
-#include "terrane/content/built_in.h"
+#include "apps/terrane/world_content.h"
 #include "terrane/content/language.h"
 
 namespace terrane::app {
@@ -58,11 +58,13 @@ nlohmann::json typeJson(const world::BlockRegistry& blocks, const content::Langu
             {"generated", type.generated}};
 }
 
-base::Result<void> listBlocks(bool asJson) {
-    auto blocks = content::loadBlocks();
-    if (!blocks) return tl::unexpected(blocks.error());
-    const auto english = content::loadLanguage("en");
+base::Result<void> listBlocks(const WorldOptions& options, bool asJson) {
+    const auto content = loadContent(options);
+    if (!content) return tl::unexpected(content.error());
+    const auto& blocks = content->blocks;
+    auto english = content::loadLanguage("en");
     if (!english) return tl::unexpected(english.error());
+    if (auto added = pack::addBlockNames(*english, *content, "en"); !added) return added;
     if (asJson) {
         nlohmann::json list = nlohmann::json::array();
         for (const world::BlockType& type : blocks->types())
@@ -70,7 +72,7 @@ base::Result<void> listBlocks(bool asJson) {
         std::cout << list.dump() << '\n';
         return {};
     }
-    constexpr fmt::string_view kRow = "{:>4}  {:<21}{:<24}{:<8}{:>8}  {:<12}{}\n";
+    constexpr fmt::string_view kRow = "{:>4}  {:<21} {:<24}{:<8}{:>8}  {:<12}{}\n";
     fmt::print(kRow, "id", "name", "shown name", "shape", "opacity", "emission", "collides");
     for (const world::BlockType& type : blocks->types()) {
         const auto& e = type.emission;
@@ -84,10 +86,12 @@ base::Result<void> listBlocks(bool asJson) {
 }  // namespace
 
 CommandEntry addBlocks(CLI::App& app) {
+    auto options = std::make_shared<WorldOptions>();
     auto asJson = std::make_shared<bool>(false);
     CLI::App* command = app.add_subcommand("blocks", "List every block type");
     command->add_flag("--json", *asJson, "Print all properties as JSON");
-    return {command, [asJson] { return listBlocks(*asJson); }};
+    addContentOption(*command, *options);
+    return {command, [options, asJson] { return listBlocks(*options, *asJson); }};
 }
 
 }  // namespace terrane::app

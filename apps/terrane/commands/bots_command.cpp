@@ -15,7 +15,6 @@
 #include "terrane/base/log.h"
 #include "terrane/base/process_statistics.h"
 #include "terrane/base/stop_signals.h"
-#include "terrane/content/built_in.h"
 
 namespace terrane::app {
 namespace {
@@ -101,10 +100,8 @@ base::Result<void> runBots(BotsOptions& options) {
         if (!address) return tl::unexpected(address.error());
         options.bots.servers.push_back(*address);
     }
-    auto blocks = content::loadBlocks();
-    if (!blocks) return tl::unexpected(blocks.error());
     raiseOpenFileLimit();
-    BotWorld world(std::make_unique<const world::BlockRegistry>(std::move(*blocks)));
+    BotWorld world(ClientPacks{.cache = {}, .acceptsAll = true, .accepted = {}, .packs = {}, .missing = {}});
     boost::asio::io_context context;
     std::deque<Bot> bots;
     const base::StopSignals signals;

@@ -5,8 +5,8 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/world_content.h"
 #include "terrane/base/printable.h"
-#include "terrane/content/built_in.h"
 #include "terrane/store_postgres/any_world.h"
 
 namespace terrane::app {
@@ -63,9 +63,9 @@ void printText(const std::string& file, const store::CheckReport& report) {
 }
 
 base::Result<void> check(CheckOptions& options) {
-    const auto blocks = content::loadBlocks();
-    if (!blocks) return tl::unexpected(blocks.error());
-    const auto report = store_postgres::checkAnyWorld(store::worldLocation(options.file), *blocks);
+    const auto content = loadContent({}, {.world = options.file, .storeGenerated = {}});
+    if (!content) return tl::unexpected(content.error());
+    const auto report = store_postgres::checkAnyWorld(store::worldLocation(options.file), *content->blocks);
     if (!report) return tl::unexpected(report.error());
     options.foundDamage = report->isDamaged();
     if (options.json) {

@@ -6,11 +6,11 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/serve/world_records.h"
+#include "apps/terrane/world_content.h"
 #include "terrane/base/log.h"
 #include "terrane/base/printable.h"
 #include "terrane/base/progress_bar.h"
 #include "terrane/base/stop_signals.h"
-#include "terrane/content/built_in.h"
 #include "terrane/net/records_copy.h"
 #include "terrane/store/world_copy.h"
 #include "terrane/store_postgres/any_world.h"
@@ -64,9 +64,9 @@ base::Result<void> copyServers(const CopyOptions& options, const world::BlockReg
 
 // What servers keep comes first: where one runs, the copy has not ended and goes on later.
 base::Result<void> copy(CopyOptions& options) {
-    const auto loaded = content::loadBlocks();
-    if (!loaded) return tl::unexpected(loaded.error());
-    const world::BlockRegistry& blocks = *loaded;
+    const auto content = loadContent({}, {.world = options.from, .storeGenerated = {}});
+    if (!content) return tl::unexpected(content.error());
+    const world::BlockRegistry& blocks = *content->blocks;
     auto from = store_postgres::openAnyRowsToRead(store::worldLocation(options.from), blocks);
     if (!from) return tl::unexpected(from.error());
     const auto total = (*from)->rowCount();

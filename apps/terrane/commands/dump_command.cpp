@@ -13,7 +13,6 @@
 #include "terrane/base/log.h"
 #include "terrane/base/progress_bar.h"
 #include "terrane/base/stop_signals.h"
-#include "terrane/content/built_in.h"
 
 namespace terrane::app {
 namespace {
@@ -32,21 +31,20 @@ struct DumpOptions {
 
 // Where chunks come from, and who ends that.
 struct Sources {
-    std::unique_ptr<const world::BlockRegistry> blocks;
+    std::shared_ptr<const world::BlockRegistry> blocks;
     std::unique_ptr<store::ChunkStore> save;  // may be null
     gen::Generator generator;
     const base::StopSignals& signals;
 };
 
 base::Result<Sources> openSources(DumpOptions& options, const base::StopSignals& signals) {
-    auto loaded = content::loadBlocks();
-    if (!loaded) return tl::unexpected(loaded.error());
-    auto blocks = std::make_unique<const world::BlockRegistry>(std::move(*loaded));
-    auto save = openSave(options.world, options.save, store::WorldAccess::ReadOnly, *blocks);
+    const auto content = loadContent(options.world, options.save);
+    if (!content) return tl::unexpected(content.error());
+    auto save = openSave(options.world, options.save, store::WorldAccess::ReadOnly, *content);
     if (!save) return tl::unexpected(save.error());
-    auto generator = makeGenerator(options.world, *blocks);
+    auto generator = makeGenerator(options.world, *content);
     if (!generator) return tl::unexpected(generator.error());
-    return Sources{std::move(blocks), std::move(*save), std::move(*generator), signals};
+    return Sources{content->blocks, std::move(*save), std::move(*generator), signals};
 }
 
 // Calls `take` with one loaded square after the other, until it fails or somebody stops the program.

@@ -20,6 +20,7 @@
 #include "terrane/gen/glsl_emitter.h"
 #include "terrane/gen/kernels.h"
 #include "terrane/store_postgres/any_world.h"
+#include "terrane/world/chunk_digest.h"
 
 namespace terrane::app {
 namespace {
@@ -38,14 +39,6 @@ struct GenerateOptions {
 
 // Chunks generated at once: enough for all workers or three batches of the GPU, 192 × about 10 KiB.
 constexpr std::int64_t kBatch = 192;
-
-void addToDigest(base::Digest& digest, const world::Chunk& chunk) {
-    std::array<world::Section::Value, world::kBlocksPerSection> values;
-    for (int s = 0; s < world::kSectionsPerChunk; ++s) {
-        chunk.section(s).unpack(values);
-        digest.update(std::as_bytes(std::span(values)));
-    }
-}
 
 struct Generated {
     std::size_t chunks = 0;   // made now
@@ -99,7 +92,7 @@ class AreaGenerator {
     void addBatchToDigest(const std::vector<store::LoadedChunk>& stored) {
         std::size_t k = 0;
         for (const store::LoadedChunk& loaded : stored)
-            addToDigest(digest_, loaded.chunk ? *loaded.chunk : *chunks_[k++]);
+            world::addToDigest(digest_, loaded.chunk ? *loaded.chunk : *chunks_[k++]);
     }
 
     base::Result<void> saveBatch(const std::vector<world::ChunkPos>& positions) {
@@ -154,9 +147,8 @@ void explainChunk(const gen::GeneratorGraph& graph, std::uint64_t seed, world::C
 }
 
 // The passes, what they read and write, and their GLSL.
-base::Result<void> explain(const WorldOptions& options, const world::BlockRegistry& blocks,
-                           world::ChunkPos chunk) {
-    auto graph = gen::makeGenerator(options.effectiveGenerator(), blocks);
+base::Result<void> explain(const WorldOptions& options, const pack::Content& content, world::ChunkPos chunk) {
+    auto graph = makeGraph(options, content);
     if (!graph) return tl::unexpected(graph.error());
     for (std::size_t k = 0; k < graph->passes.size(); ++k) {
         const gen::PassGraph& pass = graph->passes[k];
@@ -201,22 +193,22 @@ base::Result<void> generate(GenerateOptions& options) {
     }
     const int r = options.radius.value_or(0);
     const world::ChunkArea area = options.area.value_or(world::ChunkArea{-r, -r, r + 1, r + 1});
-    auto blocks = content::loadBlocks();
-    if (!blocks) return tl::unexpected(blocks.error());
+    const auto content = loadContent(options.world, options.save);
+    if (!content) return tl::unexpected(content.error());
     if (options.explain) {
         // The first chunk of the area asked for.
         const world::ChunkPos chunk =
             options.area ? world::ChunkPos{area.x0, area.y0} : world::ChunkPos{0, 0};
-        return explain(options.world, *blocks, chunk);
+        return explain(options.world, *content, chunk);
     }
     if (!gen::chooseSimdTarget(options.simd)) {
         return base::fail("--simd: this machine has no {}, but {}", options.simd,
                           fmt::join(gen::simdTargets(), ", "));
     }
-    auto save = openSave(options.world, options.save, store::WorldAccess::ReadWrite, *blocks,
+    auto save = openSave(options.world, options.save, store::WorldAccess::ReadWrite, *content,
                          store::WorldSharing::Generating);
     if (!save) return tl::unexpected(save.error());
-    auto generator = makeBatchGenerator(options.world, options.backend, *blocks);
+    auto generator = makeBatchGenerator(options.world, options.backend, *content);
     if (!generator) return tl::unexpected(generator.error());
 
     const auto start = std::chrono::steady_clock::now();

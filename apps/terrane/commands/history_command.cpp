@@ -6,8 +6,8 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/serve/world_records.h"
+#include "apps/terrane/world_content.h"
 #include "terrane/base/printable.h"
-#include "terrane/content/built_in.h"
 
 namespace terrane::app {
 namespace {
@@ -38,8 +38,9 @@ std::string textOfBlocks(const net::ChangedBlock& first, const net::ChunkDiffere
 }
 
 base::Result<void> printHistory(const HistoryOptions& options) {
-    auto blocks = content::loadBlocks();
-    if (!blocks) return tl::unexpected(blocks.error());
+    const auto content = loadContent({}, options.save);
+    if (!content) return tl::unexpected(content.error());
+    const auto& blocks = content->blocks;
     const auto history = openHistory(store::worldLocation(options.save.world), *blocks);
     if (!history) return tl::unexpected(history.error());
     net::EditFilter filter;

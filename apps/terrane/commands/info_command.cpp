@@ -20,7 +20,7 @@ base::Result<void> printInfo(bool asJson) {
     const nlohmann::json info = {{"version", TERRANE_VERSION},
                                  {"processors", std::thread::hardware_concurrency()},
                                  {"simd", gen::simdTargets()},
-                                 {"generators", gen::generatorNames()},
+                                 {"generators", gen::namesOf(gen::builtInGenerators())},
                                  {"graphics", graphicsInfo()}};
     if (asJson) {
         std::cout << info.dump() << '\n';
@@ -28,7 +28,7 @@ base::Result<void> printInfo(bool asJson) {
     }
     fmt::print("terrane {}\nprocessors   {}\nsimd         {}\ngenerators   {}\n", TERRANE_VERSION,
                std::thread::hardware_concurrency(), fmt::join(gen::simdTargets(), " "),
-               fmt::join(gen::generatorNames(), " "));
+               fmt::join(gen::namesOf(gen::builtInGenerators()), " "));
     for (const auto& [key, value] : info["graphics"].items()) {
         fmt::print("{:<24}{}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
     }

@@ -37,8 +37,8 @@ bool isGiven(const CLI::App& command, std::string_view name) {
 // Whoever names a world, or what it is played for, goes straight into it.
 bool namesWorld(const CLI::App& command) {
     constexpr std::string_view kNames[] = {
-        "world",    "seed",    "generator", "recreate",        "regenerate",
-        "bookmark", "no-save", "time",      "store-generated", "collect-perf-data"};
+        "world",   "seed", "generator",       "recreate",         "watch", "regenerate", "bookmark",
+        "no-save", "time", "store-generated", "collect-perf-data"};
     return std::ranges::any_of(kNames, [&](std::string_view name) { return isGiven(command, name); });
 }
 
@@ -121,12 +121,18 @@ CommandEntry addPlay(CLI::App& app) {
     command->add_flag("--no-title", options->skipsTitle,
                       "Go straight into the world, as options that name one do");
     command->add_flag("--no-save", options->savesNothing, "Save nothing: changes are lost at the end");
+    auto* watch = command->add_flag(
+        "--watch", options->watches,
+        "Look at the files of the world's content packs: what changes there is shown at once. Edits stay");
+    watch->excludes("--no-save");
     command->add_option("--connect", options->remote.server, "Play in the world of a server")
         ->type_name("HOST[:PORT]");
     command->add_option("--name", options->remote.name, "Name by which others on a server know the player")
         ->type_name("NAME");
     command->add_option("--password", options->remote.password, "Where the server wants one")
         ->type_name("TEXT");
+    command->add_flag("--accept-packs", options->remote.acceptsPacks,
+                      "Let the server send content packs without asking");
     command->add_option("--bookmark", options->bookmark, "Start at this bookmark, counted from 1")
         ->check(numberFrom(1, 1e6))
         ->type_name("X");
@@ -143,7 +149,10 @@ CommandEntry addPlay(CLI::App& app) {
         ->type_name("FILE");
     command->footer(std::string("Keys:\n") + kKeyHelp + kWhereSaved);
     command->get_option("--name")->needs("--connect");
-    command->get_option("--connect")->needs("--name")->excludes("--world", "--seed", "--generator");
+    command->get_option("--accept-packs")->needs("--connect");
+    command->get_option("--connect")
+        ->needs("--name")
+        ->excludes("--world", "--seed", "--generator", "--watch");
     return {command, [options, command] { return play(*options, *command); }};
 }
 

@@ -12,7 +12,6 @@
 #include "terrane/base/log.h"
 #include "terrane/base/progress_bar.h"
 #include "terrane/base/stop_signals.h"
-#include "terrane/content/built_in.h"
 #include "terrane/video/frame_sink.h"
 
 namespace terrane::app {
@@ -37,12 +36,12 @@ struct FrameRange {
 base::Result<Script> readScript(const RecordOptions& options, const CLI::App& command) {
     auto text = base::readFile(options.path);
     if (!text) return tl::unexpected(text.error());
-    auto blocks = content::loadBlocks();
-    if (!blocks) return tl::unexpected(blocks.error());
+    const auto content = loadContent(options.world, options.save);
+    if (!content) return tl::unexpected(content.error());
     ScriptDefaults defaults{options.world, options.graphics, {}};
     for (const CLI::Option* option : command.get_options())
         if (option->count() > 0) defaults.given.push_back(option->get_single_name());
-    return parseScript(*text, options.path, defaults, *blocks);
+    return parseScript(*text, options.path, defaults, *content->blocks);
 }
 
 base::Result<FrameRange> framesOf(const RecordOptions& options, const Script& script) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/terrane/client_packs.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/machine_name.h"
 #include "apps/terrane/maps/server_map.h"
@@ -54,15 +55,18 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     if (auto checked = checkMapSite(options.map); !checked) return checked;
     auto statistics = ServerStatistics::open(options.statistics);
     if (!statistics) return tl::unexpected(statistics.error());
-    auto parts = openSessionParts(options.world, options.save, store::WorldAccess::ReadWrite,
-                                  store::WorldSharing::Servers);
-    if (!parts) return tl::unexpected(parts.error());
+    auto opened = openSessionParts(options.world, options.save, store::WorldAccess::ReadWrite,
+                                   store::WorldSharing::Servers);
+    if (!opened) return tl::unexpected(opened.error());
+    game::SessionParts& parts = opened->parts;
+    const auto content = serverContent(opened->content);
+    if (!content) return tl::unexpected(content.error());
     // Players' programs generate what nobody edited: the server needs it rarely, and makes it again.
-    parts->storesGenerated = false;
-    auto records = openRecords(world, *parts->blocks);
+    parts.storesGenerated = false;
+    auto records = openRecords(world, *parts.blocks);
     if (!records) return tl::unexpected(records.error());
-    auto host = net::openServerHost(std::move(*parts), std::move(records->records), options.server,
-                                    fmt::format("terrane {}", TERRANE_VERSION));
+    auto host = net::openServerHost(std::move(parts), std::move(records->records), options.server,
+                                    fmt::format("terrane {}", TERRANE_VERSION), *content);
     if (!host) return tl::unexpected(host.error());
     raiseOpenFileLimit();
     boost::asio::io_context context;
@@ -74,7 +78,8 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     base::logInfo("{} on port {}, seed {}, generator {}; key {}", store_postgres::shownOf(world),
                   (*sockets)->port(), host->state->world.identity.seed, host->state->world.identity.generator,
                   (*sockets)->key());
-    const auto map = ServerMap::open(context, *host->state, options.save.world, options.map, *files);
+    const auto map = ServerMap::open(context, *host->state, options.save.world, options.map, *files,
+                                     opened->content.textures);
     if (!map) return tl::unexpected(map.error());
     net::ServerLoop loop;
     loop.onTick = [&](double milliseconds) {

@@ -14,7 +14,6 @@
 #include "terrane/base/log.h"
 #include "terrane/base/printable.h"
 #include "terrane/base/stop_signals.h"
-#include "terrane/content/built_in.h"
 #include "terrane/store_postgres/postgres_store.h"
 
 namespace terrane::app {
@@ -95,8 +94,8 @@ base::Result<void> addArea(store_postgres::ConnectionPool& pool, const WorkOptio
 }
 
 base::Result<void> runWorker(WorkOptions& options, store_postgres::ConnectionPool& pool,
-                             store::ChunkStore& store, const world::BlockRegistry& blocks) {
-    auto generator = makeBatchGenerator(options.world, options.backend, blocks);
+                             store::ChunkStore& store, const pack::Content& content) {
+    auto generator = makeBatchGenerator(options.world, options.backend, content);
     if (!generator) return tl::unexpected(generator.error());
     const base::StopSignals signals;
     const auto start = std::chrono::steady_clock::now();
@@ -141,8 +140,6 @@ base::Result<void> manage(const WorkOptions& options, store_postgres::Connection
 }
 
 base::Result<void> runWork(WorkOptions& options) {
-    const auto blocks = content::loadBlocks();
-    if (!blocks) return tl::unexpected(blocks.error());
     if (!store_postgres::isPostgresUrl(options.save.world))
         return base::fail(
             base::ErrorCode::BadInput,
@@ -151,17 +148,19 @@ base::Result<void> runWork(WorkOptions& options) {
     const auto address = store_postgres::addressOf(options.save.world);
     if (!address) return tl::unexpected(address.error());
     store_postgres::ConnectionPool pool(*address);
+    const auto content = loadContent(options.world, options.save);
+    if (!content) return tl::unexpected(content.error());
     if (onlyManages(options)) {
         // What is no world is told so.
-        const auto rows = store_postgres::openRowsToRead(*address, *blocks);
+        const auto rows = store_postgres::openRowsToRead(*address, *content->blocks);
         if (!rows) return tl::unexpected(rows.error());
         return manage(options, pool);
     }
-    auto store = openSave(options.world, options.save, store::WorldAccess::ReadWrite, *blocks,
+    auto store = openSave(options.world, options.save, store::WorldAccess::ReadWrite, *content,
                           store::WorldSharing::Generating);
     if (!store) return tl::unexpected(store.error());
     if (auto added = addArea(pool, options); !added || options.addsOnly) return added;
-    return runWorker(options, pool, **store, *blocks);
+    return runWorker(options, pool, **store, *content);
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ struct ServerMap::Impl {};
 
 base::Result<std::unique_ptr<ServerMap>> ServerMap::open(boost::asio::io_context&, net::ServerState&,
                                                          const std::string&, const MapSiteOptions&,
-                                                         const std::filesystem::path&) {
+                                                         const std::filesystem::path&,
+                                                         const world::TextureSource&) {
     return nullptr;
 }
 

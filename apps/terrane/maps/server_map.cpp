@@ -7,7 +7,6 @@
 #include "apps/terrane/maps/player_list.h"
 #include "apps/terrane/maps/site_parts.h"
 #include "terrane/base/log.h"
-#include "terrane/content/resource_pack.h"
 #include "terrane/web/map_site.h"
 
 namespace terrane::app {
@@ -38,20 +37,19 @@ struct ServerMap::Impl {
 base::Result<std::unique_ptr<ServerMap>> ServerMap::open(boost::asio::io_context& context,
                                                          net::ServerState& server, const std::string& world,
                                                          const MapSiteOptions& options,
-                                                         const std::filesystem::path& files) {
+                                                         const std::filesystem::path& files,
+                                                         const world::TextureSource& textures) {
     if (options.http.empty()) return nullptr;
     const auto address = webAddressFrom(options.http);
     if (!address) return tl::unexpected(address.error());
     auto places = readPlaceFile(options.places);
     if (!places) return tl::unexpected(places.error());
     game::Session& session = server.session;
-    const auto textures = content::loadTextures({}, session.blocks());
-    if (!textures) return tl::unexpected(textures.error());
     auto impl = std::make_unique<Impl>(server);
     impl->cache = openMapCache(files.string() + kMapCacheEnding,
                                originOf(server.world.identity, session.blocks()), options.diskMegabytes);
     const auto& edited = server.edited.positions(0);
-    web::MapSiteParts parts{session.generators(), session.blocks(), *textures,
+    web::MapSiteParts parts{session.generators(), session.blocks(), textures,
                             session.store(),      titleOf(world),   namedPlace("", server.spawn)};
     parts.threads = options.threads;
     parts.cache = impl->cache.get();

@@ -23,7 +23,8 @@ class ServerMap {
                                                                        net::ServerState& server,
                                                                        const std::string& world,
                                                                        const MapSiteOptions& options,
-                                                                       const std::filesystem::path& files);
+                                                                       const std::filesystem::path& files,
+                                                                       const world::TextureSource& textures);
     ~ServerMap();
 
     // After each tick of the server, which took so long.

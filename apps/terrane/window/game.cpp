@@ -26,7 +26,7 @@ Game::Game(const GameParts& parts, const GameOptions& options)
     : parts_(parts),
       settings_(options.settings),
       applied_(options.settings),
-      tr_(textsOf(options.settings.language)),
+      tr_(textsOf(options.settings.language, parts.content)),
       sounds_(parts.session),
       isSoftwareRenderer_(options.isSoftwareRenderer),
       imgui_(parts.window),
@@ -37,6 +37,8 @@ Game::Game(const GameParts& parts, const GameOptions& options)
       bookmarks_(game::bookmarkFiles(options.dataFolder)),
       building_(options.dataFolder),
       perfData_(options.perfData),
+      contentChanged_(options.contentChanged),
+      checkContent_(options.checkContent),
       deviceName_(options.deviceName),
       thumbnail_(options.thumbnail) {
     if (options.measuresPreset) beginMeasurement();
@@ -78,6 +80,7 @@ base::Result<void> Game::drawFrames() {
         advance(seconds);
         applySettings();
         reloadWrittenShaders();
+        reloadContent();
         if (auto drawn = drawFrame(seconds); !drawn) return drawn;
         if (perfLog_) perfLog_->add(seconds_, seconds, statistics());
     }
@@ -134,12 +137,12 @@ void Game::applySettings() {
         say(changed ? tr_("textures are loaded") : changed.error().message);
     }
     if (settings_.soundVolume != applied_.soundVolume) sounds_.setVolume(settings_.soundVolume);
-    if (settings_.language != applied_.language) tr_ = textsOf(settings_.language);
+    if (settings_.language != applied_.language) tr_ = textsOf(settings_.language, parts_.content);
     applied_ = settings_;
 }
 
 base::Result<void> Game::useResourcePack(const std::string& folder) {
-    auto textures = content::loadTextures(folder, parts_.session.blocks());
+    auto textures = content::loadTextures(folder, parts_.session.blocks(), parts_.content.textures);
     if (!textures) return tl::unexpected(textures.error());
     if (auto set = parts_.renderer.setTextures(parts_.session.blocks(), *textures); !set) return set;
     return parts_.preview.setTextures(*textures);

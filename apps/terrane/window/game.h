@@ -35,6 +35,7 @@ namespace terrane::app {
 // What the loop works with; everything outlives it.
 struct GameParts {
     Window& window;
+    const pack::Content& content;
     game::Session& session;
     render::Renderer& renderer;
     view::WorldView& view;
@@ -51,10 +52,12 @@ struct GameOptions {
     std::string hotbar;                // as game::textOf() says it; any text
     std::filesystem::path dataFolder;  // for bookmarks and screenshots
     bool isSoftwareRenderer = false;
-    std::string deviceName;           // of the graphics driver
-    bool measuresPreset = false;      // the settings get the preset that a measurement picks
-    std::string perfData;             // file; empty: none
-    std::filesystem::path thumbnail;  // file of the world's picture; empty: none
+    std::string deviceName;                            // of the graphics driver
+    bool measuresPreset = false;                       // the settings get the preset that a measurement picks
+    std::string perfData;                              // file; empty: none
+    std::filesystem::path thumbnail;                   // file of the world's picture; empty: none
+    std::function<bool()> contentChanged;              // whether packs on the disk changed; may be empty
+    std::function<base::Result<void>()> checkContent;  // what is wrong with them now
 };
 
 class Game {
@@ -70,6 +73,8 @@ class Game {
     base::Result<void> run();
     // After run(): the player wants the title, not to quit.
     bool goesToTitle() const { return goesToTitle_; }
+    // The content changed: the world is to be opened again.
+    bool wantsReload() const { return wantsReload_; }
     const PlaySettings& settings() const { return settings_; }
     // Why the server sent the player away; empty where it did not.
     const std::string& serverReason() const { return serverReason_; }
@@ -133,6 +138,7 @@ class Game {
     void applySettings();
     base::Result<void> useResourcePack(const std::string& folder);
     void reloadWrittenShaders();
+    void reloadContent();
     bool hasWorldImage() const { return parts_.renderer.size().x > 0; }
     const render::RenderOptions& renderOptions() const;
     void beginMeasurement();
@@ -175,6 +181,8 @@ class Game {
     bool wasAsking_ = false;
     bool withShift_ = false, withControl_ = false;  // held with the event that is handled, else now
     std::string perfData_;
+    std::function<bool()> contentChanged_;
+    std::function<base::Result<void>()> checkContent_;
     std::optional<PerfLog> perfLog_;
     std::optional<PresetMeasurement> measurement_;  // while it goes on
     std::string deviceName_, presetMessage_;
@@ -184,7 +192,7 @@ class Game {
 
     bool isCaptured_ = false, showsPanel_ = false, isAbove_ = false, showsLoading_ = false;
     bool isPaused_ = false, asksToQuit_ = false, quitsUnsaved_ = false, showsSettings_ = false;
-    bool isLeaving_ = false, goesToTitle_ = false;
+    bool isLeaving_ = false, goesToTitle_ = false, wantsReload_ = false;
     bool wasComplete_ = false;  // all in view has been there once
     double hintSeconds_ = 12, messageSeconds_ = 0;
     std::string message_, serverReason_;

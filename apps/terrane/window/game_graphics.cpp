@@ -92,4 +92,15 @@ base::Result<void> Game::configureRenderer(glm::ivec2 size) {
     return {};
 }
 
+// Only content that can be used is: until then the world stays as it is, and the player reads why.
+void Game::reloadContent() {
+    if (!contentChanged_ || isLeaving_ || !contentChanged_()) return;
+    if (const auto checked = checkContent_(); !checked) {
+        base::logWarning("{}", checked.error().message);
+        return say(checked.error().message);
+    }
+    wantsReload_ = true;
+    leave(false);
+}
+
 }  // namespace terrane::app

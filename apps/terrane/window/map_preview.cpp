@@ -12,8 +12,6 @@
 #include "terrane/base/exception_text.h"
 #include "terrane/base/job_system.h"
 #include "terrane/base/profile.h"
-#include "terrane/content/built_in.h"
-#include "terrane/gen/generators/catalogue.h"
 #include "terrane/map/area_image.h"
 
 namespace terrane::app {
@@ -25,7 +23,7 @@ constexpr int kBlocks = 16 * MapPreview::kPixels;
 }  // namespace
 
 struct MapPreview::Work {
-    explicit Work(const world::BlockRegistry& registry) : blocks(registry), thread([this] { run(); }) {}
+    explicit Work(const pack::Content& given) : content(given), thread([this] { run(); }) {}
     ~Work() {
         {
             const std::lock_guard lock(mutex);
@@ -49,7 +47,7 @@ struct MapPreview::Work {
         isDone = isLast || !image;
     }
 
-    const world::BlockRegistry& blocks;
+    const pack::Content& content;
     std::mutex mutex;
     std::condition_variable changed;
     // Under the mutex.
@@ -79,9 +77,10 @@ void MapPreview::Work::run() {
 }
 
 void MapPreview::Work::draw(const World& world) {
-    auto generators = gen::makeLevelGenerators(world.generator, blocks, world.seed);
+    auto generators =
+        gen::makeLevelGenerators(world.generator, *content.blocks, world.seed, content.generators);
     if (!generators) return give(world, tl::unexpected(generators.error()), true);
-    auto painter = map::MapPainter::create({*generators, blocks, content::builtInTextures()});
+    auto painter = map::MapPainter::create({*generators, *content.blocks, content.textures});
     if (!painter) return give(world, tl::unexpected(painter.error()), true);
     for (const int level : kLevels) {
         if (isOutdated(world)) return;
@@ -92,7 +91,7 @@ void MapPreview::Work::draw(const World& world) {
     }
 }
 
-MapPreview::MapPreview(const world::BlockRegistry& blocks) : work_(std::make_unique<Work>(blocks)) {}
+MapPreview::MapPreview(const pack::Content& content) : work_(std::make_unique<Work>(content)) {}
 MapPreview::~MapPreview() = default;
 
 void MapPreview::show(const World& world) {

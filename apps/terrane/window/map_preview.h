@@ -6,7 +6,7 @@
 #include <string>
 
 #include "terrane/gpu/texture.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/pack/content.h"
 
 namespace terrane::app {
 
@@ -20,8 +20,8 @@ class MapPreview {
         bool operator==(const World&) const = default;
     };
 
-    explicit MapPreview(const world::BlockRegistry& blocks);  // outlives this
-    ~MapPreview();  // ends the work, within the time of a row of chunks
+    explicit MapPreview(const pack::Content& content);  // outlives this
+    ~MapPreview();                                      // ends the work, within the time of a row of chunks
     MapPreview(const MapPreview&) = delete;
     MapPreview& operator=(const MapPreview&) = delete;
 

@@ -6,16 +6,19 @@
 #include <utility>
 
 #include "apps/terrane/open_session.h"
+#include "apps/terrane/window/content_watch.h"
 #include "apps/terrane/window/game.h"
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/overlay.h"
+#include "apps/terrane/window/pack_dialog.h"
 #include "apps/terrane/window/server_list.h"
 #include "terrane/base/log.h"
-#include "terrane/content/built_in.h"
 #include "terrane/content/resource_pack.h"
 #include "terrane/game/bookmarks.h"
 #include "terrane/game/spawn.h"
+#include "terrane/gen/generators/catalogue.h"
 #include "terrane/gpu/built_in_shaders.h"
+#include "terrane/pack/installed_packs.h"
 #include "terrane/store/save_path.h"
 #include "terrane/store/world_list.h"
 #include "terrane/store/world_location.h"
@@ -54,7 +57,7 @@ base::Result<world::Pose> startOf(const PlayOptions& options, const game::Bookma
 
 // Worlds are saved unless the player chooses otherwise. One without a name has that of what makes it, so that
 // it fits whenever the same is asked for.
-base::Result<game::SessionParts> openWorld(PlayOptions& options) {
+base::Result<OpenedWorld> openWorld(PlayOptions& options) {
     using store::WorldAccess;
     if (options.savesNothing) return openSessionParts(options.world, options.save, WorldAccess::ReadOnly);
     std::string& name = options.save.world;
@@ -132,17 +135,23 @@ base::Result<void> PlayFlow::playChosen(const TitleChoice& choice) {
     }
     const auto& chosen = std::get<ChosenWorld>(choice);
     options.save = {.world = chosen.file.string(), .storeGenerated = {}};
-    options.world = {
-        .seed = {}, .seedText = {}, .generator = chosen.generator, .threads = options.world.threads};
+    options.world = {.seed = {},
+                     .seedText = {},
+                     .generator = chosen.generator,
+                     .content = options.world.content,
+                     .threads = options.world.threads};
+    // A generator PACK:NAME of the packs folder brings its pack.
+    if (chosen.generator && chosen.generator->find(':') != std::string::npos)
+        options.world.content.push_back(chosen.generator->substr(0, chosen.generator->find(':')));
     if (chosen.seed) options.world.seed = chosen.seed->seed;
     if (chosen.seed) options.world.seedText = chosen.seed->text;
     return playWorld(options);
 }
 
 base::Result<std::optional<TitleChoice>> PlayFlow::showTitle() {
-    const auto blocks = content::loadBlocks();
-    if (!blocks) return tl::unexpected(blocks.error());
-    TitleScreen title({window_, signals_, options_, screen_, *blocks, dataFolder()}, settings_,
+    const auto content = loadInstalledContent(options_.world);
+    if (!content) return tl::unexpected(content.error());
+    TitleScreen title({window_, signals_, options_, screen_, *content, dataFolder()}, settings_,
                       std::exchange(message_, {}));
     auto chosen = title.run();
     if (auto written = keepSettings(); !written) return tl::unexpected(written.error());
@@ -160,15 +169,29 @@ base::Result<void> PlayFlow::keepSettings() {
 base::Result<void> PlayFlow::playWorld(const PlayOptions& asked) {
     PlayOptions options = asked;
     goesToTitle_ = false;
-    auto parts = openWorld(options);
-    if (!parts) return tl::unexpected(parts.error());
+    options.save.followsGenerator = options.watches;
+    auto played = playOnce(options);
+    while (played && std::exchange(reloads_, false)) {
+        options.save.regenerate = store::Regenerate::None;
+        options.bookmark.reset();
+        options.time.reset();
+        played = playOnce(options);
+    }
+    return played;
+}
+
+base::Result<void> PlayFlow::playOnce(PlayOptions& options) {
+    auto world = openWorld(options);
+    if (!world) return tl::unexpected(world.error());
+    const game::SessionParts& parts = world->parts;
     PlaySettings settings = settings_;
     // The world's own, or what a new world begins with.
     settings.movement = options_.settings.movement;
     settings.resourcePack = options_.graphics.resourcePack;
-    takeFromWorld(settings, game::savedPlayer(*parts->store), given_);
+    takeFromWorld(settings, game::savedPlayer(*parts.store), given_);
     if (settings.resourcePack != options_.graphics.resourcePack) {
-        const auto textures = content::loadTextures(settings.resourcePack, *parts->blocks);
+        const auto textures =
+            content::loadTextures(settings.resourcePack, *parts.blocks, world->content.textures);
         if (!textures) {
             base::logInfo("{}; the world is shown without it", textures.error().message);
             settings.resourcePack.clear();
@@ -177,62 +200,92 @@ base::Result<void> PlayFlow::playWorld(const PlayOptions& asked) {
     settings_ = settings;
     ScreenOptions screen = screen_;
     screen.resourcePack = settings.resourcePack;
-    return playFrom(options, std::move(*parts), std::move(screen));
+    return playFrom(options, std::move(*world), std::move(screen));
 }
 
-// Until the player is in its world, gives up, or is refused.
-base::Result<bool> PlayFlow::waitForServer(RemotePlay& play) {
+// Frames with `draw` over a plain ground, until it returns true. False where the player leaves.
+bool PlayFlow::drawUntil(const std::function<bool(const Screen&)>& draw) {
     ImguiLayer imgui(window_);
-    const Texts tr = textsOf(settings_.language);
-    const std::string message = fmt::format(fmt::runtime(tr("joining {}")), play.address());
-    while (play.stage() != net::ClientLink::Stage::Joined) {
+    while (true) {
         window_.pollEvents();
         const auto isEscape = [](const InputEvent& event) {
             return event.type == InputEvent::Type::KeyPress && event.key == Key::Escape;
         };
         if (isOver() || std::ranges::any_of(window_.events(), isEscape)) return false;
-        play.poll();
-        if (play.stage() == net::ClientLink::Stage::Ended) return base::fail("{}", play.reason());
         gpu::clearWindow(glm::vec3(0.2f, 0.3f, 0.4f));
         imgui.beginFrame(false, true);
-        drawMessage({imgui.size().x, imgui.size().y}, message, 1);
+        const bool isDone = draw({imgui.size().x, imgui.size().y});
         imgui.endFrame();
         window_.swapBuffers();
+        if (isDone) return true;
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
-    return true;
+}
+
+// Until the player is in its world, gives up (false), or is refused.
+base::Result<bool> PlayFlow::waitForServer(RemotePlay& play) {
+    using Stage = net::ClientLink::Stage;
+    const Texts tr = textsOf(settings_.language);
+    const std::string message = fmt::format(fmt::runtime(tr("joining {}")), play.address());
+    const bool isDone = drawUntil([&](const Screen& screen) {
+        play.poll();
+        drawMessage(screen, message, 1);
+        return play.stage() == Stage::Joined || play.stage() == Stage::Ended;
+    });
+    if (isDone && play.stage() == Stage::Ended) return base::fail("{}", play.reason());
+    return isDone;
+}
+
+bool PlayFlow::acceptsPacks(const RemotePlay& play) {
+    const Texts tr = textsOf(settings_.language);
+    PackAnswer answer = PackAnswer::None;
+    (void)drawUntil([&](const Screen& screen) {
+        answer = drawPackDialog(screen, tr, play.address(), play.missingPacks());
+        return answer != PackAnswer::None;
+    });
+    return answer == PackAnswer::Accept;
+}
+
+// Where the server has content packs that are not here, the player decides, and joins once more.
+base::Result<std::unique_ptr<RemotePlay>> PlayFlow::join(RemoteOptions options) {
+    while (true) {
+        auto play = RemotePlay::connect(options, dataFolder());
+        if (!play) return play;
+        const auto joined = waitForServer(**play);
+        if (joined && *joined) return play;
+        if (joined) return nullptr;
+        if ((*play)->missingPacks().empty()) return tl::unexpected(joined.error());
+        if (!acceptsPacks(**play)) return nullptr;
+        for (const net::PackOffer& pack : (*play)->missingPacks()) options.acceptedPacks.push_back(pack.hash);
+    }
 }
 
 base::Result<void> PlayFlow::playServer(const PlayOptions& asked) {
     PlayOptions options = asked;
     goesToTitle_ = false;
-    auto play = RemotePlay::connect(options.remote, dataFolder());
+    auto play = join(options.remote);
     if (!play) return tl::unexpected(play.error());
-    auto joined = waitForServer(**play);
-    if (!joined) return tl::unexpected(joined.error());
-    if (!*joined) {
+    if (!*play) {
         goesToTitle_ = options_.remote.server.empty();
         return {};
     }
     if (auto kept = rememberServer(serverListFile(dataFolder()), {(*play)->address(), options.remote.name});
         !kept)
         base::logInfo("the server is not remembered: {}", kept.error().message);
-    auto blocks = content::loadBlocks();
-    if (!blocks) return tl::unexpected(blocks.error());
+    const pack::Content& content = (*play)->content();
     const store::WorldIdentity& identity = (*play)->offer()->world.identity;
     auto parts =
-        net::remoteSessionParts(identity, std::make_unique<const world::BlockRegistry>(std::move(*blocks)),
-                                threadCount(options.world));
+        net::remoteSessionParts(identity, content.blocks, threadCount(options.world), content.generators);
     if (!parts) return tl::unexpected(parts.error());
     options.world.seed = identity.seed;
     options.world.generator = identity.generator;
     settings_.movement = options_.settings.movement;
-    return playFrom(options, std::move(parts->parts), screen_, {std::move(*play), parts->store});
+    return playFrom(options, {content, std::move(parts->parts)}, screen_, {std::move(*play), parts->store});
 }
 
-base::Result<void> PlayFlow::playFrom(const PlayOptions& options, game::SessionParts parts,
-                                      ScreenOptions screen, ServersWorld given) {
-    auto made = WorldOnScreen::create(std::move(parts), options.world, screen);
+base::Result<void> PlayFlow::playFrom(const PlayOptions& options, OpenedWorld opened, ScreenOptions screen,
+                                      ServersWorld given) {
+    auto made = WorldOnScreen::create(std::move(opened), screen);
     if (!made) return tl::unexpected(made.error());
     WorldOnScreen& world = **made;
     game::Session& session = world.session();
@@ -255,14 +308,26 @@ base::Result<void> PlayFlow::playFrom(const PlayOptions& options, game::SessionP
     game.deviceName = screen.device.renderer;
     game.measuresPreset = std::exchange(measuresPreset_, false);
     game.thumbnail = thumbnailFor(options, game.dataFolder);
+    ContentWatch watch(*world.content().packs);
+    if (options.watches && !remote) {
+        game.contentChanged = [&] { return watch.hasChanged(std::chrono::steady_clock::now()); };
+        game.checkContent = [&]() -> base::Result<void> {
+            const auto content = pack::loadAgain(world.content());
+            if (!content) return tl::unexpected(content.error());
+            const auto graph = gen::makeGenerator(session.store().identity().generator, *content->blocks, 0,
+                                                  content->generators);
+            return graph ? base::Result<void>() : tl::unexpected(graph.error());
+        };
+    }
     hasBegun_ = true;
     if (remote) remote->begin(session, *given.store);
-    Game loop({window_, session, world.renderer(), world.view(), world.preview(), world.compiler(), shaders_,
-               signals_, remote.get()},
+    Game loop({window_, world.content(), session, world.renderer(), world.view(), world.preview(),
+               world.compiler(), shaders_, signals_, remote.get()},
               game);
     const auto played = loop.run();
     settings_ = loop.settings();
     goesToTitle_ = loop.goesToTitle() && !isOver();
+    reloads_ = loop.wantsReload() && !isOver();
     message_ = loop.serverReason();
     return played;
 }

@@ -2,6 +2,7 @@
 // OpenGL context.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -34,11 +35,15 @@ class PlayFlow {
   private:
     // Ends where the player left it: an error of opening it, or of saving it.
     base::Result<void> playWorld(const PlayOptions& options);
+    base::Result<void> playOnce(PlayOptions& options);
     base::Result<void> playServer(const PlayOptions& options);
     base::Result<void> playChosen(const TitleChoice& choice);
-    // False where the player does not wait any longer.
+    bool drawUntil(const std::function<bool(const Screen&)>& draw);
     base::Result<bool> waitForServer(RemotePlay& play);
-    base::Result<void> playFrom(const PlayOptions& options, game::SessionParts parts, ScreenOptions screen,
+    bool acceptsPacks(const RemotePlay& play);
+    // Null where the player leaves.
+    base::Result<std::unique_ptr<RemotePlay>> join(RemoteOptions options);
+    base::Result<void> playFrom(const PlayOptions& options, OpenedWorld opened, ScreenOptions screen,
                                 ServersWorld given = {});
     base::Result<std::optional<TitleChoice>> showTitle();
     base::Result<void> keepSettings();
@@ -52,7 +57,7 @@ class PlayFlow {
     ScreenOptions screen_;
     PlaySettings settings_;
     PlaySettings written_;  // as the file has them
-    bool measuresPreset_, goesToTitle_ = false, hasBegun_ = false;
+    bool measuresPreset_, goesToTitle_ = false, hasBegun_ = false, reloads_ = false;
     std::string message_;  // for the title
 };
 

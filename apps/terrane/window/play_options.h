@@ -17,6 +17,7 @@ struct PlayOptions {
     SaveOptions save;
     bool savesNothing = false;
     bool skipsTitle = false;
+    bool watches = false;  // content packs: what changes there is shown at once
     GraphicsOptions graphics;
     Backend backend = Backend::Auto;
     PlaySettings settings;

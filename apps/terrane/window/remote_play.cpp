@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "terrane/base/log.h"
-#include "terrane/content/built_in.h"
 #include "terrane/net/known_servers.h"
 
 namespace terrane::app {
@@ -13,8 +12,7 @@ struct RemotePlay::Network {
     boost::asio::io_context context;
 };
 
-RemotePlay::RemotePlay(std::unique_ptr<Network> network, std::unique_ptr<const world::BlockRegistry> blocks)
-    : network_(std::move(network)), blocks_(std::move(blocks)) {}
+RemotePlay::RemotePlay(std::unique_ptr<Network> network) : network_(std::move(network)) {}
 
 RemotePlay::~RemotePlay() {
     world_.reset();
@@ -31,10 +29,10 @@ base::Result<std::unique_ptr<RemotePlay>> RemotePlay::connect(const RemoteOption
         return base::fail(base::ErrorCode::BadInput, "--name {}: {}", options.name, net::nameRule());
     auto key = net::loadPlayerKey(dataFolder / "player.key");
     if (!key) return tl::unexpected(key.error());
-    auto blocks = content::loadBlocks();
-    if (!blocks) return tl::unexpected(blocks.error());
-    std::unique_ptr<RemotePlay> play(new RemotePlay(
-        std::make_unique<Network>(), std::make_unique<const world::BlockRegistry>(std::move(*blocks))));
+    std::unique_ptr<RemotePlay> play(new RemotePlay(std::make_unique<Network>()));
+    play->packs_.cache = packCacheFolder();
+    play->packs_.acceptsAll = options.acceptsPacks;
+    play->packs_.accepted = options.acceptedPacks;
     play->knownServers_ = dataFolder / "known_servers.txt";
     RemotePlay& self = *play;
     play->link_ = std::make_unique<net::ClientLink>(
@@ -47,6 +45,10 @@ base::Result<std::unique_ptr<RemotePlay>> RemotePlay::connect(const RemoteOption
                                 self.world_->onMessage(message);
                             else
                                 self.early_.push_back(message);
+                        },
+                        [&self](const net::WorldOffer& offer) { return self.fetchFirst(offer); },
+                        [&self](const net::PackOffer& offer, const net::Bytes& archive) {
+                            return takePack(self.packs_, offer, archive);
                         }});
     return play;
 }
@@ -55,11 +57,22 @@ base::Result<bool> RemotePlay::trusts(const std::string& key) const {
     return net::isKnownOrNew(knownServers_, textOf(link_->address()), key);
 }
 
+base::Result<std::vector<std::uint8_t>> RemotePlay::fetchFirst(const net::WorldOffer& offer) {
+    if (offer_ && offer.packs != offer_->packs)
+        return base::fail("the server has other content packs than before: join it again");
+    return app::missingPacks(packs_, offer);
+}
+
 // A session that shows the world goes on after a cut; another world is not to be shown by it.
 base::Result<net::SampleDigests> RemotePlay::prove(const net::WorldOffer& offer) {
-    if (offer_ && !(offer.world == offer_->world))
+    if (offer_ && !(offer.world == offer_->world && offer.packs == offer_->packs))
         return base::fail("the server has another world than before: join it again");
-    const auto generator = net::offeredGenerator(offer, *blocks_);
+    if (!offer_) {
+        auto content = contentOf(packs_, offer);
+        if (!content) return tl::unexpected(content.error());
+        content_ = std::move(*content);
+    }
+    const auto generator = net::offeredGenerator(offer, *content_.blocks, content_.generators);
     if (!generator) return tl::unexpected(generator.error());
     offer_ = offer;
     return net::sampleDigests(*generator, offer.samples);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/terrane/client_packs.h"
 #include "terrane/net/client_link.h"
 #include "terrane/net/client_world.h"
 #include "terrane/net/remote_session.h"
@@ -16,9 +17,11 @@
 namespace terrane::app {
 
 struct RemoteOptions {
-    std::string server;    // HOST[:PORT]; empty: none
-    std::string name;      // of the player
-    std::string password;  // where the server wants one
+    std::string server;         // HOST[:PORT]; empty: none
+    std::string name;           // of the player
+    std::string password;       // where the server wants one
+    bool acceptsPacks = false;  // whatever content packs the world needs
+    std::vector<pack::PackHash> acceptedPacks = {};
 };
 
 class RemotePlay {
@@ -34,7 +37,10 @@ class RemotePlay {
     const std::string& reason() const { return link_->reason(); }
     std::string address() const { return textOf(link_->address()); }
 
+    // Packs that the server has and the player did not accept: why it ended.
+    const std::vector<net::PackOffer>& missingPacks() const { return packs_.missing; }
     // Of the server's world, once joined.
+    const pack::Content& content() const { return content_; }
     const std::optional<net::WorldOffer>& offer() const { return offer_; }
     world::Pose start() const;
     // The session shows the server's world from here on; it outlives this.
@@ -44,12 +50,14 @@ class RemotePlay {
 
   private:
     struct Network;
-    RemotePlay(std::unique_ptr<Network> network, std::unique_ptr<const world::BlockRegistry> blocks);
+    explicit RemotePlay(std::unique_ptr<Network> network);
+    base::Result<std::vector<std::uint8_t>> fetchFirst(const net::WorldOffer& offer);
     base::Result<net::SampleDigests> prove(const net::WorldOffer& offer);
     base::Result<bool> trusts(const std::string& key) const;
 
     std::unique_ptr<Network> network_;
-    std::unique_ptr<const world::BlockRegistry> blocks_;
+    ClientPacks packs_;
+    pack::Content content_;
     std::filesystem::path knownServers_;  // file
     std::unique_ptr<net::ClientLink> link_;
     std::optional<net::WorldOffer> offer_;

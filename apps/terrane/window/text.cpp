@@ -28,4 +28,11 @@ Texts textsOf(const std::string& choice) {
     return {};
 }
 
+Texts textsOf(const std::string& choice, const pack::Content& content) {
+    Texts texts = textsOf(choice);
+    if (auto added = pack::addBlockNames(texts.language, content, languageCode(choice)); !added)
+        base::logWarning("{}", added.error().message);
+    return texts;
+}
+
 }  // namespace terrane::app

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "terrane/content/language.h"
+#include "terrane/pack/content.h"
 
 namespace terrane::app {
 
@@ -29,5 +30,7 @@ std::vector<std::pair<std::string, std::string>> languageChoices();
 // "auto": the language of the environment, the first of LC_ALL, LC_MESSAGES and LANG that is set.
 std::string_view languageCode(const std::string& choice);
 Texts textsOf(const std::string& choice);
+// With the names that packs have for their blocks.
+Texts textsOf(const std::string& choice, const pack::Content& content);
 
 }  // namespace terrane::app

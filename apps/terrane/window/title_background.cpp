@@ -27,11 +27,15 @@ constexpr std::chrono::milliseconds kPause{15};  // between frames without a wor
 base::Result<std::unique_ptr<WorldOnScreen>> openWorld(const PlayOptions& options,
                                                        const ScreenOptions& screen,
                                                        const std::filesystem::path& save) {
-    WorldOptions world{.seed = {}, .seedText = {}, .generator = {}, .threads = options.world.threads};
+    WorldOptions world{.seed = {},
+                       .seedText = {},
+                       .generator = {},
+                       .content = options.world.content,
+                       .threads = options.world.threads};
     const SaveOptions from{.world = save.string(), .storeGenerated = {}};
-    auto parts = openSessionParts(world, from, store::WorldAccess::ReadOnly);
-    if (!parts) return tl::unexpected(parts.error());
-    return WorldOnScreen::create(std::move(*parts), world, screen);
+    auto opened = openSessionParts(world, from, store::WorldAccess::ReadOnly);
+    if (!opened) return tl::unexpected(opened.error());
+    return WorldOnScreen::create(std::move(*opened), screen);
 }
 
 int highestBlock(const world::Chunk& chunk) {

@@ -61,7 +61,7 @@ void TitleScreen::drawForm() {
     }
     dimText(tr_("Generator"));
     if (ImGui::BeginCombo("##generator", form_.generator.c_str())) {
-        for (const std::string& name : gen::generatorNames())
+        for (const std::string& name : gen::namesOf(parts_.content.generators))
             if (ImGui::Selectable(name.c_str(), name == form_.generator)) form_.generator = name;
         ImGui::EndCombo();
     }

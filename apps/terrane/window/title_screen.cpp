@@ -16,8 +16,8 @@ TitleScreen::TitleScreen(const Parts& parts, PlaySettings& settings, std::string
       language_(settings.language),
       tr_(textsOf(settings.language)),
       imgui_(parts.window),
-      shelf_(parts.folder, parts.blocks),
-      map_(parts.blocks),
+      shelf_(parts.folder, *parts.content.blocks),
+      map_(parts.content),
       join_(serverListFile(parts.folder)) {
     parts_.window.setCursorCaptured(false);
     if (!message.empty()) showMessage(std::move(message));

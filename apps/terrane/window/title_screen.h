@@ -35,7 +35,7 @@ class TitleScreen {
         const base::StopSignals& signals;
         const PlayOptions& options;
         const ScreenOptions& screen;
-        const world::BlockRegistry& blocks;
+        const pack::Content& content;
         std::filesystem::path folder;  // of the worlds
     };
 

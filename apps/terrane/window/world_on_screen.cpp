@@ -3,7 +3,6 @@
 #include <epoxy/gl.h>
 
 #include "apps/terrane/choose_back_ends.h"
-#include "terrane/content/built_in.h"
 #include "terrane/content/resource_pack.h"
 #include "terrane/gpu/built_in_shaders.h"
 #include "terrane/view/memory_budget.h"
@@ -16,11 +15,12 @@ WorldOnScreen::~WorldOnScreen() {
     glUseProgram(0);
 }
 
-base::Result<std::unique_ptr<WorldOnScreen>> WorldOnScreen::create(game::SessionParts parts,
-                                                                   const WorldOptions& world,
+base::Result<std::unique_ptr<WorldOnScreen>> WorldOnScreen::create(OpenedWorld world,
                                                                    const ScreenOptions& options) {
     std::unique_ptr<WorldOnScreen> made(new WorldOnScreen);
-    auto textures = content::loadTextures(options.resourcePack, *parts.blocks);
+    made->content_ = std::move(world.content);
+    game::SessionParts& parts = world.parts;
+    auto textures = content::loadTextures(options.resourcePack, *parts.blocks, made->content_.textures);
     if (!textures) return tl::unexpected(textures.error());
     auto renderer = render::Renderer::create(*options.shaders, *parts.blocks, *textures, options.device);
     if (!renderer) return tl::unexpected(renderer.error());
@@ -29,12 +29,12 @@ base::Result<std::unique_ptr<WorldOnScreen>> WorldOnScreen::create(game::Session
     auto preview = view::BlockPreview::create(*options.shaders, *parts.blocks, *textures, options.device);
     if (!preview) return tl::unexpected(preview.error());
     made->preview_ = std::make_unique<view::BlockPreview>(std::move(*preview));
-    auto backEnds = chooseBackEnds(parts, world, options.backend);
+    auto backEnds = chooseBackEnds(parts, made->content_.generators, options.backend);
     if (!backEnds) return tl::unexpected(backEnds.error());
     made->backEnds_ = std::move(*backEnds);
     made->session_ = std::make_unique<game::Session>(std::move(parts));
     made->compiler_ = std::make_unique<render::BackgroundCompiler>(*options.shaders, made->session_->blocks(),
-                                                                   content::builtInTextures());
+                                                                   made->content_.textures);
     made->view_ = std::make_unique<view::WorldView>(*made->session_, *made->renderer_);
     if (!made->backEnds_) return made;
     const auto meshes = made->view_->meshOnGpu(gpu::builtInShaders(""), view::WorldView::kFrameMilliseconds);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/terrane/back_ends.h"
+#include "apps/terrane/open_session.h"
 #include "terrane/gpu/device_info.h"
 #include "terrane/gpu/shader_loader.h"
 #include "terrane/render/background_compiler.h"
@@ -25,15 +26,14 @@ struct ScreenOptions {
 
 class WorldOnScreen {
   public:
-    // `world`: what the generator of the GPU is made for.
-    [[nodiscard]] static base::Result<std::unique_ptr<WorldOnScreen>> create(game::SessionParts parts,
-                                                                             const WorldOptions& world,
+    [[nodiscard]] static base::Result<std::unique_ptr<WorldOnScreen>> create(OpenedWorld world,
                                                                              const ScreenOptions& options);
 
     ~WorldOnScreen();
     WorldOnScreen(const WorldOnScreen&) = delete;
     WorldOnScreen& operator=(const WorldOnScreen&) = delete;
 
+    const pack::Content& content() const { return content_; }
     game::Session& session() { return *session_; }
     render::Renderer& renderer() { return *renderer_; }
     view::WorldView& view() { return *view_; }
@@ -43,6 +43,7 @@ class WorldOnScreen {
   private:
     WorldOnScreen() = default;
 
+    pack::Content content_;
     std::unique_ptr<render::Renderer> renderer_;
     std::unique_ptr<view::BlockPreview> preview_;
     std::unique_ptr<view::GpuBackEnds> backEnds_;

@@ -1,0 +1,86 @@
+// terrane import: worlds, schematics and models of other programs.
+#include <memory>
+
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/formats/import_options.h"
+#include "apps/terrane/formats/minecraft_import.h"
+#include "apps/terrane/formats/volume_import.h"
+#include "apps/terrane/options.h"
+
+namespace terrane::app {
+namespace {
+
+struct ImportFormat {
+    std::string_view name;
+    base::Result<void> (*run)(ImportOptions& options);
+    std::vector<std::string_view> options;  // that not all formats know
+};
+
+const std::vector<ImportFormat>& importFormats() {
+    static const std::vector<ImportFormat> formats = {
+        {"minecraft", importMinecraft, {"--dimension", "--area", "--shift"}},
+        {"schem", importSchematic, {"--output", "--skip-air"}},
+        {"vox", importVox, {"--output", "--skip-air"}},
+    };
+    return formats;
+}
+
+std::vector<std::string> formatNames() {
+    std::vector<std::string> names;
+    for (const ImportFormat& format : importFormats()) names.emplace_back(format.name);
+    return names;
+}
+
+base::Result<void> runImport(const std::string& name, ImportOptions& options, const CLI::App& command) {
+    const auto& formats = importFormats();
+    const auto format = std::ranges::find(formats, name, &ImportFormat::name);
+    if (format == formats.end())
+        return base::fail(base::ErrorCode::BadInput, "import: {}", base::notOneOf(formatNames(), name));
+    for (const char* option : {"--dimension", "--area", "--shift", "--output", "--skip-air"}) {
+        const bool isKnown = std::ranges::find(format->options, option) != format->options.end();
+        if (!isKnown && !command.get_option(option)->empty())
+            return base::fail(base::ErrorCode::BadInput, "{} does not go with {}", option, name);
+    }
+    return format->run(options);
+}
+
+}  // namespace
+
+CommandEntry addImport(CLI::App& app) {
+    auto options = std::make_shared<ImportOptions>();
+    auto format = std::make_shared<std::string>();
+    CLI::App* command = app.add_subcommand(
+        "import",
+        "Take over worlds and models of other programs; exit code 1 where something could not be read");
+    command
+        ->add_option("format", *format, fmt::format("What the source is: {}", fmt::join(formatNames(), ", ")))
+        ->type_name("CHOICE")
+        ->required();
+    command->add_option("source", options->source, "The file, or the folder of a world")
+        ->type_name("PATH")
+        ->required();
+    addWorldOption(*command, options->save, "World to write into; created if needed");
+    command
+        ->add_option("--mapping", options->mapping,
+                     "Which blocks names become, beside the built-in table (TOML)")
+        ->check(existingFile())
+        ->type_name("FILE");
+    command->add_option("--at", options->at, "Where the source's 0,0 comes to lie, in blocks")
+        ->type_name("X,Y[,Z]");
+    addChoice<std::string>(*command, "--dimension", options->dimension,
+                           {{"overworld", "overworld"}, {"nether", "nether"}, {"end", "end"}},
+                           "Dimension of a world of Minecraft");
+    addAreaOption(*command, options->area);
+    command->add_option("--shift", options->shift, "Blocks added to the heights of a world of Minecraft")
+        ->check(numberFrom(-4096, 4096))
+        ->type_name("BLOCKS");
+    command->add_flag("--skip-air", options->keepsAir, "Leave the world as it is where the source has air");
+    addOutputOption(*command, options->output, {".structure"}, "Write a structure file in place of a world");
+    command->get_option("--output")->required(false);
+    addReportOption(*command, options->report);
+    addWorldOptions(*command, options->world);
+    return {command, [options, format, command] { return runImport(*format, *options, *command); },
+            [options] { return options->exitCode; }};
+}
+
+}  // namespace terrane::app

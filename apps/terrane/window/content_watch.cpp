@@ -1,0 +1,50 @@
+#include "apps/terrane/window/content_watch.h"
+
+#include <string>
+#include <system_error>
+
+namespace terrane::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds kLookEvery{500};
+
+}  // namespace
+
+ContentWatch::ContentWatch(const std::vector<pack::Pack>& packs) {
+    for (const pack::Pack& pack : packs)
+        if (!pack.where.empty()) packs_.emplace_back(pack.where);
+    reported_ = seen_ = look();
+}
+
+ContentWatch::Files ContentWatch::look() const {
+    Files files;
+    std::error_code ignored;
+    const auto add = [&](const fs::path& path) {
+        if (fs::is_regular_file(path, ignored)) files[path] = fs::last_write_time(path, ignored);
+    };
+    for (const fs::path& pack : packs_) {
+        add(pack);  // a zip file
+        for (const std::string inside : {"", "textures/", "generators/", "languages/"}) {
+            std::error_code error;
+            for (fs::directory_iterator it(pack / inside, error), end; !error && it != end;
+                 it.increment(error))
+                if (pack::isPackPath(inside + it->path().filename().string())) add(it->path());
+        }
+    }
+    return files;
+}
+
+bool ContentWatch::hasChanged(std::chrono::steady_clock::time_point now) {
+    if (now < nextLook_) return false;
+    nextLook_ = now + kLookEvery;
+    Files files = look();
+    const bool isSettled = files == seen_;
+    seen_ = std::move(files);
+    if (!isSettled || seen_ == reported_) return false;
+    reported_ = seen_;
+    return true;
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,30 @@
+// Notices that files of content packs changed, for `play --watch`. Used on one thread.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "terrane/pack/pack.h"
+
+namespace terrane::app {
+
+class ContentWatch {
+  public:
+    explicit ContentWatch(const std::vector<pack::Pack>& packs);
+
+    // Whether a file came, went or changed since the last call. Looks at most twice a second, and tells of a
+    // change once nothing has changed for that long: editors write a file in several steps.
+    bool hasChanged(std::chrono::steady_clock::time_point now);
+
+  private:
+    using Files = std::map<std::filesystem::path, std::filesystem::file_time_type>;
+    Files look() const;
+
+    std::vector<std::filesystem::path> packs_;
+    Files reported_, seen_;
+    std::chrono::steady_clock::time_point nextLook_{};
+};
+
+}  // namespace terrane::app

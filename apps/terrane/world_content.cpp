@@ -1,0 +1,51 @@
+#include "apps/terrane/world_content.h"
+
+#include "terrane/base/log.h"
+#include "terrane/pack/installed_packs.h"
+#include "terrane/pack/pack_files.h"
+#include "terrane/pack/world_packs.h"
+#include "terrane/store_postgres/any_world.h"
+
+namespace terrane::app {
+
+base::Result<pack::Content> loadContent(const WorldOptions& options, const SaveOptions& save) {
+    auto packs = pack::readPacks(options.content);
+    if (!packs) return tl::unexpected(packs.error());
+    if (!save.world.empty()) {
+        // Where it cannot be read whoever opens the world says why.
+        const auto metadata = store_postgres::anyWorldMetadata(store::worldLocation(save.world));
+        if (metadata)
+            if (auto added = pack::addPacks(*packs, pack::rememberedPacks(*metadata)); !added)
+                return tl::unexpected(added.error());
+    }
+    if (auto added = pack::addRequired(*packs); !added) return tl::unexpected(added.error());
+    return pack::loadContent(std::move(*packs));
+}
+
+base::Result<pack::Content> loadInstalledContent(const WorldOptions& options) {
+    std::vector<std::string> installed;
+    for (const std::filesystem::path& folder : pack::packFolders())
+        for (const std::filesystem::path& path : pack::packsIn(folder))
+            installed.push_back(path.stem().string());
+    WorldOptions all = options;
+    all.content.insert(all.content.end(), installed.begin(), installed.end());
+    auto content = loadContent(all);
+    if (content || installed.empty()) return content;
+    // One of them cannot be used: each by itself, with a line for what is wrong.
+    WorldOptions good = options;
+    content = loadContent(good);
+    for (const std::string& name : installed) {
+        WorldOptions more = good;
+        more.content.push_back(name);
+        auto with = loadContent(more);
+        if (!with) {
+            base::logWarning("{}", with.error().message);
+            continue;
+        }
+        good = std::move(more);
+        content = std::move(with);
+    }
+    return content;
+}
+
+}  // namespace terrane::app
