@@ -1,9 +1,10 @@
 # Installing: the library with its headers, a CMake package and a pkg-config file (component "development"); the program with its
-# manual page, completions, icon and menu entry (component "program"). CPack makes a Debian package of each.
+# manual page, completions, icon and menu entry (component "program"); the package for Python (component "python",
+# python/CMakeLists.txt). CPack makes a Debian package of each.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(modules base shared world content_files content sound_files sound video store store_postgres gen light mesh stream map game net)
+set(modules base shared world content_files content sound_files sound video store store_postgres gen lua light mesh stream map volume format_files formats game pack net)
 set(TERRANE_OPTIONAL_PKG "")
 set(TERRANE_OPTIONAL_REQUIRES "")
 if(TERRANE_GRAPHICS)
@@ -55,6 +56,7 @@ configure_file(packaging/terrane.pc.in ${CMAKE_BINARY_DIR}/package/terrane.pc @O
 install(FILES ${CMAKE_BINARY_DIR}/package/terraneConfig.cmake ${CMAKE_BINARY_DIR}/package/terraneConfigVersion.cmake
   DESTINATION ${package_folder} COMPONENT development)
 install(FILES ${CMAKE_BINARY_DIR}/package/terrane.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+install(FILES ${CMAKE_SOURCE_DIR}/assets/lua/terrane.lua DESTINATION ${CMAKE_INSTALL_DATADIR}/terrane/lua COMPONENT development)
 install(DIRECTORY examples/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT development)
 
 if(TERRANE_GRAPHICS)
@@ -90,6 +92,9 @@ set(CPACK_COMPONENTS_ALL development)
 if(TERRANE_GRAPHICS)
   list(APPEND CPACK_COMPONENTS_ALL program)
 endif()
+if(TERRANE_HAS_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME terrane)
@@ -102,7 +107,18 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "A program to make worlds of blocks from
 and to make pictures and videos of them.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libterrane-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libboost1.81-dev, libepoxy-dev, libexpected-dev, libfmt-dev, libglm-dev, libhwy-dev, \
-libopenal-dev, libpng-dev, libpq-dev, libsodium-dev, libspdlog-dev, libsqlite3-dev, libssl-dev, libtomlplusplus-dev, libxxhash-dev, libzstd-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libboost1.81-dev, libepoxy-dev, libexpected-dev, libfmt-dev, libglm-dev, libhwy-dev, liblua5.4-dev, \
+libopenal-dev, libpng-dev, libpq-dev, libsodium-dev, libspdlog-dev, libsqlite3-dev, libssl-dev, libtomlplusplus-dev, libxxhash-dev, libzip-dev, libzstd-dev, nlohmann-json3-dev, zlib1g-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The library that Terrane is made of: generation, saves, light, meshes, drawing.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-terrane)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+# An extension is for one version of Python.
+math(EXPR next_python "${TERRANE_PYTHON_MINOR} + 1")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${TERRANE_PYTHON_MINOR}), python3 (<< 3.${next_python}), python3-numpy")
+if(TERRANE_GRAPHICS)
+  string(APPEND CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS ", libegl1, libgl1, libopengl0")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "libgl1-mesa-dri")
+endif()
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Terrane's worlds as NumPy arrays: blocks, heights, light, edits, images.")
 include(CPack)

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Feeds all that reads files from outside with bytes that libFuzzer thinks up, under the address and
 # undefined-behavior sanitizers: saves, chunks, structures, block types, languages, path files, settings, bookmarks,
-# textures, sounds, messages of the network, what connections do to a server, targets of browsers, caches of maps. What
-# it finds interesting stays in build-fuzz/corpus for the next time, which begins with what tests/fuzz/corpus keeps.
+# textures, sounds, scripts of generators, content packs, files of other programs, messages of the network, what
+# connections do to a server, targets of browsers, caches of maps. What it finds interesting stays in
+# build-fuzz/corpus for the next time, which begins with what tests/fuzz/corpus keeps.
 #
 #   tools/fuzz.sh [SECONDS] [NAME…]    10 seconds each unless told otherwise, two at a time; NAME as in
 #                                      tests/fuzz/NAME_fuzz.cpp, all of them where none is named. Exits with an
@@ -40,8 +41,8 @@ trap 'rm -rf "$TMPDIR"' EXIT
 fuzz() {
     local name=$1 max_length=4096
     local log="$BUILD_FOLDER/$name.log" corpus="$BUILD_FOLDER/corpus/$name"
-    # Only large enough for chunks of many sections.
-    [[ $name == chunk_codec ]] && max_length=20000
+    # Large enough for chunks of many sections.
+    [[ $name == chunk_codec || $name == region ]] && max_length=20000
     local folders=("$corpus") options=()
     [[ -d tests/fuzz/seeds/$name ]] && folders+=("tests/fuzz/seeds/$name")
     [[ -f tests/fuzz/$name.dict ]] && options+=("-dict=tests/fuzz/$name.dict")

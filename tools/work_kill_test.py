@@ -32,6 +32,8 @@ def disturb(program, server, workers, radius, generator, kills):
     killed = 0
     for n in range(kills):
         time.sleep(1)
+        if n in (kills // 3, 2 * kills // 3):
+            time.sleep(2)  # a worker that is still starting ends with an error
         if n == kills // 3:
             server.stop()
             time.sleep(1)

@@ -94,6 +94,17 @@ class Install(unittest.TestCase):
         run("c++", f"-I{build / 'include'}", *sources, "-o", self.folder / "other", *flags)
         self.assertEqual(run(self.folder / "other", "3"), text)
 
+    def test_the_package_for_python(self):
+        if not list(self.prefix.rglob("_terrane*.so")):
+            self.skipTest("built without it")
+        folder = self.find("_terrane*.so").parent.parent
+        self.assertEqual(folder, self.prefix / "lib" / "python3" / "dist-packages")
+        script = "import terrane; print(terrane.__file__, terrane.World(generator='flat').heights((0, 0, 1, 1)))"
+        printed = run("/usr/bin/python3", "-B", "-c", script, env=os.environ | {"PYTHONPATH": str(folder)}, cwd=self.folder)
+        self.assertEqual(printed, f"{folder}/terrane/__init__.py [[80]]\n")
+        self.assertEqual({f.name for f in (folder / "terrane").iterdir()} - {self.find("_terrane*.so").name},
+                         {"__init__.py", "__init__.pyi", "py.typed"})
+
     def test_another_version_is_refused(self):
         project = self.folder / "other_version"
         project.mkdir()
