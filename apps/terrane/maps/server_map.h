@@ -8,6 +8,7 @@
 
 #include "apps/terrane/maps/map_options.h"
 #include "terrane/net/server_state.h"
+#include "terrane/world/texture_source.h"
 
 namespace boost::asio {
 class io_context;
