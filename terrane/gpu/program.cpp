@@ -116,6 +116,10 @@ void Program::use() const {
     glUseProgram(id());
 }
 
+void Program::useNone() {
+    glUseProgram(0);
+}
+
 void Program::set(GLint location, GLuint value) const {
     glProgramUniform1ui(id(), location, value);
 }

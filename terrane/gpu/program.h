@@ -25,6 +25,9 @@ class Program {
     Program() = default;
 
     void use() const;
+    // Leaves no program current. Some drivers check the textures of the current program at each clear, also
+    // those that are deleted since its last draw.
+    static void useNone();
 
     // By explicit location: layout(location = 0) uniform uint …
     void set(GLint location, GLuint value) const;

@@ -7,6 +7,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
+#include "terrane/gpu/program.h"
 #include "terrane/render/direct_image.h"
 #include "terrane/render/edge_expansion.h"
 #include "terrane/render/figure_records.h"
@@ -319,6 +320,7 @@ void Renderer::draw(const FrameInput& input) {
     drawFigures(input, culling);
     input.view == View::Color ? drawImage(input) : drawDebugView();
     pipeline_.set({});  // others clear depths
+    gpu::Program::useNone();
     passes_.cull.queueCounts();
     ring_.endFrame();
 }

@@ -1,5 +1,7 @@
 #include "terrane/render/renderer.h"
 
+#include <epoxy/gl.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,6 +43,13 @@ TEST_F(RendererTest, AnEmptyWorldIsSky) {
         const int step = std::abs(pixel(image, 5, y)[0] - pixel(image, 5, y - 1)[0]);
         EXPECT_LE(step, 12) << "row " << y << " has an edge";
     }
+}
+
+TEST_F(RendererTest, AFrameLeavesNoProgramCurrent) {
+    draw(noon(kLevel));
+    GLint program = -1;
+    glGetIntegerv(GL_CURRENT_PROGRAM, &program);
+    EXPECT_EQ(program, 0) << "the next clear may check textures that are deleted by then";
 }
 
 TEST_F(RendererTest, TheSunStandsWhereItShould) {
