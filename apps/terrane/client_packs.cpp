@@ -54,6 +54,7 @@ bool findHere(ClientPacks& packs, const net::PackOffer& offer) {
     if (!fs::exists(file, ignored)) return false;
     const auto bytes = base::readFile(file);
     if (!bytes) return false;
+    fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);  // for pruneCache()
     return addIfEqual(packs, pack::packOf(std::as_bytes(std::span(*bytes)), file.string()), offer.hash);
 }
 
@@ -68,9 +69,11 @@ void pruneCache(const fs::path& folder) {
     std::uintmax_t bytes = 0;
     std::error_code error;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-        std::error_code ignored;
-        files.push_back({it->path(), it->last_write_time(ignored), it->file_size(ignored)});
-        bytes += files.back().bytes;
+        std::error_code unknown;
+        const CacheFile file{it->path(), it->last_write_time(unknown), it->file_size(unknown)};
+        if (unknown || !it->is_regular_file(unknown)) continue;
+        files.push_back(file);
+        bytes += file.bytes;
     }
     std::ranges::sort(files, {}, &CacheFile::time);
     for (const CacheFile& file : files) {

@@ -38,8 +38,8 @@ class Watch(ProgramTest):
         world = self.folder / "w.sqlite"
         with window_test.Display() as display:
             game = window_test.Game(display, self.folder, (
-                "--content", self.pack, "--generator", "mine:plain", "--watch", "--world", world, "--bookmark", "1",
-                "--movement", "fast", "--view-distance", "2", "--samples", "1", "--size", f"{SIZE[0]}x{SIZE[1]}"))
+                "--content", self.pack, "--generator", "mine:plain", "--watch", "--world", world, "--recreate",
+                "--bookmark", "1", "--movement", "fast", "--view-distance", "2", "--samples", "1", "--size", f"{SIZE[0]}x{SIZE[1]}"))
             self.addCleanup(game.log.close)
             self.addCleanup(game.process.kill)
             game.open()

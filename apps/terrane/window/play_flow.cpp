@@ -1,16 +1,12 @@
 #include "apps/terrane/window/play_flow.h"
 
-#include <algorithm>
 #include <chrono>
-#include <thread>
 #include <utility>
 
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/window/content_watch.h"
 #include "apps/terrane/window/game.h"
-#include "apps/terrane/window/imgui_layer.h"
-#include "apps/terrane/window/overlay.h"
-#include "apps/terrane/window/pack_dialog.h"
+#include "apps/terrane/window/join_server.h"
 #include "apps/terrane/window/server_list.h"
 #include "terrane/base/log.h"
 #include "terrane/content/resource_pack.h"
@@ -203,67 +199,10 @@ base::Result<void> PlayFlow::playOnce(PlayOptions& options) {
     return playFrom(options, std::move(*world), std::move(screen));
 }
 
-// Frames with `draw` over a plain ground, until it returns true. False where the player leaves.
-bool PlayFlow::drawUntil(const std::function<bool(const Screen&)>& draw) {
-    ImguiLayer imgui(window_);
-    while (true) {
-        window_.pollEvents();
-        const auto isEscape = [](const InputEvent& event) {
-            return event.type == InputEvent::Type::KeyPress && event.key == Key::Escape;
-        };
-        if (isOver() || std::ranges::any_of(window_.events(), isEscape)) return false;
-        gpu::clearWindow(glm::vec3(0.2f, 0.3f, 0.4f));
-        imgui.beginFrame(false, true);
-        const bool isDone = draw({imgui.size().x, imgui.size().y});
-        imgui.endFrame();
-        window_.swapBuffers();
-        if (isDone) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-}
-
-// Until the player is in its world, gives up (false), or is refused.
-base::Result<bool> PlayFlow::waitForServer(RemotePlay& play) {
-    using Stage = net::ClientLink::Stage;
-    const Texts tr = textsOf(settings_.language);
-    const std::string message = fmt::format(fmt::runtime(tr("joining {}")), play.address());
-    const bool isDone = drawUntil([&](const Screen& screen) {
-        play.poll();
-        drawMessage(screen, message, 1);
-        return play.stage() == Stage::Joined || play.stage() == Stage::Ended;
-    });
-    if (isDone && play.stage() == Stage::Ended) return base::fail("{}", play.reason());
-    return isDone;
-}
-
-bool PlayFlow::acceptsPacks(const RemotePlay& play) {
-    const Texts tr = textsOf(settings_.language);
-    PackAnswer answer = PackAnswer::None;
-    (void)drawUntil([&](const Screen& screen) {
-        answer = drawPackDialog(screen, tr, play.address(), play.missingPacks());
-        return answer != PackAnswer::None;
-    });
-    return answer == PackAnswer::Accept;
-}
-
-// Where the server has content packs that are not here, the player decides, and joins once more.
-base::Result<std::unique_ptr<RemotePlay>> PlayFlow::join(RemoteOptions options) {
-    while (true) {
-        auto play = RemotePlay::connect(options, dataFolder());
-        if (!play) return play;
-        const auto joined = waitForServer(**play);
-        if (joined && *joined) return play;
-        if (joined) return nullptr;
-        if ((*play)->missingPacks().empty()) return tl::unexpected(joined.error());
-        if (!acceptsPacks(**play)) return nullptr;
-        for (const net::PackOffer& pack : (*play)->missingPacks()) options.acceptedPacks.push_back(pack.hash);
-    }
-}
-
 base::Result<void> PlayFlow::playServer(const PlayOptions& asked) {
     PlayOptions options = asked;
     goesToTitle_ = false;
-    auto play = join(options.remote);
+    auto play = joinServer(window_, signals_, settings_.language, options.remote, dataFolder());
     if (!play) return tl::unexpected(play.error());
     if (!*play) {
         goesToTitle_ = options_.remote.server.empty();

@@ -2,7 +2,6 @@
 // OpenGL context.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -38,11 +37,6 @@ class PlayFlow {
     base::Result<void> playOnce(PlayOptions& options);
     base::Result<void> playServer(const PlayOptions& options);
     base::Result<void> playChosen(const TitleChoice& choice);
-    bool drawUntil(const std::function<bool(const Screen&)>& draw);
-    base::Result<bool> waitForServer(RemotePlay& play);
-    bool acceptsPacks(const RemotePlay& play);
-    // Null where the player leaves.
-    base::Result<std::unique_ptr<RemotePlay>> join(RemoteOptions options);
     base::Result<void> playFrom(const PlayOptions& options, OpenedWorld opened, ScreenOptions screen,
                                 ServersWorld given = {});
     base::Result<std::optional<TitleChoice>> showTitle();

@@ -1,0 +1,21 @@
+// Joining a server in the window: the wait, and the question about content packs that the server has and the
+// client lacks. Used on the thread of the OpenGL context.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "apps/terrane/window/remote_play.h"
+#include "apps/terrane/window/window.h"
+#include "terrane/base/stop_signals.h"
+
+namespace terrane::app {
+
+// Returns once the player is in the server's world. Null where the player leaves before that; an error where
+// the server cannot be reached or refuses. `language` as in settings; `dataFolder` keeps the cache of packs.
+base::Result<std::unique_ptr<RemotePlay>> joinServer(Window& window, const base::StopSignals& signals,
+                                                     const std::string& language, RemoteOptions options,
+                                                     const std::filesystem::path& dataFolder);
+
+}  // namespace terrane::app
