@@ -9,10 +9,12 @@
 #                                      tests/fuzz/NAME_fuzz.cpp, all of them where none is named. Exits with an
 #                                      error when one finds a fault
 #   build-fuzz/fuzz_NAME FILE          runs one input again
+#   FUZZ_BUILD=build-asan tools/fuzz.sh …   fuzzers that are built there: -DTERRANE_FUZZ=ON. Where the library is not
+#                                      compiled for libFuzzer, it sees the fuzzers' own branches only
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-export BUILD_FOLDER=build-fuzz
+export BUILD_FOLDER=${FUZZ_BUILD:-build-fuzz}
 export SECONDS_TO_RUN=${1:-10}
 shift || true
 names=("$@")
@@ -23,14 +25,17 @@ if [[ ${#names[@]} -eq 0 ]]; then
     done
 fi
 
-if ! command -v clang++ >/dev/null; then
-    echo "fuzz: needs clang++: apt-get install clang libclang-rt-dev" >&2
-    exit 2
-fi
-cmake -S . -B "$BUILD_FOLDER" -G Ninja --log-level=WARNING -DCMAKE_CXX_COMPILER=clang++ \
-    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=-O1 -DCMAKE_UNITY_BUILD=ON -DTERRANE_WERROR=OFF -DTERRANE_FUZZ=ON \
-    -DTERRANE_SANITIZE=fuzzer-no-link,address,undefined -DTERRANE_GRAPHICS=OFF -DTERRANE_TESTS=OFF -DTERRANE_BENCHMARKS=OFF
-cmake --build "$BUILD_FOLDER" --target "${names[@]/#/fuzz_}"
+build_fuzzers() {
+    if ! command -v clang++ >/dev/null; then
+        echo "fuzz: needs clang++: apt-get install clang libclang-rt-dev" >&2
+        exit 2
+    fi
+    cmake -S . -B "$BUILD_FOLDER" -G Ninja --log-level=WARNING -DCMAKE_CXX_COMPILER=clang++ \
+        -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=-O1 -DCMAKE_UNITY_BUILD=ON -DTERRANE_WERROR=OFF -DTERRANE_FUZZ=ON \
+        -DTERRANE_SANITIZE=fuzzer-no-link,address,undefined -DTERRANE_GRAPHICS=OFF -DTERRANE_TESTS=OFF -DTERRANE_BENCHMARKS=OFF
+    cmake --build "$BUILD_FOLDER" --target "${names[@]/#/fuzz_}"
+}
+[[ -n ${FUZZ_BUILD:-} ]] || build_fuzzers
 
 # Files that the library opens by name lie in memory, where a fuzzer that was ended leaves them, too.
 TMPDIR=$(mktemp -d "$([[ -d /dev/shm ]] && echo /dev/shm || echo "${TMPDIR:-/tmp}")/terrane-fuzz.XXXXXX")

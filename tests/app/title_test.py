@@ -32,14 +32,17 @@ class Player(window_test.Game):
     def pixels(self):
         return self.display.screenshot(self.window).pixels
 
-    def settle(self):
-        """Waits until the image stays as it is, or as a world in which time passes: not for long."""
-        before, same = None, 0
-        deadline = time.monotonic() + 3
-        while same < 4 and time.monotonic() < deadline:
+    def settle(self, seconds=3):
+        """Waits until the image stays as it is, or as a world in which time passes: no longer than `seconds`. The longer
+        it takes to change, the longer it must stay."""
+        start = changed = time.monotonic()
+        before, longest = self.pixels(), 0.2
+        while time.monotonic() - start < seconds and time.monotonic() - changed < 3 * longest:
             time.sleep(0.15)
             now = self.pixels()
-            same, before = (same + 1 if now == before else 0), now
+            if now != before:
+                longest = max(longest, time.monotonic() - changed)
+                before, changed = now, time.monotonic()
 
     def hold(self, key, pause=None):
         """Until it has changed the image: frames may take long, and a key that is down for longer acts twice."""
@@ -110,11 +113,11 @@ class TitleScript(ProgramTest):
         player.settle()
         player.press("t")
         player.wait_for(lambda: len(player.places()) > left)
-        # The game's last image stays until the title is there.
+        # The game's last image stays until the title is there, whose world stands still once it is loaded.
         before, deadline = player.pixels(), time.monotonic() + 8
         while player.pixels() == before and time.monotonic() < deadline:
             time.sleep(0.05)
-        player.settle()
+        player.settle(30)
 
 
 class Title(TitleScript):
