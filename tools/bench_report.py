@@ -5,9 +5,8 @@
     bench_report.py FOLDER [TABLE...] [-o DIR]
 
 Reads FOLDER/results.jsonl and writes report.md, tables/NAME.csv and plots/NAME.svg into DIR (FOLDER unless told): the
-tables that are named, else all of which something was measured. Where a measurement is missing the table has a gap.
-Needs pandas and matplotlib (Debian: python3-pandas, python3-matplotlib). Exit code: 0, or 2 where something cannot be
-read or written.
+named tables, or all tables with a measurement. A missing measurement leaves an empty cell. Needs pandas and matplotlib
+(Debian: python3-pandas, python3-matplotlib). Exit code: 0, or 2 if something cannot be read or written.
 """
 
 import sys

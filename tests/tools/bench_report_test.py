@@ -86,7 +86,7 @@ class Report(ReportTest):
         self.write(self.lines)
         report = self.report("disk", "layers")
         self.assertEqual([line for line in report.splitlines() if line.startswith("## ")],
-                         ["## Layers of water and glass (table 6.13)", "## Saves"])
+                         ["## Transparency layers (table 6.13)", "## Saves"])
         self.assertEqual(len(list((self.folder / "tables").iterdir())), 2)
         self.assertEqual(list((self.folder / "plots").iterdir()), [])
 
@@ -103,7 +103,7 @@ class Gaps(ReportTest):
     def test_what_was_not_measured_is_a_gap(self):
         self.write(line for line in self.lines if '"desert"' not in line)
         self.assertIn("\n| desert |  |  |  |  |\n", self.report("disk"))
-        self.assertEqual(self.rows("disk")[1], {"scene": "desert", "chunks": "", "file, MB": "", "bytes a chunk": "",
+        self.assertEqual(self.rows("disk")[1], {"scene": "desert", "chunks": "", "file, MB": "", "bytes per chunk": "",
                                                 "load all in view, s": ""})
         self.assertNotIn("failed", self.report("disk"))
 
@@ -113,7 +113,7 @@ class Gaps(ReportTest):
         self.write([line for line in self.lines if not line.startswith(cell)] + [cell + '"failure":"too dark"}\n'])
         report = self.report("disk")
         self.assertIn("\n| cave | failed | failed | failed | failed |\n", report)
-        self.assertIn("\nWhat failed:\n\n- `render --scene cave --preset low --view-distance 1 --size 320x180 --save-game "
+        self.assertIn("\nFailed measurements:\n\n- `render --scene cave --preset low --view-distance 1 --size 320x180 --save-game "
                       "cave-1`: too dark\n", report)
 
     def test_every_table_of_nothing(self):

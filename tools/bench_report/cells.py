@@ -1,4 +1,4 @@
-"""Command lines of the program: what a measurement is found by. apps/terrane/bench/bench_plan.cpp runs the same ones;
+"""Command lines of the program. They identify measurements. apps/terrane/bench/bench_plan.cpp runs the same ones;
 tests/app/bench_test.py compares the two."""
 
 from dataclasses import dataclass
@@ -11,19 +11,19 @@ MEMORY_COPY = "bench --memory-copy"  # how fast one thread copies memory
 
 @dataclass(frozen=True)
 class Settings:
-    """Those of the run, as far as command lines depend on them."""
+    """The settings of the run that command lines depend on."""
     is_quick: bool
     size: str
     view_distance: int
-    farthest: int          # of tables that go through view distances
-    frames: int            # of a run
+    farthest: int          # largest view distance of tables with several
+    frames: int            # per run
     most_samples: int      # of the graphics driver
-    is_software: bool      # drawn by the processor
+    is_software: bool      # the CPU draws
     flight_seconds: float
 
 
 def settings_of(results):
-    """Files of older programs do not have them all."""
+    """Files of older programs lack some settings."""
     about = results.about
     try:
         is_quick, view_distance = bool(about["quick"]), int(about["view_distance"])
@@ -43,7 +43,7 @@ def command_line(command, **flags):
 
 
 def frame(s, scene, **flags):
-    """Frames of a scene with the options that the thesis measured with, `flags` apart."""
+    """Frames of a scene with the options of the thesis, changed by `flags`."""
     return command_line("render", **{
         "scene": scene, "preset": "thesis", "view_distance": s.view_distance, "size": s.size, "frames": s.frames,
         "samples": 2, "shading": "sample", "shadows": "near",
@@ -52,28 +52,28 @@ def frame(s, scene, **flags):
 
 
 def plain_frame(s, **flags):
-    """Of the landscape with the least options."""
+    """Frames of the landscape with `--preset low`."""
     return command_line("render", **{"scene": "landscape", "preset": "low", "view_distance": s.view_distance,
                                      "size": s.size, "frames": s.frames, **flags})
 
 
 def merging(s, scene, method):
-    """Frames with a method of merging, all triangles drawn."""
+    """Frames with a merging method, without occlusion culling."""
     return frame(s, scene, merging=method, occlusion_culling="off")
 
 
 def generating(scene, view_distance, **flags):
-    """Everything in view of a scene generated, in a small image."""
+    """Generates all chunks in view of a scene and draws a small image."""
     return command_line("render", scene=scene, preset="low", view_distance=view_distance, size="320x180", **flags)
 
 
 def loading(scene, view_distance):
-    """The same from a save that has it all."""
+    """The same from a complete save."""
     return generating(scene, view_distance, save_game=f"{scene}-{view_distance}")
 
 
 def flight(s, is_from_save):
-    """A flight ahead over the landscape."""
+    """A straight flight over the landscape."""
     return command_line("flight-bench", scene="landscape", duration=f"{s.flight_seconds:g}",
                         preset="low" if s.is_software else "thesis", view_distance=s.view_distance,
                         size="320x180" if s.is_software else s.size,
@@ -85,7 +85,7 @@ def generate_one_thread(s):
 
 
 def view_distances(s):
-    """Of tables that grow with it, up to the settings' own."""
+    """View distances up to the one of the settings."""
     return [*(distance for distance in (4, 8, 16, 32, 64) if distance < s.view_distance), s.view_distance]
 
 

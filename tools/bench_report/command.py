@@ -12,10 +12,10 @@ from .results import BadInput, read_results
 def main(arguments, description):
     parser = argparse.ArgumentParser(prog="bench_report.py", description=description,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=pathlib.Path, metavar="FOLDER", help="of terrane bench")
+    parser.add_argument("folder", type=pathlib.Path, metavar="FOLDER", help="folder written by terrane bench")
     parser.add_argument("only", nargs="*", metavar="TABLE",
-                        help="only these tables, with gaps where nothing was measured")
-    parser.add_argument("-o", "--output", type=pathlib.Path, metavar="DIR", help="where the report goes (FOLDER)")
+                        help="write only these tables; cells without a measurement stay empty")
+    parser.add_argument("-o", "--output", type=pathlib.Path, metavar="DIR", help="folder for the report (FOLDER)")
     options = parser.parse_args(arguments)
     try:
         results = read_results(options.folder / "results.jsonl")

@@ -3,14 +3,14 @@
 from .cells import SCENES, frame, generating
 from .table import CHUNKS_IN_VIEW, FRAME_MS, FRAMES_PER_SECOND, Curve, CurvePlot, Plot, Table, Value, share, value
 
-# Tables 6.6 and 6.7, of work groups of 8², which are about the best: frames a second.
+# Tables 6.6 and 6.7, work groups of 8², about the best size: frames per second.
 POST_PROCESSING = {"ocean": 56, "desert": 55, "landscape": 45, "cave": 66}
-# Table 6.8, of 4²: MB, frames a second.
+# Table 6.8, light textures of 4² chunks: MB, frames per second.
 LIGHT_TEXTURE = {"ocean": (1967, 56), "desert": (1965, 54), "landscape": (1967, 45), "cave": (1967, 65)}
 
 
 def with_thesis(names):
-    """Columns of ours, each with the thesis's behind it."""
+    """Columns of Terrane, each followed by the column of the thesis."""
     return [column for name in names for column in (str(name), f"thesis: {name}")]
 
 
@@ -22,10 +22,10 @@ def post_processing(s):
         rows.append([scene, value(cell, FRAMES_PER_SECOND),
                      *(value(cell, Value(f"/passes/{name}")) for name in passes), POST_PROCESSING[scene]])
     return Table(
-        "post-processing", "Effects after shading, in place of work groups (tables 6.6 and 6.7)",
+        "post-processing", "Post-processing (tables 6.6 and 6.7)",
         "The thesis computes effects in compute shaders and varies their work groups (2² to 32²; about the same from "
-        "8² on). Ours are fragment shaders without work groups; what they cost is beside: GPU milliseconds of each "
-        "pass, ambient occlusion switched on.",
+        "8² on). Terrane uses fragment shaders without work groups. The columns are GPU milliseconds of each pass, "
+        "with ambient occlusion on.",
         "view distance, size",
         ["scene", "frames/s", "ambient occlusion, ms", "god rays, ms", "depth of field, ms", "final, ms",
          "thesis: frames/s, 8²"], rows)
@@ -39,11 +39,11 @@ def light_texture(s):
                      value(cell, Value("/bytes/light_gpu", 1e-3, per=CHUNKS_IN_VIEW)), value(cell, FRAMES_PER_SECOND),
                      *LIGHT_TEXTURE[scene]])
     return Table(
-        "light-texture", "Light on the GPU, in place of a texture's size (table 6.8)",
-        "The thesis varies the size of its light map's textures (2² to 32² chunks: 1931 to 2665 MB). Ours is a pool of "
-        "tiles of 8³ blocks of which equal ones are kept once: it has no size to choose.",
+        "light-texture", "Light on the GPU (table 6.8)",
+        "The thesis varies the size of its light textures (2² to 32² chunks: 1931 to 2665 MB). Terrane has a pool of "
+        "light tiles of 8³ blocks that stores equal tiles once; it has no size to vary.",
         "view distance, size",
-        ["scene", "light on the GPU, MB", "kB a chunk", "frames/s", "thesis: all on the GPU, MB, 4²",
+        ["scene", "light on the GPU, MB", "kB per chunk", "frames/s", "thesis: all on the GPU, MB, 4²",
          "thesis: frames/s, 4²"], rows)
 
 
@@ -51,11 +51,11 @@ DISTANCES = (4, 8, 16, 32)
 
 
 def distances(s):
-    """Indices of those that are measured."""
+    """Indices of the measured ones."""
     return [k for k, distance in enumerate(DISTANCES) if distance <= max(4, s.farthest)]
 
 
-# Table 6.10: frames a second by view distance.
+# Table 6.10: frames per second by view distance.
 SHADING = {
     "ocean": {"off": (82, 77, 71, 57), "pixel": (77, 71, 65, 52), "sample": (60, 53, 49, 41)},
     "desert": {"off": (88, 83, 73, 51), "pixel": (82, 77, 68, 52), "sample": (66, 60, 55, 44)},
@@ -76,7 +76,7 @@ def shading(s):
     ours = [2 + 2 * k for k in range(len(distances(s)))]
     return Table(
         "shading", "Shading and view distance (table 6.10)",
-        "Frames a second with 4 samples a pixel: without shading, once a pixel, for each sample.",
+        "Frames per second with 4 samples per pixel: without shading, shading per pixel, shading per sample.",
         "view distances", ["scene", "shading", *with_thesis(f"V={DISTANCES[k]}" for k in distances(s))], rows,
         [Plot("scene, shading", "frames/s", ours, name_columns=2)])
 
@@ -97,14 +97,14 @@ def shadow_triangles(s):
               for k, cell in cells.items()]
     return Table(
         "shadow-triangles", "Triangles of the shadow map (table 6.11, graph 6.6)",
-        "Landscape, in thousands: what is drawn into the shadow map at noon (time 0.5) and at dawn (0.2), and over the "
-        "day. Only what can throw a shadow on the nearest 50 blocks is drawn, without the faces that look away from "
-        "the light.",
+        "Landscape, in thousands: triangles drawn into the shadow map at noon (time 0.5) and at dawn (0.2), and over "
+        "the day. Only possible casters of shadows on the nearest 50 blocks are drawn, without faces that point away "
+        "from the light.",
         "view distances", ["time", *with_thesis(f"V={DISTANCES[k]}" for k in cells)], rows,
         curve_plot=CurvePlot("time of day (0: midnight, 0.5: noon)", "triangles of the shadow map", curves))
 
 
-# Table 6.12: frames a second without a map and by its size, by samples.
+# Table 6.12: frames per second without a shadow map and by its size, by samples.
 SHADOW_SIZES = ("off", "1024", "2048", "4096")
 SHADOW_MAPS = {1: (54, 49, 39, 24), 2: (47, 41, 35, 22), 4: (35, 32, 28, 20), 8: (23, 21, 19, 15)}
 
@@ -122,14 +122,14 @@ def shadow_maps(s):
             ours = "not offered" if samples > s.most_samples else value(cell, FRAMES_PER_SECOND)
             rows[-1] += [ours, figure]
     return Table(
-        "shadow-maps", "Size of the shadow map and samples a pixel (table 6.12)",
-        "Landscape at dawn (0.2), frames a second. A driver may take more samples than asked for: Mesa's software "
-        "renderer takes 4 for 2.",
+        "shadow-maps", "Shadow map size and samples per pixel (table 6.12)",
+        "Landscape at dawn (0.2), frames per second. A driver may use more samples than requested: Mesa's software "
+        "renderer uses 4 for 2.",
         "shadow maps of 2048² and 4096²; 2 and 8 samples",
         ["samples", *with_thesis(size if size == "off" else size + "²" for size in sizes)], rows)
 
 
-# Table 6.13: frames a second with 0 to 3 layers.
+# Table 6.13: frames per second with 0 to 3 layers.
 LAYERS = {"ocean": (81, 64, 61, 57), "desert": (68, 61, 59, 56), "landscape": (54, 50, 47, 45),
           "cave": (100, 86, 80, 75)}
 
@@ -146,19 +146,19 @@ def layers(s):
         rows[-1] += [value(three, Value("/triangles/transparent", 1e-3)), share(three, none, FRAME_MS),
                      round(100 * thesis[0] / thesis[3])]
     return Table(
-        "layers", "Layers of water and glass (table 6.13)",
-        "Frames a second; then the blended triangles in view, and the time of a frame with three layers in per cent of "
-        "one without.",
+        "layers", "Transparency layers (table 6.13)",
+        "Frames per second by number of layers. The last columns are the blended triangles in view, and the frame time "
+        "with three layers relative to the frame time without layers.",
         "view distance, size; 1 and 2 layers",
         ["scene", *with_thesis(counts), "blended, k", "3 layers, %", "thesis: 3 layers, %"], rows)
 
 
-# Table 6.14: frames a second of the four scenes; the thesis says of the last ones that nothing changed.
+# Table 6.14: frames per second of the four scenes; the thesis reports no change for the last four.
 EFFECTS = (
     ("default", {}, (57, 56, 41, 59)),
     ("without depth of field", {"depth_of_field": "off"}, (66, 65, 46, 71)),
     ("without god rays", {"god_rays": "off"}, (59, 56, 42, 59)),
-    ("without better texturing", {"sharp_filtering": "off"}, 4 * ("no change",)),
+    ("without sharp filtering", {"sharp_filtering": "off"}, 4 * ("no change",)),
     ("without MSAA alpha test", {"msaa_alpha_test": "off"}, 4 * ("no change",)),
     ("T-junctions open", {"t_junctions": "open"}, 4 * ("no change",)),
     ("without animation", {"animation": "off"}, 4 * ("no change",)),
@@ -174,7 +174,7 @@ def effects(s):
             rows[-1] += [value(frame(s, scene, **flags), FRAMES_PER_SECOND), figure]
     return Table(
         "effects", "Effects switched off, one at a time (table 6.14)",
-        "Frames a second. The thesis saw no change from the last four.",
+        "Frames per second. The thesis reports no change for the last four.",
         "two of the four scenes", ["options", *with_thesis(SCENES[::step])], rows)
 
 

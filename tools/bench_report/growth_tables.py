@@ -1,7 +1,7 @@
-"""What grows with the view distance and the image, and what each effect costs."""
+"""Cost by view distance, by image size and of each effect."""
 
 from .cells import frame, generating, loading, pixels, plain_frame
-from .table import (CHUNKS_IN_VIEW, FRAME_MS, LOAD_SECONDS, PROCESSOR_MS, Plot, Table, Value, difference, total,
+from .table import (CHUNKS_IN_VIEW, FRAME_MS, LOAD_SECONDS, CPU_MS, Plot, Table, Value, difference, total,
                     value)
 
 
@@ -14,18 +14,18 @@ def by_view_distance(s):
         rows.append([str(distance), value(generated, Value(CHUNKS_IN_VIEW)), value(generated, LOAD_SECONDS),
                      value(loading("landscape", distance), LOAD_SECONDS),
                      total(drawn, [Value("/triangles/opaque", 1e-3), Value("/triangles/transparent", 1e-3)]),
-                     value(drawn, FRAME_MS), value(drawn, PROCESSOR_MS),
+                     value(drawn, FRAME_MS), value(drawn, CPU_MS),
                      value(plain_frame(s, view_distance=distance), FRAME_MS),
                      value(generated, Value("/bytes/process", 1e-6))])
     return Table(
-        "view-distance", "What grows with the view distance",
-        "Landscape. Loading: from nothing until all in view is lit, meshed and uploaded, generating or from a save. "
-        f"Frames: {s.size}, with the options of the thesis's tables and with `--preset low`; processor: milliseconds "
-        "of all cores for a frame of the former.",
+        "view-distance", "Cost by view distance",
+        "Landscape. Loading: until all in view is lit, meshed and uploaded, generated or from a save. "
+        f"Frames: {s.size}, with the options of the thesis's tables and with `--preset low`. CPU: milliseconds of all "
+        "cores for a frame with the options of the thesis's tables.",
         f"view distances over {2 * s.farthest}",
-        ["V", "chunks in view", "generating, s", "from a save, s", "triangles, k", "frame, ms", "processor, ms",
+        ["V", "chunks in view", "generating, s", "from a save, s", "triangles, k", "frame, ms", "CPU, ms",
          "preset low: frame, ms", "process, MB"],
-        rows, [Plot("view distance, chunks", "milliseconds a frame", [5, 7], "frame", is_lines=True),
+        rows, [Plot("view distance, chunks", "milliseconds per frame", [5, 7], "frame", is_lines=True),
                Plot("view distance, chunks", "seconds to load all", [2, 3], "load", is_lines=True)])
 
 
@@ -38,34 +38,34 @@ def by_resolution(s):
     for size in QUICK_SIZES if s.is_quick else SIZES:
         drawn, plain = frame(s, "landscape", size=size), plain_frame(s, size=size)
         per_pixel = Value(FRAME_MS.pointer, 1e6 / pixels(size))
-        rows.append([str(pixels(size)), size, value(drawn, FRAME_MS), value(drawn, PROCESSOR_MS),
+        rows.append([str(pixels(size)), size, value(drawn, FRAME_MS), value(drawn, CPU_MS),
                      value(drawn, per_pixel), value(plain, FRAME_MS), value(plain, per_pixel)])
     return Table(
-        "resolution", "What grows with the image",
+        "resolution", "Cost by image size",
         f"Landscape, V={s.view_distance}, with the options of the thesis's tables and with `--preset low`.",
         "large images",
-        ["pixels", "size", "frame, ms", "processor, ms", "ns a pixel", "preset low: frame, ms",
-         "preset low: ns a pixel"],
-        rows, [Plot("pixels", "milliseconds a frame", [2, 5], is_lines=True)])
+        ["pixels", "size", "frame, ms", "CPU, ms", "ns per pixel", "preset low: frame, ms",
+         "preset low: ns per pixel"],
+        rows, [Plot("pixels", "milliseconds per frame", [2, 5], is_lines=True)])
 
 
-# Each effect's flag, switched on and off, and which of both `--preset low` has: that needs no flag and is one run for
-# all effects.
+# Each effect's flag, its values on and off, and which of the two `--preset low` has. That one needs no flag, so one run
+# serves all effects.
 EFFECTS = (
-    ("4 samples a pixel", "samples", "4", "1", "off"),
+    ("4 samples per pixel", "samples", "4", "1", "off"),
     ("shading", "shading", "sample", "off", "on"),
     ("smooth light", "light", "smooth", "classic", "off"),
     ("shadows, 50 blocks", "shadows", "near", "off", "off"),
     ("ambient occlusion", "ssao", "on", "off", "off"),
     ("depth of field", "depth_of_field", "on", "off", "off"),
-    ("atmosphere", "distance_fog", "on", "off", "on"),
+    ("distance fog", "distance_fog", "on", "off", "on"),
     ("god rays", "god_rays", "on", "off", "off"),
     ("clouds", "clouds", "on", "off", "off"),
     ("animation", "animation", "on", "off", "on"),
-    ("better texturing", "sharp_filtering", "on", "off", "off"),
-    ("3 layers of water and glass", "layers", "3", "0", "neither"),
+    ("sharp filtering", "sharp_filtering", "on", "off", "off"),
+    ("3 transparency layers", "layers", "3", "0", "neither"),
     ("T-junctions covered", "t_junctions", "covered", "open", "on"),
-    ("hidden regions left out", "occlusion_culling", "on", "off", "on"),
+    ("occlusion culling", "occlusion_culling", "on", "off", "on"),
 )
 
 
@@ -75,14 +75,14 @@ def effect_costs(s):
         off = plain_frame(s, **({} if in_preset == "off" else {flag: word_off}))
         on = plain_frame(s, **({} if in_preset == "on" else {flag: word_on}))
         rows.append([name, value(off, FRAME_MS), value(on, FRAME_MS), difference(on, off, FRAME_MS),
-                     difference(on, off, PROCESSOR_MS)])
+                     difference(on, off, CPU_MS)])
     return Table(
-        "effect-costs", "What each effect costs",
-        f"Landscape, {s.size}, V={s.view_distance}: milliseconds of a frame with `--preset low`, the effect switched "
-        "on and off and all else as it is. Under about a tenth of the frame a difference is noise; processor time, of "
-        "all cores, is steadier where other programs run.",
-        "view distance, size", ["effect", "off, ms", "on, ms", "difference, ms", "difference, processor ms"], rows,
-        [Plot("effect", "milliseconds it adds", [3, 4])])
+        "effect-costs", "Cost of each effect",
+        f"Landscape, {s.size}, V={s.view_distance}: milliseconds of a frame with `--preset low` with the effect off "
+        "and on, all other options unchanged. Differences below about a tenth of the frame are noise; CPU time of all "
+        "cores is more stable when other programs run.",
+        "view distance, size", ["effect", "off, ms", "on, ms", "difference, ms", "difference, CPU ms"], rows,
+        [Plot("effect", "added milliseconds", [3, 4])])
 
 
 def growth_tables(s):

@@ -8,7 +8,7 @@ BLOCK_BYTES = 2.0 * 65536  # of a chunk, unpacked
 
 
 def goals(s):
-    """What this program is to reach on two cores without a graphics card, and what it does reach."""
+    """Goals of the program on two cores without a graphics card, and measured values."""
     generated, loaded = generating("landscape", s.view_distance), loading("landscape", s.view_distance)
     flown, distance = flight(s, False), f"V={s.view_distance}"
 
@@ -24,35 +24,35 @@ def goals(s):
     rows = [
         ["generating with one thread, chunks/s", "≥ 1500",
          value(generate_one_thread(s), Value("/chunks_per_second")), "41–84"],
-        ["light from scratch, both stages, ms a chunk", "≤ 0.25",
+        ["light from scratch, both stages, ms per chunk", "≤ 0.25",
          total(generated, [task("local light"), task("light")]), "9.7"],
-        ["mesh, ms a chunk", "≤ 0.04", value(generated, task("mesh")), "–"],
-        [f"from nothing to all in view, generating, s, {distance}", "≤ 6", value(generated, LOAD_SECONDS), "–"],
-        [f"the same from a save, s, {distance}", "≤ 4", value(loaded, LOAD_SECONDS), "41"],
-        ["RAM, blocks and light, kB a chunk", "≤ 44",
+        ["mesh, ms per chunk", "≤ 0.04", value(generated, task("mesh")), "–"],
+        [f"load all in view, generating, s, {distance}", "≤ 6", value(generated, LOAD_SECONDS), "–"],
+        [f"load all in view from a save, s, {distance}", "≤ 4", value(loaded, LOAD_SECONDS), "41"],
+        ["RAM, blocks and light, kB per chunk", "≤ 44",
          total(generated, [kilobytes("blocks"), kilobytes("light")]), "313"],
-        ["GPU, quads and light, kB a chunk", "≤ 42",
+        ["GPU, quads and light, kB per chunk", "≤ 42",
          total(generated, [kilobytes("quads_gpu"), kilobytes("light_gpu")]), "259"],
-        ["save, kB a chunk", "≤ 2.5", value(loaded, Value("/bytes/save", 1e-3, per="/chunks")), "–"],
+        ["save, kB per chunk", "≤ 2.5", value(loaded, Value("/bytes/save", 1e-3, per="/chunks")), "–"],
         ["opaque triangles, greedy, % of squares ext", "≤ 90",
          share(merging(s, "landscape", "greedy"), merging(s, "landscape", "squares-ext"), Value("/triangles/opaque")),
          "100"],
         ["flight while generating: frames over twice the median because of loading", "0",
          of_flight("of_these_by_loading"), "–"],
-        ["frames over twice the median, for whatever reason", "–", of_flight("frames_over_twice_the_median"), "–"],
-        ["what loading takes of a frame at most, ms of the processor", "–", of_flight("most_loading_ms"), "–"],
-        ["its slowest frame, ms", "–", of_flight("slowest_frame_ms"), "600"],
-        ["the median of its frames, ms", "–", of_flight("frame_ms"), "–"],
+        ["frames over twice the median for any reason", "–", of_flight("frames_over_twice_the_median"), "–"],
+        ["most CPU time of loading in one frame, ms", "–", of_flight("most_loading_ms"), "–"],
+        ["slowest frame of the flight, ms", "–", of_flight("slowest_frame_ms"), "600"],
+        ["median frame of the flight, ms", "–", of_flight("frame_ms"), "–"],
     ]
     return Table(
-        "goals", "Figures to reach on two cores without a graphics card",
-        "Landscape, overworld with everything on; goals are for V=32 and a quiet machine. Beside them what the thesis "
-        "has, with a graphics card.",
-        "view distance, area, time of flight", ["what", "goal", "measured", "thesis"], rows)
+        "goals", "Goals on two cores without a graphics card",
+        "Landscape, overworld, all effects on. The goals are for V=32 (view distance in chunks) and a quiet machine. "
+        "The last column is the thesis, with a graphics card.",
+        "view distance, area, time of flight", ["quantity", "goal", "measured", "thesis"], rows)
 
 
 def floor(cell, values, more_bytes):
-    """What the bytes of a stage take at the speed of copying, which reads and writes each byte; µs."""
+    """µs to read and write the bytes of a stage at the speed of copying."""
     def compute(results):
         read_and_written = more_bytes + sum(what.of(results, cell) or 0 for what in values)
         speed = results.number(MEMORY_COPY, "/bytes_per_second")
@@ -69,7 +69,7 @@ def stages(s):
     def task(name):  # microseconds
         return Value(f"/tasks/{name}/milliseconds", 1000, per=f"/tasks/{name}/count")
 
-    # The time of a stage, and the bytes of a chunk that it must read and write at least.
+    # The time of a stage, and the bytes of a chunk that it reads and writes at least.
     rows = [[name, value(cell, microseconds), floor(cell, values, more_bytes), limit]
             for name, cell, microseconds, values, more_bytes, limit in (
                 ("generate", generated, task("generate"), [blocks], 4 * BLOCK_BYTES,
@@ -77,19 +77,19 @@ def stages(s):
                 ("load from a save", loaded, task("load"), [blocks, save], 0,
                  "reading a row of SQLite, decompressing"),
                 ("light, stage 1", loaded, task("local light"), [blocks, light], 0,
-                 "bricks that are not uniform: 5 to 6 a chunk, unpacked to a few bytes a block and searched"),
+                 "non-uniform bricks: 5 to 6 per chunk, unpacked to a few bytes per block and searched"),
                 ("light, stage 2", loaded, task("light"), [light, light], 0,
-                 "twelve borders to neighbors, rows that change, packing"),
-                ("mesh", loaded, task("mesh"), [blocks, quads], 0, "bit planes of sections, 16 ns for each quad"),
+                 "twelve borders to neighbors, changed rows, packing"),
+                ("mesh", loaded, task("mesh"), [blocks, quads], 0, "bit planes of sections, 16 ns per quad"),
                 ("upload", loaded, Value("/milliseconds/upload", 1000, per=CHUNKS_IN_VIEW),
                  [quads, quads, light_gpu, light_gpu], 0, "the driver's copies"))]
     rows.append(["memory copied by one thread, GB/s", value(MEMORY_COPY, Value("/bytes_per_second", 1e-9)), "–", ""])
     return Table(
         "stages", "Stages of a chunk",
-        f"Landscape, V={s.view_distance}: time of a worker (upload: of the main thread) for a chunk. Beside it what "
-        "reading and writing the stage's bytes takes at the speed at which one thread copies memory here: no program "
-        "can be faster, and how far from it a stage is says how much of it is not memory.",
-        "view distance", ["stage", "µs a chunk", "memory alone, µs", "what takes the time"], rows)
+        f"Landscape, V={s.view_distance}: time of a worker thread (upload: of the main thread) per chunk. The "
+        "column `memory alone` is the time to read and write the bytes of the stage at the speed at which one thread copies "
+        "memory here. It is a lower bound for any program; the difference is other work.",
+        "view distance", ["stage", "µs per chunk", "memory alone, µs", "main work"], rows)
 
 
 PASSES = ("cull", "shadow map", "surfaces", "depth pyramid", "cull again", "surfaces again", "sky", "shade", "peel",
@@ -103,9 +103,9 @@ def passes(s):
                      value(frame(s, "landscape"), Value(pointer, 1e6 / pixels(s.size)))])
     return Table(
         "passes", "Passes of the frame",
-        f"GPU milliseconds of each pass, {s.size}, V={s.view_distance}; the last column is nanoseconds a pixel of the "
-        "image (the software renderer draws 4 samples each). A pass that does not run has no time.",
-        "view distance, size", ["pass", *(f"{scene}, ms" for scene in SCENES), "landscape, ns a pixel"], rows,
+        f"GPU milliseconds of each pass, {s.size}, V={s.view_distance}. The last column is nanoseconds per pixel of "
+        "the image (the software renderer draws 4 samples each). A pass that does not run has no time.",
+        "view distance, size", ["pass", *(f"{scene}, ms" for scene in SCENES), "landscape, ns per pixel"], rows,
         [Plot("pass", "milliseconds", [1, 2, 3, 4])])
 
 
@@ -123,9 +123,9 @@ def memory_by_owner(s):
                                              Value(f"/bytes/{owner}", 1e-3, per=CHUNKS_IN_VIEW))])
     return Table(
         "memory-by-owner", "Memory by owner",
-        "Landscape, MB; the last column is of the largest view distance, for each chunk in view. The process has the "
-        "GPU's memory, too, where the processor draws.",
-        "smaller view distances", ["owner", *(f"V={distance}" for distance in view_distances(s)), "kB a chunk"], rows)
+        "Landscape, MB. The last column is for the largest view distance, per chunk in view. Without a graphics card, "
+        "the memory of the process includes GPU memory.",
+        "smaller view distances", ["owner", *(f"V={distance}" for distance in view_distances(s)), "kB per chunk"], rows)
 
 
 def disk(s):
@@ -134,8 +134,8 @@ def disk(s):
         cell = loading(scene, s.view_distance)
         rows.append([scene, value(cell, Value("/chunks")), value(cell, Value("/bytes/save", 1e-6)),
                      value(cell, Value("/bytes/save", per="/chunks")), value(cell, LOAD_SECONDS)])
-    return Table("disk", "Saves", "A save that has everything in view of a scene.", "view distance",
-                 ["scene", "chunks", "file, MB", "bytes a chunk", "load all in view, s"], rows)
+    return Table("disk", "Saves", "A save with all chunks in view of a scene.", "view distance",
+                 ["scene", "chunks", "file, MB", "bytes per chunk", "load all in view, s"], rows)
 
 
 def own_tables(s):

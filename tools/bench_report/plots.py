@@ -21,7 +21,7 @@ STYLE = {
 
 
 def draw_plots(table, results, folder):
-    """Names of the files that it made; what has no numbers is not drawn."""
+    """Returns the names of the written files. A plot without numbers is skipped."""
     plots = [(table.name + (f"-{plot.name}" if plot.name else ""), draw_table, plot) for plot in table.plots]
     if table.curve_plot:
         plots.append((table.name + "-curve", draw_curves, table.curve_plot))
@@ -38,13 +38,13 @@ def draw_plots(table, results, folder):
 
 
 def legend(axes, *more_axes):
-    """Above the plot, of all axes together."""
+    """One legend for all axes, above the plot."""
     handles = [handle for one in (axes, *more_axes) for handle in one.get_legend_handles_labels()[0]]
     axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1), ncol=4, frameon=False)
 
 
 def draw_table(axes, table, plot, results):
-    """Whether there was something to draw."""
+    """Returns whether there was something to draw."""
     numbers = pandas.DataFrame(
         [[number_of(row[column], results) for column in plot.columns] for row in table.rows],
         columns=[table.columns[column] for column in plot.columns], dtype=float)

@@ -1,4 +1,4 @@
-"""The report: all tables as Markdown with what they were measured on, each as CSV, and plots."""
+"""The report: the machine and all tables as Markdown, each table as CSV, and plots."""
 
 import json
 
@@ -10,13 +10,16 @@ from .text import csv_of, markdown_of
 from .world_tables import world_tables
 
 EXPLANATION = """
-Each measurement is a run of the program by itself; figures are medians of its runs, times of frames medians of the \
-frames of a run, after a first one. The frames of the thesis's tables are drawn with `--preset thesis`. A load average \
-above that of one program that uses all processors means that others ran, too: times are then too long.
+Each measurement is a separate run of the program. Figures are medians of its runs; frame times are medians of the \
+frames of a run, without the first one. The frames of the thesis's tables are drawn with `--preset thesis`. A load \
+average above that of one program on all cores means that other programs ran, so times are too long.
 
-The thesis: D. Čejchan, Brno 2019; i7-6700HQ, GeForce GTX 960M, 1920×1080, view distance 32 where a table says nothing \
-else. Its frames a second are counted on a screen.
+*The thesis*: D. Čejchan, Brno 2019; i7-6700HQ, GeForce GTX 960M, 1920×1080, view distance 32 unless a table says \
+otherwise. Its frames per second are counted on a screen.
 """
+
+# Shown in place of keys of results.jsonl.
+NAMES = {"picture": "image", "processor": "CPU", "processors": "CPU cores"}
 
 
 def all_tables(settings):
@@ -28,12 +31,12 @@ def head_of(results, is_quick):
     text = f"# Measurements{', quick' if is_quick else ''}\n\n| | |\n|---|---|\n"
     for name, value in sorted(results.about.items()):
         shown = value if isinstance(value, str) else json.dumps(value, separators=(",", ":"), ensure_ascii=False)
-        text += f"| {name.replace('_', ' ')} | {shown} |\n"
+        text += f"| {NAMES.get(name, name.replace('_', ' '))} | {shown} |\n"
     runs = results.runs.reindex(columns=["/run/load_average", "/run/seconds", "/run/processor_seconds"]).fillna(0)
     if len(runs) > 0:
         loads, seconds, processor_seconds = (runs[column] for column in runs)
         text += f"| load average before each run | {loads.min():.2f} to {loads.max():.2f} |\n"
-        text += f"| runs | {len(runs)}, {seconds.sum():.0f} s, {processor_seconds.sum():.0f} s of processors |\n"
+        text += f"| runs | {len(runs)}, {seconds.sum():.0f} s, {processor_seconds.sum():.0f} s of CPU time |\n"
     return text + EXPLANATION
 
 
@@ -44,7 +47,7 @@ def section_of(table, results, is_quick, plots):
     text += markdown_of(table, results)
     text += "".join(f"\n![{table.title}](plots/{plot})\n" for plot in plots)
     failures = [f"- `{cell}`: {results.failures[cell]}\n" for cell in table.cells() if cell in results.failures]
-    return text + ("\nWhat failed:\n\n" + "".join(failures) if failures else "")
+    return text + ("\nFailed measurements:\n\n" + "".join(failures) if failures else "")
 
 
 def write_report(folder, results, tables, is_quick):

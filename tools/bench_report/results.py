@@ -1,5 +1,5 @@
-"""results.jsonl: a JSON value a line. The first has the settings, each other one is a run of a cell: a command line of
-the program and its result, or why it failed."""
+"""results.jsonl: one JSON value per line. The first has the settings. Each other one is a run of a cell: a command line
+of the program and its result, or the reason of its failure."""
 
 import json
 import math
@@ -8,15 +8,15 @@ import pandas
 
 
 class BadInput(Exception):
-    """One line that says what is wrong and where."""
+    """One line: the mistake and its place."""
 
 
 class Results:
-    """Numbers are medians over the runs of a cell; arrays are those of its first run that has them."""
+    """Numbers are medians over the runs of a cell; arrays come from the first run that has them."""
 
     def __init__(self, about, runs, arrays, failures):
         self.about = about        # settings of the run, by name
-        self.runs = runs          # a row a run, a column for the JSON pointer of each number; "cell" names the cell
+        self.runs = runs          # one row per run, one column per JSON pointer of a number; "cell" names the cell
         self.arrays = arrays      # by cell and JSON pointer
         self.failures = failures  # reasons by cell, of cells whose last run failed
         self.medians = runs.groupby("cell").median()
@@ -28,7 +28,7 @@ class Results:
         return self.has(cell) or cell in self.failures
 
     def number(self, cell, pointer):
-        """None where there is none. A pointer into an array ends with an index."""
+        """None if missing. A pointer into an array ends with an index."""
         array, _, index = pointer.rpartition("/")
         if (cell, array) in self.arrays:
             numbers = self.arrays[cell, array]
@@ -40,7 +40,7 @@ class Results:
 
 
 def read_results(path):
-    """Raises BadInput. What follows the last end of a line was cut short and does not count."""
+    """Raises BadInput. Ignores text after the last line end: a line that was cut short."""
     try:
         lines = path.read_bytes().split(b"\n")[:-1]
     except OSError as error:
@@ -58,14 +58,14 @@ def read_results(path):
     return Results(about["settings"], frame, arrays, failures)
 
 
-# Of commands and flags, in files that 0.1 wrote.
+# Names of commands and flags in files that 0.1 wrote.
 FORMER_NAMES = {"fly": "flight-bench", "--for": "--duration", "--aggregation": "--merging",
                 "--region-height": "--mesh-section-height", "--atmosphere": "--distance-fog",
                 "--better-texturing": "--sharp-filtering"}
 
 
 def parse(line):
-    """None for what is no JSON: nothing that stands in these files."""
+    """None if the line is not JSON."""
     def refuse(word):
         raise ValueError(word)
     try:
@@ -75,7 +75,7 @@ def parse(line):
 
 
 def take_run(line, runs, arrays, failures):
-    """Adds a run to what is known. ValueError, KeyError, TypeError: it is none."""
+    """Adds a run. ValueError, KeyError, TypeError: the line is not a run."""
     cell = " ".join(FORMER_NAMES.get(word, word) for word in line["cell"])
     if "result" not in line:
         failures[cell] = str(line["failure"])
@@ -93,7 +93,7 @@ def take_run(line, runs, arrays, failures):
 
 
 def leaves(value, pointer):
-    """Numbers and arrays of numbers in it with their JSON pointers."""
+    """Numbers and arrays of numbers in `value` with their JSON pointers."""
     if isinstance(value, dict):
         for key, member in value.items():
             yield from leaves(member, f"{pointer}/{key}")

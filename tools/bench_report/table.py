@@ -1,5 +1,5 @@
-"""A table as data: what each entry shows and which cells that needs. An entry is a text, a number that is known (the
-thesis has it), or an Entry that computes one from measurements."""
+"""A table as data: its entries and the cells that they need. An entry is a text, a known number (from the thesis), or
+an Entry that computes a number from measurements."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -11,14 +11,14 @@ CHUNKS_IN_VIEW = "/chunks_in_view"
 
 @dataclass(frozen=True)
 class Value:
-    """A number in a measurement, and what makes it the figure that is shown."""
+    """A number in a measurement, and its conversion to the shown figure."""
     pointer: str              # JSON pointer
     factor: float = 1
     is_inverse: bool = False  # factor / number
-    per: str = ""             # JSON pointer to what it is divided by; empty: nothing
+    per: str = ""             # JSON pointer of the divisor; empty: none
 
     def of(self, results, cell):
-        """None where it cannot be."""
+        """None if the number or the divisor is missing or zero."""
         number = results.number(cell, self.pointer)
         if self.per:
             per = results.number(cell, self.per)
@@ -32,7 +32,7 @@ class Value:
 
 FRAMES_PER_SECOND = Value("/milliseconds/frame", 1000, True)
 FRAME_MS = Value("/milliseconds/frame")
-PROCESSOR_MS = Value("/milliseconds/frame_processor")
+CPU_MS = Value("/milliseconds/frame_processor")
 LOAD_SECONDS = Value("/milliseconds/load", 1e-3)
 
 
@@ -50,7 +50,7 @@ def value(cell, what):
 
 
 def share(part, whole, what):
-    """In per cent of the same value in `whole`."""
+    """Percentage of the same value in `whole`."""
     def compute(results):
         some, whole_number = what.of(results, part), what.of(results, whole)
         return None if some is None or not whole_number else 100 * some / whole_number
@@ -58,7 +58,7 @@ def share(part, whole, what):
 
 
 def difference(cell, than, what):
-    """How much more than the same value in `than`."""
+    """Difference to the same value in `than`."""
     def compute(results):
         one, other = what.of(results, cell), what.of(results, than)
         return None if one is None or other is None else one - other
@@ -76,7 +76,7 @@ def sum_of(results, cell, values):
 
 
 def slope(cells, x, ys):
-    """Of the straight line through the points (x, sum of ys) of several measurements, by least squares."""
+    """Slope of the least-squares line through the points (x, sum of ys) of several measurements."""
     return Entry(cells, lambda results: line_through(points(results, cells, x, ys))[0])
 
 
@@ -90,7 +90,7 @@ def points(results, cells, x, ys):
 
 
 def line_through(at):
-    """Slope and intercept; none of less than two different x."""
+    """Slope and intercept; None with fewer than two different x."""
     count, x, y = len(at), at.x.sum(), at.y.sum()
     spread = count * (at.x * at.x).sum() - x * x
     if count < 2 or spread <= 0:
@@ -101,11 +101,11 @@ def line_through(at):
 
 @dataclass(frozen=True)
 class Plot:
-    """Columns of the table as bars, a group a row named by the first columns, or as lines over the first column."""
+    """Columns as bars (one group per row, named by the first columns) or as lines over the first column."""
     x_label: str
     y_label: str
     columns: list
-    name: str = ""         # of its file, after the table's; empty for one that is alone
+    name: str = ""         # of its file, after the table's; empty if it is the only plot
     name_columns: int = 1  # of bars
     is_lines: bool = False  # on logarithmic axes
 
@@ -132,7 +132,7 @@ class CurvePlot:
 class Table:
     name: str   # on command lines, and of its files
     title: str  # with the thesis's number where it has one
-    about: str  # what is measured, how it is to be read; Markdown
+    about: str  # what is measured, how to read it; Markdown
     cut: str    # what --quick leaves out
     columns: list
     rows: list
@@ -140,7 +140,7 @@ class Table:
     curve_plot: CurvePlot = None
 
     def cells(self):
-        """What its entries and curves need, each cell once."""
+        """Cells of its entries and curves, each once."""
         cells = [cell for row in self.rows for entry in row if isinstance(entry, Entry) for cell in entry.cells]
         if self.curve_plot:
             cells += [curve.cell for curve in self.curve_plot.curves]
@@ -148,7 +148,7 @@ class Table:
 
 
 def number_of(entry, results):
-    """None for a text, and where there is none."""
+    """None for a text and for a missing number."""
     if isinstance(entry, Entry):
         return entry.number(results)
     return None if isinstance(entry, str) else entry

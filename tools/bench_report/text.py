@@ -6,7 +6,7 @@ from .table import Entry, number_of
 
 
 def format_figure(number):
-    """Three digits and more, of whole numbers all: 0.0123, 1.23, 12.3, 123, 12,345; 7; < 0.001."""
+    """At least three digits, all digits of whole numbers: 0.0123, 1.23, 12.3, 123, 12,345; 7; < 0.001."""
     size = abs(number)
     if size < 1000 and number == round(number):
         return f"{number + 0.0:.0f}"
@@ -44,7 +44,7 @@ def markdown_of(table, results):
 
 
 def csv_of(table, results):
-    """Numbers in full, empty where there is none."""
+    """Numbers in full; missing numbers are empty."""
     def text(entry):
         number = number_of(entry, results)
         if number is not None:

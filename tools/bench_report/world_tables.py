@@ -1,11 +1,11 @@
-"""The thesis's tables about regions, memory, merging and flights."""
+"""The thesis's tables about mesh sections, memory, merging and flights."""
 
 from .cells import SCENES, flight, frame, generating, merging, view_distances
 from .table import (CHUNKS_IN_VIEW, FRAMES_PER_SECOND, LOAD_SECONDS, Curve, CurvePlot, Plot, Table, Value, intercept,
                     share, slope, total, value)
 
-# Table 6.5: frames a second, triangles, seconds to load by view distance and height.
-REGIONS = {
+# Table 6.5: frames per second, triangles, seconds to load by view distance and height.
+MESH_SECTIONS = {
     8: {8: (79, 139594, 11), 16: (79, 147518, 8), 32: (79, 165684, 4), 64: (79, 194812, 3), 128: (79, 272270, 2.5)},
     16: {8: (59, 739286, 43), 16: (60, 747504, 28), 32: (55, 767902, 18), 64: (61, 808836, 10),
          128: (59, 914982, 8)},
@@ -15,9 +15,9 @@ REGIONS = {
 }
 
 
-def region_heights(s):
+def mesh_section_heights(s):
     rows = []
-    for distance, heights in REGIONS.items():
+    for distance, heights in MESH_SECTIONS.items():
         if distance > max(8, s.farthest):
             continue
         for height, thesis in heights.items():
@@ -26,12 +26,12 @@ def region_heights(s):
             rows.append([str(distance), str(height), value(cell, FRAMES_PER_SECOND),
                          total(cell, [Value("/triangles/opaque"), Value("/triangles/transparent")]),
                          value(cell, LOAD_SECONDS), *thesis])
-    names = "view distance, height of regions"
+    names = "view distance, mesh section height"
     return Table(
-        "region-height", "Height of regions (table 6.5, graphs 6.1 and 6.2)",
-        "Chunks are culled and drawn in parts of this height. Landscape. Loading is from a save that has everything, "
-        "in the file system's cache, until all in view is lit, meshed and uploaded. Triangles are those in view, "
-        "without what is hidden behind terrain.",
+        "region-height", "Mesh section height (table 6.5, graphs 6.1 and 6.2)",
+        "Chunks are culled and drawn in mesh sections of this height. Landscape. Loading is from a complete save in "
+        "the file system's cache, until all in view is lit, meshed and uploaded. Triangles are those in view, without "
+        "those hidden behind terrain.",
         "fewer view distances",
         ["V", "height", "frames/s", "triangles", "load, s", "thesis: frames/s", "thesis: triangles",
          "thesis: load, s"],
@@ -49,15 +49,14 @@ def memory_by_chunks(s):
         rows.append([name, slope(cells, Value(CHUNKS_IN_VIEW), kilobytes),
                      intercept(cells, Value(CHUNKS_IN_VIEW), megabytes), *thesis])
     return Table(
-        "memory", "Memory by the number of chunks (graph 6.3)",
-        "Straight lines through what the landscape takes at all view distances: so much for each chunk that is shown, "
-        "and so much in any case. Without a graphics card the driver keeps the GPU's memory, and its own frames and "
-        "shaders, in the process.",
+        "memory", "Memory by number of chunks (graph 6.3)",
+        "Linear fits over all view distances of the landscape: a part per visible chunk and a constant part. Without a "
+        "graphics card, the memory of the process includes the GPU memory of the driver, its frames and its shaders.",
         "smaller view distances",
-        ["memory", "kB a chunk", "MB in any case", "thesis: kB a chunk", "thesis: MB in any case"], rows)
+        ["memory", "kB per chunk", "MB constant", "thesis: kB per chunk", "thesis: MB constant"], rows)
 
 
-# Table 6.9: shares of opaque, transparent and shadow triangles in per cent, and frames a second, by method.
+# Table 6.9: shares of opaque, transparent and shadow triangles in percent, and frames per second, by method.
 METHODS = ("none", "lines", "squares", "squares-ext", "greedy")
 MERGING = {
     "ocean": (("100", 35), ("40/13/44", 54), ("34/2/40", 56), ("30/2/36", 56), ("–", "–")),
@@ -67,7 +66,7 @@ MERGING = {
 }
 
 
-def aggregation(s):
+def merging_methods(s):
     rows = []
     for scene in SCENES:
         for method, thesis in zip(METHODS, MERGING[scene]):
@@ -77,8 +76,9 @@ def aggregation(s):
                          *(share(one, none, Value(kind)) for kind in kinds), value(one, FRAMES_PER_SECOND), *thesis])
     return Table(
         "aggregation", "Merging faces into rectangles (table 6.9)",
-        "Triangles in thousands; the share is that of the same scene without merging. What is hidden behind terrain "
-        "is drawn too, as in the thesis. `greedy` is ours. Worlds differ, shares can be compared.",
+        "Triangles are in thousands. Shares are relative to the same scene without merging. As in the thesis, "
+        "triangles hidden behind terrain are drawn too. Terrane adds the method `greedy`. The worlds differ from those "
+        "of the thesis, so compare only shares.",
         "a smaller view distance",
         ["scene", "merging", "opaque, k", "transparent, k", "shadow, k", "opaque, %", "transparent, %", "shadow, %",
          "frames/s", "thesis: shares, %", "thesis: frames/s"],
@@ -95,18 +95,18 @@ def flights(s):
             "slowest_frame_ms", "frames_over_twice_the_median"))])
         curves += [Curve(cell, by_second + "seconds", by_second + "frames", f"frames/s, {name}"),
                    Curve(cell, by_second + "seconds", by_second + "visible", f"chunks, {name}", True)]
-    options = ("320×180, preset low: the processor draws, too." if s.is_software
-               else "With the options of the other tables.")
+    options = ("at 320×180 with preset low; the CPU draws them too" if s.is_software
+               else "with the options of the other tables")
     return Table(
-        "flight", "A flight ahead (graphs 6.4 and 6.5)",
-        f"Landscape: wait until all in view is there, fly ahead {s.flight_seconds:g} s at 60 blocks/s, wait again; "
-        f"frames are drawn all the time. {options} The thesis (V=32, from disk: 41 s to load) saw stalls of up to "
-        "600 ms; loading kept up with the flight, generating did not.",
+        "flight", "Straight flight (graphs 6.4 and 6.5)",
+        f"Landscape: wait until all in view is loaded, fly straight ahead for {s.flight_seconds:g} s at 60 blocks/s, "
+        f"wait again. Frames are drawn all the time, {options}. The thesis (V=32, from disk: 41 s to load) had stalls "
+        "of up to 600 ms. Its loading kept up with the flight, its generation did not.",
         "view distance and time",
-        ["chunks", "to load, s", "to load again, s", "missing on landing", "frames", "frame, ms", "slowest frame, ms",
-         "frames over twice the median"],
-        rows, curve_plot=CurvePlot("seconds", "frames in a second", curves, "chunks that are shown"))
+        ["chunks", "first load, s", "load after the flight, s", "missing after the flight", "frames", "frame, ms",
+         "slowest frame, ms", "frames over twice the median"],
+        rows, curve_plot=CurvePlot("seconds", "frames per second", curves, "visible chunks"))
 
 
 def world_tables(s):
-    return [region_heights(s), memory_by_chunks(s), aggregation(s), flights(s)]
+    return [mesh_section_heights(s), memory_by_chunks(s), merging_methods(s), flights(s)]
