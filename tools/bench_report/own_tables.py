@@ -87,8 +87,8 @@ def stages(s):
     return Table(
         "stages", "Stages of a chunk",
         f"Landscape, V={s.view_distance}: time of a worker thread (upload: of the main thread) per chunk. The "
-        "column `memory alone` is the time to read and write the bytes of the stage at the speed at which one thread copies "
-        "memory here. It is a lower bound for any program; the difference is other work.",
+        "column `memory alone` is the time to read and write the bytes of the stage at the speed at which one thread "
+        "copies memory here. It is a lower bound for any program; the difference is other work.",
         "view distance", ["stage", "µs per chunk", "memory alone, µs", "main work"], rows)
 
 
