@@ -1,4 +1,4 @@
-// Textures of a user's own in place of the built-in ones: a folder of PNG files (docs/resource-packs.md).
+// Resource packs: a folder of PNG files that replace built-in textures (docs/resource-packs.md).
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@
 
 namespace terrane::content {
 
-// Pixels along a side. 33 textures × 1,024² × 4 bytes × 4/3 for mipmaps = 185 MB on the GPU.
+// Pixels per side. 123 textures × 1,024² × 4 bytes × 4/3 for mipmaps = 688 MB on the GPU; 172 MB at side 512.
 constexpr int kMaxTextureSide = 1024;
 
 // An error that names `where` unless a texture can have this size: square, its side a power of two up to
 // kMaxTextureSide.
 base::Result<void> checkTexture(const base::Image& image, const std::string& where);
 
-// All textures of the blocks, each as large as its file. `folder`: the resource pack; empty for none. What it
-// lacks comes from `otherwise`. Textures of a content pack lie in a folder of its name: isles/glow_rock.png.
-// Files that are not named as a texture are warned of; of those that cannot be used each is named in a line
-// of the log, the last in the result.
+// Returns all textures of the blocks, each as large as its file. `folder`: the resource pack; empty for none.
+// Missing textures come from `otherwise`. Textures of a content pack are in a folder of its name:
+// isles/glow_rock.png. Logs a warning for files that no texture is named after, and an error for each file
+// that cannot be used; the result has the last of these errors.
 base::Result<world::TextureSource> loadTextures(const std::string& folder, const world::BlockRegistry& blocks,
                                                 const world::TextureSource& otherwise = builtInTextures());
 
