@@ -139,7 +139,7 @@ base::Result<void> runBots(BotsOptions& options) {
 
 CommandEntry addBots(CLI::App& app) {
     auto options = std::make_shared<BotsOptions>();
-    CLI::App* command = app.add_subcommand("bots", "Let players without screens walk and build on a server");
+    CLI::App* command = app.add_subcommand("bots", "Run simulated players that walk and build on a server");
     command
         ->add_option("--connect", options->servers,
                      "The server; said again, bots take turns among servers of one world")
@@ -179,7 +179,7 @@ CommandEntry addBots(CLI::App& app) {
         ->type_name("FOLDER");
     command
         ->add_option("--acknowledged", options->acknowledged,
-                     "At the end write the blocks that the server said to have kept: a line X Y Z NAME each")
+                     "At the end write the blocks that the server acknowledged: one line X Y Z NAME each")
         ->type_name("FILE");
     return {command, [options] { return runBots(*options); }};
 }

@@ -81,8 +81,7 @@ base::Result<void> check(CheckOptions& options) {
 
 CommandEntry addCheck(CLI::App& app) {
     auto options = std::make_shared<CheckOptions>();
-    CLI::App* command =
-        app.add_subcommand("check", "Look through a world for damage; exit code 1 where there is some");
+    CLI::App* command = app.add_subcommand("check", "Check a world for damage; exit code 1 if there is any");
     command->add_option("file", options->file, "The world")->type_name("NAME|FILE|URL")->required();
     command->add_flag("--json", options->json, "Print the report as JSON");
     return {command, [options] { return check(*options); },

@@ -50,8 +50,7 @@ CommandEntry addImport(CLI::App& app) {
     auto options = std::make_shared<ImportOptions>();
     auto format = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand(
-        "import",
-        "Take over worlds and models of other programs; exit code 1 where something could not be read");
+        "import", "Import worlds and models of other programs; exit code 1 if something could not be read");
     command
         ->add_option("format", *format, fmt::format("What the source is: {}", fmt::join(formatNames(), ", ")))
         ->type_name("CHOICE")

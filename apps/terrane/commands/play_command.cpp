@@ -121,9 +121,9 @@ CommandEntry addPlay(CLI::App& app) {
     command->add_flag("--no-title", options->skipsTitle,
                       "Go straight into the world, as options that name one do");
     command->add_flag("--no-save", options->savesNothing, "Save nothing: changes are lost at the end");
-    auto* watch = command->add_flag(
-        "--watch", options->watches,
-        "Look at the files of the world's content packs: what changes there is shown at once. Edits stay");
+    auto* watch =
+        command->add_flag("--watch", options->watches,
+                          "Reload the content packs of the world when their files change; edits stay");
     watch->excludes("--no-save");
     command->add_option("--connect", options->remote.server, "Play in the world of a server")
         ->type_name("HOST[:PORT]");

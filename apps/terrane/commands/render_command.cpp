@@ -177,7 +177,7 @@ CommandEntry addRender(CLI::App& app) {
         ->capture_default_str();
     command
         ->add_option("--frames", options->frames,
-                     "Draws the image so often again and tells how long that takes")
+                     "Draw the image this many more times and print the median frame time")
         ->check(numberFrom(0, 100000));
     addOutputOption(*command, options->output, {".png"}, "The PNG file");
     command->add_flag("--json", options->json, "Print timings and counts as JSON");

@@ -93,7 +93,7 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
 
 CommandEntry addServe(CLI::App& app) {
     auto options = std::make_shared<ServeOptions>();
-    CLI::App* command = app.add_subcommand("serve", "Let others play in a world, over a network");
+    CLI::App* command = app.add_subcommand("serve", "Run a server: several players in one world");
     addServeOptions(*command, *options);
     command->footer(
         "Commands on standard input, for operators in the chat behind a slash:\n" + net::consoleHelp() +

@@ -169,7 +169,7 @@ CommandEntry addWork(CLI::App& app) {
     auto options = std::make_shared<WorkOptions>();
     CLI::App* command = app.add_subcommand(
         "work", "Generate areas of a world in a database, with any number of machines at once");
-    addWorldArgument(*command, "world", options->save.world, "The world; made where it is not there");
+    addWorldArgument(*command, "world", options->save.world, "The world; created if needed");
     auto* radius =
         command
             ->add_option("--radius", options->radius,

@@ -31,8 +31,7 @@ void addMapSiteOptions(CLI::App& command, MapSiteOptions& options, bool isServer
         ->check(notEmpty())
         ->type_name("[ADDRESS:]PORT");
     command
-        .add_option("--map-disk", options.diskMegabytes,
-                    "Megabytes of a file that keeps what maps were drawn from; 0: no file")
+        .add_option("--map-disk", options.diskMegabytes, "Megabytes of the cache file for maps; 0: no file")
         ->check(numberFrom(0, kMaxMegabytes))
         ->capture_default_str();
     command.add_option("--map-memory", options.memoryMegabytes, "Megabytes of map images in memory")
@@ -41,8 +40,8 @@ void addMapSiteOptions(CLI::App& command, MapSiteOptions& options, bool isServer
     command
         .add_option(
             "--map-places", options.places,
-            "File of places that a map shows, a line \"X Y Z YAW PITCH NAME\" each, such as bookmarks.txt; "
-            "those without a name are numbered")
+            "File of places on the map, one line \"X Y Z YAW PITCH NAME\" each, such as bookmarks.txt; "
+            "places without a name get numbers")
         ->check(notEmpty())
         ->type_name("FILE");
     if (!isServer) return;
@@ -62,9 +61,8 @@ base::Result<void> checkMapSite(const MapSiteOptions& options) {
 void addStaticMapOptions(CLI::App& command, StaticMapOptions& options) {
     command
         .add_option("--tiles", options.folder,
-                    "Write the map as a folder of files, a web page and its images; those that are there "
-                    "already stay, "
-                    "but for those of land that somebody changed")
+                    "Write the map as a folder with a web page and its images; existing images stay unless "
+                    "their land was edited")
         ->check(notEmpty())
         ->type_name("FOLDER");
     command

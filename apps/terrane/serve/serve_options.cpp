@@ -10,8 +10,8 @@ void addServeOptions(CLI::App& command, ServeOptions& options) {
     command.get_option("--world")->required();
     command
         .add_option("--settings", options.settingsFile,
-                    "File of settings (TOML), each named as its option; where none is given "
-                    "NAME.server.toml beside the world, if there is one")
+                    "Settings file (TOML) with the names of these options (default: NAME.server.toml beside "
+                    "the world, if it exists)")
         ->type_name("FILE");
     command
         .add_option("--address", options.listen.address,
@@ -21,25 +21,25 @@ void addServeOptions(CLI::App& command, ServeOptions& options) {
         ->capture_default_str();
     command
         .add_option("--public-address", options.publicAddress,
-                    "Where players reach this server, for other servers of the same world to tell them; "
-                    "by default the machine's name and the port")
+                    "Address of this server that other servers of the same world tell players (default: the "
+                    "name of the machine and the port)")
         ->type_name("HOST:PORT");
     command.add_option("--max-players", options.server.maxPlayers, "How many play at a time")
         ->check(numberFrom(1, 4096))
         ->capture_default_str();
     command
         .add_option("--max-players-of-address", options.server.maxPlayersOfAddress,
-                    "How many play at a time from one address, this machine's own apart")
+                    "Maximum number of players at a time from one address, except this machine's")
         ->check(numberFrom(1, 4096))
         ->capture_default_str();
     command
         .add_option("--new-players", options.server.newPlayersPerHour,
-                    "Players an hour who come for the first time from one address, this machine's own apart")
+                    "Maximum number of first visits per hour from one address, except this machine's")
         ->check(numberFrom(1, 1e6))
         ->capture_default_str();
     command
         .add_option("--max-view-distance", options.server.maxViewDistance,
-                    "Chunks around a player whose edits it is told")
+                    "Chunks around a player in which it receives edits")
         ->check(numberFrom(2, 64))
         ->capture_default_str();
     command.add_option("--max-speed", options.server.maxSpeed, "Blocks a second that a player moves at most")
@@ -50,7 +50,7 @@ void addServeOptions(CLI::App& command, ServeOptions& options) {
         ->capture_default_str();
     command
         .add_option("--spawn-radius", options.server.spawnRadius,
-                    "Newcomers appear so many blocks around the spawn")
+                    "Newcomers appear up to this many blocks from the spawn")
         ->check(numberFrom(0, 1000000))
         ->capture_default_str();
     command.add_option("--day-minutes", options.server.dayMinutes, "How long a day takes")
