@@ -19,8 +19,8 @@ base::Result<void> checkTexture(const base::Image& image, const std::string& whe
 
 // Returns all textures of the blocks, each as large as its file. `folder`: the resource pack; empty for none.
 // Missing textures come from `otherwise`. Textures of a content pack are in a folder of its name:
-// isles/glow_rock.png. Logs a warning for files that no texture is named after, and an error for each file
-// that cannot be used; the result has the last of these errors.
+// isles/glow_rock.png. Logs a warning for a file whose name is not a texture. If files cannot be used, the
+// result is the error of the last one, and the log has the errors of the others.
 base::Result<world::TextureSource> loadTextures(const std::string& folder, const world::BlockRegistry& blocks,
                                                 const world::TextureSource& otherwise = builtInTextures());
 
