@@ -1,0 +1,83 @@
+"""Builds the test programs: without unity builds, with -O1, with assertions."""
+
+import os
+import re
+import shutil
+import time
+from dataclasses import dataclass
+
+from . import BadInput
+from .processes import run_group
+
+BUILD_LIMIT_SECONDS = 1800  # an endless constant expression ends with a compiler's own limit, mostly
+SETTINGS = {
+    "CMAKE_BUILD_TYPE": "Mutation",  # no type that the build knows: only these flags
+    "CMAKE_CXX_FLAGS_MUTATION": "-O1",
+    "CMAKE_GTEST_DISCOVER_TESTS_DISCOVERY_MODE": "PRE_TEST",  # a test program that crashes is no failure of the build
+    "TERRANE_WERROR": "OFF",
+    "TERRANE_BENCHMARKS": "OFF",
+    "TERRANE_GRAPHICS": "OFF",
+    "TERRANE_PYTHON": "OFF",
+    "TERRANE_WEB": "OFF",
+}
+
+
+@dataclass
+class Built:
+    is_good: bool
+    seconds: float
+    error: str = ""  # the first that the compiler reported
+
+
+class Build:
+    def __init__(self, tree, folder, jobs):
+        self.tree = tree
+        self.folder = folder
+        self.jobs = jobs
+        # Its own cache: what is built from changed sources is of no use to anybody else.
+        self.environment = {**os.environ, "CCACHE_DIR": str(folder.parent / "ccache"), "CCACHE_MAXSIZE": "5G"}
+        self.objects = {}  # object files by header
+
+    def configure(self):
+        settings = dict(SETTINGS)
+        if shutil.which("clang++"):
+            settings["CMAKE_CXX_COMPILER"] = "clang++"
+        if shutil.which("ld.lld"):
+            settings["CMAKE_EXE_LINKER_FLAGS"] = "-fuse-ld=lld"
+        command = ["cmake", "-G", "Ninja", "-S", str(self.tree), "-B", str(self.folder)]
+        done = self.run(command + [f"-D{name}={value}" for name, value in settings.items()])
+        if done.code != 0:
+            raise BadInput(f"{self.folder}: cmake failed:\n{done.output}")
+
+    def run(self, command):
+        return run_group(command, self.environment, BUILD_LIMIT_SECONDS)
+
+    def targets(self):
+        done = self.run(["ninja", "-C", str(self.folder), "-t", "targets", "all"])
+        return {line.split(":")[0] for line in done.output.splitlines() if ":" in line}
+
+    def build(self, target):
+        start = time.monotonic()
+        done = self.run(["ninja", "-C", str(self.folder), f"-j{self.jobs}", target])
+        seconds = time.monotonic() - start
+        if done.code == 0:
+            return Built(True, seconds)
+        if done.code is None:
+            return Built(False, seconds, f"error: not built in {BUILD_LIMIT_SECONDS} s")
+        error = re.search(r"^.*error: .*$", done.output, re.MULTILINE)
+        if not error:
+            raise BadInput(f"{self.folder}: ninja {target} failed without an error of the compiler:\n{done.output[-2000:]}")
+        return Built(False, seconds, error.group().replace(f"{self.tree}/", ""))
+
+    def read_dependencies(self):
+        """Counts what the compiler saw: call it when all programs are built."""
+        done = self.run(["ninja", "-C", str(self.folder), "-t", "deps"])
+        self.objects = {}
+        for line in done.output.splitlines():
+            if line.startswith(f"    {self.tree}/"):
+                name = line.strip().removeprefix(f"{self.tree}/")
+                self.objects[name] = self.objects.get(name, 0) + 1
+
+    def objects_of(self, file):
+        """Number of object files that are compiled when the file changes."""
+        return self.objects.get(file, 0)

@@ -1,0 +1,37 @@
+"""Processes that end together with all that they started."""
+
+import os
+import signal
+import subprocess
+import tempfile
+from dataclasses import dataclass
+
+
+@dataclass
+class Done:
+    code: "int | None"  # None: it was ended at the limit
+    output: str
+
+
+def end_group(process):
+    """Ends the process and its group, and waits for it."""
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+    process.wait()
+
+
+def run_group(command, environment, limit_seconds):
+    """Runs the command as a group of its own, standard error in its output."""
+    with tempfile.TemporaryFile() as output:
+        process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, stdout=output,
+                                   stderr=subprocess.STDOUT, start_new_session=True)
+        try:
+            code = process.wait(limit_seconds)
+        except subprocess.TimeoutExpired:
+            code = None
+        finally:
+            end_group(process)
+        output.seek(0)
+        return Done(code, output.read().decode(errors="replace"))

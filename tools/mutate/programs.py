@@ -1,0 +1,177 @@
+"""The test programs: which check a module, and how they are run."""
+
+import json
+import os
+import re
+import resource
+import subprocess
+import tempfile
+import time
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+from . import BadInput
+from .processes import end_group
+
+# The module's own program first, then those of modules that include it, the quick ones first. They run in this order
+# until one notices the change. Another module is checked by its own program alone.
+PROGRAMS = {
+    "gen": ("gen_tests", "lua_tests", "map_tests", "volume_tests", "stream_tests", "game_tests", "pack_tests"),
+    "light": ("light_tests", "volume_tests", "stream_tests", "game_tests"),
+    "mesh": ("mesh_tests", "formats_tests", "stream_tests", "game_tests"),
+    "store": ("store_tests", "faults_tests", "map_tests", "volume_tests", "stream_tests", "game_tests", "pack_tests",
+              "store_postgres_tests"),
+    "net": ("net_tests", "net_postgres_tests"),
+}
+ONE_PROCESS = ("store_postgres_tests", "net_postgres_tests")  # each process starts a database server
+# The program of another module is not built for a header that more object files than this include.
+MOST_OBJECTS = 40
+
+QUICK_SECONDS = 0.3  # tests that take longer run after the others
+UNCHANGED_LIMIT_SECONDS = 3600
+MEMORY_BYTES = 8 << 30  # of addresses: a change may ask for any size
+FILE_BYTES = 1 << 30
+
+
+def programs_of(module, targets):
+    """Of those that the build has."""
+    own = f"{module}_tests"
+    if own not in targets:
+        raise BadInput(f"module {module}: the build has no program {own}")
+    return [program for program in PROGRAMS.get(module, (own,)) if program in targets]
+
+
+@dataclass
+class Unchanged:
+    """How the tests of a program run where nothing is changed."""
+    slow: list = field(default_factory=list)  # names of tests
+    failing: list = field(default_factory=list)  # left out: they would notice everything
+    quick_seconds: float = 0.0  # of all quick tests, one after the other
+    slow_seconds: float = 0.0
+    longest_seconds: float = 0.0
+
+
+@dataclass
+class Run:
+    kind: str  # "passed", "noticed" or "timed_out"
+    seconds: float
+    test: str = ""  # that failed or did not end
+
+
+class Program:
+    def __init__(self, name, path, jobs):
+        self.name = name
+        self.path = path
+        self.jobs = 1 if name in ONE_PROCESS else jobs
+
+    def measure(self):
+        with tempfile.TemporaryDirectory(prefix="terrane_mutate_", ignore_cleanup_errors=True) as folder:
+            run = self.run_shards(["--gtest_output=json:{folder}/{shard}.json"], UNCHANGED_LIMIT_SECONDS, Path(folder),
+                                  fails_fast=False)
+            reports = list(Path(folder).glob("*.json"))
+            if len(reports) < self.jobs:
+                raise BadInput(f"{self.path}: unchanged, but it does not end: {run.kind} in {run.test or 'no test'}")
+            return unchanged_of([json.loads(path.read_text(encoding="utf-8")) for path in reports])
+
+    def run(self, unchanged):
+        """The quick tests, then the others, until one fails."""
+        not_quick = ":".join(unchanged.slow + unchanged.failing)
+        runs = [(f"--gtest_filter=*-{not_quick}", unchanged.quick_seconds, QUICK_SECONDS)]
+        if unchanged.slow:
+            runs.append((f"--gtest_filter={':'.join(unchanged.slow)}", unchanged.slow_seconds, unchanged.longest_seconds))
+        seconds = 0.0
+        for option, unchanged_seconds, longest in runs:
+            limit = 10 + 3 * max(unchanged_seconds / self.jobs, longest)
+            with tempfile.TemporaryDirectory(prefix="terrane_mutate_", ignore_cleanup_errors=True) as folder:
+                run = self.run_shards([option], limit, Path(folder), fails_fast=True)
+            seconds += run.seconds
+            if run.kind != "passed":
+                break
+        return Run(run.kind, seconds, run.test)
+
+    def run_shards(self, options, limit_seconds, folder, fails_fast):
+        start = time.monotonic()
+        shards = [self.start(options, folder, shard, fails_fast) for shard in range(self.jobs)]
+        kind = None
+        try:
+            while kind is None:
+                codes = [shard.poll() for shard in shards]
+                if any(codes) and (fails_fast or None not in codes):
+                    kind = "noticed"
+                elif None not in codes:
+                    kind = "passed"
+                elif time.monotonic() - start > limit_seconds:
+                    kind = "timed_out"
+                else:
+                    time.sleep(0.02)
+        finally:
+            for shard in shards:
+                end_group(shard)
+        outputs = [(folder / f"{shard}.txt").read_text(errors="replace") for shard in range(self.jobs)]
+        failed = [k for k, code in enumerate(codes) if code or (code is None and kind == "timed_out")]
+        return Run(kind, time.monotonic() - start, test_that_failed(outputs[failed[0]]) if failed else "")
+
+    def start(self, options, folder, shard, fails_fast):
+        home = folder / f"shard_{shard}"
+        home.mkdir()
+        environment = {**os.environ, "TMPDIR": str(home), "GTEST_TOTAL_SHARDS": str(self.jobs),
+                       "GTEST_SHARD_INDEX": str(shard), "GTEST_FAIL_FAST": str(int(fails_fast)), "GTEST_COLOR": "no",
+                       "GTEST_BRIEF": "0"}
+        command = [str(self.path)] + [option.format(folder=folder, shard=shard) for option in options]
+        with open(folder / f"{shard}.txt", "wb") as output:
+            return subprocess.Popen(command, cwd=home, env=environment, stdin=subprocess.DEVNULL, stdout=output,
+                                    stderr=subprocess.STDOUT, start_new_session=True, preexec_fn=set_limits)
+
+
+def set_limits():
+    for kind, size in ((resource.RLIMIT_AS, MEMORY_BYTES), (resource.RLIMIT_FSIZE, FILE_BYTES), (resource.RLIMIT_CORE, 0)):
+        most = resource.getrlimit(kind)[1]
+        resource.setrlimit(kind, (size if most == resource.RLIM_INFINITY else min(size, most), most))
+
+
+def test_that_failed(output):
+    """The first that failed, else the one that was running."""
+    failed = re.search(r"^\[  FAILED  \] ([^\s,]+)", output, re.MULTILINE)
+    if failed:
+        return failed.group(1)
+    running = re.findall(r"^\[ RUN      \] (\S+)", output, re.MULTILINE)
+    return running[-1] if running else ""
+
+
+def unchanged_of(reports):
+    """From what GoogleTest writes with --gtest_output=json."""
+    unchanged = Unchanged()
+    for suite in (suite for report in reports for suite in report["testsuites"]):
+        for test in suite["testsuite"]:
+            if test["status"] != "RUN":
+                continue
+            name, seconds = f"{suite['name']}.{test['name']}", float(test["time"].rstrip("s"))
+            unchanged.longest_seconds = max(unchanged.longest_seconds, seconds)
+            if "failures" in test:
+                unchanged.failing.append(name)
+            elif seconds > QUICK_SECONDS:
+                unchanged.slow.append(name)
+                unchanged.slow_seconds += seconds
+            else:
+                unchanged.quick_seconds += seconds
+    unchanged.slow.sort()
+    unchanged.failing.sort()
+    return unchanged
+
+
+class Unchangeds:
+    """What was measured, kept in a file so that a run continues."""
+
+    def __init__(self, path):
+        self.path = path
+        self.by_program = {}
+        if path.exists():
+            self.by_program = {name: Unchanged(**entry) for name, entry in json.loads(path.read_text()).items()}
+
+    def add(self, name, unchanged):
+        self.by_program[name] = unchanged
+        self.path.write_text(json.dumps({name: asdict(entry) for name, entry in self.by_program.items()}, indent=1) + "\n")
+
+    def clear(self):
+        self.by_program = {}
+        self.path.unlink(missing_ok=True)
