@@ -66,7 +66,8 @@ class Build:
             return Built(False, seconds, f"error: not built in {BUILD_LIMIT_SECONDS} s")
         error = re.search(r"^.*error: .*$", done.output, re.MULTILINE)
         if not error:
-            raise BadInput(f"{self.folder}: ninja {target} failed without an error of the compiler:\n{done.output[-2000:]}")
+            raise BadInput(f"{self.folder}: ninja {target} failed without an error of the compiler:\n"
+                           f"{done.output[-2000:]}")
         return Built(False, seconds, error.group().replace(f"{self.tree}/", ""))
 
     def read_dependencies(self):

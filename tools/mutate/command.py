@@ -89,7 +89,7 @@ def try_places(options):
             raise BadInput(f"--modules: there is no module {module}")
     settings = {"count": options.count, "seed": options.seed, "modules": modules, "sources": digest_of(ROOT, modules)}
     if results.settings not in (None, settings):
-        raise BadInput(f"{results.path}: is of other settings or other sources; begin in an empty folder, or use --again")
+        raise BadInput(f"{results.path}: is of other settings or other sources; use an empty folder, or --again")
     found = {module: places_of_module(ROOT, module) for module in modules}
     draw = Draw({module: places for module, (places, _) in found.items()},
                 {module: lines for module, (_, lines) in found.items()}, options.count, options.seed)

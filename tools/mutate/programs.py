@@ -78,7 +78,8 @@ class Program:
         not_quick = ":".join(unchanged.slow + unchanged.failing)
         runs = [(f"--gtest_filter=*-{not_quick}", unchanged.quick_seconds, QUICK_SECONDS)]
         if unchanged.slow:
-            runs.append((f"--gtest_filter={':'.join(unchanged.slow)}", unchanged.slow_seconds, unchanged.longest_seconds))
+            option = f"--gtest_filter={':'.join(unchanged.slow)}"
+            runs.append((option, unchanged.slow_seconds, unchanged.longest_seconds))
         seconds = 0.0
         for option, unchanged_seconds, longest in runs:
             limit = 10 + 3 * max(unchanged_seconds / self.jobs, longest)
@@ -124,7 +125,8 @@ class Program:
 
 
 def set_limits():
-    for kind, size in ((resource.RLIMIT_AS, MEMORY_BYTES), (resource.RLIMIT_FSIZE, FILE_BYTES), (resource.RLIMIT_CORE, 0)):
+    limits = {resource.RLIMIT_AS: MEMORY_BYTES, resource.RLIMIT_FSIZE: FILE_BYTES, resource.RLIMIT_CORE: 0}
+    for kind, size in limits.items():
         most = resource.getrlimit(kind)[1]
         resource.setrlimit(kind, (size if most == resource.RLIM_INFINITY else min(size, most), most))
 
@@ -170,7 +172,8 @@ class Unchangeds:
 
     def add(self, name, unchanged):
         self.by_program[name] = unchanged
-        self.path.write_text(json.dumps({name: asdict(entry) for name, entry in self.by_program.items()}, indent=1) + "\n")
+        entries = {key: asdict(entry) for key, entry in self.by_program.items()}
+        self.path.write_text(json.dumps(entries, indent=1) + "\n")
 
     def clear(self):
         self.by_program = {}
