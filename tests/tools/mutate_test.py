@@ -13,10 +13,10 @@ from dataclasses import asdict
 SCRIPT = pathlib.Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SCRIPT.parent))
 
-# pylint: disable=wrong-import-position
 from mutate.draw import Draw, quotas  # noqa: E402
 from mutate.places import BINARY, Place, changed, changes_of, places_of_module  # noqa: E402
-from mutate.programs import PROGRAMS, Program, Unchanged, programs_of, test_that_failed, unchanged_of  # noqa: E402
+from mutate.programs import (PROGRAMS, Program, Unchanged, Unchangeds, programs_of,  # noqa: E402
+                             test_that_failed, unchanged_of)
 from mutate.report import report_of  # noqa: E402
 from mutate.results import Result, Results  # noqa: E402
 from mutate.tree import Tree  # noqa: E402
@@ -132,16 +132,16 @@ class Copies(unittest.TestCase):
             (source / "a.cpp").write_text("a")
             (source / "a.o").write_text("object")
             tree = Tree(source, output / "tree")
-            self.assertTrue(tree.update())
+            digest = tree.update()
             self.assertEqual(sorted(path.name for path in tree.root.iterdir()), [".gitignore", "a.cpp"])
             time = (tree.root / "a.cpp").stat().st_mtime_ns
-            self.assertFalse(tree.update())
+            self.assertEqual(tree.update(), digest)
             self.assertEqual((tree.root / "a.cpp").stat().st_mtime_ns, time)
             (tree.root / "a.cpp").write_text("changed")
-            self.assertTrue(tree.update())
+            self.assertEqual(tree.update(), digest)
             self.assertEqual((tree.root / "a.cpp").read_text(), "a")
             (source / "a.cpp").unlink()
-            self.assertTrue(tree.update())
+            self.assertNotEqual(tree.update(), digest)
             self.assertEqual([path.name for path in tree.root.iterdir()], [".gitignore"])
 
 
@@ -193,6 +193,13 @@ class Programs(unittest.TestCase):
         self.assertAlmostEqual(unchanged.quick_seconds, 0.3)
         self.assertEqual((unchanged.slow_seconds, unchanged.longest_seconds), (4, 4))
 
+    def test_measurements_of_other_sources_do_not_count(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "unchanged.json"
+            Unchangeds(path, "1").add("a_tests", Unchanged(slow=["A.Slow"]))
+            self.assertEqual(Unchangeds(path, "1").by_program, {"a_tests": Unchanged(slow=["A.Slow"])})
+            self.assertEqual(Unchangeds(path, "2").by_program, {})
+
     def test_the_own_program_is_the_first(self):
         for module, names in PROGRAMS.items():
             self.assertEqual(names[0], f"{module}_tests")
@@ -224,7 +231,8 @@ class Reports(unittest.TestCase):
         missed = Result(place("gen", 7), "not_noticed", "if (a < b) {", "if (a <= b) {", programs=["gen_tests"])
         self.write(Result(place("gen", 1), "noticed", "a", "b", by="gen_tests A.B", build_seconds=5, test_seconds=1),
                    Result(place("gen", 2), "noticed", "a", "b"),
-                   Result(place("gen", 3), "timed_out", "a++", "a--", by="gen_tests A.C"), missed, Result(place("gen", 4), "not_compiled", "a", "b"),
+                   Result(place("gen", 3), "timed_out", "a++", "a--", by="gen_tests A.C"), missed,
+                   Result(place("gen", 4), "not_compiled", "a", "b"),
                    Result(place("mesh", 1), "noticed", "a", "b", is_wide=True))
         done = self.report()
         self.assertEqual(done.returncode, 0, done.stderr)

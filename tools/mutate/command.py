@@ -1,6 +1,7 @@
 """The command line."""
 
 import argparse
+import signal
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -35,6 +36,7 @@ def main(arguments, description):
         parser.error("expected either -o FOLDER or --report FOLDER")
     if options.count < 1 or options.jobs < 1:
         parser.error("--count and --jobs: expected a number from 1")
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that programs that run are ended
     try:
         if options.report:
             print(report_of(with_settings(Results(options.report / "results.jsonl").read())))
@@ -70,10 +72,9 @@ def prepare(output, modules, jobs):
     """Copies, builds and measures: what has not changed since the last time is not done again."""
     output.mkdir(parents=True, exist_ok=True)
     output = output.resolve()
-    tree, unchangeds = Tree(ROOT, output / "tree"), Unchangeds(output / "unchanged.json")
+    tree = Tree(ROOT, output / "tree")
     tree.root.mkdir(exist_ok=True)
-    if tree.update():
-        unchangeds.clear()
+    unchangeds = Unchangeds(output / "unchanged.json", tree.update())
     build = Build(tree.root, output / "build", jobs)
     build.configure()
     trial = Trial(tree.root, build, unchangeds, jobs)

@@ -162,19 +162,19 @@ def unchanged_of(reports):
 
 
 class Unchangeds:
-    """What was measured, kept in a file so that a run continues."""
+    """What was measured of these sources, kept in a file so that a run continues."""
 
-    def __init__(self, path):
+    def __init__(self, path, digest):
         self.path = path
+        self.digest = digest
         self.by_program = {}
-        if path.exists():
-            self.by_program = {name: Unchanged(**entry) for name, entry in json.loads(path.read_text()).items()}
+        known = json.loads(path.read_text()) if path.exists() else {}
+        if known.get("sources") == digest:
+            self.by_program = {name: Unchanged(**entry) for name, entry in known["programs"].items()}
 
     def add(self, name, unchanged):
         self.by_program[name] = unchanged
-        entries = {key: asdict(entry) for key, entry in self.by_program.items()}
-        self.path.write_text(json.dumps(entries, indent=1) + "\n")
-
-    def clear(self):
-        self.by_program = {}
-        self.path.unlink(missing_ok=True)
+        programs = {key: asdict(entry) for key, entry in self.by_program.items()}
+        whole = self.path.with_suffix(".new")  # a run may be stopped at any moment
+        whole.write_text(json.dumps({"sources": self.digest, "programs": programs}, indent=1) + "\n")
+        whole.replace(self.path)

@@ -14,8 +14,8 @@ class Tree:
         self.root = root  # the copy
 
     def update(self):
-        """Makes the copy equal to the checkout, files that git ignores left out. Returns whether anything changed; a
-        file that is equal keeps its time, so that Ninja builds what changed."""
+        """Makes the copy equal to the checkout, files that git ignores left out, and returns a digest of it. A file that
+        is equal keeps its time, so that Ninja builds what changed."""
         listing = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
                                  cwd=self.source, capture_output=True, text=True, check=False)
         if listing.returncode != 0:
@@ -23,26 +23,27 @@ class Tree:
         output = self.root.parent.resolve()
         names = {name for name in listing.stdout.split("\0") if name and os.path.lexists(self.source / name)
                  and not (self.source / name).resolve().is_relative_to(output)}
-        is_changed = False
+        digest = hashlib.sha256()
         for name in sorted(names):
-            is_changed |= copy_if_different(self.source / name, self.root / name)
+            content = copy_if_different(self.source / name, self.root / name)
+            digest.update(f"{name}\0{len(content)}\0".encode() + content)
         for path in [path for path in self.root.rglob("*") if not path.is_dir() or path.is_symlink()]:
             if path.relative_to(self.root).as_posix() not in names:
                 path.unlink()
-                is_changed = True
-        return is_changed
+        return digest.hexdigest()[:16]
 
 
 def copy_if_different(source, target):
+    """Returns the content."""
     if source.is_dir():
         raise BadInput(f"{source}: a repository within the repository cannot be copied")
     content, mode = source.read_bytes(), source.stat().st_mode
     if target.is_file() and target.read_bytes() == content and target.stat().st_mode == mode:
-        return False
+        return content
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_bytes(content)
     shutil.copymode(source, target)
-    return True
+    return content
 
 
 def digest_of(root, modules):
