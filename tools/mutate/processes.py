@@ -22,6 +22,16 @@ def end_group(process):
     process.wait()
 
 
+def ask_to_end(process):
+    """Ninja's compilers are groups of their own, which only Ninja ends."""
+    if process.poll() is None:
+        process.terminate()
+        try:
+            process.wait(10)
+        except subprocess.TimeoutExpired:
+            pass
+
+
 def run_group(command, environment, limit_seconds):
     """Runs the command as a group of its own, standard error in its output."""
     with tempfile.TemporaryFile() as output:
@@ -32,6 +42,7 @@ def run_group(command, environment, limit_seconds):
         except subprocess.TimeoutExpired:
             code = None
         finally:
+            ask_to_end(process)
             end_group(process)
         output.seek(0)
         return Done(code, output.read().decode(errors="replace"))

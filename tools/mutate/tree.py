@@ -7,6 +7,8 @@ import subprocess
 
 from . import BadInput
 
+NOT_TESTED = ("docs/", "packaging/", "python/", "tools/")  # by the test programs
+
 
 class Tree:
     def __init__(self, source, root):
@@ -14,8 +16,8 @@ class Tree:
         self.root = root  # the copy
 
     def update(self):
-        """Makes the copy equal to the checkout, files that git ignores left out, and returns a digest of it. A file that
-        is equal keeps its time, so that Ninja builds what changed."""
+        """Makes the copy equal to the checkout, files that git ignores left out, and returns a digest of what the test
+        programs are made from and read. A file that is equal keeps its time, so that Ninja builds what changed."""
         listing = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
                                  cwd=self.source, capture_output=True, text=True, check=False)
         if listing.returncode != 0:
@@ -26,7 +28,8 @@ class Tree:
         digest = hashlib.sha256()
         for name in sorted(names):
             content = copy_if_different(self.source / name, self.root / name)
-            digest.update(f"{name}\0{len(content)}\0".encode() + content)
+            if not name.startswith(NOT_TESTED):
+                digest.update(f"{name}\0{len(content)}\0".encode() + content)
         for path in [path for path in self.root.rglob("*") if not path.is_dir() or path.is_symlink()]:
             if path.relative_to(self.root).as_posix() not in names:
                 path.unlink()
