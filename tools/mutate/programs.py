@@ -1,5 +1,6 @@
 """The test programs: which check a module, and how they are run."""
 
+import contextlib
 import json
 import os
 import re
@@ -66,10 +67,10 @@ class Program:
         self.jobs = 1 if name in ONE_PROCESS else jobs
 
     def measure(self):
-        with tempfile.TemporaryDirectory(prefix="terrane_mutate_", ignore_cleanup_errors=True) as folder:
-            run = self.run_shards(["--gtest_output=json:{folder}/{shard}.json"], UNCHANGED_LIMIT_SECONDS, Path(folder),
+        with scratch_folder() as folder:
+            run = self.run_shards(["--gtest_output=json:{folder}/{shard}.json"], UNCHANGED_LIMIT_SECONDS, folder,
                                   fails_fast=False)
-            reports = list(Path(folder).glob("*.json"))
+            reports = list(folder.glob("*.json"))
             if len(reports) < self.jobs:
                 raise BadInput(f"{self.path}: crashes or hangs unchanged, in {run.test or 'no test'}")
             return unchanged_of([json.loads(path.read_text(encoding="utf-8")) for path in reports])
@@ -84,8 +85,8 @@ class Program:
         seconds = 0.0
         for option, unchanged_seconds, longest in runs:
             limit = 10 + 3 * max(unchanged_seconds / self.jobs, longest)
-            with tempfile.TemporaryDirectory(prefix="terrane_mutate_", ignore_cleanup_errors=True) as folder:
-                run = self.run_shards([option], limit, Path(folder), fails_fast=True)
+            with scratch_folder() as folder:
+                run = self.run_shards([option], limit, folder, fails_fast=True)
             seconds += run.seconds
             if run.kind != "passed":
                 break
@@ -123,6 +124,13 @@ class Program:
         with open(folder / f"{shard}.txt", "wb") as output:
             return subprocess.Popen(command, cwd=home, env=environment, stdin=subprocess.DEVNULL, stdout=output,
                                     stderr=subprocess.STDOUT, start_new_session=True, preexec_fn=set_limits)
+
+
+@contextlib.contextmanager
+def scratch_folder():
+    with tempfile.TemporaryDirectory(prefix="terrane_mutate_", ignore_cleanup_errors=True) as folder:
+        os.chmod(folder, 0o711)  # database servers run as another user
+        yield Path(folder)
 
 
 def set_limits():
