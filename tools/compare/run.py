@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+"""Measures other programs beside Terrane on this machine, in turn, and makes one table.
+
+    tools/compare/run.py -o FOLDER [--program build/terrane] [--rounds 5] [--only luanti,floors] [--quick] [--install]
+
+Writes FOLDER/results.jsonl, a line as soon as something is measured, and FOLDER/report.md. A run that was ended goes on
+where it was if it is started again with the same folder; what failed is tried again. FOLDER/work has the worlds. Needs
+xvfb, and minetest with minetest-server (Luanti), which --install gets from Debian. Exit code: 0, 1 if a measurement
+failed, 2 if nothing could be measured."""
+import argparse
+import hashlib
+import os
+import pathlib
+import subprocess
+import sys
+import time
+
+import report
+from jobs import FULL, QUICK, Comparison, clean
+from machine import load_average, machine, versions
+from process import CompareError
+from results import BadInput, Results, append_line, read_results
+
+PACKAGES = ("minetest", "minetest-server", "xvfb", "xauth")
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER", required=True)
+    parser.add_argument("--program", type=pathlib.Path, default=pathlib.Path("build/terrane"))
+    parser.add_argument("--rounds", type=int, help="each measures all of both sides once (default: 5, quick 1)")
+    parser.add_argument("--only", type=lambda text: text.split(","), help="groups or jobs: luanti, floors, world, joining, frames_128, …")
+    parser.add_argument("--quick", action="store_true", help="one round of small sizes, to see that all works: its figures mean little")
+    parser.add_argument("--install", action="store_true", help=f"install {', '.join(PACKAGES)} first, with apt-get")
+    options = parser.parse_args(arguments)
+    options.rounds = options.rounds or (1 if options.quick else 5)
+    return options
+
+
+def install():
+    command = ["apt-get", "install", "--yes", "--no-install-recommends", *PACKAGES]
+    subprocess.run(command if os.geteuid() == 0 else ["sudo", *command], check=True,
+                   env={**os.environ, "DEBIAN_FRONTEND": "noninteractive"})
+
+
+def about(options):
+    digest = hashlib.sha256(options.program.read_bytes()).hexdigest()[:16]
+    return {"machine": machine(), "versions": {**versions(options.program), "Terrane, digest of the program": digest},
+            "settings": {"sizes": "quick" if options.quick else "full"}}
+
+
+def chosen(jobs, only):
+    jobs = list(jobs)
+    known = {name for job in jobs for name in (job.name, job.group)}
+    if unknown := set(only or ()) - known:
+        raise CompareError(f"--only: no {', '.join(sorted(unknown))}; there are {', '.join(sorted(known))}")
+    return [job for job in jobs if not only or {job.name, job.group} & set(only)]
+
+
+def begin(path, options):
+    """Results so far. Raises CompareError if they are of something else."""
+    now = about(options)
+    before = read_results(path) if path.exists() else Results()
+    if before.about:
+        for part, values in now.items():
+            if before.about.get(part) != values:
+                raise CompareError(f"{path}: was measured with other {part}: choose another folder")
+    else:
+        append_line(path, {"about": now})
+    return before
+
+
+def measure(job, side, number):
+    """The line for results.jsonl."""
+    line = {"round": number, "job": job.name, "side": side, "load": load_average()}
+    start = time.monotonic()
+    try:
+        line["values"], line["details"] = job.side(side)(number)
+    # Whatever a program does wrong costs its own figure alone. joining.py reports by SystemExit.
+    except (CompareError, OSError, subprocess.SubprocessError, ValueError, LookupError, TypeError, RuntimeError, SystemExit) as error:
+        line["failure"] = " ".join(f"{type(error).__name__ if not isinstance(error, CompareError) else ''} {error}".split())[:400]
+    line["seconds"] = round(time.monotonic() - start, 1)
+    return line
+
+
+def run(options):
+    """Whether all was measured."""
+    work = options.output / "work"
+    work.mkdir(parents=True, exist_ok=True)
+    clean(work)
+    jobs = chosen(Comparison(options.program.resolve(), work.resolve(), QUICK if options.quick else FULL).jobs(), options.only)
+    path, complete = options.output / "results.jsonl", True
+    done = begin(path, options).done
+    for number in range(1, options.rounds + 1):
+        for job in jobs:
+            for side in ("terrane", "peer") if number % 2 else ("peer", "terrane"):
+                if (number, job.name, side) in done:
+                    continue
+                line = measure(job, side, number)
+                append_line(path, line)
+                complete = complete and "failure" not in line
+                print(f"round {number}, {job.name}, {side}: {line.get('failure', 'done')} ({line['seconds']:.0f} s, load "
+                      f"{line['load']:.1f})", file=sys.stderr, flush=True)
+    return complete
+
+
+def main(arguments=None):
+    options = parse(arguments)
+    try:
+        if options.install:
+            install()
+        if not options.program.is_file():
+            raise CompareError(f"{options.program}: no such program; build Terrane, or name it with --program")
+        complete = run(options)
+        report.write_report(options.output, options.output)
+    except (CompareError, BadInput, OSError, subprocess.CalledProcessError) as error:
+        print(f"compare: {error}", file=sys.stderr)
+        return 2
+    print(f"compare: {options.output / 'report.md'}", file=sys.stderr)
+    return 0 if complete else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
