@@ -132,11 +132,13 @@ def visit_luanti(folder, name, port):
          str(proxy.port), "--name", name, "--config", folder / "luanti.conf", "--logfile", folder / f"{name}.log"],
         env={"HOME": str(folder), "PATH": "/usr/games:/usr/bin:/bin", "LIBGL_ALWAYS_SOFTWARE": "1"},
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
-    if name == "first":
-        time.sleep(60)  # the blocks are changed meanwhile
-    seconds, total = proxy.wait_until_quiet()
-    subprocess.run(["pkill", "-g", str(client.pid)], check=False)
-    client.wait(30)
+    try:
+        if name == "first":
+            time.sleep(60)  # the blocks are changed meanwhile
+        seconds, total = proxy.wait_until_quiet()
+    finally:
+        subprocess.run(["pkill", "-g", str(client.pid)], check=False)
+        client.wait(30)
     proxy.is_done = True
     proxy.join()
     return {"kb": total / 1000, "seconds": seconds, "down": proxy.down}

@@ -42,7 +42,8 @@ class Search:
         x0, _, z0, x1, _, z1 = luanti.square(self.mapchunks)
         # Two layers have all of the ground but the highest mountains.
         (self.world.path / "heights.txt").unlink(missing_ok=True)
-        self.world.emerge("generate", [(x0, luanti.MAPCHUNK_BEGIN, z0, x1, luanti.TOP, z1)], threads=os.cpu_count(), heights=True)
+        box = x0, luanti.MAPCHUNK_BEGIN, z0, x1, luanti.TOP, z1
+        self.world.emerge("generate", [box], threads=os.cpu_count(), heights=True)
         return places.read_lines(self.world.path / "heights.txt", WATER_LEVEL).places(count)
 
     def generate_around(self, place, blocks):
@@ -103,7 +104,8 @@ class Client:
         rates = [rate for rate in self.rates()[first:] if rate > 0]
         if not rates:
             raise CompareError("Luanti drew no frame in the time of a measurement")
-        vertices = [sum(self.profile(f"renderMap({kind}): vertices drawn [#]", begin)[-1:]) for kind in ("SOLID", "TRANSPARENT")]
+        vertices = [sum(self.profile(f"renderMap({kind}): vertices drawn [#]", begin)[-1:])
+                    for kind in ("SOLID", "TRANSPARENT")]
         return statistics.median(rates), sum(vertices) / 1000
 
 

@@ -24,7 +24,8 @@ def frame_measures():
         yield Measure(f"frames_{blocks}", f"Frames, view distance {blocks} blocks", "frames/s", HIGHER, "Luanti",
                       "`render --preset low --shadows off --horizon 0`", "default renderer, no shadows, no clouds")
         yield Measure(f"frames_horizon_{blocks}", f"Frames, the same with Terrane's land to 16 km, {blocks} blocks",
-                      "frames/s", HIGHER, "Luanti", "the same with `--horizon 1024`", "as above: nothing beyond the view distance")
+                      "frames/s", HIGHER, "Luanti", "the same with `--horizon 1024`",
+                      "as above: nothing beyond the view distance")
         yield Measure(f"triangles_{blocks}", f"Triangles drawn, {blocks} blocks", "thousands a frame", NEITHER, "Luanti",
                       "after culling, opaque and transparent", "vertices of its profiler / 2, as its quads have four")
         yield Measure(f"rss_{blocks}", f"Peak resident memory, {blocks} blocks", "MB", LOWER, "Luanti",
@@ -39,7 +40,8 @@ WORLD = (
             "mapgen v7 of Minetest Game with decorations, ores, caves, light, SQLite; start of the server left out"),
     Measure("loading", "Loading from a save, with light", "chunks a CPU second", HIGHER, "Luanti",
             "reading and decoding, and light from scratch", "reading and decoding; its saves contain light"),
-    Measure("disk", "Bytes on disk", "bytes a chunk", LOWER, "Luanti", "the whole file", "the file without the border of the area"),
+    Measure("disk", "Bytes on disk", "bytes a chunk", LOWER, "Luanti", "the whole file",
+            "the file without the border of the area"),
 )
 
 JOINING = (

@@ -11,6 +11,7 @@ import argparse
 import hashlib
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import time
@@ -21,7 +22,10 @@ from machine import load_average, machine, versions
 from process import CompareError
 from results import BadInput, Results, append_line, read_results
 
-PACKAGES = ("minetest", "minetest-server", "xvfb", "xauth")
+# Of Debian 12 and of later releases.
+PEERS = (("minetest", "minetest-server"), ("luanti", "luanti-server"))
+OTHER_PACKAGES = ("xvfb", "xauth")
+FAILURES = (CompareError, OSError, subprocess.SubprocessError, ValueError, LookupError, TypeError, RuntimeError, SystemExit)
 
 
 def parse(arguments):
@@ -29,16 +33,20 @@ def parse(arguments):
     parser.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER", required=True)
     parser.add_argument("--program", type=pathlib.Path, default=pathlib.Path("build/terrane"))
     parser.add_argument("--rounds", type=int, help="each measures all of both sides once (default: 5, quick 1)")
-    parser.add_argument("--only", type=lambda text: text.split(","), help="groups or jobs: luanti, floors, world, joining, frames_128, …")
-    parser.add_argument("--quick", action="store_true", help="one round of small sizes, to see that all works: its figures mean little")
-    parser.add_argument("--install", action="store_true", help=f"install {', '.join(PACKAGES)} first, with apt-get")
+    parser.add_argument("--only", type=lambda text: text.split(","), metavar="NAME,…",
+                        help="groups or jobs: luanti, floors, world, joining, frames_128, …")
+    parser.add_argument("--quick", action="store_true",
+                        help="one round of small sizes, to see that all works: its figures mean little")
+    parser.add_argument("--install", action="store_true", help="install Luanti and Xvfb first, with apt-get")
     options = parser.parse_args(arguments)
     options.rounds = options.rounds or (1 if options.quick else 5)
     return options
 
 
 def install():
-    command = ["apt-get", "install", "--yes", "--no-install-recommends", *PACKAGES]
+    exists = lambda name: subprocess.run(["apt-cache", "show", name], capture_output=True, check=False).returncode == 0
+    peer = next((packages for packages in PEERS if all(map(exists, packages))), PEERS[0])
+    command = ["apt-get", "install", "--yes", "--no-install-recommends", *peer, *OTHER_PACKAGES]
     subprocess.run(command if os.geteuid() == 0 else ["sudo", *command], check=True,
                    env={**os.environ, "DEBIAN_FRONTEND": "noninteractive"})
 
@@ -76,9 +84,10 @@ def measure(job, side, number):
     start = time.monotonic()
     try:
         line["values"], line["details"] = job.side(side)(number)
-    # Whatever a program does wrong costs its own figure alone. joining.py reports by SystemExit.
-    except (CompareError, OSError, subprocess.SubprocessError, ValueError, LookupError, TypeError, RuntimeError, SystemExit) as error:
-        line["failure"] = " ".join(f"{type(error).__name__ if not isinstance(error, CompareError) else ''} {error}".split())[:400]
+    # A program that fails costs only its own figures. joining.py reports by SystemExit.
+    except FAILURES as error:
+        kind = "" if isinstance(error, (CompareError, SystemExit)) else f"{type(error).__name__}: "
+        line["failure"] = " ".join(f"{kind}{error}".split())[:400]
     line["seconds"] = round(time.monotonic() - start, 1)
     return line
 
@@ -106,6 +115,7 @@ def run(options):
 
 def main(arguments=None):
     options = parse(arguments)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends the programs that run, as Ctrl+C does
     try:
         if options.install:
             install()
@@ -116,6 +126,9 @@ def main(arguments=None):
     except (CompareError, BadInput, OSError, subprocess.CalledProcessError) as error:
         print(f"compare: {error}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        print(f"compare: ended; start it again with -o {options.output} to go on", file=sys.stderr)
+        return 130
     print(f"compare: {options.output / 'report.md'}", file=sys.stderr)
     return 0 if complete else 1
 

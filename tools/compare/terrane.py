@@ -41,8 +41,8 @@ def generate(program, world, seed, *area, threads=1):
 def load(program, world, seed, view_distance, image):
     """Loads and lights all chunks in view; the report of `terrane render`."""
     report, _ = run_json([program, "render", "--world", world, "--seed", seed, "--at", "8,8,200", "--look", f"0,-{PITCH}",
-                          "--preset", "low", "--view-distance", view_distance, "--horizon", 0, "--size", "64x36", "--threads", 1,
-                          "--backend", "cpu", "--json", "-o", image], environment=SOFTWARE)
+                          "--preset", "low", "--view-distance", view_distance, "--horizon", 0, "--size", "64x36",
+                          "--threads", 1, "--backend", "cpu", "--json", "-o", image], environment=SOFTWARE)
     return report
 
 
