@@ -56,12 +56,17 @@ class Report(unittest.TestCase):
         self.assertIn("| 2 | 1.50, 0.50 |\n| 3 | 0.50, – |\n", text)
 
     def test_failures_are_named_and_leave_gaps(self):
-        self.assertIn("\n- round 3, world, peer: minetestserver is not installed\n", self.report())
+        self.assertIn("\n- round 3, world, other: minetestserver is not installed\n", self.report())
         self.write(*map(json.dumps, [*LINES, line(3, "world", "peer", generation=120, disk=4500)]))
         self.assertNotIn("What failed", self.report())
         self.write(json.dumps(ABOUT), json.dumps(line(1, "world", "terrane", generation=1000)))
         self.assertIn("| Generating with light and saving | chunks a CPU second | higher | 1,000 | Luanti |  |  | 1 |\n",
                       self.report())
+
+    def test_incomplete_views_are_named(self):
+        frames = line(1, "frames_128", "peer", frames_128=5) | {"details": {"is_full": False, "fill_s": 600.2}}
+        self.write(*map(json.dumps, [ABOUT, frames]))
+        self.assertIn("- round 1, frames_128, other: the view was not complete after 600 s\n", self.report())
 
     def test_better_in_each_of_three_rounds_is_bold(self):
         self.write(*map(json.dumps, [*LINES, line(3, "world", "peer", generation=150, disk=4500)]))

@@ -15,6 +15,7 @@ from figures import format_number, ratios_of_pairs, with_spread
 from measures import FLOORS, HIGHER, MEASURES, NEITHER
 from results import BadInput, read_results
 
+SIDES = {"terrane": "Terrane", "peer": "other"}
 BOLD_ROUNDS = 3  # at least
 PUBLISHED = pathlib.Path(__file__).with_name("published.toml")
 
@@ -107,7 +108,11 @@ def places_table(results):
 
 
 def failures_list(results):
-    lines = [f"- round {number}, {job}, {side}: {reason}\n" for (number, job, side), reason in sorted(results.failures.items())]
+    lines = [f"- round {number}, {job}, {SIDES.get(side, side)}: {reason}\n"
+             for (number, job, side), reason in sorted(results.failures.items())]
+    lines += [f"- round {number}, {job}, {SIDES.get(side, side)}: the view was not complete after {details['fill_s']:.0f} s\n"
+              for (job, side), rounds in sorted(results.details.items())
+              for number, details in sorted(rounds.items()) if details.get("is_full") is False]
     if results.dropped:
         lines.append(f"- {results.dropped} lines of results.jsonl could not be read\n")
     return "\n## What failed\n\n" + "".join(lines) if lines else ""
