@@ -6,7 +6,6 @@
 #include "terrane/gen_gpu/gpu_generator.h"
 #include "terrane/gpu/built_in_shaders.h"
 #include "terrane/gpu/context.h"
-#include "terrane/gpu/device_info.h"
 #include "terrane/light_gpu/gpu_light_solver.h"
 #include "terrane/mesh_gpu/gpu_batch_mesher.h"
 
@@ -17,11 +16,10 @@ using Context = std::shared_ptr<gpu::HeadlessContext>;
 
 // A context to work in, or null where the CPU is to do it.
 base::Result<Context> openContext(Backend backend) {
-    if (backend == Backend::Cpu) return nullptr;
+    if (!usesGpu(backend)) return nullptr;
     auto context = gpu::HeadlessContext::create({});
-    if (context && usesGpu(backend)) return std::make_shared<gpu::HeadlessContext>(std::move(*context));
-    if (!context && backend == Backend::Gpu) return tl::unexpected(context.error());
-    return nullptr;
+    if (!context) return tl::unexpected(context.error());
+    return std::make_shared<gpu::HeadlessContext>(std::move(*context));
 }
 
 // `makeCpu` returns a Result<unique_ptr<Worker>>, `makeGpu` a Result of what implements Worker in the
@@ -45,7 +43,7 @@ base::Result<OnBackend<Worker>> makeOnBackend(Backend backend, const MakeCpu& ma
 }  // namespace
 
 bool usesGpu(Backend backend) {
-    return backend == Backend::Gpu || (backend == Backend::Auto && !gpu::queryDevice().software);
+    return backend == Backend::Gpu;
 }
 
 base::Result<std::unique_ptr<view::GpuBackEnds>> chooseBackEnds(game::SessionParts& parts,
