@@ -83,7 +83,7 @@ class Bench(ProgramTest):
         self.assertEqual(self.bench("--only", "disk").returncode, 0)
         self.python(TOOLS / "bench_report.py", self.output, "disk")
         report = (self.output / "report.md").read_text()
-        for text in ("# Measurements, quick", "| renderer |", "| picture | 64x36 |", "## Saves", "\n| cave | 25 |"):
+        for text in ("# Measurements, quick", "| renderer |", "| image | 64x36 |", "## Saves", "\n| cave | 25 |"):
             self.assertIn(text, report)
         self.assertNotIn("failed", report)
 

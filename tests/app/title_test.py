@@ -32,12 +32,12 @@ class Player(window_test.Game):
     def pixels(self):
         return self.display.screenshot(self.window).pixels
 
-    def settle(self, seconds=3):
-        """Waits until the image stays as it is, or as a world in which time passes: no longer than `seconds`. The longer
-        it takes to change, the longer it must stay."""
+    def settle(self, seconds=3, still=0.6):
+        """Waits until the image stays as it is, or as a world in which time passes: no longer than `seconds`. It must stay
+        for `still` seconds, and longer where it takes long to change."""
         start = changed = time.monotonic()
         before, longest = self.pixels(), 0.2
-        while time.monotonic() - start < seconds and time.monotonic() - changed < 3 * longest:
+        while time.monotonic() - start < seconds and time.monotonic() - changed < max(still, 3 * longest):
             time.sleep(0.15)
             now = self.pixels()
             if now != before:
@@ -111,13 +111,15 @@ class TitleScript(ProgramTest):
         left = len(player.places())
         player.press("Escape")
         player.settle()
+        start = time.monotonic()
         player.press("t")
         player.wait_for(lambda: len(player.places()) > left)
-        # The game's last image stays until the title is there, whose world stands still once it is loaded.
+        # The game's last image stays until the title is there. Its world stands still once it is loaded, some time after
+        # the first image.
         before, deadline = player.pixels(), time.monotonic() + 8
         while player.pixels() == before and time.monotonic() < deadline:
             time.sleep(0.05)
-        player.settle(30)
+        player.settle(30, still=max(2, time.monotonic() - start))
 
 
 class Title(TitleScript):
