@@ -15,8 +15,8 @@ namespace terrane::app {
 
 enum class Backend : std::uint8_t { Auto, Cpu, Gpu };
 
-// Auto is the CPU: on the one graphics card measured, an NVIDIA H200 beside 16 threads, the CPU loads a view
-// four to five times as fast, and leaves the GPU to the frames (docs/performance.md, NVIDIA H200).
+// Auto is the CPU: beside the one graphics card measured, an NVIDIA H200, 16 threads load a view in a quarter
+// of the time or less, and leave the GPU to the frames (docs/performance.md, NVIDIA H200).
 void addBackendOption(CLI::App& command, Backend& backend, const std::string& description);
 
 // A worker on a back end, and the OpenGL context that it works in, if it does.
