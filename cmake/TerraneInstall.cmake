@@ -1,6 +1,6 @@
 # Installing: the library with its headers, a CMake package and a pkg-config file (component "development"); the program with its
-# manual page, completions, icon and menu entry (component "program"); the package for Python (component "python",
-# python/CMakeLists.txt). CPack makes a Debian package of each.
+# manual page, completions, icon and menu entry (component "program", without graphics "server"); the package for Python
+# (component "python", python/CMakeLists.txt). CPack makes a Debian package of each; tools/packages.sh makes all four.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -59,25 +59,38 @@ install(FILES ${CMAKE_BINARY_DIR}/package/terrane.pc DESTINATION ${CMAKE_INSTALL
 install(FILES ${CMAKE_SOURCE_DIR}/assets/lua/terrane.lua DESTINATION ${CMAKE_INSTALL_DATADIR}/terrane/lua COMPONENT development)
 install(DIRECTORY examples/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT development)
 
+# The program; without graphics it is the program of a server, a package of its own (component "server").
+set(program_component program)
+if(NOT TERRANE_GRAPHICS)
+  set(program_component server)
+endif()
+set(made ${CMAKE_BINARY_DIR}/package)
+set(share ${CMAKE_INSTALL_DATADIR})
+add_custom_command(OUTPUT ${made}/terrane.1.gz ${made}/terrane ${made}/_terrane ${made}/terrane.fish
+  COMMAND terrane man | gzip -9n > ${made}/terrane.1.gz
+  COMMAND terrane completion bash > ${made}/terrane
+  COMMAND terrane completion zsh > ${made}/_terrane
+  COMMAND terrane completion fish > ${made}/terrane.fish
+  DEPENDS terrane COMMENT "Manual page, completions")
+add_custom_target(terrane_extras ALL DEPENDS ${made}/terrane.1.gz)
+install(TARGETS terrane RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${program_component})
+install(FILES ${made}/terrane.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${program_component})
+install(FILES ${made}/terrane DESTINATION ${share}/bash-completion/completions COMPONENT ${program_component})
+install(FILES ${made}/_terrane DESTINATION ${share}/zsh/vendor-completions COMPONENT ${program_component})
+install(FILES ${made}/terrane.fish DESTINATION ${share}/fish/vendor_completions.d COMPONENT ${program_component})
+install(FILES packaging/terrane-server.service packaging/terrane-server.socket DESTINATION lib/systemd/system
+  COMPONENT ${program_component})
 if(TERRANE_GRAPHICS)
-  set(made ${CMAKE_BINARY_DIR}/package)
-  add_custom_command(OUTPUT ${made}/terrane.1.gz ${made}/terrane ${made}/_terrane ${made}/terrane.fish ${made}/terrane.png
-    COMMAND terrane man | gzip -9n > ${made}/terrane.1.gz
-    COMMAND terrane completion bash > ${made}/terrane
-    COMMAND terrane completion zsh > ${made}/_terrane
-    COMMAND terrane completion fish > ${made}/terrane.fish
+  add_custom_command(OUTPUT ${made}/terrane.png
     COMMAND Python3::Interpreter ${CMAKE_SOURCE_DIR}/tools/paint_textures.py --icon ${made}/terrane.png
-    DEPENDS terrane ${CMAKE_SOURCE_DIR}/tools/paint_textures.py COMMENT "Manual page, completions, icon")
-  add_custom_target(terrane_extras ALL DEPENDS ${made}/terrane.1.gz)
-  set(share ${CMAKE_INSTALL_DATADIR})
-  install(TARGETS terrane RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
-  install(FILES ${made}/terrane.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
-  install(FILES ${made}/terrane DESTINATION ${share}/bash-completion/completions COMPONENT program)
-  install(FILES ${made}/_terrane DESTINATION ${share}/zsh/vendor-completions COMPONENT program)
-  install(FILES ${made}/terrane.fish DESTINATION ${share}/fish/vendor_completions.d COMPONENT program)
+    DEPENDS ${CMAKE_SOURCE_DIR}/tools/paint_textures.py COMMENT "Icon")
+  add_custom_target(terrane_icon ALL DEPENDS ${made}/terrane.png)
   install(FILES ${made}/terrane.png DESTINATION ${share}/icons/hicolor/128x128/apps COMPONENT program)
   install(FILES packaging/terrane.desktop DESTINATION ${share}/applications COMPONENT program)
+  install(FILES packaging/org.terrane.terrane.metainfo.xml DESTINATION ${share}/metainfo COMPONENT program)
   install(FILES LICENSE DESTINATION ${share}/doc/terrane RENAME copyright COMPONENT program)
+else()
+  install(FILES LICENSE DESTINATION ${share}/doc/terrane-server RENAME copyright COMPONENT server)
 endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libterrane-dev RENAME copyright COMPONENT development)
 
@@ -88,9 +101,9 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Large voxel worlds to walk, fly and build
 set(CPACK_PACKAGE_CONTACT "Terrane <terrane@example.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL development)
+set(CPACK_COMPONENTS_ALL ${program_component})
 if(TERRANE_GRAPHICS)
-  list(APPEND CPACK_COMPONENTS_ALL program)
+  list(APPEND CPACK_COMPONENTS_ALL development)
 endif()
 if(TERRANE_HAS_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
@@ -103,8 +116,18 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # libepoxy opens these while the program runs.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libegl1, libgl1, libopengl0")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "fonts-dejavu-core, libgl1-mesa-dri, ffmpeg")
+# Both have /usr/bin/terrane.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONFLICTS terrane-server)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_REPLACES terrane-server)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "A program to make worlds of blocks from a number, to walk, fly and build in them,
 and to make pictures and videos of them.")
+set(CPACK_DEBIAN_SERVER_PACKAGE_NAME terrane-server)
+set(CPACK_DEBIAN_SERVER_PACKAGE_SECTION games)
+set(CPACK_DEBIAN_SERVER_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_SERVER_PACKAGE_CONFLICTS terrane)
+set(CPACK_DEBIAN_SERVER_PACKAGE_REPLACES terrane)
+set(CPACK_COMPONENT_SERVER_DESCRIPTION "The program terrane without graphics: servers, generation, maps in a browser.
+It needs no OpenGL and no display.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libterrane-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libboost1.81-dev, libepoxy-dev, libexpected-dev, libfmt-dev, libglm-dev, libhwy-dev, liblua5.4-dev, \

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from xml.etree import ElementTree
 
 HANG_SECONDS = 600
 
@@ -52,6 +53,22 @@ class Install(unittest.TestCase):
         self.assertEqual(self.find("terrane.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
         entry = dict(line.split("=", 1) for line in self.find("terrane.desktop").read_text().split("\n") if "=" in line)
         self.assertEqual((entry["Exec"], entry["Icon"]), ("terrane play", "terrane"))
+
+    def test_the_menu_and_software_centers_accept_what_describes_the_program(self):
+        run("desktop-file-validate", self.find("terrane.desktop"))
+        run("appstreamcli", "validate", "--pedantic", "--no-net", self.find("org.terrane.terrane.metainfo.xml"))
+
+    def test_the_version_is_the_same_everywhere(self):
+        version = run(self.prefix / "bin" / "terrane", "--version").strip()
+        newest = ElementTree.parse(self.find("org.terrane.terrane.metainfo.xml")).find("releases/release")
+        self.assertEqual(newest.get("version"), version)
+        headings = re.findall(r"^## (.*)$", (SOURCE / "CHANGELOG.md").read_text(), re.MULTILINE)
+        self.assertIn(version, headings)
+        self.assertIn(f"\nVersion: {version}\n", self.find("terrane.pc").read_text())
+
+    def test_the_service_finds_the_program(self):
+        self.assertIn("ExecStart=terrane serve ", self.find("terrane-server.service").read_text())
+        self.find("terrane-server.socket")
 
     def test_headers_need_nothing_of_the_source_tree(self):
         headers = list((self.prefix / "include").rglob("*.h"))

@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Runs a command on a fresh Debian 12, in a folder of its own, with a clean clone of what is committed here in
+# /root/terrane. Nothing but Debian's essential packages and apt is there.
+#
+#   tools/fresh_debian.sh ROOT COMMAND…    ROOT: the folder of the system; it is made where it is missing, and stays
+#
+#   tools/fresh_debian.sh /tmp/fresh ./run test
+#   tools/fresh_debian.sh /tmp/fresh tools/packages.sh
+#
+# Needs root, and: apt install mmdebstrap git. apt and npm have this machine's sources. Exit code: the command's.
+set -euo pipefail
+
+readonly PROJECT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+[[ $# -ge 2 ]] || { sed -n '2,/^set/s/^# \?//p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+readonly ROOT=$1
+shift
+
+make_root() {
+    local file sources=()
+    for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.sources /etc/apt/sources.list.d/*.list; do
+        [[ ! -f $file ]] || sources+=("$file")
+    done
+    mmdebstrap --quiet --variant=apt bookworm "$ROOT" "${sources[@]}"
+    [[ ! -f /etc/npmrc ]] || cp /etc/npmrc "$ROOT/etc/"
+    [[ ! -f ~/.npmrc ]] || cp ~/.npmrc "$ROOT/root/"
+    git clone --quiet --no-hardlinks "$PROJECT" "$ROOT/root/terrane"
+}
+
+[[ -d $ROOT ]] || make_root
+cp /etc/resolv.conf "$ROOT/etc/"
+# Mounts and processes end with the command.
+exec env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 TERM="${TERM:-dumb}" \
+    unshare --mount --pid --fork --kill-child bash -c '
+    root=$1
+    shift
+    mount -t proc proc "$root/proc"
+    mount --rbind /dev "$root/dev"
+    mount --rbind /sys "$root/sys"
+    mount -t tmpfs -o mode=1777 tmpfs "$root/dev/shm"
+    cd "$root/root/terrane"
+    exec chroot "$root" bash -c "cd /root/terrane && exec \"\$@\"" bash "$@"' bash "$ROOT" "$@"
