@@ -61,6 +61,16 @@ class Hud(building_test.BuildingScript):
             self.assertIn("far away", self.setting("places"))
             self.close(game)
 
+    def test_a_held_key_that_opens_a_text_field_does_not_type_into_it(self):
+        with window_test.Display() as display:
+            game = self.play(display, ("8.5 8.5 84 0 -89",), "bricks", 1)
+            display.xdotool("keydown", "n", "sleep", "2.5", "keyup", "n")  # the display repeats it
+            display.xdotool("type", "--delay", "100", "no")
+            self.hold(game, "Return")
+            self.wait_for_setting(game, "places", lambda places: places != "")
+            self.assertEqual(self.setting("places").split(" ", 5)[5], "no\n")
+            self.close(game)
+
     def again(self, display, game):
         self.close(game)
         return self.play(display, ("8.5 8.5 84 0 -89",), "bricks", 1)

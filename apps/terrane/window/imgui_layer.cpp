@@ -72,6 +72,7 @@ void ImguiLayer::beginFrame(bool isCursorCaptured, bool isInMenu) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     holdShortPresses();
+    dropRepeatedText();
     if (isInMenu) activateByEnter();
     followScale();
     ImGui::NewFrame();
@@ -89,6 +90,17 @@ void ImguiLayer::holdShortPresses() {
         shortPresses_.push_back(event.key);
         isDown[indexOf(event.key)] = true;
     }
+}
+
+// A key that opens a text field and is held repeats its letter, which is not meant for the field: nothing is
+// typed there before a key is pressed.
+void ImguiLayer::dropRepeatedText() {
+    ImGuiIO& io = ImGui::GetIO();
+    if (window_->anyKeyPressed())
+        acceptsText_ = true;
+    else if (!io.WantTextInput)
+        acceptsText_ = false;
+    if (!acceptsText_) io.InputQueueCharacters.resize(0);
 }
 
 // Enter chooses, as Space does. One that ends the typing chooses nothing, however long it is held.

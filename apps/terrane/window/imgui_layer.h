@@ -40,12 +40,14 @@ class ImguiLayer {
     void followScale();
     void holdShortPresses();
     void activateByEnter();
+    void dropRepeatedText();
 
     const Window* window_;
     enum class Enter : std::uint8_t { Up, Types, Chooses };
 
     float textSize_ = 1;
     Enter enter_ = Enter::Up;
+    bool acceptsText_ = false;  // a key was pressed since typing began
     Scale scale_;
     std::vector<Key> shortPresses_;  // down and up within the last frame
 };

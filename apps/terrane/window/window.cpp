@@ -92,6 +92,7 @@ GLFWwindow* openWindow(const WindowOptions& options) {
 struct Window::State {
     GLFWwindow* window = nullptr;
     std::vector<InputEvent> events;
+    bool isAnyKeyPressed = false;
     glm::dvec2 cursor = {0.0, 0.0};
     bool cursorKnown = false;  // false: the next position starts a new motion
     std::unique_ptr<gpu::DebugLog> debugLog;
@@ -123,6 +124,7 @@ void Window::State::installCallbacks() {
 }
 
 void Window::State::onKey(GLFWwindow* window, int code, int, int action, int modifiers) {
+    if (action == GLFW_PRESS) of(window).isAnyKeyPressed = true;
     const std::optional<Key> key = keyOfCode(code);
     if (!key || action == GLFW_REPEAT) return;
     const auto type = action == GLFW_PRESS ? InputEvent::Type::KeyPress : InputEvent::Type::KeyRelease;
@@ -184,11 +186,16 @@ void Window::setVsync(bool isOn) {
 
 void Window::pollEvents() {
     state_->events.clear();
+    state_->isAnyKeyPressed = false;
     glfwPollEvents();
 }
 
 std::span<const InputEvent> Window::events() const {
     return state_->events;
+}
+
+bool Window::anyKeyPressed() const {
+    return state_->isAnyKeyPressed;
 }
 
 bool Window::keyDown(Key key) const {

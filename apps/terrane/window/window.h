@@ -35,9 +35,10 @@ class Window {
     Window& operator=(Window&&) noexcept;
     ~Window();
 
-    // Reads what happened since the last call; events() and keyDown() change here only.
+    // Reads what happened since the last call; what the next three tell changes here only.
     void pollEvents();
     [[nodiscard]] std::span<const InputEvent> events() const;
+    [[nodiscard]] bool anyKeyPressed() const;  // one that Key does not name, too
     [[nodiscard]] bool keyDown(Key key) const;
 
     void swapBuffers();
