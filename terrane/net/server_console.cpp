@@ -151,7 +151,7 @@ std::string unclaim(ServerState& server, Words words) {
 }
 
 std::string claims(ServerState& server, Words) {
-    std::string text = fmt::format("{} claims", server.people.claims().all().size());
+    std::string text = fmt::format("claims: {}", server.people.claims().all().size());
     for (const game::Claim& one : server.people.claims().all()) {
         const KnownPlayer* owner = server.people.byId(one.owner);
         text += fmt::format("\n{} {} {} {} {} {}", one.name, one.area.x0, one.area.y0, one.area.x1,
@@ -180,7 +180,7 @@ std::string rollbackLine(ServerState& server, Words words) {
         return "an area is four whole numbers: X0 Y0 X1 Y1";
     }
     const auto count = startRollback(server, filter);
-    return count ? fmt::format("{} blocks are rolled back, but for those that others changed since", *count)
+    return count ? fmt::format("rolling back: {} blocks, without those that others changed since", *count)
                  : count.error().message;
 }
 
