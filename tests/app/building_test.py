@@ -35,8 +35,8 @@ class BuildingScript(ProgramTest):
             with contextlib.closing(sqlite3.connect(save)) as database, database:
                 database.execute("INSERT OR REPLACE INTO settings VALUES ('hand', ?)", (hand,))
                 database.execute("UPDATE settings SET value = '' WHERE name = 'checksum'")  # the program finds it
-        options = ("--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "3", "--samples", "1", "--movement", "medium",
-                   "--time", "0.5", "--world", "home", "--bookmark", str(start), *window_test.FLAT)
+        options = ("--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "3", "--samples", "1", "--horizon", "0",
+                   "--movement", "medium", "--time", "0.5", "--world", "home", "--bookmark", str(start), *window_test.FLAT)
         game = window_test.Game(display, self.folder, options)
         self.addCleanup(game.log.close)
         self.addCleanup(game.process.kill)

@@ -105,7 +105,7 @@ class FlightBench(ProgramTest):
     def test_statistics_as_json(self):
         for backend in ("cpu", "gpu"):
             self.check_statistics(self.succeed("flight-bench", "--scene", "landscape", "--preset", "low", "--size", "64x36",
-                                            "--duration", "2", "--view-distance", "2", "--backend", backend, "--debug-gl", "--json"))
+                                            "--duration", "2", "--horizon", "0", "--view-distance", "2", "--backend", backend, "--debug-gl", "--json"))
 
     def check_statistics(self, text):
         flight = json.loads(text)["flight"]
@@ -121,7 +121,7 @@ class FlightBench(ProgramTest):
 
 
 class Render(ProgramTest):
-    SMALL = ("--size", "64x36", "--view-distance", "2", "--samples", "1")
+    SMALL = ("--size", "64x36", "--view-distance", "2", "--samples", "1", "--horizon", "0")
 
     def render(self, name, *arguments):
         path = self.folder / name
@@ -135,6 +135,14 @@ class Render(ProgramTest):
             image, text = self.render("scene.png", "--scene", scene, "--debug-gl")
             self.assertGreater(len(image.colors()), 20, scene)
             self.assertEqual(text, "")
+
+    def test_land_goes_on_to_the_horizon(self):
+        """Without an option, too."""
+        place = ("render", "--scene", "landscape", "--preset", "low", "--debug-gl", "--size", "64x36", "--view-distance", "2")
+        near, far = self.folder / "near.png", self.folder / "far.png"
+        self.succeed(*place, "--horizon", "0", "-o", near)
+        self.succeed(*place, "-o", far)
+        self.assertNotEqual(Image(near).rows, Image(far).rows)
 
     def test_a_small_memory_budget_makes_the_view_shorter(self):
         draw = ("render", "--scene", "landscape", "--size", "64x36", "--preset", "low", "--t-junctions", "open", "--json",
@@ -617,7 +625,7 @@ class Saves(ProgramTest):
             self.assertRefused(run("generate", "--world", self.save, "--radius", "1", *arguments), arguments)
 
     def test_a_world_without_generated_chunks(self):
-        fly = ("flight-bench", "--at", "8,8,120", "--world", self.save, "--view-distance", "1", "--size", "32x18", "--preset",
+        fly = ("flight-bench", "--at", "8,8,120", "--world", self.save, "--horizon", "0", "--view-distance", "1", "--size", "32x18", "--preset",
                "low", "--duration", "0.1", "--json")
         self.succeed(*fly, "--store-generated", "off")
         self.succeed(*fly)

@@ -179,9 +179,9 @@ class Game:
 
 
 class Window(ProgramTest):
-    def play(self, display, *arguments, size=SIZE):
+    def play(self, display, *arguments, size=SIZE, horizon=0):
         # Far enough that fog never hides all of the ground.
-        usual = ("--size", f"{size[0]}x{size[1]}", "--view-distance", "6", "--samples", "1")
+        usual = ("--size", f"{size[0]}x{size[1]}", "--view-distance", "6", "--samples", "1", "--horizon", str(horizon))
         game = Game(display, self.folder, (*usual, *arguments))
         self.addCleanup(game.log.close)
         self.addCleanup(game.process.kill)  # nothing where it has ended
@@ -202,7 +202,7 @@ class Window(ProgramTest):
         with Display() as display:
             start = self.close(self.play(display, "--movement", "fast"))
 
-            game = self.play(display, "--movement", "fast")
+            game = self.play(display, "--movement", "fast", horizon=1024)
             display.xdotool("keydown", "w")
             time.sleep(1)
             display.xdotool("keyup", "w")

@@ -4,6 +4,7 @@
 
 #include "terrane/game/container.h"
 #include "terrane/game/player_state.h"
+#include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/open_world.h"
 #include "tests/base/temp_folder.h"
 #include "tests/world/content_blocks.h"
@@ -17,9 +18,13 @@ class FormerSave : public testing::Test {
   protected:
     FormerSave() {
         std::filesystem::copy_file(TERRANE_SOURCE_DIR "/tests/saves/overworld_0.1.sqlite", file_);
-        auto opened = store::openWorld(store::worldLocation(file_.string()), blocks_, {});
+        store::WorldRequest request;
+        request.versionOf = [](std::string_view name) {
+            return gen::versionOf(gen::builtInGenerators(), name);
+        };
+        auto opened = store::openWorld(store::worldLocation(file_.string()), blocks_, request);
         EXPECT_TRUE(opened) << opened.error().message;
-        store_ = std::move(*opened);
+        store_ = std::move(opened.value());
     }
 
     base::TempFolder folder_;

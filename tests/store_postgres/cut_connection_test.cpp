@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 using store::Provenance;
 
 constexpr int kChunks = 40;
-constexpr auto kPauseBetweenCuts = 15ms;  // longer than a connection takes to be made
+constexpr std::chrono::milliseconds kLeastPause = 15ms;  // longer than a connection takes to be made
 
 class CutConnectionTest : public PostgresWorldTest {
   protected:
@@ -24,12 +24,13 @@ class CutConnectionTest : public PostgresWorldTest {
                 "SELECT count(*) FILTER (WHERE pg_terminate_backend(pid)) FROM pg_stat_activity "
                 "WHERE state <> 'idle' AND application_name = '" +
                 schema_ + "'"));
-            std::this_thread::sleep_for(kPauseBetweenCuts);
+            std::this_thread::sleep_for(pauseBetweenCuts_);
         }
     }
 
     std::atomic<bool> isEnding_ = false;
     std::atomic<int> cuts_ = 0;
+    std::chrono::milliseconds pauseBetweenCuts_ = kLeastPause;
 };
 
 // Of about 400 KB together, so that a transaction takes long enough to be cut.
@@ -58,12 +59,17 @@ TEST_F(CutConnectionTest, EachBatchIsWrittenWholeAndOnce) {
         store->setMetadata("number", std::to_string(number));
         return store->flush();
     };
+    const auto start = std::chrono::steady_clock::now();
     ASSERT_TRUE(saveAll(0));
+    // A save that is cut again and again fails at last, as it should: on a slow machine, too, each gets its
+    // time.
+    pauseBetweenCuts_ = std::max(kLeastPause, 3 * std::chrono::duration_cast<std::chrono::milliseconds>(
+                                                      std::chrono::steady_clock::now() - start));
     const auto reader = openReader(addressIn(sharedServer(), schema_), registry_);
     ASSERT_TRUE(reader);
     std::thread cutting([&] { cutAllTheTime(); });
     int last = 0;
-    const auto end = std::chrono::steady_clock::now() + 10s;
+    const auto end = std::chrono::steady_clock::now() + 60s;
     while (cuts_ < 12 && std::chrono::steady_clock::now() < end) {
         const auto saved = saveAll(++last);
         EXPECT_TRUE(saved) << saved.error().message;
