@@ -133,6 +133,8 @@ CommandEntry addPlay(CLI::App& app) {
         ->type_name("TEXT");
     command->add_flag("--accept-packs", options->remote.acceptsPacks,
                       "Let the server send content packs without asking");
+    // For tools/soak.py; no help lists it.
+    command->add_option("--known-edits", options->knownEdits, "")->group("");
     command->add_option("--bookmark", options->bookmark, "Start at this bookmark, counted from 1")
         ->check(numberFrom(1, 1e6))
         ->type_name("X");

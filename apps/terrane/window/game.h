@@ -76,6 +76,7 @@ class Game {
     // The content changed: the world is to be opened again.
     bool wantsReload() const { return wantsReload_; }
     const PlaySettings& settings() const { return settings_; }
+    world::Pose pose() const { return player_.pose(); }
     // Why the server sent the player away; empty where it did not.
     const std::string& serverReason() const { return serverReason_; }
 

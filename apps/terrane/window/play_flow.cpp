@@ -7,6 +7,7 @@
 #include "apps/terrane/window/content_watch.h"
 #include "apps/terrane/window/game.h"
 #include "apps/terrane/window/join_server.h"
+#include "apps/terrane/window/known_edits.h"
 #include "apps/terrane/window/server_list.h"
 #include "terrane/base/log.h"
 #include "terrane/content/resource_pack.h"
@@ -263,7 +264,10 @@ base::Result<void> PlayFlow::playFrom(const PlayOptions& options, OpenedWorld op
     Game loop({window_, world.content(), session, world.renderer(), world.view(), world.preview(),
                world.compiler(), shaders_, signals_, remote.get()},
               game);
-    const auto played = loop.run();
+    auto played = loop.run();
+    if (played && remote && !options.knownEdits.empty())
+        played = writeKnownEdits(options.knownEdits, *given.store, session.blocks(), loop.pose(),
+                                 loop.settings().graphics.viewDistance);
     settings_ = loop.settings();
     goesToTitle_ = loop.goesToTitle() && !isOver();
     reloads_ = loop.wantsReload() && !isOver();

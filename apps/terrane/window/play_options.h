@@ -24,6 +24,7 @@ struct PlayOptions {
     std::optional<int> bookmark;
     std::optional<double> time;
     RemoteOptions remote;
+    std::string knownEdits;  // file that gets what is known of a server's edits at the end; empty: none
     std::string perfData;
     std::string settingsFile = settingsPath().string();
 };

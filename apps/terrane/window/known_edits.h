@@ -1,0 +1,18 @@
+// What a client knows of a server's world, as text: tools/soak.py compares it with the world itself.
+#pragma once
+
+#include <filesystem>
+
+#include "terrane/net/remote_store.h"
+#include "terrane/world/block_registry.h"
+#include "terrane/world/pose.h"
+
+namespace terrane::app {
+
+// Of the chunks at most `reach` chunks away from that of `pose`: a line "center X Y" with that chunk, then
+// "X Y Z NAME" for each block that is not as the generator made it. Replaces `file`.
+[[nodiscard]] base::Result<void> writeKnownEdits(const std::filesystem::path& file, net::RemoteStore& store,
+                                                 const world::BlockRegistry& blocks, const world::Pose& pose,
+                                                 int reach);
+
+}  // namespace terrane::app

@@ -1,0 +1,59 @@
+"""Bots on all servers, round after round, and what they were told is kept."""
+import json
+import subprocess
+
+
+class Bots:
+    def __init__(self, program, folder, count, round_seconds):
+        self.program, self.folder, self.count, self.round_seconds = program, folder / "bots", count, round_seconds
+        self.folder.mkdir()
+        self.process, self.rounds, self.edits = None, 0, 0
+        self.kept = {}  # position to block
+        self.problems = []
+
+    def keep_running(self, servers, seconds_left):
+        """Begins a round where none runs and there is time for one."""
+        if self.process and self.process.poll() is not None:
+            self.end_round()
+        if self.process or seconds_left < 60:
+            return
+        places = [word for server in servers for word in ("--connect", f"127.0.0.1:{server.port}")]
+        self.rounds += 1
+        self.log_begin = (self.folder / "log.txt").stat().st_size if self.rounds > 1 else 0
+        self.output = open(self.folder / f"{self.rounds}.json", "w+")
+        self.log = open(self.folder / "log.txt", "a")
+        seconds = min(self.round_seconds, seconds_left - 30)
+        self.process = subprocess.Popen(
+            [self.program, "bots", *places, "--count", str(self.count), "--seconds", str(seconds), "--builders", "0.2",
+             "--edits-per-second", "0.3", "--joins-per-second", "5", "--keys", self.folder / "keys", "--name", "bot",
+             "--acknowledged", self.kept_file()],
+            stdin=subprocess.DEVNULL, stdout=self.output, stderr=self.log)
+
+    def kept_file(self):
+        return self.folder / f"{self.rounds}.txt"
+
+    def are_joining(self):
+        """A login that is cut is not tried again."""
+        if not self.process:
+            return False
+        with open(self.folder / "log.txt", encoding="utf-8") as log:
+            log.seek(self.log_begin)
+            return "bots play" not in log.read()
+
+    def end_round(self):
+        code = self.process.wait()
+        self.process = None
+        if code != 0:
+            self.problems.append(f"bots ended with {code}")
+            return
+        self.output.seek(0)
+        self.edits += json.load(self.output)["edits"]
+        for line in self.kept_file().read_text().splitlines():
+            x, y, z, name = line.split()
+            self.kept[int(x), int(y), int(z)] = name
+
+    def finish(self):
+        """Waits for the last round; problems of all."""
+        if self.process:
+            self.end_round()
+        return self.problems
