@@ -36,7 +36,7 @@ void countBlocks(const AnvilSection& section, const BlockMapping& mapping, Impor
     }
 }
 
-// Our y is -z: the rows of a layer come in the other order.
+// Our x is -x: the blocks of a row come in the other order.
 void putSection(const AnvilSection& section, std::span<const BlockAndState> palette, int shift,
                 ChunkValues& values, ImportCounts& counts) {
     for (int k = 0; k < kAnvilSectionBlocks; ++k) {
@@ -48,7 +48,7 @@ void putSection(const AnvilSection& section, std::span<const BlockAndState> pale
             ++(z < 0 ? counts.below : counts.above);
             continue;
         }
-        const auto at = world::blockIndex(k % kSide, kSide - 1 - k / kSide % kSide, z);
+        const auto at = world::blockIndex(kSide - 1 - k % kSide, k / kSide % kSide, z);
         values.ids[at] = block.id;
         values.states[at] = block.state;
     }
@@ -79,7 +79,7 @@ world::Chunk chunkFrom(const ChunkValues& values) {
 }  // namespace
 
 world::ChunkPos chunkPosOf(const AnvilChunk& chunk) {
-    return {chunk.x, -1 - chunk.z};
+    return {-1 - chunk.x, chunk.z};
 }
 
 world::Chunk toChunk(const AnvilChunk& chunk, const BlockMapping& mapping, int shift, ImportCounts& counts) {

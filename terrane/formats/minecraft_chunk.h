@@ -20,7 +20,7 @@ struct ImportCounts {
     std::uint64_t below = 0, above = 0;  // blocks but air outside our heights, which are left out
 };
 
-// Where Minecraft's chunk x, z comes to lie before it is moved: x, -z - 1.
+// Where Minecraft's chunk x, z comes to lie before it is moved: -x - 1, z.
 [[nodiscard]] world::ChunkPos chunkPosOf(const AnvilChunk& chunk);
 
 // Height z is Minecraft's y + `shift`. Blocks outside 0…255 are counted and left out.

@@ -19,11 +19,11 @@ tl::unexpected<base::Error> damagedSchematic(std::string_view what) {
     return base::fail(base::ErrorCode::Damaged, "schematic: {}", what);
 }
 
-// The file's index of a cell, x + z · width + y · width · length, is the same but for the order of rows.
+// The file's index of a cell, x + z · width + y · width · length, is the same but for the order in a row.
 std::size_t cellOfFileIndex(std::size_t index, glm::ivec3 size) {
     const auto sizeX = static_cast<std::size_t>(size.x), sizeY = static_cast<std::size_t>(size.y);
     const std::size_t x = index % sizeX, row = index / sizeX % sizeY, z = index / sizeX / sizeY;
-    return x + sizeX * (sizeY - 1 - row + sizeY * z);
+    return sizeX - 1 - x + sizeX * (row + sizeY * z);
 }
 
 // Sides are unsigned 16-bit numbers in a signed type.

@@ -15,9 +15,9 @@ namespace {
 using world::BlockType;
 
 // By our facing: quarter turns against the clock from +y.
-constexpr std::array<std::string_view, 4> kDirections{"north", "west", "south", "east"};
+constexpr std::array<std::string_view, 4> kDirections{"south", "east", "north", "west"};
 // By our arm: -x, +x, -y, +y.
-constexpr std::array<std::string_view, 4> kArmDirections{"west", "east", "south", "north"};
+constexpr std::array<std::string_view, 4> kArmDirections{"east", "west", "north", "south"};
 // Sixteenths of a turn with the clock, 0 is south.
 constexpr int kRotations = 16;
 constexpr int kGrownAge = 7;
@@ -57,7 +57,7 @@ std::uint16_t facingOf(const NamedState& state, bool isOpposite) {
     } else if (state.property("rotation")) {
         // With the clock from south: 4 is west, 8 north, 12 east.
         const int quarters = (std::clamp(numberOf(state, "rotation", 0), 0, kRotations - 1) + 2) / 4 % 4;
-        facing = (6 - quarters) % 4;
+        facing = (4 - quarters) % 4;
     } else {
         return 0;
     }
@@ -89,7 +89,7 @@ void addFacing(std::uint16_t state, bool isOpposite, NamedState& named) {
     const unsigned facing = (state + (isOpposite ? 2u : 0u)) & world::kStateFacing;
     const bool isStandingSign = named.name.ends_with("_sign") && !named.name.ends_with("_wall_sign");
     if (isStandingSign)
-        addMissing(named, "rotation", std::to_string((6 - facing) % 4 * 4));
+        addMissing(named, "rotation", std::to_string((4 - facing) % 4 * 4));
     else
         addMissing(named, "facing", kDirections[facing]);
 }

@@ -1,7 +1,8 @@
 // Properties of Minecraft's blocks and the block states of ours that show the same: facing, halves, open
 // doors, arms of fences, levels of water, growth. Called by block_mapping.h. Plain functions; any thread.
 //
-// Minecraft's x, y, z (east, up, south) are our x, z, -y: north is +y, and nothing is mirrored.
+// Minecraft's x, y, z (east, up, south) are our -x, z, y, so that the sun rises in the same east and maps
+// have the same north, -y (game/places.h). Nothing is mirrored.
 #pragma once
 
 #include <cstdint>

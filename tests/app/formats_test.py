@@ -116,14 +116,14 @@ class Minecraft(ProgramTest):
         return sum(expected["blocks"].values()), expected["chunks"]
 
     def compare_places(self, world, sample, version):
-        """Minecraft's x, y, z are our x, z, -y."""
-        low = (sample["x"] * 16, -sample["z"] * 16 - 16)
+        """Minecraft's x, y, z are our -x, z, y."""
+        low = (-sample["x"] * 16 - 16, sample["z"] * 16)
         volume = self.folder / "sample.npy"
         self.succeed("export", "npy", "--world", world, "-o", volume, "--box",
                      f"{low[0]},{low[1]},0,{low[0] + 16},{low[1] + 16},256")
         names = json.loads((self.folder / "sample.npy.names.json").read_text())
         ours = numpy.load(volume)
-        theirs = numpy.array(sample["blocks"]).reshape(-1, 16, 16)[:, ::-1, :]
+        theirs = numpy.array(sample["blocks"]).reshape(-1, 16, 16)[:, :, ::-1]
         compared = 0
         for layer, blocks in enumerate(theirs):
             z = sample["minY"] + layer
@@ -168,7 +168,7 @@ class Minecraft(ProgramTest):
         area = ("--area", "1,1,4,4", "--generator", "flat")
         self.succeed("import", "minecraft", source, "--world", here, *area, "--shift", 64)
         self.succeed("import", "minecraft", source, "--world", there, *area, "--shift", 80, "--at", "-160,320")
-        boxes = ("16,-64,0,64,-16,200", "-144,256,16,-96,304,216")
+        boxes = ("-64,16,0,-16,64,200", "-224,336,16,-176,384,216")
         volumes = []
         for world, box in zip((here, there), boxes):
             file = self.folder / "v.npy"
@@ -303,10 +303,10 @@ class Volumes(ProgramTest):
                                                                           "tall_grass", "fern")]
         solid = ~numpy.isin(blocks, passable)
         self.assertTrue((heights == 255 - solid[::-1].argmax(axis=0)).all())
-        self.assertEqual([row[5] for row in png_rows(self.folder / "h.png")], list(heights[::-1, 5]))
+        self.assertEqual([row[5] for row in png_rows(self.folder / "h.png")], list(heights[:, -6]))
         self.succeed("export", "png-heights", "--generator", "hills3d", "--area", "0,0,2,3", "--bits", 16, "-o",
                      self.folder / "h.png")
-        self.assertEqual([row[5] for row in png_rows(self.folder / "h.png")], [257 * int(h) for h in heights[::-1, 5]])
+        self.assertEqual([row[5] for row in png_rows(self.folder / "h.png")], [257 * int(h) for h in heights[:, -6]])
 
 
 def png_rows(path):

@@ -46,19 +46,19 @@ TEST_F(BlockMappingTest, KnowsNames) {
     EXPECT_EQ(blockOf("minecraft:snow[layers=2]"), "white_carpet");
 }
 
-// North is +y and facing 0; quarters go on against the clock: west, south, east.
+// South is +y and facing 0; quarters go on against the clock: east, north, west.
 TEST_F(BlockMappingTest, TurnsAndHalves) {
-    EXPECT_EQ(blockOf("oak_stairs[facing=north,half=bottom]"), "oak_stairs");
-    EXPECT_EQ(blockOf("oak_stairs[facing=west,half=top]"), "oak_stairs/5");
+    EXPECT_EQ(blockOf("oak_stairs[facing=north,half=bottom]"), "oak_stairs/2");
+    EXPECT_EQ(blockOf("oak_stairs[facing=west,half=top]"), "oak_stairs/7");
     EXPECT_EQ(blockOf("oak_slab[type=top]"), "oak_slab/4");
-    EXPECT_EQ(blockOf("oak_door[facing=east,half=upper,hinge=left,open=true]"), "oak_door_top/11");
-    EXPECT_EQ(blockOf("ladder[facing=north]"), "ladder/2");
-    EXPECT_EQ(blockOf("wall_torch[facing=east]"), "torch/9");
+    EXPECT_EQ(blockOf("oak_door[facing=east,half=upper,hinge=left,open=true]"), "oak_door_top/9");
+    EXPECT_EQ(blockOf("ladder[facing=north]"), "ladder");
+    EXPECT_EQ(blockOf("wall_torch[facing=east]"), "torch/11");
     EXPECT_EQ(blockOf("torch"), "torch");
-    EXPECT_EQ(blockOf("oak_sign[rotation=8]"), "sign/2");
+    EXPECT_EQ(blockOf("oak_sign[rotation=8]"), "sign");
     EXPECT_EQ(blockOf("oak_fence[north=true,east=false,south=true,west=false]"), "oak_fence/192");
     EXPECT_EQ(blockOf("lantern[hanging=true]"), "lantern/4");
-    EXPECT_EQ(blockOf("oak_fence_gate[facing=south,open=true]"), "oak_gate/10");
+    EXPECT_EQ(blockOf("oak_fence_gate[facing=south,open=true]"), "oak_gate/8");
     EXPECT_EQ(blockOf("water[level=5]"), "water/5");
     EXPECT_EQ(blockOf("water[level=9]"), "water/8");
     EXPECT_EQ(blockOf("wheat[age=7]"), "wheat");
@@ -82,10 +82,10 @@ TEST_F(BlockMappingTest, NamesComeBackAsTheSameBlockForEveryBlockAndState) {
 
 TEST_F(BlockMappingTest, NamesAreMinecraftsWhereThereIsOne) {
     EXPECT_EQ(nameOf("stone"), "minecraft:stone");
-    EXPECT_EQ(nameOf("oak_stairs", 5), "minecraft:oak_stairs[facing=west,half=top]");
-    EXPECT_EQ(nameOf("torch", 9), "minecraft:wall_torch[facing=east]");
+    EXPECT_EQ(nameOf("oak_stairs", 5), "minecraft:oak_stairs[facing=east,half=top]");
+    EXPECT_EQ(nameOf("torch", 9), "minecraft:wall_torch[facing=west]");
     EXPECT_EQ(nameOf("torch"), "minecraft:torch");
-    EXPECT_EQ(nameOf("sign", 2), "minecraft:oak_sign[rotation=8]");
+    EXPECT_EQ(nameOf("sign", 2), "minecraft:oak_sign[rotation=0]");
     EXPECT_EQ(nameOf("oak_planks"), "minecraft:oak_planks");
     EXPECT_EQ(nameOf("heather"), "terrane:heather");
     EXPECT_EQ(nameOf("stone", 3), "terrane:stone[state=3]");
@@ -139,7 +139,7 @@ TEST(NamedState, ReadsTexts) {
         EXPECT_EQ(namedState(text), std::nullopt) << text;
 }
 
-// Minecraft's x, y, z are our x, z, -y.
+// Minecraft's x, y, z are our -x, z, y.
 TEST_F(BlockMappingTest, ChunksAreNotMirrored) {
     AnvilChunk chunk;
     chunk.x = 3;
@@ -151,8 +151,8 @@ TEST_F(BlockMappingTest, ChunksAreNotMirrored) {
     chunk.sections = {section};
     ImportCounts counts;
     const world::Chunk made = toChunk(chunk, mapping, 12, counts);
-    EXPECT_EQ(chunkPosOf(chunk), (world::ChunkPos{3, 3}));
-    EXPECT_EQ(made.block(world::blockIndex(2, 10, 3)), blocks.find("stone")->id);
+    EXPECT_EQ(chunkPosOf(chunk), (world::ChunkPos{-4, -4}));
+    EXPECT_EQ(made.block(world::blockIndex(13, 5, 3)), blocks.find("stone")->id);
     EXPECT_EQ(counts.blocks.at("minecraft:air"), 4094u);
     EXPECT_EQ(counts.unknown.at("other:thing"), 1u);
     EXPECT_EQ(counts.below, 1u);
@@ -175,8 +175,8 @@ TEST_F(BlockMappingTest, DoorsOfOldWorldsAreWhole) {
     chunk.sections = {section};
     ImportCounts counts;
     const world::Chunk made = toChunk(chunk, mapping, 0, counts);
-    EXPECT_EQ(made.blockState(world::blockIndex(0, 15, 0)), 11);
-    EXPECT_EQ(made.blockState(world::blockIndex(0, 15, 1)), 11);
+    EXPECT_EQ(made.blockState(world::blockIndex(15, 0, 0)), 9);
+    EXPECT_EQ(made.blockState(world::blockIndex(15, 0, 1)), 9);
 }
 
 }  // namespace

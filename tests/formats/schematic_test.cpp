@@ -94,9 +94,9 @@ TEST(Schematic, ReadsEachVersion) {
         const auto volume = decodeSchematic(fileOf(small(version), isNested), LegacyIds());
         ASSERT_TRUE(volume) << version << volume.error().message;
         EXPECT_EQ(volume->size, glm::ivec3(2, 2, 1));
-        // z 0 is the far row of ours, y 1.
-        EXPECT_EQ(namesOf(*volume), (std::vector<std::string>{"minecraft:air", "minecraft:air",
-                                                              "minecraft:air", "minecraft:stone"}));
+        // Its x 1 is our x 0.
+        EXPECT_EQ(namesOf(*volume), (std::vector<std::string>{"minecraft:stone", "minecraft:air",
+                                                              "minecraft:air", "minecraft:air"}));
     }
 }
 
@@ -112,7 +112,7 @@ TEST(Schematic, ReadsNumbers) {
     const auto volume = decodeSchematic(fileOf(schematic, false), ids);
     ASSERT_TRUE(volume) << volume.error().message;
     EXPECT_EQ(namesOf(*volume),
-              (std::vector<std::string>{"minecraft:stone", "minecraft:granite", "minecraft:mod"}));
+              (std::vector<std::string>{"minecraft:mod", "minecraft:granite", "minecraft:stone"}));
 }
 
 TEST(Schematic, TellsWhatIsWrong) {

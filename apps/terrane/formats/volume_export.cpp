@@ -133,8 +133,8 @@ base::Result<void> exportPngHeights(ExportOptions& options) {
     if (!heights) return tl::unexpected(heights.error());
     formats::GrayImage image{heights->width, heights->height, options.bits, {}};
     const auto width = static_cast<std::size_t>(heights->width);
-    for (std::size_t row = static_cast<std::size_t>(heights->height); row-- > 0;) {
-        for (std::size_t x = 0; x < width; ++x) {
+    for (std::size_t row = 0; row < static_cast<std::size_t>(heights->height); ++row) {
+        for (std::size_t x = width; x-- > 0;) {
             // 255 becomes 65,535.
             const std::uint16_t height = heights->values[row * width + x];
             image.values.push_back(options.bits == 16 ? static_cast<std::uint16_t>(height * 257) : height);

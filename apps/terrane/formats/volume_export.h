@@ -14,7 +14,6 @@ namespace terrane::app {
 // How high the highest block of each column lies that bodies do not pass, or that is liquid; 0 where there is
 // none.
 [[nodiscard]] base::Result<void> exportNpyHeights(ExportOptions& options);  // uint16 [y, x]
-[[nodiscard]] base::Result<void> exportPngHeights(
-    ExportOptions& options);  // the row of the largest y at the top
+[[nodiscard]] base::Result<void> exportPngHeights(ExportOptions& options);  // as maps: north up, east right
 
 }  // namespace terrane::app

@@ -39,15 +39,15 @@ void drawLoadingMap(const Screen& screen, const stream::ChunkPipeline& pipeline,
     const float left = (screen.width - side) / 2, top = (screen.height - side) / 2;
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     draw.AddRectFilled({left, top}, {left + side, top + side}, IM_COL32(10, 12, 16, 170));
-    // A square of chunks of level 0. North, the direction of y, is up.
+    // A square of chunks of level 0. North, -y, is up and east, -x, to the right, as on all maps.
     const auto square = [&](world::ChunkPos first, int width, ImU32 color) {
         const auto at = [&](int chunks) {
             return static_cast<float>(std::clamp(chunks, 0, 2 * reach + 1)) * cell;
         };
-        const int x = first.x - center.x + reach, y = reach + 1 - (first.y - center.y);
+        const int x = center.x - (first.x + width - 1) + reach, y = first.y - center.y + reach;
         const float gap = cell * static_cast<float>(width) > 4 ? 1.0f : 0.0f;
-        draw.AddRectFilled({left + at(x), top + at(y - width)},
-                           {left + at(x + width) - gap, top + at(y) - gap}, color);
+        draw.AddRectFilled({left + at(x), top + at(y)},
+                           {left + at(x + width) - gap, top + at(y + width) - gap}, color);
     };
     for (const auto& [pos, record] : tiles.records) {
         if (pos.level == 0 || !record.isShown) continue;
