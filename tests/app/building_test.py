@@ -16,6 +16,7 @@ from support import HANG_SECONDS, Npy, ProgramTest
 
 SIZE = (480, 300)
 MIDDLE = (SIZE[0] // 2, SIZE[1] // 2)
+FILL_BUTTON = (SIZE[0] - 150, 62)  # in the panel of the selection tool
 
 
 def is_dark(red, green, blue):
@@ -121,6 +122,23 @@ class Building(BuildingScript):
             self.press(game, "Escape", "Escape")  # ends pasting, puts the tool away
             self.close(game)
             self.assertGreater(file.stat().st_size, 40)
+
+    def test_the_panel_of_the_tool_has_buttons(self):
+        places = ("5.5 8.5 81.5 0 0", "10.5 9.5 84.5 0 0", "8.5 -3.5 88.5 90 -35")
+        with window_test.Display() as display:
+            game = self.play(display, places, "bricks", 3)
+            self.press(game, "b", "F6")
+            self.click_here(display, game, 1)
+            self.press(game, "F6")
+            self.click_here(display, game, 3)
+            self.press(game, "F6")
+            game.tap(2, *MIDDLE, self.pause)  # gives the cursor back
+            self.keep(display, game, "buttons")
+            game.tap(1, *FILL_BUTTON, self.pause)
+            game.wait_for(lambda: self.count("bricks") == 48)
+            game.tap(2, *MIDDLE, self.pause)
+            self.press(game, "Escape")  # puts the tool away
+            self.close(game)
 
     def dark_share(self, display, game):
         """Of the middle of the image, where the sign is."""

@@ -69,6 +69,7 @@ class Hud(building_test.BuildingScript):
             self.hold(game, "Return")
             self.wait_for_setting(game, "places", lambda places: places != "")
             self.assertEqual(self.setting("places").split(" ", 5)[5], "no\n")
+            self.press(game, "Escape")
             self.close(game)
 
     def again(self, display, game):

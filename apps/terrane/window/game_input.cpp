@@ -254,7 +254,9 @@ void Game::onButton(MouseButton button, bool isPress) {
         return;
     }
     if (button == MouseButton::Middle) {
-        if (isCaptured_)
+        if (isCaptured_ && building_.isSelecting())
+            capture(false);  // the panel of the tool has buttons
+        else if (isCaptured_)
             interaction_.pick(parts_.session);
         else if (!isInDialog())
             capture(true);
