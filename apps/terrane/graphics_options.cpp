@@ -52,8 +52,9 @@ glm::ivec2 parseSize(const std::string& text) {
 
 void addGpuMemoryOption(CLI::App& command, std::optional<int>& mebibytes) {
     command
-        .add_option("--gpu-memory", mebibytes,
-                    "Most MiB on the graphics card; the view gets shorter to stay within")
+        .add_option(
+            "--gpu-memory", mebibytes,
+            "Limit of memory on the graphics card in MiB; the view distance shrinks to stay within it")
         ->check(numberFrom(16, 1 << 20))
         ->type_name("MIB")
         ->default_str("half of what is free; 2048 where the driver does not tell");
@@ -66,13 +67,13 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string
             "Image size in pixels")
         ->type_name("WxH")
         ->default_str("1280x720");
-    command.add_option("--view-distance", options.choices.viewDistance, "How far one sees, in chunks")
+    command.add_option("--view-distance", options.choices.viewDistance, "View distance in chunks")
         ->check(numberFrom(1, 64))
         ->default_str("16, thesis 32");
     addGpuMemoryOption(command, options.gpuMemory);
     addGraphicsChoices(command, options.choices, std::move(preset));
     addChoice<render::View>(command, "--view", options.view, {viewNames().begin(), viewNames().end()},
-                            "What to show");
+                            "Content of the image");
     addResourcePackOption(command, options.resourcePack);
     command
         .add_option("--shader-root", options.shaderRoot, "Source tree to read shaders from, for development")

@@ -136,7 +136,7 @@ void addWorldOptions(CLI::App& command, WorldOptions& options) {
     command
         .add_option_function<std::string>(
             "--seed", [&](const std::string& text) { parseSeed(text, options); },
-            "Seed of the world: a whole number, or any other text, which stands for its xxHash64")
+            "Seed of the world: a whole number, or a text, whose xxHash64 is the seed")
         ->type_name("NUMBER|TEXT")
         ->default_str(std::to_string(WorldOptions::kDefaultSeed));
     command
@@ -146,7 +146,7 @@ void addWorldOptions(CLI::App& command, WorldOptions& options) {
         ->type_name("CHOICE")
         ->default_str(WorldOptions::kDefaultGenerator);
     addContentOption(command, options);
-    command.add_option("--threads", options.threads, "Worker threads (default: one for each CPU core)")
+    command.add_option("--threads", options.threads, "Worker threads (default: one per CPU core)")
         ->check(numberFrom(1, 256));
 }
 
@@ -176,14 +176,14 @@ void addResourcePackOption(CLI::App& command, std::string& folder) {
 }
 
 void addTraceOption(CLI::App& command, std::string& trace) {
-    command
-        .add_option("--trace", trace, "Write where the time went, for Perfetto or chrome://tracing (JSON)")
+    command.add_option("--trace", trace, "Write a trace for Perfetto or chrome://tracing (JSON)")
         ->check(newFile())
         ->type_name("FILE");
 }
 
 void addReportOption(CLI::App& command, std::string& report) {
-    command.add_option("--report", report, "Write what was read and what was not understood (JSON)")
+    command
+        .add_option("--report", report, "Write counts of what was read and what was not understood (JSON)")
         ->check(newFile())
         ->type_name("FILE");
 }

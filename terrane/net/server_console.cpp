@@ -180,7 +180,7 @@ std::string rollbackLine(ServerState& server, Words words) {
         return "an area is four whole numbers: X0 Y0 X1 Y1";
     }
     const auto count = startRollback(server, filter);
-    return count ? fmt::format("rolling back: {} blocks, without those that others changed since", *count)
+    return count ? fmt::format("blocks rolled back: {}; what others changed since stays", *count)
                  : count.error().message;
 }
 

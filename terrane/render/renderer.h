@@ -95,7 +95,6 @@ class Renderer {
 
     base::Image readImage() const { return gpu::readPixels(targets_.ldr); }  // waits for the GPU
     void presentToWindow(glm::ivec2 windowSize) const;
-    const gpu::Texture2D& ldrTexture() const { return targets_.ldrColor; }
 
     // Of the newest frame that the GPU has finished.
     FrameStatistics statistics() {

@@ -171,7 +171,7 @@ TEST_F(ServerTest, ARollbackThatHasBegunEndsBeforeTheServerDoes) {
         pos = above(ann);
         ASSERT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
         ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
-        EXPECT_TRUE(runConsoleLine(server.state(), "rollback Ann 60").starts_with("1 blocks"));
+        EXPECT_TRUE(runConsoleLine(server.state(), "rollback Ann 60").starts_with("blocks rolled back: 1;"));
         ASSERT_TRUE(stop(server.state(), "the test ends"));
     }
     TestServer again(folder_.path());
@@ -188,7 +188,7 @@ TEST_F(ServerTest, ARollbackTakesBackWhatAPlayerDid) {
     ASSERT_EQ(bob.put(bobs, "glass"), game::EditResult::Applied);
     ASSERT_TRUE(stepUntil(server, {&ann, &bob},
                           [&] { return ann.block(bobs) != world::kAir && bob.block(anns) != world::kAir; }));
-    EXPECT_TRUE(runConsoleLine(server.state(), "rollback Bob 60").starts_with("1 blocks"));
+    EXPECT_TRUE(runConsoleLine(server.state(), "rollback Bob 60").starts_with("blocks rolled back: 1;"));
     ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return ann.block(bobs) == world::kAir; }));
     EXPECT_EQ(ann.block(anns), contentBlock("glass"));
 }

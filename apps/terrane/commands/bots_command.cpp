@@ -145,10 +145,10 @@ CommandEntry addBots(CLI::App& app) {
                      "The server; said again, bots take turns among servers of one world")
         ->type_name("HOST[:PORT]")
         ->required();
-    command->add_option("--count", options->count, "How many")
+    command->add_option("--count", options->count, "Number of bots")
         ->check(numberFrom(1, 10000))
         ->capture_default_str();
-    command->add_option("--seconds", options->seconds, "How long, from when all have joined")
+    command->add_option("--seconds", options->seconds, "Seconds, counted from when all have joined")
         ->check(numberFrom(0, 1e6))
         ->capture_default_str();
     addChoice<BotBehaviour>(
@@ -156,26 +156,28 @@ CommandEntry addBots(CLI::App& app) {
         {{"walk", BotBehaviour::Walk}, {"build", BotBehaviour::Build}, {"crowd", BotBehaviour::Crowd}},
         "What they do: walk around where they began, the same while all build, or all "
         "around one place");
-    command->add_option("--builders", options->bots.builders, "Share that builds while it walks")
+    command->add_option("--builders", options->bots.builders, "Share of bots that build while they walk")
         ->check(numberFrom(0, 1))
         ->capture_default_str();
-    command->add_option("--edits-per-second", options->bots.editsPerSecond, "Of each that builds")
+    command
+        ->add_option("--edits-per-second", options->bots.editsPerSecond,
+                     "Edits per second of each bot that builds")
         ->check(numberFrom(0.01, 50))
         ->capture_default_str();
-    command->add_option("--view-distance", options->bots.viewDistance, "Chunks whose edits each is told")
+    command->add_option("--view-distance", options->bots.viewDistance, "View distance of each bot in chunks")
         ->check(numberFrom(1, 64))
         ->capture_default_str();
-    command->add_option("--joins-per-second", options->joinsPerSecond, "How fast they come")
+    command->add_option("--joins-per-second", options->joinsPerSecond, "Bots that join per second")
         ->check(numberFrom(0.1, 1000))
         ->capture_default_str();
-    command->add_option("--name", options->bots.name, "Names are this and a number")
+    command->add_option("--name", options->bots.name, "Prefix of the names; a number follows")
         ->type_name("TEXT")
         ->capture_default_str();
-    command->add_option("--password", options->bots.password, "Where the server wants one")
+    command->add_option("--password", options->bots.password, "Password of the server, if it has one")
         ->type_name("TEXT");
     command
         ->add_option("--keys", options->bots.keyFolder,
-                     "Folder where each bot's key is kept, so that it is known again")
+                     "Folder for the bots' keys, so that a server recognizes them in the next run")
         ->type_name("FOLDER");
     command
         ->add_option("--acknowledged", options->acknowledged,

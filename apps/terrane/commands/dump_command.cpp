@@ -166,15 +166,15 @@ CommandEntry addDump(CLI::App& app) {
     addChoice<What>(*command, "--what", options->what,
                     {{"blocks", What::Blocks}, {"light", What::Light}, {"quads", What::Quads}},
                     "What to write");
-    addBackendOption(*command, options->backend, "Where to find the light, or the quads");
+    addBackendOption(*command, options->backend, "Device that computes light or quads");
     addChoice<mesh::MergeMethod>(*command, "--merging", options->mesh.method, mergeMethods(),
-                                 "How equal faces are merged into rectangles");
+                                 "Method that merges equal faces into quads");
     addChoice<int>(*command, "--mesh-section-height", options->mesh.meshSectionHeight,
                    {{"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}},
                    "Height in blocks of the mesh sections that quads are written by");
     addOutputOption(*command, options->output, {".npy"}, "The .npy file");
     addWorldOptions(*command, options->world);
-    addWorldOption(*command, options->save, "World to take the chunks from; what it lacks is generated");
+    addWorldOption(*command, options->save, "World to read; missing chunks are generated");
     return {command, [options] { return dump(*options); }};
 }
 

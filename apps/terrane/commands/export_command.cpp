@@ -63,13 +63,14 @@ CommandEntry addExport(CLI::App& app) {
     command->add_option("--box", options->box, "Blocks, the end excluded")->type_name("X0,Y0,Z0,X1,Y1,Z1");
     command
         ->add_option("--mapping", options->mapping,
-                     "Names of blocks beside the built-in table (TOML), of a schem")
+                     "Table of block names for schem, in addition to the built-in one (TOML)")
         ->check(existingFile())
         ->type_name("FILE");
-    addChoice<int>(*command, "--bits", options->bits, {{"8", 8}, {"16", 16}}, "Bits a pixel of png-heights");
+    addChoice<int>(*command, "--bits", options->bits, {{"8", 8}, {"16", 16}},
+                   "Bits per pixel of png-heights");
     addResourcePackOption(*command, options->resourcePack);
     addWorldOptions(*command, options->world);
-    addWorldOption(*command, options->save, "World to take the chunks from; what it lacks is generated");
+    addWorldOption(*command, options->save, "World to read; missing chunks are generated");
     return {command, [options, format, command] { return runExport(*format, *options, *command); }};
 }
 

@@ -120,12 +120,12 @@ CommandEntry addFlightBench(CLI::App& app) {
     command->add_option("--duration", options->seconds, "Seconds of the flight")
         ->check(numberFrom(0.1, 600))
         ->capture_default_str();
-    addOutputOption(*command, options->output, {}, "The CSV file, a line a frame");
+    addOutputOption(*command, options->output, {}, "The CSV file, one line per frame");
     command->get_option("--output")->required(false);
     command->add_flag("--json", options->json, "Print statistics of the flight as JSON");
     addWorldOptions(*command, options->world);
     nameSceneGenerator(*command);
-    addBackendOption(*command, options->backend, "Where to generate, light and mesh");
+    addBackendOption(*command, options->backend, "Device that generates, lights and meshes");
     addGraphicsOptions(*command, options->graphics, "auto");
     addSaveGameOptions(*command, options->save);
     return {command, [options] { return runFlightBench(*options); }};

@@ -232,12 +232,13 @@ CommandEntry addGenerate(CLI::App& app) {
     command->add_flag("--json", options->json, "Print the result as JSON");
     command->add_flag(
         "--explain", options->explain,
-        "Print the generator's passes, their GLSL and what the CPU leaves out in a chunk instead");
-    addBackendOption(*command, options->backend, "Where to generate");
-    command->add_option("--simd", options->simd, "Instruction set, as info lists them (default: the best)");
+        "Print the generator's passes, their GLSL and what the CPU skips in a chunk, and generate nothing");
+    addBackendOption(*command, options->backend, "Device that generates");
+    command->add_option("--simd", options->simd,
+                        "Instruction set, as terrane info lists them (default: the best)");
     addWorldOptions(*command, options->world);
     addWorldOption(*command, options->save,
-                   "World to generate into; created if needed. What it has is not generated again");
+                   "World to generate into; created if needed. Existing chunks stay");
     addRecreateOption(*command, options->save);
     return {command, [options] { return generate(*options); }};
 }

@@ -61,11 +61,10 @@ CommandEntry addImport(CLI::App& app) {
     addWorldOption(*command, options->save, "World to write into; created if needed");
     command
         ->add_option("--mapping", options->mapping,
-                     "Which blocks names become, beside the built-in table (TOML)")
+                     "Table from names to blocks, in addition to the built-in one (TOML)")
         ->check(existingFile())
         ->type_name("FILE");
-    command->add_option("--at", options->at, "Where the source's 0,0 comes to lie, in blocks")
-        ->type_name("X,Y[,Z]");
+    command->add_option("--at", options->at, "Position of the source's 0,0 in blocks")->type_name("X,Y[,Z]");
     addChoice<std::string>(*command, "--dimension", options->dimension,
                            {{"overworld", "overworld"}, {"nether", "nether"}, {"end", "end"}},
                            "Dimension of a world of Minecraft");
@@ -73,8 +72,8 @@ CommandEntry addImport(CLI::App& app) {
     command->add_option("--shift", options->shift, "Blocks added to the heights of a world of Minecraft")
         ->check(numberFrom(-4096, 4096))
         ->type_name("BLOCKS");
-    command->add_flag("--skip-air", options->keepsAir, "Leave the world as it is where the source has air");
-    addOutputOption(*command, options->output, {".structure"}, "Write a structure file in place of a world");
+    command->add_flag("--skip-air", options->keepsAir, "Do not import air");
+    addOutputOption(*command, options->output, {".structure"}, "Write a structure file instead of a world");
     command->get_option("--output")->required(false);
     addReportOption(*command, options->report);
     addWorldOptions(*command, options->world);

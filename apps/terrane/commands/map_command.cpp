@@ -116,7 +116,7 @@ CommandEntry addMap(CLI::App& app) {
     addOutputOption(*command, options->output, {".png"}, "The PNG file");
     command->get_option("--output")->required(false);
     addWorldOptions(*command, options->world);
-    addWorldOption(*command, options->save, "World to take the chunks from; what it lacks is generated");
+    addWorldOption(*command, options->save, "World to read; missing chunks are generated");
     addResourcePackOption(*command, options->resourcePack);
     addMapSiteOptions(*command, options->site, false);
     addStaticMapOptions(*command, options->files);

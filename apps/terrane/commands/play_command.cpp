@@ -75,38 +75,37 @@ void addKeyBindings(CLI::App& command, KeyBindings& keys) {
     };
     command
         .add_option_function<std::string>("--keys", take,
-                                          "Keys that differ from the usual ones, as jump=F,run=R")
+                                          "Keys that differ from the defaults, such as jump=F,run=R")
         ->type_name("ACTION=KEY,...");
 }
 
 void addPlaySettings(CLI::App& command, PlaySettings& settings) {
     addChoice<game::Movement>(command, "--movement", settings.movement,
-                              {movementNames().begin(), movementNames().end()}, "How one moves");
-    command.add_option("--field-of-view", settings.fieldOfView, "Degrees, from below to above")
+                              {movementNames().begin(), movementNames().end()}, "Movement mode");
+    command.add_option("--field-of-view", settings.fieldOfView, "Vertical field of view in degrees")
         ->check(numberFrom(40, 110))
         ->capture_default_str();
-    command.add_option("--mouse-sensitivity", settings.mouseSensitivity, "Degrees a step of the mouse")
+    command.add_option("--mouse-sensitivity", settings.mouseSensitivity, "Degrees per step of the mouse")
         ->check(numberFrom(0.02, 0.6))
         ->capture_default_str();
-    command.add_option("--sound-volume", settings.soundVolume, "How loud sounds are, 0 (none) to 1")
+    command.add_option("--sound-volume", settings.soundVolume, "Volume of sounds, 0 (none) to 1")
         ->check(numberFrom(0, 1))
         ->capture_default_str();
-    command.add_option("--day-minutes", settings.dayMinutes, "How long a day takes")
+    command.add_option("--day-minutes", settings.dayMinutes, "Length of a day in minutes")
         ->check(numberFrom(0.5, 1440))
         ->capture_default_str();
     addChoice<std::string>(command, "--language", settings.language, languageChoices(),
-                           "Language of names and menus; auto: that of the system");
-    command.add_flag("--full-screen", settings.fullScreen, "Take the whole screen");
+                           "Language of names and menus; auto: the system's language");
+    command.add_flag("--full-screen", settings.fullScreen, "Use the whole screen");
     addKeyBindings(command, settings.keys);
-    command.add_flag("--invert-y", settings.invertY, "Pushing the mouse or the stick away looks down");
-    command.add_flag("--auto-jump", settings.autoJump, "Walking against a step of one block climbs it");
-    command.add_option("--text-size", settings.textSize, "Size of texts and menus, times the usual one")
+    command.add_flag("--invert-y", settings.invertY, "Invert the vertical axis of mouse and stick");
+    command.add_flag("--auto-jump", settings.autoJump, "Climb steps of one block without jumping");
+    command.add_option("--text-size", settings.textSize, "Scale of texts and menus")
         ->check(numberFrom(0.5, 3))
         ->capture_default_str();
-    command.add_flag("--high-contrast", settings.highContrast,
-                     "Thick lines around the block that is looked at");
+    command.add_flag("--high-contrast", settings.highContrast, "Thick outline around the targeted block");
     command.add_flag("--reduced-motion", settings.reducedMotion,
-                     "The world behind the title and the arm stand still");
+                     "No motion of the arm and of the world behind the title");
 }
 
 }  // namespace
@@ -118,8 +117,7 @@ CommandEntry addPlay(CLI::App& app) {
     addSaveGameOptions(*command, options->save);
     command->get_option("--world")->description(
         "World to play in; created if needed (default: GENERATOR-SEED)");
-    command->add_flag("--no-title", options->skipsTitle,
-                      "Go straight into the world, as options that name one do");
+    command->add_flag("--no-title", options->skipsTitle, "Skip the title");
     command->add_flag("--no-save", options->savesNothing, "Save nothing: changes are lost at the end");
     auto* watch =
         command->add_flag("--watch", options->watches,
@@ -127,9 +125,9 @@ CommandEntry addPlay(CLI::App& app) {
     watch->excludes("--no-save");
     command->add_option("--connect", options->remote.server, "Play in the world of a server")
         ->type_name("HOST[:PORT]");
-    command->add_option("--name", options->remote.name, "Name by which others on a server know the player")
+    command->add_option("--name", options->remote.name, "Name of the player on the server")
         ->type_name("NAME");
-    command->add_option("--password", options->remote.password, "Where the server wants one")
+    command->add_option("--password", options->remote.password, "Password of the server, if it has one")
         ->type_name("TEXT");
     command->add_flag("--accept-packs", options->remote.acceptsPacks,
                       "Let the server send content packs without asking");
@@ -143,7 +141,7 @@ CommandEntry addPlay(CLI::App& app) {
     command->add_option("--collect-perf-data", options->perfData, "Write statistics of each frame (CSV)")
         ->type_name("FILE");
     addPlaySettings(*command, options->settings);
-    addBackendOption(*command, options->backend, "Where to generate, light and mesh");
+    addBackendOption(*command, options->backend, "Device that generates, lights and meshes");
     addGraphicsOptions(*command, options->graphics, "auto");
     command
         ->add_option("--settings", options->settingsFile,

@@ -129,8 +129,9 @@ CommandEntry addRecord(CLI::App& app) {
     command->add_option("--until", options->until, "End at this second of the path")
         ->check(numberFrom(0, 1e6));
     addWorldOptions(*command, options->world);
-    addWorldOption(*command, options->save, "World to record in, left as it is; what it lacks is generated");
-    addBackendOption(*command, options->backend, "Where to generate, light and mesh");
+    addWorldOption(*command, options->save,
+                   "World to record, which stays unchanged; missing chunks are generated");
+    addBackendOption(*command, options->backend, "Device that generates, lights and meshes");
     addGraphicsOptions(*command, options->graphics, "high");
     return {command, [options, command] { return recordVideo(*options, *command); }};
 }

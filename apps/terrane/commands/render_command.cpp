@@ -172,7 +172,7 @@ CommandEntry addRender(CLI::App& app) {
     auto options = std::make_shared<RenderCommandOptions>();
     CLI::App* command = app.add_subcommand("render", "Draw an image into a PNG file, without a window");
     addPlaceOptions(*command, options->place);
-    command->add_option("--seconds", options->seconds, "Time for what moves: plants, water, clouds")
+    command->add_option("--seconds", options->seconds, "Time of the animation of plants, water and clouds")
         ->check(numberFrom(0, 1e6))
         ->capture_default_str();
     command
@@ -183,9 +183,10 @@ CommandEntry addRender(CLI::App& app) {
     command->add_flag("--json", options->json, "Print timings and counts as JSON");
     addWorldOptions(*command, options->world);
     nameSceneGenerator(*command);
-    addBackendOption(*command, options->backend, "Where to generate, light and mesh");
+    addBackendOption(*command, options->backend, "Device that generates, lights and meshes");
     addGraphicsOptions(*command, options->graphics, "high");
-    addWorldOption(*command, options->save, "World to draw, left as it is; what it lacks is generated");
+    addWorldOption(*command, options->save,
+                   "World to draw, which stays unchanged; missing chunks are generated");
     return {command, [options] { return renderImage(*options); }};
 }
 

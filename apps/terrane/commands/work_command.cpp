@@ -173,21 +173,21 @@ CommandEntry addWork(CLI::App& app) {
     auto* radius =
         command
             ->add_option("--radius", options->radius,
-                         "Add chunks around 0,0 to the queue: (2R+1)² of them. Every worker may say it")
+                         "Add (2R+1)² chunks around 0,0 to the queue. All workers may have this option")
             ->check(numberFrom(0, 16000));
     addAreaOption(*command, options->area);
     command->get_option("--area")->excludes(radius);
     addChoice<JobOrder>(*command, "--order", options->order,
                         {{"spiral", JobOrder::Spiral}, {"rows", JobOrder::Rows}},
-                        "In which order squares of 32×32 chunks are made");
-    command->add_flag("--add-only", options->addsOnly, "Only add to the queue");
-    command->add_flag("--wait", options->waits, "Wait for more where nothing is left to do");
-    command->add_flag("--status", options->status, "Print how far the work is, and all workers");
-    command->add_flag("--pause", options->pause, "No worker takes another square until --continue");
-    command->add_flag("--continue", options->goOn, "After --pause");
-    command->add_flag("--cancel", options->cancel, "Take back all squares that are not done");
+                        "Order in which squares of 32×32 chunks are generated");
+    command->add_flag("--add-only", options->addsOnly, "Add to the queue and end");
+    command->add_flag("--wait", options->waits, "Wait for more work when the queue is empty");
+    command->add_flag("--status", options->status, "Print the progress and all workers");
+    command->add_flag("--pause", options->pause, "Stop workers from taking squares until --continue");
+    command->add_flag("--continue", options->goOn, "Continue after --pause");
+    command->add_flag("--cancel", options->cancel, "Remove all squares that are not done from the queue");
     command->add_flag("--json", options->json, "Print the result, or the status, as JSON");
-    addBackendOption(*command, options->backend, "Where to generate");
+    addBackendOption(*command, options->backend, "Device that generates");
     addWorldOptions(*command, options->world);
     return {command, [options] { return runWork(*options); }};
 }

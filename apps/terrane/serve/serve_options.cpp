@@ -24,7 +24,7 @@ void addServeOptions(CLI::App& command, ServeOptions& options) {
                     "Address of this server that other servers of the same world tell players (default: the "
                     "name of the machine and the port)")
         ->type_name("HOST:PORT");
-    command.add_option("--max-players", options.server.maxPlayers, "How many play at a time")
+    command.add_option("--max-players", options.server.maxPlayers, "Maximum number of players")
         ->check(numberFrom(1, 4096))
         ->capture_default_str();
     command
@@ -39,13 +39,16 @@ void addServeOptions(CLI::App& command, ServeOptions& options) {
         ->capture_default_str();
     command
         .add_option("--max-view-distance", options.server.maxViewDistance,
-                    "Chunks around a player in which it receives edits")
+                    "Distance in chunks up to which a player receives edits")
         ->check(numberFrom(2, 64))
         ->capture_default_str();
-    command.add_option("--max-speed", options.server.maxSpeed, "Blocks a second that a player moves at most")
+    command
+        .add_option("--max-speed", options.server.maxSpeed, "Maximum speed of a player in blocks per second")
         ->check(numberFrom(1, 100000))
         ->capture_default_str();
-    command.add_option("--max-fill", options.server.maxFillBlocks, "Blocks that one command fills at most")
+    command
+        .add_option("--max-fill", options.server.maxFillBlocks,
+                    "Maximum number of blocks that one command fills")
         ->check(numberFrom(1, 131072))
         ->capture_default_str();
     command
@@ -53,10 +56,11 @@ void addServeOptions(CLI::App& command, ServeOptions& options) {
                     "Newcomers appear up to this many blocks from the spawn")
         ->check(numberFrom(0, 1000000))
         ->capture_default_str();
-    command.add_option("--day-minutes", options.server.dayMinutes, "How long a day takes")
+    command.add_option("--day-minutes", options.server.dayMinutes, "Length of a day in minutes")
         ->check(numberFrom(0.5, 1440))
         ->capture_default_str();
-    command.add_option("--welcome", options.server.welcome, "Line of chat for who joins")->type_name("TEXT");
+    command.add_option("--welcome", options.server.welcome, "Chat line for each player who joins")
+        ->type_name("TEXT");
     command.add_flag("--read-only", options.isReadOnly,
                      "Newcomers are guests: they look and talk, but change nothing");
     command

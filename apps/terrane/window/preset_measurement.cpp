@@ -48,7 +48,7 @@ void PresetMeasurement::beginRound() {
 std::string messageOf(const render::PresetChoice& choice, std::string_view renderer) {
     // Drivers append versions and chips: "llvmpipe (LLVM 15.0.6, 256 bits)", "NVIDIA H100/PCIe/SSE2".
     const std::size_t end = std::min(renderer.find(" ("), renderer.find('/'));
-    return fmt::format("graphics: {}, for {:.0f} frames/s on {} (measured; change it in the settings, F2)",
+    return fmt::format("graphics: {}, for {:.0f} frames/s on {} (measured; to change it: Esc, Settings)",
                        choice.preset->name, choice.framesPerSecond, renderer.substr(0, end));
 }
 

@@ -29,7 +29,6 @@ class SettingsDialog {
 
     // While a key is waited for: it becomes the action's, and Escape gives up. False where none is.
     bool takeKey(Key key, PlaySettings& settings, const Texts& tr);
-    bool waitsForKey() const { return waiting_.has_value(); }
     // To the page before or behind, as by a gamepad's bumpers.
     void turnPage(int by);
     void open() { *this = SettingsDialog(); }

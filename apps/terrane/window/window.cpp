@@ -217,10 +217,6 @@ bool Window::shouldClose() const {
     return glfwWindowShouldClose(state_->window) == GLFW_TRUE;
 }
 
-void Window::requestClose() {
-    glfwSetWindowShouldClose(state_->window, GLFW_TRUE);
-}
-
 void Window::cancelClose() {
     glfwSetWindowShouldClose(state_->window, GLFW_FALSE);
 }

@@ -43,7 +43,6 @@ class Window {
 
     void swapBuffers();
     [[nodiscard]] bool shouldClose() const;
-    void requestClose();
     void cancelClose();
 
     [[nodiscard]] glm::ivec2 framebufferSize() const;  // pixels; 0 while minimised
