@@ -16,7 +16,7 @@ from support import HANG_SECONDS, Npy, ProgramTest
 
 SIZE = (480, 300)
 MIDDLE = (SIZE[0] // 2, SIZE[1] // 2)
-FILL_BUTTON = (SIZE[0] - 150, 62)  # in the panel of the selection tool
+FILL_BUTTON = (SIZE[0] - 220, 81)  # in the panel of the selection tool
 
 
 def is_dark(red, green, blue):
