@@ -20,7 +20,8 @@ import random
 import sys
 import time
 
-from scratch_postgres import ScratchPostgres
+from scratch_postgres import ScratchPostgres, free_port
+from soak import GENERATOR
 from soak.bots import Bots
 from soak.checks import compare_worlds, history_problems
 from soak.events import Events
@@ -28,7 +29,6 @@ from soak.record import Record
 from soak.windows import Window
 from server_tools import Server
 
-GENERATOR = "continents"
 QUIET_SECONDS = 60  # without events, at the end
 
 
@@ -50,11 +50,11 @@ class Soak:
     def __init__(self, options, postgres):
         self.program, self.folder, self.postgres = options.program.resolve(), options.folder, postgres
         self.record = Record(options.folder)
-        self.servers = [self.start_server(k) for k in range(3)]
+        self.servers = [self.start_server(k, free_port()) for k in range(3)]
         self.windows = [self.start_window(k, options.seed + k) for k in range(2)]
         self.bots = Bots(self.program, self.folder, options.bots, options.round * 60)
 
-    def start_server(self, number, port=0):
+    def start_server(self, number, port):
         folder = self.folder / f"server{number}"
         folder.mkdir(exist_ok=True)
         return Server(self.program, folder, port, "--generator", GENERATOR, "--spawn-radius", "60", url=self.postgres.url())

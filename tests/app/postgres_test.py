@@ -151,6 +151,10 @@ class Copy(Postgres):
         self.succeed("copy", server.world, self.url)
         there, back = self.succeed("history", "--world", self.url), self.folder / "back.sqlite"
         self.assertEqual(there, self.succeed("history", "--world", server.world))
+        each = self.succeed("history", "--world", self.url, "--each-block").splitlines()
+        blocks = [int(found[1]) if (found := re.search(r", (\d+) blocks$", line)) else 1 for line in there.splitlines()]
+        self.assertEqual(len(each), sum(blocks))
+        self.assertFalse([line for line in each if "several" in line or line.endswith("blocks")])
         self.assertRegex(there, "bot[01] at ")
         self.succeed("copy", self.url, back)
         self.assertEqual(there, self.succeed("history", "--world", back))

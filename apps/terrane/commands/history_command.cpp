@@ -17,7 +17,8 @@ struct HistoryOptions {
     std::string player;
     std::vector<int> area;
     double minutes = 0;
-    std::size_t limit = 100;
+    std::size_t limit = 100;  // edits
+    bool showsEachBlock = false;
 };
 
 std::string textOfTime(std::int64_t milliseconds) {
@@ -29,12 +30,31 @@ std::string textOfTime(std::int64_t milliseconds) {
     return text.data();
 }
 
-// "glass", or "3 kinds" where the edit's blocks are of several.
+// "glass", or "several" where the edit's blocks are of several kinds.
 std::string textOfBlocks(const net::ChangedBlock& first, const net::ChunkDifference& all,
                          const world::BlockRegistry& blocks) {
     for (const net::ChangedBlock& block : all)
         if (block.value.id != first.value.id) return "several";
     return std::string(blocks.type(first.value.id).name);
+}
+
+void printLine(const std::string& begin, world::BlockPos pos, std::string_view before, std::string_view after,
+               std::size_t count) {
+    base::printLine("{} at {} {} {}: {} to {}{}", begin, pos.x, pos.y, pos.z, before, after,
+                    count > 1 ? fmt::format(", {} blocks", count) : "");
+}
+
+void printEdit(const net::LoggedEdit& edit, const std::string& player, const world::BlockRegistry& blocks,
+               bool showsEachBlock) {
+    const std::string begin = fmt::format("{} {}", textOfTime(edit.timeMs), player);
+    const auto nameOf = [&](const net::ChangedBlock& block) { return blocks.type(block.value.id).name; };
+    if (!showsEachBlock)
+        return printLine(begin, world::blockPos(edit.chunk, edit.after.front().index),
+                         textOfBlocks(edit.before.front(), edit.before, blocks),
+                         textOfBlocks(edit.after.front(), edit.after, blocks), edit.after.size());
+    for (std::size_t k = 0; k < edit.after.size(); ++k)
+        printLine(begin, world::blockPos(edit.chunk, edit.after[k].index), nameOf(edit.before[k]),
+                  nameOf(edit.after[k]), 1);
 }
 
 base::Result<void> printHistory(const HistoryOptions& options) {
@@ -64,12 +84,7 @@ base::Result<void> printHistory(const HistoryOptions& options) {
             isCut = true;
             return base::fail("more");
         }
-        const world::BlockPos pos = world::blockPos(edit.chunk, edit.after.front().index);
-        base::printLine("{} {} at {} {} {}: {} to {}{}", textOfTime(edit.timeMs),
-                        net::nameOf(*history, edit.player), pos.x, pos.y, pos.z,
-                        textOfBlocks(edit.before.front(), edit.before, *blocks),
-                        textOfBlocks(edit.after.front(), edit.after, *blocks),
-                        edit.after.size() > 1 ? fmt::format(", {} blocks", edit.after.size()) : "");
+        printEdit(edit, net::nameOf(*history, edit.player), *blocks, options.showsEachBlock);
         return {};
     };
     const auto done = history->forEachEdit(filter, net::EditOrder::NewestFirst, print);
@@ -92,7 +107,8 @@ CommandEntry addHistory(CLI::App& app) {
         ->expected(4);
     command->add_option("--minutes", options->minutes, "Only the last so many minutes")
         ->check(numberFrom(0, 1e8));
-    command->add_option("--limit", options->limit, "Lines at most")
+    command->add_flag("--each-block", options->showsEachBlock, "Print a line for each block of an edit");
+    command->add_option("--limit", options->limit, "Maximum number of edits")
         ->check(numberFrom(1, 1e9))
         ->capture_default_str();
     return {command, [options] { return printHistory(*options); }};
