@@ -93,16 +93,21 @@ class BuildingScript(ProgramTest):
 
 
 class Building(BuildingScript):
+    def play_with_box(self, display):
+        """With a box of 6 x 2 x 4 blocks selected in front of the player, and bricks in the hand."""
+        game = self.play(display, ("5.5 8.5 81.5 0 0", "10.5 9.5 84.5 0 0", "8.5 -3.5 88.5 90 -35"), "bricks", 3)
+        self.press(game, "b", "F6")
+        self.click_here(display, game, 1)
+        self.press(game, "F6")
+        self.click_here(display, game, 3)
+        self.press(game, "F6")
+        return game
+
     def test_boxes(self):
-        places = ("5.5 8.5 81.5 0 0", "10.5 9.5 84.5 0 0", "8.5 -3.5 88.5 90 -35")
         file = self.folder / "terrane" / "structures" / "wall.structure"
         with window_test.Display() as display:
-            game = self.play(display, places, "bricks", 3)
-            self.press(game, "b", "F6")
-            self.click_here(display, game, 1)
-            self.press(game, "F6")
-            self.click_here(display, game, 3)
-            self.press(game, "F6", "g")  # 6 x 2 x 4 blocks
+            game = self.play_with_box(display)
+            self.press(game, "g")
             self.keep(display, game, "filled")
             self.press(game, "ctrl+c", "r", "ctrl+v")
             self.keep(display, game, "pasting")
@@ -124,14 +129,8 @@ class Building(BuildingScript):
             self.assertGreater(file.stat().st_size, 40)
 
     def test_the_panel_of_the_tool_has_buttons(self):
-        places = ("5.5 8.5 81.5 0 0", "10.5 9.5 84.5 0 0", "8.5 -3.5 88.5 90 -35")
         with window_test.Display() as display:
-            game = self.play(display, places, "bricks", 3)
-            self.press(game, "b", "F6")
-            self.click_here(display, game, 1)
-            self.press(game, "F6")
-            self.click_here(display, game, 3)
-            self.press(game, "F6")
+            game = self.play_with_box(display)
             game.tap(2, *MIDDLE, self.pause)  # gives the cursor back
             self.keep(display, game, "buttons")
             game.tap(1, *FILL_BUTTON, self.pause)
