@@ -103,6 +103,10 @@ class Soak:
 def main():
     options = parse()
     options.folder = options.folder.resolve()
+    if options.folder.exists():
+        sys.exit(f"soak: {options.folder}: exists already: name a new folder")
+    if not options.program.is_file():
+        sys.exit(f"soak: {options.program}: no such program")
     options.folder.mkdir(parents=True)
     random.seed(options.seed)
     with ScratchPostgres(durable=True) as postgres:
