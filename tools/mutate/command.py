@@ -28,14 +28,16 @@ def main(arguments, description):
     parser.add_argument("--seed", type=int, default=1, help="of the draw (1)")
     parser.add_argument("--modules", default=MODULES, metavar="NAMES", help=f"with commas ({MODULES})")
     parser.add_argument("-j", "--jobs", type=int, default=2, help="compilers, and processes of a test program (2)")
+    parser.add_argument("--patience", type=float, default=3, metavar="N", help="tests hang if they take N times as long as "
+                        "without a change (3); more on a machine that does other work")
     parser.add_argument("--again", action="store_true", help="try again what was not noticed")
     parser.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="for the copy, its build and the results")
     parser.add_argument("--report", type=Path, metavar="FOLDER", help="only print the tables of these results")
     options = parser.parse_args(arguments)
     if (options.output is None) == (options.report is None):
         parser.error("expected either -o FOLDER or --report FOLDER")
-    if options.count < 1 or options.jobs < 1:
-        parser.error("--count and --jobs: expected a number from 1")
+    if min(options.count, options.jobs, options.patience) < 1:
+        parser.error("--count, --jobs and --patience: expected a number from 1")
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that programs that run are ended
     try:
         if options.report:
@@ -68,16 +70,16 @@ def with_settings(results):
     return results
 
 
-def prepare(output, modules, jobs):
+def prepare(options, modules):
     """Copies, builds and measures: what has not changed since the last time is not done again."""
+    output = options.output.resolve()
     output.mkdir(parents=True, exist_ok=True)
-    output = output.resolve()
     tree = Tree(ROOT, output / "tree")
     tree.root.mkdir(exist_ok=True)
     unchangeds = Unchangeds(output / "unchanged.json", tree.update())
-    build = Build(tree.root, output / "build", jobs)
+    build = Build(tree.root, output / "build", options.jobs)
     build.configure()
-    trial = Trial(tree.root, build, unchangeds, jobs)
+    trial = Trial(tree.root, build, unchangeds, options)
     trial.prepare(modules, tell)
     return trial
 
@@ -94,7 +96,7 @@ def try_places(options):
     found = {module: places_of_module(ROOT, module) for module in modules}
     draw = Draw({module: places for module, (places, _) in found.items()},
                 {module: lines for module, (_, lines) in found.items()}, options.count, options.seed)
-    trial = prepare(options.output, modules, options.jobs)
+    trial = prepare(options, modules)
     if results.settings is None:
         results.begin(settings)
     try_slots(draw, trial, results)
@@ -129,7 +131,7 @@ def try_slots(draw, trial, results):
 def try_again(options):
     results = with_settings(Results(options.output / "results.jsonl").read())
     missed = [result for result in results.latest() if result.outcome == "not_noticed"]
-    trial = prepare(options.output, sorted({result.place.module for result in missed}), options.jobs)
+    trial = prepare(options, sorted({result.place.module for result in missed}))
     for number, result in enumerate(missed, 1):
         path = trial.tree / result.place.file
         place = place_now(result, read_source(path)) if path.exists() else None

@@ -61,10 +61,11 @@ class Run:
 
 
 class Program:
-    def __init__(self, name, path, jobs):
+    def __init__(self, name, path, jobs, patience=3):
         self.name = name
         self.path = path
         self.jobs = 1 if name in ONE_PROCESS else jobs
+        self.patience = patience  # times the seconds without a change, until tests count as hanging
 
     def measure(self):
         with scratch_folder() as folder:
@@ -84,7 +85,7 @@ class Program:
             runs.append((option, unchanged.slow_seconds, unchanged.longest_seconds))
         seconds = 0.0
         for option, unchanged_seconds, longest in runs:
-            limit = 10 + 3 * max(unchanged_seconds / self.jobs, longest)
+            limit = 10 + self.patience * max(unchanged_seconds / self.jobs, longest)
             with scratch_folder() as folder:
                 run = self.run_shards([option], limit, folder, fails_fast=True)
             seconds += run.seconds

@@ -9,11 +9,11 @@ from .results import Result
 
 
 class Trial:
-    def __init__(self, tree, build, unchangeds, jobs):
+    def __init__(self, tree, build, unchangeds, options):
         self.tree = tree  # the copy's root
         self.build = build
         self.unchangeds = unchangeds
-        self.jobs = jobs
+        self.options = options  # of the command line: jobs and patience
         self.programs = {}  # names by module
 
     def prepare(self, modules, tell):
@@ -35,7 +35,7 @@ class Trial:
         self.build.read_dependencies()
 
     def program(self, name):
-        return Program(name, self.build.folder / name, self.jobs)
+        return Program(name, self.build.folder / name, self.options.jobs, self.options.patience)
 
     def run(self, place):
         path = self.tree / place.file
