@@ -18,23 +18,32 @@ layout(binding = kTransparencyDepthUnit) uniform sampler2D before;
 #endif
 #endif
 
-// On an NVIDIA H200 with 4 samples the same face passed again without this margin: gl_FragCoord.z and the depth that a
-// fragment wrote may differ in the last bits. A face behind the layer must be farther by 2^-19, 0.0002 blocks at 100 blocks.
+// A face behind the layer must be farther by 2^-19, 0.0002 blocks at 100 blocks: depths that are computed twice differ in the
+// last bits.
 const float kNotBehind = 1.0 - 1.0 / 524288.0;
 
 layout(location = 0) in vec2 inTexel;
 layout(location = 1) flat in uvec2 inFace;
 layout(location = 0) out vec4 outLayer;
 
+#if MSAA_SAMPLES > 1 && NEXT == 1
+// Of the sample that is drawn. OpenGL does not say where in the pixel gl_FragCoord is: in its center on NVIDIA, in the sample
+// on Mesa. A face is plane, and so is its depth on the screen.
+float depthOfSample() {
+    vec2 toSample = gl_SamplePosition - fract(gl_FragCoord.xy);
+    return gl_FragCoord.z + dot(vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z)), toSample);
+}
+#endif
+
 void main() {
     vec2 dx = dFdx(inTexel), dy = dFdy(inTexel);  // before a pixel beside may have ended
 #if NEXT == 1
 #if MSAA_SAMPLES > 1
-    float last = texelFetch(before, ivec2(gl_FragCoord.xy), gl_SampleID).r;
+    float depth = depthOfSample(), last = texelFetch(before, ivec2(gl_FragCoord.xy), gl_SampleID).r;
 #else
-    float last = texelFetch(before, ivec2(gl_FragCoord.xy), 0).r;
+    float depth = gl_FragCoord.z, last = texelFetch(before, ivec2(gl_FragCoord.xy), 0).r;
 #endif
-    if (gl_FragCoord.z >= last * kNotBehind) discard;
+    if (depth >= last * kNotBehind) discard;
 #endif
     vec4 texel = blockTexture(inFace.x, inTexel, dx, dy);
     // Of a liquid the color counts, its pattern little.
