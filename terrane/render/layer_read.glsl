@@ -34,9 +34,9 @@ int layersAt(ivec2 pixel, int k) {
     return count;
 }
 
-// Whether all samples show the same.
+// Whether all samples show the same layers.
 bool isOneLayer(ivec2 pixel) {
-    bool isSame = isOneSurface(pixel, packedSurfaceAt(pixel, 0));
+    bool isSame = true;
     int count = layersAt(pixel, 0);
     for (int k = 1; k < MSAA_SAMPLES; ++k) isSame = isSame && layersAt(pixel, k) == count;
     for (int n = 0; n < LAYERS; ++n) {

@@ -73,9 +73,8 @@ float visibilityAt(ivec2 pixel, int n) {
 }
 
 // A loop over the layers that are there: software renderers run what a branch leaves out.
-Passed shadeLayers(ivec2 pixel, int k) {
+Passed shadeLayers(ivec2 pixel, int k, float behind) {
     Passed sum = Passed(vec4(0.0), vec4(1.0));
-    float behind = depthAt(pixel, k);
     int last = layersAt(pixel, k) - 1;
     bool isFloorFar = packedIsFar(packedSurfaceAt(pixel, k));
     for (int n = last; n >= 0; --n) {
@@ -91,11 +90,20 @@ Passed shadeLayers(ivec2 pixel, int k) {
     return sum;
 }
 
+// Of what is opaque.
+float meanDepthAt(ivec2 pixel) {
+    float sum = 0.0;
+    for (int k = 0; k < MSAA_SAMPLES; ++k) sum += depthAt(pixel, k);
+    return sum / float(MSAA_SAMPLES);
+}
+
+// Opaque surfaces that differ are no reason to shade each sample: a layer sees only how far they are behind it.
 Passed shadeSamples(ivec2 pixel) {
-    int count = isOneLayer(pixel) ? 1 : MSAA_SAMPLES;
+    bool isOne = isOneLayer(pixel);
+    int count = isOne ? 1 : MSAA_SAMPLES;
     Passed sum = Passed(vec4(0.0), vec4(0.0));
     for (int k = 0; k < count; ++k) {
-        Passed one = shadeLayers(pixel, k);
+        Passed one = shadeLayers(pixel, k, isOne ? meanDepthAt(pixel) : depthAt(pixel, k));
         sum = Passed(sum.color + one.color, sum.through + one.through);
     }
     Passed mean = Passed(sum.color / float(count), sum.through / float(count));
@@ -126,7 +134,7 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
 #if QUADS == 1
     inRay = rayAt(2.0 * gl_FragCoord.xy / frame.viewportSize - 1.0);
-    Passed passed = shadeLayers(pixel, 0);
+    Passed passed = shadeLayers(pixel, 0, depthAt(pixel, 0));
 #else
     Passed passed = shadeSamples(pixel);
 #endif
